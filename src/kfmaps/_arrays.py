@@ -1,0 +1,109 @@
+"""Checks, errors and the array namespace: the ground floor, importing nothing of the package."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from array_api_compat import array_namespace, is_numpy_namespace, is_torch_namespace
+
+Array = Any
+"""An array of any library that follows the array-API standard (NumPy, PyTorch, array-api-strict)."""
+
+
+class InvalidInput(ValueError):
+    """The caller handed in something that cannot be used; the message says what to do."""
+
+
+class NotConverged(RuntimeError):
+    """A numerical method stopped before it reached the accuracy that was asked for."""
+
+
+class MissingDependency(ImportError):
+    """An optional package or system part is missing; the message says how to get it."""
+
+
+class KfmapsWarning(UserWarning):
+    """Something unusual that still gives a correct answer."""
+
+
+def refuse(name: str, wanted: str, got: str, remedy: str) -> InvalidInput:
+    """The one form that every complaint takes: name, what was wanted, what was got, what to do."""
+    return InvalidInput(f"{name}: wanted {wanted}, got {got}; {remedy}")
+
+
+def namespace(*arrays: Array) -> Any:
+    """The array-API namespace that all ``arrays`` share."""
+    return array_namespace(*arrays)
+
+
+def is_numpy(*arrays: Array) -> bool:
+    """Whether ``arrays`` are NumPy's."""
+    return is_numpy_namespace(array_namespace(*arrays))
+
+
+def is_torch(*arrays: Array) -> bool:
+    """Whether ``arrays`` are PyTorch tensors."""
+    return is_torch_namespace(array_namespace(*arrays))
+
+
+def like(values: Array, reference: Array) -> Array:
+    """``values`` as a floating array of ``reference``'s library, dtype and device."""
+    xp = array_namespace(reference)
+    return xp.asarray(values, dtype=reference.dtype, device=reference.device)
+
+
+def to_numpy(array: Array) -> np.ndarray:
+    """A NumPy copy or view of ``array``, wherever it lives."""
+    if isinstance(array, np.ndarray):
+        return array
+    if is_torch(array):
+        return array.detach().cpu().numpy()
+    return np.from_dlpack(array)
+
+
+def check(
+    array: Array,
+    name: str,
+    *,
+    shape: tuple[int | None, ...] | None = None,
+    finite: bool = True,
+    remedy: str = "check how it was made",
+) -> Array:
+    """Return ``array`` when it has the ``shape`` (``None`` matches any length) and only finite numbers.
+
+    Raises
+    ------
+    InvalidInput
+        Naming the array, what was wanted, what was got and ``remedy``.
+    """
+    if shape is not None:
+        fits = len(array.shape) == len(shape) and all(
+            want is None or want == have for want, have in zip(shape, array.shape, strict=True)
+        )
+        if not fits:
+            wanted = "(" + ", ".join("any" if s is None else str(s) for s in shape) + ")"
+            raise refuse(name, f"shape {wanted}", f"shape {tuple(array.shape)}", remedy)
+    if finite:
+        xp = array_namespace(array)
+        if xp.isdtype(array.dtype, "real floating"):
+            bad = int(xp.sum(xp.astype(~xp.isfinite(array), xp.int64)))
+            if bad:
+                raise refuse(name, "finite numbers", f"{bad} NaN or infinite values", remedy)
+    return array
+
+
+def check_positive(value: float, name: str, remedy: str = "give a number above zero") -> float:
+    """Return ``value`` when it is a finite number above zero, else raise :class:`InvalidInput`."""
+    if not (np.isfinite(value) and value > 0):
+        raise refuse(name, "a finite number above zero", repr(value), remedy)
+    return value
+
+
+def check_count(value: int, name: str, low: int = 1, high: int | None = None) -> int:
+    """Return ``value`` when it is a whole number in [``low``, ``high``], else raise :class:`InvalidInput`."""
+    whole = isinstance(value, int | np.integer) and not isinstance(value, bool)
+    if not whole or value < low or (high is not None and value > high):
+        span = f"at least {low}" if high is None else f"from {low} to {high}"
+        raise refuse(name, f"a whole number {span}", repr(value), "choose one in that range")
+    return int(value)
