@@ -1,0 +1,76 @@
+"""Which rows of the descriptors the Nyström approximation is built from.
+
+All return ``(count,)`` indices without repetition, fewer when the data run out of distinct rows.
+Farthest points by geodesic distance are in :mod:`kfmaps.geodesics`.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from kfmaps._arrays import Array, check_count, to_numpy
+from kfmaps.kernels import KernelLike, gram, gram_diagonal
+
+Rng = int | np.random.Generator | None
+
+
+def uniform(n: int, count: int, rng: Rng = 0) -> np.ndarray:
+    """``count`` of ``n`` rows, all subsets equally likely."""
+    check_count(count, "sample count", high=n)
+    return np.random.default_rng(rng).choice(n, size=count, replace=False)
+
+
+def farthest(X: Array, count: int, rng: Rng = 0) -> np.ndarray:
+    """Farthest points in descriptor space (Gonzalez 1985; descriptor FPS of the paper, section 7.1).
+
+    Starts at a random row of ``X (n, d)``, then takes the row farthest from all taken; stops early when
+    every row equals a taken one.
+    """
+    X = to_numpy(X)
+    check_count(count, "sample count", high=len(X))
+    X = X - X.mean(axis=0)
+    squares = np.einsum("ij,ij->i", X, X)
+    taken = np.empty(count, dtype=np.int64)
+    nearest = np.full(len(X), np.inf)
+    following = int(np.random.default_rng(rng).integers(len(X)))
+    for i in range(count):
+        taken[i] = following
+        np.minimum(nearest, squares - 2 * (X @ X[following]) + squares[following], out=nearest)
+        nearest[taken[: i + 1]] = -np.inf
+        following = int(np.argmax(nearest))
+        if nearest[following] <= 1e-14 * squares.max():
+            return taken[: i + 1]
+    return taken
+
+
+def pivoted_cholesky(
+    kernel: KernelLike, X: Array, count: int, *, randomised: bool = False, rng: Rng = 0
+) -> np.ndarray:
+    """Pivots of a partial Cholesky factorisation of the kernel matrix of ``X (n, d)``.
+
+    Greedy (largest residual diagonal; Fine and Scheinberg 2001) or, ``randomised``, drawn in proportion to
+    it (RPCholesky; Chen, Epperly, Tropp and Webber 2023). Memory ``n × count``. Stops early when the residual
+    is spent. For a kernel that is not positive definite the negative part of the residual is passed over.
+    """
+    check_count(count, "sample count", high=X.shape[0])
+    draw = np.random.default_rng(rng)
+    residual = to_numpy(gram_diagonal(kernel, X)).astype(float).clip(min=0.0)
+    spent = 1e-14 * residual.max()
+    factor = np.zeros((X.shape[0], count))
+    taken: list[int] = []
+    for i in range(count):
+        if randomised:
+            pivot = int(draw.choice(len(residual), p=residual / residual.sum()))
+        else:
+            pivot = int(np.argmax(residual))
+        taken.append(pivot)
+        column = to_numpy(gram(kernel, X, X[pivot : pivot + 1, :]))[:, 0] - factor[:, :i] @ factor[pivot, :i]
+        if not column[pivot] > 0:
+            taken.pop()
+            break
+        factor[:, i] = column / np.sqrt(column[pivot])
+        residual = (residual - factor[:, i] ** 2).clip(min=0.0)
+        residual[taken] = 0.0
+        if residual.max() <= spent:
+            break
+    return np.asarray(taken, dtype=np.int64)
