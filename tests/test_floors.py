@@ -19,6 +19,7 @@ FLOORS = {
     "descriptors": 2,
     "shot": 2,
     "sampling": 2,
+    "slices": 2,
     "nystrom": 2,
     "orientation": 2,
     "energy": 3,

@@ -62,6 +62,11 @@ def to_numpy(array: Array) -> np.ndarray:
     return np.from_dlpack(array)
 
 
+def inner(x: Array, y: Array) -> float:
+    """Sum of elementwise products, as a Python number."""
+    return float(array_namespace(x, y).sum(x * y))
+
+
 def check(
     array: Array,
     name: str,

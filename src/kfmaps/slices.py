@@ -1,0 +1,78 @@
+"""Multiplication operators of descriptors in a basis, built fast and compressed exactly.
+
+``Xⁱ = Φᵀ A diag(wᵢ) Φ`` is the operator that multiplies a function by the feature ``wᵢ`` (Nogneng and
+Ovsjanikov 2017). Being symmetric it is kept packed, ``(r, k(k+1)/2)``, until an energy term needs it.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from kfmaps._arrays import Array, check, like, namespace, refuse, to_numpy
+from kfmaps._threads import parallel
+from kfmaps.spectrum import Basis
+
+
+def packed_slices(basis: Basis, features: Array, block: int = 512, threads: int | None = 1) -> Array:
+    """Packed upper triangles ``(r, k(k+1)/2)`` of the operators of ``features (n, r)``.
+
+    Off-diagonal entries are multiplied by √2, so that inner products of rows are Frobenius inner products of
+    the operators. One matrix product per block of vertices; no n × k² array.
+    """
+    xp = namespace(features)
+    n, k = basis.functions.shape
+    check(features, "features", shape=(n, None), remedy="give one row per vertex")
+    rows, columns = np.triu_indices(k)
+    take_rows, take_columns = (xp.asarray(i, device=features.device) for i in (rows, columns))
+    scale = like(np.where(rows == columns, 1.0, np.sqrt(2.0)), features)
+    weighted = features * basis.mass[:, None]
+
+    def share(part: range) -> Array:
+        total = None
+        for a in part:
+            phi = basis.functions[a : a + block, :]
+            products = xp.take(phi, take_rows, axis=1) * xp.take(phi, take_columns, axis=1)
+            term = weighted[a : a + block, :].T @ products
+            total = term if total is None else total + term
+        return total
+
+    starts = range(0, n, block)
+    count = max(1, min(threads or 1, len(starts)))
+    parts = [starts[i::count] for i in range(count)]
+    total = None
+    for part in parallel(share, parts, count) if count > 1 else map(share, parts):
+        total = part if total is None else total + part
+    return total * scale[None, :]
+
+
+def unpacked_slices(packed: Array) -> Array:
+    """The operators ``(r, k, k)`` of packed rows ``(r, k(k+1)/2)``."""
+    xp = namespace(packed)
+    k = int(np.sqrt(2 * packed.shape[1] + 0.25) - 0.5)
+    if k * (k + 1) // 2 != packed.shape[1]:
+        raise refuse("packed slices", "k(k+1)/2 columns", str(packed.shape[1]), "make them with packed_slices")
+    rows, columns = np.triu_indices(k)
+    position = np.empty((k, k), dtype=np.int64)
+    position[rows, columns] = position[columns, rows] = np.arange(len(rows))
+    scale = np.where(np.eye(k, dtype=bool), 1.0, np.sqrt(0.5)).ravel()
+    flat = xp.take(packed, xp.asarray(position.ravel(), device=packed.device), axis=1) * like(scale, packed)[None, :]
+    return xp.reshape(flat, (packed.shape[0], k, k))
+
+
+def compressed(packed_s: Array, packed_t: Array, rtol: float) -> tuple[Array, Array]:
+    """Rotate the slices of both shapes jointly and drop those that carry next to nothing.
+
+    The commutativity energy is the same in every rotation of the features, as long as both shapes share it. The
+    rotation of the joint singular value decomposition puts as much as possible into few slices; those beyond hold
+    at most ``rtol`` of the summed squared norm of all slices of both shapes, which is a bound on what leaving them
+    out can change in the operator. With ``rtol=0`` only null slices go.
+    """
+    if not 0 <= rtol < 1:
+        raise refuse("compression rtol", "a number from 0 to below 1", repr(rtol), "1e-6 is usual")
+    xp = namespace(packed_s, packed_t)
+    energy, rotation = xp.linalg.eigh(packed_s @ packed_s.T + packed_t @ packed_t.T)
+    share = to_numpy(energy).clip(min=0.0)
+    lost = np.cumsum(share)
+    keep = np.flatnonzero((lost > rtol * lost[-1]) & (share > 1e-15 * share[-1]))[::-1]
+    kept = xp.take(rotation, xp.asarray(keep.copy(), device=packed_s.device), axis=1)
+    return kept.T @ packed_s, kept.T @ packed_t

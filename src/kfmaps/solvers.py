@@ -1,0 +1,166 @@
+"""Solvers for ``A(x) = b`` with ``A`` linear, self-adjoint and positive semi-definite.
+
+They know nothing of maps or meshes: ``apply`` is a function from an array to one of the same shape, and the
+inner product is the sum of elementwise products, so a matrix ``C`` is a vector like any other and no Kronecker
+system is ever formed.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from kfmaps._arrays import Array, check_count, inner, like, namespace, refuse, to_numpy
+
+Status = Literal["converged", "step limit", "breakdown"]
+Operator = Callable[[Array], Array]
+
+
+@dataclass(frozen=True, eq=False)
+class Solution:
+    """What a solver returns.
+
+    Attributes
+    ----------
+    value : array
+        The last iterate, of the shape of ``b``.
+    status : str
+        ``"converged"``: the residual is at most ``rtol ‖b‖``; ``"step limit"``: the steps ran out first;
+        ``"breakdown"``: a direction without positive curvature or a number that is not finite was met.
+    steps : int
+        Applications of the operator in the iteration.
+    residuals : (steps + 1,) float64
+        ``‖b − A(x)‖`` before the first step and after each, as the recurrence carries it.
+    """
+
+    value: Array
+    status: Status
+    steps: int
+    residuals: np.ndarray
+
+
+@dataclass(frozen=True)
+class CG:
+    """Conjugate gradients on an array of any shape (figure 1 of the paper), optionally preconditioned.
+
+    Stops at ``‖r‖ <= rtol ‖b‖`` or after ``max_steps``. The paper's "10 iterations" is ``CG(max_steps=10)``.
+    Unlike SciPy's, it keeps every residual and reports a breakdown instead of returning silently.
+
+    Raises
+    ------
+    InvalidInput
+        When neither criterion could ever stop it.
+    """
+
+    rtol: float = 1e-6
+    max_steps: int | None = 1000
+
+    def __post_init__(self) -> None:
+        if not (np.isfinite(self.rtol) and self.rtol >= 0):
+            raise refuse("CG rtol", "a number of at least zero", repr(self.rtol), "1e-6 is usual")
+        if self.max_steps is not None:
+            check_count(self.max_steps, "CG max_steps")
+        elif self.rtol == 0:
+            raise refuse("CG", "a way to stop", "rtol 0 and no step limit", "set rtol or max_steps")
+
+
+@dataclass(frozen=True)
+class Direct:
+    """The dense system, column by column, solved by Cholesky or least squares: for tests and small bases."""
+
+    limit: int = 4000
+
+    def __post_init__(self) -> None:
+        check_count(self.limit, "Direct limit")
+
+
+Solver = CG | Direct
+
+
+def solve(
+    apply: Operator,
+    b: Array,
+    solver: Solver,
+    x0: Array | None = None,
+    preconditioner: Operator | None = None,
+    progress: Callable[[int, float], None] | None = None,
+) -> Solution:
+    """Solve ``apply(x) = b``.
+
+    Parameters
+    ----------
+    apply : callable
+        Linear, self-adjoint, positive semi-definite map from arrays of ``b``'s shape to the same.
+    b : array
+    solver : CG or Direct
+    x0 : array, optional
+        Where to start; zero otherwise.
+    preconditioner : callable, optional
+        Approximate inverse of ``apply``, itself self-adjoint and positive definite. Ignored by ``Direct``.
+    progress : callable, optional
+        Called after each step with the step's number and the relative residual.
+    """
+    if isinstance(solver, Direct):
+        return _direct(apply, b, solver)
+    xp = namespace(b)
+    x = xp.zeros_like(b) if x0 is None else x0
+    r = b if x0 is None else b - apply(x0)
+    size = inner(b, b) ** 0.5
+    residuals = [inner(r, r) ** 0.5]
+    limit = np.inf if solver.max_steps is None else solver.max_steps
+    status: Status = "step limit"
+    p, rz = None, 0.0
+    steps = 0
+    while True:
+        if not np.isfinite(residuals[-1]):
+            status = "breakdown"
+            break
+        if residuals[-1] <= solver.rtol * size:
+            status = "converged"
+            break
+        if steps >= limit:
+            break
+        z = r if preconditioner is None else preconditioner(r)
+        previous, rz = rz, inner(r, z)
+        p = z if p is None else z + (rz / previous) * p
+        q = apply(p)
+        curvature = inner(p, q)
+        if not (curvature > 0 and np.isfinite(curvature) and rz > 0):
+            status = "breakdown"
+            break
+        step = rz / curvature
+        x = x + step * p
+        r = r - step * q
+        steps += 1
+        residuals.append(inner(r, r) ** 0.5)
+        if progress is not None:
+            progress(steps, residuals[-1] / size if size else 0.0)
+    return Solution(x, status, steps, np.asarray(residuals))
+
+
+def dense(apply: Operator, shape: tuple[int, ...], example: Array) -> np.ndarray:
+    """The matrix of ``apply`` on arrays of ``shape``, flattened in row-major order; for small sizes."""
+    size = int(np.prod(shape))
+    columns = np.empty((size, size))
+    for j in range(size):
+        unit = np.zeros(size)
+        unit[j] = 1.0
+        columns[:, j] = to_numpy(apply(like(unit.reshape(shape), example))).ravel()
+    return columns
+
+
+def _direct(apply: Operator, b: Array, solver: Direct) -> Solution:
+    size = int(np.prod(b.shape))
+    if size > solver.limit:
+        remedy = "use CG, or raise Direct(limit=...) and have the memory"
+        raise refuse("Direct", f"at most {solver.limit} unknowns", str(size), remedy)
+    matrix = dense(apply, tuple(b.shape), b)
+    right = to_numpy(b).ravel()
+    # Least squares, not Cholesky: a linear kernel with few descriptors leaves the system singular.
+    flat = np.linalg.lstsq(matrix, right, rcond=None)[0]
+    residuals = np.array([np.linalg.norm(right), np.linalg.norm(right - matrix @ flat)])
+    status: Status = "converged" if residuals[1] <= 1e-8 * max(residuals[0], 1e-300) else "breakdown"
+    return Solution(like(flat.reshape(b.shape), b), status, size, residuals)
