@@ -1,0 +1,172 @@
+"""The web page of one result: what it shows, gathered into one self-contained file."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from kfmaps._arrays import check, check_count, refuse
+from kfmaps.app.view.document import document
+from kfmaps.app.view.fields import (
+    alignment,
+    area_distortion,
+    nearest_reached,
+    planar_coordinates,
+    position_colours,
+)
+from kfmaps.app.view.pack import packed, quantised
+from kfmaps.mesh import Mesh, unit_area
+
+
+def check_map(target_to_source: np.ndarray, source: Mesh, target: Mesh, name: str = "map") -> np.ndarray:
+    """The point map as int64 when it gives a vertex of ``source`` for each vertex of ``target``.
+
+    Raises
+    ------
+    InvalidInput
+        On another length, numbers that are not whole, or a vertex that the source has not.
+    """
+    array = np.asarray(target_to_source)
+    check(array, name, shape=(len(target.vertices),), remedy="give one source vertex per target vertex")
+    if array.dtype.kind not in "iu":
+        raise refuse(name, "whole numbers", f"numbers of type {array.dtype}", "give 0-based vertex numbers")
+    wrong = array[(array < 0) | (array >= len(source.vertices))]
+    if len(wrong):
+        raise refuse(name, f"source vertices from 0 to {len(source.vertices) - 1}", str(wrong[0]), "check the meshes")
+    return array.astype(np.int64)
+
+
+def shape_record(mesh: Mesh, name: str) -> dict[str, Any]:
+    """A mesh as the page reads it: name, positions (centred, unit area), faces."""
+    placed = unit_area(mesh).vertices
+    placed = placed - (placed.min(axis=0) + placed.max(axis=0)) / 2
+    return {"name": name, "positions": quantised(placed), "faces": packed(mesh.faces)}
+
+
+def source_record(mesh: Mesh, name: str) -> dict[str, Any]:
+    """As :func:`shape_record`, with the colours and texture coordinates that a map carries over."""
+    colours = np.rint(255 * position_colours(mesh)).astype(np.uint8)
+    return {
+        **shape_record(mesh, name),
+        "colours": packed(colours),
+        "plane": quantised(planar_coordinates(mesh)),
+    }
+
+
+def map_record(source: Mesh, target: Mesh, target_to_source: np.ndarray, label: str) -> dict[str, Any]:
+    """A point map as the page reads it: the map, its links back from the source, its distortion of area."""
+    return {
+        "label": label,
+        "points": packed(target_to_source),
+        "nearest": packed(nearest_reached(source, target_to_source)),
+        "distortion": quantised(area_distortion(source, target, target_to_source)),
+    }
+
+
+def _fields(errors: Any, confidence: Any, maps: int, n_t: int) -> dict[str, Any]:
+    fields = {}
+    if errors is not None:
+        rows = np.atleast_2d(np.asarray(errors, dtype=np.float64))
+        check(rows, "errors", shape=(None, n_t), finite=False, remedy="give one error per target vertex")
+        if len(rows) not in (1, maps):
+            raise refuse("errors", f"one row, or one for each of {maps} maps", f"{len(rows)}", "leave some out")
+        fields["errors"] = [quantised(row) for row in rows]
+    if confidence is not None:
+        values = np.asarray(confidence, dtype=np.float64)
+        check(values, "confidence", shape=(n_t,), finite=False, remedy="give one number per target vertex")
+        fields["confidence"] = quantised(values)
+    return fields
+
+
+def _descriptors(descriptors: Any, source: Mesh, target: Mesh, most: int) -> list[dict[str, Any]]:
+    """Up to ``most`` columns, spread over all of them, each on one scale for both shapes."""
+    if descriptors is None:
+        return []
+    pair = [np.asarray(d, dtype=np.float64) for d in descriptors]
+    for array, mesh, name in zip(pair, (source, target), ("source", "target"), strict=True):
+        shape = (len(mesh.vertices), None)
+        check(array, f"descriptors of the {name}", shape=shape, remedy="give one row per vertex")
+    if pair[0].shape[1] != pair[1].shape[1]:
+        wanted = "as many columns on both shapes"
+        raise refuse("descriptors", wanted, f"{pair[0].shape[1]} and {pair[1].shape[1]}", "compute both alike")
+    count = pair[0].shape[1]
+    chosen = np.unique(np.linspace(0, count - 1, min(count, most)).round().astype(int)) if count else []
+    return [{"number": int(j), "source": quantised(pair[0][:, j]), "target": quantised(pair[1][:, j])} for j in chosen]
+
+
+def result_page(
+    source: Mesh,
+    target: Mesh,
+    target_to_source: np.ndarray,
+    *,
+    functional_map: np.ndarray | None = None,
+    errors: np.ndarray | None = None,
+    confidence: np.ndarray | None = None,
+    runners_up: Sequence[np.ndarray] | np.ndarray = (),
+    descriptors: tuple[np.ndarray, np.ndarray] | None = None,
+    most_descriptors: int = 12,
+    summary: Mapping[str, Any] | None = None,
+    names: tuple[str, str] = ("source", "target"),
+    up: str = "y",
+) -> str:
+    """One HTML file that shows a map: it needs no network, no server and nothing beside it.
+
+    Parameters
+    ----------
+    source, target : Mesh
+        Surfaces, or point clouds.
+    target_to_source : (n_t,) int
+        A source vertex for each target vertex.
+    functional_map : (k_t, k_s), optional
+        Shown as a picture.
+    errors : (n_t,) or (1 + c, n_t), optional
+        Distance on the source from each image to the truth, in units of √area; one row for the map, or one
+        more for each runner-up. NaN where the truth is not known.
+    confidence : (n_t,), optional
+        Higher is surer; NaN where not known.
+    runners_up : (c, n_t) int
+        Other maps, to be switched to.
+    descriptors : ((n_s, d), (n_t, d)), optional
+        Up to ``most_descriptors`` of the d columns are put in the page.
+    summary : mapping, optional
+        Anything JSON can hold. The page knows ``settings``, ``energies`` and ``times`` (mappings, seconds),
+        ``residuals`` (a list, drawn as a curve) and lists all else as it is.
+    names : (str, str)
+        Any text, shown as text.
+    up : {"x", "y", "z"}
+        The shapes' vertical axis; can be changed in the page.
+
+    Returns
+    -------
+    str
+        The page, to be written as UTF-8.
+
+    Raises
+    ------
+    InvalidInput
+        On arrays that do not fit the two shapes.
+    """
+    if up not in ("x", "y", "z"):
+        raise refuse("up", "x, y or z", repr(up), "name the axis that points upwards")
+    check_count(most_descriptors, "most_descriptors", low=0)
+    points = [check_map(target_to_source, source, target)]
+    points += [check_map(m, source, target, f"runner-up {i}") for i, m in enumerate(runners_up, 1)]
+    labels = ["Best"] + [f"Runner-up {i}" for i in range(1, len(points))]
+    matrix = None
+    if functional_map is not None:
+        matrix = check(np.asarray(functional_map, dtype=np.float64), "functional_map", shape=(None, None))
+    data = {
+        "kind": "result",
+        "up": up,
+        "source": source_record(source, names[0]),
+        "target": shape_record(target, names[1]),
+        "rotation": alignment(source, target, points[0]).ravel(),
+        "maps": [map_record(source, target, m, label) for m, label in zip(points, labels, strict=True)],
+        **_fields(errors, confidence, len(points), len(target.vertices)),
+        "descriptors": _descriptors(descriptors, source, target, most_descriptors),
+        "matrix": None if matrix is None else quantised(matrix),
+        "summary": summary or {},
+    }
+    return document("result.html", title=f"{names[0]} → {names[1]}", data=data)

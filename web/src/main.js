@@ -1,0 +1,32 @@
+import { pageData } from "./data.js";
+import { startPicker } from "./picker.js";
+import { startResult } from "./result.js";
+
+function say(text) {
+  const place = document.getElementById("message");
+  place.textContent = text;
+  place.hidden = false;
+}
+
+try {
+  const data = pageData();
+  const page = { result: startResult, picker: startPicker }[data.kind](data);
+  const side = (name) => ["source", "target"].indexOf(name);
+  // For scripts: where a vertex is in the window, which vertex is at a place there, and when first drawn (ms).
+  window.kfmaps = {
+    project: (name, vertex) => page.stage.project(side(name), vertex),
+    pick: (name, x, y) => page.stage.pick(side(name), x, y),
+    firstPicture: null,
+  };
+  const drawn = page.stage.onDraw;
+  page.stage.onDraw = () => {
+    window.kfmaps.firstPicture ??= performance.now();
+    drawn();
+  };
+} catch (error) {
+  const webgl = /webgl/i.test(error.message);
+  say(webgl
+    ? "This browser gives no WebGL, which the 3D views need. Switch on hardware or software rendering in its settings."
+    : `The page could not be shown: ${error.message}`);
+  throw error;
+}

@@ -1,0 +1,160 @@
+// One shape on the stage: its geometry, what it shows, and finding the vertex under the pointer.
+import {
+  BufferAttribute, BufferGeometry, DoubleSide, Group, Matrix4, Mesh, Points, Ray, ShaderMaterial, Sphere, Vector3,
+} from "three";
+import { MeshBVH } from "three-mesh-bvh";
+import { numbers, reals } from "./data.js";
+import { plain } from "./colours.js";
+
+const VERTEX = `
+attribute vec3 colour;
+attribute vec2 plane;
+uniform float size;
+varying vec3 vColour;
+varying vec2 vPlane;
+varying vec3 vNormal;
+varying vec3 vEye;
+void main() {
+  vColour = colour;
+  vPlane = plane;
+  vNormal = normalMatrix * normal;
+  vec4 eye = modelViewMatrix * vec4(position, 1.0);
+  vEye = eye.xyz;
+  gl_Position = projectionMatrix * eye;
+  gl_PointSize = size / max(-eye.z, 1e-3);
+}`;
+
+// Two-sided light from beside the viewer. The texture is a grid over a checkerboard, drawn from coordinates
+// that lie on the source; where neighbours' coordinates are far apart its lines would only flicker, so they fade.
+const FRAGMENT = `
+uniform bool textured;
+uniform bool round;
+uniform float cells;
+varying vec3 vColour;
+varying vec2 vPlane;
+varying vec3 vNormal;
+varying vec3 vEye;
+vec3 pattern(vec3 base) {
+  vec2 at = vPlane * cells;
+  vec2 wide = fwidth(at);
+  float fade = 1.0 - smoothstep(0.25, 0.7, max(wide.x, wide.y));
+  vec2 cell = floor(at);
+  float odd = mod(cell.x + cell.y, 2.0);
+  vec2 off = abs(fract(at - 0.5) - 0.5) / max(wide, vec2(1e-5));
+  float line = 1.0 - smoothstep(0.8, 1.8, min(off.x, off.y));
+  vec3 tile = mix(base, vec3(1.0), 0.62 * odd * fade);
+  return mix(tile, vec3(0.12, 0.14, 0.18), 0.75 * line * fade);
+}
+void main() {
+  if (round && length(gl_PointCoord - 0.5) > 0.5) discard;
+  vec3 base = textured ? pattern(vColour) : vColour;
+  float light = 1.0;
+  if (!round) {
+    vec3 n = normalize(vNormal);
+    vec3 v = normalize(-vEye);
+    if (dot(n, v) < 0.0) n = -n;
+    float key = max(dot(n, normalize(vec3(-0.35, 0.55, 0.8))), 0.0);
+    float fill = max(dot(n, normalize(vec3(0.7, -0.1, 0.6))), 0.0);
+    light = 0.52 + 0.46 * key + 0.14 * fill;
+  }
+  gl_FragColor = vec4(base * min(light, 1.05), 1.0);
+}`;
+
+export class Surface {
+  constructor(record) {
+    this.name = record.name;
+    this.positions = reals(record.positions);
+    this.faces = numbers(record.faces);
+    this.count = this.positions.length / 3;
+    const geometry = new BufferGeometry();
+    geometry.setAttribute("position", new BufferAttribute(this.positions, 3));
+    geometry.setAttribute("colour", new BufferAttribute(plain(this.count), 3, true));
+    geometry.setAttribute("plane", new BufferAttribute(new Float32Array(2 * this.count), 2));
+    if (this.faces.length) {
+      geometry.setIndex(new BufferAttribute(this.faces.length && this.count > 65535 ? Uint32Array.from(this.faces) : Uint16Array.from(this.faces), 1));
+      geometry.computeVertexNormals();
+    }
+    this.radius = 0;
+    for (let i = 0; i < this.count; i++) this.radius = Math.max(this.radius, this.place(i).length());
+    geometry.boundingSphere = new Sphere(new Vector3(), this.radius);
+    this.geometry = geometry;
+    this.material = new ShaderMaterial({
+      vertexShader: VERTEX,
+      fragmentShader: FRAGMENT,
+      side: DoubleSide,
+      uniforms: {
+        textured: { value: false },
+        round: { value: !this.faces.length },
+        cells: { value: 16 },
+        size: { value: 1 },
+      },
+    });
+    this.body = this.faces.length ? new Mesh(geometry, this.material) : new Points(geometry, this.material);
+    this.body.frustumCulled = false;
+    this.group = new Group();
+    this.group.add(this.body);
+    this.tree = null;
+  }
+
+  /** Position of a vertex in the shape's own frame. */
+  place(vertex, into = new Vector3()) {
+    return into.fromArray(this.positions, 3 * vertex);
+  }
+
+  /** Position of a vertex on the stage. */
+  world(vertex, into = new Vector3()) {
+    return this.place(vertex, into).applyMatrix4(this.group.matrixWorld);
+  }
+
+  /** Three bytes a vertex, shown as they are or, with `plane` (two numbers a vertex), under the texture. */
+  show(colours, plane = null) {
+    this.geometry.attributes.colour.array.set(colours);
+    this.geometry.attributes.colour.needsUpdate = true;
+    if (plane) {
+      this.geometry.attributes.plane.array.set(plane);
+      this.geometry.attributes.plane.needsUpdate = true;
+    }
+    this.material.uniforms.textured.value = plane !== null;
+  }
+
+  /** The vertex that a ray of the stage meets first, or -1. */
+  pick(ray) {
+    const inverse = new Matrix4().copy(this.group.matrixWorld).invert();
+    const own = new Ray().copy(ray).applyMatrix4(inverse);
+    if (!this.faces.length) return this.#nearestPoint(own);
+    // The tree takes a moment on a large shape, so it is built when first needed; indirect keeps the faces' order.
+    this.tree ??= new MeshBVH(this.geometry, { indirect: true });
+    const hit = this.tree.raycastFirst(own, DoubleSide);
+    if (!hit) return -1;
+    const corners = [hit.face.a, hit.face.b, hit.face.c];
+    const distance = corners.map((v) => this.place(v).distanceToSquared(hit.point));
+    return corners[distance.indexOf(Math.min(...distance))];
+  }
+
+  /** Of the points close to the ray, the one nearest to the eye. */
+  #nearestPoint(ray) {
+    const reach = (0.02 * this.radius) ** 2;
+    const p = new Vector3();
+    let best = -1, depth = Infinity;
+    for (let i = 0; i < this.count; i++) {
+      this.place(i, p);
+      if (ray.distanceSqToPoint(p) > reach) continue;
+      const along = p.sub(ray.origin).dot(ray.direction);
+      if (along < depth) [best, depth] = [i, along];
+    }
+    return best;
+  }
+
+  /** Whether nothing of the shape hides the vertex from `eye` (a point of the stage). */
+  sees(vertex, eye) {
+    if (!this.faces.length) return true;
+    const inverse = new Matrix4().copy(this.group.matrixWorld).invert();
+    const from = eye.clone().applyMatrix4(inverse);
+    const to = this.place(vertex);
+    const way = to.clone().sub(from);
+    const length = way.length();
+    this.tree ??= new MeshBVH(this.geometry, { indirect: true });
+    const hit = this.tree.raycastFirst(new Ray(from, way.divideScalar(length)), DoubleSide);
+    return !hit || hit.distance > length - 1e-3 * this.radius;
+  }
+}
