@@ -1,0 +1,269 @@
+"""Every number of a match, as small frozen records whose defaults are the recommended ones."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, fields, is_dataclass, replace
+from typing import Any, Literal
+
+from kfmaps._arrays import check_count, check_positive, refuse
+from kfmaps.descriptors import NORMALISATIONS, Normalisation
+from kfmaps.kernels import Gaussian, KernelLike, Laplacian, Linear, Polynomial, Product, Sum, Tanh, describe
+from kfmaps.refine import ICP, Refinement, ZoomOut
+from kfmaps.solvers import CG, Direct, Solver
+
+Sampling = Literal["descriptor", "geodesic", "uniform", "cholesky", "random-cholesky"]
+SAMPLINGS: tuple[Sampling, ...] = ("descriptor", "geodesic", "uniform", "cholesky", "random-cholesky")
+Preconditioner = Literal["none", "jacobi"]
+
+
+def _choice(value: str, name: str, options: tuple[str, ...]) -> None:
+    if value not in options:
+        raise refuse(name, "one of " + ", ".join(options), repr(value), "choose one of them")
+
+
+@dataclass(frozen=True)
+class BasisConfig:
+    """``functions``: size of the functional map on both sides; ``laplacian``: "robust" (tufted) or "cotangent"."""
+
+    functions: int = 100
+    laplacian: Literal["robust", "cotangent"] = "robust"
+
+    def __post_init__(self) -> None:
+        check_count(self.functions, "basis functions", low=2)
+        _choice(self.laplacian, "laplacian", ("robust", "cotangent"))
+
+
+@dataclass(frozen=True)
+class DescriptorConfig:
+    """What is preserved.
+
+    Attributes
+    ----------
+    count : int
+        Spectral descriptors in all, shared out between the signature and the landmarks' maps.
+    signature : "wave", "heat" or "none"
+    landmark_map : "wave", "heat" or "none"
+    signature_share : float
+        Part of ``count`` that goes to the signature when there are landmarks; the rest is split evenly.
+    eigenfunctions : int
+        How many the descriptors are made from.
+    layout : "even" or "every-nth"
+        Energies spread evenly over the numbers wanted, or, as the framework of NO17 does, 200 energies for the
+        signature and for each landmark, in one list from which every n-th is taken.
+    shot : bool
+        Whether to add the SHOT descriptor (Tombari et al. 2010), beyond ``count``.
+    shot_radius : float
+        Its radius, in units of √area.
+    shot_weight : float
+        Its weight in squared distances between descriptors, against 1 for all others together.
+    normalisation : str
+        See :func:`kfmaps.descriptors.normalised`.
+    """
+
+    count: int = 100
+    signature: Literal["wave", "heat", "none"] = "wave"
+    landmark_map: Literal["wave", "heat", "none"] = "wave"
+    signature_share: float = 0.3
+    eigenfunctions: int = 200
+    layout: Literal["even", "every-nth"] = "even"
+    shot: bool = False
+    shot_radius: float = 0.09
+    shot_weight: float = 1.0
+    normalisation: Normalisation = "variance"
+
+    def __post_init__(self) -> None:
+        check_count(self.count, "descriptor count")
+        check_count(self.eigenfunctions, "descriptor eigenfunctions", low=2)
+        _choice(self.signature, "signature", ("wave", "heat", "none"))
+        _choice(self.landmark_map, "landmark map", ("wave", "heat", "none"))
+        _choice(self.layout, "descriptor layout", ("even", "every-nth"))
+        _choice(self.normalisation, "normalisation", NORMALISATIONS)
+        if not 0 <= self.signature_share <= 1:
+            raise refuse("signature share", "a number from 0 to 1", repr(self.signature_share), "0.3 is usual")
+        check_positive(self.shot_radius, "SHOT radius")
+        check_positive(self.shot_weight, "SHOT weight")
+
+
+@dataclass(frozen=True)
+class NystromConfig:
+    """``samples``: of both shapes together, half from each (the paper's "rank"); ``rtol``: see :func:`nystrom`."""
+
+    samples: int = 400
+    sampling: Sampling = "descriptor"
+    rtol: float = 1e-12
+
+    def __post_init__(self) -> None:
+        check_count(self.samples, "Nyström samples", low=2)
+        _choice(self.sampling, "sampling", SAMPLINGS)
+
+
+@dataclass(frozen=True)
+class Weights:
+    """Of the energy's terms; ``laplacian`` is the paper's α, for eigenvalues divided by the largest."""
+
+    descriptors: float = 100.0
+    commutativity: float = 1.0
+    laplacian: float = 1.0
+    orientation: float = 0.0
+
+    def __post_init__(self) -> None:
+        for item in fields(self):
+            weight = getattr(self, item.name)
+            if not 0 <= weight < float("inf"):
+                raise refuse(f"weight of {item.name}", "a finite number of at least zero", repr(weight), "use 0 to omit")
+
+
+@dataclass(frozen=True)
+class Config:
+    """A whole match. ``Config()`` is what we recommend with landmarks; see the class methods for others.
+
+    Attributes
+    ----------
+    exact : bool
+        The whole kernel in row blocks (equations 8 and 10 to 12) instead of its Nyström features; slow.
+    sharpness : float
+        For a kernel without explicit γ, see :func:`kfmaps.kernels.resolved`.
+    compression : float
+        Part of the slices' squared norm that may be left out, see :func:`kfmaps.slices.compressed`.
+    refinement : ZoomOut, ICP or None
+    device : str
+        "cpu", or a PyTorch device such as "cuda".
+    threads : int or None
+        Python threads; ``None`` takes every core.
+    """
+
+    basis: BasisConfig = field(default_factory=BasisConfig)
+    descriptors: DescriptorConfig = field(default_factory=DescriptorConfig)
+    kernel: KernelLike = field(default_factory=Gaussian)
+    sharpness: float = 0.3
+    nystrom: NystromConfig = field(default_factory=NystromConfig)
+    exact: bool = False
+    weights: Weights = field(default_factory=Weights)
+    compression: float = 1e-4
+    solver: Solver = field(default_factory=lambda: CG(rtol=1e-4, max_steps=1000))
+    preconditioner: Preconditioner = "jacobi"
+    refinement: Refinement | None = field(default_factory=lambda: ZoomOut(start=50, stop=200, step=5, samples=1000))
+    device: str = "cpu"
+    threads: int | None = None
+
+    def __post_init__(self) -> None:
+        check_positive(self.sharpness, "sharpness")
+        _choice(self.preconditioner, "preconditioner", ("none", "jacobi"))
+        if not 0 <= self.compression < 1:
+            raise refuse("compression", "a number from 0 to below 1", repr(self.compression), "1e-4 is usual")
+        if self.threads is not None:
+            check_count(self.threads, "threads")
+
+    @property
+    def eigenfunctions(self) -> int:
+        """How many eigenfunctions each shape needs: for the map, the descriptors and the refinement."""
+        zoom = self.refinement.stop if isinstance(self.refinement, ZoomOut) else 0
+        return max(self.basis.functions, self.descriptors.eigenfunctions, zoom)
+
+    @classmethod
+    def paper(cls) -> Config:
+        """Settings of the paper's section 7: k = 100, 100 descriptors, γ = 500, rank 400, α = 1, ten steps of
+        plain conjugate gradients, no refinement; descriptors by the framework of NO17, all divided by one number
+        (the paper's "maximum value of 1").
+        """
+        return cls(
+            descriptors=DescriptorConfig(layout="every-nth", normalisation="row"),
+            kernel=Gaussian(500.0),
+            weights=Weights(descriptors=1.0, commutativity=1.0, laplacian=1.0),
+            compression=0.0,
+            solver=CG(rtol=1e-12, max_steps=10),
+            preconditioner="none",
+            refinement=None,
+        )
+
+    @classmethod
+    def no17(cls) -> Config:
+        """Nogneng and Ovsjanikov (2017): the paper's framework with a linear kernel and a converged solve."""
+        paper = cls.paper()
+        return replace(
+            paper,
+            descriptors=replace(paper.descriptors, normalisation="norm"),
+            kernel=Linear(),
+            solver=CG(rtol=1e-6, max_steps=5000),
+            preconditioner="jacobi",
+        )
+
+    @classmethod
+    def obcs12(cls) -> Config:
+        """Ovsjanikov et al. (2012) in the same framework: no commutativity with multiplication by descriptors."""
+        return replace(cls.no17(), weights=Weights(descriptors=1.0, commutativity=0.0, laplacian=1.0))
+
+
+RECORDS = {
+    kind.__name__: kind
+    for kind in (Linear, Polynomial, Gaussian, Laplacian, Tanh, Sum, Product, ICP, ZoomOut, CG, Direct)
+}
+"""Records that a settings file names by ``kind``, since a field may hold one of several."""
+
+SECTIONS = {"basis": BasisConfig, "descriptors": DescriptorConfig, "nystrom": NystromConfig, "weights": Weights}
+
+
+def as_dict(value: Any) -> Any:
+    """A configuration as nested dictionaries of plain values, fit for JSON and TOML.
+
+    Records of which a field may hold several kinds carry theirs under ``kind``. A kernel that is a callable of
+    the user's own becomes ``{"kind": "callable", "name": …}``, which :func:`from_dict` refuses.
+    """
+    if is_dataclass(value) and not isinstance(value, type):
+        inside = {f.name: as_dict(getattr(value, f.name)) for f in fields(value)}
+        kind = type(value).__name__
+        return {"kind": kind, **inside} if kind in RECORDS else inside
+    if callable(value):
+        return {"kind": "callable", "name": describe(value)}
+    return value
+
+
+def from_dict(values: dict[str, Any], base: Config | None = None) -> Config:
+    """``base`` (``Config()``) with what ``values`` names replaced; the inverse of :func:`as_dict`.
+
+    Raises
+    ------
+    InvalidInput
+        On a name or kind that does not exist, naming those that do.
+    """
+    return _merged(base or Config(), values, "settings")
+
+
+def _merged(record: Any, values: dict[str, Any], where: str) -> Any:
+    names = [f.name for f in fields(record)]
+    changes = {}
+    for name, value in values.items():
+        if name not in names:
+            raise refuse(where, "settings among " + ", ".join(names), repr(name), "check the spelling")
+        current = getattr(record, name)
+        label = f"{where}.{name}"
+        if name in SECTIONS and isinstance(record, Config):
+            if not isinstance(value, dict):
+                raise refuse(label, "a table of settings", repr(value), f"write [{name}] and one setting a line")
+            changes[name] = _merged(current, value, label)
+        elif isinstance(value, dict):
+            changes[name] = _record(value, current, label)
+        elif value in ("none", "None") and name in ("refinement", "threads"):
+            changes[name] = None
+        else:
+            changes[name] = value
+    try:
+        return replace(record, **changes)
+    except TypeError as error:
+        raise refuse(where, "values of the right types", str(error), "compare with `kfmaps config`") from error
+
+
+def _record(values: dict[str, Any], current: Any, where: str) -> Any:
+    kind = values.get("kind", type(current).__name__)
+    if kind not in RECORDS:
+        raise refuse(where, "a kind among " + ", ".join(RECORDS), repr(kind), "a callable kernel needs Python")
+    inside = {k: v for k, v in values.items() if k != "kind"}
+    for name in ("a", "b"):
+        if isinstance(inside.get(name), dict):
+            inside[name] = _record(inside[name], None, f"{where}.{name}")
+    known = [f.name for f in fields(RECORDS[kind])]
+    for name in inside:
+        if name not in known:
+            raise refuse(where, f"settings of {kind} among {', '.join(known)}", repr(name), "check the spelling")
+    start = {f: getattr(current, f) for f in known} if type(current).__name__ == kind else {}
+    return RECORDS[kind](**{**start, **inside})
