@@ -114,6 +114,22 @@ class Weights:
 
 
 @dataclass(frozen=True)
+class Search:
+    """How to find the map without landmarks; see :mod:`kfmaps.automatic`.
+
+    ``candidates``: how many maps are tried; ``orientation``: whether the map keeps orientation ("kept") or is one
+    to a mirror image ("reversed").
+    """
+
+    candidates: int = 12
+    orientation: Literal["kept", "reversed"] = "kept"
+
+    def __post_init__(self) -> None:
+        check_count(self.candidates, "candidates")
+        _choice(self.orientation, "orientation", ("kept", "reversed"))
+
+
+@dataclass(frozen=True)
 class Config:
     """A whole match. ``Config()`` is what we recommend with landmarks; see the class methods for others.
 
@@ -126,6 +142,8 @@ class Config:
     compression : float
         Part of the slices' squared norm that may be left out, see :func:`kfmaps.slices.compressed`.
     refinement : ZoomOut, ICP or None
+    search : Search or None
+        Used when there are no landmarks; ``None`` makes one fit, which cannot tell left from right.
     device : str
         "cpu", or a PyTorch device such as "cuda".
     threads : int or None
@@ -143,6 +161,7 @@ class Config:
     solver: Solver = field(default_factory=lambda: CG(rtol=1e-4, max_steps=1000))
     preconditioner: Preconditioner = "jacobi"
     refinement: Refinement | None = field(default_factory=lambda: ZoomOut(start=50, stop=200, step=5, samples=1000))
+    search: Search | None = None
     device: str = "cpu"
     threads: int | None = None
 
@@ -159,6 +178,11 @@ class Config:
         """How many eigenfunctions each shape needs: for the map, the descriptors and the refinement."""
         zoom = self.refinement.stop if isinstance(self.refinement, ZoomOut) else 0
         return max(self.basis.functions, self.descriptors.eigenfunctions, zoom)
+
+    @classmethod
+    def automatic(cls) -> Config:
+        """What we recommend without landmarks: SHOT beside the wave kernel signature, and a search."""
+        return cls(descriptors=DescriptorConfig(shot=True), search=Search())
 
     @classmethod
     def paper(cls) -> Config:
@@ -196,7 +220,7 @@ class Config:
 
 RECORDS = {
     kind.__name__: kind
-    for kind in (Linear, Polynomial, Gaussian, Laplacian, Tanh, Sum, Product, ICP, ZoomOut, CG, Direct)
+    for kind in (Linear, Polynomial, Gaussian, Laplacian, Tanh, Sum, Product, ICP, ZoomOut, CG, Direct, Search)
 }
 """Records that a settings file names by ``kind``, since a field may hold one of several."""
 
@@ -243,7 +267,7 @@ def _merged(record: Any, values: dict[str, Any], where: str) -> Any:
             changes[name] = _merged(current, value, label)
         elif isinstance(value, dict):
             changes[name] = _record(value, current, label)
-        elif value in ("none", "None") and name in ("refinement", "threads"):
+        elif value in ("none", "None") and name in ("refinement", "search", "threads"):
             changes[name] = None
         else:
             changes[name] = value

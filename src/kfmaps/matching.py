@@ -1,0 +1,71 @@
+"""The one call."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from kfmaps.automatic import choose
+from kfmaps.config import Config
+from kfmaps.mesh import Mesh
+from kfmaps.pipeline import Match, fit
+from kfmaps.shape import Progress, Shape, prepare
+
+
+def match(
+    source: Mesh | Shape,
+    target: Mesh | Shape,
+    config: Config | None = None,
+    *,
+    landmarks: Any = None,
+    descriptors: tuple[Any, Any] | None = None,
+    rng: int | np.random.Generator | None = 0,
+    progress: Progress | None = None,
+) -> Match:
+    """Find for each vertex of ``target`` the corresponding vertex of ``source``.
+
+    With landmarks they settle which way round a symmetric shape goes, and one fit is made. Without, several
+    candidate maps are fitted and compared (:mod:`kfmaps.automatic`), and the answer says how sure it is.
+
+    Parameters
+    ----------
+    source, target : Mesh or Shape
+        A :class:`Shape` from :func:`prepare` saves the work that depends on one shape alone; it must come from the
+        same configuration.
+    config : Config, optional
+        ``Config()`` with landmarks or given descriptors, ``Config.automatic()`` without.
+    landmarks : (l, 2) whole numbers, optional
+        Pairs "source vertex, target vertex", 0-based.
+    descriptors : pair of arrays (n_s, d), (n_t, d), optional
+        Of the user's own, used beside those that the configuration names.
+    rng : seed or Generator
+        The same seed gives the same answer.
+    progress : callable, optional
+        ``progress(stage, done)`` with done from 0 to 1.
+
+    Raises
+    ------
+    InvalidInput
+        When a mesh, the landmarks or the descriptors cannot be used; the message says what to do.
+    NotConverged
+        When the eigensolver misses its tolerance.
+    """
+    config = config or default_config(landmarks, descriptors)
+    shapes = [
+        part if isinstance(part, Shape) else prepare(part, config, name=name, progress=progress)
+        for part, name in ((source, "source"), (target, "target"))
+    ]
+    search = config.search is not None and not has_landmarks(landmarks)
+    answer = choose if search else fit
+    return answer(*shapes, config, landmarks=landmarks, descriptors=descriptors, rng=rng, progress=progress)
+
+
+def has_landmarks(landmarks: Any) -> bool:
+    """Whether there is at least one pair."""
+    return landmarks is not None and np.asarray(landmarks).size > 0
+
+
+def default_config(landmarks: Any = None, descriptors: Any = None) -> Config:
+    """What :func:`match` uses when no configuration is given."""
+    return Config() if has_landmarks(landmarks) or descriptors is not None else Config.automatic()
