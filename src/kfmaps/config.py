@@ -110,7 +110,12 @@ class Weights:
         for item in fields(self):
             weight = getattr(self, item.name)
             if not 0 <= weight < float("inf"):
-                raise refuse(f"weight of {item.name}", "a finite number of at least zero", repr(weight), "use 0 to omit")
+                raise refuse(
+                    f"weight of {item.name}",
+                    "a finite number of at least zero",
+                    repr(weight),
+                    "use 0 to omit",
+                )
 
 
 @dataclass(frozen=True)
@@ -220,11 +225,29 @@ class Config:
 
 RECORDS = {
     kind.__name__: kind
-    for kind in (Linear, Polynomial, Gaussian, Laplacian, Tanh, Sum, Product, ICP, ZoomOut, CG, Direct, Search)
+    for kind in (
+        Linear,
+        Polynomial,
+        Gaussian,
+        Laplacian,
+        Tanh,
+        Sum,
+        Product,
+        ICP,
+        ZoomOut,
+        CG,
+        Direct,
+        Search,
+    )
 }
 """Records that a settings file names by ``kind``, since a field may hold one of several."""
 
-SECTIONS = {"basis": BasisConfig, "descriptors": DescriptorConfig, "nystrom": NystromConfig, "weights": Weights}
+SECTIONS = {
+    "basis": BasisConfig,
+    "descriptors": DescriptorConfig,
+    "nystrom": NystromConfig,
+    "weights": Weights,
+}
 
 
 def as_dict(value: Any) -> Any:

@@ -34,7 +34,10 @@ def spectral_range(*bases: Basis) -> tuple[float, float]:
 
 
 def heat_times(count: int, *bases: Basis) -> np.ndarray:
-    """``(count,)`` diffusion times, logarithmic from ``4 ln 10 / λ_high`` to ``4 ln 10 / λ_low`` (Sun et al. 2009)."""
+    """``(count,)`` diffusion times, logarithmic from ``4 ln 10 / λ_high`` to ``4 ln 10 / λ_low`` (Sun et al. 2009).
+
+    The spectral range is that of :func:`spectral_range`.
+    """
     check_count(count, "number of times")
     low, high = spectral_range(*bases)
     ends = 4 * np.log(10) / np.array([high, low])
@@ -131,9 +134,7 @@ def check_landmarks(landmarks: Sequence[int] | np.ndarray, n: int, name: str = "
     return rows
 
 
-def normalised(
-    D_s: Array, D_t: Array, how: Normalisation, mass_s: Array, mass_t: Array
-) -> tuple[Array, Array]:
+def normalised(D_s: Array, D_t: Array, how: Normalisation, mass_s: Array, mass_t: Array) -> tuple[Array, Array]:
     """Scale the descriptors ``(n_s, d)`` and ``(n_t, d)`` by the same numbers on both shapes.
 
     Parameters
@@ -151,7 +152,12 @@ def normalised(
     if how not in NORMALISATIONS:
         raise refuse("normalisation", "one of " + ", ".join(NORMALISATIONS), repr(how), "choose one of them")
     check(D_s, "source descriptors", shape=(mass_s.shape[0], None), remedy="give one row per source vertex")
-    check(D_t, "target descriptors", shape=(mass_t.shape[0], D_s.shape[1]), remedy="give the same descriptors on both")
+    check(
+        D_t,
+        "target descriptors",
+        shape=(mass_t.shape[0], D_s.shape[1]),
+        remedy="give the same descriptors on both",
+    )
     if how == "none":
         return D_s, D_t
     w_s, w_t = (0.5 * m[:, None] / xp.sum(m) for m in (mass_s, mass_t))

@@ -84,7 +84,12 @@ def descriptor_term(source: Basis, features_s: Array, target: Basis, features_t:
 
 
 def kernel_descriptor_term(
-    kernel: KernelLike, source: Basis, descriptors_s: Array, target: Basis, descriptors_t: Array, block: int = 1024
+    kernel: KernelLike,
+    source: Basis,
+    descriptors_s: Array,
+    target: Basis,
+    descriptors_t: Array,
+    block: int = 1024,
 ) -> Preservation:
     """The same for a whole kernel (equation 8), in row blocks: no (n_s, n_t) matrix is ever held."""
     _same_count(descriptors_s, descriptors_t)
@@ -339,5 +344,8 @@ def _total(arrays: Iterable[Array]) -> Array:
 def _same_count(a: Array, b: Array) -> None:
     if a.shape[1] != b.shape[1]:
         raise refuse(
-            "descriptors", "the same number on both shapes", f"{a.shape[1]} and {b.shape[1]}", "make them alike"
+            "descriptors",
+            "the same number on both shapes",
+            f"{a.shape[1]} and {b.shape[1]}",
+            "make them alike",
         )

@@ -37,7 +37,11 @@ class Evaluation:
 
 
 def geodesic_errors(
-    source: Mesh, predicted: np.ndarray, true: np.ndarray, method: str = "unfolded", threads: int | None = None
+    source: Mesh,
+    predicted: np.ndarray,
+    true: np.ndarray,
+    method: str = "unfolded",
+    threads: int | None = None,
 ) -> np.ndarray:
     """Geodesic distance on ``source`` from each ``predicted`` to its ``true`` vertex, (q,), divided by √area.
 

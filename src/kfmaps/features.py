@@ -65,7 +65,7 @@ def pair_descriptors(
         Descriptors of the user's own, beside the computed ones.
     """
     size = min(config.eigenfunctions, *(b.functions.shape[1] for b in bases))
-    small = tuple(b.truncated(size) for b in bases)
+    small = (bases[0].truncated(size), bases[1].truncated(size))
     sides = [spectral_descriptors(i, small, config, landmarks[:, i]) for i in (0, 1)]
     if given is not None:
         for i, shape in enumerate((source, target)):
@@ -99,23 +99,23 @@ def spectral_descriptors(
     side: int, bases: tuple[Basis, ...], config: DescriptorConfig, landmarks: np.ndarray
 ) -> list[Array]:
     """Signature and landmark maps of shape ``side`` (0 or 1); energies are common to both ``bases``."""
-    l = len(landmarks) if config.landmark_map != "none" else 0
+    marks = len(landmarks) if config.landmark_map != "none" else 0
     with_signature = config.signature != "none"
-    if l == 0 and not with_signature:
+    if marks == 0 and not with_signature:
         return []
     if config.layout == "every-nth":
         return [_every_nth(side, bases, config, landmarks)]
     if not with_signature:
-        per_landmark, on_signature = max(1, config.count // l), 0
-    elif l == 0:
+        per_landmark, on_signature = max(1, config.count // marks), 0
+    elif marks == 0:
         per_landmark, on_signature = 0, config.count
     else:
-        per_landmark = max(1, int((1 - config.signature_share) * config.count) // l)
-        on_signature = max(config.count - per_landmark * l, 0)
+        per_landmark = max(1, int((1 - config.signature_share) * config.count) // marks)
+        on_signature = max(config.count - per_landmark * marks, 0)
     parts = []
     if on_signature:
         parts.append(_family(config.signature, bases[side], bases, None, on_signature))
-    if per_landmark and l:
+    if per_landmark and marks:
         parts.append(_family(config.landmark_map, bases[side], bases, landmarks, per_landmark))
     return parts
 
@@ -132,7 +132,11 @@ def _family(kind: str, basis: Basis, bases: tuple[Basis, ...], landmarks: np.nda
 
 def _every_nth(side: int, bases: tuple[Basis, ...], config: DescriptorConfig, landmarks: np.ndarray) -> Array:
     whole = replace(config, layout="even", signature_share=1.0)
-    parts = [] if config.signature == "none" else spectral_descriptors(side, bases, replace(whole, count=200), landmarks[:0])
+    parts = (
+        []
+        if config.signature == "none"
+        else spectral_descriptors(side, bases, replace(whole, count=200), landmarks[:0])
+    )
     if len(landmarks) and config.landmark_map != "none":
         parts.append(_family(config.landmark_map, bases[side], bases, landmarks, 200))
     xp = namespace(bases[side].functions)

@@ -215,9 +215,7 @@ def resolved(kernel: KernelLike, samples: Array, sharpness: float = 1.0) -> Kern
     ``sharpness`` is a number without unit that survives any scaling of the descriptors.
     """
     if isinstance(kernel, Sum | Product):
-        return replace(
-            kernel, a=resolved(kernel.a, samples, sharpness), b=resolved(kernel.b, samples, sharpness)
-        )
+        return replace(kernel, a=resolved(kernel.a, samples, sharpness), b=resolved(kernel.b, samples, sharpness))
     if not isinstance(kernel, Gaussian | Laplacian) or kernel.gamma is not None:
         return kernel
     squares = to_numpy(squared_distances(samples, samples))
@@ -230,6 +228,9 @@ def resolved(kernel: KernelLike, samples: Array, sharpness: float = 1.0) -> Kern
 def _known(kernel: Gaussian | Laplacian) -> float:
     if kernel.gamma is None:
         raise refuse(
-            f"{type(kernel).__name__} gamma", "a number", "None (automatic)", "call resolved(kernel, samples) first"
+            f"{type(kernel).__name__} gamma",
+            "a number",
+            "None (automatic)",
+            "call resolved(kernel, samples) first",
         )
     return kernel.gamma

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy.spatial import cKDTree
+from scipy.spatial import KDTree
 
 from kfmaps._arrays import Array, check, is_numpy, namespace, refuse, to_numpy
 from kfmaps._threads import available_cores, parallel
@@ -24,7 +24,7 @@ def nearest(queries: Array, points: Array, block: int = 1024, threads: int | Non
     if points.shape[0] == 0:
         raise refuse("points", "at least one", "none", "give some")
     if is_numpy(queries) and points.shape[1] <= TREE_DIMENSION and len(points) > 20_000:
-        return cKDTree(points).query(queries, workers=threads or available_cores())[1].astype(np.int64)
+        return KDTree(points).query(queries, workers=threads or available_cores())[1].astype(np.int64)
     xp = namespace(queries, points)
     centre = xp.mean(points, axis=0, keepdims=True)
     points, queries = points - centre, queries - centre
@@ -63,7 +63,12 @@ def check_point_map(target_to_source: np.ndarray, n_s: int, n_t: int) -> np.ndar
     points = np.asarray(target_to_source)
     if points.shape != (n_t,) or not np.issubdtype(points.dtype, np.integer):
         got = f"{points.dtype} of shape {points.shape}"
-        raise refuse("target_to_source", f"whole numbers of shape ({n_t},)", got, "give a source vertex per target vertex")
+        raise refuse(
+            "target_to_source",
+            f"whole numbers of shape ({n_t},)",
+            got,
+            "give a source vertex per target vertex",
+        )
     if n_t and (points.min() < 0 or points.max() >= n_s):
         got = f"{int(points.min())} to {int(points.max())}"
         raise refuse("target_to_source", f"vertices 0 to {n_s - 1}", got, "is it a map to another shape, or 1-based?")

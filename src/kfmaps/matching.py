@@ -58,7 +58,9 @@ def match(
     ]
     search = config.search is not None and not has_landmarks(landmarks)
     answer = choose if search else fit
-    return answer(*shapes, config, landmarks=landmarks, descriptors=descriptors, rng=rng, progress=progress)
+    return answer(
+        shapes[0], shapes[1], config, landmarks=landmarks, descriptors=descriptors, rng=rng, progress=progress
+    )
 
 
 def has_landmarks(landmarks: Any) -> bool:

@@ -45,10 +45,14 @@ class Nystrom:
 
     def features(self, X: Array, block: int = 8192) -> Array:
         """``(n, r)`` features ``W`` of descriptors ``X (n, d)``, with ``W Wᵀ ≈ k(X, X)``."""
-        check(X, "descriptors", shape=(None, self.samples.shape[1]), remedy="use those that the samples come from")
+        check(
+            X,
+            "descriptors",
+            shape=(None, self.samples.shape[1]),
+            remedy="use those that the samples come from",
+        )
         rows = [
-            gram(self.kernel, X[i : i + block, :], self.samples) @ self.whitener
-            for i in range(0, X.shape[0], block)
+            gram(self.kernel, X[i : i + block, :], self.samples) @ self.whitener for i in range(0, X.shape[0], block)
         ]
         return namespace(X).concat(rows)
 

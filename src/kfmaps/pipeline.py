@@ -138,7 +138,7 @@ def problem(
 
     ``bases`` are of at least the map's size and on the device of ``descriptors``.
     """
-    small = tuple(b.truncated(config.basis.functions) for b in bases)
+    small = (bases[0].truncated(config.basis.functions), bases[1].truncated(config.basis.functions))
     weights = config.weights
     terms: dict[str, Term] = {"laplacian": laplacian_term(*small)}
     if config.exact:
@@ -161,7 +161,9 @@ def problem(
                 packed_slices(b, F, threads=config.threads)
                 for b, F in zip(small, (features.source, features.target), strict=True)
             ]
-            packed_s, packed_t = compressed(*packed, config.compression) if config.compression else packed
+            packed_s, packed_t = packed
+            if config.compression:
+                packed_s, packed_t = compressed(packed_s, packed_t, config.compression)
             slices = int(packed_s.shape[0])
             terms["commutativity"] = slice_term(unpacked_slices(packed_s), unpacked_slices(packed_t))
         if weights.orientation:
@@ -238,7 +240,7 @@ def fit(
 
     bases = (source.basis, target.basis)
     if config.device != "cpu":
-        bases = tuple(b.to(config.device) for b in bases)
+        bases = (bases[0].to(config.device), bases[1].to(config.device))
     with one_blas_thread():
         with stage("descriptors"):
             used = pair_descriptors(source, target, bases, config.descriptors, pairs, descriptors)

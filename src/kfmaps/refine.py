@@ -45,7 +45,12 @@ class ICP:
         check_count(self.steps, "ICP steps")
 
     def __call__(
-        self, C: Array, source: Basis, target: Basis, progress: Progress | None = None, threads: int | None = None
+        self,
+        C: Array,
+        source: Basis,
+        target: Basis,
+        progress: Progress | None = None,
+        threads: int | None = None,
     ) -> Refined:
         k_t, k_s = C.shape
         if k_t != k_s:
@@ -100,7 +105,12 @@ class ZoomOut:
             check_count(self.samples, "ZoomOut samples", low=2)
 
     def __call__(
-        self, C: Array, source: Basis, target: Basis, progress: Progress | None = None, threads: int | None = None
+        self,
+        C: Array,
+        source: Basis,
+        target: Basis,
+        progress: Progress | None = None,
+        threads: int | None = None,
     ) -> Refined:
         available = min(source.functions.shape[1], target.functions.shape[1])
         if self.stop > available:

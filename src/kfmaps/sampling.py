@@ -43,9 +43,7 @@ def farthest(X: Array, count: int, rng: Rng = 0) -> np.ndarray:
     return taken
 
 
-def pivoted_cholesky(
-    kernel: KernelLike, X: Array, count: int, *, randomised: bool = False, rng: Rng = 0
-) -> np.ndarray:
+def pivoted_cholesky(kernel: KernelLike, X: Array, count: int, *, randomised: bool = False, rng: Rng = 0) -> np.ndarray:
     """Pivots of a partial Cholesky factorisation of the kernel matrix of ``X (n, d)``.
 
     Greedy (largest residual diagonal; Fine and Scheinberg 2001) or, ``randomised``, drawn in proportion to
@@ -59,10 +57,8 @@ def pivoted_cholesky(
     factor = np.zeros((X.shape[0], count))
     taken: list[int] = []
     for i in range(count):
-        if randomised:
-            pivot = int(draw.choice(len(residual), p=residual / residual.sum()))
-        else:
-            pivot = int(np.argmax(residual))
+        chances = residual / residual.sum()
+        pivot = int(draw.choice(len(chances), p=chances) if randomised else np.argmax(chances))
         taken.append(pivot)
         column = to_numpy(gram(kernel, X, X[pivot : pivot + 1, :]))[:, 0] - factor[:, :i] @ factor[pivot, :i]
         if not column[pivot] > 0:
