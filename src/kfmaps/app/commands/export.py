@@ -1,0 +1,68 @@
+"""``kfmaps export``: a map in other programs' formats."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from kfmaps._arrays import refuse
+from kfmaps.app.files import (
+    MapFile,
+    MeshFile,
+    check_map,
+    check_output,
+    load_map,
+    read_mesh_file,
+    save_map,
+    write_colored,
+    write_textured,
+)
+
+SHAPES = (".obj", ".ply", ".off")
+MAPS = (".txt", ".vts", ".mat", ".npz")
+
+
+def export(
+    map: Annotated[Path, typer.Argument(help="A map (.npz, .txt, .vts, .mat).", show_default=False)],
+    output: Annotated[
+        Path,
+        typer.Option(
+            "-o",
+            "--output",
+            help="OBJ (with texture, MTL and picture), PLY or OFF (with colours), .txt, .vts, .mat, .npz.",
+            show_default=False,
+        ),
+    ],
+    source: Annotated[Path | None, typer.Option(help="The source mesh.", show_default=False)] = None,
+    target: Annotated[Path | None, typer.Option(help="The target mesh.", show_default=False)] = None,
+    picture: Annotated[
+        Path | None, typer.Option(help="The source's texture (PNG, JPEG); default: a grid.", show_default=False)
+    ] = None,
+    force: Annotated[bool, typer.Option("--force", help="Replace existing files.")] = False,
+) -> None:
+    """Write the target with the source's texture or colours, or the map in another format."""
+    suffix = output.suffix.lower()
+    if suffix not in SHAPES + MAPS:
+        got = suffix or "no extension"
+        raise refuse(f"output {output}", f"one of {' '.join(SHAPES + MAPS)}", got, "choose one of these")
+    check_output(output, force)
+    found = load_map(map)
+    shape_s = None if source is None else read_mesh_file(source)
+    shape_t = None if target is None else read_mesh_file(target)
+    _check(found, shape_s, shape_t)
+    if suffix in MAPS:
+        save_map(output, found, force)
+    elif shape_s is None or shape_t is None:
+        raise refuse("export", "--source and --target for a shape", "not both", "name the two meshes")
+    elif suffix == ".obj":
+        write_textured(output, shape_s, shape_t.mesh, found, picture=picture, force=force)
+    else:
+        write_colored(output, shape_s, shape_t.mesh, found, force=force)
+
+
+def _check(found: MapFile, source: MeshFile | None, target: MeshFile | None) -> None:
+    n_s = None if source is None else len(source.mesh.vertices)
+    n_t = None if target is None else len(target.mesh.vertices)
+    check_map(found, n_s, n_t)

@@ -1,0 +1,46 @@
+"""Files: meshes, landmarks, maps, per-vertex values and exports, each read strictly and written whole."""
+
+from kfmaps.app.files.atomic import atomic_output, check_output
+from kfmaps.app.files.export import (
+    grid_picture,
+    position_colors,
+    projected_uv,
+    write_colored,
+    write_textured,
+)
+from kfmaps.app.files.mapfile import MapFile, check_map, load_map, save_map
+from kfmaps.app.files.meshes import read_mesh, read_mesh_file, write_mesh
+from kfmaps.app.files.numbers import (
+    read_landmarks,
+    read_vertex_numbers,
+    write_landmarks,
+    write_vertex_numbers,
+)
+from kfmaps.app.files.record import MeshFile
+from kfmaps.app.files.values import Values, read_values, transfer, write_values
+
+__all__ = [
+    "MapFile",
+    "MeshFile",
+    "Values",
+    "atomic_output",
+    "check_map",
+    "check_output",
+    "grid_picture",
+    "load_map",
+    "position_colors",
+    "projected_uv",
+    "read_landmarks",
+    "read_mesh",
+    "read_mesh_file",
+    "read_values",
+    "read_vertex_numbers",
+    "save_map",
+    "transfer",
+    "write_colored",
+    "write_landmarks",
+    "write_mesh",
+    "write_textured",
+    "write_values",
+    "write_vertex_numbers",
+]

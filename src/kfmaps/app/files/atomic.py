@@ -1,0 +1,69 @@
+"""Output that is there whole or not at all."""
+
+from __future__ import annotations
+
+import os
+import secrets
+import shutil
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from kfmaps._arrays import refuse
+
+
+def check_output(path: str | Path, force: bool = False) -> Path:
+    """The file that writing to ``path`` would make, links followed, when it may be written.
+
+    Worth calling before long work, so that a name that cannot be written is found out early.
+
+    Raises
+    ------
+    InvalidInput
+        When its folder is missing, it is a folder or device, or it exists and ``force`` is not given.
+    """
+    final = Path(os.path.realpath(path))
+    if not final.parent.is_dir():
+        raise refuse(f"output {path}", "an existing folder", f"no folder {final.parent}", "make it first")
+    if final.exists() and not final.is_file():
+        what = "a folder" if final.is_dir() else "a device or pipe"
+        raise refuse(f"output {path}", "the name of a file", what, "name a file to write")
+    if final.exists() and not force:
+        raise refuse(f"output {path}", "a new file", "an existing one", "give --force to replace it")
+    return final
+
+
+@contextmanager
+def atomic_output(path: str | Path, force: bool = False) -> Iterator[Path]:
+    """A temporary file to write, which takes the name ``path`` when the block ends well.
+
+    When the block raises, the temporary file is removed and ``path`` is as it was. The temporary file has
+    the suffix of ``path`` and lies in the same folder, because a rename is atomic only within a file system.
+
+    Parameters
+    ----------
+    path : str or Path
+    force : bool
+        Whether an existing file may be replaced; it keeps its permissions.
+
+    Raises
+    ------
+    InvalidInput
+        As :func:`check_output`, and when the folder cannot be written.
+    """
+    final = check_output(path, force)
+    temporary = final.with_name(f".{final.stem[:80]}.{secrets.token_hex(6)}{final.suffix}")
+    try:
+        os.close(os.open(temporary, os.O_CREAT | os.O_EXCL | os.O_WRONLY, 0o666))
+    except OSError as error:
+        raise refuse(f"output {path}", "a folder to write in", str(error.strerror), "choose another") from error
+    try:
+        yield temporary
+        check_output(path, force)  # someone else may have made it meanwhile
+        if final.exists():
+            shutil.copymode(final, temporary)
+        with open(temporary, "r+b") as file:
+            os.fsync(file.fileno())  # otherwise a power cut after the rename could leave an empty file
+        os.replace(temporary, final)
+    finally:
+        temporary.unlink(missing_ok=True)

@@ -1,0 +1,227 @@
+"""A map between two shapes, in files."""
+
+from __future__ import annotations
+
+import io
+import re
+import zipfile
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import IO, Any
+
+import numpy as np
+import scipy.io
+
+from kfmaps._arrays import InvalidInput, check, refuse
+from kfmaps.app.files.atomic import atomic_output, check_output
+from kfmaps.app.files.numbers import read_vertex_numbers, write_vertex_numbers
+from kfmaps.app.files.text import REPAIR, read_bytes
+
+FORMATS = (".npz", ".txt", ".vts", ".mat")
+
+VERTEX_NUMBERS = ("target_to_source", "runners_up", "landmarks")
+"""The arrays that hold vertex numbers, which a .mat file counts from 1."""
+
+_FIELDS = ("target_to_source", "functional_map", "eigenvalues_s", "eigenvalues_t", "config")
+_NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]{0,30}", re.ASCII)  # as long as MATLAB's files allow
+
+
+@dataclass(frozen=True, eq=False)
+class MapFile:
+    """A map from a source to a target, with what is known of how it was made.
+
+    Attributes
+    ----------
+    target_to_source : (n_t,) int64
+        A source vertex for each target vertex, 0-based.
+    functional_map : (k_t, k_s) float64 or None
+        Carries coefficients of functions from source to target.
+    eigenvalues_s, eigenvalues_t : (k_s,) and (k_t,) float64 or None
+        Of the Laplacians, ascending.
+    config : str
+        The settings as JSON text; empty when unknown.
+    extra : dict
+        Further arrays of numbers and texts by name. Names that are in use: ``runners_up`` (c, n_t) int64,
+        ``confidence`` (n_t,) float64, ``landmarks`` (l, 2) int64, ``source``, ``target`` (paths) and
+        ``summary`` (JSON text).
+    """
+
+    target_to_source: np.ndarray
+    functional_map: np.ndarray | None = None
+    eigenvalues_s: np.ndarray | None = None
+    eigenvalues_t: np.ndarray | None = None
+    config: str = ""
+    extra: Mapping[str, np.ndarray | str] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "target_to_source", check_map(self.target_to_source))
+        for name in ("functional_map", "eigenvalues_s", "eigenvalues_t"):
+            value = getattr(self, name)
+            if value is not None:
+                shape = (None, None) if name == "functional_map" else (None,)
+                check(_real(value, name), name, shape=shape, remedy=REPAIR)
+                object.__setattr__(self, name, np.asarray(value, dtype=np.float64))
+        if self.functional_map is not None:
+            sides = (("eigenvalues_t", self.eigenvalues_t), ("eigenvalues_s", self.eigenvalues_s))
+            for size, (name, values) in zip(self.functional_map.shape, sides, strict=True):
+                if values is not None and len(values) != size:
+                    got = f"{len(values)} beside a map of shape {self.functional_map.shape}"
+                    raise refuse(name, f"{size} numbers", got, REPAIR)
+        for name, value in self.extra.items():
+            if not _NAME.fullmatch(name) or name in _FIELDS:
+                raise refuse("extra", "names of letters, digits and _", repr(name), "rename it")
+            if not isinstance(value, str):
+                _real(value, f"extra {name}")
+
+
+def _real(value: Any, name: str) -> np.ndarray:
+    """``value`` as an array when it holds real numbers or truth values."""
+    array = np.asarray(value)
+    if array.dtype.kind not in "biuf":
+        raise refuse(name, "an array of numbers", f"dtype {array.dtype}", REPAIR)
+    return array
+
+
+def check_map(target_to_source: Any, n_s: int | None = None, n_t: int | None = None, name: str = "map") -> np.ndarray:
+    """``target_to_source`` as (n_t,) int64 when it names a source vertex for every target vertex.
+
+    Parameters
+    ----------
+    target_to_source : array or MapFile
+    n_s, n_t : int, optional
+        How many vertices the source and target have, when known.
+    name : str
+        How messages call it.
+
+    Raises
+    ------
+    InvalidInput
+        On another length or shape, fractions, and numbers out of range.
+    """
+    if isinstance(target_to_source, MapFile):
+        target_to_source = target_to_source.target_to_source
+    remedy = "check that the map belongs to these two meshes, in this order"
+    numbers = _real(target_to_source, name)
+    check(numbers, name, shape=(n_t,), remedy=remedy)
+    if len(numbers) == 0 or (numbers.dtype.kind == "f" and (numbers != np.rint(numbers)).any()):
+        got = "none" if len(numbers) == 0 else "fractions"
+        raise refuse(name, "a whole number for each target vertex", got, REPAIR)
+    low, high = numbers.min(), numbers.max()
+    if low < 0 or (n_s is not None and high >= n_s):
+        wanted = "source vertices from 0 on" if n_s is None else f"source vertices from 0 to {n_s - 1}"
+        raise refuse(name, wanted, f"{int(low if low < 0 else high)}", remedy)
+    return numbers.astype(np.int64)
+
+
+def save_map(path: str | Path, mapfile: MapFile, force: bool = False) -> None:
+    """Write a map; the extension chooses the format.
+
+    ``.npz`` and ``.mat`` hold everything: arrays under the names of :class:`MapFile` and ``extra``, texts as
+    0-d strings. In ``.mat`` vertex numbers count from 1, as MATLAB does, and lists are columns of doubles.
+    ``.txt`` and ``.vts`` hold ``target_to_source`` alone, one number a line, counted from 0 and from 1.
+
+    Raises
+    ------
+    InvalidInput
+        On an unknown extension, and as :func:`atomic_output`.
+    """
+    suffix = Path(path).suffix.lower()
+    check_format(path)
+    check_output(path, force)
+    if suffix in (".txt", ".vts"):
+        write_vertex_numbers(path, mapfile.target_to_source, force=force)
+        return
+    content = {k: v for k in _FIELDS[1:] if (v := getattr(mapfile, k)) is not None and not _empty_text(v)}
+    content |= {k: v for k, v in mapfile.extra.items() if not _empty_text(v)}
+    # last, so that a file cut anywhere lacks the one array that must be there
+    content["target_to_source"] = mapfile.target_to_source
+    with atomic_output(path, force) as temporary, open(temporary, "wb") as file:
+        if suffix == ".npz":
+            np.savez_compressed(file, allow_pickle=False, **content)
+        else:
+            shifted = {k: v + 1.0 if k in VERTEX_NUMBERS else v for k, v in content.items()}
+            scipy.io.savemat(file, shifted, oned_as="column", do_compression=True)
+
+
+def _empty_text(value: Any) -> bool:
+    return isinstance(value, str) and not value
+
+
+def check_format(path: str | Path) -> None:
+    """Raise :class:`InvalidInput` when ``path`` has no extension of a map."""
+    suffix = Path(path).suffix.lower()
+    if suffix not in FORMATS:
+        raise refuse(f"map {path}", f"one of {' '.join(FORMATS)}", suffix or "no extension", "rename it")
+
+
+def load_map(path: str | Path) -> MapFile:
+    """Read what :func:`save_map` writes.
+
+    Nothing in the file is ever executed: pickled objects are refused. Whether the numbers fit two meshes
+    is for :func:`check_map` to say.
+
+    Raises
+    ------
+    InvalidInput
+        On an unknown extension, a file that is missing, cut short or not of its format, and contents that
+        are no map.
+    """
+    path, name = Path(path), str(path)
+    check_format(path)
+    suffix = path.suffix.lower()
+    if suffix in (".txt", ".vts"):
+        return MapFile(read_vertex_numbers(path))
+    data = read_bytes(path)
+    try:
+        content = _npz_content(data) if suffix == ".npz" else _mat_content(data)
+    except InvalidInput as error:
+        raise InvalidInput(f"{name}: {error}") from error
+    except Exception as error:  # the readers report broken files by whatever they run into
+        got = " ".join(f"{type(error).__name__}: {error}".split())[:100]
+        raise refuse(name, f"a complete {suffix} file", got, REPAIR) from error
+    if "target_to_source" not in content:
+        got = ", ".join(sorted(content)) or "an empty file"
+        raise refuse(name, "an array target_to_source", got, "give a map that kfmaps wrote")
+    fields = {k: content.pop(k) for k in _FIELDS if k in content}
+    if not isinstance(fields.get("config", ""), str):
+        raise refuse(f"{name}: config", "text", "numbers", REPAIR)
+    try:
+        return MapFile(**fields, extra=content)
+    except InvalidInput as error:
+        raise InvalidInput(f"{name}: {error}") from error
+
+
+def check_npy(file: IO[bytes], size: int, name: str) -> None:
+    """Refuse an .npy file of ``size`` bytes whose header asks NumPy to take memory for more than that."""
+    first = np.lib.format.read_magic(file) == (1, 0)
+    read = np.lib.format.read_array_header_1_0 if first else np.lib.format.read_array_header_2_0
+    shape, _, dtype = read(file)
+    if np.prod(shape, dtype=float) * dtype.itemsize > size:
+        raise refuse(name, f"data for shape {shape}", f"{size} bytes", REPAIR)
+
+
+def _npz_content(data: bytes) -> dict[str, Any]:
+    with zipfile.ZipFile(io.BytesIO(data)) as archive:
+        for item in archive.infolist():
+            with archive.open(item) as file:
+                check_npy(file, item.file_size, item.filename)
+    with np.load(io.BytesIO(data), allow_pickle=False) as arrays:
+        loaded = {k: arrays[k] for k in arrays.files}
+    return {k: str(v) if v.dtype.kind == "U" and v.ndim == 0 else v for k, v in loaded.items()}
+
+
+def _mat_content(data: bytes) -> dict[str, Any]:
+    content: dict[str, Any] = {}
+    for key, value in scipy.io.loadmat(io.BytesIO(data)).items():
+        if key.startswith("__"):
+            continue
+        if value.dtype.kind == "U":
+            content[key] = "".join(value.ravel().tolist())
+        elif key in ("target_to_source", "eigenvalues_s", "eigenvalues_t"):
+            content[key] = value.ravel()
+        else:
+            content[key] = value[:, 0] if value.ndim == 2 and value.shape[1] == 1 else value
+        if key in VERTEX_NUMBERS:
+            content[key] = _real(content[key], key) - 1
+    return content

@@ -1,0 +1,95 @@
+"""Small text files of vertex numbers: landmarks and correspondence lists."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from kfmaps._arrays import check, refuse
+from kfmaps.app.files.atomic import atomic_output
+from kfmaps.app.files.text import clean_text, parse_rows, read_bytes, table, whole
+
+
+def _read_numbers(path: str | Path, columns: int, one_based: bool, wanted: str) -> np.ndarray:
+    """The whole numbers of a text file, (rows, columns) int64, made 0-based."""
+    name = str(path)
+    rows = parse_rows(clean_text(read_bytes(path), name), name)
+    if len(rows) == 0:
+        raise refuse(name, wanted, "no numbers", "check that it is the right file")
+    numbers = whole(table(rows, columns, name, wanted), name)
+    low = int(one_based)
+    small = np.flatnonzero((numbers < low).any(axis=1))
+    if len(small):
+        got = " ".join(map(str, numbers[small[0]]))
+        habit = "are they counted from 0?" if one_based else "are they counted from 1?"
+        remedy = f"check the numbers; {habit}" if low and numbers.min() == 0 else "check the numbers"
+        raise refuse(f"{name}, line {rows.lines[small[0]]}", f"vertex numbers from {low} on", got, remedy)
+    return numbers - low
+
+
+def read_landmarks(path: str | Path, *, one_based: bool = False) -> np.ndarray:
+    """Read landmark pairs: two whole numbers a line, "source target"; ``#`` starts a comment.
+
+    Parameters
+    ----------
+    path : str or Path
+    one_based : bool
+        Whether the file counts vertices from 1.
+
+    Returns
+    -------
+    (l, 2) int64
+        0-based, in the order of the file.
+
+    Raises
+    ------
+    InvalidInput
+        On a file that is missing, empty, or has a line of anything else.
+    """
+    return _read_numbers(path, 2, one_based, "two whole numbers a line, source and target")
+
+
+def write_landmarks(path: str | Path, pairs: np.ndarray, *, one_based: bool = False, force: bool = False) -> None:
+    """Write 0-based ``pairs`` (l, 2) so that :func:`read_landmarks` reads them back."""
+    pairs = check(np.asarray(pairs), "landmarks", shape=(None, 2), remedy="give one row source, target each")
+    lines = [f"# source target, counted from {int(one_based)}"]
+    lines += [f"{s} {t}" for s, t in (pairs.astype(np.int64) + int(one_based)).tolist()]
+    with atomic_output(path, force) as temporary:
+        temporary.write_text("\n".join(lines) + "\n", encoding="ascii")
+
+
+def read_vertex_numbers(path: str | Path, one_based: bool | None = None) -> np.ndarray:
+    """Read a list of vertex numbers, one a line; ``#`` starts a comment.
+
+    Parameters
+    ----------
+    path : str or Path
+    one_based : bool, optional
+        Whether the file counts vertices from 1; by default only a ``.vts`` file does.
+
+    Returns
+    -------
+    (m,) int64
+        0-based.
+
+    Raises
+    ------
+    InvalidInput
+        On a file that is missing, empty, or has a line of anything else.
+    """
+    if one_based is None:
+        one_based = Path(path).suffix.lower() == ".vts"
+    return _read_numbers(path, 1, one_based, "one whole number a line")[:, 0]
+
+
+def write_vertex_numbers(
+    path: str | Path, numbers: np.ndarray, one_based: bool | None = None, *, force: bool = False
+) -> None:
+    """Write 0-based ``numbers`` (m,) so that :func:`read_vertex_numbers` reads them back."""
+    if one_based is None:
+        one_based = Path(path).suffix.lower() == ".vts"
+    numbers = check(np.asarray(numbers), "vertex numbers", shape=(None,), remedy="give a list")
+    with atomic_output(path, force) as temporary:
+        lines = map(str, (numbers.astype(np.int64) + int(one_based)).tolist())
+        temporary.write_text("\n".join(lines) + "\n", encoding="ascii")

@@ -1,0 +1,177 @@
+"""Strict, vectorised reading of text files full of numbers."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from kfmaps._arrays import InvalidInput, refuse
+
+REPAIR = "repair the file or export it again"
+_BLANK = np.zeros(256, dtype=bool)
+_BLANK[list(b" \t\n\v\f\r")] = True
+_NUMBER = re.compile(rb"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?|[+-]?(inf|infinity|nan)", re.IGNORECASE)
+
+
+@dataclass(frozen=True, eq=False)
+class Rows:
+    """The numbers of a text, line by line; lines without any are left out.
+
+    Attributes
+    ----------
+    values : (v,) float64
+        All numbers in order.
+    counts : (r,) int64
+        How many each line has, at least 1.
+    starts : (r,) int64
+        Where in ``values`` each line begins.
+    lines : (r,) int64
+        The number of each line in the file, from 1.
+    """
+
+    values: np.ndarray
+    counts: np.ndarray
+    starts: np.ndarray
+    lines: np.ndarray
+
+    def __len__(self) -> int:
+        return len(self.counts)
+
+    def part(self, first: int, last: int) -> Rows:
+        """Lines ``first`` to ``last - 1``; ``values`` stay those of the whole."""
+        return Rows(self.values, self.counts[first:last], self.starts[first:last], self.lines[first:last])
+
+
+def read_bytes(path: str | Path) -> bytes:
+    """The content of a regular file that is not empty.
+
+    Raises
+    ------
+    InvalidInput
+        When it is missing, a folder, a device, empty, or cannot be read.
+    """
+    path = Path(path)
+    try:
+        if not path.is_file():
+            got = "a folder" if path.is_dir() else "a device or pipe" if path.exists() else "nothing there"
+            raise refuse(str(path), "a file", got, "check the name")
+        data = path.read_bytes()
+    except (OSError, ValueError) as error:  # ValueError: a NUL in the name
+        if isinstance(error, InvalidInput):
+            raise
+        reason = getattr(error, "strerror", None) or str(error)
+        raise refuse(str(path), "a readable file", reason, "check its name and permissions") from error
+    if not data:
+        raise refuse(str(path), "a file with content", "an empty file", "export it again")
+    return data
+
+
+def clean_text(data: bytes, name: str, comment: bytes = b"#") -> bytes:
+    """``data`` with line ends made ``\\n`` and comments blanked; line numbers stay.
+
+    Raises
+    ------
+    InvalidInput
+        When it is not text of one byte a letter.
+    """
+    data = data.removeprefix(b"\xef\xbb\xbf")
+    if b"\0" in data:
+        raise refuse(name, "a text file", "binary data", "check that the file's extension is right")
+    if b"\r" in data:
+        data = data.replace(b"\r\n", b"\n").replace(b"\r", b"\n")
+    return re.sub(re.escape(comment) + rb"[^\n]*", b"", data) if comment in data else data
+
+
+def _bad_number(text: bytes, name: str, numbers: np.ndarray | None) -> Exception:
+    """The complaint about the first word of ``text`` that is no number."""
+    for i, line in enumerate(text.split(b"\n")):
+        for word in line.split():
+            if not _NUMBER.fullmatch(word):
+                at = i + 1 if numbers is None else numbers[i]
+                return refuse(f"{name}, line {at}", "numbers", quoted(word), REPAIR)
+    return refuse(name, "numbers", "something else", REPAIR)
+
+
+def quoted(word: bytes) -> str:
+    """``word`` fit for a message: short, printable, in quotes."""
+    return repr(word[:24].decode("ascii", "backslashreplace")) + ("..." if len(word) > 24 else "")
+
+
+def words(text: bytes | np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Where each word of ``text`` begins, and the line it stands on, from 0."""
+    letters = np.frombuffer(text, dtype=np.uint8) if isinstance(text, bytes) else text
+    blank = _BLANK[letters]
+    begins = ~blank
+    begins[1:] &= blank[:-1]
+    at = np.flatnonzero(begins)
+    return at, np.searchsorted(np.flatnonzero(letters == 10), at)
+
+
+def parse_rows(text: bytes, name: str, line_numbers: np.ndarray | None = None) -> Rows:
+    """Read a text that holds nothing but numbers between blanks.
+
+    Parameters
+    ----------
+    text : bytes
+        From :func:`clean_text`.
+    name : str
+        How messages call it.
+    line_numbers : (lines,) int64, optional
+        The number in the file of each line of ``text``, where they are not 1, 2, 3, ...
+
+    Raises
+    ------
+    InvalidInput
+        Naming the first word that is not a number.
+    """
+    at, line_of_word = words(text)
+    per_line = np.bincount(line_of_word)
+    line = np.flatnonzero(per_line)
+    counts = per_line[line]
+    values = np.zeros(0)
+    if len(at):
+        try:
+            values = np.fromstring(text, sep=" ")
+        except (ValueError, DeprecationWarning):  # how NumPy complains depends on its version
+            raise _bad_number(text, name, line_numbers) from None
+        if len(values) != len(at):
+            raise _bad_number(text, name, line_numbers)
+    numbers = line + 1 if line_numbers is None else line_numbers[line]
+    return Rows(values, counts, np.cumsum(counts) - counts, numbers)
+
+
+def whole(values: np.ndarray, name: str, wanted: str = "whole numbers") -> np.ndarray:
+    """``values`` as int64.
+
+    Raises
+    ------
+    InvalidInput
+        When one has a fraction, is NaN, or is too large (2^53 or more) to be exact.
+    """
+    bad = ~((np.abs(values) < 2**53) & (values == np.rint(values)))
+    if bad.any():
+        raise refuse(name, wanted, f"{values[bad][0]:.6g}", REPAIR)
+    return values.astype(np.int64)
+
+
+def table(rows: Rows, columns: int | tuple[int, ...], name: str, wanted: str) -> np.ndarray:
+    """The numbers of ``rows``, which must all be equally many and one of ``columns``, (rows, columns).
+
+    Raises
+    ------
+    InvalidInput
+        Naming the first line of another length.
+    """
+    if len(rows) == 0:
+        return np.zeros((0, columns if isinstance(columns, int) else columns[0]))
+    allowed = (columns,) if isinstance(columns, int) else columns
+    width = int(rows.counts[0]) if rows.counts[0] in allowed else allowed[0]
+    odd = np.flatnonzero(rows.counts != width)
+    if len(odd):
+        line, got = rows.lines[odd[0]], rows.counts[odd[0]]
+        raise refuse(f"{name}, line {line}", wanted, f"{got} numbers", REPAIR)
+    first = int(rows.starts[0])
+    return rows.values[first : first + width * len(rows)].reshape(len(rows), width)

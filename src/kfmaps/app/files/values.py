@@ -1,0 +1,184 @@
+"""Per-vertex values: functions and labels, in files and carried over a map."""
+
+from __future__ import annotations
+
+import csv
+import io
+import re
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from kfmaps._arrays import InvalidInput, refuse
+from kfmaps.app.files.atomic import atomic_output, check_output
+from kfmaps.app.files.mapfile import check_map, check_npy
+from kfmaps.app.files.text import REPAIR, read_bytes
+
+FORMATS = (".npy", ".csv", ".txt")
+_NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?|[+-]?inf|[+-]?nan", re.ASCII | re.IGNORECASE)
+_WHOLE = re.compile(r"[+-]?\d{1,18}", re.ASCII)
+
+
+@dataclass(frozen=True, eq=False)
+class Values:
+    """Something known at each vertex.
+
+    Attributes
+    ----------
+    array : (n,) or (n, d) array
+        int64 when all are whole numbers, float64 when they are numbers, else texts (labels).
+    columns : tuple of str or None
+        The header of a ``.csv`` file that has one.
+    """
+
+    array: np.ndarray
+    columns: tuple[str, ...] | None = None
+
+
+def transfer(values_s: Any, target_to_source: Any) -> np.ndarray:
+    """Carry values from the vertices of the source to those of the target.
+
+    Parameters
+    ----------
+    values_s : (n_s, ...) array
+        Functions, labels, colours: anything with a row per source vertex.
+    target_to_source : (n_t,) int64 or MapFile
+        A source vertex for each target vertex.
+
+    Returns
+    -------
+    (n_t, ...) array
+        Of the same dtype: row j is ``values_s[target_to_source[j]]``.
+
+    Raises
+    ------
+    InvalidInput
+        When the map names a vertex that has no value.
+    """
+    values = np.asarray(values_s)
+    if values.ndim == 0:
+        raise refuse("values", "a row for each source vertex", "a single value", "give an array")
+    return values[check_map(target_to_source, n_s=len(values))]
+
+
+def read_values(path: str | Path) -> Values:
+    """Read per-vertex values from ``.npy``, ``.csv`` or ``.txt``.
+
+    In a ``.csv`` file a first row of names is recognised above numbers. A ``.txt`` file has a vertex a line,
+    numbers between blanks, or one label; lines that begin with ``#`` are comments. Tables are numbers
+    throughout or texts throughout.
+
+    Raises
+    ------
+    InvalidInput
+        On an unknown extension, a file that is missing, empty, cut short or holds pickled objects, and rows
+        of different lengths or kinds.
+    """
+    name = str(path)
+    suffix = _format(path)
+    data = read_bytes(path)
+    if suffix == ".npy":
+        return Values(_npy(data, name))
+    try:
+        text = data.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        raise refuse(name, "UTF-8 text", "something else", "check the extension") from error
+    if suffix == ".txt":
+        lines = [(i, line.strip()) for i, line in enumerate(text.splitlines(), 1)]
+        table = [(i, line.split()) for i, line in lines if line and not line.startswith("#")]
+        if table and not any(_numeric(row) for _, row in table):
+            return Values(np.array([line for _, line in lines if line and not line.startswith("#")]))
+    else:
+        try:
+            reader = csv.reader(io.StringIO(text, newline=""), strict=True)
+            table = [(reader.line_num, [cell.strip() for cell in row]) for row in reader if row]
+        except csv.Error as error:
+            raise refuse(name, "comma-separated values", str(error), REPAIR) from error
+    columns = None
+    if suffix == ".csv" and len(table) > 1 and not _any_number(table[0][1]) and _numeric(table[1][1]):
+        columns, table = tuple(table[0][1]), table[1:]
+    array = _table(table, name)
+    return Values(array[:, 0] if array.shape[1] == 1 else array, columns)
+
+
+def _numeric(row: list[str]) -> bool:
+    return all(_NUMBER.fullmatch(cell) for cell in row)
+
+
+def _any_number(row: list[str]) -> bool:
+    return any(_NUMBER.fullmatch(cell) for cell in row)
+
+
+def _format(path: str | Path) -> str:
+    suffix = Path(path).suffix.lower()
+    if suffix not in FORMATS:
+        got = suffix or "no extension"
+        raise refuse(f"values {path}", f"one of {' '.join(FORMATS)}", got, "convert or rename it")
+    return suffix
+
+
+def _table(rows: list[tuple[int, list[str]]], name: str) -> np.ndarray:
+    """The cells as a (rows, columns) array of numbers, or of texts when no row is all numbers."""
+    if not rows:
+        raise refuse(name, "a row for each source vertex", "none", "check that it is the right file")
+    width, numbers = len(rows[0][1]), _numeric(rows[0][1])
+    for line, row in rows:
+        if len(row) != width:
+            raise refuse(f"{name}, line {line}", f"{width} values as before", f"{len(row)}", REPAIR)
+        if _numeric(row) != numbers:
+            wanted, got = ("numbers", "text") if numbers else ("text", "numbers")
+            raise refuse(f"{name}, line {line}", f"{wanted} as before", got, REPAIR)
+    cells = [row for _, row in rows]
+    if not numbers:
+        return np.array(cells)
+    integral = all(_WHOLE.fullmatch(cell) for row in cells for cell in row)
+    return np.array(cells).astype(np.int64 if integral else np.float64)
+
+
+def _npy(data: bytes, name: str) -> np.ndarray:
+    try:
+        check_npy(io.BytesIO(data), len(data), name)
+        array = np.load(io.BytesIO(data), allow_pickle=False)
+    except InvalidInput:
+        raise
+    except Exception as error:  # the reader reports broken files by whatever it runs into
+        got = " ".join(f"{type(error).__name__}: {error}".split())[:100]
+        raise refuse(name, "a complete .npy file without objects", got, REPAIR) from error
+    if array.ndim == 0 or array.dtype.kind not in "biufcU":
+        got = f"shape {array.shape} of {array.dtype}"
+        raise refuse(name, "a row of numbers or texts for each source vertex", got, REPAIR)
+    return array
+
+
+def write_values(path: str | Path, values: Values, force: bool = False) -> None:
+    """Write per-vertex values so that :func:`read_values` reads them back; every digit is kept.
+
+    Raises
+    ------
+    InvalidInput
+        On an unknown extension, more than two dimensions in a text format, and as :func:`atomic_output`.
+    """
+    suffix = _format(path)
+    check_output(path, force)
+    array = values.array
+    if suffix == ".npy":
+        with atomic_output(path, force) as temporary, open(temporary, "wb") as file:
+            np.save(file, array, allow_pickle=False)
+        return
+    if array.ndim > 2 or array.dtype.kind == "c":
+        got = "complex numbers" if array.dtype.kind == "c" else f"shape {array.shape}"
+        raise refuse(f"output {path}", "a table of real numbers or texts", got, "write .npy instead")
+    numbers = array.astype(np.int64) if array.dtype.kind == "b" else array
+    rows = (numbers[:, None] if array.ndim == 1 else numbers).tolist()
+    cells = [[cell if isinstance(cell, str) else repr(cell) for cell in row] for row in rows]
+    with (
+        atomic_output(path, force) as temporary,
+        open(temporary, "w", encoding="utf-8", newline="") as file,
+    ):
+        if suffix == ".csv":
+            table = [list(values.columns)] if values.columns else []
+            csv.writer(file, lineterminator="\n").writerows(table + cells)
+        else:
+            file.writelines(" ".join(row) + "\n" for row in cells)
