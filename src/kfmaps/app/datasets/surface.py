@@ -1,0 +1,174 @@
+"""Points spread evenly over an implicit surface, and the closed triangle mesh through them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+from scipy.spatial import Delaunay, KDTree
+
+from kfmaps._arrays import NotConverged
+
+Field = Callable[[np.ndarray], tuple[np.ndarray, np.ndarray]]
+"""``field(points (n, 3)) -> (values (n,), gradients (n, 3))``: negative inside, zero on the surface."""
+
+Warp = Callable[[np.ndarray], np.ndarray]
+"""``warp(points (n, 3)) -> (n, 3)``: a smooth one-to-one map of space near the surface."""
+
+RELAXATIONS = 30
+ATTEMPTS = 5
+
+
+def unit(vectors: np.ndarray) -> np.ndarray:
+    """Rows scaled to length one."""
+    return vectors / np.linalg.norm(vectors, axis=1, keepdims=True)
+
+
+def on_surface(field: Field, points: np.ndarray, steps: int) -> tuple[np.ndarray, np.ndarray]:
+    """``points`` moved onto the surface by Newton steps along the gradient, and the unit normals there."""
+    for _ in range(steps):
+        values, gradients = field(points)
+        points = points - gradients * (values / (gradients**2).sum(axis=1))[:, None]
+    return points, unit(field(points)[1])
+
+
+def scatter(field: Field, box: np.ndarray, count: int, rng: np.random.Generator) -> tuple[np.ndarray, float]:
+    """Random points near the surface, uniform in area, and an estimate of the area.
+
+    They are drawn uniformly from the thin layer |value| / |gradient| < width, whose volume is twice the
+    width times the area.
+    """
+    low, high = box
+    width = 0.01 * float(np.linalg.norm(high - low))
+    kept: list[np.ndarray] = []
+    tried = found = 0
+    while found < count:
+        points = rng.uniform(low, high, (4 * count, 3))
+        values, gradients = field(points)
+        points = points[np.abs(values) < width * np.linalg.norm(gradients, axis=1)]
+        kept.append(points)
+        tried += 4 * count
+        found += len(points)
+    area = float(np.prod(high - low)) * found / tried / (2 * width)
+    return np.concatenate(kept)[:count], area
+
+
+def tangents(normals: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Two unit vectors (n, 3) that make a right-handed frame with each unit normal."""
+    helper = np.eye(3)[np.abs(normals).argmin(axis=1)]
+    first = unit(np.cross(helper, normals))
+    return first, np.cross(normals, first)
+
+
+def warped_normals(warp: Warp, points: np.ndarray, normals: np.ndarray) -> np.ndarray:
+    """Normals (n, 3) of the warped surface, as long as the factor by which area grows there."""
+    step = 1e-4 * float(np.ptp(points, axis=0).max())
+    first, second = ((warp(points + step * t) - warp(points - step * t)) / (2 * step) for t in tangents(normals))
+    return np.cross(first, second)
+
+
+def spread(
+    field: Field, box: np.ndarray, count: int, rng: np.random.Generator, warp: Warp | None = None
+) -> tuple[np.ndarray, np.ndarray]:
+    """``count`` points spread evenly over the surface: random ones that then push each other apart.
+
+    Parameters
+    ----------
+    field : Field
+    box : (2, 3)
+        Lowest and highest corner of a box around the surface.
+    warp : callable, optional
+        When given, the points are even after this deformation.
+
+    Returns
+    -------
+    points, normals : (count, 3), (count, 3)
+        On the surface before the deformation.
+    """
+    points, area = scatter(field, box, count, rng)
+    points, normals = on_surface(field, points, 3)
+    scale = np.ones(count)
+    for step in range(RELAXATIONS):
+        if warp is not None and step % 5 == 0:
+            scale = np.linalg.norm(warped_normals(warp, points, normals), axis=1) ** -0.5
+        # The distance between neighbours in a hexagonal pattern with this many points to the area.
+        spacing = scale * np.sqrt(2 / np.sqrt(3) * area / (scale**2).sum())
+        found = KDTree(points).query(points, k=13)
+        distance, near = np.asarray(found[0])[:, 1:], np.asarray(found[1])[:, 1:]
+        reach = 0.8 * (spacing[:, None] + spacing[near])
+        push = np.clip(1 - distance / reach, 0, None) / np.maximum(distance, 1e-12)
+        shift = (push[:, :, None] * (points[:, None] - points[near])).sum(axis=1)
+        shift -= (shift * normals).sum(axis=1, keepdims=True) * normals
+        points, normals = on_surface(field, points + 0.35 * spacing[:, None] * shift, 1)
+    return on_surface(field, points, 2)
+
+
+def triangulate(points: np.ndarray, normals: np.ndarray) -> np.ndarray:
+    """The faces of the closed surface through ``points``, counter-clockwise seen from outside, (f, 3).
+
+    They are the boundary of the union of the Delaunay tetrahedra whose circumcentre is inside; the
+    circumcentre's nearest surface points are the corners, so their normals tell inside from outside. For
+    points that are dense against the surface's thickness it is the restricted Delaunay triangulation
+    (Amenta and Bern 1999).
+    """
+    delaunay = Delaunay(points)
+    corners = points[delaunay.simplices]
+    edges = corners[:, 1:] - corners[:, :1]
+    flat = np.abs(np.linalg.det(edges)) < 1e-14 * np.linalg.norm(edges, axis=2).prod(axis=1)
+    edges[flat] = np.eye(3)
+    centres = corners[:, 0] + np.linalg.solve(edges, 0.5 * (edges**2).sum(axis=2, keepdims=True))[:, :, 0]
+    height = ((centres[:, None] - corners) * normals[delaunay.simplices]).sum(axis=(1, 2))
+    inside = (height < 0) & ~flat
+
+    neighbour = delaunay.neighbors
+    shell = inside[:, None] & ((neighbour < 0) | ~inside[neighbour])
+    tetrahedron, opposite = np.nonzero(shell)
+    others = np.array([[1, 2, 3], [0, 2, 3], [0, 1, 3], [0, 1, 2]])
+    faces = np.take_along_axis(delaunay.simplices[tetrahedron], others[opposite], axis=1)
+    a, b, c = (points[faces[:, i]] for i in range(3))
+    inwards = points[delaunay.simplices[tetrahedron, opposite]] - a
+    turned = (np.cross(b - a, c - a) * inwards).sum(axis=1) > 0
+    faces[turned] = faces[turned][:, ::-1]
+    return faces.astype(np.int64)
+
+
+def is_closed(faces: np.ndarray, count: int, genus: int = 0) -> bool:
+    """Whether ``faces`` are one closed oriented manifold of that genus using all ``count`` vertices."""
+    half = np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]])
+    forth = half[:, 0] * count + half[:, 1]
+    back = half[:, 1] * count + half[:, 0]
+    once = len(np.unique(forth)) == len(forth)
+    paired = np.array_equal(np.sort(forth), np.sort(back))
+    used = len(np.unique(faces)) == count
+    # A vertex where two sheets touch lowers the characteristic, so this also excludes such vertices.
+    return once and paired and used and count - len(half) // 2 + len(faces) == 2 - 2 * genus
+
+
+def closed_mesh(
+    field: Field,
+    box: np.ndarray,
+    count: int,
+    rng: np.random.Generator,
+    *,
+    genus: int = 0,
+    warp: Warp | None = None,
+) -> tuple[np.ndarray, np.ndarray]:
+    """``count`` points (count, 3) on the surface and the faces (f, 3) of a closed mesh through them.
+
+    With a ``warp`` the points are given before that deformation, but spread and triangulated after it.
+
+    Raises
+    ------
+    NotConverged
+        When no draw of the points gives a closed manifold of that ``genus``: too few of them for the
+        thinnest part.
+    """
+    for _ in range(ATTEMPTS):
+        points, normals = spread(field, box, count, rng, warp)
+        if warp is None:
+            faces = triangulate(points, normals)
+        else:
+            faces = triangulate(warp(points), unit(warped_normals(warp, points, normals)))
+        if is_closed(faces, count, genus):
+            return points, faces
+    raise NotConverged(f"no closed mesh of genus {genus} through {count} points; ask for more vertices")

@@ -1,0 +1,326 @@
+"""The generated shapes: closed, well shaped, seeded, and with a correspondence that is true."""
+
+import numpy as np
+import pytest
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components, dijkstra
+
+from kfmaps._arrays import InvalidInput, NotConverged
+from kfmaps.app import datasets
+from kfmaps.app.datasets.creature import CREATURE, SYMMETRIC, WAVE
+from kfmaps.app.datasets.pairs import Pair, locate
+from kfmaps.app.datasets.skeleton import Bend, Body
+from kfmaps.app.datasets.surface import closed_mesh
+from kfmaps.mesh import Mesh, face_areas, surface_area, vertex_normals
+
+PAIRS = ("two_poses", "non_isometric", "partial", "symmetric_creature")
+
+
+@pytest.fixture(scope="module")
+def pairs() -> dict[str, Pair]:
+    return {name: getattr(datasets, name)(2500, rng=7) for name in PAIRS}
+
+
+@pytest.fixture(scope="module")
+def rounds() -> dict[str, Mesh]:
+    return {"sphere": datasets.sphere(800), "vase": datasets.vase(3000), "torus": datasets.torus(900)}
+
+
+def edges(faces: np.ndarray) -> np.ndarray:
+    """Each edge once, (e, 2)."""
+    both = np.sort(np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]), axis=1)
+    return np.unique(both, axis=0)
+
+
+def characteristic(mesh: Mesh) -> int:
+    return len(np.unique(mesh.faces)) - len(edges(mesh.faces)) + len(mesh.faces)
+
+
+def rim(faces: np.ndarray) -> np.ndarray:
+    """Directed edges that no other face runs through the other way, (r, 2)."""
+    forth = np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]])
+    back = {(b, a) for a, b in forth.tolist()}
+    return np.array([e for e in forth.tolist() if tuple(e) not in back], dtype=np.int64).reshape(-1, 2)
+
+
+def volume(mesh: Mesh) -> float:
+    a, b, c = (mesh.vertices[mesh.faces[:, i]] for i in range(3))
+    return float((a * np.cross(b, c)).sum() / 6)
+
+
+def smallest_angles(mesh: Mesh) -> np.ndarray:
+    corners = mesh.vertices[mesh.faces]
+    ahead, behind = np.roll(corners, -1, axis=1) - corners, np.roll(corners, 1, axis=1) - corners
+    cosine = (ahead * behind).sum(axis=2) / np.linalg.norm(ahead, axis=2) / np.linalg.norm(behind, axis=2)
+    return np.rad2deg(np.arccos(np.clip(cosine, -1, 1))).min(axis=1)
+
+
+def exact_places(pair: Pair) -> np.ndarray:
+    """Where each target vertex truly is on the source, (n_t, 3)."""
+    corners = pair.source.vertices[pair.source.faces[pair.truth_faces]]
+    return (corners * pair.truth_weights[:, :, None]).sum(axis=1)
+
+
+def length_ratios(pair: Pair) -> np.ndarray:
+    """Length on the source over length on the target of each target edge."""
+    e, places = edges(pair.target.faces), exact_places(pair)
+    there = np.linalg.norm(np.diff(pair.target.vertices[e], axis=1), axis=2)
+    return (np.linalg.norm(np.diff(places[e], axis=1), axis=2) / there).ravel()
+
+
+def path_lengths(mesh: Mesh, starts: np.ndarray) -> np.ndarray:
+    e = edges(mesh.faces)
+    length = np.linalg.norm(np.diff(mesh.vertices[e], axis=1), axis=2).ravel()
+    graph = coo_array((length, (e[:, 0], e[:, 1])), shape=(len(mesh.vertices),) * 2).tocsr()
+    return dijkstra(graph, directed=False, indices=starts)
+
+
+def facing(pair: Pair, point_map: np.ndarray) -> float:
+    """Share of the target's area whose image on the source is not turned inside out.
+
+    Not all of it even under the truth: where neighbours go to one vertex, a triangle has no side.
+    """
+    a, b, c = (pair.source.vertices[point_map[pair.target.faces[:, i]]] for i in range(3))
+    outward = vertex_normals(pair.source)[point_map[pair.target.faces]].sum(axis=1)
+    sign = (np.cross(b - a, c - a) * outward).sum(axis=1) > 0
+    return float(np.average(sign, weights=face_areas(pair.target)))
+
+
+@pytest.mark.parametrize("name", PAIRS)
+def test_closed_oriented_genus_zero(pairs: dict[str, Pair], name: str) -> None:
+    pair = pairs[name]
+    for mesh in (pair.source,) if name == "partial" else (pair.source, pair.target):
+        assert len(rim(mesh.faces)) == 0
+        assert characteristic(mesh) == 2
+        assert volume(mesh) > 0
+        assert len(np.unique(mesh.faces)) == len(mesh.vertices)
+
+
+@pytest.mark.parametrize(("name", "expected"), [("sphere", 2), ("vase", 2), ("torus", 0)])
+def test_round_shapes_are_closed(rounds: dict[str, Mesh], name: str, expected: int) -> None:
+    mesh = rounds[name]
+    assert len(rim(mesh.faces)) == 0
+    assert characteristic(mesh) == expected
+    assert volume(mesh) > 0
+
+
+@pytest.mark.parametrize("name", PAIRS)
+def test_triangles_are_well_shaped(pairs: dict[str, Pair], name: str) -> None:
+    for mesh in (pairs[name].source, pairs[name].target):
+        angles = smallest_angles(mesh)
+        assert np.percentile(angles, 1) > 15
+        assert np.median(angles) > 35
+
+
+def test_sizes_of_the_default_pair() -> None:
+    pair = datasets.two_poses()
+    sizes = len(pair.source.vertices), len(pair.target.vertices)
+    assert all(4000 <= size <= 8000 for size in sizes)
+    assert sizes[0] != sizes[1]
+
+
+def test_same_seed_same_shape_other_seed_other_shape() -> None:
+    one, two, other = (datasets.two_poses(1500, rng=seed) for seed in (3, 3, 4))
+    np.testing.assert_array_equal(one.target.vertices, two.target.vertices)
+    np.testing.assert_array_equal(one.target.faces, two.target.faces)
+    np.testing.assert_array_equal(one.truth, two.truth)
+    assert not np.allclose(one.source.vertices, other.source.vertices)
+    handed_in = datasets.two_poses(1500, rng=np.random.default_rng(3))
+    np.testing.assert_array_equal(one.source.vertices, handed_in.source.vertices)
+
+
+@pytest.mark.parametrize("name", PAIRS)
+def test_truth_is_the_vertex_nearest_to_the_exact_place(pairs: dict[str, Pair], name: str) -> None:
+    pair = pairs[name]
+    assert pair.truth.shape == pair.truth_faces.shape == (len(pair.target.vertices),)
+    np.testing.assert_allclose(pair.truth_weights.sum(axis=1), 1)
+    assert pair.truth_weights.min() >= 0
+    places = exact_places(pair)
+    distance = np.linalg.norm(pair.source.vertices[pair.truth] - places, axis=1)
+    corners = pair.source.vertices[pair.source.faces[pair.truth_faces]]
+    nearest = np.linalg.norm(corners - places[:, None], axis=2).min(axis=1)
+    # The exact place is on the smooth surface, a little beside the flat face.
+    spacing = np.sqrt(surface_area(pair.source) / len(pair.source.vertices))
+    assert (distance <= nearest + 0.1 * spacing).mean() > 0.995
+    assert distance.max() < 1.2 * spacing
+
+
+@pytest.mark.parametrize("name", ["two_poses", "symmetric_creature", "partial"])
+def test_poses_are_nearly_isometric(pairs: dict[str, Pair], name: str) -> None:
+    ratios = length_ratios(pairs[name])
+    assert abs(ratios.mean() - 1) < 0.02
+    assert ratios.std() < 0.13
+    assert np.mean((ratios > 0.8) & (ratios < 1.25)) > 0.93
+
+
+def test_other_proportions_are_not_isometric(pairs: dict[str, Pair]) -> None:
+    low, high = np.percentile(length_ratios(pairs["non_isometric"]), [5, 95])
+    assert low < 0.75
+    assert high > 1.15
+
+
+def test_meshes_are_independent(pairs: dict[str, Pair]) -> None:
+    pair = pairs["two_poses"]
+    largest = pair.truth_weights.max(axis=1)
+    assert (largest > 0.99).mean() < 0.02, "target vertices are source vertices"
+    assert len(np.unique(pair.truth_faces)) > 0.3 * len(pair.source.faces)
+    # A random place in a triangle has a largest barycentric coordinate of 11/18 on average.
+    assert abs(largest.mean() - 11 / 18) < 0.03
+
+
+def test_poses_differ_by_more_than_a_rigid_motion(pairs: dict[str, Pair]) -> None:
+    pair = pairs["two_poses"]
+    a, b = exact_places(pair), pair.target.vertices
+    a, b = a - a.mean(axis=0), b - b.mean(axis=0)
+    u, _, vt = np.linalg.svd(a.T @ b)
+    left = np.linalg.norm(a @ (u @ vt) - b, axis=1).mean()
+    assert left > 0.05 * np.sqrt(surface_area(pair.target))
+
+
+def test_creature_has_no_mirror_image_in_itself() -> None:
+    body = Body(CREATURE)
+    points, _ = closed_mesh(body, body.box(), 1500, np.random.default_rng(0))
+    beside = np.abs(body(points * [-1, 1, 1])[0])
+    assert (beside > 0.03).mean() > 0.2
+    lengths = {limb.name: np.linalg.norm(np.diff(limb.points, axis=0), axis=1).sum() for limb in CREATURE}
+    for part in ("ear", "arm", "leg", "foot"):
+        ratio = lengths[f"left {part}"] / lengths[f"right {part}"]
+        assert max(ratio, 1 / ratio) > 1.2, part
+
+
+def test_symmetric_creature_has_two_truths(pairs: dict[str, Pair]) -> None:
+    pair = pairs["symmetric_creature"]
+    assert pair.mirrored is not None
+    body = Body(SYMMETRIC)
+    points = np.random.default_rng(0).uniform(body.box()[0], body.box()[1], (500, 3))
+    np.testing.assert_allclose(body(points)[0], body(points * [-1, 1, 1])[0], atol=1e-7)
+
+    starts = np.random.default_rng(1).choice(len(pair.truth), 12, replace=False)
+    there = path_lengths(pair.target, starts)
+    far = there > 0.5
+    for truth in (pair.truth, pair.mirrored):
+        here = path_lengths(pair.source, truth[starts])[:, truth]
+        assert np.abs(here[far] / there[far] - 1).mean() < 0.09
+    assert facing(pair, pair.truth) > 0.85
+    assert facing(pair, pair.mirrored) < 0.15
+    aside = np.linalg.norm(pair.source.vertices[pair.truth] - pair.source.vertices[pair.mirrored], axis=1)
+    assert np.median(aside) > 0.2
+
+
+def test_asymmetric_truth_keeps_paths_and_orientation(pairs: dict[str, Pair]) -> None:
+    pair = pairs["two_poses"]
+    assert pair.mirrored is None
+    starts = np.random.default_rng(1).choice(len(pair.truth), 12, replace=False)
+    there = path_lengths(pair.target, starts)
+    here = path_lengths(pair.source, pair.truth[starts])[:, pair.truth]
+    far = there > 0.5
+    assert np.abs(here[far] / there[far] - 1).mean() < 0.09
+    assert facing(pair, pair.truth) > 0.85
+
+
+def test_partial_is_one_manifold_piece_of_the_whole() -> None:
+    whole, part = datasets.two_poses(2500, rng=7), datasets.partial(2500, rng=7, kept=0.5)
+    np.testing.assert_array_equal(whole.source.vertices, part.source.vertices)
+    mesh = part.target
+    border = rim(mesh.faces)
+    assert len(border) > 10
+    leaving, arriving = np.bincount(border[:, 0]), np.bincount(border[:, 1])
+    np.testing.assert_array_equal(leaving, arriving)
+    assert leaving.max() == 1, "two corners of the rim touch"
+    e = edges(mesh.faces)
+    n = len(mesh.vertices)
+    assert connected_components(coo_array((np.ones(len(e)), (e[:, 0], e[:, 1])), shape=(n, n)))[0] == 1
+    assert 0.3 * surface_area(whole.target) < surface_area(mesh) < 0.52 * surface_area(whole.target)
+    old = {tuple(v): i for i, v in enumerate(whole.target.vertices.tolist())}
+    numbers = [old[tuple(v)] for v in mesh.vertices.tolist()]
+    np.testing.assert_array_equal(part.truth, whole.truth[numbers])
+    np.testing.assert_array_equal(part.truth_faces, whole.truth_faces[numbers])
+
+
+def test_partial_keeps_more_when_asked() -> None:
+    sizes = [len(datasets.partial(1500, kept=kept).target.vertices) for kept in (0.3, 0.95)]
+    assert sizes == sorted(set(sizes))
+
+
+def test_sphere_has_its_radius_and_its_area(rounds: dict[str, Mesh]) -> None:
+    np.testing.assert_allclose(np.linalg.norm(rounds["sphere"].vertices, axis=1), 1, rtol=1e-9)
+    lack = [1 - surface_area(m) / (4 * np.pi) for m in (rounds["sphere"], datasets.sphere(3200))]
+    assert lack[0] > 0
+    assert lack[0] / lack[1] == pytest.approx(4, rel=0.15), "the lack of area falls as one over the number"
+
+
+def test_torus_has_its_area(rounds: dict[str, Mesh]) -> None:
+    assert surface_area(rounds["torus"]) == pytest.approx(4 * np.pi**2 * 0.4, rel=0.02)
+    assert surface_area(datasets.torus(900, tube=0.6)) == pytest.approx(4 * np.pi**2 * 0.6, rel=0.02)
+
+
+def test_vase_turned_is_the_vase(rounds: dict[str, Mesh]) -> None:
+    mesh, points = rounds["vase"], datasets.vase(3000, rng=5).vertices
+    turn = np.deg2rad(77)
+    turned = points @ np.array([[np.cos(turn), 0, np.sin(turn)], [0, 1, 0], [-np.sin(turn), 0, np.cos(turn)]])
+    face, weights = locate(turned, mesh)
+    places = (mesh.vertices[mesh.faces[face]] * weights[:, :, None]).sum(axis=1)
+    spacing = np.sqrt(surface_area(mesh) / len(mesh.vertices))
+    assert np.linalg.norm(places - turned, axis=1).max() < 0.2 * spacing
+
+
+def test_field_is_negative_inside_and_its_gradient_is_its_derivative() -> None:
+    body = Body(CREATURE)
+    points = np.random.default_rng(0).uniform(body.box()[0], body.box()[1], (2000, 3))
+    values, gradients = body(points)
+    near = np.abs(values) < 0.1
+    steps = 1e-6 * np.eye(3)
+    numeric = np.stack([(body(points + s)[0] - body(points - s)[0]) / 2e-6 for s in steps], axis=1)
+    difference = np.abs(numeric - gradients).max(axis=1)[near]
+    assert np.percentile(difference, 98) < 1e-6, "all but points above a kink of the radius"
+    middles = np.array([limb.points[1] for limb in CREATURE])
+    assert (body(middles)[0] < 0).all()
+    assert body(np.array([[0.5, 0.2, 0.3]]))[0][0] > 0
+
+
+def test_bending_nothing_is_the_identity_and_growing_all_is_a_similarity() -> None:
+    body = Body(CREATURE)
+    points, _ = closed_mesh(body, body.box(), 1500, np.random.default_rng(0))
+    np.testing.assert_allclose(body.bent(points, {}), points, atol=1e-12)
+    grown = body.bent(points, {limb.name: Bend(longer=2, thicker=2) for limb in CREATURE})
+    np.testing.assert_allclose(grown - grown[0], 2 * (points - points[0]), atol=1e-12)
+
+
+def test_only_the_bent_limb_and_what_it_carries_moves() -> None:
+    body = Body(CREATURE)
+    points, _ = closed_mesh(body, body.box(), 1500, np.random.default_rng(0))
+    moved = np.linalg.norm(body.bent(points, {"left arm": WAVE["left arm"]}) - points, axis=1)
+    assert moved[points[:, 0] > 0.75].min() > 0.3
+    away = (points[:, 0] < -0.3) | (points[:, 1] < 0.4)
+    assert moved[away].max() < 0.01
+
+
+def test_wrong_genus_is_reported() -> None:
+    def ring(points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        radius = np.hypot(points[:, 0], points[:, 1])
+        away = points - points * [1, 1, 0] / radius[:, None]
+        length = np.linalg.norm(away, axis=1)
+        return length - 0.4, away / length[:, None]
+
+    box = np.array([[-1.5, -1.5, -0.5], [1.5, 1.5, 0.5]])
+    assert len(closed_mesh(ring, box, 400, np.random.default_rng(0), genus=1)[0]) == 400
+    with pytest.raises(NotConverged, match="ask for more vertices"):
+        closed_mesh(ring, box, 400, np.random.default_rng(0), genus=0)
+
+
+@pytest.mark.parametrize(
+    ("make", "name"),
+    [
+        (lambda: datasets.two_poses(100), "vertices"),
+        (lambda: datasets.non_isometric(10**6), "vertices"),
+        (lambda: datasets.symmetric_creature(1500.5), "vertices"),  # type: ignore[arg-type]
+        (lambda: datasets.partial(1500, kept=1.5), "kept"),
+        (lambda: datasets.sphere(3), "vertices"),
+        (lambda: datasets.vase(100), "vertices"),
+        (lambda: datasets.torus(100), "vertices"),
+        (lambda: datasets.torus(900, tube=1.0), "tube"),
+    ],
+)
+def test_bad_sizes_are_refused(make, name: str) -> None:
+    with pytest.raises(InvalidInput, match=f"^{name}: wanted"):
+        make()
