@@ -1,0 +1,21 @@
+"""Pictures of surfaces and maps with matplotlib alone: no display and no graphics system is needed."""
+
+from kfmaps.app.pictures.camera import View, automatic_view, following_view, view
+from kfmaps.app.pictures.colors import ERROR_MAP, error_colors, error_limit, position_colors
+from kfmaps.app.pictures.matches import match_figure, picture_format, save_figure
+from kfmaps.app.pictures.surfaces import draw_surface
+
+__all__ = [
+    "ERROR_MAP",
+    "View",
+    "automatic_view",
+    "draw_surface",
+    "error_colors",
+    "error_limit",
+    "following_view",
+    "match_figure",
+    "picture_format",
+    "position_colors",
+    "save_figure",
+    "view",
+]
