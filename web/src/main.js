@@ -1,12 +1,7 @@
+import { say } from "./base.js";
 import { pageData } from "./data.js";
 import { startPicker } from "./picker.js";
 import { startResult } from "./result.js";
-
-function say(text) {
-  const place = document.getElementById("message");
-  place.textContent = text;
-  place.hidden = false;
-}
 
 try {
   const data = pageData();

@@ -1,5 +1,5 @@
 // Marks on a surface, the same size on the screen however near; one behind the surface shows through faintly.
-import { CanvasTexture, Sprite, SpriteMaterial, Vector3 } from "three";
+import { CanvasTexture, SRGBColorSpace, Sprite, SpriteMaterial, Vector3 } from "three";
 
 const kept = new Map();
 
@@ -28,6 +28,7 @@ function texture(colour, text) {
     pen.fillText(text, size / 2, size / 2 + 3);
   }
   const made = new CanvasTexture(canvas);
+  made.colorSpace = SRGBColorSpace;
   kept.set(key, made);
   return made;
 }

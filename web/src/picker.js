@@ -1,1 +1,258 @@
-export function startPicker() {}
+// The landmark picker.
+import { Legend, SIDES, byId, modeButtons, say, setUp, viewTools } from "./base.js";
+import { painted, pairColour, plain } from "./colours.js";
+import { attach } from "./controls.js";
+import { element, numbers, reals, short } from "./data.js";
+import { Link } from "./link.js";
+import { Pairs } from "./pairs.js";
+import { ask, tell } from "./speak.js";
+
+const HOVER = "#4a5464";
+const REACH = 14; // pixels within which a mark is grabbed
+
+export function startPicker(data) {
+  const { shapes, names, stage } = setUp(data);
+  viewTools(stage, () => [null, null]);
+  const legend = new Legend(stage, names);
+  const colours = numbers(data.source.colours);
+  const plane = reals(data.source.plane);
+  const pairs = new Pairs(data.pairs);
+  const links = []; // one for each run done
+  const state = { mode: "plain", map: -1, selected: -1, hovered: null, running: false };
+  const link = () => links[state.map];
+
+  /** Straight distance on the source, in √area (the page's shapes have unit area). */
+  const apart = (a, b) => shapes[0].place(a).distanceTo(shapes[0].place(b));
+
+  const shows = {
+    plain: () => {
+      shapes.forEach((s) => s.show(plain(s.count)));
+      return {};
+    },
+    colours: () => {
+      shapes[0].show(colours);
+      shapes[1].show(link().carried(colours, 3));
+      return { text: `Each point of ${names[1]} has the colour of its match on ${names[0]}.` };
+    },
+    texture: () => {
+      shapes[0].show(colours, plane);
+      shapes[1].show(link().carried(colours, 3), link().carried(plane, 2));
+      return { text: `The pattern lies on ${names[0]} and is carried to ${names[1]} by the map.` };
+    },
+    change: () => {
+      const before = links[state.map - 1];
+      if (!before) {
+        shows.plain();
+        return { text: "There is no run before this one." };
+      }
+      const moved = Float32Array.from(link().points, (s, t) => apart(s, before.points[t]));
+      shapes[1].show(painted(moved, "error", 0, 0.5));
+      shapes[0].show(painted(link().pushed(moved), "error", 0, 0.5));
+      return { scale: "error", low: "0", high: "0.5", text: "how far matches moved since the run before, in √area" };
+    },
+  };
+  const show = () => legend.show(shows[link() ? state.mode : "plain"]());
+
+  const instruction = () => {
+    const next = pairs.list.length + 1;
+    if (!pairs.half) return `Pair ${next}: click a point on ${names[0]}, or on ${names[1]}.`;
+    return `Pair ${next}: now click its match on ${names[1 - pairs.half.i]}.`;
+  };
+
+  const matched = () => {
+    const at = state.hovered;
+    if (!at || !link()) return [[], []];
+    return at.i === 1 ? [[link().toSource(at.vertex)], []] : [[], link().toTarget(at.vertex).targets.slice(0, 60)];
+  };
+
+  const mark = () => {
+    const hovered = matched();
+    SIDES.forEach((_, i) => stage.mark(i, [
+      ...hovered[i].map((vertex) => ({ vertex, colour: HOVER })),
+      ...pairs.points(i).map(({ number, vertex }) => ({
+        vertex, colour: pairColour(number), text: String(number + 1), pixels: number === state.selected ? 32 : 24,
+      })),
+    ]));
+  };
+
+  const row = (pair, number) => {
+    const made = element("tr");
+    made.classList.toggle("selected", number === state.selected);
+    const head = element("th", null, { scope: "row" });
+    const badge = element("span", String(number + 1), { class: "badge" });
+    badge.style.background = pairColour(number);
+    head.append(badge);
+    const remove = element("button", "Delete", { type: "button", "aria-label": `Delete pair ${number + 1}` });
+    remove.addEventListener("click", () => {
+      state.selected = -1;
+      pairs.delete(number);
+      update();
+      byId("pairs").querySelectorAll("button")[Math.min(number, pairs.list.length - 1)]?.focus();
+    });
+    made.append(head, ...pair.map((vertex) => element("td", vertex, { class: "number" })));
+    if (link()) made.append(element("td", short(apart(pair[0], link().toSource(pair[1])), 2), { class: "number" }));
+    const last = element("td");
+    last.append(remove);
+    made.append(last);
+    made.addEventListener("click", (event) => {
+      if (event.target === remove) return;
+      state.selected = state.selected === number ? -1 : number;
+      update();
+    });
+    return made;
+  };
+
+  const update = () => {
+    byId("pairs").tBodies[0].replaceChildren(...pairs.list.map(row));
+    byId("pairs").hidden = !pairs.list.length;
+    byId("no-pairs").hidden = pairs.list.length > 0;
+    byId("head-off").hidden = !link();
+    byId("undo").disabled = !pairs.past.length;
+    byId("match").disabled = state.running;
+    byId("match").hidden = !data.canMatch;
+    byId("save").disabled = !pairs.list.length;
+    byId("readout").textContent = instruction();
+    byId("facts").textContent = `to be saved in ${data.output}${pairs.changed ? " · not saved yet" : ""}`;
+    mark();
+  };
+
+  /** The mark of side `i` under a point of the window: its number, or null. */
+  const grab = (i, x, y) => {
+    const near = pairs.points(i).map((point) => ({ ...point, ...stage.project(i, point.vertex) }))
+      .filter((p) => p.visible && Math.hypot(p.x - x, p.y - y) < REACH)
+      .sort((a, b) => Math.hypot(a.x - x, a.y - y) - Math.hypot(b.x - x, b.y - y));
+    return near.length ? { number: near[0].number, moved: false } : null;
+  };
+
+  SIDES.forEach((side, i) => {
+    attach(stage, i, {
+      grab,
+      drag: (j, vertex, held) => {
+        if (!held.moved) pairs.beginMove();
+        held.moved = true;
+        pairs.move(held.number, j, vertex);
+        mark();
+      },
+      drop: () => update(),
+      hover: (j, vertex) => {
+        if (!link() || (state.hovered?.i === j && state.hovered?.vertex === vertex)) return;
+        state.hovered = vertex < 0 ? null : { i: j, vertex };
+        mark();
+      },
+      click: (j, vertex, event) => {
+        const held = event && grab(j, event.clientX, event.clientY);
+        if (held) state.selected = state.selected === held.number ? -1 : held.number;
+        else if (vertex >= 0) pairs.pick(j, vertex);
+        else if (!event) pairs.letGo();
+        update();
+      },
+    });
+    byId(`head-${side}`).textContent = `${names[i]} (${side})`;
+    byId(`add-${side}`).max = shapes[i].count - 1;
+  });
+
+  const undo = () => {
+    state.selected = -1;
+    pairs.undo();
+    update();
+  };
+  byId("undo").addEventListener("click", undo);
+  document.addEventListener("keydown", (event) => {
+    if (event.key.toLowerCase() !== "z" || !(event.ctrlKey || event.metaKey) || event.target.matches("input")) return;
+    event.preventDefault();
+    if (pairs.past.length) undo();
+  });
+  byId("add").addEventListener("submit", (event) => {
+    event.preventDefault();
+    pairs.add(...SIDES.map((side) => Number(byId(`add-${side}`).value)));
+    event.target.reset();
+    byId("add-source").focus();
+    update();
+  });
+
+  const attempt = async (work) => {
+    say("");
+    try {
+      await work();
+    } catch (error) {
+      say(error.message);
+    }
+  };
+
+  const save = (overwrite) => attempt(async () => {
+    const { status, body } = await tell("save", { pairs: pairs.list, overwrite });
+    if (status === 409) {
+      byId("overwrite-text").textContent = `${body.exists} exists already. Replace it with these ${pairs.list.length} pairs?`;
+      byId("overwrite").showModal();
+      return;
+    }
+    pairs.changed = false;
+    update();
+    byId("readout").textContent = `Saved ${body.count} pairs in ${body.saved}.`;
+  });
+  byId("save").addEventListener("click", () => save(false));
+  byId("overwrite-no").addEventListener("click", () => byId("overwrite").close());
+  byId("overwrite-yes").addEventListener("click", () => {
+    byId("overwrite").close();
+    save(true);
+  });
+  window.addEventListener("beforeunload", (event) => pairs.changed && event.preventDefault());
+
+  const watch = async () => {
+    for (;;) {
+      const { body } = await ask("progress");
+      byId("progress").value = body.fraction;
+      byId("stage-name").textContent = `${body.stage} (${short(body.seconds, 2)} s)`;
+      if (body.state !== "running") return body;
+      await new Promise((later) => setTimeout(later, 300));
+    }
+  };
+  const during = (running) => {
+    state.running = running;
+    byId("running").hidden = byId("cancel").hidden = !running;
+    byId("cancel").disabled = false;
+    update();
+  };
+
+  byId("match").addEventListener("click", () => attempt(async () => {
+    during(true);
+    try {
+      await tell("match", { pairs: pairs.list });
+      const end = await watch();
+      if (end.state === "failed") throw new Error(`The match failed: ${end.error}`);
+      if (end.state === "done") {
+        const { body } = await ask("map");
+        addRun({ ...body, label: `${links.length + 1}: ${body.label}, ${short(end.seconds, 2)} s` });
+      }
+    } finally {
+      during(false);
+    }
+  }));
+  byId("cancel").addEventListener("click", () => attempt(async () => {
+    byId("cancel").disabled = true;
+    await tell("cancel", {});
+  }));
+
+  const addRun = (record) => {
+    links.push(new Link(record, shapes[0].count));
+    state.map = links.length - 1;
+    byId("map").append(element("option", record.label, { value: state.map }));
+    byId("map").value = state.map;
+    byId("map-choice").hidden = byId("modes").hidden = false;
+    if (links.length === 1) byId("modes").querySelector("[value=colours]").click();
+    show();
+  };
+  byId("map").addEventListener("change", () => {
+    state.map = Number(byId("map").value);
+    show();
+    update();
+  });
+  modeButtons({ plain: "Plain", colours: "Map colours", texture: "Texture", change: "Change" }, state.mode, (mode) => {
+    state.mode = mode;
+    show();
+  });
+
+  show();
+  update();
+  return { stage };
+}

@@ -1,39 +1,20 @@
 // The page of a result.
 import { Matrix4, Quaternion } from "three";
-import { drawBar, painted, plain, quantile, roundedUp } from "./colours.js";
+import { Legend, SIDES, byId, modeButtons, setUp, viewTools } from "./base.js";
+import { painted, plain, quantile, roundedUp } from "./colours.js";
 import { attach } from "./controls.js";
 import { element, numbers, reals, short } from "./data.js";
 import { Link } from "./link.js";
 import { drawMatrix } from "./matrix.js";
-import { savePicture } from "./picture.js";
-import { Stage } from "./stage.js";
-import { Surface } from "./surface.js";
 import { showSummary } from "./tables.js";
 
-const byId = (id) => document.getElementById(id);
-const SIDES = ["source", "target"];
 const HOVER = "#d97706";
 const PINNED = "#1d4ed8";
 const MOST_MARKS = 60;
-
-const MODES = {
-  colours: "Map colours",
-  texture: "Texture",
-  descriptor: "Descriptor",
-  error: "Error",
-  distortion: "Area distortion",
-  confidence: "Confidence",
-};
+const NOTHING = "Point at a surface to see its match on the other.";
 
 export function startResult(data) {
-  const shapes = SIDES.map((side) => new Surface(data[side]));
-  const names = shapes.map((s) => s.name);
-  SIDES.forEach((side, i) => {
-    byId(`name-${side}`).textContent = names[i];
-    byId(`title-${side}`).textContent = `${names[i]} (${side}, ${shapes[i].count} vertices)`;
-    byId(`view-${side}`).setAttribute("aria-label", `3D view of the ${side}, ${names[i]}`);
-  });
-  const stage = new Stage(byId("stage"), shapes, SIDES.map((side) => byId(`view-${side}`)));
+  const { shapes, names, stage } = setUp(data);
   const colours = numbers(data.source.colours);
   const plane = reals(data.source.plane);
   const errors = (data.errors ?? []).map(reals);
@@ -42,20 +23,22 @@ export function startResult(data) {
   const state = { mode: "colours", map: 0, descriptor: 0, hovered: null, pinned: null };
   const link = () => (links[state.map] ??= new Link(data.maps[state.map], shapes[0].count));
 
-  const turn = new Matrix4();
-  const r = data.rotation;
-  turn.set(r[0], r[1], r[2], 0, r[3], r[4], r[5], 0, r[6], r[7], r[8], 0, 0, 0, 0, 1);
-  const rotation = new Quaternion().setFromRotationMatrix(turn);
+  const rotation = rotationOf(data.rotation);
   // Shapes lying in different directions are turned alike; a small angle is only the pose.
   byId("aligned").checked = 2 * Math.acos(Math.min(1, Math.abs(rotation.w))) > Math.PI / 4;
-  byId("up").value = data.up;
-  const reset = () => stage.reset(byId("up").value, [null, byId("aligned").checked ? rotation : null]);
+  const reset = viewTools(stage, () => [null, byId("aligned").checked ? rotation : null]);
+  byId("aligned").addEventListener("change", reset);
+  const legend = new Legend(stage, names);
 
   /** A number for each target vertex on both shapes, and the legend that reads it. */
-  const field = (values, scale, low, high, legend) => {
+  const field = (values, scale, low, high, said) => {
     shapes[1].show(painted(values, scale, low, high));
     shapes[0].show(painted(link().pushed(values), scale, low, high));
-    return { scale, ...legend };
+    return { scale, ...said };
+  };
+  const unknown = (text) => {
+    shapes.forEach((s) => s.show(plain(s.count)));
+    return { text };
   };
 
   const shows = {
@@ -79,38 +62,29 @@ export function startResult(data) {
     },
     error: () => {
       const values = errors[state.map];
-      if (!values) {
-        shapes.forEach((s) => s.show(plain(s.count)));
-        return { text: "The error of this map is not known." };
-      }
+      if (!values) return unknown("The error of this map is not known.");
       const top = roundedUp(quantile(values, 0.99));
-      const legend = { low: "0", high: `${short(top)}`, text: "distance to the truth, in √area" };
-      return field(values, "error", 0, top, legend);
+      return field(values, "error", 0, top, { low: "0", high: short(top), text: "distance to the truth, in √area" });
     },
     distortion: () => field(link().distortion, "diverging", -2, 2,
       { low: "¼", high: "4", text: "area on the source / area on the target, both of unit area" }),
     confidence: () => {
-      if (state.map > 0) {
-        shapes.forEach((s) => s.show(plain(s.count)));
-        return { text: "The confidence of this map is not known." };
-      }
+      if (state.map > 0) return unknown("The confidence of this map is not known.");
       const [low, high] = [quantile(confidence, 0), quantile(confidence, 1)];
-      const legend = { low: short(low, 3), high: short(high, 3), text: "confidence" };
-      return field(confidence, "sequential", low, high, legend);
+      return field(confidence, "sequential", low, high, { low: short(low, 3), high: short(high, 3), text: "confidence" });
     },
   };
-
-  let legend = {};
   const show = () => {
-    legend = shows[state.mode]();
-    byId("legend").hidden = false;
-    byId("legend").classList.toggle("wordy", !legend.scale);
-    if (legend.scale) drawBar(byId("legend-bar"), legend.scale);
-    byId("legend-low").textContent = legend.low ?? "";
-    byId("legend-high").textContent = legend.high ?? "";
-    byId("legend-text").textContent = legend.text;
+    legend.show(shows[state.mode]());
     byId("descriptor-choice").hidden = state.mode !== "descriptor";
     mark();
+  };
+
+  const measured = (target) => {
+    const error = errors[state.map]?.[target] ?? NaN;
+    const sure = state.map === 0 ? (confidence?.[target] ?? NaN) : NaN;
+    return (Number.isNaN(error) ? "" : `, error ${short(error, 3)} √area`)
+      + (Number.isNaN(sure) ? "" : `, confidence ${short(sure, 3)}`);
   };
 
   /** The match of a vertex of side `i`: what to mark on either side and how to say it. */
@@ -125,19 +99,12 @@ export function startResult(data) {
     return { marks: [[vertex], targets.slice(0, MOST_MARKS)], text: `source ${vertex} ← target ${list}${via}` };
   };
 
-  const measured = (target) => {
-    const error = errors[state.map]?.[target];
-    const sure = state.map === 0 ? confidence?.[target] : undefined;
-    return (error === error && error !== undefined ? `, error ${short(error, 3)} √area` : "")
-      + (sure === sure && sure !== undefined ? `, confidence ${short(sure, 3)}` : "");
-  };
-
   const mark = () => {
     const both = [[state.pinned, PINNED], [state.hovered, HOVER]].filter(([at]) => at);
     const all = both.map(([at, colour]) => [match(at), colour]);
     SIDES.forEach((_, i) => stage.mark(i, all.flatMap(([m, colour]) => m.marks[i].map((vertex) => ({ vertex, colour })))));
     const said = state.hovered ?? state.pinned;
-    byId("readout").textContent = said ? match(said).text : "Point at a surface to see its match on the other.";
+    byId("readout").textContent = said ? match(said).text : NOTHING;
   };
 
   const pin = (i, vertex) => {
@@ -166,17 +133,14 @@ export function startResult(data) {
     });
   });
 
-  const available = { descriptor: data.descriptors.length > 0, error: errors.length > 0, confidence: confidence !== null,
-    distortion: shapes.every((s) => s.faces.length > 0) };
-  for (const [mode, text] of Object.entries(MODES)) {
-    if (available[mode] === false) continue;
-    const label = element("label");
-    const radio = element("input", null, { type: "radio", name: "mode", value: mode });
-    radio.checked = mode === state.mode;
-    radio.addEventListener("change", () => { state.mode = mode; show(); });
-    label.append(radio, element("span", text));
-    byId("modes").append(label);
-  }
+  modeButtons({
+    colours: "Map colours",
+    texture: "Texture",
+    ...(data.descriptors.length && { descriptor: "Descriptor" }),
+    ...(errors.length && { error: "Error" }),
+    ...(shapes.every((s) => s.faces.length) && { distortion: "Area distortion" }),
+    ...(confidence && { confidence: "Confidence" }),
+  }, state.mode, (mode) => { state.mode = mode; show(); });
   const choices = (id, texts, set) => {
     texts.forEach((text, value) => byId(id).append(element("option", text, { value })));
     byId(id).addEventListener("change", () => { set(Number(byId(id).value)); show(); });
@@ -184,13 +148,8 @@ export function startResult(data) {
   choices("map", data.maps.map((m) => m.label), (v) => { state.map = v; });
   choices("descriptor", data.descriptors.map((d) => String(d.number)), (v) => { state.descriptor = v; });
   byId("map-choice").hidden = data.maps.length < 2;
-  byId("linked").addEventListener("change", () => { stage.linked = byId("linked").checked; });
-  for (const id of ["aligned", "up"]) byId(id).addEventListener("change", reset);
-  byId("reset").addEventListener("click", reset);
-  byId("picture").addEventListener("click", () => savePicture(stage, names, legend));
 
-  byId("facts").textContent = facts(data, shapes, errors);
-  reset();
+  byId("facts").textContent = facts(link(), shapes[0].count, errors[0]);
   show();
   // The tables can wait for the first picture.
   requestAnimationFrame(() => setTimeout(() => {
@@ -200,16 +159,17 @@ export function startResult(data) {
     }
     showSummary(data.summary);
   }));
-  return { stage, shapes, link, state };
+  return { stage };
 }
 
-function facts(data, shapes, errors) {
-  const reached = new Set(numbers(data.maps[0].points)).size / shapes[0].count;
-  const parts = [`${Math.round(100 * reached)} % of the source's vertices are reached`];
-  if (errors.length) {
-    const known = errors[0].filter((v) => v === v);
-    const mean = known.reduce((a, b) => a + b, 0) / known.length;
-    parts.unshift(`mean error ${short(mean, 3)} √area`);
-  }
+function rotationOf(r) {
+  const turn = new Matrix4().set(r[0], r[1], r[2], 0, r[3], r[4], r[5], 0, r[6], r[7], r[8], 0, 0, 0, 0, 1);
+  return new Quaternion().setFromRotationMatrix(turn);
+}
+
+function facts(link, count, errors) {
+  const parts = [`${Math.round((100 * new Set(link.points).size) / count)} % of the source's vertices are reached`];
+  const known = (errors ?? []).filter((v) => !Number.isNaN(v));
+  if (known.length) parts.unshift(`mean error ${short(known.reduce((a, b) => a + b, 0) / known.length, 3)} √area`);
   return parts.join(" · ");
 }

@@ -1,4 +1,4 @@
-"""One self-contained HTML document: the bundled script and style, the data, and a policy that allows no more."""
+"""One self-contained HTML document: bundled script and style, data, and a policy that allows no more."""
 
 from __future__ import annotations
 

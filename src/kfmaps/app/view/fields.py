@@ -1,4 +1,4 @@
-"""What the pages show of a map, vertex by vertex: colours, a texture, distortion, links, an alignment."""
+"""What the pages show of a map beside the map itself: change of area, links back, an alignment."""
 
 from __future__ import annotations
 
@@ -8,58 +8,6 @@ from scipy.sparse.csgraph import dijkstra
 from scipy.spatial import KDTree
 
 from kfmaps.mesh import Mesh, face_areas
-
-
-def _principal(mesh: Mesh) -> np.ndarray:
-    """Vertices centred, in their principal axes of falling extent, divided by the longest extent, (n, 3).
-
-    Each axis points to where the vertices' third moment is positive, so that the sign is not the
-    eigensolver's whim.
-    """
-    centred = mesh.vertices - mesh.vertices.mean(axis=0)
-    _, _, axes = np.linalg.svd(centred.T @ centred)
-    turned = centred @ axes.T
-    turned *= np.where((turned**3).sum(axis=0) < 0, -1.0, 1.0)
-    extents = np.ptp(turned, axis=0)
-    return (turned - turned.min(axis=0))[:, np.argsort(-extents, kind="stable")] / max(extents.max(), 1e-300)
-
-
-def _oklch(lightness: np.ndarray, chroma: np.ndarray, hue: np.ndarray) -> np.ndarray:
-    """sRGB in [0, 1], (n, 3), of colours in Ottosson's OKLCh (2020); hue in radians."""
-    a, b = chroma * np.cos(hue), chroma * np.sin(hue)
-    lms = np.stack(
-        [
-            lightness + 0.3963377774 * a + 0.2158037573 * b,
-            lightness - 0.1055613458 * a - 0.0638541728 * b,
-            lightness - 0.0894841775 * a - 1.2914855480 * b,
-        ],
-        axis=1,
-    )
-    to_rgb = np.array(
-        [
-            [4.0767416621, -3.3077115913, 0.2309699292],
-            [-1.2684380046, 2.6097574011, -0.3413193965],
-            [-0.0041960863, -0.7034186147, 1.7076147010],
-        ]
-    )
-    linear = np.clip(lms**3 @ to_rgb.T, 0, 1)
-    return np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * linear ** (1 / 2.4) - 0.055)
-
-
-def position_colours(mesh: Mesh) -> np.ndarray:
-    """A smooth colour for each vertex from where it lies, (n, 3) sRGB in [0, 1].
-
-    The hue runs along the longest extent, the lightness along the second, the strength along the third, so
-    that left and right, or front and back, differ as well as head and foot.
-    """
-    along, across, through = _principal(mesh).T
-    spread = [x / max(x.max(), 1e-300) for x in (along, across, through)]
-    return _oklch(0.58 + 0.32 * spread[1], 0.10 + 0.07 * spread[2], np.deg2rad(20 + 290 * spread[0]))
-
-
-def planar_coordinates(mesh: Mesh) -> np.ndarray:
-    """Coordinates for a texture, (n, 2) in [0, 1]: the plane of the two longest extents, one scale for both."""
-    return _principal(mesh)[:, :2]
 
 
 def area_distortion(source: Mesh, target: Mesh, target_to_source: np.ndarray) -> np.ndarray:

@@ -8,34 +8,12 @@ from typing import Any
 import numpy as np
 
 from kfmaps._arrays import check, check_count, refuse
+from kfmaps.app.files import check_map, projected_uv
+from kfmaps.app.pictures.colors import position_colors
 from kfmaps.app.view.document import document
-from kfmaps.app.view.fields import (
-    alignment,
-    area_distortion,
-    nearest_reached,
-    planar_coordinates,
-    position_colours,
-)
+from kfmaps.app.view.fields import alignment, area_distortion, nearest_reached
 from kfmaps.app.view.pack import packed, quantised
 from kfmaps.mesh import Mesh, unit_area
-
-
-def check_map(target_to_source: np.ndarray, source: Mesh, target: Mesh, name: str = "map") -> np.ndarray:
-    """The point map as int64 when it gives a vertex of ``source`` for each vertex of ``target``.
-
-    Raises
-    ------
-    InvalidInput
-        On another length, numbers that are not whole, or a vertex that the source has not.
-    """
-    array = np.asarray(target_to_source)
-    check(array, name, shape=(len(target.vertices),), remedy="give one source vertex per target vertex")
-    if array.dtype.kind not in "iu":
-        raise refuse(name, "whole numbers", f"numbers of type {array.dtype}", "give 0-based vertex numbers")
-    wrong = array[(array < 0) | (array >= len(source.vertices))]
-    if len(wrong):
-        raise refuse(name, f"source vertices from 0 to {len(source.vertices) - 1}", str(wrong[0]), "check the meshes")
-    return array.astype(np.int64)
 
 
 def shape_record(mesh: Mesh, name: str) -> dict[str, Any]:
@@ -47,11 +25,11 @@ def shape_record(mesh: Mesh, name: str) -> dict[str, Any]:
 
 def source_record(mesh: Mesh, name: str) -> dict[str, Any]:
     """As :func:`shape_record`, with the colours and texture coordinates that a map carries over."""
-    colours = np.rint(255 * position_colours(mesh)).astype(np.uint8)
+    colours = np.rint(255 * position_colors(mesh)).astype(np.uint8)
     return {
         **shape_record(mesh, name),
         "colours": packed(colours),
-        "plane": quantised(planar_coordinates(mesh)),
+        "plane": quantised(projected_uv(mesh.vertices)),
     }
 
 
@@ -151,8 +129,9 @@ def result_page(
     if up not in ("x", "y", "z"):
         raise refuse("up", "x, y or z", repr(up), "name the axis that points upwards")
     check_count(most_descriptors, "most_descriptors", low=0)
-    points = [check_map(target_to_source, source, target)]
-    points += [check_map(m, source, target, f"runner-up {i}") for i, m in enumerate(runners_up, 1)]
+    sizes = len(source.vertices), len(target.vertices)
+    points = [check_map(target_to_source, *sizes)]
+    points += [check_map(m, *sizes, f"runner-up {i}") for i, m in enumerate(runners_up, 1)]
     labels = ["Best"] + [f"Runner-up {i}" for i in range(1, len(points))]
     matrix = None
     if functional_map is not None:

@@ -1,0 +1,55 @@
+"""``kfmaps landmarks``: pairs of points picked by hand on a local web page."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+from rich.console import Console
+
+from kfmaps.app.files import check_output, read_landmarks, read_mesh
+from kfmaps.app.view.picker import Picker, check_pairs, picker_server
+from kfmaps.app.view.results import open_address
+from kfmaps.app.view.tryout import Tryout
+
+
+def landmarks(
+    source: Annotated[Path, typer.Argument(help="The source mesh.", show_default=False)],
+    target: Annotated[Path, typer.Argument(help="The target mesh.", show_default=False)],
+    output: Annotated[
+        Path | None,
+        typer.Option(
+            "-o",
+            "--output",
+            help="Where the page saves them; default: landmarks.txt, or the file of --landmarks.",
+            show_default=False,
+        ),
+    ] = None,
+    landmarks: Annotated[
+        Path | None, typer.Option("--landmarks", help="Pairs to begin with.", show_default=False)
+    ] = None,
+    up: Annotated[str, typer.Option(help="The axis that points upwards: x, y or z.")] = "y",
+    port: Annotated[int, typer.Option(help="Of this machine; 0 takes a free one.", min=0, max=65535)] = 0,
+    browser: Annotated[bool, typer.Option("--browser/--no-browser", help="Open the page.")] = True,
+    force: Annotated[bool, typer.Option("--force", help="Save over an existing file without asking.")] = False,
+) -> None:
+    """Pick landmarks on a local page: click a point on one shape, then its match on the other."""
+    output = output or landmarks or Path("landmarks.txt")
+    check_output(output, force=True)  # the page asks before it replaces a file
+    shapes = read_mesh(source), read_mesh(target)
+    pairs = check_pairs([] if landmarks is None else read_landmarks(landmarks).tolist(), *shapes)
+    names = (source.stem, target.stem)
+    picker = Picker(*shapes, names, output, force=force, landmarks=pairs, matcher=Tryout(*shapes, names), up=up)
+    serving = picker_server(picker, port)
+    out = Console(soft_wrap=True, highlight=False)
+    out.print(serving.server.address, markup=False)
+    out.print("Only this machine can reach it, and only with that address. Ctrl-C ends.")
+    if browser and not open_address(serving.server.address):
+        out.print("No browser was found; open the address yourself.")
+    try:
+        serving.server.serve_forever(poll_interval=0.2)
+    except KeyboardInterrupt:
+        out.print("Ended.")
+    finally:
+        serving.close()

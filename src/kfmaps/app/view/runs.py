@@ -1,0 +1,119 @@
+"""One match at a time in the background, watched and cancelled from outside."""
+
+from __future__ import annotations
+
+import threading
+import time
+import traceback
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import Any
+
+from kfmaps._arrays import InvalidInput, NotConverged, refuse
+
+Progress = Callable[[str, float], None]
+"""Told a stage and how much of it is done, from 0 to 1."""
+
+
+class Cancelled(Exception):
+    """Raised through the progress call to leave a match that nobody wants any more."""
+
+
+@dataclass(frozen=True)
+class Status:
+    """How a run stands.
+
+    Attributes
+    ----------
+    run : int
+        Its number, from 1; 0 before the first.
+    state : {"idle", "running", "done", "failed", "cancelled"}
+    stage : str
+        What it is doing.
+    fraction : float
+        How much of that is done, from 0 to 1.
+    seconds : float
+        Since it began, or what it took.
+    error : str
+        Why it failed.
+    """
+
+    run: int = 0
+    state: str = "idle"
+    stage: str = ""
+    fraction: float = 0.0
+    seconds: float = 0.0
+    error: str = ""
+
+
+class Runs:
+    """Runs ``work(argument, progress)`` in a thread and keeps the last result."""
+
+    def __init__(self, work: Callable[[Any, Progress], Any]) -> None:
+        self._work = work
+        self._lock = threading.Lock()
+        self._cancel = threading.Event()
+        self._status = Status()
+        self._began = 0.0
+        self._thread: threading.Thread | None = None
+        self._result: Any = None
+
+    def start(self, argument: Any) -> Status:
+        """Begin a run.
+
+        Raises
+        ------
+        InvalidInput
+            While another is running.
+        """
+        with self._lock:
+            if self._status.state == "running":
+                raise refuse("match", "one run at a time", "a run that has not ended", "wait, or cancel it")
+            self._cancel.clear()
+            self._began = time.monotonic()
+            self._status = Status(run=self._status.run + 1, state="running", stage="starting")
+            self._thread = threading.Thread(target=self._run, args=(argument,), daemon=True)
+            self._thread.start()
+        return self.status()
+
+    def status(self) -> Status:
+        """How the last run stands now."""
+        with self._lock:
+            if self._status.state == "running":
+                return replace(self._status, seconds=time.monotonic() - self._began)
+            return self._status
+
+    def result(self) -> Any:
+        """What the last run that was done returned; ``None`` before."""
+        with self._lock:
+            return self._result
+
+    def cancel(self, wait: float = 0.0) -> None:
+        """Ask the run to stop at its next progress call; wait for that at most ``wait`` seconds."""
+        self._cancel.set()
+        thread = self._thread
+        if thread is not None and wait:
+            thread.join(wait)
+
+    def _progress(self, stage: str, fraction: float) -> None:
+        if self._cancel.is_set():
+            raise Cancelled
+        with self._lock:
+            self._status = replace(self._status, stage=str(stage), fraction=min(max(float(fraction), 0.0), 1.0))
+
+    def _run(self, argument: Any) -> None:
+        result, state, error = None, "done", ""
+        try:
+            result = self._work(argument, self._progress)
+        except Cancelled:
+            state = "cancelled"
+        except (InvalidInput, NotConverged, ImportError, OSError, MemoryError) as problem:
+            state, error = "failed", str(problem) or type(problem).__name__
+        except Exception as problem:  # a defect: the page shows it, the terminal where it was
+            traceback.print_exc()
+            state, error = "failed", f"{type(problem).__name__}: {problem}"
+        with self._lock:
+            seconds = time.monotonic() - self._began
+            self._status = replace(self._status, state=state, error=error, seconds=seconds)
+            if state == "done":
+                self._result = result

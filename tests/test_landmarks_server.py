@@ -1,0 +1,360 @@
+"""The landmark picker's server: who is refused, and what the page can do."""
+
+import http.client
+import json
+import socket
+import threading
+import time
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from kfmaps._arrays import InvalidInput
+from kfmaps.app.datasets import sphere
+from kfmaps.app.files import read_landmarks
+from kfmaps.app.view.picker import Picker, PickerServer, check_pairs, picker_server
+from kfmaps.app.view.runs import Progress, Runs
+from kfmaps.app.view.server import LOOPBACK
+from kfmaps.mesh import Mesh
+
+SOURCE, TARGET = sphere(200, rng=0), sphere(160, rng=1)
+PAIRS = [[3, 5], [199, 159]]
+
+
+@dataclass
+class Answer:
+    status: int
+    headers: dict[str, str]
+    body: bytes
+
+    @property
+    def json(self) -> Any:
+        return json.loads(self.body)
+
+
+class Client:
+    def __init__(self, serving: PickerServer) -> None:
+        self.port = serving.server.server_port
+        self.path = f"/{serving.server.token}/"
+
+    def ask(
+        self,
+        method: str,
+        path: str,
+        body: bytes | None = None,
+        headers: dict[str, str] | None = None,
+        host: str | None = None,
+    ) -> Answer:
+        connection = http.client.HTTPConnection(LOOPBACK, self.port, timeout=10)
+        try:
+            connection.putrequest(method, path, skip_host=True)
+            connection.putheader("Host", host or f"{LOOPBACK}:{self.port}")
+            for name, value in (headers or {}).items():
+                connection.putheader(name, value)
+            if body is not None:
+                connection.putheader("Content-Length", str(len(body)))
+            connection.endheaders(body)
+            reply = connection.getresponse()
+            return Answer(reply.status, dict(reply.getheaders()), reply.read())
+        finally:
+            connection.close()
+
+    def get(self, name: str = "") -> Answer:
+        return self.ask("GET", self.path + name)
+
+    def post(self, name: str, data: Any, **headers: str) -> Answer:
+        kind = {"Content-Type": "application/json"}
+        return self.ask("POST", self.path + name, json.dumps(data).encode(), kind | headers)
+
+    def settled(self) -> dict[str, Any]:
+        """The status of the run once it is no longer running."""
+        for _ in range(500):
+            status = self.get("progress").json
+            if status["state"] != "running":
+                return status
+            time.sleep(0.01)
+        raise AssertionError("the run does not end")
+
+
+Serve = Callable[..., Client]
+
+
+@pytest.fixture
+def serve(tmp_path: Path) -> Iterator[Serve]:
+    running: list[tuple[PickerServer, threading.Thread]] = []
+
+    def start(**changes: Any) -> Client:
+        settings = {"names": ("a", "b"), "output": tmp_path / "pairs.txt"} | changes
+        serving = picker_server(Picker(SOURCE, TARGET, **settings))
+        thread = threading.Thread(target=serving.server.serve_forever, kwargs={"poll_interval": 0.01})
+        thread.start()
+        running.append((serving, thread))
+        return Client(serving)
+
+    yield start
+    for serving, thread in running:
+        serving.server.shutdown()
+        serving.close()
+        thread.join()
+
+
+# Who is refused -------------------------------------------------------------------------------------------
+
+
+def test_listens_on_this_machine_only(serve: Serve) -> None:
+    client = serve()
+    assert client.get().status == 200
+    # Loopback is all of 127.0.0.0/8; the server listens on one address of it, so not on every interface.
+    with pytest.raises(OSError), socket.create_connection(("127.0.0.2", client.port), timeout=2):
+        pass
+
+
+def test_tokens_are_long_and_differ(serve: Serve) -> None:
+    tokens = {serve().path for _ in range(3)}
+    assert len(tokens) == 3
+    assert min(map(len, tokens)) >= 32
+
+
+@pytest.mark.parametrize("path", ["/", "", "/progress", "/x/", "/{token}x/", "/{short}/", "//{token}x/", "/%C3%A9/"])
+def test_requests_without_the_token_are_refused(serve: Serve, path: str) -> None:
+    client = serve()
+    token = client.path.strip("/")
+    path = path.replace("{token}", token).replace("{short}", token[:-1])
+    answer = client.ask("GET", path or "/")
+    assert answer.status == 403
+    assert token.encode() not in answer.body
+    assert b"positions" not in answer.body
+
+
+def test_writing_without_the_token_writes_nothing(serve: Serve, tmp_path: Path) -> None:
+    client = serve()
+    body = json.dumps({"pairs": PAIRS}).encode()
+    for path in ("/save", "/wrong/save"):
+        assert client.ask("POST", path, body, {"Content-Type": "application/json"}).status == 403
+    assert not (tmp_path / "pairs.txt").exists()
+
+
+@pytest.mark.parametrize(
+    "host", ["evil.example", "evil.example:{port}", "127.0.0.1", "127.0.0.1:1", "127.0.0.1.evil.example:{port}"]
+)
+def test_other_hosts_names_are_refused(serve: Serve, host: str) -> None:
+    client = serve()
+    assert client.ask("GET", client.path, host=host.replace("{port}", str(client.port))).status == 403
+
+
+def test_this_machines_names_are_welcome(serve: Serve) -> None:
+    client = serve()
+    for name in ("localhost", LOOPBACK):
+        own = f"{name}:{client.port}"
+        assert client.ask("GET", client.path, headers={"Origin": f"http://{own}"}, host=own).status == 200
+
+
+@pytest.mark.parametrize("origin", ["https://evil.example", "null", "http://127.0.0.1:1", "http://localhost:{port}"])
+def test_other_origins_are_refused(serve: Serve, tmp_path: Path, origin: str) -> None:
+    client = serve()
+    origin = origin.replace("{port}", str(client.port))
+    answer = client.post("save", {"pairs": PAIRS}, Origin=origin)
+    assert answer.status == 403
+    assert not (tmp_path / "pairs.txt").exists()
+
+
+def test_requests_that_another_site_caused_are_refused(serve: Serve) -> None:
+    client = serve()
+    for site in ("cross-site", "same-site"):
+        assert client.ask("GET", client.path, headers={"Sec-Fetch-Site": site}).status == 403
+    assert client.ask("GET", client.path, headers={"Sec-Fetch-Site": "none"}).status == 200
+
+
+@pytest.mark.parametrize(
+    "name",
+    ["../../etc/passwd", "..%2f..%2fetc/passwd", "a.off", "static/viewer.js", "pairs.txt", "/etc/passwd", "save"],
+)
+def test_no_file_can_be_read(serve: Serve, name: str) -> None:
+    assert serve().get(name).status == 404
+
+
+def test_other_methods_are_refused(serve: Serve) -> None:
+    client = serve()
+    for method in ("PUT", "DELETE", "OPTIONS", "HEAD"):
+        assert client.ask(method, client.path).status == 501
+
+
+def test_answers_are_not_kept_framed_or_sniffed(serve: Serve) -> None:
+    headers = serve().get().headers
+    assert headers["Cache-Control"] == "no-store"
+    assert "frame-ancestors 'none'" in headers["Content-Security-Policy"]
+    assert headers["X-Content-Type-Options"] == "nosniff"
+    assert headers["Referrer-Policy"] == "no-referrer"
+    assert "Access-Control-Allow-Origin" not in headers
+    assert "Python" not in headers["Server"]
+
+
+# What is refused inside -----------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    "pairs",
+    [None, 5, "3 5", [[3]], [[3, 5, 1]], [[3, 160]], [[200, 5]], [[-1, 5]], [[3.0, 5]], [[True, 5]], [["3", 5]], {}],
+)
+def test_pairs_that_are_none_are_refused(serve: Serve, tmp_path: Path, pairs: Any) -> None:
+    answer = serve().post("save", {"pairs": pairs})
+    assert answer.status == 400
+    assert answer.json["error"].startswith("landmarks: wanted")
+    assert not (tmp_path / "pairs.txt").exists()
+
+
+@pytest.mark.parametrize(
+    ("body", "kind"),
+    [
+        (b"{", "application/json"),
+        (b"\xff\xfe", "application/json"),
+        (b"[" * 100000, "application/json"),
+        (b'{"pairs": []}', "text/plain"),
+        (b'{"pairs": []}', "application/x-www-form-urlencoded"),
+        (b" " * (1 << 20) + b"{}", "application/json"),
+    ],
+)
+def test_requests_that_are_no_json_are_refused(serve: Serve, body: bytes, kind: str) -> None:
+    client = serve()
+    # The server answers without reading all; the rest may meet a closed connection.
+    try:
+        answer = client.ask("POST", client.path + "save", body, {"Content-Type": kind})
+    except ConnectionError:
+        assert len(body) > 1 << 20
+        return
+    assert answer.status == 400
+    assert answer.json["error"].startswith("request: wanted")
+
+
+def test_check_pairs_of_nothing_is_empty() -> None:
+    assert check_pairs([], SOURCE, TARGET).shape == (0, 2)
+
+
+# What the page can do -------------------------------------------------------------------------------------
+
+
+def test_page_holds_the_landmarks_to_begin_with(serve: Serve) -> None:
+    page = serve(landmarks=np.array(PAIRS)).get()
+    assert page.headers["Content-Type"].startswith("text/html")
+    assert f'"pairs":{json.dumps(PAIRS, separators=(",", ":"))}'.encode() in page.body
+    assert b"connect-src &#x27;self&#x27;" in page.body
+
+
+def test_saved_file_is_read_back(serve: Serve, tmp_path: Path) -> None:
+    client, path = serve(), tmp_path / "pairs.txt"
+    answer = client.post("save", {"pairs": PAIRS})
+    assert (answer.status, answer.json) == (200, {"saved": str(path), "count": 2})
+    assert read_landmarks(path).tolist() == PAIRS
+    # What it wrote itself it replaces without asking.
+    assert client.post("save", {"pairs": PAIRS[:1]}).status == 200
+    assert read_landmarks(path).tolist() == PAIRS[:1]
+    assert [p.name for p in tmp_path.iterdir()] == ["pairs.txt"]
+
+
+def test_existing_file_is_replaced_only_when_told(serve: Serve, tmp_path: Path) -> None:
+    path = tmp_path / "pairs.txt"
+    path.write_text("7 7\n")
+    client = serve()
+    answer = client.post("save", {"pairs": PAIRS})
+    assert (answer.status, answer.json) == (409, {"exists": str(path)})
+    assert path.read_text() == "7 7\n"
+    assert client.post("save", {"pairs": PAIRS, "overwrite": 1}).status == 409
+    assert client.post("save", {"pairs": PAIRS, "overwrite": True}).status == 200
+    assert read_landmarks(path).tolist() == PAIRS
+
+
+def test_force_replaces_without_asking(serve: Serve, tmp_path: Path) -> None:
+    path = tmp_path / "pairs.txt"
+    path.write_text("7 7\n")
+    assert serve(force=True).post("save", {"pairs": PAIRS}).status == 200
+    assert read_landmarks(path).tolist() == PAIRS
+
+
+def test_a_folder_that_went_away_is_told_in_words(serve: Serve, tmp_path: Path) -> None:
+    answer = serve(output=tmp_path / "gone" / "pairs.txt").post("save", {"pairs": PAIRS})
+    assert answer.status == 400
+    assert "existing folder" in answer.json["error"]
+
+
+def test_match_reports_progress_and_gives_its_map(serve: Serve) -> None:
+    going, seen = threading.Event(), []
+
+    def matcher(landmarks: np.ndarray, progress: Progress) -> np.ndarray:
+        seen.append(landmarks.tolist())
+        progress("solve", 0.25)
+        assert going.wait(10)
+        return np.arange(160)
+
+    client = serve(matcher=matcher)
+    assert client.get("progress").json["state"] == "idle"
+    assert client.get("map").status == 404
+    assert client.post("match", {"pairs": PAIRS}).json["run"] == 1
+    while client.get("progress").json["stage"] != "solve":
+        time.sleep(0.01)
+    status = client.get("progress").json
+    assert (status["state"], status["fraction"]) == ("running", 0.25)
+    again = client.post("match", {"pairs": PAIRS})
+    assert again.status == 400
+    assert "one run at a time" in again.json["error"]
+    going.set()
+    assert client.settled()["state"] == "done"
+    record = client.get("map").json
+    assert record["label"] == "2 landmarks"
+    assert record["points"]["shape"] == [160]
+    assert seen == [PAIRS]
+    assert client.post("match", {"pairs": PAIRS[:1]}).json["run"] == 2
+    client.settled()
+    assert client.get("map").json["label"] == "1 landmark"
+
+
+def test_failure_of_a_match_is_told_in_words(serve: Serve) -> None:
+    def refusing(_landmarks: np.ndarray, _progress: Progress) -> np.ndarray:
+        raise InvalidInput("landmarks: wanted <b>more</b>")
+
+    def short(_landmarks: np.ndarray, _progress: Progress) -> np.ndarray:
+        return np.arange(3)
+
+    for matcher, text in ((refusing, "<b>more</b>"), (short, "map: wanted shape (160)")):
+        client = serve(matcher=matcher)
+        client.post("match", {"pairs": PAIRS})
+        status = client.settled()
+        assert status["state"] == "failed"
+        assert text in status["error"]
+        assert client.get("map").status == 404
+
+
+def test_match_can_be_cancelled(serve: Serve) -> None:
+    def endless(_landmarks: np.ndarray, progress: Progress) -> np.ndarray:
+        while True:
+            progress("solve", 0.5)
+            time.sleep(0.001)
+
+    client = serve(matcher=endless)
+    client.post("match", {"pairs": PAIRS})
+    client.post("cancel", {})
+    assert client.settled()["state"] == "cancelled"
+
+
+def test_picker_without_a_matcher_says_so(serve: Serve) -> None:
+    answer = serve().post("match", {"pairs": PAIRS})
+    assert answer.status == 400
+    assert "kfmaps match" in answer.json["error"]
+
+
+def test_defect_ends_the_run_and_is_shown(capsys: pytest.CaptureFixture[str]) -> None:
+    runs = Runs(lambda _, __: 1 // 0)
+    runs.start(None)
+    while runs.status().state == "running":
+        time.sleep(0.001)
+    assert runs.status().error.startswith("ZeroDivisionError")
+    assert "Traceback" in capsys.readouterr().err
+
+
+def test_port_that_is_taken_is_refused_in_words(serve: Serve, tmp_path: Path) -> None:
+    port = serve().port
+    with pytest.raises(InvalidInput, match=f"^port: wanted a free port of this machine, got {port}"):
+        picker_server(Picker(SOURCE, Mesh(TARGET.vertices, TARGET.faces), ("a", "b"), tmp_path / "p.txt"), port)

@@ -1,0 +1,389 @@
+"""The page of a result: what stands in it, that it is safe, small, and up to date."""
+
+import base64
+import hashlib
+import json
+import shutil
+import subprocess
+from dataclasses import replace
+from html.parser import HTMLParser
+from importlib.resources import files
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scipy.sparse.csgraph import dijkstra
+from scipy.spatial.transform import Rotation
+
+from kfmaps._arrays import InvalidInput
+from kfmaps.app.commands.view import view
+from kfmaps.app.datasets import sphere, torus
+from kfmaps.app.files import MapFile, save_map, write_mesh, write_vertex_numbers
+from kfmaps.app.view.document import asset
+from kfmaps.app.view.fields import alignment, area_distortion, nearest_reached
+from kfmaps.app.view.pack import json_block, packed, plain, quantised
+from kfmaps.app.view.page import result_page
+from kfmaps.app.view.results import errors_against, map_page, match_summary, mesh_path, signatures
+from kfmaps.config import Config
+from kfmaps.mesh import Mesh, unit_area, vertex_areas
+from kfmaps.pipeline import Match
+from kfmaps.solvers import Solution
+
+WEB = Path(__file__).parents[1] / "web"
+NO_FACES = np.zeros((0, 3), int)
+NASTY = "</script><script>alert(1)</script>&'\"<!--"
+
+
+class Tags(HTMLParser):
+    """Elements of a page with their attributes, and the text inside scripts, styles and the title."""
+
+    def __init__(self, html: str) -> None:
+        super().__init__()
+        self.tags: list[tuple[str, dict[str, str | None]]] = []
+        self.text: dict[str, list[str]] = {}
+        self._in = ""
+        self.feed(html)
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        self.tags.append((tag, dict(attrs)))
+        self._in = tag
+        if tag in ("script", "style", "title"):
+            self.text.setdefault(tag, []).append("")
+
+    def handle_endtag(self, tag: str) -> None:
+        self._in = self._in if self._in != tag else ""
+
+    def handle_data(self, data: str) -> None:
+        if self._in in self.text:
+            self.text[self._in][-1] += data
+
+
+def page_data(html: str) -> dict:
+    return json.loads(Tags(html).text["script"][0])
+
+
+def unpacked(record: dict) -> np.ndarray:
+    raw = np.frombuffer(base64.b64decode(record["base64"]), np.dtype(record["type"]).newbyteorder("<"))
+    array = raw.reshape(record["shape"])
+    if "step" not in record:
+        return array
+    return np.where(array == 65535, np.nan, record["low"] + record["step"] * array)
+
+
+def grid_torus(around: int, along: int) -> Mesh:
+    """A torus of around × along vertices, quickly."""
+    u, v = np.meshgrid(np.arange(around), np.arange(along), indexing="ij")
+    a, b = 2 * np.pi * u.ravel() / around, 2 * np.pi * v.ravel() / along
+    ring = 1 + 0.4 * np.cos(b)
+    number = lambda i, j: ((i % around) * along + j % along).ravel()  # noqa: E731
+    quads = [number(u, v), number(u + 1, v), number(u + 1, v + 1), number(u, v + 1)]
+    faces = np.concatenate([np.stack([quads[i] for i in t], axis=1) for t in ((0, 1, 2), (0, 2, 3))])
+    return Mesh(np.stack([ring * np.cos(a), 0.4 * np.sin(b), ring * np.sin(a)], axis=1), faces)
+
+
+@pytest.fixture(scope="module")
+def pair() -> tuple[Mesh, Mesh, np.ndarray]:
+    rng = np.random.default_rng(1)
+    source, target = sphere(300), torus(240)
+    return source, target, rng.integers(0, 300, 240)
+
+
+# Arrays ---------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("largest", [0, 255, 256, 65535, 65536, 2**32 - 1])
+def test_whole_numbers_come_back(largest: int) -> None:
+    numbers = np.array([[0, largest, largest // 2]])
+    record = packed(numbers)
+    assert np.array_equal(unpacked(record), numbers)
+    assert len(base64.b64decode(record["base64"])) == 3 * (1 if largest < 256 else 2 if largest < 65536 else 4)
+
+
+def test_real_numbers_come_back_within_half_a_step() -> None:
+    values = np.random.default_rng(0).normal(size=(50, 3)) * 7
+    values[3, 1], values[4, 2] = np.nan, np.inf
+    back = unpacked(quantised(values))
+    known = np.isfinite(values)
+    span = np.ptp(values[known])
+    assert np.abs(back - values)[known].max() <= span / 65534 / 2 * (1 + 1e-9)
+    assert np.isnan(back[~known]).all()
+    assert np.array_equal(unpacked(quantised(np.full(4, 2.5))), np.full(4, 2.5))
+    assert np.isnan(unpacked(quantised(np.full(4, np.nan)))).all()
+
+
+def test_json_block_holds_no_markup_and_means_the_same() -> None:
+    data = {NASTY: [NASTY, np.float32(0.5), np.arange(2), (1, None), True, "Ω → \u2028"]}
+    text = json_block(data)
+    assert not set("<>&\u2028") & set(text)
+    assert json.loads(text) == {NASTY: [NASTY, 0.5, [0, 1], [1, None], True, "Ω → \u2028"]}
+
+
+def test_json_has_no_nan() -> None:
+    assert plain({"a": np.nan, "b": [float("inf")], "c": Path("x")}) == {"a": "nan", "b": ["inf"], "c": "x"}
+
+
+# Fields ---------------------------------------------------------------------------------------------------
+
+
+def test_area_distortion_is_the_ratio_of_areas() -> None:
+    target = grid_torus(24, 16)
+    identity = np.arange(len(target.vertices))
+    grown = Mesh(7 * target.vertices, target.faces)
+    assert np.abs(area_distortion(grown, target, identity)).max() < 1e-9
+    # Summed over the target with the weights of the definition, the ratios give the source's whole area.
+    bent = Mesh(target.vertices * (1 + 0.3 * np.sin(target.vertices)), target.faces)
+    weights = vertex_areas(unit_area(target))
+    assert weights @ 2 ** area_distortion(bent, target, identity) == pytest.approx(1, abs=1e-9)
+    assert np.ptp(area_distortion(bent, target, identity)) > 0.5
+    assert (area_distortion(target, target, np.zeros_like(identity)) == -4).all()
+    assert np.isnan(area_distortion(Mesh(target.vertices, NO_FACES), target, identity)).all()
+
+
+def test_nearest_reached_is_nearest_along_the_edges() -> None:
+    source = grid_torus(20, 12)
+    points = np.random.default_rng(2).integers(0, len(source.vertices), 30)
+    nearest = nearest_reached(source, points)
+    ends = source.faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)
+    graph = np.zeros((len(source.vertices),) * 2)
+    graph[ends[:, 0], ends[:, 1]] = np.linalg.norm(source.vertices[ends[:, 0]] - source.vertices[ends[:, 1]], axis=1)
+    distance = dijkstra(graph, directed=False)
+    assert set(nearest) <= set(points)
+    own = distance[np.arange(len(nearest)), nearest]
+    assert np.allclose(own, distance[:, points].min(axis=1))
+    assert own.max() > 0
+
+
+def test_nearest_reached_without_edges_goes_straight() -> None:
+    cloud = Mesh(np.array([[0.0, 0, 0], [1, 0, 0], [2.2, 0, 0], [9, 0, 0]]), NO_FACES)
+    assert nearest_reached(cloud, np.array([1, 3])).tolist() == [1, 1, 1, 3]
+
+
+def test_alignment_undoes_a_rotation_and_never_mirrors() -> None:
+    source = Mesh(sphere(200).vertices * [3, 2, 1], sphere(200).faces)
+    turn = Rotation.from_euler("xyz", [100, 30, -70], degrees=True).as_matrix()
+    target = Mesh(source.vertices @ turn.T + 5, source.faces)
+    identity = np.arange(200)
+    assert np.allclose(alignment(source, target, identity), turn.T)
+    mirrored = Mesh(source.vertices * [-1, 1, 1], source.faces)
+    assert np.linalg.det(alignment(source, mirrored, identity)) == pytest.approx(1)
+
+
+# The page -------------------------------------------------------------------------------------------------
+
+
+def test_page_holds_the_shapes_and_the_map(pair: tuple) -> None:
+    source, target, points = pair
+    errors = np.linspace(0, 1, 240)
+    errors[5] = np.nan
+    html = result_page(source, target, points, errors=errors, runners_up=[points[::-1]], names=("a", "b"))
+    data = page_data(html)
+    placed = unpacked(data["source"]["positions"])
+    moved = placed - unit_area(source).vertices
+    assert np.abs(moved - moved[0]).max() < 1e-4
+    assert np.array_equal(unpacked(data["source"]["faces"]), source.faces)
+    assert [m["label"] for m in data["maps"]] == ["Best", "Runner-up 1"]
+    assert np.array_equal(unpacked(data["maps"][0]["points"]), points)
+    assert np.array_equal(unpacked(data["maps"][1]["points"]), points[::-1])
+    back = unpacked(data["errors"][0])
+    assert np.isnan(back[5])
+    assert np.nanmax(np.abs(back - errors)) < 1e-4
+
+
+def test_page_takes_names_and_settings_as_text(pair: tuple) -> None:
+    html = result_page(*pair, names=(NASTY, "b"), summary={NASTY: NASTY})
+    tags = Tags(html)
+    assert [a.get("type") for t, a in tags.tags if t == "script"] == ["application/json", None]
+    assert tags.text["title"] == [f"{NASTY} → b"]
+    assert page_data(html)["source"]["name"] == NASTY
+    assert page_data(html)["summary"] == {NASTY: NASTY}
+
+
+def test_page_allows_its_own_script_and_style_only(pair: tuple) -> None:
+    tags = Tags(result_page(*pair))
+    policy = next(a["content"] for t, a in tags.tags if a.get("http-equiv") == "Content-Security-Policy")
+    assert policy is not None
+    rules = {name: rest for name, *rest in (rule.split() for rule in policy.split("; "))}
+    for name, text in (("script-src", tags.text["script"][1]), ("style-src", tags.text["style"][0])):
+        digest = base64.b64encode(hashlib.sha256(text.encode()).digest()).decode()
+        assert rules[name] == [f"'sha256-{digest}'"]
+    assert rules["default-src"] == rules["connect-src"] == ["'none'"]
+    loads = [a.get("src") or a.get("href") for _, a in tags.tags if "src" in a or "href" in a]
+    assert loads == ["data:,"]
+    assert not any(name.startswith("on") for _, a in tags.tags for name in a)
+
+
+def test_everything_of_two_7000_vertex_meshes_is_below_6_mb() -> None:
+    mesh = grid_torus(100, 70)
+    n = len(mesh.vertices)
+    assert n == 7000
+    rng = np.random.default_rng(0)
+    points = rng.permutation(n)
+    descriptors = (rng.random((n, 30)), rng.random((n, 30)))
+    html = result_page(
+        mesh,
+        mesh,
+        points,
+        functional_map=rng.random((200, 200)),
+        errors=rng.random((4, n)),
+        confidence=rng.random(n),
+        runners_up=[rng.permutation(n) for _ in range(3)],
+        descriptors=descriptors,
+    )
+    assert len(html.encode()) < 3e6
+    shown = page_data(html)["descriptors"]
+    assert [d["number"] for d in shown][:: len(shown) - 1] == [0, 29]
+    assert np.abs(unpacked(shown[-1]["target"]) - descriptors[1][:, 29]).max() < 1e-4
+
+
+@pytest.mark.parametrize(
+    ("change", "name"),
+    [
+        ({"target_to_source": np.zeros(3, int)}, "map"),
+        ({"target_to_source": np.full(240, 300)}, "map"),
+        ({"runners_up": [np.full(240, -1)]}, "runner-up 1"),
+        ({"errors": np.zeros((3, 240))}, "errors"),
+        ({"errors": np.zeros(7)}, "errors"),
+        ({"confidence": np.zeros(300)}, "confidence"),
+        ({"descriptors": (np.zeros((300, 2)), np.zeros((240, 3)))}, "descriptors"),
+        ({"descriptors": (np.zeros((240, 2)), np.zeros((240, 2)))}, "descriptors of the source"),
+        ({"functional_map": np.full((2, 2), np.nan)}, "functional_map"),
+        ({"up": "w"}, "up"),
+    ],
+)
+def test_page_refuses_what_does_not_fit(pair: tuple, change: dict, name: str) -> None:
+    source, target, points = pair
+    arguments = {"source": source, "target": target, "target_to_source": points} | change
+    with pytest.raises(InvalidInput, match=f"^{name}: wanted"):
+        result_page(**arguments)
+
+
+# Results --------------------------------------------------------------------------------------------------
+
+
+def test_errors_are_zero_at_the_truth_and_unknown_elsewhere(pair: tuple) -> None:
+    source, _, points = pair
+    truth_t = np.arange(0, 240, 2)
+    off = points.copy()
+    off[0] = (points[0] + 1) % 300
+    rows = errors_against(source, [points, off], points[truth_t], truth_t)
+    assert np.isnan(rows[:, 1::2]).all()
+    assert (rows[0, ::2] == 0).all()
+    assert rows[1, 0] > 0
+    assert (rows[1, 2::2] == 0).all()
+
+
+def test_signatures_do_not_depend_on_pose_or_unit() -> None:
+    mesh = torus(300)
+    turned = Mesh(5 * mesh.vertices @ Rotation.from_rotvec([1, 2, 3]).as_matrix() + 1, mesh.faces)
+    first, second = signatures(mesh, turned)
+    assert first.shape == (300, 12)
+    assert np.allclose(first, second, rtol=1e-5, atol=1e-6)
+
+
+def a_match() -> Match:
+    residuals = np.array([8.0, 4.0, 0.5])
+    return Match(
+        target_to_source=np.zeros(4, np.int64),
+        functional_map=np.eye(2),
+        raw_target_to_source=np.zeros(4, np.int64),
+        raw_functional_map=np.eye(2),
+        eigenvalues_s=np.arange(2.0),
+        eigenvalues_t=np.arange(2.0),
+        solution=Solution(np.eye(2), "converged", 2, residuals),
+        energies={"laplacian": 1.5},
+        rank=7,
+        slices=3,
+        kernel="Gaussian(500)",
+        config=Config(),
+        seconds={"solve": 0.5},
+    )
+
+
+def test_summary_of_a_match_is_json() -> None:
+    summary = match_summary(a_match())
+    assert json.loads(json.dumps(summary)) == summary
+    assert summary["residuals"] == [1, 0.5, 0.0625]
+    assert summary["times"] == {"solve": 0.5}
+    assert summary["energies"] == {"laplacian": 1.5}
+    assert summary["settings"]["nystrom"]["samples"] == Config().nystrom.samples
+    assert "confidence" not in summary
+    assert match_summary(replace(a_match(), confidence=0.25))["confidence"] == 0.25
+
+
+def test_page_of_a_file_shows_what_the_file_holds(pair: tuple) -> None:
+    source, target, points = pair
+    extra = {
+        "runners_up": points[None, ::-1],
+        "confidence": np.linspace(0, 1, 240),
+        "summary": '{"times": {"solve": 2}}',
+    }
+    found = MapFile(points, config='{"exact": false}', extra=extra)
+    data = page_data(map_page(found, source, target, ("a", "b"), descriptors=False))
+    assert len(data["maps"]) == 2
+    assert data["summary"] == {"times": {"solve": 2}, "settings": {"exact": False}}
+    assert unpacked(data["confidence"])[-1] == pytest.approx(1)
+    note = MapFile(points, extra={"summary": "no json {"})
+    data = page_data(map_page(note, source, target, ("a", "b"), descriptors=False))
+    assert data["summary"] == {"note": "no json {"}
+
+
+def test_view_writes_one_page(pair: tuple, tmp_path: Path) -> None:
+    source, target, points = pair
+    write_mesh(tmp_path / "a.off", source)
+    write_mesh(tmp_path / "b.off", target)
+    write_vertex_numbers(tmp_path / "a.vts", points)
+    write_vertex_numbers(tmp_path / "b.vts", np.arange(240))
+    save_map(tmp_path / "m.npz", MapFile(points, extra={"source": "gone/a.off", "target": "b.off"}))
+    page = tmp_path / "page.html"
+    a, b = tmp_path / "a.vts", tmp_path / "b.vts"
+    view(tmp_path / "m.npz", output=page, truth=(a, b), descriptors=False)
+    data = page_data(page.read_text(encoding="utf-8"))
+    assert (data["source"]["name"], data["target"]["name"]) == ("a", "b")
+    assert (unpacked(data["errors"][0]) == 0).all()
+    with pytest.raises(InvalidInput, match="--force"):
+        view(tmp_path / "m.npz", output=page)
+    with pytest.raises(InvalidInput, match="equally many"):
+        view(tmp_path / "m.npz", output=page, identity=True, force=True)
+    with pytest.raises(InvalidInput, match=r"b\.vts"):
+        view(tmp_path / "m.npz", output=page, truth=(b, a), force=True)
+
+
+def test_mesh_is_where_the_map_says_or_asked_for(tmp_path: Path) -> None:
+    nameless = MapFile(np.zeros(1, int))
+    assert mesh_path(Path("given.off"), nameless, "source", tmp_path / "m.npz") == Path("given.off")
+    with pytest.raises(InvalidInput, match="--source FILE"):
+        mesh_path(None, nameless, "source", tmp_path / "m.npz")
+    with pytest.raises(InvalidInput, match="nothing at"):
+        mesh_path(None, MapFile(np.zeros(1, int), extra={"source": "no.off"}), "source", tmp_path / "m.npz")
+
+
+# The bundle -----------------------------------------------------------------------------------------------
+
+
+def test_bundle_carries_the_licences_of_what_is_in_it() -> None:
+    locked = json.loads((WEB / "package-lock.json").read_text(encoding="utf-8"))["packages"]
+    notice = asset("viewer.LICENSE.txt")
+    for name in ("three", "three-mesh-bvh"):
+        assert f"{name} {locked[f'node_modules/{name}']['version']}" in notice
+    assert notice.count("Permission is hereby granted") == 2
+
+
+def test_bundle_can_stand_inside_a_script_element() -> None:
+    assert "</script" not in asset("viewer.js").lower()
+    assert "<!--" not in asset("viewer.js")
+    assert "{{" not in asset("result.html") + asset("picker.html")
+
+
+def test_bundle_is_built_from_the_sources() -> None:
+    node = shutil.which("node")
+    if node is None:
+        pytest.skip("Node is not installed")
+    if not (WEB / "node_modules" / "esbuild").is_dir():
+        pytest.skip("run `npm ci` in web/ first")
+    done = subprocess.run([node, "build.mjs", "--check"], cwd=WEB, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+
+
+def test_static_files_are_in_the_package() -> None:
+    names = {f.name for f in files("kfmaps.app.view").joinpath("static").iterdir()}
+    assert {"page.html", "result.html", "picker.html", "viewer.js", "viewer.css", "viewer.LICENSE.txt"} <= names
