@@ -7,10 +7,12 @@ try {
   const data = pageData();
   const page = { result: startResult, picker: startPicker }[data.kind](data);
   const side = (name) => ["source", "target"].indexOf(name);
-  // For scripts: where a vertex is in the window, which vertex is at a place there, and when first drawn (ms).
+  // For scripts: where a vertex is in the window, which vertex is at a place
+  // there, which vertices are marked, and when first drawn (ms).
   window.kfmaps = {
     project: (name, vertex) => page.stage.project(side(name), vertex),
     pick: (name, x, y) => page.stage.pick(side(name), x, y),
+    marks: (name) => page.stage.views[side(name)].markers.map((marker) => marker.vertex),
     firstPicture: null,
   };
   const drawn = page.stage.onDraw;

@@ -1,0 +1,215 @@
+"""The page of a result in a real browser."""
+
+from __future__ import annotations
+
+import re
+import time
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PIL import Image
+from selenium.webdriver.common.keys import Keys
+
+from chromium import NASTY, Browser, chromium, needs_browser
+from kfmaps.app.datasets import Pair, two_poses
+from kfmaps.app.view.page import result_page
+
+pytestmark = needs_browser
+
+
+@pytest.fixture(scope="module")
+def browser(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Browser]:
+    with chromium(tmp_path_factory.mktemp("browser")) as started:
+        yield started
+
+
+@pytest.fixture(scope="module")
+def pair() -> Pair:
+    return two_poses(1500)
+
+
+@pytest.fixture
+def page(browser: Browser, pair: Pair, tmp_path: Path) -> Browser:
+    """The page of the true map, everything switched on, opened from the disk."""
+    rng = np.random.default_rng(0)
+    html = result_page(
+        pair.source,
+        pair.target,
+        pair.truth,
+        functional_map=rng.normal(size=(20, 30)),
+        errors=np.linspace(0, 0.2, len(pair.truth)),
+        confidence=np.linspace(0, 1, len(pair.truth)),
+        runners_up=[np.roll(pair.truth, 1)],
+        descriptors=(pair.source.vertices, pair.target.vertices),
+        summary={
+            "residuals": [1, 0.1, 0.01],
+            "times": {"solve": 1.5},
+            "energies": {NASTY: 2},
+            "settings": {"kernel": {"gamma": 500}},
+            "note": NASTY,
+        },
+        names=(NASTY, "b"),
+    )
+    (tmp_path / "page.html").write_text(html, encoding="utf-8")
+    browser.open((tmp_path / "page.html").as_uri())
+    return browser
+
+
+def test_page_from_the_disk_asks_for_nothing_else(page: Browser, tmp_path: Path) -> None:
+    for mode in ("texture", "descriptor", "error", "distortion", "confidence", "colours"):
+        page.mode(mode)
+    page.element("#picture").click()
+    page.point("target", page.visible("target", np.arange(300), 1)[0])
+    assert page.requests() == [(tmp_path / "page.html").as_uri()]
+    assert page.run("return performance.getEntriesByType('resource').length") == 0
+    assert page.complaints() == []
+
+
+def test_names_and_settings_are_only_text(page: Browser) -> None:
+    assert page.text("name-source") == NASTY
+    assert page.run("return document.title") == f"{NASTY} → b"
+    page.until(lambda: NASTY in page.text("energies") and NASTY in page.text("other"))
+    assert page.run("return document.querySelectorAll('script, b').length") == 2
+    assert page.complaints() == []
+
+
+def test_pointing_at_the_target_shows_its_match(page: Browser, pair: Pair) -> None:
+    for vertex in page.visible("target", np.arange(0, len(pair.truth), 7), 4):
+        page.point("target", vertex)
+        page.until(lambda v=vertex: page.text("readout").startswith(f"target {v} → source {pair.truth[v]},"))
+        assert page.run("return kfmaps.marks('source')") == [pair.truth[vertex]]
+        assert page.run("return kfmaps.marks('target')") == [vertex]
+
+
+def test_pointing_at_the_source_shows_all_that_land_there(page: Browser, pair: Pair) -> None:
+    count = np.bincount(pair.truth, minlength=len(pair.source.vertices))
+    for vertex in page.visible("source", np.flatnonzero(count >= 2), 3):
+        landing = np.flatnonzero(pair.truth == vertex)
+        page.point("source", vertex)
+        text = f"source {vertex} ← target {', '.join(map(str, landing))}"
+        page.until(lambda text=text: page.text("readout") == text)
+        assert sorted(page.run("return kfmaps.marks('target')")) == landing.tolist()
+
+
+def test_a_source_point_that_nothing_reaches_shows_the_nearest_that_is(page: Browser, pair: Pair) -> None:
+    missed = np.setdiff1d(np.arange(len(pair.source.vertices)), pair.truth)
+    page.point("source", page.visible("source", missed, 1)[0])
+    told = page.until(lambda: re.search(r"← target (\d+).*nearest that has one is (\d+)", page.text("readout")))
+    assert pair.truth[int(told[1])] == int(told[2])
+
+
+def test_runner_up_has_its_own_matches(page: Browser, pair: Pair) -> None:
+    page.run("const m = document.getElementById('map'); m.value = 1; m.dispatchEvent(new Event('change'))")
+    vertex = page.visible("target", np.arange(len(pair.truth)), 1)[0]
+    page.point("target", vertex, click=True)
+    page.until(lambda: page.text("pinned") == f"target {vertex} → source {np.roll(pair.truth, 1)[vertex]}")
+
+
+def test_colours_and_texture_are_carried_by_the_map(browser: Browser, pair: Pair, tmp_path: Path) -> None:
+    views = {}
+    identity = np.arange(len(pair.source.vertices))
+    for name, points in (("same", identity), ("other", identity[::-1].copy())):
+        page = tmp_path / f"{name}.html"
+        page.write_text(result_page(pair.source, pair.source, points), encoding="utf-8")
+        browser.open(page.as_uri())
+        for mode in ("colours", "texture"):
+            browser.mode(mode)
+            time.sleep(0.3)
+            boxes = [browser.element(f"#view-{side}") for side in ("source", "target")]
+            first, second = (browser.picture(box)[60:, 10:-10] for box in boxes)
+            width = min(first.shape[1], second.shape[1])
+            views[name, mode] = (np.abs(first[:, :width] - second[:, :width]).max(axis=2) > 24).mean()
+            assert (np.ptp(first, axis=2) > 40).mean() > 0.02  # there is something colourful to compare
+    for mode in ("colours", "texture"):
+        assert views["same", mode] < 0.01
+        assert views["other", mode] > 0.05
+
+
+def test_arrow_keys_turn_both_views_or_one(page: Browser) -> None:
+    vertex = page.visible("target", np.arange(300), 1)[0]
+    places = [page.place("target", vertex)]
+    for linked in (True, False):
+        if page.element("#linked").is_selected() != linked:
+            page.element("#linked").send_keys(Keys.SPACE)
+        page.element("#view-source").send_keys(Keys.ARROW_RIGHT * 3)
+        places.append(page.place("target", vertex))
+    assert places[1] != places[0]
+    assert places[2] == places[1]
+    page.element("#reset").send_keys(Keys.ENTER)
+    assert page.place("target", vertex) == places[0]
+
+
+def test_everything_can_be_reached_by_keyboard_and_has_a_name(page: Browser) -> None:
+    reached = []
+    for _ in range(40):
+        page.driver.switch_to.active_element.send_keys(Keys.TAB)
+        focused = page.driver.switch_to.active_element
+        if focused.tag_name == "body":
+            break
+        assert focused.accessible_name.strip(), focused.get_attribute("outerHTML")
+        reached.append(focused.get_attribute("id") or focused.get_attribute("name"))
+    wanted = "linked aligned up reset picture mode map view-source goto-source view-target goto-target"
+    assert [name for name in reached if name in wanted.split()] == wanted.split()
+    assert page.element("#view-source").accessible_name == f"3D view of the source, {NASTY}"
+    page.until(lambda: page.element("#matrix").is_displayed())
+    assert "20 target by 30 source" in page.element("#matrix").accessible_name
+    assert "from 1 to 0.01 in 2 steps" in page.element(".chart").accessible_name
+
+
+def test_a_vertex_can_be_named_by_number_and_taken_in_the_middle(page: Browser, pair: Pair) -> None:
+    page.element("#goto-target").send_keys("17", Keys.ENTER)
+    page.until(lambda: page.text("pinned").startswith(f"target 17 → source {pair.truth[17]}"))
+    page.element("#goto-target").send_keys(Keys.BACKSPACE * 2, "999999", Keys.ENTER)
+    page.until(lambda: page.text("pinned") == "")
+    view = page.element("#view-target")
+    view.send_keys(Keys.ENTER)
+    told = re.match(r"target (\d+) → source (\d+)", page.text("pinned"))
+    assert told is not None, "the middle of the view is on the creature"
+    assert pair.truth[int(told[1])] == int(told[2])
+    view.send_keys(Keys.ESCAPE)
+    assert page.text("pinned") == ""
+
+
+def test_text_stands_out_from_its_ground(page: Browser) -> None:
+    script = """
+        const rgb = (text) => text.match(/[\\d.]+/g).map(Number);
+        const light = (c) => [0.2126, 0.7152, 0.0722].reduce((sum, w, i) => {
+            const x = c[i] / 255;
+            return sum + w * (x <= 0.04045 ? x / 12.92 : ((x + 0.055) / 1.055) ** 2.4);
+        }, 0);
+        const ground = (e) => {
+            for (; e; e = e.parentElement) {
+                const c = rgb(getComputedStyle(e).backgroundColor);
+                if (c.length < 4 || c[3] > 0.99) return c;
+            }
+            return [255, 255, 255];
+        };
+        return [...document.querySelectorAll('h1, h2, p, label, button, span, th, td, caption, figcaption')]
+            .filter((e) => e.checkVisibility() && e.textContent.trim())
+            .map((e) => {
+                const [a, b] = [light(rgb(getComputedStyle(e).color)), light(ground(e))].sort((x, y) => y - x);
+                return [(a + 0.05) / (b + 0.05), e.outerHTML.slice(0, 80)];
+            });"""
+    ratios = page.until(lambda: page.run(script))
+    assert len(ratios) > 20
+    assert min(ratios)[0] >= 4.5, min(ratios)
+
+
+def test_errors_have_a_scale_with_its_unit(page: Browser) -> None:
+    page.mode("error")
+    assert "√area" in page.text("legend-text")
+    assert (page.text("legend-low"), page.text("legend-high")) == ("0", "0.2")
+
+
+def test_picture_is_saved(page: Browser, tmp_path: Path) -> None:
+    folder = {"behavior": "allow", "downloadPath": str(tmp_path)}
+    page.driver.execute_cdp_cmd("Browser.setDownloadBehavior", folder)
+    page.element("#picture").click()
+    found = page.until(lambda: list(tmp_path.glob("*.png")))
+    picture = np.asarray(page.until(lambda: Image.open(found[0])).convert("RGB")).astype(int)
+    width = page.run("return document.getElementById('stage').clientWidth")
+    assert picture.shape[1] == 2 * width
+    for half in np.array_split(picture, 2, axis=1):
+        assert (np.ptp(half, axis=2) > 40).mean() > 0.02
