@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components, dijkstra
+from scipy.spatial import KDTree
 
 from kfmaps._arrays import InvalidInput, NotConverged
 from kfmaps.app import datasets
@@ -216,6 +217,18 @@ def test_asymmetric_truth_keeps_paths_and_orientation(pairs: dict[str, Pair]) ->
     far = there > 0.5
     assert np.abs(here[far] / there[far] - 1).mean() < 0.09
     assert facing(pair, pair.truth) > 0.85
+
+
+@pytest.mark.parametrize("name", ["two_poses", "non_isometric", "symmetric_creature"])
+def test_the_skin_does_not_touch_itself(pairs: dict[str, Pair], name: str) -> None:
+    for mesh in (pairs[name].source, pairs[name].target):
+        normals = vertex_normals(mesh)
+        near = KDTree(mesh.vertices).query_pairs(0.1, output_type="ndarray")
+        gaps = mesh.vertices[near[:, 1]] - mesh.vertices[near[:, 0]]
+        across = (normals[near[:, 0]] * normals[near[:, 1]]).sum(axis=1) < -0.5
+        outside = (gaps * normals[near[:, 0]]).sum(axis=1) > 0
+        between = np.linalg.norm(gaps[across & outside], axis=1)
+        assert between.min(initial=1.0) > 0.02, "two limbs are about to touch"
 
 
 def test_partial_is_one_manifold_piece_of_the_whole() -> None:

@@ -57,12 +57,12 @@ def position_colors(mesh: Mesh) -> np.ndarray:
 
 
 def error_limit(errors: np.ndarray) -> float:
-    """Where the colours end: the 99th percentile, rounded up to 1, 2 or 5 times a power of ten."""
+    """Where the colours end: the 99th percentile, rounded up to one digit: 1, 2, 3, 4, 6 or 8."""
     top = float(np.percentile(errors, 99))
     if not top > 0:
         return 0.01
     power = 10.0 ** np.floor(np.log10(top))
-    return next(float(step * power) for step in (1, 2, 5, 10) if step * power >= top * (1 - 1e-12))
+    return next(float(step * power) for step in (1, 2, 3, 4, 6, 8, 10) if step * power >= top * (1 - 1e-12))
 
 
 def error_colors(errors: np.ndarray, limit: float | None = None) -> np.ndarray:

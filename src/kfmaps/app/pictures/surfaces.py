@@ -17,7 +17,7 @@ LIGHTS = (((-0.45, 0.65, 0.75), 0.40), ((0.8, 0.1, 0.55), 0.12))
 AMBIENT = 0.58
 SKY = 0.06
 """How much lighter what faces up is than what faces down, before any lamp."""
-ENOUGH = 8000
+ENOUGH = 24000
 """Triangles of even colour below which each is divided into four, so that none is seen as such."""
 
 
