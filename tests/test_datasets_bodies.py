@@ -1,0 +1,53 @@
+"""What the generated shapes are made of: fields, bending, closed meshes through points."""
+
+import numpy as np
+import pytest
+
+from kfmaps._arrays import NotConverged
+from kfmaps.app.datasets.creature import CREATURE, WAVE
+from kfmaps.app.datasets.skeleton import Bend, Body
+from kfmaps.app.datasets.surface import closed_mesh
+
+
+def test_field_is_negative_inside_and_its_gradient_is_its_derivative() -> None:
+    body = Body(CREATURE)
+    points = np.random.default_rng(0).uniform(body.box()[0], body.box()[1], (2000, 3))
+    values, gradients = body(points)
+    near = np.abs(values) < 0.1
+    steps = 1e-6 * np.eye(3)
+    numeric = np.stack([(body(points + s)[0] - body(points - s)[0]) / 2e-6 for s in steps], axis=1)
+    difference = np.abs(numeric - gradients).max(axis=1)[near]
+    assert np.percentile(difference, 98) < 1e-6, "all but points above a kink of the radius"
+    middles = np.array([limb.points[1] for limb in CREATURE])
+    assert (body(middles)[0] < 0).all()
+    assert body(np.array([[0.5, 0.2, 0.3]]))[0][0] > 0
+
+
+def test_bending_nothing_is_the_identity_and_growing_all_is_a_similarity() -> None:
+    body = Body(CREATURE)
+    points, _ = closed_mesh(body, body.box(), 1500, np.random.default_rng(0))
+    np.testing.assert_allclose(body.bent(points, {}), points, atol=1e-12)
+    grown = body.bent(points, {limb.name: Bend(longer=2, thicker=2) for limb in CREATURE})
+    np.testing.assert_allclose(grown - grown[0], 2 * (points - points[0]), atol=1e-12)
+
+
+def test_only_the_bent_limb_and_what_it_carries_moves() -> None:
+    body = Body(CREATURE)
+    points, _ = closed_mesh(body, body.box(), 1500, np.random.default_rng(0))
+    moved = np.linalg.norm(body.bent(points, {"left arm": WAVE["left arm"]}) - points, axis=1)
+    assert moved[points[:, 0] > 0.75].min() > 0.3
+    away = (points[:, 0] < -0.3) | (points[:, 1] < 0.4)
+    assert moved[away].max() < 0.01
+
+
+def test_wrong_genus_is_reported() -> None:
+    def ring(points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        radius = np.hypot(points[:, 0], points[:, 1])
+        away = points - points * [1, 1, 0] / radius[:, None]
+        length = np.linalg.norm(away, axis=1)
+        return length - 0.4, away / length[:, None]
+
+    box = np.array([[-1.5, -1.5, -0.5], [1.5, 1.5, 0.5]])
+    assert len(closed_mesh(ring, box, 400, np.random.default_rng(0), genus=1)[0]) == 400
+    with pytest.raises(NotConverged, match="ask for more vertices"):
+        closed_mesh(ring, box, 400, np.random.default_rng(0), genus=0)
