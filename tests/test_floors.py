@@ -10,6 +10,8 @@ SOURCE = Path(__file__).parents[1] / "src" / "kfmaps"
 FLOORS = {
     "_arrays": 0,
     "_threads": 0,
+    "_factor": 0.25,
+    "_lanczos": 0.25,
     "mesh": 0.5,
     "eigensolver": 0.5,
     "spectrum": 1,
