@@ -2,20 +2,25 @@
 
 import http.client
 import json
+import os
+import signal
 import socket
+import subprocess
+import sys
 import threading
 import time
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
+from urllib.request import urlopen
 
 import numpy as np
 import pytest
 
 from kfmaps._arrays import InvalidInput
 from kfmaps.app.datasets import sphere
-from kfmaps.app.files import read_landmarks
+from kfmaps.app.files import read_landmarks, write_landmarks, write_mesh
 from kfmaps.app.view.picker import Picker, PickerServer, check_pairs, picker_server
 from kfmaps.app.view.runs import Progress, Runs
 from kfmaps.app.view.server import LOOPBACK
@@ -358,3 +363,33 @@ def test_port_that_is_taken_is_refused_in_words(serve: Serve, tmp_path: Path) ->
     port = serve().port
     with pytest.raises(InvalidInput, match=f"^port: wanted a free port of this machine, got {port}"):
         picker_server(Picker(SOURCE, Mesh(TARGET.vertices, TARGET.faces), ("a", "b"), tmp_path / "p.txt"), port)
+
+
+@pytest.mark.skipif(os.name != "posix", reason="sends the signal that Ctrl-C is")
+def test_command_serves_until_it_is_interrupted(tmp_path: Path) -> None:
+    write_mesh(tmp_path / "a.off", SOURCE)
+    write_mesh(tmp_path / "b.off", TARGET)
+    write_landmarks(tmp_path / "old.txt", np.array(PAIRS))
+    script = """
+from pathlib import Path
+from kfmaps.app.commands.landmarks import landmarks
+landmarks(Path("a.off"), Path("b.off"), landmarks=Path("old.txt"), browser=False)
+"""
+    with subprocess.Popen(
+        [sys.executable, "-c", script], cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+    ) as running:
+        try:
+            assert running.stdout is not None
+            address = running.stdout.readline().strip()
+            assert address.startswith(f"http://{LOOPBACK}:"), running.communicate()
+            with urlopen(address, timeout=10) as page:
+                assert f'"pairs":{json.dumps(PAIRS, separators=(",", ":"))}' in page.read().decode()
+            running.send_signal(signal.SIGINT)
+            said, complaints = running.communicate(timeout=20)
+        finally:
+            running.kill()
+    assert (running.returncode, complaints) == (0, "")
+    assert said.endswith("Ended.\n")
+    with pytest.raises(OSError):
+        urlopen(address, timeout=10)
+    assert read_landmarks(tmp_path / "old.txt").tolist() == PAIRS

@@ -50,9 +50,9 @@ export class Marker {
   settle(view, height) {
     const at = view.surface.world(this.vertex);
     const eye = new Vector3().subVectors(view.camera.position, at);
-    // A little towards the eye, or the surface around the vertex would cut the disc.
-    at.addScaledVector(eye.normalize(), 0.025 * view.surface.radius);
     const size = (this.pixels / height) * 2 * Math.tan((view.camera.fov * Math.PI) / 360);
+    // Towards the eye by more than the disc's radius, or a sloping surface around the vertex would cut it.
+    at.addScaledVector(eye, (0.015 * view.surface.radius) / eye.length() + 0.6 * size);
     for (const sprite of [this.front, this.ghost]) {
       sprite.position.copy(at);
       sprite.scale.set(size, size, 1);

@@ -3,22 +3,21 @@ import { at } from "./colours.js";
 
 export function composed(stage, names, legend, scale = 2) {
   const views = stage.picture(scale);
-  const top = 34 * scale, bottom = 44 * scale;
   const canvas = document.createElement("canvas");
   canvas.width = views.width;
-  canvas.height = views.height + top + bottom;
+  canvas.height = views.height + 50 * scale;
   const pen = canvas.getContext("2d");
   pen.fillStyle = "#ffffff";
   pen.fillRect(0, 0, canvas.width, canvas.height);
-  pen.drawImage(views, 0, top);
+  pen.drawImage(views, 0, 0);
   pen.fillStyle = "#1c2430";
   pen.textAlign = "center";
   pen.font = `600 ${15 * scale}px system-ui, sans-serif`;
   const all = stage.element.getBoundingClientRect();
   stage.views.forEach((view, i) => {
+    // Above each view the page has its title, so there is room for the name.
     const box = view.box.getBoundingClientRect();
-    const y = Math.max(top - 10 * scale, top + (box.top - all.top) * scale + (i && box.top - all.top > 40 ? 20 * scale : -10 * scale));
-    pen.fillText(names[i], (box.left - all.left + box.width / 2) * scale, y);
+    pen.fillText(names[i], (box.left - all.left + box.width / 2) * scale, (box.top - all.top - 12) * scale);
   });
   pen.font = `${13 * scale}px system-ui, sans-serif`;
   const y = canvas.height - 18 * scale;
@@ -31,6 +30,9 @@ export function composed(stage, names, legend, scale = 2) {
     pen.fillStyle = `rgb(${at(legend.scale, x / (wide - 1)).map(Math.round).join(",")})`;
     pen.fillRect(middle - wide / 2 + x, y - tall - 6 * scale, 1, tall);
   }
+  pen.strokeStyle = "#8b94a1";
+  pen.lineWidth = scale;
+  pen.strokeRect(middle - wide / 2, y - tall - 6 * scale, wide, tall);
   pen.fillStyle = "#1c2430";
   pen.textAlign = "right";
   pen.fillText(legend.low, middle - wide / 2 - 8 * scale, y - 7 * scale);

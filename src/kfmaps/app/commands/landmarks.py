@@ -6,7 +6,6 @@ from pathlib import Path
 from typing import Annotated
 
 import typer
-from rich.console import Console
 
 from kfmaps.app.files import check_output, read_landmarks, read_mesh
 from kfmaps.app.view.picker import Picker, check_pairs, picker_server
@@ -42,14 +41,13 @@ def landmarks(
     names = (source.stem, target.stem)
     picker = Picker(*shapes, names, output, force=force, landmarks=pairs, matcher=Tryout(*shapes, names), up=up)
     serving = picker_server(picker, port)
-    out = Console(soft_wrap=True, highlight=False)
-    out.print(serving.server.address, markup=False)
-    out.print("Only this machine can reach it, and only with that address. Ctrl-C ends.")
+    typer.echo(serving.server.address)
+    typer.echo("Only this machine can reach it, and only with that address. Ctrl-C ends.")
     if browser and not open_address(serving.server.address):
-        out.print("No browser was found; open the address yourself.")
+        typer.echo("No browser was found; open the address yourself.")
     try:
         serving.server.serve_forever(poll_interval=0.2)
     except KeyboardInterrupt:
-        out.print("Ended.")
+        typer.echo("Ended.")
     finally:
         serving.close()
