@@ -44,8 +44,7 @@ def parse_gltf(data: bytes, name: str) -> MeshFile:
             process=False,
             maintain_order=True,
         )
-        with np.errstate(all="ignore"):  # wild numbers are refused later
-            return _joined(scene)
+        return _joined(scene)
     except InvalidInput:
         raise
     except Exception as error:  # trimesh reports broken files by whatever exception they run into

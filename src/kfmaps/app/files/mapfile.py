@@ -11,10 +11,11 @@ from pathlib import Path
 from typing import IO, Any
 
 import numpy as np
-import scipy.io
+from scipy.io import savemat
 
 from kfmaps._arrays import InvalidInput, check, refuse
 from kfmaps.app.files.atomic import atomic_output, check_output
+from kfmaps.app.files.matfile import read_mat
 from kfmaps.app.files.numbers import read_vertex_numbers, write_vertex_numbers
 from kfmaps.app.files.text import REPAIR, read_bytes
 
@@ -69,8 +70,9 @@ class MapFile:
                     got = f"{len(values)} beside a map of shape {self.functional_map.shape}"
                     raise refuse(name, f"{size} numbers", got, REPAIR)
         for name, value in self.extra.items():
-            if not _NAME.fullmatch(name) or name in _FIELDS:
-                raise refuse("extra", "names of letters, digits and _", repr(name), "rename it")
+            if not _NAME.fullmatch(name) or name in (*_FIELDS, "file", "allow_pickle"):  # savez has these
+                wanted = "names of letters, digits and _, up to 31 of them and not in use"
+                raise refuse("extra", wanted, repr(name), "rename it")
             if not isinstance(value, str):
                 _real(value, f"extra {name}")
 
@@ -108,7 +110,7 @@ def check_map(target_to_source: Any, n_s: int | None = None, n_t: int | None = N
         got = "none" if len(numbers) == 0 else "fractions"
         raise refuse(name, "a whole number for each target vertex", got, REPAIR)
     low, high = numbers.min(), numbers.max()
-    if low < 0 or (n_s is not None and high >= n_s):
+    if low < 0 or high >= (2**53 if n_s is None else n_s):
         wanted = "source vertices from 0 on" if n_s is None else f"source vertices from 0 to {n_s - 1}"
         raise refuse(name, wanted, f"{int(low if low < 0 else high)}", remedy)
     return numbers.astype(np.int64)
@@ -138,10 +140,10 @@ def save_map(path: str | Path, mapfile: MapFile, force: bool = False) -> None:
     content["target_to_source"] = mapfile.target_to_source
     with atomic_output(path, force) as temporary, open(temporary, "wb") as file:
         if suffix == ".npz":
-            np.savez_compressed(file, allow_pickle=False, **content)
+            np.savez_compressed(file, **content)
         else:
             shifted = {k: v + 1.0 if k in VERTEX_NUMBERS else v for k, v in content.items()}
-            scipy.io.savemat(file, shifted, oned_as="column", do_compression=True)
+            savemat(file, shifted, oned_as="column", do_compression=True)
 
 
 def _empty_text(value: Any) -> bool:
@@ -174,9 +176,9 @@ def load_map(path: str | Path) -> MapFile:
         return MapFile(read_vertex_numbers(path))
     data = read_bytes(path)
     try:
-        content = _npz_content(data) if suffix == ".npz" else _mat_content(data)
-    except InvalidInput as error:
-        raise InvalidInput(f"{name}: {error}") from error
+        content = (_npz_content if suffix == ".npz" else _mat_content)(data, name)
+    except InvalidInput:
+        raise
     except Exception as error:  # the readers report broken files by whatever they run into
         got = " ".join(f"{type(error).__name__}: {error}".split())[:100]
         raise refuse(name, f"a complete {suffix} file", got, REPAIR) from error
@@ -201,27 +203,26 @@ def check_npy(file: IO[bytes], size: int, name: str) -> None:
         raise refuse(name, f"data for shape {shape}", f"{size} bytes", REPAIR)
 
 
-def _npz_content(data: bytes) -> dict[str, Any]:
+def _npz_content(data: bytes, name: str) -> dict[str, Any]:
     with zipfile.ZipFile(io.BytesIO(data)) as archive:
         for item in archive.infolist():
             with archive.open(item) as file:
-                check_npy(file, item.file_size, item.filename)
+                check_npy(file, item.file_size, f"{name}: {item.filename}")
     with np.load(io.BytesIO(data), allow_pickle=False) as arrays:
         loaded = {k: arrays[k] for k in arrays.files}
     return {k: str(v) if v.dtype.kind == "U" and v.ndim == 0 else v for k, v in loaded.items()}
 
 
-def _mat_content(data: bytes) -> dict[str, Any]:
+def _mat_content(data: bytes, name: str) -> dict[str, Any]:
     content: dict[str, Any] = {}
-    for key, value in scipy.io.loadmat(io.BytesIO(data)).items():
-        if key.startswith("__"):
-            continue
-        if value.dtype.kind == "U":
-            content[key] = "".join(value.ravel().tolist())
+    for key, value in read_mat(data, name).items():
+        if isinstance(value, str):
+            content[key] = value
         elif key in ("target_to_source", "eigenvalues_s", "eigenvalues_t"):
             content[key] = value.ravel()
         else:
             content[key] = value[:, 0] if value.ndim == 2 and value.shape[1] == 1 else value
         if key in VERTEX_NUMBERS:
-            content[key] = _real(content[key], key) - 1
+            # through float64, in which MATLAB keeps them: an unsigned 0 must not wrap around
+            content[key] = _real(content[key], f"{name}: {key}").astype(np.float64) - 1
     return content

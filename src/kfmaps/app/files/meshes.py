@@ -31,7 +31,7 @@ READERS = {
 }
 WRITERS = {".off": format_off, ".obj": format_obj, ".ply": format_ply}
 
-LARGEST = 1e100
+LARGEST = 1e70
 """Coordinates beyond this overflow in areas and are refused; no unit makes them meaningful."""
 
 
@@ -53,7 +53,7 @@ def read_mesh(path: str | Path, *, cloud: bool = True) -> Mesh:
     ------
     InvalidInput
         On a file that is missing, empty, cut short, of an unknown extension or not what its extension says;
-        on NaN, infinite or absurdly large (beyond 1e100) coordinates; and as :func:`check_mesh`.
+        on NaN, infinite or absurdly large (beyond 1e70) coordinates; and as :func:`check_mesh`.
 
     Warns
     -----
@@ -71,7 +71,8 @@ def read_mesh_file(path: str | Path, *, cloud: bool = True) -> MeshFile:
     if reader is None:
         known = " ".join(READERS)
         raise refuse(name, f"one of {known}", f"{path.suffix or 'no extension'}", "convert or rename the file")
-    found = reader(read_bytes(path), name)
+    with np.errstate(all="ignore"):  # wild numbers are refused below
+        found = reader(read_bytes(path), name)
     places = found.mesh.vertices
     for what, values in (("vertices", places), ("colors", found.colors), ("texture", found.uv)):
         if values is not None:
@@ -89,17 +90,17 @@ def _warn_of_oddities(mesh: Mesh, name: str) -> None:
     if len(mesh.faces) == 0:
         return
     counts = topology(mesh)
-    odd = {
-        "components": counts.components if counts.components > 1 else 0,
-        "boundary loops": counts.boundary_loops,
-        "non-manifold edges": counts.nonmanifold_edges,
-        "non-manifold vertices": counts.nonmanifold_vertices if counts.nonmanifold_edges == 0 else 0,
-        "inconsistently oriented edges": counts.inconsistent_edges,
-        "duplicated vertices": counts.duplicated_vertices,
-    }
-    told = ", ".join(f"{count} {what}" for what, count in odd.items() if count)
+    odd = [
+        (counts.components if counts.components > 1 else 0, "component", "components"),
+        (counts.boundary_loops, "boundary loop", "boundary loops"),
+        (counts.nonmanifold_edges, "non-manifold edge", "non-manifold edges"),
+        (counts.nonmanifold_vertices, "non-manifold vertex", "non-manifold vertices"),
+        (counts.inconsistent_edges, "inconsistently oriented edge", "inconsistently oriented edges"),
+        (counts.duplicated_vertices, "duplicated vertex", "duplicated vertices"),
+    ]
+    told = ", ".join(f"{count} {one if count == 1 else many}" for count, one, many in odd if count)
     if told:
-        warnings.warn(f"{name}: {told}; they are kept", KfmapsWarning, stacklevel=4)
+        warnings.warn(f"{name}: {told}; all is kept as it is", KfmapsWarning, stacklevel=4)
 
 
 def write_mesh(path: str | Path, mesh: Mesh, *, colors: np.ndarray | None = None, force: bool = False) -> None:

@@ -57,18 +57,30 @@ def text_columns(element: Element, rows: Rows, name: str) -> dict[str, Column]:
         first = at
         step(1)
         if item.count is None:
-            columns[item.name] = Column(rows.values[first])
+            columns[item.name] = Column(_typed(rows.values[first], item, name))
             continue
         sizes = whole(rows.values[first], f"{name}: length of {item.name}")
         _check_sizes(sizes, item, name)
         first = at
         step(sizes)
-        columns[item.name] = Column(rows.values[gathered(first, sizes)], sizes)
+        columns[item.name] = Column(_typed(rows.values[gathered(first, sizes)], item, name), sizes)
     if (at < ends).any():
         i = np.flatnonzero(at < ends)[0]
         wanted = f"only the properties of a {element.name}"
         raise refuse(f"{name}, line {rows.lines[i]}", wanted, f"{rows.counts[i]} numbers", REPAIR)
     return columns
+
+
+def _typed(values: np.ndarray, item: Property, name: str) -> np.ndarray:
+    """``values`` from a text in the type that the header gives; fractions keep every digit of the text."""
+    if item.kind.kind == "f":
+        return values
+    numbers = whole(values, f"{name}: {item.name}")
+    low, high = np.iinfo(item.kind).min, np.iinfo(item.kind).max
+    if ((numbers < low) | (numbers > high)).any():
+        got = f"{numbers.min()} to {numbers.max()}"
+        raise refuse(f"{name}: {item.name}", f"numbers from {low} to {high}, as the header says", got, REPAIR)
+    return numbers.astype(item.kind)
 
 
 def _check_sizes(sizes: np.ndarray, item: Property, name: str) -> None:

@@ -38,7 +38,7 @@ def parse_stl(data: bytes, name: str) -> MeshFile:
         to endsolid.
     """
     count = int.from_bytes(data[80:84], "little") if len(data) >= _HEAD else -1
-    if len(data) == _HEAD + _TRIANGLE * count:
+    if count >= 0 and len(data) == _HEAD + _TRIANGLE * count:
         places = np.zeros((0, 3))
         if count:
             places = np.asarray(load_stl_binary(io.BytesIO(data))["vertices"], dtype=np.float64)

@@ -1,0 +1,153 @@
+"""Topological counts, checked on surfaces whose answers are known and by Euler's formula."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+import trimesh
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from conftest import blob, fibonacci_sphere
+from kfmaps.mesh import Mesh
+from kfmaps.topology import first_occurrence, topology
+
+
+def sheet(rows: int, columns: int, wrap: tuple[bool, bool] = (False, False), flip: bool = False) -> Mesh:
+    """A grid of squares, each cut in two; wrapped it is a cylinder or torus, flipped a Möbius strip."""
+    i, j = np.meshgrid(np.arange(rows + (not wrap[0])), np.arange(columns + (not wrap[1])), indexing="ij")
+    high, wide = i.shape
+    number = np.arange(high * wide).reshape(high, wide)
+    if wrap[0]:
+        number = np.vstack([number, number[:1, ::-1] if flip else number[:1]])
+    if wrap[1]:
+        number = np.hstack([number, number[:, :1]])
+    a, b, c, d = number[:-1, :-1], number[1:, :-1], number[1:, 1:], number[:-1, 1:]
+    faces = np.concatenate([np.stack([a, b, c], axis=-1), np.stack([a, c, d], axis=-1)]).reshape(-1, 3)
+    u, v = 2 * np.pi * i / high, 2 * np.pi * j / wide
+    places = np.stack([(3 + np.cos(v)) * np.cos(u), (3 + np.cos(v)) * np.sin(u), np.sin(v)], axis=-1)
+    return Mesh(places.reshape(-1, 3), faces)
+
+
+def together(*meshes: Mesh) -> Mesh:
+    """The meshes side by side in one."""
+    starts = np.cumsum([0] + [len(m.vertices) for m in meshes])
+    places = np.vstack([m.vertices + 10 * i for i, m in enumerate(meshes)])
+    return Mesh(places, np.vstack([m.faces + s for m, s in zip(meshes, starts, strict=False)]))
+
+
+def test_sphere() -> None:
+    counts = topology(fibonacci_sphere(100))
+    assert (counts.components, counts.genus, counts.euler_characteristic) == (1, 0, 2)
+    assert counts.closed
+    assert counts.manifold
+    assert counts.orientable
+    assert counts.boundary_loops == counts.boundary_edges == counts.inconsistent_edges == 0
+    assert counts.duplicated_vertices == counts.unreferenced_vertices == counts.degenerate_faces == 0
+
+
+@pytest.mark.parametrize(
+    ("mesh", "loops", "edges", "genus", "characteristic"),
+    [
+        (sheet(4, 5), 1, 18, 0, 1),
+        (sheet(6, 5, (True, False)), 2, 12, 0, 0),
+        (sheet(6, 5, (True, True)), 0, 0, 1, 0),
+        (together(sheet(6, 5, (True, True)), sheet(5, 4, (True, True)), fibonacci_sphere(50)), 0, 0, 2, 2),
+    ],
+    ids=["disc", "cylinder", "torus", "two tori and a sphere"],
+)
+def test_known_surfaces(mesh: Mesh, loops: int, edges: int, genus: int, characteristic: int) -> None:
+    counts = topology(mesh)
+    assert (counts.boundary_loops, counts.boundary_edges) == (loops, edges)
+    assert (counts.genus, counts.euler_characteristic) == (genus, characteristic)
+    assert counts.orientable
+    assert counts.inconsistent_edges == 0
+
+
+def test_moebius_strip_has_one_edge_and_no_genus() -> None:
+    counts = topology(sheet(7, 4, (True, False), flip=True))
+    assert counts.boundary_loops == 1
+    assert not counts.orientable
+    assert counts.genus is None
+    assert counts.inconsistent_edges > 0
+
+
+def test_a_flipped_face_is_found_but_the_surface_stays_orientable() -> None:
+    mesh = fibonacci_sphere(60)
+    faces = mesh.faces.copy()
+    faces[5] = faces[5, ::-1]
+    counts = topology(Mesh(mesh.vertices, faces))
+    assert counts.inconsistent_edges == 3
+    assert counts.orientable
+    assert counts.genus == 0
+    assert counts.manifold  # fans do not depend on orientation
+
+
+def test_three_faces_on_an_edge() -> None:
+    counts = topology(Mesh(np.random.default_rng(0).normal(size=(5, 3)), np.array([[0, 1, 2], [1, 0, 3], [0, 1, 4]])))
+    assert counts.nonmanifold_edges == 1
+    assert counts.nonmanifold_vertices == 2
+    assert not counts.manifold
+    assert not counts.closed
+    assert counts.genus is None
+
+
+def test_two_spheres_that_touch_in_a_vertex() -> None:
+    one = fibonacci_sphere(40)
+    both = together(one, one)
+    faces = both.faces.copy()
+    faces[faces == 40] = 0
+    counts = topology(Mesh(both.vertices, faces))
+    assert (counts.components, counts.nonmanifold_vertices, counts.unreferenced_vertices) == (1, 1, 1)
+    assert counts.closed
+    assert counts.genus is None
+
+
+def test_boundary_loops_that_touch_are_told_apart() -> None:
+    """Two triangles that share a vertex have two boundaries, though their edges hang together."""
+    counts = topology(Mesh(np.eye(5, 3), np.array([[0, 1, 2], [2, 3, 4]])))
+    assert counts.boundary_loops == 2
+    assert counts.components == 1
+
+
+def test_degenerate_faces_and_loose_vertices() -> None:
+    mesh = fibonacci_sphere(50)
+    middle = mesh.vertices[mesh.faces[0, :2]].mean(axis=0)
+    places = np.vstack([mesh.vertices, mesh.vertices[3], middle])
+    faces = np.vstack([mesh.faces, [[7, 7, 9], [*mesh.faces[0, :2], 51]]])
+    counts = topology(Mesh(places, faces))
+    assert counts.degenerate_faces == 2
+    assert counts.unreferenced_vertices == 1
+    assert counts.duplicated_vertices == 1
+    assert counts.components == 1
+
+
+def test_a_cloud_has_no_surface() -> None:
+    counts = topology(Mesh(np.eye(3), np.zeros((0, 3), dtype=int)))
+    assert (counts.components, counts.boundary_loops, counts.euler_characteristic) == (0, 0, 0)
+    assert counts.genus is None
+    assert counts.unreferenced_vertices == 3
+
+
+@given(st.integers(0, 2**32 - 1))
+@settings(max_examples=30, deadline=None)
+def test_permuting_everything_changes_nothing(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    mesh = blob(60)
+    faces = mesh.faces[rng.random(len(mesh.faces)) < 0.8]
+    order = rng.permutation(len(mesh.vertices))
+    turned = np.take_along_axis(faces, (np.arange(3) + rng.integers(0, 3, (len(faces), 1))) % 3, axis=1)
+    moved = Mesh(mesh.vertices[order], np.argsort(order)[turned[rng.permutation(len(faces))]])
+    counts = topology(Mesh(mesh.vertices, faces))
+    assert counts == topology(moved)
+    other = trimesh.Trimesh(moved.vertices, moved.faces, process=False)
+    assert counts.euler_characteristic == other.euler_number
+    assert counts.boundary_edges == (np.unique(np.sort(other.edges, axis=1), axis=0, return_counts=True)[1] == 1).sum()
+
+
+@given(st.integers(1, 40), st.integers(0, 2**32 - 1))
+@settings(max_examples=50, deadline=None)
+def test_first_occurrence_is_the_first_equal_row(n: int, seed: int) -> None:
+    places = np.random.default_rng(seed).choice([-1.0, -0.0, 0.0, 1.0], size=(n, 3))
+    expected = [next(j for j in range(n) if (places[j] == places[i]).all()) for i in range(n)]
+    np.testing.assert_array_equal(first_occurrence(places), expected)
