@@ -4,9 +4,11 @@ import numpy as np
 import pytest
 
 from kfmaps._arrays import NotConverged
+from kfmaps.app import datasets
 from kfmaps.app.datasets.creature import CREATURE, WAVE
 from kfmaps.app.datasets.skeleton import Bend, Body
 from kfmaps.app.datasets.surface import closed_mesh
+from kfmaps.mesh import surface_area
 
 
 def test_field_is_negative_inside_and_its_gradient_is_its_derivative() -> None:
@@ -51,3 +53,16 @@ def test_wrong_genus_is_reported() -> None:
     assert len(closed_mesh(ring, box, 400, np.random.default_rng(0), genus=1)[0]) == 400
     with pytest.raises(NotConverged, match="ask for more vertices"):
         closed_mesh(ring, box, 400, np.random.default_rng(0), genus=0)
+
+
+def test_sphere_has_its_radius_and_its_area() -> None:
+    ball = datasets.sphere(800)
+    np.testing.assert_allclose(np.linalg.norm(ball.vertices, axis=1), 1, rtol=1e-9)
+    lack = [1 - surface_area(m) / (4 * np.pi) for m in (ball, datasets.sphere(3200))]
+    assert lack[0] > 0
+    assert lack[0] / lack[1] == pytest.approx(4, rel=0.15), "the lack of area falls as one over the number"
+
+
+def test_torus_has_its_area() -> None:
+    assert surface_area(datasets.torus(900)) == pytest.approx(4 * np.pi**2 * 0.4, rel=0.02)
+    assert surface_area(datasets.torus(900, tube=0.6)) == pytest.approx(4 * np.pi**2 * 0.6, rel=0.02)

@@ -10,6 +10,7 @@ from matplotlib.figure import Figure
 from kfmaps._arrays import InvalidInput
 from kfmaps.app import pictures
 from kfmaps.app.pictures import surfaces
+from kfmaps.app.pictures.colors import oklab_to_rgb
 from kfmaps.mesh import Mesh
 
 RED, BLUE = np.array([0.9, 0.1, 0.1]), np.array([0.1, 0.2, 0.9])
@@ -200,6 +201,14 @@ def test_position_colours_know_places_but_not_units() -> None:
     assert unlike[distance > 1].min() > 0.05
     flat = Mesh(mesh.vertices * [1, 1, 0], mesh.faces)
     assert np.isfinite(pictures.position_colors(flat)).all()
+
+
+def test_oklab_has_its_greys_and_its_primaries() -> None:
+    greys = oklab_to_rgb(np.array([[0.0, 0, 0], [0.6, 0, 0], [1, 0, 0]]))
+    np.testing.assert_allclose(greys, np.repeat(greys[:, :1], 3, axis=1), atol=1e-3)
+    np.testing.assert_allclose(greys[[0, 2], 0], [0, 1], atol=1e-3)
+    red_and_blue = np.array([[0.62796, 0.22486, 0.12585], [0.45201, -0.03246, -0.31153]])
+    np.testing.assert_allclose(oklab_to_rgb(red_and_blue), [[1, 0, 0], [0, 0, 1]], atol=6e-3)
 
 
 def test_automatic_view_faces_the_broad_side() -> None:
