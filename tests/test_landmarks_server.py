@@ -23,7 +23,7 @@ from kfmaps.app.datasets import sphere
 from kfmaps.app.files import read_landmarks, write_landmarks, write_mesh
 from kfmaps.app.view.picker import Picker, PickerServer, check_pairs, picker_server
 from kfmaps.app.view.runs import Progress, Runs
-from kfmaps.app.view.server import LOOPBACK
+from kfmaps.app.view.server import LOOPBACK, LocalServer, page_reply
 from kfmaps.mesh import Mesh
 
 SOURCE, TARGET = sphere(200, rng=0), sphere(160, rng=1)
@@ -356,6 +356,17 @@ def test_defect_ends_the_run_and_is_shown(capsys: pytest.CaptureFixture[str]) ->
     while runs.status().state == "running":
         time.sleep(0.001)
     assert runs.status().error.startswith("ZeroDivisionError")
+    assert "Traceback" in capsys.readouterr().err
+
+
+def test_defect_in_an_answer_is_told_and_the_server_goes_on(capsys: pytest.CaptureFixture[str]) -> None:
+    with LocalServer({("GET", ""): lambda _: page_reply(""), ("GET", "bad"): lambda _: page_reply(None)}) as server:  # type: ignore[arg-type]
+        threading.Thread(target=server.serve_forever, kwargs={"poll_interval": 0.01}).start()
+        client = Client(PickerServer(server, Runs(lambda _, __: None)))
+        answer = client.get("bad")
+        assert (answer.status, answer.json["error"][:14]) == (500, "AttributeError")
+        assert client.get().status == 200
+        server.shutdown()
     assert "Traceback" in capsys.readouterr().err
 
 

@@ -357,6 +357,15 @@ def test_mesh_is_where_the_map_says_or_asked_for(tmp_path: Path) -> None:
         mesh_path(None, MapFile(np.zeros(1, int), extra={"source": "no.off"}), "source", tmp_path / "m.npz")
 
 
+def test_example_of_the_documentation_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    text = (WEB.parent / "docs" / "view.md").read_text(encoding="utf-8")
+    monkeypatch.chdir(tmp_path)
+    exec(text.split("```python\n")[1].split("```")[0], {})
+    data = page_data((tmp_path / "page.html").read_text(encoding="utf-8"))
+    assert (data["source"]["name"], data["target"]["name"]) == ("waving", "dancing")
+    assert data["maps"][0]["points"]["shape"] == [1600]
+
+
 # The bundle -----------------------------------------------------------------------------------------------
 
 

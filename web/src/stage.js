@@ -19,6 +19,12 @@ class View {
     this.shift = new Vector2();
   }
 
+  /** The points of a cloud as wide as 1.3 times their mean distance, for a view of so many pixels. */
+  dots(height) {
+    const pixels = height / (2 * Math.tan((FIELD * Math.PI) / 360));
+    this.surface.material.uniforms.size.value = (1.3 / Math.sqrt(this.surface.count)) * pixels;
+  }
+
   /** Puts camera and shape where the pose says; `fit` is the radius that fills the view at zoom 1. */
   settle(fit, width, height) {
     const half = Math.tan((FIELD * Math.PI) / 360) * Math.min(1, width / height);
@@ -80,7 +86,7 @@ export class Stage {
       const { left, bottom, width, height } = view.box.getBoundingClientRect();
       if (width < 1 || height < 1) continue;
       view.settle(this.fit, width, height);
-      view.surface.material.uniforms.size.value = (height * this.renderer.getPixelRatio() * this.fit) / 28;
+      view.dots(height * this.renderer.getPixelRatio());
       const place = [left - all.left, all.bottom - bottom, width, height];
       this.renderer.setViewport(...place);
       this.renderer.setScissor(...place);

@@ -46,9 +46,10 @@ vec3 pattern(vec3 base) {
   return mix(tile, vec3(0.12, 0.14, 0.18), 0.75 * line * fade);
 }
 void main() {
-  if (round && length(gl_PointCoord - 0.5) > 0.5) discard;
+  vec2 off = 2.0 * gl_PointCoord - 1.0;
+  if (round && dot(off, off) > 1.0) discard;
   vec3 base = textured ? pattern(vColour) : vColour;
-  float light = 1.0;
+  float light = 1.04 - 0.45 * dot(off, off); // a point is a little ball
   if (!round) {
     vec3 n = normalize(vNormal);
     vec3 v = normalize(-vEye);

@@ -11,6 +11,7 @@ import json
 import os
 import secrets
 import socketserver
+import traceback
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
@@ -144,6 +145,9 @@ class _Handler(BaseHTTPRequestHandler):
             return json_reply({"error": str(error)}, 400)
         except OSError as error:
             return json_reply({"error": f"{error.filename or 'file'}: {error.strerror or error}"}, 500)
+        except Exception as error:  # a defect: the page hears of it, the terminal where it was
+            traceback.print_exc()
+            return json_reply({"error": f"{type(error).__name__}: {error}"}, 500)
 
     def _foreign(self) -> str | None:
         """Why the request is not this page's own, if it is not."""
@@ -154,7 +158,7 @@ class _Handler(BaseHTTPRequestHandler):
         if any(origin != f"http://{host}" for origin in self.headers.get_all("Origin", [])):
             return "the request comes from another site"
         if self.headers.get("Sec-Fetch-Site", "none") not in ("none", "same-origin"):
-            return "the request comes from another site"
+            return "the request comes from another site; type or paste the address instead"
         return None
 
     def _body(self) -> Any:
