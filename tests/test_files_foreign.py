@@ -1,0 +1,235 @@
+"""STL and glTF."""
+
+from __future__ import annotations
+
+import json
+import re
+import struct
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import trimesh
+from trimesh.exchange.gltf import export_gltf
+from trimesh.visual import TextureVisuals
+
+from conftest import fibonacci_sphere
+from kfmaps._arrays import InvalidInput, KfmapsWarning
+from kfmaps.app.files import read_mesh, read_mesh_file
+from kfmaps.mesh import Mesh, face_normals
+from kfmaps.topology import topology
+
+MESH = fibonacci_sphere(30)
+SINGLE = MESH.vertices.astype(np.float32).astype(np.float64)  # both formats keep 32 bits
+
+
+def exported(mesh: Mesh | trimesh.Scene, kind: str, **more: Any) -> bytes:
+    """What trimesh writes."""
+    shape = trimesh.Trimesh(mesh.vertices, mesh.faces, process=False, **more) if isinstance(mesh, Mesh) else mesh
+    content = shape.export(file_type=kind)
+    assert isinstance(content, bytes)
+    return content
+
+
+def scene_of(*transforms: np.ndarray) -> trimesh.Scene:
+    scene = trimesh.Scene()
+    for transform in transforms:
+        scene.add_geometry(trimesh.Trimesh(MESH.vertices, MESH.faces, process=False), transform=transform)
+    return scene
+
+
+def refused(path: Path, content: bytes) -> str:
+    path.write_bytes(content)
+    with pytest.raises(InvalidInput) as caught:
+        read_mesh(path)
+    assert "\n" not in str(caught.value)
+    return str(caught.value)
+
+
+BINARY_STL = exported(MESH, "stl")
+
+
+def text_stl(name: str = "", line_end: str = "\n", indent: str = "") -> bytes:
+    """The mesh as text, in two solids, with every digit."""
+    lines = []
+    for part in np.split(MESH.vertices[MESH.faces], [5]):
+        lines.append(f"solid {name}")
+        for facet in part.tolist():
+            lines += ["facet normal 0 0 1", "outer loop"]
+            lines += [f"{indent}vertex {x!r} {y!r} {z!r}" for x, y, z in facet]
+            lines += ["endloop", "endfacet"]
+        lines.append(f"endsolid {name}")
+    return (line_end.join(lines)).encode()
+
+
+def check_joined(mesh: Mesh, places: np.ndarray) -> None:
+    """The surface is whole again, its triangles as before, its vertices in the order of first occurrence."""
+    np.testing.assert_array_equal(mesh.vertices[mesh.faces], places[MESH.faces])
+    _, first = np.unique(mesh.faces, return_index=True)
+    assert (np.diff(first) > 0).all()
+    assert len(mesh.vertices) == len(places)
+    assert topology(mesh).genus == 0
+
+
+@pytest.mark.parametrize("name", ["", "thing", "a vertex facet solid 1 2 3"])
+@pytest.mark.parametrize("line_end", ["\n", "\r\n"])
+def test_text_stl(tmp_path: Path, name: str, line_end: str) -> None:
+    (tmp_path / "a.stl").write_bytes(text_stl(name, line_end, "   "))
+    check_joined(read_mesh(tmp_path / "a.stl"), MESH.vertices)
+
+
+@pytest.mark.parametrize("start", [b"", b"solid "])
+def test_binary_stl(tmp_path: Path, start: bytes) -> None:
+    (tmp_path / "a.STL").write_bytes(start + BINARY_STL[len(start) :])
+    check_joined(read_mesh(tmp_path / "a.STL"), SINGLE)
+
+
+def test_zeros_of_either_sign_are_one_place(tmp_path: Path) -> None:
+    text = (
+        b"solid\n"
+        + 2 * b"facet normal 0 0 1\nouter loop\nvertex %s 0 0\nvertex 1 %s 0\nvertex 0 1 0\nendloop\nendfacet\n"
+    )
+    (tmp_path / "a.stl").write_bytes(text % (b"0", b"-0", b"-0.0", b"0") + b"endsolid")
+    with pytest.warns(KfmapsWarning):
+        assert len(read_mesh(tmp_path / "a.stl").vertices) == 3
+
+
+def test_cut_stl(tmp_path: Path) -> None:
+    for content in (BINARY_STL, text_stl()):
+        last = len(content) - (len(b"endsolid ") if content.startswith(b"solid") else 0)
+        for cut in (*range(1, 200, 7), *range(200, last, 97), *range(last - 60, last)):
+            assert "wanted" in refused(tmp_path / "a.stl", content[:cut]), cut
+
+
+@pytest.mark.parametrize(
+    ("content", "part"),
+    [
+        (b"\x01" * 100, "100 bytes for 16843009 triangles"),
+        (b"x", "got 1 bytes"),
+        (BINARY_STL + b"x", "50 per triangle"),
+        (bytes(84), "wanted vertices, got none"),
+        (b"solid\nendsolid\n", "wanted vertices, got none"),
+        (text_stl().replace(b"endloop\n", b"", 1), "facets of three vertices"),
+        (text_stl().replace(b"endsolid", b"solid", 1), "facets of three vertices"),
+        (text_stl().replace(b"vertex ", b"vertex x", 1), "wanted numbers"),
+        (re.sub(rb"vertex \S+", b"vertex nan", text_stl(), count=1), "wanted finite"),
+        (re.sub(rb"vertex \S+", b"vertex", text_stl(), count=1), "facets of three"),
+        (BINARY_STL[:96] + np.float32(np.nan).tobytes() + BINARY_STL[100:], "wanted finite"),
+    ],
+)  # fmt: skip
+def test_bad_stl(tmp_path: Path, content: bytes, part: str) -> None:
+    assert part in refused(tmp_path / "a.stl", content)
+
+
+GLB = exported(MESH, "glb")
+
+
+def rewritten(change: Any, glb: bytes = GLB) -> bytes:
+    """A GLB file whose JSON part ``change`` has altered."""
+    size = struct.unpack("<I", glb[12:16])[0]
+    tree = json.loads(glb[20 : 20 + size])
+    change(tree)
+    head = json.dumps(tree).encode()
+    head += b" " * (-len(head) % 4)
+    rest = glb[20 + size :]
+    return b"glTF" + struct.pack("<III4s", 2, 20 + len(head) + len(rest), len(head), b"JSON") + head + rest
+
+
+def test_glb_keeps_order_and_number(tmp_path: Path) -> None:
+    (tmp_path / "a.glb").write_bytes(GLB)
+    mesh = read_mesh(tmp_path / "a.glb")
+    np.testing.assert_array_equal(mesh.vertices, SINGLE)
+    np.testing.assert_array_equal(mesh.faces, MESH.faces)
+
+
+def test_nothing_is_merged_or_dropped(tmp_path: Path) -> None:
+    torn = Mesh(np.vstack([MESH.vertices, MESH.vertices[:2]]), np.vstack([MESH.faces, [[3, 3, 4]]]))
+    (tmp_path / "a.glb").write_bytes(exported(torn, "glb"))
+    with pytest.warns(KfmapsWarning, match=r"2 duplicated vertices|without area|no face uses"):
+        mesh = read_mesh(tmp_path / "a.glb")
+    np.testing.assert_array_equal(mesh.vertices, torn.vertices.astype(np.float32))
+    np.testing.assert_array_equal(mesh.faces, torn.faces)
+
+
+def test_gltf_embedded_and_beside(tmp_path: Path) -> None:
+    embedded = export_gltf(scene_of(np.eye(4)), embed_buffers=True)["model.gltf"]
+    (tmp_path / "a.gltf").write_bytes(embedded)
+    np.testing.assert_array_equal(read_mesh(tmp_path / "a.gltf").vertices, SINGLE)
+    for name, content in export_gltf(scene_of(np.eye(4))).items():
+        (tmp_path / name).write_bytes(content)
+    np.testing.assert_array_equal(read_mesh(tmp_path / "model.gltf").faces, MESH.faces)
+    next(tmp_path.glob("*.bin")).unlink()
+    assert "complete glTF" in refused(tmp_path / "model.gltf", (tmp_path / "model.gltf").read_bytes())
+
+
+def test_parts_follow_in_order_and_are_placed(tmp_path: Path) -> None:
+    there, mirror = trimesh.transformations.translation_matrix([5, 0, 0]), np.diag([-2.0, 2.0, 2.0, 1.0])
+    (tmp_path / "a.glb").write_bytes(exported(scene_of(there, mirror), "glb"))
+    with pytest.warns(KfmapsWarning, match="2 components"):
+        mesh = read_mesh(tmp_path / "a.glb")
+    n, f = len(MESH.vertices), len(MESH.faces)
+    np.testing.assert_allclose(mesh.vertices[:n], MESH.vertices + np.array([5, 0, 0]), atol=1e-6)
+    np.testing.assert_allclose(mesh.vertices[n:], MESH.vertices * [-2, 2, 2], atol=1e-6)
+    np.testing.assert_array_equal(mesh.faces[:f], MESH.faces)
+    np.testing.assert_array_equal(np.sort(mesh.faces[f:], axis=1), np.sort(MESH.faces, axis=1) + n)
+    outward = (face_normals(mesh) * mesh.vertices[mesh.faces[:, 0]]).sum(axis=1)[f:]
+    assert (outward > 0).all()
+
+
+def test_glb_colors_and_texture(tmp_path: Path) -> None:
+    rng = np.random.default_rng(0)
+    colors = rng.integers(0, 256, (len(MESH.vertices), 4)).astype(np.uint8)
+    (tmp_path / "a.glb").write_bytes(exported(MESH, "glb", vertex_colors=colors))
+    found = read_mesh_file(tmp_path / "a.glb")
+    assert found.colors is not None
+    np.testing.assert_allclose(found.colors, colors[:, :3] / 255)
+    uv = rng.random((len(MESH.vertices), 2))
+    (tmp_path / "b.glb").write_bytes(exported(MESH, "glb", visual=TextureVisuals(uv=uv)))
+    found = read_mesh_file(tmp_path / "b.glb")
+    assert found.uv is not None
+    assert found.uv_faces is not None
+    np.testing.assert_allclose(found.uv[found.uv_faces], uv[MESH.faces], atol=1e-6)
+
+
+def test_cut_glb(tmp_path: Path) -> None:
+    for cut in (*range(1, 60), *range(60, len(GLB), 61), len(GLB) - 1):
+        assert "wanted" in refused(tmp_path / "a.glb", GLB[:cut]), cut
+
+
+def primitive(tree: dict[str, Any]) -> dict[str, Any]:
+    return tree["meshes"][0]["primitives"][0]
+
+
+def accessor(tree: dict[str, Any], **more: Any) -> None:
+    tree["accessors"][primitive(tree)["attributes"]["POSITION"]].update(more)
+
+
+@pytest.mark.parametrize(
+    ("change", "part"),
+    [
+        (lambda t: t["accessors"][0].pop("bufferView"), "export it without compression"),
+        (
+            lambda t: t["accessors"].append({"count": 10**12, "componentType": 5126, "type": "VEC3"}),
+            "without compression",
+        ),
+        (lambda t: accessor(t, sparse={}), "export it without compression"),
+        (lambda t: accessor(t, componentType=5123), "export it unquantised"),
+        (lambda t: accessor(t, count=10**9), "complete glTF 2.0 file"),
+        (lambda t: t["accessors"][primitive(t)["indices"]].update(componentType=5126), "unsigned vertex numbers"),
+        (lambda t: primitive(t).update(mode=6), "export it as triangles"),
+        (lambda t: primitive(t).update(mode=1), "vertices, got none"),
+        (lambda t: t.update(meshes=[]), "vertices, got none"),
+        (lambda t: t.pop("bufferViews"), "complete glTF 2.0 file"),
+    ],
+)
+def test_bad_glb(tmp_path: Path, change: Any, part: str) -> None:
+    assert part in refused(tmp_path / "a.glb", rewritten(change))
+
+
+def test_glb_of_another_version_or_none_at_all(tmp_path: Path) -> None:
+    assert "version 1" in refused(tmp_path / "a.glb", GLB[:4] + b"\1" + GLB[5:])
+    assert "complete glTF" in refused(tmp_path / "a.glb", b"hello")
+    assert "complete glTF" in refused(tmp_path / "a.gltf", b"[]")
+    assert "only GLTF 2" in refused(tmp_path / "a.gltf", b'{"asset": {"version": "1.0"}}')
+    assert "as it says" in refused(tmp_path / "a.glb", GLB + b"x")
