@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import secrets
 import shutil
+import stat
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -22,13 +23,20 @@ def check_output(path: str | Path, force: bool = False) -> Path:
     InvalidInput
         When its folder is missing, it is a folder or device, or it exists and ``force`` is not given.
     """
-    final = Path(os.path.realpath(path))
-    if not final.parent.is_dir():
+    try:
+        final = Path(os.path.realpath(path))
+        kind = stat.S_IFMT(os.stat(final).st_mode)
+    except FileNotFoundError:
+        kind = None
+    except (OSError, ValueError) as error:  # ValueError: a NUL in the name
+        got = getattr(error, "strerror", None) or str(error)
+        raise refuse(f"output {path}", "a name that can be written", got, "choose another") from error
+    if kind is None and not final.parent.is_dir():
         raise refuse(f"output {path}", "an existing folder", f"no folder {final.parent}", "make it first")
-    if final.exists() and not final.is_file():
-        what = "a folder" if final.is_dir() else "a device or pipe"
-        raise refuse(f"output {path}", "the name of a file", what, "name a file to write")
-    if final.exists() and not force:
+    if kind not in (None, stat.S_IFREG):
+        got = "a folder" if kind == stat.S_IFDIR else "a device or pipe"
+        raise refuse(f"output {path}", "the name of a file", got, "name a file to write")
+    if kind is not None and not force:
         raise refuse(f"output {path}", "a new file", "an existing one", "give --force to replace it")
     return final
 
@@ -52,7 +60,7 @@ def atomic_output(path: str | Path, force: bool = False) -> Iterator[Path]:
         As :func:`check_output`, and when the folder cannot be written.
     """
     final = check_output(path, force)
-    temporary = final.with_name(f".{final.stem[:80]}.{secrets.token_hex(6)}{final.suffix}")
+    temporary = final.with_name(f".unfinished-{secrets.token_hex(6)}{final.suffix}")
     try:
         os.close(os.open(temporary, os.O_CREAT | os.O_EXCL | os.O_WRONLY, 0o666))
     except OSError as error:

@@ -1,0 +1,292 @@
+"""Map files: all formats, and everything that is no map."""
+
+from __future__ import annotations
+
+import io
+import pickle
+import struct
+import zipfile
+import zlib
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import scipy.io
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from kfmaps._arrays import InvalidInput
+from kfmaps.app.files import MapFile, check_map, load_map, save_map
+from kfmaps.app.files.matfile import read_mat
+
+
+def example(seed: int = 0, n_t: int = 50) -> MapFile:
+    rng = np.random.default_rng(seed)
+    return MapFile(
+        rng.integers(0, 40, n_t),
+        rng.normal(size=(6, 5)),
+        np.sort(rng.random(5)),
+        np.sort(rng.random(6)),
+        '{"kernel": "gaußian γ"}',
+        {
+            "source": "a/b ü.off",
+            "runners_up": rng.integers(0, 40, (1, n_t)),
+            "confidence": rng.random(n_t),
+            "landmarks": rng.integers(0, 40, (3, 2)),
+            "empty": "",
+        },
+    )
+
+
+def same(a: MapFile, b: MapFile) -> None:
+    for name in ("target_to_source", "functional_map", "eigenvalues_s", "eigenvalues_t"):
+        np.testing.assert_array_equal(getattr(a, name), getattr(b, name))
+    assert a.config == b.config
+    assert a.target_to_source.dtype == b.target_to_source.dtype == np.int64
+    assert {k for k, v in a.extra.items() if not (isinstance(v, str) and not v)} == set(b.extra)
+    for name, value in b.extra.items():
+        np.testing.assert_array_equal(a.extra[name], value)
+
+
+@pytest.mark.parametrize("suffix", [".npz", ".mat", ".NPZ"])
+def test_everything_comes_back(tmp_path: Path, suffix: str) -> None:
+    save_map(tmp_path / f"m{suffix}", example())
+    same(example(), load_map(tmp_path / f"m{suffix}"))
+    bare = MapFile(np.arange(3))
+    save_map(tmp_path / f"m{suffix}", bare, force=True)
+    found = load_map(tmp_path / f"m{suffix}")
+    np.testing.assert_array_equal(found.target_to_source, [0, 1, 2])
+    assert found.functional_map is None
+    assert (found.config, dict(found.extra)) == ("", {})
+
+
+@pytest.mark.parametrize(("suffix", "first"), [(".txt", 0), (".vts", 1)])
+def test_lists(tmp_path: Path, suffix: str, first: int) -> None:
+    save_map(tmp_path / f"m{suffix}", example())
+    lines = (tmp_path / f"m{suffix}").read_text().split("\n")
+    assert [int(x) - first for x in lines[:-1]] == example().target_to_source.tolist()
+    assert lines[-1] == ""
+    np.testing.assert_array_equal(load_map(tmp_path / f"m{suffix}").target_to_source, example().target_to_source)
+
+
+def test_npz_is_what_the_documentation_says(tmp_path: Path) -> None:
+    save_map(tmp_path / "m.npz", example())
+    with np.load(tmp_path / "m.npz", allow_pickle=False) as content:
+        np.testing.assert_array_equal(content["target_to_source"], example().target_to_source)
+        np.testing.assert_array_equal(content["functional_map"], example().functional_map)
+        assert str(content["config"]) == example().config
+
+
+def test_mat_counts_from_one_in_columns_of_doubles(tmp_path: Path) -> None:
+    save_map(tmp_path / "m.mat", example())
+    content = scipy.io.loadmat(tmp_path / "m.mat")
+    np.testing.assert_array_equal(content["target_to_source"], example().target_to_source[:, None] + 1)
+    np.testing.assert_array_equal(content["runners_up"], np.asarray(example().extra["runners_up"]) + 1)
+    np.testing.assert_array_equal(content["landmarks"], np.asarray(example().extra["landmarks"]) + 1)
+    np.testing.assert_array_equal(content["eigenvalues_s"][:, 0], example().eigenvalues_s)
+    assert content["target_to_source"].dtype == np.float64
+    assert content["config"][0] == example().config
+
+
+@pytest.mark.parametrize("suffix", [".npz", ".mat", ".txt", ".vts"])
+def test_existing_files_and_names(tmp_path: Path, suffix: str) -> None:
+    save_map(tmp_path / f"m{suffix}", example())
+    with pytest.raises(InvalidInput, match="--force"):
+        save_map(tmp_path / f"m{suffix}", example())
+    with pytest.raises(InvalidInput, match=r"one of \.npz \.txt \.vts \.mat"):
+        save_map(tmp_path / "m.pkl", example())
+    with pytest.raises(InvalidInput, match=r"one of \.npz"):
+        load_map(tmp_path / "m")
+
+
+def refused(path: Path, content: bytes) -> str:
+    path.write_bytes(content)
+    with pytest.raises(InvalidInput) as caught:
+        load_map(path)
+    assert path.name in str(caught.value)
+    assert "\n" not in str(caught.value)
+    return str(caught.value)
+
+
+@pytest.mark.parametrize("suffix", [".npz", ".mat"])
+def test_cut_or_damaged(tmp_path: Path, suffix: str) -> None:
+    save_map(tmp_path / f"m{suffix}", example())
+    content = (tmp_path / f"m{suffix}").read_bytes()
+    for cut in {*range(0, 300, 11), *range(300, len(content), 53), len(content) - 1}:
+        refused(tmp_path / f"x{suffix}", content[:cut])
+
+
+@given(st.data())
+@settings(max_examples=150, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+def test_a_few_other_bytes(tmp_path: Path, data: st.DataObject) -> None:
+    suffix = data.draw(st.sampled_from([".npz", ".mat", ".txt", ".vts"]))
+    save_map(tmp_path / f"m{suffix}", example(n_t=9), force=True)
+    content = bytearray((tmp_path / f"m{suffix}").read_bytes())
+    for _ in range(data.draw(st.integers(1, 3))):
+        at = data.draw(st.integers(0, len(content) - 1))
+        content[at : at + data.draw(st.integers(0, 4))] = data.draw(st.binary(max_size=4))
+    (tmp_path / f"x{suffix}").write_bytes(bytes(content))
+    try:
+        found = load_map(tmp_path / f"x{suffix}")
+    except InvalidInput:
+        return
+    assert found.target_to_source.min() >= 0
+
+
+def npz(**content: Any) -> bytes:
+    file = io.BytesIO()
+    np.savez(file, **content)
+    return file.getvalue()
+
+
+ONE = np.arange(4)
+
+
+class Trap:
+    """Touches a file when unpickled."""
+
+    touched = False
+
+    def __reduce__(self) -> tuple[Any, tuple[Any, ...]]:
+        return (setattr, (Trap, "touched", True))
+
+
+def test_pickles_are_never_opened(tmp_path: Path) -> None:
+    pickle.loads(pickle.dumps(Trap()))
+    assert Trap.touched, "the trap works"
+    Trap.touched = False
+    refused(tmp_path / "m.npz", npz(target_to_source=ONE, extra=np.array([Trap()], dtype=object)))
+    refused(tmp_path / "m.npz", pickle.dumps(Trap()))
+    assert not Trap.touched
+
+
+def lying_npz() -> bytes:
+    """A header that promises a terabyte."""
+    array = io.BytesIO()
+    np.lib.format.write_array_header_1_0(array, {"descr": "<i8", "fortran_order": False, "shape": (2**37,)})
+    file = io.BytesIO()
+    with zipfile.ZipFile(file, "w") as archive:
+        archive.writestr("target_to_source.npy", array.getvalue() + bytes(64))
+    return file.getvalue()
+
+
+@pytest.mark.parametrize(
+    ("content", "part"),
+    [
+        (npz(other=ONE), "wanted an array target_to_source, got other"),
+        (npz(target_to_source=ONE - 1), "source vertices from 0 on, got -1"),
+        (npz(target_to_source=ONE + 0.5), "got fractions"),
+        (npz(target_to_source=np.full(4, 1e300)), "source vertices from 0 on"),
+        (npz(target_to_source=np.full(4, np.nan)), "finite"),
+        (npz(target_to_source=ONE[:0]), "got none"),
+        (npz(target_to_source=ONE.reshape(2, 2)), "shape (any)"),
+        (npz(target_to_source=np.array(["a"])), "an array of numbers"),
+        (npz(target_to_source=ONE * 1j), "an array of numbers"),
+        (npz(target_to_source=ONE, functional_map=ONE), "functional_map: wanted shape"),
+        (npz(target_to_source=ONE, functional_map=np.full((2, 2), np.inf)), "functional_map: wanted finite"),
+        (npz(target_to_source=ONE, functional_map=np.eye(2), eigenvalues_s=ONE), "eigenvalues_s: wanted 2 numbers"),
+        (npz(target_to_source=ONE, functional_map=np.eye(2, 4), eigenvalues_t=ONE), "eigenvalues_t: wanted 2 numbers"),
+        (npz(target_to_source=ONE, config=ONE), "config: wanted text"),
+        (npz(target_to_source=ONE, **{"a b": ONE}), "names of letters"),
+        (npz(target_to_source=ONE, labels=np.array(["a", "b"])), "extra labels"),
+        (lying_npz(), "target_to_source.npy: wanted data for shape"),
+        (b"PK\3\4", "complete .npz file"),
+    ],
+)
+def test_what_is_no_map(tmp_path: Path, content: bytes, part: str) -> None:
+    assert part in refused(tmp_path / "m.npz", content)
+
+
+def test_names_that_cannot_be_kept() -> None:
+    for name in ("config", "file", "1a", "a" * 32, "_a", ""):
+        with pytest.raises(InvalidInput, match="names of letters"):
+            MapFile(ONE, extra={name: ONE})
+
+
+@pytest.mark.parametrize(
+    ("content", "part"), [("1 2\n", "line 1"), ("0\n1.5\n", "1.5"), ("-1\n", "from 0 on"), ("#\n", "no numbers")]
+)
+def test_text_that_is_no_map(tmp_path: Path, content: str, part: str) -> None:
+    assert part in refused(tmp_path / "m.txt", content.encode())
+
+
+def test_one_based_lists_do_not_hold_zero(tmp_path: Path) -> None:
+    assert "counted from 0" in refused(tmp_path / "m.vts", b"1\n0\n")
+
+
+def test_check_map() -> None:
+    np.testing.assert_array_equal(check_map([0, 2.0, 1], 3, 3), [0, 2, 1])
+    np.testing.assert_array_equal(check_map(MapFile(ONE), 4, 4), ONE)
+    with pytest.raises(InvalidInput, match="from 0 to 2, got 3"):
+        check_map(ONE, 3, 4)
+    with pytest.raises(InvalidInput, match=r"map: wanted shape \(5\), got shape \(4,\)"):
+        check_map(ONE, 4, 5)
+
+
+MATLAB = {
+    "double": np.array([[1.5, 2], [3, 4]]),
+    "single": np.array([[1.5, 2, 3]], dtype=np.float32),
+    "logical": np.array([[True, False]]),
+    "text": "héllo γ",
+    "empty": np.zeros((0, 3)),
+    **{f"x{np.dtype(t).name}": np.array([[1, 2], [3, 4]], dtype=t) for t in "bBhHiIlL"},
+}
+
+
+@pytest.mark.parametrize("compressed", [True, False])
+def test_mat_files_of_every_kind(compressed: bool) -> None:
+    """As SciPy reads them, which is right on files that are whole."""
+    file = io.BytesIO()
+    left_out = {"cells": np.array([[1, "a"]], dtype=object), "complex": np.array([1j])}
+    scipy.io.savemat(file, MATLAB | left_out, do_compression=compressed)
+    found = read_mat(file.getvalue(), "a.mat")
+    assert set(found) == set(MATLAB)
+    for name, value in MATLAB.items():
+        np.testing.assert_array_equal(found[name], value)
+    expected = scipy.io.loadmat(io.BytesIO(file.getvalue()))
+    for name, value in found.items():
+        assert isinstance(value, str) or value.shape == expected[name].shape
+
+
+def element(kind: int, body: bytes, order: str = "<") -> bytes:
+    return struct.pack(order + "II", kind, len(body)) + body + bytes(-len(body) % 8)
+
+
+def matrix(order: str = "<", shape: tuple[int, ...] = (1, 2), kind: int = 9, body: bytes | None = None) -> bytes:
+    parts = element(6, struct.pack(order + "II", 6, 0), order)
+    parts += element(5, struct.pack(f"{order}{len(shape)}i", *shape), order) + element(1, b"target_to_source", order)
+    return element(14, parts + element(kind, struct.pack(order + "2d", 3, 1) if body is None else body, order), order)
+
+
+HEAD = bytes(124) + b"\0\1"
+
+
+def test_mat_of_a_machine_with_the_other_byte_order(tmp_path: Path) -> None:
+    (tmp_path / "m.mat").write_bytes(HEAD[:-2] + b"\1\0MI" + matrix(">"))
+    np.testing.assert_array_equal(load_map(tmp_path / "m.mat").target_to_source, [2, 0])
+
+
+@pytest.mark.parametrize(
+    ("content", "part"),
+    [
+        (b"MATLAB 7.3 MAT-file" + bytes(200), "-v7"),
+        (b"\x89HDF\r\n", "-v7"),
+        (b"hello", "check the extension"),
+        (HEAD + b"IM", "target_to_source"),
+        (HEAD + b"IM" + bytes(4), "cut short or damaged"),
+        (HEAD + b"IM" + element(9, bytes(8)), "cut short or damaged"),
+        (HEAD + b"IM" + element(15, b"hello"), "cut short or damaged"),
+        (HEAD + b"IM" + element(15, zlib.compress(matrix())[:-6]), "cut short or damaged"),
+        (HEAD + b"IM" + element(14, b""), "cut short or damaged"),
+        (HEAD + b"IM" + matrix(shape=(1, 3)), "cut short or damaged"),
+        (HEAD + b"IM" + matrix(shape=(-1, -2)), "cut short or damaged"),
+        (HEAD + b"IM" + matrix(shape=(2**30, 2**30)), "cut short or damaged"),
+        (HEAD + b"IM" + matrix(shape=(2,)), "cut short or damaged"),
+        (HEAD + b"IM" + matrix(kind=99), "cut short or damaged"),
+        (HEAD + b"IM" + matrix(body=struct.pack("<2d", 0, 1)), "source vertices from 0 on, got -1"),
+        (HEAD + b"IM" + matrix(shape=(1, 16), kind=2, body=bytes(16)), "source vertices from 0 on, got -1"),
+    ],
+)
+def test_bad_mat(tmp_path: Path, content: bytes, part: str) -> None:
+    assert part in refused(tmp_path / "m.mat", content)
