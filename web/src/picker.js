@@ -51,7 +51,10 @@ export function startPicker(data) {
       return { scale: "error", low: "0", high: "0.5", text: "how far matches moved since the run before, in √area" };
     },
   };
-  const show = () => legend.show(shows[link() ? state.mode : "plain"]());
+  const show = () => {
+    legend.show(shows[link() ? state.mode : "plain"]());
+    stage.draw();
+  };
 
   const instruction = () => {
     const next = pairs.list.length + 1;
