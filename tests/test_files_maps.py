@@ -198,6 +198,14 @@ def test_what_is_no_map(tmp_path: Path, content: bytes, part: str) -> None:
     assert part in refused(tmp_path / "m.npz", content)
 
 
+@pytest.mark.parametrize("n_s", ["4", np.zeros(2), np.nan, 0, True])
+def test_a_source_size_that_is_none(n_s: object) -> None:
+    assert MapFile(ONE, extra={"n_s": np.array([40.0])}).n_s == 40
+    assert MapFile(ONE).n_s is None
+    with pytest.raises(InvalidInput, match="one whole number above 0"):
+        MapFile(ONE, extra={"n_s": n_s})  # pyright: ignore[reportArgumentType]
+
+
 def test_names_that_cannot_be_kept() -> None:
     for name in ("config", "file", "1a", "a" * 32, "_a", ""):
         with pytest.raises(InvalidInput, match="names of letters"):

@@ -11,6 +11,7 @@ from kfmaps._arrays import refuse
 from kfmaps.app.files import (
     MapFile,
     MeshFile,
+    Values,
     check_map,
     check_output,
     load_map,
@@ -18,14 +19,16 @@ from kfmaps.app.files import (
     save_map,
     write_colored,
     write_textured,
+    write_values,
 )
 
 SHAPES = (".obj", ".ply", ".off")
 MAPS = (".txt", ".vts", ".mat", ".npz")
+MATRICES = (".txt", ".csv", ".npy")
 
 
 def export(
-    map: Annotated[Path, typer.Argument(help="A map (.npz, .txt, .vts, .mat).", show_default=False)],
+    map: Annotated[Path, typer.Argument(help="A map (.npz, .txt, .vts, .mat).", metavar="MAP", show_default=False)],
     output: Annotated[
         Path,
         typer.Option(
@@ -40,19 +43,27 @@ def export(
     picture: Annotated[
         Path | None, typer.Option(help="The source's texture (PNG, JPEG); default: a grid.", show_default=False)
     ] = None,
+    functional: Annotated[
+        bool, typer.Option("--functional", help="Write the functional map C alone (.txt, .csv, .npy).")
+    ] = False,
     force: Annotated[bool, typer.Option("--force", help="Replace existing files.")] = False,
 ) -> None:
     """Write the target with the source's texture or colours, or the map in another format."""
     suffix = output.suffix.lower()
-    if suffix not in SHAPES + MAPS:
+    formats = MATRICES if functional else SHAPES + MAPS
+    if suffix not in formats:
         got = suffix or "no extension"
-        raise refuse(f"output {output}", f"one of {' '.join(SHAPES + MAPS)}", got, "choose one of these")
+        raise refuse(f"output {output}", f"one of {' '.join(formats)}", got, "choose one of these")
     check_output(output, force)
     found = load_map(map)
     shape_s = None if source is None else read_mesh_file(source)
     shape_t = None if target is None else read_mesh_file(target)
     _check(found, shape_s, shape_t)
-    if suffix in MAPS:
+    if functional:
+        if found.functional_map is None:
+            raise refuse(str(map), "a functional map", "a point map alone", "give the .npz file of a match")
+        write_values(output, Values(found.functional_map), force)
+    elif suffix in MAPS:
         save_map(output, found, force)
     elif shape_s is None or shape_t is None:
         raise refuse("export", "--source and --target for a shape", "not both", "name the two meshes")

@@ -12,10 +12,10 @@ from kfmaps.app.files import transfer as carried
 
 
 def transfer(
-    map: Annotated[Path, typer.Argument(help="A map (.npz, .txt, .vts, .mat).", show_default=False)],
+    map: Annotated[Path, typer.Argument(help="A map (.npz, .txt, .vts, .mat).", metavar="MAP", show_default=False)],
     values: Annotated[
         Path,
-        typer.Argument(help="A row for each source vertex (.npy, .csv, .txt).", show_default=False),
+        typer.Argument(help="A row for each source vertex (.npy, .csv, .txt).", metavar="VALUES", show_default=False),
     ],
     output: Annotated[
         Path,

@@ -23,6 +23,7 @@ def check_output(path: str | Path, force: bool = False) -> Path:
     InvalidInput
         When its folder is missing, it is a folder or device, or it exists and ``force`` is not given.
     """
+    final = Path(path)
     try:
         final = Path(os.path.realpath(path))
         kind = stat.S_IFMT(os.stat(final).st_mode)

@@ -44,8 +44,8 @@ class MapFile:
         The settings as JSON text; empty when unknown.
     extra : dict
         Further arrays of numbers and texts by name. Names that are in use: ``runners_up`` (c, n_t) int64,
-        ``confidence`` (n_t,) float64, ``landmarks`` (l, 2) int64, ``source``, ``target`` (paths) and
-        ``summary`` (JSON text).
+        ``confidence`` (n_t,) float64, ``landmarks`` (l, 2) int64, ``n_s`` (how many vertices the source
+        has), ``source``, ``target`` (paths) and ``summary`` (JSON text).
     """
 
     target_to_source: np.ndarray
@@ -75,6 +75,17 @@ class MapFile:
                 raise refuse("extra", wanted, repr(name), "rename it")
             if not isinstance(value, str):
                 _real(value, f"extra {name}")
+        self.n_s  # noqa: B018 - complains now rather than later
+
+    @property
+    def n_s(self) -> int | None:
+        """How many vertices the source has, when ``extra`` says so."""
+        value = np.asarray(self.extra.get("n_s", 0))
+        if "n_s" not in self.extra:
+            return None
+        if value.size != 1 or value.dtype.kind not in "iuf" or not 0 < value.item() < 2**53:
+            raise refuse("extra n_s", "one whole number above 0", repr(self.extra["n_s"]), REPAIR)
+        return int(value.item())
 
 
 def _real(value: Any, name: str) -> np.ndarray:

@@ -13,7 +13,7 @@ import numpy as np
 
 from kfmaps._arrays import InvalidInput, refuse
 from kfmaps.app.files.atomic import atomic_output, check_output
-from kfmaps.app.files.mapfile import check_map, check_npy
+from kfmaps.app.files.mapfile import MapFile, check_map, check_npy
 from kfmaps.app.files.text import REPAIR, read_bytes
 
 FORMATS = (".npy", ".csv", ".txt")
@@ -55,11 +55,16 @@ def transfer(values_s: Any, target_to_source: Any) -> np.ndarray:
     Raises
     ------
     InvalidInput
-        When the map names a vertex that has no value.
+        When the map names a vertex that has no value, or says of itself that the source has another
+        number of vertices.
     """
     values = np.asarray(values_s)
     if values.ndim == 0:
         raise refuse("values", "a row for each source vertex", "a single value", "give an array")
+    n_s = target_to_source.n_s if isinstance(target_to_source, MapFile) else None
+    if n_s not in (None, len(values)):
+        wanted = f"{n_s} rows, one per source vertex"
+        raise refuse("values", wanted, str(len(values)), "check that they are the source's")
     return values[check_map(target_to_source, n_s=len(values))]
 
 

@@ -1,0 +1,150 @@
+"""``kfmaps info``, ``transfer`` and ``export``."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+import typer
+from typer.testing import CliRunner, Result
+
+from conftest import blob, fibonacci_sphere
+from kfmaps._arrays import InvalidInput
+from kfmaps.app.commands.export import export
+from kfmaps.app.commands.info import info
+from kfmaps.app.commands.transfer import transfer
+from kfmaps.app.files import MapFile, load_map, read_mesh_file, read_values, save_map, write_mesh
+from kfmaps.mesh import Mesh, surface_area
+
+APP = typer.Typer()
+for command in (info, transfer, export):
+    APP.command()(command)
+
+POINTS = np.random.default_rng(0).integers(0, 80, 40)
+
+
+def run(*words: object) -> Result:
+    return CliRunner().invoke(APP, [str(w) for w in words], terminal_width=200)
+
+
+def complaint(*words: object) -> str:
+    result = run(*words)
+    assert isinstance(result.exception, InvalidInput), result.output
+    return str(result.exception)
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    write_mesh(tmp_path / "a.off", blob(80))
+    write_mesh(tmp_path / "b.off", fibonacci_sphere(40))
+    save_map(tmp_path / "m.npz", MapFile(POINTS, np.eye(3)))
+    return tmp_path
+
+
+def test_info_for_machines(folder: Path) -> None:
+    facts = json.loads(run("info", folder / "a.off", "--json").stdout)
+    assert (facts["vertices"], facts["faces"]) == (80, 156)
+    assert facts["area"] == pytest.approx(surface_area(blob(80)))
+    assert facts["topology"]["components"] == 1
+    assert facts["topology"]["genus"] == 0
+    assert facts["topology"]["closed"]
+    np.testing.assert_allclose(facts["extent"], np.ptp(blob(80).vertices, axis=0))
+
+
+def test_info_for_people(folder: Path) -> None:
+    """Defects are in the table, not warned about; names are shown as they are."""
+    mesh = blob(80)
+    torn = Mesh(np.vstack([mesh.vertices, mesh.vertices[:1]]), mesh.faces[1:])
+    path = folder / "[bold]x.ply"
+    write_mesh(path, torn, colors=np.zeros((81, 3)))
+    result = run("info", path)
+    assert result.exit_code == 0
+    for part in (
+        "81",
+        "155",
+        "3 boundary edges",
+        "1 unreferenced vertices",
+        "1 duplicated vertices",
+        "colors",
+        "genus",
+    ):
+        assert part in result.stdout
+    assert "[bold]x.ply" in "".join(result.stdout.split())
+
+
+def test_info_of_a_cloud_and_of_a_tangle(folder: Path) -> None:
+    np.savetxt(folder / "c.xyz", blob(30).vertices)
+    assert "point cloud" in run("info", folder / "c.xyz").stdout
+    facts = json.loads(run("info", folder / "c.xyz", "--json").stdout)
+    assert facts["topology"] is None
+    assert facts["area"] is None
+    tangle = Mesh(np.random.default_rng(0).normal(size=(5, 3)), np.array([[0, 1, 2], [1, 0, 3], [0, 1, 4]]))
+    write_mesh(folder / "d.obj", tangle)
+    assert "not defined" in run("info", folder / "d.obj").stdout
+    assert "nothing there" in complaint("info", folder / "none.off")
+
+
+@pytest.mark.parametrize("map_format", [".npz", ".txt", ".vts", ".mat"])
+def test_transfer(folder: Path, map_format: str) -> None:
+    values = np.random.default_rng(1).random((80, 2))
+    np.savetxt(folder / "v.csv", values, fmt="%.17g", delimiter=",", header="x,y", comments="")
+    save_map(folder / f"n{map_format}", load_map(folder / "m.npz"))
+    assert run("transfer", folder / f"n{map_format}", folder / "v.csv", "-o", folder / "w.csv").exit_code == 0
+    found = read_values(folder / "w.csv")
+    assert found.columns == ("x", "y")
+    np.testing.assert_array_equal(found.array, values[POINTS])
+    assert "--force" in complaint("transfer", folder / "m.npz", folder / "v.csv", "-o", folder / "w.csv")
+    assert run("transfer", folder / "m.npz", folder / "v.csv", "-o", folder / "w.csv", "--force").exit_code == 0
+
+
+def test_transfer_of_too_few_values(folder: Path) -> None:
+    np.savetxt(folder / "v.txt", np.zeros(10))
+    assert "source vertices from 0 to 9" in complaint(
+        "transfer", folder / "m.npz", folder / "v.txt", "-o", folder / "w.npy"
+    )
+    assert not (folder / "w.npy").exists()
+
+
+@pytest.mark.parametrize("suffix", [".txt", ".vts", ".mat", ".npz"])
+def test_export_as_a_map(folder: Path, suffix: str) -> None:
+    assert run("export", folder / "m.npz", "-o", folder / f"o{suffix}").exit_code == 0
+    np.testing.assert_array_equal(load_map(folder / f"o{suffix}").target_to_source, POINTS)
+
+
+@pytest.mark.parametrize("suffix", [".txt", ".csv", ".npy"])
+def test_export_the_functional_map(folder: Path, suffix: str) -> None:
+    carrier = np.random.default_rng(3).normal(size=(4, 3))
+    save_map(folder / "c.npz", MapFile(POINTS, carrier))
+    assert run("export", folder / "c.npz", "--functional", "-o", folder / f"o{suffix}").exit_code == 0
+    np.testing.assert_array_equal(read_values(folder / f"o{suffix}").array, carrier)
+    save_map(folder / "p.txt", MapFile(POINTS))
+    assert "a point map alone" in complaint("export", folder / "p.txt", "--functional", "-o", folder / f"q{suffix}")
+    assert "one of .txt .csv .npy" in complaint("export", folder / "c.npz", "--functional", "-o", folder / "q.vts")
+
+
+@pytest.mark.parametrize("suffix", [".obj", ".ply", ".off"])
+def test_export_as_a_shape(folder: Path, suffix: str) -> None:
+    names = ("--source", folder / "a.off", "--target", folder / "b.off")
+    assert run("export", folder / "m.npz", *names, "-o", folder / f"o{suffix}").exit_code == 0
+    found = read_mesh_file(folder / f"o{suffix}")
+    np.testing.assert_array_equal(found.mesh.vertices, fibonacci_sphere(40).vertices)
+    assert (found.uv is None) == (suffix != ".obj")
+    assert (found.colors is None) == (suffix == ".obj")
+    assert "--force" in complaint("export", folder / "m.npz", *names, "-o", folder / f"o{suffix}")
+
+
+def test_exports_that_do_not_fit(folder: Path) -> None:
+    before = sorted(folder.iterdir())
+    source, target = ("--source", folder / "a.off"), ("--target", folder / "b.off")
+    swapped = ("--source", folder / "b.off", "--target", folder / "a.off")
+    for more, name, part in (
+        (source + target, "o.stl", "one of .obj .ply"),
+        (source, "o.obj", "--source and --target"),
+        (swapped, "o.txt", "check that the map belongs"),
+        (swapped, "o.ply", "check that the map belongs"),
+        ((), "none/o.txt", "existing folder"),
+    ):
+        assert part in complaint("export", folder / "m.npz", *more, "-o", folder / name)
+    assert sorted(folder.iterdir()) == before

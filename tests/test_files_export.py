@@ -1,0 +1,205 @@
+"""Textures and colours carried over a map."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from matplotlib.image import imread, imsave
+
+from conftest import blob, fibonacci_sphere
+from kfmaps._arrays import InvalidInput
+from kfmaps.app.files import (
+    MeshFile,
+    grid_picture,
+    position_colors,
+    projected_uv,
+    read_mesh_file,
+    write_colored,
+    write_textured,
+)
+from kfmaps.app.files.export import carried_uv_faces
+from kfmaps.mesh import Mesh
+
+
+def globe(n: int = 120) -> MeshFile:
+    """A sphere with longitude and latitude as texture coordinates, so with a seam at the back."""
+    mesh = fibonacci_sphere(n)
+    x, y, z = mesh.vertices.T
+    u, v = np.arctan2(y, x) / (2 * np.pi) + 0.5, (z + 1) / 2
+    corner = u[mesh.faces]
+    across = np.ptp(corner, axis=1) > 0.5
+    shifted = across[:, None] & (corner < 0.5)
+    uv = np.vstack([np.stack([u, v], axis=1), np.stack([u + 1, v], axis=1)])
+    return MeshFile(mesh, None, uv, mesh.faces + n * shifted)
+
+
+def spread(uv: np.ndarray, faces: np.ndarray) -> np.ndarray:
+    return np.ptp(uv[faces], axis=1)
+
+
+def sizes(uv: np.ndarray, faces: np.ndarray) -> np.ndarray:
+    """Sum of the squared sides of each face in the picture."""
+    return ((uv[faces] - uv[np.roll(faces, 1, axis=1)]) ** 2).sum(axis=(1, 2))
+
+
+def test_the_identity_gives_back_the_texture() -> None:
+    source = globe()
+    assert source.uv is not None
+    assert source.uv_faces is not None
+    assert (sizes(source.uv, source.mesh.faces) > sizes(source.uv, source.uv_faces) + 0.5).any(), "there is a seam"
+    carried = carried_uv_faces(source, source.mesh, np.arange(len(source.mesh.vertices)))
+    assert (sizes(source.uv, carried) <= sizes(source.uv, source.uv_faces) + 1e-12).all()
+    # which copy of the picture does not matter: each corner is its vertex's own
+    moved = source.uv[carried] - source.uv[source.mesh.faces]
+    np.testing.assert_allclose(moved, np.rint(moved), atol=1e-12)
+
+
+def test_another_triangulation_has_no_stretched_faces_either() -> None:
+    source, target = globe(), fibonacci_sphere(300, twist=1.0)
+    assert source.uv is not None
+    points = ((target.vertices[:, None] - source.mesh.vertices) ** 2).sum(axis=-1).argmin(axis=1)
+    carried = carried_uv_faces(source, target, points)
+    away = np.abs(target.vertices[target.faces][..., 2]).max(axis=1) < 0.8  # near the poles longitude is wild
+    plain = spread(source.uv, points[target.faces])[away, 0]
+    assert plain.max() > 0.5
+    assert spread(source.uv, carried)[away, 0].max() < 0.5
+
+
+def test_the_best_of_all_combinations_is_taken() -> None:
+    rng = np.random.default_rng(0)
+    mesh = fibonacci_sphere(30)
+    uv, uv_faces = rng.random((90, 2)), mesh.faces + 30 * rng.integers(0, 3, mesh.faces.shape)
+    carried = carried_uv_faces(MeshFile(mesh, None, uv, uv_faces), mesh, np.arange(30))
+    options = [np.unique(uv_faces[mesh.faces == v]) for v in range(30)]
+    for face, chosen in zip(mesh.faces, carried, strict=True):
+
+        def perimeter(a: int, b: int, c: int) -> float:
+            return float(((uv[[a, b, c]] - uv[[b, c, a]]) ** 2).sum())
+
+        best = min(perimeter(a, b, c) for a in options[face[0]] for b in options[face[1]] for c in options[face[2]])
+        assert perimeter(*chosen) == pytest.approx(best)
+        assert all(corner in options[v] for v, corner in zip(face, chosen, strict=True))
+
+
+def test_vertices_without_texture_borrow_from_the_nearest() -> None:
+    source = globe(60)
+    assert source.uv is not None
+    lonely = source.mesh.vertices[7] * 1.01
+    extended = MeshFile(
+        Mesh(np.vstack([source.mesh.vertices, lonely]), source.mesh.faces), None, source.uv, source.uv_faces
+    )
+    target = fibonacci_sphere(20)
+    carried = carried_uv_faces(extended, target, np.full(20, 60))
+    np.testing.assert_allclose(
+        source.uv[carried] % 1, np.broadcast_to(source.uv[7] % 1, (*carried.shape, 2)), atol=1e-12
+    )
+
+
+def test_textured_files(tmp_path: Path) -> None:
+    source, target = globe(), blob(80)
+    points = np.random.default_rng(0).integers(0, 120, 80)
+    written = write_textured(tmp_path / "out.obj", source, target, points)
+    assert sorted(tmp_path.iterdir()) == sorted(written)
+    found = read_mesh_file(tmp_path / "out.obj")
+    np.testing.assert_array_equal(found.mesh.vertices, target.vertices)
+    np.testing.assert_array_equal(found.mesh.faces, target.faces)
+    assert found.uv is not None
+    assert found.uv_faces is not None
+    assert source.uv is not None
+    np.testing.assert_array_equal(found.uv, source.uv)
+    assert "map_Kd out.png" in (tmp_path / "out.mtl").read_text()
+    assert (tmp_path / "out.obj").read_text().startswith("mtllib out.mtl\n")
+    assert imread(tmp_path / "out.png").shape[:2] == (1024, 1024)
+
+
+def test_a_source_without_texture_is_projected(tmp_path: Path) -> None:
+    source = blob(80)
+    points = np.random.default_rng(0).integers(0, 80, 80)
+    write_textured(tmp_path / "out.obj", MeshFile(source), source, points)
+    found = read_mesh_file(tmp_path / "out.obj")
+    assert found.uv is not None
+    assert found.uv_faces is not None
+    np.testing.assert_array_equal(found.uv[found.uv_faces], projected_uv(source.vertices)[points[source.faces]])
+
+
+def test_a_picture_of_ones_own(tmp_path: Path) -> None:
+    imsave(tmp_path / "skin.jpg", np.zeros((4, 4, 3)))
+    source = globe()
+    written = write_textured(tmp_path / "out.obj", source, source.mesh, np.arange(120), picture=tmp_path / "skin.jpg")
+    assert (tmp_path / "out.jpg").read_bytes() == (tmp_path / "skin.jpg").read_bytes()
+    assert written[2] == tmp_path / "out.jpg"
+    assert "map_Kd out.jpg" in (tmp_path / "out.mtl").read_text()
+
+
+@pytest.mark.parametrize("existing", ["out.obj", "out.mtl", "out.png"])
+def test_all_files_or_none(tmp_path: Path, existing: str) -> None:
+    (tmp_path / existing).write_text("old")
+    source = globe()
+    with pytest.raises(InvalidInput, match="--force"):
+        write_textured(tmp_path / "out.obj", source, source.mesh, np.arange(120))
+    assert [p.read_text() for p in tmp_path.iterdir()] == ["old"]
+    write_textured(tmp_path / "out.obj", source, source.mesh, np.arange(120), force=True)
+    assert len(list(tmp_path.iterdir())) == 3
+
+
+@pytest.mark.parametrize(
+    ("name", "points", "target", "picture", "part"),
+    [
+        ("out.ply", np.arange(120), globe().mesh, None, "extension .obj"),
+        ("a\nb.obj", np.arange(120), globe().mesh, None, "printable name"),
+        ("out.obj", np.arange(119), globe().mesh, None, "shape"),
+        ("out.obj", np.arange(120) + 1, globe().mesh, None, "from 0 to 119"),
+        ("out.obj", np.arange(120), Mesh(globe().mesh.vertices, np.zeros((0, 3), dtype=int)), None, "point cloud"),
+        ("out.obj", np.arange(120), globe().mesh, "none.png", "picture"),
+    ],
+)
+def test_bad_exports(
+    tmp_path: Path, name: str, points: np.ndarray, target: Mesh, picture: str | None, part: str
+) -> None:
+    own = None if picture is None else tmp_path / picture
+    with pytest.raises(InvalidInput, match=part):
+        write_textured(tmp_path / name, globe(), target, points, picture=own)
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize("suffix", [".ply", ".off", ".obj"])
+@pytest.mark.parametrize("own", [True, False])
+def test_colored_files(tmp_path: Path, suffix: str, own: bool) -> None:
+    source, target = blob(80), fibonacci_sphere(40)
+    colors = np.random.default_rng(1).random((80, 3))
+    points = np.random.default_rng(0).integers(0, 80, 40)
+    write_colored(tmp_path / f"a{suffix}", MeshFile(source, colors if own else None), target, points)
+    found = read_mesh_file(tmp_path / f"a{suffix}").colors
+    assert found is not None
+    expected = (colors if own else position_colors(source.vertices))[points]
+    np.testing.assert_allclose(found, expected, atol=0.51 / 255)
+
+
+def test_position_colors_and_projection_are_smooth_and_in_range() -> None:
+    places = blob(200).vertices
+    colors, uv = position_colors(places), projected_uv(places)
+    assert colors.min() >= 0.1 - 1e-12
+    assert colors.max() <= 0.9 + 1e-12
+    np.testing.assert_allclose(np.ptp(colors, axis=0), 0.8)
+    assert uv.min() >= -1e-12
+    assert uv.max() <= 1 + 1e-12
+    np.testing.assert_allclose(np.ptp(uv[:, 1]), 1)
+    long_side = np.argsort(np.ptp(places, axis=0))[[1, 2]]
+    # lengths are alike in both directions
+    np.testing.assert_allclose(np.ptp(uv, axis=0) * np.ptp(places, axis=0).max(), np.ptp(places, axis=0)[long_side])
+    flat = np.zeros((3, 3))
+    assert np.isfinite(position_colors(flat)).all()
+    assert np.isfinite(projected_uv(flat)).all()
+
+
+def test_the_grid_tells_where_one_is() -> None:
+    picture = grid_picture(240, 12).astype(int)
+    assert picture.shape == (240, 240, 3)
+    centres = picture[10::20, 10::20]
+    assert (centres[:, 1:].sum(axis=-1) != centres[:, :-1].sum(axis=-1)).all(), "neighbours differ"
+    light = centres[::2, ::2] if centres[0, 0].sum() > centres[0, 1].sum() else centres[::2, 1::2]
+    assert (np.diff(light[..., 0], axis=1) > 0).all(), "red grows to the right"
+    assert (np.diff(light[..., 1], axis=0) < 0).all(), "green grows upwards"
+    assert (picture[10, ::20].sum(axis=-1) < picture[10, 10::20].sum(axis=-1)).all(), "lines are darker"
