@@ -1,0 +1,79 @@
+"""Prepared shapes on disk, found again by the content of the mesh and by the settings that matter."""
+
+from __future__ import annotations
+
+import hashlib
+from pathlib import Path
+
+import numpy as np
+
+import kfmaps
+from kfmaps.app.batch.settings import digest_of
+from kfmaps.app.files import atomic_output
+from kfmaps.config import Config
+from kfmaps.mesh import Mesh
+from kfmaps.shape import Shape
+from kfmaps.spectrum import Basis
+
+LAYOUT = 1
+"""Raised when what an entry holds changes."""
+
+
+def file_digest(path: str | Path) -> str:
+    """32 hexadecimal digits that stand for the content of a file."""
+    with open(path, "rb") as file:
+        return hashlib.file_digest(file, "sha256").hexdigest()[:32]
+
+
+def shape_key(content: str, suffix: str, config: Config) -> str:
+    """The name of an entry: ``content`` (digest of the mesh's file) with all settings that preparing depends on.
+
+    ``suffix`` is the file's extension, which decides how its content is read.
+    """
+    return digest_of(
+        {
+            "layout": LAYOUT,
+            "version": kfmaps.__version__,
+            "content": content,
+            "suffix": suffix.lower(),
+            "laplacian": config.basis.laplacian,
+            "eigenfunctions": config.eigenfunctions,
+            "shot": config.descriptors.shot_radius if config.descriptors.shot else None,
+        },
+        digits=32,
+    )
+
+
+def save_shape(path: Path, shape: Shape) -> None:
+    """Write a prepared shape, whole or not at all; an entry that is there is replaced by its equal."""
+    arrays = {
+        "vertices": shape.mesh.vertices,
+        "faces": shape.mesh.faces,
+        "eigenvalues": shape.basis.eigenvalues,
+        "functions": shape.basis.functions,
+        "mass": shape.basis.mass,
+        "stages": np.array(list(shape.seconds)),
+        "seconds": np.array(list(shape.seconds.values()), dtype=np.float64),
+    }
+    if shape.shot is not None:
+        arrays["shot"] = shape.shot
+    with atomic_output(path, force=True) as temporary, open(temporary, "wb") as file:
+        np.savez(file, allow_pickle=False, **arrays)
+
+
+def load_shape(path: Path, name: str) -> Shape | None:
+    """Read a prepared shape; ``None`` when there is none or the entry is damaged, so that it is made again."""
+    try:
+        with np.load(path, allow_pickle=False) as arrays:
+            seconds = dict(zip(arrays["stages"].tolist(), arrays["seconds"].tolist(), strict=True))
+            return Shape(
+                Mesh(arrays["vertices"], arrays["faces"]),
+                Basis(arrays["eigenvalues"], arrays["functions"], arrays["mass"]),
+                arrays["shot"] if "shot" in arrays.files else None,
+                name,
+                seconds,
+            )
+    except FileNotFoundError:
+        return None
+    except Exception:  # NumPy reports a damaged file by whatever it runs into
+        return None

@@ -1,0 +1,139 @@
+"""A whole collection by one call: find, plan, match, and write what came of it."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+
+from kfmaps._arrays import MissingDependency, refuse
+from kfmaps.app.batch.cluster import local_workers, running_workers
+from kfmaps.app.batch.gallery import worst_pictures
+from kfmaps.app.batch.page import summary_page
+from kfmaps.app.batch.plan import Plan
+from kfmaps.app.batch.results import Result, all_results, write_csv, write_parquet
+from kfmaps.app.batch.run import Tell, run_plan
+from kfmaps.app.batch.settings import read_settings
+from kfmaps.app.files import atomic_output
+
+TABLE, COLUMNS, PAGE = "results.csv", "results.parquet", "summary.html"
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What came of a run.
+
+    Attributes
+    ----------
+    results : tuple of Result
+        Of every pair that was asked for and has one, by source and target.
+    matched : int
+        Pairs that this run worked on.
+    interrupted : bool
+        Whether it was stopped by the user; the same call goes on.
+    files : tuple of Path
+        Tables and summary.
+    """
+
+    results: tuple[Result, ...]
+    matched: int
+    interrupted: bool
+    files: tuple[Path, ...]
+
+
+def match_collection(
+    plan: Plan,
+    *,
+    workers: int | None = None,
+    scheduler: str | None = None,
+    name: str = "collection",
+    worst: int = 6,
+    tell: Tell | None = None,
+) -> Outcome:
+    """Do what the plan leaves to do, then write the tables and the summary.
+
+    Parameters
+    ----------
+    plan : Plan
+        From :func:`~kfmaps.app.batch.plan.make_plan`.
+    workers : int, optional
+        Worker processes on this machine; by default one for each core.
+    scheduler : str, optional
+        The address of a running Dask scheduler, to use its workers instead.
+    name : str
+        The summary's title.
+    worst : int
+        How many of the worst pairs the summary shows as pictures.
+    tell : callable, optional
+        See :func:`~kfmaps.app.batch.run.run_plan`.
+
+    Raises
+    ------
+    MissingDependency
+        When Dask is not installed and there is something to do.
+    InvalidInput
+        When another run is using the output folder, or the workers cannot be used.
+    """
+    matched, interrupted = 0, False
+    with _only_one(plan.folder):
+        if plan.todo:
+            connection = running_workers(scheduler) if scheduler else local_workers(workers)
+            count = 0
+
+            def counted(standing, result) -> None:
+                nonlocal count
+                count += result is not None
+                if tell is not None:
+                    tell(standing, result)
+
+            try:
+                with connection as connected:
+                    run_plan(plan, connected, counted)
+            except KeyboardInterrupt:
+                interrupted = True
+            matched = count
+        asked = {(task.pair.source, task.pair.target) for task in plan.tasks}
+        everything = all_results(plan.folder, plan.settings.digest)
+        files = write_outputs(plan, everything, name, 0 if interrupted else worst)
+    results = tuple(r for r in everything if (r.source, r.target) in asked)
+    return Outcome(results, matched, interrupted, files)
+
+
+def write_outputs(plan: Plan, results: list[Result], name: str, worst: int) -> tuple[Path, ...]:
+    """Write the tables and the summary anew from the ``results``; their paths."""
+    files = [plan.folder / TABLE]
+    write_csv(files[0], results)
+    try:
+        write_parquet(plan.folder / COLUMNS, results)
+        files.append(plan.folder / COLUMNS)
+    except MissingDependency:
+        (plan.folder / COLUMNS).unlink(missing_ok=True)  # one of an earlier run would be out of date
+    pictures = worst_pictures(plan.tasks, results, worst)
+    pairs = len({(r.source, r.target) for r in results} | {(t.pair.source, t.pair.target) for t in plan.tasks})
+    page = summary_page(name, results, read_settings(plan.folder), pictures, pairs)
+    with atomic_output(plan.folder / PAGE, force=True) as temporary:
+        temporary.write_text(page, encoding="utf-8")
+    return (*files, plan.folder / PAGE)
+
+
+@contextmanager
+def _only_one(folder: Path) -> Iterator[None]:
+    """Hold the output folder for this run; the system lets go of it however the run ends."""
+    try:
+        import fcntl
+    except ImportError:  # Windows: two runs at once do some pairs twice, and record each once
+        yield
+        return
+    handle = os.open(folder / ".lock", os.O_RDWR | os.O_CREAT, 0o644)
+    try:
+        fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError as error:
+        raise refuse(f"output {folder}", "a folder of its own", "one in use by another run", "wait for it") from error
+    except OSError:
+        pass  # a file system without locks
+    try:
+        yield
+    finally:
+        os.close(handle)

@@ -1,0 +1,69 @@
+"""Pictures of single pairs of a collection."""
+
+from __future__ import annotations
+
+import io
+import warnings
+from collections.abc import Sequence
+from pathlib import Path
+
+from kfmaps._arrays import InvalidInput, KfmapsWarning
+from kfmaps._threads import one_blas_thread
+from kfmaps.app.batch.layout import Pair
+from kfmaps.app.batch.results import Result
+from kfmaps.app.batch.summary import worst_first
+from kfmaps.app.batch.tasks import PairTask
+from kfmaps.app.batch.truth import true_vertices
+from kfmaps.app.batch.work import map_path
+from kfmaps.app.files import check_map, load_map, read_mesh
+from kfmaps.app.pictures import match_figure, painted_errors, save_figure
+
+
+def pair_picture(task: PairTask, threads: int | None = None) -> bytes:
+    """The PNG of a matched pair: source, target in the source's colours, and the error when the truth is known.
+
+    Raises
+    ------
+    InvalidInput
+        When the map or the meshes are gone or do not fit each other any more.
+    """
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", KfmapsWarning)  # the run has noted them
+        source, target = read_mesh(task.source.path), read_mesh(task.target.path)
+    sizes = len(source.vertices), len(target.vertices)
+    points = check_map(load_map(map_path(Path(task.folder), task.pair.key)), *sizes)
+    truth = true_vertices(task, *sizes)
+    errors = None
+    with one_blas_thread():
+        if truth is not None:
+            errors = painted_errors(source, target, points, truth.source, truth.target, threads)
+    buffer = io.BytesIO()
+    save_figure(match_figure(source, target, points, errors=errors), buffer, "png")
+    return buffer.getvalue()
+
+
+def caption(result: Result) -> str:
+    """What stands under the picture of a pair."""
+    told = [f"{result.source} → {result.target}"]
+    told += [] if result.error_mean is None else [f"mean error × 100: {100 * result.error_mean:.2f}"]
+    told += [] if result.confidence is None else [f"confidence {result.confidence:.3g} ({result.verdict})"]
+    return ", ".join(told)
+
+
+def worst_pictures(
+    tasks: Sequence[PairTask], results: Sequence[Result], count: int, threads: int | None = None
+) -> dict[str, bytes]:
+    """Pictures of the ``count`` worst of the ``tasks`` by caption; one that cannot be drawn is left out."""
+    known = {task.pair: task for task in tasks}
+    pictures: dict[str, bytes] = {}
+    for result in worst_first(results):
+        if len(pictures) == count:
+            break
+        task = known.get(Pair(result.source, result.target))
+        if task is None:
+            continue
+        try:
+            pictures[caption(result)] = pair_picture(task, threads)
+        except (InvalidInput, OSError):
+            continue
+    return pictures

@@ -1,0 +1,92 @@
+"""What a collection's results come to."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from kfmaps.app.batch.results import THRESHOLDS, Result
+from kfmaps.app.pictures import Curve, mean_curve
+
+BAD = 0.05
+"""A mean error above this counts as a wrong map."""
+
+
+@dataclass(frozen=True)
+class Summary:
+    """Numbers over all pairs; errors in units of √area, ``None`` where no truth is known.
+
+    Attributes
+    ----------
+    done, failed : int
+    evaluated : int
+        Pairs whose truth is known.
+    error_mean : float or None
+        Mean over the pairs of each pair's mean error.
+    error_median, error_worst : float or None
+        Median and largest of the pairs' mean errors.
+    bad : int
+        Pairs with a mean error above :data:`BAD`.
+    flipped : int
+        Pairs that are nearer to the mirrored truth than to the truth.
+    seconds_mean, seconds_total : float or None
+        Of the pairs' matching, without the shapes' preparation.
+    verdicts : dict of str to int
+    """
+
+    done: int
+    failed: int
+    evaluated: int
+    error_mean: float | None
+    error_median: float | None
+    error_worst: float | None
+    bad: int
+    flipped: int
+    seconds_mean: float | None
+    seconds_total: float | None
+    verdicts: dict[str, int]
+
+
+def summarised(results: Sequence[Result]) -> Summary:
+    """The numbers of some results."""
+    done = [r for r in results if r.status == "done"]
+    errors = np.array([r.error_mean for r in done if r.error_mean is not None])
+    seconds = [r.seconds["total"] for r in done if "total" in r.seconds]
+    verdicts = dict.fromkeys(sorted(r.verdict for r in done), 0)
+    for r in done:
+        verdicts[r.verdict] += 1
+    flipped = [
+        r for r in done if r.mirrored_mean is not None and r.error_mean is not None and r.mirrored_mean < r.error_mean
+    ]
+    return Summary(
+        done=len(done),
+        failed=len(results) - len(done),
+        evaluated=len(errors),
+        error_mean=float(errors.mean()) if len(errors) else None,
+        error_median=float(np.median(errors)) if len(errors) else None,
+        error_worst=float(errors.max()) if len(errors) else None,
+        bad=int((errors > BAD).sum()),
+        flipped=len(flipped),
+        seconds_mean=float(np.mean(seconds)) if seconds else None,
+        seconds_total=float(np.sum(seconds)) if seconds else None,
+        verdicts=verdicts,
+    )
+
+
+def worst_first(results: Sequence[Result]) -> list[Result]:
+    """Those that are done, the largest mean error first; where no truth is known, the least sure first."""
+    done = [r for r in results if r.status == "done"]
+
+    def rank(r: Result) -> tuple[float, float]:
+        sure = float("inf") if r.confidence is None else r.confidence
+        return (-(r.error_mean if r.error_mean is not None else -1.0), sure)
+
+    return sorted(done, key=rank)
+
+
+def error_curve_of(results: Sequence[Result], label: str) -> Curve | None:
+    """The mean error curve of the pairs whose truth is known, with the band of the middle 80 % of them."""
+    curves = [r.curve for r in results if r.status == "done" and r.curve]
+    return mean_curve(label, np.array(THRESHOLDS), np.array(curves)) if curves else None

@@ -1,0 +1,229 @@
+"""The two units of work, each safe to be begun again at any moment: prepare a shape, match a pair."""
+
+from __future__ import annotations
+
+import json
+import os
+import platform
+import time
+import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, field, replace
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from kfmaps._arrays import InvalidInput, KfmapsWarning, MissingDependency, NotConverged, refuse
+from kfmaps._threads import one_blas_thread
+from kfmaps.app.batch.cache import file_digest, load_shape, save_shape
+from kfmaps.app.batch.results import THRESHOLDS, Result, read_result, result_path, write_result
+from kfmaps.app.batch.tasks import PairTask, Prepared, ShapeTask
+from kfmaps.app.batch.truth import Truth, landmark_pairs, true_vertices
+from kfmaps.app.files import MapFile, read_mesh, save_map
+from kfmaps.config import as_dict
+from kfmaps.evaluate import coverage, error_curve, evaluation, geodesic_errors, truth_from_pairs
+from kfmaps.matching import match
+from kfmaps.pipeline import Match
+from kfmaps.shape import Shape, prepare
+
+ATTEMPTS, MAPS = "attempts", "maps"
+EXPECTED = (InvalidInput, NotConverged, MissingDependency, OSError)
+"""What may go wrong with one shape or pair; of anything else the type is told as well."""
+
+
+def map_path(folder: Path, key: str) -> Path:
+    """Where the map of the pair with this key lies."""
+    return folder / MAPS / f"{key}.npz"
+
+
+def begin(folder: Path, key: str) -> int:
+    """Note that work on ``key`` begins, in a small file of its own that outlives a kill; which attempt it is."""
+    content = json.dumps({"host": platform.node(), "process": os.getpid(), "time": _now()})
+    (folder / ATTEMPTS).mkdir(parents=True, exist_ok=True)
+    attempt = 1
+    while True:
+        try:
+            with open(folder / ATTEMPTS / f"{key}.{attempt}", "x", encoding="utf-8") as file:
+                file.write(content)
+            return attempt
+        except FileExistsError:
+            attempt += 1
+
+
+def attempts(folder: Path, key: str) -> int:
+    """How often work on ``key`` has begun."""
+    count = 0
+    while (folder / ATTEMPTS / f"{key}.{count + 1}").exists():
+        count += 1
+    return count
+
+
+def prepare_shape(task: ShapeTask) -> Prepared:
+    """Prepare a shape unless the cache has it. A shape that cannot be prepared is told of, not raised."""
+    entry = Path(task.entry)
+    if load_shape(entry, task.name) is not None:
+        return Prepared(task.name)
+    start = time.perf_counter()
+    begin(Path(task.folder), entry.stem)
+    with _caught() as met:
+        if file_digest(task.path) != task.content:
+            raise refuse(task.path, "the file of the run's start", "a changed one", "run the command again")
+        mesh = read_mesh(task.path)
+        save_shape(entry, prepare(mesh, replace(task.config, threads=1), name=task.name))
+    return Prepared(task.name, time.perf_counter() - start, met.reason, tuple(met.notes))
+
+
+def match_pair(task: PairTask, source: Prepared, target: Prepared) -> Result:
+    """Match a pair unless its result is there; save the map and then the result. A failure is recorded, not raised."""
+    folder = Path(task.folder)
+    path = result_path(folder, task.pair.key)
+    there = read_result(path)
+    if there is not None and (there.settings, there.inputs) == (task.settings, task.inputs):
+        return there
+    start = time.perf_counter()
+    attempt = begin(folder, task.pair.key)
+    values: dict[str, Any] = {"seconds": {}}
+    with _caught() as met, one_blas_thread():
+        for part in (source, target):
+            if part.reason:
+                raise InvalidInput(f"shape {part.name} could not be prepared: {part.reason}")
+        values = _matched(task)
+    values["seconds"]["total"] = time.perf_counter() - start
+    result = Result(
+        *(task.pair.source, task.pair.target, "failed" if met.reason else "done", task.settings, task.inputs),
+        reason=met.reason,
+        attempts=attempt,
+        worker=f"{platform.node()}:{os.getpid()}",
+        finished=_now(),
+        notes=tuple(dict.fromkeys([*source.notes, *target.notes, *met.notes])),
+        **values,
+    )
+    write_result(path, result)
+    return result
+
+
+def give_up(task: PairTask, reason: str) -> Result:
+    """Record that a pair cannot be matched, for a reason outside the work itself."""
+    folder = Path(task.folder)
+    result = Result(
+        *(task.pair.source, task.pair.target, "failed", task.settings, task.inputs),
+        reason=reason,
+        attempts=attempts(folder, task.pair.key),
+        finished=_now(),
+    )
+    write_result(result_path(folder, task.pair.key), result)
+    return result
+
+
+@dataclass
+class _Met:
+    """What went wrong inside a block, and what was warned of."""
+
+    reason: str = ""
+    notes: list[str] = field(default_factory=list)
+
+
+@contextmanager
+def _caught() -> Iterator[_Met]:
+    """Turn exceptions and our own warnings into text; one bad pair must not end the run."""
+    met = _Met()
+    with warnings.catch_warnings(record=True) as told:
+        warnings.simplefilter("always", KfmapsWarning)
+        try:
+            yield met
+        except EXPECTED as error:
+            met.reason = str(error) or type(error).__name__
+        except Exception as error:
+            met.reason = f"{type(error).__name__}: {error}"
+    met.notes = [str(w.message) for w in told if issubclass(w.category, KfmapsWarning)]
+
+
+def _now() -> str:
+    return datetime.now(UTC).isoformat(timespec="milliseconds")
+
+
+def _loaded(task: ShapeTask) -> Shape:
+    shape = load_shape(Path(task.entry), task.name)
+    if shape is None:
+        raise refuse(f"prepared shape {task.name}", "an entry in the cache", "none", "run the command again")
+    return shape
+
+
+def _matched(task: PairTask) -> dict[str, Any]:
+    """Match, save the map, and give the fields of the result."""
+    source, target = _loaded(task.source), _loaded(task.target)
+    sizes = len(source.mesh.vertices), len(target.mesh.vertices)
+    truth = true_vertices(task, *sizes)
+    landmarks = landmark_pairs(task, truth, *sizes)
+    found = match(source, target, replace(task.config, threads=1), landmarks=landmarks, rng=task.seed)
+    start = time.perf_counter()
+    errors = {} if truth is None else _errors(source, found.target_to_source, truth)
+    reached = coverage(found.target_to_source, source.mesh)
+    seconds = {**found.seconds, "evaluation": time.perf_counter() - start}
+    _save(task, found, landmarks, errors)
+    return errors | {
+        "vertices_s": sizes[0],
+        "vertices_t": sizes[1],
+        "landmarks": 0 if landmarks is None else len(landmarks),
+        "coverage": reached,
+        "confidence": None if found.confidence is None else float(found.confidence),
+        "verdict": found.verdict,
+        "solver": str(found.solution.status),
+        "solver_steps": int(found.solution.steps),
+        "rank": int(found.rank),
+        "seconds": seconds,
+    }
+
+
+def _errors(source: Shape, target_to_source: np.ndarray, truth: Truth) -> dict[str, Any]:
+    """Summary of the errors, and of those against the mirrored truth when there is one."""
+    targets = [truth.target] if truth.mirrored is None else [truth.target, truth.mirrored]
+    predicted = [truth_from_pairs(truth.source, ends, target_to_source) for ends in targets]
+    # In one call, so that the distances from each true vertex are worked out once.
+    both = geodesic_errors(source.mesh, np.concatenate(predicted), np.tile(truth.source, len(targets)), threads=1)
+    direct, *mirrored = np.split(both, len(targets))
+    summary = evaluation(direct)
+    return {
+        "error_mean": summary.mean,
+        "error_median": summary.median,
+        "error_max": summary.worst,
+        "auc": summary.auc,
+        "mirrored_mean": float(mirrored[0].mean()) if mirrored else None,
+        "curve": tuple(error_curve(direct, np.array(THRESHOLDS)).tolist()),
+    }
+
+
+def _save(task: PairTask, found: Match, landmarks: np.ndarray | None, errors: dict[str, Any]) -> None:
+    """The map, with what ``kfmaps view`` shows of it."""
+    residuals = np.asarray(found.solution.residuals, dtype=np.float64)
+    summary = {
+        "verdict": found.verdict,
+        "confidence": found.confidence,
+        "solver": str(found.solution.status),
+        "solver steps": found.solution.steps,
+        "kernel": found.kernel,
+        **{f"{name} (× √area)": value for name, value in errors.items() if isinstance(value, float)},
+        "energies": dict(found.energies),
+        "residuals": (residuals / residuals[0]).tolist() if len(residuals) and residuals[0] > 0 else [],
+        "times": dict(found.seconds),
+    }
+    extra: dict[str, Any] = {
+        "source": task.source.path,
+        "target": task.target.path,
+        "summary": json.dumps(summary, default=float),
+    }
+    if landmarks is not None:
+        extra["landmarks"] = landmarks
+    if found.runners_up:
+        extra["runners_up"] = np.stack(found.runners_up)
+    config = json.dumps(as_dict(found.config))
+    mapfile = MapFile(
+        *(found.target_to_source, found.functional_map, found.eigenvalues_s, found.eigenvalues_t, config),
+        extra=extra,
+    )
+    path = map_path(Path(task.folder), task.pair.key)
+    path.parent.mkdir(parents=True, exist_ok=True)
+    save_map(path, mapfile, force=True)

@@ -1,0 +1,40 @@
+"""Errors at every vertex of a target, for painting it."""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.spatial import KDTree
+
+from kfmaps.evaluate import geodesic_errors, truth_from_pairs
+from kfmaps.mesh import Mesh
+
+
+def painted_errors(
+    source: Mesh,
+    target: Mesh,
+    target_to_source: np.ndarray,
+    truth_s: np.ndarray,
+    truth_t: np.ndarray,
+    threads: int | None = None,
+) -> np.ndarray:
+    """Geodesic error at each target vertex, (n_t,), in units of √area of the source.
+
+    A vertex whose truth is not known takes the error of the nearest one whose truth is: right for a picture,
+    not for a mean.
+
+    Parameters
+    ----------
+    source, target : Mesh
+    target_to_source : (n_t,) int64
+    truth_s, truth_t : (q,) int64
+        Corresponding vertices, at least one. Of several truths for one target vertex the last counts.
+    """
+    errors = np.full(len(target.vertices), np.nan)
+    errors[truth_t] = geodesic_errors(
+        source, truth_from_pairs(truth_s, truth_t, target_to_source), truth_s, threads=threads
+    )
+    endless = np.isinf(errors)  # on another component
+    errors[endless] = max(errors[np.isfinite(errors)].max(initial=0.0), 1.0)
+    known, unknown = np.flatnonzero(~np.isnan(errors)), np.flatnonzero(np.isnan(errors))
+    errors[unknown] = errors[known[KDTree(target.vertices[known]).query(target.vertices[unknown])[1]]]
+    return errors
