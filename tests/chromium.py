@@ -18,6 +18,9 @@ from PIL import Image
 webdriver = pytest.importorskip("selenium.webdriver", reason="Selenium is not installed")
 from selenium.common.exceptions import NoAlertPresentException  # noqa: E402
 from selenium.webdriver.common.action_chains import ActionChains  # noqa: E402
+from selenium.webdriver.common.keys import Keys  # noqa: E402
+
+__all__ = ["NASTY", "Browser", "Keys", "chromium", "needs_browser"]
 
 CHROMIUM = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
 CHROMEDRIVER = shutil.which("chromedriver")

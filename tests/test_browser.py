@@ -10,9 +10,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 from PIL import Image
-from selenium.webdriver.common.keys import Keys
 
-from chromium import NASTY, Browser, chromium, needs_browser
+from chromium import NASTY, Browser, Keys, chromium, needs_browser
 from kfmaps.app.datasets import Pair, two_poses
 from kfmaps.app.view.page import result_page
 
@@ -58,7 +57,7 @@ def page(browser: Browser, pair: Pair, tmp_path: Path) -> Browser:
 
 
 def test_page_from_the_disk_asks_for_nothing_else(page: Browser, tmp_path: Path) -> None:
-    for mode in ("texture", "descriptor", "error", "distortion", "confidence", "colours"):
+    for mode in ("texture", "descriptor", "error", "distortion", "difference", "confidence", "colours"):
         page.mode(mode)
     page.element("#picture").click()
     page.point("target", page.visible("target", np.arange(300), 1)[0])
@@ -203,6 +202,25 @@ def test_errors_have_a_scale_with_its_unit(page: Browser) -> None:
     page.mode("error")
     assert "√area" in page.text("legend-text")
     assert (page.text("legend-low"), page.text("legend-high")) == ("0", "0.2")
+
+
+def test_difference_is_between_the_best_map_and_the_runner_up(page: Browser, pair: Pair, tmp_path: Path) -> None:
+    half = pair.truth.copy()
+    upper = pair.target.vertices[:, 1] > np.median(pair.target.vertices[:, 1])
+    half[upper] = half[upper][::-1]
+    html = result_page(pair.source, pair.target, pair.truth, runners_up=[half])
+    (tmp_path / "half.html").write_text(html, encoding="utf-8")
+    page.open((tmp_path / "half.html").as_uri())
+    page.mode("difference")
+    time.sleep(0.3)
+    assert "√area" in page.text("legend-text")
+    view = page.picture(page.element("#view-target"))
+    coloured = np.ptp(view, axis=2) > 60
+    on_shape = view.min(axis=2) < 200
+    rows = np.flatnonzero(on_shape.any(axis=1))
+    top, bottom = np.array_split(coloured[rows[0] : rows[-1]], [int(0.3 * len(rows))])
+    assert top.mean() > 0.02
+    assert bottom[len(bottom) // 2 :].mean() < 0.001
 
 
 def test_picture_is_saved(page: Browser, tmp_path: Path) -> None:

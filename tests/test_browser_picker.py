@@ -9,9 +9,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from selenium.webdriver.common.keys import Keys
 
-from chromium import NASTY, Browser, chromium, needs_browser
+from chromium import NASTY, Browser, Keys, chromium, needs_browser
 from kfmaps._arrays import InvalidInput
 from kfmaps.app.datasets import Pair, two_poses
 from kfmaps.app.files import read_landmarks

@@ -21,9 +21,6 @@ export function startPicker(data) {
   const state = { mode: "plain", map: -1, selected: -1, hovered: null, running: false };
   const link = () => links[state.map];
 
-  /** Straight distance on the source, in √area (the page's shapes have unit area). */
-  const apart = (a, b) => shapes[0].place(a).distanceTo(shapes[0].place(b));
-
   const shows = {
     plain: () => {
       shapes.forEach((s) => s.show(plain(s.count)));
@@ -45,7 +42,7 @@ export function startPicker(data) {
         shows.plain();
         return { text: "There is no run before this one." };
       }
-      const moved = Float32Array.from(link().points, (s, t) => apart(s, before.points[t]));
+      const moved = Float32Array.from(link().points, (s, t) => shapes[0].apart(s, before.points[t]));
       shapes[1].show(painted(moved, "error", 0, 0.5));
       shapes[0].show(painted(link().pushed(moved), "error", 0, 0.5));
       return { scale: "error", low: "0", high: "0.5", text: "how far matches moved since the run before, in √area" };
@@ -93,7 +90,7 @@ export function startPicker(data) {
       byId("pairs").querySelectorAll("button")[Math.min(number, pairs.list.length - 1)]?.focus();
     });
     made.append(head, ...pair.map((vertex) => element("td", vertex, { class: "number" })));
-    if (link()) made.append(element("td", short(apart(pair[0], link().toSource(pair[1])), 2), { class: "number" }));
+    if (link()) made.append(element("td", short(shapes[0].apart(pair[0], link().toSource(pair[1])), 2), { class: "number" }));
     const last = element("td");
     last.append(remove);
     made.append(last);

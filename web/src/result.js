@@ -21,7 +21,8 @@ export function startResult(data) {
   const confidence = data.confidence ? reals(data.confidence) : null;
   const links = data.maps.map(() => null);
   const state = { mode: "colours", map: 0, descriptor: 0, hovered: null, pinned: null };
-  const link = () => (links[state.map] ??= new Link(data.maps[state.map], shapes[0].count));
+  const linkOf = (map) => (links[map] ??= new Link(data.maps[map], shapes[0].count));
+  const link = () => linkOf(state.map);
 
   const rotation = rotationOf(data.rotation);
   // Shapes lying in different directions are turned alike; a small angle is only the pose.
@@ -68,6 +69,13 @@ export function startResult(data) {
     },
     distortion: () => field(link().distortion, "diverging", -2, 2,
       { low: "¼", high: "4", text: "area on the source / area on the target, both of unit area" }),
+    difference: () => {
+      // Of the runner-up chosen, or of the first while the best map is.
+      const other = linkOf(Math.max(state.map, 1));
+      const apart = Float32Array.from(linkOf(0).points, (s, t) => shapes[0].apart(s, other.points[t]));
+      const text = `between the matches of the best map and of ${other.label.toLowerCase()}, in √area`;
+      return field(apart, "error", 0, 0.5, { low: "0", high: "0.5", text });
+    },
     confidence: () => {
       if (state.map > 0) return unknown("The confidence of this map is not known.");
       const [low, high] = [quantile(confidence, 0), quantile(confidence, 1)];
@@ -139,6 +147,7 @@ export function startResult(data) {
     ...(data.descriptors.length && { descriptor: "Descriptor" }),
     ...(errors.length && { error: "Error" }),
     ...(shapes.every((s) => s.faces.length) && { distortion: "Area distortion" }),
+    ...(data.maps.length > 1 && { difference: "Difference" }),
     ...(confidence && { confidence: "Confidence" }),
   }, state.mode, (mode) => { state.mode = mode; show(); });
   const choices = (id, texts, set) => {

@@ -102,6 +102,11 @@ export class Surface {
     return into.fromArray(this.positions, 3 * vertex);
   }
 
+  /** Straight distance between two vertices, in √area: the page's shapes have unit area. */
+  apart(a, b) {
+    return this.place(a).distanceTo(this.place(b));
+  }
+
   /** Position of a vertex on the stage. */
   world(vertex, into = new Vector3()) {
     return this.place(vertex, into).applyMatrix4(this.group.matrixWorld);

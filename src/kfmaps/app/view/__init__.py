@@ -1,0 +1,1 @@
+"""Web pages: the view of a result and the landmark picker."""
