@@ -101,9 +101,10 @@ def test_transfer(folder: Path, map_format: str) -> None:
 
 def test_transfer_of_too_few_values(folder: Path) -> None:
     np.savetxt(folder / "v.txt", np.zeros(10))
-    assert "source vertices from 0 to 9" in complaint(
-        "transfer", folder / "m.npz", folder / "v.txt", "-o", folder / "w.npy"
-    )
+    words = (folder / "v.txt", "-o", folder / "w.npy")
+    assert "source vertices from 0 to 9" in complaint("transfer", folder / "m.npz", *words)
+    save_map(folder / "n.npz", MapFile(POINTS % 9, extra={"n_s": np.array(80)}))
+    assert "values: wanted 80 rows, one per source vertex, got 10" in complaint("transfer", folder / "n.npz", *words)
     assert not (folder / "w.npy").exists()
 
 

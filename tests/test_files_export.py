@@ -97,6 +97,11 @@ def test_vertices_without_texture_borrow_from_the_nearest() -> None:
     )
 
 
+def test_there_must_be_coordinates_to_carry() -> None:
+    with pytest.raises(InvalidInput, match="texture coordinates, got none"):
+        carried_uv_faces(MeshFile(blob(30)), blob(30), np.arange(30))
+
+
 def test_textured_files(tmp_path: Path) -> None:
     source, target = globe(), blob(80)
     points = np.random.default_rng(0).integers(0, 120, 80)

@@ -178,10 +178,29 @@ def test_ply_colors_of_any_type(kind: str, values: str) -> None:
     close(same(parse_ply(text.encode(), "a.ply")).colors, [1, 0, 0.2])
 
 
+@pytest.mark.parametrize(
+    "lines", [VERTEX, (*VERTEX, "element face 0", *FACE[1:]), ("element face 0", *FACE[1:], *VERTEX)]
+)
+@pytest.mark.parametrize("text", [True, False])
+def test_ply_of_points(lines: tuple[str, ...], text: bool) -> None:
+    body = "\n".join(OFF_BODY.splitlines()[:4]).encode() if text else PLACES.astype("<f4").tobytes()
+    same(parse_ply(ply("ascii" if text else "binary_little_endian", body, *lines), "a.ply"), faces=[])
+
+
 @pytest.mark.parametrize("columns", ["", " 0 0 1", " 255 0 0", " 0 0 1 255 0 0"])
 def test_point_clouds(columns: str) -> None:
     text = "# points\n" + "".join(f"{x} {y} {z}{columns}\n" for x, y, z in PLACES)
     same(parse_xyz(text.encode(), "a.xyz"), faces=[])
+
+
+@pytest.mark.parametrize("values", [np.ones(2), np.ones(4)])
+def test_a_numpy_that_stops_early_is_not_trusted(monkeypatch: pytest.MonkeyPatch, values: np.ndarray) -> None:
+    """Some versions give what they could read instead of an error."""
+    monkeypatch.setattr(np, "fromstring", lambda *_, **__: values)
+    with pytest.raises(InvalidInput, match="line 1: wanted numbers, got 'x'"):
+        parse_xyz(b"1 2 x", "a.xyz")
+    with pytest.raises(InvalidInput, match=r"a\.xyz: wanted numbers"):
+        parse_xyz(b"1 2 3", "a.xyz")
 
 
 def test_polygons_become_fans_in_order() -> None:

@@ -261,9 +261,18 @@ def element(kind: int, body: bytes, order: str = "<") -> bytes:
     return struct.pack(order + "II", kind, len(body)) + body + bytes(-len(body) % 8)
 
 
-def matrix(order: str = "<", shape: tuple[int, ...] = (1, 2), kind: int = 9, body: bytes | None = None) -> bytes:
-    parts = element(6, struct.pack(order + "II", 6, 0), order)
-    parts += element(5, struct.pack(f"{order}{len(shape)}i", *shape), order) + element(1, b"target_to_source", order)
+def matrix(
+    order: str = "<",
+    shape: tuple[int, ...] = (1, 2),
+    kind: int = 9,
+    body: bytes | None = None,
+    flags: tuple[int, ...] = (6, 0),
+    shape_kind: int = 5,
+) -> bytes:
+    """A variable target_to_source; the defaults make a good one that holds 3 and 1."""
+    parts = element(6, struct.pack(f"{order}{len(flags)}I", *flags), order)
+    parts += element(shape_kind, struct.pack(f"{order}{len(shape)}i", *shape), order)
+    parts += element(1, b"target_to_source", order)
     return element(14, parts + element(kind, struct.pack(order + "2d", 3, 1) if body is None else body, order), order)
 
 
@@ -273,6 +282,12 @@ HEAD = bytes(124) + b"\0\1"
 def test_mat_of_a_machine_with_the_other_byte_order(tmp_path: Path) -> None:
     (tmp_path / "m.mat").write_bytes(HEAD[:-2] + b"\1\0MI" + matrix(">"))
     np.testing.assert_array_equal(load_map(tmp_path / "m.mat").target_to_source, [2, 0])
+
+
+@pytest.mark.parametrize(("order", "mark", "codec"), [("<", b"IM", "utf-16-le"), (">", b"MI", "utf-16-be")])
+def test_mat_text_as_matlab_writes_it(order: str, mark: bytes, codec: str) -> None:
+    data = HEAD + mark + matrix(order, flags=(4, 0), kind=17, body="γü".encode(codec))
+    assert read_mat(data, "a.mat") == {"target_to_source": "γü"}
 
 
 @pytest.mark.parametrize(
@@ -292,6 +307,11 @@ def test_mat_of_a_machine_with_the_other_byte_order(tmp_path: Path) -> None:
         (HEAD + b"IM" + matrix(shape=(2**30, 2**30)), "cut short or damaged"),
         (HEAD + b"IM" + matrix(shape=(2,)), "cut short or damaged"),
         (HEAD + b"IM" + matrix(kind=99), "cut short or damaged"),
+        (HEAD + b"IM" + matrix(flags=(6,)), "cut short or damaged"),
+        (HEAD + b"IM" + matrix(shape_kind=6), "cut short or damaged"),
+        (HEAD + b"IM" + matrix(flags=(4, 0)), "cut short or damaged"),
+        (HEAD + b"IM" + matrix(flags=(4, 0), kind=16, body=b"\xff"), "cut short or damaged"),
+        (HEAD + b"IM" + matrix(flags=(4, 0), kind=16, body=b"12"), "an array of numbers"),
         (HEAD + b"IM" + matrix(body=struct.pack("<2d", 0, 1)), "source vertices from 0 on, got -1"),
         (HEAD + b"IM" + matrix(shape=(1, 16), kind=2, body=bytes(16)), "source vertices from 0 on, got -1"),
     ],
