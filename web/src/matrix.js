@@ -7,11 +7,11 @@ export function drawMatrix(canvas, readout, values, rows, columns) {
   let most = 0;
   for (const v of values) if (v === v) most = Math.max(most, Math.abs(v));
   const left = 52, top = 40, right = 74, bottom = 10;
-  const cell = Math.max(1, Math.floor(360 / Math.max(rows, columns)));
-  const shown = Math.max(360 / Math.max(rows, columns), 0.25);
-  const fine = cell >= 1 && shown >= 1 ? cell : shown;
-  const [wide, tall] = [Math.round(fine * columns), Math.round(fine * rows)];
   const ratio = Math.max(window.devicePixelRatio || 1, 2);
+  const room = 360 / Math.max(rows, columns);
+  // Whole pixels of the screen for each entry, where there is room for one.
+  const fine = Math.floor(room * ratio) / ratio || room;
+  const [wide, tall] = [Math.round(fine * columns), Math.round(fine * rows)];
   const [width, height] = [left + wide + right, top + tall + bottom];
   canvas.width = width * ratio;
   canvas.height = height * ratio;
@@ -29,7 +29,7 @@ export function drawMatrix(canvas, readout, values, rows, columns) {
   small.getContext("2d").putImageData(image, 0, 0);
   const pen = canvas.getContext("2d");
   pen.scale(ratio, ratio);
-  pen.imageSmoothingEnabled = fine < 1;
+  pen.imageSmoothingEnabled = fine * ratio < 1;
   pen.drawImage(small, left, top, wide, tall);
   pen.strokeStyle = "#5b6472";
   pen.lineWidth = 1;
