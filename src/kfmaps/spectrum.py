@@ -6,10 +6,11 @@ from dataclasses import dataclass
 
 import numpy as np
 import robust_laplacian
-from scipy.sparse import coo_array
-from scipy.spatial import cKDTree
+from scipy.sparse import coo_array, csc_array
+from scipy.spatial import KDTree
 
 from kfmaps._arrays import Array, MissingDependency, check_count, refuse, to_numpy
+from kfmaps._factor import Sparse
 from kfmaps.eigensolver import smallest_eigenpairs
 from kfmaps.mesh import Mesh, vertex_areas
 
@@ -60,65 +61,122 @@ class Basis:
         ------
         MissingDependency
             When ``device`` is another one and PyTorch is not installed.
+        InvalidInput
+            When PyTorch does not have the device.
         """
-        arrays = [self.eigenvalues, self.functions, self.mass]
+        arrays = [to_numpy(a) for a in (self.eigenvalues, self.functions, self.mass)]
         if device in ("cpu", "numpy"):
-            return Basis(*(to_numpy(a) for a in arrays))
+            return Basis(*arrays)
         try:
             import torch
         except ImportError as error:
             raise MissingDependency(
                 f"device {device!r} needs PyTorch; install it with: pip install 'kfmaps[gpu]'"
             ) from error
-        return Basis(*(torch.asarray(a).to(device) for a in arrays))
+        try:
+            return Basis(*(torch.asarray(a, device=device) for a in arrays))
+        except (RuntimeError, AssertionError, TypeError) as error:
+            reason = str(error).splitlines()[0]
+            raise refuse("device", "one that PyTorch can use", f"{device!r} ({reason})", "use cpu") from error
 
 
-def cotangent_laplacian(mesh: Mesh) -> coo_array:
-    """Weak cotangent Laplacian (n, n), positive semi-definite up to obtuse pairs of angles."""
-    v, f = mesh.vertices, mesh.faces
-    n = len(v)
-    rows, cols, data = [], [], []
-    for c in range(3):
-        k, i, j = f[:, c], f[:, (c + 1) % 3], f[:, (c + 2) % 3]
-        a, b = v[i] - v[k], v[j] - v[k]
+def cotangent_laplacian(mesh: Mesh) -> csc_array:
+    """Weak cotangent Laplacian (n, n), symmetric and positive semi-definite; rows sum to zero.
+
+    The entry of an edge is minus half the sum of the cotangents of the angles opposite it (Pinkall and Polthier,
+    Computing discrete minimal surfaces, 1993). Angles below 1e-6 count as 1e-6, so that faces without area give
+    large numbers rather than infinite ones; those with two equal corners are left out.
+    """
+    n = len(mesh.vertices)
+    faces = mesh.faces[_proper(mesh.faces)]
+    entries, rows, columns = [], [], []
+    for corner in range(3):
+        tip, i, j = (faces[:, (corner + step) % 3] for step in range(3))
+        a, b = mesh.vertices[i] - mesh.vertices[tip], mesh.vertices[j] - mesh.vertices[tip]
+        dot = (a * b).sum(axis=1)
         sine = np.linalg.norm(np.cross(a, b), axis=1)
-        cot = np.divide((a * b).sum(1), sine, out=np.zeros_like(sine), where=sine > 0) / 2
+        least = 1e-6 * np.linalg.norm(a, axis=1) * np.linalg.norm(b, axis=1)
+        bound = np.maximum(sine, least)
+        half = np.divide(dot, bound, out=np.zeros_like(dot), where=bound > 0) / 2
+        entries += [-half, -half, half, half]
         rows += [i, j, i, j]
-        cols += [j, i, i, j]
-        data += [-cot, -cot, cot, cot]
-    entries = (np.concatenate(data), (np.concatenate(rows), np.concatenate(cols)))
-    return coo_array(entries, shape=(n, n)).tocsc()
+        columns += [j, i, i, j]
+    places = (np.concatenate(rows), np.concatenate(columns))
+    return coo_array((np.concatenate(entries), places), shape=(n, n)).tocsc()
+
+
+def _proper(faces: np.ndarray) -> np.ndarray:
+    """Which faces have three different corners, (f,)."""
+    return (faces != np.roll(faces, 1, axis=1)).all(axis=1)
+
+
+def _operators(mesh: Mesh, laplacian: str) -> tuple[Sparse, np.ndarray]:
+    """Weak Laplacian (n, n) and lumped mass (n,) of a mesh or cloud without unused vertices."""
+    if len(mesh.faces) == 0:
+        near = min(30, len(mesh.vertices) - 1)
+        stiffness, mass = robust_laplacian.point_cloud_laplacian(mesh.vertices, n_neighbors=near)
+        return stiffness, mass.diagonal() / mass.diagonal().sum()
+    if laplacian == "cotangent":
+        return cotangent_laplacian(mesh), vertex_areas(mesh)
+    stiffness, mass = robust_laplacian.mesh_laplacian(mesh.vertices, mesh.faces)
+    return stiffness, mass.diagonal()
 
 
 def laplace_basis(
-    mesh: Mesh, k: int, laplacian: str = "robust", rng: int = 0, threads: int | None = None
+    mesh: Mesh,
+    k: int,
+    laplacian: str = "robust",
+    rng: int | np.random.Generator = 0,
+    threads: int | None = None,
 ) -> Basis:
-    """The first ``k`` eigenfunctions of the Laplacian of ``mesh``."""
-    n = len(mesh.vertices)
-    cloud = len(mesh.faces) == 0
-    used = np.arange(n) if cloud else np.unique(mesh.faces)
-    if len(used) <= k:
-        raise refuse("k", f"fewer eigenfunctions than the {len(used)} vertices", str(k), "ask for fewer")
-    number = np.zeros(n, dtype=np.int64)
-    number[used] = np.arange(len(used))
-    part = Mesh(mesh.vertices[used], number[mesh.faces])
-    if cloud:
-        stiffness, mass = robust_laplacian.point_cloud_laplacian(part.vertices)
-        mass = mass.diagonal()
-        mass = mass / mass.sum()
-    elif laplacian == "robust":
-        stiffness, mass = robust_laplacian.mesh_laplacian(part.vertices, part.faces)
-        mass = mass.diagonal()
-    elif laplacian == "cotangent":
-        stiffness, mass = cotangent_laplacian(part), vertex_areas(part)
-    else:
+    """The first ``k`` eigenfunctions of the Laplacian of a mesh or point cloud.
+
+    Any triangles will do: boundaries (with natural, Neumann conditions), several components (one eigenvalue
+    zero for each), faces without area, edges with more than two faces. A vertex that no face uses takes part in
+    nothing: its mass is zero, and its functions are those of the used vertex nearest in space.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        In any unit ``u``; shapes to be matched should have unit area (:func:`~kfmaps.mesh.unit_area`). The
+        eigenvalues come in ``1/u²``, the mass in ``u²``, the functions in ``1/u``. Without faces it is a cloud,
+        whose area is only estimated: its basis is always that of the cloud scaled to an estimate of 1.
+    k : int
+        From 1 to one less than the number of vertices in use.
+    laplacian : {"robust", "cotangent"}
+        ``"robust"``: the intrinsic Delaunay Laplacian of the tufted cover, whose weights are never negative,
+        on triangles however bad (Sharp and Crane, A Laplacian for nonmanifold triangle meshes, 2020).
+        ``"cotangent"``: :func:`cotangent_laplacian` with barycentric areas. Clouds always take the robust one.
+    rng : int or numpy.random.Generator
+        Start vectors of the eigensolver. The same input gives the same basis; each function's entry of largest
+        magnitude is positive, but signs, and bases of repeated eigenvalues, mean nothing.
+    threads : int, optional
+        Python threads on large meshes; ``None`` takes every available core.
+
+    Raises
+    ------
+    InvalidInput
+        When the mesh has too few vertices in use, or the Laplacian's name is unknown.
+    NotConverged
+        When an eigenpair's residual is above 1e-10; see :func:`~kfmaps.eigensolver.smallest_eigenpairs`.
+    """
+    if laplacian not in ("robust", "cotangent"):
         raise refuse("laplacian", "'robust' or 'cotangent'", repr(laplacian), "choose one of them")
-    pairs = smallest_eigenpairs(stiffness, mass, k, rng=rng, threads=threads)
-    functions, weights = pairs.vectors, mass
-    if len(used) < n:
-        near = cKDTree(part.vertices).query(mesh.vertices)[1]
-        near[used] = np.arange(len(used))
-        functions = functions[near]
-        weights = np.zeros(n)
-        weights[used] = mass
-    return Basis(pairs.values, functions, weights)
+    n = len(mesh.vertices)
+    faces = mesh.faces[_proper(mesh.faces)]
+    used = np.unique(faces) if len(mesh.faces) else np.arange(n)
+    if len(used) <= check_count(k, "k"):
+        wanted = f"fewer eigenfunctions than the {len(used)} vertices in use"
+        raise refuse("k", wanted, str(k), "ask for fewer, or refine the mesh")
+    number = np.full(n, -1)
+    number[used] = np.arange(len(used))
+    stiffness, area = _operators(Mesh(mesh.vertices[used], number[faces]), laplacian)
+    pairs = smallest_eigenpairs(stiffness, area, k, rng=rng, threads=threads)
+    if len(used) == n:
+        return Basis(pairs.values, pairs.vectors, area)
+    nearest = number.copy()
+    loose = number < 0
+    nearest[loose] = KDTree(mesh.vertices[used]).query(mesh.vertices[loose])[1]
+    mass = np.zeros(n)
+    mass[used] = area
+    return Basis(pairs.values, pairs.vectors[nearest], mass)
