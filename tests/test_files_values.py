@@ -138,6 +138,8 @@ def test_labels_and_headers(tmp_path: Path) -> None:
 
     (tmp_path / "e.csv").write_text("1,arm\n2,leg\n")
     assert read_values(tmp_path / "e.csv").array.tolist() == [["1", "arm"], ["2", "leg"]]
+    (tmp_path / "g.txt").write_text("nan\n1e999\n-.5")
+    np.testing.assert_array_equal(read_values(tmp_path / "g.txt").array, [np.nan, np.inf, -0.5])
     (tmp_path / "f.csv").write_text("7\n")
     assert read_values(tmp_path / "f.csv").array.tolist() == [7]
 

@@ -139,7 +139,8 @@ def _table(rows: list[tuple[int, list[str]]], name: str) -> np.ndarray:
     if not numbers:
         return np.array(cells)
     integral = all(_WHOLE.fullmatch(cell) for row in cells for cell in row)
-    return np.array(cells).astype(np.int64 if integral else np.float64)
+    with np.errstate(over="ignore"):  # 1e999 is infinity
+        return np.array(cells).astype(np.int64 if integral else np.float64)
 
 
 def _npy(data: bytes, name: str) -> np.ndarray:
