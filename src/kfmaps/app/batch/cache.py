@@ -64,7 +64,7 @@ def save_shape(path: Path, shape: Shape) -> None:
 def load_shape(path: Path, name: str) -> Shape | None:
     """Read a prepared shape; ``None`` when there is none or the entry is damaged, so that it is made again."""
     try:
-        with np.load(path, allow_pickle=False) as arrays:
+        with open(path, "rb") as file, np.load(file, allow_pickle=False) as arrays:
             seconds = dict(zip(arrays["stages"].tolist(), arrays["seconds"].tolist(), strict=True))
             return Shape(
                 Mesh(arrays["vertices"], arrays["faces"]),

@@ -1,0 +1,98 @@
+"""A small collection on disk, in the layout of the remeshed benchmarks, for the tests of collections.
+
+As a program it matches one: ``python collecting.py FOLDER OUTPUT``, to be killed by a test.
+"""
+
+from __future__ import annotations
+
+import os
+import signal
+import sys
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from conftest import blob
+from kfmaps.app.batch.collection import match_collection
+from kfmaps.app.batch.layout import choose_pairs, find_collection
+from kfmaps.app.batch.plan import Plan, make_plan
+from kfmaps.app.batch.results import Result
+from kfmaps.app.batch.settings import Settings
+from kfmaps.app.batch.work import match_pair, prepare_shape
+from kfmaps.app.files import write_mesh, write_vertex_numbers
+from kfmaps.config import BasisConfig, Config, DescriptorConfig, NystromConfig
+from kfmaps.mesh import Mesh
+from kfmaps.refine import ZoomOut
+
+LANDMARKS = (1, 50, 120, 170)
+"""Lines of the truth, counted from 1."""
+
+CONFIG = Config(
+    basis=BasisConfig(functions=20),
+    descriptors=DescriptorConfig(count=20, eigenfunctions=40),
+    nystrom=NystromConfig(samples=60),
+    refinement=ZoomOut(start=10, stop=40, step=5),
+)
+"""Of a size for shapes of a few hundred vertices."""
+
+
+def bent(i: int, n: int) -> Mesh:
+    """Poses of one shape: each bends it a little more, its vertices corresponding by number."""
+    mesh = blob(n)
+    x, y, z = mesh.vertices.T
+    return Mesh(np.stack([x + 0.04 * i * y**2, y, z], axis=1), mesh.faces)
+
+
+def write_collection(folder: Path, count: int = 3, *, sizes: Sequence[int] = (), n: int = 200) -> Path:
+    """Write ``count`` poses ``b0.off``, ... with shuffled vertices, and their true correspondences.
+
+    ``sizes`` gives numbers of vertices other than ``n`` to the first shapes; those have no truth.
+    """
+    (folder / "corres").mkdir(parents=True, exist_ok=True)
+    rng = np.random.default_rng(5)
+    for i in range(count):
+        size = sizes[i] if i < len(sizes) else n
+        mesh, order = bent(i, size), rng.permutation(size)
+        place = np.argsort(order)
+        write_mesh(folder / f"b{i}.off", Mesh(mesh.vertices[order], place[mesh.faces]))
+        if size == n:
+            write_vertex_numbers(folder / "corres" / f"b{i}.vts", place)
+    return folder
+
+
+def plan_of(folder: Path, output: Path, config: Config = CONFIG, lines: tuple[int, ...] = LANDMARKS, **options) -> Plan:
+    """The plan of all pairs of a folder; ``options`` as of ``make_plan``."""
+    collection = find_collection(folder)
+    pairs = choose_pairs(collection, every=True)
+    return make_plan(collection, pairs, Settings(config, landmark_lines=lines), output, **options)
+
+
+def touch(path: Path, text: str = "") -> Path:
+    """Write a small file where there may be no folder yet."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+def done(plan: Plan) -> list[Result]:
+    """The plan's work, in this process."""
+    prepared = {t.entry: prepare_shape(t) for task in plan.todo for t in (task.source, task.target)}
+    return [match_pair(t, prepared[t.source.entry], prepared[t.target.entry]) for t in plan.todo]
+
+
+@dataclass(frozen=True)
+class Deadly:
+    """A linear kernel that kills its process when one of the shapes has ``size`` vertices."""
+
+    size: int
+
+    def __call__(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:
+        if self.size in (len(x), len(y)):
+            os.kill(os.getpid(), signal.SIGKILL)
+        return x @ y.T
+
+
+if __name__ == "__main__":
+    match_collection(plan_of(Path(sys.argv[1]), Path(sys.argv[2])), workers=1)

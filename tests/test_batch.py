@@ -1,0 +1,223 @@
+"""Prepared shapes and matched pairs of a collection: once each, and equal to single matches."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from collecting import CONFIG, LANDMARKS, done, plan_of, touch, write_collection
+from conftest import blob
+from kfmaps._arrays import InvalidInput
+from kfmaps.app.batch.cache import file_digest, load_shape, save_shape, shape_key
+from kfmaps.app.batch.layout import Pair, find_collection
+from kfmaps.app.batch.plan import make_plan
+from kfmaps.app.batch.settings import Settings
+from kfmaps.app.batch.summary import summarised
+from kfmaps.app.batch.work import attempts, map_path, match_pair, prepare_shape
+from kfmaps.app.files import load_map, read_mesh, read_vertex_numbers, write_mesh, write_vertex_numbers
+from kfmaps.evaluate import geodesic_errors
+from kfmaps.kernels import Linear
+from kfmaps.matching import match
+from kfmaps.mesh import Mesh
+from kfmaps.shape import prepare
+
+
+def test_prepared_shapes_come_back_as_they_were(tmp_path: Path) -> None:
+    config = replace(CONFIG, descriptors=replace(CONFIG.descriptors, shot=True, shot_radius=0.4))
+    shape = prepare(blob(200), config, name="b")
+    path = tmp_path / "entry.npz"
+    save_shape(path, shape)
+    back = load_shape(path, "other")
+    assert back is not None
+    assert back.name == "other"
+    assert back.seconds == shape.seconds
+    for a, b in (
+        (back.mesh.vertices, shape.mesh.vertices),
+        (back.mesh.faces, shape.mesh.faces),
+        (back.basis.functions, shape.basis.functions),
+        (back.basis.eigenvalues, shape.basis.eigenvalues),
+        (back.basis.mass, shape.basis.mass),
+        (back.shot, shape.shot),
+    ):
+        np.testing.assert_array_equal(a, b)
+
+
+def test_damaged_entries_count_as_none(tmp_path: Path) -> None:
+    path = tmp_path / "entry.npz"
+    assert load_shape(path, "b") is None
+    save_shape(path, prepare(blob(200), CONFIG))
+    data = path.read_bytes()
+    path.write_bytes(data[: len(data) // 2])
+    assert load_shape(path, "b") is None
+
+
+def test_entries_depend_on_content_and_on_what_prepares(tmp_path: Path) -> None:
+    a, b = touch(tmp_path / "a.off", "one"), touch(tmp_path / "b.off", "two")
+    key = shape_key(file_digest(a), ".off", CONFIG)
+    larger = replace(CONFIG, refinement=None, descriptors=replace(CONFIG.descriptors, eigenfunctions=50))
+    local = replace(CONFIG, descriptors=replace(CONFIG.descriptors, shot=True))
+    cotangent = replace(CONFIG, basis=replace(CONFIG.basis, laplacian="cotangent"))
+    for config in (larger, local, cotangent):
+        assert shape_key(file_digest(a), ".off", config) != key
+    assert shape_key(file_digest(b), ".off", CONFIG) != key
+    assert shape_key(file_digest(a), ".obj", CONFIG) != key
+    assert shape_key(file_digest(a), ".off", replace(CONFIG, kernel=Linear(), sharpness=1.0)) == key
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return write_collection(tmp_path_factory.mktemp("shapes"))
+
+
+def test_a_pair_equals_a_single_match(folder: Path, tmp_path: Path) -> None:
+    results = done(plan_of(folder, tmp_path))
+    assert [r.status for r in results] == ["done"] * 6
+    for result in results[:2]:
+        source, target = (read_mesh(folder / f"{name}.off") for name in (result.source, result.target))
+        truth = [read_vertex_numbers(folder / "corres" / f"{name}.vts") for name in (result.source, result.target)]
+        landmarks = np.stack(truth, axis=1)[np.array(LANDMARKS) - 1]
+        found = match(source, target, CONFIG, landmarks=landmarks)
+        errors = geodesic_errors(source, found.target_to_source[truth[1]], truth[0])
+        assert result.error_mean == pytest.approx(errors.mean(), rel=1e-9)
+        assert result.error_max == pytest.approx(errors.max(), rel=1e-9)
+        assert result.curve[20] == pytest.approx((errors <= 0.05).mean())
+        assert result.landmarks == 4
+        saved = load_map(map_path(tmp_path, Pair(result.source, result.target).key))
+        np.testing.assert_array_equal(saved.target_to_source, found.target_to_source)
+        np.testing.assert_array_equal(saved.extra["landmarks"], landmarks)
+    assert summarised(results).error_mean == pytest.approx(np.mean([float(r.error_mean or 0) for r in results]))
+
+
+def test_nothing_done_is_done_again(folder: Path, tmp_path: Path) -> None:
+    plan = plan_of(folder, tmp_path)
+    first = done(plan)
+    before = {p: p.stat().st_mtime_ns for p in tmp_path.rglob("*") if p.is_file()}
+    assert done(plan) == first
+    assert plan_of(folder, tmp_path).todo == ()
+    assert {p: p.stat().st_mtime_ns for p in tmp_path.rglob("*") if p.is_file()} == before
+
+
+def test_changed_files_are_done_again(tmp_path: Path) -> None:
+    folder, out = write_collection(tmp_path / "c"), tmp_path / "out"
+    done(plan_of(folder, out))
+    mesh = read_mesh(folder / "b1.off")
+    write_mesh(folder / "b1.off", Mesh(mesh.vertices * 1.5, mesh.faces), force=True)
+    plan = plan_of(folder, out)
+    assert plan.changed == len(plan.todo) == 4
+    assert len(plan.results) == 2
+    write_vertex_numbers(folder / "corres" / "b0.vts", np.roll(np.arange(200), 1), force=True)
+    assert len(plan_of(folder, out).todo) == 6
+
+
+def test_a_bad_shape_fails_its_pairs_alone_and_can_be_retried(tmp_path: Path) -> None:
+    folder, out = write_collection(tmp_path / "c"), tmp_path / "out"
+    good = (folder / "b1.off").read_bytes()
+    touch(folder / "b1.off", "OFF\n3 1 0\n0 0 0\n")
+    results = done(plan_of(folder, out))
+    assert sorted(r.status for r in results) == ["done"] * 2 + ["failed"] * 4
+    failed = [r for r in results if r.status == "failed"]
+    assert all("b1" in (r.source, r.target) and "shape b1 could not be prepared" in r.reason for r in failed)
+    assert plan_of(folder, out).todo == ()
+    assert len(plan_of(folder, out, retry_failed=True).todo) == 4
+    (folder / "b1.off").write_bytes(good)
+    assert len(plan_of(folder, out).todo) == 4
+    assert {r.status for r in done(plan_of(folder, out))} == {"done"}
+
+
+def test_a_defect_is_recorded_with_its_type(folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    plan = plan_of(folder, tmp_path)
+    prepared = [prepare_shape(t) for t in (plan.todo[0].source, plan.todo[0].target)]
+
+    def broken(*_: object, **__: object) -> None:
+        raise ZeroDivisionError("oh")
+
+    monkeypatch.setattr("kfmaps.app.batch.work.match", broken)
+    result = match_pair(plan.todo[0], *prepared)
+    assert (result.status, result.reason) == ("failed", "ZeroDivisionError: oh")
+    assert not map_path(tmp_path, plan.todo[0].pair.key).exists()
+
+
+def test_a_shape_that_changes_under_way_is_refused(tmp_path: Path) -> None:
+    folder = write_collection(tmp_path / "c")
+    plan = plan_of(folder, tmp_path / "out")
+    task = plan.todo[0].source
+    write_mesh(task.path, blob(210), force=True)
+    assert "changed" in prepare_shape(task).reason
+    assert load_shape(Path(task.entry), "b") is None
+
+
+def test_attempts_are_counted_across_kills(folder: Path, tmp_path: Path) -> None:
+    """A worker that died left its note and no result; the next one takes the pair up as the second attempt."""
+    plan = plan_of(folder, tmp_path)
+    task = plan.todo[0]
+    touch(tmp_path / "attempts" / f"{task.pair.key}.1", "{}")
+    result = match_pair(task, prepare_shape(task.source), prepare_shape(task.target))
+    assert (result.status, result.attempts) == ("done", 2)
+    assert attempts(tmp_path, task.pair.key) == 2
+    assert attempts(tmp_path, Path(task.source.entry).stem) == 1
+
+
+def test_mirrored_truth(tmp_path: Path) -> None:
+    """Swapping the direct and the mirrored lists swaps the two errors."""
+    means = []
+    for swap in (False, True):
+        folder = write_collection(tmp_path / f"c{swap}", 2)
+        truth = read_vertex_numbers(folder / "corres" / "b1.vts")
+        other = np.roll(truth, 7)
+        write_vertex_numbers(folder / "corres" / "b1.sym.vts", truth if swap else other)
+        write_vertex_numbers(folder / "corres" / "b1.vts", other if swap else truth, force=True)
+        marks = [read_vertex_numbers(folder / "corres" / "b0.vts"), truth]
+        for name, numbers in zip(("b0", "b1"), marks, strict=True):
+            path = touch(folder / "landmarks" / f"{name}.vts")
+            write_vertex_numbers(path, numbers[:5], force=True)
+        result = done(plan_of(folder, tmp_path / f"o{swap}", lines=()))[0]
+        assert result.landmarks == 5
+        means.append((result.error_mean, result.mirrored_mean))
+    assert means[0] == pytest.approx(means[1][::-1])
+    assert means[0][0] < means[0][1]
+
+
+def test_identity_and_pair_truth_agree_with_lists(tmp_path: Path) -> None:
+    """The same correspondence said in three ways gives the same errors."""
+    means = []
+    for way in ("lists", "map", "identity"):
+        folder = tmp_path / way
+        folder.mkdir()
+        for i in range(2):
+            write_mesh(folder / f"b{i}.off", Mesh(blob(200).vertices * [1, 1 + 0.2 * i, 1], blob(200).faces))
+        numbers = "\n".join(str(i + 1) for i in range(200))
+        if way == "lists":
+            touch(folder / "corres" / "b0.vts", numbers)
+            touch(folder / "corres" / "b1.vts", numbers)
+        if way == "map":
+            touch(folder / "corres" / "b0_b1.map", numbers)
+        found = find_collection(folder)
+        settings = Settings(CONFIG, landmark_lines=LANDMARKS, identity=way == "identity")
+        means.append(done(make_plan(found, [Pair("b0", "b1")], settings, tmp_path / f"o{way}"))[0].error_mean)
+    assert means[0] == means[1] == means[2]
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        (lambda f: touch(f / "corres" / "b1.vts", "1\n2\n"), "equally many lines"),
+        (lambda f: touch(f / "corres" / "b1.vts", "900\n" * 200), "mesh of 200"),
+        (lambda f: (f / "corres" / "b1.vts").unlink(), "none for this pair"),
+        (lambda f: [touch(f / "corres" / f"b{i}.vts", "1\n2\n") for i in range(2)], "line 170 of 2"),
+    ],
+)
+def test_bad_truth_is_a_recorded_failure(tmp_path: Path, change, message: str) -> None:
+    folder = write_collection(tmp_path / "c", 2)
+    change(folder)
+    result = done(plan_of(folder, tmp_path / "out"))[0]
+    assert result.status == "failed"
+    assert message in result.reason
+
+
+def test_identity_beside_files_is_refused(folder: Path, tmp_path: Path) -> None:
+    found = find_collection(folder)
+    with pytest.raises(InvalidInput, match="--identity"):
+        make_plan(found, [Pair("b0", "b1")], Settings(CONFIG, identity=True), tmp_path)

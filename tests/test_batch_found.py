@@ -1,0 +1,181 @@
+"""What a collection holds, what its runs are defined by, and how long they will take."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from collecting import CONFIG, touch
+from kfmaps._arrays import InvalidInput
+from kfmaps.app.batch.clock import in_words, remaining_seconds
+from kfmaps.app.batch.layout import Pair, choose_pairs, find_collection, natural
+from kfmaps.app.batch.plan import recommended
+from kfmaps.app.batch.settings import Settings, claim
+from kfmaps.config import Config
+from kfmaps.kernels import Linear
+
+
+@pytest.mark.parametrize("sub", ["", "off", "shapes"])
+def test_remeshed_layouts(tmp_path: Path, sub: str) -> None:
+    for name in ("tr_reg_10", "tr_reg_2"):
+        touch(tmp_path / sub / f"{name}.off")
+        touch(tmp_path / "corres" / f"{name}.vts")
+        touch(tmp_path / "corres" / f"{name}.sym.vts")
+    touch(tmp_path / "corres" / "sampleID.vts")
+    touch(tmp_path / "landmarks" / "tr_reg_2.txt")
+    touch(tmp_path / "test_pairs.txt", "tr_reg_2 tr_reg_10\n\n# a remark\ntr_reg_10.off,tr_reg_2\n")
+    found = find_collection(tmp_path)
+    assert list(found.shapes) == ["tr_reg_2", "tr_reg_10"]
+    assert set(found.truth) == set(found.mirrored) == set(found.shapes)
+    assert found.mirrored["tr_reg_2"].name == "tr_reg_2.sym.vts"
+    assert set(found.landmarks) == {"tr_reg_2"}
+    assert choose_pairs(found) == [Pair("tr_reg_2", "tr_reg_10"), Pair("tr_reg_10", "tr_reg_2")]
+
+
+def test_shrec_layout_has_pairs_of_its_own(tmp_path: Path) -> None:
+    for name in ("1", "2", "10", "a_b"):
+        touch(tmp_path / "off" / f"{name}.off")
+    for name in ("10_1", "2_10", "a_b_2", "7_1"):
+        touch(tmp_path / "corres" / f"{name}.map")
+    found = find_collection(tmp_path)
+    assert choose_pairs(found) == [Pair("2", "10"), Pair("10", "1"), Pair("a_b", "2")]
+
+
+def test_shapes_of_the_top_folder_win(tmp_path: Path) -> None:
+    touch(tmp_path / "a.ply")
+    touch(tmp_path / "off" / "b.off")
+    assert list(find_collection(tmp_path).shapes) == ["a"]
+
+
+def test_what_cannot_be_a_collection(tmp_path: Path) -> None:
+    with pytest.raises(InvalidInput, match="no folder"):
+        find_collection(tmp_path / "missing")
+    with pytest.raises(InvalidInput, match="off/"):
+        find_collection(tmp_path)
+    touch(tmp_path / "a.off")
+    touch(tmp_path / "a.ply")
+    with pytest.raises(InvalidInput, match=r"a\.off and a\.ply"):
+        find_collection(tmp_path)
+
+
+def test_choices_of_pairs(tmp_path: Path) -> None:
+    for name in ("a", "b", "c"):
+        touch(tmp_path / f"{name}.off")
+    found = find_collection(tmp_path)
+    assert len(set(choose_pairs(found, every=True))) == 6
+    assert choose_pairs(found, star="b.off") == [Pair("b", "a"), Pair("b", "c")]
+    file = touch(tmp_path / "list.txt", "a b\na b\nb a")
+    assert choose_pairs(found, file=file) == [Pair("a", "b"), Pair("b", "a")]
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [("a", "line 1.*got 1"), ("\na b c", "line 2.*got 3"), ("a x", "line 1.*'x'"), ("# no\n", "no pairs")],
+)
+def test_bad_lists_of_pairs(tmp_path: Path, text: str, message: str) -> None:
+    for name in ("a", "b"):
+        touch(tmp_path / f"{name}.off")
+    with pytest.raises(InvalidInput, match=message):
+        choose_pairs(find_collection(tmp_path), file=touch(tmp_path / "list.txt", text))
+
+
+def test_bad_choices_of_pairs(tmp_path: Path) -> None:
+    touch(tmp_path / "a.off")
+    found = find_collection(tmp_path)
+    choices: list[tuple[dict[str, Any], str]] = [
+        ({"every": True, "star": "a"}, "several"),
+        ({}, "test_pairs.txt"),
+        ({"star": "x"}, "'x'"),
+        ({"every": True}, "two shapes"),
+        ({"file": tmp_path / "none.txt"}, "No such file"),
+    ]
+    for choice, message in choices:
+        with pytest.raises(InvalidInput, match=message):
+            choose_pairs(found, **choice)
+
+
+def test_keys_tell_pairs_apart(tmp_path: Path) -> None:
+    assert Pair("a", "b").key == "a-b"
+    assert Pair("a-b", "c").key != Pair("a", "b-c").key
+    for name in ("a", "A", "b"):
+        touch(tmp_path / f"{name}.off")
+    if len(list(tmp_path.iterdir())) == 3:
+        with pytest.raises(InvalidInput, match="tell pairs apart"):
+            choose_pairs(find_collection(tmp_path), every=True)
+
+
+def test_natural_order() -> None:
+    assert sorted(["s10", "s9", "s1a", "10", "9"], key=natural) == ["9", "10", "s1a", "s9", "s10"]
+
+
+def test_digest_follows_what_matters() -> None:
+    base = Settings(CONFIG)
+    for other in (
+        Settings(replace(CONFIG, kernel=Linear())),
+        Settings(CONFIG, seed=1),
+        Settings(CONFIG, identity=True),
+        Settings(CONFIG, landmark_lines=(3,)),
+        Settings(CONFIG, landmark_files=False),
+    ):
+        assert other.digest != base.digest
+    assert Settings(replace(CONFIG, threads=3)).digest == base.digest
+
+
+def test_other_settings_are_refused_by_name(tmp_path: Path) -> None:
+    claim(tmp_path, Settings(CONFIG))
+    claim(tmp_path, Settings(replace(CONFIG, threads=2)))
+    changed = replace(CONFIG, weights=replace(CONFIG.weights, laplacian=2.0))
+    with pytest.raises(InvalidInput, match=r"config\.weights\.laplacian 1\.0, now 2\.0.*another output folder"):
+        claim(tmp_path, Settings(changed))
+    (tmp_path / "settings.json").write_text("{")
+    with pytest.raises(InvalidInput, match="remove it"):
+        claim(tmp_path, Settings(CONFIG))
+
+
+def test_landmark_lines_are_checked() -> None:
+    for lines in ((0,), (2, 2)):
+        with pytest.raises(InvalidInput, match="truth-landmarks"):
+            Settings(CONFIG, landmark_lines=lines)
+
+
+def test_recommended_as_match_would(tmp_path: Path) -> None:
+    for name in ("a", "b", "c"):
+        touch(tmp_path / f"{name}.off")
+    for name in ("a", "b"):
+        touch(tmp_path / "landmarks" / f"{name}.txt", "1\n")
+    found = find_collection(tmp_path)
+    some, every = [Pair("a", "b")], choose_pairs(found, every=True)
+    assert recommended(found, some, False, True) == Config()
+    assert recommended(found, every, True, True) == Config()
+    for pairs, files in ((every, True), (some, False)):
+        assert recommended(found, pairs, False, files) == Config.automatic()
+
+
+def test_remaining_time_of_even_work_is_exact() -> None:
+    assert remaining_seconds([], [], 0, 0, 4) == 0
+    assert remaining_seconds([2.0], [], 3, 5, 4) is None
+    assert remaining_seconds([], [3.0, 5.0], 0, 8, 4) == pytest.approx(8.0)
+    assert remaining_seconds([2.0], [4.0], 2, 8, 4) == pytest.approx(9.0)
+    assert remaining_seconds([], [4.0], 0, 1, 4) == pytest.approx(4.0)
+
+
+def test_remaining_time_is_honest_on_uneven_work() -> None:
+    """On a simulated run the estimate at half-time is within a third of what the rest then takes."""
+    for seed in range(20):
+        times = np.random.default_rng(seed).lognormal(1, 0.5, 60)
+        free, ends = np.zeros(3), []
+        for seconds in times:
+            worker = free.argmin()
+            free[worker] += seconds
+            ends.append(free[worker])
+        order = np.argsort(ends)[:30]
+        estimate = remaining_seconds([], times[order].tolist(), 0, 30, 3)
+        assert estimate == pytest.approx(max(ends) - np.sort(ends)[29], rel=0.35)
+
+
+def test_durations_in_words() -> None:
+    assert [in_words(s) for s in (7.4, 99, 130, 12000)] == ["7 s", "99 s", "2 min", "3 h 20 min"]

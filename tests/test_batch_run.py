@@ -1,0 +1,249 @@
+"""Running a collection on Dask: once each whatever is killed, on the loopback alone, and resumed where it stopped."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import psutil
+import pytest
+import threadpoolctl
+
+from collecting import CONFIG, Deadly, done, plan_of, write_collection
+from kfmaps._arrays import InvalidInput, MissingDependency
+from kfmaps.app.batch.clock import Standing
+from kfmaps.app.batch.cluster import Workers, local_workers, running_workers
+from kfmaps.app.batch.collection import match_collection
+from kfmaps.app.batch.layout import Pair, find_collection
+from kfmaps.app.batch.plan import Plan, make_plan
+from kfmaps.app.batch.results import Result, result_path
+from kfmaps.app.batch.run import _Run, run_plan
+from kfmaps.app.batch.settings import Settings
+from kfmaps.app.batch.work import attempts, begin, map_path, prepare_shape
+from kfmaps.app.files import load_map
+
+
+def until(condition: Callable[[], Any], seconds: float = 20.0) -> Any:
+    """The first true value of ``condition``, asked again and again."""
+    end = time.monotonic() + seconds
+    while time.monotonic() < end:
+        if value := condition():
+            return value
+        time.sleep(0.005)
+    raise AssertionError("it never came")
+
+
+def under_way(plan: Plan) -> tuple[int, str] | None:
+    """Process and key of a pair that has begun and has no result."""
+    for task in plan.todo:
+        key = task.pair.key
+        marker = plan.folder / "attempts" / f"{key}.1"
+        if marker.exists() and not result_path(plan.folder, key).exists() and (text := marker.read_text()):
+            return json.loads(text)["process"], key
+    return None
+
+
+def shape_attempts(plan: Plan) -> list[int]:
+    entries = {Path(t.entry).stem for task in plan.tasks for t in (task.source, task.target)}
+    return [attempts(plan.folder, entry) for entry in sorted(entries)]
+
+
+def gone(process: int) -> bool:
+    try:
+        return psutil.Process(process).status() == psutil.STATUS_ZOMBIE
+    except psutil.NoSuchProcess:
+        return True
+
+
+def test_a_killed_worker_costs_nothing(tmp_path: Path) -> None:
+    plan = plan_of(write_collection(tmp_path / "c", 4), tmp_path / "out")
+    killed: list[str] = []
+
+    def kill_one(standing: Standing, _result: Result | None) -> None:
+        if not killed and standing.pairs_done >= 2:
+            process, key = until(lambda: under_way(plan))
+            os.kill(process, signal.SIGKILL)
+            killed.append(key)
+
+    outcome = match_collection(plan, workers=2, worst=0, tell=kill_one)
+    assert len(killed) == 1
+    assert [r.status for r in outcome.results] == ["done"] * 12
+    assert {Pair(r.source, r.target).key: r.attempts for r in outcome.results if r.attempts > 1} == {killed[0]: 2}
+    assert len(list((plan.folder / "pairs").iterdir())) == outcome.matched == 12
+    assert shape_attempts(plan) == [1] * 4
+    alone = plan_of(tmp_path / "c", tmp_path / "alone")
+    for result in done(alone):
+        key = Pair(result.source, result.target).key
+        maps = [load_map(map_path(folder, key)).target_to_source for folder in (plan.folder, alone.folder)]
+        np.testing.assert_array_equal(maps[0], maps[1])
+
+
+def test_a_killed_run_goes_on_where_it_stopped(tmp_path: Path) -> None:
+    folder, out = write_collection(tmp_path / "c", 5), tmp_path / "out"
+    script = Path(__file__).with_name("collecting.py")
+    with subprocess.Popen([sys.executable, str(script), str(folder), str(out)]) as run:
+        until(lambda: len(list(out.glob("pairs/b*.json"))) >= 3)
+        run.kill()
+    workers = {json.loads(p.read_text())["process"] for p in out.glob("attempts/*.1") if p.read_text()}
+    assert workers
+    until(lambda: all(gone(process) for process in workers))
+    kept = {p: (p.read_bytes(), p.stat().st_mtime_ns) for p in out.glob("pairs/b*.json")}
+    plan = plan_of(folder, out)
+    assert len(plan.todo) == 20 - len(kept) > 0
+    outcome = match_collection(plan, workers=2, worst=0)
+    assert outcome.matched == len(plan.todo)
+    assert [r.status for r in outcome.results] == ["done"] * 20
+    assert {p: (p.read_bytes(), p.stat().st_mtime_ns) for p in kept} == kept
+    assert sum(r.attempts - 1 for r in outcome.results) <= 1  # the one that was under way
+    assert plan_of(folder, out).todo == ()
+
+
+def test_a_pair_that_kills_is_given_up_and_the_rest_go_on(tmp_path: Path) -> None:
+    folder = write_collection(tmp_path / "c", 4, sizes=[210])
+    config = replace(CONFIG, kernel=Deadly(210))
+    pairs = [Pair("b1", "b0"), Pair("b1", "b2"), Pair("b2", "b1"), Pair("b3", "b2"), Pair("b1", "b3")]
+    plan = make_plan(find_collection(folder), pairs, Settings(config), tmp_path / "out")
+    outcome = match_collection(plan, workers=2, worst=0)
+    assert {(r.source, r.target) for r in outcome.results if r.status == "failed"} == {("b1", "b0")}
+    assert len(outcome.results) == 5
+    bad = next(r for r in outcome.results if r.status == "failed")
+    assert bad.attempts == 3
+    assert "3 workers died" in bad.reason
+
+
+class Answer:
+    """A future that is done."""
+
+    def __init__(self, value: Any = None, error: BaseException | None = None) -> None:
+        self.value, self.error, self.status = value, error, "error" if error else "finished"
+
+    def result(self) -> Any:
+        return self.value
+
+    def exception(self) -> BaseException | None:
+        return self.error
+
+
+class Machine:
+    """A client and its results in one process, whose worker dies whenever it prepares one of the shapes."""
+
+    def __init__(self, deadly: str) -> None:
+        self.deadly, self.done, self.prepared = deadly, [], []
+
+    def submit(self, function: Callable, task: Any, *shapes: Answer, **_: object) -> Answer:
+        from distributed import KilledWorker
+
+        if function is prepare_shape:
+            self.prepared.append(task.name)
+            if task.name == self.deadly:
+                begin(Path(task.folder), Path(task.entry).stem)
+                return Answer(error=KilledWorker(task.name, None, 2))  # pyright: ignore[reportArgumentType]
+        error = next((a.error for a in shapes if a.error), None)
+        return Answer(error=error) if error else Answer(function(task, *(a.value for a in shapes)))
+
+    def add(self, answer: Answer) -> None:
+        self.done.append(answer)
+
+    def __next__(self) -> Answer:
+        return self.done.pop(0)
+
+
+def test_a_shape_that_kills_fails_its_pairs_alone(tmp_path: Path) -> None:
+    plan = plan_of(write_collection(tmp_path / "c", 3), tmp_path / "out")
+    machine: Any = Machine("b1")
+    run = _Run(plan, Workers(machine, 2, ""), machine)
+    run.hand_over()
+    while run.jobs:
+        run.next()
+        run.hand_over()
+    failed = [r for r in run.results if r.status == "failed"]
+    assert {(r.source, r.target) for r in run.results if r.status == "done"} == {("b0", "b2"), ("b2", "b0")}
+    assert len(failed) == 4
+    assert all("3 workers died while shape b1 was worked on" in r.reason for r in failed)
+    assert sorted(machine.prepared) == ["b0", "b1", "b1", "b1", "b2"]
+    assert run.standing().remaining == 0
+
+
+def test_ctrl_c_ends_cleanly(tmp_path: Path) -> None:
+    plan = plan_of(write_collection(tmp_path / "c", 4), tmp_path / "out")
+
+    def interrupt(standing: Standing, _result: Result | None) -> None:
+        if standing.pairs_done == 2:
+            raise KeyboardInterrupt
+
+    outcome = match_collection(plan, workers=1, tell=interrupt)
+    assert outcome.interrupted
+    assert 2 <= len(outcome.results) < 12
+    assert "not done yet" in (plan.folder / "summary.html").read_text(encoding="utf-8")
+    rest = plan_of(tmp_path / "c", tmp_path / "out")
+    assert len(rest.todo) == 12 - len(outcome.results)
+
+
+def _about() -> dict[str, Any]:
+    numpy_threads = max(pool["num_threads"] for pool in threadpoolctl.threadpool_info())
+    return {"blas": numpy_threads, "listens": _listening(), "interrupt": signal.getsignal(signal.SIGINT)}
+
+
+def _listening() -> list[str]:
+    kinds = psutil.Process().net_connections("inet")
+    return [c.laddr[0] for c in kinds if c.status == psutil.CONN_LISTEN]
+
+
+def test_workers_use_one_thread_and_the_loopback_alone() -> None:
+    with local_workers(1) as workers:
+        assert workers.client.scheduler_info()["address"].startswith("tls://127.0.0.1:")
+        told: Any = workers.client.run(_about)
+        (worker,) = told.values()
+        assert worker["blas"] == 1
+        assert worker["interrupt"] == signal.SIG_IGN
+        assert worker["listens"]
+        assert set(worker["listens"] + _listening()) == {"127.0.0.1"}
+
+
+def test_a_running_scheduler(tmp_path: Path) -> None:
+    from distributed import LocalCluster
+
+    folder = write_collection(tmp_path / "c", 3)
+    options: dict[str, Any] = {"n_workers": 1, "threads_per_worker": 2, "processes": False, "dashboard_address": None}
+    with LocalCluster(host="127.0.0.1", protocol="tcp://", **options) as cluster:
+        address = str(getattr(cluster, "scheduler_address"))  # noqa: B009  (typed as if it were asynchronous)
+        outcome = match_collection(plan_of(folder, tmp_path / "out"), scheduler=address, worst=0)
+        assert [r.status for r in outcome.results] == ["done"] * 6
+        plan = plan_of(folder, tmp_path / "other")
+        (tmp_path / "other" / "settings.json").unlink()
+        with (
+            running_workers(address) as workers,
+            pytest.raises(InvalidInput, match="on all of them"),
+        ):
+            run_plan(plan, workers)
+
+
+def test_no_scheduler() -> None:
+    with pytest.raises(InvalidInput, match=r"tcp://127\.0\.0\.1:9"), running_workers("tcp://127.0.0.1:9", timeout=0.3):
+        pass
+
+
+def test_dask_is_asked_for(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    plan = plan_of(write_collection(tmp_path / "c", 2), tmp_path / "out")
+    monkeypatch.setitem(sys.modules, "distributed", None)
+    for scheduler in (None, "tcp://127.0.0.1:9"):
+        with pytest.raises(MissingDependency, match=r"kfmaps\[batch\]"):
+            match_collection(plan, scheduler=scheduler)
+
+
+def test_one_run_at_a_time(tmp_path: Path) -> None:
+    fcntl = pytest.importorskip("fcntl")
+    plan = plan_of(write_collection(tmp_path / "c", 2), tmp_path / "out")
+    with open(tmp_path / "out" / ".lock", "w") as file:
+        fcntl.flock(file, fcntl.LOCK_EX)
+        with pytest.raises(InvalidInput, match="in use by another run"):
+            match_collection(plan)

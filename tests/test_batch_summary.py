@@ -1,0 +1,123 @@
+"""Tables and summary of a collection."""
+
+from __future__ import annotations
+
+import csv
+import json
+import sys
+import warnings
+from dataclasses import replace
+from html.parser import HTMLParser
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from collecting import done, plan_of, write_collection
+from kfmaps.app.batch.collection import COLUMNS, PAGE, TABLE, match_collection, write_outputs
+from kfmaps.app.batch.page import summary_page
+from kfmaps.app.batch.results import Result, all_results, read_result, result_path, write_csv, write_parquet
+from kfmaps.app.batch.summary import summarised, worst_first
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return write_collection(tmp_path_factory.mktemp("shapes"))
+
+
+def some_results() -> list[Result]:
+    curve = tuple(min(1.0, i / 50) for i in range(101))
+    base = Result("a", "b", "done", "s", "i", error_mean=0.02, error_median=0.01, error_max=0.1, curve=curve)
+    evil = '<img src=x onerror="alert(1)">'
+    return [
+        replace(base, seconds={"point map": 1.0, "total": 3.0}, verdict="sure", confidence=0.5, mirrored_mean=0.3),
+        replace(base, target=evil, error_mean=0.2, mirrored_mean=0.1, seconds={"total": 5.0}, verdict="ambiguous"),
+        Result("c", evil, "failed", "s", "i", reason="<script>alert(2)</script>", notes=("one", "two")),
+    ]
+
+
+def test_tables_have_a_row_a_pair(tmp_path: Path) -> None:
+    from pyarrow import parquet
+
+    results = some_results()
+    write_csv(tmp_path / "t.csv", results)
+    write_parquet(tmp_path / "t.parquet", results)
+    with open(tmp_path / "t.csv", encoding="utf-8", newline="") as file:
+        rows = list(csv.DictReader(file))
+    typed = parquet.read_table(tmp_path / "t.parquet").to_pylist()
+    assert [r["target"] for r in rows] == [r.target for r in results] == [r["target"] for r in typed]
+    assert [r["error_mean"] for r in rows] == ["0.02", "0.2", ""]
+    assert [r["error_mean"] for r in typed] == [0.02, 0.2, None]
+    assert rows[0].keys() == typed[0].keys()
+    assert rows[0]["seconds_point_map"] == "1.0"
+    assert rows[2]["notes"] == "one; two"
+
+
+def test_csv_alone_without_pyarrow(folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    plan = plan_of(folder, tmp_path)
+    results = done(plan)[:1]
+    assert {p.name for p in write_outputs(plan, results, "c", 0)} == {TABLE, COLUMNS, PAGE}
+    monkeypatch.setitem(sys.modules, "pyarrow", None)
+    assert {p.name for p in write_outputs(plan, results, "c", 0)} == {TABLE, PAGE}
+    assert not (tmp_path / COLUMNS).exists()
+
+
+class Elements(HTMLParser):
+    """The tags and addresses of a page, and its text."""
+
+    def __init__(self, page: str) -> None:
+        super().__init__()
+        self.tags: list[str] = []
+        self.addresses: list[str] = []
+        self.text: list[str] = []
+        self.feed(page)
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        self.tags.append(tag)
+        self.addresses += [v or "" for k, v in attrs if k in ("src", "href", "srcset", "action", "data")]
+        assert not any(k.startswith("on") for k, _ in attrs)
+
+    def handle_data(self, data: str) -> None:
+        self.text.append(data)
+
+
+def test_the_summary_escapes_and_needs_no_network() -> None:
+    page = summary_page("<b>name</b>", some_results(), {"seed": "</pre><script>"}, {"<i>a</i>": b"png"}, 5)
+    found = Elements(page)
+    assert not {"script", "b", "i", "iframe", "link", "object"} & set(found.tags)
+    assert found.tags.count("img") == 2  # the curve and the picture, not those of names
+    assert all(address.startswith("data:image/") for address in found.addresses)
+    assert "default-src &#x27;none&#x27;" in page
+    text = " ".join(found.text)
+    for told in ("<b>name</b>", "<script>alert(2)</script>", "2 not done yet", "</pre><script>", "11.00", "1 failed"):
+        assert told in text
+
+
+def test_numbers_of_the_summary() -> None:
+    numbers = summarised(some_results())
+    assert (numbers.done, numbers.failed, numbers.evaluated, numbers.bad, numbers.flipped) == (2, 1, 2, 1, 1)
+    assert numbers.error_mean == pytest.approx(0.11)
+    assert numbers.seconds_total == pytest.approx(8)
+    assert numbers.verdicts == {"ambiguous": 1, "sure": 1}
+    assert [r.error_mean for r in worst_first(some_results())] == [0.2, 0.02]
+    unknown = [replace(r, error_mean=None) for r in some_results()]
+    assert [r.confidence for r in worst_first(unknown)] == [0.5, None]
+    assert summarised([]).error_mean is None
+
+
+def test_outputs_come_from_the_result_files(folder: Path, tmp_path: Path) -> None:
+    plan = plan_of(folder, tmp_path)
+    done(plan)
+    result_path(tmp_path, "foreign").write_text(json.dumps({"source": "x", "settings": "other"}))
+    result_path(tmp_path, "broken").write_text("{")
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        outcome = match_collection(plan_of(folder, tmp_path), name="c", worst=1)
+    assert outcome.matched == 0
+    assert len(outcome.results) == 6
+    assert all_results(tmp_path, plan.settings.digest) == list(outcome.results)
+    page = (tmp_path / PAGE).read_text(encoding="utf-8")
+    assert page.count("data:image/png;base64,") == 1
+    mean = np.mean([float(r.error_mean or 0) for r in outcome.results])
+    assert f"{100 * mean:.2f}" in page
+    assert read_result(result_path(tmp_path, "broken")) is None
