@@ -58,20 +58,24 @@ def _times(tall: np.ndarray, small: np.ndarray, each: Map) -> np.ndarray:
     return result
 
 
-def _remove(block: np.ndarray, basis: np.ndarray, each: Map) -> None:
-    """Take from ``block``, in place, its components along the columns of ``basis``."""
-    if basis.shape[1] == 0:
-        return
-    # The parts are added in a fixed order: the number of threads must not change a bit.
-    along = sum(each(lambda rows: basis[rows].T @ block[rows], _slices(len(block))))
+def _subtract(block: np.ndarray, basis: np.ndarray, along: np.ndarray, each: Map) -> None:
+    """``block -= basis @ along``, in place."""
 
-    def subtract(rows: slice) -> None:
+    def rows_of(rows: slice) -> None:
         block[rows] -= basis[rows] @ along
 
-    list(each(subtract, _slices(len(block))))
+    list(each(rows_of, _slices(len(block))))
 
 
-def _normalise(block: np.ndarray) -> tuple[np.ndarray, np.ndarray, float]:
+def _remove(block: np.ndarray, basis: np.ndarray, each: Map) -> None:
+    """Take from ``block``, in place, its components along the columns of ``basis``."""
+    if basis.shape[1]:
+        # The parts are added in a fixed order: the number of threads must not change a bit.
+        along = sum(each(lambda rows: basis[rows].T @ block[rows], _slices(len(block))))
+        _subtract(block, basis, np.asarray(along), each)
+
+
+def _normalise(block: np.ndarray, each: Map) -> tuple[np.ndarray, np.ndarray, float]:
     """``(Q, R, spread)`` with ``block = Q R``; the smaller the spread, the less orthonormal ``Q`` may be.
 
     Directions below rounding are scaled up like the others: they turn into noise, which the next call
@@ -83,16 +87,16 @@ def _normalise(block: np.ndarray) -> tuple[np.ndarray, np.ndarray, float]:
     values, rotation = np.linalg.eigh(gram / np.outer(size, size))
     spread = float(values[0])
     root = np.sqrt(np.maximum(values, 1e-15 * values[-1]))
-    return np.asfortranarray(block @ (rotation / size[:, None] / root)), root[:, None] * rotation.T * size, spread
+    return _times(block, rotation / size[:, None] / root, each), root[:, None] * rotation.T * size, spread
 
 
 def _orthonormal(block: np.ndarray, bases: list[np.ndarray], each: Map) -> tuple[np.ndarray, np.ndarray]:
     """``(Q, R)`` with ``block = Q R`` up to components along ``bases``, to which ``Q`` is orthogonal."""
-    block, total, _ = _normalise(block)
+    block, total, _ = _normalise(block, each)
     for _ in range(5):
         for basis in bases:
             _remove(block, basis, each)
-        block, factor, spread = _normalise(block)
+        block, factor, spread = _normalise(block, each)
         total = factor @ total
         if spread > 0.5:
             break
@@ -120,11 +124,10 @@ def _stage(
     coupling = np.zeros((b, b))
     while True:
         new = apply(block)
-        if size > b:
-            new -= basis[:, size - 2 * b : size - b] @ coupling.T
         diagonal = block.T @ new
         diagonal = (diagonal + diagonal.T) / 2
-        new -= block @ diagonal
+        recent = slice(max(size - 2 * b, 0), size)
+        _subtract(new, basis[:, recent], np.vstack([coupling.T, diagonal])[-size:], each)
         here = slice(size - b, size)
         projected[here, here] = diagonal
         following, coupling = _orthonormal(new, [locked.vectors, basis[:, :size]], each)

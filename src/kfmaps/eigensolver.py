@@ -172,8 +172,10 @@ def _checked(matrix, mass, vectors, shift, tolerance) -> Eigenpairs:
     weighted = mass[:, None] * vectors
     scale = (values + shift) * np.linalg.norm(weighted, axis=0)
     gaps = np.linalg.norm(images - weighted * values, axis=0)
-    rounding = 8 * np.finfo(float).eps * np.linalg.norm(abs(matrix) @ abs(vectors), axis=0)
-    bad = np.flatnonzero(~(gaps <= tolerance * scale + rounding))
+    bad = np.flatnonzero(~(gaps <= tolerance * scale))
+    if len(bad):
+        rounding = 8 * np.finfo(float).eps * np.linalg.norm(abs(matrix) @ abs(vectors[:, bad]), axis=0)
+        bad = bad[~(gaps[bad] <= tolerance * scale[bad] + rounding)]
     if len(bad):
         worst = (gaps / scale)[bad].max()
         raise NotConverged(
