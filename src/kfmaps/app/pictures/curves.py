@@ -51,7 +51,7 @@ def mean_curve(label: str, thresholds: np.ndarray, curves: np.ndarray) -> Curve:
     return Curve(label, np.asarray(thresholds, dtype=np.float64), curves.mean(axis=0), *band)
 
 
-def curves_figure(curves: Sequence[Curve], *, title: str | None = None, size: tuple[float, float] = (5, 3.6)) -> Figure:
+def curves_figure(curves: Sequence[Curve], *, title: str | None = None, size: tuple[float, float] = (5, 3.9)) -> Figure:
     """Error curves in one set of axes, each with its band.
 
     Parameters
@@ -81,7 +81,8 @@ def curves_figure(curves: Sequence[Curve], *, title: str | None = None, size: tu
             ax.fill_between(curve.thresholds, curve.low, curve.high, color=color, alpha=0.15, linewidth=0)
         ax.plot(curve.thresholds, curve.fractions, color=color, linestyle=dash, linewidth=1.8, label=curve.label)
     _axes(ax, max(float(curve.thresholds[-1]) for curve in curves))
-    legend = ax.legend(loc="lower right", frameon=False, fontsize=9, labelcolor=TEXT)
+    # Below the axes, where it covers neither curve nor band.
+    legend = figure.legend(loc="outside lower center", frameon=False, fontsize=9, labelcolor=TEXT)
     for text in legend.get_texts():
         text.set_parse_math(False)  # a name is a name, not a formula
     if title:

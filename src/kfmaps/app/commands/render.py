@@ -1,0 +1,199 @@
+"""``kfmaps render``: figures for papers, drawn without a display."""
+
+from __future__ import annotations
+
+import warnings
+from pathlib import Path
+from typing import Annotated
+
+import numpy as np
+import typer
+
+from kfmaps._arrays import KfmapsWarning, refuse
+from kfmaps.app.batch.layout import Pair
+from kfmaps.app.batch.results import Result, all_results
+from kfmaps.app.batch.settings import read_settings
+from kfmaps.app.batch.summary import error_curve_of, summarised
+from kfmaps.app.batch.work import map_path
+from kfmaps.app.files import MapFile, atomic_output, check_map, check_output, load_map, read_mesh, read_vertex_numbers
+from kfmaps.app.pictures import (
+    Panel,
+    View,
+    curves_figure,
+    grid_figure,
+    match_figure,
+    painted_errors,
+    picture_format,
+    save_figure,
+    view,
+)
+from kfmaps.app.view.results import mesh_path
+from kfmaps.mesh import Mesh
+
+app = typer.Typer(help="Figures for papers (PNG, SVG, PDF), drawn without a display.", no_args_is_help=True)
+
+Output = Annotated[Path, typer.Option("-o", "--output", help="The figure: .png, .svg or .pdf.", show_default=False)]
+Force = Annotated[bool, typer.Option("--force", help="Replace an existing file.")]
+Title = Annotated[str | None, typer.Option(help="Written above.", show_default=False)]
+From = Annotated[
+    tuple[float, float, float] | None,
+    typer.Option("--from", help="Look at the source from this direction.", metavar="X Y Z", show_default=False),
+]
+Up = Annotated[
+    tuple[float, float, float] | None,
+    typer.Option(help="What is up in the picture; with --from.", metavar="X Y Z", show_default=False),
+]
+
+
+@app.command("pair")
+def render_pair(
+    map: Annotated[Path, typer.Argument(help="A map (.npz, .txt, .vts, .mat).", show_default=False)],
+    output: Output,
+    source: Annotated[
+        Path | None, typer.Option(help="The source mesh; default: the one the map names.", show_default=False)
+    ] = None,
+    target: Annotated[
+        Path | None, typer.Option(help="The target mesh; default: the one the map names.", show_default=False)
+    ] = None,
+    truth: Annotated[
+        tuple[Path, Path] | None,
+        typer.Option(
+            help="True vertices of source and target, line by line (.vts counts from 1): shows the error too.",
+            metavar="SOURCE TARGET",
+            show_default=False,
+        ),
+    ] = None,
+    limit: Annotated[
+        float | None, typer.Option(help="Error at which its colours end, in √area.", show_default=False)
+    ] = None,
+    title: Title = None,
+    towards: From = None,
+    up: Up = None,
+    force: Force = False,
+) -> None:
+    """One map: the source, the target in the source's colours, and the error when the truth is given."""
+    _check(output, force)
+    found = load_map(map)
+    source_mesh, target_mesh = (_mesh(g, found, s, map) for g, s in ((source, "source"), (target, "target")))
+    points = check_map(found, len(source_mesh.vertices), len(target_mesh.vertices))
+    errors = None
+    if truth is not None:
+        known = (_true(truth[0], source_mesh), _true(truth[1], target_mesh))
+        errors = painted_errors(source_mesh, target_mesh, points, *known)
+    seen = _view(towards, up)
+    figure = match_figure(source_mesh, target_mesh, points, errors=errors, limit=limit, title=_plain(title), view=seen)
+    with atomic_output(output, force) as temporary:
+        save_figure(figure, temporary)
+
+
+@app.command("grid")
+def render_grid(
+    folder: Annotated[Path, typer.Argument(help="Output folder of kfmaps batch.", show_default=False)],
+    source: Annotated[str, typer.Option(help="The shape whose colours are carried to all.", show_default=False)],
+    output: Output,
+    targets: Annotated[
+        str | None, typer.Option(help="Names with commas between; default: all it was matched to.", show_default=False)
+    ] = None,
+    columns: Annotated[int | None, typer.Option(help="Default: a balanced figure.", show_default=False)] = None,
+    errors: Annotated[bool, typer.Option(help="Mean error × 100 beside each name, where known.")] = True,
+    title: Title = None,
+    towards: From = None,
+    up: Up = None,
+    force: Force = False,
+) -> None:
+    """A collection: one source, and its colours on every target that it was matched to."""
+    _check(output, force)
+    done = [r for r in _results(folder) if r.status == "done" and r.source == source]
+    if not done:
+        known = ", ".join(sorted({r.source for r in _results(folder)})[:6]) or "none"
+        raise refuse("--source", f"a shape that was matched as a source ({known})", repr(source), "choose one of them")
+    if targets is not None:
+        wanted = [name.strip() for name in targets.split(",") if name.strip()]
+        by_name = {r.target: r for r in done}
+        missing = [name for name in wanted if name not in by_name]
+        if missing or not wanted:
+            got = repr(missing[0]) if missing else "none"
+            raise refuse("--targets", f"shapes that {source} was matched to", got, "check the spelling")
+        done = [by_name[name] for name in wanted]
+    centre, panels = None, []
+    for result in done:
+        path = map_path(folder, Pair(result.source, result.target).key)
+        found = load_map(path)
+        if centre is None:
+            centre = _mesh(None, found, "source", path)
+        mesh = _mesh(None, found, "target", path)
+        points = check_map(found, len(centre.vertices), len(mesh.vertices), str(path))
+        told = errors and result.error_mean is not None
+        panels.append(
+            Panel(f"{result.target}  {100 * (result.error_mean or 0):.1f}" if told else result.target, mesh, points)
+        )
+    assert centre is not None
+    figure = grid_figure(centre, panels, label=source, columns=columns, title=title, view=_view(towards, up))
+    with atomic_output(output, force) as temporary:
+        save_figure(figure, temporary)
+
+
+@app.command("curves")
+def render_curves(
+    folders: Annotated[list[Path], typer.Argument(help="Output folders of kfmaps batch.", show_default=False)],
+    output: Output,
+    labels: Annotated[
+        str | None, typer.Option(help="Names with commas between; default: the folders'.", show_default=False)
+    ] = None,
+    title: Title = None,
+    force: Force = False,
+) -> None:
+    """Error curves of whole runs, each the mean of its pairs, in one figure."""
+    _check(output, force)
+    names = [folder.resolve().name for folder in folders] if labels is None else [n.strip() for n in labels.split(",")]
+    if len(names) != len(folders):
+        raise refuse("--labels", f"{len(folders)} names", f"{len(names)}", "give one for each folder")
+    curves = []
+    for folder, name in zip(folders, names, strict=True):
+        results = _results(folder)
+        mean = summarised(results).error_mean
+        curve = error_curve_of(results, f"{name}, mean {mean or 0:.4f}")
+        if curve is None:
+            raise refuse(f"{folder}", "pairs whose truth is known", "none", "run batch on shapes with truth")
+        curves.append(curve)
+    with atomic_output(output, force) as temporary:
+        save_figure(curves_figure(curves, title=title), temporary)
+
+
+def _check(output: Path, force: bool) -> None:
+    """Whether the figure can be written, before anything is read."""
+    picture_format(output)
+    check_output(output, force)
+
+
+def _results(folder: Path) -> list[Result]:
+    return all_results(folder, read_settings(folder)["digest"])
+
+
+def _plain(title: str | None) -> str | None:
+    """A title in which a dollar sign is a dollar sign."""
+    return None if title is None else title.replace("$", r"\$")
+
+
+def _view(towards: tuple[float, float, float] | None, up: tuple[float, float, float] | None) -> View | None:
+    if towards is None:
+        if up is not None:
+            raise refuse("--up", "--from beside it", "--up alone", "give both")
+        return None
+    return view(towards, (0, 1, 0) if up is None else up)
+
+
+def _mesh(given: Path | None, found: MapFile, side: str, beside: Path) -> Mesh:
+    """The mesh as given, else the one that the map names."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", KfmapsWarning)  # a picture shows what is odd
+        return read_mesh(mesh_path(given, found, side, beside))
+
+
+def _true(file: Path, mesh: Mesh) -> np.ndarray:
+    """The list of true vertices in a file."""
+    numbers = read_vertex_numbers(file)
+    if numbers.max() >= len(mesh.vertices):
+        wanted = f"vertices below {len(mesh.vertices)}"
+        raise refuse(str(file), wanted, str(numbers.max()), "check that it belongs to the mesh")
+    return numbers
