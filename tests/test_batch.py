@@ -115,9 +115,11 @@ def test_changed_files_are_done_again(tmp_path: Path) -> None:
 def test_a_bad_shape_fails_its_pairs_alone_and_can_be_retried(tmp_path: Path) -> None:
     folder, out = write_collection(tmp_path / "c"), tmp_path / "out"
     good = (folder / "b1.off").read_bytes()
+    touch(out / "maps" / "b0-b1.npz", "of an earlier mesh")
     touch(folder / "b1.off", "OFF\n3 1 0\n0 0 0\n")
     results = done(plan_of(folder, out))
     assert sorted(r.status for r in results) == ["done"] * 2 + ["failed"] * 4
+    assert {p.stem for p in (out / "maps").iterdir()} == {"b0-b2", "b2-b0"}
     failed = [r for r in results if r.status == "failed"]
     assert all("b1" in (r.source, r.target) and "shape b1 could not be prepared" in r.reason for r in failed)
     assert plan_of(folder, out).todo == ()

@@ -71,7 +71,13 @@ def local_workers(count: int | None = None) -> Iterator[Workers]:
         raise MissingDependency(f"collections need Dask ({error}); {REMEDY}") from error
     with (
         _quiet(),
-        config.set({"distributed.scheduler.allowed-failures": DEATHS - 1}),
+        config.set(
+            {
+                "distributed.scheduler.allowed-failures": DEATHS - 1,
+                # A factorisation may keep a worker from answering for long; it is not dead.
+                "distributed.scheduler.worker-ttl": None,
+            }
+        ),
         LocalCluster(
             n_workers=count,
             threads_per_worker=1,

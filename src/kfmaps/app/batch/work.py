@@ -85,6 +85,7 @@ def match_pair(task: PairTask, source: Prepared, target: Prepared) -> Result:
         return there
     start = time.perf_counter()
     attempt = begin(folder, task.pair.key)
+    map_path(folder, task.pair.key).unlink(missing_ok=True)  # of files that have changed since
     values: dict[str, Any] = {"seconds": {}}
     with _caught() as met, one_blas_thread():
         for part in (source, target):
