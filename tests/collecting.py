@@ -62,11 +62,18 @@ def write_collection(folder: Path, count: int = 3, *, sizes: Sequence[int] = (),
     return folder
 
 
-def plan_of(folder: Path, output: Path, config: Config = CONFIG, lines: tuple[int, ...] = LANDMARKS, **options) -> Plan:
-    """The plan of all pairs of a folder; ``options`` as of ``make_plan``."""
+def plan_of(
+    folder: Path,
+    output: Path,
+    config: Config = CONFIG,
+    lines: tuple[int, ...] = LANDMARKS,
+    seed: int = 0,
+    retry_failed: bool = False,
+) -> Plan:
+    """The plan of all pairs of a folder."""
     collection = find_collection(folder)
-    pairs = choose_pairs(collection, every=True)
-    return make_plan(collection, pairs, Settings(config, landmark_lines=lines), output, **options)
+    settings = Settings(config, seed=seed, landmark_lines=lines)
+    return make_plan(collection, choose_pairs(collection, every=True), settings, output, retry_failed=retry_failed)
 
 
 def touch(path: Path, text: str = "") -> Path:

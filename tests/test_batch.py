@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from dataclasses import replace
 from pathlib import Path
 
@@ -18,6 +19,7 @@ from kfmaps.app.batch.settings import Settings
 from kfmaps.app.batch.summary import summarised
 from kfmaps.app.batch.work import attempts, map_path, match_pair, prepare_shape
 from kfmaps.app.files import load_map, read_mesh, read_vertex_numbers, write_mesh, write_vertex_numbers
+from kfmaps.config import NystromConfig
 from kfmaps.evaluate import geodesic_errors
 from kfmaps.kernels import Linear
 from kfmaps.matching import match
@@ -73,13 +75,18 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def test_a_pair_equals_a_single_match(folder: Path, tmp_path: Path) -> None:
-    results = done(plan_of(folder, tmp_path))
+    config = replace(CONFIG, nystrom=NystromConfig(samples=30, sampling="uniform"), refinement=None)
+    start = time.perf_counter()
+    results = done(plan_of(folder, tmp_path, config, seed=3))
+    elapsed = time.perf_counter() - start
     assert [r.status for r in results] == ["done"] * 6
+    assert sum(r.seconds["total"] for r in results) < elapsed
+    assert all(sum(r.seconds.values()) <= 2 * r.seconds["total"] for r in results)
     for result in results[:2]:
         source, target = (read_mesh(folder / f"{name}.off") for name in (result.source, result.target))
         truth = [read_vertex_numbers(folder / "corres" / f"{name}.vts") for name in (result.source, result.target)]
         landmarks = np.stack(truth, axis=1)[np.array(LANDMARKS) - 1]
-        found = match(source, target, CONFIG, landmarks=landmarks)
+        found = match(source, target, config, landmarks=landmarks, rng=3)
         errors = geodesic_errors(source, found.target_to_source[truth[1]], truth[0])
         assert result.error_mean == pytest.approx(errors.mean(), rel=1e-9)
         assert result.error_max == pytest.approx(errors.max(), rel=1e-9)

@@ -211,6 +211,13 @@ def test_a_pair_with_its_error(output: Path, render: Callable[..., Path]) -> Non
         render("pair", settings[0], "--up", 0, 0, 1, name="other.png")
 
 
+def test_resolution(output: Path, render: Callable[..., Path]) -> None:
+    from matplotlib.image import imread
+
+    fine, coarse = (imread(render("curves", output, "--dpi", dpi, name=f"{dpi}.png")) for dpi in (300, 100))
+    assert fine.shape[0] == pytest.approx(3 * coarse.shape[0], abs=3)
+
+
 def test_targets_are_chosen_by_name(output: Path, render: Callable[..., Path]) -> None:
     from matplotlib.image import imread
 

@@ -112,8 +112,8 @@ def _curves(results: Sequence[Result]) -> str:
     if curve is None:
         return ""
     buffer = io.BytesIO()
-    # Labels as text, which is smaller and can be searched; ids from a fixed salt, so that equal runs give equal pages.
-    with matplotlib.rc_context({"svg.fonttype": "none", "svg.hashsalt": "kfmaps", "font.family": "sans-serif"}):
+    # Labels as text, which is smaller and can be searched.
+    with matplotlib.rc_context({"svg.fonttype": "none", "font.family": "sans-serif"}):
         save_figure(curves_figure([curve], size=(6.4, 3.8)), buffer, "svg")
     at = [f"{100 * float(_at(curve, t)):.1f} % within {t}" for t in (0.01, 0.05, 0.1)]
     caption = f"Points within an error of the truth: {', '.join(at)}. The band holds the middle 80 % of the pairs."

@@ -34,6 +34,7 @@ app = typer.Typer(help="Figures for papers (PNG, SVG, PDF), drawn without a disp
 
 Output = Annotated[Path, typer.Option("-o", "--output", help="The figure: .png, .svg or .pdf.", show_default=False)]
 Force = Annotated[bool, typer.Option("--force", help="Replace an existing file.")]
+Dpi = Annotated[float, typer.Option(help="Dots per inch, of the surfaces in SVG and PDF too.", min=20, max=2400)]
 Title = Annotated[str | None, typer.Option(help="Written above.", show_default=False)]
 From = Annotated[
     tuple[float, float, float] | None,
@@ -69,6 +70,7 @@ def render_pair(
     title: Title = None,
     towards: From = None,
     up: Up = None,
+    dpi: Dpi = 300,
     force: Force = False,
 ) -> None:
     """One map: the source, the target in the source's colours, and the error when the truth is given."""
@@ -83,7 +85,7 @@ def render_pair(
     seen = _view(towards, up)
     figure = match_figure(source_mesh, target_mesh, points, errors=errors, limit=limit, title=_plain(title), view=seen)
     with atomic_output(output, force) as temporary:
-        save_figure(figure, temporary)
+        save_figure(figure, temporary, dpi=dpi)
 
 
 @app.command("grid")
@@ -99,6 +101,7 @@ def render_grid(
     title: Title = None,
     towards: From = None,
     up: Up = None,
+    dpi: Dpi = 300,
     force: Force = False,
 ) -> None:
     """A collection: one source, and its colours on every target that it was matched to."""
@@ -130,7 +133,7 @@ def render_grid(
     assert centre is not None
     figure = grid_figure(centre, panels, label=source, columns=columns, title=title, view=_view(towards, up))
     with atomic_output(output, force) as temporary:
-        save_figure(figure, temporary)
+        save_figure(figure, temporary, dpi=dpi)
 
 
 @app.command("curves")
@@ -141,6 +144,7 @@ def render_curves(
         str | None, typer.Option(help="Names with commas between; default: the folders'.", show_default=False)
     ] = None,
     title: Title = None,
+    dpi: Dpi = 300,
     force: Force = False,
 ) -> None:
     """Error curves of whole runs, each the mean of its pairs, in one figure."""
@@ -157,7 +161,7 @@ def render_curves(
             raise refuse(f"{folder}", "pairs whose truth is known", "none", "run batch on shapes with truth")
         curves.append(curve)
     with atomic_output(output, force) as temporary:
-        save_figure(curves_figure(curves, title=title), temporary)
+        save_figure(curves_figure(curves, title=title), temporary, dpi=dpi)
 
 
 def _check(output: Path, force: bool) -> None:

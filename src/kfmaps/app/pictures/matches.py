@@ -40,10 +40,18 @@ def picture_format(path: str | Path) -> str:
     return kind
 
 
-def save_figure(figure: Figure, file: str | Path | IO[bytes], kind: str | None = None) -> None:
+def save_figure(figure: Figure, file: str | Path | IO[bytes], kind: str | None = None, *, dpi: float = DPI) -> None:
     """Write ``figure`` as ``kind`` (png, svg or pdf; by default what the name of ``file`` says).
 
     The same figure gives the same bytes: no date goes in. An existing file is replaced.
+
+    Parameters
+    ----------
+    figure : matplotlib.figure.Figure
+    file : path or binary file
+    kind : str, optional
+    dpi : float
+        Dots per inch of a PNG, and of the surfaces inside an SVG or PDF.
 
     Raises
     ------
@@ -57,7 +65,7 @@ def save_figure(figure: Figure, file: str | Path | IO[bytes], kind: str | None =
     metadata = {"png": {"Software": None}, "svg": {"Date": None}, "pdf": {"CreationDate": None}}[kind]
     # The salt makes the names inside an SVG the same each time.
     with rc_context({"svg.hashsalt": "kfmaps"}):
-        figure.savefig(file, format=kind, dpi=DPI, metadata=metadata)
+        figure.savefig(file, format=kind, dpi=dpi, metadata=metadata)
 
 
 def _map_between(source: Mesh, target: Mesh, target_to_source: np.ndarray) -> np.ndarray:
