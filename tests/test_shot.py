@@ -1,0 +1,295 @@
+"""SHOT against a plain loop over its definition, and the laws it obeys."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+
+import kfmaps.shot as module
+from conftest import blob
+from kfmaps._arrays import InvalidInput
+from kfmaps.mesh import Mesh, face_areas, surface_area, unit_area, vertex_normals
+from kfmaps.shot import Form, mirrored, shot
+
+FORMS: list[Form] = ["surface", "paper"]
+
+
+def plain_support(mesh: Mesh, form: str, samples: int) -> list[tuple[np.ndarray, np.ndarray, float]]:
+    """(point, unit normal, weight) of every support point."""
+    normals = vertex_normals(mesh)
+    if form == "paper":
+        return [(p, n, 1.0) for p, n in zip(mesh.vertices, normals, strict=True)]
+    found = []
+    for face, area in zip(mesh.faces, face_areas(mesh), strict=True):
+        m = max(1, round(float(np.sqrt(area * samples / surface_area(mesh)))))
+        # Every small triangle of the m-fold subdivision, by its three corners.
+        for i in range(m):
+            for j in range(m - i):
+                triangles = [[(i, j), (i + 1, j), (i, j + 1)]]
+                if i + j < m - 1:
+                    triangles.append([(i + 1, j), (i + 1, j + 1), (i, j + 1)])
+                for corners in triangles:
+                    a, b = np.mean(corners, axis=0) / m
+                    share = np.array([a, b, 1 - a - b])
+                    normal = share @ normals[face]
+                    found.append((share @ mesh.vertices[face], normal / np.linalg.norm(normal), area / m**2))
+    return found
+
+
+def plain_frame(near: list, form: str, radius: float) -> np.ndarray:
+    covariance = sum(w * (radius - d) * np.outer(p, p) for p, d, n, w in near)
+    normal = np.sum([w * (radius - d) * n for p, d, n, w in near], axis=0)
+    middle = np.sum([w * (radius - d) * p for p, d, n, w in near], axis=0)
+
+    def majority(axis: np.ndarray, otherwise: np.ndarray) -> np.ndarray:
+        forward = sum(w for p, d, n, w in near if p @ axis > 0)
+        backward = sum(w for p, d, n, w in near if p @ axis < 0)
+        return axis if (forward > backward if forward != backward else axis @ otherwise > 0) else -axis
+
+    if form == "paper":
+        z = majority(np.linalg.eigh(covariance)[1][:, 0], normal)
+        x = majority(np.linalg.eigh(covariance)[1][:, 2], middle)
+    else:
+        z = normal / np.linalg.norm(normal)
+        plane = np.linalg.svd(z[None])[2][1:]  # two unit vectors across z
+        x = majority(plane.T @ np.linalg.eigh(plane @ covariance @ plane.T)[1][:, 1], middle)
+    return np.array([x, np.cross(z, x), z])
+
+
+def plain_shot(mesh: Mesh, radius: float, bins: int, form: Form, samples: int) -> np.ndarray:
+    """The definition in degrees, looking at every volume and every bin of every pair."""
+    radius = radius * np.sqrt(surface_area(mesh))
+    support = plain_support(mesh, form, samples)
+    rows = []
+    for vertex in mesh.vertices:
+        near = [(p - vertex, np.linalg.norm(p - vertex), n, w) for p, n, w in support]
+        near = [pair for pair in near if 0 < pair[1] <= radius]
+        frame = plain_frame(near, form, radius)
+        histogram = np.zeros((8, 2, 2, bins + 1))
+        for p, d, n, w in near:
+            x, y, z = frame @ p
+            azimuth, elevation = np.degrees(np.arctan2(y, x)), np.degrees(np.arccos(z / d))
+            fade = min(1, (1 - d / radius) / 0.1) if form == "surface" else 1
+            for a in range(8):
+                turn = abs((azimuth - (45 * a + 22.5) + 180) % 360 - 180) / 45
+                for e in range(2):
+                    tilt = abs(elevation - (90 * e + 45)) / 90
+                    for s in range(2):
+                        shell = abs(d / radius - (0.5 * s + 0.25)) / 0.5
+                        volume = w * fade * max(0, 1 - turn) * max(0, 1 - tilt) * max(0, 1 - shell)
+                        cosines = np.linspace(-1, 1, bins + 1)
+                        histogram[a, e, s] += volume * np.maximum(1 - abs(frame[2] @ n - cosines) / (2 / bins), 0)
+        row = histogram.ravel()
+        row = np.sqrt(row) if form == "surface" else row
+        rows.append(row / np.linalg.norm(row))
+    return np.array(rows)
+
+
+@pytest.mark.parametrize(
+    ("form", "radius", "bins", "samples"),
+    [("surface", 0.4, 10, 50), ("surface", 0.5, 7, 160), ("paper", 0.4, 10, 1), ("paper", 0.7, 4, 1)],
+)
+def test_agrees_with_the_plain_loop(form, radius, bins, samples):
+    mesh = blob(44)
+    found = shot(mesh, radius, bins=bins, form=form, samples=samples)
+    wanted = plain_shot(mesh, radius, bins, form, samples)
+    assert found.shape == (44, 32 * (bins + 1))
+    # Squares, as roots magnify the rounding of a share that is nearly zero.
+    np.testing.assert_allclose(found**2, wanted**2, atol=1e-10)
+    np.testing.assert_allclose(found, wanted, atol=1e-6)
+
+
+def test_on_a_plane_the_shares_are_known():
+    side = np.linspace(0, 1, 41)
+    x, y = (axis.ravel() for axis in np.meshgrid(side, side))
+    corner = np.arange(41 * 40).reshape(40, 41)[:, :40].ravel()
+    faces = np.concatenate([corner + np.array([[0], [1], [42]]), corner + np.array([[0], [42], [41]])], axis=1).T
+    flat = Mesh(np.stack([x, y, 0 * x], axis=1), faces)
+    share = shot(flat, 0.3, samples=8000)[20 * 41 + 20].reshape(8, 2, 2, 11) ** 2
+    np.testing.assert_allclose(share.sum(axis=(0, 1, 2)), np.eye(11)[10], atol=1e-12)  # cosine 1
+    np.testing.assert_allclose(share.sum(axis=(0, 2, 3)), [0.5, 0.5], atol=1e-7)  # between both elevations
+    np.testing.assert_allclose(share.sum(axis=(1, 2, 3)), 1 / 8, rtol=0.02)
+    r = (np.arange(10_000) + 0.5) / 10_000
+    faded = r * np.minimum(1, 10 * (1 - r))
+    inner = np.sum(faded * np.maximum(1 - np.abs(r - 0.25) / 0.5, 0))
+    outer = np.sum(faded * np.maximum(1 - np.abs(r - 0.75) / 0.5, 0))
+    np.testing.assert_allclose(share.sum(axis=(0, 1, 3)), [inner / (inner + outer), outer / (inner + outer)], rtol=0.01)
+
+
+@pytest.mark.parametrize("form", FORMS)
+@pytest.mark.parametrize("samples", [1000, 300])  # 300: faces are merged
+def test_pose_and_unit_change_nothing(form, samples):
+    mesh = blob(400)
+    turn = Rotation.from_euler("xyz", [0.4, -1.1, 2.0]).as_matrix()
+    moved = Mesh(37.0 * mesh.vertices @ turn.T + np.array([5.0, -3.0, 90.0]), mesh.faces)
+    np.testing.assert_allclose(
+        shot(mesh, 0.2, form=form, samples=samples), shot(moved, 0.2, form=form, samples=samples), atol=1e-5
+    )
+
+
+@pytest.mark.parametrize("form", FORMS)
+@pytest.mark.parametrize("samples", [1000, 300])
+def test_order_of_vertices_and_faces_changes_nothing(form, samples):
+    mesh = blob(400)
+    rng = np.random.default_rng(3)
+    order, rank = rng.permutation(400), np.empty(400, dtype=np.int64)
+    rank[order] = np.arange(400)
+    shuffled = Mesh(mesh.vertices[order], rank[mesh.faces][rng.permutation(len(mesh.faces))])
+    np.testing.assert_allclose(
+        shot(mesh, 0.2, form=form, samples=samples)[order], shot(shuffled, 0.2, form=form, samples=samples), atol=1e-5
+    )
+
+
+@pytest.mark.parametrize("form", FORMS)
+@pytest.mark.parametrize("samples", [1000, 300])
+def test_a_mirror_reverses_the_azimuths(form, samples):
+    mesh = blob(400)
+    mirror = Mesh(mesh.vertices * np.array([-1.0, 1.0, 1.0]), mesh.faces[:, ::-1])
+    own, other = (shot(m, 0.2, form=form, samples=samples) for m in (mesh, mirror))
+    np.testing.assert_allclose(other, mirrored(own), atol=1e-5)
+    assert np.median(np.linalg.norm(own - other, axis=1)) > 0.1
+    np.testing.assert_array_equal(mirrored(mirrored(own)), own)
+
+
+@pytest.mark.parametrize("form", FORMS)
+def test_rows_are_of_unit_length_and_not_negative(form):
+    descriptors = shot(blob(300), form=form)
+    np.testing.assert_allclose(np.linalg.norm(descriptors, axis=1), 1)
+    assert descriptors.min() == 0
+
+
+@pytest.mark.parametrize("form", FORMS)
+def test_blocks_and_threads_change_nothing(form, monkeypatch):
+    mesh = blob(300)
+    whole = shot(mesh, 0.2, form=form, threads=1)
+    monkeypatch.setattr(module, "_PAIRS", 700)
+    np.testing.assert_allclose(whole, shot(mesh, 0.2, form=form, threads=3), atol=1e-7)
+
+
+def test_a_point_on_its_way_is_handed_over_smoothly():
+    steps = 2000
+    s = np.linspace(0, 1, steps)
+    paths = [  # (azimuth, elevation, distance, cosine): each crosses all borders of one kind
+        (2 * np.pi * s, 0 * s + 1.2, 0 * s + 0.6, 0 * s + 0.33),
+        (0 * s + 0.5, np.pi * (0.0005 + 0.999 * s), 0 * s + 0.6, 0 * s + 0.33),
+        (0 * s + 0.5, 0 * s + 1.2, 0.01 + 0.99 * s, 0 * s + 0.33),
+        (0 * s + 0.5, 0 * s + 1.2, 0 * s + 0.6, 2 * s - 1),
+    ]
+    for azimuth, elevation, distance, cosine in paths:
+        flat = np.sin(elevation)
+        direction = np.stack([flat * np.cos(azimuth), flat * np.sin(azimuth), np.cos(elevation)], axis=1)
+        normal = np.stack([np.sqrt(1 - cosine**2), 0 * s, cosine], axis=1)
+        pairs = module._Pairs(np.arange(steps), direction * distance[:, None], distance, normal, np.ones(steps), steps)
+        rows = module._histograms(pairs, np.tile(np.eye(3), (steps, 1, 1)), np.ones(steps), 10)
+        moved = np.abs(np.diff(rows, axis=0)).sum(axis=1)
+        assert 0 < moved.max() < 25 / steps  # a point that changed its bin at once would move 1
+
+
+@pytest.mark.parametrize("form", FORMS)
+def test_noise_changes_little(form):
+    mesh = blob(400)
+    noise = np.random.default_rng(0).standard_normal(mesh.vertices.shape)
+    own = shot(mesh, 0.2, form=form, samples=1000)
+    change = [
+        np.linalg.norm(own - shot(Mesh(mesh.vertices + e * noise, mesh.faces), 0.2, form=form, samples=1000), axis=1)
+        for e in (1e-6, 1e-4)
+    ]
+    assert np.quantile(change[0], 0.9) < 0.01
+    assert np.quantile(change[1], 0.8) < 0.1
+
+
+def test_surface_form_hardly_notices_the_triangulation():
+    mesh = unit_area(blob(700))
+    # Divide every face on one side into three, by its centre: the same surface, triangulated unevenly.
+    centres = mesh.vertices[mesh.faces].mean(axis=1)
+    chosen = centres[:, 0] > 0.05
+    new = 700 + np.arange(chosen.sum())
+    a, b, c = mesh.faces[chosen].T
+    parts = [np.stack(f, axis=1) for f in ((a, b, new), (b, c, new), (c, a, new))]
+    finer = Mesh(np.concatenate([mesh.vertices, centres[chosen]]), np.concatenate([mesh.faces[~chosen], *parts]))
+    border = np.abs(mesh.vertices[:, 0] - 0.05) < 0.15
+    change = {f: np.linalg.norm(shot(mesh, 0.15, form=f) - shot(finer, 0.15, form=f)[:700], axis=1) for f in FORMS}
+    assert np.median(change["surface"][border]) < 0.1
+    assert np.median(change["paper"][border]) > 3 * np.median(change["surface"][border])
+
+
+def test_finds_its_way_between_two_triangulations():
+    a, b = unit_area(blob(900)), unit_area(blob(900, twist=1.0))
+    nearest = (shot(a, 0.2) @ shot(b, 0.2).T).argmax(axis=1)
+    assert np.quantile(np.linalg.norm(a.vertices - b.vertices[nearest], axis=1), 0.8) < 0.06
+
+
+def test_merging_keeps_area_centroid_and_sides():
+    # A plate 0.004 thick: both sides fall into the same cells.
+    side = np.linspace(-0.5, 0.5, 30)
+    x, y = (axis.ravel() for axis in np.meshgrid(side, side))
+    corner = np.arange(30 * 29).reshape(29, 30)[:, :29].ravel()
+    up = np.concatenate([corner + np.array([[0], [1], [31]]), corner + np.array([[0], [31], [30]])], axis=1).T
+    top, bottom = (np.stack([x, y, 0 * x + h], axis=1) for h in (0.002, -0.002))
+    plate = unit_area(Mesh(np.concatenate([top, bottom]), np.concatenate([up, up[:, ::-1] + 900])))
+    support = module._surface_support(plate, vertex_normals(plate), 600)
+    assert 300 < len(support.points) < 1200
+    assert support.weights.sum() == pytest.approx(1)
+    np.testing.assert_allclose(support.weights @ support.points, 0, atol=1e-12)
+    np.testing.assert_allclose(np.abs(support.normals[:, 2]), 1)
+    assert support.weights[support.normals[:, 2] > 0].sum() == pytest.approx(0.5)
+
+
+def test_subdivision_keeps_area_and_reaches_the_count():
+    mesh = unit_area(blob(60))
+    support = module._surface_support(mesh, vertex_normals(mesh), 3000)
+    assert 2000 < len(support.points) < 4500
+    areas = face_areas(mesh)
+    assert support.weights.sum() == pytest.approx(areas.sum())
+    centroid = areas @ mesh.vertices[mesh.faces].mean(axis=1)
+    np.testing.assert_allclose(support.weights @ support.points, centroid, atol=1e-12)
+
+
+@pytest.mark.parametrize("form", FORMS)
+def test_loose_vertices_are_zero_or_finite(form):
+    mesh = blob(200)
+    vertices = np.concatenate([mesh.vertices, [[50.0, 0.0, 0.0]], mesh.vertices[:1] * 1.01])
+    descriptors = shot(Mesh(vertices, mesh.faces), 0.2, form=form)
+    assert not descriptors[200].any()
+    np.testing.assert_allclose(np.linalg.norm(np.delete(descriptors, 200, axis=0), axis=1), 1)
+
+
+@pytest.mark.parametrize("form", FORMS)
+@pytest.mark.parametrize("radius", [1e-6, 0.1, 5.0])
+def test_a_single_triangle(form, radius):
+    triangle = Mesh(np.array([[0.0, 0, 0], [2, 0, 0], [0, 1, 0]]), np.array([[0, 1, 2]]))
+    length = np.linalg.norm(shot(triangle, radius, form=form, samples=100), axis=1)
+    assert np.all(np.isclose(length, 1) | (length == 0))
+    assert np.all(length == 0) if radius == 1e-6 else np.any(length > 0) == (form == "surface" or radius == 5.0)
+
+
+def test_surface_without_a_mean_normal_is_zero():
+    triangle = np.array([[0.0, 0, 0], [2, 0, 0], [0, 1, 0]])
+    both_sides = Mesh(np.concatenate([triangle, triangle]), np.array([[0, 1, 2], [5, 4, 3]]))
+    assert not shot(both_sides, 5.0).any()
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        ({"form": "plain"}, "form"),
+        ({"bins": 0}, "bins"),
+        ({"samples": 0}, "samples"),
+        ({"radius": -1.0}, "radius"),
+        ({"radius": float("nan")}, "radius"),
+    ],
+)
+def test_refuses_bad_settings(change, said):
+    with pytest.raises(InvalidInput, match=said):
+        shot(blob(50), **change)
+
+
+def test_refuses_what_has_no_surface():
+    vertices = blob(50).vertices
+    with pytest.raises(InvalidInput, match="triangulate"):
+        shot(Mesh(vertices, np.zeros((0, 3))))
+    with pytest.raises(InvalidInput, match="vertices"):
+        shot(Mesh(np.where(vertices > 1, np.nan, vertices), blob(50).faces))
+    with pytest.raises(InvalidInput, match="32"):
+        mirrored(np.ones((3, 33)))
