@@ -53,8 +53,7 @@ class _Pairs:
 
     def total(self, values: np.ndarray) -> np.ndarray:
         """Sums of ``values`` over the pairs of each vertex, (count,)."""
-        # Without any pair bincount returns whole numbers.
-        return np.bincount(self.i, values, self.count).astype(np.float64, copy=False)
+        return np.bincount(self.i, values, self.count).astype(np.float64)  # it counts in int where it is empty
 
 
 def shot(
@@ -246,7 +245,8 @@ def _frames(pairs: _Pairs, form: Form) -> np.ndarray:
         z = _unit(np.where(cancelled[:, None], 0, mean_normal))
         down = z[:, :, None] * z[:, None, :]
         across = np.eye(3) - down
-        # Taking zzᵀ away keeps z out of the principal direction, even where the points make a straight line.
+        # Below zero z cannot be the principal direction, even where nothing lies across it.
+        down *= np.trace(covariance, axis1=1, axis2=2)[:, None, None]
         x = np.linalg.eigh(across @ covariance @ across - down)[1][:, :, 2]
     x = _towards(pairs, x, moment)
     exists = np.abs(z).max(axis=1) > 0
