@@ -9,7 +9,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from kfmaps.app.experiments import style
-from kfmaps.app.experiments.methods import paper
+from kfmaps.app.experiments.methods import literal
 from kfmaps.app.experiments.outputs import Outcome, write_conclusions, write_pictures, write_table
 from kfmaps.app.experiments.pairs import THRESHOLDS, Row
 from kfmaps.app.experiments.setting import Setting, by_method
@@ -23,7 +23,7 @@ SAMPLES = 200
 
 def kernels() -> dict[str, Config]:
     """The paper's settings at rank 200 with each kernel."""
-    base = paper(100)
+    base = literal(100)
     base = replace(base, nystrom=replace(base.nystrom, samples=SAMPLES))
     found = {f"Gaussian, γ = {gamma:g}": replace(base, kernel=Gaussian(gamma)) for gamma in GAMMAS}
     return found | {f"tanh({scale:g} x·y)": replace(base, kernel=Tanh(scale)) for scale in SCALES}

@@ -174,16 +174,16 @@ def conclusions(residuals: dict[str, np.ndarray], times: list[dict[str, Any]]) -
     risen = any((np.diff(values) > 0).any() for values in residuals.values())
     lines.append(f"Residuals of conjugate gradients are {'not ' if risen else ''}monotone here; the paper's are not.")
     written, reused, whole, ours, fewer = (float(row["seconds"]) for row in times)
+    apart = [float(row["relative difference"]) for row in times]
     lines.append(
-        f"One application of the operator takes {written:.3f} s as figure 1 writes it, {reused:.3f} s when what does not "
-        f"change is precomputed, and {ours:.3f} s with slices: {written / ours:.1f} and {reused / ours:.1f} times faster, "
-        f"in the same run on one thread. Compressed slices: {fewer:.3f} s; the whole kernel: {whole:.3f} s. The "
-        f"paper's took {PAPER_SECONDS} s on a machine of 2018."
+        f"One application of the operator takes {written:.3f} s as figure 1 writes it, {reused:.3f} s when what does "
+        f"not change is precomputed, and {ours:.3f} s with slices: {written / ours:.1f} and {reused / ours:.1f} times "
+        f"faster, in the same run on one thread. Compressed slices: {fewer:.3f} s; the whole kernel: {whole:.3f} s. "
+        f"The paper's took {PAPER_SECONDS} s on a machine of 2018."
     )
     lines.append(
-        f"The forms of rank {times[3]['form'].split()[-1]} agree to {max(float(times[i]['relative difference']) for i in (0, 1)):.0e}; "
-        f"the whole kernel differs by {float(times[2]['relative difference']):.2f}: so many samples stand for only a "
-        "part of a kernel this sharp."
+        f"The first two and the slices agree to {max(apart[:2]):.0e}. The whole kernel differs from them by "
+        f"{apart[2]:.2f}: that many samples stand for only a part of a kernel as sharp as this."
     )
     return lines
 

@@ -7,8 +7,11 @@ from dataclasses import replace
 from kfmaps.config import Config
 from kfmaps.kernels import Gaussian
 
-PAPER_GAMMAS = {100: 500.0, 10: 100.0}
-"""γ of the paper's figure 6, by number of descriptors."""
+PRINTED = {100: 500.0, 10: 100.0}
+"""γ that the paper's figure 6 names, by number of descriptors."""
+
+SEARCHED = {100: 0.2, 10: 0.3}
+"""γ by grid search on people 0 and 1 of FAUST and FAUST_r, for descriptors with a maximum of 1 each."""
 
 
 def with_count(config: Config, count: int) -> Config:
@@ -17,9 +20,26 @@ def with_count(config: Config, count: int) -> Config:
 
 
 def paper(count: int) -> Config:
-    """The paper's settings, with its γ for that number of descriptors (of the nearest number that it names)."""
-    nearest = min(PAPER_GAMMAS, key=lambda known: abs(known - count))
-    return replace(with_count(Config.paper(), count), kernel=Gaussian(PAPER_GAMMAS[nearest]))
+    """The paper's settings, with the γ of the grid search for about that number of descriptors."""
+    return replace(with_count(Config.paper(), count), kernel=Gaussian(_nearest(SEARCHED, count)))
+
+
+def literal(count: int) -> Config:
+    """The same with the γ that the paper prints, in the normalisation under which it is best.
+
+    All descriptors are divided by one number, so that the longest vector of descriptors at a vertex has length 1:
+    of the readings of "normalised to have a maximum value of 1" the one in which γ = 500 suits 100 descriptors.
+    """
+    config = paper(count)
+    return replace(
+        config,
+        descriptors=replace(config.descriptors, normalisation="row"),
+        kernel=Gaussian(_nearest(PRINTED, count)),
+    )
+
+
+def _nearest(known: dict[int, float], count: int) -> float:
+    return known[min(known, key=lambda other: abs(other - count))]
 
 
 def no17(count: int) -> Config:
@@ -30,6 +50,12 @@ def no17(count: int) -> Config:
 def obcs12(count: int) -> Config:
     """Ovsjanikov et al. (2012) with ``count`` descriptors."""
     return with_count(Config.obcs12(), count)
+
+
+def obcs12_regularised(count: int) -> Config:
+    """OBCS12 with α = 1, the weight that the paper names for its own energy."""
+    config = obcs12(count)
+    return replace(config, weights=replace(config.weights, descriptors=1.0, laplacian=1.0))
 
 
 def recommended(count: int) -> Config:

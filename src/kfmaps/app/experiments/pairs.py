@@ -26,7 +26,7 @@ from kfmaps.shape import Shape, prepare
 THRESHOLDS = np.linspace(0, 0.25, 101)
 """Errors at which curves are kept, in units of √area."""
 
-TOGETHER = 6
+TOGETHER = 16
 """Settings that one job runs on a pair: enough to share the distances, few enough to lose little when stopped."""
 
 VERSION = 1

@@ -16,12 +16,14 @@ GREY = "#777777"
 
 METHODS = {
     "OBCS12": PURPLE,
+    "OBCS12, α = 1": PURPLE,
     "NO17": ORANGE,
+    "ours (γ as printed)": VERMILION,
     "ours (paper)": BLUE,
     "ours (converged)": SKY,
     "ours (recommended)": GREEN,
 }
-"""Colour of each method, in every figure."""
+"""Colour of each method, in every figure; variants of one method share it."""
 
 GAMMAS = (BLACK, BLUE, SKY, GREEN, ORANGE, VERMILION, PURPLE)
 """For kernel widths, from the widest (small γ) to the sharpest."""

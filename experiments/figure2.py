@@ -1,0 +1,12 @@
+"""Spectra of the Gaussian kernel (figure 2).
+
+The same as ``kfmaps reproduce figure2``, with the same options: ``python experiments/figure2.py --data DIR``.
+"""
+
+import sys
+
+from kfmaps.app.cli import main
+
+if __name__ == "__main__":
+    sys.argv[1:1] = ["reproduce", "figure2"]
+    main()

@@ -1,0 +1,12 @@
+"""Nyström error against rank (figure 3).
+
+The same as ``kfmaps reproduce figure3``, with the same options: ``python experiments/figure3.py --data DIR``.
+"""
+
+import sys
+
+from kfmaps.app.cli import main
+
+if __name__ == "__main__":
+    sys.argv[1:1] = ["reproduce", "figure3"]
+    main()

@@ -1,0 +1,12 @@
+"""Error curves for several kernels (figure 5).
+
+The same as ``kfmaps reproduce figure5``, with the same options: ``python experiments/figure5.py --data DIR``.
+"""
+
+import sys
+
+from kfmaps.app.cli import main
+
+if __name__ == "__main__":
+    sys.argv[1:1] = ["reproduce", "figure5"]
+    main()

@@ -1,0 +1,12 @@
+"""Ours against NO17 and OBCS12 (figure 6).
+
+The same as ``kfmaps reproduce figure6``, with the same options: ``python experiments/figure6.py --data DIR``.
+"""
+
+import sys
+
+from kfmaps.app.cli import main
+
+if __name__ == "__main__":
+    sys.argv[1:1] = ["reproduce", "figure6"]
+    main()

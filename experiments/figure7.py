@@ -1,0 +1,12 @@
+"""Residuals of conjugate gradients, and the time of an application (figure 7).
+
+The same as ``kfmaps reproduce figure7``, with the same options: ``python experiments/figure7.py --data DIR``.
+"""
+
+import sys
+
+from kfmaps.app.cli import main
+
+if __name__ == "__main__":
+    sys.argv[1:1] = ["reproduce", "figure7"]
+    main()

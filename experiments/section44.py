@@ -1,0 +1,12 @@
+"""Rank and condition number against the number of descriptors (section 4.4).
+
+The same as ``kfmaps reproduce section44``, with the same options: ``python experiments/section44.py --data DIR``.
+"""
+
+import sys
+
+from kfmaps.app.cli import main
+
+if __name__ == "__main__":
+    sys.argv[1:1] = ["reproduce", "section44"]
+    main()

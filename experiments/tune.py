@@ -1,0 +1,12 @@
+"""Grid search over settings on training pairs (section 7.2).
+
+The same as ``kfmaps tune``, with the same options: ``python experiments/tune.py --data DIR``.
+"""
+
+import sys
+
+from kfmaps.app.cli import main
+
+if __name__ == "__main__":
+    sys.argv[1:1] = ["tune"]
+    main()

@@ -1,0 +1,73 @@
+"""``kfmaps reproduce``: the paper's experiments."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import replace
+from pathlib import Path
+from typing import Annotated
+
+import typer
+from rich.console import Console
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
+
+from kfmaps.app.experiments.outputs import output_folder
+from kfmaps.app.experiments.reproduce import FIGURES, named
+from kfmaps.app.experiments.setting import Setting
+from kfmaps.app.experiments.store import Report
+
+
+def reproduce(
+    figure: Annotated[
+        str, typer.Argument(help="One of " + ", ".join(FIGURES) + "; or all.", metavar="FIGURE", show_default=False)
+    ],
+    data: Annotated[
+        Path | None,
+        typer.Option(help="Folder that holds FAUST, FAUST_r or both; default: generated shapes.", show_default=False),
+    ] = None,
+    output: Annotated[Path, typer.Option("-o", "--output", help="Folder for tables, pictures and conclusions.")] = Path(
+        "experiments-output"
+    ),
+    pairs: Annotated[int, typer.Option(min=1, help="Pairs of each data set that are reported.")] = 100,
+    workers: Annotated[
+        int | None, typer.Option(min=1, help="Processes; default: one for each core.", show_default=False)
+    ] = None,
+    vertices: Annotated[int, typer.Option(min=1500, max=50000, help="Of a generated shape.")] = 2500,
+    seed: Annotated[int, typer.Option(help="For the draw of pairs and samples.")] = 0,
+) -> None:
+    """Repeat experiments of the paper: a table, a picture and conclusions for each.
+
+    Stopped and started again with the same output folder it goes on where it was.
+    """
+    names = named(figure)
+    setting = Setting(data, output_folder(output), pairs, workers, vertices, seed=seed)
+    found = setting.collections()
+    console = Console()
+    if data is None:
+        console.print("No --data: using shapes that the package generates.")
+    else:
+        console.print("Data: " + ", ".join(str(c.folder) for c in found), highlight=False, soft_wrap=True)
+    for name in names:
+        with progress(console, name) as report:
+            outcome = FIGURES[name](replace(setting, report=report))
+        console.print(name, style="bold")
+        for line in outcome.lines:
+            console.print(f"  • {line}", highlight=False, soft_wrap=True)
+        for path in (*outcome.tables, *outcome.pictures, outcome.conclusions):
+            console.print(f"  {path}", highlight=False, soft_wrap=True)
+
+
+@contextmanager
+def progress(console: Console, name: str) -> Iterator[Report]:
+    """A bar of finished jobs, there only when there are any; on something that is no terminal, nothing."""
+    columns = (
+        TextColumn("{task.description}"),
+        BarColumn(),
+        MofNCompleteColumn(),
+        TimeElapsedColumn(),
+        TimeRemainingColumn(),
+    )
+    with Progress(*columns, console=console, transient=True, disable=not console.is_terminal) as bar:
+        task = bar.add_task(name, total=None)
+        yield lambda done, total: bar.update(task, completed=done, total=total)
