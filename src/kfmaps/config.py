@@ -200,7 +200,7 @@ class Config:
         """
         return cls(
             descriptors=DescriptorConfig(normalisation="max"),
-            kernel=Gaussian(0.2),
+            kernel=Gaussian(0.1),
             weights=Weights(descriptors=1.0, commutativity=1.0, laplacian=1.0),
             compression=0.0,
             solver=CG(rtol=1e-12, max_steps=10),

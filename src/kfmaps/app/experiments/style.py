@@ -20,7 +20,6 @@ METHODS = {
     "NO17": ORANGE,
     "ours (γ as printed)": VERMILION,
     "ours (paper)": BLUE,
-    "ours (converged)": SKY,
     "ours (recommended)": GREEN,
 }
 """Colour of each method, in every figure; variants of one method share it."""
