@@ -8,5 +8,4 @@ import sys
 from kfmaps.app.cli import main
 
 if __name__ == "__main__":
-    sys.argv[1:1] = ["reproduce", "figure6"]
-    main()
+    sys.exit(main(["reproduce", "figure6", *sys.argv[1:]]))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import replace
@@ -49,7 +50,7 @@ def reproduce(
     else:
         console.print("Data: " + ", ".join(str(c.folder) for c in found), highlight=False, soft_wrap=True)
     for name in names:
-        with progress(console, name) as report:
+        with progress(name) as report:
             outcome = FIGURES[name](replace(setting, report=report))
         console.print(name, style="bold")
         for line in outcome.lines:
@@ -59,8 +60,9 @@ def reproduce(
 
 
 @contextmanager
-def progress(console: Console, name: str) -> Iterator[Report]:
-    """A bar of finished jobs, there only when there are any; on something that is no terminal, nothing."""
+def progress(name: str) -> Iterator[Report]:
+    """Finished jobs on standard error: a bar on a terminal, elsewhere a line for every tenth of them."""
+    console = Console(stderr=True)
     columns = (
         TextColumn("{task.description}"),
         BarColumn(),
@@ -70,4 +72,10 @@ def progress(console: Console, name: str) -> Iterator[Report]:
     )
     with Progress(*columns, console=console, transient=True, disable=not console.is_terminal) as bar:
         task = bar.add_task(name, total=None)
-        yield lambda done, total: bar.update(task, completed=done, total=total)
+
+        def report(done: int, total: int) -> None:
+            bar.update(task, completed=done, total=total)
+            if not console.is_terminal and done and done % max(1, total // 10) == 0:
+                print(f"{name}: {done} of {total}", file=sys.stderr, flush=True)
+
+        yield report

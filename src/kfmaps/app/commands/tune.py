@@ -14,7 +14,7 @@ from kfmaps.app.commands.reproduce import progress
 from kfmaps.app.experiments.collections import Collection, ShapePair
 from kfmaps.app.experiments.outputs import output_folder, write_table
 from kfmaps.app.experiments.setting import Setting
-from kfmaps.app.experiments.tune import Grid, Tuned, tune
+from kfmaps.app.experiments.tune import Grid, Tuned, grid_search
 from kfmaps.app.files import atomic_output
 from kfmaps.app.settings.merge import preset, read_settings
 from kfmaps.app.settings.toml import settings_text
@@ -26,7 +26,7 @@ SHOWN = 10
 DEFAULT = Grid(sharpness=(0.1, 0.3, 1.0), alpha=(0.1, 1.0, 10.0))
 
 
-def tune_settings(
+def tune(
     data: Annotated[
         Path | None,
         typer.Option(help="Folder that holds FAUST, FAUST_r or both; default: generated shapes.", show_default=False),
@@ -82,8 +82,8 @@ def tune_settings(
     console = Console()
     if data is None:
         console.print("No --data: using shapes that the package generates.")
-    with progress(console, "tune") as report:
-        found = tune(
+    with progress("tune") as report:
+        found = grid_search(
             Setting(data, output, 1, workers, vertices, seed=seed, report=report), start, grid, chosen, refined
         )
     table = write_table(output / "tune.csv", found.table)

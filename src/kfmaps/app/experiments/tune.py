@@ -89,7 +89,7 @@ class Tuned:
     table: tuple[dict[str, Any], ...]
 
 
-def tune(
+def grid_search(
     setting: Setting, base: Config, grid: Grid, pairs: Sequence[tuple[Collection, Sequence[ShapePair]]], refined: bool
 ) -> Tuned:
     """Try every candidate on ``pairs`` and take the one of the lowest mean error.
