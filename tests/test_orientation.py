@@ -1,0 +1,166 @@
+"""The orientation operators against loops, against analysis, and their laws."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+
+from conftest import blob, fibonacci_sphere, random_basis
+from kfmaps._arrays import InvalidInput
+from kfmaps.mesh import Mesh, unit_area
+from kfmaps.orientation import orientation_slices
+from kfmaps.spectrum import Basis, laplace_basis
+
+
+def square(m: int) -> Mesh:
+    """A unit square of m × m vertices, seen from above."""
+    side = np.linspace(0, 1, m)
+    x, y = (axis.ravel() for axis in np.meshgrid(side, side))
+    corner = np.arange(m * (m - 1)).reshape(m - 1, m)[:, : m - 1].ravel()
+    halves = [corner + np.array([[0], [1], [m + 1]]), corner + np.array([[0], [m + 1], [m]])]
+    return Mesh(np.stack([x, y, 0 * x], axis=1), np.concatenate(halves, axis=1).T)
+
+
+def plain(mesh: Mesh, basis: Basis, w: np.ndarray) -> np.ndarray:
+    """``∫ φᵢ n · (∇w × ∇φⱼ)``, face by face with gradients in space."""
+    k = basis.functions.shape[1]
+    result = np.zeros((k, k))
+    for face in mesh.faces:
+        a, b, c = mesh.vertices[face]
+        normal = np.cross(b - a, c - a)
+        area = np.linalg.norm(normal) / 2
+        normal = normal / (2 * area)
+        hats = np.array([np.cross(normal, e) for e in (c - b, a - c, b - a)]) / (2 * area)  # gradients
+        gradient_w = w[face] @ hats
+        for i in range(k):
+            mean = basis.functions[face, i].mean()
+            for j in range(k):
+                result[i, j] += area * mean * (normal @ np.cross(gradient_w, basis.functions[face, j] @ hats))
+    return result
+
+
+def test_agrees_with_loops_over_the_faces(rng):
+    mesh = blob(60)
+    basis, functions = random_basis(60, 4, rng), rng.normal(size=(60, 3))
+    found = orientation_slices(mesh, basis, functions)
+    for s in range(3):
+        np.testing.assert_allclose(found[s], plain(mesh, basis, functions[:, s]), atol=1e-12)
+
+
+def test_takes_the_antisymmetric_part_where_there_is_a_boundary(rng):
+    mesh = square(6)
+    basis, functions = random_basis(36, 4, rng), rng.normal(size=(36, 2))
+    found = orientation_slices(mesh, basis, functions)
+    for s in range(2):
+        whole = plain(mesh, basis, functions[:, s])
+        assert np.abs(whole + whole.T).max() > 0.1
+        np.testing.assert_allclose(found[s], (whole - whole.T) / 2, atol=1e-12)
+
+
+def test_antisymmetric_and_linear(small_mesh, small_basis, rng):
+    functions = rng.normal(size=(len(small_mesh.vertices), 3))
+    slices = orientation_slices(small_mesh, small_basis, functions)
+    assert slices.shape == (3, 40, 40)
+    np.testing.assert_array_equal(slices, -slices.transpose(0, 2, 1))
+    mixed = orientation_slices(small_mesh, small_basis, functions @ np.array([[2.0], [-1.0], [0.5]]))[0]
+    np.testing.assert_allclose(mixed, 2 * slices[0] - slices[1] + 0.5 * slices[2], atol=1e-9)
+    coefficients = rng.normal(size=(40, 2))
+    combined = np.tensordot(coefficients.T, orientation_slices(small_mesh, small_basis, small_basis.functions), 1)
+    lifted = orientation_slices(small_mesh, small_basis, small_basis.lift(coefficients))
+    np.testing.assert_allclose(combined, lifted, atol=1e-8)
+
+
+def test_constants_and_the_function_itself_are_annihilated(small_mesh, small_basis):
+    phi = small_basis.functions
+    slices = orientation_slices(small_mesh, small_basis, np.column_stack([np.ones(len(phi)), phi[:, 5]]))
+    np.testing.assert_allclose(slices[0], 0, atol=1e-10)
+    np.testing.assert_allclose(slices[1][:, 5], 0, atol=1e-10)  # ∇w × ∇w
+    np.testing.assert_allclose(slices[1][:, 0], 0, atol=1e-8)  # the gradient of a constant
+    assert np.abs(slices[1]).max() > 1
+
+
+def test_a_mirror_flips_the_sign(small_mesh):
+    mirror = Mesh(small_mesh.vertices * np.array([1.0, -1.0, 1.0]), small_mesh.faces[:, ::-1])
+    own, other = laplace_basis(small_mesh, 12), laplace_basis(mirror, 12)
+    # The identity between the vertices carries functions; eigenfunctions may differ in sign.
+    C = other.project(own.functions)
+    functions = small_mesh.vertices
+    a, b = orientation_slices(small_mesh, own, functions), orientation_slices(mirror, other, functions)
+    np.testing.assert_allclose(b, -C @ a @ C.T, atol=1e-6)
+    assert np.abs(a).max() > 1
+
+
+def test_rotation_changes_nothing_and_scale_divides_by_area(small_mesh):
+    turn = Rotation.from_euler("xyz", [0.4, -1.1, 2.0]).as_matrix()
+    moved = Mesh(3.0 * small_mesh.vertices @ turn.T + 1.0, small_mesh.faces)
+    own, other = laplace_basis(small_mesh, 12), laplace_basis(moved, 12)
+    C = other.project(own.functions) / 3.0
+    functions = small_mesh.vertices
+    a, b = orientation_slices(small_mesh, own, functions), orientation_slices(moved, other, functions)
+    np.testing.assert_allclose(9.0 * b, C @ a @ C.T, atol=1e-6)
+
+
+def test_order_of_the_faces_corners_and_vertices_changes_nothing(small_mesh, small_basis, rng):
+    n = len(small_mesh.vertices)
+    order, rank = rng.permutation(n), np.empty(n, dtype=np.int64)
+    rank[order] = np.arange(n)
+    faces = np.roll(rank[small_mesh.faces], 1, axis=1)[rng.permutation(len(small_mesh.faces))]
+    shuffled = Mesh(small_mesh.vertices[order], faces)
+    basis = Basis(small_basis.eigenvalues, small_basis.functions[order], small_basis.mass[order])
+    functions = small_mesh.vertices
+    np.testing.assert_allclose(
+        orientation_slices(shuffled, basis, functions[order]),
+        orientation_slices(small_mesh, small_basis, functions),
+        atol=1e-9,
+    )
+
+
+def test_on_the_sphere_it_is_rotation_about_an_axis():
+    # On the unit sphere n × ∇z turns about the z axis: Ω_z[x] = −y … so the coordinates span so(3), and
+    # ∫ x² = 4π/3. A basis of the coordinates themselves, orthonormal, gives the Levi-Civita symbol.
+    sphere = fibonacci_sphere(3000)
+    scale = np.sqrt(3 / (4 * np.pi))
+    basis = Basis(np.full(3, 2.0), sphere.vertices * scale, np.full(3000, 4 * np.pi / 3000))
+    symbol = np.zeros((3, 3, 3))
+    for a, b, c in ((0, 1, 2), (1, 2, 0), (2, 0, 1)):
+        # n · (∇x_b × ∇x_c) = x_a: entry (i, j) of slice s is ∫ φᵢ n · (∇x_s × ∇φⱼ).
+        symbol[b, a, c], symbol[c, a, b] = 1, -1
+    np.testing.assert_allclose(orientation_slices(sphere, basis, sphere.vertices), symbol, atol=0.005)
+
+
+def test_on_the_square_it_converges_with_the_square_of_the_spacing():
+    # Sines vanish on the boundary, so the operator is antisymmetric there too.
+    def error(m: int) -> float:
+        mesh = square(m)
+        x, y = mesh.vertices[:, 0], mesh.vertices[:, 1]
+        h, g = np.sin(np.pi * x) * np.sin(np.pi * y), np.sin(2 * np.pi * x) * np.sin(np.pi * y)
+        basis = Basis(np.zeros(2), np.stack([h, g], axis=1), np.full(m * m, 1 / m**2))
+        # w = y²: n · (∇w × ∇g) = −2y ∂g/∂x, and ∫ h (−2y) 2π cos(2πx) sin(πy) = −4π · (−2/3π) · 1/4.
+        return abs(orientation_slices(mesh, basis, (y**2)[:, None])[0, 0, 1] - 2 / 3)
+
+    assert error(61) < 2e-3
+    assert error(61) < error(31) / 3.5
+
+
+def test_threads_and_libraries_agree(convert, rng):
+    mesh = unit_area(blob(200))
+    basis, functions = laplace_basis(mesh, 8), rng.normal(size=(200, 5))
+    plainly = orientation_slices(mesh, basis, functions, threads=1)
+    np.testing.assert_array_equal(plainly, orientation_slices(mesh, basis, functions, threads=3))
+    other = convert(basis)
+    slices = orientation_slices(mesh, other, functions)
+    assert type(slices) is type(other.functions)
+    np.testing.assert_allclose(np.from_dlpack(slices), plainly, atol=1e-12)
+
+
+def test_refuses_what_does_not_fit(small_mesh, small_basis):
+    n = len(small_mesh.vertices)
+    with pytest.raises(InvalidInput, match="triangulate"):
+        orientation_slices(Mesh(small_mesh.vertices, np.zeros((0, 3))), small_basis, np.ones((n, 1)))
+    with pytest.raises(InvalidInput, match="functions"):
+        orientation_slices(small_mesh, small_basis, np.ones((n - 1, 1)))
+    with pytest.raises(InvalidInput, match="basis"):
+        orientation_slices(blob(50), small_basis, np.ones((50, 1)))
+    with pytest.raises(InvalidInput, match="functions"):
+        orientation_slices(small_mesh, small_basis, np.full((n, 1), np.nan))
