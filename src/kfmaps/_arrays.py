@@ -62,6 +62,18 @@ def to_numpy(array: Array) -> np.ndarray:
     return np.from_dlpack(array)
 
 
+def take(array: Array, indices: np.ndarray, axis: int = 0) -> Array:
+    """Rows (or columns, ``axis=1``) of ``array`` by NumPy ``indices``, on whatever device it lives."""
+    xp = array_namespace(array)
+    where = xp.asarray(np.ascontiguousarray(indices, dtype=np.int64), device=array.device)
+    return xp.take(array, where, axis=axis)
+
+
+def blocks(n: int, size: int) -> list[slice]:
+    """Slices that cut ``n`` rows into runs of ``size``, the last one shorter."""
+    return [slice(a, min(a + size, n)) for a in range(0, n, size)]
+
+
 def inner(x: Array, y: Array) -> float:
     """Sum of elementwise products, as a Python number."""
     return float(array_namespace(x, y).sum(x * y))

@@ -13,7 +13,7 @@ from typing import Literal
 
 import numpy as np
 
-from kfmaps._arrays import Array, check, check_count, check_positive, like, namespace, refuse, to_numpy
+from kfmaps._arrays import Array, check, check_count, check_positive, like, namespace, refuse, take, to_numpy
 from kfmaps.spectrum import Basis
 
 Normalisation = Literal["none", "norm", "max", "row", "variance"]
@@ -47,8 +47,8 @@ def heat_times(count: int, *bases: Basis) -> np.ndarray:
 def wave_energies(count: int, *bases: Basis) -> tuple[np.ndarray, float]:
     """``(count,)`` log-energies and their width σ (Aubry et al. 2011).
 
-    Equally spaced in log λ, σ seven spacings of a grid of ``count`` (at least a fifteenth of the range, so that few energies
-    still cover it), both ends moved in by 2σ as the authors do.
+    Equally spaced in log λ; σ is seven spacings of a grid of ``count``, but at most a fifteenth of the range, so that
+    few energies still tell bands apart; both ends are moved in by 2σ as the authors do.
     """
     check_count(count, "number of energies")
     low, high = np.log(spectral_range(*bases))
@@ -84,7 +84,7 @@ def _landmark_map(basis: Basis, landmarks: Sequence[int] | np.ndarray, weights: 
     xp = namespace(basis.functions)
     n = basis.functions.shape[0]
     rows = check_landmarks(landmarks, n)
-    peaks = xp.take(basis.functions, xp.asarray(rows, device=basis.functions.device), axis=0)
+    peaks = take(basis.functions, rows)
     columns = [basis.functions @ (peaks[j, :][:, None] * weights) for j in range(len(rows))]
     return xp.concat(columns, axis=1)
 

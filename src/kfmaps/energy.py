@@ -20,7 +20,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Protocol
 
-from kfmaps._arrays import Array, check, inner, namespace, refuse
+from kfmaps._arrays import Array, blocks, check, inner, namespace, refuse
 from kfmaps.kernels import KernelLike, gram
 from kfmaps.spectrum import Basis
 
@@ -99,8 +99,8 @@ def kernel_descriptor_term(
     def sandwich(i: int, j: int) -> Array:
         rows = sides[i][1]
         return sum(
-            weighted[i][a : a + block, :].T @ (gram(kernel, rows[a : a + block, :], sides[j][1]) @ weighted[j])
-            for a in range(0, rows.shape[0], block)
+            weighted[i][part, :].T @ (gram(kernel, rows[part, :], sides[j][1]) @ weighted[j])
+            for part in blocks(rows.shape[0], block)
         )
 
     trace = float(namespace(descriptors_t).linalg.trace(sandwich(1, 1)))
@@ -186,8 +186,7 @@ class HadamardCommutativity:
     def apply(self, C: Array) -> Array:
         mixed = namespace(C).zeros_like(C)
         carried = C @ self.functions_s.T
-        for a in range(0, self.functions_t.shape[0], self.block):
-            rows = slice(a, a + self.block)
+        for rows in blocks(self.functions_t.shape[0], self.block):
             product = (self.functions_t[rows, :] @ carried) * self._cross(rows)
             mixed = mixed + self.weighted_t[rows, :].T @ (product @ self.weighted_s)
         return C @ self.gram_s + self.gram_t @ C - 2 * mixed
@@ -201,8 +200,7 @@ class HadamardCommutativity:
         xp = namespace(self.gram_t)
         squares_s, squares_t = self.weighted_s * self.functions_s, self.weighted_t * self.functions_t
         cross = self.rhs()
-        for a in range(0, squares_t.shape[0], self.block):
-            rows = slice(a, a + self.block)
+        for rows in blocks(squares_t.shape[0], self.block):
             cross = cross + squares_t[rows, :].T @ (self._cross(rows) @ squares_s)
         own = xp.linalg.diagonal(self.gram_t)[:, None] + xp.linalg.diagonal(self.gram_s)[None, :]
         return own - 2 * cross
@@ -234,8 +232,7 @@ def hadamard_term(
     def squares(i: int) -> Array:
         basis, rows = sides[i]
         total = 0.0
-        for a in range(0, rows.shape[0], block):
-            part = slice(a, a + block)
+        for part in blocks(rows.shape[0], block):
             product = (basis.functions[part, :] @ basis.functions.T) * gram(kernel, rows[part, :], rows)
             total = total + weighted[i][part, :].T @ (product @ weighted[i])
         return total

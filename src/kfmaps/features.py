@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from kfmaps._arrays import Array, check, like, namespace, refuse, to_numpy
+from kfmaps._arrays import Array, check, like, namespace, refuse, take, to_numpy
 from kfmaps.config import Config, DescriptorConfig, NystromConfig
 from kfmaps.descriptors import (
     heat_map,
@@ -139,11 +139,10 @@ def _every_nth(side: int, bases: tuple[Basis, ...], config: DescriptorConfig, la
     )
     if len(landmarks) and config.landmark_map != "none":
         parts.append(_family(config.landmark_map, bases[side], bases, landmarks, 200))
-    xp = namespace(bases[side].functions)
-    everything = xp.concat(parts, axis=1)
+    everything = namespace(*parts).concat(parts, axis=1)
     total = everything.shape[1]
     chosen = np.arange(0, total, max(1, total // config.count))[: config.count]
-    return xp.take(everything, xp.asarray(chosen, device=everything.device), axis=1)
+    return take(everything, chosen, axis=1)
 
 
 def resolved_kernel(descriptors: Descriptors, config: Config, rng: np.random.Generator) -> KernelLike:
@@ -179,7 +178,7 @@ def joint_samples(
         both = xp.concat([D_s, D_t])
         count = min(config.samples, both.shape[0])
         rows = pivoted_cholesky(kernel, both, count, randomised=config.sampling != "cholesky", rng=rng)
-        return xp.take(both, xp.asarray(rows, device=both.device), axis=0)
+        return take(both, rows)
     taken = []
     for shape, D in ((source, D_s), (target, D_t)):
         count = min(config.samples // 2, D.shape[0])
@@ -189,11 +188,10 @@ def joint_samples(
             rows = farthest_geodesic(shape.mesh, count, rng)
         else:
             rows = uniform(D.shape[0], count, rng)
-        taken.append(xp.take(D, xp.asarray(rows, device=D.device), axis=0))
+        taken.append(take(D, rows))
     return xp.concat(taken)
 
 
 def _farthest_rows(D: Array, count: int, rng: np.random.Generator) -> Array:
-    xp = namespace(D)
     rows = farthest(D, min(count, D.shape[0]), rng)
-    return xp.take(D, xp.asarray(rows, device=D.device), axis=0)
+    return take(D, rows)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from scipy.spatial import KDTree
 
-from kfmaps._arrays import Array, check, is_numpy, namespace, refuse, to_numpy
+from kfmaps._arrays import Array, blocks, check, is_numpy, namespace, refuse, take, to_numpy
 from kfmaps._threads import available_cores, parallel
 from kfmaps.spectrum import Basis
 
@@ -24,18 +24,18 @@ def nearest(queries: Array, points: Array, block: int = 1024, threads: int | Non
     if points.shape[0] == 0:
         raise refuse("points", "at least one", "none", "give some")
     if is_numpy(queries) and points.shape[1] <= TREE_DIMENSION and len(points) > 20_000:
-        return KDTree(points).query(queries, workers=threads or available_cores())[1].astype(np.int64)
+        return np.asarray(KDTree(points).query(queries, workers=threads or available_cores())[1], dtype=np.int64)
     xp = namespace(queries, points)
     centre = xp.mean(points, axis=0, keepdims=True)
     points, queries = points - centre, queries - centre
     half = 0.5 * xp.sum(points * points, axis=1)[None, :]
     transposed = points.T
 
-    def best(start: int) -> np.ndarray:
-        return to_numpy(xp.argmin(half - queries[start : start + block, :] @ transposed, axis=1))
+    def best(rows: slice) -> np.ndarray:
+        return to_numpy(xp.argmin(half - queries[rows, :] @ transposed, axis=1))
 
-    starts = range(0, queries.shape[0], block)
-    found = parallel(best, starts, threads) if is_numpy(queries) else [best(start) for start in starts]
+    parts = blocks(queries.shape[0], block)
+    found = parallel(best, parts, threads) if is_numpy(queries) else [best(rows) for rows in parts]
     return np.concatenate(found).astype(np.int64) if found else np.zeros(0, dtype=np.int64)
 
 
@@ -52,10 +52,8 @@ def to_points(C: Array, source: Basis, target: Basis, threads: int | None = None
 
 def to_functional(target_to_source: np.ndarray, source: Basis, target: Basis) -> Array:
     """The functional map ``C (k_t, k_s)`` of a point map: ``Φ_tᵀ A_t Φ_s[target_to_source]``."""
-    xp = namespace(source.functions)
-    check_point_map(target_to_source, source.functions.shape[0], target.functions.shape[0])
-    rows = xp.asarray(np.asarray(target_to_source, dtype=np.int64), device=source.functions.device)
-    return target.project(xp.take(source.functions, rows, axis=0))
+    rows = check_point_map(target_to_source, source.functions.shape[0], target.functions.shape[0])
+    return target.project(take(source.functions, rows))
 
 
 def check_point_map(target_to_source: np.ndarray, n_s: int, n_t: int) -> np.ndarray:

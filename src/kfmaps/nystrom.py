@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from kfmaps._arrays import Array, KfmapsWarning, check, like, namespace, refuse, to_numpy
+from kfmaps._arrays import Array, KfmapsWarning, blocks, check, like, namespace, refuse, take, to_numpy
 from kfmaps.kernels import KernelLike, describe, gram
 
 
@@ -51,9 +51,7 @@ class Nystrom:
             shape=(None, self.samples.shape[1]),
             remedy="use those that the samples come from",
         )
-        rows = [
-            gram(self.kernel, X[i : i + block, :], self.samples) @ self.whitener for i in range(0, X.shape[0], block)
-        ]
+        rows = [gram(self.kernel, X[part, :], self.samples) @ self.whitener for part in blocks(X.shape[0], block)]
         return namespace(X).concat(rows)
 
 
@@ -88,6 +86,6 @@ def nystrom(kernel: KernelLike, samples: Array, rtol: float = 1e-12) -> Nystrom:
             KfmapsWarning,
             stacklevel=2,
         )
-    kept = xp.take(vectors, xp.asarray(keep, device=vectors.device), axis=1)
+    kept = take(vectors, keep, axis=1)
     scale = like(1 / np.sqrt(spectrum[keep]), samples)
     return Nystrom(kernel, samples, kept * scale[None, :], negative)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from kfmaps._arrays import Array, check_count, namespace, refuse, to_numpy
+from kfmaps._arrays import Array, check_count, namespace, refuse, take, to_numpy
 from kfmaps.maps import to_functional, to_points
 from kfmaps.sampling import farthest
 from kfmaps.spectrum import Basis
@@ -143,9 +143,7 @@ class ZoomOut:
         source, target = source.truncated(k), target.truncated(k)
         if self.samples is None:
             return to_functional(points, source, target)
-        xp = namespace(source.functions)
-        pulled = xp.take(source.functions, xp.asarray(points, device=source.functions.device), axis=0)
-        return least_squares(target.functions, pulled)
+        return least_squares(target.functions, take(source.functions, points))
 
 
 def spectral_samples(basis: Basis, count: int, rng: int | np.random.Generator = 0) -> tuple[np.ndarray, Basis]:
@@ -162,9 +160,8 @@ def spectral_samples(basis: Basis, count: int, rng: int | np.random.Generator = 
     embedding = to_numpy(basis.functions)[candidates][:, :k][:, positive] / values[positive]
     chosen = candidates[farthest(embedding, min(count, len(candidates)), rng)]
     xp = namespace(basis.functions)
-    rows = xp.asarray(chosen, device=basis.functions.device)
     weights = xp.ones_like(basis.mass[: len(chosen)]) / len(chosen)
-    return chosen, Basis(basis.eigenvalues, xp.take(basis.functions, rows, axis=0), weights)
+    return chosen, Basis(basis.eigenvalues, take(basis.functions, chosen), weights)
 
 
 def least_squares(A: Array, B: Array, ridge: float = 1e-10) -> Array:

@@ -8,39 +8,37 @@ from __future__ import annotations
 
 import numpy as np
 
-from kfmaps._arrays import Array, check, like, namespace, refuse, to_numpy
-from kfmaps._threads import parallel
+from kfmaps._arrays import Array, blocks, check, is_numpy, like, namespace, refuse, take, to_numpy
+from kfmaps._threads import available_cores, parallel
 from kfmaps.spectrum import Basis
 
 
-def packed_slices(basis: Basis, features: Array, block: int = 512, threads: int | None = 1) -> Array:
+def packed_slices(basis: Basis, features: Array, block: int = 512, threads: int | None = None) -> Array:
     """Packed upper triangles ``(r, k(k+1)/2)`` of the operators of ``features (n, r)``.
 
     Off-diagonal entries are multiplied by √2, so that inner products of rows are Frobenius inner products of
     the operators. One matrix product per block of vertices; no n × k² array.
     """
-    xp = namespace(features)
     n, k = basis.functions.shape
     check(features, "features", shape=(n, None), remedy="give one row per vertex")
     rows, columns = np.triu_indices(k)
-    take_rows, take_columns = (xp.asarray(i, device=features.device) for i in (rows, columns))
     scale = like(np.where(rows == columns, 1.0, np.sqrt(2.0)), features)
     weighted = features * basis.mass[:, None]
 
-    def share(part: range) -> Array:
+    def share(parts: list[slice]) -> Array:
         total = None
-        for a in part:
-            phi = basis.functions[a : a + block, :]
-            products = xp.take(phi, take_rows, axis=1) * xp.take(phi, take_columns, axis=1)
-            term = weighted[a : a + block, :].T @ products
+        for part in parts:
+            phi = basis.functions[part, :]
+            products = take(phi, rows, axis=1) * take(phi, columns, axis=1)
+            term = weighted[part, :].T @ products
             total = term if total is None else total + term
         return total
 
-    starts = range(0, n, block)
-    count = max(1, min(threads or 1, len(starts)))
-    parts = [starts[i::count] for i in range(count)]
+    parts = blocks(n, block)
+    count = min(threads or available_cores(), len(parts)) if is_numpy(features) else 1
+    shares = [parts[i::count] for i in range(count)]
     total = None
-    for part in parallel(share, parts, count) if count > 1 else map(share, parts):
+    for part in parallel(share, shares, count):
         total = part if total is None else total + part
     return total * scale[None, :]
 
@@ -55,7 +53,7 @@ def unpacked_slices(packed: Array) -> Array:
     position = np.empty((k, k), dtype=np.int64)
     position[rows, columns] = position[columns, rows] = np.arange(len(rows))
     scale = np.where(np.eye(k, dtype=bool), 1.0, np.sqrt(0.5)).ravel()
-    flat = xp.take(packed, xp.asarray(position.ravel(), device=packed.device), axis=1) * like(scale, packed)[None, :]
+    flat = take(packed, position.ravel(), axis=1) * like(scale, packed)[None, :]
     return xp.reshape(flat, (packed.shape[0], k, k))
 
 
@@ -74,5 +72,5 @@ def compressed(packed_s: Array, packed_t: Array, rtol: float) -> tuple[Array, Ar
     share = to_numpy(energy).clip(min=0.0)
     lost = np.cumsum(share)
     keep = np.flatnonzero((lost > rtol * lost[-1]) & (share > 1e-15 * share[-1]))[::-1]
-    kept = xp.take(rotation, xp.asarray(keep.copy(), device=packed_s.device), axis=1)
+    kept = take(rotation, keep, axis=1)
     return kept.T @ packed_s, kept.T @ packed_t

@@ -1,0 +1,84 @@
+"""Small shapes and array libraries that many tests share."""
+
+from __future__ import annotations
+
+import importlib
+import os
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from scipy.spatial import ConvexHull
+
+from kfmaps.mesh import Mesh, unit_area
+from kfmaps.spectrum import Basis, laplace_basis
+
+
+def fibonacci_sphere(n: int, twist: float = 0.0) -> Mesh:
+    """A unit sphere of ``n`` nearly evenly spread vertices, faces outward."""
+    i = np.arange(n)
+    z = 1 - (2 * i + 1) / n
+    angle = np.pi * (1 + 5**0.5) * i + twist
+    radius = np.sqrt(1 - z * z)
+    points = np.stack([radius * np.cos(angle), radius * np.sin(angle), z], axis=1)
+    faces = ConvexHull(points).simplices.astype(np.int64)
+    a, b, c = (points[faces[:, k]] for k in range(3))
+    inward = np.einsum("ij,ij->i", np.cross(b - a, c - a), a) < 0
+    faces[inward] = faces[inward][:, ::-1]
+    return Mesh(points, faces)
+
+
+def blob(n: int = 400, twist: float = 0.0) -> Mesh:
+    """A smooth shape without any symmetry, so that its eigenvalues are simple and its map to itself unique."""
+    sphere = fibonacci_sphere(n, twist)
+    x, y, z = sphere.vertices.T
+    stretch = 1 + 0.35 * np.sin(2 * x + 0.5) + 0.25 * np.cos(3 * y - 1) * z + 0.2 * x * y
+    return Mesh(sphere.vertices * stretch[:, None] * np.array([1.0, 1.3, 0.8]), sphere.faces)
+
+
+def random_basis(n: int, k: int, rng: np.random.Generator) -> Basis:
+    """Functions orthonormal in a random mass, with increasing eigenvalues; no surface behind it."""
+    mass = rng.uniform(0.5, 1.5, n) / n
+    q = np.linalg.qr(rng.normal(size=(n, k)))[0]
+    return Basis(np.cumsum(rng.uniform(0.1, 1.0, k)) - 0.1, q / np.sqrt(mass)[:, None], mass)
+
+
+@pytest.fixture(scope="session")
+def small_mesh() -> Mesh:
+    return unit_area(blob())
+
+
+@pytest.fixture(scope="session")
+def small_basis(small_mesh: Mesh) -> Basis:
+    return laplace_basis(small_mesh, 40)
+
+
+@pytest.fixture
+def rng() -> np.random.Generator:
+    return np.random.default_rng(7)
+
+
+@pytest.fixture(params=["numpy", "array_api_strict", "torch"])
+def asarray(request: pytest.FixtureRequest) -> Callable[[Any], Any]:
+    """The ``asarray`` of one array library after another; the laws hold in each."""
+    library = request.param
+    if importlib.util.find_spec(library) is None:
+        pytest.skip(f"{library} is not installed")
+    return importlib.import_module(library).asarray
+
+
+@pytest.fixture
+def convert(asarray: Callable[[Any], Any]) -> Callable[[Basis], Basis]:
+    """Moves a basis to that library."""
+    return lambda basis: Basis(*(asarray(a) for a in (basis.eigenvalues, basis.functions, basis.mass)))
+
+
+@pytest.fixture(scope="session")
+def data() -> Path:
+    """The folder of research shapes; tests that need it are skipped without."""
+    folder = Path(os.environ.get("KFMAPS_DATA", Path(__file__).parents[2] / "shared" / "data"))
+    if not (folder / "FAUST_r").is_dir():
+        pytest.skip(f"no research shapes at {folder}; set KFMAPS_DATA")
+    return folder

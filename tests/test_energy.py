@@ -1,0 +1,191 @@
+"""The laws that every energy term must keep, on every array library."""
+
+import numpy as np
+import pytest
+
+from conftest import random_basis
+from kfmaps._arrays import InvalidInput, inner, to_numpy
+from kfmaps.energy import (
+    Energy,
+    descriptor_term,
+    hadamard_term,
+    kernel_descriptor_term,
+    laplacian_term,
+    slice_term,
+    value,
+)
+from kfmaps.kernels import Gaussian, Linear, Polynomial
+from kfmaps.nystrom import nystrom
+from kfmaps.slices import compressed, packed_slices, unpacked_slices
+from kfmaps.solvers import dense
+
+N_S, N_T, K_S, K_T, D = 30, 25, 6, 5, 4
+
+
+def explicit_slices(basis, W):
+    return np.stack([(basis.functions * (basis.mass * w)[:, None]).T @ basis.functions for w in W.T])
+
+
+@pytest.fixture
+def case(rng):
+    source, target = random_basis(N_S, K_S, rng), random_basis(N_T, K_T, rng)
+    return source, target, rng.normal(size=(N_S, D)), rng.normal(size=(N_T, D)), rng.normal(size=(K_T, K_S))
+
+
+def antisymmetric(rng, r, k):
+    X = rng.normal(size=(r, k, k))
+    return X - X.transpose(0, 2, 1)
+
+
+def make(name, case, asarray, convert):
+    """A term and the function of C whose squared norm, halved, is its value (None where there is none)."""
+    source, target, W_s, W_t, _ = case
+    S, T, A_s, A_t = convert(source), convert(target), asarray(W_s), asarray(W_t)
+    rng = np.random.default_rng(3)
+    if name == "descriptors":
+        P_s, P_t = source.project(W_s), target.project(W_t)
+        return descriptor_term(S, A_s, T, A_t), lambda C: C @ P_s - P_t
+    if name == "kernel descriptors":
+        return kernel_descriptor_term(Gaussian(0.3), S, A_s, T, A_t, block=7), None
+    if name == "slices":
+        X_s, X_t = explicit_slices(source, W_s), explicit_slices(target, W_t)
+        term = slice_term(unpacked_slices(packed_slices(S, A_s)), unpacked_slices(packed_slices(T, A_t)))
+        return term, lambda C: C @ X_s - X_t @ C
+    if name == "antisymmetric slices":
+        X_s, X_t = antisymmetric(rng, 3, K_S), antisymmetric(rng, 3, K_T)
+        return slice_term(asarray(X_s), asarray(X_t), parity=-1), lambda C: C @ X_s - X_t @ C
+    if name == "hadamard":
+        return hadamard_term(Gaussian(0.3), S, A_s, T, A_t, block=7), None
+    if name == "laplacian":
+        L_s, L_t = np.diag(source.eigenvalues), np.diag(target.eigenvalues)
+        return laplacian_term(S, T, scale=1.0), lambda C: C @ L_s - L_t @ C
+    parts = {n: make(n, case, asarray, convert) for n in ("descriptors", "slices", "laplacian")}
+    weights = {"descriptors": 2.0, "slices": 0.5, "laplacian": 0.0}
+
+    def residual(C):
+        return np.concatenate([np.sqrt(weights[n]) * f(C).ravel() for n, (_, f) in parts.items()])
+
+    return Energy({n: term for n, (term, _) in parts.items()}, weights), residual
+
+
+TERMS = ["descriptors", "kernel descriptors", "slices", "antisymmetric slices", "hadamard", "laplacian", "energy"]
+
+
+@pytest.mark.parametrize("name", TERMS)
+def test_laws(name, case, asarray, convert, rng):
+    term, residual = make(name, case, asarray, convert)
+    C, E = rng.normal(size=(K_T, K_S)), rng.normal(size=(K_T, K_S))
+    a, b = asarray(C), asarray(E)
+    # linear and self-adjoint
+    np.testing.assert_allclose(
+        to_numpy(term.apply(2.0 * a + b)), 2 * to_numpy(term.apply(a)) + to_numpy(term.apply(b)), rtol=1e-9, atol=1e-9
+    )
+    assert inner(a, term.apply(b)) == pytest.approx(inner(b, term.apply(a)), rel=1e-10)
+    # positive semi-definite, with the diagonal that it says
+    matrix = dense(term.apply, (K_T, K_S), a)
+    values = np.linalg.eigvalsh((matrix + matrix.T) / 2)
+    assert values[0] > -1e-10 * values[-1]
+    np.testing.assert_allclose(to_numpy(term.diagonal()).ravel(), np.diag(matrix), rtol=1e-9, atol=1e-9)
+    # the value is half the squared residual, never negative
+    if residual is not None:
+        assert value(term, a) == pytest.approx(0.5 * np.sum(residual(C) ** 2), rel=1e-10)
+    assert value(term, a) >= 0
+    # A(C) - B is the gradient
+    h = 1e-5
+    slope = (value(term, a + h * b) - value(term, a - h * b)) / (2 * h)
+    assert slope == pytest.approx(inner(term.apply(a) - term.rhs(), b), rel=1e-6, abs=1e-8)
+
+
+@pytest.mark.parametrize("kernel", [Linear(), Polynomial(2, 0.5), Gaussian(0.4)], ids=repr)
+def test_hadamard_form_equals_slices_of_the_features(kernel, case):
+    """Equations (10) to (12): with all points as samples the features give the exact kernel."""
+    source, target, P_s, P_t, C = case
+    factor = nystrom(kernel, np.vstack([P_s, P_t]), rtol=1e-14)
+    W_s, W_t = factor.features(P_s), factor.features(P_t)
+    slices = slice_term(explicit_slices(source, W_s), explicit_slices(target, W_t))
+    hadamard = hadamard_term(kernel, source, P_s, target, P_t, block=11)
+    np.testing.assert_allclose(slices.apply(C), hadamard.apply(C), rtol=1e-6, atol=1e-7)
+    np.testing.assert_allclose(slices.diagonal(), hadamard.diagonal(), rtol=1e-6, atol=1e-7)
+    features = descriptor_term(source, W_s, target, W_t)
+    exact = kernel_descriptor_term(kernel, source, P_s, target, P_t, block=11)
+    np.testing.assert_allclose(features.apply(C), exact.apply(C), rtol=1e-6, atol=1e-7)
+    np.testing.assert_allclose(features.rhs(), exact.rhs(), rtol=1e-6, atol=1e-7)
+    assert features.constant() == pytest.approx(exact.constant(), rel=1e-6)
+
+
+def test_linear_kernel_is_the_formulation_of_no17(case):
+    """Σ‖C X_sⁱ − X_tⁱ C‖² + ‖C P̂_s − P̂_t‖², written out, to 1e-10."""
+    source, target, P_s, P_t, C = case
+    wanted = 0.5 * np.sum((C @ source.project(P_s) - target.project(P_t)) ** 2)
+    for p_s, p_t in zip(P_s.T, P_t.T, strict=True):
+        X_s = source.functions.T @ np.diag(source.mass * p_s) @ source.functions
+        X_t = target.functions.T @ np.diag(target.mass * p_t) @ target.functions
+        wanted += 0.5 * np.sum((C @ X_s - X_t @ C) ** 2)
+    arguments = (Linear(), source, P_s, target, P_t)
+    energy = Energy({"p": kernel_descriptor_term(*arguments), "d": hadamard_term(*arguments)}, {"p": 1.0, "d": 1.0})
+    assert value(energy, C) == pytest.approx(wanted, rel=1e-10)
+
+
+def test_quadratic_kernel_equals_explicit_products(case):
+    source, target, P_s, P_t, C = case
+
+    def lifted(P):
+        return np.stack([P[:, i] * P[:, j] for i in range(D) for j in range(D)], axis=1)
+
+    explicit = slice_term(explicit_slices(source, lifted(P_s)), explicit_slices(target, lifted(P_t)))
+    kernel = hadamard_term(Polynomial(2, 0.0), source, P_s, target, P_t)
+    np.testing.assert_allclose(kernel.apply(C), explicit.apply(C), rtol=1e-10, atol=1e-10)
+
+
+def test_slices_are_packed_and_unpacked(case, asarray, convert):
+    source, _, W, _, _ = case
+    packed = packed_slices(convert(source), asarray(W), block=4)
+    wanted = explicit_slices(source, W)
+    np.testing.assert_allclose(to_numpy(unpacked_slices(packed)), wanted, rtol=1e-10, atol=1e-12)
+    gram = to_numpy(packed @ packed.T)
+    np.testing.assert_allclose(gram, np.einsum("iab,jab->ij", wanted, wanted), rtol=1e-10)
+    threaded = packed_slices(source, W, block=4, threads=3)
+    np.testing.assert_allclose(threaded, to_numpy(packed), rtol=1e-10, atol=1e-13)
+
+
+def test_compression_is_exact_for_redundant_features_and_bounded_otherwise(case, rng):
+    source, target, W_s, W_t, C = case
+    mix = rng.normal(size=(D, 9))
+    redundant = [packed_slices(b, W @ mix) for b, W in ((source, W_s), (target, W_t))]
+    small = compressed(*redundant, rtol=0.0)
+    assert small[0].shape[0] == D
+    whole, fewer = (slice_term(*(unpacked_slices(p) for p in pair)) for pair in (redundant, small))
+    np.testing.assert_allclose(fewer.apply(C), whole.apply(C), rtol=1e-9, atol=1e-9)
+    lossy = compressed(*redundant, rtol=0.05)
+    total, kept = (sum(float((p**2).sum()) for p in pair) for pair in (redundant, lossy))
+    assert 0.95 * total <= kept < total
+
+
+def test_automatic_scale_makes_alpha_free_of_units(case):
+    source, target, *_ = case
+    weights = laplacian_term(source, target).weights
+    assert weights.max() <= 1
+    scaled = [type(b)(b.eigenvalues * 1e6, b.functions, b.mass) for b in (source, target)]
+    np.testing.assert_allclose(laplacian_term(*scaled).weights, weights)
+
+
+def test_breakdown_adds_up_and_skips_weight_zero(case, asarray, convert):
+    energy, _ = make("energy", case, asarray, convert)
+    C = asarray(case[-1])
+    parts = energy.breakdown(C)
+    assert parts["laplacian"] == 0.0
+    assert sum(parts.values()) == pytest.approx(value(energy, C))
+
+
+def test_bad_energies_are_refused(case):
+    source, target, W_s, W_t, _ = case
+    term = laplacian_term(source, target)
+    for weights in ({"a": -1.0}, {"a": np.nan}, {"a": 0.0}, {"b": 1.0}):
+        with pytest.raises(InvalidInput, match="wanted"):
+            Energy({"a": term}, weights)
+    with pytest.raises(InvalidInput, match="same number on both shapes"):
+        descriptor_term(source, W_s, target, W_t[:, :-1])
+    with pytest.raises(InvalidInput, match="parity"):
+        slice_term(np.zeros((1, 2, 2)), np.zeros((1, 2, 2)), parity=0)
+    with pytest.raises(InvalidInput, match="as many slices"):
+        slice_term(np.zeros((2, 2, 2)), np.zeros((1, 2, 2)))

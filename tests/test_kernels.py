@@ -1,0 +1,141 @@
+"""Kernels: definitions, laws, and what is refused."""
+
+import numpy as np
+import pytest
+from sklearn.metrics.pairwise import laplacian_kernel, rbf_kernel
+
+from kfmaps._arrays import InvalidInput, to_numpy
+from kfmaps.kernels import (
+    Gaussian,
+    Laplacian,
+    Linear,
+    Polynomial,
+    Product,
+    Sum,
+    Tanh,
+    gram,
+    gram_diagonal,
+    resolved,
+    squared_distances,
+)
+
+KERNELS = [
+    Linear(),
+    Polynomial(3, 0.5),
+    Gaussian(0.7),
+    Laplacian(0.7),
+    Tanh(0.3, 0.1),
+    Sum(Linear(), Gaussian(2.0)),
+    Product(Polynomial(2, 1.0), Laplacian(0.2)),
+]
+POSITIVE = [k for k in KERNELS if not isinstance(k, Tanh)]
+
+
+def plain(kernel, x, y):
+    """The definition, for two vectors."""
+    match kernel:
+        case Linear():
+            return x @ y
+        case Polynomial(degree, offset):
+            return (x @ y + offset) ** degree
+        case Gaussian(gamma):
+            return np.exp(-gamma * np.sum((x - y) ** 2))
+        case Laplacian(gamma):
+            return np.exp(-gamma * np.sqrt(np.sum((x - y) ** 2)))
+        case Tanh(scale, offset):
+            return np.tanh(scale * (x @ y) + offset)
+        case Sum(a, b):
+            return plain(a, x, y) + plain(b, x, y)
+        case Product(a, b):
+            return plain(a, x, y) * plain(b, x, y)
+
+
+@pytest.mark.parametrize("kernel", KERNELS, ids=repr)
+def test_definition_on_every_library(kernel, asarray, rng):
+    X, Y = rng.normal(size=(6, 3)), rng.normal(size=(5, 3))
+    wanted = np.array([[plain(kernel, x, y) for y in Y] for x in X])
+    np.testing.assert_allclose(to_numpy(gram(kernel, asarray(X), asarray(Y))), wanted, rtol=1e-12, atol=1e-13)
+
+
+@pytest.mark.parametrize("kernel", KERNELS, ids=repr)
+def test_diagonal_is_that_of_the_matrix(kernel, asarray, rng):
+    X = asarray(rng.normal(size=(6, 3)))
+    matrix = to_numpy(gram(kernel, X, X))
+    np.testing.assert_allclose(to_numpy(gram_diagonal(kernel, X)), np.diag(matrix), rtol=1e-7, atol=1e-7)
+
+
+@pytest.mark.parametrize("kernel", POSITIVE, ids=repr)
+def test_positive_semi_definite(kernel, rng):
+    X = rng.normal(size=(30, 3))
+    values = np.linalg.eigvalsh(gram(kernel, X, X))
+    assert values[0] > -1e-12 * values[-1]
+
+
+def test_quadratic_polynomial_is_the_inner_product_of_all_products(rng):
+    X, Y = rng.normal(size=(6, 3)), rng.normal(size=(5, 3))
+
+    def lifted(D):
+        products = np.stack([D[:, i] * D[:, j] for i in range(3) for j in range(3)], axis=1)
+        return np.hstack([np.ones((len(D), 1)), np.sqrt(2) * D, products])
+
+    np.testing.assert_allclose(gram(Polynomial(2, 1.0), X, Y), lifted(X) @ lifted(Y).T, rtol=1e-12)
+
+
+def test_squared_distances_survive_a_large_shift(rng):
+    X = rng.normal(size=(8, 4))
+    np.testing.assert_allclose(squared_distances(X + 1e6, X + 1e6), squared_distances(X, X), atol=1e-8)
+    assert squared_distances(X, X).min() >= 0
+
+
+def test_scikit_learn_kernels_are_kernels(asarray, rng):
+    X, Y = rng.normal(size=(6, 3)), rng.normal(size=(5, 3))
+    ours = to_numpy(gram(lambda a, b: rbf_kernel(a, b, gamma=0.4), asarray(X), asarray(Y)))
+    np.testing.assert_allclose(ours, gram(Gaussian(0.4), X, Y), rtol=1e-12)
+    assert to_numpy(gram_diagonal(laplacian_kernel, asarray(X))) == pytest.approx(np.ones(6))
+
+
+@pytest.mark.parametrize("scale", [1e-3, 1.0, 1e4])
+@pytest.mark.parametrize("kind", [Gaussian, Laplacian])
+def test_automatic_gamma_is_free_of_scale(kind, scale, rng):
+    X = rng.normal(size=(40, 5))
+    reference = gram(resolved(kind(), X), X, X)
+    np.testing.assert_allclose(gram(resolved(kind(), scale * X), scale * X, scale * X), reference, rtol=1e-6)
+
+
+def test_automatic_gamma_is_one_over_the_median_squared_distance(rng):
+    X = rng.normal(size=(40, 5))
+    squares = squared_distances(X, X)[np.triu_indices(40, 1)]
+    assert resolved(Gaussian(), X, 2.0).gamma == pytest.approx(2.0 / np.median(squares))
+    inside = resolved(Sum(Linear(), Product(Gaussian(), Gaussian(3.0))), X)
+    assert inside.b.a.gamma == pytest.approx(1.0 / np.median(squares))
+    assert inside.b.b.gamma == 3.0
+
+
+def test_identical_descriptors_do_not_break_the_automatic_gamma():
+    assert np.isfinite(resolved(Gaussian(), np.ones((5, 2))).gamma)
+
+
+@pytest.mark.parametrize(
+    "make",
+    [
+        lambda: Gaussian(0.0),
+        lambda: Gaussian(np.nan),
+        lambda: Laplacian(-1.0),
+        lambda: Polynomial(0),
+        lambda: Polynomial(2, -1.0),
+        lambda: Tanh(0.0),
+    ],
+)
+def test_impossible_parameters_are_refused(make):
+    with pytest.raises(InvalidInput, match=r"wanted .* got .*"):
+        make()
+
+
+def test_bad_kernels_are_refused(rng):
+    X = rng.normal(size=(4, 2))
+    with pytest.raises(InvalidInput, match=r"wanted shape \(4, 4\), got shape \(4, 3\)"):
+        gram(lambda a, b: np.ones((len(a), len(b) - 1)), X, X)
+    with pytest.raises(InvalidInput, match="NaN"):
+        gram(lambda a, b: np.full((len(a), len(b)), np.nan), X, X)
+    with pytest.raises(InvalidInput, match="resolved"):
+        gram(Gaussian(), X, X)
