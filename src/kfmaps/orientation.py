@@ -59,12 +59,11 @@ def orientation_slices(mesh: Mesh, basis: Basis, functions: Array, threads: int 
     check(phi, "basis functions", shape=(n, None), remedy="hand in the basis of this mesh")
     check(w, "functions", shape=(n, None), remedy="give one row per vertex and one column per function")
     edges, weights = _edges(mesh)
-    ends = csr_array((np.arange(len(edges)), (edges[:, 0], edges[:, 1])), shape=(n, n))
-    weights = weights[ends.data]
+    starts = np.searchsorted(edges[:, 0], np.arange(n + 1))
     result = np.empty((w.shape[1], phi.shape[1], phi.shape[1]))
 
     def fill(s: int) -> None:
-        coupled = csr_array((weights @ w[:, s], ends.indices, ends.indptr), shape=(n, n))
+        coupled = csr_array((weights @ w[:, s], edges[:, 1], starts), shape=(n, n))
         half = phi.T @ (coupled @ phi)
         result[s] = half - half.T
 
@@ -73,7 +72,7 @@ def orientation_slices(mesh: Mesh, basis: Basis, functions: Array, threads: int 
 
 
 def _edges(mesh: Mesh) -> tuple[np.ndarray, csr_array]:
-    """Edges (e, 2) and a matrix (e, n) that takes w to their weights.
+    """Edges (e, 2), in ascending order, and a matrix (e, n) that takes w to their weights.
 
     On a face (p, q, r), ``½ ∫ h dw∧dg − g dw∧dh`` is the sum over its edges, here p → q, of
     ``(w_p + w_q − 2 w_r) / 12 · (h_p g_q − h_q g_p)``. An edge has the sum of its faces' weights, those of faces
