@@ -23,32 +23,53 @@ COLUMNS = 4
 the threads spend together more than they save. How the columns are split changes no bit of the answer."""
 
 
-def _metis_order(matrix: Sparse) -> np.ndarray:
-    """Nested-dissection order of the rows (METIS), (n,)."""
+def fill_order(matrix: Sparse, ordering: str = "auto") -> np.ndarray | None:
+    """Order of the rows, (n,), in which a factor of ``matrix`` stays small; ``None`` leaves it to SuperLU.
+
+    Parameters
+    ----------
+    matrix : (n, n) sparse
+        Symmetric in its pattern.
+    ordering : {"auto", "metis", "mmd"}
+        ``"metis"``: nested dissection, a smaller factor and faster solves from some ten thousand rows; needs
+        ``kfmaps[fast]``. ``"mmd"``: SuperLU's minimum degree. ``"auto"``: METIS where it is installed.
+
+    Raises
+    ------
+    MissingDependency
+        When METIS is asked for and not installed.
+    """
+    if ordering not in ("auto", "metis", "mmd"):
+        raise refuse("ordering", "'auto', 'metis' or 'mmd'", repr(ordering), "choose one of them")
+    if ordering == "mmd":
+        return None
+    if find_spec("pymetis") is None:
+        if ordering == "auto":
+            return None
+        raise MissingDependency("ordering 'metis' needs pymetis; install it with: pip install 'kfmaps[fast]'")
     import pymetis
 
     graph: Any = csr_array(matrix, copy=True)
     graph.setdiag(0)
     graph.eliminate_zeros()
-    adjacency = pymetis.CSRAdjacency(graph.indptr, graph.indices)
-    order, _ = pymetis.nested_dissection(adjacency)
+    order, _ = pymetis.nested_dissection(pymetis.CSRAdjacency(graph.indptr, graph.indices))
     return np.asarray(order)
 
 
-def factorise(matrix: Sparse, ordering: str = "auto", each: Map = map) -> Solve:
+def factorise(matrix: Sparse, ordered: bool, each: Map = map) -> Solve:
     """Factorise ``matrix`` once and return the function that solves with it.
 
     Parameters
     ----------
     matrix : (n, n) sparse
-        Symmetric positive definite. SuperLU then needs no pivoting, and an ordering of ``A + Aᵀ`` halves the
-        factor that its default, made for unsymmetric matrices, would give.
-    ordering : {"auto", "metis", "mmd"}
-        ``"metis"``: nested dissection, a smaller factor and faster solves from some ten thousand rows, needs
-        ``kfmaps[fast]``. ``"mmd"``: minimum degree, part of SciPy. ``"auto"``: METIS where it is installed.
+        Symmetric. It is not pivoted: right when it is positive definite, else to be checked by its solutions.
+        Then an ordering of ``A + Aᵀ`` serves, with half the factor that SciPy's default, made for
+        unsymmetric matrices, gives.
+    ordered : bool
+        Whether the rows are already in a :func:`fill_order`; else SuperLU finds one.
     each : callable
-        ``map``, or that of a thread pool: over it the blocks of right-hand sides are spread (SuperLU releases
-        the interpreter's lock).
+        ``map``, or that of a thread pool, over which the blocks of right-hand sides are spread (SuperLU
+        releases the interpreter's lock).
 
     Returns
     -------
@@ -57,22 +78,13 @@ def factorise(matrix: Sparse, ordering: str = "auto", each: Map = map) -> Solve:
 
     Raises
     ------
-    MissingDependency
-        When METIS is asked for and not installed.
     NotConverged
         When the matrix is singular to working precision.
     """
-    if ordering not in ("auto", "metis", "mmd"):
-        raise refuse("ordering", "'auto', 'metis' or 'mmd'", repr(ordering), "choose one of them")
-    metis = ordering != "mmd" and find_spec("pymetis") is not None
-    if ordering == "metis" and not metis:
-        raise MissingDependency("ordering 'metis' needs pymetis; install it with: pip install 'kfmaps[fast]'")
-    order = _metis_order(matrix) if metis else None
-    permuted = csc_array(matrix if order is None else csr_array(matrix)[order][:, order])
     try:
         factor = splu(
-            permuted,
-            permc_spec="MMD_AT_PLUS_A" if order is None else "NATURAL",
+            csc_array(matrix),
+            permc_spec="NATURAL" if ordered else "MMD_AT_PLUS_A",
             diag_pivot_thresh=0.0,
             options={"SymmetricMode": True},
         )
@@ -80,14 +92,13 @@ def factorise(matrix: Sparse, ordering: str = "auto", each: Map = map) -> Solve:
         raise NotConverged(f"factorisation: {error}; the mesh has parts without area or stiffness") from error
 
     def solve(block: np.ndarray) -> np.ndarray:
-        right = np.asfortranarray(block if order is None else block[order])
-        starts = range(0, right.shape[1], COLUMNS)
-        parts = [right] if each is map else [right[:, s : s + COLUMNS] for s in starts]
-        solved = np.hstack(list(each(factor.solve, parts))) if len(parts) > 1 else factor.solve(right)
-        if order is None:
-            return np.asfortranarray(solved)
-        result = np.empty_like(solved, order="F")
-        result[order] = solved
+        right = np.asfortranarray(block)
+        if each is map or right.shape[1] <= COLUMNS:
+            return factor.solve(right)
+        parts = [right[:, start : start + COLUMNS] for start in range(0, right.shape[1], COLUMNS)]
+        result = np.empty_like(right, order="F")
+        for i, part in enumerate(each(factor.solve, parts)):
+            result[:, i * COLUMNS : (i + 1) * COLUMNS] = part
         return result
 
     return solve

@@ -1,15 +1,19 @@
-"""Block Lanczos iteration: the largest eigenpairs of a symmetric positive definite operator.
+"""Block Lanczos iteration: the largest eigenpairs of a symmetric positive definite operator, such as an inverse.
 
 The operator meets a block of vectors at a time, so that one pass over a factor, and one over the Krylov basis,
-serve all of them. Every new block is orthogonalised against the whole basis (no ghost eigenvalues).
+serve all of them. Every second block is orthogonalised against the whole basis (no ghost eigenvalues).
 
 A block of ``b`` vectors sees at most ``b`` copies of a repeated eigenvalue, and tight clusters (spheres) late.
 So after the wanted pairs have converged they are locked and the iteration starts again at random in their
-orthogonal complement: whatever it finds there above the smallest wanted value had been missed and joins them.
-Only when a restart finds nothing is the answer believed. Such a check takes a few blocks.
+orthogonal complement: whatever it finds there above the smallest wanted eigenvalue had been missed and joins
+them. Only when a restart finds nothing is the answer believed. Such a check takes a few blocks.
 
-Golub and Underwood, The block Lanczos method for computing eigenvalues (1977); Stathopoulos and Wu, A block
-orthogonalization procedure with constant synchronization requirements (2002).
+Inverses with a shift below all eigenvalues are meant. A shift among the wanted ones saves a quarter of the
+vectors, but the factor of an indefinite matrix, unpivoted, left residuals of 1e-8 at a hundred thousand rows.
+
+Golub and Underwood, The block Lanczos method for computing eigenvalues (1977); Grimes, Lewis and Simon, A shifted
+block Lanczos algorithm for solving sparse symmetric generalized eigenproblems (1994); Stathopoulos and Wu, A
+block orthogonalization procedure with constant synchronization requirements (2002).
 """
 
 from __future__ import annotations
@@ -25,18 +29,25 @@ from kfmaps._arrays import NotConverged
 WIDTH = 8
 """Vectors in a block. Wider ones need more vectors in all, narrower ones more passes over basis and factor."""
 
-ROWS = 4096
+ROWS = 16384
 """Rows of the tall products that are worked on together: they fit the cache and can go to threads."""
 
 EQUAL = 1e-9
 """Relative difference below which two eigenvalues count as copies of one."""
 
+DRIFT = 1e-10
+"""Loss of orthogonality after two steps from which no block goes without full orthogonalisation any more. It
+grows in a step by about the ratio of the largest eigenvalue to the smallest wanted one."""
+
+MARGIN = 4
+"""Pairs beyond the wanted ones that converge with them: the check for missed ones ends sooner for it."""
+
 Map = Callable[..., Iterable[Any]]
 
 
 @dataclass(frozen=True, eq=False)
-class Ritz:
-    """Converged pairs: values (c,) descending, vectors (n, c) orthonormal, and how many restarts it took."""
+class Locked:
+    """Converged pairs: eigenvalues (c,) descending, vectors (n, c) orthonormal, and how many restarts it took."""
 
     values: np.ndarray
     vectors: np.ndarray
@@ -52,7 +63,7 @@ def _times(tall: np.ndarray, small: np.ndarray, each: Map) -> np.ndarray:
     result = np.empty((len(tall), small.shape[1]), order="F")
 
     def fill(rows: slice) -> None:
-        result[rows] = tall[rows] @ small
+        result[rows] = (small.T @ tall[rows].T).T
 
     list(each(fill, _slices(len(tall))))
     return result
@@ -62,17 +73,19 @@ def _subtract(block: np.ndarray, basis: np.ndarray, along: np.ndarray, each: Map
     """``block -= basis @ along``, in place."""
 
     def rows_of(rows: slice) -> None:
-        block[rows] -= basis[rows] @ along
+        block[rows] -= (along.T @ basis[rows].T).T  # written as column-major as the block is
 
     list(each(rows_of, _slices(len(block))))
 
 
-def _remove(block: np.ndarray, basis: np.ndarray, each: Map) -> None:
-    """Take from ``block``, in place, its components along the columns of ``basis``."""
-    if basis.shape[1]:
-        # The parts are added in a fixed order: the number of threads must not change a bit.
-        along = sum(each(lambda rows: basis[rows].T @ block[rows], _slices(len(block))))
-        _subtract(block, basis, np.asarray(along), each)
+def _remove(block: np.ndarray, basis: np.ndarray, each: Map) -> float:
+    """Take from ``block``, in place, its components along the columns of ``basis``; the largest of them."""
+    if basis.shape[1] == 0:
+        return 0.0
+    # The parts are added in a fixed order: the number of threads must not change a bit.
+    along = np.sum(list(each(lambda rows: basis[rows].T @ block[rows], _slices(len(block)))), axis=0)
+    _subtract(block, basis, along, each)
+    return float(np.abs(along).max())
 
 
 def _normalise(block: np.ndarray, each: Map) -> tuple[np.ndarray, np.ndarray, float]:
@@ -90,35 +103,40 @@ def _normalise(block: np.ndarray, each: Map) -> tuple[np.ndarray, np.ndarray, fl
     return _times(block, rotation / size[:, None] / root, each), root[:, None] * rotation.T * size, spread
 
 
-def _orthonormal(block: np.ndarray, bases: list[np.ndarray], each: Map) -> tuple[np.ndarray, np.ndarray]:
-    """``(Q, R)`` with ``block = Q R`` up to components along ``bases``, to which ``Q`` is orthogonal."""
+def _orthonormal(block: np.ndarray, bases: list[np.ndarray], each: Map) -> tuple[np.ndarray, np.ndarray, float]:
+    """``(Q, R, found)``: ``block = Q R`` up to components along ``bases``, to which ``Q`` is orthogonal.
+
+    ``found`` is the largest such component of the block once it had been normalised.
+    """
     block, total, _ = _normalise(block, each)
-    for _ in range(5):
-        for basis in bases:
-            _remove(block, basis, each)
+    found = 0.0
+    for turn in range(5):
+        largest = max([_remove(block, basis, each) for basis in bases], default=0.0)
+        found = found if turn else largest
         block, factor, spread = _normalise(block, each)
         total = factor @ total
         if spread > 0.5:
             break
-    return block, total
+    return block, total, found
 
 
 def _stage(
     apply: Callable[[np.ndarray], np.ndarray],
-    locked: Ritz,
+    locked: Locked,
     k: int,
-    limit: int,
     tolerance: float,
     rng: np.random.Generator,
     each: Map,
 ) -> tuple[np.ndarray, np.ndarray]:
-    """One run from a random block in the complement of ``locked``; its converged pairs, largest first."""
+    """One run from a random block in the complement of ``locked``; its converged values and vectors."""
     n, b = len(locked.vectors), WIDTH
+    limit = capacity(k)
     basis = np.empty((n, limit + b), order="F")  # pages are taken when written
     projected = np.zeros((limit + b, limit + b))
-    block, _ = _orthonormal(apply(rng.normal(size=(n, b))), [locked.vectors], each)
+    block, _, _ = _orthonormal(apply(rng.normal(size=(n, b))), [locked.vectors], each)
     basis[:, :b] = block
     probing = len(locked.values) >= k
+    sparing = locked.stages == 0
     size, check = b, 2 * b if probing else 2 * k + 4 * b
     before: tuple[int, float] | None = None
     coupling = np.zeros((b, b))
@@ -130,27 +148,33 @@ def _stage(
         _subtract(new, basis[:, recent], np.vstack([coupling.T, diagonal])[-size:], each)
         here = slice(size - b, size)
         projected[here, here] = diagonal
-        following, coupling = _orthonormal(new, [locked.vectors, basis[:, :size]], each)
+        # Two steps lose some four digits of orthogonality at most, so every second block may do with the
+        # three-term recurrence, unless that turns out to lose more.
+        brief = sparing and size // b % 2 == 0
+        against = [] if brief else [locked.vectors, basis[:, :size]]
+        following, coupling, found = _orthonormal(new, against, each)
+        sparing &= found < DRIFT
         basis[:, size : size + b] = following
         projected[size : size + b, here] = coupling
         projected[here, size : size + b] = coupling.T
         if size >= min(check, limit):
             values, rotation = np.linalg.eigh(projected[:size, :size])
-            values, rotation = values[::-1], rotation[:, ::-1]
             left_over = coupling @ rotation[here]
             residual = np.linalg.norm(left_over, axis=0)
-            merged = np.sort(np.concatenate([locked.values, values]))[::-1]
-            least = merged[k - 1] if len(merged) >= k else -np.inf
-            # A probe must also settle the values that may yet grow into the wanted ones.
-            wanted = values + probing * residual > least * (1 + probing * EQUAL)
-            wanted |= (values >= least) & (not probing)
+            merged = -np.sort(-np.concatenate([locked.values, values]))
+            count = k if probing else k + MARGIN
+            wanted = values >= merged[min(count, len(merged)) - 1]
+            if probing:
+                # Only what improves on the locked pairs; and what may yet grow to do so has to settle too.
+                wanted &= values > locked.values[k - 1] * (1 + EQUAL)
+                wanted |= values + residual > merged[k - 1] * (1 + EQUAL)
             good = residual <= tolerance * values
-            if (good | ~wanted).all() or size >= limit:
-                count = len(good) if good.all() else int(np.argmin(good))
-                # Ritz vectors after one more step of the inverse, for nothing: its image is in the basis.
-                small = np.vstack([rotation[:, :count], left_over[:, :count] / values[:count]])
-                return values[:count], _times(basis[:, : size + b], small, each)
-            worst = float((residual / values)[wanted].max()) if not probing else 1.0
+            if ((good | ~wanted).all() and len(merged) >= count) or size >= limit:
+                take = np.flatnonzero(good)
+                # Ritz vectors after one more step of the operator, for nothing: its image is in the basis.
+                small = np.vstack([rotation[:, take], left_over[:, take] / values[take]])
+                return values[take], _times(basis[:, : size + b], small, each)
+            worst = float((residual / values)[wanted].max())
             check = size + b * (1 if probing else _steps(before, (size, worst), k, tolerance))
             before = (size, worst)
         block = following
@@ -166,6 +190,11 @@ def _steps(before: tuple[int, float] | None, now: tuple[int, float], k: int, tol
     return int(np.clip(np.ceil(missing), 1, max(1, 0.5 * k / WIDTH)))
 
 
+def capacity(k: int) -> int:
+    """Most vectors that the Krylov basis may hold; about ``3k + 60`` are needed."""
+    return (4 * k + 20 * WIDTH) // WIDTH * WIDTH
+
+
 def largest_eigenpairs(
     apply: Callable[[np.ndarray], np.ndarray],
     n: int,
@@ -174,32 +203,31 @@ def largest_eigenpairs(
     tolerance: float,
     rng: np.random.Generator,
     each: Map = map,
-) -> Ritz:
+) -> Locked:
     """At least the ``k`` largest eigenpairs of the operator ``apply``, (n, b) -> (n, b).
-
-    Needs ``n > 4k + 160``, room for the Krylov basis, which holds about ``3k + 60`` vectors at the end.
 
     Parameters
     ----------
+    n, k : int
+        ``n`` above ``capacity(k)``.
     tolerance : float
         Bound on ``‖apply(x) − νx‖ / ν`` before the last, refining step.
 
     Raises
     ------
     NotConverged
-        When the Krylov basis reaches its limit without a new converged pair.
+        When the Krylov basis is full without a new converged pair.
     """
-    limit = 4 * k + 20 * WIDTH
-    locked = Ritz(np.zeros(0), np.zeros((n, 0)), 0)
+    locked = Locked(np.zeros(0), np.zeros((n, 0)), 0)
     while True:
-        values, vectors = _stage(apply, locked, k, limit // WIDTH * WIDTH, tolerance, rng, each)
-        least = locked.values[k - 1] if len(locked.values) >= k else -np.inf
-        if not (values > least * (1 + EQUAL)).any():
-            if len(locked.values) < k:
-                raise NotConverged(f"block Lanczos: {len(locked.values)} of {k} eigenpairs after {limit} vectors")
-            return locked
+        values, vectors = _stage(apply, locked, k, tolerance, rng, each)
+        if len(locked.values) >= k:
+            if not (values > locked.values[k - 1] * (1 + EQUAL)).any():
+                return locked
+        elif len(values) == 0:
+            raise NotConverged(f"block Lanczos: {len(locked.values)} of {k} eigenpairs converged")
         together = np.concatenate([locked.values, values])
         order = np.argsort(-together, kind="stable")
         if locked.stages:
-            vectors = np.asfortranarray(np.hstack([locked.vectors, vectors])[:, order])
-        locked = Ritz(together[order], vectors, locked.stages + 1)
+            vectors = np.hstack([locked.vectors, vectors])
+        locked = Locked(together[order], np.asfortranarray(vectors[:, order]), locked.stages + 1)

@@ -13,7 +13,7 @@ from scipy.sparse import csr_array, diags_array
 from scipy.sparse.linalg import ArpackError, LinearOperator, eigsh
 
 from kfmaps._arrays import NotConverged, check, check_count, check_positive, refuse
-from kfmaps._factor import Sparse, factorise
+from kfmaps._factor import Map, Sparse, factorise, fill_order
 from kfmaps._lanczos import largest_eigenpairs
 from kfmaps._threads import available_cores, one_blas_thread
 
@@ -112,76 +112,99 @@ def smallest_eigenpairs(
     small = n <= max(400, 4 * k + 200)
     if method == "auto" or (method != "dense" and small):
         method = "dense" if small else "block"
-    shift = 4 * np.pi / mass.sum()
     floored = np.maximum(mass, MASS_FLOOR * mass.mean())
     with ExitStack() as stack:
         stack.enter_context(one_blas_thread())
-        workers = min(threads or available_cores(), 8)
         each = map
-        if workers > 1 and n >= THREADED:
+        if (workers := threads or available_cores()) > 1 and n >= THREADED:
             each = stack.enter_context(ThreadPoolExecutor(workers)).map
-        solve = factorise(matrix + shift * diags_array(floored), ordering, each)
-        vectors = _vectors(solve, np.sqrt(floored), k, method, tolerance, np.random.default_rng(rng), each)
-        return _checked(matrix, floored, vectors, shift, tolerance)
+        order = fill_order(matrix, ordering)
+        if order is not None:
+            matrix, floored = matrix[order][:, order], floored[order]
+        pencil = _Pencil(matrix, floored, order is not None, each)
+        vectors = _vectors(pencil, k, method, tolerance, np.random.default_rng(rng))
+        return _signed(_checked(pencil, vectors, tolerance), order)
 
 
-def _vectors(solve, root, k, method, tolerance, rng, each) -> np.ndarray:
-    """Eigenvectors (n, k) of the inverse pencil, orthonormal in the mass ``root**2``, in no strict order."""
-    n = len(root)
+class _Pencil:
+    """``(L, A)`` and the factor of ``L + σA``."""
 
-    def apply(block: np.ndarray) -> np.ndarray:
-        return root[:, None] * solve(root[:, None] * block)
+    def __init__(self, matrix: Sparse, mass: np.ndarray, ordered: bool, each: Map) -> None:
+        self.matrix, self.mass, self.root, self.each = matrix, mass, np.sqrt(mass), each
+        self.unit = 4 * np.pi / mass.sum()
+        self.solve = factorise(matrix + self.unit * diags_array(mass), ordered, each)
 
+    def inverse(self, block: np.ndarray) -> np.ndarray:
+        """``√A (L + σA)⁻¹ √A`` times the block."""
+        return self.root[:, None] * self.solve(self.root[:, None] * block)
+
+    def residuals(self, vectors: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Rayleigh quotients and scaled residuals of the columns."""
+        images, weighted = self.matrix @ vectors, self.mass[:, None] * vectors
+        values = (vectors * images).sum(axis=0) / (vectors * weighted).sum(axis=0)
+        values = np.maximum(values, 0)
+        images -= weighted * values
+        return values, np.linalg.norm(images, axis=0) / ((values + self.unit) * np.linalg.norm(weighted, axis=0))
+
+
+def _vectors(pencil: _Pencil, k: int, method: str, tolerance: float, rng: np.random.Generator) -> np.ndarray:
+    """Eigenvectors (n, k), orthonormal in the mass, in no strict order."""
+    n = len(pencil.mass)
     if method == "dense":
-        inverse = apply(np.eye(n))
+        inverse = pencil.inverse(np.eye(n))
         _, vectors = eigh((inverse + inverse.T) / 2, subset_by_index=(n - k, n - 1))
-        return _improved(solve, vectors, root)
+        return _improved(pencil, vectors)
     if method == "arpack":
-        # SciPy's stubs do not know that the class builds its own subclass.
-        make: Any = LinearOperator
-        one = make((n, n), matvec=lambda x: apply(x.reshape(n, 1))[:, 0], dtype=np.float64)
+        make: Any = LinearOperator  # SciPy's stubs do not know that the class builds its own subclass
+        one = make((n, n), matvec=lambda x: pencil.inverse(x.reshape(n, 1))[:, 0], dtype=np.float64)
         try:
             _, vectors = eigsh(one, k=k, which="LA", v0=rng.normal(size=n), tol=0)
         except ArpackError as error:
             raise NotConverged(f"ARPACK: {error}") from error
-        return _improved(solve, vectors, root)
-    found = largest_eigenpairs(apply, n, k, tolerance=tolerance / 2, rng=rng, each=each)
+        return _improved(pencil, vectors)
+    found = largest_eigenpairs(pencil.inverse, n, k, tolerance=tolerance / 2, rng=rng, each=pencil.each)
     if found.stages == 1:
-        return found.vectors[:, :k] / root[:, None]
+        return found.vectors[:, :k] / pencil.root[:, None]
     # Pairs of different stages are decoupled only to the tolerance of the largest: mend that.
-    return _improved(solve, found.vectors[:, :k], root)
+    return _improved(pencil, found.vectors[:, :k])
 
 
-def _improved(solve, vectors: np.ndarray, root: np.ndarray) -> np.ndarray:
+def _improved(pencil: _Pencil, vectors: np.ndarray) -> np.ndarray:
     """One step of subspace iteration with Rayleigh-Ritz; takes scaled vectors, returns true ones."""
-    images = np.hstack([solve(root[:, None] * vectors[:, s : s + 8]) for s in range(0, vectors.shape[1], 8)])
-    scaled = root[:, None] * images
+    weighted = pencil.root[:, None] * vectors
+    images = np.hstack([pencil.solve(weighted[:, s : s + 8]) for s in range(0, vectors.shape[1], 8)])
+    scaled = pencil.root[:, None] * images
     size = np.linalg.norm(scaled, axis=0)
     scaled, images, vectors = scaled / size, images / size, vectors / size
-    energy = scaled.T @ vectors  # (L + σA) of the images, as it maps them back to the vectors
+    energy = scaled.T @ vectors  # L + σA maps the images back to the vectors
     _, rotation = eigh((energy + energy.T) / 2, scaled.T @ scaled)
     return images @ rotation
 
 
-def _checked(matrix, mass, vectors, shift, tolerance) -> Eigenpairs:
-    """Sorted, signed and checked pairs: the values are Rayleigh quotients."""
-    images = matrix @ vectors
-    values = (vectors * images).sum(axis=0) / (vectors * (mass[:, None] * vectors)).sum(axis=0)
-    order = np.argsort(values, kind="stable")
-    values, vectors, images = np.maximum(values[order], 0), vectors[:, order], images[:, order]
-    weighted = mass[:, None] * vectors
-    scale = (values + shift) * np.linalg.norm(weighted, axis=0)
-    gaps = np.linalg.norm(images - weighted * values, axis=0)
-    bad = np.flatnonzero(~(gaps <= tolerance * scale))
+def _checked(pencil: _Pencil, vectors: np.ndarray, tolerance: float) -> Eigenpairs:
+    """Sorted and checked pairs: the values are Rayleigh quotients."""
+    values, residuals = pencil.residuals(vectors)
+    bad = np.flatnonzero(~(residuals <= tolerance))
     if len(bad):
-        rounding = 8 * np.finfo(float).eps * np.linalg.norm(abs(matrix) @ abs(vectors[:, bad]), axis=0)
-        bad = bad[~(gaps[bad] <= tolerance * scale[bad] + rounding)]
+        spread = np.linalg.norm(abs(pencil.matrix) @ abs(vectors[:, bad]), axis=0)
+        rounding = 8 * np.finfo(float).eps * spread
+        scale = (values[bad] + pencil.unit) * np.linalg.norm(pencil.mass[:, None] * vectors[:, bad], axis=0)
+        bad = bad[~(residuals[bad] <= tolerance + rounding / scale)]
     if len(bad):
-        worst = (gaps / scale)[bad].max()
         raise NotConverged(
-            f"eigenpairs: {len(bad)} of {len(values)} have residuals above {tolerance:.0e}, the largest {worst:.1e}; "
-            "look for parts without area, or for coordinates of very different size"
+            f"eigenpairs: {len(bad)} of {len(values)} have residuals above {tolerance:.0e}, the largest "
+            f"{residuals[bad].max():.1e}; look for parts without area, or for coordinates of very different size"
         )
+    order = np.argsort(values, kind="stable")
+    return Eigenpairs(values[order], vectors[:, order], residuals[order])
+
+
+def _signed(pairs: Eigenpairs, order: np.ndarray | None) -> Eigenpairs:
+    """The pairs in the caller's order of rows, with definite signs."""
+    vectors = pairs.vectors
+    if order is not None:
+        vectors = np.empty_like(pairs.vectors)
+        vectors[order] = pairs.vectors
     largest = np.abs(vectors).argmax(axis=0)
-    signs = np.where(vectors[largest, np.arange(len(values))] < 0, -1.0, 1.0)
-    return Eigenpairs(values, vectors * signs, gaps / scale)
+    vectors *= np.where(vectors[largest, np.arange(len(pairs.values))] < 0, -1.0, 1.0)
+    return Eigenpairs(pairs.values, vectors, pairs.residuals)
