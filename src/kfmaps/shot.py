@@ -24,8 +24,8 @@ VOLUMES = AZIMUTHS * ELEVATIONS * SHELLS
 
 Form = Literal["surface", "paper"]
 
-_PAIRS = 100_000
-"""Pairs of a vertex and a support point in one block: about 30 MB of work arrays."""
+_PAIRS = 30_000
+"""Pairs of a vertex and a support point in one block: work arrays that fit the cache are nearly twice as fast."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -270,8 +270,9 @@ def _histograms(pairs: _Pairs, frames: np.ndarray, weight: np.ndarray, bins: int
     """
     i, count = pairs.i, pairs.count
     weight = weight * (np.abs(frames).max(axis=(1, 2)) > 0)[i]
-    x, y, z = np.matmul(frames[i], pairs.offset[:, :, None])[:, :, 0].T
-    cosine = np.clip(np.einsum("ij,ij->i", frames[:, 2][i], pairs.normal), -1, 1)
+    own = frames.reshape(count, 9).take(i, axis=0).reshape(-1, 3, 3)
+    x, y, z = np.einsum("pij,pj->ip", own, pairs.offset)
+    cosine = np.clip(np.einsum("pj,pj->p", own[:, 2], pairs.normal), -1, 1)
     turn = np.arctan2(y, x) * (AZIMUTHS / (2 * np.pi)) - 0.5
     sector = np.floor(turn).astype(np.int64)
     step = (cosine + 1) * (bins / 2)
