@@ -94,6 +94,10 @@ def test_a_pair_equals_a_single_match(folder: Path, tmp_path: Path) -> None:
         assert result.landmarks == 4
         saved = load_map(map_path(tmp_path, Pair(result.source, result.target).key))
         np.testing.assert_array_equal(saved.target_to_source, found.target_to_source)
+        assert saved.functional_map is not None
+        np.testing.assert_array_equal(saved.functional_map, found.functional_map)
+        other = match(source, target, config, landmarks=landmarks, rng=4).functional_map
+        assert np.abs(saved.functional_map - other).max() > 1e-9  # the seed counts
         np.testing.assert_array_equal(saved.extra["landmarks"], landmarks)
     assert summarised(results).error_mean == pytest.approx(np.mean([float(r.error_mean or 0) for r in results]))
 

@@ -8,7 +8,7 @@ import signal
 import subprocess
 import sys
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -127,10 +127,9 @@ class Answer:
         self.value, self.error, self.status = value, error, "error" if error else "finished"
 
     def result(self) -> Any:
+        if self.error:
+            raise self.error
         return self.value
-
-    def exception(self) -> BaseException | None:
-        return self.error
 
 
 class Machine:
@@ -198,6 +197,15 @@ def _listening() -> list[str]:
     return [c.laddr[0] for c in kinds if c.status == psutil.CONN_LISTEN]
 
 
+@pytest.fixture
+def interruptible() -> Iterator[None]:
+    """Ctrl-C works in this process, whatever it was started by: what is ignored is inherited."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
+
+
+@pytest.mark.usefixtures("interruptible")
 def test_workers_use_one_thread_and_the_loopback_alone() -> None:
     with local_workers(1) as workers:
         assert workers.client.scheduler_info()["address"].startswith("tls://127.0.0.1:")

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import csv
-import json
 import sys
 import warnings
 from dataclasses import replace
@@ -16,7 +15,15 @@ import pytest
 from collecting import done, plan_of, write_collection
 from kfmaps.app.batch.collection import COLUMNS, PAGE, TABLE, match_collection, write_outputs
 from kfmaps.app.batch.page import summary_page
-from kfmaps.app.batch.results import Result, all_results, read_result, result_path, write_csv, write_parquet
+from kfmaps.app.batch.results import (
+    Result,
+    all_results,
+    read_result,
+    result_path,
+    write_csv,
+    write_parquet,
+    write_result,
+)
 from kfmaps.app.batch.summary import summarised, worst_first
 
 
@@ -108,7 +115,7 @@ def test_numbers_of_the_summary() -> None:
 def test_outputs_come_from_the_result_files(folder: Path, tmp_path: Path) -> None:
     plan = plan_of(folder, tmp_path)
     done(plan)
-    result_path(tmp_path, "foreign").write_text(json.dumps({"source": "x", "settings": "other"}))
+    write_result(result_path(tmp_path, "foreign"), Result("x", "y", "done", "of other settings", "i"))
     result_path(tmp_path, "broken").write_text("{")
     with warnings.catch_warnings():
         warnings.simplefilter("error")

@@ -129,10 +129,12 @@ def running_workers(address: str, timeout: float = 30.0) -> Iterator[Workers]:
 @contextmanager
 def _quiet() -> Iterator[None]:
     """Dask's log of lost connections and restarted workers, which the run tells of in its own words, held back."""
-    logger = logging.getLogger("distributed")
-    level = logger.level
-    logger.setLevel(logging.CRITICAL)
+    handlers = logging.getLogger("distributed").handlers
+    levels = [handler.level for handler in handlers]
+    for handler in handlers:
+        handler.setLevel(logging.CRITICAL)
     try:
         yield
     finally:
-        logger.setLevel(level)
+        for handler, level in zip(handlers, levels, strict=False):
+            handler.setLevel(level)

@@ -73,10 +73,10 @@ def make_plan(
     InvalidInput
         When the output folder holds results of other settings or cannot be made.
     """
-    folder = _folder(output)
     if settings.identity and (collection.truth or collection.maps):
         remedy = "leave --identity out, or move the files away"
         raise refuse("--identity", "a collection without files of correspondences", "one with such files", remedy)
+    folder = _folder(output)
     claim(folder, settings)
     shelf = _folder(cache_folder or folder / "cache")
     _folder(folder / FOLDER)

@@ -38,9 +38,7 @@ def run_plan(plan: Plan, workers: Workers, tell: Tell | None = None) -> list[Res
     Raises
     ------
     InvalidInput
-        When the workers do not see the output folder, or run another version.
-    ConnectionError
-        When the scheduler is lost.
+        When the workers do not see the output folder or run another version, and when the scheduler is lost.
     """
     from distributed import as_completed
 
@@ -126,27 +124,36 @@ class _Run:
 
     def next(self) -> Result | None:
         """Wait for the next thing that ends; its result when it is a pair's."""
+        from distributed import CancelledError
+
         future = next(self.coming)
         task = self.jobs.pop(future)
-        if future.status in ("cancelled", "lost"):
-            raise ConnectionError("the scheduler was lost; run the same command again to go on")
-        if isinstance(task, ShapeTask):
-            if future.status == "finished":
-                prepared: Prepared = future.result()
-                self.ended.add(task.entry)
-                self.shape_seconds += [prepared.seconds] if prepared.seconds and not prepared.reason else []
+        if future.status in ("lost", "pending"):
+            # The worker that had it died just now, and Dask does it again, which finds what is finished.
+            self.jobs[future] = task
+            self.coming.add(future)
             return None
-        result = future.result() if future.status == "finished" else self._failed(future, task)
+        try:
+            value = future.result()
+        except CancelledError as error:
+            raise refuse("scheduler", "an answer", "none any more", "run the same command again to go on") from error
+        except Exception as error:  # of the task or of whatever killed its worker
+            value = error
+        if isinstance(task, ShapeTask):
+            if isinstance(value, Prepared):
+                self.ended.add(task.entry)
+                self.shape_seconds += [value.seconds] if value.seconds and not value.reason else []
+            return None
+        result = self._failed(value, task) if isinstance(value, Exception) else value
         if result is not None:
             self.results.append(result)
             self.pair_seconds += [result.seconds["total"]] if result.status == "done" else []
         return result
 
-    def _failed(self, future: Future, task: PairTask) -> Result | None:
+    def _failed(self, error: Exception, task: PairTask) -> Result | None:
         """A pair whose task raised, which is not the pair's doing unless it has killed several workers."""
         from distributed import KilledWorker
 
-        error = future.exception()
         if not isinstance(error, KilledWorker):
             return give_up(task, f"{type(error).__name__}: {error}")
         bad = next((t for t in (task.source, task.target) if self._shape(t).status == "error"), None)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import json
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -49,7 +49,7 @@ class Settings:
 
     def as_dict(self) -> dict[str, Any]:
         """As plain values, without the number of threads, which changes no result."""
-        config = as_dict(replace(self.config, threads=None))
+        config = as_dict(self.config)
         del config["threads"]
         return {
             "version": kfmaps.__version__,

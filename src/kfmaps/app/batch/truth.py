@@ -2,29 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from kfmaps._arrays import refuse
 from kfmaps.app.batch.tasks import PairTask
+from kfmaps.app.evaluation import Truth
 from kfmaps.app.files import read_vertex_numbers
-
-
-@dataclass(frozen=True, eq=False)
-class Truth:
-    """Corresponding vertices, 0-based.
-
-    Attributes
-    ----------
-    source, target : (q,) int64
-    mirrored : (q,) int64 or None
-        As ``target``, with left and right swapped.
-    """
-
-    source: np.ndarray
-    target: np.ndarray
-    mirrored: np.ndarray | None = None
 
 
 def true_vertices(task: PairTask, n_s: int, n_t: int) -> Truth | None:

@@ -21,12 +21,12 @@ from kfmaps._threads import one_blas_thread
 from kfmaps.app.batch.cache import file_digest, load_shape, save_shape
 from kfmaps.app.batch.results import THRESHOLDS, Result, read_result, result_path, write_result
 from kfmaps.app.batch.tasks import PairTask, Prepared, ShapeTask
-from kfmaps.app.batch.truth import Truth, landmark_pairs, true_vertices
-from kfmaps.app.files import MapFile, read_mesh, save_map
-from kfmaps.config import as_dict
-from kfmaps.evaluate import coverage, error_curve, evaluation, geodesic_errors, truth_from_pairs
+from kfmaps.app.batch.truth import landmark_pairs, true_vertices
+from kfmaps.app.evaluation import Report, assessed
+from kfmaps.app.files import read_mesh, save_map
+from kfmaps.app.summary import Outcome, map_file
+from kfmaps.evaluate import coverage, error_curve
 from kfmaps.matching import match
-from kfmaps.pipeline import Match
 from kfmaps.shape import Shape, prepare
 
 ATTEMPTS, MAPS = "attempts", "maps"
@@ -161,14 +161,20 @@ def _matched(task: PairTask) -> dict[str, Any]:
     landmarks = landmark_pairs(task, truth, *sizes)
     found = match(source, target, replace(task.config, threads=1), landmarks=landmarks, rng=task.seed)
     start = time.perf_counter()
-    errors = {} if truth is None else _errors(source, found.target_to_source, truth)
-    reached = coverage(found.target_to_source, source.mesh)
+    points = found.target_to_source
+    report = None if truth is None else assessed(source.mesh, points, truth, threads=1)
+    reached = coverage(points, source.mesh)
     seconds = {**found.seconds, "evaluation": time.perf_counter() - start}
-    _save(task, found, landmarks, errors)
-    return errors | {
+    marks = np.zeros((0, 2), dtype=np.int64) if landmarks is None else landmarks
+    paths = Path(task.source.path), Path(task.target.path)
+    outcome = Outcome(found, (source.mesh, target.mesh), paths, marks, task.seed, dict(found.seconds), report)
+    path = map_path(Path(task.folder), task.pair.key)
+    path.parent.mkdir(parents=True, exist_ok=True)
+    save_map(path, map_file(outcome), force=True)
+    return _errors(report) | {
         "vertices_s": sizes[0],
         "vertices_t": sizes[1],
-        "landmarks": 0 if landmarks is None else len(landmarks),
+        "landmarks": len(marks),
         "coverage": reached,
         "confidence": None if found.confidence is None else float(found.confidence),
         "verdict": found.verdict,
@@ -179,52 +185,16 @@ def _matched(task: PairTask) -> dict[str, Any]:
     }
 
 
-def _errors(source: Shape, target_to_source: np.ndarray, truth: Truth) -> dict[str, Any]:
-    """Summary of the errors, and of those against the mirrored truth when there is one."""
-    targets = [truth.target] if truth.mirrored is None else [truth.target, truth.mirrored]
-    predicted = [truth_from_pairs(truth.source, ends, target_to_source) for ends in targets]
-    # In one call, so that the distances from each true vertex are worked out once.
-    both = geodesic_errors(source.mesh, np.concatenate(predicted), np.tile(truth.source, len(targets)), threads=1)
-    direct, *mirrored = np.split(both, len(targets))
-    summary = evaluation(direct)
+def _errors(report: Report | None) -> dict[str, Any]:
+    """The fields of a result that tell of errors; none where the truth is not known."""
+    if report is None:
+        return {}
+    direct = report.errors
     return {
-        "error_mean": summary.mean,
-        "error_median": summary.median,
-        "error_max": summary.worst,
-        "auc": summary.auc,
-        "mirrored_mean": float(mirrored[0].mean()) if mirrored else None,
-        "curve": tuple(error_curve(direct, np.array(THRESHOLDS)).tolist()),
+        "error_mean": direct.mean,
+        "error_median": direct.median,
+        "error_max": direct.worst,
+        "auc": direct.auc,
+        "mirrored_mean": None if report.mirrored is None else report.mirrored.mean,
+        "curve": tuple(error_curve(direct.errors, np.array(THRESHOLDS)).tolist()),
     }
-
-
-def _save(task: PairTask, found: Match, landmarks: np.ndarray | None, errors: dict[str, Any]) -> None:
-    """The map, with what ``kfmaps view`` shows of it."""
-    residuals = np.asarray(found.solution.residuals, dtype=np.float64)
-    summary = {
-        "verdict": found.verdict,
-        "confidence": found.confidence,
-        "solver": str(found.solution.status),
-        "solver steps": found.solution.steps,
-        "kernel": found.kernel,
-        **{f"{name} (× √area)": value for name, value in errors.items() if isinstance(value, float)},
-        "energies": dict(found.energies),
-        "residuals": (residuals / residuals[0]).tolist() if len(residuals) and residuals[0] > 0 else [],
-        "times": dict(found.seconds),
-    }
-    extra: dict[str, Any] = {
-        "source": task.source.path,
-        "target": task.target.path,
-        "summary": json.dumps(summary, default=float),
-    }
-    if landmarks is not None:
-        extra["landmarks"] = landmarks
-    if found.runners_up:
-        extra["runners_up"] = np.stack(found.runners_up)
-    config = json.dumps(as_dict(found.config))
-    mapfile = MapFile(
-        *(found.target_to_source, found.functional_map, found.eigenvalues_s, found.eigenvalues_t, config),
-        extra=extra,
-    )
-    path = map_path(Path(task.folder), task.pair.key)
-    path.parent.mkdir(parents=True, exist_ok=True)
-    save_map(path, mapfile, force=True)

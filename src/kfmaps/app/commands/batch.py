@@ -1,0 +1,127 @@
+"""``kfmaps batch``: whole collections, in parallel, resumed where they stopped."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+from rich.console import Console
+from rich.text import Text
+
+from kfmaps._arrays import check_count, refuse
+from kfmaps.app.batch.collection import Outcome, match_collection
+from kfmaps.app.batch.layout import choose_pairs, find_collection
+from kfmaps.app.batch.plan import Plan, make_plan, recommended
+from kfmaps.app.batch.settings import Settings
+from kfmaps.app.batch.summary import summarised
+from kfmaps.app.batch.told import telling
+from kfmaps.app.settings.options import Chosen, with_settings
+
+FAILED, INTERRUPTED = 1, 130
+"""Exit status when a pair failed, and after Ctrl-C."""
+
+
+@with_settings
+def batch(
+    folder: Annotated[Path, typer.Argument(help="A folder of shapes.", metavar="DIR", show_default=False)],
+    output: Annotated[Path, typer.Option("-o", "--output", help="Folder for everything.", show_default=False)],
+    settings: Chosen,
+    pairs: Annotated[
+        Path | None,
+        typer.Option(help="Two names a line; default: the folder's test_pairs.txt.", show_default=False),
+    ] = None,
+    every: Annotated[bool, typer.Option("--all", help="Every shape to every other, both ways.")] = False,
+    star: Annotated[
+        str | None, typer.Option(help="This shape to all others.", metavar="SHAPE", show_default=False)
+    ] = None,
+    identity: Annotated[bool, typer.Option("--identity", help="Truth: vertex i is vertex i.")] = False,
+    truth_landmarks: Annotated[
+        str | None,
+        typer.Option(
+            help="Landmarks: these lines of the truth, counted from 1.", metavar="201,1121,...", show_default=False
+        ),
+    ] = None,
+    landmarks: Annotated[bool, typer.Option(help="Whether to use landmarks that the folder has.")] = True,
+    workers: Annotated[
+        int | None, typer.Option(min=1, help="Processes; default: one for each core.", show_default=False)
+    ] = None,
+    scheduler: Annotated[
+        str | None,
+        typer.Option(help="Use the workers of this Dask scheduler.", metavar="ADDRESS", show_default=False),
+    ] = None,
+    cache: Annotated[
+        Path | None, typer.Option(help="Folder for prepared shapes; default: in the output.", show_default=False)
+    ] = None,
+    retry_failed: Annotated[bool, typer.Option("--retry-failed", help="Try failed pairs again.")] = False,
+    worst: Annotated[int, typer.Option(min=0, help="Worst pairs shown as pictures in the summary.")] = 6,
+    seed: Annotated[int, typer.Option(min=0, help="For everything that is drawn at random.")] = 0,
+    quiet: Annotated[bool, typer.Option("-q", "--quiet", help="Say nothing.")] = False,
+) -> None:
+    """Match many pairs in parallel: a table, every map and a summary page.
+
+    Stopped and started again with the same arguments it goes on where it was.
+    """
+    if scheduler is not None and workers is not None:
+        raise refuse("--workers", "no --scheduler beside it", "both", "the scheduler has its own workers")
+    lines = _lines(truth_landmarks)
+    collection = find_collection(folder)
+    chosen = choose_pairs(collection, file=pairs, every=every, star=star)
+    config = settings.config(recommended(collection, chosen, bool(lines), landmarks))
+    made = Settings(config, seed, lines, landmarks, identity)
+    console = Console(highlight=False)
+    plan = make_plan(collection, chosen, made, output, cache_folder=cache, retry_failed=retry_failed)
+    if not quiet:
+        console.print(Text(_before(plan)), soft_wrap=True)
+    with telling(console, quiet) as tell:
+        outcome = match_collection(
+            plan, workers=workers, scheduler=scheduler, name=folder.resolve().name, worst=worst, tell=tell
+        )
+    if not quiet:
+        for line in _after(plan, outcome):
+            console.print(Text(line), soft_wrap=True)
+    if outcome.interrupted:
+        raise typer.Exit(INTERRUPTED)
+    if any(result.status == "failed" for result in outcome.results):
+        raise typer.Exit(FAILED)
+
+
+def _lines(text: str | None) -> tuple[int, ...]:
+    """The numbers of ``--truth-landmarks``."""
+    words = [] if text is None else text.replace(",", " ").split()
+    if text is not None and not words:
+        raise refuse("--truth-landmarks", "line numbers", "none", "write them with commas between")
+    try:
+        return tuple(check_count(int(word), "--truth-landmarks") for word in words)
+    except ValueError as error:
+        wanted = "whole numbers from 1 on, with commas between"
+        raise refuse("--truth-landmarks", wanted, repr(text), "count lines from 1") from error
+
+
+def _before(plan: Plan) -> str:
+    """What there is to do."""
+    shapes = len({name for task in plan.tasks for name in (task.pair.source, task.pair.target)})
+    told = [f"{len(plan.tasks)} pairs of {shapes} shapes"]
+    told += [f"{len(plan.results)} done already"] if plan.results else []
+    told += [f"{plan.changed} to do again since their files have changed"] if plan.changed else []
+    return ", ".join(told)
+
+
+def _after(plan: Plan, outcome: Outcome) -> list[str]:
+    """What came of it."""
+    numbers = summarised(outcome.results)
+    lines = []
+    if outcome.interrupted:
+        left = len(plan.tasks) - len(outcome.results)
+        lines.append(f"interrupted with {left} pairs left; the same command goes on")
+    if numbers.failed:
+        pairs = "1 pair" if numbers.failed == 1 else f"{numbers.failed} pairs"
+        lines.append(f"{pairs} failed; the summary says why, and --retry-failed tries again")
+    if numbers.error_mean is not None:
+        lines.append(
+            f"mean error {numbers.error_mean:.4f} √area over {numbers.evaluated} pairs"
+            f" (median pair {numbers.error_median:.4f}, worst {numbers.error_worst:.4f})"
+        )
+    verdicts = ", ".join(f"{count} {verdict}" for verdict, count in numbers.verdicts.items() if verdict)
+    lines += [f"verdicts: {verdicts}"] if verdicts else []
+    return lines + [str(path) for path in outcome.files]

@@ -1,0 +1,83 @@
+"""``kfmaps batch`` as a user meets it: what it prints, writes, refuses, and how it ends."""
+
+from __future__ import annotations
+
+import csv
+from pathlib import Path
+
+import pytest
+
+from collecting import LANDMARKS, touch, write_collection
+from kfmaps.app.cli import main
+from kfmaps.app.files import load_map
+
+SIZES = ("--basis", "20", "--descriptors", "20", "--set", "descriptors.eigenfunctions=40", "--samples", "60")
+ZOOM = ("--zoom-start", "10", "--zoom-stop", "40", "--zoom-step", "5")
+MARKS = ("--truth-landmarks", ",".join(map(str, LANDMARKS)))
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return write_collection(tmp_path_factory.mktemp("shapes"), 3)
+
+
+def test_a_run_and_another_that_finds_it_done(folder: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    pairs = touch(tmp_path / "pairs.txt", "b0 b1\nb2 b1\n")
+    out = tmp_path / "deep" / "out"
+    words = ["batch", str(folder), "-o", str(out), "--workers", "1", *SIZES, *ZOOM, *MARKS]
+    assert main([*words, "--pairs", str(pairs)]) == 0
+    told = capsys.readouterr().out
+    assert "2 pairs of 3 shapes" in told
+    assert "pairs 2/2, done" in told
+    with open(out / "results.csv", encoding="utf-8", newline="") as file:
+        rows = list(csv.DictReader(file))
+    mean = sum(float(row["error_mean"]) for row in rows) / 2
+    assert f"mean error {mean:.4f} √area over 2 pairs" in told
+    assert load_map(out / "maps" / "b2-b1.npz").functional_map is not None
+    assert main([*words, "--all"]) == 0
+    told = capsys.readouterr().out
+    assert "6 pairs of 3 shapes, 2 done already" in told
+    assert (out / "summary.html").read_text(encoding="utf-8").count("data:image/png") == 6
+    assert main([*words, "--all", "-q"]) == 0
+    assert capsys.readouterr().out == ""
+
+
+def test_failures_have_a_status_of_their_own(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    folder = write_collection(tmp_path / "c", 3)
+    touch(folder / "b2.off", "OFF\n")
+    words = ["batch", str(folder), "-o", str(tmp_path / "out"), "--star", "b0", "--workers", "1", *SIZES, *ZOOM, *MARKS]
+    assert main(words) == 1
+    told = capsys.readouterr().out
+    assert "failed: b0 → b2: shape b2 could not be prepared" in told
+    assert "1 pair failed" in told
+    assert main(words) == 1  # and nothing is tried again unasked
+    assert "2 pairs of 3 shapes, 2 done already" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (["--all", "--star", "b0"], "one of --pairs, --all and --star"),
+        ([], "test_pairs.txt"),
+        (["--all", "--truth-landmarks", "1,x"], "'1,x'"),
+        (["--all", "--truth-landmarks", "0"], "whole numbers from 1"),
+        (["--all", "--scheduler", "tcp://127.0.0.1:9", "--workers", "2"], "--workers"),
+        (["--all", "--kernel", "cubic"], "cubic"),
+        (["--all", "--identity"], "--identity"),
+    ],
+)
+def test_refusals(
+    folder: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], words: list[str], message: str
+) -> None:
+    assert main(["batch", str(folder), "-o", str(tmp_path / "out"), *words]) == 2
+    told = capsys.readouterr()
+    assert message in told.err
+    assert len(told.err.splitlines()) == 1
+    assert not (tmp_path / "out").exists()
+
+
+def test_other_settings_are_refused(folder: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    words = ["batch", str(folder), "-o", str(tmp_path / "out"), "--star", "b0", "--workers", "1", *SIZES, *ZOOM, *MARKS]
+    assert main([*words, "-q"]) == 0
+    assert main([*words, "--alpha", "2"]) == 2
+    assert "config.weights.laplacian 1.0, now 2.0" in capsys.readouterr().err
