@@ -1,7 +1,6 @@
 """SHOT: how the surface around each vertex is bent, direction by direction, in a frame of its own.
 
-Unlike heat and wave signatures it looks at the shape from outside, so it tells left from right: the descriptors
-of a mirrored shape are others (:func:`mirrored`).
+Unlike heat and wave signatures it tells left from right: a mirrored shape has others (:func:`mirrored`).
 
 Tombari, Salti and Di Stefano, "Unique signatures of histograms for local surface description", ECCV 2010.
 """
