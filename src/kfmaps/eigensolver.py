@@ -91,7 +91,8 @@ def smallest_eigenpairs(
     Raises
     ------
     InvalidInput
-        On arrays that do not fit together, NaN, a negative mass, or ``k`` out of range.
+        On arrays that do not fit together, NaN, a negative mass, a row without stiffness and mass, or ``k`` out
+        of range.
     NotConverged
         When a residual stays above the tolerance or the shifted matrix is singular.
     """
@@ -109,6 +110,9 @@ def smallest_eigenpairs(
         raise refuse("method", f"one of {', '.join(METHODS)}", repr(method), "choose one of them")
     if mass.min() < 0 or not mass.sum() > 0:
         raise refuse("mass", "none below zero, some above", f"least {mass.min():g}", "check the areas")
+    idle = int(((mass == 0) & (matrix.diagonal() == 0)).sum())
+    if idle:
+        raise refuse("pencil", "a mass or a stiffness in every row", f"{idle} rows with neither", "leave them out")
     small = n <= max(400, 4 * k + 200)
     if method == "auto" or (method != "dense" and small):
         method = "dense" if small else "block"

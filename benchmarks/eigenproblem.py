@@ -1,0 +1,107 @@
+"""The eigenproblem against SciPy's default: ``python benchmarks/eigenproblem.py [--large] [--json PATH]``.
+
+For each size the first ``k`` eigenpairs of one bumpy sphere's Laplacian, by SciPy's ``eigsh`` with its default
+shift-invert and by :func:`kfmaps.eigensolver.smallest_eigenpairs` with each ordering, all on one BLAS thread.
+Ratios are SciPy's time over ours, measured in this run; ``work`` is CPU seconds. Memory is the peak of a process
+of its own for each row, less what it held before.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import multiprocessing
+import resource
+import time
+from collections.abc import Callable
+from importlib.util import find_spec
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import robust_laplacian
+from scipy.sparse import diags_array
+from scipy.sparse.linalg import eigsh
+from shapes import bumpy_sphere
+
+from kfmaps._threads import available_cores, one_blas_thread
+from kfmaps.eigensolver import smallest_eigenpairs
+
+SIZES, LARGE = (5_000, 20_000, 100_000), (300_000, 500_000)
+
+
+def scipy_default(stiffness: Any, mass: np.ndarray, k: int) -> np.ndarray:
+    """SciPy's shift-invert as its documentation shows it, just below zero."""
+    with one_blas_thread():
+        shift = -1e-3 / mass.sum()
+        return np.sort(eigsh(stiffness, k, M=diags_array(mass), sigma=shift, return_eigenvectors=True)[0])
+
+
+def own(ordering: str, threads: int) -> Callable[[Any, np.ndarray, int], np.ndarray]:
+    def solve(stiffness: Any, mass: np.ndarray, k: int) -> np.ndarray:
+        return smallest_eigenpairs(stiffness, mass, k, ordering=ordering, threads=threads).values
+
+    return solve
+
+
+def solvers() -> dict[str, Callable[[Any, np.ndarray, int], np.ndarray]]:
+    found = {"eigsh": scipy_default, "block mmd, 1 thread": own("mmd", 1)}
+    if find_spec("pymetis"):
+        found["block metis, 1 thread"] = own("metis", 1)
+    threads = available_cores()
+    if threads > 1:
+        best = "metis" if find_spec("pymetis") else "mmd"
+        found[f"block {best}, {threads} threads"] = own(best, threads)
+    return found
+
+
+def measure(job: tuple[str, int, int]) -> dict[str, Any]:
+    """One row: seconds, CPU seconds, peak memory and eigenvalues of one solver on one size."""
+    name, n, k = job
+    mesh = bumpy_sphere(n)
+    stiffness, mass = robust_laplacian.mesh_laplacian(mesh.vertices, mesh.faces)
+    mass = mass.diagonal()
+    before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    wall, work = time.perf_counter(), time.process_time()
+    values = solvers()[name](stiffness, mass, k)
+    wall, work = time.perf_counter() - wall, time.process_time() - work
+    peak = (resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before) / 1e6
+    return {"n": n, "k": k, "solver": name, "wall": wall, "work": work, "peak_gb": peak, "values": values.tolist()}
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--large", action="store_true", help="300,000 and 500,000 vertices too")
+    parser.add_argument("--sizes", type=int, nargs="+", help="these sizes instead")
+    parser.add_argument("-k", type=int, nargs="+", default=[100, 200], help="eigenpairs (default: 100 and 200)")
+    parser.add_argument("--json", type=Path, help="write the rows there too")
+    options = parser.parse_args()
+    sizes = options.sizes or (SIZES + LARGE if options.large else SIZES)
+    rows = []
+    header = ("vertices", "k", "solver", "seconds", "ratio", "work", "ratio", "GB", "error")
+    print("{:>9} {:>4}  {:24} {:>8} {:>6} {:>8} {:>6} {:>6} {:>8}".format(*header))
+    context = multiprocessing.get_context("spawn")
+    for n in sizes:
+        for k in options.k:
+            reference = None
+            for name in solvers():
+                with context.Pool(1) as pool:
+                    row = pool.apply(measure, ((name, n, k),))
+                values = np.array(row.pop("values"))
+                reference = reference or {**row, "values": values}
+                # Of values that are zero only the absolute error means anything.
+                row["error"] = float((np.abs(values - reference["values"]) / np.maximum(values, 1)).max())
+                row["ratio_wall"] = reference["wall"] / row["wall"]
+                row["ratio_work"] = reference["work"] / row["work"]
+                rows.append(row)
+                print(
+                    f"{n:9d} {k:4d}  {name:24} {row['wall']:8.2f} {row['ratio_wall']:6.2f} {row['work']:8.2f} "
+                    f"{row['ratio_work']:6.2f} {row['peak_gb']:6.2f} {row['error']:8.0e}",
+                    flush=True,
+                )
+    if options.json:
+        options.json.write_text(json.dumps(rows, indent=1) + "\n", encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,189 @@
+"""Laws of the sparse eigensolver."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+import robust_laplacian
+from scipy.linalg import eigh
+from scipy.sparse import block_diag, csr_array, diags_array, eye_array, kron
+from scipy.sparse.linalg import eigsh
+
+from conftest import blob, fibonacci_sphere
+from kfmaps import _factor, _lanczos, eigensolver
+from kfmaps._arrays import InvalidInput, MissingDependency, NotConverged
+from kfmaps._threads import one_blas_thread
+from kfmaps.eigensolver import smallest_eigenpairs
+from kfmaps.mesh import Mesh, unit_area
+
+
+def operators(mesh: Mesh) -> tuple[csr_array, np.ndarray]:
+    stiffness, mass = robust_laplacian.mesh_laplacian(mesh.vertices, mesh.faces)
+    return csr_array(stiffness), mass.diagonal()
+
+
+def path(n: int) -> csr_array:
+    """Laplacian of a path of ``n`` points; its eigenvalues are ``4 sin²(π j / 2n)``."""
+    neighbours = np.eye(n, k=1) + np.eye(n, k=-1)
+    return csr_array(np.diag(neighbours.sum(axis=1)) - neighbours)
+
+
+def square_grid(side: int) -> tuple[csr_array, np.ndarray, np.ndarray]:
+    """Laplacian of a square grid, unit mass, and all its eigenvalues: every one off the diagonal twice."""
+    line, one = path(side), eye_array(side)
+    values = 4 * np.sin(np.pi * np.arange(side) / (2 * side)) ** 2
+    stiffness = csr_array(kron(line, one) + kron(one, line))
+    return stiffness, np.ones(side**2), np.sort(np.add.outer(values, values).ravel())
+
+
+def largest(spectrum: np.ndarray, k: int) -> _lanczos.Locked:
+    """Largest eigenpairs of the diagonal matrix."""
+    with one_blas_thread():
+        rng = np.random.default_rng(3)
+        return _lanczos.largest_eigenpairs(lambda x: spectrum[:, None] * x, len(spectrum), k, tolerance=1e-10, rng=rng)
+
+
+@pytest.fixture(scope="module")
+def shape() -> tuple[csr_array, np.ndarray]:
+    return operators(unit_area(blob(900)))
+
+
+@pytest.mark.parametrize("method", ["block", "arpack", "dense"])
+@pytest.mark.parametrize("k", [1, 60])
+def test_grid_eigenvalues_are_the_closed_form(method: str, k: int) -> None:
+    stiffness, mass, exact = square_grid(32)
+    pairs = smallest_eigenpairs(stiffness, mass, k, method=method)
+    np.testing.assert_allclose(pairs.values, exact[:k], rtol=1e-9, atol=1e-12)
+
+
+@pytest.mark.parametrize("method", ["block", "arpack", "dense"])
+def test_pairs_solve_the_pencil(shape: tuple[csr_array, np.ndarray], method: str) -> None:
+    stiffness, mass = shape
+    pairs = smallest_eigenpairs(stiffness, mass, 50, method=method)
+    weighted = mass[:, None] * pairs.vectors
+    np.testing.assert_allclose(pairs.vectors.T @ weighted, np.eye(50), atol=1e-11)
+    gap = np.linalg.norm(stiffness @ pairs.vectors - weighted * pairs.values, axis=0)
+    scaled = gap / ((pairs.values + 4 * np.pi / mass.sum()) * np.linalg.norm(weighted, axis=0))
+    assert scaled.max() < 1e-10
+    np.testing.assert_allclose(pairs.residuals, scaled, rtol=1e-3)
+    assert np.all(np.diff(pairs.values) >= 0)
+    assert pairs.values[0] >= 0
+
+
+def test_block_agrees_with_scipy(shape: tuple[csr_array, np.ndarray]) -> None:
+    stiffness, mass = shape
+    with one_blas_thread():
+        reference = np.sort(eigsh(stiffness, 60, M=diags_array(mass), sigma=-0.1)[0])
+    pairs = smallest_eigenpairs(stiffness, mass, 60, method="block")
+    np.testing.assert_allclose(pairs.values, reference, rtol=1e-9, atol=1e-9)
+
+
+def test_twenty_equal_components_give_every_eigenvalue_twenty_times() -> None:
+    # A block of eight sees eight copies of each: the others come from the restarts.
+    stiffness, mass = operators(unit_area(blob(80)))
+    one = eigh(stiffness.toarray(), np.diag(mass), eigvals_only=True)
+    copies = csr_array(block_diag([stiffness] * 20))
+    for k in (50, 100):
+        pairs = smallest_eigenpairs(copies, np.tile(mass, 20), k, method="block")
+        np.testing.assert_allclose(pairs.values, np.repeat(one, 20)[:k], rtol=1e-8, atol=1e-8)
+
+
+def test_sphere_has_multiplets() -> None:
+    pairs = smallest_eigenpairs(*operators(unit_area(fibonacci_sphere(3000))), 64, method="block")
+    degree = np.repeat(np.arange(8), 2 * np.arange(8) + 1)
+    np.testing.assert_allclose(pairs.values, degree * (degree + 1) * 4 * np.pi, rtol=0.02, atol=1e-9)
+
+
+def test_lanczos_finds_more_copies_than_its_block_is_wide() -> None:
+    spectrum = np.concatenate([np.full(30, 2.0), np.full(11, 1.5), 1 / np.arange(1.0, 960.0)])
+    found = largest(spectrum, 45)
+    np.testing.assert_allclose(found.values[:45], spectrum[:45], rtol=1e-10)
+    np.testing.assert_allclose(found.vectors.T @ found.vectors, np.eye(len(found.values)), atol=1e-9)
+
+
+def test_lanczos_repairs_a_loss_of_orthogonality() -> None:
+    # One eigenvalue far above the rest: the recurrence alone loses digits from step to step.
+    spectrum = np.concatenate([[1e6], 1 / np.arange(1.0, 2000.0)])
+    found = largest(spectrum, 20)
+    np.testing.assert_allclose(found.values[:20], spectrum[:20], rtol=1e-8)
+    np.testing.assert_allclose(found.vectors.T @ found.vectors, np.eye(len(found.values)), atol=1e-12)
+
+
+def test_orderings_agree(shape: tuple[csr_array, np.ndarray]) -> None:
+    pytest.importorskip("pymetis")
+    one = smallest_eigenpairs(*shape, 40, ordering="metis", method="block")
+    other = smallest_eigenpairs(*shape, 40, ordering="mmd", method="block")
+    np.testing.assert_allclose(one.values, other.values, rtol=1e-10, atol=1e-10)
+    np.testing.assert_allclose(one.vectors, other.vectors, atol=1e-6)
+
+
+def test_threads_change_no_bit(shape: tuple[csr_array, np.ndarray], monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(eigensolver, "THREADED", 0)
+    monkeypatch.setattr(_lanczos, "ROWS", 128)
+    one, three = (smallest_eigenpairs(*shape, 30, threads=t, method="block") for t in (1, 3))
+    np.testing.assert_array_equal(one.values, three.values)
+    np.testing.assert_array_equal(one.vectors, three.vectors)
+
+
+def test_seed_decides_nothing_but_rounding(shape: tuple[csr_array, np.ndarray]) -> None:
+    one, same, other = (smallest_eigenpairs(*shape, 30, rng=r, method="block") for r in (0, 0, 1))
+    np.testing.assert_array_equal(one.vectors, same.vectors)
+    np.testing.assert_allclose(one.vectors, other.vectors, atol=1e-6)  # signs included
+
+
+def test_scale_of_the_mass(shape: tuple[csr_array, np.ndarray]) -> None:
+    stiffness, mass = shape
+    one = smallest_eigenpairs(stiffness, mass, 20)
+    other = smallest_eigenpairs(stiffness, mass * 1e-9, 20)
+    np.testing.assert_allclose(other.values * 1e-9, one.values, rtol=1e-9, atol=1e-10)
+
+
+def test_a_row_without_mass_takes_what_its_neighbours_give(shape: tuple[csr_array, np.ndarray]) -> None:
+    stiffness, mass = shape
+    mass = mass.copy()
+    mass[5] = 0
+    row = stiffness[[5]].toarray()[0]
+    vectors = smallest_eigenpairs(stiffness, mass, 20).vectors
+    harmonic = -(row @ vectors - row[5] * vectors[5]) / row[5]
+    np.testing.assert_allclose(vectors[5], harmonic, atol=1e-7)
+
+
+def test_wrong_matrices_do_not_pass(shape: tuple[csr_array, np.ndarray]) -> None:
+    stiffness, mass = shape
+    skewed = stiffness.copy()
+    skewed.data[skewed.indptr[10] : skewed.indptr[11]] *= 1.5
+    with pytest.raises(NotConverged):
+        smallest_eigenpairs(skewed, mass, 10, method="dense")
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        ({"k": 0}, "whole number"),
+        ({"k": 901}, "from 1 to 900"),
+        ({"mass": np.ones(3)}, r"mass \(3,\)"),
+        ({"mass": np.full(900, np.nan)}, "NaN"),
+        ({"mass": -np.ones(900)}, "below zero"),
+        ({"method": "magic"}, "magic"),
+        ({"ordering": "magic"}, "magic"),
+        ({"tolerance": 0.0}, "tolerance"),
+    ],
+)
+def test_bad_input_is_refused(shape: tuple[csr_array, np.ndarray], change: dict, words: str) -> None:
+    stiffness, mass = shape
+    arguments = {"stiffness": stiffness, "mass": mass, "k": 5, **change}
+    with pytest.raises(InvalidInput, match=words):
+        smallest_eigenpairs(**arguments)
+
+
+def test_empty_rows_are_refused() -> None:
+    stiffness, mass = operators(unit_area(blob(100)))
+    with pytest.raises(InvalidInput, match="1 rows with neither"):
+        smallest_eigenpairs(csr_array(block_diag([stiffness, np.zeros((1, 1))])), np.append(mass, 0), 5)
+
+
+def test_metis_missing(shape: tuple[csr_array, np.ndarray], monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(_factor, "find_spec", lambda _: None)
+    with pytest.raises(MissingDependency, match=r"kfmaps\[fast\]"):
+        smallest_eigenpairs(*shape, 5, ordering="metis")
+    assert len(smallest_eigenpairs(*shape, 5).values) == 5
