@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from kfmaps._arrays import Array, check_count, namespace, refuse, take, to_numpy
-from kfmaps.maps import to_functional, to_points
+from kfmaps._arrays import Array, check_count, like, namespace, refuse, take, to_numpy
+from kfmaps.maps import nearest, to_functional, to_points
 from kfmaps.sampling import farthest
 from kfmaps.spectrum import Basis
 
@@ -85,8 +85,9 @@ class ZoomOut:
     step : int
         Growth per step.
     samples : int or None
-        Points of each shape that the steps before the last work on, with the functional map by least squares
-        on them; ``None`` takes all. The last step always uses all points.
+        Points of the target that the steps before the last work on: the functional map is then fitted to them by
+        damped least squares, each weighted by the area that is closest to it. ``None`` takes all points. The last
+        step always does.
     seed : int
         For the choice of samples.
     """
@@ -105,12 +106,7 @@ class ZoomOut:
             check_count(self.samples, "ZoomOut samples", low=2)
 
     def __call__(
-        self,
-        C: Array,
-        source: Basis,
-        target: Basis,
-        progress: Progress | None = None,
-        threads: int | None = None,
+        self, C: Array, source: Basis, target: Basis, progress: Progress | None = None, threads: int | None = None
     ) -> Refined:
         available = min(source.functions.shape[1], target.functions.shape[1])
         if self.stop > available:
@@ -119,35 +115,63 @@ class ZoomOut:
         first = min(self.start, *C.shape)
         C = C[:first, :first]
         sizes = [*range(first, self.stop, self.step), self.stop]
-        coarse = self._coarse(source, target)
-        for i, k in enumerate(sizes[:-1]):
-            points = to_points(C, coarse[0], coarse[1], threads)
-            C = self._fit(points, *coarse, min(k + self.step, self.stop))
+        coarse = target
+        if self.samples is not None and self.samples < target.functions.shape[0]:
+            coarse = spectral_samples(target, self.samples, self.seed).basis
+        for i, larger in enumerate(sizes[1:]):
+            points = to_points(C, source, coarse, threads)
+            C = fitted(points, source, coarse, larger)
             if progress is not None:
                 progress((i + 1) / len(sizes))
-        source, target = source.truncated(self.stop), target.truncated(self.stop)
         points = to_points(C, source, target, threads)
-        C = to_functional(points, source, target)
-        points = to_points(C, source, target, threads)
+        if (
+            coarse is not target
+        ):  # once more with all points, whose functional map owes nothing to the choice of samples
+            C = fitted(points, source, target, self.stop)
+            points = to_points(C, source, target, threads)
         if progress is not None:
             progress(1.0)
         return Refined(C, points, tuple(sizes))
 
-    def _coarse(self, source: Basis, target: Basis) -> tuple[Basis, Basis]:
-        if self.samples is None:
-            return source, target
-        rng = np.random.default_rng(self.seed)
-        return spectral_samples(source, self.samples, rng)[1], spectral_samples(target, self.samples, rng)[1]
 
-    def _fit(self, points: np.ndarray, source: Basis, target: Basis, k: int) -> Array:
-        source, target = source.truncated(k), target.truncated(k)
-        if self.samples is None:
-            return to_functional(points, source, target)
-        return least_squares(target.functions, take(source.functions, points))
+def fitted(points: np.ndarray, source: Basis, target: Basis, k: int, ridge: float = 0.1) -> Array:
+    """The functional map ``(k, k)`` of a point map, on all points of ``target`` or on samples of it.
+
+    On all points the basis is orthonormal and the map is the projection ``Φ_tᵀ A_t Φ_s[points]``. Samples are not
+    quite, so the map is theirs by least squares. Undamped that follows the noise of the points when they are few
+    for k; plain projection leaves the error of the quadrature: ``ridge`` stands between, and is undone in the size.
+    """
+    if not isinstance(target, SampledBasis):
+        return to_functional(points, source.truncated(k), target.truncated(k))
+    xp = namespace(target.functions)
+    phi = target.functions[:, :k]
+    weighted = (target.mass[:, None] * phi).T
+    identity = xp.eye(k, dtype=phi.dtype, device=phi.device)
+    pulled = take(source.functions[:, :k], points)
+    return (1 + ridge) * xp.linalg.solve(weighted @ phi + ridge * identity, weighted @ pulled)
 
 
-def spectral_samples(basis: Basis, count: int, rng: int | np.random.Generator = 0) -> tuple[np.ndarray, Basis]:
-    """Farthest points of a shape in its biharmonic embedding (Lipman et al. 2010), and the basis on them.
+@dataclass(frozen=True, eq=False)
+class SampledBasis(Basis):
+    """A basis on some points of a shape, on which its functions are not quite orthonormal.
+
+    ``mass`` is the area that is closest to each point.
+    """
+
+    def truncated(self, k: int) -> Basis:
+        return SampledBasis(self.eigenvalues[:k], self.functions[:, :k], self.mass)
+
+
+@dataclass(frozen=True, eq=False)
+class Samples:
+    """Some vertices of a shape, ``(q,)``, and its basis on them."""
+
+    vertices: np.ndarray
+    basis: SampledBasis
+
+
+def spectral_samples(basis: Basis, count: int, rng: int | np.random.Generator = 0) -> Samples:
+    """Farthest points of a shape in its biharmonic embedding (Lipman et al. 2010), with the area closest to each.
 
     Needs no mesh, and spreads evenly over the surface whatever its triangulation. At most the vertices there
     are; vertices that no face uses are passed over.
@@ -157,19 +181,12 @@ def spectral_samples(basis: Basis, count: int, rng: int | np.random.Generator = 
     k = min(basis.functions.shape[1], 40)
     values = to_numpy(basis.eigenvalues)[:k]
     positive = values > 1e-6 * values[-1]
-    embedding = to_numpy(basis.functions)[candidates][:, :k][:, positive] / values[positive]
-    chosen = candidates[farthest(embedding, min(count, len(candidates)), rng)]
-    xp = namespace(basis.functions)
-    weights = xp.ones_like(basis.mass[: len(chosen)]) / len(chosen)
-    return chosen, Basis(basis.eigenvalues, take(basis.functions, chosen), weights)
-
-
-def least_squares(A: Array, B: Array, ridge: float = 1e-10) -> Array:
-    """``X`` that minimises ``‖A X − B‖``, by normal equations with a relative ``ridge`` for safety."""
-    xp = namespace(A)
-    normal = A.T @ A
-    size = float(xp.linalg.trace(normal)) / normal.shape[0]
-    return xp.linalg.solve(normal + ridge * size * xp.eye(normal.shape[0], dtype=A.dtype, device=A.device), A.T @ B)
+    embedding = to_numpy(basis.functions)[:, :k][candidates][:, positive] / values[positive]
+    chosen = farthest(embedding, min(count, len(candidates)), rng)
+    closest = nearest(embedding, embedding[chosen])
+    areas = np.bincount(closest, mass[candidates], minlength=len(chosen))
+    vertices = candidates[chosen]
+    return Samples(vertices, SampledBasis(basis.eigenvalues, take(basis.functions, vertices), like(areas, basis.mass)))
 
 
 Refinement = ICP | ZoomOut
