@@ -16,7 +16,18 @@ from collecting import done, plan_of, write_collection
 from conftest import blob
 from kfmaps._arrays import InvalidInput
 from kfmaps.app.commands.render import app
-from kfmaps.app.pictures import Curve, Panel, curves_figure, grid_figure, mean_curve, painted_errors, save_figure
+from kfmaps.app.pictures import (
+    Curve,
+    Panel,
+    curves_figure,
+    following_view,
+    grid_figure,
+    match_figure,
+    mean_curve,
+    painted_errors,
+    save_figure,
+    true_views,
+)
 from kfmaps.app.pictures.grids import LABEL
 from kfmaps.evaluate import geodesic_errors
 from kfmaps.mesh import Mesh
@@ -155,6 +166,21 @@ def test_an_endless_error_is_painted_as_a_large_one() -> None:
     assert np.isfinite(painted).all()
     assert painted[0] == painted.max() >= 1
     assert not painted[1:].any()
+
+
+def test_views_follow_the_truth_and_not_the_map() -> None:
+    """A map that turns the shape round has its picture taken from the true side."""
+    mesh = blob(200)
+    turned = Mesh(mesh.vertices @ np.diag([-1.0, 1, -1]), mesh.faces)
+    everywhere = np.arange(200)
+    seen, followed = true_views(mesh, turned, everywhere, everywhere)
+    np.testing.assert_allclose(followed.towards, seen.towards * [-1, 1, -1], atol=1e-6)
+    np.testing.assert_allclose(followed.up, seen.up * [-1, 1, -1], atol=1e-6)
+    nonsense = np.random.default_rng(0).permutation(200)
+    assert following_view(seen, mesh, turned, nonsense) is seen
+    figure = match_figure(mesh, turned, nonsense, view=seen, target_view=followed)
+    own, same = (ax.get_xlim() for ax in figure.axes[:2])
+    np.testing.assert_allclose(own, same, atol=1e-6)
 
 
 # --- the command -------------------------------------------------------------------------------------------------

@@ -16,7 +16,7 @@ from kfmaps.app.batch.tasks import PairTask
 from kfmaps.app.batch.truth import true_vertices
 from kfmaps.app.batch.work import map_path
 from kfmaps.app.files import check_map, load_map, read_mesh
-from kfmaps.app.pictures import match_figure, painted_errors, save_figure
+from kfmaps.app.pictures import match_figure, painted_errors, save_figure, true_views
 
 
 def pair_picture(task: PairTask, threads: int | None = None) -> bytes:
@@ -33,12 +33,13 @@ def pair_picture(task: PairTask, threads: int | None = None) -> bytes:
     sizes = len(source.vertices), len(target.vertices)
     points = check_map(load_map(map_path(Path(task.folder), task.pair.key)), *sizes)
     truth = true_vertices(task, *sizes)
-    errors = None
+    errors, views = None, (None, None)
     with one_blas_thread():
         if truth is not None:
             errors = painted_errors(source, target, points, truth.source, truth.target, threads)
+            views = true_views(source, target, truth.source, truth.target)
     buffer = io.BytesIO()
-    save_figure(match_figure(source, target, points, errors=errors), buffer, "png")
+    save_figure(match_figure(source, target, points, errors=errors, view=views[0], target_view=views[1]), buffer, "png")
     return buffer.getvalue()
 
 

@@ -22,7 +22,7 @@ def left_in_words(standing: Standing) -> str:
     """The remaining time, and what it rests on."""
     left = standing.pairs - standing.pairs_done
     if left == 0:
-        return "done"
+        return "all matched"
     if standing.remaining is None:
         return "time left: known after the first pair"
     pairs = "1 pair" if standing.measured == 1 else f"{standing.measured} pairs"

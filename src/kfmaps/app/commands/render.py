@@ -25,6 +25,7 @@ from kfmaps.app.pictures import (
     painted_errors,
     picture_format,
     save_figure,
+    true_views,
     view,
 )
 from kfmaps.app.view.results import mesh_path
@@ -78,12 +79,21 @@ def render_pair(
     found = load_map(map)
     source_mesh, target_mesh = (_mesh(g, found, s, map) for g, s in ((source, "source"), (target, "target")))
     points = check_map(found, len(source_mesh.vertices), len(target_mesh.vertices))
-    errors = None
+    errors, seen, seen_target = None, _view(towards, up), None
     if truth is not None:
         known = (_true(truth[0], source_mesh), _true(truth[1], target_mesh))
         errors = painted_errors(source_mesh, target_mesh, points, *known)
-    seen = _view(towards, up)
-    figure = match_figure(source_mesh, target_mesh, points, errors=errors, limit=limit, title=_plain(title), view=seen)
+        seen, seen_target = true_views(source_mesh, target_mesh, *known, seen)
+    figure = match_figure(
+        source_mesh,
+        target_mesh,
+        points,
+        errors=errors,
+        limit=limit,
+        title=_plain(title),
+        view=seen,
+        target_view=seen_target,
+    )
     with atomic_output(output, force) as temporary:
         save_figure(figure, temporary, dpi=dpi)
 

@@ -3,7 +3,7 @@
 from kfmaps.app.pictures.camera import View, automatic_view, following_view, view
 from kfmaps.app.pictures.colors import ERROR_MAP, error_colors, error_limit, position_colors
 from kfmaps.app.pictures.curves import Curve, curves_figure, mean_curve
-from kfmaps.app.pictures.errors import painted_errors
+from kfmaps.app.pictures.errors import painted_errors, true_views
 from kfmaps.app.pictures.grids import Panel, grid_figure
 from kfmaps.app.pictures.matches import match_figure, picture_format, save_figure
 from kfmaps.app.pictures.surfaces import draw_surface
@@ -26,5 +26,6 @@ __all__ = [
     "picture_format",
     "position_colors",
     "save_figure",
+    "true_views",
     "view",
 ]

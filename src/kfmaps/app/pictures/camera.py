@@ -20,6 +20,9 @@ YAW, PITCH = 20.0, 10.0
 SAME_VIEW = 45.0
 """Degrees that a target may be turned against the source and still be seen from the same side."""
 
+LIKENESS = 0.6
+"""Correlation between the turned source and the target above which a turn is believed; poses of one shape have 0.75."""
+
 
 @dataclass(frozen=True, eq=False)
 class View:
@@ -107,13 +110,16 @@ def following_view(source_view: View, source: Mesh, target: Mesh, target_to_sour
     """The view that shows the target from the side from which ``source_view`` shows the source.
 
     It is the same view, unless the rotation that best carries the source onto the target (Kabsch 1976)
-    turns by more than 45 degrees: then the camera turns with it.
+    turns by more than 45 degrees: then the camera turns with it. A map so wrong that no rotation carries one
+    shape to about where the other is turns nothing.
     """
     carried = source.vertices[target_to_source]
     carried = carried - carried.mean(axis=0)
     there = target.vertices - target.vertices.mean(axis=0)
-    u, _, vt = np.linalg.svd(there.T @ carried)
-    turn = u @ np.diag([1, 1, np.linalg.det(u @ vt)]) @ vt
-    if np.rad2deg(Rotation.from_matrix(turn).magnitude()) <= SAME_VIEW:
+    u, fit, vt = np.linalg.svd(there.T @ carried)
+    proper = np.array([1, 1, np.linalg.det(u @ vt)])
+    turn = u @ np.diag(proper) @ vt
+    alike = fit @ proper >= LIKENESS * np.linalg.norm(carried) * np.linalg.norm(there)
+    if not alike or np.rad2deg(Rotation.from_matrix(turn).magnitude()) <= SAME_VIEW:
         return source_view
     return View(turn @ source_view.towards, turn @ source_view.up)

@@ -1,10 +1,11 @@
-"""Errors at every vertex of a target, for painting it."""
+"""What the truth tells a picture: the error at every vertex, and where to look from."""
 
 from __future__ import annotations
 
 import numpy as np
 from scipy.spatial import KDTree
 
+from kfmaps.app.pictures.camera import View, automatic_view, following_view
 from kfmaps.evaluate import geodesic_errors, truth_from_pairs
 from kfmaps.mesh import Mesh
 
@@ -38,3 +39,15 @@ def painted_errors(
     known, unknown = np.flatnonzero(~np.isnan(errors)), np.flatnonzero(np.isnan(errors))
     errors[unknown] = errors[known[KDTree(target.vertices[known]).query(target.vertices[unknown])[1]]]
     return errors
+
+
+def true_views(
+    source: Mesh, target: Mesh, truth_s: np.ndarray, truth_t: np.ndarray, source_view: View | None = None
+) -> tuple[View, View]:
+    """Views of source and target from the same side by the truth, however wrong a map may be.
+
+    A map with left and right swapped would have the camera go round to the back, where it looks right.
+    """
+    source_view = source_view or automatic_view(source)
+    ends = [Mesh(m.vertices[t], np.zeros((0, 3))) for m, t in ((source, truth_s), (target, truth_t))]
+    return source_view, following_view(source_view, ends[0], ends[1], np.arange(len(truth_s)))

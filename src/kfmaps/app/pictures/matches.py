@@ -91,6 +91,7 @@ def match_figure(
     colors: np.ndarray | None = None,
     title: str | None = None,
     view: View | None = None,
+    target_view: View | None = None,
 ) -> Figure:
     """Source and target side by side, the source's colours carried over by the map, and the error.
 
@@ -107,7 +108,9 @@ def match_figure(
         sRGB in [0, 1] on the source; by default :func:`position_colors`.
     title : str, optional
     view : View, optional
-        Of the source; by default :func:`automatic_view`. The target is seen from the same side.
+        Of the source; by default :func:`automatic_view`.
+    target_view : View, optional
+        Of the target; by default from the same side as the source, as far as the map tells.
 
     Returns
     -------
@@ -122,7 +125,7 @@ def match_figure(
     carried = _map_between(source, target, target_to_source)
     colors = position_colors(source) if colors is None else colors
     view_s = automatic_view(source) if view is None else view
-    view_t = following_view(view_s, source, target, carried)
+    view_t = following_view(view_s, source, target, carried) if target_view is None else target_view
     panels = [
         ("source", source, colors, view_s),
         ("target, coloured by the map", target, np.asarray(colors)[carried], view_t),
