@@ -20,6 +20,7 @@ from __future__ import annotations
 
 import numpy as np
 import potpourri3d
+from numpy.typing import ArrayLike
 from scipy.sparse import csr_array
 from scipy.sparse.csgraph import connected_components, dijkstra
 
@@ -36,7 +37,7 @@ SEARCHES = 64
 """Farthest samples whose regions are large enough that a whole search is faster than a spreading front."""
 
 
-def _indices(values: np.ndarray, n: int, name: str) -> np.ndarray:
+def _indices(values: ArrayLike, n: int, name: str) -> np.ndarray:
     array = np.atleast_1d(np.asarray(values))
     if array.ndim != 1 or not (np.issubdtype(array.dtype, np.integer) or array.size == 0):
         got = f"shape {array.shape} of {array.dtype}"
@@ -74,7 +75,7 @@ def _heat(mesh: Mesh, sources: np.ndarray) -> np.ndarray:
     return distances
 
 
-def geodesic_distances(mesh: Mesh, sources: np.ndarray, method: str = "unfolded") -> np.ndarray:
+def geodesic_distances(mesh: Mesh, sources: ArrayLike, method: str = "unfolded") -> np.ndarray:
     """Distances along the surface from each source to every vertex.
 
     Parameters
@@ -111,7 +112,7 @@ def geodesic_distances(mesh: Mesh, sources: np.ndarray, method: str = "unfolded"
 
 
 def distance_pairs(
-    mesh: Mesh, a: np.ndarray, b: np.ndarray, method: str = "unfolded", threads: int | None = None
+    mesh: Mesh, a: ArrayLike, b: ArrayLike, method: str = "unfolded", threads: int | None = None
 ) -> np.ndarray:
     """Distance along the surface from vertex ``a[i]`` to vertex ``b[i]``, (q,), in the mesh's own unit.
 

@@ -1,0 +1,229 @@
+"""Laws of distances along a surface."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from scipy.sparse.csgraph import dijkstra
+from scipy.spatial import Delaunay
+
+from conftest import blob, fibonacci_sphere
+from kfmaps._arrays import InvalidInput
+from kfmaps.geodesics import SEARCHES, distance_pairs, farthest_geodesic, geodesic_distances
+from kfmaps.mesh import Mesh
+from kfmaps.unfolding import surface_graph
+
+METHODS = ("unfolded", "dijkstra", "heat")
+SEARCHED = METHODS[:2]
+
+
+def flat(n: int = 300, seed: int = 0) -> Mesh:
+    """A triangulated unit square."""
+    points = np.random.default_rng(seed).uniform(size=(n, 2))
+    points[:4] = [[0, 0], [1, 0], [0, 1], [1, 1]]
+    return Mesh(np.column_stack([points, np.zeros(n)]), Delaunay(points).simplices)
+
+
+def between(points: np.ndarray) -> np.ndarray:
+    return np.linalg.norm(points[:, None] - points, axis=2)
+
+
+def everywhere(mesh: Mesh, method: str = "unfolded") -> np.ndarray:
+    return geodesic_distances(mesh, np.arange(len(mesh.vertices)), method)
+
+
+def two_pieces() -> Mesh:
+    """Two blobs far apart, and a vertex of no face between them."""
+    one = blob(120)
+    vertices = np.concatenate([one.vertices, [[10, 0, 0]], one.vertices + 20.0])
+    return Mesh(vertices, np.concatenate([one.faces, one.faces + 121]))
+
+
+def test_a_plane_is_straight() -> None:
+    mesh = flat()
+    exact = between(mesh.vertices)
+    off = ~np.eye(len(exact), dtype=bool)
+    unfolded, edges = everywhere(mesh), everywhere(mesh, "dijkstra")
+    assert (unfolded - exact).min() > -1e-12  # every path lies on the surface
+    assert (edges - unfolded).min() > -1e-12
+    assert (unfolded[off] / exact[off]).mean() < 1.006
+    assert (edges[off] / exact[off]).mean() > 1.03
+
+
+def test_deeper_unfolding_gives_exact_distances_farther() -> None:
+    mesh = flat(60)
+    exact = between(mesh.vertices)
+    hits = []
+    for depth in (0, 1, 2, 4, 8):
+        graph = surface_graph(mesh, depth)
+        low, high = graph.nonzero()
+        np.testing.assert_allclose(graph.toarray()[low, high], exact[low, high], rtol=1e-12)  # lines are straight
+        assert abs(graph - graph.T).max() == 0
+        hits.append(graph.nnz)
+    assert np.all(np.diff(hits) > 0)
+    assert surface_graph(mesh, 40).nnz == 60 * 59  # in a convex plane everything sees everything
+
+
+def test_a_fold_is_laid_flat() -> None:
+    for angle in (0.3, 1.5, 3.0):  # between two right-angled triangles over one edge, from a closed book to flat
+        wing = np.array([np.cos(angle), 0, np.sin(angle)])
+        vertices = np.array([[0, -1, 0], [0, 1, 0], [1, 0.2, 0], wing - [0, 0.3, 0]])
+        mesh = Mesh(vertices, np.array([[0, 2, 1], [0, 1, 3]]))
+        assert geodesic_distances(mesh, [2])[0, 3] == pytest.approx(np.hypot(2, 0.5))
+
+
+def test_a_line_that_misses_the_edge_is_none() -> None:
+    vertices = np.array([[0, 0, 0], [0, 1, 0], [2, -3, 0], [-2, -3, 0]], dtype=float)
+    mesh = Mesh(vertices, np.array([[0, 2, 1], [0, 1, 3]]))
+    # The straight line from 2 to 3 passes below the edge, outside the surface: the way is by vertex 0.
+    assert geodesic_distances(mesh, [2])[0, 3] == pytest.approx(2 * np.hypot(2, 3))
+
+
+@pytest.mark.parametrize("flip", [False, True])
+def test_corners_of_a_cube(flip: bool) -> None:
+    corners = np.array(np.meshgrid([0, 1], [0, 1], [0, 1], indexing="ij"), dtype=float).reshape(3, -1).T
+    quads = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]
+    faces = np.array([t for a, b, c, d in quads for t in ([a, b, c], [a, c, d])])
+    if flip:
+        faces[::3] = faces[::3, ::-1]  # orientation means nothing
+    exact = np.array([0, 1, np.sqrt(2), np.sqrt(5)])[np.abs(corners[:, None] - corners).sum(axis=2).astype(int)]
+    np.testing.assert_allclose(everywhere(Mesh(corners, faces)), exact, atol=1e-12)
+
+
+def test_pages_of_a_book() -> None:
+    # Three triangles at one edge: each pair of pages is a fold of its own.
+    vertices = np.array([[0, -1, 0], [0, 1, 0], [1, 0, 0], [-0.5, 0, 0.8], [0, 0, -2]])
+    mesh = Mesh(vertices, np.array([[0, 1, 2], [0, 1, 3], [1, 0, 4]]))
+    heights = np.linalg.norm(vertices[2:], axis=1)
+    distances = everywhere(mesh)[2:, 2:]
+    np.testing.assert_allclose(distances, (heights[:, None] + heights) * (1 - np.eye(3)), atol=1e-12)
+
+
+@pytest.mark.parametrize(("method", "error"), [("unfolded", 0.01), ("dijkstra", 0.12), ("heat", 0.02)])
+def test_sphere_has_great_circles(method: str, error: float) -> None:
+    mesh = fibonacci_sphere(1500)
+    exact = np.arccos(np.clip(mesh.vertices[[3, 700]] @ mesh.vertices.T, -1, 1))
+    got = geodesic_distances(mesh, [3, 700], method)
+    far = exact > 1e-6
+    assert np.abs(got / np.where(far, exact, 1) - 1)[far].mean() < error
+    assert (got[~far] == 0).all()
+
+
+@pytest.mark.parametrize("method", SEARCHED)
+def test_metric(method: str) -> None:
+    distances = everywhere(blob(150), method)
+    np.testing.assert_allclose(distances, distances.T, rtol=1e-12)
+    assert (np.diag(distances) == 0).all()
+    detour = (distances[:, :, None] + distances[None, :, :]).min(axis=1)
+    assert (distances <= detour + 1e-12).all()
+    assert (distances >= between(blob(150).vertices) - 1e-12).all()
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_scale_and_order_of_vertices(method: str) -> None:
+    mesh = blob(200)
+    order = np.random.default_rng(5).permutation(200)
+    number = np.argsort(order)
+    other = Mesh(5 * mesh.vertices[order], number[mesh.faces])
+    one = geodesic_distances(mesh, order[:10], method)
+    np.testing.assert_allclose(geodesic_distances(other, np.arange(10), method) / 5, one[:, order], rtol=1e-6)
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_between_components_there_is_no_way(method: str) -> None:
+    mesh = two_pieces()
+    distances = geodesic_distances(mesh, [0, 120, 121], method)
+    piece = np.repeat([0, 1, 2], [120, 1, 120])
+    np.testing.assert_array_equal(np.isfinite(distances), piece == np.array([[0], [1], [2]]))
+    assert (distances[:, [0, 120, 121]].diagonal() == 0).all()
+    alone = geodesic_distances(blob(120), [0], method)[0]
+    np.testing.assert_allclose(distances[0, :120], alone, rtol=1e-6)
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_faces_without_area(method: str) -> None:
+    mesh = flat(80)
+    a, b, c = mesh.faces[0]
+    twin = mesh.vertices[[a]]  # a second vertex in the same place
+    faces = np.concatenate([mesh.faces, [[a, a, b], [c, c, c], [a, 80, b]]])
+    distances = geodesic_distances(Mesh(np.concatenate([mesh.vertices, twin]), faces), [int(c)], method)[0]
+    assert np.isfinite(distances).all()
+    assert distances[80] == pytest.approx(distances[a], abs=0.02)
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_pairs_are_entries_of_the_matrix(method: str) -> None:
+    mesh = two_pieces()
+    rng = np.random.default_rng(0)
+    n = len(mesh.vertices)
+    a, b = rng.integers(0, n, 400), rng.integers(0, n, 400)
+    near = np.argsort(((mesh.vertices[a][:, None] - mesh.vertices) ** 2).sum(axis=2))
+    b[:200] = near[np.arange(200), rng.integers(0, 8, 200)]
+    pairs = distance_pairs(mesh, a, b, method)
+    np.testing.assert_array_equal(pairs, geodesic_distances(mesh, a, method)[np.arange(400), b])
+    assert np.isinf(pairs).any()
+    assert (pairs == 0).any()
+    assert distance_pairs(mesh, [], [], method).shape == (0,)
+
+
+def test_far_pairs_are_found_too() -> None:
+    # A hairpin: near in space, far along the surface, so that the first searches fall short.
+    length, width = 40, 4
+    x, y = np.meshgrid(np.arange(length), np.arange(width), indexing="ij")
+    i = (np.arange(length - 1)[:, None] * width + np.arange(width - 1)).ravel()
+    faces = np.concatenate([np.stack([i, i + 1, i + width + 1], 1), np.stack([i, i + width + 1, i + width], 1)])
+    turn = np.pi * x / (length - 1)
+    bent = np.stack([0.01 * np.cos(turn), 20 * np.sin(turn), y], axis=2).reshape(-1, 3)
+    mesh = Mesh(bent, faces)
+    a, b = np.arange(width), np.arange(width)[::-1] + (length - 1) * width
+    np.testing.assert_array_equal(distance_pairs(mesh, a, b), geodesic_distances(mesh, a)[np.arange(width), b])
+
+
+def test_clouds() -> None:
+    mesh = fibonacci_sphere(1000)
+    cloud = Mesh(mesh.vertices, np.zeros((0, 3)))
+    exact = np.arccos(np.clip(mesh.vertices[:2] @ mesh.vertices.T, -1, 1))
+    for method in METHODS:
+        got = geodesic_distances(cloud, [0, 1], method)
+        assert np.abs(got - exact).mean() < 0.06 * exact.mean()
+    assert len(set(farthest_geodesic(cloud, 30))) == 30
+    assert everywhere(Mesh(np.zeros((1, 3)), np.zeros((0, 3)))).tolist() == [[0.0]]
+
+
+def test_farthest_samples_are_the_farthest() -> None:
+    mesh = blob(400)
+    count = SEARCHES + 60  # beyond the whole searches: the spreading front must agree with them
+    samples = farthest_geodesic(mesh, count, rng=4)
+    nearest = np.minimum.accumulate(dijkstra(surface_graph(mesh, 1), indices=samples), axis=0)
+    reach = nearest[np.arange(count - 1), samples[1:]]
+    np.testing.assert_allclose(reach, nearest[:-1].max(axis=1), rtol=1e-12)
+    assert len(set(samples.tolist())) == count
+
+
+def test_farthest_samples_meet_every_component_and_only_used_vertices() -> None:
+    mesh = two_pieces()
+    for seed in range(3):
+        piece = np.searchsorted([120, 121], farthest_geodesic(mesh, 2, rng=seed), side="right")
+        assert sorted(piece) == [0, 2]
+    assert set(farthest_geodesic(mesh, 240).tolist()) == set(range(241)) - {120}
+    assert farthest_geodesic(mesh, 5, first=17)[0] == 17
+    np.testing.assert_array_equal(farthest_geodesic(mesh, 9, rng=1), farthest_geodesic(mesh, 9, rng=1))
+
+
+def test_bad_input_is_refused() -> None:
+    mesh = flat(20)
+    for call in (
+        lambda: geodesic_distances(mesh, [20]),
+        lambda: geodesic_distances(mesh, [-1]),
+        lambda: geodesic_distances(mesh, [0.5]),
+        lambda: geodesic_distances(mesh, [[0, 1]]),
+        lambda: geodesic_distances(mesh, [0], "magic"),
+        lambda: distance_pairs(mesh, [0, 1], [2]),
+        lambda: distance_pairs(mesh, [0], [20]),
+        lambda: farthest_geodesic(mesh, 21),
+        lambda: farthest_geodesic(mesh, 0),
+        lambda: farthest_geodesic(mesh, 2, first=20),
+        lambda: surface_graph(mesh, -1),
+    ):
+        with pytest.raises(InvalidInput):
+            call()

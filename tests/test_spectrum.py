@@ -1,0 +1,218 @@
+"""Laws of the Laplace basis."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+
+from conftest import blob, fibonacci_sphere
+from kfmaps._arrays import InvalidInput, MissingDependency, to_numpy
+from kfmaps.mesh import Mesh, surface_area, unit_area, vertex_areas
+from kfmaps.spectrum import Basis, cotangent_laplacian, laplace_basis
+
+LAPLACIANS = ("robust", "cotangent")
+
+
+def grid(columns: int, rows: int, width: float = 1.0, height: float = 1.0) -> Mesh:
+    """A flat rectangle with its corner at the origin, its inner vertices moved a little off the lattice."""
+    x, y = np.meshgrid(np.linspace(0, width, columns), np.linspace(0, height, rows))
+    shift = np.random.default_rng(1).uniform(-0.2, 0.2, (2, rows, columns))
+    shift[:, [0, -1]] = shift[:, :, [0, -1]] = 0
+    x, y = x + shift[0] * width / (columns - 1), y + shift[1] * height / (rows - 1)
+    vertices = np.stack([x.ravel(), y.ravel(), np.zeros(x.size)], axis=1)
+    i = (np.arange(rows - 1)[:, None] * columns + np.arange(columns - 1)).ravel()
+    lower, upper = np.stack([i, i + 1, i + columns + 1], axis=1), np.stack([i, i + columns + 1, i + columns], axis=1)
+    return Mesh(vertices, np.concatenate([lower, upper]))
+
+
+def rotation(seed: int) -> np.ndarray:
+    q, r = np.linalg.qr(np.random.default_rng(seed).normal(size=(3, 3)))
+    q = q * np.sign(np.diag(r))
+    return q * np.sign(np.linalg.det(q))
+
+
+@pytest.fixture(scope="module")
+def mesh() -> Mesh:
+    return unit_area(blob(500))
+
+
+@pytest.fixture(scope="module")
+def basis(mesh: Mesh) -> Basis:
+    return laplace_basis(mesh, 25)
+
+
+def test_functions_are_orthonormal_in_every_array_library(basis: Basis, asarray: Callable[[Any], Any]) -> None:
+    mine = Basis(asarray(basis.eigenvalues), asarray(basis.functions), asarray(basis.mass))
+    np.testing.assert_allclose(to_numpy(mine.project(mine.functions)), np.eye(25), atol=1e-11)
+    coefficients = asarray(np.random.default_rng(0).normal(size=(25, 3)))
+    np.testing.assert_allclose(to_numpy(mine.project(mine.lift(coefficients))), to_numpy(coefficients), atol=1e-11)
+    short = mine.truncated(7)
+    assert short.eigenvalues.shape == (7,)
+    np.testing.assert_array_equal(to_numpy(short.functions), basis.functions[:, :7])
+
+
+def test_constant_comes_first_and_mass_is_the_area(mesh: Mesh, basis: Basis) -> None:
+    assert 0 <= basis.eigenvalues[0] < 1e-9 < basis.eigenvalues[1]
+    np.testing.assert_allclose(basis.functions[:, 0], 1, atol=1e-8)
+    assert basis.mass.sum() == pytest.approx(surface_area(mesh), rel=1e-4)
+    np.testing.assert_allclose(laplace_basis(mesh, 3, "cotangent").mass, vertex_areas(mesh), rtol=1e-12)
+
+
+@pytest.mark.parametrize("laplacian", LAPLACIANS)
+def test_sphere_converges_at_second_order(laplacian: str) -> None:
+    exact = 4 * np.pi * np.repeat([2.0, 6.0, 12.0], [3, 5, 7])
+    errors = [
+        np.abs(laplace_basis(unit_area(fibonacci_sphere(n)), 16, laplacian).eigenvalues[1:] - exact).max() / exact.max()
+        for n in (500, 2000)
+    ]
+    assert errors[1] < 0.01
+    assert 3 < errors[0] / errors[1] < 6  # half the edge length: a quarter of the error
+
+
+@pytest.mark.parametrize("laplacian", LAPLACIANS)
+def test_rectangle_has_neumann_eigenvalues(laplacian: str) -> None:
+    got = laplace_basis(grid(41, 31, 1.0, 0.75), 15, laplacian).eigenvalues
+    i, j = np.mgrid[:15, :15]
+    exact = np.sort((np.pi**2 * (i**2 + (j / 0.75) ** 2)).ravel())[:15]
+    np.testing.assert_allclose(got, exact, rtol=0.02, atol=1e-9)
+
+
+@pytest.mark.parametrize("laplacian", LAPLACIANS)
+def test_rigid_motion_scale_and_order_of_vertices(mesh: Mesh, laplacian: str) -> None:
+    one = laplace_basis(mesh, 15, laplacian)
+    order = np.random.default_rng(2).permutation(len(mesh.vertices))
+    number = np.empty_like(order)
+    number[order] = np.arange(len(order))
+    moved = 3.0 * mesh.vertices[order] @ rotation(4).T + [1.0, -2.0, 5.0]
+    other = laplace_basis(Mesh(moved, number[mesh.faces]), 15, laplacian)
+    np.testing.assert_allclose(other.eigenvalues * 9, one.eigenvalues, rtol=1e-7, atol=1e-8)
+    np.testing.assert_allclose(other.functions * 3, one.functions[order], atol=1e-5)  # signs included
+    np.testing.assert_allclose(other.mass / 9, one.mass[order], rtol=1e-7)
+
+
+def test_same_input_gives_the_same_bits(mesh: Mesh, basis: Basis) -> None:
+    again = laplace_basis(mesh, 25)
+    np.testing.assert_array_equal(again.functions, basis.functions)
+    largest = np.abs(basis.functions).argmax(axis=0)
+    assert np.all(basis.functions[largest, np.arange(25)] > 0)
+
+
+def test_components_multiply_eigenvalues(mesh: Mesh) -> None:
+    n = len(mesh.vertices)
+    copies = [mesh.vertices + 4.0 * i * np.eye(3)[0] for i in range(3)]
+    faces = [mesh.faces + n * i for i in range(3)]
+    tripled = laplace_basis(Mesh(np.concatenate(copies), np.concatenate(faces)), 30)
+    one = laplace_basis(mesh, 10).eigenvalues
+    np.testing.assert_allclose(tripled.eigenvalues, np.repeat(one, 3), rtol=1e-7, atol=1e-8)
+    # The three functions of eigenvalue zero span the components.
+    indicator = np.repeat(np.eye(3), n, axis=0)
+    np.testing.assert_allclose(tripled.truncated(3).lift(tripled.truncated(3).project(indicator)), indicator, atol=1e-7)
+
+
+@pytest.mark.parametrize("laplacian", LAPLACIANS)
+def test_unused_vertices_change_nothing(mesh: Mesh, laplacian: str) -> None:
+    extra = mesh.vertices[[7, 90]] * 1.01  # just outside: the nearest are 7 and 90
+    wider = Mesh(np.concatenate([extra[:1], mesh.vertices, extra[1:]]), mesh.faces + 1)
+    one, other = laplace_basis(mesh, 10, laplacian), laplace_basis(wider, 10, laplacian)
+    np.testing.assert_array_equal(other.eigenvalues, one.eigenvalues)
+    np.testing.assert_array_equal(other.functions, one.functions[np.r_[7, : len(mesh.vertices), 90]])
+    np.testing.assert_array_equal(other.mass, np.r_[0, one.mass, 0])
+
+
+@pytest.mark.parametrize("laplacian", LAPLACIANS)
+def test_faces_without_area_do_little_harm(mesh: Mesh, laplacian: str) -> None:
+    a, b, c = mesh.faces[10]
+    middle = (mesh.vertices[a] + mesh.vertices[b]) / 2
+    n = len(mesh.vertices)
+    faces = np.concatenate([mesh.faces, [[a, b, n], [a, a, b], [c, c, c]]])  # a needle, two that are no triangles
+    other = laplace_basis(Mesh(np.concatenate([mesh.vertices, middle[None]]), faces), 10, laplacian)
+    one = laplace_basis(mesh, 10, laplacian)
+    np.testing.assert_allclose(other.eigenvalues, one.eigenvalues, rtol=0.02, atol=1e-8)
+    np.testing.assert_allclose(np.abs(other.functions[-1]), np.abs(other.functions[[a, b]]).mean(axis=0), atol=0.3)
+
+
+@pytest.mark.parametrize("laplacian", LAPLACIANS)
+def test_branching_edges(laplacian: str) -> None:
+    page = grid(9, 9)
+    n = len(page.vertices)
+    spine = page.vertices[:, 0] < 1e-12
+    number, sheets, faces = np.flatnonzero(spine), [page.vertices[spine]], []
+    for angle in (0.3, 2.4, 4.5):
+        keep = np.flatnonzero(~spine)
+        index = np.empty(n, dtype=int)
+        index[number] = np.arange(len(number))
+        index[keep] = sum(map(len, sheets)) + np.arange(len(keep))
+        x, y = page.vertices[keep, 0], page.vertices[keep, 1]
+        sheets.append(np.stack([x * np.cos(angle), y, x * np.sin(angle)], axis=1))
+        faces.append(index[page.faces])
+    book = laplace_basis(Mesh(np.concatenate(sheets), np.concatenate(faces)), 8, laplacian)
+    assert book.mass.sum() == pytest.approx(3, rel=1e-4)
+    # What vanishes on the spine, and differs from page to page, is a quarter wave: twice π²/4.
+    np.testing.assert_allclose(book.eigenvalues[:3], [0, np.pi**2 / 4, np.pi**2 / 4], rtol=0.03, atol=1e-9)
+
+
+def test_cloud_agrees_with_its_mesh() -> None:
+    mesh = unit_area(blob(1500))
+    surface, cloud = laplace_basis(mesh, 20), laplace_basis(Mesh(7 * mesh.vertices, np.zeros((0, 3))), 20)
+    assert cloud.mass.sum() == pytest.approx(1)  # whatever its unit
+    np.testing.assert_allclose(cloud.eigenvalues, surface.eigenvalues, rtol=0.02, atol=1e-9)
+    overlap = surface.functions.T @ (surface.mass[:, None] * cloud.functions)
+    np.testing.assert_allclose(np.abs(np.diag(overlap))[:16], 1, atol=0.03)  # the next two are close
+
+
+def test_small_clouds() -> None:
+    points = np.random.default_rng(0).normal(size=(12, 3))
+    points /= np.linalg.norm(points, axis=1, keepdims=True)
+    basis = laplace_basis(Mesh(points, np.zeros((0, 3))), 4)
+    np.testing.assert_allclose(basis.project(basis.functions), np.eye(4), atol=1e-9)
+
+
+def test_cotangent_laplacian_is_exact_on_linear_functions() -> None:
+    flat = grid(8, 6, 2.0, 1.0)
+    stiffness = cotangent_laplacian(flat).toarray()
+    np.testing.assert_allclose(stiffness, stiffness.T, atol=1e-14)
+    np.testing.assert_allclose(stiffness.sum(axis=1), 0, atol=1e-13)
+    assert np.linalg.eigvalsh(stiffness).min() > -1e-12
+    f = flat.vertices @ [3.0, -1.0, 0.0]
+    assert f @ stiffness @ f == pytest.approx(10 * 2.0)  # |gradient|² times the area
+    inner = (flat.vertices[:, :2] > 1e-9).all(axis=1) & (flat.vertices[:, :2] < np.array([2, 1]) - 1e-9).all(axis=1)
+    np.testing.assert_allclose((stiffness @ f)[inner], 0, atol=1e-12)
+
+
+def test_bad_input_is_refused(mesh: Mesh, basis: Basis) -> None:
+    n = len(mesh.vertices)
+    with pytest.raises(InvalidInput, match=f"{n} vertices in use"):
+        laplace_basis(mesh, n)
+    with pytest.raises(InvalidInput, match="whole number"):
+        laplace_basis(mesh, 0)
+    with pytest.raises(InvalidInput, match="magic"):
+        laplace_basis(mesh, 5, "magic")
+    with pytest.raises(InvalidInput, match="from 1 to 25"):
+        basis.truncated(26)
+
+
+def test_to_device(basis: Basis, monkeypatch: pytest.MonkeyPatch) -> None:
+    assert isinstance(basis.to("cpu").functions, np.ndarray)
+    torch = pytest.importorskip("torch")
+    there = Basis(*(torch.asarray(a) for a in (basis.eigenvalues, basis.functions, basis.mass)))
+    np.testing.assert_array_equal(there.to("numpy").functions, basis.functions)
+    with pytest.raises(InvalidInput, match="wanted one that PyTorch can use"):
+        basis.to("magic")
+    monkeypatch.setitem(sys.modules, "torch", None)
+    with pytest.raises(MissingDependency, match=r"kfmaps\[gpu\]"):
+        basis.to("cuda")
+
+
+@pytest.mark.skipif("not __import__('importlib').util.find_spec('torch')", reason="PyTorch is not installed")
+def test_to_pytorch(basis: Basis) -> None:
+    import torch
+
+    device = "cuda" if torch.cuda.is_available() else "cpu:0"
+    there = basis.to(device)
+    assert there.functions.dtype == torch.float64
+    assert there.functions.device.type == device.split(":")[0]
+    np.testing.assert_array_equal(there.to("cpu").functions, basis.functions)
