@@ -45,8 +45,8 @@ def figure2(setting: Setting) -> Outcome:
         "The sharper the kernel, the slower its spectrum falls: a relative error below 1 % needs rank "
         + ", ".join(f"{needed[g]} (γ = {g:g})" for g in GAMMAS)
         + ".",
-        f"At γ = {sharpest:g} the best rank-300 error is {100 * at_300:.2f} %; the paper reports less than 1 % for "
-        f"k ≥ 300, which is {'reproduced' if at_300 < 0.01 else 'not reproduced'}.",
+        f"At γ = {sharpest:g} the best rank-300 error is {100 * at_300:.2f} % of the Frobenius norm, and its square "
+        f"{100 * at_300**2:.2g} %; the paper's less than 1 % for k ≥ 300 is " + verdict(at_300),
     ]
     folder = setting.folder
     pictures = write_pictures(folder, "figure2", draw_spectra(spectra, best))
@@ -58,6 +58,13 @@ def figure2(setting: Setting) -> Outcome:
         write_conclusions(folder, "figure2", setting.collections()[:1], lines),
         tuple(lines),
     )
+
+
+def verdict(error: float) -> str:
+    """Whether a best rank-300 error is the paper's, as a norm or squared."""
+    if error < 0.01:
+        return "reproduced."
+    return "reproduced only if it means squared errors." if error**2 < 0.01 else "not reproduced."
 
 
 def kernel_spectra(setting: Setting) -> dict[float, np.ndarray]:
@@ -85,8 +92,8 @@ def draw_spectra(spectra: dict[float, np.ndarray], best: dict[float, np.ndarray]
         error = best[gamma][k]
         right.semilogy(k, np.where(error > ROUNDING, error, np.nan), **look)
     right.axhline(0.01, color=style.GREY, linewidth=0.8)
-    right.annotate("1 %", (500, 0.01), ha="right", va="bottom", fontsize=8, color=style.GREY)
-    style.labels(left, "k", "λ_k / λ_1", "spectrum of the kernel matrix")
+    right.text(1.01, 0.01, "1 %", transform=right.get_yaxis_transform(), va="center", fontsize=8, color=style.GREY)
+    style.labels(left, "k", r"$\lambda_k\;/\;\lambda_1$", "spectrum of the kernel matrix")
     style.labels(right, "rank k", "relative Frobenius error", "best approximation of rank k")
     style.legend_below(figure, left, columns=4)
     return figure
@@ -98,7 +105,9 @@ def draw_kernels(shape: Shape, X: np.ndarray) -> Figure:
     place = shape.basis.functions[:, 1]
     order = np.argsort(place)
     few = order[np.linspace(0, len(order) - 1, min(SHOWN, len(order))).astype(int)]
-    centre = int(np.argmax(place))
+    # A vertex that is neither the most common kind nor the rarest.
+    middling = gram(Gaussian(1.0), X, X[few]).mean(axis=1)
+    centre = int(np.argsort(middling)[len(X) // 2])
     seen = automatic_view(shape.mesh)
     image = None
     for i, gamma in enumerate(GAMMAS):
@@ -112,7 +121,7 @@ def draw_kernels(shape: Shape, X: np.ndarray) -> Figure:
     if image is not None:
         bar = figure.colorbar(image, ax=axes, shrink=0.6)
         bar.set_label("k(x, y)", fontsize=9)
-    axes[0].set_ylabel("vertices, ordered by φ₂", fontsize=9)
+    axes[0].set_ylabel(r"vertices, ordered by $\varphi_2$", fontsize=9)
     axes[len(GAMMAS)].text(
         -0.05,
         0.5,

@@ -183,7 +183,7 @@ def conclusions(residuals: dict[str, np.ndarray], times: list[dict[str, Any]]) -
     )
     lines.append(
         f"The first two and the slices agree to {max(apart[:2]):.0e}. The whole kernel differs from them by "
-        f"{apart[2]:.2f}: that many samples stand for only a part of a kernel as sharp as this."
+        f"{apart[2]:.1e}, which is what the Nyström approximation leaves out."
     )
     return lines
 

@@ -1,0 +1,476 @@
+"""The experiments on tiny generated shapes, and the parts that their conclusions rest on."""
+
+import csv
+import json
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from kfmaps._arrays import InvalidInput
+from kfmaps.app.cli import main
+from kfmaps.app.experiments import figure3, figure4, figure5, figure6, figure7, pairs, section44
+from kfmaps.app.experiments.collections import Collection, ShapePair, collections, person
+from kfmaps.app.experiments.kernel_matrix import best_errors, gaussian_matrix, nystrom_error
+from kfmaps.app.experiments.methods import no17, obcs12, paper, recommended
+from kfmaps.app.experiments.outputs import Outcome
+from kfmaps.app.experiments.pairs import Row, fingerprint, fitted, run_pairs
+from kfmaps.app.experiments.reproduce import FIGURES, named
+from kfmaps.app.experiments.section44 import conditioning
+from kfmaps.app.experiments.setting import Setting
+from kfmaps.app.experiments.statistics import difference, paired_bootstrap, ratio, resamples
+from kfmaps.app.experiments.store import Job, append_store, read_store, run_jobs
+from kfmaps.app.experiments.tune import Grid, grid_search
+from kfmaps.app.pictures import surfaces
+from kfmaps.app.settings.merge import preset, read_settings
+from kfmaps.config import Config
+from kfmaps.evaluate import geodesic_errors
+from kfmaps.kernels import Gaussian
+from kfmaps.spectrum import Basis
+
+SMALL = Collection("generated", vertices=1500)
+PAIR = ShapePair("poses-2-source", "poses-2-target")
+
+
+def small(config: Config) -> Config:
+    """The same settings at a size that takes a moment."""
+    return replace(
+        config,
+        basis=replace(config.basis, functions=20),
+        descriptors=replace(config.descriptors, eigenfunctions=40),
+        nystrom=replace(config.nystrom, samples=30),
+        refinement=None,
+    )
+
+
+def rows_of(path: Path) -> list[dict[str, str]]:
+    with path.open(encoding="utf-8", newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def check_outcome(outcome: Outcome, columns: set[str]) -> None:
+    """All files are there, pictures are pictures, the table has ``columns``, the text repeats the lines."""
+    assert columns <= set(rows_of(outcome.tables[0])[0])
+    kinds = {".png": b"\x89PNG", ".pdf": b"%PDF"}
+    assert {path.suffix for path in outcome.pictures} == set(kinds)
+    for path in outcome.pictures:
+        assert path.read_bytes().startswith(kinds[path.suffix])
+    text = outcome.conclusions.read_text(encoding="utf-8")
+    assert outcome.lines
+    assert all(line in text for line in outcome.lines)
+
+
+# The store
+
+
+def test_store_keeps_what_was_finished(tmp_path: Path) -> None:
+    store = tmp_path / "store.jsonl"
+    append_store(store, {"a": 1, "b": [2.5, "x"]})
+    with store.open("a", encoding="utf-8") as file:
+        file.write('{"key": "c", "val')  # a crash in the middle of a line
+    append_store(store, {"d": 4})
+    assert read_store(store) == {"a": 1, "b": [2.5, "x"], "d": 4}
+    assert read_store(tmp_path / "missing.jsonl") == {}
+
+
+class Work:
+    """Counts its calls, and is interrupted at one of them."""
+
+    def __init__(self, stop: int | None = None) -> None:
+        self.done: list[int] = []
+        self.stop = stop
+
+    def __call__(self, number: int) -> list[int]:
+        if number == self.stop:
+            raise KeyboardInterrupt
+        self.done.append(number)
+        return [number, number**2]
+
+
+def square_jobs(work: Work) -> list[Job]:
+    return [Job((f"{i}", f"{i} squared"), work, (i,)) for i in range(5)]
+
+
+def test_killed_run_goes_on_and_redoes_nothing(tmp_path: Path) -> None:
+    store = tmp_path / "store.jsonl"
+    first, second, third = Work(stop=3), Work(), Work()
+    with pytest.raises(KeyboardInterrupt):
+        run_jobs(square_jobs(first), store, workers=1)
+    assert first.done == [0, 1, 2]
+    told: list[tuple[int, int]] = []
+    found = run_jobs(square_jobs(second), store, workers=1, report=lambda *now: told.append(now))
+    assert second.done == [3, 4]
+    assert told == [(0, 2), (1, 2), (2, 2)]
+    assert found == {f"{i}": i for i in range(5)} | {f"{i} squared": i**2 for i in range(5)}
+    assert run_jobs(square_jobs(third), store, workers=1) == found
+    assert third.done == []
+
+
+def test_processes_give_the_same(tmp_path: Path) -> None:
+    jobs = [Job((f"{i} div", f"{i} mod"), divmod, (i, 3)) for i in range(6)]
+    alone = run_jobs(jobs, tmp_path / "alone.jsonl", workers=1)
+    assert run_jobs(jobs, tmp_path / "many.jsonl", workers=2) == alone
+    assert alone["5 mod"] == 2
+    assert read_store(tmp_path / "many.jsonl") == alone
+
+
+# Statistics
+
+
+def test_bootstrap_against_all_resamples() -> None:
+    # Two pairs with differences 0 and 4: their resamples' means are 0, 2, 2, 4.
+    found = difference(np.array([5.0, 9.0]), np.array([5.0, 5.0]))
+    assert (found.value, found.low, found.high) == (2.0, 0.0, 4.0)
+    means = np.array([0.0, 4.0])[resamples(2)].mean(axis=1)
+    share = [(means == m).mean() for m in (0.0, 2.0, 4.0)]
+    np.testing.assert_allclose(share, [0.25, 0.5, 0.25], atol=0.02)
+
+
+def test_bootstrap_is_paired() -> None:
+    a = np.random.default_rng(0).normal(size=50)
+    same = difference(a + 1, a)
+    np.testing.assert_allclose([same.value, same.low, same.high], 1.0)
+    twice = ratio(2 * np.exp(a), np.exp(a))
+    np.testing.assert_allclose([twice.value, twice.low, twice.high], 2.0)
+
+
+def test_bootstrap_by_explicit_loops() -> None:
+    a, b = np.array([1.0, 4.0, 2.0, 8.0]), np.array([2.0, 2.0, 3.0, 5.0])
+    found = paired_bootstrap(a, b, lambda x, y: x - y, draws=500, rng=3)
+    rows = np.random.default_rng(3).integers(4, size=(500, 4))
+    values = sorted(sum(a[i] - b[i] for i in row) / 4 for row in rows)
+    # Linear interpolation between order statistics, 0-based position (draws - 1) q.
+    low = values[12] + (499 * 0.025 - 12) * (values[13] - values[12])
+    assert found.low == pytest.approx(low)
+    assert found.value == pytest.approx(0.75)
+    with pytest.raises(InvalidInput, match="same pairs"):
+        difference(a, b[:2])
+
+
+# Data sets
+
+
+def fake_data(folder: Path, layout: str, people: int) -> Path:
+    (folder / layout).mkdir(parents=True)
+    for i in range(10 * people):
+        (folder / layout / f"tr_reg_{i:03d}.ply").touch()
+    return folder / layout
+
+
+def test_reported_pairs_have_no_training_person(tmp_path: Path) -> None:
+    fake_data(tmp_path, "FAUST", 4)
+    remeshed = fake_data(tmp_path, "FAUST_r", 8)
+    listed = [("tr_reg_005", "tr_reg_071"), ("tr_reg_022", "tr_reg_031"), ("tr_reg_040", "tr_reg_019")]
+    (remeshed / "test_pairs.txt").write_text("\n".join(" ".join(pair) for pair in listed), encoding="utf-8")
+    faust, faust_r = collections(tmp_path)
+    training, reported = faust.training(), faust.reported()
+    assert {person(n) for p in training for n in (p.source, p.target)} == {0, 1}
+    assert {person(n) for p in reported for n in (p.source, p.target)} == {2, 3}
+    assert len(training) == 380
+    assert len(set(reported)) == 100
+    assert faust_r.reported() == [ShapePair("tr_reg_022", "tr_reg_031")]
+    assert collections(tmp_path / "FAUST")[0].folder == tmp_path / "FAUST"
+
+
+def test_a_longer_draw_begins_with_a_shorter() -> None:
+    assert SMALL.reported(5) == SMALL.reported(12)[:5]
+    assert set(SMALL.reported(None)).isdisjoint(SMALL.training(None))
+    assert SMALL.reported(5, seed=1) != SMALL.reported(5, seed=0)
+
+
+def test_data_that_is_not_there(tmp_path: Path) -> None:
+    with pytest.raises(InvalidInput, match="FAUST or FAUST_r"):
+        collections(tmp_path)
+
+
+def test_generated_truth_is_consistent() -> None:
+    truth = SMALL.truth(PAIR)
+    assert len(truth.landmarks) == 6
+    np.testing.assert_array_equal(truth.landmarks[:, 0], truth.source[truth.landmarks[:, 1]])
+    assert len(np.unique(truth.landmarks[:, 0])) == 6
+
+
+# Pairs
+
+
+def test_rows_are_the_errors_of_the_fit(tmp_path: Path) -> None:
+    config = small(no17(10))
+    (row,) = run_pairs(SMALL, [PAIR], {"NO17": config}, tmp_path / "pairs.jsonl", workers=1)
+    truth = SMALL.truth(PAIR)
+    points = fitted(SMALL, PAIR, config, truth.landmarks).raw_target_to_source
+    errors = geodesic_errors(SMALL.mesh(PAIR.source), points[truth.target], truth.source)
+    assert row.mean == pytest.approx(errors.mean(), rel=1e-5)
+    assert row.refined == row.mean
+    at = int(np.flatnonzero(np.isclose(pairs.THRESHOLDS, 0.05))[0])
+    assert row.curve[at] == pytest.approx((errors <= 0.05).mean(), abs=1e-3)
+    assert (row.method, row.source, row.status) == ("NO17", PAIR.source, "converged")
+
+
+def test_pairs_resume_and_notice_other_settings(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    store = tmp_path / "pairs.jsonl"
+    methods = {"a": small(no17(10)), "b": small(obcs12(10))}
+    first = run_pairs(SMALL, [PAIR], methods, store, workers=1)
+    size = store.stat().st_size
+    # Other threads are not other settings; another name is not other work.
+    renamed = {"c": replace(methods["a"], threads=3), "b": methods["b"]}
+    monkeypatch.setattr(pairs, "measure", lambda *_: pytest.fail("redone"))
+    again = run_pairs(SMALL, [PAIR], renamed, store, workers=1)
+    assert [replace(row, method="") for row in again] == [replace(row, method="") for row in first]
+    assert store.stat().st_size == size
+    monkeypatch.undo()
+    changed = {"a": replace(methods["a"], weights=replace(methods["a"].weights, laplacian=7.0))}
+    assert fingerprint(changed["a"]) != fingerprint(methods["a"])
+    run_pairs(SMALL, [PAIR], changed, store, workers=1)
+    assert len(read_store(store)) == 3
+
+
+# The parts of figures
+
+
+def test_best_errors_are_those_of_truncation() -> None:
+    A = np.random.default_rng(0).normal(size=(12, 9))
+    K = A @ A.T
+    values, vectors = np.linalg.eigh(K)
+    found = best_errors(values[::-1])
+    for k in (0, 1, 4, 8):
+        top = vectors[:, 12 - k :] * values[12 - k :] @ vectors[:, 12 - k :].T
+        assert found[k] == pytest.approx(np.linalg.norm(K - top) / np.linalg.norm(K))
+    assert found[9] < 1e-12
+
+
+def test_nystrom_error_is_the_norm_and_vanishes_with_all_samples() -> None:
+    X = np.random.default_rng(0).normal(size=(40, 3))
+    K = gaussian_matrix(X, 0.5)
+    few = np.arange(6)
+    explicit = K[:, few] @ np.linalg.solve(K[np.ix_(few, few)], K[few])
+    assert nystrom_error(K, X, few, 0.5, block=7) == pytest.approx(np.linalg.norm(K - explicit) / np.linalg.norm(K))
+    assert nystrom_error(K, X, np.arange(40), 0.5) < 1e-6
+
+
+def test_conditioning() -> None:
+    found = conditioning(np.diag([1.0, 4.0, 8.0]))
+    assert (found.rank, found.size, found.condition) == (3, 3, pytest.approx(8.0))
+    short = conditioning(np.diag([0.0, 1.0, 2.0]))
+    assert (short.rank, short.condition) == (2, np.inf)
+
+
+def test_figure_1_in_blocks_is_the_whole_formula(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(figure7, "BLOCK", 5)
+    rng = np.random.default_rng(0)
+    source, target = (Basis(np.arange(3.0), rng.normal(size=(n, 3)), rng.random(n)) for n in (11, 13))
+    W_s, W_t, C = rng.normal(size=(11, 4)), rng.normal(size=(13, 4)), rng.normal(size=(3, 3))
+    middle = (target.functions @ C @ source.functions.T) * (W_t @ W_s.T)
+    whole = target.functions.T @ np.diag(target.mass) @ middle @ np.diag(source.mass) @ source.functions
+    np.testing.assert_allclose(figure7.hadamard((source, target), (W_s, W_t), C), whole)
+
+
+# Conclusions follow the numbers
+
+
+def row(method: str, mean: float) -> Row:
+    return Row("x", "s", "t", method, mean, mean, mean, (0.0,) * 101, "converged", 1, 1, 1, "k", 0.1)
+
+
+def grouped(**means: float) -> dict[str, list[Row]]:
+    names: dict[str, str] = dict(
+        zip(("obcs", "alpha", "no17", "printed", "ours", "recommended"), figure6.style.METHODS, strict=True)
+    )
+    return {names[key]: [row(names[key], m), row(names[key], 2 * m)] for key, m in means.items()}
+
+
+@pytest.mark.parametrize("good", [True, False])
+def test_figure6_claims(good: bool) -> None:
+    ours, recommended_error = (0.9, 0.85) if good else (1.1, 0.95)
+    rows = grouped(obcs=6.0, alpha=4.0, no17=1.0, printed=1.3, ours=ours, recommended=recommended_error)
+    claims = {c.claim: c for c in figure6.compared(rows)}
+    assert claims["ours at most NO17"].holds is good
+    assert claims["ours at most NO17"].interval.value == pytest.approx(150 * (ours - 1))
+    assert claims["recommended at least 10 % better than NO17"].holds is good
+    assert claims["ours at most a fifth of OBCS12"].holds
+    assert not claims["and of OBCS12 with α = 1"].holds
+    assert ("does not hold" in claims["ours at most NO17"].text()) is not good
+
+
+def test_figure3_conclusions() -> None:
+    last = {(g, way): figure3.PAPER[g] * 2 for g in figure3.GAMMAS for way in figure3.WAYS}
+    near = figure3.conclusions(last, 400)
+    assert "within one order" in near[0]
+    assert "at least as good" in near[1]
+    last[10.0, "pivoted Cholesky"] *= 3
+    last[0.01, "descriptor farthest"] *= 20
+    far = figure3.conclusions(last, 400)
+    assert "more than one order" in far[0]
+    assert "not as good for every" in far[1]
+
+
+def test_figure5_conclusion() -> None:
+    means = dict.fromkeys(figure5.kernels(), 5.0)
+    sharpest = f"Gaussian, γ = {max(figure5.GAMMAS):g}"
+    assert "as in the paper" in figure5.conclusion(means | {sharpest: 4.0})
+    assert "not always better" in figure5.conclusion(means | {sharpest: 6.0})
+
+
+def test_figure7_conclusions() -> None:
+    times = [
+        {"form": "f", "seconds": s, "relative difference": d}
+        for s, d in ((4.0, 1e-15), (2.0, 1e-15), (3.0, 1e-4), (0.5, 0.0), (0.25, 1e-4))
+    ]
+    falling = figure7.conclusions({"plain": np.array([1.0, 0.1, 1e-9])}, times)
+    assert "in 2 steps and rise 0 times" in falling[0]
+    assert "are monotone" in falling[1]
+    assert "8.0 and 4.0 times faster" in falling[2]
+    rising = figure7.conclusions({"plain": np.array([1.0, 0.1, 0.2])}, times)
+    assert "rise 1 times" in rising[0]
+    assert "not monotone" in rising[1]
+
+
+def test_section44_conclusions() -> None:
+    def line(kernel: str, system: str, count: int, rank: int) -> dict[str, object]:
+        return {"kernel": kernel, "system": system, "descriptors": count, "rank": rank, "size": 9}
+
+    table = [
+        line(kernel, system, count, 9 if kernel == "Gaussian" or count > 9 else count)
+        for kernel in section44.KERNELS
+        for system in ("F_P", "F_P + F_D", "F_P + F_D + F_Δ")
+        for count in (1, 5, 10)
+    ]
+    lines = section44.conclusions(table)
+    assert "linear kernel: from 10 descriptors on; Gaussian kernel: from 1 descriptors on" in lines[0]
+    assert "rank 1 of 9 with the linear kernel and 9 with the Gaussian" in lines[-1]
+
+
+# Whole experiments, tiny
+
+
+@pytest.fixture
+def tiny(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Setting:
+    """A setting and figures of a size that takes a moment."""
+    both = (figure6.methods, figure5.kernels, figure4.settings)
+    monkeypatch.setattr(figure6, "methods", lambda n: {k: small(c) for k, c in both[0](n).items()})
+    monkeypatch.setattr(figure5, "kernels", lambda: {k: small(c) for k, c in both[1]().items()})
+    monkeypatch.setattr(figure4, "settings", lambda n, alone: {k: small(c) for k, c in both[2](n, alone).items()})
+    monkeypatch.setattr(figure4, "COUNTS", (2,))
+    monkeypatch.setattr(surfaces, "ENOUGH", 0)
+    monkeypatch.setattr(figure3, "RANKS", (5, 20, 400))
+    monkeypatch.setattr(figure3, "SEEDS", (0,))
+    for name in ("paper", "recommended"):
+        made = {"paper": paper, "recommended": recommended}[name]
+        monkeypatch.setattr(figure7, name, lambda n, made=made: small(made(n)))
+    monkeypatch.setattr(section44, "paper", lambda n: small(paper(n)))
+    monkeypatch.setattr(section44, "COUNTS", (1, 30))
+    monkeypatch.setattr(section44, "SIZE", 10)
+    monkeypatch.setattr(section44, "WHOLE_SIZE", 5)
+    return Setting(None, tmp_path, pairs=1, workers=1, vertices=1500, timing_vertices=1500)
+
+
+COLUMNS = {
+    "figure2": {"gamma", "k", "relative eigenvalue", "best rank-k error"},
+    "figure3": {"gamma", "sampling", "rank", "relative error"},
+    "figure4": {"descriptors", "method", "mean error × 100"},
+    "figure5": {"kernel", "pairs", "mean error × 100"},
+    "figure6": {"data", "descriptors", "pairs", "method", "mean error × 100"},
+    "figure7": {"settings", "step", "relative residual"},
+    "section44": {"descriptors", "kernel", "system", "rank", "condition number"},
+}
+
+
+@pytest.mark.parametrize("name", FIGURES)
+def test_experiment_writes_its_files(name: str, tiny: Setting) -> None:
+    outcome = FIGURES[name](tiny)
+    check_outcome(outcome, COLUMNS[name])
+    assert "generated shapes" in outcome.conclusions.read_text(encoding="utf-8")
+    if name == "figure3":
+        table = rows_of(outcome.tables[0])
+        bound = {
+            (r["gamma"], r["rank"]): float(r["relative error"]) for r in table if r["sampling"] == "spectral bound"
+        }
+        assert all(float(r["relative error"]) >= 0.99 * bound[r["gamma"], r["rank"]] for r in table)
+    if name == "section44":
+        linear = [r for r in rows_of(outcome.tables[0]) if (r["kernel"], r["system"]) == ("linear", "F_P")]
+        assert [int(r["rank"]) for r in linear] == [1, 10]
+
+
+# Grid search
+
+
+def test_grid_names_every_combination() -> None:
+    grid = Grid(gamma=(1.0, 2.0), sharpness=(0.5,), alpha=(0.1, 1.0), rank=(20,), descriptors=(10, 50))
+    found = grid.candidates(Config())
+    assert len(found) == 3 * 2 * 1 * 2
+    chosen = found["gamma 2.0, alpha 0.1, rank 20, descriptors 50"]
+    assert chosen.kernel == Gaussian(2.0)
+    assert (chosen.weights.laplacian, chosen.nystrom.samples, chosen.descriptors.count) == (0.1, 20, 50)
+    automatic = found["sharpness 0.5, alpha 1.0, rank 20, descriptors 10"]
+    assert (automatic.kernel, automatic.sharpness) == (Gaussian(None), 0.5)
+    assert list(Grid().candidates(Config()).values()) == [Config()]
+    with pytest.raises(InvalidInput, match="Gaussian or Laplacian"):
+        grid.candidates(Config.no17())
+
+
+def test_grid_search_takes_the_lowest_error(tmp_path: Path) -> None:
+    setting = Setting(None, tmp_path, workers=1, vertices=1500)
+    base = small(recommended(20))
+    found = grid_search(setting, base, Grid(sharpness=(0.3,), alpha=(1.0, 1e9)), [(SMALL, [PAIR])], False)
+    errors = [line["mean error × 100"] for line in found.table]
+    assert errors == sorted(errors)
+    assert found.error == pytest.approx(errors[0] / 100)
+    # A map that only commutes with the Laplacian knows nothing of the descriptors.
+    assert found.best.weights.laplacian == 1.0
+
+
+# Commands
+
+
+def test_names_of_figures() -> None:
+    assert named("all") == list(FIGURES)
+    assert named("6") == named("figure6") == ["figure6"]
+    assert named("4.4") == ["section44"]
+    with pytest.raises(InvalidInput, match="figure2"):
+        named("figure8")
+
+
+def test_reproduce_command(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    out = tmp_path / "out"
+    asked: list[Setting] = []
+
+    def figure(setting: Setting) -> Outcome:
+        asked.append(setting)
+        path = setting.folder / "figure2.csv"
+        return Outcome("figure2", (path,), (), path, ("a conclusion",))
+
+    monkeypatch.setitem(FIGURES, "figure2", figure)
+    words = ["reproduce", "2", "-o", str(out), "--vertices", "1500", "--workers", "3", "--pairs", "7", "--seed", "5"]
+    assert main(words) == 0
+    (setting,) = asked
+    assert (setting.folder, setting.vertices, setting.workers, setting.pairs, setting.seed) == (out, 1500, 3, 7, 5)
+    told = capsys.readouterr().out
+    assert "package generates" in told
+    assert "figure2.csv" in told
+    assert "a conclusion" in told
+    assert main(["reproduce", "figure9", "-o", str(out)]) == 2
+    assert main(["reproduce", "2", "--data", str(tmp_path), "-o", str(out)]) == 2
+
+
+def test_tune_command_writes_settings_that_match_reads(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    settings = tmp_path / "start.toml"
+    settings.write_text(
+        "threads = 1\n[basis]\nfunctions = 20\n[descriptors]\neigenfunctions = 40\n"
+        '[nystrom]\nsamples = 30\n[refinement]\nkind = "ICP"\nsteps = 2\n',
+        encoding="utf-8",
+    )
+    listed = tmp_path / "pairs.txt"
+    listed.write_text(f"{PAIR.source} {PAIR.target}\n", encoding="utf-8")
+    out = tmp_path / "out"
+    words = ["tune", "--base", str(settings), "--alpha", "1,1e9", "--pairs-from", str(listed), "-o", str(out)]
+    assert main([*words, "--vertices", "1500", "--workers", "1"]) == 0
+    best = read_settings(out / "tune.toml", preset("default"))
+    assert best.weights.laplacian == 1.0
+    assert best.basis.functions == 20
+    assert best.refinement == read_settings(settings, preset("default")).refinement
+    table = rows_of(out / "tune.csv")
+    assert [r["settings"] for r in table] == ["alpha 1.0", "alpha 1000000000.0"]
+    assert "alpha 1.0" in capsys.readouterr().out
+    assert main(["tune", "--alpha", "one", "-o", str(out)]) == 2
+    store = [json.loads(line) for line in (out / "pairs.jsonl").read_text(encoding="utf-8").splitlines()]
+    assert len(store) == 2
