@@ -1,0 +1,169 @@
+"""The command ``kfmaps``: gathers what is in ``kfmaps.app.commands`` and says what went wrong in one line.
+
+Only the command that is asked for is imported, so that ``kfmaps --help`` is quick.
+"""
+
+from __future__ import annotations
+
+import ast
+import importlib
+import io
+import os
+import sys
+import warnings
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+import kfmaps
+from kfmaps._arrays import InvalidInput, KfmapsWarning, MissingDependency, NotConverged
+
+COMMANDS = (
+    "match",
+    "demo",
+    "evaluate",
+    "info",
+    "config",
+    "transfer",
+    "export",
+    "view",
+    "landmarks",
+    "batch",
+    "render",
+    "reproduce",
+    "tune",
+)
+"""Modules of ``kfmaps.app.commands``, each with a function of its own name or a ``typer.Typer`` called ``app``."""
+
+FOLDER = Path(__file__).parent / "commands"
+
+FAILURE, INTERRUPTED, UNREAD = 2, 130, 1
+"""Exit statuses: bad input, Ctrl-C, output that nobody reads."""
+
+
+def application(only: str | None = None) -> typer.Typer:
+    """The whole command; with ``only`` the others are there in name, for the list that ``--help`` shows."""
+    app = typer.Typer(name="kfmaps", add_completion=True, pretty_exceptions_enable=False, rich_markup_mode="rich")
+    app.callback()(_general)
+    for name in COMMANDS:
+        if not (FOLDER / f"{name}.py").is_file():
+            continue
+        if only is not None and name != only:
+            app.command(name)(_named(name))
+            continue
+        module = importlib.import_module(f"kfmaps.app.commands.{name}")
+        if hasattr(module, "app"):
+            app.add_typer(module.app, name=name)
+        else:
+            app.command(name)(getattr(module, name))
+    return app
+
+
+def _version(asked: bool) -> None:
+    if asked:
+        typer.echo(f"kfmaps {kfmaps.__version__}")
+        raise typer.Exit
+
+
+def _general(
+    version: Annotated[
+        bool, typer.Option("--version", help="Print the version and exit.", is_eager=True, callback=_version)
+    ] = False,
+) -> None:
+    """Which point of one 3D surface corresponds to which point of another, by kernel functional maps."""
+
+
+def _named(name: str) -> Callable[[], None]:
+    """Something that has the help of a command and not its code."""
+
+    def command() -> None:
+        raise AssertionError(f"{name} was not loaded")
+
+    command.__doc__ = summary(name)
+    return command
+
+
+def summary(name: str) -> str:
+    """The first line of a command's documentation, read without importing it."""
+    tree = ast.parse((FOLDER / f"{name}.py").read_text(encoding="utf-8"))
+    for node in tree.body:
+        if isinstance(node, ast.FunctionDef) and node.name == name:
+            return (ast.get_docstring(node) or "").partition("\n")[0]
+    text = (ast.get_docstring(tree) or "").partition("\n")[0].rpartition("``: ")[2]
+    return text[:1].upper() + text[1:]
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the command; the exit status. 0: done, 2: bad input, 130: interrupted, 1: the reader went away."""
+    words = list(sys.argv[1:] if arguments is None else arguments) or ["--help"]
+    with warnings.catch_warnings():
+        warnings.simplefilter("default", KfmapsWarning)
+        warnings.showwarning = _teller(warnings.showwarning)
+        try:
+            status = _run(words)
+            sys.stdout.flush()
+            return status
+        except KeyboardInterrupt:
+            return INTERRUPTED
+        except BrokenPipeError:
+            # What is still buffered would raise again when Python flushes at its end.
+            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+            return UNREAD
+        except (InvalidInput, MissingDependency, NotConverged) as error:
+            return _failed(str(error))
+        except MemoryError as error:
+            return _failed(f"not enough memory; use smaller meshes or fewer samples ({error or 'no details'})")
+        except OSError as error:
+            place = f"{error.filename}: " if error.filename else ""
+            return _failed(f"{place}{error.strerror or error}; check the path, its rights and the space left")
+
+
+def _run(words: Sequence[str]) -> int:
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):
+            stream.reconfigure(errors="backslashreplace")  # file names may hold bytes that are no text
+    completing = "_KFMAPS_COMPLETE" in os.environ
+    asked = next((word for word in words if not word.startswith("-")), "")
+    command = typer.main.get_command(application(None if completing else asked))
+    try:
+        status = command.main(args=list(words), prog_name="kfmaps", standalone_mode=False)
+    except typer.TyperException as error:  # an unknown option, a missing argument
+        message = error.format_message()
+        path = getattr(getattr(error, "ctx", None), "command_path", "kfmaps")
+        # Without a message it was a group without a command, and the help has been printed.
+        return _failed(f"{message.rstrip('.')}; see {path} --help") if message else FAILURE
+    except typer.Abort:
+        return INTERRUPTED
+    except SystemExit as leaving:
+        return leaving.code if isinstance(leaving.code, int) else 0
+    return status if isinstance(status, int) else 0
+
+
+def _teller(otherwise: Callable[..., None]) -> Callable[..., None]:
+    """A ``warnings.showwarning`` that tells the package's own warnings in one line each, and none twice."""
+    told: set[str] = set()
+
+    def tell(message: Any, category: type[Warning], *where: Any, **more: Any) -> None:
+        if not issubclass(category, KfmapsWarning):
+            otherwise(message, category, *where, **more)
+        elif str(message) not in told:
+            told.add(str(message))
+            _say(f"warning: {message}")
+
+    return tell
+
+
+def _failed(text: str) -> int:
+    _say(f"error: {text}")
+    return FAILURE
+
+
+def _say(text: str) -> None:
+    """One line on standard error, whatever the text holds."""
+    print("kfmaps:", " ".join(text.split()), file=sys.stderr)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

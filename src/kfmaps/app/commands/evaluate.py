@@ -1,0 +1,100 @@
+"""``kfmaps evaluate``: how far a map is from the truth."""
+
+from __future__ import annotations
+
+import json as jsonlib
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from kfmaps._arrays import refuse
+
+if TYPE_CHECKING:
+    from rich.table import Table
+
+    from kfmaps.app.evaluation import Report
+
+CURVES = (".csv", ".png", ".svg", ".pdf")
+
+
+def evaluate(
+    map: Annotated[Path, typer.Argument(help="A map (.npz, .txt, .vts, .mat).", metavar="MAP", show_default=False)],
+    source: Annotated[
+        Path | None, typer.Option(help="The source mesh; default: the one the map names.", show_default=False)
+    ] = None,
+    target: Annotated[
+        Path | None, typer.Option(help="The target mesh, to check that the map belongs to it.", show_default=False)
+    ] = None,
+    truth_source: Annotated[
+        Path | None,
+        typer.Option(
+            help="True vertices of the source, line k of one file to line k of the other (.vts counts from 1).",
+            show_default=False,
+        ),
+    ] = None,
+    truth_target: Annotated[Path | None, typer.Option(help="The same for the target.", show_default=False)] = None,
+    symmetric: Annotated[
+        Path | None,
+        typer.Option(help="True vertices of the target with left and right swapped.", show_default=False),
+    ] = None,
+    identity: Annotated[bool, typer.Option("--identity", help="Truth: vertex i is vertex i.")] = False,
+    curve: Annotated[
+        Path | None, typer.Option(help="Write the error curve (.csv, .png, .svg, .pdf).", show_default=False)
+    ] = None,
+    json: Annotated[bool, typer.Option("--json", help="Print the numbers for machines, in units of √area.")] = False,
+    threads: Annotated[int | None, typer.Option(help="Default: every core.", min=1, show_default=False)] = None,
+    force: Annotated[bool, typer.Option("--force", help="Replace an existing file.")] = False,
+) -> None:
+    """Print the geodesic error of a map, by the Princeton protocol."""
+    from kfmaps.app.evaluation import assessed, read_truth, write_curve
+    from kfmaps.app.files import check_map, check_output, load_map, read_mesh
+    from kfmaps.app.view.results import mesh_path
+
+    if curve is not None:
+        if curve.suffix.lower() not in CURVES:
+            got = curve.suffix or "no extension"
+            raise refuse(f"--curve {curve}", f"one of {' '.join(CURVES)}", got, "rename it")
+        check_output(curve, force)
+    found = load_map(map)
+    points = found.target_to_source
+    truth = read_truth(truth_source, truth_target, symmetric, identity, len(points))
+    if truth is None:
+        raise refuse("truth", "--truth-source and --truth-target, or --identity", "neither", "say what is true")
+    shape = read_mesh(mesh_path(source, found, "source", map))
+    n_s = len(shape.vertices)
+    if identity and n_s != len(points):
+        got = f"{n_s} and {len(points)}"
+        raise refuse("--identity", "equally many vertices", got, "give --truth-source and --truth-target")
+    check_map(found, n_s, None if target is None else len(read_mesh(target).vertices), str(map))
+    report = assessed(shape, points, truth, threads)
+    if curve is not None:
+        write_curve(curve, report.errors, map.stem, force)
+    if json:
+        typer.echo(jsonlib.dumps(report.as_dict()))
+        return
+    from rich.console import Console
+
+    Console().print(_table(report))
+
+
+def _table(report: Report) -> Table:
+    """Errors × 100, beside those against the mirrored truth where it is known."""
+    from rich.table import Table
+
+    table = Table(caption="errors × 100, in units of √area of the source", caption_justify="left")
+    table.add_column("")
+    sides = [("error", report.errors)]
+    if report.mirrored is not None:
+        sides.append(("against the mirrored truth", report.mirrored))
+    for name, _ in sides:
+        table.add_column(name, justify="right")
+    for name in ("mean", "median", "worst"):
+        table.add_row(name, *(f"{100 * getattr(errors, name):.3f}" for _, errors in sides))
+    table.add_row(f"area under the curve to {report.errors.auc_limit:g}", *(f"{e.auc:.4f}" for _, e in sides))
+    table.add_row("points without error", *(f"{100 * e.exact:.1f} %" for _, e in sides))
+    table.add_row("points compared", *(f"{len(e.errors):,}" for _, e in sides))
+    table.add_row("source covered", f"{100 * report.coverage:.1f} %", *([""] * (len(sides) - 1)))
+    if report.mirrored is not None and report.mirrored.mean < report.errors.mean:
+        table.add_row("", "left and right are swapped", style="bold red")
+    return table

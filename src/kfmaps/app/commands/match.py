@@ -1,0 +1,200 @@
+"""``kfmaps match``: find the map between two surfaces."""
+
+from __future__ import annotations
+
+import json as jsonlib
+import warnings
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from kfmaps._arrays import KfmapsWarning, refuse
+from kfmaps.app.settings.options import Chosen, with_settings
+
+if TYPE_CHECKING:
+    import numpy as np
+
+    from kfmaps.app.summary import Outcome
+    from kfmaps.config import Config
+    from kfmaps.mesh import Mesh
+
+TRUTH = "Its true vertices, line k of one file to line k of the other (.vts counts from 1): prints errors."
+
+
+@with_settings
+def match(
+    source: Annotated[Path, typer.Argument(help="A mesh or point cloud.", metavar="SOURCE", show_default=False)],
+    target: Annotated[Path, typer.Argument(help="A mesh or point cloud.", metavar="TARGET", show_default=False)],
+    landmarks: Annotated[
+        Path | None,
+        typer.Option(help='Pairs of vertices, "source target" a line, counted from 0.', show_default=False),
+    ] = None,
+    one_based: Annotated[bool, typer.Option("--one-based", help="The landmarks file counts from 1.")] = False,
+    output: Annotated[
+        Path, typer.Option("-o", "--output", help="The map: .npz or .mat (everything), .txt or .vts (vertices).")
+    ] = Path("map.npz"),
+    force: Annotated[bool, typer.Option("--force", help="Replace an existing file.")] = False,
+    json: Annotated[bool, typer.Option("--json", help="Print the summary for machines.")] = False,
+    quiet: Annotated[bool, typer.Option("-q", "--quiet", help="Print no progress, summary or warnings.")] = False,
+    raw: Annotated[bool, typer.Option("--raw", help="Do not refine the map: the same as --refine none.")] = False,
+    view: Annotated[bool, typer.Option("--view", help="Show the result in the browser.")] = False,
+    seed: Annotated[int, typer.Option(help="For the choice of samples; the same seed, the same map.", min=0)] = 0,
+    descriptors_source: Annotated[
+        Path | None,
+        typer.Option(help="Your own descriptors, a row per vertex (.npy, .csv, .txt).", show_default=False),
+    ] = None,
+    descriptors_target: Annotated[
+        Path | None, typer.Option(help="The same for the target.", show_default=False)
+    ] = None,
+    truth_source: Annotated[Path | None, typer.Option(help=TRUTH, show_default=False)] = None,
+    truth_target: Annotated[Path | None, typer.Option(help="The same for the target.", show_default=False)] = None,
+    settings: Chosen = Chosen(),  # noqa: B008 - replaced by the options it stands for
+) -> None:
+    """Find for each vertex of the target the corresponding vertex of the source, and write the map."""
+    # What can be refused without work is refused first, so that no minutes are lost.
+    from kfmaps.app.files import check_output
+    from kfmaps.app.files.mapfile import check_format
+
+    check_format(output)
+    check_output(output, force)
+    if quiet:
+        warnings.simplefilter("ignore", KfmapsWarning)
+
+    from kfmaps.app.evaluation import check_truth, read_truth
+    from kfmaps.app.files import read_landmarks, read_mesh, save_map
+    from kfmaps.app.settings.device import check_device
+    from kfmaps.app.summary import map_file, summary, table
+    from kfmaps.matching import default_config
+
+    given = landmarks is not None, descriptors_source is not None or descriptors_target is not None
+    config = settings.config(default_config([[0, 0]] if given[0] else None, () if given[1] else None))
+    config = _unrefined(config, settings) if raw else config
+    _warn_of_search(settings, given[0])
+    check_device(config.device)
+    truth = read_truth(truth_source, truth_target)
+    pairs = None if landmarks is None else read_landmarks(landmarks, one_based=one_based)
+    meshes = read_mesh(source), read_mesh(target)
+    if pairs is not None:
+        _check_landmarks(pairs, meshes, (source, target))
+    own = _own_descriptors((descriptors_source, descriptors_target), meshes)
+    if truth is not None:
+        check_truth(truth, meshes[0], len(meshes[1].vertices))
+
+    outcome = run(meshes, (source, target), config, pairs, own, seed, quiet=quiet or json, truth=truth)
+    save_map(output, map_file(outcome), force)
+    if json:
+        typer.echo(jsonlib.dumps({**summary(outcome), "output": str(output)}))
+    elif not quiet:
+        from rich.console import Console
+
+        Console().print(table(outcome, output))
+    if view:
+        _show(outcome, truth)
+
+
+def run(
+    meshes: tuple[Mesh, Mesh],
+    paths: tuple[Path, Path],
+    config: Config,
+    landmarks: np.ndarray | None = None,
+    descriptors: tuple[np.ndarray, np.ndarray] | None = None,
+    seed: int = 0,
+    *,
+    quiet: bool = False,
+    truth: Any = None,
+) -> Outcome:
+    """Match two meshes and tell the stages; with ``truth`` the answer is set beside it."""
+    import numpy as np
+
+    from kfmaps.app.evaluation import assessed
+    from kfmaps.app.progress import Stages
+    from kfmaps.app.summary import Outcome
+    from kfmaps.matching import match as matched
+    from kfmaps.shape import prepare
+
+    seconds: dict[str, float] = {}
+    with Stages(quiet) as stages:
+        shapes = []
+        for side, mesh, path in zip(("source", "target"), meshes, paths, strict=True):
+            shape = prepare(mesh, config, name=str(path), progress=_renamed(stages, str(path), side))
+            seconds |= {f"{stage} of {side}": t for stage, t in shape.seconds.items()}
+            shapes.append(shape)
+        found = matched(
+            shapes[0], shapes[1], config, landmarks=landmarks, descriptors=descriptors, rng=seed, progress=stages
+        )
+        report = None
+        if truth is not None:
+            stages("evaluation", 0.0)
+            report = assessed(meshes[0], found.target_to_source, truth, config.threads)
+            stages("evaluation", 1.0)
+    pairs = np.zeros((0, 2), dtype=np.int64) if landmarks is None else landmarks
+    return Outcome(found, meshes, paths, pairs, seed, {**seconds, **found.seconds}, report)
+
+
+def _renamed(stages: Callable[[str, float], None], path: str, side: str) -> Callable[[str, float], None]:
+    """Say "source" and "target" where a stage would name a file, whose path may be long."""
+    return lambda stage, done: stages(f"{stage.removesuffix(path)}{side}" if stage.endswith(path) else stage, done)
+
+
+def _unrefined(config: Config, settings: Chosen) -> Config:
+    asked = settings.flags.get("--refine")
+    if asked is not None and asked.lower() != "none":
+        raise refuse("--raw", "no refinement", f"--refine {asked} beside it", "leave one of the two out")
+    return replace(config, refinement=None)
+
+
+def _warn_of_search(settings: Chosen, landmarks: bool) -> None:
+    for flag in ("--candidates", "--orientation"):
+        if landmarks and settings.flags.get(flag) is not None:
+            text = f"{flag} has no effect: the landmarks settle which way round the map goes"
+            warnings.warn(text, KfmapsWarning, stacklevel=2)
+
+
+def _check_landmarks(pairs: np.ndarray, meshes: tuple[Mesh, Mesh], paths: tuple[Path, Path]) -> None:
+    from kfmaps.descriptors import check_landmarks
+
+    for i, (mesh, path) in enumerate(zip(meshes, paths, strict=True)):
+        check_landmarks(pairs[:, i], len(mesh.vertices), f"landmarks on {path}")
+
+
+def _own_descriptors(
+    files: tuple[Path | None, Path | None], meshes: tuple[Mesh, Mesh]
+) -> tuple[np.ndarray, np.ndarray] | None:
+    """The user's descriptors (n_s, d) and (n_t, d), checked."""
+    import numpy as np
+
+    from kfmaps._arrays import check
+    from kfmaps.app.files import read_values
+
+    first, second = files
+    if first is None and second is None:
+        return None
+    if first is None or second is None:
+        missing = "--descriptors-source" if first is None else "--descriptors-target"
+        raise refuse(missing, "descriptors of both shapes", "those of one", "give both files")
+    found = []
+    for file, mesh in zip((first, second), meshes, strict=True):
+        values = read_values(file).array
+        if values.dtype.kind not in "biuf":
+            raise refuse(f"descriptors {file}", "numbers", f"{values.dtype}", "give one row of numbers per vertex")
+        values = values.astype(np.float64)
+        values = values[:, None] if values.ndim == 1 else values
+        check(values, f"descriptors {file}", shape=(len(mesh.vertices), None), remedy="give one row per vertex")
+        found.append(values)
+    if found[0].shape[1] != found[1].shape[1]:
+        got = f"{found[0].shape[1]} and {found[1].shape[1]}"
+        raise refuse("descriptors", "as many columns on both shapes", got, "compute both alike")
+    return found[0], found[1]
+
+
+def _show(outcome: Outcome, truth: Any) -> None:
+    from kfmaps.app.view.results import match_page, open_page
+
+    names = (outcome.paths[0].stem, outcome.paths[1].stem)
+    known = None if truth is None else (truth.source, truth.target)
+    path, opened = open_page(match_page(outcome.match, *outcome.meshes, names, truth=known))
+    if not opened:
+        typer.echo(f"no browser was found; open {path.as_uri()}", err=True)

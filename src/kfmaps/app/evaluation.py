@@ -1,0 +1,147 @@
+"""Maps set beside the truth, for the commands: which pairs of vertices correspond, and how far off a map is."""
+
+from __future__ import annotations
+
+import csv
+import io
+import math
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from kfmaps._arrays import refuse
+from kfmaps.app.files import atomic_output, check_map, read_vertex_numbers
+from kfmaps.evaluate import Evaluation, coverage, error_curve, evaluation, geodesic_errors, truth_from_pairs
+from kfmaps.mesh import Mesh
+
+THRESHOLDS = np.linspace(0.0, 0.25, 251)
+"""Of a curve, in units of √area: as far as the area under the curve is taken."""
+
+
+@dataclass(frozen=True, eq=False)
+class Truth:
+    """Corresponding vertices ``source (q,)`` and ``target (q,)``, and those of the source's mirror image if known.
+
+    ``mirrored (q,)`` are the target's vertices under the map that swaps left and right.
+    """
+
+    source: np.ndarray
+    target: np.ndarray
+    mirrored: np.ndarray | None = None
+
+
+def read_truth(
+    truth_source: Path | None,
+    truth_target: Path | None,
+    symmetric: Path | None = None,
+    identity: bool = False,
+    n: int = 0,
+) -> Truth | None:
+    """The truth that a command's options name; ``None`` when they name none.
+
+    Parameters
+    ----------
+    truth_source, truth_target : Path, optional
+        Lists of vertices, line k of one corresponding to line k of the other.
+    symmetric : Path, optional
+        The same for the target with left and right swapped.
+    identity : bool
+        Vertex i is vertex i, ...
+    n : int
+        ... for ``n`` vertices.
+
+    Raises
+    ------
+    InvalidInput
+        When half of it is missing, or the lists differ in length.
+    """
+    if identity:
+        if truth_source or truth_target or symmetric:
+            raise refuse("--identity", "one truth", "files of the truth beside it", "leave one out")
+        return Truth(np.arange(n), np.arange(n))
+    if truth_source is None and truth_target is None:
+        if symmetric is not None:
+            raise refuse("--symmetric", "--truth-source and --truth-target beside it", "neither", "give them")
+        return None
+    if truth_source is None or truth_target is None:
+        missing = "--truth-source" if truth_source is None else "--truth-target"
+        raise refuse(missing, "the truth of both shapes", "one", "give both files")
+    source = read_vertex_numbers(truth_source)
+    others = []
+    for file in (truth_target, symmetric):
+        others.append(None if file is None else read_vertex_numbers(file))
+        if others[-1] is not None and len(others[-1]) != len(source):
+            got = f"{len(source)} lines in {truth_source} and {len(others[-1])} in {file}"
+            raise refuse("truth", "files of equal length", got, "take both from one data set")
+    return Truth(source, others[0], others[1])
+
+
+def check_truth(truth: Truth, source: Mesh, n_t: int) -> Truth:
+    """``truth`` when its vertices are those of ``source`` and of a target with ``n_t`` vertices."""
+    n_s = len(source.vertices)
+    for numbers, n, name in (
+        (truth.source, n_s, "truth of the source"),
+        (truth.target, n_t, "truth of the target"),
+        (truth.mirrored, n_t, "mirrored truth of the target"),
+    ):
+        if numbers is not None and int(numbers.max()) >= n:
+            remedy = "check that it belongs to the mesh, and whether it counts from 0 (.txt) or 1 (.vts)"
+            raise refuse(name, f"vertices from 0 to {n - 1}", str(int(numbers.max())), remedy)
+    return truth
+
+
+@dataclass(frozen=True, eq=False)
+class Report:
+    """How good a map is: its errors, those against the mirrored truth, and what part of the source it reaches."""
+
+    errors: Evaluation
+    mirrored: Evaluation | None
+    coverage: float
+
+    def as_dict(self) -> dict[str, Any]:
+        """Plain numbers for JSON, errors in units of √area, ``None`` for infinite ones."""
+        found = {**_numbers(self.errors), "points": len(self.errors.errors), "coverage": self.coverage}
+        if self.mirrored is not None:
+            found["mirrored"] = _numbers(self.mirrored)
+        return found
+
+
+def _numbers(errors: Evaluation) -> dict[str, float | None]:
+    names = ("mean", "median", "worst", "auc", "exact")
+    return {name: value if math.isfinite(value := getattr(errors, name)) else None for name in names}
+
+
+def assessed(source: Mesh, target_to_source: np.ndarray, truth: Truth, threads: int | None = None) -> Report:
+    """Compare a map with the truth; geodesic errors on ``source`` in units of √area.
+
+    Raises
+    ------
+    InvalidInput
+        When the map or the truth names vertices that the shapes do not have.
+    """
+    check_map(target_to_source, len(source.vertices))
+    check_truth(truth, source, len(target_to_source))
+
+    def errors(target: np.ndarray) -> Evaluation:
+        predicted = truth_from_pairs(truth.source, target, target_to_source)
+        return evaluation(geodesic_errors(source, predicted, truth.source, threads=threads))
+
+    mirrored = None if truth.mirrored is None else errors(truth.mirrored)
+    return Report(errors(truth.target), mirrored, coverage(target_to_source, source))
+
+
+def write_curve(path: Path, errors: Evaluation, label: str, force: bool = False) -> None:
+    """The error curve as a table (.csv) or a picture (.png, .svg, .pdf)."""
+    fractions = error_curve(errors.errors, THRESHOLDS)
+    with atomic_output(path, force) as temporary:
+        if path.suffix.lower() == ".csv":
+            text = io.StringIO(newline="")
+            rows = [[f"{t:.6g}", repr(float(f))] for t, f in zip(THRESHOLDS, fractions, strict=True)]
+            csv.writer(text, lineterminator="\n").writerows([["error", "fraction"], *rows])
+            temporary.write_text(text.getvalue(), encoding="ascii")
+            return
+        from kfmaps.app.pictures import Curve, curves_figure, save_figure
+
+        save_figure(curves_figure([Curve(label, THRESHOLDS, fractions)]), temporary)

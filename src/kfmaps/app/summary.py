@@ -1,0 +1,171 @@
+"""What a match tells of itself: for machines, for people, and beside the map in its file."""
+
+from __future__ import annotations
+
+import json
+import re
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from rich.table import Table
+from rich.text import Text
+
+import kfmaps
+from kfmaps.app.evaluation import Report
+from kfmaps.app.files import MapFile
+from kfmaps.config import as_dict
+from kfmaps.mesh import Mesh
+from kfmaps.pipeline import Match
+
+VERDICTS = {
+    "landmarks": "the landmarks settle which way round it goes",
+    "sure": "clearly better than every other map that was found",
+    "ambiguous": "AMBIGUOUS: another map is about as good. Give landmarks (kfmaps landmarks), "
+    "or look at the other maps (kfmaps view)",
+    "unchecked": "one fit, not compared with others: without landmarks it may swap left and right",
+}
+
+
+@dataclass(frozen=True, eq=False)
+class Outcome:
+    """A match with what it was made from.
+
+    Attributes
+    ----------
+    match : Match
+    meshes : (Mesh, Mesh)
+        Source and target.
+    paths : (Path, Path)
+        Their files.
+    landmarks : (l, 2) int64
+    seed : int
+    seconds : dict of str to float
+        Of all stages, those of each shape too.
+    report : Report or None
+        Set beside the truth, where it is known.
+    """
+
+    match: Match
+    meshes: tuple[Mesh, Mesh]
+    paths: tuple[Path, Path]
+    landmarks: np.ndarray
+    seed: int
+    seconds: dict[str, float] = field(default_factory=dict)
+    report: Report | None = None
+
+
+def summary(outcome: Outcome) -> dict[str, Any]:
+    """Plain values for JSON. Residuals are divided by the first; errors are in units of √area."""
+    match = outcome.match
+    residuals = np.asarray(match.solution.residuals, dtype=np.float64)
+    first = residuals[0] if len(residuals) and residuals[0] > 0 else 1.0
+    k_t, k_s = match.functional_map.shape
+    sides = {}
+    for side, mesh, path in zip(("source", "target"), outcome.meshes, outcome.paths, strict=True):
+        sides |= {side: str(path), f"{side}_vertices": len(mesh.vertices), f"{side}_faces": len(mesh.faces)}
+    return {
+        "version": kfmaps.__version__,
+        **sides,
+        "landmarks": len(outcome.landmarks),
+        "seed": outcome.seed,
+        "fit_size": match.raw_functional_map.shape[0],
+        "map_rows": k_t,
+        "map_columns": k_s,
+        "kernel": match.kernel,
+        "rank": match.rank,
+        "slices": match.slices,
+        "solver_status": match.solution.status,
+        "solver_steps": match.solution.steps,
+        "relative_residual": float(residuals[-1] / first) if len(residuals) else None,
+        "verdict": match.verdict,
+        "confidence": None if match.confidence is None else float(match.confidence),
+        "scores": [float(score) for score in match.scores],
+        "runners_up": len(match.runners_up),
+        "errors": None if outcome.report is None else outcome.report.as_dict(),
+        "energies": {name: float(value) for name, value in match.energies.items()},
+        "times": {name: float(value) for name, value in outcome.seconds.items()},
+        "residuals": (residuals / first).tolist(),
+        "settings": as_dict(match.config),
+    }
+
+
+def map_file(outcome: Outcome) -> MapFile:
+    """The map with all that is known of it, ready to be saved; paths are made absolute."""
+    match = outcome.match
+    extra: dict[str, Any] = {
+        "source": str(outcome.paths[0].absolute()),
+        "target": str(outcome.paths[1].absolute()),
+        "n_s": np.int64(len(outcome.meshes[0].vertices)),
+        "summary": json.dumps(summary(outcome)),
+        "raw_target_to_source": match.raw_target_to_source,
+        "raw_functional_map": match.raw_functional_map,
+    }
+    if len(outcome.landmarks):
+        extra["landmarks"] = outcome.landmarks
+    if match.runners_up:
+        extra["runners_up"] = np.stack(match.runners_up)
+    if match.confidence is not None:
+        extra["confidence"] = np.float64(match.confidence)
+    return MapFile(
+        match.target_to_source,
+        match.functional_map,
+        match.eigenvalues_s,
+        match.eigenvalues_t,
+        json.dumps(as_dict(match.config)),
+        extra,
+    )
+
+
+def table(outcome: Outcome, written: Path | None = None) -> Table:
+    """The summary for people."""
+    match, found = outcome.match, summary(outcome)
+    grid = Table(show_header=False, box=None, pad_edge=False)
+    grid.add_column(style="bold", no_wrap=True)
+    grid.add_column(overflow="fold")
+    for name, value in _rows(match, found, outcome.report):
+        grid.add_row(name, Text(value, style="bold red" if value.startswith("AMBIGUOUS") else ""))
+    if written is not None:
+        grid.add_row("written", Text(str(written)))
+    return grid
+
+
+def _rows(match: Match, found: dict[str, Any], report: Report | None) -> list[tuple[str, str]]:
+    """Names and values of the table."""
+    rows = []
+    for side in ("source", "target"):
+        faces = found[f"{side}_faces"]
+        what = f"{faces:,} faces" if faces else "a point cloud"
+        rows.append((side, f"{found[side]}: {found[f'{side}_vertices']:,} vertices, {what}"))
+    kernel = re.sub(r"\d+\.\d{5,}", lambda number: f"{float(number[0]):.4g}", found["kernel"])
+    slices = f", {found['slices']} slices" if found["slices"] else ""
+    status = found["solver_status"] + (f" in {found['solver_steps']} steps" if found["solver_steps"] else "")
+    spent = sorted(found["times"].items(), key=lambda item: -item[1])
+    energies = [f"{name} {value:.4g}" for name, value in found["energies"].items()]
+    rows += [
+        ("landmarks", str(found["landmarks"]) if found["landmarks"] else "none"),
+        ("kernel", f"{kernel}: {found['rank']} features{slices}"),
+        ("map", f"{found['map_rows']} × {found['map_columns']}, fitted at {found['fit_size']} × {found['fit_size']}"),
+        ("solver", f"{status}, residual {found['relative_residual']:.1e}"),
+        ("energy", ", ".join(energies)),
+        ("time", f"{sum(found['times'].values()):.1f} s: " + ", ".join(f"{name} {t:.2f}" for name, t in spent)),
+        ("outcome", _verdict(match)),
+    ]
+    if report is not None:
+        rows.append(("error", errors_text(report)))
+    return rows
+
+
+def _verdict(match: Match) -> str:
+    text = VERDICTS.get(match.verdict, match.verdict)
+    return text if match.confidence is None else f"{text} (confidence {match.confidence:.2f})"
+
+
+def errors_text(report: Report) -> str:
+    """Errors × 100 in one line."""
+    e = report.errors
+    return (
+        f"mean {100 * e.mean:.2f}, median {100 * e.median:.2f}, worst {100 * e.worst:.2f}, all × 100 in √area; "
+        f"area under the curve to {e.auc_limit:g}: {e.auc:.4f}"
+    )
