@@ -5,11 +5,12 @@ from __future__ import annotations
 import csv
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from collecting import LANDMARKS, touch, write_collection
 from kfmaps.app.cli import main
-from kfmaps.app.files import load_map
+from kfmaps.app.files import load_map, read_vertex_numbers, write_landmarks
 
 SIZES = ("--basis", "20", "--descriptors", "20", "--set", "descriptors.eigenfunctions=40", "--samples", "60")
 ZOOM = ("--zoom-start", "10", "--zoom-stop", "40", "--zoom-step", "5")
@@ -33,13 +34,27 @@ def test_a_run_and_another_that_finds_it_done(folder: Path, tmp_path: Path, caps
         rows = list(csv.DictReader(file))
     mean = sum(float(row["error_mean"]) for row in rows) / 2
     assert f"mean error {mean:.4f} √area over 2 pairs" in told
-    assert load_map(out / "maps" / "b2-b1.npz").functional_map is not None
+    _equals_a_single_match(folder, out, tmp_path)
     assert main([*words, "--all"]) == 0
     told = capsys.readouterr().out
     assert "6 pairs of 3 shapes, 2 done already" in told
     assert (out / "summary.html").read_text(encoding="utf-8").count("data:image/png") == 6
     assert main([*words, "--all", "-q"]) == 0
     assert capsys.readouterr().out == ""
+
+
+def _equals_a_single_match(folder: Path, out: Path, tmp_path: Path) -> None:
+    """``kfmaps match`` with the settings that the run has written down gives the same map, bit for bit."""
+    both = [read_vertex_numbers(folder / "corres" / f"{name}.vts") for name in ("b2", "b1")]
+    write_landmarks(tmp_path / "marks.txt", np.stack(both, axis=1)[np.array(LANDMARKS) - 1])
+    words = ["match", str(folder / "b2.off"), str(folder / "b1.off"), "-o", str(tmp_path / "map.npz"), "-q"]
+    assert main([*words, "--landmarks", str(tmp_path / "marks.txt"), "--config", str(out / "settings.toml")]) == 0
+    alone, ours = load_map(tmp_path / "map.npz"), load_map(out / "maps" / "b2-b1.npz")
+    np.testing.assert_array_equal(alone.target_to_source, ours.target_to_source)
+    assert alone.functional_map is not None
+    assert ours.functional_map is not None
+    np.testing.assert_array_equal(alone.functional_map, ours.functional_map)
+    assert alone.extra.keys() == ours.extra.keys()
 
 
 def test_failures_have_a_status_of_their_own(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

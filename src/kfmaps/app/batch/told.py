@@ -68,7 +68,8 @@ def _bars(console: Console) -> Iterator[Tell]:
 
 
 def _lines(console: Console) -> Tell:
-    last = time.monotonic() - EVERY
+    begun = time.monotonic()
+    last = begun - EVERY
 
     def tell(standing: Standing, result: Result | None) -> None:
         nonlocal last
@@ -76,7 +77,7 @@ def _lines(console: Console) -> Tell:
             console.print(Text(failure(result)), soft_wrap=True)
         if time.monotonic() - last >= EVERY or standing.pairs_done == standing.pairs:
             last = time.monotonic()
-            console.print(Text(line(standing)), soft_wrap=True)
+            console.print(Text(f"{in_words(last - begun)}: {line(standing)}"), soft_wrap=True)
 
     return tell
 

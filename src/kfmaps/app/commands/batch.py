@@ -16,8 +16,12 @@ from kfmaps.app.batch.plan import Plan, make_plan, recommended
 from kfmaps.app.batch.settings import Settings
 from kfmaps.app.batch.summary import summarised
 from kfmaps.app.batch.told import telling
+from kfmaps.app.files import atomic_output
 from kfmaps.app.settings.options import Chosen, with_settings
+from kfmaps.app.settings.toml import settings_text
 
+TOML = "settings.toml"
+"""In the output folder, for ``kfmaps match --config``."""
 FAILED, INTERRUPTED = 1, 130
 """Exit status when a pair failed, and after Ctrl-C."""
 
@@ -71,6 +75,9 @@ def batch(
     made = Settings(config, seed, lines, landmarks, identity)
     console = Console(highlight=False)
     plan = make_plan(collection, chosen, made, output, cache_folder=cache, retry_failed=retry_failed)
+    if not (plan.folder / TOML).exists():
+        with atomic_output(plan.folder / TOML) as temporary:
+            temporary.write_text(settings_text(config), encoding="utf-8")
     if not quiet:
         console.print(Text(_before(plan)), soft_wrap=True)
     with telling(console, quiet) as tell:
