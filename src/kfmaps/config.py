@@ -123,14 +123,16 @@ class Search:
     """How to find the map without landmarks; see :mod:`kfmaps.automatic`.
 
     ``candidates``: how many maps are tried; ``orientation``: whether the map keeps orientation ("kept") or is one
-    to a mirror image ("reversed").
+    to a mirror image ("reversed"); ``runners_up``: how many distinct other maps are returned at most.
     """
 
     candidates: int = 12
     orientation: Literal["kept", "reversed"] = "kept"
+    runners_up: int = 3
 
     def __post_init__(self) -> None:
         check_count(self.candidates, "candidates")
+        check_count(self.runners_up, "runners_up", low=0)
         _choice(self.orientation, "orientation", ("kept", "reversed"))
 
 

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from kfmaps._arrays import Array, refuse, to_numpy
+from kfmaps._arrays import Array, inner, refuse, to_numpy
 from kfmaps._threads import one_blas_thread
 from kfmaps.config import Config
 from kfmaps.descriptors import check_landmarks
@@ -153,7 +153,7 @@ def problem(
             raise refuse("orientation weight", "0 with the exact kernel", str(weights.orientation), "use features")
     else:
         features = kernel_features(source, target, descriptors, config, rng)
-        kernel, rank, slices = features.kernel, int(features.source.shape[1]), 0
+        kernel, rank, slices, size = features.kernel, int(features.source.shape[1]), 0, 0.0
         if weights.descriptors:
             terms["descriptors"] = descriptor_term(small[0], features.source, small[1], features.target)
         if weights.commutativity:
@@ -165,26 +165,29 @@ def problem(
             if config.compression:
                 packed_s, packed_t = compressed(packed_s, packed_t, config.compression)
             slices = int(packed_s.shape[0])
+            size = inner(packed_s, packed_s) + inner(packed_t, packed_t)
             terms["commutativity"] = slice_term(unpacked_slices(packed_s), unpacked_slices(packed_t))
         if weights.orientation:
-            terms["orientation"] = orientation_term(source, target, small, features)
+            terms["orientation"] = orientation_term(
+                source, target, small, features, size or 2.0 * small[0].functions.shape[1]
+            )
     return Problem(Energy(terms, {name: getattr(weights, name) for name in terms}), rank, slices, kernel)
 
 
-def orientation_term(source: Shape, target: Shape, bases: tuple[Basis, Basis], features: Features) -> Term:
+def orientation_term(source: Shape, target: Shape, bases: tuple[Basis, Basis], features: Features, size: float) -> Term:
     """Commutativity with ``Ω_w[g] = n · (∇w × ∇g)`` for the strongest features (Ren et al. 2018).
 
-    The operators change sign under a mirror, so the term prefers maps that keep orientation. It is scaled so that
-    at the zero-distortion weight 1 it is as large as the commutativity term's operators.
+    The operators change sign under a mirror, so the term prefers maps that keep orientation. Their summed squared
+    norm is scaled to ``size``, that of the multiplication operators, so that the weights of both terms compare.
     """
     strongest = principal(bases, features, ORIENTATION_FEATURES)
-    slices = [
+    slices_s, slices_t = (
         orientation_slices(shape.mesh, basis, F)
         for shape, basis, F in zip((source, target), bases, (strongest.source, strongest.target), strict=True)
-    ]
-    size = np.sqrt(0.5 * sum(float((s * s).sum()) for s in slices))
-    scale = 1.0 / size if size else 1.0
-    return slice_term(slices[0] * scale, slices[1] * scale, parity=-1)
+    )
+    total = inner(slices_s, slices_s) + inner(slices_t, slices_t)
+    scale = (size / total) ** 0.5 if total else 0.0
+    return slice_term(slices_s * scale, slices_t * scale, parity=-1)
 
 
 def principal(bases: tuple[Basis, Basis], features: Features, count: int) -> Features:

@@ -29,7 +29,7 @@ class Shape:
     basis : Basis
         Of as many functions as the configuration needs in all.
     shot : (n, 352) float64 or None
-        The SHOT descriptor when the configuration asks for it.
+        The SHOT descriptor when the configuration asks for it; a point cloud has none.
     name : str
     seconds : dict of str to float
         Time each stage took.
@@ -75,10 +75,10 @@ def prepare(
     seconds["eigenfunctions"] = time.perf_counter() - start
     report(f"eigenfunctions of {name}", 1.0)
     local = None
-    if config.descriptors.shot:
+    if config.descriptors.shot and len(mesh.faces):
         start = time.perf_counter()
         report(f"SHOT of {name}", 0.0)
-        local = shot(mesh, config.descriptors.shot_radius)
+        local = shot(mesh, config.descriptors.shot_radius, threads=config.threads)
         seconds["SHOT"] = time.perf_counter() - start
         report(f"SHOT of {name}", 1.0)
     return Shape(mesh, basis, local, name, seconds)

@@ -1,0 +1,189 @@
+"""How good a map is, judged without the truth.
+
+Several measures, none of which is enough alone: a mirrored map of a symmetric body distorts nothing, a map that
+swaps front and back *and* left and right even keeps orientation, and a map that collapses everything to one point
+is smooth. :func:`map_quality` works them out on a few hundred points of each shape; :attr:`Quality.score` weighs them.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from kfmaps._arrays import Array, to_numpy
+from kfmaps.geodesics import geodesic_distances
+from kfmaps.maps import nearest
+from kfmaps.orientation import orientation_slices
+from kfmaps.refine import Samples, spectral_samples
+from kfmaps.shape import Shape
+
+POINTS = 1000
+"""Sample points on each shape."""
+COARSE = 400
+"""The first of them, between which geodesic distances are compared."""
+LOW = 20
+"""Functions in which orientation is compared."""
+WAVES = 10
+"""Functions whose orientation operators are compared."""
+
+
+@dataclass(frozen=True, eq=False)
+class Probe:
+    """What judging maps needs of one shape; made by :func:`probe`.
+
+    Attributes
+    ----------
+    samples : Samples
+        Farthest points; the first ``c`` of them are farthest points too.
+    distances : (c, c) float64
+        Geodesic distances between the first points.
+    orientation : (w, l, l) float64 or None
+        Orientation operators of the first functions; ``None`` for a point cloud.
+    descriptors : (q, d) float64 or None
+        SHOT at the samples.
+    positions : (q, 3) float64
+    """
+
+    samples: Samples
+    distances: np.ndarray
+    orientation: np.ndarray | None
+    descriptors: np.ndarray | None
+    positions: np.ndarray
+
+
+@dataclass(frozen=True)
+class Quality:
+    """Measures of one map; see :func:`map_quality`.
+
+    Attributes
+    ----------
+    orientation : float
+        From 1, kept everywhere, to -1, reversed everywhere: correlation of the source's orientation operators,
+        carried over, with those of the target (Ren et al. 2018). 0 for point clouds.
+    distortion : float
+        Mean absolute change of geodesic distances, divided by the mean distance. 0 for an isometry.
+    descriptors : float
+        Mean squared difference of SHOT between matched points, divided by that of random ones, from 0 to about 1;
+        mean of both directions.
+    cycle : float
+        Mean distance between a source point and its image under source → target → source, in units of √area.
+    coverage : float
+        Part of the area that is the image of something, the smaller of both directions.
+    laplacian : float
+        ``‖C Λ_s − Λ_t C‖² / ‖C Λ_s‖²``.
+    smoothness : float
+        Dirichlet energy of the source's coordinates pulled back to the target, divided by their own on the source;
+        the mean of both directions.
+    """
+
+    orientation: float
+    distortion: float
+    descriptors: float
+    cycle: float
+    coverage: float
+    laplacian: float
+    smoothness: float
+
+    @property
+    def score(self) -> float:
+        """One number, higher is better; differences below 0.1 mean little. Weights: see docs/automatic.md."""
+        return (
+            self.orientation
+            - 6.0 * self.distortion
+            - 3.0 * self.descriptors
+            + 1.0 * self.coverage
+            - 0.3 * min(np.log(max(self.smoothness, 1e-9)), 2.0)
+        )
+
+
+def probe(shape: Shape, count: int = POINTS, rng: int | np.random.Generator = 0, threads: int | None = None) -> Probe:
+    """Sample ``count`` points of ``shape`` and work out what :func:`map_quality` compares."""
+    samples = spectral_samples(shape.basis, count, rng)
+    first = samples.vertices[:COARSE]
+    distances = geodesic_distances(shape.mesh, first)[:, first]
+    # Separate components are as far apart as the farthest points of one.
+    distances = np.where(np.isfinite(distances), distances, distances[np.isfinite(distances)].max())
+    orientation = None
+    if len(shape.mesh.faces):
+        low = shape.basis.truncated(min(LOW, shape.basis.functions.shape[1]))
+        orientation = orientation_slices(shape.mesh, low, shape.basis.functions[:, : 4 * WAVES], threads)
+    local = None if shape.shot is None else shape.shot[samples.vertices]
+    return Probe(samples, distances, orientation, local, shape.mesh.vertices[samples.vertices])
+
+
+def map_quality(C: Array, source: Probe, target: Probe) -> Quality:
+    """Judge the functional map ``C (k, k)``, refined on the samples of both probes, without knowing the truth."""
+    C = to_numpy(C)
+    k_t, k_s = C.shape
+    basis_s, basis_t = source.samples.basis.truncated(k_s), target.samples.basis.truncated(k_t)
+    carried = to_numpy(basis_s.functions) @ C.T
+    functions_t = to_numpy(basis_t.functions)
+    back = nearest(functions_t, carried, threads=1)  # target -> source
+    forth = nearest(carried, functions_t, threads=1)
+    area_s, area_t = (to_numpy(b.mass) / float(b.mass.sum()) for b in (basis_s, basis_t))
+    values_s, values_t = to_numpy(basis_s.eigenvalues), to_numpy(basis_t.eigenvalues)
+    moved = np.linalg.norm(source.positions[back[forth]] - source.positions, axis=1)
+    commutator = C * values_s[None, :] - values_t[:, None] * C
+    return Quality(
+        orientation=_orientation(C, source, target),
+        distortion=_distortion(carried, functions_t, source, target),
+        descriptors=0.5 * (_difference(back, target, source, area_t) + _difference(forth, source, target, area_s)),
+        cycle=float(moved @ area_s),
+        coverage=float(min(area_s[np.unique(back)].sum(), area_t[np.unique(forth)].sum())),
+        laplacian=float((commutator**2).sum() / ((C * values_s[None, :]) ** 2).sum()),
+        smoothness=0.5
+        * (
+            _smoothness(back, basis_t.functions, area_t, values_t, source, values_s)
+            + _smoothness(forth, basis_s.functions, area_s, values_s, target, values_t)
+        ),
+    )
+
+
+def _orientation(C: np.ndarray, source: Probe, target: Probe) -> float:
+    if source.orientation is None or target.orientation is None:
+        return 0.0
+    low = min(source.orientation.shape[1], target.orientation.shape[1], *C.shape)
+    waves = min(WAVES + 1, C.shape[1], len(source.orientation))
+    rows = min(len(target.orientation), C.shape[0])
+    square = C[:low, :low]
+    ours = square @ source.orientation[1:waves, :low, :low] @ square.T
+    theirs = np.tensordot(C[:rows, 1:waves].T, target.orientation[:rows, :low, :low], axes=1)
+    size = np.sqrt((ours**2).sum() * (theirs**2).sum())
+    return float((ours * theirs).sum() / size) if size else 0.0
+
+
+def _distortion(carried: np.ndarray, functions_t: np.ndarray, source: Probe, target: Probe) -> float:
+    c_s, c_t = len(source.distances), len(target.distances)
+    back = nearest(functions_t[:c_t], carried[:c_s], threads=1)
+    forth = nearest(carried[:c_s], functions_t[:c_t], threads=1)
+    change = np.abs(source.distances[np.ix_(back, back)] - target.distances).mean()
+    change_back = np.abs(target.distances[np.ix_(forth, forth)] - source.distances).mean()
+    return float((change + change_back) / (source.distances.mean() + target.distances.mean()))
+
+
+def _difference(points: np.ndarray, there: Probe, here: Probe, area: np.ndarray) -> float:
+    """Of ``there``'s descriptors from those of the points of ``here`` that they are mapped to."""
+    if there.descriptors is None or here.descriptors is None:
+        return 0.0
+    squares = ((there.descriptors - here.descriptors[points]) ** 2).sum(axis=1) @ area
+    spread = sum(((D - D.mean(axis=0)) ** 2).sum(axis=1).mean() for D in (there.descriptors, here.descriptors))
+    return float(squares / max(spread, 1e-300))
+
+
+def _smoothness(
+    points: np.ndarray, functions: Array, area: np.ndarray, values: np.ndarray, other: Probe, own: np.ndarray
+) -> float:
+    """Dirichlet energy of ``other``'s coordinates pulled back along ``points``, over their own."""
+
+    def energy(phi: np.ndarray, weights: np.ndarray, x: np.ndarray, eigenvalues: np.ndarray) -> float:
+        scaled = phi * weights[:, None]
+        c = np.linalg.solve(scaled.T @ phi + 1e-3 * np.eye(phi.shape[1]), scaled.T @ x)
+        return float((eigenvalues[:, None] * c**2).sum())
+
+    basis = other.samples.basis
+    k = min(len(own), functions.shape[1])
+    weights = to_numpy(basis.mass) / float(basis.mass.sum())
+    before = energy(to_numpy(basis.functions)[:, :k], weights, other.positions, own[:k])
+    after = energy(to_numpy(functions)[:, :k], area, other.positions[points], values[:k])
+    return after / max(before, 1e-300)
