@@ -12,11 +12,11 @@ from kfmaps.app.settings.options import Chosen, with_settings
 
 @with_settings
 def config(
+    settings: Chosen,
     output: Annotated[
         Path | None, typer.Option("-o", "--output", help="Write this file; default: print.", show_default=False)
     ] = None,
     force: Annotated[bool, typer.Option("--force", help="Replace an existing file.")] = False,
-    settings: Chosen = Chosen(),  # noqa: B008 - replaced by the options it stands for
 ) -> None:
     """Print the settings that match would use without landmarks, as TOML that --config reads."""
     from kfmaps.app.files import atomic_output, check_output

@@ -28,6 +28,7 @@ TRUTH = "Its true vertices, line k of one file to line k of the other (.vts coun
 def match(
     source: Annotated[Path, typer.Argument(help="A mesh or point cloud.", metavar="SOURCE", show_default=False)],
     target: Annotated[Path, typer.Argument(help="A mesh or point cloud.", metavar="TARGET", show_default=False)],
+    settings: Chosen,
     landmarks: Annotated[
         Path | None,
         typer.Option(help='Pairs of vertices, "source target" a line, counted from 0.', show_default=False),
@@ -51,7 +52,6 @@ def match(
     ] = None,
     truth_source: Annotated[Path | None, typer.Option(help=TRUTH, show_default=False)] = None,
     truth_target: Annotated[Path | None, typer.Option(help="The same for the target.", show_default=False)] = None,
-    settings: Chosen = Chosen(),  # noqa: B008 - replaced by the options it stands for
 ) -> None:
     """Find for each vertex of the target the corresponding vertex of the source, and write the map."""
     # What can be refused without work is refused first, so that no minutes are lost.
@@ -64,7 +64,7 @@ def match(
         warnings.simplefilter("ignore", KfmapsWarning)
 
     from kfmaps.app.evaluation import check_truth, read_truth
-    from kfmaps.app.files import read_landmarks, read_mesh, save_map
+    from kfmaps.app.files import read_landmarks, save_map
     from kfmaps.app.settings.device import check_device
     from kfmaps.app.summary import map_file, summary, table
     from kfmaps.matching import default_config
@@ -76,7 +76,7 @@ def match(
     check_device(config.device)
     truth = read_truth(truth_source, truth_target)
     pairs = None if landmarks is None else read_landmarks(landmarks, one_based=one_based)
-    meshes = read_mesh(source), read_mesh(target)
+    meshes = _read(source), _read(target)
     if pairs is not None:
         _check_landmarks(pairs, meshes, (source, target))
     own = _own_descriptors((descriptors_source, descriptors_target), meshes)
@@ -132,6 +132,13 @@ def run(
             stages("evaluation", 1.0)
     pairs = np.zeros((0, 2), dtype=np.int64) if landmarks is None else landmarks
     return Outcome(found, meshes, paths, pairs, seed, {**seconds, **found.seconds}, report)
+
+
+def _read(path: Path) -> Mesh:
+    """A mesh; a file without faces is a point cloud only when its name says so, else something was lost."""
+    from kfmaps.app.files import read_mesh
+
+    return read_mesh(path, cloud=path.suffix.lower() == ".xyz")
 
 
 def _renamed(stages: Callable[[str, float], None], path: str, side: str) -> Callable[[str, float], None]:

@@ -21,7 +21,8 @@ def check_output(path: str | Path, force: bool = False) -> Path:
     Raises
     ------
     InvalidInput
-        When its folder is missing, it is a folder or device, or it exists and ``force`` is not given.
+        When its folder is missing or may not be written, it is a folder or device, or it exists and ``force`` is
+        not given.
     """
     final = Path(path)
     try:
@@ -34,6 +35,8 @@ def check_output(path: str | Path, force: bool = False) -> Path:
         raise refuse(f"output {path}", "a name that can be written", got, "choose another") from error
     if kind is None and not final.parent.is_dir():
         raise refuse(f"output {path}", "an existing folder", f"no folder {final.parent}", "make it first")
+    if not os.access(final.parent, os.W_OK):
+        raise refuse(f"output {path}", "a folder to write in", f"no right to write in {final.parent}", "choose another")
     if kind not in (None, stat.S_IFREG):
         got = "a folder" if kind == stat.S_IFDIR else "a device or pipe"
         raise refuse(f"output {path}", "the name of a file", got, "name a file to write")

@@ -21,7 +21,7 @@ from kfmaps.app.files.text import REPAIR, read_bytes
 
 FORMATS = (".npz", ".txt", ".vts", ".mat")
 
-VERTEX_NUMBERS = ("target_to_source", "runners_up", "landmarks")
+VERTEX_NUMBERS = ("target_to_source", "raw_target_to_source", "runners_up", "landmarks")
 """The arrays that hold vertex numbers, which a .mat file counts from 1."""
 
 _FIELDS = ("target_to_source", "functional_map", "eigenvalues_s", "eigenvalues_t", "config")

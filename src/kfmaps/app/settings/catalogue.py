@@ -171,6 +171,7 @@ CATALOGUE: dict[str, tuple[Setting, ...]] = {
             "--orientation",
             ("Search",),
         ),
+        Setting("search.runners_up", int, "distinct other maps that are kept", "at least 0", kinds=("Search",)),
     ),
     "Machine": (
         Setting("device", str, "cpu, or a PyTorch device", "cpu, cuda, cuda:1, ...", "--device"),
