@@ -10,7 +10,7 @@ import pytest
 
 from kfmaps._arrays import InvalidInput
 from kfmaps.app.cli import main
-from kfmaps.app.experiments import figure3, figure4, figure5, figure6, figure7, pairs, section44
+from kfmaps.app.experiments import figure2, figure3, figure4, figure5, figure6, figure7, pairs, section44
 from kfmaps.app.experiments.collections import Collection, ShapePair, collections, person
 from kfmaps.app.experiments.kernel_matrix import best_errors, gaussian_matrix, nystrom_error
 from kfmaps.app.experiments.methods import no17, obcs12, paper, recommended
@@ -302,6 +302,13 @@ def test_figure3_conclusions() -> None:
     far = figure3.conclusions(last, 400)
     assert "more than one order" in far[0]
     assert "not as good for every" in far[1]
+
+
+def test_figure2_verdict() -> None:
+    assert figure2.verdict(0.009, 0.001) == "reproduced."
+    assert "the squared error or λ" in figure2.verdict(0.05, 0.005)
+    assert figure2.verdict(0.2, 0.005).endswith("means λ_k / λ_1.")
+    assert figure2.verdict(0.2, 0.05) == "not reproduced."
 
 
 def test_figure5_conclusion() -> None:
