@@ -12,7 +12,7 @@ method                       a source  mean   near   worst
 fast marching                3.7 ms    1.7    3.4    24
 ===========================  ========  =====  =====  ======
 
-So ``unfolded`` is the default: errors of correspondences are mostly a few edges long, where the heat method,
+(``benchmarks/geodesics.py`` measures any mesh.) So ``unfolded`` is the default: errors of correspondences are mostly a few edges long, where the heat method,
 which smooths over an edge length, is at its worst.
 """
 
@@ -126,6 +126,8 @@ def distance_pairs(
         Vertex numbers.
     method : {"unfolded", "dijkstra", "heat"}
         As for :func:`geodesic_distances`.
+    threads : int, optional
+        Without effect so far: the searches hold the interpreter's lock.
 
     Returns
     -------
@@ -137,7 +139,7 @@ def distance_pairs(
     InvalidInput
         On lists of different length, a vertex number out of range or an unknown method.
     """
-    del threads  # SciPy's search holds the interpreter's lock
+    del threads
     n = len(mesh.vertices)
     a, b = _indices(a, n, "a"), _indices(b, n, "b")
     if len(a) != len(b):
