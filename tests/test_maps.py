@@ -1,0 +1,166 @@
+"""Nearest neighbours, point maps, refinement and evaluation."""
+
+import numpy as np
+import pytest
+
+from conftest import blob, random_basis
+from kfmaps._arrays import InvalidInput, to_numpy
+from kfmaps.evaluate import coverage, error_curve, evaluation, geodesic_errors, truth_from_pairs
+from kfmaps.maps import nearest, to_functional, to_points
+from kfmaps.mesh import unit_area
+from kfmaps.refine import ICP, ZoomOut, spectral_samples
+from kfmaps.spectrum import Basis, laplace_basis
+
+
+def test_nearest_is_nearest(asarray, rng):
+    queries, points = rng.normal(size=(50, 6)), rng.normal(size=(70, 6))
+    wanted = np.linalg.norm(queries[:, None] - points[None], axis=2).argmin(axis=1)
+    np.testing.assert_array_equal(nearest(asarray(queries), asarray(points), block=17), wanted)
+
+
+def test_nearest_survives_a_shift_and_prefers_the_first_of_equals(rng):
+    points = rng.normal(size=(40, 3))
+    doubled = np.vstack([points, points]) + 1e7
+    np.testing.assert_array_equal(nearest(points + 1e7, doubled), np.arange(40))
+
+
+def test_nearest_on_large_sets_equals_the_product(rng):
+    points, queries = rng.normal(size=(20_001, 2)), rng.normal(size=(200, 2))
+    wanted = np.linalg.norm(queries[:, None] - points[None], axis=2).argmin(axis=1)
+    np.testing.assert_array_equal(nearest(queries, points), wanted)
+
+
+@pytest.mark.parametrize(
+    ("queries", "points"), [(np.ones((2, 3)), np.ones((2, 2))), (np.ones((2, 3)), np.ones((0, 3)))]
+)
+def test_nearest_refuses_what_does_not_fit(queries, points):
+    with pytest.raises(InvalidInput):
+        nearest(queries, points)
+
+
+def test_identity_map_and_back(small_basis):
+    n = len(small_basis.mass)
+    points = np.arange(n)
+    C = to_functional(points, small_basis, small_basis)
+    np.testing.assert_allclose(C, np.eye(len(C)), atol=1e-8)
+    np.testing.assert_array_equal(to_points(C, small_basis, small_basis), points)
+
+
+def test_permuted_vertices_permute_the_answer(small_basis, convert, rng):
+    """C carries functions from source to target, the point map goes back: the convention of the whole package."""
+    n = len(small_basis.mass)
+    order = rng.permutation(n)  # target vertex i is source vertex order[i]
+    target = Basis(small_basis.eigenvalues, small_basis.functions[order], small_basis.mass[order])
+    C = to_functional(order, convert(small_basis), convert(target))
+    np.testing.assert_allclose(to_numpy(C), np.eye(40), atol=1e-8)
+    np.testing.assert_array_equal(to_points(C, convert(small_basis), convert(target)), order)
+    f = rng.normal(size=(40, 2))
+    carried = target.lift(to_numpy(C) @ f)
+    np.testing.assert_allclose(carried, small_basis.lift(f)[order], atol=1e-7)
+
+
+def test_map_of_a_rectangular_functional_map(small_basis):
+    C = np.eye(30, 20)
+    assert to_points(C, small_basis, small_basis).shape == small_basis.mass.shape
+
+
+@pytest.mark.parametrize("points", [np.zeros(3, int), np.full(400, 400), np.full(400, -1), np.zeros(400)])
+def test_impossible_point_maps_are_refused(points, small_basis):
+    with pytest.raises(InvalidInput, match="target_to_source"):
+        to_functional(points, small_basis, small_basis)
+
+
+@pytest.fixture(scope="module")
+def two_meshings():
+    """The same smooth shape, triangulated twice, with the nearest vertex as truth."""
+    source, target = unit_area(blob(500)), unit_area(blob(420, twist=0.4))
+    bases = laplace_basis(source, 40), laplace_basis(target, 40)
+    return source, *bases, nearest(target.vertices, source.vertices)
+
+
+@pytest.mark.parametrize("refinement", [ZoomOut(6, 30, 4), ZoomOut(6, 30, 4, samples=150), ICP(10)], ids=repr)
+def test_refinement_repairs_a_noisy_map(refinement, two_meshings, rng):
+    mesh, source, target, truth = two_meshings
+    noisy = truth.copy()
+    wrong = rng.random(len(noisy)) < 0.3
+    noisy[wrong] = rng.integers(len(mesh.vertices), size=wrong.sum())
+    C = to_functional(noisy, source.truncated(20), target.truncated(20))
+    before = geodesic_errors(mesh, noisy, truth).mean()
+    refined = refinement(C, source, target)
+    after = geodesic_errors(mesh, refined.target_to_source, truth).mean()
+    assert after < 0.15 * before
+    again = refinement(C, source, target)
+    np.testing.assert_array_equal(refined.target_to_source, again.target_to_source)
+
+
+def test_zoomout_says_its_sizes_and_ends_with_the_map_of_its_points(two_meshings):
+    _, source, target, truth = two_meshings
+    C = to_functional(truth, source.truncated(10), target.truncated(10))
+    refined = ZoomOut(8, 21, 5)(C, source, target)
+    assert refined.history == (8, 13, 18, 21)
+    assert refined.functional_map.shape == (21, 21)
+    np.testing.assert_array_equal(refined.target_to_source, to_points(refined.functional_map, source, target))
+
+
+def test_icp_gives_an_orthogonal_map(two_meshings):
+    _, source, target, truth = two_meshings
+    C = ICP(3)(to_functional(truth, source, target), source, target).functional_map
+    np.testing.assert_allclose(C.T @ C, np.eye(40), atol=1e-10)
+
+
+def test_spectral_samples_spread_and_share_out_the_area(two_meshings):
+    _, source, _, _ = two_meshings
+    samples = spectral_samples(source, 60, 0)
+    assert len(set(samples.vertices.tolist())) == 60
+    assert samples.basis.mass.sum() == pytest.approx(source.mass.sum())
+    assert samples.basis.mass.max() < 4 * source.mass.sum() / 60
+    np.testing.assert_array_equal(samples.basis.functions, source.functions[samples.vertices])
+
+
+def test_refinements_refuse_what_they_cannot_do(small_basis, rng):
+    with pytest.raises(InvalidInput, match="at most the 40"):
+        ZoomOut(10, 41)(np.eye(10), small_basis, small_basis)
+    with pytest.raises(InvalidInput, match="square"):
+        ICP()(np.eye(10, 11), small_basis, small_basis)
+    for make in (lambda: ZoomOut(1, 5), lambda: ZoomOut(9, 5), lambda: ZoomOut(step=0), lambda: ICP(0)):
+        with pytest.raises(InvalidInput):
+            make()
+    assert random_basis(5, 3, rng).functions.shape == (5, 3)
+
+
+def test_errors_are_free_of_units_and_zero_for_the_truth():
+    mesh = blob(300)
+    truth = np.arange(300)
+    moved = np.roll(truth, 1)
+    assert not geodesic_errors(mesh, truth, truth).any()
+    errors = geodesic_errors(mesh, moved, truth)
+    big = type(mesh)(mesh.vertices * 1000, mesh.faces)
+    np.testing.assert_allclose(geodesic_errors(big, moved, truth), errors, rtol=1e-9)
+    straight = np.linalg.norm(unit_area(mesh).vertices[moved] - unit_area(mesh).vertices[truth], axis=1)
+    assert (errors >= straight - 1e-9).all()
+
+
+def test_evaluation_of_known_errors():
+    found = evaluation(np.array([0.0, 0.1, 0.2, 0.5]), auc_limit=0.25)
+    assert (found.mean, found.median, found.worst, found.exact) == pytest.approx((0.2, 0.15, 0.5, 0.25))
+    assert found.auc == pytest.approx((0.25 + 0.15 + 0.05 + 0.0) / 4 / 0.25)
+    thresholds = np.linspace(0, 0.25, 100_001)
+    curve = error_curve(found.errors, thresholds)
+    assert curve[0] == 0.25
+    assert np.trapezoid(curve, thresholds) / 0.25 == pytest.approx(found.auc, abs=1e-4)
+
+
+def test_coverage_is_a_fraction_of_area(small_mesh):
+    n = len(small_mesh.vertices)
+    assert coverage(np.arange(n), small_mesh) == pytest.approx(1.0)
+    half = coverage(np.arange(n) % (n // 2), small_mesh)
+    assert 0.3 < half < 0.7
+
+
+def test_truth_of_pairs():
+    points = np.array([5, 6, 7])
+    np.testing.assert_array_equal(truth_from_pairs(np.array([0, 1]), np.array([2, 0]), points), [7, 5])
+    with pytest.raises(InvalidInput, match="equal length"):
+        truth_from_pairs(np.array([0]), np.array([2, 0]), points)
+    with pytest.raises(InvalidInput):
+        truth_from_pairs(np.array([0]), np.array([3]), points)

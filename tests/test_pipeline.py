@@ -1,0 +1,316 @@
+"""The whole match: invariances, agreement of its forms, and what it refuses."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from sklearn.metrics.pairwise import rbf_kernel
+
+from conftest import blob
+from kfmaps._arrays import InvalidInput, KfmapsWarning
+from kfmaps.config import (
+    SAMPLINGS,
+    BasisConfig,
+    Config,
+    DescriptorConfig,
+    NystromConfig,
+    Weights,
+    as_dict,
+    from_dict,
+)
+from kfmaps.features import pair_descriptors
+from kfmaps.kernels import Gaussian, Linear, Polynomial, Product, Sum, Tanh
+from kfmaps.matching import match
+from kfmaps.mesh import Mesh
+from kfmaps.pipeline import checked_landmarks, problem
+from kfmaps.refine import ICP, ZoomOut
+from kfmaps.shape import prepare
+from kfmaps.solvers import CG, Direct, dense
+from kfmaps.spectrum import Basis
+
+SMALL = Config(
+    basis=BasisConfig(functions=20),
+    descriptors=DescriptorConfig(count=12, eigenfunctions=40),
+    nystrom=NystromConfig(samples=60),
+    compression=0.0,
+    solver=CG(rtol=1e-8, max_steps=2000),
+    refinement=ZoomOut(12, 40, 6),
+    threads=1,
+)
+RAW = replace(SMALL, refinement=None)
+MARKS = np.array([[3, 3], [100, 100], [250, 250], [390, 390]])
+
+
+@pytest.fixture(scope="module")
+def shape():
+    return prepare(blob(400), SMALL, name="blob")
+
+
+@pytest.fixture(scope="module")
+def other():
+    return prepare(blob(360, twist=0.4), SMALL, name="other")
+
+
+@pytest.fixture(scope="module")
+def marks(shape, other):
+    """Corresponding vertices of the two meshings of one shape."""
+    from kfmaps.maps import nearest
+
+    target = np.array([5, 90, 200, 300, 350])
+    return np.stack([nearest(other.mesh.vertices[target], shape.mesh.vertices), target], axis=1)
+
+
+def energy_of(shape, other, config, marks, bases=None):
+    bases = bases or (shape.basis, other.basis)
+    used = pair_descriptors(shape, other, bases, config.descriptors, marks, None)
+    return problem(shape, other, bases, used, config, np.random.default_rng(0)).energy
+
+
+def test_identical_shapes_give_the_identity(shape):
+    found = match(shape, shape, SMALL, landmarks=MARKS)
+    np.testing.assert_array_equal(found.target_to_source, np.arange(400))
+    np.testing.assert_array_equal(found.raw_target_to_source, np.arange(400))
+    assert found.solution.status == "converged"
+    np.testing.assert_allclose(found.raw_functional_map, np.eye(20), atol=0.02)
+
+
+def test_two_meshings_match(shape, other, marks):
+    found = match(shape, other, SMALL, landmarks=marks)
+    moved = shape.mesh.vertices[found.target_to_source] - other.mesh.vertices
+    assert np.linalg.norm(moved, axis=1).mean() < 0.04
+    assert found.functional_map.shape == (40, 40)
+    assert found.energies.keys() == {"descriptors", "commutativity", "laplacian"}
+    assert min(found.energies.values()) >= 0
+
+
+def test_permuted_vertices_permute_the_answer(shape, rng):
+    order = rng.permutation(400)
+    number = np.argsort(order)
+    mesh = blob(400)
+    permuted = Mesh(mesh.vertices[order], number[mesh.faces])
+    found = match(shape, permuted, SMALL, landmarks=np.stack([MARKS[:, 0], number[MARKS[:, 0]]], axis=1))
+    np.testing.assert_array_equal(found.target_to_source, order)
+
+
+def test_rigid_motion_and_units_change_nothing(shape, other, marks):
+    mesh = blob(360, twist=0.4)
+    c, s = np.cos(1.0), np.sin(1.0)
+    turn = np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]]) @ np.array([[1, 0, 0], [0, c, -s], [0, s, c]])
+    moved = Mesh(1000 * mesh.vertices @ turn.T + [5e3, -2e3, 1e3], mesh.faces)
+    reference = match(shape, other, RAW, landmarks=marks)
+    found = match(shape, prepare(moved, SMALL), RAW, landmarks=marks)
+    assert (found.target_to_source == reference.target_to_source).mean() > 0.99
+    np.testing.assert_allclose(np.abs(found.raw_functional_map), np.abs(reference.raw_functional_map), atol=1e-4)
+
+
+def test_flipped_signs_of_eigenvectors_change_nothing(shape, other, marks, rng):
+    signs = np.where(rng.random(40) < 0.5, -1.0, 1.0)
+    flipped = replace(other, basis=Basis(other.basis.eigenvalues, other.basis.functions * signs, other.basis.mass))
+    reference = match(shape, other, SMALL, landmarks=marks)
+    found = match(shape, flipped, SMALL, landmarks=marks)
+    np.testing.assert_array_equal(found.target_to_source, reference.target_to_source)
+    np.testing.assert_allclose(found.functional_map, signs[:, None] * reference.functional_map, atol=1e-6)
+
+
+@pytest.mark.parametrize("sampling", SAMPLINGS)
+def test_operator_is_symmetric_positive_under_every_sampling(sampling, shape, other, marks):
+    small = replace(RAW, basis=BasisConfig(functions=6), nystrom=NystromConfig(samples=30, sampling=sampling))
+    energy = energy_of(shape, other, small, marks)
+    matrix = dense(energy.apply, (6, 6), np.zeros((6, 6)))
+    np.testing.assert_allclose(matrix, matrix.T, atol=1e-10 * np.abs(matrix).max())
+    assert np.linalg.eigvalsh(matrix)[0] > 0
+    np.testing.assert_allclose(np.diag(matrix).reshape(6, 6), energy.diagonal(), rtol=1e-8)
+
+
+def test_linear_kernel_is_no17_and_the_exact_form_agrees(shape, other, marks, rng):
+    config = replace(RAW, kernel=Linear(), basis=BasisConfig(functions=8))
+    C = rng.normal(size=(8, 8))
+    features = energy_of(shape, other, config, marks)
+    exact = energy_of(shape, other, replace(config, exact=True), marks)
+    np.testing.assert_allclose(features.apply(C), exact.apply(C), rtol=1e-10, atol=1e-10)
+    np.testing.assert_allclose(features.rhs(), exact.rhs(), rtol=1e-10, atol=1e-10)
+    np.testing.assert_allclose(features.diagonal(), exact.diagonal(), rtol=1e-9, atol=1e-9)
+
+
+def test_all_points_as_samples_equal_the_exact_kernel(rng):
+    config = replace(
+        RAW,
+        basis=BasisConfig(functions=6),
+        kernel=Gaussian(2.0),
+        descriptors=DescriptorConfig(count=4, eigenfunctions=12),
+        nystrom=NystromConfig(samples=200, sampling="uniform", rtol=1e-15),
+    )
+    a, b = (prepare(blob(100, twist), config) for twist in (0.0, 0.3))
+    none = np.zeros((0, 2), dtype=int)
+    C = rng.normal(size=(6, 6))
+    features, exact = energy_of(a, b, config, none), energy_of(a, b, replace(config, exact=True), none)
+    np.testing.assert_allclose(features.apply(C), exact.apply(C), rtol=1e-5, atol=1e-6)
+    np.testing.assert_allclose(features.rhs(), exact.rhs(), rtol=1e-5, atol=1e-6)
+
+
+def test_conjugate_gradients_equal_the_dense_solve(shape, other, marks):
+    config = replace(RAW, basis=BasisConfig(functions=8))
+    iterated = match(shape, other, config, landmarks=marks)
+    direct = match(shape, other, replace(config, solver=Direct()), landmarks=marks)
+    np.testing.assert_allclose(iterated.raw_functional_map, direct.raw_functional_map, atol=1e-5)
+    plain = match(shape, other, replace(config, preconditioner="none"), landmarks=marks)
+    np.testing.assert_allclose(plain.raw_functional_map, direct.raw_functional_map, atol=1e-4)
+
+
+def test_compression_hardly_changes_the_answer(shape, other, marks):
+    whole = match(shape, other, RAW, landmarks=marks)
+    fewer = match(shape, other, replace(RAW, compression=1e-5), landmarks=marks)
+    assert fewer.slices < whole.slices
+    np.testing.assert_allclose(fewer.raw_functional_map, whole.raw_functional_map, atol=0.01)
+
+
+@pytest.mark.parametrize(
+    "kernel",
+    [
+        Polynomial(2, 1.0),
+        Sum(Linear(), Gaussian()),
+        Product(Gaussian(), Polynomial(2, 0.5)),
+        lambda X, Y: rbf_kernel(X, Y, gamma=0.2),
+    ],
+    ids=["polynomial", "sum", "product", "scikit-learn"],
+)
+def test_other_kernels_match_too(kernel, shape, other, marks):
+    found = match(shape, other, replace(SMALL, kernel=kernel), landmarks=marks)
+    moved = shape.mesh.vertices[found.target_to_source] - other.mesh.vertices
+    assert np.linalg.norm(moved, axis=1).mean() < 0.05
+
+
+def test_tanh_warns_that_it_is_not_positive_definite(shape, other, marks):
+    with pytest.warns(KfmapsWarning, match="not positive definite"):
+        found = match(shape, other, replace(RAW, kernel=Tanh(0.5, -0.5)), landmarks=marks)
+    assert np.isfinite(found.raw_functional_map).all()
+
+
+def test_descriptors_of_the_users_own(shape, other):
+    config = replace(RAW, descriptors=DescriptorConfig(signature="none", landmark_map="none"))
+    found = match(shape, other, config, descriptors=(shape.mesh.vertices, other.mesh.vertices))
+    moved = shape.mesh.vertices[found.target_to_source] - other.mesh.vertices
+    assert np.linalg.norm(moved, axis=1).mean() < 0.06
+    assert found.verdict == "unchecked"
+
+
+def test_the_same_seed_gives_the_same_answer(shape, other, marks):
+    a, b = (match(shape, other, RAW, landmarks=marks, rng=5) for _ in range(2))
+    np.testing.assert_array_equal(a.raw_functional_map, b.raw_functional_map)
+    c = match(shape, other, RAW, landmarks=marks, rng=6)
+    assert not np.array_equal(a.raw_functional_map, c.raw_functional_map)
+
+
+def test_progress_goes_from_start_to_end(shape, other, marks):
+    told = []
+    match(shape, other, SMALL, landmarks=marks, progress=lambda stage, done: told.append((stage, done)))
+    for stage in ("descriptors", "energy", "solve", "point map", "refinement"):
+        done = [d for s, d in told if s == stage]
+        assert done[0] == 0.0
+        assert done[-1] == 1.0
+        assert done == sorted(done)
+
+
+def test_a_point_cloud_matches(shape):
+    mesh = blob(400)
+    cloud = prepare(Mesh(mesh.vertices, np.zeros((0, 3), dtype=int)), SMALL)
+    found = match(shape, cloud, SMALL, landmarks=MARKS)
+    moved = shape.mesh.vertices[found.target_to_source] - shape.mesh.vertices
+    assert np.linalg.norm(moved, axis=1).mean() < 0.08
+
+
+def test_paper_settings_do_ten_plain_steps(shape, other, marks):
+    paper = replace(
+        Config.paper(),
+        basis=BasisConfig(functions=15),
+        descriptors=replace(Config.paper().descriptors, eigenfunctions=40),
+    )
+    found = match(shape, other, paper, landmarks=marks)
+    assert (found.solution.status, found.solution.steps) == ("step limit", 10)
+    assert found.kernel.startswith("Gaussian")
+
+
+def test_obcs12_leaves_commutativity_out():
+    assert Config.obcs12().weights.commutativity == 0
+    assert Config.no17().weights.commutativity == 1
+    assert isinstance(Config.no17().kernel, Linear)
+
+
+@pytest.mark.parametrize(
+    "landmarks",
+    [[[0, 0], [0, 1]], [[0, 5], [1, 5]], [[-1, 0]], [[0, 360]], [[400, 0]], [[0.5, 1.0]], [[1, 2, 3]], [1, 2]],
+)
+def test_bad_landmarks_are_refused(landmarks, shape, other):
+    with pytest.raises(InvalidInput, match=r"landmarks.*wanted .* got"):
+        checked_landmarks(np.asarray(landmarks), shape, other)
+
+
+def test_bad_descriptors_and_kernels_are_refused(shape, other, marks):
+    good = np.ones((360, 2))
+    for given in ((np.ones((399, 2)), good), (np.ones((400, 3)), good), (np.full((400, 2), np.nan), good)):
+        with pytest.raises(InvalidInput):
+            match(shape, other, RAW, landmarks=marks, descriptors=given)
+    with pytest.raises(InvalidInput, match="at least one"):
+        match(shape, other, replace(RAW, descriptors=DescriptorConfig(signature="none")))
+    for kernel in (lambda X, Y: np.ones((len(X), len(Y) + 1)), lambda X, Y: np.full((len(X), len(Y)), np.nan)):
+        with pytest.raises(InvalidInput, match="kernel"):
+            match(shape, other, replace(RAW, kernel=kernel), landmarks=marks)
+
+
+def test_meshes_that_cannot_be_matched_are_refused():
+    with pytest.raises(InvalidInput, match="more than 40"):
+        prepare(blob(40), SMALL)
+    broken = blob(100)
+    broken.vertices[3] = np.nan
+    with pytest.raises(InvalidInput, match="NaN"):
+        prepare(broken, SMALL)
+    with pytest.raises(InvalidInput, match="zero area"):
+        prepare(Mesh(np.zeros((50, 3)), blob(50).faces), SMALL)
+    with pytest.raises(InvalidInput, match="from 0 to 99"):
+        prepare(Mesh(blob(100).vertices, blob(100).faces + 1), SMALL)
+
+
+@pytest.mark.parametrize(
+    "config",
+    [
+        Config(),
+        Config.automatic(),
+        Config.paper(),
+        Config.no17(),
+        replace(Config(), refinement=ICP(3), solver=Direct(), kernel=Sum(Linear(), Gaussian(2.0)), threads=2),
+        replace(Config(), refinement=None, kernel=Tanh()),
+    ],
+)
+def test_configuration_survives_the_round_trip(config):
+    assert from_dict(as_dict(config), base=Config.no17() if config.refinement else Config.paper()) == config
+
+
+@pytest.mark.parametrize(
+    "values",
+    [
+        {"nonsense": 1},
+        {"weights": {"nonsense": 1}},
+        {"weights": 3},
+        {"kernel": {"kind": "Nonsense"}},
+        {"kernel": {"kind": "Gaussian", "width": 1}},
+        {"kernel": {"kind": "callable", "name": "f"}},
+        {"basis": {"functions": 1}},
+        {"nystrom": {"sampling": "nonsense"}},
+        {"descriptors": {"normalisation": "nonsense"}},
+        {"weights": {"laplacian": -1.0}},
+        {"preconditioner": "nonsense"},
+        {"compression": 1.0},
+    ],
+)
+def test_impossible_settings_are_refused(values):
+    with pytest.raises(InvalidInput, match=r"wanted .* got"):
+        from_dict(values)
+
+
+def test_weights_reach_the_energy(shape, other, marks, rng):
+    C = rng.normal(size=(20, 20))
+    config = replace(RAW, weights=Weights(descriptors=2.0, commutativity=3.0, laplacian=5.0, orientation=7.0))
+    energy = energy_of(shape, other, config, marks)
+    assert energy.weights == {"descriptors": 2.0, "commutativity": 3.0, "laplacian": 5.0, "orientation": 7.0}
+    parts = energy.breakdown(C)
+    assert min(parts.values()) > 0
