@@ -12,8 +12,8 @@ method                       a source  mean   near   worst
 fast marching                3.7 ms    1.7    3.4    24
 ===========================  ========  =====  =====  ======
 
-(``benchmarks/geodesics.py`` measures any mesh.) So ``unfolded`` is the default: errors of correspondences are mostly a few edges long, where the heat method,
-which smooths over an edge length, is at its worst.
+So ``unfolded`` is the default: errors of correspondences are mostly a few edges long, where the heat method, which
+smooths over an edge length, is at its worst. ``benchmarks/geodesics.py`` measures any mesh.
 """
 
 from __future__ import annotations
