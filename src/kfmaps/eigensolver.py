@@ -23,7 +23,7 @@ MASS_FLOOR = 1e-10
 """Least mass of a vertex, as a part of the mean: one without mass takes the value that its neighbours give it
 (harmonic), and this much mass moves no eigenvalue by more than this part."""
 
-THREADED = 20_000
+THREADED = 50_000
 """Rows from which threads pay."""
 
 
@@ -79,7 +79,7 @@ def smallest_eigenpairs(
     rng : int or numpy.random.Generator
         Draws the start vectors.
     threads : int, optional
-        Python threads for solves and tall products, from 20,000 rows; ``None`` takes every available core.
+        Python threads for solves and tall products, from 50,000 rows; ``None`` takes every available core.
         BLAS is held to one.
     method : {"auto", "block", "arpack", "dense"}
         ``"block"``: own block Lanczos with full reorthogonalisation. ``"arpack"``: SciPy's ``eigsh`` on the
