@@ -1,0 +1,60 @@
+"""
+Kernels compared, with ten descriptors
+======================================
+
+A kernel stands for more descriptors than were given: the polynomial kernel for their products, the Gaussian kernel for
+infinitely many functions of them. That matters most when there are few, and when the two shapes are not bent copies of
+each other.
+"""
+
+from dataclasses import replace
+
+import matplotlib.pyplot as plt
+
+import kfmaps
+from kfmaps.sampling import farthest
+
+pair = kfmaps.datasets.non_isometric(vertices=2000)
+marked = farthest(pair.target.vertices, 6)
+landmarks = [(int(pair.truth[v]), int(v)) for v in marked]
+
+base = kfmaps.Config(
+    basis=kfmaps.BasisConfig(functions=60),
+    descriptors=kfmaps.DescriptorConfig(count=10, eigenfunctions=100),
+    nystrom=kfmaps.NystromConfig(samples=200),
+    refinement=None,
+)
+
+# %%
+# What depends on one shape alone is done once; every kernel then uses it. There is no refinement, so that what is
+# compared is the fit itself.
+
+source, target = kfmaps.prepare(pair.source, base), kfmaps.prepare(pair.target, base)
+kernels = {
+    "linear": kfmaps.Linear(),
+    "polynomial, degree 2": kfmaps.Polynomial(degree=2, offset=1.0),
+    "Laplacian": kfmaps.Laplacian(),
+    "Gaussian": kfmaps.Gaussian(),
+}
+means = {}
+for name, kernel in kernels.items():
+    result = kfmaps.match(source, target, replace(base, kernel=kernel), landmarks=landmarks)
+    means[name] = kfmaps.geodesic_errors(pair.source, result.target_to_source, pair.truth).mean()
+    print(f"{name:22} {result.rank:3} features  mean error x 100: {100 * means[name]:.2f}  {result.kernel}")
+
+# %%
+# With the linear kernel the features are the ten descriptors themselves. The quadratic kernel has all their products
+# of up to two, 66 in all: Nyström from 200 samples finds exactly that many. For the Gaussian and the Laplacian kernel
+# γ was left to the package, which takes it from the distances between descriptors.
+
+figure, ax = plt.subplots(figsize=(6, 2.4), layout="constrained")
+ax.barh(list(means), [100 * value for value in means.values()], color="#0072B2")
+ax.set_xlabel("mean geodesic error / √area, times 100")
+ax.invert_yaxis()
+ax.spines[["top", "right"]].set_visible(False)
+
+# %%
+# On this pair the Gaussian kernel has the smallest error and the linear one is not far behind; the quadratic kernel
+# does not help here.
+
+assert means["Gaussian"] < 0.95 * means["linear"]
