@@ -5,13 +5,16 @@ from __future__ import annotations
 import time
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
+from threadpoolctl import threadpool_info, threadpool_limits
 
 from collecting import CONFIG, LANDMARKS, done, plan_of, touch, write_collection
 from conftest import blob
 from kfmaps._arrays import InvalidInput
+from kfmaps.app.batch import work
 from kfmaps.app.batch.cache import file_digest, load_shape, save_shape, shape_key
 from kfmaps.app.batch.layout import Pair, find_collection
 from kfmaps.app.batch.plan import make_plan
@@ -151,6 +154,27 @@ def test_a_defect_is_recorded_with_its_type(folder: Path, tmp_path: Path, monkey
     result = match_pair(plan.todo[0], *prepared)
     assert (result.status, result.reason) == ("failed", "ZeroDivisionError: oh")
     assert not map_path(tmp_path, plan.todo[0].pair.key).exists()
+
+
+def test_all_work_is_done_with_one_blas_thread(folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Whatever the environment of a worker says, and on the workers of a foreign scheduler too."""
+    threads: dict[str, set[int]] = {}
+
+    def watched(name: str) -> None:
+        function = getattr(work, name)
+
+        def called(*arguments: Any, **options: Any) -> Any:
+            threads[name] = {pool["num_threads"] for pool in threadpool_info()}
+            assert arguments[-1].threads == 1
+            return function(*arguments, **options)
+
+        monkeypatch.setattr(work, name, called)
+
+    watched("prepare")
+    watched("match")
+    with threadpool_limits(4):
+        assert done(plan_of(folder, tmp_path))[0].status == "done"
+    assert threads == {"prepare": {1}, "match": {1}}
 
 
 def test_a_shape_that_changes_under_way_is_refused(tmp_path: Path) -> None:

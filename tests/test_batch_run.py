@@ -189,7 +189,13 @@ def test_ctrl_c_ends_cleanly(tmp_path: Path) -> None:
 
 def _about() -> dict[str, Any]:
     numpy_threads = max(pool["num_threads"] for pool in threadpoolctl.threadpool_info())
-    return {"blas": numpy_threads, "listens": _listening(), "interrupt": signal.getsignal(signal.SIGINT)}
+    given = [os.environ.get(name) for name in ("OMP_NUM_THREADS", "MALLOC_TRIM_THRESHOLD_")]
+    return {
+        "environment": given,
+        "blas": numpy_threads,
+        "listens": _listening(),
+        "interrupt": signal.getsignal(signal.SIGINT),
+    }
 
 
 def _listening() -> list[str]:
@@ -206,12 +212,15 @@ def interruptible() -> Iterator[None]:
 
 
 @pytest.mark.usefixtures("interruptible")
-def test_workers_use_one_thread_and_the_loopback_alone() -> None:
+def test_workers_use_one_thread_and_the_loopback_alone(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.delenv("MALLOC_TRIM_THRESHOLD_", raising=False)
+    monkeypatch.delenv("OMP_NUM_THREADS", raising=False)
     with local_workers(1) as workers:
         assert workers.client.scheduler_info()["address"].startswith("tls://127.0.0.1:")
         told: Any = workers.client.run(_about)
         (worker,) = told.values()
         assert worker["blas"] == 1
+        assert worker["environment"] == ["1", None]
         assert worker["interrupt"] == signal.SIG_IGN
         assert worker["listens"]
         assert set(worker["listens"] + _listening()) == {"127.0.0.1"}

@@ -17,6 +17,9 @@ if TYPE_CHECKING:
 
 DEATHS = 3
 """Workers that may die over one task before Dask hands it back as one that kills."""
+ONE_THREAD = dict.fromkeys(("OMP_NUM_THREADS", "MKL_NUM_THREADS", "OPENBLAS_NUM_THREADS"), 1)
+"""What a worker's environment is given. Dask's own list also has malloc return memory at once, which makes every
+large temporary array a round of page faults: a third of the time."""
 REMEDY = "install it with: pip install 'kfmaps[batch]'"
 
 
@@ -76,6 +79,7 @@ def local_workers(count: int | None = None) -> Iterator[Workers]:
                 "distributed.scheduler.allowed-failures": DEATHS - 1,
                 # A factorisation may keep a worker from answering for long; it is not dead.
                 "distributed.scheduler.worker-ttl": None,
+                "distributed.nanny.pre-spawn-environ": ONE_THREAD,
             }
         ),
         LocalCluster(

@@ -68,7 +68,7 @@ def prepare_shape(task: ShapeTask) -> Prepared:
         return Prepared(task.name)
     start = time.perf_counter()
     begin(Path(task.folder), entry.stem)
-    with _caught() as met:
+    with _caught() as met, one_blas_thread():
         if file_digest(task.path) != task.content:
             raise refuse(task.path, "the file of the run's start", "a changed one", "run the command again")
         mesh = read_mesh(task.path)
