@@ -1,5 +1,7 @@
 """Kernels: definitions, laws, and what is refused."""
 
+from typing import Any
+
 import numpy as np
 import pytest
 from sklearn.metrics.pairwise import laplacian_kernel, rbf_kernel
@@ -38,9 +40,9 @@ def plain(kernel, x, y):
             return x @ y
         case Polynomial(degree, offset):
             return (x @ y + offset) ** degree
-        case Gaussian(gamma):
+        case Gaussian(gamma) if gamma is not None:
             return np.exp(-gamma * np.sum((x - y) ** 2))
-        case Laplacian(gamma):
+        case Laplacian(gamma) if gamma is not None:
             return np.exp(-gamma * np.sqrt(np.sum((x - y) ** 2)))
         case Tanh(scale, offset):
             return np.tanh(scale * (x @ y) + offset)
@@ -48,6 +50,7 @@ def plain(kernel, x, y):
             return plain(a, x, y) + plain(b, x, y)
         case Product(a, b):
             return plain(a, x, y) * plain(b, x, y)
+    raise AssertionError(kernel)
 
 
 @pytest.mark.parametrize("kernel", KERNELS, ids=repr)
@@ -105,14 +108,16 @@ def test_automatic_gamma_is_free_of_scale(kind, scale, rng):
 def test_automatic_gamma_is_one_over_the_median_squared_distance(rng):
     X = rng.normal(size=(40, 5))
     squares = squared_distances(X, X)[np.triu_indices(40, 1)]
-    assert resolved(Gaussian(), X, 2.0).gamma == pytest.approx(2.0 / np.median(squares))
-    inside = resolved(Sum(Linear(), Product(Gaussian(), Gaussian(3.0))), X)
+    simple: Any = resolved(Gaussian(), X, 2.0)
+    assert simple.gamma == pytest.approx(2.0 / np.median(squares))
+    inside: Any = resolved(Sum(Linear(), Product(Gaussian(), Gaussian(3.0))), X)
     assert inside.b.a.gamma == pytest.approx(1.0 / np.median(squares))
     assert inside.b.b.gamma == 3.0
 
 
 def test_identical_descriptors_do_not_break_the_automatic_gamma():
-    assert np.isfinite(resolved(Gaussian(), np.ones((5, 2))).gamma)
+    kernel: Any = resolved(Gaussian(), np.ones((5, 2)))
+    assert np.isfinite(kernel.gamma)
 
 
 @pytest.mark.parametrize(

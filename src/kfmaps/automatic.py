@@ -31,8 +31,11 @@ from kfmaps.solvers import CG
 
 COARSE = ZoomOut(start=20, stop=80, step=5)
 """The refinement of candidates, on the samples of both shapes."""
-LOW_START = 8
-"""Where the refinement of kicked rivals starts: low, so that they may settle on another map."""
+STARTS = (6, 10, 20)
+"""Where it starts. From few functions it repairs maps that are wrong in part, also of shapes that are far from
+isometric; from many it keeps what is right. Which is better shows afterwards, so each is tried."""
+KICKS = 6
+"""Rivals that start from a random symmetry of the low functions."""
 DISTINCT = 0.08
 """Mean distance, in units of √area, from which two maps count as different ones."""
 CLEAR = 0.3
@@ -166,8 +169,11 @@ def variants(config: Config, surfaces: bool = True) -> list[tuple[str, Config]]:
                 weights=replace(config.weights, orientation=weight),
             ),
         )
-        for weight in ((0.1, 1.0) if surfaces else (0.0,))
-        for k in sizes
+        for k, weight in zip(
+            (sizes[0], sizes[2], sizes[0], sizes[1], sizes[2], sizes[1]),
+            (0.1, 0.1, 1.0, 0.1, 1.0, 1.0) if surfaces else (0.0,) * 3,
+            strict=False,
+        )
         for name, chosen in families.items()
     ]
     return found[: config.search.candidates]
@@ -183,39 +189,42 @@ def _candidates(
     descriptors: tuple[Any, Any] | None,
     report: Progress,
 ) -> list[Candidate]:
-    jobs: list[Callable[[], Candidate]] = []
+    jobs: list[Callable[[], list[Candidate]]] = []
     done: list[int] = []
 
-    def job(name: str, work: Callable[[], tuple[np.ndarray, Match | None, ZoomOut]]) -> Callable[[], Candidate]:
-        def run() -> Candidate:
-            C, fitted, zoom = work()
-            refined = zoom(C, probes[0].samples.basis, probes[1].samples.basis, threads=1)
-            quality = map_quality(refined.functional_map, *probes)
-            done.append(1)
-            report("candidates", len(done) / (len(jobs) + 1))
-            return Candidate(name, refined.functional_map, refined.target_to_source, quality, fitted)
+    def refined(name: str, C: np.ndarray, fitted: Match | None, starts: tuple[int, ...]) -> list[Candidate]:
+        found = []
+        for start in starts:
+            zoom = replace(COARSE, start=start)
+            better = zoom(C, probes[0].samples.basis, probes[1].samples.basis, threads=1)
+            quality = map_quality(better.functional_map, *probes)
+            label = f"{name}, from {start}"
+            found.append(Candidate(label, better.functional_map, better.target_to_source, quality, fitted))
+        done.append(1)
+        report("candidates", len(done) / (len(jobs) + KICKS + 1))
+        return found
+
+    def fitting(name: str, other: Shape, settings: Config) -> Callable[[], list[Candidate]]:
+        def run() -> list[Candidate]:
+            found = fit(source, other, settings, landmarks=landmarks, descriptors=descriptors, rng=seed)
+            return refined(name, found.raw_functional_map, found if other is target else None, STARTS)
 
         return run
 
-    def fitting(other: Shape, settings: Config, keep: bool) -> Callable[[], tuple[np.ndarray, Match | None, ZoomOut]]:
-        def work() -> tuple[np.ndarray, Match | None, ZoomOut]:
-            found = fit(source, other, settings, landmarks=landmarks, descriptors=descriptors, rng=seed)
-            return found.raw_functional_map, found if keep else None, COARSE
-
-        return work
-
     surfaces = bool(len(source.mesh.faces) and len(target.mesh.faces))
     settings = variants(config, surfaces)
-    jobs += [job(name, fitting(target, chosen, True)) for name, chosen in settings]
+    jobs += [fitting(name, target, chosen) for name, chosen in settings]
     if surfaces and target.shot is not None:  # the map that would be right if the target were its mirror image
         flipped = mirror_image(target)
-        jobs += [job(f"mirrored: {name}", fitting(flipped, chosen, False)) for name, chosen in settings[:2]]
-    found = parallel(lambda run: run(), jobs, config.threads)
+        jobs += [fitting(f"mirrored: {name}", flipped, chosen) for name, chosen in settings[:2]]
+    found = [c for several in parallel(lambda run: run(), jobs, config.threads) for c in several]
     best = max(found, key=_score)
-    kicks = [kicked(best.functional_map, source.basis.eigenvalues, np.random.default_rng(seed + i)) for i in range(4)]
-    low = replace(COARSE, start=LOW_START)
-    more = [job(f"kicked {i}", lambda C=C: (C, None, low)) for i, C in enumerate(kicks)]
-    return found + parallel(lambda run: run(), more, config.threads)
+
+    def kick(i: int) -> list[Candidate]:
+        C = kicked(best.functional_map, source.basis.eigenvalues, np.random.default_rng(seed + i))
+        return refined(f"kicked {i}", C, None, STARTS[:1])
+
+    return found + [c for several in parallel(kick, range(KICKS), config.threads) for c in several]
 
 
 def kicked(C: np.ndarray, eigenvalues: np.ndarray, rng: np.random.Generator) -> np.ndarray:

@@ -122,11 +122,12 @@ class Weights:
 class Search:
     """How to find the map without landmarks; see :mod:`kfmaps.automatic`.
 
-    ``candidates``: how many maps are tried; ``orientation``: whether the map keeps orientation ("kept") or is one
-    to a mirror image ("reversed"); ``runners_up``: how many distinct other maps are returned at most.
+    ``candidates``: how many fits are tried, each refined from three starts; ``orientation``: whether the map keeps
+    orientation ("kept") or is one to a mirror image ("reversed"); ``runners_up``: how many distinct other maps are
+    returned at most.
     """
 
-    candidates: int = 12
+    candidates: int = 8
     orientation: Literal["kept", "reversed"] = "kept"
     runners_up: int = 3
 

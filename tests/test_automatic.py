@@ -1,0 +1,179 @@
+"""Matching without landmarks: the measures of a map, the choice, and when it says that it is unsure."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from conftest import blob, fibonacci_sphere
+from kfmaps._arrays import InvalidInput
+from kfmaps.app.datasets import symmetric_creature
+from kfmaps.automatic import Candidate, choose, distinct, kicked, mirror_image, variants
+from kfmaps.config import BasisConfig, Config, NystromConfig, Search
+from kfmaps.evaluate import geodesic_errors
+from kfmaps.maps import nearest
+from kfmaps.matching import match
+from kfmaps.mesh import Mesh
+from kfmaps.quality import map_quality, probe
+from kfmaps.refine import ZoomOut
+from kfmaps.shape import prepare
+from kfmaps.shot import shot
+
+SMALL = replace(
+    Config.automatic(),
+    basis=BasisConfig(functions=40),
+    descriptors=replace(Config.automatic().descriptors, eigenfunctions=90, shot_radius=0.15),
+    nystrom=NystromConfig(samples=100),
+    refinement=ZoomOut(50, 90, 10),
+    search=Search(candidates=4),
+    threads=2,
+)
+
+
+@pytest.fixture(scope="module")
+def shape():
+    return prepare(blob(700), SMALL, name="blob")
+
+
+@pytest.fixture(scope="module")
+def other():
+    return prepare(blob(650, twist=0.4), SMALL, name="other")
+
+
+def reflected(mesh: Mesh) -> Mesh:
+    return Mesh(mesh.vertices * [1.0, 1.0, -1.0], mesh.faces[:, ::-1])
+
+
+def test_the_identity_is_a_perfect_map(shape):
+    judge = probe(shape, 300)
+    found = map_quality(np.eye(60), judge, judge)
+    assert found.orientation == pytest.approx(1.0, abs=1e-2)
+    assert found.coverage == pytest.approx(1.0)
+    assert found.smoothness == pytest.approx(1.0, abs=1e-6)
+    assert (found.distortion, found.descriptors, found.cycle, found.laplacian) == pytest.approx((0, 0, 0, 0))
+
+
+def test_the_map_to_the_mirror_image_reverses_orientation_and_nothing_else(shape):
+    """Same vertices, so the identity matrix is the true map."""
+    here, there = probe(shape, 300), probe(mirror_image(shape), 300)
+    found = map_quality(np.eye(60), here, there)
+    assert found.orientation == pytest.approx(-1.0, abs=1e-2)
+    assert found.distortion == pytest.approx(0)
+    assert found.descriptors > 0.02
+    assert found.score < map_quality(np.eye(60), here, here).score - 1.5
+
+
+def test_worse_maps_score_worse(shape, other):
+    here, there = probe(shape, 300), probe(other, 300)
+    truth = nearest(other.mesh.vertices, shape.mesh.vertices)
+    right = other.basis.truncated(60).project(shape.basis.functions[truth][:, :60])
+    good = map_quality(right, here, there)
+    rng = np.random.default_rng(0)
+    shuffled = map_quality(np.linalg.qr(rng.normal(size=(60, 60)))[0], here, there)
+    collapsed = map_quality(np.outer(np.eye(60)[0], np.eye(60)[0]), here, there)
+    assert good.orientation > 0.9
+    assert good.score > shuffled.score + 1
+    assert good.score > collapsed.score + 1
+    for worse in (shuffled, collapsed):
+        assert worse.distortion > 2 * good.distortion
+    assert collapsed.coverage < 0.5 * good.coverage
+    assert shuffled.cycle > good.cycle
+
+
+def test_quality_does_not_depend_on_position_or_units(shape):
+    moved = prepare(Mesh(50 * blob(700).vertices[:, [1, 2, 0]] + 7, blob(700).faces), SMALL)
+    truth = np.arange(700)
+    there = shape.basis.truncated(60)
+    C = moved.basis.truncated(60).project(there.functions[truth])
+    found = map_quality(C, probe(shape, 300), probe(moved, 300))
+    assert found.orientation == pytest.approx(1.0, abs=0.02)
+    assert found.distortion < 0.02
+    assert found.descriptors < 1e-3
+
+
+def test_mirror_image_equals_preparing_the_mirrored_mesh(shape):
+    image = mirror_image(shape)
+    assert image.shot is not None
+    np.testing.assert_allclose(image.shot, shot(image.mesh, 0.15), atol=1e-8)
+    cloud = replace(shape, mesh=Mesh(shape.mesh.vertices, np.zeros((0, 3), dtype=int)))
+    with pytest.raises(InvalidInput, match="mirrored"):
+        mirror_image(cloud)
+
+
+def test_an_asymmetric_shape_is_matched_and_sure(shape, other):
+    found = match(shape, other, SMALL)
+    moved = shape.mesh.vertices[found.target_to_source] - other.mesh.vertices
+    assert np.linalg.norm(moved, axis=1).mean() < 0.03
+    assert found.verdict == "sure"
+    assert found.confidence is not None
+    assert found.confidence > 0.6
+    assert list(found.scores) == sorted(found.scores, reverse=True)
+    assert len(found.runners_up) == len(found.scores) - 1
+    again = match(shape, other, SMALL)
+    np.testing.assert_array_equal(found.target_to_source, again.target_to_source)
+    assert found.scores == again.scores
+
+
+def test_a_mirrored_shape_is_found_when_asked_for(shape):
+    image = prepare(reflected(blob(650, twist=0.4)), SMALL, name="image")
+    found = match(shape, image, replace(SMALL, search=Search(candidates=4, orientation="reversed")))
+    moved = shape.mesh.vertices[found.target_to_source] * [1, 1, -1] - image.mesh.vertices
+    # The two are centred on the mean of slightly different vertices.
+    assert np.linalg.norm(moved - moved.mean(axis=0), axis=1).mean() < 0.04
+
+
+def test_a_sphere_is_ambiguous():
+    a, b = (prepare(fibonacci_sphere(n, twist), SMALL) for n, twist in ((700, 0.0), (650, 0.4)))
+    found = match(a, b, SMALL)
+    assert found.verdict == "ambiguous"
+    assert found.runners_up
+
+
+def test_left_and_right_of_a_symmetric_body_are_told_apart():
+    pair = symmetric_creature(1500, rng=0)
+    found = match(pair.source, pair.target, replace(Config.automatic(), search=Search(candidates=6), threads=2))
+    assert pair.mirrored is not None
+    right = geodesic_errors(pair.source, found.target_to_source, pair.truth).mean()
+    flipped = geodesic_errors(pair.source, found.target_to_source, pair.mirrored).mean()
+    assert right < 0.05
+    assert right < 0.3 * flipped
+
+
+def test_point_clouds_are_matched_without_orientation(shape):
+    cloud = prepare(Mesh(blob(650, twist=0.4).vertices, np.zeros((0, 3), dtype=int)), SMALL)
+    found = choose(shape, cloud, SMALL)
+    assert found.target_to_source.shape == (650,)
+    assert found.verdict in ("sure", "ambiguous")
+    with pytest.raises(InvalidInput, match="point cloud"):
+        choose(shape, cloud, replace(SMALL, search=Search(orientation="reversed")))
+
+
+def test_candidates_can_be_traded_for_time():
+    assert len(variants(replace(SMALL, search=Search(candidates=3)))) == 3
+    names = [name for name, _ in variants(replace(SMALL, search=Search(candidates=99)))]
+    assert len(set(names)) == len(names) > 8
+
+
+def test_kicks_are_orthogonal_and_keep_constants():
+    values = np.arange(30.0)
+    C = kicked(np.eye(30), values, np.random.default_rng(0))
+    np.testing.assert_allclose(C.T @ C, np.eye(20), atol=1e-10)
+    assert abs(C[0, 0]) > 0.9
+
+
+def test_distinct_maps_are_told_from_variations(shape):
+    judge = probe(shape, 300)
+    quality = map_quality(np.eye(60), judge, judge)
+    same = np.arange(300)
+    shuffled = np.random.default_rng(0).permutation(300)
+    candidates = [
+        Candidate("best", np.eye(60), same, quality, None),
+        Candidate("alike", np.eye(60), np.where(same < 5, 5, same), replace(quality, coverage=0.9), None),
+        Candidate("other", np.eye(60), shuffled, replace(quality, coverage=0.5), None),
+    ]
+    assert [c.name for c in distinct(candidates[::-1], judge)] == ["best", "other"]
+
+
+def test_no_search_without_settings(shape):
+    with pytest.raises(InvalidInput, match=r"Config\.automatic"):
+        choose(shape, shape, replace(SMALL, search=None))
