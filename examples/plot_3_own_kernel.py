@@ -14,6 +14,7 @@ from sklearn.gaussian_process.kernels import RationalQuadratic
 from sklearn.metrics.pairwise import rbf_kernel
 
 import kfmaps
+from kfmaps.app.pictures import match_figure
 from kfmaps.sampling import farthest
 
 pair = kfmaps.datasets.two_poses(vertices=2000)
@@ -53,6 +54,7 @@ mixture = RationalQuadratic(length_scale=2.0, alpha=1.0)
 result = matched(mixture)
 errors = kfmaps.geodesic_errors(pair.source, result.target_to_source, pair.truth)
 print(f"rational quadratic: {result.rank} features, mean error x 100: {100 * errors.mean():.2f}")
+figure = match_figure(pair.source, pair.target, result.target_to_source, errors=errors)
 
 # %%
 # A kernel can also be a function of your own. This one compares ten descriptors with a Gaussian kernel and the other

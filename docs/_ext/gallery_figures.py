@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 from sphinx_gallery.scrapers import figure_rst
 
 
-def scrape(block: Any, block_vars: dict[str, Any], gallery_conf: dict[str, Any], **_: Any) -> str:
+def scrape(_block: Any, block_vars: dict[str, Any], gallery_conf: dict[str, Any], **_: Any) -> str:
     """Write the figures that have appeared among an example's names since the last block."""
     names = block_vars["example_globals"]
     shown = names.setdefault("__shown__", set())
