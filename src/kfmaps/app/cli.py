@@ -91,14 +91,18 @@ def summary(name: str) -> str:
     for node in tree.body:
         if isinstance(node, ast.FunctionDef) and node.name == name:
             return (ast.get_docstring(node) or "").partition("\n")[0]
-    text = (ast.get_docstring(tree) or "").partition("\n")[0].rpartition("``: ")[2]
-    return text[:1].upper() + text[1:]
+        if isinstance(node, ast.Assign) and isinstance(node.value, ast.Call):  # app = typer.Typer(help=...)
+            for keyword in node.value.keywords:
+                if keyword.arg == "help" and isinstance(keyword.value, ast.Constant):
+                    return str(keyword.value.value)
+    return ""
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command; the exit status. 0: done, 2: bad input, 130: interrupted, 1: the reader went away."""
     words = list(sys.argv[1:] if arguments is None else arguments) or ["--help"]
     with warnings.catch_warnings():
+        warnings.simplefilter("ignore", RuntimeWarning)  # NumPy's; what matters is checked and told in our words
         warnings.simplefilter("default", KfmapsWarning)
         warnings.showwarning = _teller(warnings.showwarning)
         try:

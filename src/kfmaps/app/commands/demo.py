@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json as jsonlib
 import time
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -28,7 +29,7 @@ def demo(
     shape: Annotated[str, typer.Option(help=f"Which pair: {', '.join(SHAPES)}.")] = "two-poses",
     vertices: Annotated[int, typer.Option(help="Of the source, from 1500 to 50000.")] = 6000,
     landmarks: Annotated[
-        int, typer.Option(help="How many to take from the truth; 0 matches without any.", min=0, max=100)
+        int, typer.Option(help="How many to take from the truth, for the comparison.", min=1, max=100)
     ] = 6,
     seed: Annotated[int, typer.Option(help="For the shapes and for the match.", min=0)] = 0,
     json: Annotated[bool, typer.Option("--json", help="Print the numbers for machines.")] = False,
@@ -44,7 +45,7 @@ def demo(
         raise refuse("--shape", "one of " + ", ".join(SHAPES), repr(shape), "choose one of them")
     found = compared(shape, vertices, landmarks, seed, quiet=json)
     pair, ours = found.pair, found.rows[0]
-    title = f"{pair.name.capitalize()}: mean geodesic error {ours.error:.4f} √area"
+    title = f"{pair.name.capitalize()}, {ours.given}: mean geodesic error {ours.error:.4f} √area"
     figure = match_figure(pair.source, pair.target, ours.points, errors=ours.errors, title=title)
     with atomic_output(output, force) as temporary:
         save_figure(figure, temporary)
@@ -60,14 +61,29 @@ def demo(
 
 @dataclass(frozen=True, eq=False)
 class Row:
-    """One method: its refined ``points (n_t,)``, their ``errors (n_t,)`` in √area, and the raw map's mean error."""
+    """What one method made of the pair.
+
+    Attributes
+    ----------
+    method, given : str
+        Its name, and what it was told of the truth.
+    points : (n_t,) int64
+        The refined map, and ...
+    errors : (n_t,) float64
+        ... its errors in units of √area.
+    raw_error : float
+        Mean error of the fit alone.
+    verdict : str
+    seconds : float
+    """
 
     method: str
+    given: str
     points: np.ndarray
     errors: np.ndarray
     raw_error: float
+    verdict: str
     seconds: float
-    status: str
 
     @property
     def error(self) -> float:
@@ -77,28 +93,19 @@ class Row:
 
 @dataclass(frozen=True, eq=False)
 class Comparison:
-    """The demonstration's shapes and what each method made of them, the recommended one first."""
+    """The demonstration's shapes and what each method made of them, the automatic match first."""
 
     pair: Pair
-    landmarks: int
     rows: tuple[Row, ...]
 
     def as_dict(self) -> dict[str, Any]:
         """Plain numbers; errors in units of √area."""
+        names = ("method", "given", "error", "raw_error", "verdict", "seconds")
         return {
             "shape": self.pair.name,
             "source_vertices": len(self.pair.source.vertices),
             "target_vertices": len(self.pair.target.vertices),
-            "landmarks": self.landmarks,
-            "methods": {
-                row.method: {
-                    "error": row.error,
-                    "raw_error": row.raw_error,
-                    "seconds": row.seconds,
-                    "solver": row.status,
-                }
-                for row in self.rows
-            },
+            "methods": [{name: getattr(row, name) for name in names} for row in self.rows],
         }
 
     def table(self) -> Table:
@@ -106,67 +113,79 @@ class Comparison:
         from rich.table import Table
 
         n_s, n_t = len(self.pair.source.vertices), len(self.pair.target.vertices)
-        given = f"{self.landmarks} landmarks taken from the truth" if self.landmarks else "no landmarks"
         table = Table(
-            title=f"{self.pair.name}: {n_s:,} and {n_t:,} vertices; {given}",
-            caption="mean geodesic error × 100, in units of √area; time of the match without the eigenfunctions",
+            title=f"{self.pair.name}: {n_s:,} and {n_t:,} vertices, meshed independently",
+            caption="mean geodesic error × 100 in √area; time without the eigenfunctions",
             title_justify="left",
             caption_justify="left",
         )
-        table.add_column("method")
+        for name in ("method", "given", "outcome"):
+            table.add_column(name)
         for name in ("fit alone", "refined", "time"):
-            table.add_column(name, justify="right")
+            table.add_column(name, justify="right", no_wrap=True)
         for row in self.rows:
-            table.add_row(row.method, f"{100 * row.raw_error:.2f}", f"{100 * row.error:.2f}", f"{row.seconds:.1f} s")
+            numbers = f"{100 * row.raw_error:.2f}", f"{100 * row.error:.2f}", f"{row.seconds:.1f} s"
+            table.add_row(row.method, row.given, row.verdict, *numbers)
         return table
 
 
 def compared(shape: str, vertices: int, landmarks: int, seed: int, *, quiet: bool = False) -> Comparison:
-    """Match a pair of the package's own shapes with the recommended settings, and with those of NO17.
+    """Match a pair of the package's own shapes automatically, then with landmarks with a kernel and without (NO17).
 
-    Both get the same eigenfunctions, landmarks and refinement, so that what differs is the fit.
+    The last two get the same eigenfunctions, landmarks and refinement, so that what differs is the fit.
     """
     import numpy as np
 
+    from kfmaps._threads import one_blas_thread
     from kfmaps.app import datasets
     from kfmaps.app.progress import Stages
     from kfmaps.config import Config
     from kfmaps.geodesics import farthest_geodesic
     from kfmaps.shape import prepare
 
-    with Stages(quiet) as stages:
+    with one_blas_thread(), Stages(quiet) as stages:
         stages("shapes", 0.0)
         pair: Pair = getattr(datasets, shape.replace("-", "_"))(vertices, seed)
         stages("shapes", 1.0)
-        pairs = None
-        if landmarks:
-            rows = farthest_geodesic(pair.target, landmarks, np.random.default_rng(seed))
-            pairs = np.stack([pair.truth[rows], rows], axis=1)
-        config = Config() if landmarks else Config.automatic()
-        shapes = (
-            prepare(pair.source, config, name="source", progress=stages),
-            prepare(pair.target, config, name="target", progress=stages),
+        rows = farthest_geodesic(pair.target, landmarks, np.random.default_rng(seed))
+        pairs = np.stack([pair.truth[rows], rows], axis=1)
+        automatic, ours = Config.automatic(), Config()
+        shapes = [
+            prepare(mesh, automatic, name=side, progress=stages)
+            for side, mesh in (("source", pair.source), ("target", pair.target))
+        ]
+        told = f"{landmarks} landmarks from the truth"
+        without = replace(Config.no17(), refinement=ours.refinement)
+        methods = (
+            ("kernel", "no landmarks", automatic, None),
+            ("kernel", told, ours, pairs),
+            ("no kernel (NO17)", told, without, pairs),
         )
-        plain = replace(Config.no17(), refinement=config.refinement)
-        methods = {"kernel functional map": config, "without a kernel (NO17)": plain}
-        found = tuple(_row(name, c, pair, shapes, pairs, seed, stages) for name, c in methods.items())
-    return Comparison(pair, landmarks, found)
+        found = tuple(_row(*method, pair, shapes, seed, stages) for method in methods)
+    return Comparison(pair, found)
 
 
 def _row(
-    method: str, config: Config, pair: Pair, shapes: Any, landmarks: np.ndarray | None, seed: int, stages: Any
+    method: str,
+    given: str,
+    config: Config,
+    landmarks: np.ndarray | None,
+    pair: Pair,
+    shapes: list[Any],
+    seed: int,
+    stages: Callable[[str, float], None],
 ) -> Row:
     from kfmaps.evaluate import geodesic_errors
     from kfmaps.matching import match
 
-    def named(stage: str, done: float) -> None:
-        stages(f"{stage}, {'NO17' if 'NO17' in method else 'kernel'}", done)
-
+    name = "automatic" if landmarks is None else method
     start = time.perf_counter()
-    found: Match = match(shapes[0], shapes[1], config, landmarks=landmarks, rng=seed, progress=named)
+    stages(name, 0.0)
+    found: Match = match(shapes[0], shapes[1], config, landmarks=landmarks, rng=seed)
+    stages(name, 1.0)
     seconds = time.perf_counter() - start
     errors, raw = (
         geodesic_errors(pair.source, points, pair.truth)
         for points in (found.target_to_source, found.raw_target_to_source)
     )
-    return Row(method, found.target_to_source, errors, float(raw.mean()), seconds, found.solution.status)
+    return Row(method, given, found.target_to_source, errors, float(raw.mean()), found.verdict, seconds)

@@ -76,7 +76,7 @@ def match(
     check_device(config.device)
     truth = read_truth(truth_source, truth_target)
     pairs = None if landmarks is None else read_landmarks(landmarks, one_based=one_based)
-    meshes = _read(source), _read(target)
+    meshes = _read(source, config), _read(target, config)
     if pairs is not None:
         _check_landmarks(pairs, meshes, (source, target))
     own = _own_descriptors((descriptors_source, descriptors_target), meshes)
@@ -109,6 +109,7 @@ def run(
     """Match two meshes and tell the stages; with ``truth`` the answer is set beside it."""
     import numpy as np
 
+    from kfmaps._threads import one_blas_thread
     from kfmaps.app.evaluation import assessed
     from kfmaps.app.progress import Stages
     from kfmaps.app.summary import Outcome
@@ -116,7 +117,7 @@ def run(
     from kfmaps.shape import prepare
 
     seconds: dict[str, float] = {}
-    with Stages(quiet) as stages:
+    with one_blas_thread(), Stages(quiet) as stages:
         shapes = []
         for side, mesh, path in zip(("source", "target"), meshes, paths, strict=True):
             shape = prepare(mesh, config, name=str(path), progress=_renamed(stages, str(path), side))
@@ -134,11 +135,19 @@ def run(
     return Outcome(found, meshes, paths, pairs, seed, {**seconds, **found.seconds}, report)
 
 
-def _read(path: Path) -> Mesh:
-    """A mesh; a file without faces is a point cloud only when its name says so, else something was lost."""
+def _read(path: Path, config: Config) -> Mesh:
+    """A mesh with enough vertices for ``config``.
+
+    A file without faces is a point cloud only when its name says so; else something was lost.
+    """
     from kfmaps.app.files import read_mesh
 
-    return read_mesh(path, cloud=path.suffix.lower() == ".xyz")
+    mesh = read_mesh(path, cloud=path.suffix.lower() == ".xyz")
+    if len(mesh.vertices) <= config.eigenfunctions:
+        wanted = f"more than {config.eigenfunctions} vertices, one for each eigenfunction"
+        remedy = "lower the basis, descriptor and refinement sizes (see docs/settings.md), or refine the mesh"
+        raise refuse(str(path), wanted, str(len(mesh.vertices)), remedy)
+    return mesh
 
 
 def _renamed(stages: Callable[[str, float], None], path: str, side: str) -> Callable[[str, float], None]:

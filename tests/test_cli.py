@@ -1,0 +1,184 @@
+"""The command as a whole: its list, its one-line complaints, its exit statuses."""
+
+from __future__ import annotations
+
+import errno
+import importlib
+import os
+import signal
+import subprocess
+import sys
+import warnings
+from pathlib import Path
+
+import pytest
+import typer
+
+import kfmaps
+from commandline import run, shapes, start
+from kfmaps._arrays import InvalidInput, KfmapsWarning, MissingDependency, NotConverged
+from kfmaps.app import cli
+from kfmaps.app.cli import COMMANDS, FOLDER, summary
+
+HEAVY = ("numpy", "scipy", "matplotlib", "torch", "trimesh", "robust_laplacian", "potpourri3d", "distributed")
+
+THERE = [name for name in COMMANDS if (FOLDER / f"{name}.py").is_file()]
+
+
+def stubbed(monkeypatch: pytest.MonkeyPatch, raised: BaseException) -> None:
+    """Make ``kfmaps info`` raise."""
+
+    def info() -> None:
+        raise raised
+
+    module = importlib.import_module("kfmaps.app.commands.info")
+    monkeypatch.setattr(module, "info", info)
+
+
+def test_version() -> None:
+    assert run("--version").stdout == f"kfmaps {kfmaps.__version__}\n"
+
+
+def test_all_commands_are_listed() -> None:
+    """Every module in app.commands is in the list, and the list names nothing else."""
+    files = {path.stem for path in FOLDER.glob("*.py") if not path.stem.startswith("_")}
+    assert files <= set(COMMANDS)
+    shown = run("--help").stdout
+    for name in THERE:
+        assert f" {name} " in shown
+        assert summary(name)[:20] in shown
+    assert run().stdout == shown
+
+
+@pytest.mark.parametrize("name", THERE)
+def test_help_of_each(name: str) -> None:
+    """What the list says of a command without importing it is what the command says of itself."""
+    help = run(name, "--help")
+    assert help.status == 0
+    words = summary(name).split()
+    assert len(words) > 2
+    assert " ".join(words[:4]) in " ".join(help.stdout.split())
+
+
+def test_list_imports_nothing_heavy() -> None:
+    code = "import sys; from kfmaps.app.cli import main; main(['--help']); print(*sys.modules, file=sys.stderr)"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    loaded = {name.partition(".")[0] for name in done.stderr.split()}
+    assert "typer" in loaded
+    # NumPy is needed by the errors that every command may raise.
+    assert loaded & set(HEAVY) <= {"numpy"}
+
+
+def test_help_of_match_imports_nothing_heavy() -> None:
+    code = (
+        "import sys; from kfmaps.app.cli import main; main(['match', '--help']); print(*sys.modules, file=sys.stderr)"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert {name.partition(".")[0] for name in done.stderr.split()} & set(HEAVY) <= {"numpy"}
+    assert "--weight-commutativity" in done.stdout
+
+
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        (["matsch"], "No such command 'matsch'"),
+        (["info"], "Missing argument 'MESH'; see kfmaps info --help"),
+        (["info", "--yaml", "x"], "No such option: --yaml"),
+        (["match", "a.off", "b.off", "--basis", "many"], "--basis"),
+        (["info", "a.off", "b.off"], "unexpected extra argument"),
+    ],
+)
+def test_usage_is_one_line(words: list[str], told: str) -> None:
+    assert told in run(*words).error
+
+
+@pytest.mark.parametrize(
+    ("raised", "told"),
+    [
+        (InvalidInput("wanted\nthis"), "wanted this"),
+        (MissingDependency("no PyTorch"), "no PyTorch"),
+        (NotConverged("not there yet"), "not there yet"),
+        (MemoryError(), "not enough memory"),
+        (OSError(errno.ENOSPC, os.strerror(errno.ENOSPC), "out.npz"), "out.npz: No space left on device"),
+        (OSError("odd"), "odd"),
+    ],
+)
+def test_failures_are_one_line(raised: Exception, told: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    stubbed(monkeypatch, raised)
+    assert told in run("info").error
+
+
+def test_a_defect_keeps_its_traceback(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Only what a user can do something about is told in one line."""
+    stubbed(monkeypatch, ZeroDivisionError())
+    with pytest.raises(ZeroDivisionError):
+        run("info")
+
+
+@pytest.mark.parametrize("raised", [KeyboardInterrupt(), typer.Abort()])
+def test_interrupted_quietly(raised: BaseException, monkeypatch: pytest.MonkeyPatch) -> None:
+    stubbed(monkeypatch, raised)
+    assert run("info") == (ran := run("info"))
+    assert (ran.status, ran.stdout, ran.stderr) == (130, "", "")
+
+
+def test_exit_status_of_a_command(monkeypatch: pytest.MonkeyPatch) -> None:
+    stubbed(monkeypatch, typer.Exit(7))
+    assert run("info").status == 7
+
+
+def test_warnings_are_one_line_each_and_not_repeated(monkeypatch: pytest.MonkeyPatch) -> None:
+    def info() -> None:
+        for text in ("odd\nthing", "odd\nthing", "another"):
+            warnings.warn(text, KfmapsWarning, stacklevel=1)
+
+    monkeypatch.setattr(importlib.import_module("kfmaps.app.commands.info"), "info", info)
+    ran = run("info")
+    assert ran.stderr == "kfmaps: warning: odd thing\nkfmaps: warning: another\n"
+    assert ran.status == 0
+
+
+def test_warning_filters_are_as_before() -> None:
+    before = list(warnings.filters), warnings.showwarning
+    run("--version")
+    assert (list(warnings.filters), warnings.showwarning) == before
+
+
+def test_closed_pipe_is_silent(tmp_path: Path) -> None:
+    """``kfmaps config | head -0``: the reader goes away before anything is written."""
+    process = start("config", folder=tmp_path)
+    assert process.stdout is not None
+    assert process.stderr is not None
+    process.stdout.close()
+    told = process.stderr.read()
+    process.stderr.close()
+    assert process.wait(60) == cli.UNREAD
+    assert told == ""
+
+
+def test_interrupted_match_leaves_nothing(tmp_path: Path) -> None:
+    """Ctrl-C in the middle of the work: status 130, not a word, and no file."""
+    made = shapes(tmp_path, 3000)
+    before = sorted(tmp_path.iterdir())
+    process = start("match", made.source, made.target, "--landmarks", made.landmarks, folder=tmp_path)
+    assert process.stderr is not None
+    first = process.stderr.readline()
+    assert first.startswith("eigenfunctions of source")
+    process.send_signal(signal.SIGINT)
+    out, err = process.communicate(timeout=60)
+    assert process.returncode == 130
+    assert "Traceback" not in err
+    assert "error" not in err
+    assert out == ""
+    assert sorted(tmp_path.iterdir()) == before
+
+
+def test_names_that_are_no_text(tmp_path: Path) -> None:
+    """A file name of bytes that are not UTF-8 is shown, not stumbled over."""
+    if sys.platform != "linux":
+        pytest.skip("file names are text here")
+    process = start("info", os.fsdecode(b"\xff.off"), folder=tmp_path)
+    out, err = process.communicate(timeout=60)
+    assert (process.returncode, out) == (2, "")
+    assert err.startswith("kfmaps: error: \\udcff.off: ")
+    assert len(err.splitlines()) == 1

@@ -1,0 +1,73 @@
+"""``kfmaps demo``."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+from matplotlib.image import imread
+
+from commandline import run
+from kfmaps.app.commands.demo import SHAPES
+from kfmaps.config import Config, Search
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("demo")
+    few = replace(Config.automatic(), search=Search(candidates=2))
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(Config, "automatic", lambda: few)
+        ran = run("demo", "--vertices", "1500", "-o", folder / "demo.png", "--json", "--seed", "1")
+    assert ran.status == 0, ran.stderr
+    (folder / "told.json").write_text(ran.stdout)
+    return folder
+
+
+def test_numbers(folder: Path) -> None:
+    """Both methods are told, the kernel's map is right, and both were given the same."""
+    told = json.loads((folder / "told.json").read_text())
+    assert told["shape"] == "two poses"
+    assert (told["source_vertices"], told["target_vertices"]) == (1500, 1200)
+    automatic, kernel, plain = told["methods"]
+    assert automatic["verdict"] in ("sure", "ambiguous")
+    assert kernel["given"] == plain["given"] != automatic["given"]
+    assert kernel["verdict"] == plain["verdict"] == "landmarks"
+    # A map drawn at random is off by about 0.9 √area; one step between vertices is 0.03.
+    assert kernel["error"] < 0.04
+    assert kernel["raw_error"] < 0.06
+    assert "NO17" in plain["method"]
+    assert 0 < plain["raw_error"] < 1
+
+
+def test_picture(folder: Path) -> None:
+    """Three panels with something in each."""
+    picture = imread(folder / "demo.png")[..., :3]
+    height, width = picture.shape[:2]
+    assert width > 1.5 * height
+    for i in range(3):
+        panel = picture[height // 4 : 3 * height // 4, i * width // 4 + width // 16 : i * width // 4 + width // 5]
+        assert panel.std() > 0.05 if i < 2 else panel.std() > 0.005
+
+
+def test_nothing_is_replaced(folder: Path) -> None:
+    before = (folder / "demo.png").read_bytes()
+    assert "--force" in run("demo", "-o", folder / "demo.png").error
+    assert (folder / "demo.png").read_bytes() == before
+
+
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        (["--shape", "cube"], ", ".join(SHAPES)),
+        (["--vertices", "10"], "1500 to 50000"),
+        (["-o", "demo.bmp"], ".png"),
+        (["--landmarks", "0"], "--landmarks"),
+    ],
+)
+def test_refused(words: list[str], told: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert told in run("demo", *words).error.replace("'", "")
+    assert list(tmp_path.iterdir()) == []

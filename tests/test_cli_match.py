@@ -1,0 +1,216 @@
+"""``kfmaps match``: what it writes, prints and leaves alone."""
+
+from __future__ import annotations
+
+import json
+import types
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from commandline import SMALL, Ran, run, shapes
+from kfmaps.app.files import load_map, write_mesh
+from kfmaps.config import as_dict, from_dict
+from kfmaps.mesh import Mesh
+
+
+@pytest.fixture(scope="module")
+def made(tmp_path_factory: pytest.TempPathFactory) -> types.SimpleNamespace:
+    return shapes(tmp_path_factory.mktemp("shapes"))
+
+
+def match(made: types.SimpleNamespace, *words: object, landmarks: bool = True) -> Ran:
+    given = ("--landmarks", made.landmarks) if landmarks else ()
+    return run("match", made.source, made.target, *given, *SMALL, *words)
+
+
+def test_map_of_a_shape_to_itself_moved(made: types.SimpleNamespace, tmp_path: Path) -> None:
+    """Turned, in other units and renumbered, a shape is matched to itself vertex by vertex; the file says how."""
+    ran = match(made, "-o", tmp_path / "m.npz")
+    assert ran.status == 0, ran.stderr
+    found = load_map(tmp_path / "m.npz")
+    np.testing.assert_array_equal(found.target_to_source, made.truth)
+    assert found.functional_map is not None
+    assert found.functional_map.shape == (30, 30)
+    assert found.eigenvalues_s is not None
+    assert found.eigenvalues_t is not None
+    np.testing.assert_allclose(found.eigenvalues_s, found.eigenvalues_t, rtol=1e-6, atol=1e-6)
+    config = from_dict(json.loads(found.config))
+    assert (config.basis.functions, config.nystrom.samples) == (20, 60)
+    assert found.n_s == len(made.truth)
+    assert found.extra["source"] == str(made.source)
+    assert found.extra["target"] == str(made.target)
+    np.testing.assert_array_equal(found.extra["landmarks"], np.stack([made.truth[made.rows], made.rows], axis=1))
+    assert np.asarray(found.extra["raw_target_to_source"]).shape == made.truth.shape
+    assert np.asarray(found.extra["raw_functional_map"]).shape == (20, 20)
+    told = json.loads(str(found.extra["summary"]))
+    assert told["settings"] == json.loads(found.config) == as_dict(config)
+    assert set(told["energies"]) >= {"descriptors", "commutativity", "laplacian"}
+    assert all(value >= 0 for value in told["energies"].values())
+    assert len(told["residuals"]) == told["solver_steps"] + 1
+    assert told["residuals"][0] == 1.0
+    assert set(told["times"]) >= {"eigenfunctions of source", "eigenfunctions of target", "solve", "refinement"}
+
+
+def test_summary_for_people(made: types.SimpleNamespace, tmp_path: Path) -> None:
+    ran = match(made, "-o", tmp_path / "m.npz", "--gamma", "0.25")
+    shown = " ".join(ran.stdout.split())
+    for text in (
+        "300 vertices",
+        "Gaussian(gamma=0.25)",
+        "features",
+        "converged in",
+        "energy",
+        "time",
+        "landmarks settle",
+    ):
+        assert text in shown, text
+    assert "m.npz" in "".join(ran.stdout.split())
+    stages = [line.partition(":")[0] for line in ran.stderr.splitlines()]
+    assert stages == [
+        *("eigenfunctions of source", "eigenfunctions of target", "descriptors", "energy", "solve", "point map"),
+        "refinement",
+    ]
+
+
+def test_summary_for_machines(made: types.SimpleNamespace, tmp_path: Path) -> None:
+    truth = ("--truth-source", made.truth_source, "--truth-target", made.truth_target)
+    ran = match(made, "-o", tmp_path / "m.npz", "--json", "--seed", "5", *truth)
+    assert ran.stderr == ""
+    told = json.loads(ran.stdout)
+    assert (told["source_vertices"], told["target_vertices"]) == (300, 300)
+    assert (told["landmarks"], told["seed"], told["verdict"]) == (6, 5, "landmarks")
+    assert (told["map_rows"], told["fit_size"]) == (30, 20)
+    assert told["solver_status"] == "converged"
+    assert 0 < told["rank"] <= 60
+    assert told["errors"]["mean"] == 0.0
+    assert told["errors"]["exact"] == 1.0
+    assert told["output"] == str(tmp_path / "m.npz")
+
+
+def test_quiet_is_silent(made: types.SimpleNamespace, tmp_path: Path) -> None:
+    """Not even warnings; errors still."""
+    mesh = made.meshes[0]
+    write_mesh(tmp_path / "loose.off", Mesh(np.vstack([mesh.vertices, [[9, 9, 9]]]), mesh.faces))
+    words = ("match", tmp_path / "loose.off", made.target, "--landmarks", made.landmarks, *SMALL)
+    ran = run(*words, "-o", tmp_path / "m.npz", "-q")
+    assert (ran.status, ran.stdout, ran.stderr) == (0, "", "")
+    assert (tmp_path / "m.npz").exists()
+    assert "existing" in run(*words, "-o", tmp_path / "m.npz", "-q").error
+
+
+def test_odd_mesh_is_warned_about_and_matched(made: types.SimpleNamespace, tmp_path: Path) -> None:
+    """A vertex of no face: one line, and the right map for all others."""
+    mesh = made.meshes[0]
+    write_mesh(tmp_path / "loose.off", Mesh(np.vstack([mesh.vertices, [[9, 9, 9]]]), mesh.faces))
+    words = ("match", tmp_path / "loose.off", made.target, "--landmarks", made.landmarks, *SMALL)
+    ran = run(*words, "-o", tmp_path / "m.npz")
+    told = [line for line in ran.stderr.splitlines() if line.startswith("kfmaps: ")]
+    assert told == [f"kfmaps: warning: {tmp_path / 'loose.off'}: 1 vertices that no face uses; they are kept"]
+    points = load_map(tmp_path / "m.npz").target_to_source
+    # The loose vertex is as good as the one nearest to it.
+    twin = np.linalg.norm(mesh.vertices - 9, axis=1).argmin()
+    np.testing.assert_array_equal(np.where(points == 300, twin, points), made.truth)
+
+
+def test_text_output(made: types.SimpleNamespace, tmp_path: Path) -> None:
+    assert match(made, "-o", tmp_path / "m.txt").status == 0
+    lines = (tmp_path / "m.txt").read_text().split()
+    assert [int(word) for word in lines] == made.truth.tolist()
+
+
+def test_one_based_landmarks(made: types.SimpleNamespace, tmp_path: Path) -> None:
+    pairs = np.loadtxt(made.landmarks, dtype=int)
+    other = tmp_path / "one.txt"
+    np.savetxt(other, pairs + 1, fmt="%d", header="source target")
+    words = ("match", made.source, made.target, "--landmarks", other, *SMALL, "-q")
+    assert run(*words, "--one-based", "-o", tmp_path / "m.npz").status == 0
+    np.testing.assert_array_equal(load_map(tmp_path / "m.npz").extra["landmarks"], pairs)
+
+
+def test_raw_is_the_map_before_refinement(made: types.SimpleNamespace, tmp_path: Path) -> None:
+    match(made, "-o", tmp_path / "refined.npz", "-q")
+    words = ("match", made.source, made.target, "--landmarks", made.landmarks, *SMALL[:-6], "-q")
+    assert run(*words, "--raw", "-o", tmp_path / "raw.npz").status == 0
+    assert run(*words, "--refine", "none", "-o", tmp_path / "none.npz").status == 0
+    raw, refined = load_map(tmp_path / "raw.npz"), load_map(tmp_path / "refined.npz")
+    assert from_dict(json.loads(raw.config)).refinement is None
+    np.testing.assert_array_equal(raw.target_to_source, refined.extra["raw_target_to_source"])
+    np.testing.assert_array_equal(raw.target_to_source, load_map(tmp_path / "none.npz").target_to_source)
+    assert "--raw" in run(*words, "--raw", "--refine", "icp", "-o", tmp_path / "x.npz").error
+
+
+def test_own_descriptors(made: types.SimpleNamespace, tmp_path: Path) -> None:
+    """Coordinates as descriptors, and nothing else, tell every point from every other."""
+    mesh = made.meshes[0]
+    values = np.concatenate([mesh.vertices, mesh.vertices**2], axis=1)
+    np.save(tmp_path / "s.npy", values)
+    np.savetxt(tmp_path / "t.csv", values[made.truth], delimiter=",")
+    words = ("--descriptors-source", tmp_path / "s.npy", "--descriptors-target", tmp_path / "t.csv")
+    ran = match(made, *words, "--signature", "none", "--json", "-o", tmp_path / "m.npz", landmarks=False)
+    told = json.loads(ran.stdout)
+    assert (told["verdict"], told["landmarks"]) == ("unchecked", 0)
+    np.testing.assert_array_equal(load_map(tmp_path / "m.npz").target_to_source, made.truth)
+
+
+def test_without_landmarks(made: types.SimpleNamespace, tmp_path: Path) -> None:
+    """The search says how sure it is; its runners-up are maps too."""
+    words = ("--candidates", "2", "--zoom-stop", "80", "--json", "-o", tmp_path / "m.npz")
+    told = json.loads(match(made, *words, landmarks=False).stdout)
+    assert told["verdict"] in ("sure", "ambiguous")
+    assert 0 <= told["confidence"] <= 1
+    found = load_map(tmp_path / "m.npz")
+    assert float(np.asarray(found.extra["confidence"])) == pytest.approx(told["confidence"])
+    assert len(np.atleast_2d(found.extra.get("runners_up", np.zeros((0, 300))))) == told["runners_up"]
+    assert len(told["scores"]) == 1 + told["runners_up"]
+
+
+def test_search_options_beside_landmarks_are_told_of(made: types.SimpleNamespace, tmp_path: Path) -> None:
+    ran = match(made, "--orientation", "reversed", "-o", tmp_path / "m.npz")
+    assert "kfmaps: warning: --orientation has no effect" in ran.stderr
+    np.testing.assert_array_equal(load_map(tmp_path / "m.npz").target_to_source, made.truth)
+
+
+def test_same_seed_same_map(made: types.SimpleNamespace, tmp_path: Path) -> None:
+    for name in ("a.npz", "b.npz"):
+        match(made, "--sampling", "uniform", "--samples", "10", "--seed", "4", "-q", "-o", tmp_path / name)
+    match(made, "--sampling", "uniform", "--samples", "10", "--seed", "5", "-q", "-o", tmp_path / "c.npz")
+    a, b, c = (np.asarray(load_map(tmp_path / f"{x}.npz").extra["raw_functional_map"]) for x in "abc")
+    np.testing.assert_array_equal(a, b)
+    assert np.abs(a - c).max() > 1e-8
+
+
+def test_settings_file_of_a_run_repeats_it(made: types.SimpleNamespace, tmp_path: Path) -> None:
+    words = ("--preset", "default", *SMALL, "--kernel", "laplacian")
+    assert run("config", *words, "-o", tmp_path / "s.toml").status == 0
+    match(made, "--kernel", "laplacian", "-q", "-o", tmp_path / "a.npz")
+    given = ("--landmarks", made.landmarks, "--config", tmp_path / "s.toml")
+    assert run("match", made.source, made.target, *given, "-q", "-o", tmp_path / "b.npz").status == 0
+    a, b = load_map(tmp_path / "a.npz"), load_map(tmp_path / "b.npz")
+    assert a.config == b.config
+    np.testing.assert_array_equal(a.functional_map, b.functional_map)
+
+
+def test_config_is_not_overwritten(tmp_path: Path) -> None:
+    (tmp_path / "s.toml").write_text("# mine\n")
+    assert "--force" in run("config", "-o", tmp_path / "s.toml").error
+    assert (tmp_path / "s.toml").read_text() == "# mine\n"
+    assert run("config", "-o", tmp_path / "s.toml", "--force").status == 0
+    assert (tmp_path / "s.toml").read_text() == run("config").stdout
+
+
+def test_view_opens_the_page(made: types.SimpleNamespace, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    import kfmaps.app.view.results as results
+
+    opened: list[str] = []
+
+    def open_page(html: str) -> tuple[Path, bool]:
+        opened.append(html)
+        return tmp_path / "page.html", False
+
+    monkeypatch.setattr(results, "open_page", open_page)
+    ran = match(made, "--view", "-o", tmp_path / "m.npz", "-q")
+    assert "<html" in opened[0]
+    assert ran.stderr == f"no browser was found; open {(tmp_path / 'page.html').as_uri()}\n"
+    assert ran.status == 0
