@@ -13,7 +13,7 @@ from kfmaps.solvers import CG, Direct, Solver
 
 Sampling = Literal["descriptor", "geodesic", "uniform", "cholesky", "random-cholesky"]
 SAMPLINGS: tuple[Sampling, ...] = ("descriptor", "geodesic", "uniform", "cholesky", "random-cholesky")
-Preconditioner = Literal["none", "jacobi"]
+Preconditioner = Literal["none", "jacobi", "sylvester"]
 
 
 def _choice(value: str, name: str, options: tuple[str, ...]) -> None:
@@ -149,11 +149,16 @@ class Config:
         For a kernel without explicit γ, see :func:`kfmaps.kernels.resolved`.
     compression : float
         Part of the slices' squared norm that may be left out, see :func:`kfmaps.slices.compressed`.
+    preconditioner : "sylvester", "jacobi" or "none"
+        See :mod:`kfmaps.preconditioners`.
+    fit_samples : int or None
+        Points of each shape that the fit is made from when there are more; the point map and the end of the
+        refinement always use all. ``None`` takes all.
     refinement : ZoomOut, ICP or None
     search : Search or None
         Used when there are no landmarks; ``None`` makes one fit, which cannot tell left from right.
     device : str
-        "cpu", or a PyTorch device such as "cuda".
+        "cpu" for NumPy, or a PyTorch device such as "cuda"; "torch" is PyTorch on the CPU.
     threads : int or None
         Python threads; ``None`` takes every core.
     """
@@ -167,7 +172,8 @@ class Config:
     weights: Weights = field(default_factory=Weights)
     compression: float = 1e-4
     solver: Solver = field(default_factory=lambda: CG(rtol=1e-4, max_steps=1000))
-    preconditioner: Preconditioner = "jacobi"
+    preconditioner: Preconditioner = "sylvester"
+    fit_samples: int | None = 10_000
     refinement: Refinement | None = field(default_factory=lambda: ZoomOut(start=50, stop=200, step=5, samples=1000))
     search: Search | None = None
     device: str = "cpu"
@@ -175,9 +181,11 @@ class Config:
 
     def __post_init__(self) -> None:
         check_positive(self.sharpness, "sharpness")
-        _choice(self.preconditioner, "preconditioner", ("none", "jacobi"))
+        _choice(self.preconditioner, "preconditioner", ("none", "jacobi", "sylvester"))
         if not 0 <= self.compression < 1:
             raise refuse("compression", "a number from 0 to below 1", repr(self.compression), "1e-4 is usual")
+        if self.fit_samples is not None:
+            check_count(self.fit_samples, "fit_samples", low=2)
         if self.threads is not None:
             check_count(self.threads, "threads")
 
@@ -208,6 +216,7 @@ class Config:
             compression=0.0,
             solver=CG(rtol=1e-12, max_steps=10),
             preconditioner="none",
+            fit_samples=None,
             refinement=None,
         )
 
@@ -301,7 +310,7 @@ def _merged(record: Any, values: dict[str, Any], where: str) -> Any:
             changes[name] = _merged(current, value, label)
         elif isinstance(value, dict):
             changes[name] = _record(value, current, label)
-        elif value in ("none", "None") and name in ("refinement", "search", "threads"):
+        elif value in ("none", "None") and name in ("refinement", "search", "threads", "fit_samples"):
             changes[name] = None
         else:
             changes[name] = value

@@ -44,6 +44,14 @@ class Term(Protocol):
         """``c``, with which the value is half the squared residual and never negative."""
         ...
 
+    def sides(self) -> tuple[Array, Array]:
+        """``S_t`` (k_t, k_t) and ``S_s`` (k_s, k_s) of the part ``S_t C + C S_s`` of ``A``; zeros for none."""
+        ...
+
+    def rotated_diagonal(self, U_t: Array, U_s: Array) -> Array:
+        """The exact diagonal of ``C ↦ U_tᵀ A(U_t C U_sᵀ) U_s`` for orthogonal ``U_t``, ``U_s``."""
+        ...
+
 
 def value(term: Term, C: Array) -> float:
     """Half the squared residual of ``term`` at ``C``."""
@@ -70,6 +78,13 @@ class Preservation:
 
     def constant(self) -> float:
         return self.total
+
+    def sides(self) -> tuple[Array, Array]:
+        return _zeros(self.cross.shape[0], self.gram_s), self.gram_s
+
+    def rotated_diagonal(self, U_t: Array, U_s: Array) -> Array:
+        xp = namespace(self.cross)
+        return xp.broadcast_to(_rotated(self.gram_s, U_s)[None, :], (U_t.shape[1], U_s.shape[1]))
 
 
 def descriptor_term(source: Basis, features_s: Array, target: Basis, features_t: Array) -> Preservation:
@@ -144,6 +159,17 @@ class SliceCommutativity:
     def constant(self) -> float:
         return 0.0
 
+    def sides(self) -> tuple[Array, Array]:
+        return self.gram_t, self.gram_s
+
+    def rotated_diagonal(self, U_t: Array, U_s: Array) -> Array:
+        xp = namespace(self.gram_t)
+        k_t, k_s = self.gram_t.shape[0], self.gram_s.shape[0]
+        of_s = xp.sum(xp.reshape(self.right @ U_s, (self.count, k_s, k_s)) * U_s[None, :, :], axis=1)
+        of_t = xp.sum(xp.reshape(self.left @ U_t, (k_t, self.count, k_t)) * U_t[:, None, :], axis=0)
+        own = _rotated(self.gram_t, U_t)[:, None] + _rotated(self.gram_s, U_s)[None, :]
+        return own - (2 * self.parity) * (of_t.T @ of_s)
+
 
 def slice_term(slices_s: Array, slices_t: Array, parity: int = 1) -> SliceCommutativity:
     """Commutativity with the operators ``slices_s (r, k_s, k_s)`` and ``slices_t (r, k_t, k_t)``.
@@ -198,15 +224,25 @@ class HadamardCommutativity:
 
     def diagonal(self) -> Array:
         xp = namespace(self.gram_t)
-        squares_s, squares_t = self.weighted_s * self.functions_s, self.weighted_t * self.functions_t
-        cross = self.rhs()
-        for rows in blocks(squares_t.shape[0], self.block):
-            cross = cross + squares_t[rows, :].T @ (self._cross(rows) @ squares_s)
         own = xp.linalg.diagonal(self.gram_t)[:, None] + xp.linalg.diagonal(self.gram_s)[None, :]
-        return own - 2 * cross
+        return own - 2 * self._coupling(self.weighted_t * self.functions_t, self.weighted_s * self.functions_s)
 
     def constant(self) -> float:
         return 0.0
+
+    def sides(self) -> tuple[Array, Array]:
+        return self.gram_t, self.gram_s
+
+    def rotated_diagonal(self, U_t: Array, U_s: Array) -> Array:
+        own = _rotated(self.gram_t, U_t)[:, None] + _rotated(self.gram_s, U_s)[None, :]
+        squares_t = (self.weighted_t @ U_t) * (self.functions_t @ U_t)
+        return own - 2 * self._coupling(squares_t, (self.weighted_s @ U_s) * (self.functions_s @ U_s))
+
+    def _coupling(self, squares_t: Array, squares_s: Array) -> Array:
+        cross = self.rhs()
+        for rows in blocks(squares_t.shape[0], self.block):
+            cross = cross + squares_t[rows, :].T @ (self._cross(rows) @ squares_s)
+        return cross
 
     def _cross(self, rows: slice) -> Array:
         return gram(self.kernel, self.descriptors_t[rows, :], self.descriptors_s)
@@ -269,6 +305,13 @@ class Elementwise:
     def constant(self) -> float:
         return 0.0
 
+    def sides(self) -> tuple[Array, Array]:
+        k_t, k_s = self.weights.shape
+        return _zeros(k_t, self.weights), _zeros(k_s, self.weights)
+
+    def rotated_diagonal(self, U_t: Array, U_s: Array) -> Array:
+        return (U_t * U_t).T @ self.weights @ (U_s * U_s)
+
 
 def laplacian_term(source: Basis, target: Basis, scale: float | None = None) -> Elementwise:
     """Commutativity with the Laplacian: weights ``((λ_s,b − λ_t,a) / scale)²``.
@@ -326,9 +369,25 @@ class Energy:
     def constant(self) -> float:
         return sum(weight * term.constant() for weight, term in self._active())
 
+    def sides(self) -> tuple[Array, Array]:
+        sides = [(weight, term.sides()) for weight, term in self._active()]
+        return _total(weight * S[0] for weight, S in sides), _total(weight * S[1] for weight, S in sides)
+
+    def rotated_diagonal(self, U_t: Array, U_s: Array) -> Array:
+        return _total(weight * term.rotated_diagonal(U_t, U_s) for weight, term in self._active())
+
     def breakdown(self, C: Array) -> dict[str, float]:
         """Weighted value of each term at ``C``; they add up to ``value(self, C)``."""
         return {name: weight * value(self.terms[name], C) if weight else 0.0 for name, weight in self.weights.items()}
+
+
+def _zeros(k: int, like: Array) -> Array:
+    return namespace(like).zeros((k, k), dtype=like.dtype, device=like.device)
+
+
+def _rotated(gram: Array, U: Array) -> Array:
+    """The diagonal of ``Uᵀ gram U``."""
+    return namespace(gram).sum(U * (gram @ U), axis=0)
 
 
 def _total(arrays: Iterable[Array]) -> Array:

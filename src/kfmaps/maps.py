@@ -1,42 +1,14 @@
-"""From a functional map to a point map and back, and the nearest neighbours that both rest on."""
+"""From a functional map to a point map and back."""
 
 from __future__ import annotations
 
 import numpy as np
-from scipy.spatial import KDTree
 
-from kfmaps._arrays import Array, blocks, check, is_numpy, namespace, refuse, take, to_numpy
-from kfmaps._threads import available_cores, parallel
+from kfmaps._arrays import Array, refuse, take
+from kfmaps.neighbours import nearest
 from kfmaps.spectrum import Basis
 
-TREE_DIMENSION = 32
-"""Up to here a k-d tree beats the matrix product on large sets; beyond, space is too empty for it."""
-
-
-def nearest(queries: Array, points: Array, block: int = 1024, threads: int | None = None) -> np.ndarray:
-    """For each row of ``queries (q, d)`` the index of the closest row of ``points (p, d)``: ``(q,)`` int64.
-
-    Exact in the arrays' precision; of equally close points the first. Blocks of matrix products over Python
-    threads on NumPy, one block after another elsewhere; a k-d tree on large sets in few dimensions.
-    """
-    check(points, "points", shape=(None, None), finite=True)
-    check(queries, "queries", shape=(None, points.shape[1]), finite=True, remedy="give both the same dimension")
-    if points.shape[0] == 0:
-        raise refuse("points", "at least one", "none", "give some")
-    if is_numpy(queries) and points.shape[1] <= TREE_DIMENSION and len(points) > 20_000:
-        return np.asarray(KDTree(points).query(queries, workers=threads or available_cores())[1], dtype=np.int64)
-    xp = namespace(queries, points)
-    centre = xp.mean(points, axis=0, keepdims=True)
-    points, queries = points - centre, queries - centre
-    half = 0.5 * xp.sum(points * points, axis=1)[None, :]
-    transposed = points.T
-
-    def best(rows: slice) -> np.ndarray:
-        return to_numpy(xp.argmin(half - queries[rows, :] @ transposed, axis=1))
-
-    parts = blocks(queries.shape[0], block)
-    found = parallel(best, parts, threads) if is_numpy(queries) else [best(rows) for rows in parts]
-    return np.concatenate(found).astype(np.int64) if found else np.zeros(0, dtype=np.int64)
+__all__ = ["check_point_map", "nearest", "to_functional", "to_points"]
 
 
 def to_points(C: Array, source: Basis, target: Basis, threads: int | None = None) -> np.ndarray:
@@ -44,6 +16,7 @@ def to_points(C: Array, source: Basis, target: Basis, threads: int | None = None
 
     Rows of ``Φ_s Cᵀ`` are the images of the source's delta functions, rows of ``Φ_t`` the target's deltas; each of
     the latter takes the closest of the former (Ovsjanikov et al. 2012). Bases larger than ``C`` are truncated.
+    From about 10,000 points on each side the search is by cells, see :func:`kfmaps.neighbours.nearest`.
     """
     k_t, k_s = C.shape
     source, target = source.truncated(k_s), target.truncated(k_t)

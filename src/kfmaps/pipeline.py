@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from kfmaps._arrays import Array, inner, refuse, to_numpy
+from kfmaps._arrays import check, inner, like, refuse, to_numpy
 from kfmaps._threads import one_blas_thread
 from kfmaps.config import Config
 from kfmaps.descriptors import check_landmarks
@@ -27,11 +27,14 @@ from kfmaps.features import Descriptors, Features, kernel_features, pair_descrip
 from kfmaps.kernels import KernelLike, describe
 from kfmaps.maps import to_points
 from kfmaps.orientation import orientation_slices
-from kfmaps.shape import Progress, Shape
-from kfmaps.slices import compressed, packed_slices, unpacked_slices
-from kfmaps.solvers import CG, Operator, Solution, solve
+from kfmaps.preconditioners import jacobi, sylvester
+from kfmaps.shape import Progress, Reduced, Shape, reduced
+from kfmaps.slices import compressed, condensed, packed_slices, unpacked_slices
+from kfmaps.solvers import CG, Solution, solve
 from kfmaps.spectrum import Basis
 
+CONDENSATION = 0.1
+"""Part of ``compression`` that is spent on the features, before slices are formed of them."""
 ORIENTATION_FEATURES = 40
 """Features whose orientation operators are formed: the strongest of the joint singular value decomposition."""
 
@@ -133,10 +136,12 @@ def problem(
     descriptors: Descriptors,
     config: Config,
     rng: np.random.Generator,
+    whole: tuple[Shape, Shape] | None = None,
 ) -> Problem:
     """The energy that ``config`` describes, ready to be minimised.
 
-    ``bases`` are of at least the map's size and on the device of ``descriptors``.
+    ``bases`` are of at least the map's size and on the device of ``descriptors``. Where ``source`` and ``target`` are
+    samples of shapes (:func:`kfmaps.shape.reduced`), ``whole`` are those shapes: orientation needs their faces.
     """
     small = (bases[0].truncated(config.basis.functions), bases[1].truncated(config.basis.functions))
     weights = config.weights
@@ -157,37 +162,49 @@ def problem(
         if weights.descriptors:
             terms["descriptors"] = descriptor_term(small[0], features.source, small[1], features.target)
         if weights.commutativity:
-            packed = [
-                packed_slices(b, F, threads=config.threads)
-                for b, F in zip(small, (features.source, features.target), strict=True)
-            ]
-            packed_s, packed_t = packed
+            formed = (features.source, features.target)
+            if config.compression:
+                share = CONDENSATION * config.compression
+                formed = condensed(small[0], formed[0], small[1], formed[1], share)
+            packed_s, packed_t = (
+                packed_slices(b, F, threads=config.threads) for b, F in zip(small, formed, strict=True)
+            )
             if config.compression:
                 packed_s, packed_t = compressed(packed_s, packed_t, config.compression)
             slices = int(packed_s.shape[0])
             size = inner(packed_s, packed_s) + inner(packed_t, packed_t)
             terms["commutativity"] = slice_term(unpacked_slices(packed_s), unpacked_slices(packed_t))
         if weights.orientation:
-            terms["orientation"] = orientation_term(
-                source, target, small, features, size or 2.0 * small[0].functions.shape[1]
-            )
+            strongest = principal(small, features, ORIENTATION_FEATURES)
+            size = size or 2.0 * small[0].functions.shape[1]
+            shapes = (source, target)
+            k = config.basis.functions
+            terms["orientation"] = orientation_term(shapes, whole or shapes, bases, strongest, k, size)
     return Problem(Energy(terms, {name: getattr(weights, name) for name in terms}), rank, slices, kernel)
 
 
-def orientation_term(source: Shape, target: Shape, bases: tuple[Basis, Basis], features: Features, size: float) -> Term:
-    """Commutativity with ``Ω_w[g] = n · (∇w × ∇g)`` for the strongest features (Ren et al. 2018).
+def orientation_term(
+    shapes: tuple[Shape, Shape],
+    whole: tuple[Shape, Shape],
+    bases: tuple[Basis, Basis],
+    features: Features,
+    k: int,
+    size: float,
+) -> Term:
+    """Commutativity with ``Ω_w[g] = n · (∇w × ∇g)`` for each of ``features``, ``k`` × ``k`` (Ren et al. 2018).
 
     The operators change sign under a mirror, so the term prefers maps that keep orientation. Their summed squared
     norm is scaled to ``size``, that of the multiplication operators, so that the weights of both terms compare.
+    Features on samples are continued to the ``whole`` shapes by what of them lies in the basis.
     """
-    strongest = principal(bases, features, ORIENTATION_FEATURES)
-    slices_s, slices_t = (
-        orientation_slices(shape.mesh, basis, F)
-        for shape, basis, F in zip((source, target), bases, (strongest.source, strongest.target), strict=True)
-    )
-    total = inner(slices_s, slices_s) + inner(slices_t, slices_t)
+    slices = []
+    for shape, all_of_it, basis, F in zip(shapes, whole, bases, (features.source, features.target), strict=True):
+        if all_of_it is not shape:
+            F, basis = all_of_it.basis.lift(to_numpy(basis.project(F))), all_of_it.basis
+        slices.append(like(orientation_slices(all_of_it.mesh, basis.truncated(k), F), features.source))
+    total = sum(inner(X, X) for X in slices)
     scale = (size / total) ** 0.5 if total else 0.0
-    return slice_term(slices_s * scale, slices_t * scale, parity=-1)
+    return slice_term(slices[0] * scale, slices[1] * scale, parity=-1)
 
 
 def principal(bases: tuple[Basis, Basis], features: Features, count: int) -> Features:
@@ -198,7 +215,8 @@ def principal(bases: tuple[Basis, Basis], features: Features, count: int) -> Fea
     F = [f - mean for f in F]
     gram = sum((f * m[:, None]).T @ f for m, f in zip(mass, F, strict=True))
     rotation = np.linalg.eigh(gram)[1][:, ::-1][:, :count]
-    return Features(F[0] @ rotation, F[1] @ rotation, features.kernel)
+    strongest = [like(f @ rotation, features.source) for f in F]
+    return Features(strongest[0], strongest[1], features.kernel)
 
 
 def fit(
@@ -246,24 +264,33 @@ def fit(
         bases = (bases[0].to(config.device), bases[1].to(config.device))
     with one_blas_thread():
         with stage("descriptors"):
-            used = pair_descriptors(source, target, bases, config.descriptors, pairs, descriptors)
+            parts = [reduced(s, config.fit_samples, pairs[:, i]) for i, s in enumerate((source, target))]
+            points = [
+                b if part.shape is s else part.shape.basis.to(config.device)
+                for b, part, s in zip(bases, parts, (source, target), strict=True)
+            ]
+            small, on = (parts[0].shape, parts[1].shape), (points[0], points[1])
+            marks = np.stack([part.landmarks for part in parts], axis=1)
+            if descriptors is not None:
+                descriptors = _on_samples(descriptors, parts, (source, target))
+            used = pair_descriptors(*small, on, config.descriptors, marks, descriptors)
         with stage("energy"):
-            task = problem(source, target, bases, used, config, rng)
+            task = problem(*small, on, used, config, rng, (source, target))
         with stage("solve"):
             solution = _minimised(task.energy, config, report)
             C = solution.value
         with stage("point map"):
             raw = to_points(C, *bases, threads=config.threads)
-        points, refined_map = raw, C
+        answer, refined_map = raw, C
         if config.refinement is not None:
             with stage("refinement"):
                 refined = config.refinement(
                     C, *bases, progress=lambda done: report("refinement", done), threads=config.threads
                 )
-            points, refined_map = refined.target_to_source, refined.functional_map
+            answer, refined_map = refined.target_to_source, refined.functional_map
     k_t, k_s = refined_map.shape
     return Match(
-        target_to_source=points,
+        target_to_source=answer,
         functional_map=to_numpy(refined_map),
         raw_target_to_source=raw,
         raw_functional_map=to_numpy(C),
@@ -280,10 +307,23 @@ def fit(
     )
 
 
+def _on_samples(given: tuple[Any, Any], parts: list[Reduced], shapes: tuple[Shape, Shape]) -> tuple[Any, Any]:
+    """The rows of descriptors of the user's own that belong to the samples."""
+    rows = []
+    for values, part, shape in zip(given, parts, shapes, strict=True):
+        values = to_numpy(values) if hasattr(values, "shape") else np.asarray(values)
+        n = len(shape.mesh.vertices)
+        check(values, f"descriptors of {shape.name}", shape=(n, None), remedy="give one row per vertex")
+        rows.append(values[part.vertices])
+    return rows[0], rows[1]
+
+
 def _minimised(energy: Energy, config: Config, report: Progress) -> Solution:
     precondition = None
     if config.preconditioner == "jacobi":
         precondition = jacobi(energy.diagonal())
+    elif config.preconditioner == "sylvester":
+        precondition = sylvester(energy)
     limit = config.solver.max_steps if isinstance(config.solver, CG) else None
 
     def told(step: int, relative: float) -> None:
@@ -293,10 +333,3 @@ def _minimised(energy: Energy, config: Config, report: Progress) -> Solution:
             report("solve", float(np.clip(max(step / limit, by_size), 0.0, 1.0)))
 
     return solve(energy.apply, energy.rhs(), config.solver, preconditioner=precondition, progress=told)
-
-
-def jacobi(diagonal: Array) -> Operator:
-    """Division by the diagonal; entries that the energy does not see are left as they are."""
-    floor = 1e-12 * float(diagonal.max())
-    safe = diagonal * (diagonal > floor) + (diagonal <= floor)
-    return lambda r: r / safe

@@ -7,10 +7,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from kfmaps._arrays import Array, check_count, like, namespace, refuse, take, to_numpy
-from kfmaps.maps import nearest, to_functional, to_points
-from kfmaps.sampling import farthest
+from kfmaps._arrays import Array, check_count, namespace, refuse, take
+from kfmaps.maps import to_functional, to_points
+from kfmaps.samples import SampledBasis, Samples, spectral_samples, stratified_samples
 from kfmaps.spectrum import Basis
+
+__all__ = ["ICP", "Refined", "Refinement", "SampledBasis", "Samples", "ZoomOut", "fitted", "spectral_samples"]
+
+CANDIDATES = 20_000
+"""Points of the source that ZoomOut's steps on samples choose from, spread evenly; the last step has them all."""
 
 Progress = Callable[[float], None]
 
@@ -86,8 +91,9 @@ class ZoomOut:
         Growth per step.
     samples : int or None
         Points of the target that the steps before the last work on: the functional map is then fitted to them by
-        damped least squares, each weighted by the area that is closest to it. ``None`` takes all points. The last
-        step always does.
+        damped least squares, each weighted by the area that is closest to it, and of a source with more than
+        :data:`CANDIDATES` points that many are there to be chosen. ``None`` takes all points. The last step always
+        does.
     seed : int
         For the choice of samples.
     """
@@ -115,12 +121,14 @@ class ZoomOut:
         first = min(self.start, *C.shape)
         C = C[:first, :first]
         sizes = [*range(first, self.stop, self.step), self.stop]
-        coarse = target
+        coarse, choice = target, source
         if self.samples is not None and self.samples < target.functions.shape[0]:
             coarse = spectral_samples(target, self.samples, self.seed).basis
+            if source.functions.shape[0] > CANDIDATES:
+                choice = stratified_samples(source, CANDIDATES, self.seed).basis
         for i, larger in enumerate(sizes[1:]):
-            points = to_points(C, source, coarse, threads)
-            C = fitted(points, source, coarse, larger)
+            points = to_points(C, choice, coarse, threads)
+            C = fitted(points, choice, coarse, larger)
             if progress is not None:
                 progress((i + 1) / len(sizes))
         points = to_points(C, source, target, threads)
@@ -149,44 +157,6 @@ def fitted(points: np.ndarray, source: Basis, target: Basis, k: int, ridge: floa
     identity = xp.eye(k, dtype=phi.dtype, device=phi.device)
     pulled = take(source.functions[:, :k], points)
     return (1 + ridge) * xp.linalg.solve(weighted @ phi + ridge * identity, weighted @ pulled)
-
-
-@dataclass(frozen=True, eq=False)
-class SampledBasis(Basis):
-    """A basis on some points of a shape, on which its functions are not quite orthonormal.
-
-    ``mass`` is the area that is closest to each point.
-    """
-
-    def truncated(self, k: int) -> Basis:
-        return SampledBasis(self.eigenvalues[:k], self.functions[:, :k], self.mass)
-
-
-@dataclass(frozen=True, eq=False)
-class Samples:
-    """Some vertices of a shape, ``(q,)``, and its basis on them."""
-
-    vertices: np.ndarray
-    basis: SampledBasis
-
-
-def spectral_samples(basis: Basis, count: int, rng: int | np.random.Generator = 0) -> Samples:
-    """Farthest points of a shape in its biharmonic embedding (Lipman et al. 2010), with the area closest to each.
-
-    Needs no mesh, and spreads evenly over the surface whatever its triangulation. At most the vertices there
-    are; vertices that no face uses are passed over.
-    """
-    mass = to_numpy(basis.mass)
-    candidates = np.flatnonzero(mass > 0)
-    k = min(basis.functions.shape[1], 40)
-    values = to_numpy(basis.eigenvalues)[:k]
-    positive = values > 1e-6 * values[-1]
-    embedding = to_numpy(basis.functions)[:, :k][candidates][:, positive] / values[positive]
-    chosen = farthest(embedding, min(count, len(candidates)), rng)
-    closest = nearest(embedding, embedding[chosen])
-    areas = np.bincount(closest, mass[candidates], minlength=len(chosen))
-    vertices = candidates[chosen]
-    return Samples(vertices, SampledBasis(basis.eigenvalues, take(basis.functions, vertices), like(areas, basis.mass)))
 
 
 Refinement = ICP | ZoomOut

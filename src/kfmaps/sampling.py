@@ -20,19 +20,28 @@ def uniform(n: int, count: int, rng: Rng = 0) -> np.ndarray:
     return np.random.default_rng(rng).choice(n, size=count, replace=False)
 
 
-def farthest(X: Array, count: int, rng: Rng = 0) -> np.ndarray:
+POOL = 50_000
+"""Rows that farthest points are chosen from, at most: a random choice of them where there are more."""
+
+
+def farthest(X: Array, count: int, rng: Rng = 0, pool: int | None = POOL) -> np.ndarray:
     """Farthest points in descriptor space (Gonzalez 1985; descriptor FPS of the paper, section 7.1).
 
     Starts at a random row of ``X (n, d)``, then takes the row farthest from all taken; stops early when
-    every row equals a taken one.
+    every row equals a taken one. Of more than ``pool`` rows (but at least ``4 count``) that many are drawn
+    first, so that the cost does not grow with n; ``None`` never does so.
     """
     X = to_numpy(X)
     check_count(count, "sample count", high=len(X))
+    draw = np.random.default_rng(rng)
+    if pool is not None and len(X) > max(pool, 4 * count):
+        drawn = draw.choice(len(X), size=max(pool, 4 * count), replace=False)
+        return drawn[farthest(X[drawn], count, draw, None)]
     X = X - X.mean(axis=0)
     squares = np.einsum("ij,ij->i", X, X)
     taken = np.empty(count, dtype=np.int64)
     nearest = np.full(len(X), np.inf)
-    following = int(np.random.default_rng(rng).integers(len(X)))
+    following = int(draw.integers(len(X)))
     for i in range(count):
         taken[i] = following
         np.minimum(nearest, squares - 2 * (X @ X[following]) + squares[following], out=nearest)

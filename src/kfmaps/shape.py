@@ -11,6 +11,7 @@ import numpy as np
 from kfmaps._arrays import refuse
 from kfmaps.config import Config
 from kfmaps.mesh import Mesh, check_mesh, unit_area
+from kfmaps.samples import stratified_samples
 from kfmaps.shot import shot
 from kfmaps.spectrum import Basis, laplace_basis
 
@@ -40,6 +41,41 @@ class Shape:
     shot: np.ndarray | None
     name: str
     seconds: dict[str, float]
+
+
+@dataclass(frozen=True, eq=False)
+class Reduced:
+    """Some points of a shape that stand for all; made by :func:`reduced`.
+
+    Attributes
+    ----------
+    shape : Shape
+        A point cloud with the areas and functions of the surface that it was taken from.
+    vertices : (q,) int64
+        Which they are.
+    landmarks : (l,) int64
+        Where the landmarks are among them.
+    """
+
+    shape: Shape
+    vertices: np.ndarray
+    landmarks: np.ndarray
+
+
+def reduced(shape: Shape, count: int | None, landmarks: np.ndarray, rng: int | np.random.Generator = 0) -> Reduced:
+    """``shape`` on about ``count`` stratified points and the ``landmarks (l,)``; itself when it has no more.
+
+    ``None`` takes all points.
+    """
+    n = len(shape.mesh.vertices)
+    if count is None or n <= count:
+        return Reduced(shape, np.arange(n), landmarks)
+    samples = stratified_samples(shape.basis, count, rng, landmarks)
+    rows = samples.vertices
+    cloud = Mesh(shape.mesh.vertices[rows], np.zeros((0, 3), dtype=np.int64))
+    local = None if shape.shot is None else shape.shot[rows]
+    part = Shape(cloud, samples.basis, local, shape.name, shape.seconds)
+    return Reduced(part, rows, np.searchsorted(rows, landmarks))
 
 
 def prepare(

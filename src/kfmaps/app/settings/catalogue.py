@@ -142,7 +142,8 @@ CATALOGUE: dict[str, tuple[Setting, ...]] = {
         Setting("solver.rtol", float, "relative residual at which CG stops", "at least 0", "--rtol", ("CG",)),
         Setting("solver.max_steps", int, "steps after which CG stops", "at least 1, or none", "--max-steps", ("CG",)),
         Setting("solver.limit", int, "most unknowns that the dense solver takes", "at least 1", kinds=("Direct",)),
-        Setting("preconditioner", str, "preconditioner of CG", "jacobi, none", "--preconditioner"),
+        Setting("preconditioner", str, "preconditioner of CG", "sylvester, jacobi, none", "--preconditioner"),
+        Setting("fit_samples", int, "points of each shape that the fit is made from", "at least 2, or none: all"),
     ),
     "Refinement": (
         Setting("refinement.kind", str, "what improves the map after the fit", "zoomout, icp, none", "--refine"),
@@ -174,7 +175,7 @@ CATALOGUE: dict[str, tuple[Setting, ...]] = {
         Setting("search.runners_up", int, "distinct other maps that are kept", "at least 0", kinds=("Search",)),
     ),
     "Machine": (
-        Setting("device", str, "cpu, or a PyTorch device", "cpu, cuda, cuda:1, ...", "--device"),
+        Setting("device", str, "cpu, or a PyTorch device", "cpu, cuda, cuda:1, ..., torch", "--device"),
         Setting("threads", int, "Python threads", "at least 1, or none: every core", "--threads"),
     ),
 }

@@ -23,7 +23,7 @@ def check_device(device: str) -> str:
         remedy = "install it with: pip install 'kfmaps[gpu]'"
         raise MissingDependency(f"--device {device}: wanted PyTorch, got none; {remedy}") from error
     try:
-        torch.empty(1, dtype=torch.float64, device=device)
+        torch.empty(1, dtype=torch.float64, device="cpu" if device == "torch" else device)
     except Exception as error:  # PyTorch reports what is not there by whatever it runs into
         got = str(error).partition("\n")[0][:120] or type(error).__name__
         raise refuse(f"--device {device}", "a device that PyTorch can use", got, "use cpu") from error

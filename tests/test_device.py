@@ -1,0 +1,77 @@
+"""Everything from the basis on through PyTorch, here on the CPU: the same answers as NumPy."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from conftest import blob
+from kfmaps.config import BasisConfig, Config, DescriptorConfig, NystromConfig, Weights
+from kfmaps.kernels import Laplacian, Linear
+from kfmaps.matching import match
+from kfmaps.mesh import unit_area
+from kfmaps.refine import ICP, ZoomOut
+from kfmaps.shape import prepare
+from kfmaps.solvers import CG
+
+torch = pytest.importorskip("torch")
+
+CONFIG = Config(
+    basis=BasisConfig(functions=30),
+    descriptors=DescriptorConfig(count=40, eigenfunctions=60),
+    nystrom=NystromConfig(samples=80, rtol=1e-8),
+    solver=CG(1e-10, 2000),
+    refinement=ZoomOut(20, 60, 10, samples=200),
+)
+
+VARIANTS = {
+    "default": CONFIG,
+    "all points": replace(CONFIG, refinement=ZoomOut(20, 60, 10)),
+    "on samples": replace(CONFIG, fit_samples=500),
+    "jacobi, orthogonal": replace(CONFIG, preconditioner="jacobi", refinement=ICP(3)),
+    "no17": replace(CONFIG, kernel=Linear()),
+    "orientation": replace(CONFIG, weights=Weights(orientation=0.3)),
+    "orientation on samples": replace(CONFIG, weights=Weights(orientation=0.3), fit_samples=500),
+    "exact kernel": replace(CONFIG, exact=True, kernel=Laplacian(), preconditioner="sylvester"),
+    "shot, every-nth": replace(CONFIG, descriptors=replace(CONFIG.descriptors, shot=True, layout="every-nth")),
+}
+
+
+@pytest.fixture(scope="module")
+def pair():
+    config = VARIANTS["shot, every-nth"]
+    source, target = (prepare(unit_area(mesh), config) for mesh in (blob(900), blob(800, twist=0.4)))
+    return source, target
+
+
+@pytest.mark.parametrize("name", VARIANTS)
+def test_pytorch_agrees_with_numpy(name, pair):
+    config = VARIANTS[name]
+    landmarks = [[0, 0], [300, 270], [700, 620]]
+    ours, theirs = (
+        match(pair[0], pair[1], replace(config, device=device), landmarks=landmarks, rng=0)
+        for device in ("cpu", "torch")
+    )
+    scale = np.abs(ours.raw_functional_map).max()
+    np.testing.assert_allclose(theirs.raw_functional_map, ours.raw_functional_map, atol=1e-8 * scale, rtol=0)
+    np.testing.assert_allclose(theirs.functional_map, ours.functional_map, atol=1e-8, rtol=0)
+    np.testing.assert_array_equal(theirs.target_to_source, ours.target_to_source)
+    for term, energy in ours.energies.items():
+        assert theirs.energies[term] == pytest.approx(energy, rel=1e-6), term
+    assert isinstance(theirs.functional_map, np.ndarray)
+
+
+def test_the_work_is_done_on_the_device(pair, monkeypatch):
+    """The solver, the largest part, sees tensors."""
+    seen = []
+    from kfmaps import pipeline
+
+    original = pipeline.solve
+
+    def spy(apply, b, *args, **kwargs):
+        seen.append(type(b))
+        return original(apply, b, *args, **kwargs)
+
+    monkeypatch.setattr(pipeline, "solve", spy)
+    match(pair[0], pair[1], replace(CONFIG, device="torch", refinement=None), landmarks=[[0, 0]])
+    assert seen == [torch.Tensor]

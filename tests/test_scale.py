@@ -1,0 +1,183 @@
+"""What large shapes are spared: searches by cells, samples that stand for all points, fits on samples."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from conftest import blob, random_basis
+from kfmaps._arrays import InvalidInput, inner
+from kfmaps.config import BasisConfig, Config, DescriptorConfig, NystromConfig, Weights
+from kfmaps.geodesics import distance_pairs
+from kfmaps.maps import to_functional, to_points
+from kfmaps.mesh import Mesh, unit_area
+from kfmaps.neighbours import nearest, nearest_by_cells
+from kfmaps.pipeline import fit
+from kfmaps.refine import ZoomOut
+from kfmaps.samples import spectral_samples, stratified_samples
+from kfmaps.sampling import farthest
+from kfmaps.shape import prepare, reduced
+from kfmaps.slices import condensed, packed_slices
+from kfmaps.spectrum import laplace_basis
+
+CONFIG = Config(
+    basis=BasisConfig(functions=30),
+    descriptors=DescriptorConfig(count=40, eigenfunctions=60),
+    nystrom=NystromConfig(samples=80),
+    refinement=None,
+    threads=1,
+)
+
+
+@pytest.fixture(scope="module")
+def pair():
+    """Two meshings of one shape, with the truth between them."""
+    meshes = unit_area(blob(3000)), unit_area(blob(2800, twist=0.3))
+    truth = nearest(meshes[1].vertices, meshes[0].vertices)
+    return *(prepare(mesh, CONFIG) for mesh in meshes), truth
+
+
+def brute(queries, points):
+    return np.array([np.argmin(((points - q) ** 2).sum(axis=1)) for q in queries])
+
+
+def test_search_of_all_cells_is_exact(rng):
+    points, queries = rng.normal(size=(300, 40)) + 5, rng.normal(size=(70, 40)) + 5
+    for cells in (1, 7, 300):
+        found = nearest_by_cells(queries, points, cells=cells, probes=cells, threads=2)
+        np.testing.assert_array_equal(found, brute(queries, points))
+
+
+def test_search_by_cells_misses_few_and_none_by_much(pair):
+    source, target, truth = pair
+    C = to_functional(truth, source.basis, target.basis)
+    queries, points = target.basis.functions, source.basis.functions @ C.T
+    exact = nearest(queries, points, exact=True)
+    found = nearest(queries, points, exact=False)
+    assert 0 < len(np.unique(found)) <= len(points)
+    assert np.mean(found != exact) < 0.01
+    errors = [distance_pairs(source.mesh, f, truth).mean() for f in (exact, found)]
+    assert errors[1] < 1.02 * errors[0]
+    few = nearest_by_cells(queries, points, probes=1)
+    assert np.mean(few != exact) > np.mean(found != exact)  # more probes find more
+
+
+def test_search_by_cells_takes_empty_and_tiny_sets(rng):
+    points = rng.normal(size=(1, 40))
+    assert nearest_by_cells(points, points).tolist() == [0]
+    assert nearest_by_cells(np.zeros((0, 40)), points).shape == (0,)
+    with pytest.raises(InvalidInput, match="cells"):
+        nearest_by_cells(points, points, cells=2)
+
+
+@pytest.mark.parametrize("choose", [spectral_samples, stratified_samples])
+def test_samples_are_a_quadrature(choose, pair):
+    basis = pair[0].basis.truncated(15)
+    samples = choose(basis, 400, 0)
+    b = samples.basis
+    np.testing.assert_array_equal(b.functions, basis.functions[samples.vertices])
+    assert b.mass.sum() == pytest.approx(1.0)
+    assert np.linalg.norm(b.functions.T @ (b.mass[:, None] * b.functions) - np.eye(15), 2) < 0.1
+    again = choose(basis, 400, 0)
+    np.testing.assert_array_equal(again.vertices, samples.vertices)
+
+
+def test_stratified_samples_follow_area_not_vertices(pair):
+    """Where vertices crowd, there are no more samples: areas differ little."""
+    mesh = blob(3000)
+    z = mesh.vertices[:, 2]
+    crowded = Mesh(mesh.vertices * np.where(z > 0, 1.0, 0.35)[:, None], mesh.faces)
+    basis = laplace_basis(unit_area(crowded), 20)
+    samples = stratified_samples(basis, 300)
+    share = basis.mass[z > 0].sum()
+    assert np.mean(z[samples.vertices] > 0) == pytest.approx(share, abs=0.03)
+    assert abs(np.mean(z > 0) - share) > 0.2
+    assert len(stratified_samples(pair[0].basis, 5, 0, np.array([7, 2999])).vertices) <= 7
+    assert {7, 2999} <= set(stratified_samples(pair[0].basis, 5, 0, np.array([7, 2999])).vertices.tolist())
+
+
+def test_kept_vertices_without_area_have_none():
+    mesh = blob(300)
+    loose = Mesh(np.vstack([mesh.vertices, [[9.0, 9.0, 9.0]]]), mesh.faces)
+    samples = stratified_samples(laplace_basis(loose, 10), 50, 0, np.array([300]))
+    assert samples.vertices[-1] == 300
+    assert samples.basis.mass[-1] == 0
+    assert 300 not in stratified_samples(laplace_basis(loose, 10), 50).vertices
+
+
+def test_farthest_points_of_a_pool_are_rows_of_all(rng):
+    X = rng.normal(size=(500, 3))
+    rows = farthest(X, 10, 0, pool=50)
+    assert len(set(rows.tolist())) == 10
+    assert not set(rows.tolist()) <= set(range(50))
+    np.testing.assert_array_equal(farthest(X, 10, 0, pool=500), farthest(X, 10, 0, None))
+
+
+def test_reduced_shapes_keep_landmarks_and_small_shapes(pair):
+    source = pair[0]
+    marks = np.array([2500, 3, 77])
+    part = reduced(source, 500, marks)
+    np.testing.assert_array_equal(part.vertices[part.landmarks], marks)
+    np.testing.assert_array_equal(part.shape.mesh.vertices, source.mesh.vertices[part.vertices])
+    assert reduced(source, 3000, marks).shape is source
+    assert reduced(source, None, marks).shape is source
+
+
+@pytest.mark.parametrize("orientation", [0.0, 0.5])
+def test_a_fit_on_samples_is_as_good(pair, orientation):
+    source, target, truth = pair
+    landmarks = np.stack([truth[[10, 700, 1500, 2100]], [10, 700, 1500, 2100]], axis=1)
+    config = replace(CONFIG, weights=Weights(orientation=orientation))
+    own = [np.sin(5 * s.mesh.vertices) for s in (source, target)]
+    full, part = (
+        fit(source, target, replace(config, fit_samples=count), landmarks=landmarks, descriptors=(own[0], own[1]))
+        for count in (None, 1000)
+    )
+    errors = [distance_pairs(source.mesh, m.target_to_source, truth).mean() for m in (full, part)]
+    assert errors[1] < 1.15 * errors[0] + 1e-3
+    assert np.linalg.norm(full.raw_functional_map - part.raw_functional_map) > 0
+    assert part.target_to_source.shape == (2800,)
+    with pytest.raises(InvalidInput, match="descriptors of"):
+        fit(source, target, replace(config, fit_samples=1000), descriptors=(own[0][:9], own[1]))
+
+
+def test_zoomout_chooses_from_some_of_a_large_source(pair, monkeypatch):
+    source, target, truth = pair
+    start = to_functional(truth, source.basis.truncated(10), target.basis.truncated(10))
+    zoom = ZoomOut(10, 50, 10, samples=300)
+    every = zoom(start, source.basis, target.basis)
+    monkeypatch.setattr("kfmaps.refine.CANDIDATES", 1000)
+    some = zoom(start, source.basis, target.basis)
+    errors = [distance_pairs(source.mesh, m.target_to_source, truth).mean() for m in (every, some)]
+    assert (every.target_to_source != some.target_to_source).any()
+    assert errors[1] < 1.1 * errors[0] + 1e-3
+    last = to_points(some.functional_map, source.basis, target.basis)
+    np.testing.assert_array_equal(some.target_to_source, last)  # from all points
+
+
+def test_condensed_features_lose_no_more_than_they_say(rng):
+    source, target = random_basis(60, 8, rng), random_basis(50, 8, rng)
+    mix = rng.normal(size=(20, 20)) * 10.0 ** -np.linspace(0, 6, 20)[:, None]
+    W_s, W_t = rng.normal(size=(60, 20)) @ mix, rng.normal(size=(50, 20)) @ mix
+
+    def energy(F_s, F_t):
+        return sum(inner(p, p) for p in (packed_slices(source, F_s), packed_slices(target, F_t)))
+
+    def bound(F_s, F_t):
+        return sum(
+            (b.mass * (b.functions**2).sum(axis=1)) @ (F**2).sum(axis=1) for b, F in ((source, F_s), (target, F_t))
+        )
+
+    whole = energy(W_s, W_t)
+    assert whole <= bound(W_s, W_t)
+    counts = []
+    for rtol in (1e-8, 1e-4, 1e-2):
+        kept = condensed(source, W_s, target, W_t, rtol)
+        counts.append(kept[0].shape[1])
+        assert whole - energy(*kept) + 1e-12 * whole >= 0
+        assert whole - energy(*kept) <= rtol * bound(W_s, W_t) + 1e-12 * whole
+    assert 20 >= counts[0] > counts[1] > counts[2] >= 1
+    kept = condensed(source, W_s, target, W_t, 0.0)
+    assert energy(*kept) == pytest.approx(whole, rel=1e-12)
+    with pytest.raises(InvalidInput, match="rtol"):
+        condensed(source, W_s, target, W_t, 1.0)
