@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+import kfmaps
 from commandline import SMALL, Ran, run, shapes
 from kfmaps.app.files import load_map, write_mesh
 from kfmaps.config import as_dict, from_dict
@@ -214,3 +215,20 @@ def test_view_opens_the_page(made: types.SimpleNamespace, tmp_path: Path, monkey
     assert "<html" in opened[0]
     assert ran.stderr == f"no browser was found; open {(tmp_path / 'page.html').as_uri()}\n"
     assert ran.status == 0
+
+
+def test_a_match_from_python_can_be_saved(made: types.SimpleNamespace, tmp_path: Path) -> None:
+    """The record that ``kfmaps.match`` returns goes into a file as it is."""
+    config = kfmaps.Config(
+        basis=kfmaps.BasisConfig(20),
+        descriptors=kfmaps.DescriptorConfig(30, eigenfunctions=40),
+        refinement=kfmaps.ICP(2),
+    )
+    pairs = kfmaps.read_landmarks(made.landmarks)
+    found = kfmaps.match(kfmaps.read_mesh(made.source), kfmaps.read_mesh(made.target), config, landmarks=pairs)
+    kfmaps.save_map(tmp_path / "m.npz", found)
+    again = kfmaps.load_map(tmp_path / "m.npz")
+    np.testing.assert_array_equal(again.target_to_source, made.truth)
+    np.testing.assert_array_equal(again.functional_map, found.functional_map)
+    np.testing.assert_array_equal(again.extra["raw_target_to_source"], found.raw_target_to_source)
+    assert from_dict(json.loads(again.config)) == config

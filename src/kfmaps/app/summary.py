@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import re
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -14,7 +14,7 @@ from rich.text import Text
 
 import kfmaps
 from kfmaps.app.evaluation import Report
-from kfmaps.app.files import MapFile
+from kfmaps.app.files import MapFile, match_map
 from kfmaps.config import as_dict
 from kfmaps.mesh import Mesh
 from kfmaps.pipeline import Match
@@ -93,29 +93,16 @@ def summary(outcome: Outcome) -> dict[str, Any]:
 
 def map_file(outcome: Outcome) -> MapFile:
     """The map with all that is known of it, ready to be saved; paths are made absolute."""
-    match = outcome.match
+    found = match_map(outcome.match)
     extra: dict[str, Any] = {
         "source": str(outcome.paths[0].absolute()),
         "target": str(outcome.paths[1].absolute()),
         "n_s": np.int64(len(outcome.meshes[0].vertices)),
         "summary": json.dumps(summary(outcome)),
-        "raw_target_to_source": match.raw_target_to_source,
-        "raw_functional_map": match.raw_functional_map,
     }
     if len(outcome.landmarks):
         extra["landmarks"] = outcome.landmarks
-    if match.runners_up:
-        extra["runners_up"] = np.stack(match.runners_up)
-    if match.confidence is not None:
-        extra["confidence"] = np.float64(match.confidence)
-    return MapFile(
-        match.target_to_source,
-        match.functional_map,
-        match.eigenvalues_s,
-        match.eigenvalues_t,
-        json.dumps(as_dict(match.config)),
-        extra,
-    )
+    return replace(found, extra={**found.extra, **extra})
 
 
 def table(outcome: Outcome, written: Path | None = None) -> Table:

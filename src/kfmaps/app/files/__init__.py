@@ -8,7 +8,7 @@ from kfmaps.app.files.export import (
     write_colored,
     write_textured,
 )
-from kfmaps.app.files.mapfile import MapFile, check_map, load_map, save_map
+from kfmaps.app.files.mapfile import MapFile, check_map, load_map, match_map, save_map
 from kfmaps.app.files.meshes import read_mesh, read_mesh_file, write_mesh
 from kfmaps.app.files.numbers import (
     read_landmarks,
@@ -28,6 +28,7 @@ __all__ = [
     "check_output",
     "grid_picture",
     "load_map",
+    "match_map",
     "position_colors",
     "projected_uv",
     "read_landmarks",

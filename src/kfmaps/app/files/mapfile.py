@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import io
+import json
 import re
 import zipfile
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import IO, Any
+from typing import IO, TYPE_CHECKING, Any
 
 import numpy as np
 from scipy.io import savemat
@@ -18,6 +19,9 @@ from kfmaps.app.files.atomic import atomic_output, check_output
 from kfmaps.app.files.matfile import read_mat
 from kfmaps.app.files.numbers import read_vertex_numbers, write_vertex_numbers
 from kfmaps.app.files.text import REPAIR, read_bytes
+
+if TYPE_CHECKING:
+    from kfmaps.pipeline import Match
 
 FORMATS = (".npz", ".txt", ".vts", ".mat")
 
@@ -127,8 +131,26 @@ def check_map(target_to_source: Any, n_s: int | None = None, n_t: int | None = N
     return numbers.astype(np.int64)
 
 
-def save_map(path: str | Path, mapfile: MapFile, force: bool = False) -> None:
-    """Write a map; the extension chooses the format.
+def match_map(match: Match) -> MapFile:
+    """What a match knows of its map, ready to be saved; the paths of the meshes are not among it."""
+    from kfmaps.config import as_dict  # only here: reading a map needs no settings
+
+    extra: dict[str, Any] = {
+        "raw_target_to_source": match.raw_target_to_source,
+        "raw_functional_map": match.raw_functional_map,
+    }
+    if match.runners_up:
+        extra["runners_up"] = np.stack(match.runners_up)
+    if match.confidence is not None:
+        extra["confidence"] = np.float64(match.confidence)
+    config = json.dumps(as_dict(match.config))
+    return MapFile(
+        match.target_to_source, match.functional_map, match.eigenvalues_s, match.eigenvalues_t, config, extra
+    )
+
+
+def save_map(path: str | Path, mapfile: MapFile | Match, force: bool = False) -> None:
+    """Write a map, or that of a match; the extension chooses the format.
 
     ``.npz`` and ``.mat`` hold everything: arrays under the names of :class:`MapFile` and ``extra``, texts as
     0-d strings. In ``.mat`` vertex numbers count from 1, as MATLAB does, and lists are columns of doubles.
@@ -139,6 +161,8 @@ def save_map(path: str | Path, mapfile: MapFile, force: bool = False) -> None:
     InvalidInput
         On an unknown extension, and as :func:`atomic_output`.
     """
+    if not isinstance(mapfile, MapFile):
+        mapfile = match_map(mapfile)
     suffix = Path(path).suffix.lower()
     check_format(path)
     check_output(path, force)
