@@ -109,9 +109,7 @@ def choose(
     else:
         if config.device != "cpu":
             bases = (source.basis.to(config.device), target.basis.to(config.device))
-        refined = finishing(config, C)(
-            C, *bases, progress=lambda done: report("refinement", done), threads=config.threads
-        )
+        refined = config.refinement(C, *bases, progress=lambda done: report("refinement", done), threads=config.threads)
         result = replace(result, target_to_source=refined.target_to_source, functional_map=refined.functional_map)
     result.seconds["refinement"] = time.perf_counter() - searched
     others = ranked[1 : 1 + config.search.runners_up]
@@ -126,13 +124,6 @@ def choose(
         runners_up=tuple(to_points(c.functional_map, source.basis, target.basis, config.threads) for c in others),
         scores=tuple(c.quality.score for c in (best, *others)),
     )
-
-
-def finishing(config: Config, C: np.ndarray) -> Any:
-    """The refinement of ``config``, taking up where the candidate ``C`` stands."""
-    if isinstance(config.refinement, ZoomOut):
-        return replace(config.refinement, start=min(len(C), config.refinement.stop))
-    return config.refinement
 
 
 def variants(config: Config, surfaces: bool = True) -> list[tuple[str, Config]]:

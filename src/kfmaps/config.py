@@ -174,7 +174,7 @@ class Config:
     solver: Solver = field(default_factory=lambda: CG(rtol=1e-4, max_steps=1000))
     preconditioner: Preconditioner = "sylvester"
     fit_samples: int | None = 10_000
-    refinement: Refinement | None = field(default_factory=lambda: ZoomOut(start=50, stop=200, step=5, samples=1000))
+    refinement: Refinement | None = field(default_factory=lambda: ZoomOut(start=30, stop=200, step=10, samples=2000))
     search: Search | None = None
     device: str = "cpu"
     threads: int | None = None
