@@ -156,9 +156,10 @@ def test_compression_is_exact_for_redundant_features_and_bounded_otherwise(case,
     assert small[0].shape[0] == D
     whole, fewer = (slice_term(*(unpacked_slices(p) for p in pair)) for pair in (redundant, small))
     np.testing.assert_allclose(fewer.apply(C), whole.apply(C), rtol=1e-9, atol=1e-9)
-    lossy = compressed(*redundant, rtol=0.05)
+    lossy = compressed(*redundant, rtol=0.4)
+    assert lossy[0].shape[0] < D
     total, kept = (sum(float((p**2).sum()) for p in pair) for pair in (redundant, lossy))
-    assert 0.95 * total <= kept < total
+    assert 0.6 * total <= kept < 0.999 * total
 
 
 def test_automatic_scale_makes_alpha_free_of_units(case):

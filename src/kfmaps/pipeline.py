@@ -33,7 +33,7 @@ from kfmaps.slices import compressed, condensed, packed_slices, unpacked_slices
 from kfmaps.solvers import CG, Solution, solve
 from kfmaps.spectrum import Basis
 
-CONDENSATION = 0.1
+CONDENSATION = 0.5
 """Part of ``compression`` that is spent on the features, before slices are formed of them."""
 ORIENTATION_FEATURES = 40
 """Features whose orientation operators are formed: the strongest of the joint singular value decomposition."""

@@ -27,7 +27,8 @@ def condensed(source: Basis, features_s: Array, target: Basis, features_t: Array
     gram = None
     for basis, features in ((source, features_s), (target, features_t)):
         weights = basis.mass * xp.sum(basis.functions * basis.functions, axis=1)
-        own = features.T @ (weights[:, None] * features)
+        scaled = xp.sqrt(weights)[:, None] * features
+        own = scaled.T @ scaled
         gram = own if gram is None else gram + own
     rotation = _strongest(gram, rtol)
     return features_s @ rotation, features_t @ rotation
@@ -41,6 +42,7 @@ def packed_slices(basis: Basis, features: Array, block: int = 512, threads: int 
     """
     n, k = basis.functions.shape
     check(features, "features", shape=(n, None), remedy="give one row per vertex")
+    xp = namespace(features)
     rows, columns = np.triu_indices(k)
     scale = like(np.where(rows == columns, 1.0, np.sqrt(2.0)), features)
     weighted = features * basis.mass[:, None]
@@ -48,9 +50,9 @@ def packed_slices(basis: Basis, features: Array, block: int = 512, threads: int 
     def share(parts: list[slice]) -> Array:
         total = None
         for part in parts:
-            phi = basis.functions[part, :]
-            products = take(phi, rows, axis=1) * take(phi, columns, axis=1)
-            term = weighted[part, :].T @ products
+            phi = xp.asarray(basis.functions[part, :].T, copy=True)  # rows of points side by side in memory
+            products = xp.concat([phi[i : i + 1, :] * phi[i:, :] for i in range(k)])
+            term = products @ weighted[part, :]
             total = term if total is None else total + term
         return total
 
@@ -60,7 +62,7 @@ def packed_slices(basis: Basis, features: Array, block: int = 512, threads: int 
     total = None
     for part in parallel(share, shares, count):
         total = part if total is None else total + part
-    return total * scale[None, :]
+    return (total * scale[:, None]).T
 
 
 def unpacked_slices(packed: Array) -> Array:
