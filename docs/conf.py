@@ -45,7 +45,8 @@ sphinx_gallery_conf = {
     "examples_dirs": "../examples",
     "gallery_dirs": "gallery",
     "filename_pattern": r"plot_",
-    "image_scrapers": ("matplotlib", "gallery_figures"),
+    "image_scrapers": ("gallery_figures", "matplotlib"),  # the second closes what it has shown
+    "capture_repr": (),
     "within_subsection_order": "FileNameSortKey",
     "abort_on_example_error": True,
     "show_signature": False,
