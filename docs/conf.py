@@ -20,6 +20,7 @@ extensions = [
     "sphinx.ext.napoleon",
     "sphinx.ext.mathjax",
     "sphinx_gallery.gen_gallery",
+    "reference",
 ]
 exclude_patterns = ["_build", "_ext", "gallery/README.rst"]
 

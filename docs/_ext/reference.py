@@ -1,0 +1,64 @@
+"""What Sphinx needs to be told about this package's docstrings."""
+
+from __future__ import annotations
+
+import re
+from typing import Any
+
+from docutils import nodes
+from sphinx.addnodes import pending_xref
+from sphinx.application import Sphinx
+from sphinx.environment import BuildEnvironment
+from sphinx.util.nodes import make_refnode
+
+SEVERAL = re.compile(r"^(\w+(?:, \w+)+) : (.*)$")
+
+
+def separate(_app: Sphinx, _what: str, _name: str, _obj: Any, _options: Any, lines: list[str]) -> None:
+    """Give each of the attributes "a, b : type" an entry of its own; napoleon does so for parameters alone."""
+    result: list[str] = []
+    i = 0
+    while i < len(lines):
+        found = SEVERAL.match(lines[i])
+        end = i + 1
+        if found:
+            while end < len(lines) and lines[end].startswith("    "):
+                end += 1
+            names, kinds = found[1].split(", "), found[2]
+            shapes = re.findall(r"\(.*?\)", kinds)
+            for j, name in enumerate(names):
+                own = kinds
+                if len(shapes) == len(names):  # "(n,), (m,) float64": a shape for each
+                    own = f"{shapes[j]} {kinds[kinds.rindex(')') + 1 :].strip()}".strip()
+                result += [f"{name} : {own}", *(lines[i + 1 : end] if j == 0 else ())]
+        else:
+            result.append(lines[i])
+        i = end
+    lines[:] = result
+
+
+def readable(
+    _app: Sphinx, _what: str, _name: str, _obj: Any, _options: Any, signature: str | None, returned: str | None
+) -> tuple[str | None, str | None]:
+    """Write defaults that are made anew each time as ``...``, which can be parsed."""
+    return (signature.replace("<factory>", "...") if signature else signature), returned
+
+
+def by_last_name(app: Sphinx, env: BuildEnvironment, node: pending_xref, content: nodes.Node) -> nodes.Node | None:
+    """Find what a docstring calls by its bare name and the reference has under that of another module."""
+    if node.get("refdomain") != "py" or not node.get("reftarget"):
+        return None
+    domain = env.domains.python_domain
+    matches = domain.find_obj(env, "", "", node["reftarget"], None, 1)
+    places = {(entry.docname, entry.node_id) for _, entry in matches}
+    if len(places) != 1:
+        return None
+    docname, anchor = places.pop()
+    return make_refnode(app.builder, node["refdoc"], docname, anchor, content, matches[0][0])
+
+
+def setup(app: Sphinx) -> dict[str, bool]:
+    app.connect("autodoc-process-docstring", separate, priority=400)  # before napoleon
+    app.connect("autodoc-process-signature", readable)
+    app.connect("missing-reference", by_last_name)
+    return {"parallel_read_safe": True, "parallel_write_safe": True}
