@@ -39,6 +39,9 @@ COMMANDS = (
 
 FOLDER = Path(__file__).parent / "commands"
 
+USAGE_ERROR: type[Exception] = next(kind for kind in typer.BadParameter.__mro__ if kind.__name__ == "ClickException")
+"""What Typer raises about unknown options and missing arguments; it has no public name in all versions."""
+
 FAILURE, INTERRUPTED, UNREAD = 2, 130, 1
 """Exit statuses: bad input, Ctrl-C, output that nobody reads."""
 
@@ -133,8 +136,8 @@ def _run(words: Sequence[str]) -> int:
     command = typer.main.get_command(application(None if completing else asked))
     try:
         status = command.main(args=list(words), prog_name="kfmaps", standalone_mode=False)
-    except typer.TyperException as error:  # an unknown option, a missing argument
-        message = error.format_message()
+    except USAGE_ERROR as error:
+        message = error.format_message()  # pyright: ignore[reportAttributeAccessIssue]
         path = getattr(getattr(error, "ctx", None), "command_path", "kfmaps")
         # Without a message it was a group without a command, and the help has been printed.
         return _failed(f"{message.rstrip('.')}; see {path} --help") if message else FAILURE
