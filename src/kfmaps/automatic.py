@@ -12,6 +12,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -36,6 +37,8 @@ STARTS = (6, 10, 20)
 isometric; from many it keeps what is right. Which is better shows afterwards, so each is tried."""
 KICKS = 6
 """Rivals that start from a random symmetry of the low functions."""
+AGAIN = 2
+"""Distinct candidates that are refined once more, from few functions: what is right by then repairs the rest."""
 DISTINCT = 0.08
 """Mean distance, in units of √area, from which two maps count as different ones."""
 CLEAR = 0.3
@@ -99,7 +102,7 @@ def choose(
     report("candidates", 1.0)
     searched = time.perf_counter()
     best = ranked[0]
-    fitted = next(c.fitted for c in sorted(found, key=_score, reverse=True) if c.fitted is not None)
+    fitted = best.fitted or next(c.fitted for c in sorted(found, key=_score, reverse=True) if c.fitted is not None)
     bases = (source.basis, target.basis)
     result = replace(fitted, config=config, seconds={"candidates": searched - start, **fitted.seconds})
     C = best.functional_map
@@ -113,7 +116,7 @@ def choose(
         result = replace(result, target_to_source=refined.target_to_source, functional_map=refined.functional_map)
     result.seconds["refinement"] = time.perf_counter() - searched
     others = ranked[1 : 1 + config.search.runners_up]
-    margin = best.quality.score - ranked[1].quality.score if len(ranked) > 1 else np.inf
+    margin = max(best.quality.score - ranked[1].quality.score, 0.0) if len(ranked) > 1 else np.inf
     k_t, k_s = result.functional_map.shape
     return replace(
         result,
@@ -192,7 +195,7 @@ def _candidates(
             label = f"{name}, from {start}"
             found.append(Candidate(label, better.functional_map, better.target_to_source, quality, fitted))
         done.append(1)
-        report("candidates", len(done) / (len(jobs) + KICKS + 1))
+        report("candidates", len(done) / (len(jobs) + AGAIN + KICKS + 1))
         return found
 
     def fitting(name: str, other: Shape, settings: Config) -> Callable[[], list[Candidate]]:
@@ -209,13 +212,17 @@ def _candidates(
         flipped = mirror_image(target)
         jobs += [fitting(f"mirrored: {name}", flipped, chosen) for name, chosen in settings[:2]]
     found = [c for several in parallel(lambda run: run(), jobs, config.threads) for c in several]
-    best = max(found, key=_score)
+    best = distinct([c for c in found if c.fitted is not None], probes[0])[:AGAIN]
+
+    def again(candidate: Candidate) -> list[Candidate]:
+        return refined(f"{candidate.name}, again", candidate.functional_map, candidate.fitted, STARTS[:2])
 
     def kick(i: int) -> list[Candidate]:
-        C = kicked(best.functional_map, source.basis.eigenvalues, np.random.default_rng(seed + i))
+        C = kicked(best[0].functional_map, source.basis.eigenvalues, np.random.default_rng(seed + i))
         return refined(f"kicked {i}", C, None, STARTS[:1])
 
-    return found + [c for several in parallel(kick, range(KICKS), config.threads) for c in several]
+    second = [partial(again, c) for c in best] + [partial(kick, i) for i in range(KICKS)]
+    return found + [c for several in parallel(lambda run: run(), second, config.threads) for c in several]
 
 
 def kicked(C: np.ndarray, eigenvalues: np.ndarray, rng: np.random.Generator) -> np.ndarray:
@@ -236,9 +243,16 @@ def kicked(C: np.ndarray, eigenvalues: np.ndarray, rng: np.random.Generator) -> 
 
 
 def distinct(found: list[Candidate], source: Probe) -> list[Candidate]:
-    """The best of ``found``, then the best of those that differ from it, and so on."""
+    """The best of ``found``, then the best of those that differ from it, and so on.
+
+    A rival, which no descriptors speak for, comes first only when it is clearly better than every fitted candidate.
+    """
     ranked: list[Candidate] = []
-    for candidate in sorted(found, key=_score, reverse=True):
+    order = sorted(found, key=_score, reverse=True)
+    best = next((c for c in order if c.fitted is not None), None)
+    if best is not None and _score(best) > _score(order[0]) - CLEAR:
+        order.insert(0, best)
+    for candidate in order:
         places = source.positions[candidate.points]
         apart = [np.linalg.norm(places - source.positions[c.points], axis=1).mean() for c in ranked]
         if not apart or min(apart) > DISTINCT:

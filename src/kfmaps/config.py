@@ -127,7 +127,7 @@ class Search:
     returned at most.
     """
 
-    candidates: int = 8
+    candidates: int = 12
     orientation: Literal["kept", "reversed"] = "kept"
     runners_up: int = 3
 
@@ -170,7 +170,7 @@ class Config:
     nystrom: NystromConfig = field(default_factory=NystromConfig)
     exact: bool = False
     weights: Weights = field(default_factory=Weights)
-    compression: float = 1e-4
+    compression: float = 1e-3
     solver: Solver = field(default_factory=lambda: CG(rtol=1e-4, max_steps=1000))
     preconditioner: Preconditioner = "sylvester"
     fit_samples: int | None = 10_000
@@ -183,7 +183,7 @@ class Config:
         check_positive(self.sharpness, "sharpness")
         _choice(self.preconditioner, "preconditioner", ("none", "jacobi", "sylvester"))
         if not 0 <= self.compression < 1:
-            raise refuse("compression", "a number from 0 to below 1", repr(self.compression), "1e-4 is usual")
+            raise refuse("compression", "a number from 0 to below 1", repr(self.compression), "1e-3 is usual")
         if self.fit_samples is not None:
             check_count(self.fit_samples, "fit_samples", low=2)
         if self.threads is not None:

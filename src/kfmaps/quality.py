@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from kfmaps._arrays import Array, to_numpy
+from kfmaps.descriptors import heat_signature
 from kfmaps.geodesics import geodesic_distances
 from kfmaps.maps import nearest
 from kfmaps.orientation import orientation_slices
@@ -24,6 +25,8 @@ COARSE = 400
 """The first of them, between which geodesic distances are compared."""
 LOW = 20
 """Functions in which orientation is compared."""
+TIMES = np.geomspace(0.005, 0.3, 8)
+"""Diffusion times at unit area: from a fiftieth of the surface reached to most of it."""
 WAVES = 10
 """Functions whose orientation operators are compared."""
 
@@ -42,6 +45,8 @@ class Probe:
         Orientation operators of the first functions; ``None`` for a point cloud.
     descriptors : (q, d) float64 or None
         SHOT at the samples.
+    heat : (q, t) float64
+        Logarithm of the heat kernel signature at the samples, for fixed times.
     positions : (q, 3) float64
     """
 
@@ -49,6 +54,7 @@ class Probe:
     distances: np.ndarray
     orientation: np.ndarray | None
     descriptors: np.ndarray | None
+    heat: np.ndarray
     positions: np.ndarray
 
 
@@ -66,6 +72,8 @@ class Quality:
     descriptors : float
         Mean squared difference of SHOT between matched points, divided by that of random ones, from 0 to about 1;
         mean of both directions.
+    heat : float
+        The same for the logarithm of the heat kernel signature, which knows thick from thin.
     cycle : float
         Mean distance between a source point and its image under source → target → source, in units of √area.
     coverage : float
@@ -80,6 +88,7 @@ class Quality:
     orientation: float
     distortion: float
     descriptors: float
+    heat: float
     cycle: float
     coverage: float
     laplacian: float
@@ -92,8 +101,10 @@ class Quality:
             self.orientation
             - 6.0 * self.distortion
             - 3.0 * self.descriptors
-            + 1.0 * self.coverage
-            - 0.3 * min(np.log(max(self.smoothness, 1e-9)), 2.0)
+            - 2.0 * self.heat
+            + self.coverage
+            - 4.0 * self.laplacian
+            - 0.6 * min(np.log(max(self.smoothness, 1e-9)), 2.0)
         )
 
 
@@ -109,7 +120,8 @@ def probe(shape: Shape, count: int = POINTS, rng: int | np.random.Generator = 0,
         low = shape.basis.truncated(min(LOW, shape.basis.functions.shape[1]))
         orientation = orientation_slices(shape.mesh, low, shape.basis.functions[:, : 4 * WAVES], threads)
     local = None if shape.shot is None else shape.shot[samples.vertices]
-    return Probe(samples, distances, orientation, local, shape.mesh.vertices[samples.vertices])
+    heat = np.log(np.maximum(to_numpy(heat_signature(samples.basis, TIMES)), 1e-12))
+    return Probe(samples, distances, orientation, local, heat, shape.mesh.vertices[samples.vertices])
 
 
 def map_quality(C: Array, source: Probe, target: Probe) -> Quality:
@@ -128,7 +140,13 @@ def map_quality(C: Array, source: Probe, target: Probe) -> Quality:
     return Quality(
         orientation=_orientation(C, source, target),
         distortion=_distortion(carried, functions_t, source, target),
-        descriptors=0.5 * (_difference(back, target, source, area_t) + _difference(forth, source, target, area_s)),
+        descriptors=0.5
+        * (
+            _difference(back, target.descriptors, source.descriptors, area_t)
+            + _difference(forth, source.descriptors, target.descriptors, area_s)
+        ),
+        heat=0.5
+        * (_difference(back, target.heat, source.heat, area_t) + _difference(forth, source.heat, target.heat, area_s)),
         cycle=float(moved @ area_s),
         coverage=float(min(area_s[np.unique(back)].sum(), area_t[np.unique(forth)].sum())),
         laplacian=float((commutator**2).sum() / ((C * values_s[None, :]) ** 2).sum()),
@@ -162,12 +180,12 @@ def _distortion(carried: np.ndarray, functions_t: np.ndarray, source: Probe, tar
     return float((change + change_back) / (source.distances.mean() + target.distances.mean()))
 
 
-def _difference(points: np.ndarray, there: Probe, here: Probe, area: np.ndarray) -> float:
-    """Of ``there``'s descriptors from those of the points of ``here`` that they are mapped to."""
-    if there.descriptors is None or here.descriptors is None:
+def _difference(points: np.ndarray, there: np.ndarray | None, here: np.ndarray | None, area: np.ndarray) -> float:
+    """Of the descriptors ``there`` from those ``here`` of the points that they are mapped to."""
+    if there is None or here is None:
         return 0.0
-    squares = ((there.descriptors - here.descriptors[points]) ** 2).sum(axis=1) @ area
-    spread = sum(((D - D.mean(axis=0)) ** 2).sum(axis=1).mean() for D in (there.descriptors, here.descriptors))
+    squares = ((there - here[points]) ** 2).sum(axis=1) @ area
+    spread = sum(((D - D.mean(axis=0)) ** 2).sum(axis=1).mean() for D in (there, here))
     return float(squares / max(spread, 1e-300))
 
 
