@@ -3,7 +3,11 @@ PYTHON ?= $(shell command -v python3.11 || command -v python3)
 VENV   := .venv
 BIN    := $(VENV)/bin
 
-.PHONY: demo test lint docs clean
+# Tests run side by side, one BLAS thread each: more only get in each other's way.
+export OPENBLAS_NUM_THREADS ?= 1
+export OMP_NUM_THREADS ?= 1
+
+.PHONY: demo test lint docs web clean
 
 demo: $(VENV)/.base
 	$(BIN)/kfmaps demo --output demo.png --force
@@ -15,6 +19,10 @@ lint: $(VENV)/.dev
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 	$(BIN)/pyright
+
+# The bundle of the result page; only needed after a change under web/ (Node 20 or newer).
+web:
+	cd web && npm ci && npm run build
 
 docs: $(VENV)/.docs
 	$(BIN)/sphinx-build -W --keep-going -j auto -b html docs docs/_build/html

@@ -130,8 +130,8 @@ def test_a_sphere_is_ambiguous():
 
 
 def test_left_and_right_of_a_symmetric_body_are_told_apart():
-    pair = symmetric_creature(1500, rng=0)
-    found = match(pair.source, pair.target, replace(Config.automatic(), search=Search(candidates=6), threads=2))
+    pair = symmetric_creature(2500, rng=0)
+    found = match(pair.source, pair.target, replace(Config.automatic(), threads=2))
     assert pair.mirrored is not None
     right = geodesic_errors(pair.source, found.target_to_source, pair.truth).mean()
     flipped = geodesic_errors(pair.source, found.target_to_source, pair.mirrored).mean()
