@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import io
-import signal
 import subprocess
 import sys
 import types
@@ -60,11 +59,6 @@ def start(*words: object, folder: Path, **more: object) -> subprocess.Popen[str]
     pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE} | more
     arguments = [sys.executable, "-c", code, *map(str, words)]
     return subprocess.Popen(arguments, cwd=folder, text=True, **pipes)  # pyright: ignore
-
-
-def interrupt(process: subprocess.Popen[str]) -> None:
-    """What Ctrl-C does."""
-    process.send_signal(signal.SIGINT)
 
 
 def shapes(folder: Path, n: int = 300) -> types.SimpleNamespace:
