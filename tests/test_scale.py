@@ -18,6 +18,7 @@ from kfmaps.samples import spectral_samples, stratified_samples
 from kfmaps.sampling import farthest
 from kfmaps.shape import prepare, reduced
 from kfmaps.slices import condensed, packed_slices
+from kfmaps.solvers import CG
 from kfmaps.spectrum import laplace_basis
 
 CONFIG = Config(
@@ -181,3 +182,17 @@ def test_condensed_features_lose_no_more_than_they_say(rng):
     assert energy(*kept) == pytest.approx(whole, rel=1e-12)
     with pytest.raises(InvalidInput, match="rtol"):
         condensed(source, W_s, target, W_t, 1.0)
+
+
+def test_a_warm_start_spares_steps_and_changes_nothing(pair):
+    source, target, truth = pair
+    landmarks = np.stack([truth[[10, 700]], [10, 700]], axis=1)
+    config = replace(CONFIG, solver=CG(1e-9, 2000), fit_samples=800)
+    near = fit(source, target, replace(config, sharpness=0.33), landmarks=landmarks)
+    cold, warm = (
+        fit(source, target, config, landmarks=landmarks, start=start) for start in (None, near.raw_functional_map)
+    )
+    assert warm.solution.steps < cold.solution.steps
+    np.testing.assert_allclose(warm.raw_functional_map, cold.raw_functional_map, atol=1e-5)
+    with pytest.raises(InvalidInput, match="start"):
+        fit(source, target, config, landmarks=landmarks, start=np.eye(7))

@@ -227,6 +227,7 @@ def fit(
     landmarks: Any = None,
     descriptors: tuple[Any, Any] | None = None,
     rng: int | np.random.Generator | None = 0,
+    start: Any = None,
     progress: Progress | None = None,
 ) -> Match:
     """Match two prepared shapes as ``config`` says, with no search for the best of several maps.
@@ -242,6 +243,9 @@ def fit(
         Of the user's own, used beside those that the configuration names.
     rng : seed or Generator
         For the choice of samples.
+    start : (k, k) array, optional
+        Functional map that conjugate gradients start from, zero otherwise: the ``raw_functional_map`` of settings
+        near to these spares steps in a search over settings.
     progress : callable, optional
         ``progress(stage, done)`` with done from 0 to 1.
     """
@@ -277,7 +281,7 @@ def fit(
         with stage("energy"):
             task = problem(*small, on, used, config, rng, (source, target))
         with stage("solve"):
-            solution = _minimised(task.energy, config, report)
+            solution = _minimised(task.energy, config, report, start)
             C = solution.value
         with stage("point map"):
             raw = to_points(C, *bases, threads=config.threads)
@@ -318,7 +322,12 @@ def _on_samples(given: tuple[Any, Any], parts: list[Reduced], shapes: tuple[Shap
     return rows[0], rows[1]
 
 
-def _minimised(energy: Energy, config: Config, report: Progress) -> Solution:
+def _minimised(energy: Energy, config: Config, report: Progress, start: Any = None) -> Solution:
+    right = energy.rhs()
+    if start is not None:
+        start = np.asarray(to_numpy(start) if hasattr(start, "shape") else start, dtype=np.float64)
+        check(start, "start", shape=tuple(right.shape), remedy="give a functional map of the size of the basis")
+        start = like(start, right)
     precondition = None
     if config.preconditioner == "jacobi":
         precondition = jacobi(energy.diagonal())
@@ -332,4 +341,4 @@ def _minimised(energy: Energy, config: Config, report: Progress) -> Solution:
             by_size = np.log(max(relative, 1e-300)) / np.log(max(config.solver.rtol, 1e-16))
             report("solve", float(np.clip(max(step / limit, by_size), 0.0, 1.0)))
 
-    return solve(energy.apply, energy.rhs(), config.solver, preconditioner=precondition, progress=told)
+    return solve(energy.apply, right, config.solver, start, precondition, told)

@@ -14,7 +14,7 @@ from kfmaps.spectrum import Basis
 
 __all__ = ["ICP", "Refined", "Refinement", "SampledBasis", "Samples", "ZoomOut", "fitted", "spectral_samples"]
 
-CANDIDATES = 20_000
+CANDIDATES = 8_000
 """Points of the source that ZoomOut's steps on samples choose from, spread evenly; the last step has them all."""
 
 Progress = Callable[[float], None]

@@ -1,0 +1,193 @@
+"""This library and pyFM on the same pairs in one run: ``python benchmarks/compare.py [--data FOLDER] [--json PATH]``.
+
+Both start from the same meshes and landmarks and take turns, with BLAS on one thread; the shortest of ``--repeats``
+counts. "fit" is given the same descriptors, functions and landmarks on both sides: here features, slices and the
+solve, there ``fit()``. "whole" is everything from the mesh to the refined map. CPU seconds are of all threads; errors
+are mean geodesic distances from the truth in per cent of √area. Needs pyFM: ``pip install 'kfmaps[bench]'``.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import time
+from collections.abc import Callable
+from dataclasses import asdict, dataclass, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from pyFM.functional import FunctionalMapping
+from pyFM.mesh import TriMesh
+from shapes import Pair, bumpy_pair, read_pairs
+
+from kfmaps._threads import one_blas_thread
+from kfmaps.config import Config, DescriptorConfig
+from kfmaps.evaluate import geodesic_errors
+from kfmaps.features import pair_descriptors
+from kfmaps.maps import to_points
+from kfmaps.matching import match
+from kfmaps.pipeline import checked_landmarks, problem
+from kfmaps.preconditioners import sylvester
+from kfmaps.refine import ZoomOut
+from kfmaps.shape import Shape, prepare
+from kfmaps.solvers import CG, solve
+
+K, STOP, STEP = 100, 150, 5
+ZOOM = ZoomOut(start=K, stop=STOP, step=STEP)
+
+
+@dataclass(frozen=True)
+class Row:
+    """One stage of one method on one pair."""
+
+    pair: str
+    stage: str
+    method: str
+    work: float
+    wall: float
+    error: float
+
+
+def timed(call: Callable[[], Any]) -> tuple[Any, float, float]:
+    """What ``call`` returns, its CPU seconds and its seconds."""
+    work, wall = time.process_time(), time.perf_counter()
+    with one_blas_thread():
+        result = call()
+    return result, time.process_time() - work, time.perf_counter() - wall
+
+
+def config(threads: int, rtol: float = 1e-6, refinement: ZoomOut | None = None) -> Config:
+    return replace(Config(threads=threads, refinement=refinement), solver=CG(rtol, 2000))
+
+
+def pyfm_model(pair: Pair, spectrum: tuple[Shape, Shape] | None = None) -> FunctionalMapping:
+    """A model of pyFM; with the eigenfunctions of ``spectrum`` where they are given."""
+    meshes = [TriMesh(m.vertices, m.faces, area_normalize=True) for m in (pair.source, pair.target)]
+    for i, mesh in enumerate(meshes):
+        mesh.process(200 if spectrum is None else 3)
+        if spectrum is not None:
+            mesh.eigenvalues = spectrum[i].basis.eigenvalues
+            mesh.eigenvectors = spectrum[i].basis.functions
+    return FunctionalMapping(*meshes)
+
+
+def fits(pair: Pair, shapes: tuple[Shape, Shape], threads: int, maps: bool) -> dict[str, Callable[[], np.ndarray]]:
+    """Functional maps from the same descriptors: 100 in all, or (``maps``) 100 and 100 for each landmark."""
+    bases = (shapes[0].basis, shapes[1].basis)
+    wanted = DescriptorConfig()
+    if maps:
+        count = 100 * (1 + len(pair.landmarks))
+        wanted = replace(wanted, count=count, signature_share=100.5 / count)
+    given = pair_descriptors(*shapes, bases, wanted, checked_landmarks(pair.landmarks, *shapes), None)
+
+    def ours(rtol: float) -> np.ndarray:
+        settings = config(threads, rtol)
+        energy = problem(*shapes, bases, given, settings, np.random.default_rng(0)).energy
+        return solve(energy.apply, energy.rhs(), settings.solver, preconditioner=sylvester(energy)).value
+
+    def theirs(factr: float = 1e7, pgtol: float = 1e-5) -> Any:
+        model.fit(K=(K, K), factr=factr, pgtol=pgtol)
+        return model.FM_12
+
+    model = pyfm_model(pair, shapes).add_descriptors(given.source, given.target)
+    return {
+        "pyFM": theirs,
+        "pyFM, converged": lambda: theirs(factr=10.0, pgtol=1e-8),
+        "kfmaps": lambda: ours(1e-6),
+        "kfmaps, 1e-4": lambda: ours(1e-4),
+    }
+
+
+def wholes(pair: Pair, threads: int) -> dict[str, Callable[[], np.ndarray]]:
+    """Maps of points from meshes and landmarks, refined to ``STOP`` functions."""
+
+    def ours(refinement: ZoomOut) -> np.ndarray:
+        settings = config(threads, 1e-4, refinement)
+        return match(pair.source, pair.target, settings, landmarks=pair.landmarks).target_to_source
+
+    def theirs() -> Any:
+        model = pyfm_model(pair)
+        # As many descriptors as ours: every seventh of 100 and 100 for each landmark.
+        every = 1 + len(pair.landmarks)
+        model.compute_spectral_descriptors(100, "WKS", 128, pair.landmarks, subsample_step=every)
+        model.fit(K=(K, K))
+        return model.get_p2p(model.zoomout_refine(nit=(STOP - K) // STEP, step=STEP))
+
+    return {
+        "pyFM": theirs,
+        "kfmaps": lambda: ours(ZOOM),
+        "kfmaps, 1000 samples": lambda: ours(replace(ZOOM, samples=1000)),
+    }
+
+
+def contest(
+    pair: Pair,
+    stage: str,
+    methods: dict[str, Callable[[], np.ndarray]],
+    repeats: int,
+    points: Callable[[np.ndarray], np.ndarray],
+) -> list[Row]:
+    best: dict[str, Row] = {}
+    for _ in range(repeats):
+        for method, call in methods.items():
+            found, work, wall = timed(call)
+            error = 100 * float(geodesic_errors(pair.source, points(found), pair.target_to_source).mean())
+            if method not in best or work < best[method].work:
+                best[method] = Row(pair.name, stage, method, work, wall, error)
+    return list(best.values())
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--data", type=Path, help="a folder laid out as FAUST_r is, instead of generated shapes")
+    parser.add_argument("--pairs", type=int, default=3)
+    parser.add_argument("--vertices", type=int, default=5000, help="of generated shapes")
+    parser.add_argument("--repeats", type=int, default=3)
+    parser.add_argument("--threads", type=int, default=1, help="Python threads of this library")
+    parser.add_argument("--json", type=Path, help="write the rows there too")
+    options = parser.parse_args()
+    if options.data:
+        pairs = read_pairs(options.data, options.pairs)
+    else:
+        pairs = [bumpy_pair(options.vertices, seed) for seed in range(options.pairs)]
+    rows: list[Row] = []
+    print(f"{'pair':28} {'stage':24} {'method':22} {'work':>7} {'ratio':>6} {'wall':>7} {'ratio':>6} {'error':>6}")
+    for pair in pairs:
+        settings = config(options.threads)
+        source, target = prepare(pair.source, settings), prepare(pair.target, settings)
+
+        def points(C: np.ndarray, a: Shape = source, b: Shape = target) -> np.ndarray:
+            return to_points(C, a.basis, b.basis)
+
+        stages = [
+            ("fit", fits(pair, (source, target), options.threads, False), points),
+            ("fit, 100 per landmark", fits(pair, (source, target), options.threads, True), points),
+            ("whole, ZoomOut to 150", wholes(pair, options.threads), np.asarray),
+        ]
+        for stage, methods, finish in stages:
+            found = contest(pair, stage, methods, options.repeats, finish)
+            for row in found:
+                ratios = [found[0].work / row.work, found[0].wall / row.wall]
+                print(
+                    f"{row.pair:28} {row.stage:24} {row.method:22} {row.work:7.2f} {ratios[0]:6.2f} {row.wall:7.2f} "
+                    f"{ratios[1]:6.2f} {row.error:6.2f}",
+                    flush=True,
+                )
+            rows += found
+    print("\nmedian ratio of CPU seconds, pyFM's over ours")
+    for stage in dict.fromkeys(row.stage for row in rows):
+        for method in dict.fromkeys(
+            row.method for row in rows if row.stage == stage and not row.method.startswith("pyFM")
+        ):
+            own = [r for r in rows if (r.stage, r.method) == (stage, method)]
+            other = [r for r in rows if (r.stage, r.method) == (stage, "pyFM")]
+            ratio = np.median([o.work / r.work for o, r in zip(other, own, strict=True)])
+            errors = [float(np.mean([r.error for r in group])) for group in (other, own)]
+            print(f"{stage:24} {method:22} {ratio:6.2f}   mean error {errors[0]:.2f} and {errors[1]:.2f}")
+    if options.json:
+        options.json.write_text(json.dumps([asdict(row) for row in rows], indent=1) + "\n", encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()
