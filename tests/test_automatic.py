@@ -174,6 +174,13 @@ def test_distinct_maps_are_told_from_variations(shape):
     assert [c.name for c in distinct(candidates[::-1], judge)] == ["best", "other"]
 
 
+def test_few_eigenfunctions_are_enough():
+    few = replace(SMALL, descriptors=replace(SMALL.descriptors, eigenfunctions=40), refinement=None)
+    a, b = (prepare(blob(n, twist), few) for n, twist in ((300, 0.0), (280, 0.4)))
+    assert len(a.basis.eigenvalues) == 40
+    assert match(a, b, few).functional_map.shape == (40, 40)
+
+
 def test_no_search_without_settings(shape):
     with pytest.raises(InvalidInput, match=r"Config\.automatic"):
         choose(shape, shape, replace(SMALL, search=None))

@@ -63,7 +63,7 @@ def make(name, case, asarray, convert):
     weights = {"descriptors": 2.0, "slices": 0.5, "laplacian": 0.0}
 
     def residual(C):
-        return np.concatenate([np.sqrt(weights[n]) * f(C).ravel() for n, (_, f) in parts.items()])
+        return np.concatenate([np.sqrt(weights[n]) * f(C).ravel() for n, (_, f) in parts.items() if f is not None])
 
     return Energy({n: term for n, (term, _) in parts.items()}, weights), residual
 

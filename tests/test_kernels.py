@@ -142,5 +142,7 @@ def test_bad_kernels_are_refused(rng):
         gram(lambda a, b: np.ones((len(a), len(b) - 1)), X, X)
     with pytest.raises(InvalidInput, match="NaN"):
         gram(lambda a, b: np.full((len(a), len(b)), np.nan), X, X)
+    with pytest.raises(InvalidInput, match="overflows"):
+        gram(Polynomial(400), 1e3 * X, X)
     with pytest.raises(InvalidInput, match="resolved"):
         gram(Gaussian(), X, X)

@@ -59,6 +59,15 @@ def test_permuted_vertices_permute_the_answer(small_basis, convert, rng):
     np.testing.assert_allclose(carried, small_basis.lift(f)[order], atol=1e-7)
 
 
+def test_a_vertex_without_area_is_nobodys_image(small_basis):
+    mass = small_basis.mass.copy()
+    mass[7] = 0.0
+    source = Basis(small_basis.eigenvalues, small_basis.functions, mass)
+    points = to_points(np.eye(40), source, small_basis)
+    assert 7 not in points
+    np.testing.assert_array_equal(np.delete(points, 7), np.delete(np.arange(len(mass)), 7))
+
+
 def test_map_of_a_rectangular_functional_map(small_basis):
     C = np.eye(30, 20)
     assert to_points(C, small_basis, small_basis).shape == small_basis.mass.shape

@@ -18,8 +18,8 @@ from typing import Any
 import numpy as np
 from scipy.linalg import expm
 
-from kfmaps._arrays import refuse
-from kfmaps._threads import parallel
+from kfmaps._arrays import like, refuse, to_numpy
+from kfmaps._threads import one_blas_thread, parallel
 from kfmaps.config import Config
 from kfmaps.maps import to_points
 from kfmaps.mesh import Mesh
@@ -112,8 +112,15 @@ def choose(
     else:
         if config.device != "cpu":
             bases = (source.basis.to(config.device), target.basis.to(config.device))
-        refined = config.refinement(C, *bases, progress=lambda done: report("refinement", done), threads=config.threads)
-        result = replace(result, target_to_source=refined.target_to_source, functional_map=refined.functional_map)
+        with one_blas_thread():
+            refined = config.refinement(
+                like(C, bases[0].functions),
+                *bases,
+                progress=lambda done: report("refinement", done),
+                threads=config.threads,
+            )
+        C = to_numpy(refined.functional_map)
+        result = replace(result, target_to_source=refined.target_to_source, functional_map=C)
     result.seconds["refinement"] = time.perf_counter() - searched
     others = ranked[1 : 1 + config.search.runners_up]
     margin = max(best.quality.score - ranked[1].quality.score, 0.0) if len(ranked) > 1 else np.inf
@@ -125,7 +132,7 @@ def choose(
         confidence=float(-np.expm1(-margin / CLEAR)),
         verdict="sure" if margin >= CLEAR else "ambiguous",
         runners_up=tuple(to_points(c.functional_map, source.basis, target.basis, config.threads) for c in others),
-        scores=tuple(c.quality.score for c in (best, *others)),
+        scores=tuple(float(c.quality.score) for c in (best, *others)),
     )
 
 
@@ -143,7 +150,7 @@ def variants(config: Config, surfaces: bool = True) -> list[tuple[str, Config]]:
         refinement=None,
         nystrom=replace(config.nystrom, samples=min(200, config.nystrom.samples)),
         compression=max(config.compression, 1e-3),
-        solver=CG(rtol=1e-3, max_steps=300),
+        solver=CG(rtol=1e-5, max_steps=300),
         device="cpu",
         threads=1,
     )
@@ -189,7 +196,8 @@ def _candidates(
     def refined(name: str, C: np.ndarray, fitted: Match | None, starts: tuple[int, ...]) -> list[Candidate]:
         found = []
         for start in starts:
-            zoom = replace(COARSE, start=start)
+            stop = min(COARSE.stop, len(source.basis.eigenvalues), len(target.basis.eigenvalues))
+            zoom = replace(COARSE, start=min(start, stop), stop=stop)
             better = zoom(C, probes[0].samples.basis, probes[1].samples.basis, threads=1)
             quality = map_quality(better.functional_map, *probes)
             label = f"{name}, from {start}"

@@ -171,7 +171,7 @@ class Config:
     exact: bool = False
     weights: Weights = field(default_factory=Weights)
     compression: float = 1e-3
-    solver: Solver = field(default_factory=lambda: CG(rtol=1e-4, max_steps=1000))
+    solver: Solver = field(default_factory=lambda: CG(rtol=1e-6, max_steps=1000))
     preconditioner: Preconditioner = "sylvester"
     fit_samples: int | None = 10_000
     refinement: Refinement | None = field(default_factory=lambda: ZoomOut(start=30, stop=200, step=10, samples=2000))

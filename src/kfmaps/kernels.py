@@ -175,10 +175,11 @@ def gram(kernel: KernelLike, X: Array, Y: Array) -> Array:
     InvalidInput
         When the kernel returns another shape, or NaN or infinite values.
     """
-    if isinstance(kernel, Kernel) or is_numpy(X):
-        values = kernel(X, Y)
-    else:
-        values = like(np.asarray(kernel(to_numpy(X), to_numpy(Y))), X)
+    with np.errstate(over="ignore", invalid="ignore"):  # what overflows is refused below, in words
+        if isinstance(kernel, Kernel) or is_numpy(X):
+            values = kernel(X, Y)
+        else:
+            values = like(np.asarray(kernel(to_numpy(X), to_numpy(Y))), X)
     wanted = (X.shape[0], Y.shape[0])
     name = f"kernel {describe(kernel)}"
     shape = tuple(getattr(values, "shape", ()))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from kfmaps._arrays import Array, refuse, take
+from kfmaps._arrays import Array, refuse, take, to_numpy
 from kfmaps.neighbours import nearest
 from kfmaps.spectrum import Basis
 
@@ -20,7 +20,12 @@ def to_points(C: Array, source: Basis, target: Basis, threads: int | None = None
     """
     k_t, k_s = C.shape
     source, target = source.truncated(k_s), target.truncated(k_t)
-    return nearest(target.functions, source.functions @ C.T, threads=threads)
+    images = source.functions @ C.T
+    # A vertex that no face uses has no area and the values of a neighbour: it is nobody's image.
+    used = np.flatnonzero(to_numpy(source.mass) > 0)
+    if len(used) == images.shape[0]:
+        return nearest(target.functions, images, threads=threads)
+    return used[nearest(target.functions, take(images, used), threads=threads)]
 
 
 def to_functional(target_to_source: np.ndarray, source: Basis, target: Basis) -> Array:
