@@ -103,11 +103,22 @@ class Collection:
         return _generated_truth(kind, number, self.vertices)
 
     def training(self, count: int | None = None, seed: int = 0) -> list[ShapePair]:
-        """Pairs of the first two people (generated: the first two seeds), ``count`` drawn with ``seed``."""
+        """``count`` pairs of the first two people drawn with ``seed``, in turn of one person and of two.
+
+        Of generated shapes: pairs of the first two seeds, in turn of one creature and of two relatives.
+        """
         if self.folder is None:
-            return _drawn(_generated_pairs(range(2)), count, seed)
-        names = [name for name in self.shapes() if person(name) in TRAINING_PEOPLE]
-        return _drawn([ShapePair(a, b) for a in names for b in names if a != b], count, seed)
+            pairs = _drawn(_generated_pairs(range(2)), None, seed)
+            alike = [_parts(pair.source)[0] == "poses" for pair in pairs]
+        else:
+            names = [name for name in self.shapes() if person(name) in TRAINING_PEOPLE]
+            pairs = _drawn([ShapePair(a, b) for a in names for b in names if a != b], None, seed)
+            alike = [person(pair.source) == person(pair.target) for pair in pairs]
+        one = [pair for pair, same in zip(pairs, alike, strict=True) if same]
+        two = [pair for pair, same in zip(pairs, alike, strict=True) if not same]
+        both = min(len(one), len(two))
+        mixed = [pair for turn in zip(one, two, strict=False) for pair in turn]
+        return (mixed + one[both:] + two[both:])[:count]
 
     def reported(self, count: int | None = 100, seed: int = 0) -> list[ShapePair]:
         """Pairs without any of those people: of the data set's list when it has one, else of all ordered pairs."""
