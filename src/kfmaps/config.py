@@ -174,7 +174,7 @@ class Config:
     solver: Solver = field(default_factory=lambda: CG(rtol=1e-6, max_steps=1000))
     preconditioner: Preconditioner = "sylvester"
     fit_samples: int | None = 10_000
-    refinement: Refinement | None = field(default_factory=lambda: ZoomOut(start=30, stop=200, step=10, samples=2000))
+    refinement: Refinement | None = field(default_factory=lambda: ZoomOut(start=50, stop=200, step=10, samples=5000))
     search: Search | None = None
     device: str = "cpu"
     threads: int | None = None
@@ -198,7 +198,12 @@ class Config:
     @classmethod
     def automatic(cls) -> Config:
         """What we recommend without landmarks: SHOT beside the wave kernel signature, and a search."""
-        return cls(descriptors=DescriptorConfig(shot=True), search=Search())
+        return cls(
+            descriptors=DescriptorConfig(shot=True),
+            # Candidates are coarser than a fit with landmarks: a lower start repairs more.
+            refinement=ZoomOut(start=30, stop=200, step=10, samples=2000),
+            search=Search(),
+        )
 
     @classmethod
     def paper(cls) -> Config:
