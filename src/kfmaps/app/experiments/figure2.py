@@ -95,8 +95,9 @@ def draw_spectra(spectra: dict[float, np.ndarray], best: dict[float, np.ndarray]
         left.semilogy(k, np.where(relative > ROUNDING, relative, np.nan), **look)
         error = best[gamma][k]
         right.semilogy(k, np.where(error > ROUNDING, error, np.nan), **look)
-    right.axhline(0.01, color=style.GREY, linewidth=0.8)
-    right.text(1.01, 0.01, "1 %", transform=right.get_yaxis_transform(), va="center", fontsize=8, color=style.GREY)
+    for ax in (left, right):
+        ax.axhline(0.01, color=style.GREY, linewidth=0.8)
+        ax.text(1.01, 0.01, "1 %", transform=ax.get_yaxis_transform(), va="center", fontsize=8, color=style.GREY)
     style.labels(left, "k", r"$\lambda_k\;/\;\lambda_1$", "spectrum of the kernel matrix")
     style.labels(right, "rank k", "relative Frobenius error", "best approximation of rank k")
     style.legend_below(figure, left, columns=4)

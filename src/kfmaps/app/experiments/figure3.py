@@ -95,7 +95,7 @@ def conclusions(last: dict[tuple[float, str], float], rank: int) -> list[str]:
         better = all(r <= 1 for r in ratios.values())
         lines.append(
             f"{way[0].upper()}{way[1:]} has "
-            + ", ".join(f"{ratios[g]:.2g}" for g in GAMMAS)
+            + ", ".join(f"{ratios[g]:.3g}" for g in GAMMAS)
             + " times the error of descriptor farthest points: "
             + ("at least as good for all four γ." if better else "not as good for every γ.")
         )
