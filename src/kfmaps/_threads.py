@@ -8,9 +8,10 @@ threads: NumPy and SciPy release the interpreter's lock inside their products an
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import ThreadPoolExecutor
-from contextlib import AbstractContextManager
+from contextlib import contextmanager
+from threading import local
 from typing import TypeVar
 
 from threadpoolctl import threadpool_limits
@@ -26,9 +27,30 @@ def available_cores() -> int:
     return os.cpu_count() or 1
 
 
-def one_blas_thread() -> AbstractContextManager:
-    """A context in which BLAS and OpenMP run on one thread."""
-    return threadpool_limits(limits=1)
+class _Depth(local):
+    """How deep the current thread is inside :func:`one_blas_thread`."""
+
+    value = 0
+
+
+_depth = _Depth()
+
+
+@contextmanager
+def one_blas_thread() -> Iterator[None]:
+    """A context in which BLAS and OpenMP run on one thread; inside another one of the same thread it costs nothing.
+
+    To set the limit is to look through all loaded libraries: some milliseconds, more than a small search takes.
+    """
+    if _depth.value:
+        yield
+        return
+    with threadpool_limits(limits=1):
+        _depth.value += 1
+        try:
+            yield
+        finally:
+            _depth.value -= 1
 
 
 def parallel(function: Callable[[A], B], items: Iterable[A], threads: int | None = None) -> list[B]:

@@ -1,0 +1,45 @@
+"""One BLAS thread inside, at any depth; what was before, after."""
+
+import pytest
+from threadpoolctl import threadpool_info, threadpool_limits
+
+from kfmaps._threads import one_blas_thread, parallel
+
+
+def blas_threads() -> set[int]:
+    return {pool["num_threads"] for pool in threadpool_info() if pool["user_api"] == "blas"}
+
+
+def test_the_limit_holds_until_the_outermost_is_left():
+    with threadpool_limits(2):
+        before = blas_threads()
+        with one_blas_thread():
+            with one_blas_thread():
+                assert blas_threads() == {1}
+            assert blas_threads() == {1}
+        assert blas_threads() == before
+
+
+def test_inside_another_one_it_does_not_look_at_the_libraries_again(monkeypatch):
+    with one_blas_thread():
+        monkeypatch.setattr("kfmaps._threads.threadpool_limits", None)  # calling it would fail
+        with one_blas_thread():
+            pass
+
+
+def test_worker_threads_are_held_to_one_too():
+    with threadpool_limits(2):
+        seen = parallel(lambda _: blas_threads(), range(4), threads=2)
+    assert seen == [{1}] * 4
+
+
+def test_an_error_inside_lifts_it_too():
+    with threadpool_limits(2):
+        before = blas_threads()
+        with pytest.raises(ZeroDivisionError):
+            parallel(lambda x: 1 / x, [1, 0], threads=2)
+        assert blas_threads() == before
+
+
+def test_parallel_keeps_the_order_of_its_items():
+    assert parallel(lambda x: x * x, range(20), threads=3) == [x * x for x in range(20)]
