@@ -15,6 +15,7 @@ def samplers(X, count, rng=0):
         "farthest": farthest(X, count, rng),
         "cholesky": pivoted_cholesky(Gaussian(0.5), X, count, rng=rng),
         "random cholesky": pivoted_cholesky(Gaussian(0.5), X, count, randomised=True, rng=rng),
+        "squared cholesky": pivoted_cholesky(Gaussian(0.5), X, count, randomised=True, power=2, rng=rng),
     }
 
 
@@ -98,6 +99,16 @@ def test_cholesky_pivots_are_the_largest_residuals(rng):
         taken = rows[:i]
         residual = np.diag(K - K[:, taken] @ np.linalg.solve(K[np.ix_(taken, taken)], K[taken]))
         assert residual[rows[i]] == pytest.approx(residual.max(), rel=1e-6)
+
+
+@pytest.mark.parametrize("power", [1.0, 2.0])
+def test_random_pivots_are_drawn_in_proportion_to_powers_of_the_residual(power):
+    X = np.array([[0.0], [0.1], [0.4], [2.0]])
+    draws = np.array([pivoted_cholesky(Gaussian(0.5), X, 2, randomised=True, power=power, rng=i) for i in range(4000)])
+    second = draws[draws[:, 0] == 0, 1]
+    residual = 1 - gram(Gaussian(0.5), X[:1], X)[0] ** 2
+    expected = residual**power / (residual**power).sum()
+    np.testing.assert_allclose(np.bincount(second, minlength=4) / len(second), expected, atol=0.05)
 
 
 def test_samplers_stop_when_nothing_is_left():

@@ -11,8 +11,15 @@ from kfmaps.kernels import Gaussian, KernelLike, Laplacian, Linear, Polynomial, 
 from kfmaps.refine import ICP, Refinement, ZoomOut
 from kfmaps.solvers import CG, Direct, Solver
 
-Sampling = Literal["descriptor", "geodesic", "uniform", "cholesky", "random-cholesky"]
-SAMPLINGS: tuple[Sampling, ...] = ("descriptor", "geodesic", "uniform", "cholesky", "random-cholesky")
+Sampling = Literal["descriptor", "geodesic", "uniform", "cholesky", "random-cholesky", "squared-cholesky"]
+SAMPLINGS: tuple[Sampling, ...] = (
+    "descriptor",
+    "geodesic",
+    "uniform",
+    "cholesky",
+    "random-cholesky",
+    "squared-cholesky",
+)
 Preconditioner = Literal["none", "jacobi", "sylvester"]
 
 

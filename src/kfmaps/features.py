@@ -177,7 +177,8 @@ def joint_samples(
     if config.sampling.endswith("cholesky"):
         both = xp.concat([D_s, D_t])
         count = min(config.samples, both.shape[0])
-        rows = pivoted_cholesky(kernel, both, count, randomised=config.sampling != "cholesky", rng=rng)
+        power = 2.0 if config.sampling == "squared-cholesky" else 1.0
+        rows = pivoted_cholesky(kernel, both, count, randomised=config.sampling != "cholesky", power=power, rng=rng)
         return take(both, rows)
     taken = []
     for shape, D in ((source, D_s), (target, D_t)):

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from kfmaps._arrays import Array, check_count, to_numpy
+from kfmaps._arrays import Array, check_count, check_positive, to_numpy
 from kfmaps.kernels import KernelLike, gram, gram_diagonal
 
 Rng = int | np.random.Generator | None
@@ -52,22 +52,25 @@ def farthest(X: Array, count: int, rng: Rng = 0, pool: int | None = POOL) -> np.
     return taken
 
 
-def pivoted_cholesky(kernel: KernelLike, X: Array, count: int, *, randomised: bool = False, rng: Rng = 0) -> np.ndarray:
+def pivoted_cholesky(
+    kernel: KernelLike, X: Array, count: int, *, randomised: bool = False, power: float = 1.0, rng: Rng = 0
+) -> np.ndarray:
     """Pivots of a partial Cholesky factorisation of the kernel matrix of ``X (n, d)``.
 
     Greedy (largest residual diagonal; Fine and Scheinberg 2001) or, ``randomised``, drawn in proportion to
-    it (RPCholesky; Chen, Epperly, Tropp and Webber 2023). Memory ``n × count``. Stops early when the residual
-    is spent. For a kernel that is not positive definite the negative part of the residual is passed over.
+    a ``power`` of it: 1 reduces the expected trace of the residual (RPCholesky; Chen, Epperly, Tropp and Webber 2023),
+    2 its expected squared Frobenius norm (Steinerberger 2024). Memory ``n × count``. Stops early when the residual is
+    spent. For a kernel that is not positive definite the negative part of the residual is passed over.
     """
     check_count(count, "sample count", high=X.shape[0])
+    check_positive(power, "power")
     draw = np.random.default_rng(rng)
     residual = to_numpy(gram_diagonal(kernel, X)).astype(float).clip(min=0.0)
     spent = 1e-14 * residual.max()
     factor = np.zeros((X.shape[0], count))
     taken: list[int] = []
     for i in range(count):
-        chances = residual / residual.sum()
-        pivot = int(draw.choice(len(chances), p=chances) if randomised else np.argmax(chances))
+        pivot = _drawn(residual**power, draw) if randomised else int(np.argmax(residual))
         taken.append(pivot)
         column = to_numpy(gram(kernel, X, X[pivot : pivot + 1, :]))[:, 0] - factor[:, :i] @ factor[pivot, :i]
         if not column[pivot] > 0:
@@ -79,3 +82,7 @@ def pivoted_cholesky(kernel: KernelLike, X: Array, count: int, *, randomised: bo
         if residual.max() <= spent:
             break
     return np.asarray(taken, dtype=np.int64)
+
+
+def _drawn(weights: np.ndarray, draw: np.random.Generator) -> int:
+    return int(draw.choice(len(weights), p=weights / weights.sum()))

@@ -24,7 +24,8 @@ from kfmaps.app.experiments.setting import Setting
 from kfmaps.config import Config
 from kfmaps.energy import Energy, SliceCommutativity, hadamard_term
 from kfmaps.features import Descriptors, Features, kernel_features, pair_descriptors
-from kfmaps.pipeline import jacobi, problem
+from kfmaps.pipeline import problem
+from kfmaps.preconditioners import jacobi, sylvester
 from kfmaps.solvers import CG, solve
 from kfmaps.spectrum import Basis
 
@@ -57,7 +58,8 @@ def figure7(setting: Setting) -> Outcome:
     with one_blas_thread():
         for name, config in (("paper's settings", paper(100)), ("recommended", recommended(100))):
             energy = assembled(setting, config).energy
-            for how, precondition in (("plain", None), ("preconditioned", jacobi(energy.diagonal()))):
+            operators = (("plain", None), ("Jacobi", jacobi(energy.diagonal())), ("Sylvester", sylvester(energy)))
+            for how, precondition in operators:
                 solution = solve(energy.apply, energy.rhs(), CG(TOLERANCE, STEPS), preconditioner=precondition)
                 residuals[f"{name}, {how}"] = solution.residuals / solution.residuals[0]
         times = timings(setting, paper(100))
@@ -193,7 +195,7 @@ def draw(residuals: dict[str, np.ndarray], times: list[dict[str, Any]]) -> Figur
     figure, (left, right) = style.new_figure(columns=2, width=4.8)
     colors = (style.METHODS["ours (paper)"], style.METHODS["ours (recommended)"])
     for i, (name, values) in enumerate(residuals.items()):
-        left.semilogy(values, color=colors[i // 2], linestyle=style.DASHES[i % 2], label=name, linewidth=1.4)
+        left.semilogy(values, color=colors[i // 3], linestyle=style.DASHES[i % 3], label=name, linewidth=1.4)
     style.labels(left, "step of conjugate gradients", "‖b − A(C)‖ / ‖b‖", "residuals")
     left.legend(fontsize=7, frameon=False, loc="upper right")
     names = [str(row["form"]).replace(", ", ",\n") for row in times]

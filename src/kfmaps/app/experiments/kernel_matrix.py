@@ -74,4 +74,5 @@ def samples(how: str, mesh: Mesh, X: np.ndarray, gamma: float, count: int, rng: 
         return farthest_geodesic(mesh, count, rng)
     if how == "descriptor farthest":
         return farthest(X, count, rng)
-    return pivoted_cholesky(Gaussian(gamma), X, count, randomised=how.startswith("randomly"), rng=rng)
+    power = 2.0 if how.endswith("squared") else 1.0
+    return pivoted_cholesky(Gaussian(gamma), X, count, randomised=how.startswith("randomly"), power=power, rng=rng)

@@ -33,11 +33,12 @@ SAMPLINGS = {
     "descriptor farthest": BLUE,
     "pivoted Cholesky": VERMILION,
     "randomly pivoted Cholesky": ORANGE,
+    "randomly pivoted Cholesky, squared": GREEN,
     "spectral bound": BLACK,
 }
 """Colour of each way to choose samples."""
 
-DASHES = ("solid", "dashed", "dotted", "dashdot", (0, (1, 3)), (0, (5, 1, 1, 1, 1, 1)))
+DASHES = ("solid", "dashed", "dotted", "dashdot", (0, (1, 3)), (0, (5, 1, 1, 1, 1, 1)), (0, (3, 1)))
 """Line styles, a second way to tell curves apart."""
 
 TEXT = "#333333"

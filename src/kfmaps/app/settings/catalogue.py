@@ -111,7 +111,7 @@ CATALOGUE: dict[str, tuple[Setting, ...]] = {
             "nystrom.sampling",
             str,
             "how samples are chosen",
-            "descriptor, geodesic, uniform, cholesky, random-cholesky",
+            "descriptor, geodesic, uniform, cholesky, random-cholesky, squared-cholesky",
             "--sampling",
         ),
         Setting("nystrom.rtol", float, "kernel eigenvalues below this part of the largest are dropped", "0 to below 1"),
