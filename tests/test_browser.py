@@ -13,9 +13,14 @@ from PIL import Image
 
 from chromium import NASTY, Browser, Keys, chromium, needs_browser
 from kfmaps.app.datasets import Pair, two_poses
+from kfmaps.app.files import MapFile
 from kfmaps.app.view.page import result_page
+from kfmaps.app.view.results import map_page
+from kfmaps.confidence import local_confidence
 
 pytestmark = needs_browser
+
+CHOOSE_MAP = "const m = document.getElementById('map'); m.value = arguments[0]; m.dispatchEvent(new Event('change'))"
 
 
 @pytest.fixture(scope="module")
@@ -100,7 +105,7 @@ def test_a_source_point_that_nothing_reaches_shows_the_nearest_that_is(page: Bro
 
 
 def test_runner_up_has_its_own_matches(page: Browser, pair: Pair) -> None:
-    page.run("const m = document.getElementById('map'); m.value = 1; m.dispatchEvent(new Event('change'))")
+    page.run(CHOOSE_MAP, "1")
     vertex = page.visible("target", np.arange(len(pair.truth)), 1)[0]
     page.point("target", vertex, click=True)
     page.until(lambda: page.text("pinned") == f"target {vertex} → source {np.roll(pair.truth, 1)[vertex]}")
@@ -221,6 +226,37 @@ def test_difference_is_between_the_best_map_and_the_runner_up(page: Browser, pai
     top, bottom = np.array_split(coloured[rows[0] : rows[-1]], [int(0.3 * len(rows))])
     assert top.mean() > 0.02
     assert bottom[len(bottom) // 2 :].mean() < 0.001
+
+
+def test_confidence_is_of_the_map_that_is_shown(browser: Browser, pair: Pair, tmp_path: Path) -> None:
+    """A part that is sent elsewhere is dark, the rest is bright; the runner-up, which is right, is bright all over."""
+    side = pair.target.vertices[:, 0]
+    part = side > np.quantile(side, 0.93)
+    wrong = pair.truth.copy()
+    wrong[part] = np.random.default_rng(0).permutation(wrong[part])
+    found = MapFile(wrong, extra={"runners_up": pair.truth[None]})
+    html = map_page(found, pair.source, pair.target, ("a", "b"), descriptors=False)
+    (tmp_path / "sure.html").write_text(html, encoding="utf-8")
+    browser.open((tmp_path / "sure.html").as_uri())
+    browser.mode("confidence")
+    assert (browser.text("legend-low"), browser.text("legend-high")) == ("0", "1")
+    assert "confidence" in browser.text("legend-text")
+    expected = {"0": wrong, "1": pair.truth}
+    for chosen, points in expected.items():
+        browser.run(CHOOSE_MAP, chosen)
+        sure = local_confidence(pair.source, pair.target, points)
+        for vertex in browser.visible("target", np.flatnonzero(part), 1) + browser.visible("target", np.arange(300), 2):
+            browser.point("target", vertex)
+            begin = f"target {vertex} → source {points[vertex]}, confidence "
+            told = browser.until(lambda begin=begin: re.fullmatch(begin + "([0-9.e-]+)", browser.text("readout")))
+            assert float(told[1]) == pytest.approx(sure[vertex], abs=1e-3)
+        time.sleep(0.3)
+        view = browser.picture(browser.element("#view-target"))
+        # viridis: what is unsure is violet, what is sure is green to yellow
+        violet = (view[..., 2] - view[..., 1] > 30) & (view[..., 2] - view[..., 0] > 20)
+        green = (view[..., 1] - view[..., 2] > 30) & (view[..., 1] > 80)
+        assert green.mean() > 0.02
+        assert (violet.mean() > 0.002) == (chosen == "0"), violet.mean()
 
 
 def test_picture_is_saved(page: Browser, tmp_path: Path) -> None:

@@ -12,6 +12,7 @@ import pytest
 import kfmaps
 from commandline import SMALL, Ran, run, shapes
 from kfmaps.app.files import load_map, write_mesh
+from kfmaps.confidence import local_confidence
 from kfmaps.config import as_dict, from_dict
 from kfmaps.mesh import Mesh
 
@@ -165,6 +166,10 @@ def test_without_landmarks(made: types.SimpleNamespace, tmp_path: Path) -> None:
     assert float(np.asarray(found.extra["confidence"])) == pytest.approx(told["confidence"])
     assert len(np.atleast_2d(found.extra.get("runners_up", np.zeros((0, 300))))) == told["runners_up"]
     assert len(told["scores"]) == 1 + told["runners_up"]
+    sure = local_confidence(made.meshes[0], made.meshes[1], found.target_to_source)
+    np.testing.assert_allclose(np.asarray(found.extra["local_confidence"]), sure, atol=1e-9)
+    assert told["local_confidence"] == pytest.approx(sure.mean())
+    assert "confidence" in told["times"]
 
 
 def test_search_options_beside_landmarks_are_told_of(made: types.SimpleNamespace, tmp_path: Path) -> None:

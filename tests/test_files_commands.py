@@ -125,6 +125,17 @@ def test_export_the_functional_map(folder: Path, suffix: str) -> None:
     assert "one of .txt .csv .npy" in complaint("export", folder / "c.npz", "--functional", "-o", folder / "q.vts")
 
 
+@pytest.mark.parametrize("suffix", [".txt", ".csv", ".npy"])
+def test_export_the_confidence(folder: Path, suffix: str) -> None:
+    sure = np.append(np.random.default_rng(4).random(len(POINTS) - 1), np.nan)
+    save_map(folder / "s.npz", MapFile(POINTS, extra={"local_confidence": sure}))
+    assert run("export", folder / "s.npz", "--confidence", "-o", folder / f"o{suffix}").exit_code == 0
+    np.testing.assert_array_equal(np.ravel(read_values(folder / f"o{suffix}").array), sure)
+    assert "got none" in complaint("export", folder / "m.npz", "--confidence", "-o", folder / f"q{suffix}")
+    words = ("--confidence", "--functional", "-o", folder / f"q{suffix}")
+    assert "--functional or --confidence" in complaint("export", folder / "s.npz", *words)
+
+
 @pytest.mark.parametrize("suffix", [".obj", ".ply", ".off"])
 def test_export_as_a_shape(folder: Path, suffix: str) -> None:
     names = ("--source", folder / "a.off", "--target", folder / "b.off")

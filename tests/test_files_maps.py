@@ -29,7 +29,8 @@ def example(seed: int = 0, n_t: int = 50) -> MapFile:
         {
             "source": "a/b ü.off",
             "runners_up": rng.integers(0, 40, (1, n_t)),
-            "confidence": rng.random(n_t),
+            "confidence": np.array(0.25),
+            "local_confidence": np.append(rng.random(n_t - 1), np.nan),
             "landmarks": rng.integers(0, 40, (3, 2)),
             "empty": "",
         },

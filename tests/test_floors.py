@@ -33,6 +33,7 @@ FLOORS = {
     "preconditioners": 4,
     "refine": 4,
     "evaluate": 4,
+    "confidence": 4,
     "config": 4.5,
     "shape": 4.7,
     "features": 4.8,

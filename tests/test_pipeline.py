@@ -71,6 +71,7 @@ def test_identical_shapes_give_the_identity(shape):
     np.testing.assert_array_equal(found.target_to_source, np.arange(400))
     np.testing.assert_array_equal(found.raw_target_to_source, np.arange(400))
     assert found.solution.status == "converged"
+    assert found.local_confidence == pytest.approx(1)
     np.testing.assert_allclose(found.raw_functional_map, np.eye(20), atol=0.02)
 
 

@@ -24,6 +24,7 @@ from kfmaps.app.view.fields import alignment, area_distortion, nearest_reached
 from kfmaps.app.view.pack import json_block, packed, plain, quantised
 from kfmaps.app.view.page import result_page
 from kfmaps.app.view.results import errors_against, map_page, match_summary, mesh_path, signatures
+from kfmaps.confidence import local_confidence
 from kfmaps.config import Config
 from kfmaps.mesh import Mesh, unit_area, vertex_areas
 from kfmaps.pipeline import Match
@@ -225,7 +226,7 @@ def test_everything_of_two_7000_vertex_meshes_is_below_6_mb() -> None:
         points,
         functional_map=rng.random((200, 200)),
         errors=rng.random((4, n)),
-        confidence=rng.random(n),
+        confidence=rng.random((4, n)),
         runners_up=[rng.permutation(n) for _ in range(3)],
         descriptors=descriptors,
     )
@@ -314,14 +315,17 @@ def test_page_of_a_file_shows_what_the_file_holds(pair: tuple) -> None:
     source, target, points = pair
     extra = {
         "runners_up": points[None, ::-1],
-        "confidence": np.linspace(0, 1, 240),
+        "local_confidence": np.linspace(0, 1, 240),
+        "confidence": np.array(0.5),
         "summary": '{"times": {"solve": 2}}',
     }
     found = MapFile(points, config='{"exact": false}', extra=extra)
     data = page_data(map_page(found, source, target, ("a", "b"), descriptors=False))
     assert len(data["maps"]) == 2
-    assert data["summary"] == {"times": {"solve": 2}, "settings": {"exact": False}}
-    assert unpacked(data["confidence"])[-1] == pytest.approx(1)
+    assert data["summary"] == {"times": {"solve": 2}, "settings": {"exact": False}, "confidence": 0.5}
+    known, other = (unpacked(row) for row in data["confidence"])
+    np.testing.assert_allclose(known, np.linspace(0, 1, 240), atol=1e-4)
+    np.testing.assert_allclose(other, local_confidence(source, target, points[::-1]), atol=1e-4)
     note = MapFile(points, extra={"summary": "no json {"})
     data = page_data(map_page(note, source, target, ("a", "b"), descriptors=False))
     assert data["summary"] == {"note": "no json {"}

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import time
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
 from kfmaps.automatic import choose
+from kfmaps.confidence import local_confidence
 from kfmaps.config import Config
 from kfmaps.mesh import Mesh
 from kfmaps.pipeline import Match, fit
@@ -58,9 +61,13 @@ def match(
     ]
     search = config.search is not None and not has_landmarks(landmarks)
     answer = choose if search else fit
-    return answer(
+    found = answer(
         shapes[0], shapes[1], config, landmarks=landmarks, descriptors=descriptors, rng=rng, progress=progress
     )
+    start = time.perf_counter()
+    trust = local_confidence(shapes[0].mesh, shapes[1].mesh, found.target_to_source)
+    seconds = {**found.seconds, "confidence": time.perf_counter() - start}
+    return replace(found, local_confidence=trust, seconds=seconds)
 
 
 def has_landmarks(landmarks: Any) -> bool:

@@ -75,6 +75,9 @@ class Match:
     verdict : "landmarks", "sure" or "ambiguous"
     scores : tuple of float
         Of the map and of each runner-up, higher is better; empty with landmarks.
+    local_confidence : (n_t,) float64 or None
+        How well the map keeps distances around each target vertex, 0 to 1; see :mod:`kfmaps.confidence`. ``None``
+        from a fit alone.
     """
 
     target_to_source: np.ndarray
@@ -94,6 +97,7 @@ class Match:
     runners_up: tuple[np.ndarray, ...] = ()
     verdict: str = "landmarks"
     scores: tuple[float, ...] = ()
+    local_confidence: np.ndarray | None = None
 
 
 @dataclass(frozen=True, eq=False)

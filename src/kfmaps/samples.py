@@ -54,7 +54,7 @@ def spectral_samples(basis: Basis, count: int, rng: int | np.random.Generator = 
     candidates, embedding = _embedded(basis)
     pool = np.arange(len(candidates))
     if len(pool) > max(POOL, 4 * count):
-        pool = _stratified(embedding, to_numpy(basis.mass)[candidates], max(POOL, 4 * count), rng)
+        pool = stratified(embedding, to_numpy(basis.mass)[candidates], max(POOL, 4 * count), rng)
     chosen = pool[farthest(embedding[pool], min(count, len(pool)), rng, None)]
     return _samples(basis, candidates, embedding, chosen)
 
@@ -78,7 +78,7 @@ def stratified_samples(
     """
     check_count(count, "sample count")
     candidates, embedding = _embedded(basis)
-    chosen = _stratified(embedding, to_numpy(basis.mass)[candidates], count, rng)
+    chosen = stratified(embedding, to_numpy(basis.mass)[candidates], count, rng)
     if kept is None:
         return _samples(basis, candidates, embedding, chosen)
     samples = _samples(basis, candidates, embedding, np.union1d(chosen, np.flatnonzero(np.isin(candidates, kept))))
@@ -98,10 +98,14 @@ def _embedded(basis: Basis) -> tuple[np.ndarray, np.ndarray]:
     return candidates, to_numpy(basis.functions)[:, :k][candidates][:, positive] / values[positive]
 
 
-def _stratified(
+def stratified(
     embedding: np.ndarray, mass: np.ndarray, count: int, rng: int | np.random.Generator | None
 ) -> np.ndarray:
-    """Systematic sampling by area along the leaves of a k-d tree, which follow each other in space."""
+    """Systematic sampling by area along the leaves of a k-d tree, which follow each other in space.
+
+    ``embedding (n, d)`` are places, of which the first eight coordinates count, ``mass (n,)`` their areas. Returns
+    numbers of rows in ascending order, ``count`` or, where one is drawn twice, fewer.
+    """
     order = KDTree(embedding[:, :STRATA]).indices
     reached = np.cumsum(mass[order])
     drawn = (np.arange(count) + np.random.default_rng(rng).random(count)) / count

@@ -18,7 +18,7 @@ export function startResult(data) {
   const colours = numbers(data.source.colours);
   const plane = reals(data.source.plane);
   const errors = (data.errors ?? []).map(reals);
-  const confidence = data.confidence ? reals(data.confidence) : null;
+  const confidence = (data.confidence ?? []).map(reals);
   const links = data.maps.map(() => null);
   const state = { mode: "colours", map: 0, descriptor: 0, hovered: null, pinned: null };
   const linkOf = (map) => (links[map] ??= new Link(data.maps[map], shapes[0].count));
@@ -77,9 +77,10 @@ export function startResult(data) {
       return field(apart, "error", 0, 0.5, { low: "0", high: "0.5", text });
     },
     confidence: () => {
-      if (state.map > 0) return unknown("The confidence of this map is not known.");
-      const [low, high] = [quantile(confidence, 0), quantile(confidence, 1)];
-      return field(confidence, "sequential", low, high, { low: short(low, 3), high: short(high, 3), text: "confidence" });
+      const values = confidence[state.map];
+      if (!values) return unknown("The confidence of this map is not known.");
+      const text = "confidence: how well distances to the surroundings are kept";
+      return field(values, "sequential", 0, 1, { low: "0", high: "1", text });
     },
   };
   const show = () => {
@@ -90,7 +91,7 @@ export function startResult(data) {
 
   const measured = (target) => {
     const error = errors[state.map]?.[target] ?? NaN;
-    const sure = state.map === 0 ? (confidence?.[target] ?? NaN) : NaN;
+    const sure = confidence[state.map]?.[target] ?? NaN;
     return (Number.isNaN(error) ? "" : `, error ${short(error, 3)} √area`)
       + (Number.isNaN(sure) ? "" : `, confidence ${short(sure, 3)}`);
   };
@@ -148,7 +149,7 @@ export function startResult(data) {
     ...(errors.length && { error: "Error" }),
     ...(shapes.every((s) => s.faces.length) && { distortion: "Area distortion" }),
     ...(data.maps.length > 1 && { difference: "Difference" }),
-    ...(confidence && { confidence: "Confidence" }),
+    ...(confidence.length && { confidence: "Confidence" }),
   }, state.mode, (mode) => { state.mode = mode; show(); });
   const choices = (id, texts, set) => {
     texts.forEach((text, value) => byId(id).append(element("option", text, { value })));

@@ -81,6 +81,7 @@ def summary(outcome: Outcome) -> dict[str, Any]:
         "relative_residual": float(residuals[-1] / first) if len(residuals) else None,
         "verdict": match.verdict,
         "confidence": None if match.confidence is None else float(match.confidence),
+        "local_confidence": mean_confidence(match),
         "scores": [float(score) for score in match.scores],
         "runners_up": len(match.runners_up),
         "errors": None if outcome.report is None else outcome.report.as_dict(),
@@ -89,6 +90,13 @@ def summary(outcome: Outcome) -> dict[str, Any]:
         "residuals": (residuals / first).tolist(),
         "settings": as_dict(match.config),
     }
+
+
+def mean_confidence(match: Match) -> float | None:
+    """Mean of ``local_confidence`` over the target's vertices; ``None`` where it is not known."""
+    known = match.local_confidence
+    known = None if known is None else known[np.isfinite(known)]
+    return None if known is None or len(known) == 0 else float(known.mean())
 
 
 def map_file(outcome: Outcome) -> MapFile:

@@ -42,6 +42,9 @@ class Result:
     coverage : float or None
         Part of the source's area that the map reaches.
     confidence : float or None
+        Of the search without landmarks.
+    local_confidence : float or None
+        Mean over the target's vertices, see :mod:`kfmaps.confidence`.
     verdict : str
     solver, solver_steps, rank
     seconds : dict of str to float
@@ -69,6 +72,7 @@ class Result:
     mirrored_mean: float | None = None
     coverage: float | None = None
     confidence: float | None = None
+    local_confidence: float | None = None
     verdict: str = ""
     solver: str = ""
     solver_steps: int | None = None

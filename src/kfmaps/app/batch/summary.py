@@ -76,12 +76,15 @@ def summarised(results: Sequence[Result]) -> Summary:
 
 
 def worst_first(results: Sequence[Result]) -> list[Result]:
-    """Those that are done, the largest mean error first; where no truth is known, the least sure first."""
+    """Those that are done, the largest mean error first; where no truth is known, the least sure first.
+
+    With landmarks there was no search to be sure of, and the mean confidence of the vertices decides.
+    """
     done = [r for r in results if r.status == "done"]
 
-    def rank(r: Result) -> tuple[float, float]:
-        sure = float("inf") if r.confidence is None else r.confidence
-        return (-(r.error_mean if r.error_mean is not None else -1.0), sure)
+    def rank(r: Result) -> tuple[float, ...]:
+        sure = [float("inf") if c is None else c for c in (r.confidence, r.local_confidence)]
+        return (-(r.error_mean if r.error_mean is not None else -1.0), *sure)
 
     return sorted(done, key=rank)
 

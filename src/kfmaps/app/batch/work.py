@@ -24,7 +24,7 @@ from kfmaps.app.batch.tasks import PairTask, Prepared, ShapeTask
 from kfmaps.app.batch.truth import landmark_pairs, true_vertices
 from kfmaps.app.evaluation import Report, assessed
 from kfmaps.app.files import read_mesh, save_map
-from kfmaps.app.summary import Outcome, map_file
+from kfmaps.app.summary import Outcome, map_file, mean_confidence
 from kfmaps.evaluate import coverage, error_curve
 from kfmaps.matching import match
 from kfmaps.shape import Shape, prepare
@@ -177,6 +177,7 @@ def _matched(task: PairTask) -> dict[str, Any]:
         "landmarks": len(marks),
         "coverage": reached,
         "confidence": None if found.confidence is None else float(found.confidence),
+        "local_confidence": mean_confidence(found),
         "verdict": found.verdict,
         "solver": str(found.solution.status),
         "solver_steps": int(found.solution.steps),

@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Annotated
 
+import numpy as np
 import typer
 
 from kfmaps._arrays import refuse
@@ -46,11 +47,16 @@ def export(
     functional: Annotated[
         bool, typer.Option("--functional", help="Write the functional map C alone (.txt, .csv, .npy).")
     ] = False,
+    confidence: Annotated[
+        bool, typer.Option("--confidence", help="Write the confidence of each target vertex (.txt, .csv, .npy).")
+    ] = False,
     force: Annotated[bool, typer.Option("--force", help="Replace existing files.")] = False,
 ) -> None:
     """Write the target with the source's texture or colours, or the map in another format."""
     suffix = output.suffix.lower()
-    formats = MATRICES if functional else SHAPES + MAPS
+    if functional and confidence:
+        raise refuse("export", "--functional or --confidence", "both", "run the command twice")
+    formats = MATRICES if functional or confidence else SHAPES + MAPS
     if suffix not in formats:
         got = suffix or "no extension"
         raise refuse(f"output {output}", f"one of {' '.join(formats)}", got, "choose one of these")
@@ -63,6 +69,11 @@ def export(
         if found.functional_map is None:
             raise refuse(str(map), "a functional map", "a point map alone", "give the .npz file of a match")
         write_values(output, Values(found.functional_map), force)
+    elif confidence:
+        values = found.extra.get("local_confidence")
+        if values is None:
+            raise refuse(str(map), "confidence per vertex", "none", "give the .npz or .mat file of a match")
+        write_values(output, Values(np.asarray(values)), force)
     elif suffix in MAPS:
         save_map(output, found, force)
     elif shape_s is None or shape_t is None:

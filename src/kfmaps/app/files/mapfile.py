@@ -48,8 +48,8 @@ class MapFile:
         The settings as JSON text; empty when unknown.
     extra : dict
         Further arrays of numbers and texts by name. Names that are in use: ``runners_up`` (c, n_t) int64,
-        ``confidence`` (n_t,) float64, ``landmarks`` (l, 2) int64, ``n_s`` (how many vertices the source
-        has), ``source``, ``target`` (paths) and ``summary`` (JSON text).
+        ``confidence`` (one number), ``local_confidence`` (n_t,) float64, ``landmarks`` (l, 2) int64, ``n_s`` (how
+        many vertices the source has), ``source``, ``target`` (paths) and ``summary`` (JSON text).
     """
 
     target_to_source: np.ndarray
@@ -143,6 +143,8 @@ def match_map(match: Match) -> MapFile:
         extra["runners_up"] = np.stack(match.runners_up)
     if match.confidence is not None:
         extra["confidence"] = np.float64(match.confidence)
+    if match.local_confidence is not None:
+        extra["local_confidence"] = match.local_confidence
     config = json.dumps(as_dict(match.config))
     return MapFile(
         match.target_to_source, match.functional_map, match.eigenvalues_s, match.eigenvalues_t, config, extra

@@ -43,18 +43,17 @@ def map_record(source: Mesh, target: Mesh, target_to_source: np.ndarray, label: 
     }
 
 
-def _fields(errors: Any, confidence: Any, maps: int, n_t: int) -> dict[str, Any]:
+def _fields(maps: int, n_t: int, **given: Any) -> dict[str, Any]:
+    """Numbers at target vertices, of the best map alone or of every map."""
     fields = {}
-    if errors is not None:
-        rows = np.atleast_2d(np.asarray(errors, dtype=np.float64))
-        check(rows, "errors", shape=(None, n_t), finite=False, remedy="give one error per target vertex")
+    for name, values in given.items():
+        if values is None:
+            continue
+        rows = np.atleast_2d(np.asarray(values, dtype=np.float64))
+        check(rows, name, shape=(None, n_t), finite=False, remedy="give one number per target vertex")
         if len(rows) not in (1, maps):
-            raise refuse("errors", f"one row, or one for each of {maps} maps", f"{len(rows)}", "leave some out")
-        fields["errors"] = [quantised(row) for row in rows]
-    if confidence is not None:
-        values = np.asarray(confidence, dtype=np.float64)
-        check(values, "confidence", shape=(n_t,), finite=False, remedy="give one number per target vertex")
-        fields["confidence"] = quantised(values)
+            raise refuse(name, f"one row, or one for each of {maps} maps", f"{len(rows)}", "leave some out")
+        fields[name] = [quantised(row) for row in rows]
     return fields
 
 
@@ -102,8 +101,8 @@ def result_page(
     errors : (n_t,) or (1 + c, n_t), optional
         Distance on the source from each image to the truth, in units of √area; one row for the map, or one
         more for each runner-up. NaN where the truth is not known.
-    confidence : (n_t,), optional
-        Higher is surer; NaN where not known.
+    confidence : (n_t,) or (1 + c, n_t), optional
+        From 0 to 1, higher is surer, as :func:`kfmaps.confidence.local_confidence` has it; rows as for ``errors``.
     runners_up : (c, n_t) int
         Other maps, to be switched to.
     descriptors : ((n_s, d), (n_t, d)), optional
@@ -143,7 +142,7 @@ def result_page(
         "target": shape_record(target, names[1]),
         "rotation": alignment(source, target, points[0]).ravel(),
         "maps": [map_record(source, target, m, label) for m, label in zip(points, labels, strict=True)],
-        **_fields(errors, confidence, len(points), len(target.vertices)),
+        **_fields(len(points), len(target.vertices), errors=errors, confidence=confidence),
         "descriptors": _descriptors(descriptors, source, target, most_descriptors),
         "matrix": None if matrix is None else quantised(matrix),
         "summary": summary or {},

@@ -12,8 +12,9 @@ from typing import Any
 import numpy as np
 
 from kfmaps._arrays import refuse
-from kfmaps.app.files import MapFile
+from kfmaps.app.files import MapFile, check_map
 from kfmaps.app.view.page import result_page
+from kfmaps.confidence import local_confidence
 from kfmaps.config import as_dict
 from kfmaps.descriptors import wave_energies, wave_signature
 from kfmaps.evaluate import geodesic_errors, truth_from_pairs
@@ -81,6 +82,7 @@ def match_page(
         match.target_to_source,
         functional_map=match.functional_map,
         errors=None if truth is None else errors_against(source, maps, *truth),
+        confidence=_confidences(source, target, maps, match.local_confidence),
         runners_up=match.runners_up,
         descriptors=signatures(source, target) if descriptors else None,
         summary=match_summary(match),
@@ -104,10 +106,8 @@ def map_page(
     settings = _json_of(found.config)
     if settings:
         summary.setdefault("settings", settings)
-    confidence = found.extra.get("confidence")
-    if confidence is not None and np.shape(confidence) != (len(target.vertices),):
-        summary.setdefault("confidence", confidence)
-        confidence = None
+    if "confidence" in found.extra:
+        summary.setdefault("confidence", found.extra["confidence"])
     others = found.extra.get("runners_up")
     others = np.zeros((0, len(target.vertices)), dtype=np.int64) if others is None else np.atleast_2d(others)
     maps = [found.target_to_source, *others]
@@ -117,13 +117,20 @@ def map_page(
         found.target_to_source,
         functional_map=found.functional_map,
         errors=None if truth is None else errors_against(source, maps, *truth),
-        confidence=None if confidence is None else np.asarray(confidence),
+        confidence=_confidences(source, target, maps, found.extra.get("local_confidence")),
         runners_up=others,
         descriptors=signatures(source, target) if descriptors else None,
         summary=summary,
         names=names,
         up=up,
     )
+
+
+def _confidences(source: Mesh, target: Mesh, maps: Sequence[np.ndarray], known: Any) -> np.ndarray:
+    """Confidence of each map at each target vertex, (m, n_t); ``known`` is that of the first, or ``None``."""
+    sizes = len(source.vertices), len(target.vertices)
+    rows = [local_confidence(source, target, check_map(m, *sizes)) for m in maps[known is not None :]]
+    return np.stack(rows if known is None else [np.asarray(known), *rows])
 
 
 def _json_of(text: Any) -> dict[str, Any]:
@@ -148,8 +155,9 @@ def errors_against(source: Mesh, maps: Sequence[np.ndarray], truth_s: np.ndarray
         Corresponding vertices. Of several truths for one target vertex the last counts.
     """
     rows = np.full((len(maps), len(maps[0])), np.nan)
-    for row, points in zip(rows, maps, strict=True):
-        row[truth_t] = geodesic_errors(source, truth_from_pairs(truth_s, truth_t, points), truth_s)
+    # All at once, so that one search from a true vertex serves every map.
+    predicted = np.concatenate([truth_from_pairs(truth_s, truth_t, points) for points in maps])
+    rows[:, truth_t] = geodesic_errors(source, predicted, np.tile(truth_s, len(maps))).reshape(len(maps), -1)
     return rows
 
 
