@@ -24,6 +24,32 @@ def test_nearest_survives_a_shift_and_prefers_the_first_of_equals(rng):
     np.testing.assert_array_equal(nearest(points + 1e7, doubled), np.arange(40))
 
 
+@pytest.mark.parametrize("apart", [1e-3, 1e-7, 1e-9, 0.0])
+def test_nearest_tells_points_apart_that_single_precision_cannot(rng, apart):
+    points = np.repeat(rng.normal(size=(60, 30)), 5, axis=0)
+    points += apart * rng.normal(size=points.shape)
+    queries = points[rng.permutation(300)[:90]] + 0.3 * apart * rng.normal(size=(90, 30))
+    wanted = ((queries[:, None] - points[None]) ** 2).sum(axis=2).argmin(axis=1)
+    np.testing.assert_array_equal(nearest(queries, points), wanted)
+
+
+@pytest.mark.parametrize("size", [1e-160, 1e-30, 1e30, 1e150])
+def test_nearest_at_any_scale_and_of_queries_far_away(rng, size):
+    points, queries = rng.normal(size=(80, 7)), rng.normal(size=(50, 7))
+    wanted = np.linalg.norm(queries[:, None] - points[None], axis=2).argmin(axis=1)
+    np.testing.assert_array_equal(nearest(queries * size, points * size), wanted)
+    far = queries * 1e12
+    wanted = np.linalg.norm(far[:, None] - points[None], axis=2).argmin(axis=1)
+    np.testing.assert_allclose(
+        np.linalg.norm(far - points[nearest(far, points)], axis=1), np.linalg.norm(far - points[wanted], axis=1)
+    )
+
+
+def test_nearest_of_equal_points_is_the_first():
+    np.testing.assert_array_equal(nearest(np.ones((5, 40)), np.ones((300, 40))), 0)
+    np.testing.assert_array_equal(nearest(np.zeros((5, 4)), np.zeros((3, 4))), 0)
+
+
 def test_nearest_on_large_sets_equals_the_product(rng):
     points, queries = rng.normal(size=(20_001, 2)), rng.normal(size=(200, 2))
     wanted = np.linalg.norm(queries[:, None] - points[None], axis=2).argmin(axis=1)
@@ -85,6 +111,19 @@ def two_meshings():
     source, target = unit_area(blob(500)), unit_area(blob(420, twist=0.4))
     bases = laplace_basis(source, 40), laplace_basis(target, 40)
     return source, *bases, nearest(target.vertices, source.vertices)
+
+
+@pytest.mark.parametrize(
+    "refinement",
+    [ZoomOut(12, 30, 6), ZoomOut(8, 30, 6), ZoomOut(12, 12), ZoomOut(12, 30, 6, samples=150), ICP(3)],
+    ids=repr,
+)
+def test_a_point_map_that_is_known_already_changes_nothing(small_basis, rng, refinement):
+    C = np.linalg.qr(rng.normal(size=(12, 12)))[0]
+    points = to_points(C, small_basis, small_basis)
+    alone, told = (refinement(C, small_basis, small_basis, points=p) for p in (None, points))
+    np.testing.assert_array_equal(alone.target_to_source, told.target_to_source)
+    np.testing.assert_array_equal(alone.functional_map, told.functional_map)
 
 
 @pytest.mark.parametrize("refinement", [ZoomOut(6, 30, 4), ZoomOut(6, 30, 4, samples=150), ICP(10)], ids=repr)

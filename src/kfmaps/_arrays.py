@@ -104,8 +104,9 @@ def check(
     if finite:
         xp = array_namespace(array)
         if xp.isdtype(array.dtype, "real floating"):
-            bad = int(xp.sum(xp.astype(~xp.isfinite(array), xp.int64)))
-            if bad:
+            fine = xp.isfinite(array)
+            if not bool(xp.all(fine)):
+                bad = int(xp.sum(xp.astype(~fine, xp.int64)))
                 raise refuse(name, "finite numbers", f"{bad} NaN or infinite values", remedy)
     return array
 

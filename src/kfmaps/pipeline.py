@@ -293,7 +293,7 @@ def fit(
         if config.refinement is not None:
             with stage("refinement"):
                 refined = config.refinement(
-                    C, *bases, progress=lambda done: report("refinement", done), threads=config.threads
+                    C, *bases, progress=lambda done: report("refinement", done), threads=config.threads, points=raw
                 )
             answer, refined_map = refined.target_to_source, refined.functional_map
     k_t, k_s = refined_map.shape

@@ -1,4 +1,8 @@
-"""Refinements: frozen settings, callable as ``(C, source, target) -> Refined``."""
+"""Refinements: frozen settings, callable as ``(C, source, target) -> Refined``.
+
+``points``, where given, is the point map of ``C`` itself (:func:`kfmaps.maps.to_points`), which then need not be found
+again.
+"""
 
 from __future__ import annotations
 
@@ -56,13 +60,14 @@ class ICP:
         target: Basis,
         progress: Progress | None = None,
         threads: int | None = None,
+        points: np.ndarray | None = None,
     ) -> Refined:
         k_t, k_s = C.shape
         if k_t != k_s:
             raise refuse("ICP", "a square functional map", f"{k_t} by {k_s}", "use equal basis sizes, or ZoomOut")
         xp = namespace(C)
         source, target = source.truncated(k_s), target.truncated(k_t)
-        points = to_points(C, source, target, threads)
+        points = to_points(C, source, target, threads) if points is None else points
         changes: list[int] = []
         for step in range(self.steps):
             u, _, vh = xp.linalg.svd(to_functional(points, source, target), full_matrices=False)
@@ -112,13 +117,21 @@ class ZoomOut:
             check_count(self.samples, "ZoomOut samples", low=2)
 
     def __call__(
-        self, C: Array, source: Basis, target: Basis, progress: Progress | None = None, threads: int | None = None
+        self,
+        C: Array,
+        source: Basis,
+        target: Basis,
+        progress: Progress | None = None,
+        threads: int | None = None,
+        points: np.ndarray | None = None,
     ) -> Refined:
         available = min(source.functions.shape[1], target.functions.shape[1])
         if self.stop > available:
             remedy = "compute more eigenfunctions or lower stop"
             raise refuse("ZoomOut stop", f"at most the {available} eigenfunctions at hand", str(self.stop), remedy)
         first = min(self.start, *C.shape)
+        if tuple(C.shape) != (first, first):
+            points = None
         C = C[:first, :first]
         sizes = [*range(first, self.stop, self.step), self.stop]
         coarse, choice = target, source
@@ -126,15 +139,15 @@ class ZoomOut:
             coarse = spectral_samples(target, self.samples, self.seed).basis
             if source.functions.shape[0] > CANDIDATES:
                 choice = stratified_samples(source, CANDIDATES, self.seed).basis
+            points = None
         for i, larger in enumerate(sizes[1:]):
-            points = to_points(C, choice, coarse, threads)
-            C = fitted(points, choice, coarse, larger)
+            found = to_points(C, choice, coarse, threads) if points is None else points
+            C, points = fitted(found, choice, coarse, larger), None
             if progress is not None:
                 progress((i + 1) / len(sizes))
-        points = to_points(C, source, target, threads)
-        if (
-            coarse is not target
-        ):  # once more with all points, whose functional map owes nothing to the choice of samples
+        points = to_points(C, source, target, threads) if points is None else points
+        if coarse is not target:
+            # Once more with all points, whose functional map owes nothing to the choice of samples.
             C = fitted(points, source, target, self.stop)
             points = to_points(C, source, target, threads)
         if progress is not None:

@@ -46,12 +46,13 @@ def packed_slices(basis: Basis, features: Array, block: int = 512, threads: int 
     rows, columns = np.triu_indices(k)
     scale = like(np.where(rows == columns, 1.0, np.sqrt(2.0)), features)
     weighted = features * basis.mass[:, None]
+    fill = _fill_products if is_numpy(features, basis.functions) else _new_products
 
     def share(parts: list[slice]) -> Array:
-        total = None
+        total, products = None, None
         for part in parts:
             phi = xp.asarray(basis.functions[part, :].T, copy=True)  # rows of points side by side in memory
-            products = xp.concat([phi[i : i + 1, :] * phi[i:, :] for i in range(k)])
+            products = fill(phi, products)
             term = products @ weighted[part, :]
             total = term if total is None else total + term
         return total
@@ -63,6 +64,22 @@ def packed_slices(basis: Basis, features: Array, block: int = 512, threads: int 
     for part in parallel(share, shares, count):
         total = part if total is None else total + part
     return (total * scale[:, None]).T
+
+
+def _new_products(phi: Array, _: Array | None) -> Array:
+    """All products ``(k(k+1)/2, m)`` of two rows of ``phi (k, m)``."""
+    return namespace(phi).concat([phi[i : i + 1, :] * phi[i:, :] for i in range(phi.shape[0])])
+
+
+def _fill_products(phi: np.ndarray, old: np.ndarray | None) -> np.ndarray:
+    """The same, into the memory of the ``old`` ones where they have the size: fresh memory costs as much as they do."""
+    k, m = phi.shape
+    products = old if old is not None and old.shape[1] == m else np.empty((k * (k + 1) // 2, m))
+    start = 0
+    for i in range(k):
+        np.multiply(phi[i], phi[i:], out=products[start : start + k - i])
+        start += k - i
+    return products
 
 
 def unpacked_slices(packed: Array) -> Array:
