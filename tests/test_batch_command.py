@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import json
 from pathlib import Path
 
 import numpy as np
@@ -34,7 +35,10 @@ def test_a_run_and_another_that_finds_it_done(folder: Path, tmp_path: Path, caps
         rows = list(csv.DictReader(file))
     mean = sum(float(row["error_mean"]) for row in rows) / 2
     assert f"mean error {mean:.4f} √area over 2 pairs" in told
-    _equals_a_single_match(folder, out, tmp_path)
+    assert f"<dt>mean error × 100</dt><dd>{100 * mean:.2f}</dd>" in (out / "summary.html").read_text(encoding="utf-8")
+    alone = [_error_of_a_single_match(folder, out, tmp_path, row, capsys) for row in rows]
+    assert [float(row["error_mean"]) for row in rows] == pytest.approx(alone, rel=1e-12)
+    assert mean == pytest.approx(np.mean(alone), rel=1e-12)
     assert main([*words, "--all"]) == 0
     told = capsys.readouterr().out
     assert "6 pairs of 3 shapes, 2 done already" in told
@@ -43,18 +47,25 @@ def test_a_run_and_another_that_finds_it_done(folder: Path, tmp_path: Path, caps
     assert capsys.readouterr().out == ""
 
 
-def _equals_a_single_match(folder: Path, out: Path, tmp_path: Path) -> None:
-    """``kfmaps match`` with the settings that the run has written down gives the same map, bit for bit."""
-    both = [read_vertex_numbers(folder / "corres" / f"{name}.vts") for name in ("b2", "b1")]
-    write_landmarks(tmp_path / "marks.txt", np.stack(both, axis=1)[np.array(LANDMARKS) - 1])
-    words = ["match", str(folder / "b2.off"), str(folder / "b1.off"), "-o", str(tmp_path / "map.npz"), "-q"]
-    assert main([*words, "--landmarks", str(tmp_path / "marks.txt"), "--config", str(out / "settings.toml")]) == 0
-    alone, ours = load_map(tmp_path / "map.npz"), load_map(out / "maps" / "b2-b1.npz")
+def _error_of_a_single_match(
+    folder: Path, out: Path, tmp_path: Path, row: dict[str, str], capsys: pytest.CaptureFixture[str]
+) -> float:
+    """``kfmaps match`` with the settings that the run has written down gives the same map, bit for bit; its error."""
+    names = row["source"], row["target"]
+    truths = [folder / "corres" / f"{name}.vts" for name in names]
+    marks = np.stack([read_vertex_numbers(truth) for truth in truths], axis=1)[np.array(LANDMARKS) - 1]
+    write_landmarks(tmp_path / "marks.txt", marks, force=True)
+    words = ["match", *(str(folder / f"{name}.off") for name in names), "-o", str(tmp_path / "map.npz"), "--force"]
+    words += ["--landmarks", str(tmp_path / "marks.txt"), "--config", str(out / "settings.toml"), "--json"]
+    assert main([*words, "--truth-source", str(truths[0]), "--truth-target", str(truths[1])]) == 0
+    told = json.loads(capsys.readouterr().out)
+    alone, ours = load_map(tmp_path / "map.npz"), load_map(out / "maps" / f"{names[0]}-{names[1]}.npz")
     np.testing.assert_array_equal(alone.target_to_source, ours.target_to_source)
     assert alone.functional_map is not None
     assert ours.functional_map is not None
     np.testing.assert_array_equal(alone.functional_map, ours.functional_map)
     assert alone.extra.keys() == ours.extra.keys()
+    return told["errors"]["mean"]
 
 
 def test_failures_have_a_status_of_their_own(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

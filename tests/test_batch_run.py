@@ -9,6 +9,7 @@ import subprocess
 import sys
 import time
 from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -242,6 +243,50 @@ def test_a_running_scheduler(tmp_path: Path) -> None:
             pytest.raises(InvalidInput, match="on all of them"),
         ):
             run_plan(plan, workers)
+
+
+@contextmanager
+def dask_processes(folder: Path, workers: int) -> Iterator[str]:
+    """A scheduler and workers as a site starts them, without anything that would restart them; the address."""
+    about = folder / "scheduler.json"
+    common = ["--host", "127.0.0.1", "--scheduler-file", str(about)]
+    words = [["scheduler", *common, "--port", "0", "--no-dashboard"]]
+    words += [["worker", *common, "--nthreads", "1", "--no-nanny", "--no-dashboard"]] * workers
+    started: list[subprocess.Popen] = []
+    try:
+        for command in words:
+            started.append(
+                subprocess.Popen([sys.executable, "-m", "dask", *command], stderr=subprocess.DEVNULL, cwd=folder)
+            )
+            until(lambda: about.exists() and about.read_text())
+        yield json.loads(about.read_text())["address"]
+    finally:
+        for process in reversed(started):
+            process.kill()
+            process.wait()
+
+
+def test_a_worker_of_a_running_scheduler_is_killed(tmp_path: Path) -> None:
+    """Two worker processes that nobody restarts; one is killed in the middle, the other does the rest."""
+    plan = plan_of(write_collection(tmp_path / "c", 4), tmp_path / "out")
+    killed: list[tuple[int, str]] = []
+
+    def kill_one(standing: Standing, _result: Result | None) -> None:
+        if not killed and standing.pairs_done >= 2:
+            killed.append(until(lambda: under_way(plan)))
+            os.kill(killed[0][0], signal.SIGKILL)
+
+    with dask_processes(tmp_path, 2) as address:
+        with running_workers(address) as workers:
+            until(lambda: len(workers.client.scheduler_info()["workers"]) == 2)
+        outcome = match_collection(plan, scheduler=address, worst=0, tell=kill_one)
+    ((process, key),) = killed
+    assert [r.status for r in outcome.results] == ["done"] * 12
+    assert {Pair(r.source, r.target).key: r.attempts for r in outcome.results if r.attempts > 1} == {key: 2}
+    assert len(list((plan.folder / "pairs").iterdir())) == outcome.matched == 12
+    assert shape_attempts(plan) == [1] * 4
+    last = max(outcome.results, key=lambda r: r.finished)
+    assert not last.worker.endswith(f":{process}")
 
 
 def test_no_scheduler() -> None:

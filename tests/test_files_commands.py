@@ -16,6 +16,7 @@ from kfmaps.app.commands.export import export
 from kfmaps.app.commands.info import info
 from kfmaps.app.commands.transfer import transfer
 from kfmaps.app.files import MapFile, load_map, read_mesh_file, read_values, save_map, write_mesh
+from kfmaps.app.pictures import position_colors
 from kfmaps.mesh import Mesh, surface_area
 
 APP = typer.Typer()
@@ -144,7 +145,18 @@ def test_export_as_a_shape(folder: Path, suffix: str) -> None:
     np.testing.assert_array_equal(found.mesh.vertices, fibonacci_sphere(40).vertices)
     assert (found.uv is None) == (suffix != ".obj")
     assert (found.colors is None) == (suffix == ".obj")
+    if found.colors is not None:  # those of pictures and pages
+        expected = position_colors(read_mesh_file(folder / "a.off").mesh)[POINTS]
+        np.testing.assert_allclose(found.colors, expected, atol=0.51 / 255)
     assert "--force" in complaint("export", folder / "m.npz", *names, "-o", folder / f"o{suffix}")
+    if suffix == ".ply":  # a source with colours of its own keeps them
+        own = np.random.default_rng(2).random((80, 3))
+        write_mesh(folder / "a.ply", read_mesh_file(folder / "a.off").mesh, colors=own)
+        names = ("--source", folder / "a.ply", "--target", folder / "b.off")
+        assert run("export", folder / "m.npz", *names, "-o", folder / "p.ply").exit_code == 0
+        carried = read_mesh_file(folder / "p.ply").colors
+        assert carried is not None
+        np.testing.assert_allclose(carried, own[POINTS], atol=0.51 / 255)
 
 
 def test_exports_that_do_not_fit(folder: Path) -> None:

@@ -13,7 +13,6 @@ from kfmaps._arrays import InvalidInput
 from kfmaps.app.files import (
     MeshFile,
     grid_picture,
-    position_colors,
     projected_uv,
     read_mesh_file,
     write_colored,
@@ -170,24 +169,21 @@ def test_bad_exports(
 
 
 @pytest.mark.parametrize("suffix", [".ply", ".off", ".obj"])
-@pytest.mark.parametrize("own", [True, False])
-def test_colored_files(tmp_path: Path, suffix: str, own: bool) -> None:
-    source, target = blob(80), fibonacci_sphere(40)
+def test_colored_files(tmp_path: Path, suffix: str) -> None:
+    target = fibonacci_sphere(40)
     colors = np.random.default_rng(1).random((80, 3))
     points = np.random.default_rng(0).integers(0, 80, 40)
-    write_colored(tmp_path / f"a{suffix}", MeshFile(source, colors if own else None), target, points)
+    write_colored(tmp_path / f"a{suffix}", colors, target, points)
     found = read_mesh_file(tmp_path / f"a{suffix}").colors
     assert found is not None
-    expected = (colors if own else position_colors(source.vertices))[points]
-    np.testing.assert_allclose(found, expected, atol=0.51 / 255)
+    np.testing.assert_allclose(found, colors[points], atol=0.51 / 255)
+    with pytest.raises(InvalidInput, match="one colour per source vertex"):
+        write_colored(tmp_path / f"b{suffix}", colors[:, :2], target, points)
 
 
-def test_position_colors_and_projection_are_smooth_and_in_range() -> None:
+def test_projection_is_smooth_and_in_range() -> None:
     places = blob(200).vertices
-    colors, uv = position_colors(places), projected_uv(places)
-    assert colors.min() >= 0.1 - 1e-12
-    assert colors.max() <= 0.9 + 1e-12
-    np.testing.assert_allclose(np.ptp(colors, axis=0), 0.8)
+    uv = projected_uv(places)
     assert uv.min() >= -1e-12
     assert uv.max() <= 1 + 1e-12
     np.testing.assert_allclose(np.ptp(uv[:, 1]), 1)
@@ -195,7 +191,6 @@ def test_position_colors_and_projection_are_smooth_and_in_range() -> None:
     # lengths are alike in both directions
     np.testing.assert_allclose(np.ptp(uv, axis=0) * np.ptp(places, axis=0).max(), np.ptp(places, axis=0)[long_side])
     flat = np.zeros((3, 3))
-    assert np.isfinite(position_colors(flat)).all()
     assert np.isfinite(projected_uv(flat)).all()
 
 

@@ -22,6 +22,7 @@ from kfmaps.app.files import (
     write_textured,
     write_values,
 )
+from kfmaps.app.pictures import position_colors
 
 SHAPES = (".obj", ".ply", ".off")
 MAPS = (".txt", ".vts", ".mat", ".npz")
@@ -81,7 +82,8 @@ def export(
     elif suffix == ".obj":
         write_textured(output, shape_s, shape_t.mesh, found, picture=picture, force=force)
     else:
-        write_colored(output, shape_s, shape_t.mesh, found, force=force)
+        colors = position_colors(shape_s.mesh) if shape_s.colors is None else shape_s.colors
+        write_colored(output, colors, shape_t.mesh, found, force=force)
 
 
 def _check(found: MapFile, source: MeshFile | None, target: MeshFile | None) -> None:

@@ -3,7 +3,6 @@
 from kfmaps.app.files.atomic import atomic_output, check_output
 from kfmaps.app.files.export import (
     grid_picture,
-    position_colors,
     projected_uv,
     write_colored,
     write_textured,
@@ -29,7 +28,6 @@ __all__ = [
     "grid_picture",
     "load_map",
     "match_map",
-    "position_colors",
     "projected_uv",
     "read_landmarks",
     "read_mesh",

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from scipy.spatial import KDTree
 
-from kfmaps._arrays import refuse
+from kfmaps._arrays import check, refuse
 from kfmaps.app.files.atomic import atomic_output
 from kfmaps.app.files.mapfile import check_map
 from kfmaps.app.files.meshes import write_mesh
@@ -21,22 +21,6 @@ from kfmaps.mesh import Mesh
 PICTURES = (".png", ".jpg", ".jpeg")
 _CHOICES = 8
 """Texture coordinates that are considered per vertex; a seam gives two, a corner of seams three or four."""
-
-
-def position_colors(vertices: np.ndarray) -> np.ndarray:
-    """Colours that vary smoothly with the position: x, y and z over the bounding box as red, green, blue.
-
-    Parameters
-    ----------
-    vertices : (n, 3) float64
-
-    Returns
-    -------
-    (n, 3) float64
-        From 0.1 to 0.9, so that neither black nor white occurs.
-    """
-    low, span = vertices.min(axis=0), np.ptp(vertices, axis=0)
-    return 0.1 + 0.8 * (vertices - low) / np.where(span > 0, span, 1.0)
 
 
 def projected_uv(vertices: np.ndarray) -> np.ndarray:
@@ -182,15 +166,16 @@ def write_textured(
 
 
 def write_colored(
-    path: str | Path, source: MeshFile, target: Mesh, target_to_source: Any, *, force: bool = False
+    path: str | Path, colors: np.ndarray, target: Mesh, target_to_source: Any, *, force: bool = False
 ) -> None:
-    """Write the target (PLY, OFF or OBJ) with the source's vertex colours, or else :func:`position_colors`.
+    """Write the target (PLY, OFF or OBJ) with the colours (n_s, 3), sRGB from 0 to 1, of the source's vertices.
 
     Raises
     ------
     InvalidInput
         On a map that does not fit, and as :func:`write_mesh`.
     """
-    points = check_map(target_to_source, len(source.mesh.vertices), len(target.vertices))
-    colors = position_colors(source.mesh.vertices) if source.colors is None else source.colors
+    colors = np.asarray(colors)
+    check(colors, "colors", shape=(None, 3), remedy="give one colour per source vertex")
+    points = check_map(target_to_source, len(colors), len(target.vertices))
     write_mesh(path, target, colors=colors[points], force=force)
