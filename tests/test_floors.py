@@ -18,6 +18,7 @@ FLOORS = {
     "spectrum": 1,
     "geodesics": 1,
     "kernels": 1,
+    "cells": 1,
     "topology": 1,
     "descriptors": 2,
     "shot": 2,

@@ -7,11 +7,12 @@ import pytest
 
 from conftest import blob, random_basis
 from kfmaps._arrays import InvalidInput, inner
+from kfmaps.cells import nearest_by_cells
 from kfmaps.config import BasisConfig, Config, DescriptorConfig, NystromConfig, Weights
 from kfmaps.geodesics import distance_pairs
 from kfmaps.maps import to_functional, to_points
 from kfmaps.mesh import Mesh, unit_area
-from kfmaps.neighbours import nearest, nearest_by_cells
+from kfmaps.neighbours import nearest
 from kfmaps.pipeline import fit
 from kfmaps.refine import ZoomOut
 from kfmaps.samples import spectral_samples, stratified_samples
@@ -44,8 +45,8 @@ def brute(queries, points):
 
 def test_search_of_all_cells_is_exact(rng):
     points, queries = rng.normal(size=(300, 40)) + 5, rng.normal(size=(70, 40)) + 5
-    for cells in (1, 7, 300):
-        found = nearest_by_cells(queries, points, cells=cells, probes=cells, threads=2)
+    for size in (1, 7, 300):
+        found = nearest_by_cells(queries, points, size=size, probes=300, threads=2)
         np.testing.assert_array_equal(found, brute(queries, points))
 
 
@@ -67,8 +68,9 @@ def test_search_by_cells_takes_empty_and_tiny_sets(rng):
     points = rng.normal(size=(1, 40))
     assert nearest_by_cells(points, points).tolist() == [0]
     assert nearest_by_cells(np.zeros((0, 40)), points).shape == (0,)
-    with pytest.raises(InvalidInput, match="cells"):
-        nearest_by_cells(points, points, cells=2)
+    assert set(nearest_by_cells(np.ones((500, 40)), np.ones((3, 40)))) <= {0, 1, 2}
+    with pytest.raises(InvalidInput, match="probes"):
+        nearest_by_cells(points, points, probes=0)
 
 
 @pytest.mark.parametrize("choose", [spectral_samples, stratified_samples])

@@ -1,10 +1,6 @@
-"""Nearest neighbours in the high dimension of functional maps, exact on small sets and by cells on large ones.
+"""Nearest neighbours in the high dimension of functional maps: exact, or by cells where there are very many.
 
-The exact search is one matrix product and costs queries × points × dimensions. Trees do not help: in the 100 or 200
-dimensions of a basis the nearest point is seldom much nearer than its neighbours' neighbours. Yet the points are
-those of a surface, so a point near to the query has near points around it. The search by cells lets as many points
-as ``2 √p``, drawn at random, stand for their Voronoi cells, finds the cells whose centres are nearest to a query,
-and searches those cells exactly: the cost grows with ``p^1.5``. What is lost is in docs/performance.md.
+The exact search is one matrix product and costs queries × points × dimensions; :mod:`kfmaps.cells` is for large sets.
 """
 
 from __future__ import annotations
@@ -12,17 +8,15 @@ from __future__ import annotations
 import numpy as np
 from scipy.spatial import KDTree
 
-from kfmaps._arrays import Array, blocks, check, check_count, is_numpy, namespace, refuse, to_numpy
+from kfmaps._arrays import Array, blocks, check, is_numpy, namespace, refuse, to_numpy
 from kfmaps._threads import available_cores, parallel
+from kfmaps.cells import nearest_by_cells
 
 TREE_DIMENSION = 32
 """Up to here a k-d tree beats the matrix product on large sets; beyond, space is too empty for it."""
 
 EXACT_PAIRS = 10_000**2
 """Queries times points up to which the search is exact when nothing else is asked for."""
-
-PROBES = 8
-"""Cells searched for each query."""
 
 
 def nearest(
@@ -137,79 +131,3 @@ def _settled(x: np.ndarray, points: np.ndarray, possible: np.ndarray) -> np.ndar
         gap = points[columns] - row
         answer[i] = columns[np.argmin(np.einsum("ij,ij->i", gap, gap))]
     return answer
-
-
-def nearest_by_cells(
-    queries: np.ndarray,
-    points: np.ndarray,
-    *,
-    cells: int | None = None,
-    probes: int = PROBES,
-    rng: int | np.random.Generator = 0,
-    threads: int | None = None,
-) -> np.ndarray:
-    """Approximately nearest rows of ``points (p, d)``, ``(q,)`` int64: the exact best of the ``probes`` best cells.
-
-    Parameters
-    ----------
-    queries : (q, d) float64
-    points : (p, d) float64
-    cells : int, optional
-        From 1 to p; ``2 √p`` when not given.
-    probes : int
-        Cells searched for each query; with all of them the result is exact.
-    rng : int or numpy.random.Generator
-        Draws the points that the cells are built around.
-    threads : int, optional
-        Python threads; ``None`` takes every core.
-    """
-    p, q = len(points), len(queries)
-    cells = check_count(cells or min(p, max(1, round(2 * p**0.5))), "cells", high=p)
-    probes = min(check_count(probes, "probes"), cells)
-    centres = points[np.sort(np.random.default_rng(rng).choice(p, size=cells, replace=False))]
-    members, starts = _grouped(_closest(points, centres, 1, threads)[:, 0], cells)
-    probed = _closest(queries, centres, probes, threads).ravel()
-    pairs, pair_starts = _grouped(probed, cells)
-    value, index = np.full(q * probes, np.inf), np.zeros(q * probes, dtype=np.int64)
-
-    def search(cell: int) -> None:
-        inside = members[starts[cell] : starts[cell + 1]]
-        asked = pairs[pair_starts[cell] : pair_starts[cell + 1]]
-        if len(inside) == 0:
-            return
-        # Seen from the cell's own centre, so that the differences lose no digits.
-        around = points[inside] - centres[cell]
-        half = 0.5 * np.einsum("ij,ij->i", around, around)
-        for part in blocks(len(asked), max(16, 2_000_000 // len(inside))):
-            mine = asked[part]
-            seen = queries[mine // probes] - centres[cell]
-            gap = half - seen @ around.T
-            best = np.argmin(gap, axis=1)
-            index[mine] = inside[best]
-            value[mine] = gap[np.arange(len(mine)), best] + 0.5 * np.einsum("ij,ij->i", seen, seen)
-
-    parallel(search, range(cells), threads)
-    choice = np.argmin(value.reshape(q, probes), axis=1)
-    return index.reshape(q, probes)[np.arange(q), choice]
-
-
-def _closest(rows: np.ndarray, centres: np.ndarray, count: int, threads: int | None) -> np.ndarray:
-    """The ``count`` closest of ``centres (m, d)`` to each of ``rows (n, d)``, in no order: ``(n, count)``."""
-    middle = centres.mean(axis=0)
-    centres = centres - middle
-    half = 0.5 * np.einsum("ij,ij->i", centres, centres)
-
-    def best(part: slice) -> np.ndarray:
-        gap = half - (rows[part] - middle) @ centres.T
-        if count == 1:
-            return np.argmin(gap, axis=1)[:, None]
-        return np.argpartition(gap, count - 1, axis=1)[:, :count]
-
-    found = parallel(best, blocks(len(rows), 1024), threads)
-    return np.concatenate(found) if found else np.zeros((0, count), dtype=np.int64)
-
-
-def _grouped(labels: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray]:
-    """Indices in the order of their ``labels``, and where each of the ``count`` labels starts among them."""
-    order = np.argsort(labels, kind="stable")
-    return order, np.searchsorted(labels[order], np.arange(count + 1))
