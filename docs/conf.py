@@ -9,6 +9,8 @@ import kfmaps
 
 sys.path.insert(0, str(Path(__file__).parent / "_ext"))
 
+highlight_language = "text"  # commands, unless a block says that it is Python
+
 project = "kfmaps"
 author = "The kfmaps developers"
 copyright = "The kfmaps developers"
@@ -63,11 +65,12 @@ html_theme = "pydata_sphinx_theme"
 html_title = "kfmaps"
 html_css_files = ["kfmaps.css"]
 html_show_sourcelink = False
+html_sidebars = {"mathematics": []}  # it has no pages below it
 html_theme_options = {
     "show_toc_level": 2,
     "navigation_with_keys": False,
     "header_links_before_dropdown": 6,
-    "secondary_sidebar_items": ["page-toc"],
+    "secondary_sidebar_items": {"**": ["page-toc"], "settings": []},  # its tables are wide
     "footer_start": ["copyright"],
     "footer_end": [],
 }

@@ -30,9 +30,8 @@ def local_confidence(
     """How well the map keeps each target vertex's distances to its surroundings, (n_t,), from 0 to 1.
 
     With ``d_s``, ``d_t`` distances along edges of the shapes at unit area, ``T`` the map, and the sum over the samples
-    ``j`` with ``d_t(i, j) ≤ R``, the confidence of vertex ``i`` is
-
-        max(0, 1 − Σ |min(d_s(T(i), T(j)), 2R) − d_t(i, j)| / Σ d_t(i, j)),   R = 0.2.
+    ``j`` with ``d_t(i, j) ≤ R = 0.2``, the confidence of vertex ``i`` is
+    ``max(0, 1 − Σ |min(d_s(T(i), T(j)), 2R) − d_t(i, j)| / Σ d_t(i, j))``.
 
     An isometry has 1; distances along edges make 0.9 of it where the triangulations differ. It sees local errors and
     torn parts. It cannot see that a whole shape, or most of a limb, is mapped to its mirror image: that is for the

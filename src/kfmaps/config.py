@@ -198,7 +198,7 @@ class Config:
 
     @property
     def eigenfunctions(self) -> int:
-        """How many eigenfunctions each shape needs: for the map, the descriptors and the refinement."""
+        """How many eigenfunctions each shape needs, the most of what map, descriptors and refinement ask for."""
         zoom = self.refinement.stop if isinstance(self.refinement, ZoomOut) else 0
         return max(self.basis.functions, self.descriptors.eigenfunctions, zoom)
 
