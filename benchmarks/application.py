@@ -28,7 +28,7 @@ from kfmaps.config import Config
 from kfmaps.energy import hadamard_term, slice_term
 from kfmaps.features import kernel_features, pair_descriptors
 from kfmaps.kernels import Linear
-from kfmaps.pipeline import CONDENSATION
+from kfmaps.problem import CONDENSATION
 from kfmaps.shape import prepare
 from kfmaps.slices import compressed, condensed, packed_slices, unpacked_slices
 
