@@ -149,6 +149,12 @@ def test_match_shows_progress_its_map_and_its_errors(picker: Browser, pair: Pair
     off = [float(row[3]) for row in cells(picker)]
     apart = np.linalg.norm(pair.source.vertices[8] - pair.source.vertices[3]) / np.sqrt(surface_area(pair.source))
     assert off == [0, pytest.approx(apart, rel=0.06)]  # shown with two digits
+    picker.mode("confidence")  # of a map that sends everything to one point: none
+    assert "confidence" in picker.text("legend-text")
+    time.sleep(0.3)
+    view = picker.picture(picker.element("#view-target"))
+    violet = (view[..., 2] - view[..., 1] > 30) & (view[..., 2] - view[..., 0] > 15)
+    assert violet.mean() > 0.02
     add(picker, 20, 30)
     picker.element("#match").click()
     picker.until(lambda: picker.text("message") == "The match failed: too many <b>landmarks</b>")
@@ -172,6 +178,25 @@ def test_change_is_white_where_nothing_moved_and_red_where_it_did(picker: Browse
     assert coloured[1] < 0.001
     assert coloured[2] > 0.05
     assert "√area" in picker.text("legend-text")
+
+
+def test_everything_can_be_reached_by_keyboard_and_has_a_name(picker: Browser) -> None:
+    add(picker, 3, 5)
+    picker.element("#match").click()
+    picker.until(lambda: picker.element("#map-choice").is_displayed() and picker.element("#match").is_enabled())
+    picker.run("document.getElementById('linked').focus()")
+    reached = []
+    for _ in range(40):
+        focused = picker.driver.switch_to.active_element
+        if focused.tag_name == "body":
+            break
+        assert focused.accessible_name.strip(), focused.get_attribute("outerHTML")
+        reached.append(focused.get_attribute("id") or focused.get_attribute("name"))
+        focused.send_keys(Keys.TAB)
+    wanted = "linked up reset picture save undo match mode map view-source view-target add-source add-target"
+    assert [name for name in reached if name in wanted.split()] == wanted.split()
+    assert picker.element("[aria-label='Delete pair 1']").is_displayed()
+    assert picker.element("#view-source").accessible_name == f"3D view of the source, {NASTY}"
 
 
 def test_picker_says_when_its_program_is_gone(picker: Browser) -> None:

@@ -309,7 +309,7 @@ def test_match_reports_progress_and_gives_its_map(serve: Serve) -> None:
     assert client.settled()["state"] == "done"
     record = client.get("map").json
     assert record["label"] == "2 landmarks"
-    assert record["points"]["shape"] == [160]
+    assert record["points"]["shape"] == record["confidence"]["shape"] == [160]
     assert seen == [PAIRS]
     assert client.post("match", {"pairs": PAIRS[:1]}).json["run"] == 2
     client.settled()
@@ -382,9 +382,8 @@ def test_command_serves_until_it_is_interrupted(tmp_path: Path) -> None:
     write_mesh(tmp_path / "b.off", TARGET)
     write_landmarks(tmp_path / "old.txt", np.array(PAIRS))
     script = """
-from pathlib import Path
-from kfmaps.app.commands.landmarks import landmarks
-landmarks(Path("a.off"), Path("b.off"), landmarks=Path("old.txt"), browser=False)
+from kfmaps.app.cli import main
+main(["landmarks", "a.off", "b.off", "--landmarks", "old.txt", "--no-browser"])
 """
     with subprocess.Popen(
         [sys.executable, "-c", script], cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True

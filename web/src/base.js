@@ -5,6 +5,8 @@ import { savePicture } from "./picture.js";
 import { Stage } from "./stage.js";
 import { Surface } from "./surface.js";
 
+/** What the legend says of confidence. */
+export const CONFIDENCE = "confidence: how well distances to the surroundings are kept";
 export const SIDES = ["source", "target"];
 export const byId = (id) => document.getElementById(id);
 

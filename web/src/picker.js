@@ -1,5 +1,5 @@
 // The landmark picker.
-import { Legend, SIDES, byId, modeButtons, say, setUp, viewTools } from "./base.js";
+import { CONFIDENCE, Legend, SIDES, byId, modeButtons, say, setUp, viewTools } from "./base.js";
 import { painted, pairColour, plain } from "./colours.js";
 import { attach } from "./controls.js";
 import { element, numbers, reals, short } from "./data.js";
@@ -18,6 +18,7 @@ export function startPicker(data) {
   const plane = reals(data.source.plane);
   const pairs = new Pairs(data.pairs);
   const links = []; // one for each run done
+  const confidences = [];
   const state = { mode: "plain", map: -1, selected: -1, hovered: null, running: false };
   const link = () => links[state.map];
 
@@ -46,6 +47,12 @@ export function startPicker(data) {
       shapes[1].show(painted(moved, "error", 0, 0.5));
       shapes[0].show(painted(link().pushed(moved), "error", 0, 0.5));
       return { scale: "error", low: "0", high: "0.5", text: "how far matches moved since the run before, in √area" };
+    },
+    confidence: () => {
+      const sure = confidences[state.map];
+      shapes[1].show(painted(sure, "sequential", 0, 1));
+      shapes[0].show(painted(link().pushed(sure), "sequential", 0, 1));
+      return { scale: "sequential", low: "0", high: "1", text: CONFIDENCE };
     },
   };
   const show = () => {
@@ -235,6 +242,7 @@ export function startPicker(data) {
 
   const addRun = (record) => {
     links.push(new Link(record, shapes[0].count));
+    confidences.push(reals(record.confidence));
     state.map = links.length - 1;
     byId("map").append(element("option", record.label, { value: state.map }));
     byId("map").value = state.map;
@@ -247,7 +255,10 @@ export function startPicker(data) {
     show();
     update();
   });
-  modeButtons({ plain: "Plain", colours: "Map colours", texture: "Texture", change: "Change" }, state.mode, (mode) => {
+  const modes = {
+    plain: "Plain", colours: "Map colours", texture: "Texture", change: "Change", confidence: "Confidence",
+  };
+  modeButtons(modes, state.mode, (mode) => {
     state.mode = mode;
     show();
   });

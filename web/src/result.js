@@ -1,6 +1,6 @@
 // The page of a result.
 import { Matrix4, Quaternion } from "three";
-import { Legend, SIDES, byId, modeButtons, setUp, viewTools } from "./base.js";
+import { CONFIDENCE, Legend, SIDES, byId, modeButtons, setUp, viewTools } from "./base.js";
 import { painted, plain, quantile, roundedUp } from "./colours.js";
 import { attach } from "./controls.js";
 import { element, numbers, reals, short } from "./data.js";
@@ -79,8 +79,7 @@ export function startResult(data) {
     confidence: () => {
       const values = confidence[state.map];
       if (!values) return unknown("The confidence of this map is not known.");
-      const text = "confidence: how well distances to the surroundings are kept";
-      return field(values, "sequential", 0, 1, { low: "0", high: "1", text });
+      return field(values, "sequential", 0, 1, { low: "0", high: "1", text: CONFIDENCE });
     },
   };
   const show = () => {

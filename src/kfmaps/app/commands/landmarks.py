@@ -5,17 +5,23 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Annotated
 
+import numpy as np
 import typer
 
 from kfmaps.app.files import check_output, read_landmarks, read_mesh
+from kfmaps.app.settings.options import Chosen, with_settings
 from kfmaps.app.view.picker import Picker, check_pairs, picker_server
 from kfmaps.app.view.results import open_address
 from kfmaps.app.view.tryout import Tryout
+from kfmaps.config import Config
+from kfmaps.matching import default_config
 
 
+@with_settings
 def landmarks(
     source: Annotated[Path, typer.Argument(help="The source mesh.", show_default=False)],
     target: Annotated[Path, typer.Argument(help="The target mesh.", show_default=False)],
+    settings: Chosen,
     output: Annotated[
         Path | None,
         typer.Option(
@@ -33,13 +39,22 @@ def landmarks(
     browser: Annotated[bool, typer.Option("--browser/--no-browser", help="Open the page.")] = True,
     force: Annotated[bool, typer.Option("--force", help="Save over an existing file without asking.")] = False,
 ) -> None:
-    """Pick landmarks on a local page: click a point on one shape, then its match on the other."""
+    """Pick landmarks on a local page: click a point on one shape, then its match on the other.
+
+    The settings are those of the matches that are run from the page.
+    """
     output = output or landmarks or Path("landmarks.txt")
     check_output(output, force=True)  # the page asks before it replaces a file
     shapes = read_mesh(source), read_mesh(target)
     pairs = check_pairs([] if landmarks is None else read_landmarks(landmarks).tolist(), *shapes)
     names = (source.stem, target.stem)
-    picker = Picker(*shapes, names, output, force=force, landmarks=pairs, matcher=Tryout(*shapes, names), up=up)
+
+    def chosen(pairs: np.ndarray) -> Config:
+        return settings.config(default_config(pairs))
+
+    chosen(pairs)  # what is wrong with the settings is said before the page opens
+    matcher = Tryout(*shapes, names, chosen)
+    picker = Picker(*shapes, names, output, force=force, landmarks=pairs, matcher=matcher, up=up)
     serving = picker_server(picker, port)
     typer.echo(serving.server.address)
     typer.echo("Only this machine can reach it, and only with that address. Ctrl-C ends.")

@@ -12,9 +12,11 @@ import numpy as np
 from kfmaps._arrays import refuse
 from kfmaps.app.files import check_map, write_landmarks
 from kfmaps.app.view.document import document
+from kfmaps.app.view.pack import quantised
 from kfmaps.app.view.page import map_record, shape_record, source_record
 from kfmaps.app.view.runs import Progress, Runs
 from kfmaps.app.view.server import LocalServer, Reply, json_reply, page_reply
+from kfmaps.confidence import local_confidence
 from kfmaps.mesh import Mesh
 
 Matcher = Callable[[np.ndarray, Progress], np.ndarray]
@@ -131,7 +133,8 @@ def picker_server(picker: Picker, port: int = 0) -> PickerServer:
         points = picker.matcher(pairs, progress)
         points = check_map(points, len(picker.source.vertices), len(picker.target.vertices))
         label = f"{len(pairs)} landmark" + ("" if len(pairs) == 1 else "s")
-        return map_record(picker.source, picker.target, points, label)
+        sure = local_confidence(picker.source, picker.target, points)
+        return {**map_record(picker.source, picker.target, points, label), "confidence": quantised(sure)}
 
     runs = Runs(work)
 

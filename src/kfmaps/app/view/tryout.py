@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 
 from kfmaps.app.view.runs import Progress
@@ -19,19 +21,26 @@ class Tryout:
     source, target : Mesh
     names : (str, str)
         How messages call them.
-    config : Config, optional
-        By default what :func:`kfmaps.matching.match` takes, with landmarks or without.
+    settings : callable
+        The configuration for some landmarks (l, 2); by default what :func:`kfmaps.matching.match` takes. It may
+        differ between none and some, not between some and others.
     """
 
-    def __init__(self, source: Mesh, target: Mesh, names: tuple[str, str], config: Config | None = None) -> None:
+    def __init__(
+        self,
+        source: Mesh,
+        target: Mesh,
+        names: tuple[str, str],
+        settings: Callable[[np.ndarray], Config] = default_config,
+    ) -> None:
         self._meshes = (source, target)
         self._names = names
-        self._config = config
+        self._settings = settings
         self._shapes: dict[bool, tuple[Shape, Shape]] = {}
 
     def __call__(self, landmarks: np.ndarray, progress: Progress) -> np.ndarray:
         some = len(landmarks) > 0
-        config = self._config or default_config(landmarks)
+        config = self._settings(landmarks)
         if some not in self._shapes:
             first, second = (
                 prepare(mesh, config, name=name, progress=progress)
