@@ -8,13 +8,14 @@ import pytest
 from conftest import blob, fibonacci_sphere
 from kfmaps._arrays import InvalidInput
 from kfmaps.app.datasets import symmetric_creature
-from kfmaps.automatic import Candidate, choose, distinct, kicked, mirror_image, variants
+from kfmaps.automatic import choose, distinct, mirror_image
+from kfmaps.candidates import Candidate, candidates, kicked, variants
 from kfmaps.config import BasisConfig, Config, NystromConfig, Search
 from kfmaps.evaluate import geodesic_errors
 from kfmaps.maps import nearest
 from kfmaps.matching import match
 from kfmaps.mesh import Mesh
-from kfmaps.quality import map_quality, probe
+from kfmaps.quality import map_quality, probe, thinned
 from kfmaps.refine import ZoomOut
 from kfmaps.shape import prepare
 from kfmaps.shot import shot
@@ -25,7 +26,7 @@ SMALL = replace(
     descriptors=replace(Config.automatic().descriptors, eigenfunctions=90, shot_radius=0.15),
     nystrom=NystromConfig(samples=100),
     refinement=ZoomOut(50, 90, 10),
-    search=Search(candidates=4),
+    search=Search(candidates=2, signs=3),
     threads=2,
 )
 
@@ -50,7 +51,8 @@ def test_the_identity_is_a_perfect_map(shape):
     assert found.orientation == pytest.approx(1.0, abs=1e-2)
     assert found.coverage == pytest.approx(1.0)
     assert found.smoothness == pytest.approx(1.0, abs=1e-6)
-    assert (found.distortion, found.descriptors, found.heat, found.cycle, found.laplacian) == pytest.approx((0,) * 5)
+    zeros = (found.distortion, found.stretch, found.descriptors, found.heat, found.cycle, found.laplacian)
+    assert zeros == pytest.approx((0,) * 6)
 
 
 def test_the_map_to_the_mirror_image_reverses_orientation_and_nothing_else(shape):
@@ -78,6 +80,29 @@ def test_worse_maps_score_worse(shape, other):
         assert worse.distortion > 2 * good.distortion
     assert collapsed.coverage < 0.5 * good.coverage
     assert shuffled.cycle > good.cycle
+
+
+def test_a_torn_map_is_stretched_more_than_a_shaken_one(shape):
+    """Half of the shape turned over: few pairs of neighbours change, those at the tear by much."""
+    judge = probe(shape, 300)
+    places = judge.positions
+    torn = places * np.where(places[:, :1] > 0, 1.0, -1.0) ** np.array([0, 1, 1])
+    C = shape.basis.truncated(60).project(shape.basis.functions[:, :60])
+    whole = map_quality(C, judge, judge)
+    flipped = nearest(places, torn, threads=1)
+    phi = judge.samples.basis.functions[:, :60]
+    broken = map_quality(np.linalg.lstsq(phi, phi[flipped], rcond=None)[0], judge, judge)
+    assert broken.stretch > whole.stretch + 0.1
+
+
+def test_few_samples_of_a_probe_are_a_probe(shape):
+    judge = probe(shape, 300)
+    few = thinned(judge, 120)
+    np.testing.assert_array_equal(few.samples.vertices, judge.samples.vertices[:120])
+    assert few.samples.basis.mass.sum() == pytest.approx(judge.samples.basis.mass.sum())
+    assert few.samples.basis.mass.min() > 0
+    assert few.distances.shape == (120, 120)
+    assert thinned(judge, 300) is judge
 
 
 def test_quality_does_not_depend_on_position_or_units(shape):
@@ -116,7 +141,7 @@ def test_an_asymmetric_shape_is_matched_and_sure(shape, other):
 
 def test_a_mirrored_shape_is_found_when_asked_for(shape):
     image = prepare(reflected(blob(650, twist=0.4)), SMALL, name="image")
-    found = match(shape, image, replace(SMALL, search=Search(candidates=4, orientation="reversed")))
+    found = match(shape, image, replace(SMALL, search=Search(candidates=2, signs=3, orientation="reversed")))
     moved = shape.mesh.vertices[found.target_to_source] * [1, 1, -1] - image.mesh.vertices
     # The two are centred on the mean of slightly different vertices.
     assert np.linalg.norm(moved - moved.mean(axis=0), axis=1).mean() < 0.04
@@ -150,8 +175,28 @@ def test_point_clouds_are_matched_without_orientation(shape):
 
 def test_candidates_can_be_traded_for_time():
     assert len(variants(replace(SMALL, search=Search(candidates=3)))) == 3
+    assert variants(SMALL, surfaces=False)[0][0].startswith("waves")
     names = [name for name, _ in variants(replace(SMALL, search=Search(candidates=99)))]
     assert len(set(names)) == len(names) > 8
+
+
+def test_landmarks_leave_the_signs_out(shape, other):
+    """The signs know nothing of landmarks; the fits do."""
+    probes = probe(shape, 200), probe(other, 200)
+    truth = nearest(other.mesh.vertices, shape.mesh.vertices)
+    marks = np.stack([truth[[10, 200, 400]], [10, 200, 400]], axis=1)
+    with_marks, fits = candidates(shape, other, SMALL, probes, 0, landmarks=marks)
+    assert len(fits) == 2
+    assert not any(c.name.startswith("signs") for c in with_marks)
+    without, _ = candidates(shape, other, SMALL, probes, 0)
+    assert any(c.name.startswith("signs") for c in without)
+
+
+def test_progress_never_falls_and_ends_at_one(shape, other):
+    seen = []
+    candidates(shape, other, replace(SMALL, threads=1), (probe(shape, 200), probe(other, 200)), 0, report=seen.append)
+    assert seen == sorted(seen)
+    assert 0.8 < seen[-1] <= 1
 
 
 def test_kicks_are_orthogonal_and_keep_constants():
@@ -166,12 +211,22 @@ def test_distinct_maps_are_told_from_variations(shape):
     quality = map_quality(np.eye(60), judge, judge)
     same = np.arange(300)
     shuffled = np.random.default_rng(0).permutation(300)
-    candidates = [
+    found = [
         Candidate("best", np.eye(60), same, quality, None),
         Candidate("alike", np.eye(60), np.where(same < 5, 5, same), replace(quality, coverage=0.9), None),
         Candidate("other", np.eye(60), shuffled, replace(quality, coverage=0.5), None),
     ]
-    assert [c.name for c in distinct(candidates[::-1], judge)] == ["best", "other"]
+    assert [c.name for c in distinct(found[::-1], judge)] == ["best", "other"]
+
+
+def test_a_rival_needs_a_clear_margin(shape):
+    judge = probe(shape, 300)
+    quality = map_quality(np.eye(60), judge, judge)
+    shuffled = np.random.default_rng(0).permutation(300)
+    rival = Candidate("rival", np.eye(60), np.arange(300), quality, None, guided=False)
+    for lag, first in ((0.2, "ours"), (0.5, "rival")):
+        ours = Candidate("ours", np.eye(60), shuffled, replace(quality, coverage=quality.coverage - lag), None)
+        assert distinct([rival, ours], judge)[0].name == first
 
 
 def test_few_eigenfunctions_are_enough():

@@ -153,6 +153,7 @@ def test_assignment_reaches_every_setting(path: str) -> None:
         "nystrom.sampling": "uniform",
         "preconditioner": "none",
         "search.orientation": "reversed",
+        "search.signs": 7,
         "device": "cuda",
     }
     value: Any = (

@@ -129,17 +129,22 @@ class Weights:
 class Search:
     """How to find the map without landmarks; see :mod:`kfmaps.automatic`.
 
-    ``candidates``: how many fits are tried, each refined from three starts; ``orientation``: whether the map keeps
+    ``candidates``: how many small fits are tried, each refined from three starts; ``signs``: how many low functions
+    after the constant one have both their signs tried, 2^signs diagonal maps; ``orientation``: whether the map keeps
     orientation ("kept") or is one to a mirror image ("reversed"); ``runners_up``: how many distinct other maps are
     returned at most.
     """
 
-    candidates: int = 12
+    candidates: int = 6
     orientation: Literal["kept", "reversed"] = "kept"
     runners_up: int = 3
+    signs: int = 5
 
     def __post_init__(self) -> None:
         check_count(self.candidates, "candidates")
+        check_count(self.signs, "signs", low=0)
+        if self.signs > 10:
+            raise refuse("signs", "at most 10", str(self.signs), "they make 2^signs maps: take more candidates instead")
         check_count(self.runners_up, "runners_up", low=0)
         _choice(self.orientation, "orientation", ("kept", "reversed"))
 
@@ -204,11 +209,10 @@ class Config:
 
     @classmethod
     def automatic(cls) -> Config:
-        """What we recommend without landmarks: SHOT beside the wave kernel signature, and a search."""
+        """What we recommend without landmarks: a search, with SHOT to guide it and the refinement."""
         return cls(
             descriptors=DescriptorConfig(shot=True),
-            # Candidates are coarser than a fit with landmarks: a lower start repairs more.
-            refinement=ZoomOut(start=30, stop=200, step=10, samples=2000),
+            refinement=ZoomOut(start=50, stop=200, step=10, samples=5000, guidance=36.0),
             search=Search(),
         )
 

@@ -7,26 +7,31 @@ is smooth. :func:`map_quality` works them out on a few hundred points of each sh
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from kfmaps._arrays import Array, to_numpy
+from kfmaps._arrays import Array, like, to_numpy
 from kfmaps.descriptors import heat_signature
 from kfmaps.geodesics import geodesic_distances
+from kfmaps.guided import FLAT, spread
 from kfmaps.maps import nearest
 from kfmaps.orientation import orientation_slices
-from kfmaps.refine import Samples, spectral_samples
+from kfmaps.refine import SampledBasis, Samples, spectral_samples
 from kfmaps.shape import Shape
 
 POINTS = 1000
 """Sample points on each shape."""
 COARSE = 400
 """The first of them, between which geodesic distances are compared."""
+NEAR = 0.2
+"""Distance, in units of √area, up to which points are neighbours whose distance a good map keeps."""
 LOW = 20
 """Functions in which orientation is compared."""
 TIMES = np.geomspace(0.005, 0.3, 8)
 """Diffusion times at unit area: from a fiftieth of the surface reached to most of it."""
+FLAT_HEAT = 0.02
+"""Spread of the logarithm of the heat kernel signature below which it is noise: a sphere has 0.0003, bodies 1."""
 WAVES = 10
 """Functions whose orientation operators are compared."""
 
@@ -69,9 +74,11 @@ class Quality:
         carried over, with those of the target (Ren et al. 2018). 0 for point clouds.
     distortion : float
         Mean absolute change of geodesic distances, divided by the mean distance. 0 for an isometry.
+    stretch : float
+        The same for points closer than 0.2 √area on the shape that is mapped, so that tears count, wherever they are.
     descriptors : float
         Mean squared difference of SHOT between matched points, divided by that of random ones, from 0 to about 1;
-        mean of both directions.
+        mean of both directions. Less where the shapes have hardly any features.
     heat : float
         The same for the logarithm of the heat kernel signature, which knows thick from thin.
     cycle : float
@@ -87,6 +94,7 @@ class Quality:
 
     orientation: float
     distortion: float
+    stretch: float
     descriptors: float
     heat: float
     cycle: float
@@ -100,11 +108,11 @@ class Quality:
         return (
             self.orientation
             - 6.0 * self.distortion
-            - 3.0 * self.descriptors
+            - 10.0 * self.stretch
+            - 12.0 * self.descriptors
             - 2.0 * self.heat
             + self.coverage
-            - 4.0 * self.laplacian
-            - 0.6 * min(np.log(max(self.smoothness, 1e-9)), 2.0)
+            - 2.0 * self.laplacian
         )
 
 
@@ -124,6 +132,26 @@ def probe(shape: Shape, count: int = POINTS, rng: int | np.random.Generator = 0,
     return Probe(samples, distances, orientation, local, heat, shape.mesh.vertices[samples.vertices])
 
 
+def thinned(probe: Probe, count: int) -> Probe:
+    """The first ``count`` samples of ``probe``, which are farthest points too, with the areas of the others."""
+    basis = probe.samples.basis
+    if count >= len(probe.samples.vertices):
+        return probe
+    functions, values = to_numpy(basis.functions)[:, 1 : LOW + 1], to_numpy(basis.eigenvalues)[1 : LOW + 1]
+    embedding = functions / np.maximum(values, 1e-6 * values[-1])
+    closest = nearest(embedding, embedding[:count], threads=1)
+    areas = np.bincount(closest, to_numpy(basis.mass), minlength=count)
+    few = SampledBasis(basis.eigenvalues, basis.functions[:count], like(areas, basis.mass))
+    return replace(
+        probe,
+        samples=Samples(probe.samples.vertices[:count], few),
+        distances=probe.distances[:count, :count],
+        descriptors=None if probe.descriptors is None else probe.descriptors[:count],
+        heat=probe.heat[:count],
+        positions=probe.positions[:count],
+    )
+
+
 def map_quality(C: Array, source: Probe, target: Probe) -> Quality:
     """Judge the functional map ``C (k, k)``, refined on the samples of both probes, without knowing the truth."""
     C = to_numpy(C)
@@ -136,17 +164,22 @@ def map_quality(C: Array, source: Probe, target: Probe) -> Quality:
     area_s, area_t = (to_numpy(b.mass) / float(b.mass.sum()) for b in (basis_s, basis_t))
     values_s, values_t = to_numpy(basis_s.eigenvalues), to_numpy(basis_t.eigenvalues)
     moved = np.linalg.norm(source.positions[back[forth]] - source.positions, axis=1)
+    distortion, stretch = _distortion(carried, functions_t, source, target)
     commutator = C * values_s[None, :] - values_t[:, None] * C
     return Quality(
         orientation=_orientation(C, source, target),
-        distortion=_distortion(carried, functions_t, source, target),
+        distortion=distortion,
+        stretch=stretch,
         descriptors=0.5
         * (
-            _difference(back, target.descriptors, source.descriptors, area_t)
-            + _difference(forth, source.descriptors, target.descriptors, area_s)
+            _difference(back, target.descriptors, source.descriptors, area_t, FLAT)
+            + _difference(forth, source.descriptors, target.descriptors, area_s, FLAT)
         ),
         heat=0.5
-        * (_difference(back, target.heat, source.heat, area_t) + _difference(forth, source.heat, target.heat, area_s)),
+        * (
+            _difference(back, target.heat, source.heat, area_t, FLAT_HEAT)
+            + _difference(forth, source.heat, target.heat, area_s, FLAT_HEAT)
+        ),
         cycle=float(moved @ area_s),
         coverage=float(min(area_s[np.unique(back)].sum(), area_t[np.unique(forth)].sum())),
         laplacian=float((commutator**2).sum() / ((C * values_s[None, :]) ** 2).sum()),
@@ -171,22 +204,34 @@ def _orientation(C: np.ndarray, source: Probe, target: Probe) -> float:
     return float((ours * theirs).sum() / size) if size else 0.0
 
 
-def _distortion(carried: np.ndarray, functions_t: np.ndarray, source: Probe, target: Probe) -> float:
+def _distortion(carried: np.ndarray, functions_t: np.ndarray, source: Probe, target: Probe) -> tuple[float, float]:
+    """Mean change of all distances and of the short ones, both divided by their mean."""
     c_s, c_t = len(source.distances), len(target.distances)
     back = nearest(functions_t[:c_t], carried[:c_s], threads=1)
     forth = nearest(carried[:c_s], functions_t[:c_t], threads=1)
-    change = np.abs(source.distances[np.ix_(back, back)] - target.distances).mean()
-    change_back = np.abs(target.distances[np.ix_(forth, forth)] - source.distances).mean()
-    return float((change + change_back) / (source.distances.mean() + target.distances.mean()))
+    change = np.abs(source.distances[np.ix_(back, back)] - target.distances)
+    change_back = np.abs(target.distances[np.ix_(forth, forth)] - source.distances)
+    far = (change.mean() + change_back.mean()) / (source.distances.mean() + target.distances.mean())
+    near = [_near(change, target.distances), _near(change_back, source.distances)]
+    return float(far), float(np.mean(near))
 
 
-def _difference(points: np.ndarray, there: np.ndarray | None, here: np.ndarray | None, area: np.ndarray) -> float:
+def _near(change: np.ndarray, distances: np.ndarray) -> float:
+    """Mean of ``change`` where ``distances`` are short, over the mean of these; with few points, of the nearest."""
+    nearest_other = np.partition(distances, 1, axis=1)[:, 1] if len(distances) > 1 else np.ones(1)
+    short = distances <= max(NEAR, float(nearest_other.max()))
+    mean = distances[short].mean()
+    return float(change[short].mean() / mean) if mean > 0 else 0.0
+
+
+def _difference(
+    points: np.ndarray, there: np.ndarray | None, here: np.ndarray | None, area: np.ndarray, flat: float
+) -> float:
     """Of the descriptors ``there`` from those ``here`` of the points that they are mapped to."""
     if there is None or here is None:
         return 0.0
     squares = ((there - here[points]) ** 2).sum(axis=1) @ area
-    spread = sum(((D - D.mean(axis=0)) ** 2).sum(axis=1).mean() for D in (there, here))
-    return float(squares / max(spread, 1e-300))
+    return float(squares / max(spread(there) + spread(here), 2 * flat))
 
 
 def _smoothness(

@@ -159,11 +159,18 @@ CATALOGUE: dict[str, tuple[Setting, ...]] = {
             ("ZoomOut",),
         ),
         Setting("refinement.seed", int, "for the choice of these points", "at least 0", kinds=("ZoomOut",)),
+        Setting(
+            "refinement.guidance",
+            float,
+            "weight of SHOT in the steps of ZoomOut after a search",
+            "at least 0",
+            kinds=("ZoomOut",),
+        ),
         Setting("refinement.steps", int, "steps of ICP", "at least 1", "--icp-steps", ("ICP",)),
     ),
     "Search without landmarks": (
         Setting("search.kind", str, "whether several maps are tried", "search, none"),
-        Setting("search.candidates", int, "how many maps are tried", "at least 1", "--candidates", ("Search",)),
+        Setting("search.candidates", int, "how many small fits are tried", "at least 1", "--candidates", ("Search",)),
         Setting(
             "search.orientation",
             str,
@@ -173,6 +180,7 @@ CATALOGUE: dict[str, tuple[Setting, ...]] = {
             ("Search",),
         ),
         Setting("search.runners_up", int, "distinct other maps that are kept", "at least 0", kinds=("Search",)),
+        Setting("search.signs", int, "low functions whose signs are tried", "0 to 10", kinds=("Search",)),
     ),
     "Machine": (
         Setting("device", str, "cpu, or a PyTorch device", "cpu, cuda, cuda:1, ..., torch", "--device"),

@@ -1,0 +1,90 @@
+"""ZoomOut that looks at descriptors: it is plain ZoomOut without them, and settles symmetries with them."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from conftest import blob
+from kfmaps._arrays import InvalidInput
+from kfmaps.guided import guide
+from kfmaps.maps import nearest
+from kfmaps.mesh import unit_area
+from kfmaps.refine import ZoomOut
+from kfmaps.samples import spectral_samples
+from kfmaps.spectrum import laplace_basis
+
+
+@pytest.fixture(scope="module")
+def symmetric():
+    """A body that its mirror image in x equals, sampled; its places tell left from right."""
+    mesh = unit_area(blob(700))
+    both = np.abs(mesh.vertices[:, 0])[:, None]
+    stretched = mesh.vertices * [2.0, 1.0, 0.6] + 0.3 * both * [0.0, 1.0, 0.0]
+    mesh = unit_area(replace(mesh, vertices=stretched))
+    basis = laplace_basis(mesh, 60)
+    samples = spectral_samples(basis, 250, 0)
+    return samples.basis, mesh.vertices[samples.vertices]
+
+
+def run(C, basis, weight, led):
+    return ZoomOut(6, 40, 4, guidance=weight)(C, basis, basis, threads=1, guide=led).functional_map
+
+
+def test_without_weight_or_guide_it_is_plain_zoomout(symmetric):
+    basis, places = symmetric
+    start = np.diag([1.0, 1, -1, 1, 1, -1])
+    plain = ZoomOut(6, 40, 4)(start, basis, basis, threads=1).functional_map
+    np.testing.assert_array_equal(run(start, basis, 0.0, guide(places, places)), plain)
+    np.testing.assert_array_equal(run(start, basis, 12.0, None), plain)
+    assert np.abs(run(start, basis, 12.0, guide(places, places)) - plain).max() > 0.1
+
+
+def test_descriptors_lead_from_the_wrong_signs_to_the_right_map(symmetric):
+    basis, places = symmetric
+    wrong = np.diag([1.0, -1, 1, 1, 1, 1])
+
+    def error(C):
+        phi = basis.functions[:, :40]
+        return np.linalg.norm(places[nearest(phi, phi @ C.T, threads=1)] - places, axis=1).mean()
+
+    assert error(run(wrong, basis, 0.0, None)) > 0.2
+    assert error(run(wrong, basis, 12.0, guide(places, places))) < 0.02
+
+
+def test_on_samples_of_large_shapes_the_guide_is_sampled_too():
+    mesh = unit_area(blob(900))
+    basis = laplace_basis(mesh, 50)
+    zoom = ZoomOut(6, 40, 8, samples=200, guidance=12.0)
+    wrong = np.diag([1.0, -1, 1, 1, 1, 1])
+    found = zoom(wrong, basis, basis, threads=1, guide=guide(mesh.vertices, mesh.vertices))
+    assert (found.target_to_source == np.arange(900)).mean() > 0.9
+
+
+def test_a_guide_is_scaled_common_and_short():
+    rng = np.random.default_rng(0)
+    a, b = rng.normal(size=(200, 50)) * 7, rng.normal(size=(150, 50)) * 7
+    found, short = guide(a, b, dimensions=50), guide(a, b)
+    assert found is not None
+    assert short is not None
+    before, after = np.vstack([a, b]), np.vstack([found.source, found.target])
+    i, j = rng.permutation(350)[:340].reshape(2, 170)
+    ratio = ((before[i] - before[j]) ** 2).sum(axis=1) / ((after[i] - after[j]) ** 2).sum(axis=1)
+    np.testing.assert_allclose(ratio, 2 * before.var(axis=0).sum(), rtol=1e-9)
+    assert short.source.shape == (200, 32)
+    some = found.at(np.array([3, 5]), None)
+    np.testing.assert_array_equal(some.source, found.source[[3, 5]])
+    assert some.target is found.target
+
+
+def test_noise_does_not_guide():
+    rng = np.random.default_rng(0)
+    assert guide(1 + 0.01 * rng.normal(size=(50, 3)), 1 + 0.01 * rng.normal(size=(40, 3))) is None
+    assert guide(None, rng.normal(size=(40, 3))) is None
+
+
+def test_bad_settings_are_refused():
+    with pytest.raises(InvalidInput, match="as many on both"):
+        guide(np.eye(4, 3), np.eye(4, 2))
+    with pytest.raises(InvalidInput, match="guidance"):
+        ZoomOut(guidance=-1.0)
