@@ -138,7 +138,7 @@ def _stage(
     probing = len(locked.values) >= k
     sparing = locked.stages == 0
     # Some 3k + 60 vectors are needed on surfaces; an eigendecomposition to look earlier is not free.
-    size, check = b, 2 * b if probing else round(2.8 * k / b) * b + 6 * b
+    size, check = b, 2 * b if probing else 3 * k // b * b + 6 * b
     before: tuple[int, float] | None = None
     coupling = np.zeros((b, b))
     while True:
