@@ -37,6 +37,8 @@ def stubbed(monkeypatch: pytest.MonkeyPatch, raised: BaseException) -> None:
 
 def test_version() -> None:
     assert run("--version").stdout == f"kfmaps {kfmaps.__version__}\n"
+    module = subprocess.run([sys.executable, "-m", "kfmaps", "--version"], capture_output=True, text=True, check=True)
+    assert module.stdout == f"kfmaps {kfmaps.__version__}\n"
 
 
 def test_all_commands_are_listed() -> None:

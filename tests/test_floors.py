@@ -59,6 +59,7 @@ FLOORS = {
     "app.view": 9,
     "app.commands": 10,
     "app.cli": 11,
+    "__main__": 12,
 }
 """A package (``app.files``) stands for all modules in it, which may import each other."""
 
