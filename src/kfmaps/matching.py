@@ -8,9 +8,11 @@ from typing import Any
 
 import numpy as np
 
+from kfmaps._threads import available_cores, parallel
 from kfmaps.automatic import choose
 from kfmaps.confidence import local_confidence
 from kfmaps.config import Config
+from kfmaps.eigensolver import THREADED
 from kfmaps.mesh import Mesh
 from kfmaps.pipeline import Match, fit
 from kfmaps.shape import Progress, Shape, prepare
@@ -55,10 +57,7 @@ def match(
         When the eigensolver misses its tolerance.
     """
     config = config or default_config(landmarks, descriptors)
-    shapes = [
-        part if isinstance(part, Shape) else prepare(part, config, name=name, progress=progress)
-        for part, name in ((source, "source"), (target, "target"))
-    ]
+    shapes = _prepared(source, target, config, progress)
     search = config.search is not None and not has_landmarks(landmarks)
     answer = choose if search else fit
     found = answer(
@@ -68,6 +67,20 @@ def match(
     trust = local_confidence(shapes[0].mesh, shapes[1].mesh, found.target_to_source)
     seconds = {**found.seconds, "confidence": time.perf_counter() - start}
     return replace(found, local_confidence=trust, seconds=seconds)
+
+
+def _prepared(source: Mesh | Shape, target: Mesh | Shape, config: Config, progress: Progress | None) -> list[Shape]:
+    """Both shapes; side by side where they are small, since one small eigenproblem has no use for several cores."""
+    workers = config.threads or available_cores()
+    meshes = [part for part in (source, target) if isinstance(part, Mesh)]
+    aside = len(meshes) == 2 and max(len(mesh.vertices) for mesh in meshes) < THREADED
+    share = replace(config, threads=max(1, workers // 2)) if aside else config
+
+    def ready(part: Mesh | Shape, name: str) -> Shape:
+        return part if isinstance(part, Shape) else prepare(part, share, name=name, progress=progress)
+
+    both = ((source, "source"), (target, "target"))
+    return parallel(lambda item: ready(*item), both, min(workers, 2) if aside else 1)
 
 
 def has_landmarks(landmarks: Any) -> bool:

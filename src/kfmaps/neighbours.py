@@ -109,8 +109,9 @@ def _screened(queries: np.ndarray, points: np.ndarray, block: int, threads: int 
             found[doubt] = _settled(x[doubt], points, score[doubt] >= lowest[doubt, None])
         return found
 
-    # The scores of one block are to stay in the cache.
-    parts = blocks(len(queries), max(16, min(block, 600_000 // len(points))))
+    # The scores of one block are to stay in the cache; but products of few rows are slow.
+    rows = max(600_000 // len(points), min(64, 16_000_000 // len(points)), 16)
+    parts = blocks(len(queries), min(block, rows))
     found = parallel(best, parts, threads)
     return np.concatenate(found).astype(np.int64) if found else np.zeros(0, dtype=np.int64)
 
