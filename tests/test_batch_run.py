@@ -204,14 +204,6 @@ def _listening() -> list[str]:
     return [c.laddr[0] for c in kinds if c.status == psutil.CONN_LISTEN]
 
 
-@pytest.fixture
-def interruptible() -> Iterator[None]:
-    """Ctrl-C works in this process, whatever it was started by: what is ignored is inherited."""
-    before = signal.signal(signal.SIGINT, signal.default_int_handler)
-    yield
-    signal.signal(signal.SIGINT, before)
-
-
 @pytest.mark.usefixtures("interruptible")
 def test_workers_use_one_thread_and_the_loopback_alone(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.delenv("MALLOC_TRIM_THRESHOLD_", raising=False)
@@ -231,7 +223,8 @@ def test_a_running_scheduler(tmp_path: Path) -> None:
     from distributed import LocalCluster
 
     folder = write_collection(tmp_path / "c", 3)
-    options: dict[str, Any] = {"n_workers": 1, "threads_per_worker": 2, "processes": False, "dashboard_address": None}
+    options: dict[str, Any] = {"n_workers": 1, "threads_per_worker": 2, "processes": False}
+    options["dashboard_address"] = "127.0.0.1:0"
     with LocalCluster(host="127.0.0.1", protocol="tcp://", **options) as cluster:
         address = str(getattr(cluster, "scheduler_address"))  # noqa: B009  (typed as if it were asynchronous)
         outcome = match_collection(plan_of(folder, tmp_path / "out"), scheduler=address, worst=0)
@@ -250,7 +243,7 @@ def dask_processes(folder: Path, workers: int) -> Iterator[str]:
     """A scheduler and workers as a site starts them, without anything that would restart them; the address."""
     about = folder / "scheduler.json"
     common = ["--host", "127.0.0.1", "--scheduler-file", str(about)]
-    words = [["scheduler", *common, "--port", "0", "--no-dashboard"]]
+    words = [["scheduler", *common, "--port", "0", "--dashboard-address", "127.0.0.1:0"]]
     words += [["worker", *common, "--nthreads", "1", "--no-nanny", "--no-dashboard"]] * workers
     started: list[subprocess.Popen] = []
     try:
@@ -287,6 +280,13 @@ def test_a_worker_of_a_running_scheduler_is_killed(tmp_path: Path) -> None:
     assert shape_attempts(plan) == [1] * 4
     last = max(outcome.results, key=lambda r: r.finished)
     assert not last.worker.endswith(f":{process}")
+
+
+def test_two_runs_at_once_do_not_meet() -> None:
+    with local_workers(1) as first, local_workers(1) as second:  # a warning would be an error
+        addresses = [set(w.client.scheduler_info()["workers"]) for w in (first, second)]
+        assert len(addresses[0] | addresses[1]) == 2
+        assert set(_listening()) == {"127.0.0.1"}
 
 
 def test_no_scheduler() -> None:

@@ -218,6 +218,7 @@ def test_view_opens_the_page(made: types.SimpleNamespace, tmp_path: Path, monkey
     monkeypatch.setattr(results, "open_page", open_page)
     ran = match(made, "--view", "-o", tmp_path / "m.npz", "-q")
     assert "<html" in opened[0]
+    assert '"confidence":[{' in opened[0]  # per vertex
     assert ran.stderr == f"no browser was found; open {(tmp_path / 'page.html').as_uri()}\n"
     assert ran.status == 0
 
@@ -236,4 +237,5 @@ def test_a_match_from_python_can_be_saved(made: types.SimpleNamespace, tmp_path:
     np.testing.assert_array_equal(again.target_to_source, made.truth)
     np.testing.assert_array_equal(again.functional_map, found.functional_map)
     np.testing.assert_array_equal(again.extra["raw_target_to_source"], found.raw_target_to_source)
+    np.testing.assert_array_equal(again.extra["local_confidence"], found.local_confidence)
     assert from_dict(json.loads(again.config)) == config

@@ -376,6 +376,7 @@ def test_port_that_is_taken_is_refused_in_words(serve: Serve, tmp_path: Path) ->
         picker_server(Picker(SOURCE, Mesh(TARGET.vertices, TARGET.faces), ("a", "b"), tmp_path / "p.txt"), port)
 
 
+@pytest.mark.usefixtures("interruptible")
 @pytest.mark.skipif(os.name != "posix", reason="sends the signal that Ctrl-C is")
 def test_command_serves_until_it_is_interrupted(tmp_path: Path) -> None:
     write_mesh(tmp_path / "a.off", SOURCE)

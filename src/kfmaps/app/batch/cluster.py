@@ -90,6 +90,8 @@ def local_workers(count: int | None = None) -> Iterator[Workers]:
             protocol="tls://",
             security=Security.temporary(),
             dashboard_address=None,  # pyright: ignore[reportArgumentType]
+            # Without a dashboard there still is a small HTTP server, whose fixed port a second run would miss.
+            scheduler_kwargs={"dashboard_address": "127.0.0.1:0"},
             memory_limit=0,  # a limit of our own would kill what the machine could still bear
             silence_logs=logging.CRITICAL,
             preload=[__name__],
