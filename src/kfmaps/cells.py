@@ -1,11 +1,12 @@
 """Nearest neighbours among very many points of a surface, approximately, in time that grows as their number does.
 
 In the 100 or 200 dimensions of a basis no tree prunes: the nearest point is seldom much nearer than those around it.
-Yet the points are those of a surface, so what is near to the query has near points around it. Points are cut into
-cells of some 64 that lie together, queries into groups of at most 128; a group looks at the 128 cells nearest to
-its centre, each query in it at the 16 of them that are nearest to itself, and all points in the cells that any query
-of the group has named are compared with all its queries, in one matrix product of single precision. So a query
-meets about a thousand points, however many there are. What is lost is in docs/performance.md.
+Yet the points are those of a surface, so what is near to the query has near points around it. The points are
+shared out among :data:`PATCHES` patches, each to that of whose middle it is nearest, and patches are cut into cells of
+some 64. Each query names the patches nearest to it, then the nearest cells in these, and searches those. All of it is
+matrix products in single precision, of groups of queries that lie together with whatever any of them has named: so
+a query meets some two thousand middles and points, however many there are. Patches larger than the functions' waves
+would not do: beyond those all distances are alike. What is lost is in docs/performance.md.
 """
 
 from __future__ import annotations
@@ -19,9 +20,11 @@ from kfmaps._threads import parallel
 CELL = 64
 """Points in a cell, about."""
 GROUP = 128
-"""Queries that choose their cells together, at most."""
-NEAR = 128
-"""Cells that a group looks at."""
+"""Queries that are worked on together, at most."""
+PATCHES = 512
+"""Patches, at most."""
+NAMED = 8
+"""Patches that a query names."""
 PROBES = 16
 """Cells that a query names."""
 LEADING = 9
@@ -51,40 +54,53 @@ def nearest_by_cells(
     threads : int, optional
         Python threads; ``None`` takes every core.
     """
-    p, (q, d) = len(points), queries.shape
-    probes, near = check_count(probes, "probes"), max(NEAR, probes)
-    order, edges = _runs(points, check_count(size, "cell size"))
+    p, q = len(points), len(queries)
+    probes = check_count(probes, "probes")
     middle = points.mean(axis=0)
     unit = float((points.max(axis=0) - points.min(axis=0)).max()) or 1.0
+    order, edges, patches = _cells(points, check_count(size, "cell size"), middle, unit, threads)
     rows = np.concatenate([_single(points[order[part]], middle, unit) for part in blocks(p, 65536)])
-    centres = np.add.reduceat(rows, edges[:-1], axis=0) / np.diff(edges)[:, None].astype(np.float32)
-    # A column more makes the product the score: the larger, the nearer.
-    rows, centres = _scored(rows), _scored(centres)
-    near, probes = min(near, len(centres)), min(probes, len(centres))
-    # The cells of a group are to cover several times its share of the surface, also where queries are few.
-    members, bounds = _runs(queries, int(np.clip(near * size * q / (4 * p), 1, GROUP)))
-    within = np.arange(np.diff(edges).max(initial=0))
+    centres, wider = _means(rows, edges), _means(rows, edges[patches])
+    # Few queries among many points lie far apart: groups of them would name everything.
+    members, bounds = _runs(queries, int(np.clip(GROUP * 16 * q / p, 1, GROUP)))
     answer = np.empty(q, dtype=np.int64)
 
     def search(groups: slice) -> None:
-        here = bounds[groups.start : groups.stop + 1]
-        x = np.ones((here[-1] - here[0], d + 1), dtype=np.float32)
-        x[:, :-1] = _single(queries[members[here[0] : here[-1]]], middle, unit)
-        starts = here[:-1] - here[0]
-        scores = (np.add.reduceat(x, starts, axis=0) / np.diff(here)[:, None].astype(np.float32)) @ centres.T
-        for i, start in enumerate(starts):
-            mine = x[start : start + here[i + 1] - here[i]]
-            cells = _largest(scores[i : i + 1], near)[0]
-            named = np.zeros(near, dtype=bool)
-            named[_largest(mine @ centres[cells].T, probes)] = True
-            cells = cells[named]
-            # Cells differ by a point in size: the shorter ones repeat their last.
-            found = np.minimum(edges[cells][:, None] + within, edges[cells + 1][:, None] - 1).ravel()
-            best = np.argmax(mine @ rows[found].T, axis=1)
-            answer[members[here[i] : here[i + 1]]] = order[found[best]]
+        for i in range(groups.start, groups.stop):
+            mine = members[bounds[i] : bounds[i + 1]]
+            x = _single(queries[mine], middle, unit)
+            # Seen from the middle of the group, differences of nearly equal distances lose no digits.
+            here = x.mean(axis=0)
+            x -= here
+            cells = _inside(patches, _named(x, wider - here, NAMED))
+            cells = cells[_named(x, centres[cells] - here, probes)]
+            found = _inside(edges, cells)
+            answer[mine] = order[found[np.argmax(_scores(x, rows[found] - here), axis=1)]]
 
-    parallel(search, blocks(len(bounds) - 1, 256), threads)
+    parallel(search, blocks(len(bounds) - 1, 64), threads)
     return answer
+
+
+def _cells(
+    points: np.ndarray, size: int, middle: np.ndarray, unit: float, threads: int | None
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """An order of ``points``, where each cell starts in it, and which cell each patch starts with (and the ends)."""
+    count = min(PATCHES, -(-len(points) // size))
+    order, starts = _runs(points, -(-len(points) // count))
+    seeds = _single(points[order[(starts[:-1] + starts[1:]) // 2]], middle, unit)
+
+    def closest(part: slice) -> np.ndarray:
+        return np.argmax(_scores(_single(points[part], middle, unit), seeds), axis=1)
+
+    patch = np.concatenate(parallel(closest, blocks(len(points), 4096), threads))
+    # Within a patch the order stays: what lies together there is a cell.
+    order = order[np.argsort(patch[order], kind="stable")]
+    sizes = np.bincount(patch)
+    sizes = sizes[sizes > 0]
+    pieces = -(-sizes // size)
+    piece = np.arange(pieces.sum()) - np.repeat(np.cumsum(pieces) - pieces, pieces)
+    edges = np.repeat(np.cumsum(sizes) - sizes, pieces) + np.repeat(sizes, pieces) * piece // np.repeat(pieces, pieces)
+    return order, np.append(edges, len(points)), np.append(0, np.cumsum(pieces))
 
 
 def _runs(rows: np.ndarray, size: int) -> tuple[np.ndarray, np.ndarray]:
@@ -102,13 +118,30 @@ def _single(rows: np.ndarray, middle: np.ndarray, unit: float) -> np.ndarray:
     return ((rows - middle) / unit).astype(np.float32)
 
 
-def _scored(rows: np.ndarray) -> np.ndarray:
-    """``rows`` with a last column ``-|row|²/2``."""
-    return np.column_stack([rows, -0.5 * np.einsum("ij,ij->i", rows, rows)])
+def _means(rows: np.ndarray, edges: np.ndarray) -> np.ndarray:
+    """Mean of each run of ``rows`` between ``edges``."""
+    return np.add.reduceat(rows, edges[:-1], axis=0) / np.diff(edges)[:, None].astype(rows.dtype)
 
 
-def _largest(scores: np.ndarray, count: int) -> np.ndarray:
-    """Columns of the ``count`` largest in each row of ``scores (m, c)``, in no order."""
-    if count >= scores.shape[1]:
-        return np.broadcast_to(np.arange(scores.shape[1]), scores.shape)
-    return np.argpartition(scores, scores.shape[1] - count, axis=1)[:, -count:]
+def _scores(x: np.ndarray, y: np.ndarray) -> np.ndarray:
+    """``(n, m)``: the larger, the closer is a row of ``y (m, d)`` to one of ``x (n, d)``."""
+    scores = x @ y.T
+    scores -= 0.5 * np.einsum("ij,ij->i", y, y)
+    return scores
+
+
+def _named(x: np.ndarray, y: np.ndarray, count: int) -> np.ndarray:
+    """Which rows of ``y`` are among the ``count`` closest of any row of ``x``; in ascending order."""
+    if count >= len(y):
+        return np.arange(len(y))
+    scores = _scores(x, y)
+    named = np.zeros(len(y), dtype=bool)
+    named[np.argpartition(scores, len(y) - count, axis=1)[:, -count:]] = True
+    return np.flatnonzero(named)
+
+
+def _inside(edges: np.ndarray, runs: np.ndarray) -> np.ndarray:
+    """What lies in the ``runs`` between ``edges``, in their order."""
+    sizes = edges[runs + 1] - edges[runs]
+    starts = np.repeat(edges[runs] - np.cumsum(sizes) + sizes, sizes)
+    return starts + np.arange(len(starts))
