@@ -316,6 +316,24 @@ def test_figure2_verdict() -> None:
     assert figure2.verdict(0.2, 0.05) == "not reproduced."
 
 
+def test_figure4_conclusions() -> None:
+    def panels(*kernel: float) -> list[figure4.Panel]:
+        none = np.zeros(1, dtype=np.int64)
+        values = {
+            method: kernel if method == figure4.METHODS[1] else (0.4, 0.3, 0.2, 0.1) for method in figure4.METHODS
+        }
+        return [
+            figure4.Panel(method, count, none, none, np.array([value]))
+            for method, errors in values.items()
+            for count, value in zip(figure4.COUNTS, errors, strict=True)
+        ]
+
+    assert "holds here" in figure4.conclusions(panels(0.04, 0.03, 0.02, 0.01), alone=True)[-1]
+    later = figure4.conclusions(panels(0.13, 0.06, 0.03, 0.02), alone=True)[-1]
+    assert "takes 10 descriptors with the kernel and more than 100 without" in later
+    assert "does not hold here" in later
+
+
 def test_figure5_conclusion() -> None:
     means = dict.fromkeys(figure5.kernels(), 5.0)
     sharpest = f"Gaussian, γ = {max(figure5.GAMMAS):g}"

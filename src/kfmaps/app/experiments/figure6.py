@@ -76,7 +76,7 @@ def figure6(setting: Setting) -> Outcome:
             shown = {name: grouped[name] for name in methods(count)}
             panels[f"{collection.name}, {count} descriptors, {len(pairs)} pairs"] = shown
             where = {"data": collection.name, "descriptors": count, "pairs": len(pairs)}
-            table += [{**where, **summary(name, rows)} for name, rows in grouped.items()]
+            table += [{**where, **summary(name, rows, grouped[NO17])} for name, rows in grouped.items()]
             found = compared(grouped)
             comparisons += [{**where, **comparison.row()} for comparison in found]
             told = "; ".join(comparison.text() for comparison in found)
@@ -91,14 +91,21 @@ def figure6(setting: Setting) -> Outcome:
     )
 
 
-def summary(name: str, rows: Sequence[Row]) -> dict[str, object]:
-    """A method's line of the table; errors × 100, in units of √area."""
+def summary(name: str, rows: Sequence[Row], other: Sequence[Row]) -> dict[str, object]:
+    """A method's line of the table; errors × 100, in units of √area, with the interval of their difference to NO17's.
+
+    ``other``: NO17 on the same pairs.
+    """
     means = np.array([row.mean for row in rows])
+    apart = difference(100 * means, 100 * np.array([row.mean for row in other]))
     return {
         "method": name,
         "mean error × 100": 100 * float(means.mean()),
         "median of pairs × 100": 100 * float(np.median(means)),
         "worst pair × 100": 100 * float(means.max()),
+        "minus NO17": apart.value,
+        "low": apart.low,
+        "high": apart.high,
         "mean steps": float(np.mean([row.steps for row in rows])),
         "converged pairs": sum(row.status == "converged" for row in rows),
         "mean seconds": float(np.mean([row.seconds for row in rows])),
