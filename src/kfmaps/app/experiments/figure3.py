@@ -26,7 +26,9 @@ SEEDS = (0, 1, 2)
 BOUND = "spectral bound"
 WAYS = tuple(way for way in style.SAMPLINGS if way != BOUND)
 PAPER = {0.01: 5.8e-11, 0.1: 5.1e-8, 1.0: 6.9e-5, 10.0: 0.051}
-"""Errors of descriptor farthest-point sampling at rank 400 in the paper's section 7.1, by γ."""
+"""Errors of descriptor farthest-point sampling at :data:`PAPER_RANK` in the paper's section 7.1, by γ."""
+
+PAPER_RANK = 400
 
 
 def figure3(setting: Setting) -> Outcome:
@@ -83,7 +85,8 @@ def conclusions(last: dict[tuple[float, str], float], rank: int) -> list[str]:
     """What the errors at the largest rank say; ``last`` by γ and way."""
     lines = []
     farthest = {gamma: last[gamma, "descriptor farthest"] for gamma in GAMMAS}
-    told = ", ".join(f"{farthest[g]:.2g} (paper {PAPER[g]:.2g})" for g in GAMMAS)
+    where = "" if rank == PAPER_RANK else f" at rank {PAPER_RANK}"
+    told = ", ".join(f"{farthest[g]:.2g} (paper{where} {PAPER[g]:.2g})" for g in GAMMAS)
     off = max(abs(np.log10(farthest[g] / PAPER[g])) for g in GAMMAS)
     lines.append(
         f"Descriptor farthest points at rank {rank}: {told} for γ = {', '.join(f'{g:g}' for g in GAMMAS)}; the largest "
@@ -123,7 +126,7 @@ def draw(errors: dict[tuple[float, str], np.ndarray], ranks: Sequence[int]) -> F
             ax.semilogy(ranks, middle, color=color, linestyle=dash, label=way, linewidth=1.5)
         if gamma in PAPER:
             ax.plot(
-                [400],
+                [PAPER_RANK],
                 [PAPER[gamma]],
                 marker="x",
                 color=style.BLUE,

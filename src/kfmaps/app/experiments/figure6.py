@@ -177,5 +177,5 @@ def draw(panels: Mapping[str, Mapping[str, Sequence[Row]]]) -> Figure:
             curves[method] = (np.mean([row.curve for row in rows], axis=0), style.METHODS[method], dash)
         style.error_curves(ax, THRESHOLDS, curves)
         ax.set_title(title, fontsize=10)
-    style.legend_below(figure, axes[0], columns=5)
+    style.legend_below(figure, axes[0], columns=3)
     return figure
