@@ -27,6 +27,19 @@ def test_inside_another_one_it_does_not_look_at_the_libraries_again(monkeypatch)
             pass
 
 
+def test_worker_threads_do_not_look_at_the_libraries_either(monkeypatch):
+    seen = []
+
+    def counted(limits: int) -> object:
+        seen.append(limits)
+        return threadpool_limits(limits=limits)
+
+    monkeypatch.setattr("kfmaps._threads.threadpool_limits", counted)
+    monkeypatch.setattr("kfmaps._threads._per_thread", lambda: False)
+    parallel(lambda _: parallel(lambda x: x, range(3), threads=1), range(10), threads=2)
+    assert seen == [1]
+
+
 def test_worker_threads_are_held_to_one_too():
     with threadpool_limits(2):
         seen = parallel(lambda _: blas_threads(), range(4), threads=2)

@@ -11,10 +11,11 @@ import os
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
+from functools import cache
 from threading import local
 from typing import TypeVar
 
-from threadpoolctl import threadpool_limits
+from threadpoolctl import threadpool_info, threadpool_limits
 
 A = TypeVar("A")
 B = TypeVar("B")
@@ -66,5 +67,20 @@ def parallel(function: Callable[[A], B], items: Iterable[A], threads: int | None
     with one_blas_thread():
         if count == 1:
             return [function(item) for item in items]
-        with ThreadPoolExecutor(count) as pool:
+        with ThreadPoolExecutor(count, initializer=_held) as pool:
             return list(pool.map(function, items))
+
+
+def _held() -> None:
+    """Tell a new worker thread that BLAS is on one thread already, for the whole process."""
+    _depth.value = 1
+    if _per_thread():
+        threadpool_limits(limits=1)
+
+
+@cache
+def _per_thread() -> bool:
+    """Whether a BLAS on OpenMP is loaded, which keeps its limit for each thread apart."""
+    return any(
+        library["user_api"] == "blas" and library.get("threading_layer") == "openmp" for library in threadpool_info()
+    )
