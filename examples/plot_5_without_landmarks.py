@@ -3,7 +3,7 @@ Without landmarks
 =================
 
 Nothing is given but two meshes. The creature is its own mirror image, so a map that swaps left and right keeps all
-lengths just as well as the right one. Several candidates are fitted and judged without the truth; the answer names the
+lengths just as well as the right one. Many candidates are refined and judged without the truth; the answer names the
 best, the distinct others, and how clear the decision was.
 """
 
@@ -26,8 +26,8 @@ config = replace(
     recommended,
     basis=kfmaps.BasisConfig(functions=60),
     descriptors=replace(recommended.descriptors, eigenfunctions=100),
-    search=kfmaps.Search(candidates=6),
-    refinement=kfmaps.ZoomOut(start=50, stop=100, step=5),
+    search=kfmaps.Search(candidates=3),
+    refinement=replace(recommended.refinement, stop=100),
 )
 result = kfmaps.match(pair.source, pair.target, config)
 
