@@ -1,6 +1,7 @@
 """Maps without landmarks on the field's benchmarks: errors, verdicts and times, one setting for all sets.
 
     python benchmarks/automatic.py --data DIR [--sets FAUST_r,TOSCA_r,catlion,own] [--workers 2] [--json FILE]
+    python benchmarks/automatic.py --data DIR --time
 
 DIR holds the folders FAUST_r, TOSCA_r and catlion (see the layouts in docs/collections.md); without it only the
 package's own shapes are matched. What the settings were chosen on is left out: pairs of FAUST_r in which both are of
@@ -11,6 +12,7 @@ from __future__ import annotations
 
 import argparse
 import json
+import os
 import time
 import warnings
 from concurrent.futures import ProcessPoolExecutor
@@ -92,6 +94,27 @@ def own(job: tuple[str, int]) -> dict:
 
 
 THREADS = 1
+"""Of one match, when several pairs are matched at once."""
+
+
+def time_pairs(folder: Path, count: int = 5) -> None:
+    """Wall-clock seconds of a match from two meshes, with every core and with one thread."""
+    pairs = faust_pairs(folder)[::12][:count]
+    meshes = [tuple(read(mesh_file(folder, name)) for name in pair) for pair in pairs]
+    found: dict[str, list[dict[str, float]]] = {}
+    for threads in (None, 1):
+        for a, b in meshes:
+            config = replace(kfmaps.Config.automatic(), threads=threads)
+            start = time.perf_counter()
+            shapes = [kfmaps.prepare(mesh, config) for mesh in (a, b)]
+            match = kfmaps.match(*shapes, config)
+            seconds = {k: sum(shape.seconds[k] for shape in shapes) for k in shapes[0].seconds}
+            seconds |= {**match.seconds, "whole match": time.perf_counter() - start}
+            found.setdefault("one thread" if threads else f"{os.cpu_count()} cores", []).append(seconds)
+    columns = list(found)
+    print(f"seconds, mean of {len(pairs)} pairs of 5,000 vertices" + "".join(f"{c:>14}" for c in columns))
+    for stage in found[columns[0]][0]:
+        print(f"{stage:46}" + "".join(f"{np.mean([s[stage] for s in found[c]]):14.2f}" for c in columns))
 
 
 def report(title: str, rows: list[dict]) -> None:
@@ -108,18 +131,23 @@ def report(title: str, rows: list[dict]) -> None:
         if r.get("error", 0) > 5:
             print(f"  {r['pair']}: {r['error']:.1f}, verdict {r['verdict']}, runners-up {np.round(r['runners_up'], 1)}")
     if any("seconds" in r for r in rows):
-        print(
-            f"  seconds a pair, eigenproblems included: {np.mean([r['seconds'] for r in rows if 'seconds' in r]):.1f}"
-        )
+        timed = [r for r in rows if "seconds" in r]
+        print(f"  seconds a pair, eigenproblems included: {np.mean([r['seconds'] for r in timed]):.1f}")
+        for stage in sorted({stage for r in timed for stage in r["stages"]}):
+            print(f"    {stage:28} {np.mean([r['stages'].get(stage, 0.0) for r in timed]):6.2f}")
 
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--data", type=Path)
     parser.add_argument("--sets", default="FAUST_r,TOSCA_r,catlion,own")
-    parser.add_argument("--workers", type=int, default=2)
+    parser.add_argument("--workers", type=int, default=2, help="pairs at once, each with one thread")
+    parser.add_argument("--time", action="store_true", help="only time five pairs of FAUST_r, one after the other")
     parser.add_argument("--json", type=Path)
     arguments = parser.parse_args()
+    if arguments.time:
+        time_pairs(arguments.data / "FAUST_r")
+        return
     results: dict[str, list[dict]] = {}
     with ProcessPoolExecutor(arguments.workers) as pool:
         for name in arguments.sets.split(","):

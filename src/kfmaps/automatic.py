@@ -79,7 +79,7 @@ def choose(
     best = ranked[0]
     fitted = best.fitted or fits[0]
     bases = (source.basis, target.basis)
-    result = replace(fitted, config=config, seconds={"candidates": searched - start, **fitted.seconds})
+    result = replace(fitted, config=config, seconds={"candidates": searched - start})
     C = best.functional_map
     if config.refinement is None:
         points = to_points(C, *bases, threads=config.threads)
