@@ -18,6 +18,9 @@ from kfmaps.app.batch.work import map_path
 from kfmaps.app.files import check_map, load_map, read_mesh
 from kfmaps.app.pictures import match_figure, painted_errors, save_figure, true_views
 
+LIMIT = 0.2
+"""Where the colours of the error end, the same for all pairs, in units of √area."""
+
 
 def pair_picture(task: PairTask, threads: int | None = None) -> bytes:
     """The PNG of a matched pair: source, target in the source's colours, and the error when the truth is known.
@@ -39,7 +42,8 @@ def pair_picture(task: PairTask, threads: int | None = None) -> bytes:
             errors = painted_errors(source, target, points, truth.source, truth.target, threads)
             views = true_views(source, target, truth.source, truth.target)
     buffer = io.BytesIO()
-    save_figure(match_figure(source, target, points, errors=errors, view=views[0], target_view=views[1]), buffer, "png")
+    figure = match_figure(source, target, points, errors=errors, limit=LIMIT, view=views[0], target_view=views[1])
+    save_figure(figure, buffer, "png")
     return buffer.getvalue()
 
 
