@@ -100,14 +100,14 @@ THREADS = 1
 def time_pairs(folder: Path, count: int = 5) -> None:
     """Wall-clock seconds of a match from two meshes, with every core and with one thread."""
     pairs = faust_pairs(folder)[::12][:count]
-    meshes = [tuple(read(mesh_file(folder, name)) for name in pair) for pair in pairs]
+    meshes = [(read(mesh_file(folder, a)), read(mesh_file(folder, b))) for a, b in pairs]
     found: dict[str, list[dict[str, float]]] = {}
     for threads in (None, 1):
         for a, b in meshes:
             config = replace(kfmaps.Config.automatic(), threads=threads)
             start = time.perf_counter()
             shapes = [kfmaps.prepare(mesh, config) for mesh in (a, b)]
-            match = kfmaps.match(*shapes, config)
+            match = kfmaps.match(shapes[0], shapes[1], config)
             seconds = {k: sum(shape.seconds[k] for shape in shapes) for k in shapes[0].seconds}
             seconds |= {**match.seconds, "whole match": time.perf_counter() - start}
             found.setdefault("one thread" if threads else f"{os.cpu_count()} cores", []).append(seconds)

@@ -27,7 +27,7 @@ config = replace(
     basis=kfmaps.BasisConfig(functions=60),
     descriptors=replace(recommended.descriptors, eigenfunctions=100),
     search=kfmaps.Search(candidates=3),
-    refinement=replace(recommended.refinement, stop=100),
+    refinement=kfmaps.ZoomOut(start=50, stop=100, step=5, guidance=36.0),
 )
 result = kfmaps.match(pair.source, pair.target, config)
 
