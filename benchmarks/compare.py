@@ -72,13 +72,18 @@ def pyfm_model(pair: Pair, spectrum: tuple[Shape, Shape] | None = None) -> Funct
     return FunctionalMapping(*meshes)
 
 
+def descriptors(pair: Pair, maps: bool) -> DescriptorConfig:
+    """100 in all, or (``maps``) 100 and 100 for each landmark, as pyFM makes them."""
+    if not maps:
+        return DescriptorConfig()
+    count = 100 * (1 + len(pair.landmarks))
+    return replace(DescriptorConfig(), count=count, signature_share=100.5 / count)
+
+
 def fits(pair: Pair, shapes: tuple[Shape, Shape], threads: int, maps: bool) -> dict[str, Callable[[], np.ndarray]]:
     """Functional maps from the same descriptors: 100 in all, or (``maps``) 100 and 100 for each landmark."""
     bases = (shapes[0].basis, shapes[1].basis)
-    wanted = DescriptorConfig()
-    if maps:
-        count = 100 * (1 + len(pair.landmarks))
-        wanted = replace(wanted, count=count, signature_share=100.5 / count)
+    wanted = descriptors(pair, maps)
     given = pair_descriptors(*shapes, bases, wanted, checked_landmarks(pair.landmarks, *shapes), None)
 
     def ours(rtol: float) -> np.ndarray:
@@ -99,17 +104,17 @@ def fits(pair: Pair, shapes: tuple[Shape, Shape], threads: int, maps: bool) -> d
     }
 
 
-def wholes(pair: Pair, threads: int) -> dict[str, Callable[[], np.ndarray]]:
+def wholes(pair: Pair, threads: int, maps: bool) -> dict[str, Callable[[], np.ndarray]]:
     """Maps of points from meshes and landmarks, refined to ``STOP`` functions."""
 
     def ours(refinement: ZoomOut) -> np.ndarray:
-        settings = config(threads, 1e-4, refinement)
+        settings = replace(config(threads, 1e-4, refinement), descriptors=descriptors(pair, maps))
         return match(pair.source, pair.target, settings, landmarks=pair.landmarks).target_to_source
 
     def theirs() -> Any:
         model = pyfm_model(pair)
-        # As many descriptors as ours: every seventh of 100 and 100 for each landmark.
-        every = 1 + len(pair.landmarks)
+        # As many descriptors as ours: all of 100 and 100 for each landmark, or every seventh.
+        every = 1 if maps else 1 + len(pair.landmarks)
         model.compute_spectral_descriptors(100, "WKS", 128, pair.landmarks, subsample_step=every)
         model.fit(K=(K, K))
         return model.get_p2p(model.zoomout_refine(nit=(STOP - K) // STEP, step=STEP))
@@ -163,7 +168,8 @@ def main() -> None:
         stages = [
             ("fit", fits(pair, (source, target), options.threads, False), points),
             ("fit, 100 per landmark", fits(pair, (source, target), options.threads, True), points),
-            ("whole, ZoomOut to 150", wholes(pair, options.threads), np.asarray),
+            ("whole, ZoomOut to 150", wholes(pair, options.threads, False), np.asarray),
+            ("whole, 100 per landmark", wholes(pair, options.threads, True), np.asarray),
         ]
         for stage, methods, finish in stages:
             found = contest(pair, stage, methods, options.repeats, finish)
