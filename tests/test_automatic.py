@@ -7,8 +7,8 @@ import pytest
 
 from conftest import blob, fibonacci_sphere
 from kfmaps._arrays import InvalidInput
-from kfmaps.app.datasets import symmetric_creature
-from kfmaps.automatic import choose, distinct, mirror_image
+from kfmaps.app.datasets import partial, symmetric_creature
+from kfmaps.automatic import POOR, choose, distinct, mirror_image
 from kfmaps.candidates import Candidate, candidates, kicked, variants
 from kfmaps.config import BasisConfig, Config, NystromConfig, Search
 from kfmaps.evaluate import geodesic_errors
@@ -154,6 +154,24 @@ def test_a_sphere_is_ambiguous():
     assert found.runners_up
 
 
+def test_no_map_between_unlike_shapes_is_called_sure(shape):
+    """A body and a sphere: the best of all bad maps may be well ahead of the others."""
+    found = match(shape, prepare(fibonacci_sphere(650, 0.4), SMALL), SMALL)
+    assert found.verdict in ("poor", "ambiguous")
+    assert found.confidence is not None
+    assert found.confidence < 0.6
+
+
+def test_a_part_is_not_called_a_match():
+    pair = partial(2500, rng=0)
+    found = match(pair.source, pair.target, replace(Config.automatic(), threads=2))
+    assert geodesic_errors(pair.source, found.target_to_source, pair.truth).mean() > 0.1
+    assert found.verdict != "sure"
+    assert found.scores[0] < POOR
+    assert found.confidence is not None
+    assert found.confidence < 0.1
+
+
 def test_left_and_right_of_a_symmetric_body_are_told_apart():
     pair = symmetric_creature(2500, rng=0)
     found = match(pair.source, pair.target, replace(Config.automatic(), threads=2))
@@ -168,7 +186,7 @@ def test_point_clouds_are_matched_without_orientation(shape):
     cloud = prepare(Mesh(blob(650, twist=0.4).vertices, np.zeros((0, 3), dtype=int)), SMALL)
     found = choose(shape, cloud, SMALL)
     assert found.target_to_source.shape == (650,)
-    assert found.verdict in ("sure", "ambiguous")
+    assert found.verdict in ("sure", "ambiguous", "poor")
     with pytest.raises(InvalidInput, match="point cloud"):
         choose(shape, cloud, replace(SMALL, search=Search(orientation="reversed")))
 

@@ -160,7 +160,7 @@ def test_without_landmarks(made: types.SimpleNamespace, tmp_path: Path) -> None:
     """The search says how sure it is; its runners-up are maps too."""
     words = ("--candidates", "2", "--zoom-stop", "80", "--json", "-o", tmp_path / "m.npz")
     told = json.loads(match(made, *words, landmarks=False).stdout)
-    assert told["verdict"] in ("sure", "ambiguous")
+    assert told["verdict"] in ("sure", "ambiguous", "poor")
     assert 0 <= told["confidence"] <= 1
     found = load_map(tmp_path / "m.npz")
     assert float(np.asarray(found.extra["confidence"])) == pytest.approx(told["confidence"])

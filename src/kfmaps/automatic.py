@@ -32,6 +32,9 @@ DISTINCT = 0.08
 """Mean distance, in units of √area, from which two maps count as different ones."""
 CLEAR = 0.3
 """Margin of the score from which a map counts as sure."""
+POOR = -10.0
+"""Score below which no map is called sure, however much worse the others are. Where the search was made, right maps
+had -7 and better, the best maps of a part of a body, or of a person to a cat, -13 and worse."""
 
 
 def choose(
@@ -46,8 +49,8 @@ def choose(
 ) -> Match:
     """Match two prepared shapes without landmarks, as ``config.search`` says.
 
-    Returns the match of the best candidate, with ``confidence``, ``verdict`` ("sure" or "ambiguous"), the distinct
-    other maps as ``runners_up`` and the ``scores`` of all of them. ``landmarks`` are passed on to the fits.
+    Returns the match of the best candidate, with ``confidence``, ``verdict`` ("sure", "ambiguous" or "poor"), the
+    distinct other maps as ``runners_up`` and the ``scores`` of all of them. ``landmarks`` are passed on to the fits.
 
     Raises
     ------
@@ -107,8 +110,8 @@ def choose(
         result,
         eigenvalues_s=source.basis.eigenvalues[:k_s],
         eigenvalues_t=target.basis.eigenvalues[:k_t],
-        confidence=float(-np.expm1(-margin / CLEAR)),
-        verdict="sure" if margin >= CLEAR else "ambiguous",
+        confidence=float(-np.expm1(-margin / CLEAR) * np.exp(min(best.score - POOR, 0.0))),
+        verdict="ambiguous" if margin < CLEAR else "poor" if best.score < POOR else "sure",
         runners_up=tuple(to_points(c.functional_map, source.basis, target.basis, config.threads) for c in others),
         scores=tuple(float(c.quality.score) for c in (best, *others)),
     )

@@ -57,7 +57,7 @@ class Match:
         Without landmarks, how clearly the map beat every distinct other one; see :mod:`kfmaps.automatic`.
     runners_up : tuple of arrays (n_t,)
         The distinct other maps, best first.
-    verdict : "landmarks", "sure" or "ambiguous"
+    verdict : "landmarks", "sure", "ambiguous", "poor" or "unchecked"
     scores : tuple of float
         Of the map and of each runner-up, higher is better; empty with landmarks.
     local_confidence : (n_t,) float64 or None

@@ -24,6 +24,8 @@ VERDICTS = {
     "sure": "clearly better than every other map that was found",
     "ambiguous": "AMBIGUOUS: another map is about as good. Give landmarks (kfmaps landmarks), "
     "or look at the other maps (kfmaps view)",
+    "poor": "POOR: no map that was found fits. One may be a part of the other, or they differ too much; "
+    "landmarks may help",
     "unchecked": "one fit, not compared with others: without landmarks it may swap left and right",
 }
 
