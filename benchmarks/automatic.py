@@ -59,7 +59,7 @@ def judged(name: str, source: kfmaps.Mesh, target: kfmaps.Mesh, true_s, true_t, 
     start = time.perf_counter()
     found = kfmaps.match(source, target, replace(kfmaps.Config.automatic(), threads=THREADS))
     row = {"pair": name, "seconds": time.perf_counter() - start, "verdict": found.verdict}
-    row |= {"confidence": found.confidence, "stages": found.seconds}
+    row |= {"confidence": found.confidence, "score": found.scores[0], "stages": found.seconds}
 
     def error(points, where) -> float:
         return 100 * float(kfmaps.geodesic_errors(source, points[where], true_s).mean())
