@@ -110,7 +110,9 @@ def read_result(path: Path) -> Result | None:
 
 def all_results(folder: Path, settings: str) -> list[Result]:
     """Every result in an output folder that was made with these settings, by source and target."""
-    found = (read_result(path) for path in sorted((folder / FOLDER).glob("*.json")))
+    # A worker that is killed just before it renames a result leaves it under a name that begins with a dot.
+    paths = (path for path in sorted((folder / FOLDER).glob("*.json")) if not path.name.startswith("."))
+    found = map(read_result, paths)
     return sorted((r for r in found if r is not None and r.settings == settings), key=lambda r: (r.source, r.target))
 
 
