@@ -17,7 +17,7 @@ import numpy as np
 
 from kfmaps._arrays import like, refuse, to_numpy
 from kfmaps._threads import one_blas_thread, parallel
-from kfmaps.candidates import Candidate, candidates, differs
+from kfmaps.candidates import Candidate, apart, candidates
 from kfmaps.config import Config
 from kfmaps.guided import guide
 from kfmaps.maps import to_points
@@ -126,11 +126,7 @@ def distinct(found: list[Candidate], source: Probe) -> list[Candidate]:
     best = next((c for c in order if c.guided), None)
     if best is not None and best.score > order[0].score - CLEAR:
         order.insert(0, best)
-    ranked: list[Candidate] = []
-    for candidate in order:
-        if all(differs(candidate, other, source) > DISTINCT for other in ranked):
-            ranked.append(candidate)
-    return ranked
+    return apart(order, source, DISTINCT)
 
 
 def mirror_image(shape: Shape) -> Shape:

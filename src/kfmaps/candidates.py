@@ -147,7 +147,7 @@ def candidates(
     best = max(found, key=lambda c: c.score)
     found += _run([partial(kick, best, i) for i in range(KICKS)], config.threads)
     fits = list({id(c.fitted): c.fitted for c in found if c.fitted is not None}.values())
-    chosen = apart(found, small[0], APART)[:FINALISTS]
+    chosen = apart(sorted(found, key=lambda c: c.score, reverse=True), small[0], APART)[:FINALISTS]
     return _run([partial(finish, c) for c in chosen], config.threads), fits
 
 
@@ -158,13 +158,13 @@ def judged(
     k_t, k_s = C.shape
     images = probes[0].samples.basis.functions[:, :k_s] @ C.T
     points = nearest(probes[1].samples.basis.functions[:, :k_t], images, threads=1)
-    return Candidate(name, C, points, map_quality(C, *probes), fitted, bool(weight) or fitted is not None)
+    return Candidate(name, C, points, map_quality(C, *probes, points), fitted, bool(weight) or fitted is not None)
 
 
-def apart(found: list[Candidate], source: Probe, distance: float) -> list[Candidate]:
-    """The best of ``found``, then the best of those that are ``distance`` from it on average, and so on."""
+def apart(order: list[Candidate], source: Probe, distance: float) -> list[Candidate]:
+    """The first of ``order``, then the first of those that are ``distance`` from it on average, and so on."""
     kept: list[Candidate] = []
-    for candidate in sorted(found, key=lambda c: c.score, reverse=True):
+    for candidate in order:
         if all(differs(candidate, other, source) > distance for other in kept):
             kept.append(candidate)
     return kept

@@ -152,19 +152,22 @@ def thinned(probe: Probe, count: int) -> Probe:
     )
 
 
-def map_quality(C: Array, source: Probe, target: Probe) -> Quality:
-    """Judge the functional map ``C (k, k)``, refined on the samples of both probes, without knowing the truth."""
+def map_quality(C: Array, source: Probe, target: Probe, points: np.ndarray | None = None) -> Quality:
+    """Judge the functional map ``C (k, k)``, refined on the samples of both probes, without knowing the truth.
+
+    ``points``: the source sample of each target sample ``(q_t,)`` by ``C``, where they are known.
+    """
     C = to_numpy(C)
     k_t, k_s = C.shape
     basis_s, basis_t = source.samples.basis.truncated(k_s), target.samples.basis.truncated(k_t)
     carried = to_numpy(basis_s.functions) @ C.T
     functions_t = to_numpy(basis_t.functions)
-    back = nearest(functions_t, carried, threads=1)  # target -> source
+    back = nearest(functions_t, carried, threads=1) if points is None else points  # target -> source
     forth = nearest(carried, functions_t, threads=1)
     area_s, area_t = (to_numpy(b.mass) / float(b.mass.sum()) for b in (basis_s, basis_t))
     values_s, values_t = to_numpy(basis_s.eigenvalues), to_numpy(basis_t.eigenvalues)
     moved = np.linalg.norm(source.positions[back[forth]] - source.positions, axis=1)
-    distortion, stretch = _distortion(carried, functions_t, source, target)
+    distortion, stretch = _distortion(carried, functions_t, back, forth, source, target)
     commutator = C * values_s[None, :] - values_t[:, None] * C
     return Quality(
         orientation=_orientation(C, source, target),
@@ -204,11 +207,14 @@ def _orientation(C: np.ndarray, source: Probe, target: Probe) -> float:
     return float((ours * theirs).sum() / size) if size else 0.0
 
 
-def _distortion(carried: np.ndarray, functions_t: np.ndarray, source: Probe, target: Probe) -> tuple[float, float]:
+def _distortion(
+    carried: np.ndarray, functions_t: np.ndarray, back: np.ndarray, forth: np.ndarray, source: Probe, target: Probe
+) -> tuple[float, float]:
     """Mean change of all distances and of the short ones, both divided by their mean."""
     c_s, c_t = len(source.distances), len(target.distances)
-    back = nearest(functions_t[:c_t], carried[:c_s], threads=1)
-    forth = nearest(carried[:c_s], functions_t[:c_t], threads=1)
+    if (c_s, c_t) != (len(carried), len(functions_t)):  # distances are known between the first samples only
+        back = nearest(functions_t[:c_t], carried[:c_s], threads=1)
+        forth = nearest(carried[:c_s], functions_t[:c_t], threads=1)
     change = np.abs(source.distances[np.ix_(back, back)] - target.distances)
     change_back = np.abs(target.distances[np.ix_(forth, forth)] - source.distances)
     far = (change.mean() + change_back.mean()) / (source.distances.mean() + target.distances.mean())
