@@ -15,7 +15,7 @@ from kfmaps.evaluate import geodesic_errors
 from kfmaps.maps import nearest
 from kfmaps.matching import match
 from kfmaps.mesh import Mesh
-from kfmaps.quality import map_quality, probe, thinned
+from kfmaps.quality import _near, map_quality, probe, thinned
 from kfmaps.refine import ZoomOut
 from kfmaps.shape import prepare
 from kfmaps.shot import shot
@@ -95,6 +95,13 @@ def test_a_torn_map_is_stretched_more_than_a_shaken_one(shape):
     assert broken.stretch > whole.stretch + 0.1
 
 
+def test_stretch_counts_short_distances_alone():
+    distances = np.abs(np.subtract.outer(*[np.array([0.0, 0.1, 0.2, 1.0, 1.1])] * 2))
+    short = distances <= 0.2
+    assert _near(np.where(short, 0.0, 5.0), distances) == 0
+    assert _near(np.where(short, distances / 2, 0.0), distances) == pytest.approx(0.5)
+
+
 def test_few_samples_of_a_probe_are_a_probe(shape):
     judge = probe(shape, 300)
     few = thinned(judge, 120)
@@ -160,6 +167,14 @@ def test_no_map_between_unlike_shapes_is_called_sure(shape):
     assert found.verdict in ("poor", "ambiguous")
     assert found.confidence is not None
     assert found.confidence < 0.6
+
+
+def test_a_clear_winner_that_fits_badly_is_poor(shape, other, monkeypatch):
+    monkeypatch.setattr("kfmaps.automatic.POOR", 100.0)
+    found = match(shape, other, SMALL)
+    assert found.verdict == "poor"
+    assert found.confidence is not None
+    assert found.confidence < 1e-6
 
 
 def test_a_part_is_not_called_a_match():
