@@ -23,15 +23,15 @@ from shapes import Pair, bumpy_pair, read_pairs
 
 from kfmaps._threads import one_blas_thread
 from kfmaps.config import Config, DescriptorConfig
-from kfmaps.evaluate import geodesic_errors
-from kfmaps.features import pair_descriptors
-from kfmaps.maps import to_points
+from kfmaps.fit.features import pair_descriptors
+from kfmaps.fit.fit import checked_landmarks, problem
+from kfmaps.fit.shape import Shape, prepare
+from kfmaps.functional.evaluate import geodesic_errors
+from kfmaps.functional.points import to_points
+from kfmaps.functional.preconditioners import sylvester
+from kfmaps.functional.refine import ZoomOut
+from kfmaps.functional.solvers import CG, solve
 from kfmaps.matching import match
-from kfmaps.pipeline import checked_landmarks, problem
-from kfmaps.preconditioners import sylvester
-from kfmaps.refine import ZoomOut
-from kfmaps.shape import Shape, prepare
-from kfmaps.solvers import CG, solve
 
 K, STOP, STEP = 100, 150, 5
 ZOOM = ZoomOut(start=K, stop=STOP, step=STEP)

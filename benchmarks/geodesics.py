@@ -21,8 +21,8 @@ from shapes import bumpy_sphere
 
 from kfmaps._threads import one_blas_thread
 from kfmaps.app.files import read_mesh
-from kfmaps.mesh import Mesh
-from kfmaps.unfolding import surface_graph
+from kfmaps.surface.mesh import Mesh
+from kfmaps.surface.unfolding import surface_graph
 
 REFERENCE = 24
 

@@ -23,10 +23,10 @@ from shapes import bumpy_pair
 
 from kfmaps._threads import one_blas_thread
 from kfmaps.config import Config
-from kfmaps.geodesics import distance_pairs
-from kfmaps.mesh import unit_area
-from kfmaps.pipeline import fit
-from kfmaps.shape import prepare
+from kfmaps.fit.fit import fit
+from kfmaps.fit.shape import prepare
+from kfmaps.surface.geodesics import distance_pairs
+from kfmaps.surface.mesh import unit_area
 
 SIZES, LARGE, HUGE = (5_000, 20_000, 80_000), 300_000, 1_000_000
 

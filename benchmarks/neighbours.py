@@ -18,13 +18,13 @@ import numpy as np
 from shapes import Pair, bumpy_pair, read_pairs
 
 from kfmaps._threads import one_blas_thread
-from kfmaps.cells import nearest_by_cells
 from kfmaps.config import Config
-from kfmaps.geodesics import distance_pairs
-from kfmaps.mesh import Mesh, unit_area
-from kfmaps.neighbours import nearest
-from kfmaps.pipeline import fit
-from kfmaps.shape import prepare
+from kfmaps.fit.fit import fit
+from kfmaps.fit.shape import prepare
+from kfmaps.functional.cells import nearest_by_cells
+from kfmaps.functional.nearest import nearest
+from kfmaps.surface.geodesics import distance_pairs
+from kfmaps.surface.mesh import Mesh, unit_area
 
 
 def quartered(mesh: Mesh) -> Mesh:

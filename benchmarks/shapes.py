@@ -9,7 +9,7 @@ import numpy as np
 from scipy.spatial import ConvexHull, KDTree
 
 from kfmaps.app.files.meshes import read_mesh
-from kfmaps.mesh import Mesh, unit_area
+from kfmaps.surface.mesh import Mesh, unit_area
 
 
 def bumpy_sphere(n: int, rng: int | np.random.Generator = 0) -> Mesh:

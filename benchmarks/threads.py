@@ -20,10 +20,10 @@ import robust_laplacian
 from shapes import bumpy_pair, bumpy_sphere
 
 from kfmaps._threads import one_blas_thread
-from kfmaps.cells import nearest_by_cells
 from kfmaps.config import Config
-from kfmaps.eigensolver import smallest_eigenpairs
+from kfmaps.functional.cells import nearest_by_cells
 from kfmaps.matching import match
+from kfmaps.surface.eigen.pencil import smallest_eigenpairs
 
 K = 200
 

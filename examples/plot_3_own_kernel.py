@@ -15,7 +15,7 @@ from sklearn.metrics.pairwise import rbf_kernel
 
 import kfmaps
 from kfmaps.app.pictures import match_figure
-from kfmaps.sampling import farthest
+from kfmaps.kernel.select import farthest
 
 pair = kfmaps.datasets.two_poses(vertices=2000)
 marked = farthest(pair.target.vertices, 4)

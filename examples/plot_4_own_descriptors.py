@@ -13,8 +13,8 @@ import numpy as np
 
 import kfmaps
 from kfmaps.app.pictures import match_figure
-from kfmaps.mesh import surface_area
-from kfmaps.sampling import farthest
+from kfmaps.kernel.select import farthest
+from kfmaps.surface.mesh import surface_area
 
 pair = kfmaps.datasets.two_poses(vertices=2000)
 marked = farthest(pair.target.vertices, 4)

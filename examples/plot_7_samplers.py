@@ -10,11 +10,11 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 import kfmaps
-from kfmaps.descriptors import normalised, wave_energies, wave_signature
-from kfmaps.geodesics import farthest_geodesic
-from kfmaps.mesh import unit_area
-from kfmaps.nystrom import nystrom
-from kfmaps.sampling import farthest, pivoted_cholesky, uniform
+from kfmaps.descriptors.spectral import normalised, wave_energies, wave_signature
+from kfmaps.kernel.nystrom import nystrom
+from kfmaps.kernel.select import farthest, pivoted_cholesky, uniform
+from kfmaps.surface.geodesics import farthest_geodesic
+from kfmaps.surface.mesh import unit_area
 
 pair = kfmaps.datasets.two_poses(vertices=1500)
 meshes = [unit_area(mesh) for mesh in (pair.source, pair.target)]

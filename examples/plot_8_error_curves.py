@@ -12,7 +12,7 @@ import numpy as np
 
 import kfmaps
 from kfmaps.app.pictures import Curve, curves_figure
-from kfmaps.sampling import farthest
+from kfmaps.kernel.select import farthest
 
 pair = kfmaps.datasets.two_poses(vertices=2000)
 marked = farthest(pair.target.vertices, 6)

@@ -23,8 +23,8 @@ from kfmaps.app.batch.settings import Settings
 from kfmaps.app.batch.work import match_pair, prepare_shape
 from kfmaps.app.files import write_mesh, write_vertex_numbers
 from kfmaps.config import BasisConfig, Config, DescriptorConfig, NystromConfig
-from kfmaps.mesh import Mesh
-from kfmaps.refine import ZoomOut
+from kfmaps.functional.refine import ZoomOut
+from kfmaps.surface.mesh import Mesh
 
 LANDMARKS = (1, 50, 120, 170)
 """Lines of the truth, counted from 1."""

@@ -14,8 +14,8 @@ import numpy as np
 import pytest
 from scipy.spatial import ConvexHull
 
-from kfmaps.mesh import Mesh, unit_area
-from kfmaps.spectrum import Basis, laplace_basis
+from kfmaps.surface.basis import Basis, laplace_basis
+from kfmaps.surface.mesh import Mesh, unit_area
 
 
 def fibonacci_sphere(n: int, twist: float = 0.0) -> Mesh:

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from kfmaps.mesh import Mesh, face_areas, surface_area, vertex_normals
-from kfmaps.shot import Form
+from kfmaps.descriptors.shot import Form
+from kfmaps.surface.mesh import Mesh, face_areas, surface_area, vertex_normals
 
 
 def plain_support(mesh: Mesh, form: str, samples: int) -> list[tuple[np.ndarray, np.ndarray, float]]:

@@ -8,17 +8,17 @@ import pytest
 from conftest import blob, fibonacci_sphere
 from kfmaps._arrays import InvalidInput
 from kfmaps.app.datasets import partial, symmetric_creature
-from kfmaps.automatic import POOR, choose, distinct, mirror_image
-from kfmaps.candidates import Candidate, candidates, kicked, variants
 from kfmaps.config import BasisConfig, Config, NystromConfig, Search
-from kfmaps.evaluate import geodesic_errors
-from kfmaps.maps import nearest
+from kfmaps.descriptors.shot import shot
+from kfmaps.fit.shape import prepare
+from kfmaps.functional.evaluate import geodesic_errors
+from kfmaps.functional.points import nearest
+from kfmaps.functional.refine import ZoomOut
 from kfmaps.matching import match
-from kfmaps.mesh import Mesh
-from kfmaps.quality import _near, map_quality, probe, thinned
-from kfmaps.refine import ZoomOut
-from kfmaps.shape import prepare
-from kfmaps.shot import shot
+from kfmaps.search.candidates import Candidate, candidates, kicked, variants
+from kfmaps.search.choose import POOR, choose, distinct, mirror_image
+from kfmaps.search.quality import _near, map_quality, probe, thinned
+from kfmaps.surface.mesh import Mesh
 
 SMALL = replace(
     Config.automatic(),
@@ -170,7 +170,7 @@ def test_no_map_between_unlike_shapes_is_called_sure(shape):
 
 
 def test_a_clear_winner_that_fits_badly_is_poor(shape, other, monkeypatch):
-    monkeypatch.setattr("kfmaps.automatic.POOR", 100.0)
+    monkeypatch.setattr("kfmaps.search.choose.POOR", 100.0)
     found = match(shape, other, SMALL)
     assert found.verdict == "poor"
     assert found.confidence is not None

@@ -23,11 +23,11 @@ from kfmaps.app.batch.summary import summarised
 from kfmaps.app.batch.work import attempts, map_path, match_pair, prepare_shape
 from kfmaps.app.files import load_map, read_mesh, read_vertex_numbers, write_mesh, write_vertex_numbers
 from kfmaps.config import NystromConfig
-from kfmaps.evaluate import geodesic_errors
-from kfmaps.kernels import Linear
+from kfmaps.fit.shape import prepare
+from kfmaps.functional.evaluate import geodesic_errors
+from kfmaps.kernel.kernels import Linear
 from kfmaps.matching import match
-from kfmaps.mesh import Mesh
-from kfmaps.shape import prepare
+from kfmaps.surface.mesh import Mesh
 
 
 def test_prepared_shapes_come_back_as_they_were(tmp_path: Path) -> None:

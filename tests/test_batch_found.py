@@ -16,7 +16,7 @@ from kfmaps.app.batch.layout import Pair, choose_pairs, find_collection, natural
 from kfmaps.app.batch.plan import recommended
 from kfmaps.app.batch.settings import Settings, claim
 from kfmaps.config import Config
-from kfmaps.kernels import Linear
+from kfmaps.kernel.kernels import Linear
 
 
 @pytest.mark.parametrize("sub", ["", "off", "shapes"])

@@ -16,7 +16,7 @@ from kfmaps.app.datasets import Pair, two_poses
 from kfmaps.app.files import MapFile
 from kfmaps.app.view.page import result_page
 from kfmaps.app.view.results import map_page
-from kfmaps.confidence import local_confidence
+from kfmaps.functional.confidence import local_confidence
 
 pytestmark = needs_browser
 

@@ -16,7 +16,7 @@ from kfmaps.app.datasets import Pair, two_poses
 from kfmaps.app.files import read_landmarks
 from kfmaps.app.view.picker import Picker, picker_server
 from kfmaps.app.view.runs import Progress
-from kfmaps.mesh import Mesh, surface_area
+from kfmaps.surface.mesh import Mesh, surface_area
 
 pytestmark = needs_browser
 

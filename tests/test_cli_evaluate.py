@@ -15,8 +15,8 @@ from commandline import run, shapes
 from conftest import fibonacci_sphere
 from kfmaps.app.evaluation import THRESHOLDS, Truth, assessed
 from kfmaps.app.files import MapFile, save_map, write_mesh
-from kfmaps.geodesics import geodesic_distances
-from kfmaps.mesh import surface_area, vertex_areas
+from kfmaps.surface.geodesics import geodesic_distances
+from kfmaps.surface.mesh import surface_area, vertex_areas
 
 
 @pytest.fixture(scope="module")

@@ -12,9 +12,9 @@ import pytest
 import kfmaps
 from commandline import SMALL, Ran, run, shapes
 from kfmaps.app.files import load_map, write_mesh
-from kfmaps.confidence import local_confidence
 from kfmaps.config import as_dict, from_dict
-from kfmaps.mesh import Mesh
+from kfmaps.functional.confidence import local_confidence
+from kfmaps.surface.mesh import Mesh
 
 
 @pytest.fixture(scope="module")

@@ -10,9 +10,9 @@ from scipy.spatial.transform import Rotation
 from conftest import blob
 from kfmaps._arrays import InvalidInput
 from kfmaps.app.datasets import two_poses
-from kfmaps.confidence import RADIUS, local_confidence
-from kfmaps.mesh import Mesh, unit_area
-from kfmaps.unfolding import surface_graph
+from kfmaps.functional.confidence import RADIUS, local_confidence
+from kfmaps.surface.mesh import Mesh, unit_area
+from kfmaps.surface.unfolding import surface_graph
 
 
 def moved(mesh: Mesh) -> Mesh:

@@ -12,7 +12,7 @@ from kfmaps.app.datasets.creature import CREATURE, SYMMETRIC
 from kfmaps.app.datasets.pairs import Pair, largest_piece, locate
 from kfmaps.app.datasets.skeleton import Body
 from kfmaps.app.datasets.surface import closed_mesh
-from kfmaps.mesh import Mesh, face_areas, surface_area, vertex_normals
+from kfmaps.surface.mesh import Mesh, face_areas, surface_area, vertex_normals
 
 PAIRS = ("two_poses", "non_isometric", "partial", "symmetric_creature")
 

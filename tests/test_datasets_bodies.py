@@ -8,7 +8,7 @@ from kfmaps.app import datasets
 from kfmaps.app.datasets.creature import CREATURE, WAVE
 from kfmaps.app.datasets.skeleton import Bend, Body
 from kfmaps.app.datasets.surface import closed_mesh
-from kfmaps.mesh import surface_area
+from kfmaps.surface.mesh import surface_area
 
 
 def test_field_is_negative_inside_and_its_gradient_is_its_derivative() -> None:

@@ -7,12 +7,12 @@ import pytest
 
 from conftest import blob
 from kfmaps.config import BasisConfig, Config, DescriptorConfig, NystromConfig, Weights
-from kfmaps.kernels import Laplacian, Linear
+from kfmaps.fit.shape import prepare
+from kfmaps.functional.refine import ICP, ZoomOut
+from kfmaps.functional.solvers import CG
+from kfmaps.kernel.kernels import Laplacian, Linear
 from kfmaps.matching import match
-from kfmaps.mesh import unit_area
-from kfmaps.refine import ICP, ZoomOut
-from kfmaps.shape import prepare
-from kfmaps.solvers import CG
+from kfmaps.surface.mesh import unit_area
 
 torch = pytest.importorskip("torch")
 
@@ -64,7 +64,7 @@ def test_pytorch_agrees_with_numpy(name, pair):
 def test_the_work_is_done_on_the_device(pair, monkeypatch):
     """The solver, the largest part, sees tensors."""
     seen = []
-    from kfmaps import pipeline
+    from kfmaps.fit import fit as pipeline
 
     original = pipeline.solve
 

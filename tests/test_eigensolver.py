@@ -10,11 +10,13 @@ from scipy.sparse import block_diag, csr_array, diags_array, eye_array, kron
 from scipy.sparse.linalg import eigsh
 
 from conftest import blob, fibonacci_sphere
-from kfmaps import _factor, _lanczos, eigensolver
 from kfmaps._arrays import InvalidInput, MissingDependency, NotConverged
 from kfmaps._threads import one_blas_thread
-from kfmaps.eigensolver import smallest_eigenpairs
-from kfmaps.mesh import Mesh, unit_area
+from kfmaps.surface.eigen import factor as _factor
+from kfmaps.surface.eigen import lanczos as _lanczos
+from kfmaps.surface.eigen import pencil as eigensolver
+from kfmaps.surface.eigen.pencil import smallest_eigenpairs
+from kfmaps.surface.mesh import Mesh, unit_area
 
 
 def operators(mesh: Mesh) -> tuple[csr_array, np.ndarray]:

@@ -5,7 +5,7 @@ import pytest
 
 from conftest import random_basis
 from kfmaps._arrays import InvalidInput, inner, to_numpy
-from kfmaps.energy import (
+from kfmaps.functional.energy import (
     Energy,
     descriptor_term,
     hadamard_term,
@@ -14,10 +14,10 @@ from kfmaps.energy import (
     slice_term,
     value,
 )
-from kfmaps.kernels import Gaussian, Linear, Polynomial
-from kfmaps.nystrom import nystrom
-from kfmaps.slices import compressed, packed_slices, unpacked_slices
-from kfmaps.solvers import dense
+from kfmaps.functional.slices import compressed, packed_slices, unpacked_slices
+from kfmaps.functional.solvers import dense
+from kfmaps.kernel.kernels import Gaussian, Linear, Polynomial
+from kfmaps.kernel.nystrom import nystrom
 
 N_S, N_T, K_S, K_T, D = 30, 25, 6, 5, 4
 

@@ -25,9 +25,9 @@ from kfmaps.app.experiments.tune import Grid, grid_search
 from kfmaps.app.pictures import surfaces
 from kfmaps.app.settings.merge import preset, read_settings
 from kfmaps.config import Config
-from kfmaps.evaluate import geodesic_errors
-from kfmaps.kernels import Gaussian
-from kfmaps.spectrum import Basis
+from kfmaps.functional.evaluate import geodesic_errors
+from kfmaps.kernel.kernels import Gaussian
+from kfmaps.surface.basis import Basis
 
 SMALL = Collection("generated", vertices=1500)
 PAIR = ShapePair("poses-2-source", "poses-2-target")

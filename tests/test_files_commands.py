@@ -17,7 +17,7 @@ from kfmaps.app.commands.info import info
 from kfmaps.app.commands.transfer import transfer
 from kfmaps.app.files import MapFile, load_map, read_mesh_file, read_values, save_map, write_mesh
 from kfmaps.app.pictures import position_colors
-from kfmaps.mesh import Mesh, surface_area
+from kfmaps.surface.mesh import Mesh, surface_area
 
 APP = typer.Typer()
 for command in (info, transfer, export):

@@ -18,7 +18,7 @@ from kfmaps.app.files.meshes import READERS
 from kfmaps.app.files.obj import format_obj
 from kfmaps.app.files.off import format_off
 from kfmaps.app.files.ply import format_ply
-from kfmaps.mesh import Mesh
+from kfmaps.surface.mesh import Mesh
 
 MESH = fibonacci_sphere(20)
 HEADER = "ply\nformat {}\nelement vertex {}\nproperty double x\nproperty double y\nproperty double z\n"

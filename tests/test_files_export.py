@@ -19,7 +19,7 @@ from kfmaps.app.files import (
     write_textured,
 )
 from kfmaps.app.files.export import carried_uv_faces
-from kfmaps.mesh import Mesh
+from kfmaps.surface.mesh import Mesh
 
 
 def globe(n: int = 120) -> MeshFile:

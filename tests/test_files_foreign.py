@@ -17,8 +17,8 @@ from trimesh.visual import TextureVisuals
 from conftest import fibonacci_sphere
 from kfmaps._arrays import InvalidInput, KfmapsWarning
 from kfmaps.app.files import read_mesh, read_mesh_file
-from kfmaps.mesh import Mesh, face_normals
-from kfmaps.topology import topology
+from kfmaps.surface.mesh import Mesh, face_normals
+from kfmaps.surface.topology import topology
 
 MESH = fibonacci_sphere(30)
 SINGLE = MESH.vertices.astype(np.float32).astype(np.float64)  # both formats keep 32 bits

@@ -19,7 +19,7 @@ from kfmaps.app.files.off import format_off, parse_off
 from kfmaps.app.files.ply import format_ply, parse_ply
 from kfmaps.app.files.record import fan
 from kfmaps.app.files.xyz import parse_xyz
-from kfmaps.mesh import Mesh
+from kfmaps.surface.mesh import Mesh
 
 PLACES = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0.5]])
 FACES = [[0, 1, 2], [0, 2, 3]]

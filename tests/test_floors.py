@@ -1,6 +1,7 @@
 """The one-way imports of docs/architecture.md: a module imports only from floors below its own."""
 
 import ast
+from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
 
 import pytest
@@ -10,64 +11,40 @@ SOURCE = Path(__file__).parents[1] / "src" / "kfmaps"
 FLOORS = {
     "_arrays": 0,
     "_threads": 0,
-    "_factor": 0.25,
-    "_lanczos": 0.25,
-    "mesh": 0.5,
-    "eigensolver": 0.5,
-    "unfolding": 0.75,
-    "spectrum": 1,
-    "geodesics": 1,
-    "kernels": 1,
-    "cells": 1,
-    "topology": 1,
-    "descriptors": 2,
-    "shot": 2,
-    "sampling": 2,
-    "slices": 2,
-    "neighbours": 2,
-    "nystrom": 2,
-    "orientation": 2,
-    "terms": 2.5,
-    "exact": 2.7,
-    "energy": 3,
-    "solvers": 3,
-    "maps": 3,
-    "guided": 3,
-    "samples": 3,
-    "preconditioners": 4,
-    "refine": 4,
-    "evaluate": 4,
-    "confidence": 4,
-    "config": 4.5,
-    "shape": 4.7,
-    "features": 4.8,
-    "quality": 4.9,
-    "problem": 4.9,
-    "pipeline": 5,
-    "candidates": 5.5,
-    "automatic": 6,
-    "matching": 7,
-    "app.files": 8,
-    "app.datasets": 8,
-    "app.pictures": 8,
-    "app.progress": 8,
-    "app.settings": 8,
-    "app.evaluation": 8.5,
-    "app.summary": 8.7,
-    "app.batch": 9,
-    "app.experiments": 9,
-    "app.view": 9,
-    "app.commands": 10,
-    "app.cli": 11,
-    "__main__": 12,
+    "kernel": 1,
+    "surface": 2,
+    "descriptors": 3,
+    "functional": 4,
+    "config": 5,
+    "fit": 6,
+    "search": 7,
+    "matching": 8,
+    "app": 9,
+    "__main__": 10,
 }
-"""A package (``app.files``) stands for all modules in it, which may import each other."""
+"""Rooms, each a package or a module. Inside a room modules import each other freely, but never in a circle."""
+
+APP = {
+    "progress": 0,
+    "files": 0,
+    "datasets": 0,
+    "settings": 0,
+    "pictures": 1,
+    "evaluation": 2,
+    "summary": 3,
+    "batch": 4,
+    "experiments": 4,
+    "view": 4,
+    "commands": 5,
+    "cli": 6,
+}
+"""The same inside ``app``."""
 
 
-def unit(module: str) -> str | None:
-    """The entry of FLOORS that ``module`` (a dotted name below kfmaps) belongs to."""
-    names = module.split(".")
-    return next((n for i in range(len(names), 0, -1) if (n := ".".join(names[:i])) in FLOORS), None)
+def unit(module: str, table: dict[str, int] = FLOORS) -> str | None:
+    """The entry of ``table`` that ``module`` (a dotted name below kfmaps, or below kfmaps.app) belongs to."""
+    name = module.split(".")[0]
+    return name if name in table else None
 
 
 def imported(path: Path) -> set[str]:
@@ -82,28 +59,53 @@ def imported(path: Path) -> set[str]:
     return {n.removeprefix("kfmaps.") for n in names if n.startswith("kfmaps")}
 
 
-def modules() -> list[tuple[str, Path]]:
-    found = []
+def modules() -> dict[str, Path]:
+    found = {}
     for path in sorted(SOURCE.rglob("*.py")):
         parts = path.relative_to(SOURCE).with_suffix("").parts
         if parts[-1] == "__init__":
             parts = parts[:-1]
         if parts and parts != ("app",):
-            found.append((".".join(parts), path))
+            found[".".join(parts)] = path
     return found
 
 
-@pytest.mark.parametrize(("module", "path"), modules(), ids=[m for m, _ in modules()])
-def test_imports_go_down(module: str, path: Path) -> None:
+MODULES = modules()
+
+
+@pytest.mark.parametrize("module", MODULES)
+def test_imports_go_down(module: str) -> None:
     own = unit(module)
     assert own is not None, f"{module} has no floor: add it to FLOORS and to docs/architecture.md"
-    for name in imported(path):
+    for name in imported(MODULES[module]):
         other = unit(name)
-        if other is None or other == own:
-            continue
-        assert FLOORS[other] < FLOORS[own], f"{module} imports {name}, which is not on a floor below it"
+        if other is not None and other != own:
+            assert FLOORS[other] < FLOORS[own], f"{module} imports {name}, which is not on a floor below it"
+
+
+@pytest.mark.parametrize("module", [m for m in MODULES if m.startswith("app.")])
+def test_imports_go_down_inside_app(module: str) -> None:
+    own = unit(module.removeprefix("app."), APP)
+    assert own is not None, f"{module} has no floor: add it to APP and to docs/architecture.md"
+    for name in imported(MODULES[module]):
+        other = unit(name.removeprefix("app."), APP) if name.startswith("app.") else None
+        if other is not None and other != own:
+            assert APP[other] < APP[own], f"{module} imports {name}, which is not on a floor below it"
+
+
+def test_no_module_imports_itself_through_others() -> None:
+    """Imports that are written inside functions count too."""
+    graph = {}
+    for module, path in MODULES.items():
+        names = {n if n in MODULES else n.rpartition(".")[0] for n in imported(path)}
+        graph[module] = {n for n in names if n in MODULES and n != module}
+    try:
+        tuple(TopologicalSorter(graph).static_order())
+    except CycleError as error:
+        pytest.fail("imports go in a circle: " + " < ".join(error.args[1]))
 
 
 def test_floors_name_only_what_exists() -> None:
-    units = {unit(module) for module, _ in modules()}
-    assert units == set(FLOORS), "FLOORS and the source tree differ"
+    assert {unit(module) for module in MODULES} == set(FLOORS), "FLOORS and the source tree differ"
+    inside = {unit(m.removeprefix("app."), APP) for m in MODULES if m.startswith("app.")}
+    assert inside == set(APP), "APP and the source tree differ"

@@ -7,12 +7,12 @@ import pytest
 
 from conftest import blob
 from kfmaps._arrays import InvalidInput
-from kfmaps.guided import guide
-from kfmaps.maps import nearest
-from kfmaps.mesh import unit_area
-from kfmaps.refine import ZoomOut
-from kfmaps.samples import spectral_samples
-from kfmaps.spectrum import laplace_basis
+from kfmaps.functional.guide import guide
+from kfmaps.functional.points import nearest
+from kfmaps.functional.refine import ZoomOut
+from kfmaps.surface.basis import laplace_basis
+from kfmaps.surface.mesh import unit_area
+from kfmaps.surface.samples import spectral_samples
 
 
 @pytest.fixture(scope="module")

@@ -7,7 +7,7 @@ import pytest
 from sklearn.metrics.pairwise import laplacian_kernel, rbf_kernel
 
 from kfmaps._arrays import InvalidInput, to_numpy
-from kfmaps.kernels import (
+from kfmaps.kernel.kernels import (
     Gaussian,
     Laplacian,
     Linear,

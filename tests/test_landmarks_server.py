@@ -24,7 +24,7 @@ from kfmaps.app.files import read_landmarks, write_landmarks, write_mesh
 from kfmaps.app.view.picker import Picker, PickerServer, check_pairs, picker_server
 from kfmaps.app.view.runs import Progress, Runs
 from kfmaps.app.view.server import LOOPBACK, LocalServer, page_reply
-from kfmaps.mesh import Mesh
+from kfmaps.surface.mesh import Mesh
 
 SOURCE, TARGET = sphere(200, rng=0), sphere(160, rng=1)
 PAIRS = [[3, 5], [199, 159]]

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from kfmaps._arrays import InvalidInput, KfmapsWarning, to_numpy
-from kfmaps.kernels import Gaussian, Linear, Tanh, gram
-from kfmaps.nystrom import nystrom
-from kfmaps.sampling import farthest, pivoted_cholesky, uniform
+from kfmaps.kernel.kernels import Gaussian, Linear, Tanh, gram
+from kfmaps.kernel.nystrom import nystrom
+from kfmaps.kernel.select import farthest, pivoted_cholesky, uniform
 
 
 def samplers(X, count, rng=0):

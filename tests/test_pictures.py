@@ -11,7 +11,7 @@ from kfmaps._arrays import InvalidInput
 from kfmaps.app import pictures
 from kfmaps.app.pictures import surfaces
 from kfmaps.app.pictures.colors import oklab_to_rgb
-from kfmaps.mesh import Mesh
+from kfmaps.surface.mesh import Mesh
 
 RED, BLUE = np.array([0.9, 0.1, 0.1]), np.array([0.1, 0.2, 0.9])
 FRONT = pictures.view((0, 0, 1))

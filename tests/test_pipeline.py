@@ -18,15 +18,15 @@ from kfmaps.config import (
     as_dict,
     from_dict,
 )
-from kfmaps.features import pair_descriptors
-from kfmaps.kernels import Gaussian, Linear, Polynomial, Product, Sum, Tanh
+from kfmaps.fit.features import pair_descriptors
+from kfmaps.fit.fit import checked_landmarks, problem
+from kfmaps.fit.shape import prepare
+from kfmaps.functional.refine import ICP, ZoomOut
+from kfmaps.functional.solvers import CG, Direct, dense
+from kfmaps.kernel.kernels import Gaussian, Linear, Polynomial, Product, Sum, Tanh
 from kfmaps.matching import match
-from kfmaps.mesh import Mesh
-from kfmaps.pipeline import checked_landmarks, problem
-from kfmaps.refine import ICP, ZoomOut
-from kfmaps.shape import prepare
-from kfmaps.solvers import CG, Direct, dense
-from kfmaps.spectrum import Basis
+from kfmaps.surface.basis import Basis
+from kfmaps.surface.mesh import Mesh
 
 SMALL = Config(
     basis=BasisConfig(functions=20),
@@ -54,7 +54,7 @@ def other():
 @pytest.fixture(scope="module")
 def marks(shape, other):
     """Corresponding vertices of the two meshings of one shape."""
-    from kfmaps.maps import nearest
+    from kfmaps.functional.points import nearest
 
     target = np.array([5, 90, 200, 300, 350])
     return np.stack([nearest(other.mesh.vertices[target], shape.mesh.vertices), target], axis=1)

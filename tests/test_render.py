@@ -29,8 +29,8 @@ from kfmaps.app.pictures import (
     true_views,
 )
 from kfmaps.app.pictures.grids import LABEL
-from kfmaps.evaluate import geodesic_errors
-from kfmaps.mesh import Mesh
+from kfmaps.functional.evaluate import geodesic_errors
+from kfmaps.surface.mesh import Mesh
 
 THRESHOLDS = np.linspace(0, 0.25, 11)
 

@@ -7,20 +7,20 @@ import pytest
 
 from conftest import blob, random_basis
 from kfmaps._arrays import InvalidInput, inner
-from kfmaps.cells import nearest_by_cells
 from kfmaps.config import BasisConfig, Config, DescriptorConfig, NystromConfig, Weights
-from kfmaps.geodesics import distance_pairs
-from kfmaps.maps import to_functional, to_points
-from kfmaps.mesh import Mesh, unit_area
-from kfmaps.neighbours import nearest
-from kfmaps.pipeline import fit
-from kfmaps.refine import ZoomOut
-from kfmaps.samples import spectral_samples, stratified_samples
-from kfmaps.sampling import farthest
-from kfmaps.shape import prepare, reduced
-from kfmaps.slices import condensed, packed_slices
-from kfmaps.solvers import CG
-from kfmaps.spectrum import laplace_basis
+from kfmaps.fit.fit import fit
+from kfmaps.fit.shape import prepare, reduced
+from kfmaps.functional.cells import nearest_by_cells
+from kfmaps.functional.nearest import nearest
+from kfmaps.functional.points import to_functional, to_points
+from kfmaps.functional.refine import ZoomOut
+from kfmaps.functional.slices import condensed, packed_slices
+from kfmaps.functional.solvers import CG
+from kfmaps.kernel.select import farthest
+from kfmaps.surface.basis import laplace_basis
+from kfmaps.surface.geodesics import distance_pairs
+from kfmaps.surface.mesh import Mesh, unit_area
+from kfmaps.surface.samples import spectral_samples, stratified_samples
 
 CONFIG = Config(
     basis=BasisConfig(functions=30),
@@ -161,7 +161,7 @@ def test_zoomout_chooses_from_some_of_a_large_source(pair, monkeypatch):
     start = to_functional(truth, source.basis.truncated(10), target.basis.truncated(10))
     zoom = ZoomOut(10, 50, 10, samples=300)
     every = zoom(start, source.basis, target.basis)
-    monkeypatch.setattr("kfmaps.refine.CANDIDATES", 1000)
+    monkeypatch.setattr("kfmaps.functional.refine.CANDIDATES", 1000)
     some = zoom(start, source.basis, target.basis)
     errors = [distance_pairs(source.mesh, m.target_to_source, truth).mean() for m in (every, some)]
     assert (every.target_to_source != some.target_to_source).any()

@@ -19,9 +19,9 @@ from kfmaps.app.settings.merge import preset, read_settings, with_assignments, w
 from kfmaps.app.settings.options import Chosen, with_settings
 from kfmaps.app.settings.toml import settings_text
 from kfmaps.config import RECORDS, Config, NystromConfig, Search, Weights, as_dict
-from kfmaps.kernels import Gaussian, Laplacian, Linear, Polynomial, Product, Sum, Tanh
-from kfmaps.refine import ICP, ZoomOut
-from kfmaps.solvers import CG, Direct
+from kfmaps.functional.refine import ICP, ZoomOut
+from kfmaps.functional.solvers import CG, Direct
+from kfmaps.kernel.kernels import Gaussian, Laplacian, Linear, Polynomial, Product, Sum, Tanh
 
 FAR = Config.paper()
 """A base that differs from the recommended settings in most things."""

@@ -11,8 +11,8 @@ import pytest
 
 from conftest import blob, fibonacci_sphere
 from kfmaps._arrays import InvalidInput, MissingDependency, to_numpy
-from kfmaps.mesh import Mesh, surface_area, unit_area, vertex_areas
-from kfmaps.spectrum import Basis, cotangent_laplacian, laplace_basis
+from kfmaps.surface.basis import Basis, cotangent_laplacian, laplace_basis
+from kfmaps.surface.mesh import Mesh, surface_area, unit_area, vertex_areas
 
 LAPLACIANS = ("robust", "cotangent")
 

@@ -24,11 +24,11 @@ from kfmaps.app.view.fields import alignment, area_distortion, nearest_reached
 from kfmaps.app.view.pack import json_block, packed, plain, quantised
 from kfmaps.app.view.page import result_page
 from kfmaps.app.view.results import errors_against, map_page, match_summary, mesh_path, signatures
-from kfmaps.confidence import local_confidence
 from kfmaps.config import Config
-from kfmaps.mesh import Mesh, unit_area, vertex_areas
-from kfmaps.pipeline import Match
-from kfmaps.solvers import Solution
+from kfmaps.fit.fit import Match
+from kfmaps.functional.confidence import local_confidence
+from kfmaps.functional.solvers import Solution
+from kfmaps.surface.mesh import Mesh, unit_area, vertex_areas
 
 WEB = Path(__file__).parents[1] / "web"
 NO_FACES = np.zeros((0, 3), int)

@@ -15,17 +15,17 @@ if TYPE_CHECKING:
     from kfmaps.app import datasets
     from kfmaps.app.files import load_map, read_landmarks, read_mesh, save_map, write_mesh
     from kfmaps.config import BasisConfig, Config, DescriptorConfig, NystromConfig, Search, Weights
-    from kfmaps.evaluate import coverage, error_curve, evaluation, geodesic_errors
-    from kfmaps.geodesics import geodesic_distances
-    from kfmaps.kernels import Gaussian, Laplacian, Linear, Polynomial, Product, Sum, Tanh
-    from kfmaps.maps import to_functional, to_points
+    from kfmaps.fit.fit import Match
+    from kfmaps.fit.shape import Shape, prepare
+    from kfmaps.functional.evaluate import coverage, error_curve, evaluation, geodesic_errors
+    from kfmaps.functional.points import to_functional, to_points
+    from kfmaps.functional.refine import ICP, ZoomOut
+    from kfmaps.functional.solvers import CG, Direct
+    from kfmaps.kernel.kernels import Gaussian, Laplacian, Linear, Polynomial, Product, Sum, Tanh
     from kfmaps.matching import match
-    from kfmaps.mesh import Mesh
-    from kfmaps.pipeline import Match
-    from kfmaps.refine import ICP, ZoomOut
-    from kfmaps.shape import Shape, prepare
-    from kfmaps.solvers import CG, Direct
-    from kfmaps.spectrum import Basis, laplace_basis
+    from kfmaps.surface.basis import Basis, laplace_basis
+    from kfmaps.surface.geodesics import geodesic_distances
+    from kfmaps.surface.mesh import Mesh
 
 __version__ = "0.1.0"
 
@@ -79,17 +79,17 @@ _HOMES = {
     "_arrays": "InvalidInput KfmapsWarning MissingDependency NotConverged",
     "app.files": "load_map read_landmarks read_mesh save_map write_mesh",
     "config": "BasisConfig Config DescriptorConfig NystromConfig Search Weights",
-    "evaluate": "coverage error_curve evaluation geodesic_errors",
-    "geodesics": "geodesic_distances",
-    "kernels": "Gaussian Laplacian Linear Polynomial Product Sum Tanh",
-    "maps": "to_functional to_points",
+    "fit.fit": "Match",
+    "fit.shape": "Shape prepare",
+    "functional.evaluate": "coverage error_curve evaluation geodesic_errors",
+    "functional.points": "to_functional to_points",
+    "functional.refine": "ICP ZoomOut",
+    "functional.solvers": "CG Direct",
+    "kernel.kernels": "Gaussian Laplacian Linear Polynomial Product Sum Tanh",
     "matching": "match",
-    "mesh": "Mesh",
-    "pipeline": "Match",
-    "refine": "ICP ZoomOut",
-    "shape": "Shape prepare",
-    "solvers": "CG Direct",
-    "spectrum": "Basis laplace_basis",
+    "surface.basis": "Basis laplace_basis",
+    "surface.geodesics": "geodesic_distances",
+    "surface.mesh": "Mesh",
 }
 
 

@@ -6,10 +6,10 @@ from dataclasses import dataclass, field, fields, is_dataclass, replace
 from typing import Any, Literal
 
 from kfmaps._arrays import check_count, check_positive, refuse
-from kfmaps.descriptors import NORMALISATIONS, Normalisation
-from kfmaps.kernels import Gaussian, KernelLike, Laplacian, Linear, Polynomial, Product, Sum, Tanh, describe
-from kfmaps.refine import ICP, Refinement, ZoomOut
-from kfmaps.solvers import CG, Direct, Solver
+from kfmaps.descriptors.spectral import NORMALISATIONS, Normalisation
+from kfmaps.functional.refine import ICP, Refinement, ZoomOut
+from kfmaps.functional.solvers import CG, Direct, Solver
+from kfmaps.kernel.kernels import Gaussian, KernelLike, Laplacian, Linear, Polynomial, Product, Sum, Tanh, describe
 
 Sampling = Literal["descriptor", "geodesic", "uniform", "cholesky", "random-cholesky", "squared-cholesky"]
 SAMPLINGS: tuple[Sampling, ...] = (
@@ -64,7 +64,7 @@ class DescriptorConfig:
     shot_weight : float
         Its weight in squared distances between descriptors, against 1 for all others together.
     normalisation : str
-        See :func:`kfmaps.descriptors.normalised`.
+        See :func:`kfmaps.descriptors.spectral.normalised`.
     """
 
     count: int = 100
@@ -127,7 +127,7 @@ class Weights:
 
 @dataclass(frozen=True)
 class Search:
-    """How to find the map without landmarks; see :mod:`kfmaps.automatic`.
+    """How to find the map without landmarks; see :mod:`kfmaps.search.choose`.
 
     ``candidates``: how many small fits are tried, each refined from three starts; ``signs``: how many low functions
     after the constant one have both their signs tried, 2^signs diagonal maps; ``orientation``: whether the map keeps
@@ -158,11 +158,11 @@ class Config:
     exact : bool
         The whole kernel in row blocks (equations 8 and 10 to 12) instead of its Nyström features; slow.
     sharpness : float
-        For a kernel without explicit γ, see :func:`kfmaps.kernels.resolved`.
+        For a kernel without explicit γ, see :func:`kfmaps.kernel.kernels.resolved`.
     compression : float
-        Part of the slices' squared norm that may be left out, see :func:`kfmaps.slices.compressed`.
+        Part of the slices' squared norm that may be left out, see :func:`kfmaps.functional.slices.compressed`.
     preconditioner : "sylvester", "jacobi" or "none"
-        See :mod:`kfmaps.preconditioners`.
+        See :mod:`kfmaps.functional.preconditioners`.
     fit_samples : int or None
         Points of each shape that the fit is made from when there are more; the point map and the end of the
         refinement always use all. ``None`` takes all.

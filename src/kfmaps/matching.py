@@ -9,13 +9,13 @@ from typing import Any
 import numpy as np
 
 from kfmaps._threads import available_cores, parallel
-from kfmaps.automatic import choose
-from kfmaps.confidence import local_confidence
 from kfmaps.config import Config
-from kfmaps.eigensolver import THREADED
-from kfmaps.mesh import Mesh
-from kfmaps.pipeline import Match, fit
-from kfmaps.shape import Progress, Shape, prepare
+from kfmaps.fit.fit import Match, fit
+from kfmaps.fit.shape import Progress, Shape, prepare
+from kfmaps.functional.confidence import local_confidence
+from kfmaps.search.choose import choose
+from kfmaps.surface.eigen.pencil import THREADED
+from kfmaps.surface.mesh import Mesh
 
 
 def match(
@@ -31,7 +31,7 @@ def match(
     """Find for each vertex of ``target`` the corresponding vertex of ``source``.
 
     With landmarks they settle which way round a symmetric shape goes, and one fit is made. Without, several
-    candidate maps are fitted and compared (:mod:`kfmaps.automatic`), and the answer says how sure it is.
+    candidate maps are fitted and compared (:mod:`kfmaps.search.choose`), and the answer says how sure it is.
 
     Parameters
     ----------

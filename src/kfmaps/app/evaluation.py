@@ -13,8 +13,8 @@ import numpy as np
 
 from kfmaps._arrays import refuse
 from kfmaps.app.files import atomic_output, check_map, read_vertex_numbers
-from kfmaps.evaluate import Evaluation, coverage, error_curve, evaluation, geodesic_errors, truth_from_pairs
-from kfmaps.mesh import Mesh
+from kfmaps.functional.evaluate import Evaluation, coverage, error_curve, evaluation, geodesic_errors, truth_from_pairs
+from kfmaps.surface.mesh import Mesh
 
 THRESHOLDS = np.linspace(0.0, 0.25, 251)
 """Of a curve, in units of √area: as far as the area under the curve is taken."""

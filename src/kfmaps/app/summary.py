@@ -16,8 +16,8 @@ import kfmaps
 from kfmaps.app.evaluation import Report
 from kfmaps.app.files import MapFile, match_map
 from kfmaps.config import as_dict
-from kfmaps.mesh import Mesh
-from kfmaps.pipeline import Match
+from kfmaps.fit.fit import Match
+from kfmaps.surface.mesh import Mesh
 
 VERDICTS = {
     "landmarks": "the landmarks settle which way round it goes",

@@ -11,9 +11,9 @@ import kfmaps
 from kfmaps.app.batch.settings import digest_of
 from kfmaps.app.files import atomic_output
 from kfmaps.config import Config
-from kfmaps.mesh import Mesh
-from kfmaps.shape import Shape
-from kfmaps.spectrum import Basis
+from kfmaps.fit.shape import Shape
+from kfmaps.surface.basis import Basis
+from kfmaps.surface.mesh import Mesh
 
 LAYOUT = 1
 """Raised when what an entry holds changes."""

@@ -44,7 +44,7 @@ class Result:
     confidence : float or None
         Of the search without landmarks.
     local_confidence : float or None
-        Mean over the target's vertices, see :mod:`kfmaps.confidence`.
+        Mean over the target's vertices, see :mod:`kfmaps.functional.confidence`.
     verdict : str
     solver, solver_steps, rank
     seconds : dict of str to float

@@ -25,9 +25,9 @@ from kfmaps.app.batch.truth import landmark_pairs, true_vertices
 from kfmaps.app.evaluation import Report, assessed
 from kfmaps.app.files import read_mesh, save_map
 from kfmaps.app.summary import Outcome, map_file, mean_confidence
-from kfmaps.evaluate import coverage, error_curve
+from kfmaps.fit.shape import Shape, prepare
+from kfmaps.functional.evaluate import coverage, error_curve
 from kfmaps.matching import match
-from kfmaps.shape import Shape, prepare
 
 ATTEMPTS, MAPS = "attempts", "maps"
 EXPECTED = (InvalidInput, NotConverged, MissingDependency, OSError)

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
     from kfmaps.app.datasets import Pair
     from kfmaps.config import Config
-    from kfmaps.pipeline import Match
+    from kfmaps.fit.fit import Match
 
 SHAPES = ("two-poses", "non-isometric", "partial")
 
@@ -140,8 +140,8 @@ def compared(shape: str, vertices: int, landmarks: int, seed: int, *, quiet: boo
     from kfmaps.app import datasets
     from kfmaps.app.progress import Stages
     from kfmaps.config import Config
-    from kfmaps.geodesics import farthest_geodesic
-    from kfmaps.shape import prepare
+    from kfmaps.fit.shape import prepare
+    from kfmaps.surface.geodesics import farthest_geodesic
 
     with one_blas_thread(), Stages(quiet) as stages:
         stages("shapes", 0.0)
@@ -175,7 +175,7 @@ def _row(
     seed: int,
     stages: Callable[[str, float], None],
 ) -> Row:
-    from kfmaps.evaluate import geodesic_errors
+    from kfmaps.functional.evaluate import geodesic_errors
     from kfmaps.matching import match
 
     name = "automatic" if landmarks is None else method

@@ -16,8 +16,8 @@ from rich.text import Text
 
 from kfmaps._arrays import KfmapsWarning
 from kfmaps.app.files import MeshFile, read_mesh_file
-from kfmaps.mesh import surface_area
-from kfmaps.topology import topology
+from kfmaps.surface.mesh import surface_area
+from kfmaps.surface.topology import topology
 
 _DEFECTS = (
     "boundary_edges",

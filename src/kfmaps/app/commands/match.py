@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
     from kfmaps.app.summary import Outcome
     from kfmaps.config import Config
-    from kfmaps.mesh import Mesh
+    from kfmaps.surface.mesh import Mesh
 
 TRUTH = "Its true vertices, line k of one file to line k of the other (.vts counts from 1): prints errors."
 
@@ -113,8 +113,8 @@ def run(
     from kfmaps.app.evaluation import assessed
     from kfmaps.app.progress import Stages
     from kfmaps.app.summary import Outcome
+    from kfmaps.fit.shape import prepare
     from kfmaps.matching import match as matched
-    from kfmaps.shape import prepare
 
     seconds: dict[str, float] = {}
     with one_blas_thread(), Stages(quiet) as stages:
@@ -170,7 +170,7 @@ def _warn_of_search(settings: Chosen, landmarks: bool) -> None:
 
 
 def _check_landmarks(pairs: np.ndarray, meshes: tuple[Mesh, Mesh], paths: tuple[Path, Path]) -> None:
-    from kfmaps.descriptors import check_landmarks
+    from kfmaps.descriptors.spectral import check_landmarks
 
     for i, (mesh, path) in enumerate(zip(meshes, paths, strict=True)):
         check_landmarks(pairs[:, i], len(mesh.vertices), f"landmarks on {path}")

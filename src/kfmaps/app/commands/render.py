@@ -29,7 +29,7 @@ from kfmaps.app.pictures import (
     view,
 )
 from kfmaps.app.view.results import mesh_path
-from kfmaps.mesh import Mesh
+from kfmaps.surface.mesh import Mesh
 
 app = typer.Typer(help="Figures for papers (PNG, SVG, PDF), drawn without a display.", no_args_is_help=True)
 

@@ -18,7 +18,7 @@ from kfmaps.app.experiments.tune import Grid, Tuned, grid_search
 from kfmaps.app.files import atomic_output
 from kfmaps.app.settings.merge import preset, read_settings
 from kfmaps.app.settings.toml import settings_text
-from kfmaps.descriptors import NORMALISATIONS, Normalisation
+from kfmaps.descriptors.spectral import NORMALISATIONS, Normalisation
 
 SHOWN = 10
 """Candidates that the terminal shows."""

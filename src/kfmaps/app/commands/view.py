@@ -11,7 +11,7 @@ import typer
 from kfmaps._arrays import refuse
 from kfmaps.app.files import atomic_output, check_output, load_map, read_mesh, read_vertex_numbers
 from kfmaps.app.view.results import map_page, mesh_path, open_page
-from kfmaps.mesh import Mesh
+from kfmaps.surface.mesh import Mesh
 
 
 def view(

@@ -15,7 +15,7 @@ from kfmaps.app.datasets.creature import CREATURE, DANCE, PROPORTIONS, SYMMETRIC
 from kfmaps.app.datasets.pairs import Pair, largest_piece, posed_pair
 from kfmaps.app.datasets.skeleton import Body, Limb
 from kfmaps.app.datasets.surface import closed_mesh
-from kfmaps.mesh import Mesh
+from kfmaps.surface.mesh import Mesh
 
 __all__ = [
     "Pair",

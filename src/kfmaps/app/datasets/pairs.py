@@ -12,7 +12,7 @@ from trimesh.triangles import closest_point, points_to_barycentric
 
 from kfmaps.app.datasets.skeleton import Bend, Body
 from kfmaps.app.datasets.surface import closed_mesh
-from kfmaps.mesh import Mesh, face_areas
+from kfmaps.surface.mesh import Mesh, face_areas
 
 
 @dataclass(frozen=True, eq=False)

@@ -16,7 +16,7 @@ import numpy as np
 from kfmaps._arrays import refuse
 from kfmaps.app.datasets import Pair, non_isometric, two_poses
 from kfmaps.app.files import read_mesh, read_vertex_numbers
-from kfmaps.mesh import Mesh
+from kfmaps.surface.mesh import Mesh
 
 Layout = Literal["FAUST", "FAUST_r", "generated"]
 LAYOUTS: tuple[Layout, ...] = ("FAUST", "FAUST_r", "generated")
@@ -187,7 +187,7 @@ def _generated(kind: str, number: int, vertices: int) -> Pair:
 
 @lru_cache(maxsize=8)
 def _generated_truth(kind: str, number: int, vertices: int) -> Truth:
-    from kfmaps.geodesics import farthest_geodesic
+    from kfmaps.surface.geodesics import farthest_geodesic
 
     pair = _generated(kind, number, vertices)
     everywhere = np.arange(len(pair.truth))

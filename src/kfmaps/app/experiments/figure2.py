@@ -12,8 +12,8 @@ from kfmaps.app.experiments.outputs import Outcome, write_conclusions, write_pic
 from kfmaps.app.experiments.setting import Setting
 from kfmaps.app.experiments.store import Job
 from kfmaps.app.pictures import automatic_view, draw_surface
-from kfmaps.kernels import Gaussian, gram
-from kfmaps.shape import Shape
+from kfmaps.fit.shape import Shape
+from kfmaps.kernel.kernels import Gaussian, gram
 
 SHOWN = 200
 """Vertices of the matrix that is drawn, of all."""

@@ -20,9 +20,9 @@ from kfmaps.app.experiments.pairs import fitted
 from kfmaps.app.experiments.setting import Setting
 from kfmaps.app.pictures import ERROR_MAP, View, automatic_view, draw_surface, following_view, position_colors
 from kfmaps.config import Config
-from kfmaps.evaluate import geodesic_errors
-from kfmaps.kernels import Gaussian
-from kfmaps.mesh import Mesh
+from kfmaps.functional.evaluate import geodesic_errors
+from kfmaps.kernel.kernels import Gaussian
+from kfmaps.surface.mesh import Mesh
 
 COUNTS = (2, 4, 10, 100)
 GAMMA = 500.0

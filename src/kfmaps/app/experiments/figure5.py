@@ -14,7 +14,7 @@ from kfmaps.app.experiments.outputs import Outcome, write_conclusions, write_pic
 from kfmaps.app.experiments.pairs import THRESHOLDS, Row
 from kfmaps.app.experiments.setting import Setting, by_method
 from kfmaps.config import Config
-from kfmaps.kernels import Gaussian, Tanh
+from kfmaps.kernel.kernels import Gaussian, Tanh
 
 GAMMAS = (1.0, 10.0, 50.0, 100.0, 500.0, 2000.0, 10000.0)
 SCALES = (1.0, 10.0, 100.0)

@@ -22,12 +22,12 @@ from kfmaps.app.experiments.outputs import Outcome, write_conclusions, write_pic
 from kfmaps.app.experiments.pairs import prepared
 from kfmaps.app.experiments.setting import Setting
 from kfmaps.config import Config
-from kfmaps.energy import Energy, SliceCommutativity, hadamard_term
-from kfmaps.features import Descriptors, Features, kernel_features, pair_descriptors
-from kfmaps.pipeline import problem
-from kfmaps.preconditioners import jacobi, sylvester
-from kfmaps.solvers import CG, solve
-from kfmaps.spectrum import Basis
+from kfmaps.fit.features import Descriptors, Features, kernel_features, pair_descriptors
+from kfmaps.fit.fit import problem
+from kfmaps.functional.energy import Energy, SliceCommutativity, hadamard_term
+from kfmaps.functional.preconditioners import jacobi, sylvester
+from kfmaps.functional.solvers import CG, solve
+from kfmaps.surface.basis import Basis
 
 PAPER_SECONDS = 1.47
 STEPS = 600

@@ -7,13 +7,13 @@ import scipy.linalg
 
 from kfmaps.app.experiments.pairs import prepared
 from kfmaps.app.experiments.setting import Setting
-from kfmaps.descriptors import wave_energies, wave_signature
-from kfmaps.geodesics import farthest_geodesic
-from kfmaps.kernels import Gaussian, gram
-from kfmaps.mesh import Mesh
-from kfmaps.nystrom import nystrom
-from kfmaps.sampling import farthest, pivoted_cholesky, uniform
-from kfmaps.shape import Shape
+from kfmaps.descriptors.spectral import wave_energies, wave_signature
+from kfmaps.fit.shape import Shape
+from kfmaps.kernel.kernels import Gaussian, gram
+from kfmaps.kernel.nystrom import nystrom
+from kfmaps.kernel.select import farthest, pivoted_cholesky, uniform
+from kfmaps.surface.geodesics import farthest_geodesic
+from kfmaps.surface.mesh import Mesh
 
 GAMMAS = (0.01, 0.1, 1.0, 10.0)
 """Of the paper's section 7.1."""

@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import replace
 
 from kfmaps.config import Config
-from kfmaps.kernels import Gaussian, Linear
-from kfmaps.solvers import CG
+from kfmaps.functional.solvers import CG
+from kfmaps.kernel.kernels import Gaussian, Linear
 
 PRINTED = {100: 500.0, 10: 100.0}
 """γ that the paper's figure 6 names, by number of descriptors."""

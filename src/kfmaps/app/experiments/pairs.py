@@ -17,11 +17,11 @@ from kfmaps._arrays import KfmapsWarning
 from kfmaps.app.experiments.collections import Collection, ShapePair
 from kfmaps.app.experiments.store import Job, Report, run_jobs
 from kfmaps.config import Config, as_dict
-from kfmaps.evaluate import error_curve
-from kfmaps.geodesics import geodesic_distances
-from kfmaps.mesh import surface_area
-from kfmaps.pipeline import Match, fit
-from kfmaps.shape import Shape, prepare
+from kfmaps.fit.fit import Match, fit
+from kfmaps.fit.shape import Shape, prepare
+from kfmaps.functional.evaluate import error_curve
+from kfmaps.surface.geodesics import geodesic_distances
+from kfmaps.surface.mesh import surface_area
 
 THRESHOLDS = np.linspace(0, 0.25, 101)
 """Errors at which curves are kept, in units of √area."""

@@ -16,11 +16,11 @@ from kfmaps.app.experiments.outputs import Outcome, write_conclusions, write_pic
 from kfmaps.app.experiments.pairs import prepared
 from kfmaps.app.experiments.setting import Setting
 from kfmaps.app.experiments.store import Job
-from kfmaps.energy import Energy, descriptor_term, kernel_descriptor_term, laplacian_term, slice_term
-from kfmaps.features import kernel_features, pair_descriptors
-from kfmaps.kernels import KernelLike, Linear
-from kfmaps.slices import packed_slices, unpacked_slices
-from kfmaps.solvers import dense
+from kfmaps.fit.features import kernel_features, pair_descriptors
+from kfmaps.functional.energy import Energy, descriptor_term, kernel_descriptor_term, laplacian_term, slice_term
+from kfmaps.functional.slices import packed_slices, unpacked_slices
+from kfmaps.functional.solvers import dense
+from kfmaps.kernel.kernels import KernelLike, Linear
 
 COUNTS = (1, 2, 3, 5, 10, 20, 50, 100, 200)
 SIZE = 100

@@ -15,8 +15,8 @@ from kfmaps.app.experiments.methods import with_count
 from kfmaps.app.experiments.pairs import Row
 from kfmaps.app.experiments.setting import Setting, by_method
 from kfmaps.config import Config
-from kfmaps.descriptors import Normalisation
-from kfmaps.kernels import Gaussian, Laplacian
+from kfmaps.descriptors.spectral import Normalisation
+from kfmaps.kernel.kernels import Gaussian, Laplacian
 
 
 @dataclass(frozen=True)
@@ -28,8 +28,8 @@ class Grid:
     gamma : tuple of float
         Widths of the Gaussian (or Laplacian) kernel, as numbers.
     sharpness : tuple of float
-        Widths without unit, see :func:`kfmaps.kernels.resolved`. They and ``gamma`` are alternatives: both given,
-        each is tried.
+        Widths without unit, see :func:`kfmaps.kernel.kernels.resolved`. They and ``gamma`` are alternatives: both
+        given, each is tried.
     normalisation : tuple of str
     alpha : tuple of float
         Weights of the Laplacian term.

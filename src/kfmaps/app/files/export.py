@@ -16,7 +16,7 @@ from kfmaps.app.files.mapfile import check_map
 from kfmaps.app.files.meshes import write_mesh
 from kfmaps.app.files.obj import format_obj
 from kfmaps.app.files.record import MeshFile
-from kfmaps.mesh import Mesh
+from kfmaps.surface.mesh import Mesh
 
 PICTURES = (".png", ".jpg", ".jpeg")
 _CHOICES = 8

@@ -14,7 +14,7 @@ from trimesh.visual import ColorVisuals, TextureVisuals
 from kfmaps._arrays import InvalidInput, refuse
 from kfmaps.app.files.record import MeshFile
 from kfmaps.app.files.text import REPAIR
-from kfmaps.mesh import Mesh
+from kfmaps.surface.mesh import Mesh
 
 _FLOAT, _UNSIGNED = 5126, {5121, 5123, 5125}
 _TRIANGLES, _STRIP, _FAN = 4, 5, 6

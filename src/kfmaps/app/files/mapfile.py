@@ -21,7 +21,7 @@ from kfmaps.app.files.numbers import read_vertex_numbers, write_vertex_numbers
 from kfmaps.app.files.text import REPAIR, read_bytes
 
 if TYPE_CHECKING:
-    from kfmaps.pipeline import Match
+    from kfmaps.fit.fit import Match
 
 FORMATS = (".npz", ".txt", ".vts", ".mat")
 

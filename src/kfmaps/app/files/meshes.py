@@ -17,8 +17,8 @@ from kfmaps.app.files.record import MeshFile, checked_colors
 from kfmaps.app.files.stl import parse_stl
 from kfmaps.app.files.text import read_bytes
 from kfmaps.app.files.xyz import parse_xyz
-from kfmaps.mesh import Mesh, check_mesh
-from kfmaps.topology import topology
+from kfmaps.surface.mesh import Mesh, check_mesh
+from kfmaps.surface.topology import topology
 
 READERS = {
     ".off": parse_off,

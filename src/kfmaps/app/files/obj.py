@@ -9,7 +9,7 @@ import numpy as np
 from kfmaps._arrays import refuse
 from kfmaps.app.files.record import MeshFile, fan, unit_colors
 from kfmaps.app.files.text import REPAIR, Rows, clean_text, parse_rows, quoted, table, whole, words
-from kfmaps.mesh import Mesh
+from kfmaps.surface.mesh import Mesh
 
 _SKIPPED = frozenset(
     b"vn vp p l o g s mg usemtl mtllib usemap maplib bevel c_interp d_interp lod shadow_obj trace_obj ctech "

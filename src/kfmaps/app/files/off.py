@@ -9,7 +9,7 @@ import numpy as np
 from kfmaps._arrays import refuse
 from kfmaps.app.files.record import MeshFile, bytes_of, fan, gathered, unit_colors
 from kfmaps.app.files.text import REPAIR, Rows, clean_text, parse_rows, quoted, table, whole
-from kfmaps.mesh import Mesh
+from kfmaps.surface.mesh import Mesh
 
 _HEADER = re.compile(rb"\s*(ST)?(C?N?|NC)(4?n?)OFF(?![A-Za-z])[ \t]*(BINARY)?", re.ASCII)
 

@@ -10,7 +10,7 @@ from kfmaps._arrays import refuse
 from kfmaps.app.files.ply_data import CUT, Column, Element, Property, binary_columns, text_columns
 from kfmaps.app.files.record import MeshFile, bytes_of, fan, unit_colors
 from kfmaps.app.files.text import REPAIR, clean_text, parse_rows, quoted, whole
-from kfmaps.mesh import Mesh
+from kfmaps.surface.mesh import Mesh
 
 _TYPES = {
     "char": "i1", "uchar": "u1", "short": "i2", "ushort": "u2", "int": "i4", "uint": "u4",

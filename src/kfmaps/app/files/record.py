@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from kfmaps._arrays import check, refuse
-from kfmaps.mesh import Mesh
+from kfmaps.surface.mesh import Mesh
 
 
 @dataclass(frozen=True, eq=False)

@@ -11,8 +11,8 @@ from trimesh.exchange.stl import load_stl_binary
 from kfmaps._arrays import check, refuse
 from kfmaps.app.files.record import MeshFile
 from kfmaps.app.files.text import REPAIR, clean_text, parse_rows, table
-from kfmaps.mesh import Mesh
-from kfmaps.topology import first_occurrence
+from kfmaps.surface.mesh import Mesh
+from kfmaps.surface.topology import first_occurrence
 
 _HEAD, _TRIANGLE = 84, 50
 _FACET = re.compile(

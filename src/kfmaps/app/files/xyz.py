@@ -6,7 +6,7 @@ import numpy as np
 
 from kfmaps.app.files.record import MeshFile
 from kfmaps.app.files.text import clean_text, parse_rows, table
-from kfmaps.mesh import Mesh
+from kfmaps.surface.mesh import Mesh
 
 
 def parse_xyz(data: bytes, name: str) -> MeshFile:

@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 from scipy.spatial.transform import Rotation
 
 from kfmaps._arrays import check, refuse
-from kfmaps.mesh import Mesh
+from kfmaps.surface.mesh import Mesh
 
 BROADER = 1.15
 """How much more of a shape a view that is not along one of the file's axes must show to be preferred."""

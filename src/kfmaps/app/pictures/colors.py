@@ -6,7 +6,7 @@ import numpy as np
 from matplotlib.colors import LinearSegmentedColormap
 
 from kfmaps._arrays import check, check_positive
-from kfmaps.mesh import Mesh, vertex_areas
+from kfmaps.surface.mesh import Mesh, vertex_areas
 
 ERROR_MAP = LinearSegmentedColormap.from_list(
     "kfmaps errors", ["#ffffff", "#fde0c5", "#f7a17a", "#e0503f", "#a5142f", "#560723"]

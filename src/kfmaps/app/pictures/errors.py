@@ -6,8 +6,8 @@ import numpy as np
 from scipy.spatial import KDTree
 
 from kfmaps.app.pictures.camera import View, automatic_view, following_view
-from kfmaps.evaluate import geodesic_errors, truth_from_pairs
-from kfmaps.mesh import Mesh
+from kfmaps.functional.evaluate import geodesic_errors, truth_from_pairs
+from kfmaps.surface.mesh import Mesh
 
 
 def painted_errors(

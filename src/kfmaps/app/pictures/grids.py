@@ -12,7 +12,7 @@ from kfmaps._arrays import check_count, refuse
 from kfmaps.app.pictures.camera import View, automatic_view, following_view
 from kfmaps.app.pictures.colors import position_colors
 from kfmaps.app.pictures.surfaces import draw_surface
-from kfmaps.mesh import Mesh, surface_area
+from kfmaps.surface.mesh import Mesh, surface_area
 
 TEXT = "#333333"
 LABEL, TITLE = 0.3, 0.45

@@ -15,7 +15,7 @@ from kfmaps._arrays import check, refuse
 from kfmaps.app.pictures.camera import View, automatic_view, following_view
 from kfmaps.app.pictures.colors import ERROR_MAP, error_colors, error_limit, position_colors
 from kfmaps.app.pictures.surfaces import draw_surface
-from kfmaps.mesh import Mesh
+from kfmaps.surface.mesh import Mesh
 
 FORMATS = ("png", "svg", "pdf")
 DPI = 160

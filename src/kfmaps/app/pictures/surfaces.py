@@ -10,7 +10,7 @@ from matplotlib.collections import PolyCollection
 
 from kfmaps._arrays import check
 from kfmaps.app.pictures.camera import View, automatic_view
-from kfmaps.mesh import Mesh, face_normals, vertex_normals
+from kfmaps.surface.mesh import Mesh, face_normals, vertex_normals
 
 LIGHTS = (((-0.45, 0.65, 0.75), 0.40), ((0.8, 0.1, 0.55), 0.12))
 """Direction (right, up, towards the camera) and strength of the lamps."""

@@ -9,7 +9,7 @@ from typing import Any, Literal, get_args, get_origin, get_type_hints
 
 from kfmaps._arrays import InvalidInput, refuse
 from kfmaps.config import Config, as_dict, from_dict
-from kfmaps.kernels import Gaussian, KernelLike, Laplacian, Linear, Polynomial, Product, Sum, Tanh
+from kfmaps.kernel.kernels import Gaussian, KernelLike, Laplacian, Linear, Polynomial, Product, Sum, Tanh
 
 KERNELS = (Linear, Polynomial, Gaussian, Laplacian, Tanh, Sum, Product)
 

@@ -7,7 +7,7 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import dijkstra
 from scipy.spatial import KDTree
 
-from kfmaps.mesh import Mesh, face_areas
+from kfmaps.surface.mesh import Mesh, face_areas
 
 
 def area_distortion(source: Mesh, target: Mesh, target_to_source: np.ndarray) -> np.ndarray:

@@ -13,7 +13,7 @@ from kfmaps.app.pictures.colors import position_colors
 from kfmaps.app.view.document import document
 from kfmaps.app.view.fields import alignment, area_distortion, nearest_reached
 from kfmaps.app.view.pack import packed, quantised
-from kfmaps.mesh import Mesh, unit_area
+from kfmaps.surface.mesh import Mesh, unit_area
 
 
 def shape_record(mesh: Mesh, name: str) -> dict[str, Any]:
@@ -102,7 +102,8 @@ def result_page(
         Distance on the source from each image to the truth, in units of √area; one row for the map, or one
         more for each runner-up. NaN where the truth is not known.
     confidence : (n_t,) or (1 + c, n_t), optional
-        From 0 to 1, higher is surer, as :func:`kfmaps.confidence.local_confidence` has it; rows as for ``errors``.
+        From 0 to 1, higher is surer, as :func:`kfmaps.functional.confidence.local_confidence` has it; rows as
+        for ``errors``.
     runners_up : (c, n_t) int
         Other maps, to be switched to.
     descriptors : ((n_s, d), (n_t, d)), optional

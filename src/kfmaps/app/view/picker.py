@@ -16,8 +16,8 @@ from kfmaps.app.view.pack import quantised
 from kfmaps.app.view.page import map_record, shape_record, source_record
 from kfmaps.app.view.runs import Progress, Runs
 from kfmaps.app.view.server import LocalServer, Reply, json_reply, page_reply
-from kfmaps.confidence import local_confidence
-from kfmaps.mesh import Mesh
+from kfmaps.functional.confidence import local_confidence
+from kfmaps.surface.mesh import Mesh
 
 Matcher = Callable[[np.ndarray, Progress], np.ndarray]
 """(landmarks (l, 2), progress) to a point map (n_t,)."""

@@ -14,13 +14,13 @@ import numpy as np
 from kfmaps._arrays import refuse
 from kfmaps.app.files import MapFile, check_map
 from kfmaps.app.view.page import result_page
-from kfmaps.confidence import local_confidence
 from kfmaps.config import as_dict
-from kfmaps.descriptors import wave_energies, wave_signature
-from kfmaps.evaluate import geodesic_errors, truth_from_pairs
-from kfmaps.mesh import Mesh, unit_area
-from kfmaps.pipeline import Match
-from kfmaps.spectrum import laplace_basis
+from kfmaps.descriptors.spectral import wave_energies, wave_signature
+from kfmaps.fit.fit import Match
+from kfmaps.functional.confidence import local_confidence
+from kfmaps.functional.evaluate import geodesic_errors, truth_from_pairs
+from kfmaps.surface.basis import laplace_basis
+from kfmaps.surface.mesh import Mesh, unit_area
 
 SIGNATURES = 12
 """Wave kernel signatures shown, and ..."""

@@ -8,9 +8,9 @@ import numpy as np
 
 from kfmaps.app.view.runs import Progress
 from kfmaps.config import Config
+from kfmaps.fit.shape import Shape, prepare
 from kfmaps.matching import default_config, match
-from kfmaps.mesh import Mesh
-from kfmaps.shape import Shape, prepare
+from kfmaps.surface.mesh import Mesh
 
 
 class Tryout:

@@ -1,0 +1,1 @@
+"""What one shape can tell about each of its points."""

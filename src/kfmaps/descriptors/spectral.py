@@ -1,0 +1,177 @@
+"""Heat and wave kernel signatures, landmark maps, and normalisations that treat both shapes alike.
+
+All are spectral, so they ask for a :class:`~kfmaps.surface.basis.Basis` alone. Eigenvalues are those of a shape of unit
+area, where Weyl's law puts the j-th near 4πj whatever the shape: times and energies are chosen from that law and
+from the *upper* part of the spectrum, never from the first nonzero eigenvalue, which a floating speck or a thin
+bridge can make as small as it likes.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Literal
+
+import numpy as np
+
+from kfmaps._arrays import Array, check, check_count, check_positive, like, namespace, refuse, take, to_numpy
+from kfmaps.surface.basis import Basis
+
+Normalisation = Literal["none", "norm", "max", "row", "variance"]
+NORMALISATIONS: tuple[Normalisation, ...] = ("none", "norm", "max", "row", "variance")
+
+
+def spectral_range(*bases: Basis) -> tuple[float, float]:
+    """Eigenvalues between which times and energies are spread, (low, high), common to all ``bases``.
+
+    ``high`` is the smallest of the last eigenvalues. ``low`` is the largest of the second ones, but never outside
+    [¼, 1] times ``4π``, Weyl's estimate of it on a unit area: a tiny second eigenvalue, from a speck or a long
+    thin shape, cannot stretch the range.
+    """
+    high = min(float(to_numpy(b.eigenvalues)[-1]) for b in bases)
+    second = max(float(to_numpy(b.eigenvalues)[min(1, len(to_numpy(b.eigenvalues)) - 1)]) for b in bases)
+    low = float(np.clip(second, np.pi, 4 * np.pi))
+    return min(low, high / 4), high
+
+
+def heat_times(count: int, *bases: Basis) -> np.ndarray:
+    """``(count,)`` diffusion times, logarithmic from ``4 ln 10 / λ_high`` to ``4 ln 10 / λ_low`` (Sun et al. 2009).
+
+    The spectral range is that of :func:`spectral_range`.
+    """
+    check_count(count, "number of times")
+    low, high = spectral_range(*bases)
+    ends = 4 * np.log(10) / np.array([high, low])
+    return np.geomspace(ends[0], ends[1], count) if count > 1 else np.array([np.sqrt(ends[0] * ends[1])])
+
+
+def wave_energies(count: int, *bases: Basis) -> tuple[np.ndarray, float]:
+    """``(count,)`` log-energies and their width σ (Aubry et al. 2011).
+
+    Equally spaced in log λ; σ is seven spacings of a grid of ``count``, but at most a fifteenth of the range, so that
+    few energies still tell bands apart; both ends are moved in by 2σ as the authors do.
+    """
+    check_count(count, "number of energies")
+    low, high = np.log(spectral_range(*bases))
+    sigma = max(7 * (high - low) / max(count, 105), 1e-12)
+    inside = np.linspace(low + 2 * sigma, high - 2 * sigma, count) if count > 1 else np.array([(low + high) / 2])
+    return inside, float(sigma)
+
+
+def _heat_weights(basis: Basis, times: Array) -> Array:
+    """``(k, t)`` values ``exp(-λ t)``."""
+    xp = namespace(basis.functions)
+    times = check(like(times, basis.functions), "times", shape=(None,))
+    return xp.exp(-basis.eigenvalues[:, None] * times[None, :])
+
+
+def _wave_weights(basis: Basis, energies: Array, sigma: float) -> Array:
+    """``(k, e)`` values ``exp(-(log λ - e)² / 2σ²)``, zero for the constants (λ = 0), which carry no wave."""
+    xp = namespace(basis.functions)
+    check_positive(sigma, "sigma")
+    energies = check(like(energies, basis.functions), "energies", shape=(None,))
+    # Constants of every component have eigenvalues of rounding size; their logarithm means nothing.
+    positive = basis.eigenvalues > 1e-3
+    logs = xp.log(xp.where(positive, basis.eigenvalues, xp.ones_like(basis.eigenvalues)))
+    weights = xp.exp(-((logs[:, None] - energies[None, :]) ** 2) / (2 * sigma**2))
+    return xp.where(positive[:, None], weights, xp.zeros_like(weights))
+
+
+def _signature(basis: Basis, weights: Array) -> Array:
+    return (basis.functions * basis.functions) @ weights
+
+
+def _landmark_map(basis: Basis, landmarks: Sequence[int] | np.ndarray, weights: Array) -> Array:
+    xp = namespace(basis.functions)
+    n = basis.functions.shape[0]
+    rows = check_landmarks(landmarks, n)
+    peaks = take(basis.functions, rows)
+    columns = [basis.functions @ (peaks[j, :][:, None] * weights) for j in range(len(rows))]
+    return xp.concat(columns, axis=1)
+
+
+def heat_signature(basis: Basis, times: Array) -> Array:
+    """Heat kernel signature ``Σ_j exp(-λ_j t) φ_j(x)²``, ``(n, t)`` (Sun, Ovsjanikov, Guibas 2009)."""
+    return _signature(basis, _heat_weights(basis, times))
+
+
+def wave_signature(basis: Basis, energies: Array, sigma: float) -> Array:
+    """Wave kernel signature ``Σ_j exp(-(log λ_j - e)²/2σ²) φ_j(x)²``, ``(n, e)`` (Aubry, Schlickewei, Cremers 2011).
+
+    Not divided by the sum of its weights, as in the framework of Nogneng and Ovsjanikov (2017).
+    """
+    return _signature(basis, _wave_weights(basis, energies, sigma))
+
+
+def heat_map(basis: Basis, landmarks: Sequence[int] | np.ndarray, times: Array) -> Array:
+    """Heat spread from each landmark, ``Σ_j exp(-λ_j t) φ_j(p) φ_j(x)``: ``(n, l·t)``, landmark by landmark."""
+    return _landmark_map(basis, landmarks, _heat_weights(basis, times))
+
+
+def wave_map(basis: Basis, landmarks: Sequence[int] | np.ndarray, energies: Array, sigma: float) -> Array:
+    """Wave kernel map of each landmark, ``Σ_j w_j(e) φ_j(p) φ_j(x)``: ``(n, l·e)``, landmark by landmark."""
+    return _landmark_map(basis, landmarks, _wave_weights(basis, energies, sigma))
+
+
+def check_landmarks(landmarks: Sequence[int] | np.ndarray, n: int, name: str = "landmarks") -> np.ndarray:
+    """``landmarks`` as ``(l,)`` int64 when they are distinct vertices of a shape with ``n``.
+
+    Raises
+    ------
+    InvalidInput
+        On a number that is not whole, out of range, or repeated.
+    """
+    rows = np.asarray(landmarks)
+    if rows.ndim != 1 or (rows.size and not np.issubdtype(rows.dtype, np.integer)):
+        raise refuse(name, "a list of whole numbers", f"{rows.dtype} of shape {rows.shape}", "give vertex numbers")
+    rows = rows.astype(np.int64)
+    if rows.size and (rows.min() < 0 or rows.max() >= n):
+        bad = int(rows[(rows < 0) | (rows >= n)][0])
+        remedy = "count from 0 (the command's --one-based is for files that count from 1)"
+        raise refuse(name, f"vertex numbers from 0 to {n - 1}", str(bad), remedy)
+    values, counts = np.unique(rows, return_counts=True)
+    if np.any(counts > 1):
+        raise refuse(name, "each vertex once", f"{int(values[counts > 1][0])} repeated", "remove the repetition")
+    return rows
+
+
+def normalised(D_s: Array, D_t: Array, how: Normalisation, mass_s: Array, mass_t: Array) -> tuple[Array, Array]:
+    """Scale the descriptors ``(n_s, d)`` and ``(n_t, d)`` by the same numbers on both shapes.
+
+    Parameters
+    ----------
+    how : str
+        ``"none"``; ``"norm"``: each descriptor by its A-norm, the root of the mean of both shapes' squares (NO17,
+        made symmetric); ``"max"``: each by its largest absolute value on both; ``"row"``: all by one number, the
+        largest row norm on both, so that every vertex lies in the unit ball; ``"variance"``: each first centred by
+        its mean over both shapes and divided by its standard deviation, then all by the square root of their number, so
+        that typical squared distances between vertices are 2.
+    mass_s, mass_t : (n_s,), (n_t,)
+        Vertex areas, for the norms and means.
+    """
+    xp = namespace(D_s, D_t)
+    if how not in NORMALISATIONS:
+        raise refuse("normalisation", "one of " + ", ".join(NORMALISATIONS), repr(how), "choose one of them")
+    check(D_s, "source descriptors", shape=(mass_s.shape[0], None), remedy="give one row per source vertex")
+    check(
+        D_t,
+        "target descriptors",
+        shape=(mass_t.shape[0], D_s.shape[1]),
+        remedy="give the same descriptors on both",
+    )
+    if how == "none":
+        return D_s, D_t
+    w_s, w_t = (0.5 * m[:, None] / xp.sum(m) for m in (mass_s, mass_t))
+    if how == "variance":
+        mean = xp.sum(w_s * D_s, axis=0, keepdims=True) + xp.sum(w_t * D_t, axis=0, keepdims=True)
+        D_s, D_t = D_s - mean, D_t - mean
+    if how in ("norm", "variance"):
+        scale = xp.sqrt(xp.sum(w_s * D_s * D_s, axis=0) + xp.sum(w_t * D_t * D_t, axis=0))
+    elif how == "max":
+        scale = xp.maximum(xp.max(xp.abs(D_s), axis=0), xp.max(xp.abs(D_t), axis=0))
+    else:
+        longest = xp.sqrt(xp.maximum(xp.max(xp.sum(D_s * D_s, axis=1)), xp.max(xp.sum(D_t * D_t, axis=1))))
+        scale = xp.broadcast_to(longest, (D_s.shape[1],))
+    scale = xp.where(scale > 0, scale, xp.ones_like(scale))[None, :]
+    if how == "variance":
+        scale = scale * D_s.shape[1] ** 0.5
+    return D_s / scale, D_t / scale

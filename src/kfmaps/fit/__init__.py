@@ -1,0 +1,1 @@
+"""One fit of two prepared shapes."""

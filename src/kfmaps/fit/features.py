@@ -1,0 +1,198 @@
+"""The descriptors of a pair of shapes, and the features of the kernel on them."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from kfmaps._arrays import Array, check, like, namespace, refuse, take, to_numpy
+from kfmaps.config import Config, DescriptorConfig, NystromConfig
+from kfmaps.descriptors.spectral import (
+    heat_map,
+    heat_signature,
+    heat_times,
+    normalised,
+    wave_energies,
+    wave_map,
+    wave_signature,
+)
+from kfmaps.fit.shape import Shape
+from kfmaps.kernel.kernels import KernelLike, Linear, resolved
+from kfmaps.kernel.nystrom import nystrom
+from kfmaps.kernel.select import farthest, pivoted_cholesky, uniform
+from kfmaps.surface.basis import Basis
+from kfmaps.surface.geodesics import farthest_geodesic
+
+
+@dataclass(frozen=True, eq=False)
+class Descriptors:
+    """Normalised descriptors ``source (n_s, d)`` and ``target (n_t, d)``."""
+
+    source: Array
+    target: Array
+
+
+@dataclass(frozen=True, eq=False)
+class Features:
+    """Features ``source (n_s, r)``, ``target (n_t, r)`` of ``kernel``, every γ of it a number."""
+
+    source: Array
+    target: Array
+    kernel: KernelLike
+
+
+def pair_descriptors(
+    source: Shape,
+    target: Shape,
+    bases: tuple[Basis, Basis],
+    config: DescriptorConfig,
+    landmarks: np.ndarray,
+    given: tuple[Any, Any] | None,
+) -> Descriptors:
+    """Descriptors of both shapes as ``config`` asks.
+
+    Parameters
+    ----------
+    source, target : Shape
+    bases : pair of Basis
+        On the device where the work is done.
+    landmarks : (l, 2) int64
+        Pairs "source, target"; l may be 0.
+    given : pair of arrays (n_s, d), (n_t, d), optional
+        Descriptors of the user's own, beside the computed ones.
+    """
+    size = min(config.eigenfunctions, *(b.functions.shape[1] for b in bases))
+    small = (bases[0].truncated(size), bases[1].truncated(size))
+    sides = [spectral_descriptors(i, small, config, landmarks[:, i]) for i in (0, 1)]
+    if given is not None:
+        for i, shape in enumerate((source, target)):
+            name = f"descriptors of {shape.name}"
+            values = np.asarray(to_numpy(given[i]), dtype=np.float64)
+            check(values, name, shape=(len(shape.mesh.vertices), None), remedy="give one row per vertex")
+            sides[i].append(like(values, bases[i].functions))
+    masses = [b.mass for b in bases]
+    blocks = []
+    if sides[0] and sides[1]:
+        xp = namespace(bases[0].functions)
+        D_s, D_t = (xp.concat(side, axis=1) for side in sides)
+        blocks.append(normalised(D_s, D_t, config.normalisation, *masses))
+    if config.shot:
+        local = []
+        for shape, basis in zip((source, target), bases, strict=True):
+            if shape.shot is None:
+                raise refuse(shape.name, "a shape prepared with SHOT", "one without", "prepare it with this config")
+            local.append(like(shape.shot, basis.functions))
+        D_s, D_t = normalised(local[0], local[1], "variance", *masses)
+        weight = math.sqrt(config.shot_weight)
+        blocks.append((D_s * weight, D_t * weight))
+    if not blocks:
+        remedy = "turn on a signature, SHOT or landmarks, or give descriptors"
+        raise refuse("descriptors", "at least one", "none", remedy)
+    xp = namespace(blocks[0][0])
+    return Descriptors(*(xp.concat([b[i] for b in blocks], axis=1) for i in (0, 1)))
+
+
+def spectral_descriptors(
+    side: int, bases: tuple[Basis, ...], config: DescriptorConfig, landmarks: np.ndarray
+) -> list[Array]:
+    """Signature and landmark maps of shape ``side`` (0 or 1); energies are common to both ``bases``."""
+    marks = len(landmarks) if config.landmark_map != "none" else 0
+    with_signature = config.signature != "none"
+    if marks == 0 and not with_signature:
+        return []
+    if config.layout == "every-nth":
+        return [_every_nth(side, bases, config, landmarks)]
+    if not with_signature:
+        per_landmark, on_signature = max(1, config.count // marks), 0
+    elif marks == 0:
+        per_landmark, on_signature = 0, config.count
+    else:
+        per_landmark = max(1, int((1 - config.signature_share) * config.count) // marks)
+        on_signature = max(config.count - per_landmark * marks, 0)
+    parts = []
+    if on_signature:
+        parts.append(_family(config.signature, bases[side], bases, None, on_signature))
+    if per_landmark and marks:
+        parts.append(_family(config.landmark_map, bases[side], bases, landmarks, per_landmark))
+    return parts
+
+
+def _family(kind: str, basis: Basis, bases: tuple[Basis, ...], landmarks: np.ndarray | None, count: int) -> Array:
+    if kind == "heat":
+        times = heat_times(count, *bases)
+        return heat_signature(basis, times) if landmarks is None else heat_map(basis, landmarks, times)
+    energies, sigma = wave_energies(count, *bases)
+    if landmarks is None:
+        return wave_signature(basis, energies, sigma)
+    return wave_map(basis, landmarks, energies, sigma)
+
+
+def _every_nth(side: int, bases: tuple[Basis, ...], config: DescriptorConfig, landmarks: np.ndarray) -> Array:
+    whole = replace(config, layout="even", signature_share=1.0)
+    parts = (
+        []
+        if config.signature == "none"
+        else spectral_descriptors(side, bases, replace(whole, count=200), landmarks[:0])
+    )
+    if len(landmarks) and config.landmark_map != "none":
+        parts.append(_family(config.landmark_map, bases[side], bases, landmarks, 200))
+    everything = namespace(*parts).concat(parts, axis=1)
+    total = everything.shape[1]
+    chosen = np.arange(0, total, max(1, total // config.count))[: config.count]
+    return take(everything, chosen, axis=1)
+
+
+def resolved_kernel(descriptors: Descriptors, config: Config, rng: np.random.Generator) -> KernelLike:
+    """The kernel of ``config`` with automatic γ chosen from farthest points of both shapes' descriptors."""
+    rows = [_farthest_rows(D, 100, rng) for D in (descriptors.source, descriptors.target)]
+    return resolved(config.kernel, namespace(rows[0]).concat(rows), config.sharpness)
+
+
+def kernel_features(
+    source: Shape, target: Shape, descriptors: Descriptors, config: Config, rng: np.random.Generator
+) -> Features:
+    """Nyström features of the joint kernel, or the descriptors themselves when it is linear."""
+    if isinstance(config.kernel, Linear):
+        return Features(descriptors.source, descriptors.target, config.kernel)
+    kernel = resolved_kernel(descriptors, config, rng)
+    samples = joint_samples(source, target, descriptors, kernel, config.nystrom, rng)
+    factor = nystrom(kernel, samples, config.nystrom.rtol)
+    return Features(factor.features(descriptors.source), factor.features(descriptors.target), kernel)
+
+
+def joint_samples(
+    source: Shape,
+    target: Shape,
+    descriptors: Descriptors,
+    kernel: KernelLike,
+    config: NystromConfig,
+    rng: np.random.Generator,
+) -> Array:
+    """Descriptors ``(q, d)`` of the samples of both shapes, half from each except for Cholesky's pivots."""
+    D_s, D_t = descriptors.source, descriptors.target
+    xp = namespace(D_s, D_t)
+    if config.sampling.endswith("cholesky"):
+        both = xp.concat([D_s, D_t])
+        count = min(config.samples, both.shape[0])
+        power = 2.0 if config.sampling == "squared-cholesky" else 1.0
+        rows = pivoted_cholesky(kernel, both, count, randomised=config.sampling != "cholesky", power=power, rng=rng)
+        return take(both, rows)
+    taken = []
+    for shape, D in ((source, D_s), (target, D_t)):
+        count = min(config.samples // 2, D.shape[0])
+        if config.sampling == "descriptor":
+            rows = farthest(D, count, rng)
+        elif config.sampling == "geodesic":
+            rows = farthest_geodesic(shape.mesh, count, rng)
+        else:
+            rows = uniform(D.shape[0], count, rng)
+        taken.append(take(D, rows))
+    return xp.concat(taken)
+
+
+def _farthest_rows(D: Array, count: int, rng: np.random.Generator) -> Array:
+    rows = farthest(D, min(count, D.shape[0]), rng)
+    return take(D, rows)

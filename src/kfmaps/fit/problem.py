@@ -1,0 +1,131 @@
+"""The energy of a pair of shapes, made from its descriptors as a configuration says."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from kfmaps._arrays import inner, like, refuse, to_numpy
+from kfmaps.config import Config
+from kfmaps.fit.features import Descriptors, Features, kernel_features, resolved_kernel
+from kfmaps.fit.shape import Shape
+from kfmaps.functional.energy import (
+    Energy,
+    Term,
+    descriptor_term,
+    hadamard_term,
+    kernel_descriptor_term,
+    laplacian_term,
+    slice_term,
+)
+from kfmaps.functional.slices import compressed, condensed, packed_slices, unpacked_slices
+from kfmaps.kernel.kernels import KernelLike
+from kfmaps.surface.basis import Basis
+from kfmaps.surface.orientation import orientation_slices
+
+CONDENSATION = 0.5
+"""Part of ``compression`` that is spent on the features, before slices are formed of them."""
+ORIENTATION_FEATURES = 40
+"""Features whose orientation operators are formed: the strongest of the joint singular value decomposition."""
+
+
+@dataclass(frozen=True, eq=False)
+class Problem:
+    """The energy of a pair and what it was made from."""
+
+    energy: Energy
+    rank: int
+    slices: int
+    kernel: KernelLike
+
+
+def problem(
+    source: Shape,
+    target: Shape,
+    bases: tuple[Basis, Basis],
+    descriptors: Descriptors,
+    config: Config,
+    rng: np.random.Generator,
+    whole: tuple[Shape, Shape] | None = None,
+) -> Problem:
+    """The energy that ``config`` describes, ready to be minimised.
+
+    ``bases`` are of at least the map's size and on the device of ``descriptors``. Where ``source`` and ``target`` are
+    samples of shapes (:func:`kfmaps.fit.shape.reduced`), ``whole`` are those shapes: orientation needs their faces.
+    """
+    small = (bases[0].truncated(config.basis.functions), bases[1].truncated(config.basis.functions))
+    weights = config.weights
+    terms: dict[str, Term] = {"laplacian": laplacian_term(*small)}
+    if config.exact:
+        kernel = resolved_kernel(descriptors, config, rng)
+        arguments = (kernel, small[0], descriptors.source, small[1], descriptors.target)
+        rank, slices = descriptors.source.shape[0] + descriptors.target.shape[0], 0
+        if weights.descriptors:
+            terms["descriptors"] = kernel_descriptor_term(*arguments)
+        if weights.commutativity:
+            terms["commutativity"] = hadamard_term(*arguments)
+        if weights.orientation:
+            raise refuse("orientation weight", "0 with the exact kernel", str(weights.orientation), "use features")
+    else:
+        features = kernel_features(source, target, descriptors, config, rng)
+        kernel, rank, slices, size = features.kernel, int(features.source.shape[1]), 0, 0.0
+        if weights.descriptors:
+            terms["descriptors"] = descriptor_term(small[0], features.source, small[1], features.target)
+        if weights.commutativity:
+            formed = (features.source, features.target)
+            if config.compression:
+                share = CONDENSATION * config.compression
+                formed = condensed(small[0], formed[0], small[1], formed[1], share)
+            packed_s, packed_t = (
+                packed_slices(b, F, threads=config.threads) for b, F in zip(small, formed, strict=True)
+            )
+            if config.compression:
+                packed_s, packed_t = compressed(packed_s, packed_t, config.compression)
+            slices = int(packed_s.shape[0])
+            size = inner(packed_s, packed_s) + inner(packed_t, packed_t)
+            terms["commutativity"] = slice_term(unpacked_slices(packed_s), unpacked_slices(packed_t))
+        if weights.orientation:
+            strongest = principal(small, features, ORIENTATION_FEATURES)
+            size = size or 2.0 * small[0].functions.shape[1]
+            shapes = (source, target)
+            k = config.basis.functions
+            terms["orientation"] = orientation_term(shapes, whole or shapes, bases, strongest, k, size, config.threads)
+    return Problem(Energy(terms, {name: getattr(weights, name) for name in terms}), rank, slices, kernel)
+
+
+def orientation_term(
+    shapes: tuple[Shape, Shape],
+    whole: tuple[Shape, Shape],
+    bases: tuple[Basis, Basis],
+    features: Features,
+    k: int,
+    size: float,
+    threads: int | None = None,
+) -> Term:
+    """Commutativity with ``Ω_w[g] = n · (∇w × ∇g)`` for each of ``features``, ``k`` × ``k`` (Ren et al. 2018).
+
+    The operators change sign under a mirror, so the term prefers maps that keep orientation. Their summed squared
+    norm is scaled to ``size``, that of the multiplication operators, so that the weights of both terms compare.
+    Features on samples are continued to the ``whole`` shapes by what of them lies in the basis.
+    """
+    slices = []
+    for shape, all_of_it, basis, F in zip(shapes, whole, bases, (features.source, features.target), strict=True):
+        if all_of_it is not shape:
+            F, basis = all_of_it.basis.lift(to_numpy(basis.project(F))), all_of_it.basis
+        slices.append(like(orientation_slices(all_of_it.mesh, basis.truncated(k), F, threads), features.source))
+    total = sum(inner(X, X) for X in slices)
+    scale = (size / total) ** 0.5 if total else 0.0
+    return slice_term(slices[0] * scale, slices[1] * scale, parity=-1)
+
+
+def principal(bases: tuple[Basis, Basis], features: Features, count: int) -> Features:
+    """The ``count`` strongest directions of the features of both shapes, their common mean left out."""
+    F = [to_numpy(features.source), to_numpy(features.target)]
+    mass = [to_numpy(b.mass) for b in bases]
+    mean = sum(m @ f / m.sum() for m, f in zip(mass, F, strict=True)) / 2
+    F = [f - mean for f in F]
+    gram = sum((f * m[:, None]).T @ f for m, f in zip(mass, F, strict=True))
+    rotation = np.linalg.eigh(gram)[1][:, ::-1][:, :count]
+    strongest = [like(f @ rotation, features.source) for f in F]
+    return Features(strongest[0], strongest[1], features.kernel)

@@ -1,0 +1,75 @@
+"""How far a map can be trusted at each vertex, judged without the truth: are distances to the surroundings kept?
+
+Going to the source and back with the nearest neighbours of one functional map tells next to nothing once the map is
+refined: right or wrong, nine vertices in ten come back to within an edge or two. What a wrong part of a map does
+change is distances. The comparison is in docs/mathematics.md, made by ``benchmarks/confidence.py``.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.sparse.csgraph import dijkstra
+
+from kfmaps._arrays import blocks
+from kfmaps.functional.points import check_point_map
+from kfmaps.surface.mesh import Mesh, unit_area, vertex_areas
+from kfmaps.surface.samples import stratified
+from kfmaps.surface.unfolding import surface_graph
+
+SAMPLES = 200
+"""Vertices of the target to which distances are compared."""
+RADIUS = 0.2
+"""How far a sample may be from a vertex to count as its surroundings, in √area: some twenty samples are that near."""
+BLOCK = 64
+"""Samples worked on together, which bounds the memory."""
+
+
+def local_confidence(
+    source: Mesh, target: Mesh, target_to_source: np.ndarray, samples: np.ndarray | None = None
+) -> np.ndarray:
+    """How well the map keeps each target vertex's distances to its surroundings, (n_t,), from 0 to 1.
+
+    With ``d_s``, ``d_t`` distances along edges of the shapes at unit area, ``T`` the map, and the sum over the samples
+    ``j`` with ``d_t(i, j) ≤ R = 0.2``, the confidence of vertex ``i`` is
+    ``max(0, 1 − Σ |min(d_s(T(i), T(j)), 2R) − d_t(i, j)| / Σ d_t(i, j))``.
+
+    An isometry has 1; distances along edges make 0.9 of it where the triangulations differ. It sees local errors and
+    torn parts. It cannot see that a whole shape, or most of a limb, is mapped to its mirror image: that is for the
+    verdict and the runners-up to say.
+
+    Parameters
+    ----------
+    source, target : Mesh
+        In any units; point clouds too, along the graph of their nearest neighbours.
+    target_to_source : (n_t,) int
+    samples : (q,) int, optional
+        Target vertices; by default 200, one from each of as many compact regions of equal area.
+
+    Returns
+    -------
+    (n_t,) float64
+        NaN where there is no sample in the surroundings: at vertices that no face uses, and on specks.
+
+    Raises
+    ------
+    InvalidInput
+        When the map does not fit the two shapes, or one of them has no area.
+    """
+    points = check_point_map(target_to_source, len(source.vertices), len(target.vertices))
+    source, target = unit_area(source), unit_area(target)
+    if samples is None:
+        areas = vertex_areas(target) if len(target.faces) else np.ones(len(points))
+        used = np.flatnonzero(areas > 0)
+        samples = used[stratified(target.vertices[used], areas[used], SAMPLES, rng=0)]
+    graph_s, graph_t = surface_graph(source, 0), surface_graph(target, 0)
+    change, whole = np.zeros(len(points)), np.zeros(len(points))
+    for part in blocks(len(samples), BLOCK):
+        here = dijkstra(graph_t, indices=samples[part], limit=RADIUS)
+        there = dijkstra(graph_s, indices=points[samples[part]], limit=2 * RADIUS)
+        near = np.isfinite(here)
+        here[~near] = 0.0
+        moved = np.abs(np.minimum(there, 2 * RADIUS)[:, points] - here)
+        change += np.where(near, moved, 0.0).sum(axis=0)
+        whole += here.sum(axis=0)
+    kept = 1 - np.divide(change, whole, out=np.full(len(points), np.nan), where=whole > 0)
+    return np.maximum(kept, 0.0)

@@ -1,0 +1,108 @@
+"""How far a point map is from the truth, by the Princeton protocol (Kim, Lipman and Funkhouser 2011)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from kfmaps._arrays import check, refuse
+from kfmaps.functional.points import check_point_map
+from kfmaps.surface.geodesics import distance_pairs
+from kfmaps.surface.mesh import Mesh, surface_area, vertex_areas
+
+
+@dataclass(frozen=True, eq=False)
+class Evaluation:
+    """Summary of the errors of one map, all in units of √area of the source.
+
+    Attributes
+    ----------
+    errors : (q,) float64
+    mean, median, worst : float
+    auc : float
+        Area under the error curve from 0 to ``auc_limit``, divided by it: 1 is perfect.
+    auc_limit : float
+    exact : float
+        Fraction of points with no error at all.
+    """
+
+    errors: np.ndarray
+    mean: float
+    median: float
+    worst: float
+    auc: float
+    auc_limit: float
+    exact: float
+
+
+def geodesic_errors(
+    source: Mesh,
+    predicted: np.ndarray,
+    true: np.ndarray,
+    method: str = "unfolded",
+    threads: int | None = None,
+) -> np.ndarray:
+    """Geodesic distance on ``source`` from each ``predicted`` to its ``true`` vertex, (q,), divided by √area.
+
+    Distances are worked out for one block of vertices at a time: no n × n matrix is held. Points on different
+    components are at infinite distance.
+
+    Raises
+    ------
+    InvalidInput
+        When the two lists differ in length or name vertices that the source does not have.
+    """
+    predicted, true = np.asarray(predicted), np.asarray(true)
+    if predicted.shape != true.shape:
+        got = f"{predicted.shape} and {true.shape}"
+        raise refuse("predicted and true vertices", "lists of equal length", got, "evaluate the same points")
+    n = len(source.vertices)
+    predicted = check_point_map(predicted, n, len(predicted))
+    true = check_point_map(true, n, len(true))
+    return distance_pairs(source, true, predicted, method=method, threads=threads) / np.sqrt(surface_area(source))
+
+
+def evaluation(errors: np.ndarray, auc_limit: float = 0.25) -> Evaluation:
+    """Mean, median, worst, and area under the curve of ``errors (q,)``; the curve ends at ``auc_limit``."""
+    errors = np.asarray(errors, dtype=float)
+    check(errors, "errors", shape=(None,), finite=False)
+    if errors.size == 0:
+        raise refuse("errors", "at least one", "none", "give the errors of some points")
+    # The exact integral of the empirical curve: each error e contributes max(0, limit - e).
+    auc = float(np.clip(auc_limit - errors, 0, None).mean() / auc_limit)
+    return Evaluation(
+        errors,
+        float(errors.mean()),
+        float(np.median(errors)),
+        float(errors.max()),
+        auc,
+        auc_limit,
+        float((errors == 0).mean()),
+    )
+
+
+def error_curve(errors: np.ndarray, thresholds: np.ndarray) -> np.ndarray:
+    """Fraction of ``errors (q,)`` at or below each of ``thresholds (t,)``: (t,), from 0 to 1."""
+    ordered = np.sort(np.asarray(errors, dtype=float))
+    return np.searchsorted(ordered, np.asarray(thresholds, dtype=float), side="right") / len(ordered)
+
+
+def coverage(target_to_source: np.ndarray, source: Mesh) -> float:
+    """Fraction of the source's area whose vertices are the image of some target vertex."""
+    areas = vertex_areas(source)
+    hit = np.unique(check_point_map(target_to_source, len(areas), len(target_to_source)))
+    return float(areas[hit].sum() / areas.sum())
+
+
+def truth_from_pairs(truth_s: np.ndarray, truth_t: np.ndarray, target_to_source: np.ndarray) -> np.ndarray:
+    """Where the map sends the target's end of each true pair: ``target_to_source[truth_t]``, checked.
+
+    ``truth_s`` and ``truth_t``, (q,), are corresponding vertices, line k of one file to line k of the other.
+    """
+    if len(truth_s) != len(truth_t):
+        got = f"{len(truth_s)} and {len(truth_t)}"
+        raise refuse("truth of source and target", "files of equal length", got, "take both from one data set")
+    points = np.asarray(target_to_source)
+    check_point_map(np.asarray(truth_t), len(points), len(truth_t))
+    return points[truth_t]

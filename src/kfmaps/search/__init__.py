@@ -1,0 +1,1 @@
+"""Many maps, judged without the truth."""

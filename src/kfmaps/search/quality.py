@@ -1,0 +1,258 @@
+"""How good a map is, judged without the truth.
+
+Several measures, none of which is enough alone: a mirrored map of a symmetric body distorts nothing, a map that
+swaps front and back *and* left and right even keeps orientation, and a map that collapses everything to one point
+is smooth. :func:`map_quality` works them out on a few hundred points of each shape; :attr:`Quality.score` weighs them.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from kfmaps._arrays import Array, like, to_numpy
+from kfmaps.descriptors.spectral import heat_signature
+from kfmaps.fit.shape import Shape
+from kfmaps.functional.guide import FLAT, spread
+from kfmaps.functional.points import nearest
+from kfmaps.functional.refine import SampledBasis, Samples, spectral_samples
+from kfmaps.surface.geodesics import geodesic_distances
+from kfmaps.surface.orientation import orientation_slices
+
+POINTS = 1000
+"""Sample points on each shape."""
+COARSE = 400
+"""The first of them, between which geodesic distances are compared."""
+NEAR = 0.2
+"""Distance, in units of √area, up to which points are neighbours whose distance a good map keeps."""
+LOW = 20
+"""Functions in which orientation is compared."""
+TIMES = np.geomspace(0.005, 0.3, 8)
+"""Diffusion times at unit area: from a fiftieth of the surface reached to most of it."""
+FLAT_HEAT = 0.02
+"""Spread of the logarithm of the heat kernel signature below which it is noise: a sphere has 0.0003, bodies 1."""
+WAVES = 10
+"""Functions whose orientation operators are compared."""
+
+
+@dataclass(frozen=True, eq=False)
+class Probe:
+    """What judging maps needs of one shape; made by :func:`probe`.
+
+    Attributes
+    ----------
+    samples : Samples
+        Farthest points; the first ``c`` of them are farthest points too.
+    distances : (c, c) float64
+        Geodesic distances between the first points.
+    orientation : (w, l, l) float64 or None
+        Orientation operators of the first functions; ``None`` for a point cloud.
+    descriptors : (q, d) float64 or None
+        SHOT at the samples.
+    heat : (q, t) float64
+        Logarithm of the heat kernel signature at the samples, for fixed times.
+    positions : (q, 3) float64
+    """
+
+    samples: Samples
+    distances: np.ndarray
+    orientation: np.ndarray | None
+    descriptors: np.ndarray | None
+    heat: np.ndarray
+    positions: np.ndarray
+
+
+@dataclass(frozen=True)
+class Quality:
+    """Measures of one map; see :func:`map_quality`.
+
+    Attributes
+    ----------
+    orientation : float
+        From 1, kept everywhere, to -1, reversed everywhere: correlation of the source's orientation operators,
+        carried over, with those of the target (Ren et al. 2018). 0 for point clouds.
+    distortion : float
+        Mean absolute change of geodesic distances, divided by the mean distance. 0 for an isometry.
+    stretch : float
+        The same for points closer than 0.2 √area on the shape that is mapped, so that tears count, wherever they are.
+    descriptors : float
+        Mean squared difference of SHOT between matched points, divided by that of random ones, from 0 to about 1;
+        mean of both directions. Less where the shapes have hardly any features.
+    heat : float
+        The same for the logarithm of the heat kernel signature, which knows thick from thin.
+    cycle : float
+        Mean distance between a source point and its image under source → target → source, in units of √area.
+    coverage : float
+        Part of the area that is the image of something, the smaller of both directions.
+    laplacian : float
+        ``‖C Λ_s − Λ_t C‖² / ‖C Λ_s‖²``.
+    smoothness : float
+        Dirichlet energy of the source's coordinates pulled back to the target, divided by their own on the source;
+        the mean of both directions.
+    """
+
+    orientation: float
+    distortion: float
+    stretch: float
+    descriptors: float
+    heat: float
+    cycle: float
+    coverage: float
+    laplacian: float
+    smoothness: float
+
+    @property
+    def score(self) -> float:
+        """One number, higher is better; differences below 0.1 mean little. Weights: see docs/automatic.md."""
+        return (
+            self.orientation
+            - 6.0 * self.distortion
+            - 10.0 * self.stretch
+            - 12.0 * self.descriptors
+            - 2.0 * self.heat
+            + self.coverage
+            - 2.0 * self.laplacian
+        )
+
+
+def probe(shape: Shape, count: int = POINTS, rng: int | np.random.Generator = 0, threads: int | None = None) -> Probe:
+    """Sample ``count`` points of ``shape`` and work out what :func:`map_quality` compares."""
+    samples = spectral_samples(shape.basis, count, rng)
+    first = samples.vertices[:COARSE]
+    distances = geodesic_distances(shape.mesh, first)[:, first]
+    # Separate components are as far apart as the farthest points of one.
+    distances = np.where(np.isfinite(distances), distances, distances[np.isfinite(distances)].max())
+    orientation = None
+    if len(shape.mesh.faces):
+        low = shape.basis.truncated(min(LOW, shape.basis.functions.shape[1]))
+        orientation = orientation_slices(shape.mesh, low, shape.basis.functions[:, : 4 * WAVES], threads)
+    local = None if shape.shot is None else shape.shot[samples.vertices]
+    heat = np.log(np.maximum(to_numpy(heat_signature(samples.basis, TIMES)), 1e-12))
+    return Probe(samples, distances, orientation, local, heat, shape.mesh.vertices[samples.vertices])
+
+
+def thinned(probe: Probe, count: int) -> Probe:
+    """The first ``count`` samples of ``probe``, which are farthest points too, with the areas of the others."""
+    basis = probe.samples.basis
+    if count >= len(probe.samples.vertices):
+        return probe
+    functions, values = to_numpy(basis.functions)[:, 1 : LOW + 1], to_numpy(basis.eigenvalues)[1 : LOW + 1]
+    embedding = functions / np.maximum(values, 1e-6 * values[-1])
+    closest = nearest(embedding, embedding[:count], threads=1)
+    areas = np.bincount(closest, to_numpy(basis.mass), minlength=count)
+    few = SampledBasis(basis.eigenvalues, basis.functions[:count], like(areas, basis.mass))
+    return replace(
+        probe,
+        samples=Samples(probe.samples.vertices[:count], few),
+        distances=probe.distances[:count, :count],
+        descriptors=None if probe.descriptors is None else probe.descriptors[:count],
+        heat=probe.heat[:count],
+        positions=probe.positions[:count],
+    )
+
+
+def map_quality(C: Array, source: Probe, target: Probe, points: np.ndarray | None = None) -> Quality:
+    """Judge the functional map ``C (k, k)``, refined on the samples of both probes, without knowing the truth.
+
+    ``points``: the source sample of each target sample ``(q_t,)`` by ``C``, where they are known.
+    """
+    C = to_numpy(C)
+    k_t, k_s = C.shape
+    basis_s, basis_t = source.samples.basis.truncated(k_s), target.samples.basis.truncated(k_t)
+    carried = to_numpy(basis_s.functions) @ C.T
+    functions_t = to_numpy(basis_t.functions)
+    back = nearest(functions_t, carried, threads=1) if points is None else points  # target -> source
+    forth = nearest(carried, functions_t, threads=1)
+    area_s, area_t = (to_numpy(b.mass) / float(b.mass.sum()) for b in (basis_s, basis_t))
+    values_s, values_t = to_numpy(basis_s.eigenvalues), to_numpy(basis_t.eigenvalues)
+    moved = np.linalg.norm(source.positions[back[forth]] - source.positions, axis=1)
+    distortion, stretch = _distortion(carried, functions_t, back, forth, source, target)
+    commutator = C * values_s[None, :] - values_t[:, None] * C
+    return Quality(
+        orientation=_orientation(C, source, target),
+        distortion=distortion,
+        stretch=stretch,
+        descriptors=0.5
+        * (
+            _difference(back, target.descriptors, source.descriptors, area_t, FLAT)
+            + _difference(forth, source.descriptors, target.descriptors, area_s, FLAT)
+        ),
+        heat=0.5
+        * (
+            _difference(back, target.heat, source.heat, area_t, FLAT_HEAT)
+            + _difference(forth, source.heat, target.heat, area_s, FLAT_HEAT)
+        ),
+        cycle=float(moved @ area_s),
+        coverage=float(min(area_s[np.unique(back)].sum(), area_t[np.unique(forth)].sum())),
+        laplacian=float((commutator**2).sum() / ((C * values_s[None, :]) ** 2).sum()),
+        smoothness=0.5
+        * (
+            _smoothness(back, basis_t.functions, area_t, values_t, source, values_s)
+            + _smoothness(forth, basis_s.functions, area_s, values_s, target, values_t)
+        ),
+    )
+
+
+def _orientation(C: np.ndarray, source: Probe, target: Probe) -> float:
+    if source.orientation is None or target.orientation is None:
+        return 0.0
+    low = min(source.orientation.shape[1], target.orientation.shape[1], *C.shape)
+    waves = min(WAVES + 1, C.shape[1], len(source.orientation))
+    rows = min(len(target.orientation), C.shape[0])
+    square = C[:low, :low]
+    ours = square @ source.orientation[1:waves, :low, :low] @ square.T
+    theirs = np.tensordot(C[:rows, 1:waves].T, target.orientation[:rows, :low, :low], axes=1)
+    size = np.sqrt((ours**2).sum() * (theirs**2).sum())
+    return float((ours * theirs).sum() / size) if size else 0.0
+
+
+def _distortion(
+    carried: np.ndarray, functions_t: np.ndarray, back: np.ndarray, forth: np.ndarray, source: Probe, target: Probe
+) -> tuple[float, float]:
+    """Mean change of all distances and of the short ones, both divided by their mean."""
+    c_s, c_t = len(source.distances), len(target.distances)
+    if (c_s, c_t) != (len(carried), len(functions_t)):  # distances are known between the first samples only
+        back = nearest(functions_t[:c_t], carried[:c_s], threads=1)
+        forth = nearest(carried[:c_s], functions_t[:c_t], threads=1)
+    change = np.abs(source.distances[np.ix_(back, back)] - target.distances)
+    change_back = np.abs(target.distances[np.ix_(forth, forth)] - source.distances)
+    far = (change.mean() + change_back.mean()) / (source.distances.mean() + target.distances.mean())
+    near = [_near(change, target.distances), _near(change_back, source.distances)]
+    return float(far), float(np.mean(near))
+
+
+def _near(change: np.ndarray, distances: np.ndarray) -> float:
+    """Mean of ``change`` where ``distances`` are short, over the mean of these; with few points, of the nearest."""
+    nearest_other = np.partition(distances, 1, axis=1)[:, 1] if len(distances) > 1 else np.ones(1)
+    short = distances <= max(NEAR, float(nearest_other.max()))
+    mean = distances[short].mean()
+    return float(change[short].mean() / mean) if mean > 0 else 0.0
+
+
+def _difference(
+    points: np.ndarray, there: np.ndarray | None, here: np.ndarray | None, area: np.ndarray, flat: float
+) -> float:
+    """Of the descriptors ``there`` from those ``here`` of the points that they are mapped to."""
+    if there is None or here is None:
+        return 0.0
+    squares = ((there - here[points]) ** 2).sum(axis=1) @ area
+    return float(squares / max(spread(there) + spread(here), 2 * flat))
+
+
+def _smoothness(
+    points: np.ndarray, functions: Array, area: np.ndarray, values: np.ndarray, other: Probe, own: np.ndarray
+) -> float:
+    """Dirichlet energy of ``other``'s coordinates pulled back along ``points``, over their own."""
+
+    def energy(phi: np.ndarray, weights: np.ndarray, x: np.ndarray, eigenvalues: np.ndarray) -> float:
+        scaled = phi * weights[:, None]
+        c = np.linalg.solve(scaled.T @ phi + 1e-3 * np.eye(phi.shape[1]), scaled.T @ x)
+        return float((eigenvalues[:, None] * c**2).sum())
+
+    basis = other.samples.basis
+    k = min(len(own), functions.shape[1])
+    weights = to_numpy(basis.mass) / float(basis.mass.sum())
+    before = energy(to_numpy(basis.functions)[:, :k], weights, other.positions, own[:k])
+    after = energy(to_numpy(functions)[:, :k], area, other.positions[points], values[:k])
+    return after / max(before, 1e-300)

@@ -1,0 +1,185 @@
+"""The Laplace-Beltrami basis of a shape: the functions that every map is written in."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import robust_laplacian
+from scipy.sparse import coo_array, csc_array
+from scipy.spatial import KDTree
+
+from kfmaps._arrays import Array, MissingDependency, check_count, refuse, to_numpy
+from kfmaps.surface.eigen.factor import Sparse
+from kfmaps.surface.eigen.pencil import smallest_eigenpairs
+from kfmaps.surface.mesh import Mesh, vertex_areas
+
+
+@dataclass(frozen=True, eq=False)
+class Basis:
+    """The first eigenfunctions of a shape's Laplacian, orthonormal in its area.
+
+    The arrays may be of any array-API library; all three share library, dtype and device.
+
+    Attributes
+    ----------
+    eigenvalues : (k,)
+        Ascending, none below zero, in inverse squared units of the shape.
+    functions : (n, k)
+        One eigenfunction a column: ``functionsᵀ diag(mass) functions = I``.
+    mass : (n,)
+        Area around each vertex (lumped). Zero at a vertex that no face uses.
+    """
+
+    eigenvalues: Array
+    functions: Array
+    mass: Array
+
+    def project(self, f: Array) -> Array:
+        """Coefficients (k, d) of the functions ``f`` (n, d): ``Φᵀ A f``."""
+        return self.functions.T @ (self.mass[:, None] * f)
+
+    def lift(self, c: Array) -> Array:
+        """Functions (n, d) that have the coefficients ``c`` (k, d): ``Φ c``."""
+        return self.functions @ c
+
+    def truncated(self, k: int) -> Basis:
+        """The basis of the first ``k`` functions.
+
+        Raises
+        ------
+        InvalidInput
+            When there are fewer.
+        """
+        check_count(k, "k", 1, self.functions.shape[1])
+        return Basis(self.eigenvalues[:k], self.functions[:, :k], self.mass)
+
+    def to(self, device: str) -> Basis:
+        """The basis as PyTorch tensors on ``device``, or as NumPy arrays for ``"cpu"`` and ``"numpy"``.
+
+        ``"torch"`` is PyTorch on the CPU.
+
+        Raises
+        ------
+        MissingDependency
+            When ``device`` is another one and PyTorch is not installed.
+        InvalidInput
+            When PyTorch does not have the device.
+        """
+        arrays = [to_numpy(a) for a in (self.eigenvalues, self.functions, self.mass)]
+        if device in ("cpu", "numpy"):
+            return Basis(*arrays)
+        try:
+            import torch
+        except ImportError as error:
+            raise MissingDependency(
+                f"device {device!r} needs PyTorch; install it with: pip install 'kfmaps[gpu]'"
+            ) from error
+        try:
+            where = "cpu" if device == "torch" else device
+            return Basis(*(torch.asarray(a, device=where) for a in arrays))
+        except (RuntimeError, AssertionError, TypeError) as error:
+            reason = str(error).splitlines()[0]
+            raise refuse("device", "one that PyTorch can use", f"{device!r} ({reason})", "use cpu") from error
+
+
+def cotangent_laplacian(mesh: Mesh) -> csc_array:
+    """Weak cotangent Laplacian (n, n), symmetric and positive semi-definite; rows sum to zero.
+
+    The entry of an edge is minus half the sum of the cotangents of the angles opposite it (Pinkall and Polthier,
+    Computing discrete minimal surfaces, 1993). Angles below 1e-6 count as 1e-6, so that faces without area give
+    large numbers rather than infinite ones; those with two equal corners are left out.
+    """
+    n = len(mesh.vertices)
+    faces = mesh.faces[_proper(mesh.faces)]
+    entries, rows, columns = [], [], []
+    for corner in range(3):
+        tip, i, j = (faces[:, (corner + step) % 3] for step in range(3))
+        a, b = mesh.vertices[i] - mesh.vertices[tip], mesh.vertices[j] - mesh.vertices[tip]
+        dot = (a * b).sum(axis=1)
+        sine = np.linalg.norm(np.cross(a, b), axis=1)
+        least = 1e-6 * np.linalg.norm(a, axis=1) * np.linalg.norm(b, axis=1)
+        bound = np.maximum(sine, least)
+        half = np.divide(dot, bound, out=np.zeros_like(dot), where=bound > 0) / 2
+        entries += [-half, -half, half, half]
+        rows += [i, j, i, j]
+        columns += [j, i, i, j]
+    places = (np.concatenate(rows), np.concatenate(columns))
+    return coo_array((np.concatenate(entries), places), shape=(n, n)).tocsc()
+
+
+def _proper(faces: np.ndarray) -> np.ndarray:
+    """Which faces have three different corners, (f,)."""
+    return (faces != np.roll(faces, 1, axis=1)).all(axis=1)
+
+
+def _operators(mesh: Mesh, laplacian: str) -> tuple[Sparse, np.ndarray]:
+    """Weak Laplacian (n, n) and lumped mass (n,) of a mesh or cloud without unused vertices."""
+    if len(mesh.faces) == 0:
+        near = min(30, len(mesh.vertices) - 1)
+        stiffness, mass = robust_laplacian.point_cloud_laplacian(mesh.vertices, n_neighbors=near)
+        return stiffness, mass.diagonal() / mass.diagonal().sum()
+    if laplacian == "cotangent":
+        return cotangent_laplacian(mesh), vertex_areas(mesh)
+    stiffness, mass = robust_laplacian.mesh_laplacian(mesh.vertices, mesh.faces)
+    return stiffness, mass.diagonal()
+
+
+def laplace_basis(
+    mesh: Mesh,
+    k: int,
+    laplacian: str = "robust",
+    rng: int | np.random.Generator = 0,
+    threads: int | None = None,
+) -> Basis:
+    """The first ``k`` eigenfunctions of the Laplacian of a mesh or point cloud.
+
+    Any triangles will do: boundaries (with natural, Neumann conditions), several components (one eigenvalue
+    zero for each), faces without area, edges with more than two faces. A vertex that no face uses takes part in
+    nothing: its mass is zero, and its functions are those of the used vertex nearest in space.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        In any unit ``u``; shapes to be matched should have unit area (:func:`~kfmaps.surface.mesh.unit_area`). The
+        eigenvalues come in ``1/u²``, the mass in ``u²``, the functions in ``1/u``. Without faces it is a cloud,
+        whose area is only estimated: its basis is always that of the cloud scaled to an estimate of 1.
+    k : int
+        From 1 to one less than the number of vertices in use.
+    laplacian : {"robust", "cotangent"}
+        ``"robust"``: the intrinsic Delaunay Laplacian of the tufted cover, whose weights are never negative,
+        on triangles however bad (Sharp and Crane, A Laplacian for nonmanifold triangle meshes, 2020).
+        ``"cotangent"``: :func:`cotangent_laplacian` with barycentric areas. Clouds always take the robust one.
+    rng : int or numpy.random.Generator
+        Start vectors of the eigensolver. The same input gives the same basis; each function's entry of largest
+        magnitude is positive, but signs, and bases of repeated eigenvalues, mean nothing.
+    threads : int, optional
+        Python threads on large meshes; ``None`` takes every available core.
+
+    Raises
+    ------
+    InvalidInput
+        When the mesh has too few vertices in use, or the Laplacian's name is unknown.
+    NotConverged
+        When an eigenpair's residual is above 1e-10; see :func:`~kfmaps.surface.eigen.pencil.smallest_eigenpairs`.
+    """
+    if laplacian not in ("robust", "cotangent"):
+        raise refuse("laplacian", "'robust' or 'cotangent'", repr(laplacian), "choose one of them")
+    n = len(mesh.vertices)
+    faces = mesh.faces[_proper(mesh.faces)]
+    used = np.unique(faces) if len(mesh.faces) else np.arange(n)
+    if len(used) <= check_count(k, "k"):
+        wanted = f"fewer eigenfunctions than the {len(used)} vertices in use"
+        raise refuse("k", wanted, str(k), "ask for fewer, or refine the mesh")
+    number = np.full(n, -1)
+    number[used] = np.arange(len(used))
+    stiffness, area = _operators(Mesh(mesh.vertices[used], number[faces]), laplacian)
+    pairs = smallest_eigenpairs(stiffness, area, k, rng=rng, threads=threads)
+    if len(used) == n:
+        return Basis(pairs.values, pairs.vectors, area)
+    nearest = number.copy()
+    loose = number < 0
+    nearest[loose] = KDTree(mesh.vertices[used]).query(mesh.vertices[loose])[1]
+    mass = np.zeros(n)
+    mass[used] = area
+    return Basis(pairs.values, pairs.vectors[nearest], mass)

@@ -1,0 +1,1 @@
+"""Sparse eigenpairs: pencil, factorisation, block Lanczos."""

@@ -1,0 +1,214 @@
+"""The smallest eigenpairs of a sparse symmetric pencil ``L x = λ A x`` with a diagonal mass ``A``."""
+
+from __future__ import annotations
+
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import ExitStack
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from scipy.linalg import eigh
+from scipy.sparse import csr_array, diags_array
+from scipy.sparse.linalg import ArpackError, LinearOperator, eigsh
+
+from kfmaps._arrays import NotConverged, check, check_count, check_positive, refuse
+from kfmaps._threads import available_cores, one_blas_thread
+from kfmaps.surface.eigen.factor import Map, Sparse, factorise, fill_order
+from kfmaps.surface.eigen.lanczos import largest_eigenpairs
+
+METHODS = ("auto", "block", "arpack", "dense")
+
+MASS_FLOOR = 1e-10
+"""Least mass of a vertex, as a part of the mean: one without mass takes the value that its neighbours give it
+(harmonic), and this much mass moves no eigenvalue by more than this part."""
+
+THREADED = 50_000
+"""Rows from which threads pay."""
+
+
+@dataclass(frozen=True, eq=False)
+class Eigenpairs:
+    """What :func:`smallest_eigenpairs` found.
+
+    Attributes
+    ----------
+    values : (k,) float64
+        Ascending, none below zero.
+    vectors : (n, k) float64
+        Columns orthonormal in the mass, each with its entry of largest magnitude positive.
+    residuals : (k,) float64
+        ``‖Lx − λAx‖ / ((λ + σ) ‖Ax‖)`` of each pair, with ``σ = 4π / sum(mass)``, the scale of the smallest
+        eigenvalues, so that those that are zero count too.
+    """
+
+    values: np.ndarray
+    vectors: np.ndarray
+    residuals: np.ndarray
+
+
+def smallest_eigenpairs(
+    stiffness: Sparse,
+    mass: np.ndarray,
+    k: int,
+    *,
+    tolerance: float = 1e-10,
+    rng: int | np.random.Generator = 0,
+    threads: int | None = None,
+    method: str = "auto",
+    ordering: str = "auto",
+) -> Eigenpairs:
+    """The ``k`` smallest eigenpairs of ``stiffness x = λ mass x``, by Lanczos on ``(stiffness + σ mass)⁻¹``.
+
+    Every pair is checked against the tolerance before it is returned, and the block method looks for
+    eigenvalues that it may have missed (repeated ones of identical components, clusters of spheres).
+    The same input gives the same answer, whatever the number of threads.
+
+    Parameters
+    ----------
+    stiffness : (n, n) sparse
+        Symmetric, positive semi-definite, for example a weak Laplacian. It may have a null space of any
+        dimension (one per component), but no row that is zero together with its mass.
+    mass : (n,)
+        Diagonal of the mass, none below zero, some above.
+    k : int
+        From 1 to ``n``.
+    tolerance : float
+        Bound on the residuals of :class:`Eigenpairs`, on top of what rounding ``stiffness @ x`` costs: that
+        matters on meshes with needle triangles, and from about a million vertices.
+    rng : int or numpy.random.Generator
+        Draws the start vectors.
+    threads : int, optional
+        Python threads for solves and tall products, from 50,000 rows; ``None`` takes every available core.
+        BLAS is held to one.
+    method : {"auto", "block", "arpack", "dense"}
+        ``"block"``: own block Lanczos with full reorthogonalisation. ``"arpack"``: SciPy's ``eigsh`` on the
+        same factorisation. ``"dense"``: the whole spectrum, for a few hundred rows. ``"auto"``: dense
+        where the Krylov basis would not fit (``n ≤ max(400, 4k + 200)``), else block.
+    ordering : {"auto", "metis", "mmd"}
+        Ordering of the factorisation; METIS is faster on large meshes and comes with ``kfmaps[fast]``.
+
+    Raises
+    ------
+    InvalidInput
+        On arrays that do not fit together, NaN, a negative mass, a row without stiffness and mass, or ``k`` out
+        of range.
+    NotConverged
+        When a residual stays above the tolerance or the shifted matrix is singular.
+    """
+    n = stiffness.shape[0]
+    matrix = csr_array(stiffness)
+    mass = np.asarray(mass, dtype=np.float64)
+    if stiffness.shape != (n, n) or mass.shape != (n,):
+        got = f"stiffness {tuple(stiffness.shape)}, mass {mass.shape}"
+        raise refuse("pencil", "stiffness (n, n) and mass (n,)", got, "check how they were made")
+    check(matrix.data, "stiffness")
+    check(mass, "mass")
+    check_count(k, "k", 1, n)
+    check_positive(tolerance, "tolerance")
+    if method not in METHODS:
+        raise refuse("method", f"one of {', '.join(METHODS)}", repr(method), "choose one of them")
+    if mass.min() < 0 or not mass.sum() > 0:
+        raise refuse("mass", "none below zero, some above", f"least {mass.min():g}", "check the areas")
+    idle = int(((mass == 0) & (matrix.diagonal() == 0)).sum())
+    if idle:
+        raise refuse("pencil", "a mass or a stiffness in every row", f"{idle} rows with neither", "leave them out")
+    small = n <= max(400, 4 * k + 200)
+    if method == "auto" or (method != "dense" and small):
+        method = "dense" if small else "block"
+    floored = np.maximum(mass, MASS_FLOOR * mass.mean())
+    with ExitStack() as stack:
+        stack.enter_context(one_blas_thread())
+        each = map
+        if (workers := threads or available_cores()) > 1 and n >= THREADED:
+            each = stack.enter_context(ThreadPoolExecutor(workers)).map
+        order = fill_order(matrix, ordering)
+        if order is not None:
+            matrix, floored = matrix[order][:, order], floored[order]
+        pencil = _Pencil(matrix, floored, order is not None, each)
+        vectors = _vectors(pencil, k, method, tolerance, np.random.default_rng(rng))
+        return _signed(_checked(pencil, vectors, tolerance), order)
+
+
+class _Pencil:
+    """``(L, A)`` and the factor of ``L + σA``."""
+
+    def __init__(self, matrix: Sparse, mass: np.ndarray, ordered: bool, each: Map) -> None:
+        self.matrix, self.mass, self.root, self.each = matrix, mass, np.sqrt(mass), each
+        self.unit = 4 * np.pi / mass.sum()
+        self.solve = factorise(matrix + self.unit * diags_array(mass), ordered, each)
+
+    def inverse(self, block: np.ndarray) -> np.ndarray:
+        """``√A (L + σA)⁻¹ √A`` times the block."""
+        return self.root[:, None] * self.solve(self.root[:, None] * block)
+
+    def residuals(self, vectors: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Rayleigh quotients and scaled residuals of the columns."""
+        images, weighted = self.matrix @ vectors, self.mass[:, None] * vectors
+        values = (vectors * images).sum(axis=0) / (vectors * weighted).sum(axis=0)
+        values = np.maximum(values, 0)
+        images -= weighted * values
+        return values, np.linalg.norm(images, axis=0) / ((values + self.unit) * np.linalg.norm(weighted, axis=0))
+
+
+def _vectors(pencil: _Pencil, k: int, method: str, tolerance: float, rng: np.random.Generator) -> np.ndarray:
+    """Eigenvectors (n, k), orthonormal in the mass, in no strict order."""
+    n = len(pencil.mass)
+    if method == "dense":
+        inverse = pencil.inverse(np.eye(n))
+        _, vectors = eigh((inverse + inverse.T) / 2, subset_by_index=(n - k, n - 1))
+        return _improved(pencil, vectors)
+    if method == "arpack":
+        make: Any = LinearOperator  # SciPy's stubs do not know that the class builds its own subclass
+        one = make((n, n), matvec=lambda x: pencil.inverse(x.reshape(n, 1))[:, 0], dtype=np.float64)
+        try:
+            _, vectors = eigsh(one, k=k, which="LA", v0=rng.normal(size=n), tol=0)
+        except ArpackError as error:
+            raise NotConverged(f"ARPACK: {error}") from error
+        return _improved(pencil, vectors)
+    found = largest_eigenpairs(pencil.inverse, n, k, tolerance=tolerance / 2, rng=rng, each=pencil.each)
+    if found.stages == 1:
+        return found.vectors[:, :k] / pencil.root[:, None]
+    # Pairs of different stages are decoupled only to the tolerance of the largest: mend that.
+    return _improved(pencil, found.vectors[:, :k])
+
+
+def _improved(pencil: _Pencil, vectors: np.ndarray) -> np.ndarray:
+    """One step of subspace iteration with Rayleigh-Ritz; takes scaled vectors, returns true ones."""
+    weighted = pencil.root[:, None] * vectors
+    images = np.hstack([pencil.solve(weighted[:, s : s + 8]) for s in range(0, vectors.shape[1], 8)])
+    scaled = pencil.root[:, None] * images
+    size = np.linalg.norm(scaled, axis=0)
+    scaled, images, vectors = scaled / size, images / size, vectors / size
+    energy = scaled.T @ vectors  # L + σA maps the images back to the vectors
+    _, rotation = eigh((energy + energy.T) / 2, scaled.T @ scaled)
+    return images @ rotation
+
+
+def _checked(pencil: _Pencil, vectors: np.ndarray, tolerance: float) -> Eigenpairs:
+    """Sorted and checked pairs: the values are Rayleigh quotients."""
+    values, residuals = pencil.residuals(vectors)
+    bad = np.flatnonzero(~(residuals <= tolerance))
+    if len(bad):
+        spread = np.linalg.norm(abs(pencil.matrix) @ abs(vectors[:, bad]), axis=0)
+        rounding = 8 * np.finfo(float).eps * spread
+        scale = (values[bad] + pencil.unit) * np.linalg.norm(pencil.mass[:, None] * vectors[:, bad], axis=0)
+        bad = bad[~(residuals[bad] <= tolerance + rounding / scale)]
+    if len(bad):
+        raise NotConverged(
+            f"eigenpairs: {len(bad)} of {len(values)} have residuals above {tolerance:.0e}, the largest "
+            f"{residuals[bad].max():.1e}; look for parts without area, or for coordinates of very different size"
+        )
+    order = np.argsort(values, kind="stable")
+    return Eigenpairs(values[order], vectors[:, order], residuals[order])
+
+
+def _signed(pairs: Eigenpairs, order: np.ndarray | None) -> Eigenpairs:
+    """The pairs in the caller's order of rows, with definite signs."""
+    vectors = pairs.vectors
+    if order is not None:
+        vectors = np.empty_like(pairs.vectors)
+        vectors[order] = pairs.vectors
+    largest = np.abs(vectors).argmax(axis=0)
+    vectors *= np.where(vectors[largest, np.arange(len(pairs.values))] < 0, -1.0, 1.0)
+    return Eigenpairs(pairs.values, vectors, pairs.residuals)

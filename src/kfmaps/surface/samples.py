@@ -1,0 +1,119 @@
+"""Some points of a shape that stand for all, each with the area closest to it: a quadrature for functions.
+
+Both choices work in the biharmonic embedding, which follows the surface and needs no mesh. Measured on a shape of
+80,000 vertices by ``‖ΦᵀA_qΦ − I‖₂`` for 100 functions, 10,000 samples: random ones 0.12, farthest points of a random
+pool 0.019 (0.6 s), stratified ones 0.012 (0.1 s).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.spatial import KDTree
+
+from kfmaps._arrays import check_count, like, take, to_numpy
+from kfmaps.kernel.select import farthest
+from kfmaps.surface.basis import Basis
+
+EMBEDDING = 40
+"""Functions of the biharmonic embedding, the constant among them."""
+STRATA = 8
+"""Coordinates of the embedding that strata are cut by."""
+POOL = 20_000
+"""Vertices that :func:`spectral_samples` chooses from, at most (but four times as many as it is to choose)."""
+
+
+@dataclass(frozen=True, eq=False)
+class SampledBasis(Basis):
+    """A basis on some points of a shape, on which its functions are not quite orthonormal.
+
+    ``mass`` is the area that is closest to each point.
+    """
+
+    def truncated(self, k: int) -> Basis:
+        return SampledBasis(self.eigenvalues[:k], self.functions[:, :k], self.mass)
+
+
+@dataclass(frozen=True, eq=False)
+class Samples:
+    """Some vertices of a shape, ``(q,)``, and its basis on them."""
+
+    vertices: np.ndarray
+    basis: SampledBasis
+
+
+def spectral_samples(basis: Basis, count: int, rng: int | np.random.Generator = 0) -> Samples:
+    """Farthest points of a shape in its biharmonic embedding (Lipman et al. 2010), with the area closest to each.
+
+    Needs no mesh, and spreads evenly over the surface whatever its triangulation. At most the vertices there
+    are; vertices that no face uses are passed over. Of a large shape they are the farthest of :data:`POOL`
+    stratified ones, so that their cost hardly grows with the mesh.
+    """
+    check_count(count, "sample count")
+    candidates, embedding = _embedded(basis)
+    pool = np.arange(len(candidates))
+    if len(pool) > max(POOL, 4 * count):
+        pool = stratified(embedding, to_numpy(basis.mass)[candidates], max(POOL, 4 * count), rng)
+    chosen = pool[farthest(embedding[pool], min(count, len(pool)), rng, None)]
+    return _samples(basis, candidates, embedding, chosen)
+
+
+def stratified_samples(
+    basis: Basis, count: int, rng: int | np.random.Generator = 0, kept: np.ndarray | None = None
+) -> Samples:
+    """One random point from each of ``count`` compact regions of equal area, with the area closest to each.
+
+    Needs no mesh and takes time ``n log n`` whatever the count: made for thousands of samples. A vertex that
+    would be drawn twice counts once.
+
+    Parameters
+    ----------
+    basis : Basis
+        Of a shape with n vertices.
+    count : int
+    rng : seed or Generator
+    kept : (l,) int64, optional
+        Vertices to be among the samples, beside the others. The samples come in ascending order.
+    """
+    check_count(count, "sample count")
+    candidates, embedding = _embedded(basis)
+    chosen = stratified(embedding, to_numpy(basis.mass)[candidates], count, rng)
+    if kept is None:
+        return _samples(basis, candidates, embedding, chosen)
+    samples = _samples(basis, candidates, embedding, np.union1d(chosen, np.flatnonzero(np.isin(candidates, kept))))
+    vertices = np.union1d(samples.vertices, kept)  # kept vertices that no face uses have no area
+    areas = np.zeros(len(vertices))
+    areas[np.searchsorted(vertices, samples.vertices)] = to_numpy(samples.basis.mass)
+    functions = take(basis.functions, vertices)
+    return Samples(vertices, SampledBasis(basis.eigenvalues, functions, like(areas, basis.mass)))
+
+
+def _embedded(basis: Basis) -> tuple[np.ndarray, np.ndarray]:
+    """Vertices that have an area, and their places in the biharmonic embedding."""
+    candidates = np.flatnonzero(to_numpy(basis.mass) > 0)
+    k = min(basis.functions.shape[1], EMBEDDING)
+    values = to_numpy(basis.eigenvalues)[:k]
+    positive = values > 1e-6 * values[-1]
+    return candidates, to_numpy(basis.functions)[:, :k][candidates][:, positive] / values[positive]
+
+
+def stratified(
+    embedding: np.ndarray, mass: np.ndarray, count: int, rng: int | np.random.Generator | None
+) -> np.ndarray:
+    """Systematic sampling by area along the leaves of a k-d tree, which follow each other in space.
+
+    ``embedding (n, d)`` are places, of which the first eight coordinates count, ``mass (n,)`` their areas. Returns
+    numbers of rows in ascending order, ``count`` or, where one is drawn twice, fewer.
+    """
+    order = KDTree(embedding[:, :STRATA]).indices
+    reached = np.cumsum(mass[order])
+    drawn = (np.arange(count) + np.random.default_rng(rng).random(count)) / count
+    return np.unique(order[np.searchsorted(reached / reached[-1], drawn).clip(max=len(order) - 1)])
+
+
+def _samples(basis: Basis, candidates: np.ndarray, embedding: np.ndarray, chosen: np.ndarray) -> Samples:
+    closest = KDTree(embedding[chosen]).query(embedding)[1]
+    areas = np.bincount(closest, to_numpy(basis.mass)[candidates], minlength=len(chosen))
+    vertices = candidates[chosen]
+    return Samples(vertices, SampledBasis(basis.eigenvalues, take(basis.functions, vertices), like(areas, basis.mass)))
