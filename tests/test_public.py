@@ -11,7 +11,7 @@ import pytest
 
 import kfmaps
 
-TREE = ast.parse(Path(str(kfmaps.__file__)).read_text(encoding="utf-8"))
+STUB = Path(str(kfmaps.__file__)).with_suffix(".pyi")
 
 
 @pytest.mark.parametrize("name", kfmaps.__all__)
@@ -22,18 +22,27 @@ def test_name(name: str) -> None:
     assert documented
 
 
-def test_type_checkers_see_the_same_names() -> None:
-    """The imports that only type checkers read are those that happen at run time, from the same modules."""
-    guarded = next(node for node in TREE.body if isinstance(node, ast.If))
+def test_what_type_checkers_read_is_what_is_imported() -> None:
+    """Every import of the stub, read by Python's own parser, is a public name, and from the module that it names."""
     seen = {}
-    for node in guarded.body:
-        assert isinstance(node, ast.ImportFrom)
-        seen |= {alias.name: node.module for alias in node.names}
-    assert set(seen) == set(kfmaps.__all__)
+    for node in ast.parse(STUB.read_text(encoding="utf-8")).body:
+        if isinstance(node, ast.ImportFrom):
+            for alias in node.names:
+                assert alias.asname == alias.name, f"{alias.name}: without 'as' type checkers take it for private"
+                seen[alias.name] = node.module
+    assert sorted(seen) == kfmaps.__all__
     for name, module in seen.items():
+        value = getattr(kfmaps, name)
         assert module is not None
-        if name != "datasets":
-            assert getattr(sys.modules[module], name) is getattr(kfmaps, name)
+        assert value is sys.modules.get(f"{module}.{name}", None) or value is getattr(sys.modules[module], name)
+
+
+def test_stub_is_in_the_package() -> None:
+    """It is read when the package is imported, so a wheel must carry it: everything in the package's folder goes in."""
+    text = (Path(__file__).parents[1] / "pyproject.toml").read_text(encoding="utf-8")
+    assert STUB.is_file()
+    assert 'packages = ["src/kfmaps"]' in text
+    assert "exclude" not in text
 
 
 def test_unknown_name() -> None:

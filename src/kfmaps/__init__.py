@@ -8,99 +8,33 @@
 from __future__ import annotations
 
 import importlib
-from typing import TYPE_CHECKING, Any
-
-if TYPE_CHECKING:
-    from kfmaps._arrays import InvalidInput, KfmapsWarning, MissingDependency, NotConverged
-    from kfmaps.app import datasets
-    from kfmaps.app.files import load_map, read_landmarks, read_mesh, save_map, write_mesh
-    from kfmaps.config import BasisConfig, Config, DescriptorConfig, NystromConfig, Search, Weights
-    from kfmaps.fit.fit import Match
-    from kfmaps.fit.shape import Shape, prepare
-    from kfmaps.functional.evaluate import coverage, error_curve, evaluation, geodesic_errors
-    from kfmaps.functional.points import to_functional, to_points
-    from kfmaps.functional.refine import ICP, ZoomOut
-    from kfmaps.functional.solvers import CG, Direct
-    from kfmaps.kernel.kernels import Gaussian, Laplacian, Linear, Polynomial, Product, Sum, Tanh
-    from kfmaps.matching import match
-    from kfmaps.surface.basis import Basis, laplace_basis
-    from kfmaps.surface.geodesics import geodesic_distances
-    from kfmaps.surface.mesh import Mesh
+import re
+from pathlib import Path
+from typing import Any
 
 __version__ = "0.1.0"
 
-__all__ = [
-    "CG",
-    "ICP",
-    "Basis",
-    "BasisConfig",
-    "Config",
-    "DescriptorConfig",
-    "Direct",
-    "Gaussian",
-    "InvalidInput",
-    "KfmapsWarning",
-    "Laplacian",
-    "Linear",
-    "Match",
-    "Mesh",
-    "MissingDependency",
-    "NotConverged",
-    "NystromConfig",
-    "Polynomial",
-    "Product",
-    "Search",
-    "Shape",
-    "Sum",
-    "Tanh",
-    "Weights",
-    "ZoomOut",
-    "coverage",
-    "datasets",
-    "error_curve",
-    "evaluation",
-    "geodesic_distances",
-    "geodesic_errors",
-    "laplace_basis",
-    "load_map",
-    "match",
-    "prepare",
-    "read_landmarks",
-    "read_mesh",
-    "save_map",
-    "to_functional",
-    "to_points",
-    "write_mesh",
-]
-
-# Where each name lives; it is imported when it is first asked for (PEP 562), because SciPy and the mesh readers take
-# half a second that `kfmaps --help` need not wait for.
+# The stub beside this file is the one list of public names. A name is imported when it is first asked for (PEP 562),
+# because SciPy and the mesh readers take half a second that `kfmaps --help` need not wait for.
 _HOMES = {
-    "_arrays": "InvalidInput KfmapsWarning MissingDependency NotConverged",
-    "app.files": "load_map read_landmarks read_mesh save_map write_mesh",
-    "config": "BasisConfig Config DescriptorConfig NystromConfig Search Weights",
-    "fit.fit": "Match",
-    "fit.shape": "Shape prepare",
-    "functional.evaluate": "coverage error_curve evaluation geodesic_errors",
-    "functional.points": "to_functional to_points",
-    "functional.refine": "ICP ZoomOut",
-    "functional.solvers": "CG Direct",
-    "kernel.kernels": "Gaussian Laplacian Linear Polynomial Product Sum Tanh",
-    "matching": "match",
-    "surface.basis": "Basis laplace_basis",
-    "surface.geodesics": "geodesic_distances",
-    "surface.mesh": "Mesh",
+    name: home
+    for home, name in re.findall(
+        r"^from (\S+) import (\w+) as \2$", Path(__file__).with_suffix(".pyi").read_text(encoding="utf-8"), re.MULTILINE
+    )
 }
+
+__all__ = sorted(_HOMES)  # pyright: ignore[reportUnsupportedDunderAll]
 
 
 def __getattr__(name: str) -> Any:
-    if name == "datasets":
-        return importlib.import_module("kfmaps.app.datasets")
-    for home, names in _HOMES.items():
-        if name in names.split():
-            value = globals()[name] = getattr(importlib.import_module(f"kfmaps.{home}"), name)
-            return value
-    raise AttributeError(f"module 'kfmaps' has no attribute {name!r}")
+    home = _HOMES.get(name)
+    if home is None:
+        raise AttributeError(f"module 'kfmaps' has no attribute {name!r}")
+    module = importlib.import_module(home)
+    # In a package's own folder a name may be a module that nothing has imported yet.
+    value = getattr(module, name) if hasattr(module, name) else importlib.import_module(f"{home}.{name}")
+    globals()[name] = value
+    return value
 
 
 def __dir__() -> list[str]:
