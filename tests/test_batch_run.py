@@ -21,7 +21,7 @@ import threadpoolctl
 
 from collecting import CONFIG, Deadly, done, plan_of, write_collection
 from kfmaps._arrays import InvalidInput, MissingDependency
-from kfmaps.app.batch.clock import Standing
+from kfmaps.app.batch.clock import RunStatus
 from kfmaps.app.batch.cluster import Workers, local_workers, running_workers
 from kfmaps.app.batch.collection import match_collection
 from kfmaps.app.batch.layout import Pair, find_collection
@@ -69,13 +69,13 @@ def test_a_killed_worker_costs_nothing(tmp_path: Path) -> None:
     plan = plan_of(write_collection(tmp_path / "c", 4), tmp_path / "out")
     killed: list[str] = []
 
-    def kill_one(standing: Standing, _result: Result | None) -> None:
-        if not killed and standing.pairs_done >= 2:
+    def kill_one(status: RunStatus, _result: Result | None) -> None:
+        if not killed and status.pairs_done >= 2:
             process, key = until(lambda: under_way(plan))
             os.kill(process, signal.SIGKILL)
             killed.append(key)
 
-    outcome = match_collection(plan, workers=2, worst=0, tell=kill_one)
+    outcome = match_collection(plan, workers=2, worst=0, callback=kill_one)
     assert len(killed) == 1
     assert [r.status for r in outcome.results] == ["done"] * 12
     assert {Pair(r.source, r.target).key: r.attempts for r in outcome.results if r.attempts > 1} == {killed[0]: 2}
@@ -170,17 +170,17 @@ def test_a_shape_that_kills_fails_its_pairs_alone(tmp_path: Path) -> None:
     assert len(failed) == 4
     assert all("3 workers died while shape b1 was worked on" in r.reason for r in failed)
     assert sorted(machine.prepared) == ["b0", "b1", "b1", "b1", "b2"]
-    assert run.standing().remaining == 0
+    assert run.status().remaining == 0
 
 
 def test_ctrl_c_ends_cleanly(tmp_path: Path) -> None:
     plan = plan_of(write_collection(tmp_path / "c", 4), tmp_path / "out")
 
-    def interrupt(standing: Standing, _result: Result | None) -> None:
-        if standing.pairs_done == 2:
+    def interrupt(status: RunStatus, _result: Result | None) -> None:
+        if status.pairs_done == 2:
             raise KeyboardInterrupt
 
-    outcome = match_collection(plan, workers=1, tell=interrupt)
+    outcome = match_collection(plan, workers=1, callback=interrupt)
     assert outcome.interrupted
     assert 2 <= len(outcome.results) < 12
     assert "not done yet" in (plan.folder / "summary.html").read_text(encoding="utf-8")
@@ -264,15 +264,15 @@ def test_a_worker_of_a_running_scheduler_is_killed(tmp_path: Path) -> None:
     plan = plan_of(write_collection(tmp_path / "c", 4), tmp_path / "out")
     killed: list[tuple[int, str]] = []
 
-    def kill_one(standing: Standing, _result: Result | None) -> None:
-        if not killed and standing.pairs_done >= 2:
+    def kill_one(status: RunStatus, _result: Result | None) -> None:
+        if not killed and status.pairs_done >= 2:
             killed.append(until(lambda: under_way(plan)))
             os.kill(killed[0][0], signal.SIGKILL)
 
     with dask_processes(tmp_path, 2) as address:
         with running_workers(address) as workers:
             until(lambda: len(workers.client.scheduler_info()["workers"]) == 2)
-        outcome = match_collection(plan, scheduler=address, worst=0, tell=kill_one)
+        outcome = match_collection(plan, scheduler=address, worst=0, callback=kill_one)
     ((process, key),) = killed
     assert [r.status for r in outcome.results] == ["done"] * 12
     assert {Pair(r.source, r.target).key: r.attempts for r in outcome.results if r.attempts > 1} == {key: 2}
@@ -298,7 +298,7 @@ def test_dask_is_asked_for(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> N
     plan = plan_of(write_collection(tmp_path / "c", 2), tmp_path / "out")
     monkeypatch.setitem(sys.modules, "distributed", None)
     for scheduler in (None, "tcp://127.0.0.1:9"):
-        with pytest.raises(MissingDependency, match=r"kfmaps\[batch\]"):
+        with pytest.raises(MissingDependency, match=r"install 'dask"):
             match_collection(plan, scheduler=scheduler)
 
 

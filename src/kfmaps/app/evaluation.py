@@ -93,7 +93,7 @@ def check_truth(truth: Truth, source: Mesh, n_t: int) -> Truth:
 
 
 @dataclass(frozen=True, eq=False)
-class Report:
+class Accuracy:
     """How good a map is: its errors, those against the mirrored truth, and what part of the source it reaches."""
 
     errors: Evaluation
@@ -113,7 +113,7 @@ def _numbers(errors: Evaluation) -> dict[str, float | None]:
     return {name: value if math.isfinite(value := getattr(errors, name)) else None for name in names}
 
 
-def assessed(source: Mesh, target_to_source: np.ndarray, truth: Truth, threads: int | None = None) -> Report:
+def assessed(source: Mesh, target_to_source: np.ndarray, truth: Truth, threads: int | None = None) -> Accuracy:
     """Compare a map with the truth; geodesic errors on ``source`` in units of √area.
 
     Raises
@@ -129,7 +129,7 @@ def assessed(source: Mesh, target_to_source: np.ndarray, truth: Truth, threads: 
         return evaluation(geodesic_errors(source, predicted, truth.source, threads=threads))
 
     mirrored = None if truth.mirrored is None else errors(truth.mirrored)
-    return Report(errors(truth.target), mirrored, coverage(target_to_source, source))
+    return Accuracy(errors(truth.target), mirrored, coverage(target_to_source, source))
 
 
 def write_curve(path: Path, errors: Evaluation, label: str, force: bool = False) -> None:

@@ -13,7 +13,7 @@ from rich.table import Table
 from rich.text import Text
 
 import kfmaps
-from kfmaps.app.evaluation import Report
+from kfmaps.app.evaluation import Accuracy
 from kfmaps.app.files import MapFile, match_map
 from kfmaps.config import as_dict
 from kfmaps.fit.fit import Match
@@ -45,7 +45,7 @@ class Outcome:
     seed : int
     seconds : dict of str to float
         Of all stages, those of each shape too.
-    report : Report or None
+    accuracy : Accuracy or None
         Set beside the truth, where it is known.
     """
 
@@ -55,7 +55,7 @@ class Outcome:
     landmarks: np.ndarray
     seed: int
     seconds: dict[str, float] = field(default_factory=dict)
-    report: Report | None = None
+    accuracy: Accuracy | None = None
 
 
 def summary(outcome: Outcome) -> dict[str, Any]:
@@ -86,7 +86,7 @@ def summary(outcome: Outcome) -> dict[str, Any]:
         "local_confidence": mean_confidence(match),
         "scores": [float(score) for score in match.scores],
         "runners_up": len(match.runners_up),
-        "errors": None if outcome.report is None else outcome.report.as_dict(),
+        "errors": None if outcome.accuracy is None else outcome.accuracy.as_dict(),
         "energies": {name: float(value) for name, value in match.energies.items()},
         "times": {name: float(value) for name, value in outcome.seconds.items()},
         "residuals": (residuals / first).tolist(),
@@ -121,14 +121,14 @@ def table(outcome: Outcome, written: Path | None = None) -> Table:
     grid = Table(show_header=False, box=None, pad_edge=False)
     grid.add_column(style="bold", no_wrap=True)
     grid.add_column(overflow="fold")
-    for name, value in _rows(match, found, outcome.report):
+    for name, value in _rows(match, found, outcome.accuracy):
         grid.add_row(name, Text(value, style="bold red" if value.startswith("AMBIGUOUS") else ""))
     if written is not None:
         grid.add_row("written", Text(str(written)))
     return grid
 
 
-def _rows(match: Match, found: dict[str, Any], report: Report | None) -> list[tuple[str, str]]:
+def _rows(match: Match, found: dict[str, Any], accuracy: Accuracy | None) -> list[tuple[str, str]]:
     """Names and values of the table."""
     rows = []
     for side in ("source", "target"):
@@ -149,8 +149,8 @@ def _rows(match: Match, found: dict[str, Any], report: Report | None) -> list[tu
         ("time", f"{sum(found['times'].values()):.1f} s: " + ", ".join(f"{name} {t:.2f}" for name, t in spent)),
         ("outcome", _verdict(match)),
     ]
-    if report is not None:
-        rows.append(("error", errors_text(report)))
+    if accuracy is not None:
+        rows.append(("error", errors_text(accuracy)))
     return rows
 
 
@@ -159,9 +159,9 @@ def _verdict(match: Match) -> str:
     return text if match.confidence is None else f"{text} (confidence {match.confidence:.2f})"
 
 
-def errors_text(report: Report) -> str:
+def errors_text(accuracy: Accuracy) -> str:
     """Errors × 100 in one line."""
-    e = report.errors
+    e = accuracy.errors
     return (
         f"mean {100 * e.mean:.2f}, median {100 * e.median:.2f}, worst {100 * e.worst:.2f}, all × 100 in √area; "
         f"area under the curve to {e.auc_limit:g}: {e.auc:.4f}"

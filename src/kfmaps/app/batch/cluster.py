@@ -20,7 +20,7 @@ DEATHS = 3
 ONE_THREAD = dict.fromkeys(("OMP_NUM_THREADS", "MKL_NUM_THREADS", "OPENBLAS_NUM_THREADS"), 1)
 """What a worker's environment is given. Dask's own list also has malloc return memory at once, which makes every
 large temporary array a round of page faults: a third of the time."""
-REMEDY = "install it with: pip install 'kfmaps[batch]'"
+REMEDY = "install it with: pip install 'dask[distributed]' cryptography"
 
 
 @dataclass(frozen=True)

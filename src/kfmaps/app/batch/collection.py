@@ -14,7 +14,7 @@ from kfmaps.app.batch.gallery import worst_pictures
 from kfmaps.app.batch.page import summary_page
 from kfmaps.app.batch.plan import Plan
 from kfmaps.app.batch.results import Result, all_results, write_csv, write_parquet
-from kfmaps.app.batch.run import Tell, run_plan
+from kfmaps.app.batch.run import Callback, run_plan
 from kfmaps.app.batch.settings import read_settings
 from kfmaps.app.files import atomic_output
 
@@ -22,7 +22,7 @@ TABLE, COLUMNS, PAGE = "results.csv", "results.parquet", "summary.html"
 
 
 @dataclass(frozen=True)
-class Outcome:
+class BatchOutcome:
     """What came of a run.
 
     Attributes
@@ -50,8 +50,8 @@ def match_collection(
     scheduler: str | None = None,
     name: str = "collection",
     worst: int = 6,
-    tell: Tell | None = None,
-) -> Outcome:
+    callback: Callback | None = None,
+) -> BatchOutcome:
     """Do what the plan leaves to do, then write the tables and the summary.
 
     Parameters
@@ -66,7 +66,7 @@ def match_collection(
         The summary's title.
     worst : int
         How many of the worst pairs the summary shows as pictures.
-    tell : callable, optional
+    callback : callable, optional
         See :func:`~kfmaps.app.batch.run.run_plan`.
 
     Raises
@@ -82,11 +82,11 @@ def match_collection(
             connection = running_workers(scheduler) if scheduler else local_workers(workers)
             count = 0
 
-            def counted(standing, result) -> None:
+            def counted(status, result) -> None:
                 nonlocal count
                 count += result is not None
-                if tell is not None:
-                    tell(standing, result)
+                if callback is not None:
+                    callback(status, result)
 
             try:
                 with connection as connected:
@@ -98,7 +98,7 @@ def match_collection(
         everything = all_results(plan.folder, plan.settings.digest)
         files = write_outputs(plan, everything, name, 0 if interrupted else worst)
     results = tuple(r for r in everything if (r.source, r.target) in asked)
-    return Outcome(results, matched, interrupted, files)
+    return BatchOutcome(results, matched, interrupted, files)
 
 
 def write_outputs(plan: Plan, results: list[Result], name: str, worst: int) -> tuple[Path, ...]:

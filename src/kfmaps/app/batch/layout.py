@@ -32,7 +32,7 @@ class Pair:
 
 
 @dataclass(frozen=True)
-class Collection:
+class ShapeFolder:
     """What a folder holds.
 
     Attributes
@@ -67,7 +67,7 @@ def natural(name: str) -> list[tuple[int, int, str]]:
     return [(0, int(part), part) if part.isdecimal() else (1, 0, part) for part in parts]
 
 
-def find_collection(folder: str | Path) -> Collection:
+def find_collection(folder: str | Path) -> ShapeFolder:
     """Look through a folder laid out as the field does.
 
     Shapes lie in the folder itself or, when it has none, in ``shapes/``, ``off/``, ``meshes/``, ``ply/`` or
@@ -94,7 +94,7 @@ def find_collection(folder: str | Path) -> Collection:
     lists = {p.name[:-4]: p for p in found if p.suffix == ".vts" and not p.name.endswith(".sym.vts")}
     mirrored = {p.name[:-8]: p for p in found if p.name.endswith(".sym.vts")}
     pairs = folder / PAIRS_FILE
-    return Collection(
+    return ShapeFolder(
         folder,
         shapes,
         truth={name: lists[name] for name in shapes if name in lists},
@@ -140,7 +140,7 @@ def _pair_truth(paths: Iterable[Path], shapes: Mapping[str, Path]) -> dict[Pair,
 
 
 def choose_pairs(
-    collection: Collection, *, file: str | Path | None = None, every: bool = False, star: str | None = None
+    collection: ShapeFolder, *, file: str | Path | None = None, every: bool = False, star: str | None = None
 ) -> list[Pair]:
     """The pairs to match, each once and in order.
 
@@ -188,7 +188,7 @@ def choose_pairs(
     return pairs
 
 
-def _known(name: str, collection: Collection, where: str) -> str:
+def _known(name: str, collection: ShapeFolder, where: str) -> str:
     """The shape's name, given with or without extension."""
     for known in (name, Path(name).stem):
         if known in collection.shapes:
@@ -197,7 +197,7 @@ def _known(name: str, collection: Collection, where: str) -> str:
     raise refuse(where, f"a shape of {collection.folder} ({shown}, ...)", repr(name), "check the spelling")
 
 
-def read_pairs(path: str | Path, collection: Collection) -> list[Pair]:
+def read_pairs(path: str | Path, collection: ShapeFolder) -> list[Pair]:
     """Read a list of pairs; see :func:`choose_pairs`."""
     try:
         text = Path(path).read_text(encoding="utf-8-sig")

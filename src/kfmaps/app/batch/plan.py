@@ -9,7 +9,7 @@ from pathlib import Path
 
 from kfmaps._arrays import refuse
 from kfmaps.app.batch.cache import file_digest, shape_key
-from kfmaps.app.batch.layout import Collection, Pair
+from kfmaps.app.batch.layout import Pair, ShapeFolder
 from kfmaps.app.batch.results import FOLDER, Result, read_result, result_path
 from kfmaps.app.batch.settings import Settings, claim, digest_of
 from kfmaps.app.batch.tasks import PairTask, ShapeTask
@@ -43,7 +43,7 @@ class Plan:
     changed: int
 
 
-def recommended(collection: Collection, pairs: Sequence[Pair], landmark_lines: bool, landmark_files: bool) -> Config:
+def recommended(collection: ShapeFolder, pairs: Sequence[Pair], landmark_lines: bool, landmark_files: bool) -> Config:
     """``Config()`` when every pair has landmarks, else ``Config.automatic()``, as ``match`` would choose."""
     named = {name for pair in pairs for name in (pair.source, pair.target)}
     known = landmark_lines or (landmark_files and named <= collection.landmarks.keys())
@@ -51,7 +51,7 @@ def recommended(collection: Collection, pairs: Sequence[Pair], landmark_lines: b
 
 
 def make_plan(
-    collection: Collection,
+    collection: ShapeFolder,
     pairs: Sequence[Pair],
     settings: Settings,
     output: str | Path,
@@ -116,7 +116,7 @@ def _folder(path: str | Path) -> Path:
 
 
 def _pair_task(
-    collection: Collection,
+    collection: ShapeFolder,
     pair: Pair,
     settings: Settings,
     used: str,

@@ -50,7 +50,7 @@ class Result:
     seconds : dict of str to float
         Per stage; ``total`` is all of it, with reading and evaluation.
     curve : tuple of float
-        Fraction of points with an error at or below each of :data:`THRESHOLDS`.
+        Fraction of points with an error at or below each of :data:`CURVE_ERRORS`.
     """
 
     source: str
@@ -82,7 +82,7 @@ class Result:
     notes: tuple[str, ...] = ()
 
 
-THRESHOLDS = tuple(i / 400 for i in range(101))
+CURVE_ERRORS = tuple(i / 400 for i in range(101))
 """Errors at which curves are kept: 0 to 0.25 in steps of 0.0025."""
 
 

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import kfmaps
 from kfmaps._arrays import refuse
-from kfmaps.app.batch.clock import Standing, remaining_seconds
+from kfmaps.app.batch.clock import RunStatus, remaining_seconds
 from kfmaps.app.batch.cluster import DEATHS, Workers
 from kfmaps.app.batch.plan import Plan
 from kfmaps.app.batch.results import Result, result_path
@@ -21,14 +21,14 @@ from kfmaps.app.batch.work import attempts, give_up, match_pair, prepare_shape
 if TYPE_CHECKING:
     from distributed import Future
 
-Tell = Callable[[Standing, Result | None], None]
+Callback = Callable[[RunStatus, Result | None], None]
 """Called with how the run stands, and with the result that has just come, if one has."""
 
 AHEAD = 2
 """Pairs that are handed to Dask for each worker."""
 
 
-def run_plan(plan: Plan, workers: Workers, tell: Tell | None = None) -> list[Result]:
+def run_plan(plan: Plan, workers: Workers, callback: Callback | None = None) -> list[Result]:
     """Match every pair that the plan leaves to do; the results, in the order in which they came.
 
     Each shape is a task of its own that its pairs wait for, so it is prepared once. Only a few pairs are handed
@@ -46,14 +46,14 @@ def run_plan(plan: Plan, workers: Workers, tell: Tell | None = None) -> list[Res
     for task in plan.todo:
         result_path(plan.folder, task.pair.key).unlink(missing_ok=True)
     run = _Run(plan, workers, as_completed(loop=workers.client.loop))
-    tell = tell or (lambda _standing, _result: None)
-    tell(run.standing(), None)
+    callback = callback or (lambda _status, _result: None)
+    callback(run.status(), None)
     try:
         run.hand_over()
         while run.jobs:
             result = run.next()
             run.hand_over()
-            tell(run.standing(), result)
+            callback(run.status(), result)
     except BaseException:
         workers.client.cancel(list(run.jobs), force=True)
         raise
@@ -170,14 +170,14 @@ class _Run:
         self.waiting.append(task)
         return None
 
-    def standing(self) -> Standing:
+    def status(self) -> RunStatus:
         """How the run stands now."""
         earlier = [r.seconds["total"] for r in self.plan.results if r.status == "done"]
         measured = self.pair_seconds or earlier
         ended = [*self.plan.results, *self.results]
         shapes_left = len(self.needed) - len(self.ended)
         pairs_left = len(self.plan.todo) - len(self.results)
-        return Standing(
+        return RunStatus(
             len(self.ended),
             len(self.needed),
             len(ended),

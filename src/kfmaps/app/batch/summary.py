@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from kfmaps.app.batch.results import THRESHOLDS, Result
+from kfmaps.app.batch.results import CURVE_ERRORS, Result
 from kfmaps.app.pictures import Curve, mean_curve
 
 BAD = 0.05
@@ -92,4 +92,4 @@ def worst_first(results: Sequence[Result]) -> list[Result]:
 def error_curve_of(results: Sequence[Result], label: str) -> Curve | None:
     """The mean error curve of the pairs whose truth is known, with the band of the middle 80 % of them."""
     curves = [r.curve for r in results if r.status == "done" and r.curve]
-    return mean_curve(label, np.array(THRESHOLDS), np.array(curves)) if curves else None
+    return mean_curve(label, np.array(CURVE_ERRORS), np.array(curves)) if curves else None

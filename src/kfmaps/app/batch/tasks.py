@@ -74,7 +74,7 @@ class PairTask:
     mirrored : path or None
         Vertex list of the target, left and right swapped.
     truth_map : path or None
-        Truth of this pair alone, see :class:`~kfmaps.app.batch.layout.Collection`.
+        Truth of this pair alone, see :class:`~kfmaps.app.batch.layout.ShapeFolder`.
     identity : bool
         Whether vertex i is vertex i.
     landmarks : pair of paths, or None

@@ -19,10 +19,10 @@ import numpy as np
 from kfmaps._arrays import InvalidInput, KfmapsWarning, MissingDependency, NotConverged, refuse
 from kfmaps._threads import one_blas_thread
 from kfmaps.app.batch.cache import file_digest, load_shape, save_shape
-from kfmaps.app.batch.results import THRESHOLDS, Result, read_result, result_path, write_result
+from kfmaps.app.batch.results import CURVE_ERRORS, Result, read_result, result_path, write_result
 from kfmaps.app.batch.tasks import PairTask, Prepared, ShapeTask
 from kfmaps.app.batch.truth import landmark_pairs, true_vertices
-from kfmaps.app.evaluation import Report, assessed
+from kfmaps.app.evaluation import Accuracy, assessed
 from kfmaps.app.files import read_mesh, save_map
 from kfmaps.app.summary import Outcome, map_file, mean_confidence
 from kfmaps.fit.shape import Shape, prepare
@@ -68,12 +68,12 @@ def prepare_shape(task: ShapeTask) -> Prepared:
         return Prepared(task.name)
     start = time.perf_counter()
     begin(Path(task.folder), entry.stem)
-    with _caught() as met, one_blas_thread():
+    with _catching() as caught, one_blas_thread():
         if file_digest(task.path) != task.content:
             raise refuse(task.path, "the file of the run's start", "a changed one", "run the command again")
         mesh = read_mesh(task.path)
         save_shape(entry, prepare(mesh, replace(task.config, threads=1), name=task.name))
-    return Prepared(task.name, time.perf_counter() - start, met.reason, tuple(met.notes))
+    return Prepared(task.name, time.perf_counter() - start, caught.reason, tuple(caught.notes))
 
 
 def match_pair(task: PairTask, source: Prepared, target: Prepared) -> Result:
@@ -87,19 +87,19 @@ def match_pair(task: PairTask, source: Prepared, target: Prepared) -> Result:
     attempt = begin(folder, task.pair.key)
     map_path(folder, task.pair.key).unlink(missing_ok=True)  # of files that have changed since
     values: dict[str, Any] = {"seconds": {}}
-    with _caught() as met, one_blas_thread():
+    with _catching() as caught, one_blas_thread():
         for part in (source, target):
             if part.reason:
                 raise InvalidInput(f"shape {part.name} could not be prepared: {part.reason}")
         values = _matched(task)
     values["seconds"]["total"] = time.perf_counter() - start
     result = Result(
-        *(task.pair.source, task.pair.target, "failed" if met.reason else "done", task.settings, task.inputs),
-        reason=met.reason,
+        *(task.pair.source, task.pair.target, "failed" if caught.reason else "done", task.settings, task.inputs),
+        reason=caught.reason,
         attempts=attempt,
         worker=f"{platform.node()}:{os.getpid()}",
         finished=_now(),
-        notes=tuple(dict.fromkeys([*source.notes, *target.notes, *met.notes])),
+        notes=tuple(dict.fromkeys([*source.notes, *target.notes, *caught.notes])),
         **values,
     )
     write_result(path, result)
@@ -120,7 +120,7 @@ def give_up(task: PairTask, reason: str) -> Result:
 
 
 @dataclass
-class _Met:
+class _Caught:
     """What went wrong inside a block, and what was warned of."""
 
     reason: str = ""
@@ -128,18 +128,18 @@ class _Met:
 
 
 @contextmanager
-def _caught() -> Iterator[_Met]:
+def _catching() -> Iterator[_Caught]:
     """Turn exceptions and our own warnings into text; one bad pair must not end the run."""
-    met = _Met()
+    caught = _Caught()
     with warnings.catch_warnings(record=True) as told:
         warnings.simplefilter("always", KfmapsWarning)
         try:
-            yield met
+            yield caught
         except EXPECTED as error:
-            met.reason = str(error) or type(error).__name__
+            caught.reason = str(error) or type(error).__name__
         except Exception as error:
-            met.reason = f"{type(error).__name__}: {error}"
-    met.notes = [str(w.message) for w in told if issubclass(w.category, KfmapsWarning)]
+            caught.reason = f"{type(error).__name__}: {error}"
+    caught.notes = [str(w.message) for w in told if issubclass(w.category, KfmapsWarning)]
 
 
 def _now() -> str:
@@ -162,16 +162,16 @@ def _matched(task: PairTask) -> dict[str, Any]:
     found = match(source, target, replace(task.config, threads=1), landmarks=landmarks, rng=task.seed)
     start = time.perf_counter()
     points = found.target_to_source
-    report = None if truth is None else assessed(source.mesh, points, truth, threads=1)
+    accuracy = None if truth is None else assessed(source.mesh, points, truth, threads=1)
     reached = coverage(points, source.mesh)
     seconds = {**found.seconds, "evaluation": time.perf_counter() - start}
     marks = np.zeros((0, 2), dtype=np.int64) if landmarks is None else landmarks
     paths = Path(task.source.path), Path(task.target.path)
-    outcome = Outcome(found, (source.mesh, target.mesh), paths, marks, task.seed, dict(found.seconds), report)
+    outcome = Outcome(found, (source.mesh, target.mesh), paths, marks, task.seed, dict(found.seconds), accuracy)
     path = map_path(Path(task.folder), task.pair.key)
     path.parent.mkdir(parents=True, exist_ok=True)
     save_map(path, map_file(outcome), force=True)
-    return _errors(report) | {
+    return _errors(accuracy) | {
         "vertices_s": sizes[0],
         "vertices_t": sizes[1],
         "landmarks": len(marks),
@@ -186,16 +186,16 @@ def _matched(task: PairTask) -> dict[str, Any]:
     }
 
 
-def _errors(report: Report | None) -> dict[str, Any]:
+def _errors(accuracy: Accuracy | None) -> dict[str, Any]:
     """The fields of a result that tell of errors; none where the truth is not known."""
-    if report is None:
+    if accuracy is None:
         return {}
-    direct = report.errors
+    direct = accuracy.errors
     return {
         "error_mean": direct.mean,
         "error_median": direct.median,
         "error_max": direct.worst,
         "auc": direct.auc,
-        "mirrored_mean": None if report.mirrored is None else report.mirrored.mean,
-        "curve": tuple(error_curve(direct.errors, np.array(THRESHOLDS)).tolist()),
+        "mirrored_mean": None if accuracy.mirrored is None else accuracy.mirrored.mean,
+        "curve": tuple(error_curve(direct.errors, np.array(CURVE_ERRORS)).tolist()),
     }

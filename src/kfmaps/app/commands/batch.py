@@ -10,12 +10,12 @@ from rich.console import Console
 from rich.text import Text
 
 from kfmaps._arrays import check_count, refuse
-from kfmaps.app.batch.collection import Outcome, match_collection
+from kfmaps.app.batch.collection import BatchOutcome, match_collection
 from kfmaps.app.batch.layout import choose_pairs, find_collection
 from kfmaps.app.batch.plan import Plan, make_plan, recommended
 from kfmaps.app.batch.settings import Settings
 from kfmaps.app.batch.summary import summarised
-from kfmaps.app.batch.told import telling
+from kfmaps.app.batch.terminal import terminal_callback
 from kfmaps.app.files import atomic_output
 from kfmaps.app.settings.options import Chosen, with_settings
 from kfmaps.app.settings.toml import settings_text
@@ -80,9 +80,9 @@ def batch(
             temporary.write_text(settings_text(config), encoding="utf-8")
     if not quiet:
         console.print(Text(_before(plan)), soft_wrap=True)
-    with telling(console, quiet) as tell:
+    with terminal_callback(console, quiet) as callback:
         outcome = match_collection(
-            plan, workers=workers, scheduler=scheduler, name=folder.resolve().name, worst=worst, tell=tell
+            plan, workers=workers, scheduler=scheduler, name=folder.resolve().name, worst=worst, callback=callback
         )
     if not quiet:
         for line in _after(plan, outcome):
@@ -114,7 +114,7 @@ def _before(plan: Plan) -> str:
     return ", ".join(told)
 
 
-def _after(plan: Plan, outcome: Outcome) -> list[str]:
+def _after(plan: Plan, outcome: BatchOutcome) -> list[str]:
     """What came of it."""
     numbers = summarised(outcome.results)
     lines = []

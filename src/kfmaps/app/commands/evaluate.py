@@ -13,7 +13,7 @@ from kfmaps._arrays import refuse
 if TYPE_CHECKING:
     from rich.table import Table
 
-    from kfmaps.app.evaluation import Report
+    from kfmaps.app.evaluation import Accuracy
 
 CURVES = (".csv", ".png", ".svg", ".pdf")
 
@@ -67,34 +67,34 @@ def evaluate(
         got = f"{n_s} and {len(points)}"
         raise refuse("--identity", "equally many vertices", got, "give --truth-source and --truth-target")
     check_map(found, n_s, None if target is None else len(read_mesh(target).vertices), str(map))
-    report = assessed(shape, points, truth, threads)
+    accuracy = assessed(shape, points, truth, threads)
     if curve is not None:
-        write_curve(curve, report.errors, map.stem, force)
+        write_curve(curve, accuracy.errors, map.stem, force)
     if json:
-        typer.echo(jsonlib.dumps(report.as_dict()))
+        typer.echo(jsonlib.dumps(accuracy.as_dict()))
         return
     from rich.console import Console
 
-    Console().print(_table(report))
+    Console().print(_table(accuracy))
 
 
-def _table(report: Report) -> Table:
+def _table(accuracy: Accuracy) -> Table:
     """Errors × 100, beside those against the mirrored truth where it is known."""
     from rich.table import Table
 
     table = Table(caption="errors × 100, in units of √area of the source", caption_justify="left")
     table.add_column("")
-    sides = [("error", report.errors)]
-    if report.mirrored is not None:
-        sides.append(("against the mirrored truth", report.mirrored))
+    sides = [("error", accuracy.errors)]
+    if accuracy.mirrored is not None:
+        sides.append(("against the mirrored truth", accuracy.mirrored))
     for name, _ in sides:
         table.add_column(name, justify="right")
     for name in ("mean", "median", "worst"):
         table.add_row(name, *(f"{100 * getattr(errors, name):.3f}" for _, errors in sides))
-    table.add_row(f"area under the curve to {report.errors.auc_limit:g}", *(f"{e.auc:.4f}" for _, e in sides))
+    table.add_row(f"area under the curve to {accuracy.errors.auc_limit:g}", *(f"{e.auc:.4f}" for _, e in sides))
     table.add_row("points without error", *(f"{100 * e.exact:.1f} %" for _, e in sides))
     table.add_row("points compared", *(f"{len(e.errors):,}" for _, e in sides))
-    table.add_row("source covered", f"{100 * report.coverage:.1f} %", *([""] * (len(sides) - 1)))
-    if report.mirrored is not None and report.mirrored.mean < report.errors.mean:
+    table.add_row("source covered", f"{100 * accuracy.coverage:.1f} %", *([""] * (len(sides) - 1)))
+    if accuracy.mirrored is not None and accuracy.mirrored.mean < accuracy.errors.mean:
         table.add_row("", "left and right are swapped", style="bold red")
     return table

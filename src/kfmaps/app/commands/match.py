@@ -126,13 +126,13 @@ def run(
         found = matched(
             shapes[0], shapes[1], config, landmarks=landmarks, descriptors=descriptors, rng=seed, progress=stages
         )
-        report = None
+        accuracy = None
         if truth is not None:
             stages("evaluation", 0.0)
-            report = assessed(meshes[0], found.target_to_source, truth, config.threads)
+            accuracy = assessed(meshes[0], found.target_to_source, truth, config.threads)
             stages("evaluation", 1.0)
     pairs = np.zeros((0, 2), dtype=np.int64) if landmarks is None else landmarks
-    return Outcome(found, meshes, paths, pairs, seed, {**seconds, **found.seconds}, report)
+    return Outcome(found, meshes, paths, pairs, seed, {**seconds, **found.seconds}, accuracy)
 
 
 def _read(path: Path, config: Config) -> Mesh:
