@@ -20,6 +20,10 @@ Normalisation = Literal["none", "norm", "max", "row", "variance"]
 NORMALISATIONS: tuple[Normalisation, ...] = ("none", "norm", "max", "row", "variance")
 
 
+ZERO = 1e-3
+"""Eigenvalue up to which a function is the constant of a component, at unit area: its logarithm means nothing."""
+
+
 def spectral_range(*bases: Basis) -> tuple[float, float]:
     """Eigenvalues between which times and energies are spread, (low, high), common to all ``bases``.
 
@@ -27,7 +31,7 @@ def spectral_range(*bases: Basis) -> tuple[float, float]:
     [¼, 1] times ``4π``, Weyl's estimate of it on a unit area: a tiny second eigenvalue, from a speck or a long
     thin shape, cannot stretch the range.
     """
-    high = min(float(to_numpy(b.eigenvalues)[-1]) for b in bases)
+    high = max(min(float(to_numpy(b.eigenvalues)[-1]) for b in bases), 4 * ZERO)
     second = max(float(to_numpy(b.eigenvalues)[min(1, len(to_numpy(b.eigenvalues)) - 1)]) for b in bases)
     low = float(np.clip(second, np.pi, 4 * np.pi))
     return min(low, high / 4), high
@@ -69,8 +73,7 @@ def _wave_weights(basis: Basis, energies: Array, sigma: float) -> Array:
     xp = namespace(basis.functions)
     check_positive(sigma, "sigma")
     energies = check(like(energies, basis.functions), "energies", shape=(None,))
-    # Constants of every component have eigenvalues of rounding size; their logarithm means nothing.
-    positive = basis.eigenvalues > 1e-3
+    positive = basis.eigenvalues > ZERO
     logs = xp.log(xp.where(positive, basis.eigenvalues, xp.ones_like(basis.eigenvalues)))
     weights = xp.exp(-((logs[:, None] - energies[None, :]) ** 2) / (2 * sigma**2))
     return xp.where(positive[:, None], weights, xp.zeros_like(weights))
@@ -161,17 +164,19 @@ def normalised(D_s: Array, D_t: Array, how: Normalisation, mass_s: Array, mass_t
     if how == "none":
         return D_s, D_t
     w_s, w_t = (0.5 * m[:, None] / xp.sum(m) for m in (mass_s, mass_t))
+    size = xp.maximum(xp.max(xp.abs(D_s), axis=0), xp.max(xp.abs(D_t), axis=0))
     if how == "variance":
         mean = xp.sum(w_s * D_s, axis=0, keepdims=True) + xp.sum(w_t * D_t, axis=0, keepdims=True)
         D_s, D_t = D_s - mean, D_t - mean
     if how in ("norm", "variance"):
         scale = xp.sqrt(xp.sum(w_s * D_s * D_s, axis=0) + xp.sum(w_t * D_t * D_t, axis=0))
     elif how == "max":
-        scale = xp.maximum(xp.max(xp.abs(D_s), axis=0), xp.max(xp.abs(D_t), axis=0))
+        scale = size
     else:
         longest = xp.sqrt(xp.maximum(xp.max(xp.sum(D_s * D_s, axis=1)), xp.max(xp.sum(D_t * D_t, axis=1))))
         scale = xp.broadcast_to(longest, (D_s.shape[1],))
-    scale = xp.where(scale > 0, scale, xp.ones_like(scale))[None, :]
+    # What is left of a constant without its mean is rounding, and must not be scaled up.
+    scale = xp.where(scale > 1e-12 * size, scale, xp.ones_like(scale))[None, :]
     if how == "variance":
         scale = scale * D_s.shape[1] ** 0.5
     return D_s / scale, D_t / scale

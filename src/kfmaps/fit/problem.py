@@ -123,9 +123,13 @@ def principal(bases: tuple[Basis, Basis], features: Features, count: int) -> Fea
     """The ``count`` strongest directions of the features of both shapes, their common mean left out."""
     F = [to_numpy(features.source), to_numpy(features.target)]
     mass = [to_numpy(b.mass) for b in bases]
+    whole = sum(float(m @ (f * f).sum(axis=1)) for m, f in zip(mass, F, strict=True))
     mean = sum(m @ f / m.sum() for m, f in zip(mass, F, strict=True)) / 2
     F = [f - mean for f in F]
     gram = sum((f * m[:, None]).T @ f for m, f in zip(mass, F, strict=True))
-    rotation = np.linalg.eigh(gram)[1][:, ::-1][:, :count]
+    energies, rotation = np.linalg.eigh(gram)
+    # What is left of constants without their mean is rounding: it tells no side from the other.
+    told = energies > 1e-24 * whole
+    rotation = rotation[:, told][:, ::-1][:, :count]
     strongest = [like(f @ rotation, features.source) for f in F]
     return Features(strongest[0], strongest[1], features.kernel)

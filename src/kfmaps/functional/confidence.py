@@ -71,5 +71,6 @@ def local_confidence(
         moved = np.abs(np.minimum(there, 2 * RADIUS)[:, points] - here)
         change += np.where(near, moved, 0.0).sum(axis=0)
         whole += here.sum(axis=0)
-    kept = 1 - np.divide(change, whole, out=np.full(len(points), np.nan), where=whole > 0)
+    # Vertices in one place are surroundings of no size.
+    kept = 1 - np.divide(change, whole, out=np.full(len(points), np.nan), where=whole > 1e-9)
     return np.maximum(kept, 0.0)

@@ -46,7 +46,8 @@ class Refined:
 class ICP:
     """Match, fit, take the nearest orthogonal matrix; ``steps`` times (Ovsjanikov et al. 2012).
 
-    Needs a square map; stops early when no point changes.
+    Needs a square map; stops early when no point changes. Of a point map that reaches too few vertices to say
+    where every function goes, the matrix is a partial isometry.
     """
 
     steps: int = 5
@@ -71,8 +72,9 @@ class ICP:
         points = to_points(C, source, target, threads) if points is None else points
         changes: list[int] = []
         for step in range(self.steps):
-            u, _, vh = xp.linalg.svd(to_functional(points, source, target), full_matrices=False)
-            C = u @ vh
+            u, sizes, vh = xp.linalg.svd(to_functional(points, source, target), full_matrices=False)
+            # Directions that the points say nothing of would be turned at random, by rounding.
+            C = (u * xp.astype(sizes > 1e-12 * sizes[0], C.dtype)[None, :]) @ vh
             moved = to_points(C, source, target, threads)
             changes.append(int(np.count_nonzero(moved != points)))
             points = moved

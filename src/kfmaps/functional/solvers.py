@@ -26,7 +26,7 @@ class Solution:
     Attributes
     ----------
     value : array
-        The last iterate, of the shape of ``b``.
+        The last iterate whose residual is finite, of the shape of ``b``.
     status : str
         ``"converged"``: the residual is at most ``rtol ‖b‖``; ``"step limit"``: the steps ran out first;
         ``"breakdown"``: a direction without positive curvature or a number that is not finite was met.
@@ -132,10 +132,12 @@ def solve(
             status = "breakdown"
             break
         step = rz / curvature
-        x = x + step * p
+        following = x + step * p
         r = r - step * q
         steps += 1
         residuals.append(inner(r, r) ** 0.5)
+        if np.isfinite(residuals[-1]):
+            x = following
         if progress is not None:
             progress(steps, residuals[-1] / size if size else 0.0)
     return Solution(x, status, steps, np.asarray(residuals))

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Protocol
 
 from kfmaps._arrays import Array, check, inner, namespace, refuse
-from kfmaps.surface.basis import Basis
+from kfmaps.surface.basis import Basis, zero_level
 
 
 class Term(Protocol):
@@ -188,7 +188,7 @@ def laplacian_term(source: Basis, target: Basis, scale: float | None = None) -> 
     """
     xp = namespace(source.eigenvalues)
     if scale is None:
-        scale = max(float(xp.max(source.eigenvalues)), float(xp.max(target.eigenvalues)), 1e-300)
+        scale = max(float(xp.max(source.eigenvalues)), float(xp.max(target.eigenvalues)), zero_level(source))
     difference = (source.eigenvalues[None, :] - target.eigenvalues[:, None]) / scale
     return Elementwise(difference * difference)
 

@@ -220,7 +220,9 @@ def resolved(kernel: KernelLike, samples: Array, sharpness: float = 1.0) -> Kern
     if not isinstance(kernel, Gaussian | Laplacian) or kernel.gamma is not None:
         return kernel
     squares = to_numpy(squared_distances(samples, samples))
-    positive = squares[squares > 1e-12 * max(squares.max(), 1e-300)]
+    # Between equal rows there is rounding, of the size of the rows.
+    largest = float((to_numpy(samples) ** 2).sum(axis=1).max())
+    positive = squares[squares > max(1e-12 * squares.max(), 1e-24 * largest)]
     typical = float(np.median(positive)) if positive.size else 1.0
     gamma = sharpness / typical
     return replace(kernel, gamma=gamma if isinstance(kernel, Gaussian) else float(np.sqrt(gamma)))

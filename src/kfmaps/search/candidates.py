@@ -40,6 +40,8 @@ KICKS = 6
 """Maps that start from a random symmetry of the low functions."""
 FINALISTS = 10
 """Distinct rough maps that are refined further."""
+ZERO = 0.03
+"""Frequency, the root of an eigenvalue at unit area, below which there is no wave: a sphere's first is 5."""
 APART = 0.04
 """Mean distance, in units of √area, from which rough maps count as different: nearer than in the end."""
 
@@ -71,7 +73,8 @@ class Candidate:
 
     @property
     def score(self) -> float:
-        return self.quality.score
+        """Of the quality, in steps so small that only what is equal but for rounding becomes equal."""
+        return round(self.quality.score, 9)
 
 
 Report = Callable[[float], None]
@@ -226,8 +229,10 @@ def kicked(C: np.ndarray, eigenvalues: np.ndarray, rng: np.random.Generator) -> 
     other it is a bad start, from which the refinement returns to the same map or strays to a worse one.
     """
     k = min(20, *C.shape)
-    values = np.sqrt(eigenvalues[:k])
-    alike = np.exp(-(((values[:, None] - values[None, :]) / (0.02 * values[-1])) ** 2))
+    values = np.sqrt(np.maximum(eigenvalues[:k], 0.0))
+    # Constants of many components have eigenvalues of rounding size: all are alike.
+    width = 0.02 * max(float(values[-1]), ZERO)
+    alike = np.exp(-(((values[:, None] - values[None, :]) / width) ** 2))
     generator = rng.normal(size=(k, k)) * alike * np.pi
     rotation = expm((generator - generator.T) / 2)
     # A simple eigenvalue leaves no rotation, only the choice of sign, which a kick may flip too.

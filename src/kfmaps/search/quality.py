@@ -17,6 +17,7 @@ from kfmaps.fit.shape import Shape
 from kfmaps.functional.guide import FLAT, spread
 from kfmaps.functional.points import nearest
 from kfmaps.functional.refine import SampledBasis, Samples, spectral_samples
+from kfmaps.surface.basis import zero_level
 from kfmaps.surface.geodesics import geodesic_distances
 from kfmaps.surface.orientation import orientation_slices
 
@@ -86,7 +87,7 @@ class Quality:
     coverage : float
         Part of the area that is the image of something, the smaller of both directions.
     laplacian : float
-        ``‖C Λ_s − Λ_t C‖² / ‖C Λ_s‖²``.
+        ``‖C Λ_s − Λ_t C‖² / ‖C Λ_s‖²``; 1, as of unrelated shapes, for a map that carries constants alone.
     smoothness : float
         Dirichlet energy of the source's coordinates pulled back to the target, divided by their own on the source;
         the mean of both directions.
@@ -122,7 +123,9 @@ def probe(shape: Shape, count: int = POINTS, rng: int | np.random.Generator = 0,
     first = samples.vertices[:COARSE]
     distances = geodesic_distances(shape.mesh, first)[:, first]
     # Separate components are as far apart as the farthest points of one.
-    distances = np.where(np.isfinite(distances), distances, distances[np.isfinite(distances)].max())
+    joined = np.isfinite(distances)
+    farthest = distances[joined].max() or float(np.linalg.norm(np.ptp(shape.mesh.vertices[first], axis=0)))
+    distances = np.where(joined, distances, farthest)
     orientation = None
     if len(shape.mesh.faces):
         low = shape.basis.truncated(min(LOW, shape.basis.functions.shape[1]))
@@ -138,7 +141,7 @@ def thinned(probe: Probe, count: int) -> Probe:
     if count >= len(probe.samples.vertices):
         return probe
     functions, values = to_numpy(basis.functions)[:, 1 : LOW + 1], to_numpy(basis.eigenvalues)[1 : LOW + 1]
-    embedding = functions / np.maximum(values, 1e-6 * values[-1])
+    embedding = functions / np.maximum(values, max(1e-6 * values[-1], zero_level(basis)))
     closest = nearest(embedding, embedding[:count], threads=1)
     areas = np.bincount(closest, to_numpy(basis.mass), minlength=count)
     few = SampledBasis(basis.eigenvalues, basis.functions[:count], like(areas, basis.mass))
@@ -185,13 +188,21 @@ def map_quality(C: Array, source: Probe, target: Probe, points: np.ndarray | Non
         ),
         cycle=float(moved @ area_s),
         coverage=float(min(area_s[np.unique(back)].sum(), area_t[np.unique(forth)].sum())),
-        laplacian=float((commutator**2).sum() / ((C * values_s[None, :]) ** 2).sum()),
+        laplacian=_ratio((commutator**2).sum(), ((C * values_s[None, :]) ** 2).sum(), (values_s**2).sum(), 1.0),
         smoothness=0.5
         * (
             _smoothness(back, basis_t.functions, area_t, values_t, source, values_s)
             + _smoothness(forth, basis_s.functions, area_s, values_s, target, values_t)
         ),
     )
+
+
+def _ratio(part: float, whole: float, scale: float, otherwise: float) -> float:
+    """``part / whole``, but ``otherwise`` where ``whole`` is rounding beside its usual size, ``scale``.
+
+    What is zero in exact arithmetic comes out as zero on one machine and as 1e-16 on another.
+    """
+    return float(part / whole) if whole > 1e-12 * scale else otherwise
 
 
 def _orientation(C: np.ndarray, source: Probe, target: Probe) -> float:
@@ -204,7 +215,9 @@ def _orientation(C: np.ndarray, source: Probe, target: Probe) -> float:
     ours = square @ source.orientation[1:waves, :low, :low] @ square.T
     theirs = np.tensordot(C[:rows, 1:waves].T, target.orientation[:rows, :low, :low], axes=1)
     size = np.sqrt((ours**2).sum() * (theirs**2).sum())
-    return float((ours * theirs).sum() / size) if size else 0.0
+    # Of a map that carries next to nothing but constants both are rounding, and so would their correlation be.
+    usual = np.linalg.norm(C) ** 3 * np.linalg.norm(source.orientation) * np.linalg.norm(target.orientation)
+    return _ratio((ours * theirs).sum(), size, float(usual), 0.0)
 
 
 def _distortion(
@@ -217,7 +230,8 @@ def _distortion(
         forth = nearest(carried[:c_s], functions_t[:c_t], threads=1)
     change = np.abs(source.distances[np.ix_(back, back)] - target.distances)
     change_back = np.abs(target.distances[np.ix_(forth, forth)] - source.distances)
-    far = (change.mean() + change_back.mean()) / (source.distances.mean() + target.distances.mean())
+    mean = source.distances.mean() + target.distances.mean()
+    far = (change.mean() + change_back.mean()) / mean if mean > 0 else 0.0
     near = [_near(change, target.distances), _near(change_back, source.distances)]
     return float(far), float(np.mean(near))
 
@@ -255,4 +269,5 @@ def _smoothness(
     weights = to_numpy(basis.mass) / float(basis.mass.sum())
     before = energy(to_numpy(basis.functions)[:, :k], weights, other.positions, own[:k])
     after = energy(to_numpy(functions)[:, :k], area, other.positions[points], values[:k])
-    return after / max(before, 1e-300)
+    size = float((other.positions**2).sum(axis=1) @ weights) * float(own[k - 1])
+    return _ratio(after, before, size, 1.0)

@@ -83,6 +83,14 @@ class Basis:
             raise refuse("device", "one that PyTorch can use", f"{device!r} ({reason})", "use cpu") from error
 
 
+def zero_level(basis: Basis) -> float:
+    """Below this an eigenvalue is zero, that of a component's constant: one machine gives 0, another 1e-12.
+
+    A millionth of ``4π / area``, Weyl's estimate of the distance between eigenvalues.
+    """
+    return 4e-6 * np.pi / float(to_numpy(basis.mass).sum())
+
+
 def cotangent_laplacian(mesh: Mesh) -> csc_array:
     """Weak cotangent Laplacian (n, n), symmetric and positive semi-definite; rows sum to zero.
 

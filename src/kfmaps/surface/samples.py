@@ -14,7 +14,7 @@ from scipy.spatial import KDTree
 
 from kfmaps._arrays import check_count, like, take, to_numpy
 from kfmaps.kernel.select import farthest
-from kfmaps.surface.basis import Basis
+from kfmaps.surface.basis import Basis, zero_level
 
 EMBEDDING = 40
 """Functions of the biharmonic embedding, the constant among them."""
@@ -92,10 +92,12 @@ def stratified_samples(
 def _embedded(basis: Basis) -> tuple[np.ndarray, np.ndarray]:
     """Vertices that have an area, and their places in the biharmonic embedding."""
     candidates = np.flatnonzero(to_numpy(basis.mass) > 0)
-    k = min(basis.functions.shape[1], EMBEDDING)
-    values = to_numpy(basis.eigenvalues)[:k]
-    positive = values > 1e-6 * values[-1]
-    return candidates, to_numpy(basis.functions)[:, :k][candidates][:, positive] / values[positive]
+    values, functions = to_numpy(basis.eigenvalues), to_numpy(basis.functions)
+    positive = np.flatnonzero(values > zero_level(basis))[: EMBEDDING - 1]
+    if len(positive) == 0:  # more components than functions, which tell them apart
+        return candidates, functions[candidates]
+    positive = positive[values[positive] > 1e-6 * values[positive[-1]]]
+    return candidates, functions[candidates][:, positive] / values[positive]
 
 
 def stratified(
