@@ -7,8 +7,10 @@ from conftest import random_basis
 from kfmaps._arrays import InvalidInput, inner, to_numpy
 from kfmaps.functional.energy import (
     Energy,
+    adjoint_term,
     descriptor_term,
     hadamard_term,
+    inverse_term,
     kernel_descriptor_term,
     laplacian_term,
     slice_term,
@@ -59,6 +61,16 @@ def make(name, case, asarray, convert):
     if name == "laplacian":
         L_s, L_t = np.diag(source.eigenvalues), np.diag(target.eigenvalues)
         return laplacian_term(S, T, scale=1.0), lambda C: C @ L_s - L_t @ C
+    if name == "resolvent":
+        resolvents = [1 / (b.eigenvalues**0.7 - 1j) for b in (source, target)]
+        residual = lambda C: np.abs(C * resolvents[0][None, :] - resolvents[1][:, None] * C)  # noqa: E731
+        return laplacian_term(S, T, scale=1.0, mask="resolvent", power=0.7), residual
+    if name in ("inverse", "adjoint"):
+        D = rng.normal(size=(K_S, K_T))
+        if name == "adjoint":
+            return adjoint_term(asarray(D), 0.8), lambda C: C - 0.8 * D.T
+        pair = lambda C: np.concatenate([(C @ D - np.eye(K_T)).ravel(), (D @ C - np.eye(K_S)).ravel()])  # noqa: E731
+        return inverse_term(asarray(D)), pair
     parts = {n: make(n, case, asarray, convert) for n in ("descriptors", "slices", "laplacian")}
     weights = {"descriptors": 2.0, "slices": 0.5, "laplacian": 0.0}
 
@@ -69,6 +81,7 @@ def make(name, case, asarray, convert):
 
 
 TERMS = ["descriptors", "kernel descriptors", "slices", "antisymmetric slices", "hadamard", "laplacian", "energy"]
+TERMS += ["resolvent", "inverse", "adjoint"]
 
 
 @pytest.mark.parametrize("name", TERMS)

@@ -4,14 +4,16 @@ Every term keeps its operator ``A`` (half the Hessian of the squared norm it sta
 exact diagonal of ``A`` and the constant ``c``; :func:`value` of a term is half its squared residual norm. With
 features ``W`` (descriptors, or Nyström features of a kernel) and ``P̂ = Φᵀ A W``, ``Xⁱ = Φᵀ A diag(wᵢ) Φ``:
 
-=====================  ==============================  ==========================================
+=====================  ==============================  ==============================================
 term                   squared residual                source
-=====================  ==============================  ==========================================
+=====================  ==============================  ==============================================
 descriptor_term        ‖C P̂_s − P̂_t‖²                  Ovsjanikov et al. 2012; paper, (2) and (8)
 slice_term             Σᵢ ‖C X_sⁱ − X_tⁱ C‖²           Nogneng, Ovsjanikov 2017; paper, (3) and (9)
 hadamard_term          the same for a whole kernel     paper, (10) to (12)
-laplacian_term         ‖C Λ_s − Λ_t C‖²                paper, (1)
-=====================  ==============================  ==========================================
+laplacian_term         ‖C Λ_s − Λ_t C‖²                paper, (1); or Ren et al. 2019: mask="resolvent"
+inverse_term           ‖C D − I‖² + ‖D C − I‖²         Eynard et al. 2016; D (k_s, k_t) the other way
+adjoint_term           ‖C − Dᵀ‖²                       Huang, Ovsjanikov 2017
+=====================  ==============================  ==============================================
 """
 
 from __future__ import annotations
@@ -27,7 +29,10 @@ from kfmaps.functional.terms import Elementwise as Elementwise
 from kfmaps.functional.terms import Preservation as Preservation
 from kfmaps.functional.terms import SliceCommutativity as SliceCommutativity
 from kfmaps.functional.terms import Term as Term
+from kfmaps.functional.terms import TwoSided as TwoSided
+from kfmaps.functional.terms import adjoint_term as adjoint_term
 from kfmaps.functional.terms import descriptor_term as descriptor_term
+from kfmaps.functional.terms import inverse_term as inverse_term
 from kfmaps.functional.terms import laplacian_term as laplacian_term
 from kfmaps.functional.terms import slice_term as slice_term
 from kfmaps.functional.terms import value as value
@@ -82,6 +87,13 @@ class Energy:
 
     def rotated_diagonal(self, U_t: Array, U_s: Array) -> Array:
         return _total(weight * term.rotated_diagonal(U_t, U_s) for weight, term in self._active())
+
+    def joined(self, more: Mapping[str, tuple[float, Term]]) -> Energy:
+        """The energy with further terms, ``{name: (weight, term)}``."""
+        return Energy(
+            {**self.terms, **{name: term for name, (_, term) in more.items()}},
+            {**self.weights, **{name: weight for name, (weight, _) in more.items()}},
+        )
 
     def breakdown(self, C: Array) -> dict[str, float]:
         """Weighted value of each term at ``C``; they add up to ``value(self, C)``."""

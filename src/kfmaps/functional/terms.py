@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Literal, Protocol
 
-from kfmaps._arrays import Array, check, inner, namespace, refuse
+from kfmaps._arrays import Array, check, check_positive, inner, namespace, refuse
 from kfmaps.surface.basis import Basis, zero_level
+
+Mask = Literal["squared", "resolvent"]
+MASKS: tuple[Mask, ...] = ("squared", "resolvent")
 
 
 class Term(Protocol):
@@ -180,17 +183,81 @@ class Elementwise:
         return (U_t * U_t).T @ self.weights @ (U_s * U_s)
 
 
-def laplacian_term(source: Basis, target: Basis, scale: float | None = None) -> Elementwise:
+def laplacian_term(
+    source: Basis, target: Basis, scale: float | None = None, mask: Mask = "squared", power: float = 0.5
+) -> Elementwise:
     """Commutativity with the Laplacian: weights ``((λ_s,b − λ_t,a) / scale)²``.
 
     ``scale=None`` takes the larger of the two last eigenvalues, so that the weights lie in [0, 1] and α means
     the same at every basis size; ``scale=1`` is the paper's term as written.
+
+    With ``mask="resolvent"`` it is commutativity with the resolvent ``(Δ^γ − i)⁻¹`` of the scaled Laplacian's power
+    ``γ``, a bounded operator: weights ``|1 / (λ_t,a^γ − i) − 1 / (λ_s,b^γ − i)|²``, again in [0, 1] (Ren, Panine,
+    Wonka and Ovsjanikov, Structured regularization of functional map computations, 2019).
     """
     xp = namespace(source.eigenvalues)
+    if mask not in MASKS:
+        raise refuse("mask", "one of " + ", ".join(MASKS), repr(mask), "choose one of them")
     if scale is None:
         scale = max(float(xp.max(source.eigenvalues)), float(xp.max(target.eigenvalues)), zero_level(source))
-    difference = (source.eigenvalues[None, :] - target.eigenvalues[:, None]) / scale
-    return Elementwise(difference * difference)
+    if mask == "squared":
+        difference = (source.eigenvalues[None, :] - target.eigenvalues[:, None]) / scale
+        return Elementwise(difference * difference)
+    check_positive(power, "resolvent power", "0.5 is usual")
+    parts = []
+    for basis in (source, target):
+        root = xp.where(basis.eigenvalues > 0, basis.eigenvalues, xp.zeros_like(basis.eigenvalues)) / scale
+        root = root**power
+        parts.append((root / (root * root + 1), 1 / (root * root + 1)))  # real and imaginary part of 1 / (λ^γ − i)
+    real, imaginary = (t[:, None] - s[None, :] for s, t in zip(*parts, strict=True))
+    return Elementwise(real * real + imaginary * imaginary)
+
+
+@dataclass(frozen=True, eq=False)
+class TwoSided:
+    """``½⟨C, gram_t C + C gram_s⟩ − ⟨cross, C⟩ + total``; made by :func:`inverse_term` and :func:`adjoint_term`."""
+
+    gram_t: Array
+    gram_s: Array
+    cross: Array
+    total: float
+
+    def apply(self, C: Array) -> Array:
+        return self.gram_t @ C + C @ self.gram_s
+
+    def rhs(self) -> Array:
+        return self.cross
+
+    def diagonal(self) -> Array:
+        xp = namespace(self.cross)
+        return xp.linalg.diagonal(self.gram_t)[:, None] + xp.linalg.diagonal(self.gram_s)[None, :]
+
+    def constant(self) -> float:
+        return self.total
+
+    def sides(self) -> tuple[Array, Array]:
+        return self.gram_t, self.gram_s
+
+    def rotated_diagonal(self, U_t: Array, U_s: Array) -> Array:
+        return rotated(self.gram_t, U_t)[:, None] + rotated(self.gram_s, U_s)[None, :]
+
+
+def inverse_term(back: Array) -> TwoSided:
+    """``½‖C back − I‖² + ½‖back C − I‖²`` for a map ``back (k_s, k_t)`` the other way (Eynard et al. 2016)."""
+    k_s, k_t = back.shape
+    return TwoSided(back.T @ back, back @ back.T, 2.0 * back.T, 0.5 * (k_s + k_t))
+
+
+def adjoint_term(back: Array, ratio: float = 1.0) -> TwoSided:
+    """``½‖C − ratio backᵀ‖²``: ``back`` is the adjoint of ``C`` in the areas (Huang and Ovsjanikov 2017).
+
+    In bases that are orthonormal in the area the adjoint is the transpose, and the map back of one that keeps areas
+    up to a constant factor ``ratio`` is its adjoint divided by it; shapes of unit area have 1.
+    """
+    xp = namespace(back)
+    k_s, k_t = back.shape
+    one = xp.eye(k_s, dtype=back.dtype, device=back.device)
+    return TwoSided(zeros(k_t, back), one, ratio * back.T, 0.5 * ratio**2 * inner(back, back))
 
 
 def zeros(k: int, like: Array) -> Array:

@@ -1,0 +1,330 @@
+"""Laws of what a fit may be beside least squares: constraint, robust and sparse losses, both directions, coupled bases.
+
+On small random problems with every array library; the whole match is in test_formulations_fit.py.
+"""
+
+import numpy as np
+import pytest
+
+from conftest import random_basis
+from kfmaps._arrays import InvalidInput, inner, to_numpy
+from kfmaps.functional.constraints import nearest_orthogonal, orthogonal, tangent
+from kfmaps.functional.coupled import coupled
+from kfmaps.functional.energy import Energy, descriptor_term, laplacian_term, slice_term, value
+from kfmaps.functional.extended import carried
+from kfmaps.functional.losses import LOSSES, Loss, RobustData, sparse
+from kfmaps.functional.objective import Coupling, How, Objective, coupled_pair, minimised, quadratic
+from kfmaps.functional.slices import packed_slices, unpacked_slices
+from kfmaps.functional.solvers import CG, Direct, solve
+from kfmaps.functional.terms import inverse_term
+
+N, R = 60, 9
+SIZES = [(6, 6), (7, 5), (5, 7)]
+TIGHT = How(CG(rtol=1e-8, max_steps=500), rounds=20)
+
+
+def bases(k_t, k_s, seed=0):
+    rng = np.random.default_rng(seed)
+    return random_basis(N, k_s, rng), random_basis(N, k_t, rng)
+
+
+def features(seed=1):
+    rng = np.random.default_rng(seed)
+    return rng.normal(size=(N, R)), rng.normal(size=(N, R))
+
+
+def slices(basis, F):
+    return unpacked_slices(packed_slices(basis, F))
+
+
+def energy(source, target, F_s, F_t):
+    terms = {
+        "descriptors": descriptor_term(source, F_s, target, F_t),
+        "commutativity": slice_term(slices(source, F_s), slices(target, F_t)),
+        "laplacian": laplacian_term(source, target),
+    }
+    return Energy(terms, {"descriptors": 3.0, "commutativity": 0.5, "laplacian": 1.0})
+
+
+@pytest.fixture(params=SIZES, ids=str)
+def case(request, asarray, convert):
+    """Bases, features and energy of sizes (k_t, k_s) in an array library."""
+    k_t, k_s = request.param
+    source, target = (convert(b) for b in bases(k_t, k_s))
+    F_s, F_t = (asarray(F) for F in features())
+    return source, target, F_s, F_t, energy(source, target, F_s, F_t)
+
+
+@pytest.fixture(params=SIZES, ids=str)
+def numbers(request):
+    """The same in NumPy, for laws that take many steps."""
+    source, target = bases(*request.param)
+    F_s, F_t = features()
+    return source, target, F_s, F_t, energy(source, target, F_s, F_t)
+
+
+def is_orthonormal(C):
+    C = to_numpy(C)
+    gram = C.T @ C if C.shape[0] >= C.shape[1] else C @ C.T
+    return np.allclose(gram, np.eye(len(gram)), atol=1e-10)
+
+
+def test_orthogonal_minimiser_meets_constraint_and_first_order_condition(case):
+    *_, E = case
+    start = 0.0 * E.rhs() + 1.0
+    found = orthogonal(E, CG(rtol=1e-9, max_steps=500), E.rhs() + 0.1 * start)
+    assert found.status == "converged"
+    assert is_orthonormal(found.value)
+    # On the manifold the gradient is normal: G = C S with S symmetric (or S C, for more columns than rows).
+    C, G = to_numpy(found.value), to_numpy(E.apply(found.value) - E.rhs())
+    S = C.T @ G if C.shape[0] >= C.shape[1] else G @ C.T
+    scale = float(np.linalg.norm(to_numpy(E.rhs())))
+    np.testing.assert_allclose(S, S.T, atol=1e-7 * scale)
+    np.testing.assert_allclose(C @ S if C.shape[0] >= C.shape[1] else S @ C, G, atol=1e-7 * scale)
+    assert len(found.residuals) == found.steps + 1
+
+
+def test_energy_never_rises_on_the_manifold(case):
+    *_, E = case
+    values = []
+    C = E.rhs()
+    for steps in (1, 2, 3, 5, 8, 13):
+        values.append(value(E, orthogonal(E, CG(rtol=0.0, max_steps=steps), C).value))
+    assert value(E, nearest_orthogonal(C)) >= values[0]
+    assert (np.diff(values) <= 1e-12 * values[0]).all()
+    # and no orthonormal map near the last one is lower
+    last = orthogonal(E, CG(rtol=1e-9, max_steps=500), C).value
+    rng = np.random.default_rng(5)
+    for _ in range(20):
+        near = nearest_orthogonal(last + (last * 0.0 + 1.0) * float(rng.normal()) * 1e-2 + 1e-2 * E.rhs())
+        assert value(E, near) >= value(E, last) * (1 - 1e-12)
+
+
+def test_orthogonal_agrees_with_procrustes(case):
+    """With descriptors alone and a square map the answer is known: the polar factor of the right-hand side."""
+    source, target, F_s, F_t, E = case
+    k_t, k_s = E.rhs().shape
+    if k_t < k_s:
+        pytest.skip("‖C P‖ depends on C when it has more columns than rows")
+    term = descriptor_term(source, F_s, target, F_t)
+    found = orthogonal(term, CG(rtol=1e-12, max_steps=2000), term.rhs() + 0.3)
+    np.testing.assert_allclose(to_numpy(found.value), to_numpy(nearest_orthogonal(term.rhs())), atol=1e-6)
+
+
+def test_tangent_is_a_projection(case):
+    *_, E = case
+    C, G = nearest_orthogonal(E.rhs()), E.apply(E.rhs()) + 1.0
+    once = tangent(C, G)
+    np.testing.assert_allclose(to_numpy(tangent(C, once)), to_numpy(once), atol=1e-9)
+    assert inner(G - once, once) == pytest.approx(0.0, abs=1e-8 * inner(G, G))
+    step = 1e-6
+    assert is_orthonormal(C)
+    moved = C + step * once / inner(once, once) ** 0.5
+    np.testing.assert_allclose(to_numpy(nearest_orthogonal(moved)), to_numpy(moved), atol=5e-12)
+
+
+@pytest.mark.parametrize("name", LOSSES)
+def test_loss_weight_is_its_slope_and_it_is_concave(name):
+    loss = Loss(name, 0.7)
+    e = np.linspace(1e-2, 5, 400)
+    slope = (loss.value(e + 1e-6) - loss.value(e - 1e-6)) / 2e-6
+    np.testing.assert_allclose(slope, loss.weight(e), rtol=1e-5)
+    assert (np.diff(loss.weight(e)) <= 1e-15).all()
+    assert loss.value(np.zeros(1))[0] == pytest.approx(0.0, abs=2e-3)
+
+
+def robust(case, name, width=0.5):
+    source, target, F_s, F_t, E = case
+    groups = np.array([0, 0, 1, 1, 2, 2, 3, -1, -1])
+    data = RobustData(
+        source.project(F_s), target.project(F_t), groups, Loss(name), slices(source, F_s), slices(target, F_t), 0.2
+    )
+    return data.scaled(E.rhs(), width)
+
+
+def penalties(case):
+    *_, E = case
+    return {**{name: robust(case, name) for name in LOSSES}, "sparse": sparse(E.rhs(), 1e-2)}
+
+
+@pytest.mark.parametrize("name", [*LOSSES, "sparse"])
+def test_majorizer_touches_from_above(case, name):
+    penalty = penalties(case)[name]
+    *_, E = case
+    rng = np.random.default_rng(3)
+    C = E.rhs() / inner(E.rhs(), E.rhs()) ** 0.5
+    term = penalty.majorizer(C)
+    offset = penalty.value(C) - value(term, C)
+    for size in (1e-2, 0.3, 3.0):
+        X = (
+            C
+            + (0 * C + 1) * size * float(rng.normal())
+            + size * term.rhs() / (1 + inner(term.rhs(), term.rhs()) ** 0.5)
+        )
+        assert value(term, X) + offset >= penalty.value(X) * (1 - 1e-10) - 1e-12
+    # the same slope where they touch
+    D, h = 0 * C + 1.0, 1e-6
+    slope = (penalty.value(C + h * D) - penalty.value(C - h * D)) / (2 * h)
+    assert slope == pytest.approx(inner(term.apply(C) - term.rhs(), D), rel=1e-4, abs=1e-6)
+
+
+def test_squared_loss_is_the_least_squares_term(case):
+    source, target, F_s, F_t, _ = case
+    data = robust(case, "squared")
+    plain = descriptor_term(source, F_s, target, F_t)
+    term = data.majorizer(plain.rhs())
+    C = plain.rhs()
+    commuting = slice_term(slices(source, F_s), slices(target, F_t))
+    wanted = plain.apply(C) + 0.2 * commuting.apply(C)
+    np.testing.assert_allclose(to_numpy(term.apply(C)), to_numpy(wanted), rtol=1e-10, atol=1e-10)
+    np.testing.assert_allclose(to_numpy(term.rhs()), to_numpy(plain.rhs()), rtol=1e-12, atol=1e-12)
+    assert data.value(C) == pytest.approx(value(plain, C) + 0.2 * value(commuting, C), rel=1e-10)
+
+
+@pytest.mark.parametrize("constraint", ["none", "orthogonal"])
+def test_objective_falls_whatever_is_combined(case, constraint):
+    *_, E = case
+    parts = {"data": (2.0, robust(case, "huber")), "sparsity": (0.3, sparse(E.rhs(), 1e-2))}
+    objective = Objective(E, parts, constraint)
+    C = nearest_orthogonal(E.rhs()) if constraint == "orthogonal" else 0 * E.rhs()
+    values = [objective.value(C)]
+    for _ in range(3):
+        C = minimised(objective, How(CG(rtol=1e-10), rounds=1), C).value
+        values.append(objective.value(C))
+        assert constraint == "none" or is_orthonormal(C)
+    assert (np.diff(values) <= 1e-9 * values[0]).all()
+    assert values[-1] < values[0]
+    assert sum(objective.breakdown(C).values()) == pytest.approx(objective.value(C), rel=1e-10)
+
+
+def test_stationary_without_constraint(numbers):
+    *_, E = numbers
+    objective = Objective(E, {"sparsity": (0.3, sparse(E.rhs(), 0.1)), "data": (1.0, robust(numbers, "huber"))})
+    C = minimised(objective, How(CG(rtol=1e-10), rounds=20), 0 * E.rhs()).value
+    for _ in range(100):
+        C = quadratic(Objective(objective.majorizer(C)), How(CG(rtol=1e-10)), C).value
+    h = 1e-5
+    for D in (E.rhs() / inner(E.rhs(), E.rhs()) ** 0.5, 0 * C + 1.0):
+        slope = (objective.value(C + h * D) - objective.value(C - h * D)) / (2 * h)
+        assert slope == pytest.approx(0.0, abs=1e-5 * objective.value(C))
+
+
+def test_nothing_extra_is_the_linear_solve_to_the_last_digit(case):
+    *_, E = case
+    how = How(CG(rtol=1e-8), "none")
+    np.testing.assert_array_equal(
+        to_numpy(minimised(Objective(E), how).value), to_numpy(solve(E.apply, E.rhs(), how.solver).value)
+    )
+    pair = coupled_pair(Objective(E), Objective(E), Coupling(0.0, 0.0), how)
+    np.testing.assert_array_equal(to_numpy(pair.forth.value), to_numpy(minimised(Objective(E), how).value))
+
+
+def reverse(case):
+    source, target, F_s, F_t, _ = case
+    return energy(target, source, F_t, F_s)
+
+
+def test_swapping_source_and_target_swaps_the_two_maps(numbers):
+    forth, back = Objective(numbers[-1]), Objective(reverse(numbers))
+    how = How(CG(rtol=1e-10), rounds=200, settled=1e-9)
+    one, other = (coupled_pair(*order, Coupling(0.2, 0.2), how) for order in ((forth, back), (back, forth)))
+    assert (np.diff(one.history) <= 1e-9 * one.history[0]).all()
+    assert one.history[-1] == pytest.approx(other.history[-1], rel=1e-6)
+    np.testing.assert_allclose(one.forth.value, other.back.value, atol=1e-2)
+    np.testing.assert_allclose(one.back.value, other.forth.value, atol=1e-2)
+
+
+def test_coupling_brings_the_maps_to_each_others_inverse(case):
+    forth, back = Objective(case[-1]), Objective(reverse(case))
+
+    def apart(pair):
+        C, D = to_numpy(pair.forth.value), to_numpy(pair.back.value)
+        return np.linalg.norm(C @ D - np.eye(len(C))) + np.linalg.norm(D @ C - np.eye(len(D)))
+
+    free, tied, adjoint = (
+        coupled_pair(forth, back, Coupling(*weights), TIGHT) for weights in ((0.0, 0.0), (1e3, 0.0), (0.0, 1e3))
+    )
+    assert apart(tied) < 0.5 * apart(free)
+    assert np.linalg.norm(to_numpy(adjoint.forth.value) - to_numpy(adjoint.back.value).T) < 0.05
+
+
+def test_inverse_term_is_zero_for_an_inverse():
+    C = np.linalg.qr(np.random.default_rng(0).normal(size=(6, 6)))[0] @ np.diag(np.arange(1.0, 7))
+    assert value(inverse_term(np.linalg.inv(C)), C) == pytest.approx(0.0, abs=1e-10)
+
+
+def test_coupled_bases(case):
+    source, target, F_s, F_t, _ = case
+    cross = target.project(F_t) @ source.project(F_s).T
+    found = coupled(source.eigenvalues, target.eigenvalues, cross, weight=1.0)
+    assert (np.diff(found.history) <= 1e-12).all()
+    assert is_orthonormal(found.U_s)
+    assert is_orthonormal(found.U_t)
+    S, T = found.rotated(source, target)
+    np.testing.assert_allclose(to_numpy(S.project(S.functions)), np.eye(S.functions.shape[1]), atol=1e-9)
+    C = 0 * cross + 1.0
+    f = source.functions @ (0 * source.eigenvalues[:, None] + 1.0)
+    np.testing.assert_allclose(
+        to_numpy(T.functions @ (C @ S.project(f))),
+        to_numpy(target.functions @ (found.restored(C) @ source.project(f))),
+        atol=1e-9,
+    )
+
+
+def test_coupled_bases_undo_a_known_rotation():
+    """One surface, its eigenfunctions' signs and pairs mixed: coupled, the map is the identity."""
+    rng = np.random.default_rng(0)
+    values = np.array([0.0, 1.0, 2.0, 2.0, 3.5, 5.0])
+    C = np.diag([1.0, -1.0, 1, 1, -1, 1])
+    angle = 0.7
+    C[2:4, 2:4] = [[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]]
+    found = coupled(values, values, C + 0.01 * rng.normal(size=(6, 6)), weight=1.0, start=C)
+    np.testing.assert_allclose(found.U_t.T @ C @ found.U_s, np.eye(6), atol=0.05)
+    for U in (found.U_s, found.U_t):
+        rotated = U.T @ np.diag(values) @ U
+        assert np.linalg.norm(rotated - np.diag(np.diag(rotated))) < 0.05
+
+
+def test_resolvent_mask():
+    source, target = bases(5, 7)
+    weights = laplacian_term(source, target, scale=1.0, mask="resolvent").weights
+    for a, b in ((0, 0), (2, 5), (4, 1)):
+        wanted = abs(1 / (target.eigenvalues[a] ** 0.5 - 1j) - 1 / (source.eigenvalues[b] ** 0.5 - 1j)) ** 2
+        assert weights[a, b] == pytest.approx(wanted, rel=1e-12)
+    same = laplacian_term(source, source, mask="resolvent").weights
+    np.testing.assert_allclose(same, same.T, atol=1e-15)
+    np.testing.assert_allclose(np.diag(same), 0.0, atol=1e-15)
+    assert same.max() <= 1
+    with pytest.raises(InvalidInput, match="mask"):
+        laplacian_term(source, target, mask="cubic")  # pyright: ignore[reportArgumentType]
+    with pytest.raises(InvalidInput, match="power"):
+        laplacian_term(source, target, mask="resolvent", power=0.0)
+
+
+def test_functions_beyond_the_basis(small_basis, asarray):
+    """On equal shapes with the identity map a product of two basis functions is carried as it is; alone C cannot."""
+    basis = small_basis.truncated(12)
+    f = small_basis.functions[:, 7] * small_basis.functions[:, 9] + small_basis.functions[:, 3]
+    C = asarray(np.eye(12))
+    shape = type(basis)(*(asarray(a) for a in (basis.eigenvalues, basis.functions, basis.mass)))
+    alone = to_numpy(carried(asarray(f), C, shape, shape, None))
+    better = to_numpy(carried(asarray(f), C, shape, shape, 12, 1e-9))
+    assert np.linalg.norm(better - f) < 1e-3 * np.linalg.norm(f)
+    assert np.linalg.norm(alone - f) > 0.1 * np.linalg.norm(f)
+    # what lies in the basis is carried by C alone, whatever the products
+    inside = asarray(basis.functions[:, :4])
+    np.testing.assert_allclose(to_numpy(carried(inside, C, shape, shape, 8)), basis.functions[:, :4], atol=1e-8)
+
+
+def test_bad_input_is_refused(small_basis):
+    with pytest.raises(InvalidInput, match="loss"):
+        Loss("cubic")  # pyright: ignore[reportArgumentType]
+    with pytest.raises(InvalidInput, match="delta"):
+        Loss("huber", 0.0)
+    with pytest.raises(InvalidInput, match="products"):
+        carried(small_basis.functions, np.eye(5), small_basis, small_basis, 6)
+    with pytest.raises(InvalidInput, match="values"):
+        carried(np.ones((3, 1)), np.eye(5), small_basis, small_basis)
+    E = energy(*bases(5, 5), *features())
+    with pytest.raises(InvalidInput, match="start"):
+        orthogonal(E, Direct(), np.eye(4))
