@@ -24,7 +24,8 @@ from shapes import Pair, bumpy_pair, read_pairs
 from kfmaps._threads import one_blas_thread
 from kfmaps.config import Config, DescriptorConfig
 from kfmaps.fit.features import pair_descriptors
-from kfmaps.fit.fit import checked_landmarks, problem
+from kfmaps.fit.fit import checked_landmarks
+from kfmaps.fit.problem import problem
 from kfmaps.fit.shape import Shape, prepare
 from kfmaps.functional.evaluate import geodesic_errors
 from kfmaps.functional.points import to_points

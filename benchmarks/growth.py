@@ -23,6 +23,7 @@ from shapes import bumpy_pair
 
 from kfmaps._threads import one_blas_thread
 from kfmaps.config import Config
+from kfmaps.fit.finish import finished
 from kfmaps.fit.fit import fit
 from kfmaps.fit.shape import prepare
 from kfmaps.surface.geodesics import distance_pairs
@@ -61,11 +62,14 @@ def measure(n: int, threads: int) -> dict[str, Any]:
         source = prepare(pair.source, config, name="source", progress=report)
         target = prepare(pair.target, config, name="target", progress=report)
         found = fit(source, target, config, landmarks=pair.landmarks, progress=report)
+        end = finished(found.functional_map, source, target, config, progress=report)
     peak = peak_gb()
     rows = np.random.default_rng(0).choice(len(pair.target_to_source), 1000, replace=False)
     mesh, truth = unit_area(pair.source), pair.target_to_source[rows]
-    ends = {"raw": found.raw_target_to_source, "refined": found.target_to_source}
-    errors = {name: 100 * float(distance_pairs(mesh, p[rows], truth).mean()) for name, p in ends.items()}
+    ends = {"raw": end.raw_target_to_source, "refined": end.target_to_source}
+    errors = {
+        name: 100 * float(distance_pairs(mesh, p[rows], truth).mean()) for name, p in ends.items() if p is not None
+    }
     return {"n": n, "threads": threads, "peak_gb": peak, "errors": errors, "stages": stages}
 
 

@@ -19,6 +19,7 @@ from shapes import Pair, bumpy_pair, read_pairs
 
 from kfmaps._threads import one_blas_thread
 from kfmaps.config import Config
+from kfmaps.fit.finish import finished
 from kfmaps.fit.fit import fit
 from kfmaps.fit.shape import prepare
 from kfmaps.functional.cells import nearest_by_cells
@@ -54,8 +55,9 @@ def measure(pair: Pair) -> list[dict[str, float | str]]:
     config = Config(threads=1)
     source, target = prepare(pair.source, config), prepare(pair.target, config)
     found = fit(source, target, config, landmarks=pair.landmarks)
+    end = finished(found.functional_map, source, target, config, raw=False)
     mesh, rows = unit_area(pair.source), []
-    for name, C in (("raw", found.raw_functional_map), ("refined", found.functional_map)):
+    for name, C in (("raw", found.functional_map), ("refined", end.functional_map)):
         k = len(C)
         queries, points = target.basis.functions[:, :k], source.basis.functions[:, :k] @ C.T
         some = np.random.default_rng(0).choice(len(queries), 4000, replace=False)

@@ -33,8 +33,10 @@ config = kfmaps.Config(
 )
 result = kfmaps.match(pair.source, pair.target, config, landmarks=landmarks)
 
-print(f"{result.kernel}: {result.rank} features, {result.slices} slices after compression")
-print(f"solver {result.solution.status} after {result.solution.steps} steps")
+assert result.fit is not None  # a search may do without one; with landmarks there is
+assert result.raw_target_to_source is not None
+print(f"{result.fit.kernel}: {result.fit.rank} features, {result.fit.slices} slices after compression")
+print(f"solver {result.fit.solution.status} after {result.fit.solution.steps} steps")
 print({stage: round(seconds, 2) for stage, seconds in result.seconds.items()})
 
 # %%

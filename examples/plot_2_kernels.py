@@ -40,7 +40,9 @@ means = {}
 for name, kernel in kernels.items():
     result = kfmaps.match(source, target, replace(base, kernel=kernel), landmarks=landmarks)
     means[name] = kfmaps.geodesic_errors(pair.source, result.target_to_source, pair.truth).mean()
-    print(f"{name:22} {result.rank:3} features  mean error x 100: {100 * means[name]:.2f}  {result.kernel}")
+    fit = result.fit
+    assert fit is not None  # without landmarks a search may do without
+    print(f"{name:22} {fit.rank:3} features  mean error x 100: {100 * means[name]:.2f}  {fit.kernel}")
 
 # %%
 # With the linear kernel the features are the ten descriptors themselves. The quadratic kernel has all their products

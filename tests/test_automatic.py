@@ -200,10 +200,10 @@ def test_left_and_right_of_a_symmetric_body_are_told_apart():
 def test_point_clouds_are_matched_without_orientation(shape):
     cloud = prepare(Mesh(blob(650, twist=0.4).vertices, np.zeros((0, 3), dtype=int)), SMALL)
     found = choose(shape, cloud, SMALL)
-    assert found.target_to_source.shape == (650,)
+    assert found.functional_map.ndim == 2
     assert found.verdict in ("sure", "ambiguous", "poor")
     with pytest.raises(InvalidInput, match="point cloud"):
-        choose(shape, cloud, replace(SMALL, search=Search(orientation="reversed")))
+        match(shape, cloud, replace(SMALL, search=Search(orientation="reversed")))
 
 
 def test_candidates_can_be_traded_for_time():
@@ -213,16 +213,23 @@ def test_candidates_can_be_traded_for_time():
     assert len(set(names)) == len(names) > 8
 
 
-def test_landmarks_leave_the_signs_out(shape, other):
-    """The signs know nothing of landmarks; the fits do."""
-    probes = probe(shape, 200), probe(other, 200)
-    truth = nearest(other.mesh.vertices, shape.mesh.vertices)
-    marks = np.stack([truth[[10, 200, 400]], [10, 200, 400]], axis=1)
-    with_marks, fits = candidates(shape, other, SMALL, probes, 0, landmarks=marks)
-    assert len(fits) == 2
-    assert not any(c.name.startswith("signs") for c in with_marks)
-    without, _ = candidates(shape, other, SMALL, probes, 0)
-    assert any(c.name.startswith("signs") for c in without)
+def test_no_landmarks_are_as_none_at_all(shape, other):
+    without, empty = (match(shape, other, SMALL, landmarks=marks) for marks in (None, []))
+    np.testing.assert_array_equal(without.target_to_source, empty.target_to_source)
+    assert (without.origin, without.scores, without.verdict) == (empty.origin, empty.scores, empty.verdict)
+
+
+def test_a_match_of_a_search_tells_of_one_fit_alone(shape, other):
+    """The map that was refined, and the fit that it started from, under their own names."""
+    found = match(shape, other, SMALL)
+    assert found.config is SMALL
+    assert found.raw_target_to_source is None
+    if found.fit is None:
+        assert found.origin.startswith(("signs", "kicked"))
+    else:
+        assert found.fit.config.search is None
+        assert f"{found.fit.config.basis.functions} functions" in found.origin
+        assert found.fit.functional_map.shape == (found.fit.config.basis.functions,) * 2
 
 
 def test_progress_never_falls_and_ends_at_one(shape, other):

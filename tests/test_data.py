@@ -49,6 +49,7 @@ def test_mean_errors_with_six_landmarks(faust: Path) -> None:
             ("refined", whole.target_to_source),
             ("ten", fewer.target_to_source),
         ):
+            assert points is not None
             errors[kind].append(100 * kfmaps.geodesic_errors(source.mesh, points[true_t], true_s).mean())
     means = {kind: float(np.mean(values)) for kind, values in errors.items()}
     print(means)

@@ -200,7 +200,7 @@ def test_rows_are_the_errors_of_the_fit(tmp_path: Path) -> None:
     config = small(no17(10))
     (row,) = run_pairs(SMALL, [PAIR], {"NO17": config}, tmp_path / "pairs.jsonl", workers=1)
     truth = SMALL.truth(PAIR)
-    points = fitted(SMALL, PAIR, config, truth.landmarks).raw_target_to_source
+    points = fitted(SMALL, PAIR, config, truth.landmarks).raw
     errors = geodesic_errors(SMALL.mesh(PAIR.source), points[truth.target], truth.source)
     assert row.mean == pytest.approx(errors.mean(), rel=1e-5)
     assert row.refined == row.mean

@@ -25,9 +25,10 @@ from kfmaps.app.view.pack import json_block, packed, plain, quantised
 from kfmaps.app.view.page import result_page
 from kfmaps.app.view.results import errors_against, map_page, match_summary, mesh_path, signatures
 from kfmaps.config import Config
-from kfmaps.fit.fit import Match
+from kfmaps.fit.fit import Fit
 from kfmaps.functional.confidence import local_confidence
 from kfmaps.functional.solvers import Solution
+from kfmaps.matching import Match
 from kfmaps.surface.mesh import Mesh, unit_area, vertex_areas
 
 WEB = Path(__file__).parents[1] / "web"
@@ -286,17 +287,25 @@ def a_match() -> Match:
     return Match(
         target_to_source=np.zeros(4, np.int64),
         functional_map=np.eye(2),
-        raw_target_to_source=np.zeros(4, np.int64),
-        raw_functional_map=np.eye(2),
         eigenvalues_s=np.arange(2.0),
         eigenvalues_t=np.arange(2.0),
-        solution=Solution(np.eye(2), "converged", 2, residuals),
-        energies={"laplacian": 1.5},
-        rank=7,
-        slices=3,
-        kernel="Gaussian(500)",
+        verdict="landmarks",
         config=Config(),
         seconds={"solve": 0.5},
+        origin="one fit",
+        raw_functional_map=np.eye(2),
+        raw_target_to_source=np.zeros(4, np.int64),
+        fit=Fit(
+            functional_map=np.eye(2),
+            solution=Solution(np.eye(2), "converged", 2, residuals),
+            energies={"laplacian": 1.5},
+            rank=7,
+            slices=3,
+            kernel="Gaussian(500)",
+            config=Config(),
+            seconds={"solve": 0.5},
+        ),
+        local_confidence=np.ones(4),
     )
 
 
@@ -309,6 +318,7 @@ def test_summary_of_a_match_is_json() -> None:
     assert summary["settings"]["nystrom"]["samples"] == Config().nystrom.samples
     assert "confidence" not in summary
     assert match_summary(replace(a_match(), confidence=0.25))["confidence"] == 0.25
+    assert "energies" not in match_summary(replace(a_match(), fit=None))
 
 
 def test_page_of_a_file_shows_what_the_file_holds(pair: tuple) -> None:

@@ -16,7 +16,6 @@ from kfmaps.config import DescriptorConfig as DescriptorConfig
 from kfmaps.config import NystromConfig as NystromConfig
 from kfmaps.config import Search as Search
 from kfmaps.config import Weights as Weights
-from kfmaps.fit.fit import Match as Match
 from kfmaps.fit.shape import Shape as Shape
 from kfmaps.fit.shape import prepare as prepare
 from kfmaps.functional.evaluate import coverage as coverage
@@ -36,6 +35,7 @@ from kfmaps.kernel.kernels import Polynomial as Polynomial
 from kfmaps.kernel.kernels import Product as Product
 from kfmaps.kernel.kernels import Sum as Sum
 from kfmaps.kernel.kernels import Tanh as Tanh
+from kfmaps.matching import Match as Match
 from kfmaps.matching import match as match
 from kfmaps.surface.basis import Basis as Basis
 from kfmaps.surface.basis import laplace_basis as laplace_basis

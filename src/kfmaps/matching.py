@@ -2,20 +2,77 @@
 
 from __future__ import annotations
 
-import time
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 
+from kfmaps._arrays import refuse
 from kfmaps._threads import available_cores, parallel
 from kfmaps.config import Config
-from kfmaps.fit.fit import Match, fit
+from kfmaps.fit.finish import finished
+from kfmaps.fit.fit import Fit, fit
 from kfmaps.fit.shape import Progress, Shape, prepare
+from kfmaps.fit.stages import Clock
 from kfmaps.functional.confidence import local_confidence
-from kfmaps.search.choose import choose
+from kfmaps.search.choose import Found, choose, mirror_image
 from kfmaps.surface.eigen.pencil import THREADED
 from kfmaps.surface.mesh import Mesh
+
+ONE_FIT = "one fit"
+
+
+@dataclass(frozen=True, eq=False)
+class Match:
+    """The answer of a match.
+
+    Attributes
+    ----------
+    target_to_source : (n_t,) int64
+        A source vertex for each target vertex, refined when the configuration says so.
+    functional_map : (k_t, k_s) float64
+        Carries coefficients of functions from source to target; of the refined map.
+    eigenvalues_s, eigenvalues_t : (k_s,), (k_t,) float64
+        Of the shapes at unit area, as many as ``functional_map`` has columns and rows.
+    verdict : "landmarks", "sure", "ambiguous", "poor" or "unchecked"
+    config : Config
+    seconds : dict of str to float
+        Per stage.
+    origin : str
+        What the refined map started from: "one fit", or the name of a candidate of the search.
+    raw_functional_map : (k, k) float64
+        What the refinement started from: of one fit the minimiser, of a search the best candidate.
+    raw_target_to_source : (n_t,) int64 or None
+        Its point map on all vertices; not worked out by a search.
+    fit : Fit or None
+        The fit that the map started from: that of the configuration, or a small one (``fit.config``) of the search;
+        ``None`` where the search's best candidate started from signs of the low functions alone.
+    local_confidence : (n_t,) float64
+        How well the map keeps distances around each target vertex, 0 to 1, NaN where that cannot be told; see
+        :mod:`kfmaps.functional.confidence`.
+    confidence : float or None
+        Of a search, how clearly the map beat every distinct other one; see :mod:`kfmaps.search.choose`.
+    scores : tuple of float
+        Of a search: of the map and of each runner-up, higher is better.
+    runners_up : tuple of arrays (n_t,)
+        Of a search: the distinct other maps, best first.
+    """
+
+    target_to_source: np.ndarray
+    functional_map: np.ndarray
+    eigenvalues_s: np.ndarray
+    eigenvalues_t: np.ndarray
+    verdict: str
+    config: Config
+    seconds: dict[str, float]
+    origin: str
+    raw_functional_map: np.ndarray
+    raw_target_to_source: np.ndarray | None
+    fit: Fit | None
+    local_confidence: np.ndarray
+    confidence: float | None = None
+    scores: tuple[float, ...] = ()
+    runners_up: tuple[np.ndarray, ...] = ()
 
 
 def match(
@@ -37,7 +94,7 @@ def match(
     ----------
     source, target : Mesh or Shape
         A :class:`Shape` from :func:`prepare` saves the work that depends on one shape alone; it must come from the
-        same configuration.
+        same settings of the basis, SHOT and the numbers of functions.
     config : Config, optional
         ``Config()`` with landmarks or given descriptors, ``Config.automatic()`` without.
     landmarks : (l, 2) whole numbers, optional
@@ -57,29 +114,81 @@ def match(
         When the eigensolver misses its tolerance.
     """
     config = config or default_config(landmarks, descriptors)
-    shapes = _prepared(source, target, config, progress)
-    search = config.search is not None and not has_landmarks(landmarks)
-    answer = choose if search else fit
-    found = answer(
-        shapes[0], shapes[1], config, landmarks=landmarks, descriptors=descriptors, rng=rng, progress=progress
+    marks = landmarks if has_landmarks(landmarks) else None
+    shapes = prepare_both(source, target, config, progress=progress)
+    clock = Clock(progress)
+    more = {"descriptors": descriptors, "rng": rng, "progress": progress}
+    if config.search is not None and marks is None:
+        if config.search.orientation == "reversed":
+            shapes[1] = mirror_image(shapes[1])
+        with clock("candidates"):
+            found = choose(shapes[0], shapes[1], config, **more)
+    else:
+        one = fit(shapes[0], shapes[1], config, landmarks=marks, **more)
+        clock.seconds.update(one.seconds)
+        found = Found(one.functional_map, ONE_FIT, one, "unchecked" if marks is None else "landmarks")
+    end = finished(found.functional_map, shapes[0], shapes[1], config, raw=found.origin == ONE_FIT, progress=progress)
+    clock.seconds.update(end.seconds)
+    with clock("confidence"):
+        trust = local_confidence(shapes[0].mesh, shapes[1].mesh, end.target_to_source)
+    k_t, k_s = end.functional_map.shape
+    return Match(
+        target_to_source=end.target_to_source,
+        functional_map=end.functional_map,
+        eigenvalues_s=shapes[0].basis.eigenvalues[:k_s],
+        eigenvalues_t=shapes[1].basis.eigenvalues[:k_t],
+        verdict=found.verdict,
+        config=config,
+        seconds=clock.seconds,
+        origin=found.origin,
+        raw_functional_map=found.functional_map,
+        raw_target_to_source=end.raw_target_to_source,
+        fit=found.fit,
+        local_confidence=trust,
+        confidence=found.confidence,
+        scores=found.scores,
+        runners_up=found.runners_up,
     )
-    start = time.perf_counter()
-    trust = local_confidence(shapes[0].mesh, shapes[1].mesh, found.target_to_source)
-    seconds = {**found.seconds, "confidence": time.perf_counter() - start}
-    return replace(found, local_confidence=trust, seconds=seconds)
 
 
-def _prepared(source: Mesh | Shape, target: Mesh | Shape, config: Config, progress: Progress | None) -> list[Shape]:
-    """Both shapes; side by side where they are small, since one small eigenproblem has no use for several cores."""
+def check_prepared(shape: Shape, config: Config) -> None:
+    """Raise :class:`InvalidInput` when ``shape`` was prepared with other settings than ``config`` needs."""
+    remedy = "prepare it with the configuration that it is matched with"
+    have = shape.basis.functions.shape[1]
+    if have < config.eigenfunctions:
+        raise refuse(shape.name, f"a shape prepared with {config.eigenfunctions} eigenfunctions", f"{have}", remedy)
+    if shape.laplacian != config.basis.laplacian:
+        wanted = f"a shape prepared with the {config.basis.laplacian} Laplacian"
+        raise refuse(shape.name, wanted, f"the {shape.laplacian} one", remedy)
+    if config.descriptors.shot and len(shape.mesh.faces) and shape.shot_radius != config.descriptors.shot_radius:
+        wanted = f"a shape prepared with SHOT of radius {config.descriptors.shot_radius:g}"
+        got = "one without" if shape.shot_radius is None else f"radius {shape.shot_radius:g}"
+        raise refuse(shape.name, wanted, got, remedy)
+
+
+def prepare_both(
+    source: Mesh | Shape,
+    target: Mesh | Shape,
+    config: Config,
+    names: tuple[str, str] = ("source", "target"),
+    progress: Progress | None = None,
+) -> list[Shape]:
+    """Both shapes; side by side where they are small, since one small eigenproblem has no use for several cores.
+
+    What is a :class:`Shape` already is checked against ``config`` and handed on.
+    """
     workers = config.threads or available_cores()
     meshes = [part for part in (source, target) if isinstance(part, Mesh)]
     aside = len(meshes) == 2 and max(len(mesh.vertices) for mesh in meshes) < THREADED
     share = replace(config, threads=max(1, workers // 2)) if aside else config
 
     def ready(part: Mesh | Shape, name: str) -> Shape:
-        return part if isinstance(part, Shape) else prepare(part, share, name=name, progress=progress)
+        if isinstance(part, Mesh):
+            return prepare(part, share, name=name, progress=progress)
+        check_prepared(part, config)
+        return part
 
-    both = ((source, "source"), (target, "target"))
+    both = ((source, names[0]), (target, names[1]))
     return parallel(lambda item: ready(*item), both, min(workers, 2) if aside else 1)
 
 

@@ -16,7 +16,8 @@ import kfmaps
 from kfmaps.app.evaluation import Accuracy
 from kfmaps.app.files import MapFile, match_map
 from kfmaps.config import as_dict
-from kfmaps.fit.fit import Match
+from kfmaps.fit.fit import Fit
+from kfmaps.matching import ONE_FIT, Match
 from kfmaps.surface.mesh import Mesh
 
 VERDICTS = {
@@ -61,8 +62,8 @@ class Outcome:
 def summary(outcome: Outcome) -> dict[str, Any]:
     """Plain values for JSON. Residuals are divided by the first; errors are in units of √area."""
     match = outcome.match
-    residuals = np.asarray(match.solution.residuals, dtype=np.float64)
-    first = residuals[0] if len(residuals) and residuals[0] > 0 else 1.0
+    fit = match.fit
+    residuals = None if fit is None else relative_residuals(fit)
     k_t, k_s = match.functional_map.shape
     sides = {}
     for side, mesh, path in zip(("source", "target"), outcome.meshes, outcome.paths, strict=True):
@@ -72,33 +73,40 @@ def summary(outcome: Outcome) -> dict[str, Any]:
         **sides,
         "landmarks": len(outcome.landmarks),
         "seed": outcome.seed,
-        "fit_size": match.raw_functional_map.shape[0],
         "map_rows": k_t,
         "map_columns": k_s,
-        "kernel": match.kernel,
-        "rank": match.rank,
-        "slices": match.slices,
-        "solver_status": match.solution.status,
-        "solver_steps": match.solution.steps,
-        "relative_residual": float(residuals[-1] / first) if len(residuals) else None,
+        "origin": match.origin,
+        "fit_size": None if fit is None else fit.functional_map.shape[0],
+        "kernel": None if fit is None else fit.kernel,
+        "rank": None if fit is None else fit.rank,
+        "slices": None if fit is None else fit.slices,
+        "solver_status": None if fit is None else fit.solution.status,
+        "solver_steps": None if fit is None else fit.solution.steps,
+        "relative_residual": None if residuals is None or len(residuals) == 0 else float(residuals[-1]),
         "verdict": match.verdict,
         "confidence": None if match.confidence is None else float(match.confidence),
         "local_confidence": mean_confidence(match),
         "scores": [float(score) for score in match.scores],
         "runners_up": len(match.runners_up),
         "errors": None if outcome.accuracy is None else outcome.accuracy.as_dict(),
-        "energies": {name: float(value) for name, value in match.energies.items()},
+        "energies": None if fit is None else {name: float(value) for name, value in fit.energies.items()},
         "times": {name: float(value) for name, value in outcome.seconds.items()},
-        "residuals": (residuals / first).tolist(),
+        "residuals": None if residuals is None else residuals.tolist(),
         "settings": as_dict(match.config),
     }
 
 
+def relative_residuals(fit: Fit) -> np.ndarray:
+    """The solver's residuals, divided by the first."""
+    residuals = np.asarray(fit.solution.residuals, dtype=np.float64)
+    first = residuals[0] if len(residuals) and residuals[0] > 0 else 1.0
+    return residuals / first
+
+
 def mean_confidence(match: Match) -> float | None:
-    """Mean of ``local_confidence`` over the target's vertices; ``None`` where it is not known."""
-    known = match.local_confidence
-    known = None if known is None else known[np.isfinite(known)]
-    return None if known is None or len(known) == 0 else float(known.mean())
+    """Mean of ``local_confidence`` over the target's vertices; ``None`` where it is known at none."""
+    known = match.local_confidence[np.isfinite(match.local_confidence)]
+    return None if len(known) == 0 else float(known.mean())
 
 
 def map_file(outcome: Outcome) -> MapFile:
@@ -135,17 +143,23 @@ def _rows(match: Match, found: dict[str, Any], accuracy: Accuracy | None) -> lis
         faces = found[f"{side}_faces"]
         what = f"{faces:,} faces" if faces else "a point cloud"
         rows.append((side, f"{found[side]}: {found[f'{side}_vertices']:,} vertices, {what}"))
-    kernel = re.sub(r"\d+\.\d{5,}", lambda number: f"{float(number[0]):.4g}", found["kernel"])
-    slices = f", {found['slices']} slices" if found["slices"] else ""
-    status = found["solver_status"] + (f" in {found['solver_steps']} steps" if found["solver_steps"] else "")
     spent = sorted(found["times"].items(), key=lambda item: -item[1])
-    energies = [f"{name} {value:.4g}" for name, value in found["energies"].items()]
+    size = f"{found['map_rows']} × {found['map_columns']}"
+    rows.append(("landmarks", str(found["landmarks"]) if found["landmarks"] else "none"))
+    if match.fit is not None and match.origin == ONE_FIT:
+        kernel = re.sub(r"\d+\.\d{5,}", lambda number: f"{float(number[0]):.4g}", found["kernel"])
+        slices = f", {found['slices']} slices" if found["slices"] else ""
+        status = found["solver_status"] + (f" in {found['solver_steps']} steps" if found["solver_steps"] else "")
+        energies = [f"{name} {value:.4g}" for name, value in found["energies"].items()]
+        rows += [
+            ("kernel", f"{kernel}: {found['rank']} features{slices}"),
+            ("map", f"{size}, fitted at {found['fit_size']} × {found['fit_size']}"),
+            ("solver", f"{status}, residual {found['relative_residual']:.1e}"),
+            ("energy", ", ".join(energies)),
+        ]
+    else:
+        rows.append(("map", f"{size}, started from {match.origin}"))
     rows += [
-        ("landmarks", str(found["landmarks"]) if found["landmarks"] else "none"),
-        ("kernel", f"{kernel}: {found['rank']} features{slices}"),
-        ("map", f"{found['map_rows']} × {found['map_columns']}, fitted at {found['fit_size']} × {found['fit_size']}"),
-        ("solver", f"{status}, residual {found['relative_residual']:.1e}"),
-        ("energy", ", ".join(energies)),
         ("time", f"{sum(found['times'].values()):.1f} s: " + ", ".join(f"{name} {t:.2f}" for name, t in spent)),
         ("outcome", _verdict(match)),
     ]

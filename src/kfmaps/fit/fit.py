@@ -1,47 +1,41 @@
-"""One fit: descriptors, kernel features, energy, conjugate gradients, point map, refinement."""
+"""One fit: descriptors, kernel features, energy, conjugate gradients.
+
+What comes after it, points and their refinement, is in :mod:`kfmaps.fit.finish`.
+"""
 
 from __future__ import annotations
 
-import time
-from collections.abc import Iterator
-from contextlib import contextmanager
+import warnings
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
-from kfmaps._arrays import check, like, refuse, to_numpy
+from kfmaps._arrays import KfmapsWarning, check, like, refuse, to_numpy
 from kfmaps._threads import one_blas_thread
 from kfmaps.config import Config
 from kfmaps.descriptors.spectral import check_landmarks
-from kfmaps.fit.features import pair_descriptors
+from kfmaps.fit.features import Descriptors, pair_descriptors
 from kfmaps.fit.problem import problem
 from kfmaps.fit.shape import Progress, Reduced, Shape, reduced
+from kfmaps.fit.stages import Clock
 from kfmaps.functional.energy import Energy
-from kfmaps.functional.points import to_points
 from kfmaps.functional.preconditioners import jacobi, sylvester
 from kfmaps.functional.solvers import CG, Solution, solve
 from kfmaps.kernel.kernels import describe
+from kfmaps.surface.basis import Basis
 
 
 @dataclass(frozen=True, eq=False)
-class Match:
-    """The answer of a match.
+class Fit:
+    """What :func:`fit` returns: a functional map and how it was found.
 
     Attributes
     ----------
-    target_to_source : (n_t,) int64
-        A source vertex for each target vertex, refined when the configuration says so.
-    functional_map : (k_t, k_s) float64
-        Carries coefficients of functions from source to target; of the refined map.
-    raw_target_to_source : (n_t,) int64
-        The point map of the fit, before refinement.
-    raw_functional_map : (k, k) float64
-        The minimiser itself.
-    eigenvalues_s, eigenvalues_t : (k_s,), (k_t,) float64
-        Of the shapes at unit area, as many as ``functional_map`` has columns and rows.
+    functional_map : (k, k) float64
+        The minimiser; carries coefficients of functions from source to target.
     solution : Solution
-        Status, steps and residuals of the solver; ``value`` is ``raw_functional_map``.
+        Status, steps and residuals of the solver.
     energies : dict of str to float
         Weighted value of each term at the minimiser.
     rank : int
@@ -51,26 +45,12 @@ class Match:
     kernel : str
         With every γ a number.
     config : Config
+        Of this fit; a search makes fits of other sizes than that of the match.
     seconds : dict of str to float
         Per stage.
-    confidence : float or None
-        Without landmarks, how clearly the map beat every distinct other one; see :mod:`kfmaps.search.choose`.
-    runners_up : tuple of arrays (n_t,)
-        The distinct other maps, best first.
-    verdict : "landmarks", "sure", "ambiguous", "poor" or "unchecked"
-    scores : tuple of float
-        Of the map and of each runner-up, higher is better; empty with landmarks.
-    local_confidence : (n_t,) float64 or None
-        How well the map keeps distances around each target vertex, 0 to 1; see
-        :mod:`kfmaps.functional.confidence`. ``None`` from a fit alone.
     """
 
-    target_to_source: np.ndarray
     functional_map: np.ndarray
-    raw_target_to_source: np.ndarray
-    raw_functional_map: np.ndarray
-    eigenvalues_s: np.ndarray
-    eigenvalues_t: np.ndarray
     solution: Solution
     energies: dict[str, float]
     rank: int
@@ -78,11 +58,24 @@ class Match:
     kernel: str
     config: Config
     seconds: dict[str, float]
-    confidence: float | None = None
-    runners_up: tuple[np.ndarray, ...] = ()
-    verdict: str = "landmarks"
-    scores: tuple[float, ...] = ()
-    local_confidence: np.ndarray | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class Points:
+    """The points of two shapes that a fit is made from, and what is known there.
+
+    Attributes
+    ----------
+    shapes : pair of Shape
+        All points, or samples that stand for them.
+    bases : pair of Basis
+        Theirs, on the device where the work is done.
+    descriptors : Descriptors
+    """
+
+    shapes: tuple[Shape, Shape]
+    bases: tuple[Basis, Basis]
+    descriptors: Descriptors
 
 
 def checked_landmarks(landmarks: Any, source: Shape, target: Shape) -> np.ndarray:
@@ -118,8 +111,8 @@ def fit(
     rng: int | np.random.Generator | None = 0,
     start: Any = None,
     progress: Progress | None = None,
-) -> Match:
-    """Match two prepared shapes as ``config`` says, with no search for the best of several maps.
+) -> Fit:
+    """Fit a functional map to two prepared shapes as ``config`` says.
 
     Parameters
     ----------
@@ -133,71 +126,53 @@ def fit(
     rng : seed or Generator
         For the choice of samples.
     start : (k, k) array, optional
-        Functional map that conjugate gradients start from, zero otherwise: the ``raw_functional_map`` of settings
-        near to these spares steps in a search over settings.
+        Functional map that conjugate gradients start from, zero otherwise: that of settings near to these spares
+        steps in a search over settings.
     progress : callable, optional
         ``progress(stage, done)`` with done from 0 to 1.
+
+    Warns
+    -----
+    KfmapsWarning
+        When the solver broke down, so that the map is not the minimiser.
     """
     config = config or Config()
-    report = progress or (lambda _stage, _done: None)
+    clock = Clock(progress)
     rng = np.random.default_rng(rng)
     pairs = checked_landmarks(landmarks, source, target)
-    seconds: dict[str, float] = {}
-
-    @contextmanager
-    def stage(name: str) -> Iterator[None]:
-        start = time.perf_counter()
-        report(name, 0.0)
-        yield
-        seconds[name] = time.perf_counter() - start
-        report(name, 1.0)
-
-    bases = (source.basis, target.basis)
-    if config.device != "cpu":
-        bases = (bases[0].to(config.device), bases[1].to(config.device))
     with one_blas_thread():
-        with stage("descriptors"):
-            parts = [reduced(s, config.fit_samples, pairs[:, i]) for i, s in enumerate((source, target))]
-            points = [
-                b if part.shape is s else part.shape.basis.to(config.device)
-                for b, part, s in zip(bases, parts, (source, target), strict=True)
-            ]
-            small, on = (parts[0].shape, parts[1].shape), (points[0], points[1])
-            marks = np.stack([part.landmarks for part in parts], axis=1)
-            if descriptors is not None:
-                descriptors = _on_samples(descriptors, parts, (source, target))
-            used = pair_descriptors(*small, on, config.descriptors, marks, descriptors)
-        with stage("energy"):
-            task = problem(*small, on, used, config, rng, (source, target))
-        with stage("solve"):
-            solution = _minimised(task.energy, config, report, start)
-            C = solution.value
-        with stage("point map"):
-            raw = to_points(C, *bases, threads=config.threads)
-        answer, refined_map = raw, C
-        if config.refinement is not None:
-            with stage("refinement"):
-                refined = config.refinement(
-                    C, *bases, progress=lambda done: report("refinement", done), threads=config.threads, points=raw
-                )
-            answer, refined_map = refined.target_to_source, refined.functional_map
-    k_t, k_s = refined_map.shape
-    return Match(
-        target_to_source=answer,
-        functional_map=to_numpy(refined_map),
-        raw_target_to_source=raw,
-        raw_functional_map=to_numpy(C),
-        eigenvalues_s=to_numpy(source.basis.eigenvalues)[:k_s],
-        eigenvalues_t=to_numpy(target.basis.eigenvalues)[:k_t],
+        with clock("descriptors"):
+            points = fit_points(source, target, config, pairs, descriptors)
+        with clock("energy"):
+            task = problem(*points.shapes, points.bases, points.descriptors, config, rng, (source, target))
+        with clock("solve"):
+            solution = minimised(task.energy, config, clock.report, start)
+    return Fit(
+        functional_map=to_numpy(solution.value),
         solution=solution,
-        energies=task.energy.breakdown(C),
+        energies=task.energy.breakdown(solution.value),
         rank=task.rank,
         slices=task.slices,
         kernel=describe(task.kernel),
         config=config,
-        seconds=seconds,
-        verdict="landmarks" if len(pairs) else "unchecked",
+        seconds=clock.seconds,
     )
+
+
+def fit_points(
+    source: Shape, target: Shape, config: Config, landmarks: np.ndarray, descriptors: tuple[Any, Any] | None = None
+) -> Points:
+    """The points that ``config.fit_samples`` leaves of both shapes, with the ``landmarks (l, 2)``, and descriptors."""
+    shapes = (source, target)
+    parts = [reduced(s, config.fit_samples, landmarks[:, i]) for i, s in enumerate(shapes)]
+    bases = [part.shape.basis for part in parts]
+    if config.device != "cpu":
+        bases = [basis.to(config.device) for basis in bases]
+    marks = np.stack([part.landmarks for part in parts], axis=1)
+    if descriptors is not None:
+        descriptors = _on_samples(descriptors, parts, shapes)
+    small, on = (parts[0].shape, parts[1].shape), (bases[0], bases[1])
+    return Points(small, on, pair_descriptors(*small, on, config.descriptors, marks, descriptors))
 
 
 def _on_samples(given: tuple[Any, Any], parts: list[Reduced], shapes: tuple[Shape, Shape]) -> tuple[Any, Any]:
@@ -211,7 +186,8 @@ def _on_samples(given: tuple[Any, Any], parts: list[Reduced], shapes: tuple[Shap
     return rows[0], rows[1]
 
 
-def _minimised(energy: Energy, config: Config, report: Progress, start: Any = None) -> Solution:
+def minimised(energy: Energy, config: Config, report: Progress, start: Any = None) -> Solution:
+    """The minimiser of ``energy`` by the solver of ``config``, from ``start`` where one is given."""
     right = energy.rhs()
     if start is not None:
         start = np.asarray(to_numpy(start) if hasattr(start, "shape") else start, dtype=np.float64)
@@ -230,4 +206,11 @@ def _minimised(energy: Energy, config: Config, report: Progress, start: Any = No
             by_size = np.log(max(relative, 1e-300)) / np.log(max(config.solver.rtol, 1e-16))
             report("solve", float(np.clip(max(step / limit, by_size), 0.0, 1.0)))
 
-    return solve(energy.apply, right, config.solver, start, precondition, told)
+    solution = solve(energy.apply, right, config.solver, start, precondition, told)
+    if solution.status == "breakdown":
+        text = (
+            f"the solver broke down after {solution.steps} steps: the energy is not positive definite or a number is "
+            "not finite, and the map is not its minimiser. Raise weights.laplacian, or look at kernel and descriptors"
+        )
+        warnings.warn(text, KfmapsWarning, stacklevel=3)
+    return solution

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -34,6 +34,10 @@ class Shape:
     name : str
     seconds : dict of str to float
         Time each stage took.
+    laplacian : str
+        Which one the functions are of.
+    shot_radius : float or None
+        Of ``shot``, in units of √area.
     """
 
     mesh: Mesh
@@ -41,6 +45,8 @@ class Shape:
     shot: np.ndarray | None
     name: str
     seconds: dict[str, float]
+    laplacian: str = "robust"
+    shot_radius: float | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -74,7 +80,7 @@ def reduced(shape: Shape, count: int | None, landmarks: np.ndarray, rng: int | n
     rows = samples.vertices
     cloud = Mesh(shape.mesh.vertices[rows], np.zeros((0, 3), dtype=np.int64))
     local = None if shape.shot is None else shape.shot[rows]
-    part = Shape(cloud, samples.basis, local, shape.name, shape.seconds)
+    part = replace(shape, mesh=cloud, basis=samples.basis, shot=local)
     return Reduced(part, rows, np.searchsorted(rows, landmarks))
 
 
@@ -117,4 +123,5 @@ def prepare(
         local = shot(mesh, config.descriptors.shot_radius, threads=config.threads)
         seconds["SHOT"] = time.perf_counter() - start
         report(f"SHOT of {name}", 1.0)
-    return Shape(mesh, basis, local, name, seconds)
+    radius = None if local is None else config.descriptors.shot_radius
+    return Shape(mesh, basis, local, name, seconds, config.basis.laplacian, radius)

@@ -18,7 +18,7 @@ from scipy.linalg import expm
 
 from kfmaps._threads import parallel
 from kfmaps.config import Config
-from kfmaps.fit.fit import Match, fit
+from kfmaps.fit.fit import Fit, fit
 from kfmaps.fit.shape import Shape
 from kfmaps.functional.guide import guide
 from kfmaps.functional.points import nearest
@@ -58,7 +58,7 @@ class Candidate:
     points : (q_t,) int64
         A source sample for each target sample.
     quality : Quality
-    fitted : Match or None
+    fitted : Fit or None
         The fit that it was refined from, if any.
     guided : bool
         Whether descriptors had a say; a map that none speak for is only a rival.
@@ -68,7 +68,7 @@ class Candidate:
     functional_map: np.ndarray
     points: np.ndarray
     quality: Quality
-    fitted: Match | None
+    fitted: Fit | None
     guided: bool = True
 
     @property
@@ -87,14 +87,10 @@ def candidates(
     probes: tuple[Probe, Probe],
     seed: int,
     *,
-    landmarks: Any = None,
     descriptors: tuple[Any, Any] | None = None,
     report: Report | None = None,
-) -> tuple[list[Candidate], list[Match]]:
-    """Refined candidates, in no order, and the small fits that were made.
-
-    With ``landmarks`` the signs are not tried, which know nothing of them.
-    """
+) -> list[Candidate]:
+    """Refined candidates, in no order."""
     assert config.search is not None
     small = thinned(probes[0], POINTS), thinned(probes[1], POINTS)
     surfaces = bool(len(source.mesh.faces) and len(target.mesh.faces))
@@ -104,7 +100,7 @@ def candidates(
     done: list[int] = []
     settings = variants(config, surfaces)
 
-    def rough(name: str, C: np.ndarray, start: int, weight: float, fitted: Match | None = None) -> Candidate:
+    def rough(name: str, C: np.ndarray, start: int, weight: float, fitted: Fit | None = None) -> Candidate:
         zoom = replace(ROUGH, start=min(start, functions), stop=min(ROUGH.stop, functions), guidance=weight)
         refined = zoom(C, small[0].samples.basis, small[1].samples.basis, threads=1, guide=guides[1])
         return judged(name, refined.functional_map, small, fitted, weight)
@@ -114,8 +110,8 @@ def candidates(
         return tell([rough(f"signs {mark}, weight {weight:g}", np.diag([1.0, *signs]), len(signs) + 1, weight)])
 
     def fitting(name: str, chosen: Config) -> list[Candidate]:
-        found = fit(source, target, chosen, landmarks=landmarks, descriptors=descriptors, rng=seed)
-        C = found.raw_functional_map
+        found = fit(source, target, chosen, descriptors=descriptors, rng=seed)
+        C = found.functional_map
         starts = [(start, weight) for start in STARTS for weight in rough_weights[1:] or rough_weights]
         return tell([rough(f"{name}, from {start}, weight {w:g}", C, start, w, found) for start, w in starts], 8)
 
@@ -135,7 +131,7 @@ def candidates(
         return tell(found, 5)
 
     low = min(config.search.signs, functions - 1)
-    tries = () if landmarks is not None or low == 0 else tuple(product((1, -1), repeat=low))
+    tries = () if low == 0 else tuple(product((1, -1), repeat=low))
     expected = 8 * len(settings) + len(rough_weights) * len(tries) + KICKS + 5 * FINALISTS
 
     def tell(found: list[Candidate], cost: int = 1) -> list[Candidate]:
@@ -149,13 +145,12 @@ def candidates(
     found = _run(jobs, config.threads)
     best = max(found, key=lambda c: c.score)
     found += _run([partial(kick, best, i) for i in range(KICKS)], config.threads)
-    fits = list({id(c.fitted): c.fitted for c in found if c.fitted is not None}.values())
     chosen = apart(sorted(found, key=lambda c: c.score, reverse=True), small[0], APART)[:FINALISTS]
-    return _run([partial(finish, c) for c in chosen], config.threads), fits
+    return _run([partial(finish, c) for c in chosen], config.threads)
 
 
 def judged(
-    name: str, C: np.ndarray, probes: tuple[Probe, Probe], fitted: Match | None = None, weight: float = 1.0
+    name: str, C: np.ndarray, probes: tuple[Probe, Probe], fitted: Fit | None = None, weight: float = 1.0
 ) -> Candidate:
     """A candidate with its point map on the samples and its quality."""
     k_t, k_s = C.shape

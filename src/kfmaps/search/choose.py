@@ -8,22 +8,18 @@ the descriptors, show whether some altogether different map would do as well, in
 
 from __future__ import annotations
 
-import time
-from dataclasses import replace
-from functools import partial
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 
-from kfmaps._arrays import like, refuse, to_numpy
-from kfmaps._threads import one_blas_thread, parallel
+from kfmaps._arrays import refuse
+from kfmaps._threads import parallel
 from kfmaps.config import Config
 from kfmaps.descriptors.shot import mirrored
-from kfmaps.fit.fit import Match
+from kfmaps.fit.fit import Fit
 from kfmaps.fit.shape import Progress, Shape
-from kfmaps.functional.guide import guide
 from kfmaps.functional.points import to_points
-from kfmaps.functional.refine import ZoomOut
 from kfmaps.search.candidates import Candidate, apart, candidates
 from kfmaps.search.quality import Probe, probe
 from kfmaps.surface.mesh import Mesh
@@ -37,83 +33,76 @@ POOR = -10.0
 had -7 and better, the best maps of a part of a body, or of a person to a cat, -13 and worse."""
 
 
+@dataclass(frozen=True, eq=False)
+class Found:
+    """A map before it is finished on all points: what :func:`choose` returns.
+
+    Attributes
+    ----------
+    functional_map : (k, k) float64
+    origin : str
+        What the candidate started from.
+    fit : Fit or None
+        The small fit that it started from, if any.
+    verdict : str
+        "sure", "ambiguous" or "poor" of a search; "landmarks" or "unchecked" of one fit.
+    confidence : float or None
+    scores : tuple of float
+        Of the map and of each runner-up, higher is better.
+    runners_up : tuple of arrays (n_t,)
+        The distinct other maps, best first.
+    """
+
+    functional_map: np.ndarray
+    origin: str
+    fit: Fit | None
+    verdict: str
+    confidence: float | None = None
+    scores: tuple[float, ...] = ()
+    runners_up: tuple[np.ndarray, ...] = ()
+
+
 def choose(
     source: Shape,
     target: Shape,
     config: Config,
     *,
-    landmarks: Any = None,
     descriptors: tuple[Any, Any] | None = None,
     rng: int | np.random.Generator | None = 0,
     progress: Progress | None = None,
-) -> Match:
-    """Match two prepared shapes without landmarks, as ``config.search`` says.
-
-    Returns the match of the best candidate, with ``confidence``, ``verdict`` ("sure", "ambiguous" or "poor"), the
-    distinct other maps as ``runners_up`` and the ``scores`` of all of them. ``landmarks`` are passed on to the fits.
+) -> Found:
+    """Find a map between two prepared shapes without landmarks, as ``config.search`` says.
 
     Raises
     ------
     InvalidInput
-        When ``config.search`` is ``None``, or reversed orientation is asked of a point cloud.
+        When ``config.search`` is ``None``.
     """
     if config.search is None:
         raise refuse("search", "settings of a search", "None", "use Config.automatic(), or give landmarks")
     seed = int(np.random.default_rng(rng).integers(2**31))
-    if config.search.orientation == "reversed":
-        target = mirror_image(target)
     report = progress or (lambda _stage, _done: None)
-    start = time.perf_counter()
-    report("candidates", 0.0)
     probes = parallel(lambda shape: probe(shape, rng=seed, threads=1), (source, target), config.threads)
-    found, fits = candidates(
+    found = candidates(
         source,
         target,
         config,
         (probes[0], probes[1]),
         seed,
-        landmarks=landmarks,
         descriptors=descriptors,
         report=lambda done: report("candidates", done),
     )
     ranked = distinct(found, probes[0])
-    report("candidates", 1.0)
-    searched = time.perf_counter()
-    best = ranked[0]
-    fitted = best.fitted or fits[0]
-    bases = (source.basis, target.basis)
-    result = replace(fitted, config=config, seconds={"candidates": searched - start})
-    C = best.functional_map
-    if config.refinement is None:
-        points = to_points(C, *bases, threads=config.threads)
-        result = replace(result, target_to_source=points, functional_map=C)
-    else:
-        if config.device != "cpu":
-            bases = (source.basis.to(config.device), target.basis.to(config.device))
-        refine = config.refinement
-        if isinstance(refine, ZoomOut) and refine.guidance:
-            refine = partial(refine, guide=guide(source.shot, target.shot))
-        with one_blas_thread():
-            refined = refine(
-                like(C, bases[0].functions),
-                *bases,
-                progress=lambda done: report("refinement", done),
-                threads=config.threads,
-            )
-        C = to_numpy(refined.functional_map)
-        result = replace(result, target_to_source=refined.target_to_source, functional_map=C)
-    result.seconds["refinement"] = time.perf_counter() - searched
-    others = ranked[1 : 1 + config.search.runners_up]
+    best, others = ranked[0], ranked[1 : 1 + config.search.runners_up]
     margin = max(best.quality.score - ranked[1].quality.score, 0.0) if len(ranked) > 1 else np.inf
-    k_t, k_s = result.functional_map.shape
-    return replace(
-        result,
-        eigenvalues_s=source.basis.eigenvalues[:k_s],
-        eigenvalues_t=target.basis.eigenvalues[:k_t],
+    return Found(
+        functional_map=best.functional_map,
+        origin=best.name,
+        fit=best.fitted,
         confidence=float(-np.expm1(-margin / CLEAR) * np.exp(min(best.score - POOR, 0.0))),
         verdict="ambiguous" if margin < CLEAR else "poor" if best.score < POOR else "sure",
-        runners_up=tuple(to_points(c.functional_map, source.basis, target.basis, config.threads) for c in others),
         scores=tuple(float(c.quality.score) for c in (best, *others)),
+        runners_up=tuple(to_points(c.functional_map, source.basis, target.basis, config.threads) for c in others),
     )
 
 

@@ -15,7 +15,7 @@ from kfmaps.fit.shape import Shape
 from kfmaps.surface.basis import Basis
 from kfmaps.surface.mesh import Mesh
 
-LAYOUT = 1
+LAYOUT = 2
 """Raised when what an entry holds changes."""
 
 
@@ -54,9 +54,10 @@ def save_shape(path: Path, shape: Shape) -> None:
         "mass": shape.basis.mass,
         "stages": np.array(list(shape.seconds)),
         "seconds": np.array(list(shape.seconds.values()), dtype=np.float64),
+        "laplacian": np.array(shape.laplacian),
     }
     if shape.shot is not None:
-        arrays["shot"] = shape.shot
+        arrays |= {"shot": shape.shot, "shot_radius": np.float64(shape.shot_radius)}
     with atomic_output(path, force=True) as temporary, open(temporary, "wb") as file:
         np.savez(file, allow_pickle=False, **arrays)
 
@@ -72,6 +73,8 @@ def load_shape(path: Path, name: str) -> Shape | None:
                 arrays["shot"] if "shot" in arrays.files else None,
                 name,
                 seconds,
+                str(arrays["laplacian"]),
+                float(arrays["shot_radius"]) if "shot" in arrays.files else None,
             )
     except FileNotFoundError:
         return None

@@ -179,9 +179,9 @@ def _matched(task: PairTask) -> dict[str, Any]:
         "confidence": None if found.confidence is None else float(found.confidence),
         "local_confidence": mean_confidence(found),
         "verdict": found.verdict,
-        "solver": str(found.solution.status),
-        "solver_steps": int(found.solution.steps),
-        "rank": int(found.rank),
+        "solver": None if found.fit is None else str(found.fit.solution.status),
+        "solver_steps": None if found.fit is None else int(found.fit.solution.steps),
+        "rank": None if found.fit is None else int(found.fit.rank),
         "seconds": seconds,
     }
 

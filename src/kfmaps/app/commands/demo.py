@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
     from kfmaps.app.datasets import Pair
     from kfmaps.config import Config
-    from kfmaps.fit.fit import Match
+    from kfmaps.matching import Match
 
 SHAPES = ("two-poses", "non-isometric", "partial")
 
@@ -71,7 +71,7 @@ class Row:
         The refined map, and ...
     errors : (n_t,) float64
         ... its errors in units of √area.
-    raw_error : float
+    raw_error : float or None
         Mean error of the fit alone.
     verdict : str
     seconds : float
@@ -81,7 +81,7 @@ class Row:
     given: str
     points: np.ndarray
     errors: np.ndarray
-    raw_error: float
+    raw_error: float | None
     verdict: str
     seconds: float
 
@@ -124,7 +124,8 @@ class Comparison:
         for name in ("fit alone", "refined", "time"):
             table.add_column(name, justify="right", no_wrap=True)
         for row in self.rows:
-            numbers = f"{100 * row.raw_error:.2f}", f"{100 * row.error:.2f}", f"{row.seconds:.1f} s"
+            raw = "" if row.raw_error is None else f"{100 * row.raw_error:.2f}"
+            numbers = raw, f"{100 * row.error:.2f}", f"{row.seconds:.1f} s"
             table.add_row(row.method, row.given, row.verdict, *numbers)
         return table
 
@@ -184,8 +185,7 @@ def _row(
     found: Match = match(shapes[0], shapes[1], config, landmarks=landmarks, rng=seed)
     stages(name, 1.0)
     seconds = time.perf_counter() - start
-    errors, raw = (
-        geodesic_errors(pair.source, points, pair.truth)
-        for points in (found.target_to_source, found.raw_target_to_source)
-    )
-    return Row(method, given, found.target_to_source, errors, float(raw.mean()), found.verdict, seconds)
+    errors = geodesic_errors(pair.source, found.target_to_source, pair.truth)
+    raw = found.raw_target_to_source
+    raw_error = None if raw is None else float(geodesic_errors(pair.source, raw, pair.truth).mean())
+    return Row(method, given, found.target_to_source, errors, raw_error, found.verdict, seconds)

@@ -105,7 +105,7 @@ def figure4(setting: Setting) -> Outcome:
 def panel(collection: Collection, pair: ShapePair, method: str, count: int, config: Config) -> Panel:
     """The raw map and its errors."""
     truth = collection.truth(pair)
-    points = fitted(collection, pair, config, truth.landmarks).raw_target_to_source
+    points = fitted(collection, pair, config, truth.landmarks).raw
     errors = geodesic_errors(collection.mesh(pair.source), points[truth.target], truth.source)
     return Panel(method, count, points, truth.target, errors)
 

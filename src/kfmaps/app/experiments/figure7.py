@@ -23,7 +23,7 @@ from kfmaps.app.experiments.pairs import prepared
 from kfmaps.app.experiments.setting import Setting
 from kfmaps.config import Config
 from kfmaps.fit.features import Descriptors, Features, kernel_features, pair_descriptors
-from kfmaps.fit.fit import problem
+from kfmaps.fit.problem import problem
 from kfmaps.functional.energy import Energy, SliceCommutativity, hadamard_term
 from kfmaps.functional.preconditioners import jacobi, sylvester
 from kfmaps.functional.solvers import CG, solve

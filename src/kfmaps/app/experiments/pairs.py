@@ -17,7 +17,8 @@ from kfmaps._arrays import KfmapsWarning
 from kfmaps.app.experiments.collections import Collection, ShapePair
 from kfmaps.app.experiments.store import Job, Report, run_jobs
 from kfmaps.config import Config, as_dict
-from kfmaps.fit.fit import Match, fit
+from kfmaps.fit.finish import finished
+from kfmaps.fit.fit import Fit, fit
 from kfmaps.fit.shape import Shape, prepare
 from kfmaps.functional.evaluate import error_curve
 from kfmaps.surface.geodesics import geodesic_distances
@@ -108,8 +109,8 @@ def measure(collection: Collection, pair: ShapePair, configs: Sequence[Config]) 
     return [
         _measured(
             m,
-            distances[truth.source, m.raw_target_to_source[truth.target]],
-            distances[truth.source, m.target_to_source[truth.target]],
+            distances[truth.source, m.raw[truth.target]],
+            distances[truth.source, m.refined[truth.target]],
         )
         for m in matches
     ]
@@ -131,11 +132,26 @@ def all_distances(collection: Collection, name: str) -> np.ndarray:
     return found
 
 
-def fitted(collection: Collection, pair: ShapePair, config: Config, landmarks: np.ndarray) -> Match:
-    """The match of a pair of a collection, on one thread."""
+@dataclass(frozen=True, eq=False)
+class Fitted:
+    """One fit of a pair and its point maps (n_t,), raw and refined."""
+
+    fit: Fit
+    raw: np.ndarray
+    refined: np.ndarray
+    seconds: float
+
+
+def fitted(collection: Collection, pair: ShapePair, config: Config, landmarks: np.ndarray) -> Fitted:
+    """The fit of a pair of a collection, on one thread."""
     size, laplacian = config.eigenfunctions, config.basis.laplacian
     source, target = (prepared(collection, name, size, laplacian) for name in (pair.source, pair.target))
-    return fit(source, target, replace(config, threads=1), landmarks=landmarks, rng=0)
+    config = replace(config, threads=1)
+    found = fit(source, target, config, landmarks=landmarks, rng=0)
+    end = finished(found.functional_map, source, target, config)
+    assert end.raw_target_to_source is not None  # asked for
+    seconds = sum(found.seconds.values()) + sum(end.seconds.values())
+    return Fitted(found, end.raw_target_to_source, end.target_to_source, seconds)
 
 
 @lru_cache(maxsize=64)
@@ -152,7 +168,7 @@ def prepared(collection: Collection, name: str, size: int, laplacian: Any = "rob
     return prepare(collection.mesh(name), config, name=name)
 
 
-def _measured(m: Match, raw: np.ndarray, refined: np.ndarray) -> dict[str, Any]:
+def _measured(m: Fitted, raw: np.ndarray, refined: np.ndarray) -> dict[str, Any]:
     row = Row(
         "",
         "",
@@ -162,11 +178,11 @@ def _measured(m: Match, raw: np.ndarray, refined: np.ndarray) -> dict[str, Any]:
         median=float(np.median(raw)),
         refined=float(refined.mean()),
         curve=tuple(np.round(error_curve(raw, THRESHOLDS), 6).tolist()),
-        status=m.solution.status,
-        steps=m.solution.steps,
-        rank=m.rank,
-        slices=m.slices,
-        kernel=m.kernel,
-        seconds=round(sum(m.seconds.values()), 3),
+        status=m.fit.solution.status,
+        steps=m.fit.solution.steps,
+        rank=m.fit.rank,
+        slices=m.fit.slices,
+        kernel=m.fit.kernel,
+        seconds=round(m.seconds, 3),
     )
     return {name: v for name, v in asdict(row).items() if name not in ("collection", "source", "target", "method")}

@@ -21,7 +21,7 @@ from kfmaps.app.files.numbers import read_vertex_numbers, write_vertex_numbers
 from kfmaps.app.files.text import REPAIR, read_bytes
 
 if TYPE_CHECKING:
-    from kfmaps.fit.fit import Match
+    from kfmaps.matching import Match
 
 FORMATS = (".npz", ".txt", ".vts", ".mat")
 
@@ -135,16 +135,14 @@ def match_map(match: Match) -> MapFile:
     """What a match knows of its map, ready to be saved; the paths of the meshes are not among it."""
     from kfmaps.config import as_dict  # only here: reading a map needs no settings
 
-    extra: dict[str, Any] = {
-        "raw_target_to_source": match.raw_target_to_source,
-        "raw_functional_map": match.raw_functional_map,
-    }
+    extra: dict[str, Any] = {"raw_functional_map": match.raw_functional_map}
+    if match.raw_target_to_source is not None:
+        extra["raw_target_to_source"] = match.raw_target_to_source
     if match.runners_up:
         extra["runners_up"] = np.stack(match.runners_up)
     if match.confidence is not None:
         extra["confidence"] = np.float64(match.confidence)
-    if match.local_confidence is not None:
-        extra["local_confidence"] = match.local_confidence
+    extra["local_confidence"] = match.local_confidence
     config = json.dumps(as_dict(match.config))
     return MapFile(
         match.target_to_source, match.functional_map, match.eigenvalues_s, match.eigenvalues_t, config, extra

@@ -13,12 +13,13 @@ import numpy as np
 
 from kfmaps._arrays import refuse
 from kfmaps.app.files import MapFile, check_map
+from kfmaps.app.summary import relative_residuals
 from kfmaps.app.view.page import result_page
 from kfmaps.config import as_dict
 from kfmaps.descriptors.spectral import wave_energies, wave_signature
-from kfmaps.fit.fit import Match
 from kfmaps.functional.confidence import local_confidence
 from kfmaps.functional.evaluate import geodesic_errors, truth_from_pairs
+from kfmaps.matching import Match
 from kfmaps.surface.basis import laplace_basis
 from kfmaps.surface.mesh import Mesh, unit_area
 
@@ -33,24 +34,28 @@ def match_summary(match: Match) -> dict[str, Any]:
 
     Residuals are divided by the first.
     """
-    residuals = np.asarray(match.solution.residuals, dtype=np.float64)
-    first = residuals[0] if len(residuals) and residuals[0] > 0 else 1.0
     k_t, k_s = match.functional_map.shape
     outcome = {
         "verdict": match.verdict,
         "confidence": match.confidence,
         "scores": list(match.scores),
-        "solver": match.solution.status,
-        "solver steps": match.solution.steps,
-        "kernel": match.kernel,
-        "features of the kernel": match.rank,
-        "slices": match.slices,
         "size of the map": f"{k_t} × {k_s}",
+        "started from": match.origin,
     }
+    told: dict[str, Any] = {}
+    if match.fit is not None:
+        fit = match.fit
+        outcome |= {
+            "solver": fit.solution.status,
+            "solver steps": fit.solution.steps,
+            "kernel": fit.kernel,
+            "features of the kernel": fit.rank,
+            "slices": fit.slices,
+        }
+        told = {"energies": dict(fit.energies), "residuals": relative_residuals(fit).tolist()}
     return {
         **{name: value for name, value in outcome.items() if value not in (None, [])},
-        "energies": dict(match.energies),
-        "residuals": (residuals / first).tolist(),
+        **told,
         "times": dict(match.seconds),
         "settings": as_dict(match.config),
     }
