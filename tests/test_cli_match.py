@@ -72,7 +72,7 @@ def test_summary_for_people(made: types.SimpleNamespace, tmp_path: Path) -> None
     stages = [line.partition(":")[0] for line in ran.stderr.splitlines()]
     assert stages == [
         *("eigenfunctions of source", "eigenfunctions of target", "descriptors", "energy", "solve", "point map"),
-        "refinement",
+        *("refinement", "confidence"),
     ]
 
 

@@ -11,16 +11,17 @@ SOURCE = Path(__file__).parents[1] / "src" / "kfmaps"
 FLOORS = {
     "_arrays": 0,
     "_threads": 0,
-    "kernel": 1,
-    "surface": 2,
-    "descriptors": 3,
-    "functional": 4,
-    "config": 5,
-    "fit": 6,
-    "search": 7,
-    "matching": 8,
-    "app": 9,
-    "__main__": 10,
+    "_records": 1,
+    "kernel": 2,
+    "surface": 3,
+    "descriptors": 4,
+    "functional": 5,
+    "config": 6,
+    "fit": 7,
+    "search": 8,
+    "matching": 9,
+    "app": 10,
+    "__main__": 11,
 }
 """Rooms, each a package or a module. Inside a room modules import each other freely, but never in a circle."""
 

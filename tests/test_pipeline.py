@@ -22,6 +22,7 @@ from kfmaps.fit.features import pair_descriptors
 from kfmaps.fit.fit import checked_landmarks
 from kfmaps.fit.problem import problem
 from kfmaps.fit.shape import prepare
+from kfmaps.functional.energy import Energy
 from kfmaps.functional.refine import ICP, ZoomOut
 from kfmaps.functional.solvers import CG, Direct, dense
 from kfmaps.kernel.kernels import Gaussian, Linear, Polynomial, Product, Sum, Tanh
@@ -258,10 +259,29 @@ def test_bad_descriptors_and_kernels_are_refused(shape, other, marks):
         with pytest.raises(InvalidInput):
             match(shape, other, RAW, landmarks=marks, descriptors=given)
     with pytest.raises(InvalidInput, match="at least one"):
-        match(shape, other, replace(RAW, descriptors=DescriptorConfig(signature="none")))
+        match(shape, other, replace(RAW, descriptors=DescriptorConfig(signature="none", landmark_map="none")))
     for kernel in (lambda X, Y: np.ones((len(X), len(Y) + 1)), lambda X, Y: np.full((len(X), len(Y)), np.nan)):
         with pytest.raises(InvalidInput, match="kernel"):
             match(shape, other, replace(RAW, kernel=kernel), landmarks=marks)
+
+
+def test_shapes_prepared_otherwise_are_refused(shape, other, marks):
+    for config, wanted in (
+        (replace(SMALL, basis=BasisConfig(functions=50)), "50 eigenfunctions"),
+        (replace(SMALL, basis=replace(SMALL.basis, laplacian="cotangent")), "cotangent Laplacian"),
+        (replace(SMALL, descriptors=replace(SMALL.descriptors, shot=True, shot_radius=0.2)), "SHOT of radius 0.2"),
+    ):
+        with pytest.raises(InvalidInput, match=wanted):
+            match(shape, other, config, landmarks=marks)
+
+
+def test_a_breakdown_is_told(shape, other, marks, monkeypatch):
+    """A solver that meets a direction without positive curvature returns something, but not the minimiser."""
+    monkeypatch.setattr(Energy, "apply", lambda self, C: -C)
+    with pytest.warns(KfmapsWarning, match="broke down"):
+        found = match(shape, other, RAW, landmarks=marks)
+    assert found.fit is not None
+    assert found.fit.solution.status == "breakdown"
 
 
 def test_meshes_that_cannot_be_matched_are_refused():

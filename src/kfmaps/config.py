@@ -2,24 +2,18 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, fields, is_dataclass, replace
-from typing import Any, Literal
+from dataclasses import dataclass, field, fields, replace
+from typing import Any, Literal, get_args
 
+from kfmaps import _records
 from kfmaps._arrays import check_count, check_positive, refuse
 from kfmaps.descriptors.spectral import NORMALISATIONS, Normalisation
-from kfmaps.functional.refine import ICP, Refinement, ZoomOut
-from kfmaps.functional.solvers import CG, Direct, Solver
-from kfmaps.kernel.kernels import Gaussian, KernelLike, Laplacian, Linear, Polynomial, Product, Sum, Tanh, describe
+from kfmaps.functional.refine import Refinement, ZoomOut
+from kfmaps.functional.solvers import CG, Solver
+from kfmaps.kernel.kernels import KERNELS, Gaussian, KernelLike, Linear, describe
 
 Sampling = Literal["descriptor", "geodesic", "uniform", "cholesky", "random-cholesky", "squared-cholesky"]
-SAMPLINGS: tuple[Sampling, ...] = (
-    "descriptor",
-    "geodesic",
-    "uniform",
-    "cholesky",
-    "random-cholesky",
-    "squared-cholesky",
-)
+SAMPLINGS: tuple[str, ...] = get_args(Sampling)
 Preconditioner = Literal["none", "jacobi", "sylvester"]
 
 
@@ -205,7 +199,8 @@ class Config:
     def eigenfunctions(self) -> int:
         """How many eigenfunctions each shape needs, the most of what map, descriptors and refinement ask for."""
         zoom = self.refinement.stop if isinstance(self.refinement, ZoomOut) else 0
-        return max(self.basis.functions, self.descriptors.eigenfunctions, zoom)
+        spectral = self.descriptors.signature != "none" or self.descriptors.landmark_map != "none"
+        return max(self.basis.functions, self.descriptors.eigenfunctions if spectral else 0, zoom)
 
     @classmethod
     def automatic(cls) -> Config:
@@ -259,31 +254,8 @@ class Config:
         return replace(cls.no17(), weights=Weights(descriptors=0.1, commutativity=0.0, laplacian=1e-12))
 
 
-RECORDS = {
-    kind.__name__: kind
-    for kind in (
-        Linear,
-        Polynomial,
-        Gaussian,
-        Laplacian,
-        Tanh,
-        Sum,
-        Product,
-        ICP,
-        ZoomOut,
-        CG,
-        Direct,
-        Search,
-    )
-}
+RECORDS = {kind.__name__: kind for kind in (*KERNELS, *get_args(Refinement), *get_args(Solver), Search)}
 """Records that a settings file names by ``kind``, since a field may hold one of several."""
-
-SECTIONS = {
-    "basis": BasisConfig,
-    "descriptors": DescriptorConfig,
-    "nystrom": NystromConfig,
-    "weights": Weights,
-}
 
 
 def as_dict(value: Any) -> Any:
@@ -292,13 +264,7 @@ def as_dict(value: Any) -> Any:
     Records of which a field may hold several kinds carry theirs under ``kind``. A kernel that is a callable of
     the user's own becomes ``{"kind": "callable", "name": …}``, which :func:`from_dict` refuses.
     """
-    if is_dataclass(value) and not isinstance(value, type):
-        inside = {f.name: as_dict(getattr(value, f.name)) for f in fields(value)}
-        kind = type(value).__name__
-        return {"kind": kind, **inside} if kind in RECORDS else inside
-    if callable(value):
-        return {"kind": "callable", "name": describe(value)}
-    return value
+    return _records.as_dict(value, RECORDS, describe)
 
 
 def from_dict(values: dict[str, Any], base: Config | None = None) -> Config:
@@ -307,46 +273,6 @@ def from_dict(values: dict[str, Any], base: Config | None = None) -> Config:
     Raises
     ------
     InvalidInput
-        On a name or kind that does not exist, naming those that do.
+        On names and kinds that do not exist, naming those that do, and on values of the wrong type or out of range.
     """
-    return _merged(base or Config(), values, "settings")
-
-
-def _merged(record: Any, values: dict[str, Any], where: str) -> Any:
-    names = [f.name for f in fields(record)]
-    changes = {}
-    for name, value in values.items():
-        if name not in names:
-            raise refuse(where, "settings among " + ", ".join(names), repr(name), "check the spelling")
-        current = getattr(record, name)
-        label = f"{where}.{name}"
-        if name in SECTIONS and isinstance(record, Config):
-            if not isinstance(value, dict):
-                raise refuse(label, "a table of settings", repr(value), f"write [{name}] and one setting a line")
-            changes[name] = _merged(current, value, label)
-        elif isinstance(value, dict):
-            changes[name] = _record(value, current, label)
-        elif value in ("none", "None") and name in ("refinement", "search", "threads", "fit_samples"):
-            changes[name] = None
-        else:
-            changes[name] = value
-    try:
-        return replace(record, **changes)
-    except TypeError as error:
-        raise refuse(where, "values of the right types", str(error), "compare with `kfmaps config`") from error
-
-
-def _record(values: dict[str, Any], current: Any, where: str) -> Any:
-    kind = values.get("kind", type(current).__name__)
-    if kind not in RECORDS:
-        raise refuse(where, "a kind among " + ", ".join(RECORDS), repr(kind), "a callable kernel needs Python")
-    inside = {k: v for k, v in values.items() if k != "kind"}
-    for name in ("a", "b"):
-        if isinstance(inside.get(name), dict):
-            inside[name] = _record(inside[name], None, f"{where}.{name}")
-    known = [f.name for f in fields(RECORDS[kind])]
-    for name in inside:
-        if name not in known:
-            raise refuse(where, f"settings of {kind} among {', '.join(known)}", repr(name), "check the spelling")
-    start = {f: getattr(current, f) for f in known} if type(current).__name__ == kind else {}
-    return RECORDS[kind](**{**start, **inside})
+    return _records.updated(base or Config(), values, Config(), {KernelLike: KERNELS})

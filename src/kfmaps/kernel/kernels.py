@@ -164,6 +164,10 @@ class Product:
         return gram_diagonal(self.a, X) * gram_diagonal(self.b, X)
 
 
+KERNELS = (Linear, Polynomial, Gaussian, Laplacian, Tanh, Sum, Product)
+"""Those that a settings file can name."""
+
+
 def gram(kernel: KernelLike, X: Array, Y: Array) -> Array:
     """Kernel matrix ``(n, m)`` between rows of ``X (n, d)`` and ``Y (m, d)``, checked.
 

@@ -9,22 +9,15 @@ from typing import Any
 
 from kfmaps._arrays import InvalidInput, refuse
 from kfmaps.app.settings.catalogue import FLAGS, PRESETS, Setting
-from kfmaps.app.settings.values import blamed, configured
-from kfmaps.config import Config
+from kfmaps.app.settings.values import blamed
+from kfmaps.config import Config, from_dict
 
 
 def preset(name: str) -> Config:
     """The configuration of that name among ``PRESETS``."""
-    made = {
-        "automatic": Config.automatic,
-        "default": Config,
-        "paper": Config.paper,
-        "no17": Config.no17,
-        "obcs12": Config.obcs12,
-    }
-    if name not in made:
+    if name not in PRESETS:
         raise refuse("--preset", "one of " + ", ".join(PRESETS), repr(name), "choose one of them")
-    return made[name]()
+    return Config() if name == "default" else getattr(Config, name)()
 
 
 def read_settings(path: str | Path, base: Config) -> Config:
@@ -45,7 +38,7 @@ def read_settings(path: str | Path, base: Config) -> Config:
     except (tomllib.TOMLDecodeError, RecursionError) as error:
         raise refuse(f"--config {path}", "TOML", str(error), "compare with `kfmaps config`") from error
     try:
-        return configured(base, values)
+        return from_dict(values, base)
     except InvalidInput as error:
         raise InvalidInput(f"--config {path}: {error}") from error
 
