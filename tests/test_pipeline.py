@@ -277,7 +277,7 @@ def test_shapes_prepared_otherwise_are_refused(shape, other, marks):
 
 def test_a_breakdown_is_told(shape, other, marks, monkeypatch):
     """A solver that meets a direction without positive curvature returns something, but not the minimiser."""
-    monkeypatch.setattr(Energy, "apply", lambda self, C: -C)
+    monkeypatch.setattr(Energy, "apply", lambda _energy, C: -C)
     with pytest.warns(KfmapsWarning, match="broke down"):
         found = match(shape, other, RAW, landmarks=marks)
     assert found.fit is not None
