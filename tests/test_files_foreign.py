@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import base64
 import json
 import re
 import struct
@@ -17,6 +18,7 @@ from trimesh.visual import TextureVisuals
 from conftest import fibonacci_sphere
 from kfmaps._arrays import InvalidInput, KfmapsWarning
 from kfmaps.app.files import read_mesh, read_mesh_file
+from kfmaps.app.files.gltf import buffer_files
 from kfmaps.surface.mesh import Mesh, face_normals
 from kfmaps.surface.topology import topology
 
@@ -159,8 +161,63 @@ def test_gltf_embedded_and_beside(tmp_path: Path) -> None:
     for name, content in export_gltf(scene_of(np.eye(4))).items():
         (tmp_path / name).write_bytes(content)
     np.testing.assert_array_equal(read_mesh(tmp_path / "model.gltf").faces, MESH.faces)
-    next(tmp_path.glob("*.bin")).unlink()
-    assert "complete glTF" in refused(tmp_path / "model.gltf", (tmp_path / "model.gltf").read_bytes())
+    beside = buffer_files((tmp_path / "model.gltf").read_bytes(), str(tmp_path / "model.gltf"))
+    assert sorted(beside) == sorted(tmp_path.glob("*.bin"))
+    beside[0].unlink()
+    assert "nothing there" in refused(tmp_path / "model.gltf", (tmp_path / "model.gltf").read_bytes())
+
+
+@pytest.mark.parametrize("uri", ["/dev/zero", "../a.bin", "file:///dev/zero", "http://a/b", "a\\b", "%2Fdev%2Fzero"])
+def test_gltf_reads_nothing_elsewhere(tmp_path: Path, uri: str) -> None:
+    text = json.dumps({"asset": {"version": "2.0"}, "buffers": [{"byteLength": 1, "uri": uri}]})
+    assert "a file beside it" in refused(tmp_path / "a.gltf", text.encode())
+    (tmp_path / "zero.bin").symlink_to("/dev/zero")
+    text = json.dumps({"asset": {"version": "2.0"}, "buffers": [{"byteLength": 1, "uri": "zero.bin"}]})
+    assert "a device" in refused(tmp_path / "a.gltf", text.encode())
+
+
+def test_gltf_strips_quantised_colors_and_nested_nodes(tmp_path: Path) -> None:
+    """Two triangles of a strip that face the same way, colours as bytes, moved by a node and turned by its child."""
+    places = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0]], "<f4")
+    tints = np.array([[255, 0, 0, 255], [0, 255, 0, 255], [0, 0, 255, 255], [51, 51, 51, 255]], "u1")
+    content = base64.b64encode(places.tobytes() + tints.tobytes()).decode()
+    half = float(np.sqrt(0.5))
+    tree = {
+        "asset": {"version": "2.0"},
+        "buffers": [{"byteLength": 64, "uri": "data:application/octet-stream;base64," + content}],
+        "bufferViews": [{"buffer": 0, "byteLength": 48}, {"buffer": 0, "byteOffset": 48, "byteLength": 16}],
+        "accessors": [
+            {"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3"},
+            {"bufferView": 1, "componentType": 5121, "count": 4, "type": "VEC4", "normalized": True},
+        ],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "COLOR_0": 1}, "mode": 5}]}],
+        "nodes": [{"translation": [0, 0, 5], "children": [1]}, {"rotation": [0, 0, half, half], "mesh": 0}],
+    }
+    (tmp_path / "a.gltf").write_text(json.dumps(tree))
+    with pytest.warns(KfmapsWarning, match="boundary"):
+        found = read_mesh_file(tmp_path / "a.gltf")
+    np.testing.assert_allclose(found.mesh.vertices, [[0, 0, 5], [0, 1, 5], [-1, 0, 5], [-1, 1, 5]], atol=1e-12)
+    np.testing.assert_allclose(face_normals(found.mesh), [[0, 0, 1], [0, 0, 1]], atol=1e-12)
+    assert found.colors is not None
+    np.testing.assert_allclose(found.colors, tints[:, :3] / 255)
+    tree["nodes"][1]["children"] = [0]
+    assert "form a tree" in refused(tmp_path / "a.gltf", json.dumps({**tree, "scenes": [{"nodes": [0]}]}).encode())
+
+
+def test_gltf_of_more_copies_than_fit_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A few thousand nodes that each show a mesh of a few thousand vertices, as often as they like."""
+    monkeypatch.setattr("kfmaps._memory.installed_memory", lambda: 32 << 30)
+    places = np.zeros((20_000, 3), "<f4").tobytes()
+    tree = {
+        "asset": {"version": "2.0"},
+        "buffers": [{"byteLength": len(places), "uri": "data:;base64," + base64.b64encode(places).decode()}],
+        "bufferViews": [{"buffer": 0, "byteLength": len(places)}],
+        "accessors": [{"bufferView": 0, "componentType": 5126, "count": 20_000, "type": "VEC3"}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}] * 2000}],
+        "nodes": [{"mesh": 0}] * 20,
+        "scenes": [{"nodes": list(range(20))}],
+    }
+    assert "of memory, got 80 GB" in refused(tmp_path / "a.gltf", json.dumps(tree).encode())
 
 
 def test_parts_follow_in_order_and_are_placed(tmp_path: Path) -> None:
@@ -219,7 +276,7 @@ def accessor(tree: dict[str, Any], **more: Any) -> None:
         (lambda t: t["accessors"][primitive(t)["indices"]].update(componentType=5126), "unsigned vertex numbers"),
         (lambda t: primitive(t).update(mode=6), "export it as triangles"),
         (lambda t: primitive(t).update(mode=1), "vertices, got none"),
-        (lambda t: t.update(meshes=[]), "vertices, got none"),
+        (lambda t: t.update(meshes=[]), "complete glTF 2.0 file"),
         (lambda t: t.pop("bufferViews"), "complete glTF 2.0 file"),
     ],
 )
@@ -231,5 +288,5 @@ def test_glb_of_another_version_or_none_at_all(tmp_path: Path) -> None:
     assert "version 1" in refused(tmp_path / "a.glb", GLB[:4] + b"\1" + GLB[5:])
     assert "complete glTF" in refused(tmp_path / "a.glb", b"hello")
     assert "complete glTF" in refused(tmp_path / "a.gltf", b"[]")
-    assert "only GLTF 2" in refused(tmp_path / "a.gltf", b'{"asset": {"version": "1.0"}}')
+    assert "got version 1.0" in refused(tmp_path / "a.gltf", b'{"asset": {"version": "1.0"}}')
     assert "as it says" in refused(tmp_path / "a.glb", GLB + b"x")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import struct
+import warnings
 from pathlib import Path
 
 import numpy as np
@@ -277,3 +278,40 @@ def test_each_oddity_is_named(tmp_path: Path, places: np.ndarray, faces: list, t
     write_mesh(tmp_path / "a.ply", Mesh(places, np.array(faces)))
     with pytest.warns(KfmapsWarning, match=told):
         assert len(read_mesh(tmp_path / "a.ply").faces) == len(faces)
+
+
+@pytest.mark.parametrize("line_ends", [("\n", "\r\n"), ("\r\n", "\n"), ("\r\n", "\r\n"), ("\r", "\r")])
+def test_ply_headers_of_any_line_ends_before_a_binary_body(tmp_path: Path, line_ends: tuple[str, str]) -> None:
+    """Some programs write the header as text of their system and the body, or a comment, as it stands."""
+    first, then = line_ends
+    head = format_ply(SHAPE).partition(b"end_header\n")[0].replace(b"\n", first.encode())
+    body = format_ply(SHAPE).partition(b"end_header\n")[2]
+    comment = b"comment made by a program" + then.encode()
+    at = head.index(b"element vertex")
+    (tmp_path / "a.ply").write_bytes(head[:at] + comment + head[at:] + b"end_header" + then.encode() + body)
+    np.testing.assert_array_equal(read_mesh(tmp_path / "a.ply").vertices, SHAPE.vertices)
+    np.testing.assert_array_equal(read_mesh(tmp_path / "a.ply").faces, SHAPE.faces)
+
+
+NUMBERS = "+1.E+00 -2.e-01 +.5\n1. +0.E+00 0\n0 1E0 -0.\n"
+SHAPE = blob(30)
+FORTRAN = {
+    ".off": "OFF\n3 1 0\n" + NUMBERS + "3 0 1 2\n",
+    ".xyz": NUMBERS,
+    ".obj": "".join(f"v {line}\n" for line in NUMBERS.splitlines()) + "f 1 2 3\n",
+    ".ply": "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty double z\n"
+    "element face 1\nproperty list uchar int vertex_indices\nend_header\n" + NUMBERS + "+3.E+00 0. +1 2.E+00\n",
+    ".stl": "solid\nfacet normal 0 0 1\nouter loop\n"
+    + "".join(f"vertex {line}\n" for line in NUMBERS.splitlines())
+    + "endloop\nendfacet\nendsolid\n",
+}
+
+
+@pytest.mark.parametrize("suffix", FORTRAN)
+def test_numbers_as_fortran_writes_them(tmp_path: Path, suffix: str) -> None:
+    (tmp_path / f"a{suffix}").write_text(FORTRAN[suffix])
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", KfmapsWarning)
+        mesh = read_mesh(tmp_path / f"a{suffix}")
+    np.testing.assert_array_equal(mesh.vertices, [[1, -0.2, 0.5], [1, 0, 0], [0, 1, 0]])
+    assert mesh.faces.tolist() == ([] if suffix == ".xyz" else [[0, 1, 2]])

@@ -10,6 +10,7 @@ SOURCE = Path(__file__).parents[1] / "src" / "kfmaps"
 
 FLOORS = {
     "_arrays": 0,
+    "_memory": 1,
     "_threads": 0,
     "_records": 1,
     "kernel": 2,

@@ -40,7 +40,8 @@ def parse_ply(data: bytes, name: str) -> MeshFile:
         rows = parse_rows(clean_text(data[start:], name), name)
         have, first = len(rows), 0
         if have != sum(e.rows for e in elements):
-            wanted = " and ".join(f"{e.rows} lines of {e.name}" for e in elements)
+            shown = [f"{e.rows} lines of {e.name}" for e in elements[:4]]
+            wanted = " and ".join(shown + [f"{len(elements) - 4} elements more"] * (len(elements) > 4))
             raise refuse(name, wanted, f"{have} lines", CUT)
         for element in elements:
             part = rows.part(first, first + element.rows)
@@ -57,36 +58,49 @@ def parse_ply(data: bytes, name: str) -> MeshFile:
 
 def _header(data: bytes, name: str) -> tuple[str, list[Element], int]:
     """Byte order ('' for text), elements, and where the body begins."""
-    opening = re.match(rb"ply[ \t]*(\r\n|\n|\r)", data)
+    opening = re.match(rb"ply[ \t]*(\r?\n|\r)", data)
     if opening is None:
         raise refuse(name, "the word ply first", quoted(data[:16]), "check the extension")
-    line_end = opening.group(1)
-    closing = re.compile(re.escape(line_end) + rb"end_header[ \t]*" + re.escape(line_end)).search(data)
-    if closing is None:
-        raise refuse(name, "a header that ends in end_header", "none", "the file is cut short: export it again")
     order: str | None = None
-    elements: list[Element] = []
-    for i, line in enumerate(data[opening.end() : closing.start()].split(line_end), start=2):
+    elements: dict[str, tuple[int, dict[str, Property]]] = {}
+    properties: dict[str, Property] = {}
+    at, i = opening.end(), 1
+    while (end := data.find(opening.group(1)[-1:], at)) >= 0:
+        # Some programs end lines with \r\n in one part of the header and with \n in another.
+        line, at, i = data[at:end].removesuffix(b"\r"), end + 1, i + 1
         words = line.decode("latin-1").split()
         where = f"{name}, line {i}"
         match words:
+            case ["end_header"]:
+                return _checked_header(order, elements, at, name)
             case [] | ["comment" | "obj_info", *_]:
                 pass
             case ["format", kind, "1.0"] if kind in _ORDERS and order is None:
                 order = _ORDERS[kind]
             case ["element", kind, count] if re.fullmatch("[0-9]{1,15}", count):
-                if any(e.name == kind for e in elements):
+                if kind in elements:
                     raise refuse(where, "each element once", f"{kind} again", REPAIR)
-                elements.append(Element(kind, int(count), ()))
+                properties = {}
+                elements[kind] = (int(count), properties)
             case ["property", *rest] if elements and order is not None:
-                elements[-1] = _extended(elements[-1], _property(rest, order, where), where)
+                item = _property(rest, order, where)
+                if item.name in properties:
+                    raise refuse(where, "each property once", f"{item.name} again", REPAIR)
+                properties[item.name] = item
             case _:
                 raise refuse(where, "a line of a PLY header", quoted(line), REPAIR)
-    bare = [e.name for e in elements if not e.properties]
+    raise refuse(name, "a header that ends in end_header", "none", "the file is cut short: export it again")
+
+
+def _checked_header(
+    order: str | None, elements: dict[str, tuple[int, dict[str, Property]]], end: int, name: str
+) -> tuple[str, list[Element], int]:
+    """What :func:`_header` returns, when it is all there."""
+    bare = [kind for kind, (_, properties) in elements.items() if not properties]
     if order is None or bare:
         got = "none" if order is None else f"none for {bare[0]}"
         raise refuse(f"{name}: header", "a format, and properties of each element", got, REPAIR)
-    return order, elements, closing.end()
+    return order, [Element(kind, count, tuple(p.values())) for kind, (count, p) in elements.items()], end
 
 
 def _property(words: list[str], order: str, where: str) -> Property:
@@ -98,17 +112,11 @@ def _property(words: list[str], order: str, where: str) -> Property:
     raise refuse(where, "a type of PLY and a name", quoted(" ".join(words).encode()), REPAIR)
 
 
-def _extended(element: Element, item: Property, where: str) -> Element:
-    if any(p.name == item.name for p in element.properties):
-        raise refuse(where, "each property once", f"{item.name} again", REPAIR)
-    return Element(element.name, element.rows, (*element.properties, item))
-
-
 def _mesh_file(found: dict[str, dict[str, Column]], name: str) -> MeshFile:
     """Pick what a mesh needs from the elements."""
     vertex = {k: c for k, c in found.get("vertex", {}).items() if c.sizes is None}
     if not {"x", "y", "z"} <= vertex.keys():
-        raise refuse(name, "an element vertex with numbers x, y and z", ", ".join(vertex) or "none", REPAIR)
+        raise refuse(name, "an element vertex with numbers x, y and z", ", ".join(list(vertex)[:8]) or "none", REPAIR)
 
     def stacked(names: tuple[str, ...]) -> np.ndarray:
         return np.stack([vertex[k].values for k in names], axis=1).astype(np.float64)

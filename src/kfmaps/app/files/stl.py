@@ -21,7 +21,7 @@ _FACET = re.compile(
     + rb"\s+endloop\s+endfacet(?=\s)",
     re.IGNORECASE,
 )
-_SOLIDS = re.compile(rb"(?:\s*solid\b[^\n]*\n\s*endsolid\b[^\n]*)+\s*", re.IGNORECASE)
+_SOLID, _END = (re.compile(rb"\s*" + word + rb"\b", re.IGNORECASE) for word in (b"solid", b"endsolid"))
 
 
 def parse_stl(data: bytes, name: str) -> MeshFile:
@@ -59,7 +59,10 @@ def _text_places(text: bytes, name: str) -> np.ndarray:
 
     trimesh is not asked, because it takes words in a solid's name for keywords and skips broken solids.
     """
-    if not _SOLIDS.fullmatch(_FACET.sub(b"", text)):
+    # Lines, because one pattern for all solids tries every way to cut a file into them.
+    rest = [line for line in _FACET.sub(b"", text).split(b"\n") if not line.isspace() and line]
+    paired = len(rest) % 2 == 0 and all(map(_SOLID.match, rest[::2])) and all(map(_END.match, rest[1::2]))
+    if not (rest and paired):
         got = "something else in between, or an end before endsolid"
         raise refuse(name, "facets of three vertices from solid to endsolid", got, REPAIR)
     corners = b"\n".join(b"\n".join(facet) for facet in _FACET.findall(text))

@@ -17,7 +17,7 @@ from kfmaps.app.files.mapfile import MapFile, check_map, check_npy
 from kfmaps.app.files.text import REPAIR, read_bytes
 
 FORMATS = (".npy", ".csv", ".txt")
-_NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?|[+-]?inf|[+-]?nan", re.ASCII | re.IGNORECASE)
+_NUMBER = re.compile(r"[+-]?(\d+(\.\d*)?|\.\d+)([eE][+-]?\d+)?|[+-]?inf|[+-]?nan", re.ASCII | re.IGNORECASE)
 _WHOLE = re.compile(r"[+-]?\d{1,18}", re.ASCII)
 
 
