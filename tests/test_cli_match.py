@@ -70,10 +70,8 @@ def test_summary_for_people(made: types.SimpleNamespace, tmp_path: Path) -> None
         assert text in shown, text
     assert "m.npz" in "".join(ran.stdout.split())
     stages = [line.partition(":")[0] for line in ran.stderr.splitlines()]
-    assert stages == [
-        *("eigenfunctions of source", "eigenfunctions of target", "descriptors", "energy", "solve", "point map"),
-        *("refinement", "confidence"),
-    ]
+    assert set(stages[:2]) == {"eigenfunctions of source", "eigenfunctions of target"}  # side by side
+    assert stages[2:] == ["descriptors", "energy", "solve", "point map", "refinement", "confidence"]
 
 
 def test_summary_for_machines(made: types.SimpleNamespace, tmp_path: Path) -> None:

@@ -12,6 +12,7 @@ FLOORS = {
     "_arrays": 0,
     "_memory": 1,
     "_threads": 0,
+    "_progress": 0,
     "_records": 1,
     "kernel": 2,
     "surface": 3,

@@ -8,11 +8,12 @@ from typing import Any
 import numpy as np
 
 from kfmaps._arrays import refuse
+from kfmaps._progress import Progress
 from kfmaps._threads import available_cores, parallel
 from kfmaps.config import Config
 from kfmaps.fit.finish import finished
 from kfmaps.fit.fit import Fit, fit
-from kfmaps.fit.shape import Progress, Shape, prepare
+from kfmaps.fit.shape import Shape, prepare
 from kfmaps.fit.stages import Clock
 from kfmaps.functional.confidence import local_confidence
 from kfmaps.search.choose import Found, choose, mirror_image

@@ -32,7 +32,7 @@ VERDICTS = {
 
 
 @dataclass(frozen=True, eq=False)
-class Outcome:
+class MatchRun:
     """A match with what it was made from.
 
     Attributes
@@ -59,7 +59,7 @@ class Outcome:
     accuracy: Accuracy | None = None
 
 
-def summary(outcome: Outcome) -> dict[str, Any]:
+def summary(outcome: MatchRun) -> dict[str, Any]:
     """Plain values for JSON. Residuals are divided by the first; errors are in units of √area."""
     match = outcome.match
     fit = match.fit
@@ -109,7 +109,7 @@ def mean_confidence(match: Match) -> float | None:
     return None if len(known) == 0 else float(known.mean())
 
 
-def map_file(outcome: Outcome) -> MapFile:
+def map_file(outcome: MatchRun) -> MapFile:
     """The map with all that is known of it, ready to be saved; paths are made absolute."""
     found = match_map(outcome.match)
     extra: dict[str, Any] = {
@@ -123,7 +123,7 @@ def map_file(outcome: Outcome) -> MapFile:
     return replace(found, extra={**found.extra, **extra})
 
 
-def table(outcome: Outcome, written: Path | None = None) -> Table:
+def table(outcome: MatchRun, written: Path | None = None) -> Table:
     """The summary for people."""
     match, found = outcome.match, summary(outcome)
     grid = Table(show_header=False, box=None, pad_edge=False)

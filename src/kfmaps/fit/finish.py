@@ -9,9 +9,10 @@ from typing import Any
 import numpy as np
 
 from kfmaps._arrays import like, to_numpy
+from kfmaps._progress import Progress
 from kfmaps._threads import one_blas_thread
 from kfmaps.config import Config
-from kfmaps.fit.shape import Progress, Shape
+from kfmaps.fit.shape import Shape
 from kfmaps.fit.stages import Clock
 from kfmaps.functional.guide import guide
 from kfmaps.functional.points import to_points

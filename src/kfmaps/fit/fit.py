@@ -12,12 +12,13 @@ from typing import Any
 import numpy as np
 
 from kfmaps._arrays import KfmapsWarning, check, like, refuse, to_numpy
+from kfmaps._progress import Progress
 from kfmaps._threads import one_blas_thread
 from kfmaps.config import Config
 from kfmaps.descriptors.spectral import check_landmarks
 from kfmaps.fit.features import Descriptors, pair_descriptors
 from kfmaps.fit.problem import problem
-from kfmaps.fit.shape import Progress, Reduced, Shape, reduced
+from kfmaps.fit.shape import Reduced, Shape, reduced
 from kfmaps.fit.stages import Clock
 from kfmaps.functional.energy import Energy
 from kfmaps.functional.preconditioners import jacobi, sylvester

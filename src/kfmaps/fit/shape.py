@@ -3,20 +3,17 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from kfmaps._arrays import refuse
+from kfmaps._progress import Progress
 from kfmaps.config import Config
 from kfmaps.descriptors.shot import shot
 from kfmaps.surface.basis import Basis, laplace_basis
 from kfmaps.surface.mesh import Mesh, check_mesh, unit_area
 from kfmaps.surface.samples import stratified_samples
-
-Progress = Callable[[str, float], None]
-"""Called with a stage's name and how much of it is done, from 0 to 1."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -6,7 +6,7 @@ import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 
-from kfmaps.fit.shape import Progress
+from kfmaps._progress import Progress
 
 
 class Clock:

@@ -6,12 +6,12 @@ need not be found again.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 
 from kfmaps._arrays import Array, check_count, namespace, refuse, take
+from kfmaps._progress import Done
 from kfmaps.functional.guide import Guide
 from kfmaps.functional.points import to_functional, to_points
 from kfmaps.surface.basis import Basis
@@ -21,8 +21,6 @@ __all__ = ["ICP", "Refined", "Refinement", "SampledBasis", "Samples", "ZoomOut",
 
 CANDIDATES = 8_000
 """Points of the source that ZoomOut's steps on samples choose from, spread evenly; the last step has them all."""
-
-Progress = Callable[[float], None]
 
 
 @dataclass(frozen=True, eq=False)
@@ -60,7 +58,7 @@ class ICP:
         C: Array,
         source: Basis,
         target: Basis,
-        progress: Progress | None = None,
+        progress: Done | None = None,
         threads: int | None = None,
         points: np.ndarray | None = None,
     ) -> Refined:
@@ -130,7 +128,7 @@ class ZoomOut:
         C: Array,
         source: Basis,
         target: Basis,
-        progress: Progress | None = None,
+        progress: Done | None = None,
         threads: int | None = None,
         points: np.ndarray | None = None,
         guide: Guide | None = None,

@@ -14,11 +14,12 @@ from typing import Any
 import numpy as np
 
 from kfmaps._arrays import refuse
+from kfmaps._progress import Progress
 from kfmaps._threads import parallel
 from kfmaps.config import Config
 from kfmaps.descriptors.shot import mirrored
 from kfmaps.fit.fit import Fit
-from kfmaps.fit.shape import Progress, Shape
+from kfmaps.fit.shape import Shape
 from kfmaps.functional.points import to_points
 from kfmaps.search.candidates import Candidate, apart, candidates
 from kfmaps.search.quality import Probe, probe

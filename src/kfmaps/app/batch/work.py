@@ -24,7 +24,7 @@ from kfmaps.app.batch.tasks import PairTask, Prepared, ShapeTask
 from kfmaps.app.batch.truth import landmark_pairs, true_vertices
 from kfmaps.app.evaluation import Accuracy, assessed
 from kfmaps.app.files import read_mesh, save_map
-from kfmaps.app.summary import Outcome, map_file, mean_confidence
+from kfmaps.app.summary import MatchRun, map_file, mean_confidence
 from kfmaps.fit.shape import Shape, prepare
 from kfmaps.functional.evaluate import coverage, error_curve
 from kfmaps.matching import match
@@ -167,7 +167,7 @@ def _matched(task: PairTask) -> dict[str, Any]:
     seconds = {**found.seconds, "evaluation": time.perf_counter() - start}
     marks = np.zeros((0, 2), dtype=np.int64) if landmarks is None else landmarks
     paths = Path(task.source.path), Path(task.target.path)
-    outcome = Outcome(found, (source.mesh, target.mesh), paths, marks, task.seed, dict(found.seconds), accuracy)
+    outcome = MatchRun(found, (source.mesh, target.mesh), paths, marks, task.seed, dict(found.seconds), accuracy)
     path = map_path(Path(task.folder), task.pair.key)
     path.parent.mkdir(parents=True, exist_ok=True)
     save_map(path, map_file(outcome), force=True)

@@ -17,10 +17,11 @@ from kfmaps.app.settings.options import Chosen, with_settings
 if TYPE_CHECKING:
     import numpy as np
 
-    from kfmaps.app.summary import Outcome
+    from kfmaps.app.summary import MatchRun
     from kfmaps.config import Config
     from kfmaps.surface.mesh import Mesh
 
+SIDES = ("source", "target")
 TRUTH = "Its true vertices, line k of one file to line k of the other (.vts counts from 1): prints errors."
 
 
@@ -105,24 +106,23 @@ def run(
     *,
     quiet: bool = False,
     truth: Any = None,
-) -> Outcome:
+) -> MatchRun:
     """Match two meshes and tell the stages; with ``truth`` the answer is set beside it."""
     import numpy as np
 
     from kfmaps._threads import one_blas_thread
     from kfmaps.app.evaluation import assessed
     from kfmaps.app.progress import Stages
-    from kfmaps.app.summary import Outcome
-    from kfmaps.fit.shape import prepare
+    from kfmaps.app.summary import MatchRun
     from kfmaps.matching import match as matched
+    from kfmaps.matching import prepare_both
 
     seconds: dict[str, float] = {}
     with one_blas_thread(), Stages(quiet) as stages:
-        shapes = []
-        for side, mesh, path in zip(("source", "target"), meshes, paths, strict=True):
-            shape = prepare(mesh, config, name=str(path), progress=_renamed(stages, str(path), side))
+        names = (str(paths[0]), str(paths[1]))
+        shapes = prepare_both(meshes[0], meshes[1], config, names, _renamed(stages, names))
+        for side, shape in zip(SIDES, shapes, strict=True):
             seconds |= {f"{stage} of {side}": t for stage, t in shape.seconds.items()}
-            shapes.append(shape)
         found = matched(
             shapes[0], shapes[1], config, landmarks=landmarks, descriptors=descriptors, rng=seed, progress=stages
         )
@@ -132,7 +132,7 @@ def run(
             accuracy = assessed(meshes[0], found.target_to_source, truth, config.threads)
             stages("evaluation", 1.0)
     pairs = np.zeros((0, 2), dtype=np.int64) if landmarks is None else landmarks
-    return Outcome(found, meshes, paths, pairs, seed, {**seconds, **found.seconds}, accuracy)
+    return MatchRun(found, meshes, paths, pairs, seed, {**seconds, **found.seconds}, accuracy)
 
 
 def _read(path: Path, config: Config) -> Mesh:
@@ -150,9 +150,15 @@ def _read(path: Path, config: Config) -> Mesh:
     return mesh
 
 
-def _renamed(stages: Callable[[str, float], None], path: str, side: str) -> Callable[[str, float], None]:
+def _renamed(stages: Callable[[str, float], None], names: tuple[str, str]) -> Callable[[str, float], None]:
     """Say "source" and "target" where a stage would name a file, whose path may be long."""
-    return lambda stage, done: stages(f"{stage.removesuffix(path)}{side}" if stage.endswith(path) else stage, done)
+    short = {f" of {name}": f" of {side}" for name, side in zip(reversed(names), reversed(SIDES), strict=True)}
+
+    def told(stage: str, done: float) -> None:
+        suffix = next((name for name in short if stage.endswith(name)), "")
+        stages(stage.removesuffix(suffix) + short.get(suffix, ""), done)
+
+    return told
 
 
 def _unrefined(config: Config, settings: Chosen) -> Config:
@@ -206,7 +212,7 @@ def _own_descriptors(
     return found[0], found[1]
 
 
-def _show(outcome: Outcome, truth: Any) -> None:
+def _show(outcome: MatchRun, truth: Any) -> None:
     from kfmaps.app.view.results import match_page, open_page
 
     names = (outcome.paths[0].stem, outcome.paths[1].stem)

@@ -10,9 +10,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from kfmaps._arrays import InvalidInput, NotConverged, refuse
-
-Progress = Callable[[str, float], None]
-"""Told a stage and how much of it is done, from 0 to 1."""
+from kfmaps._progress import Progress
 
 
 class Cancelled(Exception):
