@@ -136,6 +136,41 @@ def test_faces_without_area_do_little_harm(mesh: Mesh, laplacian: str) -> None:
 
 
 @pytest.mark.parametrize("laplacian", LAPLACIANS)
+@pytest.mark.parametrize(("speck", "size"), [(blob(300), 1e-4), (blob(12), 1e-5)])
+def test_a_floating_speck_only_adds_a_zero(laplacian: str, speck: Mesh, size: float) -> None:
+    mesh = unit_area(blob(1500))
+    both = Mesh(
+        np.concatenate([mesh.vertices, size * speck.vertices + 3]), np.concatenate([mesh.faces, speck.faces + 1500])
+    )
+    one, other = laplace_basis(mesh, 60, laplacian), laplace_basis(both, 61, laplacian)
+    assert abs(other.eigenvalues[1]) < 1e-3  # the speck's constant, of the order of what its mass was raised by
+    np.testing.assert_allclose(other.eigenvalues[2:], one.eigenvalues[1:], rtol=1e-6)
+
+
+@pytest.mark.parametrize("height", [1e-4, 3e-6, 1e-7, 0.0])
+def test_a_cap_does_little_harm(height: float) -> None:
+    mesh = unit_area(blob(1500))
+    i, j, k = mesh.faces[0]
+    vertices = mesh.vertices.copy()
+    middle = (vertices[i] + vertices[j]) / 2
+    vertices[k] = middle + height * (vertices[k] - middle)
+    capped = Mesh(vertices, mesh.faces)
+    one, other = laplace_basis(mesh, 40, "cotangent"), laplace_basis(capped, 40, "cotangent")
+    np.testing.assert_allclose(other.eigenvalues, one.eigenvalues, rtol=0.01, atol=1e-9)
+
+
+def test_no_triangle_has_a_negative_energy() -> None:
+    rng = np.random.default_rng(0)
+    for size in 10.0 ** -np.arange(20):
+        a, b, along = rng.normal(size=3), rng.normal(size=3), rng.uniform(0, 1)
+        third = a + along * (b - a) + size * rng.normal(size=3)
+        stiffness = cotangent_laplacian(Mesh(np.stack([a, b, third]), np.array([[0, 1, 2]]))).toarray()
+        values = np.linalg.eigvalsh(stiffness)
+        assert values[0] >= -1e-12 * values[-1]
+        np.testing.assert_allclose(stiffness.sum(axis=1), 0, atol=1e-12 * values[-1])
+
+
+@pytest.mark.parametrize("laplacian", LAPLACIANS)
 def test_branching_edges(laplacian: str) -> None:
     page = grid(9, 9)
     n = len(page.vertices)
@@ -158,9 +193,9 @@ def test_branching_edges(laplacian: str) -> None:
 def test_cloud_agrees_with_its_mesh() -> None:
     mesh = unit_area(blob(1500))
     surface, cloud = laplace_basis(mesh, 20), laplace_basis(Mesh(7 * mesh.vertices, np.zeros((0, 3))), 20)
-    assert cloud.mass.sum() == pytest.approx(1)  # whatever its unit
-    np.testing.assert_allclose(cloud.eigenvalues, surface.eigenvalues, rtol=0.02, atol=1e-9)
-    overlap = surface.functions.T @ (surface.mass[:, None] * cloud.functions)
+    assert cloud.mass.sum() == pytest.approx(49, rel=0.02)  # in the cloud's own unit, like a mesh's
+    np.testing.assert_allclose(49 * cloud.eigenvalues, surface.eigenvalues, rtol=0.02, atol=1e-9)
+    overlap = 7 * surface.functions.T @ (surface.mass[:, None] * cloud.functions)
     np.testing.assert_allclose(np.abs(np.diag(overlap))[:16], 1, atol=0.03)  # the next two are close
 
 

@@ -11,6 +11,7 @@ from kfmaps._arrays import refuse
 from kfmaps._progress import Progress
 from kfmaps._threads import available_cores, parallel
 from kfmaps.config import Config
+from kfmaps.fit.border import border
 from kfmaps.fit.finish import finished
 from kfmaps.fit.fit import Fit, fit
 from kfmaps.fit.shape import Shape, prepare
@@ -49,7 +50,7 @@ class Match:
         The fit that the map started from: that of the configuration, or a small one (``fit.config``) of the search;
         ``None`` where the search's best candidate started from signs of the low functions alone.
     local_confidence : (n_t,) float64
-        How well the map keeps distances around each target vertex, 0 to 1, NaN where that cannot be told; see
+        How well the map keeps distances around each target vertex, 0 to 1, 0 where nothing can be told; see
         :mod:`kfmaps.functional.confidence`.
     confidence : float or None
         Of a search, how clearly the map beat every distinct other one; see :mod:`kfmaps.search.choose`.
@@ -117,6 +118,9 @@ def match(
     config = config or default_config(landmarks, descriptors)
     marks = landmarks if has_landmarks(landmarks) else None
     shapes = prepare_both(source, target, config, progress=progress)
+    across = border(shapes[0], shapes[1])
+    marks, descriptors = across.landmarks(marks), across.descriptors(descriptors)
+    shapes = [across.source, across.target]
     clock = Clock(progress)
     more = {"descriptors": descriptors, "rng": rng, "progress": progress}
     if config.search is not None and marks is None:
@@ -134,7 +138,7 @@ def match(
         trust = local_confidence(shapes[0].mesh, shapes[1].mesh, end.target_to_source)
     k_t, k_s = end.functional_map.shape
     return Match(
-        target_to_source=end.target_to_source,
+        target_to_source=across.points(end.target_to_source),
         functional_map=end.functional_map,
         eigenvalues_s=shapes[0].basis.eigenvalues[:k_s],
         eigenvalues_t=shapes[1].basis.eigenvalues[:k_t],
@@ -143,12 +147,12 @@ def match(
         seconds=clock.seconds,
         origin=found.origin,
         raw_functional_map=found.functional_map,
-        raw_target_to_source=end.raw_target_to_source,
+        raw_target_to_source=None if end.raw_target_to_source is None else across.points(end.raw_target_to_source),
         fit=found.fit,
-        local_confidence=trust,
+        local_confidence=across.trust(trust),
         confidence=found.confidence,
         scores=found.scores,
-        runners_up=found.runners_up,
+        runners_up=tuple(across.points(points) for points in found.runners_up),
     )
 
 

@@ -113,7 +113,7 @@ def _numbers(errors: Evaluation) -> dict[str, float | None]:
     return {name: value if math.isfinite(value := getattr(errors, name)) else None for name in names}
 
 
-def assessed(source: Mesh, target_to_source: np.ndarray, truth: Truth, threads: int | None = None) -> Accuracy:
+def assessed(source: Mesh, target_to_source: np.ndarray, truth: Truth) -> Accuracy:
     """Compare a map with the truth; geodesic errors on ``source`` in units of √area.
 
     Raises
@@ -126,7 +126,7 @@ def assessed(source: Mesh, target_to_source: np.ndarray, truth: Truth, threads: 
 
     def errors(target: np.ndarray) -> Evaluation:
         predicted = truth_from_pairs(truth.source, target, target_to_source)
-        return evaluation(geodesic_errors(source, predicted, truth.source, threads=threads))
+        return evaluation(geodesic_errors(source, predicted, truth.source))
 
     mirrored = None if truth.mirrored is None else errors(truth.mirrored)
     return Accuracy(errors(truth.target), mirrored, coverage(target_to_source, source))

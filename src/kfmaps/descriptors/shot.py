@@ -16,6 +16,7 @@ from scipy.spatial import KDTree
 
 from kfmaps._arrays import check, check_count, check_positive, refuse
 from kfmaps._threads import parallel
+from kfmaps.surface.inside import inside
 from kfmaps.surface.mesh import Mesh, face_areas, unit_area, vertex_normals
 
 AZIMUTHS, ELEVATIONS, SHELLS = 8, 2, 2
@@ -74,7 +75,8 @@ def shot(
     Parameters
     ----------
     mesh : Mesh
-        With faces, oriented consistently.
+        With faces, oriented consistently. Open edges in one place are connected
+        (:func:`kfmaps.surface.inside.inside`); a vertex that no face uses has the descriptor of the nearest one.
     radius : float, optional
         Radius of the ball as a fraction of √area, so that units do not matter; 0.09 when not given.
     bins : int
@@ -121,6 +123,9 @@ def shot(
     if len(mesh.faces) == 0:
         raise refuse("mesh", "faces, which give the normals", "a point cloud", "triangulate it first")
     check(mesh.vertices, "vertices")
+    part = inside(mesh)
+    if not part.whole:
+        return shot(part.mesh, radius, bins=bins, form=form, samples=samples, threads=threads)[part.number]
     mesh = unit_area(mesh)
     normals = vertex_normals(mesh)
     vertices = _Support(mesh.vertices, normals, np.ones(len(normals)))

@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 import time
+import warnings
 from dataclasses import dataclass, replace
 
 import numpy as np
 
-from kfmaps._arrays import refuse
+from kfmaps._arrays import KfmapsWarning, refuse, take
 from kfmaps._progress import Progress
 from kfmaps.config import Config
 from kfmaps.descriptors.shot import shot
 from kfmaps.surface.basis import Basis, laplace_basis
+from kfmaps.surface.inside import Inside, inside
 from kfmaps.surface.mesh import Mesh, check_mesh, unit_area
 from kfmaps.surface.samples import stratified_samples
 
@@ -25,7 +27,8 @@ class Shape:
     mesh : Mesh
         Scaled to unit area, vertices in the order given.
     basis : Basis
-        Of as many functions as the configuration needs in all.
+        Of as many functions as the configuration needs in all. Vertices that lie on no surface, and all but the first
+        in one place, have no area and the functions of the vertex that they count as (:func:`inner`).
     shot : (n, 352) float64 or None
         The SHOT descriptor when the configuration asks for it; a point cloud has none.
     name : str
@@ -81,6 +84,20 @@ def reduced(shape: Shape, count: int | None, landmarks: np.ndarray, rng: int | n
     return Reduced(part, rows, np.searchsorted(rows, landmarks))
 
 
+def inner(shape: Shape) -> tuple[Shape, Inside]:
+    """``shape`` with each place once, without unused vertices and specks, and how its vertices are numbered.
+
+    A match works on that; a shape that has nothing of the kind is returned as it is.
+    """
+    part = inside(shape.mesh, specks=True)
+    if part.whole:
+        return shape, part
+    kept, basis = part.kept, shape.basis
+    local = None if shape.shot is None else shape.shot[kept]
+    few = Basis(basis.eigenvalues, take(basis.functions, kept), take(basis.mass, kept))
+    return replace(shape, mesh=part.mesh, basis=few, shot=local), part
+
+
 def prepare(
     mesh: Mesh, config: Config | None = None, *, name: str = "shape", progress: Progress | None = None
 ) -> Shape:
@@ -89,7 +106,8 @@ def prepare(
     Parameters
     ----------
     mesh : Mesh
-        In any unit; a mesh without faces is a point cloud.
+        In any unit; a mesh without faces is a point cloud. Open edges that lie in one place are connected, specks
+        and vertices that no face uses are left out (:func:`kfmaps.surface.inside.inside`), with a warning.
     config : Config, optional
         Its basis, descriptor and refinement settings count here.
 
@@ -102,23 +120,53 @@ def prepare(
     """
     config = config or Config()
     report = progress or (lambda _stage, _done: None)
-    mesh = unit_area(check_mesh(mesh, name, cloud=True))
+    part = inside(check_mesh(mesh, name, cloud=True), specks=True)
+    small = unit_area(part.mesh)
     wanted = config.eigenfunctions
-    if len(mesh.vertices) <= wanted:
+    if len(small.vertices) <= wanted:
         remedy = "lower the basis, descriptor and refinement sizes, or refine the mesh"
-        raise refuse(name, f"more than {wanted} vertices, one for each eigenfunction", str(len(mesh.vertices)), remedy)
+        raise refuse(name, f"more than {wanted} vertices, one for each eigenfunction", str(len(small.vertices)), remedy)
+    _tell(part, name)
     seconds = {}
     start = time.perf_counter()
     report(f"eigenfunctions of {name}", 0.0)
-    basis = laplace_basis(mesh, wanted, config.basis.laplacian, threads=config.threads)
+    basis = laplace_basis(small, wanted, config.basis.laplacian, threads=config.threads)
     seconds["eigenfunctions"] = time.perf_counter() - start
     report(f"eigenfunctions of {name}", 1.0)
     local = None
     if config.descriptors.shot and len(mesh.faces):
         start = time.perf_counter()
         report(f"SHOT of {name}", 0.0)
-        local = shot(mesh, config.descriptors.shot_radius, threads=config.threads)
+        local = shot(small, config.descriptors.shot_radius, threads=config.threads)
         seconds["SHOT"] = time.perf_counter() - start
         report(f"SHOT of {name}", 1.0)
     radius = None if local is None else config.descriptors.shot_radius
-    return Shape(mesh, basis, local, name, seconds, config.basis.laplacian, radius)
+    shape = Shape(Mesh(small.vertices, mesh.faces), basis, local, name, seconds, config.basis.laplacian, radius)
+    if part.whole:
+        return shape
+    mass = np.zeros(len(mesh.vertices))
+    mass[part.kept] = basis.mass
+    whole = Basis(basis.eigenvalues, basis.functions[part.number], mass)
+    local = None if local is None else local[part.number]
+    return replace(shape, mesh=_placed(mesh, part, small), basis=whole, shot=local)
+
+
+def _placed(mesh: Mesh, part: Inside, small: Mesh) -> Mesh:
+    """All of ``mesh`` moved and scaled as ``part`` of it was to become ``small``."""
+    centre = part.mesh.vertices.mean(axis=0)
+    before, after = part.mesh.vertices - centre, small.vertices
+    far = np.unravel_index(np.abs(before).argmax(), before.shape)
+    vertices = (mesh.vertices - centre) * (after[far] / before[far])
+    vertices[part.kept] = after
+    joined = ~part.loose
+    vertices[joined] = after[part.number[joined]]
+    return Mesh(vertices, mesh.faces)
+
+
+def _tell(part: Inside, name: str) -> None:
+    """One warning of what is connected or left out."""
+    what = "points in one place count as one" if len(part.mesh.faces) == 0 else "vertices on seams are connected"
+    told = [f"{part.joined} {what}"] * bool(part.joined)
+    told += [f"{part.specks} specks are left out"] * bool(part.specks)
+    if told:
+        warnings.warn(f"{name}: {', '.join(told)} inside; the numbering is kept", KfmapsWarning, stacklevel=3)

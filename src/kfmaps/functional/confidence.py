@@ -12,6 +12,7 @@ from scipy.sparse.csgraph import dijkstra
 
 from kfmaps._arrays import blocks
 from kfmaps.functional.points import check_point_map
+from kfmaps.surface.inside import inside
 from kfmaps.surface.mesh import Mesh, unit_area, vertex_areas
 from kfmaps.surface.samples import stratified
 from kfmaps.surface.unfolding import surface_graph
@@ -48,7 +49,8 @@ def local_confidence(
     Returns
     -------
     (n_t,) float64
-        NaN where there is no sample in the surroundings: at vertices that no face uses, and on specks.
+        0 where nothing can be told: at vertices that no face uses, on specks
+        (:func:`kfmaps.surface.inside.inside`), and where no sample is in the surroundings.
 
     Raises
     ------
@@ -56,9 +58,15 @@ def local_confidence(
         When the map does not fit the two shapes, or one of them has no area.
     """
     points = check_point_map(target_to_source, len(source.vertices), len(target.vertices))
+    part_s, part_t = inside(source, specks=True), inside(target, specks=True)
+    if not (part_s.whole and part_t.whole):
+        if samples is not None:
+            samples = np.unique(part_t.number[samples[~part_t.loose[samples]]])
+        kept = local_confidence(part_s.mesh, part_t.mesh, part_s.number[points[part_t.kept]], samples)
+        return np.where(part_t.loose, 0.0, kept[part_t.number])
     source, target = unit_area(source), unit_area(target)
     if samples is None:
-        areas = vertex_areas(target) if len(target.faces) else np.ones(len(points))
+        areas = vertex_areas(target)
         used = np.flatnonzero(areas > 0)
         samples = used[stratified(target.vertices[used], areas[used], SAMPLES, rng=0)]
     graph_s, graph_t = surface_graph(source, 0), surface_graph(target, 0)
@@ -72,5 +80,5 @@ def local_confidence(
         change += np.where(near, moved, 0.0).sum(axis=0)
         whole += here.sum(axis=0)
     # Vertices in one place are surroundings of no size.
-    kept = 1 - np.divide(change, whole, out=np.full(len(points), np.nan), where=whole > 1e-9)
+    kept = 1 - np.divide(change, whole, out=np.ones(len(points)), where=whole > 1e-9)
     return np.maximum(kept, 0.0)

@@ -9,6 +9,7 @@ import numpy as np
 from kfmaps._arrays import check, refuse
 from kfmaps.functional.points import check_point_map
 from kfmaps.surface.geodesics import distance_pairs
+from kfmaps.surface.inside import inside
 from kfmaps.surface.mesh import Mesh, surface_area, vertex_areas
 
 
@@ -41,12 +42,12 @@ def geodesic_errors(
     predicted: np.ndarray,
     true: np.ndarray,
     method: str = "unfolded",
-    threads: int | None = None,
 ) -> np.ndarray:
     """Geodesic distance on ``source`` from each ``predicted`` to its ``true`` vertex, (q,), divided by √area.
 
     Distances are worked out for one block of vertices at a time: no n × n matrix is held. Points on different
-    components are at infinite distance.
+    components are at infinite distance. On a point cloud distances run along its neighbours, and the area is
+    estimated.
 
     Raises
     ------
@@ -60,7 +61,7 @@ def geodesic_errors(
     n = len(source.vertices)
     predicted = check_point_map(predicted, n, len(predicted))
     true = check_point_map(true, n, len(true))
-    return distance_pairs(source, true, predicted, method=method, threads=threads) / np.sqrt(surface_area(source))
+    return distance_pairs(source, true, predicted, method=method) / np.sqrt(surface_area(source))
 
 
 def evaluation(errors: np.ndarray, auc_limit: float = 0.25) -> Evaluation:
@@ -89,9 +90,14 @@ def error_curve(errors: np.ndarray, thresholds: np.ndarray) -> np.ndarray:
 
 
 def coverage(target_to_source: np.ndarray, source: Mesh) -> float:
-    """Fraction of the source's area whose vertices are the image of some target vertex."""
-    areas = vertex_areas(source)
-    hit = np.unique(check_point_map(target_to_source, len(areas), len(target_to_source)))
+    """Fraction of the source's area whose vertices are the image of some target vertex.
+
+    Connected vertices in one place count as one; those that belong to no face count for nothing.
+    """
+    part = inside(source)
+    areas = vertex_areas(part.mesh)
+    points = check_point_map(target_to_source, len(source.vertices), len(target_to_source))
+    hit = np.unique(part.number[points[~part.loose[points]]])
     return float(areas[hit].sum() / areas.sum())
 
 

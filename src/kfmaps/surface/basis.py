@@ -7,12 +7,16 @@ from dataclasses import dataclass
 import numpy as np
 import robust_laplacian
 from scipy.sparse import coo_array, csc_array
-from scipy.spatial import KDTree
 
 from kfmaps._arrays import Array, MissingDependency, check_count, refuse, to_numpy
+from kfmaps.surface.cloud import cloud_laplacian
 from kfmaps.surface.eigen.factor import Sparse
 from kfmaps.surface.eigen.pencil import smallest_eigenpairs
+from kfmaps.surface.inside import inside
 from kfmaps.surface.mesh import Mesh, vertex_areas
+
+THIN = 1e-6
+"""Angle below which a face counts as one with longer edges, and how much longer they are."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -28,7 +32,8 @@ class Basis:
     functions : (n, k)
         One eigenfunction a column: ``functionsᵀ diag(mass) functions = I``.
     mass : (n,)
-        Area around each vertex (lumped). Zero at a vertex that no face uses.
+        Area around each vertex (lumped). Zero at a vertex that no face uses, and at all but the first of vertices that
+        share a place.
     """
 
     eigenvalues: Array
@@ -95,25 +100,45 @@ def cotangent_laplacian(mesh: Mesh) -> csc_array:
     """Weak cotangent Laplacian (n, n), symmetric and positive semi-definite; rows sum to zero.
 
     The entry of an edge is minus half the sum of the cotangents of the angles opposite it (Pinkall and Polthier,
-    Computing discrete minimal surfaces, 1993). Angles below 1e-6 count as 1e-6, so that faces without area give
-    large numbers rather than infinite ones; those with two equal corners are left out.
+    Computing discrete minimal surfaces, 1993). Of a face with an angle below 1e-6, or so close to π, the edges count as
+    longer by 1e-6 of the longest (Sharp and Crane's mollification, for those faces alone), so that faces without area
+    give large numbers rather than infinite ones, and never negative energies; those with two equal corners are left
+    out.
     """
     n = len(mesh.vertices)
     faces = mesh.faces[_proper(mesh.faces)]
-    entries, rows, columns = [], [], []
+    halves, thin = [], np.zeros(len(faces), dtype=bool)
     for corner in range(3):
         tip, i, j = (faces[:, (corner + step) % 3] for step in range(3))
         a, b = mesh.vertices[i] - mesh.vertices[tip], mesh.vertices[j] - mesh.vertices[tip]
         dot = (a * b).sum(axis=1)
         sine = np.linalg.norm(np.cross(a, b), axis=1)
-        least = 1e-6 * np.linalg.norm(a, axis=1) * np.linalg.norm(b, axis=1)
-        bound = np.maximum(sine, least)
-        half = np.divide(dot, bound, out=np.zeros_like(dot), where=bound > 0) / 2
+        wide = sine > THIN * np.linalg.norm(a, axis=1) * np.linalg.norm(b, axis=1)
+        halves.append(np.divide(dot, sine, out=np.zeros_like(dot), where=wide) / 2)
+        thin |= ~wide
+    if thin.any():
+        for half, mended in zip(halves, _mollified(mesh.vertices[faces[thin]]), strict=True):
+            half[thin] = mended
+    entries, rows, columns = [], [], []
+    for corner, half in enumerate(halves):
+        _, i, j = (faces[:, (corner + step) % 3] for step in range(3))
         entries += [-half, -half, half, half]
         rows += [i, j, i, j]
         columns += [j, i, i, j]
     places = (np.concatenate(rows), np.concatenate(columns))
     return coo_array((np.concatenate(entries), places), shape=(n, n)).tocsc()
+
+
+def _mollified(corners: np.ndarray) -> np.ndarray:
+    """Half the cotangents at the ``corners`` (f, 3, 3) of faces, their edges made longer, (3, f)."""
+    opposite = np.linalg.norm(np.roll(corners, -1, axis=1) - np.roll(corners, 1, axis=1), axis=2)
+    longest = opposite.max(axis=1, keepdims=True)
+    order = -np.sort(-(opposite + THIN * longest), axis=1).T  # Kahan's area of a triangle needs a ≥ b ≥ c
+    a, b, c = order
+    area = 0.25 * np.sqrt(np.maximum((a + (b + c)) * (c - (a - b)) * (c + (a - b)) * (a + (b - c)), 0))
+    squares = (opposite + THIN * longest).T ** 2
+    above = np.roll(squares, 1, axis=0) + np.roll(squares, -1, axis=0) - squares
+    return np.divide(above, 8 * area, out=np.zeros_like(above), where=area > 0)
 
 
 def _proper(faces: np.ndarray) -> np.ndarray:
@@ -122,11 +147,9 @@ def _proper(faces: np.ndarray) -> np.ndarray:
 
 
 def _operators(mesh: Mesh, laplacian: str) -> tuple[Sparse, np.ndarray]:
-    """Weak Laplacian (n, n) and lumped mass (n,) of a mesh or cloud without unused vertices."""
+    """Weak Laplacian (n, n) and lumped mass (n,) of a mesh or cloud without unused vertices and copies."""
     if len(mesh.faces) == 0:
-        near = min(30, len(mesh.vertices) - 1)
-        stiffness, mass = robust_laplacian.point_cloud_laplacian(mesh.vertices, n_neighbors=near)
-        return stiffness, mass.diagonal() / mass.diagonal().sum()
+        return cloud_laplacian(mesh.vertices)
     if laplacian == "cotangent":
         return cotangent_laplacian(mesh), vertex_areas(mesh)
     stiffness, mass = robust_laplacian.mesh_laplacian(mesh.vertices, mesh.faces)
@@ -143,15 +166,17 @@ def laplace_basis(
     """The first ``k`` eigenfunctions of the Laplacian of a mesh or point cloud.
 
     Any triangles will do: boundaries (with natural, Neumann conditions), several components (one eigenvalue
-    zero for each), faces without area, edges with more than two faces. A vertex that no face uses takes part in
-    nothing: its mass is zero, and its functions are those of the used vertex nearest in space.
+    zero for each), faces without area, edges with more than two faces. Open edges that lie in one place are connected
+    (:func:`kfmaps.surface.inside.representatives`), and points of a cloud in one place count as one: the first has the
+    mass, the others its functions. A vertex that no face uses takes part in nothing: its mass is zero, and its
+    functions are those of the used vertex nearest in space.
 
     Parameters
     ----------
     mesh : Mesh
         In any unit ``u``; shapes to be matched should have unit area (:func:`~kfmaps.surface.mesh.unit_area`). The
         eigenvalues come in ``1/u²``, the mass in ``u²``, the functions in ``1/u``. Without faces it is a cloud,
-        whose area is only estimated: its basis is always that of the cloud scaled to an estimate of 1.
+        whose areas are estimated (:func:`kfmaps.surface.cloud.cloud_laplacian`).
     k : int
         From 1 to one less than the number of vertices in use.
     laplacian : {"robust", "cotangent"}
@@ -167,27 +192,21 @@ def laplace_basis(
     Raises
     ------
     InvalidInput
-        When the mesh has too few vertices in use, or the Laplacian's name is unknown.
+        When the mesh has too few vertices in use, the points of a cloud lie on no surface, or the Laplacian's name is
+        unknown.
     NotConverged
         When an eigenpair's residual is above 1e-10; see :func:`~kfmaps.surface.eigen.pencil.smallest_eigenpairs`.
     """
     if laplacian not in ("robust", "cotangent"):
         raise refuse("laplacian", "'robust' or 'cotangent'", repr(laplacian), "choose one of them")
-    n = len(mesh.vertices)
-    faces = mesh.faces[_proper(mesh.faces)]
-    used = np.unique(faces) if len(mesh.faces) else np.arange(n)
-    if len(used) <= check_count(k, "k"):
-        wanted = f"fewer eigenfunctions than the {len(used)} vertices in use"
+    part = inside(mesh)
+    if len(part.kept) <= check_count(k, "k"):
+        wanted = f"fewer eigenfunctions than the {len(part.kept)} vertices in use"
         raise refuse("k", wanted, str(k), "ask for fewer, or refine the mesh")
-    number = np.full(n, -1)
-    number[used] = np.arange(len(used))
-    stiffness, area = _operators(Mesh(mesh.vertices[used], number[faces]), laplacian)
+    stiffness, area = _operators(part.mesh, laplacian)
     pairs = smallest_eigenpairs(stiffness, area, k, rng=rng, threads=threads)
-    if len(used) == n:
+    if part.whole:
         return Basis(pairs.values, pairs.vectors, area)
-    nearest = number.copy()
-    loose = number < 0
-    nearest[loose] = KDTree(mesh.vertices[used]).query(mesh.vertices[loose])[1]
-    mass = np.zeros(n)
-    mass[used] = area
-    return Basis(pairs.values, pairs.vectors[nearest], mass)
+    mass = np.zeros(len(mesh.vertices))
+    mass[part.kept] = area
+    return Basis(pairs.values, pairs.vectors[part.number], mass)

@@ -25,6 +25,7 @@ from scipy.sparse import csr_array
 from scipy.sparse.csgraph import connected_components, dijkstra
 
 from kfmaps._arrays import check_count, refuse
+from kfmaps.surface.inside import inside, representatives
 from kfmaps.surface.mesh import Mesh
 from kfmaps.surface.unfolding import surface_graph
 
@@ -56,21 +57,21 @@ def _graph(mesh: Mesh, method: str) -> csr_array:
 
 def _heat(mesh: Mesh, sources: np.ndarray) -> np.ndarray:
     """Heat-method distances (q, n), infinite on other components."""
-    n = len(mesh.vertices)
-    _, component = connected_components(surface_graph(mesh, 0), directed=False)
-    faces = mesh.faces[(mesh.faces != np.roll(mesh.faces, 1, axis=1)).all(axis=1)]
-    used = np.arange(n) if len(mesh.faces) == 0 else np.unique(faces)
-    number = np.full(n, -1)
-    number[used] = np.arange(len(used))
+    part = inside(mesh)
+    _, component = connected_components(surface_graph(part.mesh, 0), directed=False)
     if len(mesh.faces) == 0:
-        solver = potpourri3d.PointCloudHeatSolver(mesh.vertices)
+        solver = potpourri3d.PointCloudHeatSolver(part.mesh.vertices)
     else:
-        solver = potpourri3d.MeshHeatMethodDistanceSolver(mesh.vertices[used], number[faces])
-    distances = np.full((len(sources), n), np.inf)
+        solver = potpourri3d.MeshHeatMethodDistanceSolver(part.mesh.vertices, part.mesh.faces)
+    distances = np.full((len(sources), len(mesh.vertices)), np.inf)
+    used = ~part.loose
     for row, source in zip(distances, sources, strict=True):
-        if number[source] >= 0:
-            row[used] = solver.compute_distance(int(number[source]))
-            row[component != component[source]] = np.inf
+        if used[source]:
+            here = part.number[source]
+            found = solver.compute_distance(int(here))
+            found[component != component[here]] = np.inf
+            found[here] = 0
+            row[used] = found[part.number[used]]
         row[source] = 0
     return distances
 
@@ -108,12 +109,12 @@ def geodesic_distances(mesh: Mesh, sources: ArrayLike, method: str = "unfolded")
         return np.zeros((0, len(mesh.vertices)))
     if method == "heat":
         return _heat(mesh, sources)
-    return dijkstra(graph, indices=sources)
+    first = representatives(mesh)
+    distances = dijkstra(graph, indices=first[sources])
+    return distances if (first == np.arange(len(first))).all() else distances[:, first]
 
 
-def distance_pairs(
-    mesh: Mesh, a: ArrayLike, b: ArrayLike, method: str = "unfolded", threads: int | None = None
-) -> np.ndarray:
+def distance_pairs(mesh: Mesh, a: ArrayLike, b: ArrayLike, method: str = "unfolded") -> np.ndarray:
     """Distance along the surface from vertex ``a[i]`` to vertex ``b[i]``, (q,), in the mesh's own unit.
 
     No n × n matrix is held: sources are taken in blocks, each searched only as far as its pairs need, so that
@@ -126,24 +127,23 @@ def distance_pairs(
         Vertex numbers.
     method : {"unfolded", "dijkstra", "heat"}
         As for :func:`geodesic_distances`.
-    threads : int, optional
-        Without effect so far: the searches hold the interpreter's lock.
 
     Returns
     -------
     (q,) float64
-        Infinite for two vertices on different components.
+        Infinite for two vertices on different components; 0 for two in one place that are connected.
 
     Raises
     ------
     InvalidInput
         On lists of different length, a vertex number out of range or an unknown method.
     """
-    del threads
     n = len(mesh.vertices)
     a, b = _indices(a, n, "a"), _indices(b, n, "b")
     if len(a) != len(b):
         raise refuse("a and b", "lists of equal length", f"{len(a)} and {len(b)}", "give one pair per entry")
+    first = representatives(mesh)
+    a, b = first[a], first[b]
     graph = _graph(mesh, method)
     _, component = connected_components(graph, directed=False)
     result = np.where(a == b, 0.0, np.inf)

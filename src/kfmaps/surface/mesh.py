@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from kfmaps._arrays import KfmapsWarning, check, refuse
+from kfmaps.surface.cloud import cloud_areas
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,12 +60,19 @@ def face_normals(mesh: Mesh) -> np.ndarray:
 
 
 def surface_area(mesh: Mesh) -> float:
-    """Sum of the face areas."""
+    """Sum of the face areas; of a point cloud that of the areas its points stand for, an estimate."""
+    if len(mesh.faces) == 0 and len(mesh.vertices):
+        return float(cloud_areas(mesh.vertices).sum())
     return float(face_areas(mesh).sum())
 
 
 def vertex_areas(mesh: Mesh) -> np.ndarray:
-    """A third of the area of the faces around each vertex, (n,) (barycentric lumped mass)."""
+    """A third of the area of the faces around each vertex, (n,) (barycentric lumped mass).
+
+    Of a point cloud an estimate of the area that each point stands for (:func:`kfmaps.surface.cloud.cloud_areas`).
+    """
+    if len(mesh.faces) == 0 and len(mesh.vertices):
+        return cloud_areas(mesh.vertices)
     thirds = np.repeat(face_areas(mesh) / 3, 3)
     return np.bincount(mesh.faces.ravel(), weights=thirds, minlength=len(mesh.vertices))
 
@@ -80,15 +88,14 @@ def vertex_normals(mesh: Mesh) -> np.ndarray:
 def unit_area(mesh: Mesh) -> Mesh:
     """The mesh centred on its vertices' mean and scaled so that its area is 1.
 
-    A point cloud, which has no faces to measure, is scaled so that its root-mean-square radius is
-    that of a sphere of unit area.
+    The area of a point cloud is estimated (:func:`surface_area`).
+
+    Raises
+    ------
+    InvalidInput
+        When it has no area.
     """
     centred = mesh.vertices - mesh.vertices.mean(axis=0)
-    if len(mesh.faces) == 0:
-        spread = np.sqrt((centred**2).sum(axis=1).mean())
-        if not spread > 0:
-            raise refuse("point cloud", "points apart from each other", "one place", "check the file")
-        return Mesh(centred / (spread * np.sqrt(4 * np.pi)), mesh.faces)
     area = surface_area(mesh)
     if not area > 0:
         raise refuse("mesh", "a surface with area", "zero area", "check that its faces are not collapsed")

@@ -8,12 +8,17 @@ import numpy as np
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
+from kfmaps.surface.inside import representatives
 from kfmaps.surface.mesh import Mesh, face_areas
+from kfmaps.surface.places import first_occurrence
 
 
 @dataclass(frozen=True)
 class Topology:
     """Counts that describe a triangle mesh. Faces that name a vertex twice enter only ``degenerate_faces``.
+
+    Open edges that lie in one place count as connected (:func:`kfmaps.surface.inside.representatives`): a mesh cut
+    along seams, or into single triangles, is the surface that it looks like.
 
     Attributes
     ----------
@@ -68,24 +73,6 @@ class Topology:
         return self.nonmanifold_edges == 0 and self.nonmanifold_vertices == 0
 
 
-def first_occurrence(vertices: np.ndarray) -> np.ndarray:
-    """For each vertex the number of the first one in exactly the same place, (n,) int64.
-
-    Parameters
-    ----------
-    vertices : (n, 3) float64
-        Finite positions.
-    """
-    places = vertices + 0.0  # makes -0.0 and 0.0 the same
-    order = np.lexsort(places.T)
-    moved = np.ones(len(places), dtype=bool)
-    moved[1:] = (places[order[1:]] != places[order[:-1]]).any(axis=1)
-    first = np.empty(len(places), dtype=np.int64)
-    # lexsort is stable, so the first of each run has the smallest number
-    first[order] = order[moved][np.cumsum(moved) - 1]
-    return first
-
-
 def _components(count: int, a: np.ndarray, b: np.ndarray) -> tuple[int, np.ndarray]:
     """Connected components of the graph with links a[i] - b[i] on ``count`` nodes: how many, and labels."""
     if count == 0:
@@ -104,7 +91,7 @@ def topology(mesh: Mesh) -> Topology:
         Its face numbers within range (see :func:`kfmaps.surface.mesh.check_mesh`). A point cloud has no components.
     """
     n = len(mesh.vertices)
-    corners = mesh.faces
+    corners = representatives(mesh)[mesh.faces]
     repeated = (corners == np.roll(corners, 1, axis=1)).any(axis=1)
     areas = face_areas(mesh)
     flat = areas <= 1e-14 * areas.max(initial=0.0)
@@ -162,6 +149,6 @@ def topology(mesh: Mesh) -> Topology:
         nonmanifold_vertices=nonmanifold_vertices,
         inconsistent_edges=int(against.sum()),
         degenerate_faces=int((repeated | flat).sum()),
-        unreferenced_vertices=int((np.bincount(corners.ravel(), minlength=n) == 0).sum()),
+        unreferenced_vertices=int((np.bincount(mesh.faces.ravel(), minlength=n) == 0).sum()),
         duplicated_vertices=int((first_occurrence(mesh.vertices) != np.arange(n)).sum()),
     )

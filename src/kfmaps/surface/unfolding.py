@@ -6,13 +6,11 @@ from dataclasses import dataclass
 
 import numpy as np
 from scipy.sparse import csr_array
-from scipy.spatial import KDTree
 
 from kfmaps._arrays import check_count
+from kfmaps.surface.cloud import cloud_links
+from kfmaps.surface.inside import representatives
 from kfmaps.surface.mesh import Mesh
-
-NEIGHBOURS = 12
-"""Neighbours of a point in the graph of a point cloud."""
 
 CHUNK = 200_000
 """Corners unfolded together, which bounds the memory."""
@@ -119,13 +117,6 @@ def _crossed(
     return one + two, *found
 
 
-def _cloud_links(points: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    n = len(points)
-    length, index = KDTree(points).query(points, k=min(NEIGHBOURS + 1, n))  # each point is one of its own
-    length, index = np.reshape(length, (n, -1)), np.reshape(index, (n, -1))
-    return np.repeat(np.arange(n), index.shape[1]), index.ravel(), length.ravel()
-
-
 def surface_graph(mesh: Mesh, depth: int = 4) -> csr_array:
     """Symmetric graph (n, n) whose shortest paths run along the surface; its weights are lengths.
 
@@ -135,7 +126,8 @@ def surface_graph(mesh: Mesh, depth: int = 4) -> csr_array:
     in the graph of all such lines are exact geodesics (the saddle vertex graph); the short ones come close.
 
     Works on any triangles: boundaries, several components, edges with more than two faces, faces without
-    area. A vertex that no face uses is joined to nothing. A point cloud is joined to its 12 nearest neighbours.
+    area, open edges in one place, whose ends are at no distance from each other. A vertex that no face uses is joined
+    to nothing. The points of a cloud are joined to their 12 nearest neighbours, and all to one piece.
 
     Parameters
     ----------
@@ -154,13 +146,17 @@ def surface_graph(mesh: Mesh, depth: int = 4) -> csr_array:
     Ying, Wang and He, Saddle vertex graph: a novel solution to the discrete geodesic problem (2013).
     """
     check_count(depth, "depth", 0)
-    v, f = mesh.vertices, mesh.faces
-    n = len(v)
+    v, first = mesh.vertices, representatives(mesh)
+    f, n = first[mesh.faces], len(v)
+    copies = np.flatnonzero(first != np.arange(n))
+    links = [(copies, first[copies], np.zeros(len(copies)))]
     if len(f) == 0:
-        links = [_cloud_links(v)]
+        places = np.unique(first)
+        a, b, lengths = cloud_links(v[places])
+        links.append((places[a], places[b], lengths))
     else:
         a, b = f.ravel(), f[:, [1, 2, 0]].ravel()
-        links = [(a, b, np.linalg.norm(v[a] - v[b], axis=1))]
+        links.append((a, b, np.linalg.norm(v[a] - v[b], axis=1)))
         faces = f[(f != np.roll(f, 1, axis=1)).all(axis=1)]
         start, twins = _neighbours(faces) if depth else (np.zeros(1), np.zeros(0))
         for chunk in range(0, 3 * len(faces) if depth else 0, CHUNK):

@@ -22,7 +22,7 @@ LIMIT = 0.2
 """Where the colours of the error end, the same for all pairs, in units of √area."""
 
 
-def pair_picture(task: PairTask, threads: int | None = None) -> bytes:
+def pair_picture(task: PairTask) -> bytes:
     """The PNG of a matched pair: source, target in the source's colours, and the error when the truth is known.
 
     Raises
@@ -39,7 +39,7 @@ def pair_picture(task: PairTask, threads: int | None = None) -> bytes:
     errors, views = None, (None, None)
     with one_blas_thread():
         if truth is not None:
-            errors = painted_errors(source, target, points, truth.source, truth.target, threads)
+            errors = painted_errors(source, target, points, truth.source, truth.target)
             views = true_views(source, target, truth.source, truth.target)
     buffer = io.BytesIO()
     figure = match_figure(source, target, points, errors=errors, limit=LIMIT, view=views[0], target_view=views[1])
@@ -55,9 +55,7 @@ def caption(result: Result) -> str:
     return ", ".join(told)
 
 
-def worst_pictures(
-    tasks: Sequence[PairTask], results: Sequence[Result], count: int, threads: int | None = None
-) -> dict[str, bytes]:
+def worst_pictures(tasks: Sequence[PairTask], results: Sequence[Result], count: int) -> dict[str, bytes]:
     """Pictures of the ``count`` worst of the ``tasks`` by caption; one that cannot be drawn is left out."""
     known = {task.pair: task for task in tasks}
     pictures: dict[str, bytes] = {}
@@ -68,7 +66,7 @@ def worst_pictures(
         if task is None:
             continue
         try:
-            pictures[caption(result)] = pair_picture(task, threads)
+            pictures[caption(result)] = pair_picture(task)
         except (InvalidInput, OSError):
             continue
     return pictures

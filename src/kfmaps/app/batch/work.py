@@ -162,7 +162,7 @@ def _matched(task: PairTask) -> dict[str, Any]:
     found = match(source, target, replace(task.config, threads=1), landmarks=landmarks, rng=task.seed)
     start = time.perf_counter()
     points = found.target_to_source
-    accuracy = None if truth is None else assessed(source.mesh, points, truth, threads=1)
+    accuracy = None if truth is None else assessed(source.mesh, points, truth)
     reached = coverage(points, source.mesh)
     seconds = {**found.seconds, "evaluation": time.perf_counter() - start}
     marks = np.zeros((0, 2), dtype=np.int64) if landmarks is None else landmarks

@@ -43,7 +43,6 @@ def evaluate(
         Path | None, typer.Option(help="Write the error curve (.csv, .png, .svg, .pdf).", show_default=False)
     ] = None,
     json: Annotated[bool, typer.Option("--json", help="Print the numbers for machines, in units of √area.")] = False,
-    threads: Annotated[int | None, typer.Option(help="Default: every core.", min=1, show_default=False)] = None,
     force: Annotated[bool, typer.Option("--force", help="Replace an existing file.")] = False,
 ) -> None:
     """Print the geodesic error of a map, by the Princeton protocol."""
@@ -67,7 +66,7 @@ def evaluate(
         got = f"{n_s} and {len(points)}"
         raise refuse("--identity", "equally many vertices", got, "give --truth-source and --truth-target")
     check_map(found, n_s, None if target is None else len(read_mesh(target).vertices), str(map))
-    accuracy = assessed(shape, points, truth, threads)
+    accuracy = assessed(shape, points, truth)
     if curve is not None:
         write_curve(curve, accuracy.errors, map.stem, force)
     if json:

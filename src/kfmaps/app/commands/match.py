@@ -129,7 +129,7 @@ def run(
         accuracy = None
         if truth is not None:
             stages("evaluation", 0.0)
-            accuracy = assessed(meshes[0], found.target_to_source, truth, config.threads)
+            accuracy = assessed(meshes[0], found.target_to_source, truth)
             stages("evaluation", 1.0)
     pairs = np.zeros((0, 2), dtype=np.int64) if landmarks is None else landmarks
     return MatchRun(found, meshes, paths, pairs, seed, {**seconds, **found.seconds}, accuracy)

@@ -16,7 +16,6 @@ def painted_errors(
     target_to_source: np.ndarray,
     truth_s: np.ndarray,
     truth_t: np.ndarray,
-    threads: int | None = None,
 ) -> np.ndarray:
     """Geodesic error at each target vertex, (n_t,), in units of √area of the source.
 
@@ -31,9 +30,7 @@ def painted_errors(
         Corresponding vertices, at least one. Of several truths for one target vertex the last counts.
     """
     errors = np.full(len(target.vertices), np.nan)
-    errors[truth_t] = geodesic_errors(
-        source, truth_from_pairs(truth_s, truth_t, target_to_source), truth_s, threads=threads
-    )
+    errors[truth_t] = geodesic_errors(source, truth_from_pairs(truth_s, truth_t, target_to_source), truth_s)
     endless = np.isinf(errors)  # on another component
     errors[endless] = max(errors[np.isfinite(errors)].max(initial=0.0), 1.0)
     known, unknown = np.flatnonzero(~np.isnan(errors)), np.flatnonzero(np.isnan(errors))

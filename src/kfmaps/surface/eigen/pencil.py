@@ -23,6 +23,9 @@ MASS_FLOOR = 1e-10
 """Least mass of a vertex, as a part of the mean: one without mass takes the value that its neighbours give it
 (harmonic), and this much mass moves no eigenvalue by more than this part."""
 
+MENDED = 2
+"""Steps of subspace iteration for pairs that miss the tolerance: specks and caps make the Lanczos basis lose digits."""
+
 THREADED = 50_000
 """Rows from which threads pay."""
 
@@ -127,6 +130,10 @@ def smallest_eigenpairs(
             matrix, floored = matrix[order][:, order], floored[order]
         pencil = _Pencil(matrix, floored, order is not None, each)
         vectors = _vectors(pencil, k, method, tolerance, np.random.default_rng(rng))
+        for _ in range(MENDED):
+            if not len(_missed(pencil, vectors, tolerance)):
+                break
+            vectors = _improved(pencil, pencil.root[:, None] * vectors)
         return _signed(_checked(pencil, vectors, tolerance), order)
 
 
@@ -185,8 +192,8 @@ def _improved(pencil: _Pencil, vectors: np.ndarray) -> np.ndarray:
     return images @ rotation
 
 
-def _checked(pencil: _Pencil, vectors: np.ndarray, tolerance: float) -> Eigenpairs:
-    """Sorted and checked pairs: the values are Rayleigh quotients."""
+def _missed(pencil: _Pencil, vectors: np.ndarray, tolerance: float) -> np.ndarray:
+    """Which of the pairs have residuals above the tolerance and what rounding costs."""
     values, residuals = pencil.residuals(vectors)
     bad = np.flatnonzero(~(residuals <= tolerance))
     if len(bad):
@@ -194,6 +201,13 @@ def _checked(pencil: _Pencil, vectors: np.ndarray, tolerance: float) -> Eigenpai
         rounding = 8 * np.finfo(float).eps * spread
         scale = (values[bad] + pencil.unit) * np.linalg.norm(pencil.mass[:, None] * vectors[:, bad], axis=0)
         bad = bad[~(residuals[bad] <= tolerance + rounding / scale)]
+    return bad
+
+
+def _checked(pencil: _Pencil, vectors: np.ndarray, tolerance: float) -> Eigenpairs:
+    """Sorted and checked pairs: the values are Rayleigh quotients."""
+    values, residuals = pencil.residuals(vectors)
+    bad = _missed(pencil, vectors, tolerance)
     if len(bad):
         raise NotConverged(
             f"eigenpairs: {len(bad)} of {len(values)} have residuals above {tolerance:.0e}, the largest "

@@ -1,0 +1,227 @@
+"""What surrounds a surface does not disturb it: soup, seams, unused vertices and specks."""
+
+from __future__ import annotations
+
+import warnings
+
+import numpy as np
+import pytest
+
+from conftest import blob
+from kfmaps._arrays import InvalidInput, KfmapsWarning
+from kfmaps.config import BasisConfig, Config, DescriptorConfig, NystromConfig
+from kfmaps.descriptors.shot import shot
+from kfmaps.fit.shape import inner, prepare
+from kfmaps.functional.confidence import local_confidence
+from kfmaps.functional.evaluate import coverage, geodesic_errors
+from kfmaps.functional.refine import ZoomOut
+from kfmaps.matching import match
+from kfmaps.surface.basis import laplace_basis
+from kfmaps.surface.geodesics import METHODS, distance_pairs, geodesic_distances
+from kfmaps.surface.inside import SPECK, inside, representatives
+from kfmaps.surface.mesh import Mesh, surface_area
+from kfmaps.surface.topology import topology
+
+SMALL = Config(
+    basis=BasisConfig(functions=20),
+    descriptors=DescriptorConfig(count=40, eigenfunctions=40),
+    nystrom=NystromConfig(samples=60),
+    refinement=ZoomOut(start=10, stop=40, step=10),
+)
+MARKS = np.array([[5, 5], [100, 110], [200, 190], [300, 290]])
+TETRAHEDRON = Mesh(
+    np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]), np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]])
+)
+
+
+def joined(*meshes: Mesh) -> Mesh:
+    starts = np.cumsum([0, *(len(m.vertices) for m in meshes)])
+    faces = [m.faces + start for m, start in zip(meshes, starts, strict=False)]
+    return Mesh(np.concatenate([m.vertices for m in meshes]), np.concatenate(faces))
+
+
+def placed(mesh: Mesh, size: float, at: tuple[float, float, float] = (3.0, 1.0, 0.0)) -> Mesh:
+    return Mesh(size * mesh.vertices + np.array(at), mesh.faces)
+
+
+def soup(mesh: Mesh) -> tuple[Mesh, np.ndarray]:
+    """Every triangle on its own, and which vertex each corner was."""
+    was = mesh.faces.ravel()
+    return Mesh(mesh.vertices[was], np.arange(len(was)).reshape(-1, 3)), was
+
+
+def seamed(mesh: Mesh) -> tuple[Mesh, np.ndarray]:
+    """Cut in two charts, faces left and right of a plane, and which vertex each one was."""
+    right = mesh.vertices[mesh.faces].mean(axis=1)[:, 0] > 0.1
+    halves = [np.unique(mesh.faces[side]) for side in (~right, right)]
+    number = [np.searchsorted(half, mesh.faces[side]) for half, side in zip(halves, (~right, right), strict=True)]
+    was = np.concatenate(halves)
+    return Mesh(mesh.vertices[was], np.concatenate([number[0], number[1] + len(halves[0])])), was
+
+
+def littered(mesh: Mesh) -> Mesh:
+    """With a dozen specks and some vertices that no face uses behind it."""
+    rng = np.random.default_rng(0)
+    specks = [placed(TETRAHEDRON, size, tuple(rng.normal(size=3))) for size in np.geomspace(1e-5, 0.05, 12)]
+    all_of_it = joined(mesh, *specks)
+    return Mesh(np.concatenate([all_of_it.vertices, rng.normal(size=(5, 3))]), all_of_it.faces)
+
+
+def quietly(mesh: Mesh, config: Config = SMALL):
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", KfmapsWarning)
+        return prepare(mesh, config)
+
+
+@pytest.mark.parametrize("cut", [soup, seamed])
+def test_cut_surfaces_are_connected_inside(cut) -> None:
+    mesh = blob(300)
+    pieces, was = cut(mesh)
+    part = inside(pieces)
+    np.testing.assert_array_equal(part.number, part.number[part.kept][part.number])
+    np.testing.assert_array_equal(was[part.kept][part.number], was)
+    np.testing.assert_array_equal(was[part.kept[part.mesh.faces]], was[pieces.faces])
+    assert not part.loose.any()
+    assert (len(part.kept), part.joined) == (300, len(was) - 300)
+    assert inside(part.mesh).mesh is part.mesh  # nothing is left to do
+
+
+@pytest.mark.parametrize("cut", [soup, seamed])
+def test_cut_surfaces_are_the_surface_that_they_look_like(cut) -> None:
+    mesh = blob(300)
+    pieces, was = cut(mesh)
+    whole, counts = topology(mesh), topology(pieces)
+    assert (counts.components, counts.boundary_edges, counts.genus, counts.closed) == (1, 0, 0, True)
+    assert (counts.euler_characteristic, counts.nonmanifold_vertices) == (whole.euler_characteristic, 0)
+    assert counts.duplicated_vertices == len(was) - 300
+    one, other = laplace_basis(mesh, 12), laplace_basis(pieces, 12)
+    np.testing.assert_allclose(other.eigenvalues, one.eigenvalues, rtol=1e-9, atol=1e-12)
+    np.testing.assert_allclose(np.abs(other.functions), np.abs(one.functions[was]), atol=1e-7)
+    np.testing.assert_allclose(np.bincount(was, other.mass), one.mass, rtol=1e-9)
+    np.testing.assert_allclose(other.project(other.functions), np.eye(12), atol=1e-9)
+    np.testing.assert_allclose(shot(pieces), shot(mesh)[was], atol=1e-6)
+    for method in METHODS:
+        np.testing.assert_allclose(
+            geodesic_distances(pieces, [3, 70], method),
+            geodesic_distances(mesh, was[[3, 70]], method)[:, was],
+            rtol=1e-6,
+        )
+    copies = np.flatnonzero(was == was[-1])
+    assert len(copies) > 1
+    assert not distance_pairs(pieces, np.repeat(copies[0], len(copies)), copies).any()
+
+
+def test_surfaces_that_only_touch_stay_apart() -> None:
+    two = joined(TETRAHEDRON, placed(TETRAHEDRON, -1.0, (0, 0, 0)))  # closed, with one corner in common
+    np.testing.assert_array_equal(representatives(two), np.arange(8))
+    open_two = Mesh(two.vertices, two.faces[[0, 1, 4, 5]])  # open, and still in one corner only
+    np.testing.assert_array_equal(representatives(open_two), np.arange(8))
+
+
+@pytest.mark.parametrize("cut", [soup, seamed])
+def test_cut_copies_have_the_map_of_the_whole(cut) -> None:
+    source, target = blob(400), blob(360, twist=0.4)
+    (pieces_s, was_s), (pieces_t, was_t) = cut(source), cut(target)
+    copy = np.stack(
+        [[np.flatnonzero(w == v)[-1] for v in m] for w, m in ((was_s, MARKS[:, 0]), (was_t, MARKS[:, 1]))], 1
+    )
+    one = match(quietly(source), quietly(target), SMALL, landmarks=MARKS)
+    with pytest.warns(KfmapsWarning, match="vertices on seams are connected inside; the numbering is kept"):
+        other = match(pieces_s, pieces_t, SMALL, landmarks=copy)
+    assert geodesic_errors(source, was_s[other.target_to_source], one.target_to_source[was_t]).max() < 0.1
+    assert (was_s[other.target_to_source] == one.target_to_source[was_t]).mean() > 0.9  # another first sample
+    assert one.local_confidence is not None
+    assert other.local_confidence is not None
+    np.testing.assert_allclose(other.local_confidence, one.local_confidence[was_t], atol=0.15)
+    # Welded in the order in which the places are met there is no difference at all.
+    again = match(
+        quietly(inside(pieces_s).mesh),
+        quietly(inside(pieces_t).mesh),
+        SMALL,
+        landmarks=inside_marks(pieces_s, pieces_t, copy),
+    )
+    part_s, part_t = inside(pieces_s), inside(pieces_t)
+    np.testing.assert_array_equal(other.target_to_source, part_s.kept[again.target_to_source][part_t.number])
+    np.testing.assert_array_equal(other.functional_map, again.functional_map)
+
+
+def inside_marks(source: Mesh, target: Mesh, marks: np.ndarray) -> np.ndarray:
+    return np.stack([inside(source).number[marks[:, 0]], inside(target).number[marks[:, 1]]], axis=1)
+
+
+def test_landmarks_on_copies_of_one_vertex_are_refused() -> None:
+    pieces, was = soup(blob(300))
+    copies = np.flatnonzero(was == 7)[:2]
+    marks = np.stack([copies, [3, 40]], axis=1)
+    with pytest.raises(InvalidInput, match=f"vertices {copies[0]} and {copies[1]}, which count as one"):
+        match(quietly(pieces), quietly(blob(300)), SMALL, landmarks=marks)
+
+
+def test_litter_changes_no_bit_of_the_rest() -> None:
+    source, target = blob(400), blob(360, twist=0.4)
+    one = match(quietly(source), quietly(target), SMALL, landmarks=MARKS)
+    dirty = littered(source), littered(target)
+    with warnings.catch_warnings(record=True) as told:
+        warnings.simplefilter("always")
+        other = match(*dirty, SMALL, landmarks=MARKS)
+    lines = sorted(str(w.message) for w in told)
+    assert lines == [
+        f"{name}: {what}"
+        for name in ("source", "target")
+        for what in (
+            "12 specks are left out inside; the numbering is kept",
+            "5 vertices that no face uses; they are kept",
+        )
+    ]
+    np.testing.assert_array_equal(other.target_to_source[:360], one.target_to_source)
+    np.testing.assert_array_equal(other.functional_map, one.functional_map)
+    assert one.local_confidence is not None
+    assert other.local_confidence is not None
+    np.testing.assert_array_equal(other.local_confidence[:360], one.local_confidence)
+    assert not other.local_confidence[360:].any()  # a guess
+    assert other.target_to_source.max() < 400
+    assert len(other.target_to_source) == len(dirty[1].vertices)
+
+
+def test_litter_is_not_trusted_and_covers_nothing() -> None:
+    mesh = littered(blob(400))
+    n = len(mesh.vertices)
+    trust = local_confidence(mesh, mesh, np.arange(n))
+    assert trust[:400] == pytest.approx(1)
+    assert not trust[400:].any()
+    points = np.full(n, n - 1)
+    points[0] = 7
+    assert coverage(points, mesh) == pytest.approx(coverage(np.full(400, 7), blob(400)), rel=0.01)
+
+
+def test_specks_are_told_by_their_part_of_the_area() -> None:
+    mesh = blob(300)
+    for factor, specks in ((0.9, 1), (1.1, 0)):
+        size = np.sqrt(factor * SPECK * surface_area(mesh) / surface_area(TETRAHEDRON))
+        part = inside(joined(placed(TETRAHEDRON, size), mesh), specks=True)
+        assert (part.specks, part.loose.sum()) == (specks, 4 * specks)
+    leaves = joined(*(placed(TETRAHEDRON, 1.0, (3.0 * i, 0, 0)) for i in range(400)))
+    assert inside(leaves, specks=True).mesh is leaves  # equals of each other
+
+
+def test_a_shape_that_is_clean_is_worked_on_as_it_is() -> None:
+    shape = prepare(blob(300), SMALL)
+    assert inner(shape)[0] is shape
+
+
+def test_a_prepared_shape_keeps_every_vertex() -> None:
+    mesh = littered(blob(300))
+    shape, clean = quietly(mesh), quietly(blob(300))
+    assert len(shape.mesh.vertices) == len(shape.basis.functions) == len(mesh.vertices)
+    within, part = inner(shape)
+    for name in ("eigenvalues", "functions", "mass"):
+        np.testing.assert_array_equal(getattr(within.basis, name), getattr(clean.basis, name))
+    np.testing.assert_array_equal(within.mesh.vertices, clean.mesh.vertices)
+    np.testing.assert_array_equal(within.mesh.faces, clean.mesh.faces)
+    np.testing.assert_array_equal(part.kept, np.arange(300))
+    # Moved and scaled as one.
+    scale = np.linalg.norm(shape.mesh.vertices[0] - shape.mesh.vertices[-1]) / np.linalg.norm(
+        mesh.vertices[0] - mesh.vertices[-1]
+    )
+    assert surface_area(within.mesh) == pytest.approx(1)
+    assert surface_area(blob(300)) * scale**2 == pytest.approx(1)
