@@ -19,8 +19,9 @@ from kfmaps.functional.slices import compressed, condensed, packed_slices, unpac
 from kfmaps.functional.solvers import CG, solve
 from kfmaps.functional.terms import laplacian_term, slice_term, value
 from kfmaps.kernel.kernels import Gaussian, Laplacian, resolved
+from kfmaps.matching import match
 from kfmaps.search.candidates import judged, kicked
-from kfmaps.search.choose import choose, distinct
+from kfmaps.search.choose import distinct
 from kfmaps.search.quality import map_quality, probe, thinned
 from kfmaps.surface.basis import Basis, zero_level
 from kfmaps.surface.mesh import Mesh
@@ -102,7 +103,7 @@ def test_the_order_of_candidates_knows_no_rounding(shape):
 
 @pytest.mark.parametrize("first", FIRST)
 def test_a_search_ends_as_ever_whatever_zero_is(shape, first):
-    found, usual = (choose(s, s, SMALL) for s in (starting(shape, first), shape))
+    found, usual = (match(s, s, SMALL) for s in (starting(shape, first), shape))
     np.testing.assert_array_equal(found.target_to_source, usual.target_to_source)
     np.testing.assert_allclose(found.scores, usual.scores, atol=1e-6)
 
