@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import pickle
+import tracemalloc
 import zipfile
 from pathlib import Path
 from typing import Any
@@ -31,7 +32,7 @@ def example(seed: int = 0, n_t: int = 50) -> MapFile:
             "runners_up": rng.integers(0, 40, (1, n_t)),
             "confidence": np.array(0.25),
             "local_confidence": np.append(rng.random(n_t - 1), np.nan),
-            "landmarks": rng.integers(0, 40, (3, 2)),
+            "landmarks": rng.integers(0, min(40, n_t), (3, 2)),
             "empty": "",
         },
     )
@@ -228,3 +229,99 @@ def test_check_map() -> None:
         check_map(ONE, 3, 4)
     with pytest.raises(InvalidInput, match=r"map: wanted shape \(5\), got shape \(4,\)"):
         check_map(ONE, 4, 5)
+
+
+DEEP = "[" * 100_000
+LEVELS = '{"a":' * 60 + "1" + "}" * 60
+
+
+@pytest.mark.parametrize("suffix", [".npz", ".mat"])
+@pytest.mark.parametrize(
+    ("content", "part"),
+    [
+        ({"runners_up": np.zeros((2, 3))}, "extra runners_up: wanted shape (any, 4), got shape (2, 3)"),
+        ({"runners_up": np.zeros((2, 2, 4))}, "extra runners_up: wanted shape (any, 4)"),
+        ({"runners_up": np.full((1, 4), 0.5)}, "fractions"),
+        ({"runners_up": np.full((1, 4), 9.0), "n_s": 5}, "vertex numbers from 0 to 4, got"),
+        ({"runners_up": "text"}, "an array of numbers"),
+        ({"raw_target_to_source": ONE[:3]}, "extra raw_target_to_source: wanted shape (4), got shape (3,)"),
+        ({"landmarks": np.zeros((2, 3))}, "extra landmarks: wanted shape (any, 2)"),
+        ({"landmarks": np.full((2, 2), 7)}, "extra landmarks: wanted vertex numbers from 0 to 3, got"),
+        ({"landmarks": "1 2"}, "an array of numbers"),
+        ({"confidence": np.zeros(3)}, "extra confidence: wanted one number"),
+        ({"confidence": np.nan}, "extra confidence: wanted one number"),
+        ({"confidence": "high"}, "an array of numbers"),
+        ({"local_confidence": np.zeros(3)}, "extra local_confidence: wanted shape (4), got shape (3,)"),
+        ({"local_confidence": np.full(4, np.inf)}, "infinite"),
+        ({"raw_functional_map": np.zeros((2, 2, 2))}, "extra raw_functional_map: wanted shape (any, any)"),
+        ({"n_s": 2}, "target_to_source: wanted source vertices from 0 to 1, got 3"),
+        ({"source": ONE}, "extra source: wanted a path of at most 4096 letters, got an array"),
+        ({"source": "a" * 5000}, "extra source: wanted a path of at most 4096 letters, got 5000"),
+        ({"summary": DEEP}, "extra summary: wanted JSON of at most 50 levels"),
+        ({"summary": ONE}, "extra summary: wanted text"),
+        ({"config": DEEP}, "config: wanted JSON of at most 50 levels"),
+        ({"config": LEVELS}, "config: wanted JSON of at most 50 levels"),
+    ],
+)
+def test_arrays_of_another_kind_or_length(tmp_path: Path, content: dict[str, Any], part: str, suffix: str) -> None:
+    """The same check for every format, before anything is done with the map."""
+    content = {"target_to_source": ONE + (suffix == ".mat"), **content}
+    file = io.BytesIO()
+    if suffix == ".npz":
+        np.savez(file, **content)
+    else:
+        scipy.io.savemat(file, content, oned_as="column")
+    if suffix == ".mat" and ("got" in part or "letters" in part) and "shape" in part and "(3,)" not in part:
+        part = part.partition(", got")[0]
+    told = refused(tmp_path / f"m{suffix}", file.getvalue())
+    assert part in told
+    assert len(told) < 400
+
+
+def test_what_a_map_says_in_its_own_words_is_kept() -> None:
+    found = MapFile(
+        ONE, config="by hand", extra={"summary": "made on a Monday", "weights": np.ones(3), "n_s": np.int64(9)}
+    )
+    assert (found.config, found.extra["summary"], found.n_s) == ("by hand", "made on a Monday", 9)
+    assert MapFile(ONE, extra={"runners_up": ONE * 1.0}).extra["runners_up"].shape == (1, 4)  # pyright: ignore
+
+
+def zeros_npz(names: int, megabytes: int) -> bytes:
+    """Arrays of zeros, packed to a thousandth of their size, all of them the same bytes of the file."""
+    array = io.BytesIO()
+    np.lib.format.write_array_header_1_0(array, {"descr": "<f8", "fortran_order": False, "shape": (megabytes << 17,)})
+    file = io.BytesIO()
+    with zipfile.ZipFile(file, "w", zipfile.ZIP_DEFLATED) as archive:
+        for i in range(names):
+            archive.writestr(f"a{i}.npy", array.getvalue() + bytes(megabytes << 20))
+    return file.getvalue()
+
+
+def zeros_mat(names: int, megabytes: int) -> bytes:
+    content = io.BytesIO()
+    scipy.io.savemat(content, {"a": np.zeros(megabytes << 20, dtype=np.int8)}, do_compression=True)
+    head, element = content.getvalue()[:128], content.getvalue()[128:]
+    return head + names * element
+
+
+@pytest.mark.parametrize(("suffix", "packed"), [(".npz", zeros_npz), (".mat", zeros_mat)])
+def test_sizes_are_looked_at_before_memory_is_taken(
+    tmp_path: Path, suffix: str, packed: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Kilobytes of file that unpack to much more than a map has: refused with a small part of it unpacked."""
+    monkeypatch.setattr("kfmaps.app.files.mapfile.LARGEST", 1 << 20)
+    content = packed(64, 1)
+    assert len(content) < 1 << 17
+    tracemalloc.start()
+    told = refused(tmp_path / f"m{suffix}", content)
+    most = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    assert "at most 8.39 MB unpacked" in told
+    assert most < 32 << 20
+
+
+def test_a_terabyte_is_refused_at_once(tmp_path: Path) -> None:
+    lie = bytearray(zeros_npz(1, 1))
+    at = lie.rindex(b"PK\1\2")
+    lie[at + 24 : at + 28] = b"\xf0\xff\xff\xff"  # the size that the archive declares
+    assert "at most 2.15 GB unpacked, got 4.29 GB" in refused(tmp_path / "m.npz", bytes(lie))

@@ -15,7 +15,9 @@ import numpy as np
 from scipy.io import savemat
 
 from kfmaps._arrays import InvalidInput, check, refuse
+from kfmaps._memory import in_words
 from kfmaps.app.files.atomic import atomic_output, check_output
+from kfmaps.app.files.mapcontent import checked_extra, json_text, real
 from kfmaps.app.files.matfile import read_mat
 from kfmaps.app.files.numbers import read_vertex_numbers, write_vertex_numbers
 from kfmaps.app.files.text import REPAIR, read_bytes
@@ -27,6 +29,9 @@ FORMATS = (".npz", ".txt", ".vts", ".mat")
 
 VERTEX_NUMBERS = ("target_to_source", "raw_target_to_source", "runners_up", "landmarks")
 """The arrays that hold vertex numbers, which a .mat file counts from 1."""
+
+LARGEST = 1 << 28
+"""Numbers that a map file may hold: 2 GiB of them, a map of 30 million vertices with all that is known of it."""
 
 _FIELDS = ("target_to_source", "functional_map", "eigenvalues_s", "eigenvalues_t", "config")
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]{0,30}", re.ASCII)  # as long as MATLAB's files allow
@@ -65,7 +70,7 @@ class MapFile:
             value = getattr(self, name)
             if value is not None:
                 shape = (None, None) if name == "functional_map" else (None,)
-                check(_real(value, name), name, shape=shape, remedy=REPAIR)
+                check(real(value, name), name, shape=shape, remedy=REPAIR)
                 object.__setattr__(self, name, np.asarray(value, dtype=np.float64))
         if self.functional_map is not None:
             sides = (("eigenvalues_t", self.eigenvalues_t), ("eigenvalues_s", self.eigenvalues_s))
@@ -73,13 +78,14 @@ class MapFile:
                 if values is not None and len(values) != size:
                     got = f"{len(values)} beside a map of shape {self.functional_map.shape}"
                     raise refuse(name, f"{size} numbers", got, REPAIR)
-        for name, value in self.extra.items():
+        for name in self.extra:
             if not _NAME.fullmatch(name) or name in (*_FIELDS, "file", "allow_pickle"):  # savez has these
                 wanted = "names of letters, digits and _, up to 31 of them and not in use"
                 raise refuse("extra", wanted, repr(name), "rename it")
-            if not isinstance(value, str):
-                _real(value, f"extra {name}")
-        self.n_s  # noqa: B018 - complains now rather than later
+        object.__setattr__(self, "config", json_text(self.config, "config"))
+        n_s, n_t = self.n_s, len(self.target_to_source)
+        check_map(self.target_to_source, n_s, name="target_to_source")
+        object.__setattr__(self, "extra", checked_extra(self.extra, n_t, n_s))
 
     @property
     def n_s(self) -> int | None:
@@ -90,14 +96,6 @@ class MapFile:
         if value.size != 1 or value.dtype.kind not in "iuf" or not 0 < value.item() < 2**53:
             raise refuse("extra n_s", "one whole number above 0", repr(self.extra["n_s"]), REPAIR)
         return int(value.item())
-
-
-def _real(value: Any, name: str) -> np.ndarray:
-    """``value`` as an array when it holds real numbers or truth values."""
-    array = np.asarray(value)
-    if array.dtype.kind not in "biuf":
-        raise refuse(name, "an array of numbers", f"dtype {array.dtype}", REPAIR)
-    return array
 
 
 def check_map(target_to_source: Any, n_s: int | None = None, n_t: int | None = None, name: str = "map") -> np.ndarray:
@@ -119,7 +117,7 @@ def check_map(target_to_source: Any, n_s: int | None = None, n_t: int | None = N
     if isinstance(target_to_source, MapFile):
         target_to_source = target_to_source.target_to_source
     remedy = "check that the map belongs to these two meshes, in this order"
-    numbers = _real(target_to_source, name)
+    numbers = real(target_to_source, name)
     check(numbers, name, shape=(n_t,), remedy=remedy)
     if len(numbers) == 0 or (numbers.dtype.kind == "f" and (numbers != np.rint(numbers)).any()):
         got = "none" if len(numbers) == 0 else "fractions"
@@ -221,36 +219,48 @@ def load_map(path: str | Path) -> MapFile:
         got = ", ".join(sorted(content)) or "an empty file"
         raise refuse(name, "an array target_to_source", got, "give a map that kfmaps wrote")
     fields = {k: content.pop(k) for k in _FIELDS if k in content}
-    if not isinstance(fields.get("config", ""), str):
-        raise refuse(f"{name}: config", "text", "numbers", REPAIR)
     try:
         return MapFile(**fields, extra=content)
     except InvalidInput as error:
         raise InvalidInput(f"{name}: {error}") from error
 
 
-def check_npy(file: IO[bytes], size: int, name: str) -> None:
-    """Refuse an .npy file of ``size`` bytes whose header asks NumPy to take memory for more than that."""
+def check_npy(file: IO[bytes], size: int, name: str) -> float:
+    """How many numbers an .npy file of ``size`` bytes holds; refused when its header says more than fit into it."""
     first = np.lib.format.read_magic(file) == (1, 0)
     read = np.lib.format.read_array_header_1_0 if first else np.lib.format.read_array_header_2_0
     shape, _, dtype = read(file)
-    if np.prod(shape, dtype=float) * dtype.itemsize > size:
+    count = float(np.prod(shape, dtype=float))
+    if count * dtype.itemsize > size:
         raise refuse(name, f"data for shape {shape}", f"{size} bytes", REPAIR)
+    return count * max(1.0, dtype.itemsize / 8)
 
 
 def _npz_content(data: bytes, name: str) -> dict[str, Any]:
     with zipfile.ZipFile(io.BytesIO(data)) as archive:
-        for item in archive.infolist():
+        items = archive.infolist()
+        # What an archive unpacks to may be a thousand times its size: what it declares is looked at first.
+        check_size(sum(item.file_size for item in items) / 8, name)
+        total = 0.0
+        for item in items:
             with archive.open(item) as file:
-                check_npy(file, item.file_size, f"{name}: {item.filename}")
+                total += check_npy(file, item.file_size, f"{name}: {item.filename}")
+        check_size(total, name)
     with np.load(io.BytesIO(data), allow_pickle=False) as arrays:
         loaded = {k: arrays[k] for k in arrays.files}
     return {k: str(v) if v.dtype.kind == "U" and v.ndim == 0 else v for k, v in loaded.items()}
 
 
+def check_size(count: float, name: str) -> None:
+    """Refuse a map file that unpacks to more than :data:`LARGEST` numbers."""
+    if count > LARGEST:
+        wanted = f"a map of at most {in_words(8 * LARGEST)} unpacked"
+        raise refuse(name, wanted, in_words(8 * count), "a map takes a few numbers for each vertex: check the file")
+
+
 def _mat_content(data: bytes, name: str) -> dict[str, Any]:
     content: dict[str, Any] = {}
-    for key, value in read_mat(data, name).items():
+    for key, value in read_mat(data, name, 8 * LARGEST).items():
         if isinstance(value, str):
             content[key] = value
         elif key in ("target_to_source", "eigenvalues_s", "eigenvalues_t"):
@@ -259,5 +269,5 @@ def _mat_content(data: bytes, name: str) -> dict[str, Any]:
             content[key] = value[:, 0] if value.ndim == 2 and value.shape[1] == 1 else value
         if key in VERTEX_NUMBERS:
             # through float64, in which MATLAB keeps them: an unsigned 0 must not wrap around
-            content[key] = _real(content[key], f"{name}: {key}").astype(np.float64) - 1
+            content[key] = real(content[key], f"{name}: {key}").astype(np.float64) - 1
     return content

@@ -7,6 +7,7 @@ import zlib
 import numpy as np
 
 from kfmaps._arrays import refuse
+from kfmaps._memory import in_words
 from kfmaps.app.files.text import REPAIR
 
 _MATRIX, _COMPRESSED = 14, 15
@@ -15,8 +16,16 @@ _ENCODINGS = {2: "latin-1", 4: "utf-16", 16: "utf-8", 17: "utf-16", 18: "utf-32"
 _CHAR, _NUMERIC, _COMPLEX = 4, range(6, 16), 0x0800
 
 
-def read_mat(data: bytes, name: str) -> dict[str, np.ndarray | str]:
+def read_mat(data: bytes, name: str, most: int = 1 << 31) -> dict[str, np.ndarray | str]:
     """The real arrays and texts of a .mat file by name; cells, structures and other kinds are left out.
+
+    Parameters
+    ----------
+    data : bytes
+    name : str
+        How messages call it.
+    most : int
+        Bytes that the file may unpack to, every number counted as eight.
 
     SciPy writes these files for us but does not read them: on a damaged file its reader can end the
     process. Format: MathWorks, "MAT-File Format", version 5.
@@ -24,7 +33,7 @@ def read_mat(data: bytes, name: str) -> dict[str, np.ndarray | str]:
     Raises
     ------
     InvalidInput
-        On another version and on a file that is cut short or damaged.
+        On another version, on a file that is cut short or damaged, and before it unpacks to more than ``most``.
     """
     if data[:10] == b"MATLAB 7.3" or data[1:4] == b"HDF":
         raise refuse(name, "a .mat file of version 5 to 7", "version 7.3", "save it with the option -v7")
@@ -32,24 +41,47 @@ def read_mat(data: bytes, name: str) -> dict[str, np.ndarray | str]:
     if order is None:
         raise refuse(name, "a .mat file", "something else", "check the extension")
     content: dict[str, np.ndarray | str] = {}
-    at = 128
+    at, taken = 128, 0.0
     while at < len(data):
         kind, body, at = _element(data, at, order, name, top=True)
         if kind == _COMPRESSED:
-            stream = zlib.decompressobj()
-            try:
-                unpacked = stream.decompress(body) + stream.flush()
-            except zlib.error as error:
-                raise _damaged(name) from error
-            if not stream.eof:
-                raise _damaged(name)
-            kind, body, _ = _element(unpacked, 0, order, name)
+            body = _unpacked(body, order, name, most - taken, most)
+            taken += len(body)
+            kind, body, _ = _element(body, 0, order, name)
         if kind != _MATRIX:
             raise _damaged(name)
         found = _variable(body, order, name)
         if found is not None:
             content[found[0]] = found[1]
+            taken += 8 * np.size(found[1]) if isinstance(found[1], np.ndarray) else 4 * len(found[1])
+            if taken > most:
+                raise _large(name, taken, most)
     return content
+
+
+def _unpacked(body: bytes, order: str, name: str, left: float, most: int) -> bytes:
+    """A compressed element, of which not more is unpacked than it says of itself, nor more than ``left`` bytes."""
+    stream = zlib.decompressobj()
+    try:
+        head = stream.decompress(body, 8)
+        if len(head) < 8:
+            raise _damaged(name)
+        kind, size = (int(x) for x in np.frombuffer(head, order + "u4", 2))
+        size = 0 if kind >> 16 else size  # a small element is all in its head
+        if size > left:
+            raise _large(name, most - left + size, most)
+        rest = stream.decompress(stream.unconsumed_tail, size) if size else b""
+        stream.decompress(stream.unconsumed_tail, 8)
+    except zlib.error as error:
+        raise _damaged(name) from error
+    if not stream.eof:
+        raise _damaged(name)
+    return head + rest
+
+
+def _large(name: str, got: float, most: int) -> Exception:
+    wanted = f"a map of at most {in_words(most)} unpacked"
+    return refuse(name, wanted, in_words(got), "a map takes a few numbers for each vertex: check the file")
 
 
 def _damaged(name: str) -> Exception:
