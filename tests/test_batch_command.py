@@ -34,8 +34,10 @@ def test_a_run_and_another_that_finds_it_done(folder: Path, tmp_path: Path, caps
     with open(out / "results.csv", encoding="utf-8", newline="") as file:
         rows = list(csv.DictReader(file))
     mean = sum(float(row["error_mean"]) for row in rows) / 2
-    assert f"mean error {mean:.4f} √area over 2 pairs" in told
-    assert f"<dt>mean error × 100</dt><dd>{100 * mean:.2f}</dd>" in (out / "summary.html").read_text(encoding="utf-8")
+    assert f"mean error {100 * mean:.2f} % of √area over 2 pairs" in told
+    assert f"<dt>mean error (% of √area)</dt><dd>{100 * mean:.2f}</dd>" in (out / "summary.html").read_text(
+        encoding="utf-8"
+    )
     alone = [_error_of_a_single_match(folder, out, tmp_path, row, capsys) for row in rows]
     assert [float(row["error_mean"]) for row in rows] == pytest.approx(alone, rel=1e-12)
     assert mean == pytest.approx(np.mean(alone), rel=1e-12)
@@ -57,7 +59,7 @@ def _error_of_a_single_match(
     write_landmarks(tmp_path / "marks.txt", marks, force=True)
     words = ["match", *(str(folder / f"{name}.off") for name in names), "-o", str(tmp_path / "map.npz"), "--force"]
     words += ["--landmarks", str(tmp_path / "marks.txt"), "--config", str(out / "settings.toml"), "--json"]
-    assert main([*words, "--truth-source", str(truths[0]), "--truth-target", str(truths[1])]) == 0
+    assert main([*words, "--truth", *map(str, truths)]) == 0
     told = json.loads(capsys.readouterr().out)
     alone, ours = load_map(tmp_path / "map.npz"), load_map(out / "maps" / f"{names[0]}-{names[1]}.npz")
     np.testing.assert_array_equal(alone.target_to_source, ours.target_to_source)

@@ -11,10 +11,11 @@ import pytest
 
 from collecting import CONFIG, touch
 from kfmaps._arrays import InvalidInput
-from kfmaps.app.batch.clock import in_words, remaining_seconds
+from kfmaps.app.batch.clock import remaining_seconds
 from kfmaps.app.batch.layout import Pair, choose_pairs, find_collection, natural
 from kfmaps.app.batch.plan import recommended
 from kfmaps.app.batch.settings import Settings, claim
+from kfmaps.app.words import in_words
 from kfmaps.config import Config
 from kfmaps.kernel.kernels import Linear
 

@@ -130,13 +130,13 @@ def test_kernel_that_overflows(made: types.SimpleNamespace) -> None:
 
 @pytest.mark.usefixtures("no_work")
 def test_truth(made: types.SimpleNamespace) -> None:
-    assert complaint(made, "--truth-source", made.truth_source).startswith("--truth-target")
+    assert "it is --truth SOURCE TARGET" in complaint(made, "--truth-source", made.truth_source)
     short = made.folder / "short.vts"
     short.write_text("1\n2\n")
-    assert "equal length" in complaint(made, "--truth-source", made.truth_source, "--truth-target", short)
+    assert "equal length" in complaint(made, "--truth", made.truth_source, short)
     far = made.folder / "far.txt"
     far.write_text("".join(f"{i + 1}\n" for i in range(100)))
-    assert "0 to 99" in complaint(made, "--truth-source", made.truth_source, "--truth-target", far)
+    assert "0 to 99" in complaint(made, "--truth", made.truth_source, far)
 
 
 @pytest.mark.parametrize("device", ["cuda:99", "abacus"])

@@ -40,7 +40,7 @@ def numbers(made: types.SimpleNamespace, *words: object) -> dict:
 
 
 def truth(made: types.SimpleNamespace) -> tuple[object, ...]:
-    return ("--truth-source", made.truth_source, "--truth-target", made.truth_target)
+    return ("--truth", made.truth_source, made.truth_target)
 
 
 def test_numbers(made: types.SimpleNamespace) -> None:
@@ -65,7 +65,7 @@ def test_source_is_the_one_that_the_map_names(made: types.SimpleNamespace) -> No
 def test_table_for_people(made: types.SimpleNamespace) -> None:
     shown = run("evaluate", made.map, *truth(made)).stdout
     assert f"{100 * made.errors.mean():.3f}" in shown
-    assert "× 100" in shown
+    assert "% of √area" in shown
     assert "mirrored" not in shown
 
 
@@ -78,7 +78,7 @@ def test_mirrored_truth(made: types.SimpleNamespace, tmp_path: Path) -> None:
     other = assessed(made.meshes[0], made.points, Truth(made.truth, swapped))
     assert told["mirrored"]["mean"] == pytest.approx(other.errors.mean)
     assert told["mirrored"]["mean"] > told["mean"]
-    words = ("--truth-source", made.truth_source, "--truth-target", tmp_path / "sym.vts")
+    words = ("--truth", made.truth_source, tmp_path / "sym.vts")
     assert "swapped" in run("evaluate", made.map, *words, "--symmetric", made.truth_target).stdout
     assert "swapped" not in run("evaluate", made.map, *truth(made), "--symmetric", tmp_path / "sym.vts").stdout
 
@@ -124,12 +124,12 @@ def test_refused(made: types.SimpleNamespace, tmp_path: Path) -> None:
     save_map(tmp_path / "plain.txt", MapFile(made.points))
     cases: list[tuple[tuple[object, ...], str]] = [
         ((), "--identity"),
-        (("--truth-source", made.truth_source), "--truth-target"),
+        (("--truth-source", made.truth_source), "it is --truth SOURCE TARGET"),
         ((*truth(made), "--identity"), "one truth"),
         (("--symmetric", made.truth_source), "--symmetric"),
-        (("--truth-source", made.truth_source, "--truth-target", short), "equal length"),
-        (("--truth-source", large, "--truth-target", made.truth_target), "0 to 299"),
-        (("--truth-source", made.truth_source, "--truth-target", large), "0 to 299"),
+        (("--truth", made.truth_source, short), "equal length"),
+        (("--truth", large, made.truth_target), "0 to 299"),
+        (("--truth", made.truth_source, large), "0 to 299"),
         ((*truth(made), "--source", sphere), "0 to 39"),
         ((*truth(made), "--target", sphere), "shape (40)"),
         (("--identity", "--source", sphere), "equally many"),

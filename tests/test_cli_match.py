@@ -75,7 +75,7 @@ def test_summary_for_people(made: types.SimpleNamespace, tmp_path: Path) -> None
 
 
 def test_summary_for_machines(made: types.SimpleNamespace, tmp_path: Path) -> None:
-    truth = ("--truth-source", made.truth_source, "--truth-target", made.truth_target)
+    truth = ("--truth", made.truth_source, made.truth_target)
     ran = match(made, "-o", tmp_path / "m.npz", "--json", "--seed", "5", *truth)
     assert ran.stderr == ""
     told = json.loads(ran.stdout)

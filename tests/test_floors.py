@@ -28,7 +28,8 @@ FLOORS = {
 """Rooms, each a package or a module. Inside a room modules import each other freely, but never in a circle."""
 
 APP = {
-    "progress": 0,
+    "words": 0,
+    "progress": 1,
     "files": 0,
     "datasets": 0,
     "settings": 0,

@@ -153,7 +153,7 @@ def test_error_panel_and_its_bar() -> None:
     figure = pictures.match_figure(source, source, np.arange(n), errors=errors, limit=0.2, title="A title")
     bar = figure.axes[-1]
     assert bar.get_ylim() == (0, 0.2)
-    assert "√area" in bar.get_ylabel()
+    assert "% of √area" in bar.get_ylabel()
     assert len(figure.axes) == 4
     assert len(pictures.match_figure(source, source, np.arange(n)).axes) == 2
     calm = pictures.match_figure(source, source, np.arange(n), errors=0 * errors, limit=0.2, title="A title")

@@ -229,7 +229,7 @@ def test_a_pair_with_its_error(output: Path, render: Callable[..., Path]) -> Non
     plain = render("pair", *settings, name="plain.png")
     (truth,) = {p.parent for p in Path(str(np.load(settings[0])["source"])).parent.glob("corres/*.vts")}
     lists = (truth / "b0.vts", truth / "b1.vts")
-    with_error = render("pair", *settings, "--truth", *lists, "--limit", 0.1, name="error.png")
+    with_error = render("pair", *settings, "--truth", *lists, "--limit", 10, name="error.png")
     from matplotlib.image import imread
 
     assert imread(with_error).shape[1] > imread(plain).shape[1]

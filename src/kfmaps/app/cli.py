@@ -42,13 +42,26 @@ FOLDER = Path(__file__).parent / "commands"
 USAGE_ERROR: type[Exception] = next(kind for kind in typer.BadParameter.__mro__ if kind.__name__ == "ClickException")
 """What Typer raises about unknown options and missing arguments; it has no public name in all versions."""
 
+RENAMED = {
+    "--truth-source": "--truth SOURCE TARGET",
+    "--truth-target": "--truth SOURCE TARGET",
+    "--rank": "--samples",
+}
+"""Options that have gone, and what does the same."""
+
 FAILURE, INTERRUPTED, UNREAD = 2, 130, 1
 """Exit statuses: bad input, Ctrl-C, output that nobody reads."""
 
 
 def application(only: str | None = None) -> typer.Typer:
     """The whole command; with ``only`` the others are there in name, for the list that ``--help`` shows."""
-    app = typer.Typer(name="kfmaps", add_completion=True, pretty_exceptions_enable=False, rich_markup_mode="rich")
+    app = typer.Typer(
+        name="kfmaps",
+        add_completion=True,
+        pretty_exceptions_enable=False,
+        rich_markup_mode="rich",
+        context_settings={"help_option_names": ["-h", "--help"]},
+    )
     app.callback()(_general)
     for name in COMMANDS:
         if not (FOLDER / f"{name}.py").is_file():
@@ -138,6 +151,8 @@ def _run(words: Sequence[str]) -> int:
         status = command.main(args=list(words), prog_name="kfmaps", standalone_mode=False)
     except USAGE_ERROR as error:
         message = error.format_message()  # pyright: ignore[reportAttributeAccessIssue]
+        now = RENAMED.get(getattr(error, "option_name", ""))
+        message = f"there is no {error.option_name}, it is {now}" if now else message  # pyright: ignore
         path = getattr(getattr(error, "ctx", None), "command_path", "kfmaps")
         # Without a message it was a group without a command, and the help has been printed.
         return _failed(f"{message.rstrip('.')}; see {path} --help") if message else FAILURE

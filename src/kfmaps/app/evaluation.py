@@ -32,50 +32,54 @@ class Truth:
     mirrored: np.ndarray | None = None
 
 
-def read_truth(
-    truth_source: Path | None,
-    truth_target: Path | None,
-    symmetric: Path | None = None,
-    identity: bool = False,
-    n: int = 0,
-) -> Truth | None:
-    """The truth that a command's options name; ``None`` when they name none.
+def read_truth(files: tuple[Path, Path] | None, symmetric: Path | None = None) -> Truth | None:
+    """The truth that the options ``--truth SOURCE TARGET`` and ``--symmetric`` name; ``None`` when they name none.
 
     Parameters
     ----------
-    truth_source, truth_target : Path, optional
-        Lists of vertices, line k of one corresponding to line k of the other.
+    files : (Path, Path), optional
+        Lists of vertices of source and target, line k of one corresponding to line k of the other.
     symmetric : Path, optional
         The same for the target with left and right swapped.
-    identity : bool
-        Vertex i is vertex i, ...
-    n : int
-        ... for ``n`` vertices.
 
     Raises
     ------
     InvalidInput
         When half of it is missing, or the lists differ in length.
     """
-    if identity:
-        if truth_source or truth_target or symmetric:
-            raise refuse("--identity", "one truth", "files of the truth beside it", "leave one out")
-        return Truth(np.arange(n), np.arange(n))
-    if truth_source is None and truth_target is None:
+    if files is None:
         if symmetric is not None:
-            raise refuse("--symmetric", "--truth-source and --truth-target beside it", "neither", "give them")
+            raise refuse("--symmetric", "--truth SOURCE TARGET beside it", "none", "give it")
         return None
-    if truth_source is None or truth_target is None:
-        missing = "--truth-source" if truth_source is None else "--truth-target"
-        raise refuse(missing, "the truth of both shapes", "one", "give both files")
-    source = read_vertex_numbers(truth_source)
+    source = read_vertex_numbers(files[0])
     others = []
-    for file in (truth_target, symmetric):
+    for file in (files[1], symmetric):
         others.append(None if file is None else read_vertex_numbers(file))
         if others[-1] is not None and len(others[-1]) != len(source):
-            got = f"{len(source)} lines in {truth_source} and {len(others[-1])} in {file}"
+            got = f"{len(source)} lines in {files[0]} and {len(others[-1])} in {file}"
             raise refuse("truth", "files of equal length", got, "take both from one data set")
     return Truth(source, others[0], others[1])
+
+
+def known_truth(
+    files: tuple[Path, Path] | None, identity: bool, source: Mesh, n_t: int, symmetric: Path | None = None
+) -> Truth | None:
+    """As :func:`read_truth`, or vertex i is vertex i where ``identity``; checked against both shapes.
+
+    Raises
+    ------
+    InvalidInput
+        When both are given, or they do not belong to the shapes.
+    """
+    if identity:
+        if files is not None or symmetric is not None:
+            raise refuse("--identity", "one truth", "files of the truth beside it", "leave one out")
+        if len(source.vertices) != n_t:
+            got = f"{len(source.vertices)} and {n_t}"
+            raise refuse("--identity", "equally many vertices", got, "give --truth SOURCE TARGET instead")
+        return Truth(np.arange(n_t), np.arange(n_t))
+    truth = read_truth(files, symmetric)
+    return None if truth is None else check_truth(truth, source, n_t)
 
 
 def check_truth(truth: Truth, source: Mesh, n_t: int) -> Truth:
@@ -86,7 +90,7 @@ def check_truth(truth: Truth, source: Mesh, n_t: int) -> Truth:
         (truth.target, n_t, "truth of the target"),
         (truth.mirrored, n_t, "mirrored truth of the target"),
     ):
-        if numbers is not None and int(numbers.max()) >= n:
+        if numbers is not None and len(numbers) and int(numbers.max()) >= n:
             remedy = "check that it belongs to the mesh, and whether it counts from 0 (.txt) or 1 (.vts)"
             raise refuse(name, f"vertices from 0 to {n - 1}", str(int(numbers.max())), remedy)
     return truth

@@ -15,6 +15,7 @@ from rich.text import Text
 import kfmaps
 from kfmaps.app.evaluation import Accuracy
 from kfmaps.app.files import MapFile, match_map
+from kfmaps.app.words import UNIT, percent
 from kfmaps.config import as_dict
 from kfmaps.fit.fit import Fit
 from kfmaps.matching import ONE_FIT, Match
@@ -174,9 +175,9 @@ def _verdict(match: Match) -> str:
 
 
 def errors_text(accuracy: Accuracy) -> str:
-    """Errors × 100 in one line."""
+    """Errors in one line."""
     e = accuracy.errors
     return (
-        f"mean {100 * e.mean:.2f}, median {100 * e.median:.2f}, worst {100 * e.worst:.2f}, all × 100 in √area; "
-        f"area under the curve to {e.auc_limit:g}: {e.auc:.4f}"
+        f"mean {percent(e.mean)}, median {percent(e.median)}, worst {percent(e.worst)} {UNIT}; "
+        f"area under the curve to {100 * e.auc_limit:g} %: {e.auc:.4f}"
     )

@@ -59,13 +59,3 @@ def remaining_seconds(
             total += left * mean
             longest += mean if pairs_left else 0.0
     return max(total / workers, longest)
-
-
-def in_words(seconds: float) -> str:
-    """A duration, rounded to what one can tell: 40 s, 12 min, 3 h 20 min."""
-    if seconds < 100:
-        return f"{seconds:.0f} s"
-    minutes = round(seconds / 60)
-    if minutes < 100:
-        return f"{minutes} min"
-    return f"{minutes // 60} h {minutes % 60:02d} min"

@@ -17,6 +17,7 @@ from kfmaps.app.batch.truth import true_vertices
 from kfmaps.app.batch.work import map_path
 from kfmaps.app.files import check_map, load_map, read_mesh
 from kfmaps.app.pictures import match_figure, painted_errors, save_figure, true_views
+from kfmaps.app.words import UNIT, percent
 
 LIMIT = 0.2
 """Where the colours of the error end, the same for all pairs, in units of √area."""
@@ -50,7 +51,7 @@ def pair_picture(task: PairTask) -> bytes:
 def caption(result: Result) -> str:
     """What stands under the picture of a pair."""
     told = [f"{result.source} → {result.target}"]
-    told += [] if result.error_mean is None else [f"mean error × 100: {100 * result.error_mean:.2f}"]
+    told += [] if result.error_mean is None else [f"mean error {percent(result.error_mean)} {UNIT}"]
     told += [] if result.confidence is None else [f"confidence {result.confidence:.3g} ({result.verdict})"]
     return ", ".join(told)
 

@@ -12,10 +12,10 @@ from typing import Any
 
 import matplotlib
 
-from kfmaps.app.batch.clock import in_words
 from kfmaps.app.batch.results import Result
 from kfmaps.app.batch.summary import BAD, Summary, error_curve_of, summarised, worst_first
 from kfmaps.app.pictures import curves_figure, save_figure
+from kfmaps.app.words import UNIT, in_words, percent
 
 STYLE = """
 :root { color-scheme: light; font: 16px/1.5 system-ui, sans-serif; color: #222; background: #fff; }
@@ -84,17 +84,17 @@ def _state(numbers: Summary, pairs: int) -> str:
     told = [f"{numbers.done} pairs matched"]
     told += [f"{numbers.failed} failed"] if numbers.failed else []
     told += [f"{left} not done yet"] if left else []
-    return ", ".join(told) + ". Errors are geodesic, in units of the square root of the source's area."
+    return ", ".join(told) + ". Errors are geodesic, in per cent of the square root of the source's area."
 
 
 def _tiles(numbers: Summary) -> str:
     tiles = []
     if numbers.error_mean is not None:
         tiles += [
-            ("mean error × 100", _hundredfold(numbers.error_mean)),
-            ("median pair × 100", _hundredfold(numbers.error_median)),
-            ("worst pair × 100", _hundredfold(numbers.error_worst)),
-            (f"pairs above {100 * BAD:g}", str(numbers.bad)),
+            (f"mean error ({UNIT})", percent(numbers.error_mean)),
+            (f"median pair ({UNIT})", percent(numbers.error_median)),
+            (f"worst pair ({UNIT})", percent(numbers.error_worst)),
+            (f"pairs above {100 * BAD:g} {UNIT}", str(numbers.bad)),
             ("nearer to the mirrored truth", str(numbers.flipped)),
         ]
     tiles += [(f"verdict: {verdict}", str(count)) for verdict, count in numbers.verdicts.items() if verdict]
@@ -115,7 +115,7 @@ def _curves(results: Sequence[Result]) -> str:
     # Labels as text, which is smaller and can be searched.
     with matplotlib.rc_context({"svg.fonttype": "none", "font.family": "sans-serif"}):
         save_figure(curves_figure([curve], size=(6.4, 3.8)), buffer, "svg")
-    at = [f"{100 * float(_at(curve, t)):.1f} % within {t}" for t in (0.01, 0.05, 0.1)]
+    at = [f"{100 * float(_at(curve, t)):.1f} % within {100 * t:g} {UNIT}" for t in (0.01, 0.05, 0.1)]
     caption = f"Points within an error of the truth: {', '.join(at)}. The band holds the middle 80 % of the pairs."
     image = f'<img alt="Error curve: {escape(", ".join(at))}" src="{_data("svg+xml", buffer.getvalue())}">'
     return f"<h2>Error curve</h2><figure>{image}<figcaption>{escape(caption)}</figcaption></figure>"
@@ -149,14 +149,15 @@ def _failures(results: Sequence[Result]) -> str:
 
 
 def _table(results: Sequence[Result]) -> str:
-    columns = ("mean × 100", "median × 100", "max × 100", "mirrored × 100", "confidence", "verdict", "time (s)")
+    errors = [f"{what} ({UNIT})" for what in ("mean", "median", "max", "mirrored")]
+    columns = (*errors, "confidence", "verdict", "time (s)")
     head = "<th>source</th><th>target</th>" + "".join(
         f'<th class="n">{c}</th>' if c != "verdict" else f"<th>{c}</th>" for c in columns
     )
     rows = []
     for r in worst_first(results):
-        errors = (r.error_mean, r.error_median, r.error_max, r.mirrored_mean)
-        cells = [f'<td class="n">{_hundredfold(e)}</td>' for e in errors]
+        found = (r.error_mean, r.error_median, r.error_max, r.mirrored_mean)
+        cells = [f'<td class="n">{percent(e)}</td>' for e in found]
         cells.append(f'<td class="n">{"" if r.confidence is None else format(r.confidence, ".3g")}</td>')
         cells.append(f"<td>{escape(r.verdict)}</td>")
         cells.append(f'<td class="n">{r.seconds.get("total", 0.0):.1f}</td>')
@@ -172,10 +173,6 @@ def _table(results: Sequence[Result]) -> str:
 def _settings(settings: Mapping[str, Any]) -> str:
     text = escape(json.dumps(settings, indent=2))
     return f"<h2>Settings</h2><details><summary>Everything the results depend on</summary><pre>{text}</pre></details>"
-
-
-def _hundredfold(error: float | None) -> str:
-    return "" if error is None else f"{100 * error:.2f}"
 
 
 def _data(kind: str, content: bytes) -> str:

@@ -10,9 +10,10 @@ from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 from rich.text import Text
 
-from kfmaps.app.batch.clock import RunStatus, in_words
+from kfmaps.app.batch.clock import RunStatus
 from kfmaps.app.batch.results import Result
 from kfmaps.app.batch.run import Callback
+from kfmaps.app.words import in_words
 
 EVERY = 30.0
 """Seconds between lines where there is no terminal."""

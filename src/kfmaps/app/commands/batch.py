@@ -19,6 +19,7 @@ from kfmaps.app.batch.terminal import terminal_callback
 from kfmaps.app.files import atomic_output
 from kfmaps.app.settings.options import Chosen, with_settings
 from kfmaps.app.settings.toml import settings_text
+from kfmaps.app.words import UNIT, percent
 
 TOML = "settings.toml"
 """In the output folder, for ``kfmaps match --config``."""
@@ -126,8 +127,8 @@ def _after(plan: Plan, outcome: BatchOutcome) -> list[str]:
         lines.append(f"{pairs} failed; the summary says why, and --retry-failed tries again")
     if numbers.error_mean is not None:
         lines.append(
-            f"mean error {numbers.error_mean:.4f} √area over {numbers.evaluated} pairs"
-            f" (median pair {numbers.error_median:.4f}, worst {numbers.error_worst:.4f})"
+            f"mean error {percent(numbers.error_mean)} {UNIT} over {numbers.evaluated} pairs"
+            f" (median pair {percent(numbers.error_median)}, worst {percent(numbers.error_worst)})"
         )
     verdicts = ", ".join(f"{count} {verdict}" for verdict, count in numbers.verdicts.items() if verdict)
     lines += [f"verdicts: {verdicts}"] if verdicts else []

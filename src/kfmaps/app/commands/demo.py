@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from kfmaps._arrays import refuse
+from kfmaps.app.words import UNIT, percent
 
 if TYPE_CHECKING:
     import numpy as np
@@ -32,6 +33,15 @@ def demo(
         int, typer.Option(help="How many to take from the truth, for the comparison.", min=1, max=100)
     ] = 6,
     seed: Annotated[int, typer.Option(help="For the shapes and for the match.", min=0)] = 0,
+    write: Annotated[
+        Path | None,
+        typer.Option(
+            help="Match nothing: write the shapes into this folder, to try the other commands on "
+            "(a.ply, b.ply, their truth a.vts, b.vts, landmarks pairs.txt).",
+            metavar="FOLDER",
+            show_default=False,
+        ),
+    ] = None,
     json: Annotated[bool, typer.Option("--json", help="Print the numbers for machines.")] = False,
     force: Annotated[bool, typer.Option("--force", help="Replace an existing file.")] = False,
 ) -> None:
@@ -39,13 +49,17 @@ def demo(
     from kfmaps.app.files import atomic_output, check_output
     from kfmaps.app.pictures import match_figure, picture_format, save_figure
 
-    picture_format(output)
-    check_output(output, force)
     if shape not in SHAPES:
         raise refuse("--shape", "one of " + ", ".join(SHAPES), repr(shape), "choose one of them")
+    if write is not None:
+        for path in written(write, shape, vertices, landmarks, seed, force):
+            typer.echo(str(path))
+        return
+    picture_format(output)
+    check_output(output, force)
     found = compared(shape, vertices, landmarks, seed, quiet=json)
     pair, ours = found.pair, found.rows[0]
-    title = f"{pair.name.capitalize()}, {ours.given}: mean geodesic error {ours.error:.4f} √area"
+    title = f"{pair.name.capitalize()}, {ours.given}: mean geodesic error {percent(ours.error)} {UNIT}"
     figure = match_figure(pair.source, pair.target, ours.points, errors=ours.errors, title=title)
     with atomic_output(output, force) as temporary:
         save_figure(figure, temporary)
@@ -57,6 +71,36 @@ def demo(
     console = Console(highlight=False)
     console.print(found.table())
     console.print(f"picture: {output}", markup=False)
+
+
+def written(folder: Path, shape: str, vertices: int, landmarks: int, seed: int, force: bool = False) -> list[Path]:
+    """The files of a pair: both shapes, line by line the truth, and some of it as landmarks."""
+    import numpy as np
+
+    from kfmaps.app.files import check_output, write_landmarks, write_mesh, write_vertex_numbers
+
+    paths = [folder / name for name in ("a.ply", "b.ply", "a.vts", "b.vts", "pairs.txt")]
+    folder.mkdir(parents=True, exist_ok=True)
+    for path in paths:
+        check_output(path, force)
+    pair, rows = _pair(shape, vertices, landmarks, seed)
+    write_mesh(paths[0], pair.source, force=force)
+    write_mesh(paths[1], pair.target, force=force)
+    write_vertex_numbers(paths[2], pair.truth, force=force)
+    write_vertex_numbers(paths[3], np.arange(len(pair.truth)), force=force)
+    write_landmarks(paths[4], np.stack([pair.truth[rows], rows], axis=1), force=force)
+    return paths
+
+
+def _pair(shape: str, vertices: int, landmarks: int, seed: int) -> tuple[Pair, np.ndarray]:
+    """The shapes, and well spread vertices (l,) of the target."""
+    import numpy as np
+
+    from kfmaps.app import datasets
+    from kfmaps.surface.geodesics import farthest_geodesic
+
+    pair: Pair = getattr(datasets, shape.replace("-", "_"))(vertices, seed)
+    return pair, farthest_geodesic(pair.target, landmarks, np.random.default_rng(seed))
 
 
 @dataclass(frozen=True, eq=False)
@@ -115,7 +159,7 @@ class Comparison:
         n_s, n_t = len(self.pair.source.vertices), len(self.pair.target.vertices)
         table = Table(
             title=f"{self.pair.name}: {n_s:,} and {n_t:,} vertices, meshed independently",
-            caption="mean geodesic error × 100 in √area; time without the eigenfunctions",
+            caption=f"mean geodesic error in {UNIT}; time without the eigenfunctions",
             title_justify="left",
             caption_justify="left",
         )
@@ -124,8 +168,7 @@ class Comparison:
         for name in ("fit alone", "refined", "time"):
             table.add_column(name, justify="right", no_wrap=True)
         for row in self.rows:
-            raw = "" if row.raw_error is None else f"{100 * row.raw_error:.2f}"
-            numbers = raw, f"{100 * row.error:.2f}", f"{row.seconds:.1f} s"
+            numbers = percent(row.raw_error), percent(row.error), f"{row.seconds:.1f} s"
             table.add_row(row.method, row.given, row.verdict, *numbers)
         return table
 
@@ -138,17 +181,14 @@ def compared(shape: str, vertices: int, landmarks: int, seed: int, *, quiet: boo
     import numpy as np
 
     from kfmaps._threads import one_blas_thread
-    from kfmaps.app import datasets
     from kfmaps.app.progress import Stages
     from kfmaps.config import Config
     from kfmaps.fit.shape import prepare
-    from kfmaps.surface.geodesics import farthest_geodesic
 
     with one_blas_thread(), Stages(quiet) as stages:
         stages("shapes", 0.0)
-        pair: Pair = getattr(datasets, shape.replace("-", "_"))(vertices, seed)
+        pair, rows = _pair(shape, vertices, landmarks, seed)
         stages("shapes", 1.0)
-        rows = farthest_geodesic(pair.target, landmarks, np.random.default_rng(seed))
         pairs = np.stack([pair.truth[rows], rows], axis=1)
         automatic, ours = Config.automatic(), Config()
         shapes = [

@@ -26,14 +26,14 @@ def evaluate(
     target: Annotated[
         Path | None, typer.Option(help="The target mesh, to check that the map belongs to it.", show_default=False)
     ] = None,
-    truth_source: Annotated[
-        Path | None,
+    truth: Annotated[
+        tuple[Path, Path] | None,
         typer.Option(
-            help="True vertices of the source, line k of one file to line k of the other (.vts counts from 1).",
+            help="True vertices of source and target, line k of one file to line k of the other (.vts counts from 1).",
+            metavar="SOURCE TARGET",
             show_default=False,
         ),
     ] = None,
-    truth_target: Annotated[Path | None, typer.Option(help="The same for the target.", show_default=False)] = None,
     symmetric: Annotated[
         Path | None,
         typer.Option(help="True vertices of the target with left and right swapped.", show_default=False),
@@ -42,31 +42,28 @@ def evaluate(
     curve: Annotated[
         Path | None, typer.Option(help="Write the error curve (.csv, .png, .svg, .pdf).", show_default=False)
     ] = None,
-    json: Annotated[bool, typer.Option("--json", help="Print the numbers for machines, in units of √area.")] = False,
+    json: Annotated[bool, typer.Option("--json", help="Print the numbers for machines: fractions of √area.")] = False,
     force: Annotated[bool, typer.Option("--force", help="Replace an existing file.")] = False,
 ) -> None:
-    """Print the geodesic error of a map, by the Princeton protocol."""
-    from kfmaps.app.evaluation import assessed, read_truth, write_curve
-    from kfmaps.app.files import check_map, check_output, load_map, read_mesh
-    from kfmaps.app.view.results import mesh_path
+    """Print the geodesic error of a map, by the Princeton protocol, in per cent of √area."""
+    from kfmaps.app.evaluation import assessed, known_truth, write_curve
+    from kfmaps.app.files import check_map, check_output, load_map
+    from kfmaps.app.view.results import map_mesh
 
     if curve is not None:
         if curve.suffix.lower() not in CURVES:
             got = curve.suffix or "no extension"
             raise refuse(f"--curve {curve}", f"one of {' '.join(CURVES)}", got, "rename it")
         check_output(curve, force)
+    if truth is None and symmetric is None and not identity:
+        raise refuse("truth", "--truth SOURCE TARGET, or --identity", "neither", "say what is true")
     found = load_map(map)
-    points = found.target_to_source
-    truth = read_truth(truth_source, truth_target, symmetric, identity, len(points))
-    if truth is None:
-        raise refuse("truth", "--truth-source and --truth-target, or --identity", "neither", "say what is true")
-    shape = read_mesh(mesh_path(source, found, "source", map))
-    n_s = len(shape.vertices)
-    if identity and n_s != len(points):
-        got = f"{n_s} and {len(points)}"
-        raise refuse("--identity", "equally many vertices", got, "give --truth-source and --truth-target")
-    check_map(found, n_s, None if target is None else len(read_mesh(target).vertices), str(map))
-    accuracy = assessed(shape, points, truth)
+    shape = map_mesh(source, found, "source", map)
+    known = known_truth(truth, identity, shape, len(found.target_to_source), symmetric)
+    assert known is not None
+    n_t = None if target is None else len(map_mesh(target, found, "target", map).vertices)
+    check_map(found, len(shape.vertices), n_t, str(map))
+    accuracy = assessed(shape, found.target_to_source, known)
     if curve is not None:
         write_curve(curve, accuracy.errors, map.stem, force)
     if json:
@@ -78,10 +75,12 @@ def evaluate(
 
 
 def _table(accuracy: Accuracy) -> Table:
-    """Errors × 100, beside those against the mirrored truth where it is known."""
+    """Errors, beside those against the mirrored truth where it is known."""
     from rich.table import Table
 
-    table = Table(caption="errors × 100, in units of √area of the source", caption_justify="left")
+    from kfmaps.app.words import UNIT, percent
+
+    table = Table(caption=f"errors in {UNIT}: per cent of the square root of the source's area", caption_justify="left")
     table.add_column("")
     sides = [("error", accuracy.errors)]
     if accuracy.mirrored is not None:
@@ -89,8 +88,8 @@ def _table(accuracy: Accuracy) -> Table:
     for name, _ in sides:
         table.add_column(name, justify="right")
     for name in ("mean", "median", "worst"):
-        table.add_row(name, *(f"{100 * getattr(errors, name):.3f}" for _, errors in sides))
-    table.add_row(f"area under the curve to {accuracy.errors.auc_limit:g}", *(f"{e.auc:.4f}" for _, e in sides))
+        table.add_row(name, *(percent(getattr(errors, name), 3) for _, errors in sides))
+    table.add_row(f"area under the curve to {100 * accuracy.errors.auc_limit:g} %", *(f"{e.auc:.4f}" for _, e in sides))
     table.add_row("points without error", *(f"{100 * e.exact:.1f} %" for _, e in sides))
     table.add_row("points compared", *(f"{len(e.errors):,}" for _, e in sides))
     table.add_row("source covered", f"{100 * accuracy.coverage:.1f} %", *([""] * (len(sides) - 1)))

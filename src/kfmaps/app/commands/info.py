@@ -1,4 +1,4 @@
-"""``kfmaps info``: what is in a mesh file."""
+"""``kfmaps info``: what is in mesh files."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
-from kfmaps._arrays import KfmapsWarning
+from kfmaps._arrays import InvalidInput, KfmapsWarning
 from kfmaps.app.files import MeshFile, read_mesh_file
 from kfmaps.surface.mesh import surface_area
 from kfmaps.surface.topology import topology
@@ -59,7 +59,6 @@ def _rows(facts: dict[str, Any]) -> list[tuple[str, str]]:
     ]
     if counts is None:
         return rows
-    defects = [f"{counts[k]:,} {k.replace('_', ' ')}" for k in _DEFECTS if counts[k]]
     return [
         *rows[:2],
         ("area", f"{facts['area']:.6g}"),
@@ -68,22 +67,64 @@ def _rows(facts: dict[str, Any]) -> list[tuple[str, str]]:
         ("boundary loops", f"{counts['boundary_loops']:,}" if counts["boundary_loops"] else "none (closed)"),
         ("genus", "not defined (no orientable manifold)" if counts["genus"] is None else str(counts["genus"])),
         ("Euler characteristic", str(counts["euler_characteristic"])),
-        ("defects", "\n".join(defects) or "none"),
+        ("defects", "\n".join(_defects(counts)) or "none"),
     ]
 
 
 def info(
-    mesh: Annotated[Path, typer.Argument(help="A mesh or point cloud.", metavar="MESH", show_default=False)],
-    json: Annotated[bool, typer.Option("--json", help="Print it for machines.")] = False,
+    meshes: Annotated[list[Path], typer.Argument(help="Meshes or point clouds.", metavar="MESH", show_default=False)],
+    json: Annotated[bool, typer.Option("--json", help="Print it for machines, one line for each file.")] = False,
 ) -> None:
-    """Show what is in a file: vertices, faces, components, area, genus, defects."""
+    """Show what is in files: vertices, faces, components, area, genus, defects."""
+    if len(meshes) == 1:
+        facts = _facts(meshes[0])
+        if json:
+            print(jsonlib.dumps(facts))
+        else:
+            table = Table(title=Text(str(meshes[0])), show_header=False)
+            for name, value in _rows(facts):
+                table.add_row(name, Text(value))
+            Console().print(table)
+        return
+    refused, known = [], []
+    for path in meshes:
+        try:
+            known.append(_facts(path))
+        except InvalidInput as error:
+            refused.append(str(error))
+    if json:
+        for facts in known:
+            print(jsonlib.dumps(facts))
+    elif known:
+        Console().print(_overview(known))
+    if refused:  # the others have been shown
+        more = "" if len(refused) == 1 else f"; and {len(refused) - 1} more of the files cannot be read"
+        raise InvalidInput(refused[0] + more)
+
+
+def _facts(path: Path) -> dict[str, Any]:
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", KfmapsWarning)  # the table says it all
-        facts = description(mesh, read_mesh_file(mesh))
-    if json:
-        print(jsonlib.dumps(facts))
-        return
-    table = Table(title=Text(str(mesh)), show_header=False)
-    for name, value in _rows(facts):
-        table.add_row(name, Text(value))
-    Console().print(table)
+        return description(path, read_mesh_file(path))
+
+
+def _overview(known: list[dict[str, Any]]) -> Table:
+    """A row for each file."""
+    table = Table()
+    for name in ("file", "vertices", "faces", "area", "components", "genus", "defects"):
+        table.add_column(name, justify="left" if name in ("file", "defects") else "right", overflow="fold")
+    for facts in known:
+        sizes = f"{facts['vertices']:,}", f"{facts['faces']:,}"
+        counts = facts["topology"]
+        if counts is None:
+            table.add_row(Text(facts["file"]), *sizes, "", "", "", "a point cloud")
+            continue
+        genus = "" if counts["genus"] is None else str(counts["genus"])
+        holes = [f"{counts['boundary_loops']:,} boundary loops"] if counts["boundary_loops"] else []
+        odd = "\n".join([*holes, *_defects(counts)]) or "none"
+        table.add_row(Text(facts["file"]), *sizes, f"{facts['area']:.6g}", f"{counts['components']:,}", genus, odd)
+    return table
+
+
+def _defects(counts: dict[str, Any]) -> list[str]:
+    return [f"{counts[k]:,} {k.replace('_', ' ')}" for k in _DEFECTS if counts[k]]

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from kfmaps.surface.mesh import Mesh
 
 SIDES = ("source", "target")
-TRUTH = "Its true vertices, line k of one file to line k of the other (.vts counts from 1): prints errors."
+TRUTH = "True vertices of both, line k of one file to line k of the other (.vts counts from 1): prints errors."
 
 
 @with_settings
@@ -51,8 +51,9 @@ def match(
     descriptors_target: Annotated[
         Path | None, typer.Option(help="The same for the target.", show_default=False)
     ] = None,
-    truth_source: Annotated[Path | None, typer.Option(help=TRUTH, show_default=False)] = None,
-    truth_target: Annotated[Path | None, typer.Option(help="The same for the target.", show_default=False)] = None,
+    truth: Annotated[
+        tuple[Path, Path] | None, typer.Option(help=TRUTH, metavar="SOURCE TARGET", show_default=False)
+    ] = None,
 ) -> None:
     """Find for each vertex of the target the corresponding vertex of the source, and write the map."""
     # What can be refused without work is refused first, so that no minutes are lost.
@@ -75,16 +76,16 @@ def match(
     config = _unrefined(config, settings) if raw else config
     _warn_of_search(settings, given[0])
     check_device(config.device)
-    truth = read_truth(truth_source, truth_target)
+    known = read_truth(truth)
     pairs = None if landmarks is None else read_landmarks(landmarks, one_based=one_based)
     meshes = _read(source, config), _read(target, config)
     if pairs is not None:
         _check_landmarks(pairs, meshes, (source, target))
     own = _own_descriptors((descriptors_source, descriptors_target), meshes)
-    if truth is not None:
-        check_truth(truth, meshes[0], len(meshes[1].vertices))
+    if known is not None:
+        check_truth(known, meshes[0], len(meshes[1].vertices))
 
-    outcome = run(meshes, (source, target), config, pairs, own, seed, quiet=quiet or json, truth=truth)
+    outcome = run(meshes, (source, target), config, pairs, own, seed, quiet=quiet or json, truth=known)
     save_map(output, map_file(outcome), force)
     if json:
         typer.echo(jsonlib.dumps({**summary(outcome), "output": str(output)}))
@@ -93,7 +94,7 @@ def match(
 
         Console().print(table(outcome, output))
     if view:
-        _show(outcome, truth)
+        _show(outcome, known)
 
 
 def run(

@@ -2,20 +2,19 @@
 
 from __future__ import annotations
 
-import warnings
 from pathlib import Path
 from typing import Annotated
 
-import numpy as np
 import typer
 
-from kfmaps._arrays import KfmapsWarning, refuse
+from kfmaps._arrays import check_positive, refuse
 from kfmaps.app.batch.layout import Pair
 from kfmaps.app.batch.results import Result, all_results
 from kfmaps.app.batch.settings import read_settings
 from kfmaps.app.batch.summary import error_curve_of, summarised
 from kfmaps.app.batch.work import map_path
-from kfmaps.app.files import MapFile, atomic_output, check_map, check_output, load_map, read_mesh, read_vertex_numbers
+from kfmaps.app.evaluation import known_truth
+from kfmaps.app.files import atomic_output, check_map, check_output, load_map
 from kfmaps.app.pictures import (
     Panel,
     View,
@@ -28,8 +27,8 @@ from kfmaps.app.pictures import (
     true_views,
     view,
 )
-from kfmaps.app.view.results import mesh_path
-from kfmaps.surface.mesh import Mesh
+from kfmaps.app.view.results import map_mesh
+from kfmaps.app.words import UNIT, percent
 
 app = typer.Typer(help="Figures for papers (PNG, SVG, PDF), drawn without a display.", no_args_is_help=True)
 
@@ -60,13 +59,14 @@ def render_pair(
     truth: Annotated[
         tuple[Path, Path] | None,
         typer.Option(
-            help="True vertices of source and target, line by line (.vts counts from 1): shows the error too.",
+            help="True vertices of source and target, line k of one file to line k of the other (.vts counts from 1): "
+            "shows the error too.",
             metavar="SOURCE TARGET",
             show_default=False,
         ),
     ] = None,
     limit: Annotated[
-        float | None, typer.Option(help="Error at which its colours end, in √area.", show_default=False)
+        float | None, typer.Option(help=f"Error at which its colours end, in {UNIT}.", show_default=False)
     ] = None,
     title: Title = None,
     towards: From = None,
@@ -77,19 +77,19 @@ def render_pair(
     """One map: the source, the target in the source's colours, and the error when the truth is given."""
     _check(output, force)
     found = load_map(map)
-    source_mesh, target_mesh = (_mesh(g, found, s, map) for g, s in ((source, "source"), (target, "target")))
+    source_mesh, target_mesh = (map_mesh(g, found, s, map) for g, s in ((source, "source"), (target, "target")))
     points = check_map(found, len(source_mesh.vertices), len(target_mesh.vertices))
     errors, seen, seen_target = None, _view(towards, up), None
-    if truth is not None:
-        known = (_true(truth[0], source_mesh), _true(truth[1], target_mesh))
-        errors = painted_errors(source_mesh, target_mesh, points, *known)
-        seen, seen_target = true_views(source_mesh, target_mesh, *known, seen)
+    known = known_truth(truth, False, source_mesh, len(target_mesh.vertices))
+    if known is not None:
+        errors = painted_errors(source_mesh, target_mesh, points, known.source, known.target)
+        seen, seen_target = true_views(source_mesh, target_mesh, known.source, known.target, seen)
     figure = match_figure(
         source_mesh,
         target_mesh,
         points,
         errors=errors,
-        limit=limit,
+        limit=None if limit is None else check_positive(limit, "--limit") / 100,
         title=_plain(title),
         view=seen,
         target_view=seen_target,
@@ -107,7 +107,7 @@ def render_grid(
         str | None, typer.Option(help="Names with commas between; default: all it was matched to.", show_default=False)
     ] = None,
     columns: Annotated[int | None, typer.Option(help="Default: a balanced figure.", show_default=False)] = None,
-    errors: Annotated[bool, typer.Option(help="Mean error × 100 beside each name, where known.")] = True,
+    errors: Annotated[bool, typer.Option(help=f"Mean error ({UNIT}) beside each name, where known.")] = True,
     title: Title = None,
     towards: From = None,
     up: Up = None,
@@ -133,12 +133,12 @@ def render_grid(
         path = map_path(folder, Pair(result.source, result.target).key)
         found = load_map(path)
         if centre is None:
-            centre = _mesh(None, found, "source", path)
-        mesh = _mesh(None, found, "target", path)
+            centre = map_mesh(None, found, "source", path)
+        mesh = map_mesh(None, found, "target", path)
         points = check_map(found, len(centre.vertices), len(mesh.vertices), str(path))
         told = errors and result.error_mean is not None
         panels.append(
-            Panel(f"{result.target}  {100 * (result.error_mean or 0):.1f}" if told else result.target, mesh, points)
+            Panel(f"{result.target}  {percent(result.error_mean, 1)} %" if told else result.target, mesh, points)
         )
     assert centre is not None
     figure = grid_figure(centre, panels, label=source, columns=columns, title=title, view=_view(towards, up))
@@ -166,7 +166,7 @@ def render_curves(
     for folder, name in zip(folders, names, strict=True):
         results = _results(folder)
         mean = summarised(results).error_mean
-        curve = error_curve_of(results, f"{name}, mean {mean or 0:.4f}")
+        curve = error_curve_of(results, f"{name}, mean {percent(mean or 0)} %")
         if curve is None:
             raise refuse(f"{folder}", "pairs whose truth is known", "none", "run batch on shapes with truth")
         curves.append(curve)
@@ -195,19 +195,3 @@ def _view(towards: tuple[float, float, float] | None, up: tuple[float, float, fl
             raise refuse("--up", "--from beside it", "--up alone", "give both")
         return None
     return view(towards, (0, 1, 0) if up is None else up)
-
-
-def _mesh(given: Path | None, found: MapFile, side: str, beside: Path) -> Mesh:
-    """The mesh as given, else the one that the map names."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", KfmapsWarning)  # a picture shows what is odd
-        return read_mesh(mesh_path(given, found, side, beside))
-
-
-def _true(file: Path, mesh: Mesh) -> np.ndarray:
-    """The list of true vertices in a file."""
-    numbers = read_vertex_numbers(file)
-    if numbers.max() >= len(mesh.vertices):
-        wanted = f"vertices below {len(mesh.vertices)}"
-        raise refuse(str(file), wanted, str(numbers.max()), "check that it belongs to the mesh")
-    return numbers

@@ -41,7 +41,7 @@ def tune(
     sharpness: Annotated[str, typer.Option(help="Widths without unit to try.", metavar="NUMBERS")] = "",
     normalisation: Annotated[str, typer.Option(help="Normalisations to try.", metavar="NAMES")] = "",
     alpha: Annotated[str, typer.Option(help="Weights of the Laplacian term to try.", metavar="NUMBERS")] = "",
-    rank: Annotated[str, typer.Option(help="Numbers of Nyström samples to try.", metavar="NUMBERS")] = "",
+    samples: Annotated[str, typer.Option(help="Numbers of Nyström samples to try.", metavar="NUMBERS")] = "",
     descriptors: Annotated[str, typer.Option(help="Numbers of descriptors to try.", metavar="NUMBERS")] = "",
     pairs: Annotated[
         int, typer.Option(min=1, help="Training pairs of each data set, drawn among its first two people.")
@@ -69,7 +69,7 @@ def tune(
         numbers(sharpness, "--sharpness"),
         names(normalisation),
         numbers(alpha, "--alpha"),
-        tuple(int(value) for value in numbers(rank, "--rank")),
+        tuple(int(value) for value in numbers(samples, "--samples")),
         tuple(int(value) for value in numbers(descriptors, "--descriptors")),
     )
     grid = given if given != Grid() else DEFAULT

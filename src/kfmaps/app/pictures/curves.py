@@ -11,6 +11,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import PercentFormatter
 
 from kfmaps._arrays import check, refuse
+from kfmaps.app.words import UNIT
 
 # Okabe and Ito (2008): told apart without colour vision; the dashes do it in grey too.
 COLORS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#000000", "#56B4E9")
@@ -94,7 +95,8 @@ def _axes(ax: Axes, end: float) -> None:
     ax.set_xlim(0, end)
     ax.set_ylim(0, 1.005)
     ax.yaxis.set_major_formatter(PercentFormatter(1.0))
-    ax.set_xlabel("geodesic error / √area", fontsize=10, color=TEXT)
+    ax.xaxis.set_major_formatter(PercentFormatter(1.0, symbol=""))
+    ax.set_xlabel(f"geodesic error ({UNIT})", fontsize=10, color=TEXT)
     ax.set_ylabel("points within that error", fontsize=10, color=TEXT)
     ax.spines[["top", "right"]].set_visible(False)
     ax.grid(True, color="#e4e4e4", linewidth=0.6)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import tempfile
+import warnings
 import webbrowser
 from collections.abc import Sequence
 from pathlib import Path
@@ -11,8 +12,8 @@ from typing import Any
 
 import numpy as np
 
-from kfmaps._arrays import refuse
-from kfmaps.app.files import MapFile, check_map
+from kfmaps._arrays import KfmapsWarning, refuse
+from kfmaps.app.files import MapFile, check_map, read_mesh
 from kfmaps.app.summary import relative_residuals
 from kfmaps.app.view.page import result_page
 from kfmaps.config import as_dict
@@ -211,3 +212,14 @@ def mesh_path(given: Path | None, found: MapFile, side: str, beside: Path) -> Pa
         if path.is_file():
             return path
     raise refuse(f"{side} mesh", "the file that the map names", f"nothing at {named}", f"give --{side} FILE")
+
+
+def map_mesh(given: Path | None, found: MapFile, side: str, beside: Path) -> Mesh:
+    """The shape ``side`` of a map, read from :func:`mesh_path`.
+
+    What is odd about it was told when it was matched, and is not told again.
+    """
+    path = mesh_path(given, found, side, beside)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", KfmapsWarning)
+        return read_mesh(path)

@@ -1,0 +1,70 @@
+"""What a long computation says while it goes on, where there is a terminal and where there is none."""
+
+from __future__ import annotations
+
+import sys
+import time
+import types
+
+import pytest
+
+from kfmaps.app.progress import Lines, Notebook, Stages, bars_html, seconds_left, standing
+
+
+def test_what_is_left_follows_from_what_is_done() -> None:
+    """A quarter done in ten seconds leaves thirty; nothing done leaves what such a stage took before."""
+    assert seconds_left(0.25, 10) == pytest.approx(30)
+    assert seconds_left(0, 10) is None
+    assert seconds_left(0, 10, before=25) == 15
+    assert seconds_left(0, 30, before=25) is None
+    assert standing("candidates", 0.25, 10) == "candidates: 25 % done, 10 s so far, about 30 s left"
+    assert standing("energy", 0, 400) == "energy: 7 min so far"
+
+
+def test_a_long_stage_is_told_of_without_a_terminal(capsys: pytest.CaptureFixture[str]) -> None:
+    """Also one that says nothing of itself; its twin on the other shape is expected to last as long."""
+    lines = Lines(silence=0.1)
+    lines.tell("eigenfunctions of source", 0)
+    time.sleep(0.5)
+    lines.tell("eigenfunctions of source", 1)
+    lines.tell("eigenfunctions of target", 0)
+    time.sleep(0.25)
+    lines.tell("candidates", 0.5)
+    lines.close()
+    told = capsys.readouterr().err.splitlines()
+    assert told[0] == "eigenfunctions of source: 0 s so far"
+    assert any(line.startswith("eigenfunctions of source: 0.5") for line in told)
+    assert any("target: 0 s so far, about 0 s left" in line for line in told), told
+    assert len(told) < 12
+
+
+def test_nothing_is_said_when_all_is_quiet(capsys: pytest.CaptureFixture[str]) -> None:
+    with Stages(quiet=True) as stages:
+        stages("solve", 0.0)
+        stages("solve", 1.0)
+    assert capsys.readouterr().err == ""
+
+
+def test_short_stages_are_a_line_each(capsys: pytest.CaptureFixture[str]) -> None:
+    with Stages() as stages:
+        for name in ("descriptors", "solve"):
+            stages(name, 0.0)
+            stages(name, 1.0)
+    assert [line.partition(":")[0] for line in capsys.readouterr().err.splitlines()] == ["descriptors", "solve"]
+
+
+def test_a_notebook_gets_bars_of_its_own(monkeypatch: pytest.MonkeyPatch) -> None:
+    shown: list[str] = []
+    handle = types.SimpleNamespace(update=shown.append)
+    display = types.ModuleType("IPython.display")
+    display.HTML = str  # pyright: ignore[reportAttributeAccessIssue]
+    display.display = lambda *_, **__: handle  # pyright: ignore[reportAttributeAccessIssue]
+    monkeypatch.setitem(sys.modules, "IPython", types.ModuleType("IPython"))
+    monkeypatch.setitem(sys.modules, "IPython.display", display)
+    notebook = Notebook()
+    notebook.tell("a<b", 0.0)
+    notebook.tell("a<b", 1.0)
+    notebook.close()
+    assert 'value="1.000"' in shown[-1]
+    assert "a&lt;b" in shown[-1]
+    assert "about 30 s left" in bars_html({"solve": (0.25, 10.0)})
