@@ -87,7 +87,7 @@ def test_help_of_match_imports_nothing_heavy() -> None:
         (["info"], "Missing argument 'MESH'; see kfmaps info --help"),
         (["info", "--yaml", "x"], "--yaml"),
         (["match", "a.off", "b.off", "--basis", "many"], "--basis"),
-        (["info", "a.off", "b.off"], "unexpected extra argument"),
+        (["view", "a.npz", "b.npz"], "unexpected extra argument"),
     ],
 )
 def test_usage_is_one_line(words: list[str], told: str) -> None:

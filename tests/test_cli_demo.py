@@ -11,6 +11,7 @@ from matplotlib.image import imread
 
 from commandline import run
 from kfmaps.app.commands.demo import SHAPES
+from kfmaps.app.files import read_landmarks, read_mesh, read_vertex_numbers
 from kfmaps.config import Config, Search
 
 
@@ -71,3 +72,17 @@ def test_refused(words: list[str], told: str, tmp_path: Path, monkeypatch: pytes
     monkeypatch.chdir(tmp_path)
     assert told in run("demo", *words).error.replace("'", "")
     assert list(tmp_path.iterdir()) == []
+
+
+def test_shapes_to_try_the_other_commands_on(tmp_path: Path) -> None:
+    """They are written with their truth, which the landmarks are part of, and nothing is matched."""
+    ran = run("demo", "--write", tmp_path / "new", "--vertices", "1500", "--landmarks", "4")
+    assert ran.status == 0, ran.stderr
+    assert [Path(line).name for line in ran.stdout.split()] == ["a.ply", "b.ply", "a.vts", "b.vts", "pairs.txt"]
+    true = dict(
+        zip(read_vertex_numbers(tmp_path / "new/b.vts"), read_vertex_numbers(tmp_path / "new/a.vts"), strict=True)
+    )
+    assert len(true) == len(read_mesh(tmp_path / "new/b.ply").vertices)
+    for source, target in read_landmarks(tmp_path / "new/pairs.txt"):
+        assert true[target] == source
+    assert "--force" in run("demo", "--write", tmp_path / "new", "--vertices", "1500").error

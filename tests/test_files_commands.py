@@ -75,6 +75,17 @@ def test_info_for_people(folder: Path) -> None:
     assert "[bold]x.ply" in "".join(result.stdout.split())
 
 
+def test_info_of_many_files(folder: Path) -> None:
+    """A row for each; one that cannot be read is complained of after the others have been shown."""
+    both = run("info", folder / "a.off", folder / "b.off")
+    assert [count in both.stdout for count in (" 80 ", " 40 ", "156", "76")] == [True] * 4
+    lines = run("info", folder / "a.off", folder / "b.off", "--json").stdout.splitlines()
+    assert [json.loads(line)["vertices"] for line in lines] == [80, 40]
+    result = run("info", folder / "none.off", folder / "a.off")
+    assert "none.off" in str(result.exception)
+    assert "156" in result.stdout
+
+
 def test_info_of_a_cloud_and_of_a_tangle(folder: Path) -> None:
     np.savetxt(folder / "c.xyz", blob(30).vertices)
     assert "point cloud" in run("info", folder / "c.xyz").stdout
