@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from PIL import Image
+from scipy.spatial import KDTree
 
 from chromium import NASTY, Browser, Keys, chromium, needs_browser
 from kfmaps.app.datasets import Pair, two_poses
@@ -17,6 +18,7 @@ from kfmaps.app.files import MapFile
 from kfmaps.app.view.page import result_page
 from kfmaps.app.view.results import map_page
 from kfmaps.functional.confidence import local_confidence
+from kfmaps.surface.mesh import Mesh
 
 pytestmark = needs_browser
 
@@ -48,6 +50,9 @@ def page(browser: Browser, pair: Pair, tmp_path: Path) -> Browser:
         runners_up=[np.roll(pair.truth, 1)],
         descriptors=(pair.source.vertices, pair.target.vertices),
         summary={
+            "verdict": "ambiguous",
+            "confidence": 0.25,
+            "scores": [-1.5, -1.625],
             "residuals": [1, 0.1, 0.01],
             "times": {"solve": 1.5},
             "energies": {NASTY: 2},
@@ -156,7 +161,7 @@ def test_everything_can_be_reached_by_keyboard_and_has_a_name(page: Browser) -> 
             break
         assert focused.accessible_name.strip(), focused.get_attribute("outerHTML")
         reached.append(focused.get_attribute("id") or focused.get_attribute("name"))
-    wanted = "linked aligned up reset picture mode map view-source goto-source view-target goto-target"
+    wanted = "linked aligned up spin reset picture mode map view-source goto-source view-target goto-target"
     assert [name for name in reached if name in wanted.split()] == wanted.split()
     assert page.element("#view-source").accessible_name == f"3D view of the source, {NASTY}"
     page.until(lambda: page.element("#matrix").is_displayed())
@@ -168,7 +173,11 @@ def test_a_vertex_can_be_named_by_number_and_taken_in_the_middle(page: Browser, 
     page.element("#goto-target").send_keys("17", Keys.ENTER)
     page.until(lambda: page.text("pinned").startswith(f"target 17 → source {pair.truth[17]}"))
     page.element("#goto-target").send_keys(Keys.BACKSPACE * 2, "999999", Keys.ENTER)
-    page.until(lambda: page.text("pinned") == "")
+    page.until(
+        lambda: page.text("message") == f"The target has no vertex 999999: they go from 0 to {len(pair.truth) - 1}."
+    )
+    assert page.text("pinned").startswith("target 17 "), "what was kept stays"
+    assert page.element("#goto-target").get_attribute("aria-invalid") == "true"
     view = page.element("#view-target")
     view.send_keys(Keys.ENTER)
     told = re.match(r"target (\d+) → source (\d+)", page.text("pinned"))
@@ -178,7 +187,12 @@ def test_a_vertex_can_be_named_by_number_and_taken_in_the_middle(page: Browser, 
     assert page.text("pinned") == ""
 
 
-def test_text_stands_out_from_its_ground(page: Browser) -> None:
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_text_stands_out_from_its_ground(page: Browser, scheme: str) -> None:
+    features = [{"name": "prefers-color-scheme", "value": scheme}]
+    page.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": features})
+    page.run(CHOOSE_MAP, "1")
+    page.run("document.getElementById('goto-target').value = -1")
     script = """
         const rgb = (text) => text.match(/[\\d.]+/g).map(Number);
         const light = (c) => [0.2126, 0.7152, 0.0722].reduce((sum, w, i) => {
@@ -192,13 +206,14 @@ def test_text_stands_out_from_its_ground(page: Browser) -> None:
             }
             return [255, 255, 255];
         };
-        return [...document.querySelectorAll('h1, h2, p, label, button, span, th, td, caption, figcaption')]
+        return [...document.querySelectorAll('h1, h2, p, strong, label, button, span, th, td, caption, figcaption')]
             .filter((e) => e.checkVisibility() && e.textContent.trim())
             .map((e) => {
                 const [a, b] = [light(rgb(getComputedStyle(e).color)), light(ground(e))].sort((x, y) => y - x);
                 return [(a + 0.05) / (b + 0.05), e.outerHTML.slice(0, 80)];
             });"""
     ratios = page.until(lambda: page.run(script))
+    page.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": []})
     assert len(ratios) > 20
     assert min(ratios)[0] >= 4.5, min(ratios)
 
@@ -206,7 +221,7 @@ def test_text_stands_out_from_its_ground(page: Browser) -> None:
 def test_errors_have_a_scale_with_its_unit(page: Browser) -> None:
     page.mode("error")
     assert "√area" in page.text("legend-text")
-    assert (page.text("legend-low"), page.text("legend-high")) == ("0", "0.2")
+    assert (page.text("legend-low"), page.text("legend-high")) == ("0", "20")
 
 
 def test_difference_is_between_the_best_map_and_the_runner_up(page: Browser, pair: Pair, tmp_path: Path) -> None:
@@ -269,3 +284,55 @@ def test_picture_is_saved(page: Browser, tmp_path: Path) -> None:
     assert picture.shape[1] == 2 * width
     for half in np.array_split(picture, 2, axis=1):
         assert (np.ptp(half, axis=2) > 40).mean() > 0.02
+
+
+def test_verdict_comes_first_and_a_runner_up_says_that_it_is_one(page: Browser) -> None:
+    assert page.element("#verdict").is_displayed()
+    assert page.text("verdict-name") == "Ambiguous, confidence 0.25."
+    above = "return document.getElementById('verdict').getBoundingClientRect().bottom"
+    assert page.run(above) <= page.run("return document.getElementById('stage').getBoundingClientRect().top")
+    best = page.text("facts")
+    assert best.startswith("mean error 10 % of √area · mean confidence 0.5")
+    assert not page.element("#runner-up").is_displayed()
+    page.run(CHOOSE_MAP, "1")
+    assert page.text("runner-up-name") == "Runner-up 1, not the answer."
+    assert "-1.63, that of the best map -1.5." in page.text("runner-up-text")
+    assert "error" not in page.text("facts"), "only the best map's is known"
+    assert page.text("title-target").endswith("(runner-up 1)")
+    page.run(CHOOSE_MAP, "0")
+    assert not page.element("#runner-up").is_displayed()
+    assert page.text("facts") == best
+
+
+def test_both_are_seen_from_the_same_side_of_the_body(browser: Browser, pair: Pair, tmp_path: Path) -> None:
+    """However the target lies, and whatever the map says: a map that takes back for front is seen to do so."""
+    lying = Mesh(pair.source.vertices[:, [0, 2, 1]] * [1, -1, 1], pair.source.faces)  # a quarter round x
+    turned = pair.source.vertices * [-1, 1, -1]
+    back_for_front = np.asarray(KDTree(pair.source.vertices).query(turned)[1])
+    identity = np.arange(len(turned))
+    for name, target, points in (("lying", lying, identity), ("back", pair.source, back_for_front)):
+        path = tmp_path / f"{name}.html"
+        path.write_text(result_page(pair.source, target, points), encoding="utf-8")
+        browser.open(path.as_uri())
+        views = [
+            browser.run("return document.getElementById(arguments[0]).getBoundingClientRect().x", f"view-{side}")
+            for side in ("source", "target")
+        ]
+        for vertex in (0, 300, 900):
+            (x, y), (x_t, y_t) = browser.place("source", vertex), browser.place("target", vertex)
+            assert abs(x - views[0] - (x_t - views[1])) <= 3
+            assert abs(y - y_t) <= 3
+
+
+def test_turntable_turns_until_it_is_switched_off(page: Browser) -> None:
+    places = [page.place("target", 3)]
+    page.element("#spin").click()
+    assert page.element("#spin").get_attribute("aria-pressed") == "true"
+    page.until(lambda: page.place("target", 3) != places[0])
+    page.element("#spin").click()
+    time.sleep(0.1)
+    still = page.place("target", 3)
+    time.sleep(0.2)
+    assert page.place("target", 3) == still
+    page.element("#reset").click()
+    assert page.place("target", 3) == places[0]

@@ -13,7 +13,7 @@ import pytest
 from chromium import NASTY, Browser, Keys, chromium, needs_browser
 from kfmaps._arrays import InvalidInput
 from kfmaps.app.datasets import Pair, two_poses
-from kfmaps.app.files import read_landmarks
+from kfmaps.app.files import MapFile, load_map, read_landmark_names, read_landmarks
 from kfmaps.app.view.picker import Picker, picker_server
 from kfmaps.app.view.runs import Progress
 from kfmaps.surface.mesh import Mesh, surface_area
@@ -32,18 +32,25 @@ def pair() -> Pair:
     return two_poses(1500)
 
 
-def a_matcher(landmarks: np.ndarray, progress: Progress) -> np.ndarray:
+def a_matcher(landmarks: np.ndarray, progress: Progress) -> MapFile:
     """Sends every target vertex to the first landmark's source vertex."""
     if len(landmarks) > 2:
         raise InvalidInput("too many <b>landmarks</b>")
     progress("solve", 0.5)
     time.sleep(0.6)
-    return np.full(1200, landmarks[0, 0])
+    return MapFile(np.full(1200, landmarks[0, 0]))
 
 
 @pytest.fixture
 def picker(browser: Browser, pair: Pair, tmp_path: Path) -> Iterator[Browser]:
-    setting = Picker(pair.source, pair.target, (NASTY, "b"), tmp_path / "pairs.txt", matcher=a_matcher)
+    setting = Picker(
+        pair.source,
+        pair.target,
+        (NASTY, "b"),
+        tmp_path / "pairs.txt",
+        matcher=a_matcher,
+        map_output=tmp_path / "m.npz",
+    )
     serving = picker_server(setting)
     thread = threading.Thread(target=serving.server.serve_forever, kwargs={"poll_interval": 0.02})
     thread.start()
@@ -146,7 +153,7 @@ def test_match_shows_progress_its_map_and_its_errors(picker: Browser, pair: Pair
     assert picker.run("return document.querySelector('[name=mode]:checked').value") == "colours"
     picker.point("target", picker.visible("target", np.arange(200), 1)[0])
     picker.until(lambda: picker.run("return kfmaps.marks('source')") == [3, 3, 8])
-    off = [float(row[3]) for row in cells(picker)]
+    off = [float(row[4]) / 100 for row in cells(picker)]
     apart = np.linalg.norm(pair.source.vertices[8] - pair.source.vertices[3]) / np.sqrt(surface_area(pair.source))
     assert off == [0, pytest.approx(apart, rel=0.06)]  # shown with two digits
     picker.mode("confidence")  # of a map that sends everything to one point: none
@@ -193,7 +200,8 @@ def test_everything_can_be_reached_by_keyboard_and_has_a_name(picker: Browser) -
         assert focused.accessible_name.strip(), focused.get_attribute("outerHTML")
         reached.append(focused.get_attribute("id") or focused.get_attribute("name"))
         focused.send_keys(Keys.TAB)
-    wanted = "linked up reset picture save undo match mode map view-source view-target add-source add-target"
+    wanted = "linked up spin reset picture save undo match mode map propose save-map view-source view-target"
+    wanted += " add-source add-target"
     assert [name for name in reached if name in wanted.split()] == wanted.split()
     assert picker.element("[aria-label='Delete pair 1']").is_displayed()
     assert picker.element("#view-source").accessible_name == f"3D view of the source, {NASTY}"
@@ -211,3 +219,42 @@ def test_leaving_with_unsaved_pairs_asks_first(picker: Browser) -> None:
     picker.element("#save").click()
     picker.until(lambda: picker.text("readout").startswith("Saved"))
     assert picker.run("return window.dispatchEvent(new Event('beforeunload', { cancelable: true }))")
+
+
+def test_a_vertex_that_is_taken_or_does_not_exist_is_refused(picker: Browser) -> None:
+    add(picker, 7, 9)
+    add(picker, 7, 20)
+    picker.until(lambda: "belongs to pair 1" in picker.text("message"))
+    assert rows(picker) == [[7, 9]]
+    picker.run("document.getElementById('add').reset()")
+    add(picker, 99999, 20)
+    picker.until(lambda: "no vertex 99999: they go from 0 to 1499" in picker.text("message"))
+    assert rows(picker) == [[7, 9]]
+
+
+def test_names_go_into_the_file(picker: Browser, tmp_path: Path) -> None:
+    add(picker, 7, 9)
+    add(picker, 8, 6)
+    picker.element("[aria-label='Name of pair 2']").send_keys("left hand", Keys.TAB)
+    picker.element("#save").click()
+    picker.until(lambda: picker.text("readout").startswith("Saved 2 pairs"))
+    assert read_landmark_names(tmp_path / "pairs.txt") == ["", "left hand"]
+    assert read_landmarks(tmp_path / "pairs.txt").tolist() == [[7, 9], [8, 6]]
+
+
+def test_the_map_of_a_run_proposes_matches_and_is_saved(picker: Browser, tmp_path: Path) -> None:
+    """The matcher sends everything to the first pair's source vertex, which is taken; so it is moved away first."""
+    add(picker, 3, 5)
+    picker.element("#match").click()
+    picker.until(lambda: picker.element("#propose").is_displayed() and picker.element("#match").is_enabled())
+    picker.element("[aria-label='Delete pair 1']").click()
+    picker.element("#propose").click()
+    picker.until(lambda: picker.run("return kfmaps.marks('source')") == [3])
+    [target] = picker.run("return kfmaps.marks('target')")
+    assert "proposes" in picker.text("readout")
+    picker.element("#take").click()
+    assert rows(picker) == [[3, target]]
+    assert not picker.element("#take").is_displayed()
+    picker.element("#save-map").click()
+    picker.until(lambda: picker.text("readout").startswith("Saved the map"))
+    assert set(load_map(tmp_path / "m.npz").target_to_source) == {3}

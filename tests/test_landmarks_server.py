@@ -20,7 +20,7 @@ import pytest
 
 from kfmaps._arrays import InvalidInput
 from kfmaps.app.datasets import sphere
-from kfmaps.app.files import read_landmarks, write_landmarks, write_mesh
+from kfmaps.app.files import MapFile, load_map, read_landmark_names, read_landmarks, write_landmarks, write_mesh
 from kfmaps.app.view.picker import Picker, PickerServer, check_pairs, picker_server
 from kfmaps.app.view.runs import Progress, Runs
 from kfmaps.app.view.server import LOOPBACK, LocalServer, page_reply
@@ -288,11 +288,11 @@ def test_a_folder_that_went_away_is_told_in_words(serve: Serve, tmp_path: Path) 
 def test_match_reports_progress_and_gives_its_map(serve: Serve) -> None:
     going, seen = threading.Event(), []
 
-    def matcher(landmarks: np.ndarray, progress: Progress) -> np.ndarray:
+    def matcher(landmarks: np.ndarray, progress: Progress) -> MapFile:
         seen.append(landmarks.tolist())
         progress("solve", 0.25)
         assert going.wait(10)
-        return np.arange(160)
+        return MapFile(np.arange(160))
 
     client = serve(matcher=matcher)
     assert client.get("progress").json["state"] == "idle"
@@ -317,11 +317,11 @@ def test_match_reports_progress_and_gives_its_map(serve: Serve) -> None:
 
 
 def test_failure_of_a_match_is_told_in_words(serve: Serve) -> None:
-    def refusing(_landmarks: np.ndarray, _progress: Progress) -> np.ndarray:
+    def refusing(_landmarks: np.ndarray, _progress: Progress) -> MapFile:
         raise InvalidInput("landmarks: wanted <b>more</b>")
 
-    def short(_landmarks: np.ndarray, _progress: Progress) -> np.ndarray:
-        return np.arange(3)
+    def short(_landmarks: np.ndarray, _progress: Progress) -> MapFile:
+        return MapFile(np.arange(3))
 
     for matcher, text in ((refusing, "<b>more</b>"), (short, "map: wanted shape (160)")):
         client = serve(matcher=matcher)
@@ -333,7 +333,7 @@ def test_failure_of_a_match_is_told_in_words(serve: Serve) -> None:
 
 
 def test_match_can_be_cancelled(serve: Serve) -> None:
-    def endless(_landmarks: np.ndarray, progress: Progress) -> np.ndarray:
+    def endless(_landmarks: np.ndarray, progress: Progress) -> MapFile:
         while True:
             progress("solve", 0.5)
             time.sleep(0.001)
@@ -404,3 +404,41 @@ main(["landmarks", "a.off", "b.off", "--landmarks", "old.txt", "--no-browser"])
     with pytest.raises(OSError):
         urlopen(address, timeout=10)
     assert read_landmarks(tmp_path / "old.txt").tolist() == PAIRS
+
+
+def test_a_vertex_is_in_one_pair_only(serve: Serve) -> None:
+    for pairs, told in (([[3, 5], [3, 6]], "source once, got 3 twice"), ([[3, 5], [4, 5]], "target once, got 5 twice")):
+        answer = serve().post("save", {"pairs": pairs})
+        assert answer.status == 400
+        assert told in answer.json["error"]
+
+
+def test_names_are_saved_with_the_pairs_and_read_back(serve: Serve, tmp_path: Path) -> None:
+    """In any letters, as one line of printable text each; the pairs are read as if there were none."""
+    client = serve(output=tmp_path / "pairs.txt")
+    names = ["left # hand\n\x1b[1m", "głowa"]
+    assert client.post("save", {"pairs": PAIRS, "names": names}).status == 200
+    assert read_landmarks(tmp_path / "pairs.txt").tolist() == PAIRS
+    assert read_landmark_names(tmp_path / "pairs.txt") == ["left # hand [1m", "głowa"]
+    for wrong in (["one"], "no list", [1, 2], ["x" * 61, ""]):
+        assert client.post("save", {"pairs": PAIRS, "names": wrong}).status == 400
+
+
+def test_the_map_of_a_run_is_saved(serve: Serve, tmp_path: Path) -> None:
+    """That of the run that is asked for; a file that was there before only after asking."""
+    path = tmp_path / "m.npz"
+    runs = iter((np.arange(160), np.arange(160)[::-1].copy()))
+    client = serve(matcher=lambda *_: MapFile(next(runs)), map_output=path)
+    assert client.post("save-map", {"run": 0}).status == 400
+    for _ in range(2):
+        client.post("match", {"pairs": PAIRS})
+        client.settled()
+    path.write_text("mine")
+    assert client.post("save-map", {"run": 1}).status == 409
+    assert path.read_text() == "mine"
+    assert client.post("save-map", {"run": 1, "overwrite": True}).json["saved"] == str(path)
+    assert load_map(path).target_to_source[0] == 159
+    assert client.post("save-map", {"run": 0}).status == 200
+    assert load_map(path).target_to_source[0] == 0
+    for wrong in (2, -1, True, "0", None):
+        assert client.post("save-map", {"run": wrong}).status == 400

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from matplotlib.collections import PolyCollection
 from matplotlib.figure import Figure
+from scipy.spatial import KDTree
 from typer.testing import CliRunner
 
 from collecting import done, plan_of, write_collection
@@ -28,6 +29,7 @@ from kfmaps.app.pictures import (
     save_figure,
     true_views,
 )
+from kfmaps.app.pictures.camera import LIKENESS, best_turn
 from kfmaps.app.pictures.grids import LABEL
 from kfmaps.functional.evaluate import geodesic_errors
 from kfmaps.surface.mesh import Mesh
@@ -168,6 +170,10 @@ def test_an_endless_error_is_painted_as_a_large_one() -> None:
     assert not painted[1:].any()
 
 
+def _centred(points: np.ndarray) -> np.ndarray:
+    return points - points.mean(axis=0)
+
+
 def test_views_follow_the_truth_and_not_the_map() -> None:
     """A map that turns the shape round has its picture taken from the true side."""
     mesh = blob(200)
@@ -177,7 +183,13 @@ def test_views_follow_the_truth_and_not_the_map() -> None:
     np.testing.assert_allclose(followed.towards, seen.towards * [-1, 1, -1], atol=1e-6)
     np.testing.assert_allclose(followed.up, seen.up * [-1, 1, -1], atol=1e-6)
     nonsense = np.random.default_rng(0).permutation(200)
-    assert following_view(seen, mesh, turned, nonsense) is seen
+    found = following_view(seen, mesh, turned, nonsense)  # by the shapes alone
+    np.testing.assert_allclose(found.axes(), followed.axes(), atol=1e-6)
+    back_for_front = np.asarray(KDTree(mesh.vertices).query(turned.vertices)[1])
+    assert following_view(seen, mesh, mesh, back_for_front) is seen
+    turn, alike = best_turn(_centred(mesh.vertices[back_for_front]), _centred(mesh.vertices))
+    assert alike > LIKENESS, "the map alone says that the camera should go round"
+    assert np.trace(turn) < 0
     figure = match_figure(mesh, turned, nonsense, view=seen, target_view=followed)
     own, same = (ax.get_xlim() for ax in figure.axes[:2])
     np.testing.assert_allclose(own, same, atol=1e-6)

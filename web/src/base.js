@@ -1,9 +1,14 @@
 // What the page of a result and the landmark picker share: two shapes on a stage and the tools around them.
+import { Matrix4, Quaternion } from "three";
 import { drawBar } from "./colours.js";
-import { element } from "./data.js";
+import { element, short } from "./data.js";
 import { savePicture } from "./picture.js";
 import { Stage } from "./stage.js";
 import { Surface } from "./surface.js";
+
+/** The one unit of distances and errors; what the page computes is in √area. */
+export const UNIT = "% of √area";
+export const percent = (value, digits = 3) => short(100 * value, digits);
 
 /** What the legend says of confidence. */
 export const CONFIDENCE = "confidence: how well distances to the surroundings are kept";
@@ -21,17 +26,45 @@ export function setUp(data) {
   });
   const stage = new Stage(byId("stage"), shapes, SIDES.map((side) => byId(`view-${side}`)));
   byId("up").value = data.up;
+  byId("spin").setAttribute("aria-pressed", "false");
   byId("linked").addEventListener("change", () => { stage.linked = byId("linked").checked; });
   return { shapes, names, stage };
 }
 
-/** The buttons that turn the views back; `rotations()` are those of the two shapes, or null. */
-export function viewTools(stage, rotations) {
-  const reset = () => stage.reset(byId("up").value, rotations());
+/** The rotation of nine numbers, row by row. */
+export function rotationOf(r) {
+  const turn = new Matrix4().set(r[0], r[1], r[2], 0, r[3], r[4], r[5], 0, r[6], r[7], r[8], 0, 0, 0, 0, 1);
+  return new Quaternion().setFromRotationMatrix(turn);
+}
+
+/**
+ * Where the views begin: a good side of the source, and the same side of the body on the target, as the shapes
+ * themselves say (`views` as kfmaps.app.view.page.views_record makes it); `aligned()` is a rotation of the target onto the
+ * source to be taken instead, or null. Returns what turns the views back.
+ */
+export function viewTools(stage, views, aligned = () => null) {
+  const frame = rotationOf(views.frame);
+  const back = rotationOf(views.turn).invert();
+  const reset = () => stage.reset(byId("up").value, frame, [null, aligned() ?? back]);
   byId("up").addEventListener("change", reset);
   byId("reset").addEventListener("click", reset);
+  byId("spin").addEventListener("click", () => {
+    const on = byId("spin").getAttribute("aria-pressed") !== "true";
+    byId("spin").setAttribute("aria-pressed", on);
+    stage.spin(on);
+  });
   reset();
   return reset;
+}
+
+/** A vertex number that was typed: the vertex, or null where the shape has no such vertex, which is then said. */
+export function typedVertex(box, count, side) {
+  const vertex = Number(box.value);
+  const fits = box.value !== "" && Number.isInteger(vertex) && vertex >= 0 && vertex < count;
+  const wrong = fits || box.value === "" ? "" : `The ${side} has no vertex ${box.value}: they go from 0 to ${count - 1}.`;
+  box.setAttribute("aria-invalid", wrong !== "");
+  say(wrong);
+  return fits ? vertex : null;
 }
 
 /** One radio button for each of `modes` (value: text). */

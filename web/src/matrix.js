@@ -2,8 +2,23 @@
 import { at } from "./colours.js";
 import { short } from "./data.js";
 
-/** Draws (rows, columns) `values` on `canvas` with axes; tells `readout` the entry under the pointer. */
+/** The colour that the page's style has for `name` now, light or dark. */
+const styled = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
+
+/** Shows (rows, columns) `values` on `canvas` with axes; tells `readout` the entry under the pointer. */
 export function drawMatrix(canvas, readout, values, rows, columns) {
+  const point = paint(canvas, values, rows, columns);
+  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => paint(canvas, values, rows, columns));
+  canvas.addEventListener("pointermove", (event) => {
+    const [i, j] = point(event);
+    const inside = i >= 0 && j >= 0 && i < rows && j < columns;
+    readout.textContent = inside ? `C[${i}, ${j}] = ${short(values[i * columns + j])}` : "";
+  });
+  canvas.addEventListener("pointerleave", () => (readout.textContent = ""));
+}
+
+/** Draws it; returns what finds the row and column under the pointer. */
+function paint(canvas, values, rows, columns) {
   let most = 0;
   for (const v of values) if (v === v) most = Math.max(most, Math.abs(v));
   const left = 52, top = 40, right = 74, bottom = 10;
@@ -31,10 +46,10 @@ export function drawMatrix(canvas, readout, values, rows, columns) {
   pen.scale(ratio, ratio);
   pen.imageSmoothingEnabled = fine * ratio < 1;
   pen.drawImage(small, left, top, wide, tall);
-  pen.strokeStyle = "#5b6472";
+  pen.strokeStyle = styled("--axis");
   pen.lineWidth = 1;
   pen.strokeRect(left - 0.5, top - 0.5, wide + 1, tall + 1);
-  pen.fillStyle = "#1c2430";
+  pen.fillStyle = styled("--ink");
   pen.font = "12px system-ui, sans-serif";
   ticks(columns, fine).forEach((j) => {
     pen.textAlign = "center";
@@ -52,15 +67,14 @@ export function drawMatrix(canvas, readout, values, rows, columns) {
   pen.fillText("target eigenfunction", 0, 0);
   pen.restore();
   scale(pen, left + wide + 16, top, Math.min(tall, 160), most);
-  canvas.addEventListener("pointermove", (event) => {
+  return (event) => {
     const box = canvas.getBoundingClientRect();
     const grow = width / box.width;
-    const j = Math.floor(((event.clientX - box.left) * grow - left) / fine);
-    const i = Math.floor(((event.clientY - box.top) * grow - top) / fine);
-    const inside = i >= 0 && j >= 0 && i < rows && j < columns;
-    readout.textContent = inside ? `C[${i}, ${j}] = ${short(values[i * columns + j])}` : "";
-  });
-  canvas.addEventListener("pointerleave", () => (readout.textContent = ""));
+    return [
+      Math.floor(((event.clientY - box.top) * grow - top) / fine),
+      Math.floor(((event.clientX - box.left) * grow - left) / fine),
+    ];
+  };
 }
 
 function ticks(count, cell) {
@@ -77,7 +91,7 @@ function scale(pen, x, y, height, most) {
     pen.fillStyle = `rgb(${at("diverging", 1 - k / (height - 1)).map(Math.round).join(",")})`;
     pen.fillRect(x, y + k, 10, 1);
   }
-  pen.fillStyle = "#1c2430";
+  pen.fillStyle = styled("--ink");
   pen.textAlign = "left";
   pen.fillText(short(most, 2), x + 14, y + 10);
   pen.fillText("0", x + 14, y + height / 2 + 4);

@@ -1,8 +1,8 @@
-// The landmark pairs being picked, with what undo needs. A pair is [source vertex, target vertex].
+// The landmark pairs being picked, with what undo needs. A pair is [source vertex, target vertex, name].
 
 export class Pairs {
-  constructor(pairs) {
-    this.list = pairs.map((pair) => [...pair]);
+  constructor(pairs, names = []) {
+    this.list = pairs.map(([s, t], i) => [s, t, names[i] ?? ""]);
     this.half = null; // {i, vertex}: the first point of the pair to come
     this.past = [];
     this.changed = false;
@@ -13,6 +13,11 @@ export class Pairs {
     this.changed = true;
   }
 
+  /** The number of another pair that has the vertex on side `i`, or -1. */
+  holder(i, vertex, except = -1) {
+    return this.list.findIndex((pair, number) => number !== except && pair[i] === vertex);
+  }
+
   /** A point picked on side `i`: it begins a pair, moves the point begun with, or completes the pair. */
   pick(i, vertex) {
     this.#remember();
@@ -20,13 +25,19 @@ export class Pairs {
       this.half = { i, vertex };
       return;
     }
-    this.list.push(i === 1 ? [this.half.vertex, vertex] : [vertex, this.half.vertex]);
+    this.list.push(i === 1 ? [this.half.vertex, vertex, ""] : [vertex, this.half.vertex, ""]);
     this.half = null;
   }
 
   add(source, target) {
     this.#remember();
-    this.list.push([source, target]);
+    this.list.push([source, target, ""]);
+  }
+
+  name(number, text) {
+    if (this.list[number][2] === text) return;
+    this.#remember();
+    this.list[number][2] = text;
   }
 
   delete(number) {
@@ -61,5 +72,10 @@ export class Pairs {
     const out = this.list.map((pair, number) => ({ number, vertex: pair[i] }));
     if (this.half?.i === i) out.push({ number: this.list.length, vertex: this.half.vertex });
     return out;
+  }
+
+  /** What is sent to the program: the pairs, and their names. */
+  record() {
+    return { pairs: this.list.map(([s, t]) => [s, t]), names: this.list.map(([, , name]) => name) };
   }
 }

@@ -1,5 +1,7 @@
 // The landmark picker.
-import { CONFIDENCE, Legend, SIDES, byId, modeButtons, say, setUp, viewTools } from "./base.js";
+import {
+  CONFIDENCE, Legend, SIDES, UNIT, byId, modeButtons, percent, say, setUp, typedVertex, viewTools,
+} from "./base.js";
 import { painted, pairColour, plain } from "./colours.js";
 import { attach } from "./controls.js";
 import { element, numbers, reals, short } from "./data.js";
@@ -12,11 +14,11 @@ const REACH = 14; // pixels within which a mark is grabbed
 
 export function startPicker(data) {
   const { shapes, names, stage } = setUp(data);
-  viewTools(stage, () => [null, null]);
+  viewTools(stage, data.views);
   const legend = new Legend(stage, names);
   const colours = numbers(data.source.colours);
   const plane = reals(data.source.plane);
-  const pairs = new Pairs(data.pairs);
+  const pairs = new Pairs(data.pairs, data.names);
   const links = []; // one for each run done
   const confidences = [];
   const state = { mode: "plain", map: -1, selected: -1, hovered: null, running: false };
@@ -46,7 +48,7 @@ export function startPicker(data) {
       const moved = Float32Array.from(link().points, (s, t) => shapes[0].apart(s, before.points[t]));
       shapes[1].show(painted(moved, "error", 0, 0.5));
       shapes[0].show(painted(link().pushed(moved), "error", 0, 0.5));
-      return { scale: "error", low: "0", high: "0.5", text: "how far matches moved since the run before, in √area" };
+      return { scale: "error", low: "0", high: "50", text: `how far matches moved since the run before, in ${UNIT}` };
     },
     confidence: () => {
       const sure = confidences[state.map];
@@ -63,7 +65,28 @@ export function startPicker(data) {
   const instruction = () => {
     const next = pairs.list.length + 1;
     if (!pairs.half) return `Pair ${next}: click a point on ${names[0]}, or on ${names[1]}.`;
-    return `Pair ${next}: now click its match on ${names[1 - pairs.half.i]}.`;
+    const other = names[1 - pairs.half.i];
+    return proposal() ? `Pair ${next}: the map proposes the mark "?" on ${other}. Take it, or click a better place.`
+      : `Pair ${next}: now click its match on ${other}.`;
+  };
+
+  /** Where the map of the run that is shown would put the other half of a pair: {i, vertex}, or null. */
+  const proposal = () => {
+    if (!pairs.half || !link()) return null;
+    const { i, vertex } = pairs.half;
+    const other = i === 1 ? link().toSource(vertex) : link().toTarget(vertex).targets[0];
+    return pairs.holder(1 - i, other) < 0 ? { i: 1 - i, vertex: other } : null;
+  };
+
+  /** Whether no other pair has the vertex on side `i`; says so where one has. */
+  const free = (i, vertex, except = -1) => {
+    const holder = pairs.holder(i, vertex, except);
+    say(holder < 0 ? "" : `Vertex ${vertex} of the ${SIDES[i]} belongs to pair ${holder + 1}. A vertex can be in one pair only.`);
+    return holder < 0;
+  };
+
+  const pick = (i, vertex) => {
+    if (free(i, vertex)) pairs.pick(i, vertex);
   };
 
   const matched = () => {
@@ -79,6 +102,7 @@ export function startPicker(data) {
       ...pairs.points(i).map(({ number, vertex }) => ({
         vertex, colour: pairColour(number), text: String(number + 1), pixels: number === state.selected ? 32 : 24,
       })),
+      ...(proposal()?.i === i ? [{ vertex: proposal().vertex, colour: pairColour(pairs.list.length), text: "?" }] : []),
     ]));
   };
 
@@ -96,13 +120,23 @@ export function startPicker(data) {
       update();
       byId("pairs").querySelectorAll("button")[Math.min(number, pairs.list.length - 1)]?.focus();
     });
-    made.append(head, ...pair.map((vertex) => element("td", vertex, { class: "number" })));
-    if (link()) made.append(element("td", short(shapes[0].apart(pair[0], link().toSource(pair[1])), 2), { class: "number" }));
+    const name = element("input", null, {
+      type: "text", maxlength: 60, placeholder: "left hand, …", "aria-label": `Name of pair ${number + 1}`,
+    });
+    name.value = pair[2];
+    name.addEventListener("change", () => {
+      pairs.name(number, name.value.trim());
+      update();
+    });
+    const named = element("td");
+    named.append(name);
+    made.append(head, ...pair.slice(0, 2).map((vertex) => element("td", vertex, { class: "number" })), named);
+    if (link()) made.append(element("td", percent(shapes[0].apart(pair[0], link().toSource(pair[1])), 2), { class: "number" }));
     const last = element("td");
     last.append(remove);
     made.append(last);
     made.addEventListener("click", (event) => {
-      if (event.target === remove) return;
+      if (event.target === remove || event.target === name) return;
       state.selected = state.selected === number ? -1 : number;
       update();
     });
@@ -117,10 +151,19 @@ export function startPicker(data) {
     byId("undo").disabled = !pairs.past.length;
     byId("match").disabled = state.running;
     byId("match").hidden = !data.canMatch;
+    byId("take").hidden = !proposal();
+    byId("propose").hidden = !link();
+    byId("save-map").hidden = !link() || !data.canSave;
     byId("save").disabled = !pairs.list.length;
     byId("readout").textContent = instruction();
     byId("facts").textContent = `to be saved in ${data.output}${pairs.changed ? " · not saved yet" : ""}`;
     mark();
+  };
+
+  /** Whether a vertex of side `i` is seen close to a point of the window. */
+  const close = (i, vertex, x, y) => {
+    const at = stage.project(i, vertex);
+    return at.visible && Math.hypot(at.x - x, at.y - y) < REACH;
   };
 
   /** The mark of side `i` under a point of the window: its number, or null. */
@@ -135,6 +178,7 @@ export function startPicker(data) {
     attach(stage, i, {
       grab,
       drag: (j, vertex, held) => {
+        if (pairs.holder(j, vertex, held.number) >= 0) return; // a vertex is in one pair only
         if (!held.moved) pairs.beginMove();
         held.moved = true;
         pairs.move(held.number, j, vertex);
@@ -148,14 +192,35 @@ export function startPicker(data) {
       },
       click: (j, vertex, event) => {
         const held = event && grab(j, event.clientX, event.clientY);
+        const proposed = proposal();
         if (held) state.selected = state.selected === held.number ? -1 : held.number;
-        else if (vertex >= 0) pairs.pick(j, vertex);
+        else if (event && proposed?.i === j && close(j, proposed.vertex, event.clientX, event.clientY)) take();
+        else if (vertex >= 0) pick(j, vertex);
         else if (!event) pairs.letGo();
         update();
       },
     });
     byId(`head-${side}`).textContent = `${names[i]} (${side})`;
     byId(`add-${side}`).max = shapes[i].count - 1;
+  });
+
+  const take = () => {
+    const proposed = proposal();
+    if (proposed) pick(proposed.i, proposed.vertex);
+    update();
+  };
+  byId("take").addEventListener("click", take);
+  // Where landmarks are farthest away one more helps most; the map proposes its match.
+  byId("propose").addEventListener("click", () => {
+    const target = shapes[1];
+    let best = 0, far = -1;
+    for (let v = 0; v < target.count; v++) {
+      const apart = pairs.list.length ? Math.min(...pairs.list.map((pair) => target.apart(v, pair[1]))) : target.place(v).length();
+      if (apart > far && pairs.holder(1, v) < 0) [best, far] = [v, apart];
+    }
+    if (pairs.half) pairs.letGo();
+    pairs.pick(1, best);
+    update();
   });
 
   const undo = () => {
@@ -171,7 +236,13 @@ export function startPicker(data) {
   });
   byId("add").addEventListener("submit", (event) => {
     event.preventDefault();
-    pairs.add(...SIDES.map((side) => Number(byId(`add-${side}`).value)));
+    const typed = [];
+    for (const [i, side] of SIDES.entries()) {
+      const vertex = typedVertex(byId(`add-${side}`), shapes[i].count, side);
+      if (vertex === null || !free(i, vertex)) return;
+      typed.push(vertex);
+    }
+    pairs.add(...typed);
     event.target.reset();
     byId("add-source").focus();
     update();
@@ -187,21 +258,35 @@ export function startPicker(data) {
   };
 
   const save = (overwrite) => attempt(async () => {
-    const { status, body } = await tell("save", { pairs: pairs.list, overwrite });
+    const { status, body } = await tell("save", { ...pairs.record(), overwrite });
     if (status === 409) {
-      byId("overwrite-text").textContent = `${body.exists} exists already. Replace it with these ${pairs.list.length} pairs?`;
-      byId("overwrite").showModal();
+      asked(`${body.exists} exists already. Replace it with these ${pairs.list.length} pairs?`, () => save(true));
       return;
     }
     pairs.changed = false;
     update();
     byId("readout").textContent = `Saved ${body.count} pairs in ${body.saved}.`;
   });
+  const saveMap = (overwrite) => attempt(async () => {
+    const { status, body } = await tell("save-map", { run: state.map, overwrite });
+    if (status === 409) {
+      asked(`${body.exists} exists already. Replace it with this map?`, () => saveMap(true));
+      return;
+    }
+    byId("readout").textContent = `Saved the map in ${body.saved}.`;
+  });
+  let agreed = () => {};
+  const asked = (text, then) => {
+    agreed = then;
+    byId("overwrite-text").textContent = text;
+    byId("overwrite").showModal();
+  };
   byId("save").addEventListener("click", () => save(false));
+  byId("save-map").addEventListener("click", () => saveMap(false));
   byId("overwrite-no").addEventListener("click", () => byId("overwrite").close());
   byId("overwrite-yes").addEventListener("click", () => {
     byId("overwrite").close();
-    save(true);
+    agreed();
   });
   window.addEventListener("beforeunload", (event) => pairs.changed && event.preventDefault());
 
@@ -224,7 +309,7 @@ export function startPicker(data) {
   byId("match").addEventListener("click", () => attempt(async () => {
     during(true);
     try {
-      await tell("match", { pairs: pairs.list });
+      await tell("match", { pairs: pairs.record().pairs });
       const end = await watch();
       if (end.state === "failed") throw new Error(`The match failed: ${end.error}`);
       if (end.state === "done") {

@@ -1,6 +1,7 @@
 // The page of a result.
-import { Matrix4, Quaternion } from "three";
-import { CONFIDENCE, Legend, SIDES, byId, modeButtons, setUp, viewTools } from "./base.js";
+import {
+  CONFIDENCE, Legend, SIDES, UNIT, byId, modeButtons, percent, rotationOf, setUp, typedVertex, viewTools,
+} from "./base.js";
 import { painted, plain, quantile, roundedUp } from "./colours.js";
 import { attach } from "./controls.js";
 import { element, numbers, reals, short } from "./data.js";
@@ -25,9 +26,7 @@ export function startResult(data) {
   const link = () => linkOf(state.map);
 
   const rotation = rotationOf(data.rotation);
-  // Shapes lying in different directions are turned alike; a small angle is only the pose.
-  byId("aligned").checked = 2 * Math.acos(Math.min(1, Math.abs(rotation.w))) > Math.PI / 4;
-  const reset = viewTools(stage, () => [null, byId("aligned").checked ? rotation : null]);
+  const reset = viewTools(stage, data.views, () => (byId("aligned").checked ? rotation : null));
   byId("aligned").addEventListener("change", reset);
   const legend = new Legend(stage, names);
 
@@ -65,7 +64,7 @@ export function startResult(data) {
       const values = errors[state.map];
       if (!values) return unknown("The error of this map is not known.");
       const top = roundedUp(quantile(values, 0.99));
-      return field(values, "error", 0, top, { low: "0", high: short(top), text: "distance to the truth, in √area" });
+      return field(values, "error", 0, top, { low: "0", high: percent(top), text: `distance to the truth, in ${UNIT}` });
     },
     distortion: () => field(link().distortion, "diverging", -2, 2,
       { low: "¼", high: "4", text: "area on the source / area on the target, both of unit area" }),
@@ -73,8 +72,8 @@ export function startResult(data) {
       // Of the runner-up chosen, or of the first while the best map is.
       const other = linkOf(Math.max(state.map, 1));
       const apart = Float32Array.from(linkOf(0).points, (s, t) => shapes[0].apart(s, other.points[t]));
-      const text = `between the matches of the best map and of ${other.label.toLowerCase()}, in √area`;
-      return field(apart, "error", 0, 0.5, { low: "0", high: "0.5", text });
+      const text = `between the matches of the best map and of ${other.label.toLowerCase()}, in ${UNIT}`;
+      return field(apart, "error", 0, 0.5, { low: "0", high: "50", text });
     },
     confidence: () => {
       const values = confidence[state.map];
@@ -91,7 +90,7 @@ export function startResult(data) {
   const measured = (target) => {
     const error = errors[state.map]?.[target] ?? NaN;
     const sure = confidence[state.map]?.[target] ?? NaN;
-    return (Number.isNaN(error) ? "" : `, error ${short(error, 3)} √area`)
+    return (Number.isNaN(error) ? "" : `, error ${percent(error)} ${UNIT}`)
       + (Number.isNaN(sure) ? "" : `, confidence ${short(sure, 3)}`);
   };
 
@@ -135,9 +134,9 @@ export function startResult(data) {
     const box = byId(`goto-${side}`);
     box.max = shapes[i].count - 1;
     box.addEventListener("change", () => {
-      const vertex = Number(box.value);
-      const fits = box.value !== "" && Number.isInteger(vertex) && vertex >= 0 && vertex < shapes[i].count;
-      pin(i, fits ? vertex : -1);
+      const vertex = typedVertex(box, shapes[i].count, side);
+      if (vertex !== null) pin(i, vertex);
+      else if (box.value === "") pin(i, -1);
     });
   });
 
@@ -154,11 +153,34 @@ export function startResult(data) {
     texts.forEach((text, value) => byId(id).append(element("option", text, { value })));
     byId(id).addEventListener("change", () => { set(Number(byId(id).value)); show(); });
   };
-  choices("map", data.maps.map((m) => m.label), (v) => { state.map = v; });
+  const scores = data.summary.scores?.length === data.maps.length ? data.summary.scores : null;
+  const scored = (m, i) => (scores ? `${m.label} (score ${short(scores[i], 3)})` : m.label);
+  choices("map", data.maps.map(scored), (v) => {
+    state.map = v;
+    tellMap();
+  });
   choices("descriptor", data.descriptors.map((d) => String(d.number)), (v) => { state.descriptor = v; });
   byId("map-choice").hidden = data.maps.length < 2;
 
-  byId("facts").textContent = facts(link(), shapes[0].count, errors[0]);
+  /** What is said of the map that is shown: figures of its own, and that it is a runner-up where it is one. */
+  const tellMap = () => {
+    byId("facts").textContent = facts(link(), shapes[0].count, errors[state.map], confidence[state.map]);
+    byId("runner-up").hidden = state.map === 0;
+    byId("runner-up-name").textContent = `${link().label}, not the answer.`;
+    byId("runner-up-text").textContent = "Another map that could have been meant"
+      + (scores ? `; its score is ${short(scores[state.map], 3)}, that of the best map ${short(scores[0], 3)}.` : ".");
+    const which = state.map ? ` (${link().label.toLowerCase()})` : "";
+    byId("title-target").textContent = `${names[1]} (target, ${shapes[1].count} vertices)${which}`;
+  };
+  if (data.verdict) {
+    const { kind, text, confidence: sure } = data.verdict;
+    byId("verdict").hidden = false;
+    byId("verdict").dataset.kind = kind;
+    byId("verdict-name").textContent = kind[0].toUpperCase() + kind.slice(1) + (typeof sure === "number" ? `, confidence ${sure.toFixed(2)}.` : ".");
+    byId("verdict-text").textContent = text;
+  }
+  document.querySelectorAll(".best").forEach((place) => (place.textContent = data.maps.length > 1 ? " of the best map" : ""));
+  tellMap();
   show();
   // The tables can wait for the first picture.
   requestAnimationFrame(() => setTimeout(() => {
@@ -171,14 +193,15 @@ export function startResult(data) {
   return { stage };
 }
 
-function rotationOf(r) {
-  const turn = new Matrix4().set(r[0], r[1], r[2], 0, r[3], r[4], r[5], 0, r[6], r[7], r[8], 0, 0, 0, 0, 1);
-  return new Quaternion().setFromRotationMatrix(turn);
-}
-
-function facts(link, count, errors) {
-  const parts = [`${Math.round((100 * new Set(link.points).size) / count)} % of the source's vertices are reached`];
-  const known = (errors ?? []).filter((v) => !Number.isNaN(v));
-  if (known.length) parts.unshift(`mean error ${short(known.reduce((a, b) => a + b, 0) / known.length, 3)} √area`);
-  return parts.join(" · ");
+function facts(link, count, errors, confidence) {
+  const mean = (values) => {
+    const known = (values ?? []).filter((v) => !Number.isNaN(v));
+    return known.length ? known.reduce((a, b) => a + b, 0) / known.length : NaN;
+  };
+  const [error, sure] = [mean(errors), mean(confidence)];
+  return [
+    ...(Number.isNaN(error) ? [] : [`mean error ${percent(error)} ${UNIT}`]),
+    ...(Number.isNaN(sure) ? [] : [`mean confidence ${short(sure, 2)}`]),
+    `${Math.round((100 * new Set(link.points).size) / count)} % of the source's vertices are reached`,
+  ].join(" · ");
 }

@@ -5,6 +5,12 @@ import { Marker } from "./markers.js";
 const FIELD = 28; // degrees of view, small: little perspective
 const UP = { x: [0, 0, Math.SQRT1_2, Math.SQRT1_2], y: [0, 0, 0, 1], z: [-Math.SQRT1_2, 0, 0, Math.SQRT1_2] };
 
+/** The first sight: a little from aside and from above, so that depth shows (as kfmaps.app.pictures has it). */
+const ASIDE = new Quaternion()
+  .setFromAxisAngle(new Vector3(1, 0, 0), (10 * Math.PI) / 180)
+  .multiply(new Quaternion().setFromAxisAngle(new Vector3(0, 1, 0), (-20 * Math.PI) / 180));
+const TURNTABLE = 0.7; // radians a second
+
 class View {
   constructor(surface, box) {
     this.surface = surface;
@@ -123,16 +129,38 @@ export class Stage {
     this.draw();
   }
 
-  /** All views back to where they began, seen with the axis `up` upwards. */
-  reset(up, rotations) {
+  /** All views back to where they began: with `frame` for the camera, or with the axis `up` upwards. */
+  reset(up, frame, rotations) {
     this.views.forEach((view, i) => {
-      view.turn.identity();
+      view.turn.copy(ASIDE);
       view.zoom = 1;
       view.shift.set(0, 0);
-      view.base.fromArray(UP[up]);
+      if (up === "auto") view.base.copy(frame);
+      else view.base.fromArray(UP[up]);
       if (rotations[i]) view.base.multiply(rotations[i]);
     });
     this.draw();
+  }
+
+  /** A turntable: all shapes turn about what is upright in them, until it is switched off. */
+  spin(on) {
+    this.spinning = on;
+    if (!on || this.turning) return;
+    this.turning = true;
+    let last = null;
+    const step = (now) => {
+      if (!this.spinning) {
+        this.turning = false;
+        return;
+      }
+      const seconds = last === null ? 0 : Math.min((now - last) / 1000, 0.1);
+      last = now;
+      const about = new Quaternion().setFromAxisAngle(new Vector3(0, 1, 0), seconds * TURNTABLE);
+      for (const view of this.views) view.turn.multiply(about).normalize();
+      this.draw();
+      requestAnimationFrame(step);
+    };
+    requestAnimationFrame(step);
   }
 
   /** The vertex of view `i` under a point of the window, or -1. */

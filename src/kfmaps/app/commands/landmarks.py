@@ -8,8 +8,10 @@ from typing import Annotated
 import numpy as np
 import typer
 
-from kfmaps.app.files import check_output, read_landmarks, read_mesh
+from kfmaps.app.files import check_output, read_landmark_names, read_landmarks, read_mesh
+from kfmaps.app.files.mapfile import check_format
 from kfmaps.app.settings.options import Chosen, with_settings
+from kfmaps.app.view.page import check_up
 from kfmaps.app.view.picker import Picker, check_pairs, picker_server
 from kfmaps.app.view.results import open_address
 from kfmaps.app.view.tryout import Tryout
@@ -34,7 +36,13 @@ def landmarks(
     landmarks: Annotated[
         Path | None, typer.Option("--landmarks", help="Pairs to begin with.", show_default=False)
     ] = None,
-    up: Annotated[str, typer.Option(help="The axis that points upwards: x, y or z.")] = "y",
+    map_output: Annotated[
+        Path, typer.Option("--map", help="Where the page saves the map of a run: .npz, .mat, .txt or .vts.")
+    ] = Path("map.npz"),
+    up: Annotated[
+        str | None,
+        typer.Option(help="The axis that points upwards: x, y or z; default: found.", show_default=False),
+    ] = None,
     port: Annotated[int, typer.Option(help="Of this machine; 0 takes a free one.", min=0, max=65535)] = 0,
     browser: Annotated[bool, typer.Option("--browser/--no-browser", help="Open the page.")] = True,
     force: Annotated[bool, typer.Option("--force", help="Save over an existing file without asking.")] = False,
@@ -43,18 +51,22 @@ def landmarks(
 
     The settings are those of the matches that are run from the page.
     """
+    check_up(up)
     output = output or landmarks or Path("landmarks.txt")
-    check_output(output, force=True)  # the page asks before it replaces a file
+    check_format(map_output)
+    for path in (output, map_output):
+        check_output(path, force=True)  # the page asks before it replaces a file
     shapes = read_mesh(source), read_mesh(target)
     pairs = check_pairs([] if landmarks is None else read_landmarks(landmarks).tolist(), *shapes)
+    labels = [] if landmarks is None else read_landmark_names(landmarks)
     names = (source.stem, target.stem)
 
     def chosen(pairs: np.ndarray) -> Config:
         return settings.config(default_config(pairs))
 
     chosen(pairs)  # what is wrong with the settings is said before the page opens
-    matcher = Tryout(*shapes, names, chosen)
-    picker = Picker(*shapes, names, output, force=force, landmarks=pairs, matcher=matcher, up=up)
+    matcher = Tryout(*shapes, names, (source, target), chosen)
+    picker = Picker(*shapes, names, output, force, pairs, labels, matcher, map_output, up)
     serving = picker_server(picker, port)
     typer.echo(serving.server.address)
     typer.echo("Only this machine can reach it, and only with that address. Ctrl-C ends.")

@@ -9,6 +9,7 @@ import typer
 
 from kfmaps.app.evaluation import known_truth
 from kfmaps.app.files import atomic_output, check_output, load_map
+from kfmaps.app.view.page import check_up
 from kfmaps.app.view.results import map_mesh, map_page, mesh_path, open_page
 
 
@@ -34,10 +35,14 @@ def view(
     ] = None,
     identity: Annotated[bool, typer.Option("--identity", help="Truth: vertex i is vertex i.")] = False,
     descriptors: Annotated[bool, typer.Option(help="Work out descriptors to show.")] = True,
-    up: Annotated[str, typer.Option(help="The axis that points upwards: x, y or z.")] = "y",
+    up: Annotated[
+        str | None,
+        typer.Option(help="The axis that points upwards: x, y or z; default: found.", show_default=False),
+    ] = None,
     force: Annotated[bool, typer.Option("--force", help="Replace an existing file.")] = False,
 ) -> None:
     """Show a map in the browser, or write it as one page that needs no network."""
+    check_up(up)
     if output is not None:
         check_output(output, force)
     found = load_map(map)

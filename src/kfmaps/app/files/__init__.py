@@ -10,6 +10,7 @@ from kfmaps.app.files.export import (
 from kfmaps.app.files.mapfile import MapFile, check_map, load_map, match_map, save_map
 from kfmaps.app.files.meshes import read_mesh, read_mesh_file, write_mesh
 from kfmaps.app.files.numbers import (
+    read_landmark_names,
     read_landmarks,
     read_vertex_numbers,
     write_landmarks,
@@ -29,6 +30,7 @@ __all__ = [
     "load_map",
     "match_map",
     "projected_uv",
+    "read_landmark_names",
     "read_landmarks",
     "read_mesh",
     "read_mesh_file",

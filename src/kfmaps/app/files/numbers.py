@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
@@ -50,13 +51,38 @@ def read_landmarks(path: str | Path, *, one_based: bool = False) -> np.ndarray:
     return _read_numbers(path, 2, one_based, "two whole numbers a line, source and target")
 
 
-def write_landmarks(path: str | Path, pairs: np.ndarray, *, one_based: bool = False, force: bool = False) -> None:
-    """Write 0-based ``pairs`` (l, 2) so that :func:`read_landmarks` reads them back."""
+def read_landmark_names(path: str | Path) -> list[str]:
+    """The name of each pair of a landmarks file, in its order: what stands behind ``#`` on the pair's line."""
+    data = read_bytes(path).decode("utf-8", "replace")
+    lines = (line.partition("#") for line in data.splitlines())
+    return [_printable(comment) for pair, _, comment in lines if pair.strip()]
+
+
+def _printable(text: str) -> str:
+    return " ".join("".join(letter if letter.isprintable() else " " for letter in text).split())
+
+
+def write_landmarks(
+    path: str | Path,
+    pairs: np.ndarray,
+    *,
+    names: Sequence[str] = (),
+    one_based: bool = False,
+    force: bool = False,
+) -> None:
+    """Write 0-based ``pairs`` (l, 2) so that :func:`read_landmarks` reads them back.
+
+    ``names``, one for each pair, stand behind ``#`` on the pairs' lines; :func:`read_landmark_names` reads them.
+    """
     pairs = check(np.asarray(pairs), "landmarks", shape=(None, 2), remedy="give one row source, target each")
+    if len(names) not in (0, len(pairs)):
+        raise refuse("names", f"{len(pairs)}, one for each pair", str(len(names)), "give one for each, or none")
     lines = [f"# source target, counted from {int(one_based)}"]
-    lines += [f"{s} {t}" for s, t in (pairs.astype(np.int64) + int(one_based)).tolist()]
+    named = [_printable(name) for name in names] or [""] * len(pairs)
+    for (s, t), name in zip((pairs.astype(np.int64) + int(one_based)).tolist(), named, strict=True):
+        lines.append(f"{s} {t}  # {name}" if name else f"{s} {t}")
     with atomic_output(path, force) as temporary:
-        temporary.write_text("\n".join(lines) + "\n", encoding="ascii")
+        temporary.write_text("\n".join(lines) + "\n", encoding="utf-8")
 
 
 def read_vertex_numbers(path: str | Path, one_based: bool | None = None) -> np.ndarray:

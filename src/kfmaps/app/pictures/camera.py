@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike
+from scipy.spatial import KDTree
 from scipy.spatial.transform import Rotation
 
 from kfmaps._arrays import check, refuse
@@ -22,6 +23,11 @@ SAME_VIEW = 45.0
 
 LIKENESS = 0.6
 """Correlation between the turned source and the target above which a turn is believed; poses of one shape have 0.75."""
+CLEARLY = 0.75
+"""Part of the misfit of shapes as they lie that a turned one may have. Of 182 ordered pairs of scanned people in 14
+poses who all face one way, 3 % fit that much better when one is turned half round."""
+SAMPLES = 800
+"""Points of each shape that this is measured on."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,8 +85,8 @@ def _silhouette(points: np.ndarray, towards: np.ndarray) -> int:
     return len(np.unique(cells, axis=0))
 
 
-def automatic_view(mesh: Mesh) -> View:
-    """A view onto the broad side of a shape, a little from aside and from above.
+def broad_side(mesh: Mesh) -> View:
+    """The view straight onto the broad side of a shape.
 
     The camera looks from the end of the file's axis z, x or y that shows most, or along the direction of
     least variance where that shows much more still, as on a shape that lies askew. Up is the file's y, or
@@ -100,26 +106,80 @@ def automatic_view(mesh: Mesh) -> View:
         up = y
     else:
         up = z if _stance(points, z) > STEADIER * _stance(points, y) else y
-    frame = view(towards, up).axes()
+    return view(towards, up)
+
+
+def automatic_view(mesh: Mesh) -> View:
+    """The view onto the :func:`broad_side` of a shape, a little from aside and from above."""
+    frame = broad_side(mesh).axes()
     yaw, pitch = np.deg2rad([YAW, PITCH])
     aside = np.cos(yaw) * frame[2] + np.sin(yaw) * frame[0]
     return view(np.cos(pitch) * aside + np.sin(pitch) * frame[1], frame[1])
 
 
-def following_view(source_view: View, source: Mesh, target: Mesh, target_to_source: np.ndarray) -> View:
-    """The view that shows the target from the side from which ``source_view`` shows the source.
+def following_view(source_view: View, source: Mesh, target: Mesh, target_to_source: np.ndarray | None = None) -> View:
+    """The view that shows the target from the side of the body from which ``source_view`` shows the source.
 
-    It is the same view, unless the rotation that best carries the source onto the target (Kabsch 1976)
-    turns by more than 45 degrees: then the camera turns with it. A map so wrong that no rotation carries one
-    shape to about where the other is turns nothing.
+    It is the same view, unless the shapes lie in different directions (:func:`turn_between`): then the camera turns
+    with them. A map that takes back for front is thereby seen to do so.
     """
-    carried = source.vertices[target_to_source]
-    carried = carried - carried.mean(axis=0)
-    there = target.vertices - target.vertices.mean(axis=0)
-    u, fit, vt = np.linalg.svd(there.T @ carried)
-    proper = np.array([1, 1, np.linalg.det(u @ vt)])
-    turn = u @ np.diag(proper) @ vt
-    alike = fit @ proper >= LIKENESS * np.linalg.norm(carried) * np.linalg.norm(there)
-    if not alike or np.rad2deg(Rotation.from_matrix(turn).magnitude()) <= SAME_VIEW:
+    turn = turn_between(source, target, target_to_source)
+    return source_view if turn is None else View(turn @ source_view.towards, turn @ source_view.up)
+
+
+def carried_view(source_view: View, source: np.ndarray, target: np.ndarray) -> View:
+    """The same from corresponding places (q, 3) that are known to be true, so that they alone decide.
+
+    It is the same view, unless the rotation that best carries the source onto the target turns by more than 45 degrees.
+    """
+    turn, alike = best_turn(source - source.mean(axis=0), target - target.mean(axis=0))
+    if alike < LIKENESS or np.rad2deg(Rotation.from_matrix(turn).magnitude()) <= SAME_VIEW:
         return source_view
     return View(turn @ source_view.towards, turn @ source_view.up)
+
+
+def best_turn(source: np.ndarray, target: np.ndarray) -> tuple[np.ndarray, float]:
+    """The rotation (3, 3) that best carries centred ``source`` (q, 3) onto ``target`` (Kabsch 1976), and how well.
+
+    How well is the correlation between both, from -1 to 1.
+    """
+    u, fit, vt = np.linalg.svd(target.T @ source)
+    proper = np.array([1, 1, np.sign(np.linalg.det(u @ vt)) or 1.0])
+    size = np.linalg.norm(source) * np.linalg.norm(target)
+    return u @ np.diag(proper) @ vt, float(fit @ proper / max(size, 1e-300))
+
+
+def turn_between(source: Mesh, target: Mesh, target_to_source: np.ndarray | None = None) -> np.ndarray | None:
+    """The rotation (3, 3) from how the source lies to how the target lies; ``None`` where they lie alike.
+
+    The map proposes one, and the same with the shape turned half round each of its axes, for the map may have taken
+    back for front; without a map that can be believed the principal axes propose some. Which is right the shapes
+    decide: turned rightly, points of one lie close to points of the other. Some other turn must fit much better than
+    none to be believed, since poses differ too.
+    """
+    a, b = _standard(source.vertices), _standard(target.vertices)
+    axes = np.linalg.eigh(a.T @ a)[1]
+    halves = [np.eye(3), *(Rotation.from_rotvec(np.pi * axis).as_matrix() for axis in axes.T)]
+    first, alike = np.eye(3), 0.0
+    if target_to_source is not None:
+        first, alike = best_turn(a[target_to_source], b)
+    if alike < LIKENESS:
+        other = np.linalg.eigh(b.T @ b)[1]
+        first = other @ np.diag([1, 1, np.sign(np.linalg.det(other @ axes.T))]) @ axes.T
+    turns = [first @ half for half in halves]
+    some_a, some_b = (points[:: max(1, len(points) // SAMPLES)] for points in (a, b))
+    misfits = [_misfit(some_a @ turn.T, some_b) for turn in turns]
+    best = int(np.argmin(misfits))
+    small = np.rad2deg(Rotation.from_matrix(turns[best]).magnitude()) <= SAME_VIEW
+    return None if small or misfits[best] > CLEARLY * _misfit(some_a, some_b) else turns[best]
+
+
+def _standard(points: np.ndarray) -> np.ndarray:
+    """Centred, at one size."""
+    points = points - points.mean(axis=0)
+    return points / max(float(np.sqrt((points**2).sum(axis=1).mean())), 1e-300)
+
+
+def _misfit(a: np.ndarray, b: np.ndarray) -> float:
+    """Mean squared distance between the points of either cloud and the nearest of the other."""
+    return float((KDTree(b).query(a)[0] ** 2).mean() + (KDTree(a).query(b)[0] ** 2).mean())

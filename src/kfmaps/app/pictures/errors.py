@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from scipy.spatial import KDTree
 
-from kfmaps.app.pictures.camera import View, automatic_view, following_view
+from kfmaps.app.pictures.camera import View, automatic_view, carried_view
 from kfmaps.functional.evaluate import geodesic_errors, truth_from_pairs
 from kfmaps.surface.mesh import Mesh
 
@@ -46,5 +46,4 @@ def true_views(
     A map with left and right swapped would have the camera go round to the back, where it looks right.
     """
     source_view = source_view or automatic_view(source)
-    ends = [Mesh(m.vertices[t], np.zeros((0, 3))) for m, t in ((source, truth_s), (target, truth_t))]
-    return source_view, following_view(source_view, ends[0], ends[1], np.arange(len(truth_s)))
+    return source_view, carried_view(source_view, source.vertices[truth_s], target.vertices[truth_t])

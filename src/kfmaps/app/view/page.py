@@ -9,6 +9,7 @@ import numpy as np
 
 from kfmaps._arrays import check, check_count, refuse
 from kfmaps.app.files import check_map, projected_uv
+from kfmaps.app.pictures.camera import broad_side, turn_between
 from kfmaps.app.pictures.colors import position_colors
 from kfmaps.app.view.document import document
 from kfmaps.app.view.fields import alignment, area_distortion, nearest_reached
@@ -41,6 +42,48 @@ def map_record(source: Mesh, target: Mesh, target_to_source: np.ndarray, label: 
         "nearest": packed(nearest_reached(source, target_to_source)),
         "distortion": quantised(area_distortion(source, target, target_to_source)),
     }
+
+
+VERDICTS = {
+    "landmarks": "The landmarks settle which way round it goes.",
+    "sure": "Clearly better than every other map that was found.",
+    "ambiguous": "Another map is about as good. Compare the runners-up; a few landmarks decide.",
+    "poor": "No map that was found fits well. One shape may be a part of the other, or they differ too much.",
+    "unchecked": "One fit, compared with no other: without landmarks it may swap left and right.",
+}
+"""What the verdict of a match means, for who looks at the page."""
+
+
+def verdict_record(summary: Mapping[str, Any]) -> dict[str, Any] | None:
+    """The verdict that ``summary`` names, in words; ``None`` where it names none."""
+    kind = summary.get("verdict")
+    if not isinstance(kind, str) or kind not in VERDICTS:
+        return None
+    confidence = summary.get("confidence")
+    return {"kind": kind, "text": VERDICTS[kind], "confidence": confidence}
+
+
+def views_record(source: Mesh, target: Mesh, target_to_source: np.ndarray | None = None) -> dict[str, Any]:
+    """Where to look from: the source's camera axes, and the rotation from how the source lies to how the target lies.
+
+    The rotation is the shapes' own (:func:`~kfmaps.app.pictures.camera.turn_between`), so that both are seen from
+    the same side of the body whatever the map says.
+    """
+    turn = turn_between(source, target, target_to_source)
+    return {"frame": broad_side(source).axes().ravel(), "turn": (np.eye(3) if turn is None else turn).ravel()}
+
+
+def check_up(up: str | None) -> str | None:
+    """``up`` when it is an axis, or ``None``: found from the shape.
+
+    Raises
+    ------
+    InvalidInput
+        On anything else.
+    """
+    if up not in (None, "x", "y", "z"):
+        raise refuse("up", "x, y or z", repr(up), "name the axis that points upwards")
+    return up
 
 
 def _fields(maps: int, n_t: int, **given: Any) -> dict[str, Any]:
@@ -86,7 +129,7 @@ def result_page(
     most_descriptors: int = 12,
     summary: Mapping[str, Any] | None = None,
     names: tuple[str, str] = ("source", "target"),
-    up: str = "y",
+    up: str | None = None,
 ) -> str:
     """One HTML file that shows a map: it needs no network, no server and nothing beside it.
 
@@ -113,8 +156,8 @@ def result_page(
         ``residuals`` (a list, drawn as a curve) and lists all else as it is.
     names : (str, str)
         Any text, shown as text.
-    up : {"x", "y", "z"}
-        The shapes' vertical axis; can be changed in the page.
+    up : {"x", "y", "z"}, optional
+        The shapes' vertical axis; by default a good side is found. It can be changed in the page.
 
     Returns
     -------
@@ -126,8 +169,7 @@ def result_page(
     InvalidInput
         On arrays that do not fit the two shapes.
     """
-    if up not in ("x", "y", "z"):
-        raise refuse("up", "x, y or z", repr(up), "name the axis that points upwards")
+    check_up(up)
     check_count(most_descriptors, "most_descriptors", low=0)
     sizes = len(source.vertices), len(target.vertices)
     points = [check_map(target_to_source, *sizes)]
@@ -138,7 +180,9 @@ def result_page(
         matrix = check(np.asarray(functional_map, dtype=np.float64), "functional_map", shape=(None, None))
     data = {
         "kind": "result",
-        "up": up,
+        "up": up or "auto",
+        "views": views_record(source, target, points[0]),
+        "verdict": verdict_record(summary or {}),
         "source": source_record(source, names[0]),
         "target": shape_record(target, names[1]),
         "rotation": alignment(source, target, points[0]).ravel(),

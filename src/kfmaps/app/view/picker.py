@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
@@ -10,17 +10,20 @@ from typing import Any
 import numpy as np
 
 from kfmaps._arrays import refuse
-from kfmaps.app.files import check_map, write_landmarks
+from kfmaps.app.files import MapFile, check_map, save_map, write_landmarks
 from kfmaps.app.view.document import document
 from kfmaps.app.view.pack import quantised
-from kfmaps.app.view.page import map_record, shape_record, source_record
+from kfmaps.app.view.page import check_up, map_record, shape_record, source_record, views_record
 from kfmaps.app.view.runs import Progress, Runs
 from kfmaps.app.view.server import LocalServer, Reply, json_reply, page_reply
 from kfmaps.functional.confidence import local_confidence
 from kfmaps.surface.mesh import Mesh
 
-Matcher = Callable[[np.ndarray, Progress], np.ndarray]
-"""(landmarks (l, 2), progress) to a point map (n_t,)."""
+Matcher = Callable[[np.ndarray, Progress], MapFile]
+"""(landmarks (l, 2), progress) to a map, with all that is to be saved of it."""
+
+LONGEST_NAME = 60
+"""Letters of a landmark's name."""
 
 
 def check_pairs(pairs: Any, source: Mesh, target: Mesh) -> np.ndarray:
@@ -42,7 +45,29 @@ def check_pairs(pairs: Any, source: Mesh, target: Mesh) -> np.ndarray:
             if not 0 <= vertex < len(mesh.vertices):
                 wanted = f"{name} vertices from 0 to {len(mesh.vertices) - 1}"
                 raise refuse("landmarks", wanted, str(vertex), remedy)
+    for side, name in enumerate(("source", "target")):
+        seen = [pair[side] for pair in pairs]
+        twice = next((vertex for i, vertex in enumerate(seen) if vertex in seen[:i]), None)
+        if twice is not None:
+            raise refuse("landmarks", f"each vertex of the {name} once", f"{twice} twice", "leave one pair out")
     return np.array(pairs, dtype=np.int64).reshape(-1, 2)
+
+
+def check_names(names: Any, count: int) -> list[str]:
+    """One short text for each of ``count`` pairs; none is an empty one for each.
+
+    Raises
+    ------
+    InvalidInput
+        When ``names`` is anything else.
+    """
+    if names is None:
+        return [""] * count
+    fits = isinstance(names, list) and len(names) == count
+    if not fits or not all(isinstance(name, str) and len(name) <= LONGEST_NAME for name in names):
+        wanted = f"{count} texts of at most {LONGEST_NAME} letters"
+        raise refuse("names", wanted, "something else", "give one for each pair")
+    return names
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,15 +80,19 @@ class Picker:
     names : (str, str)
         Shown as text.
     output : Path
-        The one file that it may write.
+        Where the page writes landmarks.
     force : bool
-        Whether an existing ``output`` is replaced without asking.
+        Whether existing files are replaced without asking.
     landmarks : (l, 2) int64
-        Pairs to begin with.
+        Pairs to begin with, and ...
+    labels : sequence of str
+        ... their names.
     matcher : callable or None
         Computes a map from landmarks; without it the page cannot match.
-    up : {"x", "y", "z"}
-        The shapes' vertical axis.
+    map_output : Path or None
+        Where the page may write the map of a run; without it none is saved.
+    up : {"x", "y", "z"} or None
+        The shapes' vertical axis; ``None``: a good side is found.
     """
 
     source: Mesh
@@ -72,18 +101,23 @@ class Picker:
     output: Path
     force: bool = False
     landmarks: np.ndarray | tuple = ()
+    labels: Sequence[str] = ()
     matcher: Matcher | None = None
-    up: str = "y"
+    map_output: Path | None = None
+    up: str | None = None
 
     def page(self) -> str:
         """The page, which speaks to the server it came from."""
         data = {
             "kind": "picker",
-            "up": self.up,
+            "up": check_up(self.up) or "auto",
+            "views": views_record(self.source, self.target),
             "source": source_record(self.source, self.names[0]),
             "target": shape_record(self.target, self.names[1]),
             "pairs": np.asarray(self.landmarks, dtype=np.int64).reshape(-1, 2),
+            "names": list(self.labels),
             "output": self.output.name,
+            "canSave": self.map_output is not None,
             "canMatch": self.matcher is not None,
         }
         title = f"Landmarks: {self.names[0]} → {self.names[1]}"
@@ -112,7 +146,7 @@ class PickerServer:
 
 
 def picker_server(picker: Picker, port: int = 0) -> PickerServer:
-    """The server of ``picker``'s page: five requests, one file to write, none to read.
+    """The server of ``picker``'s page: seven requests, two files to write, none to read.
 
     Parameters
     ----------
@@ -127,11 +161,13 @@ def picker_server(picker: Picker, port: int = 0) -> PickerServer:
     """
     page = picker.page()
     written: set[Path] = set()
+    maps: list[MapFile] = []
 
     def work(pairs: np.ndarray, progress: Progress) -> dict[str, Any]:
         assert picker.matcher is not None
-        points = picker.matcher(pairs, progress)
-        points = check_map(points, len(picker.source.vertices), len(picker.target.vertices))
+        found = picker.matcher(pairs, progress)
+        points = check_map(found, len(picker.source.vertices), len(picker.target.vertices))
+        maps.append(found)
         label = f"{len(pairs)} landmark" + ("" if len(pairs) == 1 else "s")
         sure = local_confidence(picker.source, picker.target, points)
         return {**map_record(picker.source, picker.target, points, label), "confidence": quantised(sure)}
@@ -142,15 +178,29 @@ def picker_server(picker: Picker, port: int = 0) -> PickerServer:
         pairs = request.get("pairs") if isinstance(request, dict) else None
         return check_pairs(pairs, picker.source, picker.target)
 
+    def saved(path: Path, request: Any, write: Callable[[bool], None], **told: Any) -> Reply:
+        # What this picker wrote itself it may replace; what was there before only when told to.
+        allowed = picker.force or path in written or request.get("overwrite") is True
+        if path.exists() and not allowed:
+            return json_reply({"exists": str(path)}, 409)
+        write(allowed)
+        written.add(path)
+        return json_reply({"saved": str(path), **told})
+
     def save(request: Any) -> Reply:
         pairs = pairs_of(request)
-        # What this picker wrote itself it may replace; what was there before only when told to.
-        allowed = picker.force or picker.output in written or request.get("overwrite") is True
-        if picker.output.exists() and not allowed:
-            return json_reply({"exists": str(picker.output)}, 409)
-        write_landmarks(picker.output, pairs, force=allowed)
-        written.add(picker.output)
-        return json_reply({"saved": str(picker.output), "count": len(pairs)})
+        names = check_names(request.get("names"), len(pairs))
+
+        def write(force: bool) -> None:
+            write_landmarks(picker.output, pairs, names=names, force=force)
+
+        return saved(picker.output, request, write, count=len(pairs))
+
+    def save_run(request: Any) -> Reply:
+        path, run = picker.map_output, request.get("run") if isinstance(request, dict) else None
+        if path is None or type(run) is not int or not 0 <= run < len(maps):
+            raise refuse("map", "the number of a run that is done", repr(run), "match first")
+        return saved(path, request, lambda force: save_map(path, maps[run], force))
 
     def match(request: Any) -> Reply:
         if picker.matcher is None:
@@ -172,5 +222,6 @@ def picker_server(picker: Picker, port: int = 0) -> PickerServer:
         ("POST", "match"): match,
         ("POST", "cancel"): cancel,
         ("POST", "save"): save,
+        ("POST", "save-map"): save_run,
     }
     return PickerServer(LocalServer(routes, port), runs)

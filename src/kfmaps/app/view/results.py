@@ -70,7 +70,7 @@ def match_page(
     *,
     truth: tuple[np.ndarray, np.ndarray] | None = None,
     descriptors: bool = True,
-    up: str = "y",
+    up: str | None = None,
 ) -> str:
     """The page of a match: :func:`kfmaps.app.view.page.result_page` with all that the match knows.
 
@@ -105,7 +105,7 @@ def map_page(
     *,
     truth: tuple[np.ndarray, np.ndarray] | None = None,
     descriptors: bool = True,
-    up: str = "y",
+    up: str | None = None,
 ) -> str:
     """As :func:`match_page`, of a map read from a file; shows what of it the file holds."""
     summary = _json_of(found.extra.get("summary"))
