@@ -18,6 +18,15 @@ from kfmaps.surface.basis import Basis, laplace_basis
 from kfmaps.surface.mesh import Mesh, unit_area
 
 
+def pytest_addoption(parser: pytest.Parser) -> None:
+    parser.addoption("--shake", type=int, help="change what another processor would: see tests/shake.py")
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    if (seed := config.getoption("--shake")) is not None:
+        importlib.import_module("shake").install(seed)
+
+
 def fibonacci_sphere(n: int, twist: float = 0.0) -> Mesh:
     """A unit sphere of ``n`` nearly evenly spread vertices, faces outward."""
     i = np.arange(n)

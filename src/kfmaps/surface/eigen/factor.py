@@ -19,8 +19,9 @@ Sparse = Any
 
 
 COLUMNS = 4
-"""Right-hand sides that one thread solves at once. SuperLU reads the factor once for all of them; with fewer,
-the threads spend together more than they save. How the columns are split changes no bit of the answer."""
+"""Right-hand sides that are solved at once. SuperLU reads the factor once for all of them; with fewer, threads spend
+together more than they save. They are split so with one thread too, at no cost: on some processors the last bits hang
+on how many there are."""
 
 
 def fill_order(matrix: Sparse, ordering: str = "auto") -> np.ndarray | None:
@@ -93,8 +94,6 @@ def factorise(matrix: Sparse, ordered: bool, each: Map = map) -> Solve:
 
     def solve(block: np.ndarray) -> np.ndarray:
         right = np.asfortranarray(block)
-        if each is map or right.shape[1] <= COLUMNS:
-            return factor.solve(right)
         parts = [right[:, start : start + COLUMNS] for start in range(0, right.shape[1], COLUMNS)]
         result = np.empty_like(right, order="F")
         for i, part in enumerate(each(factor.solve, parts)):

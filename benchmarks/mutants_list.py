@@ -1,0 +1,255 @@
+"""Formulas of the core and how each is broken: the list that ``mutants.py`` works through.
+
+A mutant is its line's text, which occurs once in the package, what stands there instead, and the fewest tests that
+should notice (``file``, or ``file -k expression``, of the folder ``tests``). ``tests/test_mutants.py`` fails when a
+line is no longer there: then name the line that has taken its place.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+
+class Mutant(NamedTuple):
+    line: str
+    broken: str
+    tests: str
+
+
+KERNEL = "test_kernels"
+FORMULAS = "test_formulas"
+MATCH = "test_formulas_match"
+
+MUTANTS = tuple(
+    Mutant(*row)
+    for row in (
+        # kernel
+        ("[None, :] - 2 * (X @ Y.T)", "[None, :] - (X @ Y.T)", KERNEL),
+        ("return (X @ Y.T + self.offset) ** self.degree", "return (X @ Y.T - self.offset) ** self.degree", KERNEL),
+        (
+            "return (namespace(X).sum(X * X, axis=1) + self.offset) ** self.degree",
+            "return namespace(X).sum(X * X, axis=1) + self.offset",
+            KERNEL,
+        ),
+        ("exp(-_known(self) * squared_distances(X, Y))", "exp(-_known(self) * distances(X, Y))", KERNEL),
+        ("exp(-_known(self) * distances(X, Y))", "exp(-_known(self) * squared_distances(X, Y))", KERNEL),
+        ("self.scale * (X @ Y.T) + self.offset", "self.scale * (X @ Y.T + self.offset)", KERNEL),
+        ("return gram(self.a, X, Y) + gram(self.b, X, Y)", "return gram(self.a, X, Y) + gram(self.a, X, Y)", KERNEL),
+        (
+            "return gram_diagonal(self.a, X) * gram_diagonal(self.b, X)",
+            "return gram_diagonal(self.a, X) + gram_diagonal(self.b, X)",
+            KERNEL,
+        ),
+        ("gamma = sharpness / typical", "gamma = sharpness * typical", KERNEL),
+        ("float(np.sqrt(gamma))", "float(gamma)", f"{FORMULAS} -k typical_pair"),
+        ("float(np.median(positive))", "float(np.mean(positive))", KERNEL),
+        ("spectrum > rtol * top", "spectrum > 0.1 * rtol * top", f"{FORMULAS} -k dropped"),
+        ("like(1 / np.sqrt(spectrum[keep]), samples)", "like(1 / spectrum[keep], samples)", "test_nystrom"),
+        ("squares - 2 * (X @ X[following])", "squares - (X @ X[following])", "test_nystrom"),
+        ("nearest[taken[: i + 1]] = -np.inf", "pass", "test_nystrom"),
+        ("column / np.sqrt(column[pivot])", "column / column[pivot]", "test_nystrom"),
+        ("_drawn(residual**power, draw)", "_drawn(residual, draw)", "test_nystrom -k proportion"),
+        ("residual - factor[:, i] ** 2", "residual - np.abs(factor[:, i])", "test_nystrom"),
+        # surface
+        ("where=bound > 0) / 2", "where=bound > 0)", "test_spectrum -k cotangent"),
+        ("self.functions.T @ (self.mass[:, None] * f)", "self.functions.T @ f", "test_spectrum -k orthonormal"),
+        ("images -= weighted * values", "images -= vectors * values", "test_eigensolver"),
+        (
+            "if not (values > locked.values[k - 1] * (1 + EQUAL)).any():",
+            "if True:",
+            "test_eigensolver",
+        ),
+        ("0.5 * np.linalg.norm(_face_vectors(mesh), axis=1)", "np.linalg.norm(_face_vectors(mesh), axis=1)", FORMULAS),
+        ("np.repeat(face_areas(mesh) / 3, 3)", "np.repeat(face_areas(mesh) / 2, 3)", "test_spectrum -k area"),
+        ("return Mesh(centred / np.sqrt(area), mesh.faces)", "return Mesh(centred / area, mesh.faces)", FORMULAS),
+        ("reach = 1.3 * straight + shortest_edge", "reach = 0 * straight + shortest_edge", f"{FORMULAS} -k farther"),
+        ("result = np.where(a == b, 0.0, np.inf)", "result = np.where(a == b, 1.0, np.inf)", "test_geodesics -k pairs"),
+        ("(to_right**2 - to_left**2 + length**2)", "(to_left**2 - to_right**2 + length**2)", "test_geodesics"),
+        ("np.maximum(to_right**2 - along**2, 0)", "np.maximum(to_right**2 + along**2, 0)", "test_geodesics"),
+        (
+            "_cross(w.low, at) >= 0, _cross(at, w.high) >= 0",
+            "_cross(w.low, at) >= 0, _cross(w.low, at) >= 0",
+            "test_geodesics",
+        ),
+        ("samples.append(int(np.argmax(nearest)))", "samples.append(int(np.argmin(nearest)))", "test_geodesics"),
+        ("[:, positive] / values[positive]", "[:, positive] / values[positive] ** 2", f"{FORMULAS} -k embedding"),
+        ("reached = np.cumsum(mass[order])", "reached = np.cumsum(1 + 0 * mass[order])", "test_scale -k follow"),
+        (
+            "areas = np.bincount(closest, to_numpy(basis.mass)[candidates], minlength=len(chosen))",
+            "areas = np.bincount(closest, minlength=len(chosen)) / len(closest)",
+            "test_maps -k spread",
+        ),
+        ("sign = np.where(p < q, 1.0, -1.0) / 12", "sign = np.where(p < q, 1.0, -1.0) / 6", "test_orientation"),
+        ("result[s] = half - half.T", "result[s] = 2 * half", "test_orientation"),
+        ("np.concatenate([sign, sign, -2 * sign])", "np.concatenate([sign, sign, -sign])", "test_orientation"),
+        # descriptors
+        ("low = float(np.clip(second, np.pi, 4 * np.pi))", "low = float(second)", FORMULAS),
+        ("return min(low, high / 4), high", "return low, high", FORMULAS),
+        ("high = max(min(", "high = max(max(", FORMULAS),
+        ("ends = 4 * np.log(10) / np.array([high, low])", "ends = np.log(10) / np.array([high, low])", FORMULAS),
+        ("7 * (high - low) / max(count, 105)", "7 * (high - low) / max(count, 10)", FORMULAS),
+        (
+            "np.linspace(low + 2 * sigma, high - 2 * sigma, count)",
+            "np.linspace(low, high - 2 * sigma, count)",
+            FORMULAS,
+        ),
+        ("/ (2 * sigma**2)", "/ sigma**2", FORMULAS),
+        ("return xp.exp(-basis.eigenvalues[:, None]", "return xp.exp(-2 * basis.eigenvalues[:, None]", FORMULAS),
+        ("return (basis.functions * basis.functions) @ weights", "return basis.functions @ weights", FORMULAS),
+        ("basis.functions @ (peaks[j, :][:, None] * weights)", "basis.functions @ weights", FORMULAS),
+        ("(0.5 * m[:, None] / xp.sum(m)", "(m[:, None] / xp.sum(m)", FORMULAS),
+        ("scale = scale * D_s.shape[1] ** 0.5", "scale = scale * D_s.shape[1]", FORMULAS),
+        (
+            "mean = xp.sum(w_s * D_s, axis=0, keepdims=True) + xp.sum(w_t * D_t, axis=0, keepdims=True)",
+            "mean = 2 * xp.sum(w_s * D_s, axis=0, keepdims=True)",
+            FORMULAS,
+        ),
+        ("np.minimum(10 * (1 - distance), 1)", "np.minimum(2 * (1 - distance), 1)", "test_shot -k plain"),
+        ("np.arccos(np.clip(z / pairs.distance, -1, 1))", "np.arccos(np.clip(z, -1, 1))", "test_shot -k plane"),
+        ("_unit(np.sqrt(_histograms(", "_unit(np.abs(_histograms(", "test_shot -k plain"),
+        ("AZIMUTHS, -1)[:, ::-1]", "AZIMUTHS, -1)[:, :]", "test_shot -k mirror"),
+        # functional: the energy
+        ("0.5 * inner(coefficients_t, coefficients_t)", "inner(coefficients_t, coefficients_t)", "test_energy -k laws"),
+        ("- (2 * self.parity) * (carried @ self.right)", "- 2 * (carried @ self.right)", "test_energy -k laws"),
+        ("own - (2 * self.parity) * self.cross_diagonal", "own - 2 * self.cross_diagonal", "test_energy -k laws"),
+        ("own - (2 * self.parity) * (of_t.T @ of_s)", "own - 2 * (of_t.T @ of_s)", "test_preconditioners"),
+        (
+            "float(xp.max(source.eigenvalues)), float(xp.max(target.eigenvalues))",
+            "float(xp.max(source.eigenvalues)), float(xp.max(source.eigenvalues))",
+            f"{FORMULAS} -k either_side",
+        ),
+        (
+            "(source.eigenvalues[None, :] - target.eigenvalues[:, None]) / scale",
+            "(source.eigenvalues[None, :] + target.eigenvalues[:, None]) / scale",
+            "test_energy -k laws",
+        ),
+        ("self.gram_t @ C - 2 * mixed", "self.gram_t @ C - mixed", "test_energy -k laws"),
+        (
+            "Preservation(sandwich(0, 0), sandwich(1, 0), 0.5 * trace)",
+            "Preservation(sandwich(0, 0), sandwich(1, 0), trace)",
+            "test_energy",
+        ),
+        (
+            "weights = basis.mass * xp.sum(basis.functions * basis.functions, axis=1)",
+            "weights = xp.sum(basis.functions * basis.functions, axis=1)",
+            f"{FORMULAS} -k condenses",
+        ),
+        (
+            "np.where(rows == columns, 1.0, np.sqrt(2.0))",
+            "np.where(rows == columns, 1.0, 1.0)",
+            "test_energy -k packed",
+        ),
+        ("(lost > rtol * lost[-1])", "(lost > 2 * rtol * lost[-1])", "test_energy test_scale -k condensed or compress"),
+        (
+            "_strongest(packed_s @ packed_s.T + packed_t @ packed_t.T, rtol)",
+            "_strongest(packed_s @ packed_s.T, rtol)",
+            "test_energy -k compression",
+        ),
+        ("z + (rz / previous) * p", "z", "test_solvers"),
+        ("if residuals[-1] <= solver.rtol * size:", "if residuals[-1] <= solver.rtol:", "test_solvers"),
+        ("((U_t.T @ r @ U_s) / safe)", "((U_t.T @ r @ U_s) * safe)", "test_preconditioners"),
+        ("return sum(weight * term.constant()", "return sum(term.constant()", "test_energy -k laws"),
+        # functional: from maps to points and back
+        ("images, places = source.functions @ C.T,", "images, places = source.functions @ C,", "test_maps -k permuted"),
+        (
+            "np.flatnonzero(to_numpy(source.mass) > 0)",
+            "np.flatnonzero(to_numpy(source.mass) >= 0)",
+            "test_maps -k nobody",
+        ),
+        (
+            "error = 1.01 * (points.shape[1] + 4) * 2.0**-24",
+            "error = 1.01 * (points.shape[1] + 4) * 2.0**-25",
+            FORMULAS,
+        ),
+        (
+            "half = 0.5 * xp.sum(points * points, axis=1)",
+            "half = xp.sum(points * points, axis=1)",
+            "test_maps -k nearest",
+        ),
+        ("-0.5 * squares / size**2", "-0.4 * squares / size**2", "test_maps -k nearest"),
+        ("scores -= 0.5 * np.einsum", "scores -= 0.4 * np.einsum", f"{FORMULAS} -k cells"),
+        ("k: int, ridge: float = 0.1", "k: int, ridge: float = 0.0", f"{FORMULAS} -k damping"),
+        ("return (1 + ridge) * xp.linalg.solve", "return xp.linalg.solve", f"{FORMULAS} -k damping"),
+        ("C = fitted(points, source, target, self.stop)", "pass", f"{FORMULAS} -k last_step"),
+        ("C = C[:first, :first]", "C = C.T[:first, :first]", "test_maps -k repairs"),
+        ("np.sqrt(2 * (reduced**2).sum(axis=1).mean())", "np.sqrt((reduced**2).sum(axis=1).mean())", "test_guided"),
+        ("np.sqrt(weight / float(target.mass.sum()))", "(weight / float(target.mass.sum()))", "test_guided"),
+        (
+            "stratified(target.vertices[used], areas[used], SAMPLES, rng=0)",
+            "stratified(target.vertices[used], 0 * areas[used] + 1, SAMPLES, rng=0)",
+            f"{FORMULAS} -k uneven",
+        ),
+        ("np.abs(np.minimum(there, 2 * RADIUS)", "np.abs(np.minimum(there, RADIUS)", "test_confidence -k definition"),
+        (
+            "threads=threads) / np.sqrt(surface_area(source))",
+            "threads=threads) / surface_area(source)",
+            "test_maps -k units",
+        ),
+        ("np.clip(auc_limit - errors, 0, None)", "np.clip(auc_limit - errors, -1, None)", "test_maps -k known"),
+        # fit
+        ("weight = math.sqrt(config.shot_weight)", "weight = config.shot_weight", f"{MATCH} -k shot"),
+        ("count = min(config.samples // 2, D.shape[0])", "count = min(config.samples, D.shape[0])", f"{MATCH} -k half"),
+        (
+            "for shape, D in ((source, D_s), (target, D_t)):",
+            "for shape, D in ((source, D_s), (source, D_s)):",
+            f"{MATCH} -k half",
+        ),
+        ("scale = (size / total) ** 0.5 if total", "scale = size / total if total", f"{MATCH} -k orientation"),
+        ("slices[1] * scale, parity=-1)", "slices[1] * scale, parity=1)", f"{MATCH} -k orientation"),
+        ("size = inner(packed_s, packed_s) + inner(packed_t, packed_t)", "size = inner(packed_s, packed_s)", MATCH),
+        (
+            "for m, f in zip(mass, F, strict=True)) / 2",
+            "for m, f in zip(mass, F, strict=True))",
+            f"{MATCH} -k principal",
+        ),
+        ("mean = sum(m @ f / m.sum() for", "mean = sum(f.mean(axis=0) for", f"{MATCH} -k principal"),
+        ("[:, ::-1][:, :count]", "[:, :count]", f"{MATCH} -k principal"),
+        ("np.searchsorted(rows, landmarks)", "np.searchsorted(rows, landmarks) * 0", "test_scale -k reduced"),
+        # search
+        ("- 6.0 * self.distortion", "- 3.0 * self.distortion", f"{MATCH} -k score"),
+        ("- 2.0 * self.heat", "- 0.0 * self.heat", f"{MATCH} -k score"),
+        (
+            "far = (change.mean() + change_back.mean()) / mean",
+            "far = 2 * change.mean() / mean",
+            f"{MATCH} -k either_side",
+        ),
+        (
+            "near = [_near(change, target.distances), _near(change_back, source.distances)]",
+            "near = [_near(change, target.distances)]",
+            f"{MATCH} -k either_side",
+        ),
+        (
+            "coverage=float(min(area_s[",
+            "coverage=float(max(area_s[",
+            "test_automatic -k worse_maps",
+        ),
+        ("short = distances <= max(NEAR,", "short = distances >= max(NEAR,", "test_automatic -k short"),
+        ("max(spread(there) + spread(here), 2 * flat)", "max(spread(there), 2 * flat)", f"{MATCH} -k random"),
+        ("carried = to_numpy(basis_s.functions) @ C.T", "carried = to_numpy(basis_s.functions) @ C", MATCH),
+        ("rotation = expm((generator - generator.T) / 2)", "rotation = expm(generator / 2)", "test_automatic -k kicks"),
+        ("best.score > order[0].score - CLEAR", "best.score > order[0].score", "test_automatic -k rival"),
+        (
+            "np.array([-1.0, 1.0, 1.0]), shape.mesh.faces[:, ::-1]",
+            "np.array([-1.0, 1.0, 1.0]), shape.mesh.faces",
+            "test_automatic -k mirror_image_equals",
+        ),
+        (
+            "areas = np.bincount(closest, to_numpy(basis.mass), minlength=count)",
+            "areas = np.ones(count)",
+            "test_automatic -k few_samples",
+        ),
+        ("-np.expm1(-margin / CLEAR)", "-np.expm1(-margin * CLEAR)", "test_automatic -k asymmetric"),
+        # config
+        (
+            "max(self.basis.functions, self.descriptors.eigenfunctions, zoom)",
+            "max(self.basis.functions, zoom)",
+            "test_automatic -k few_eigen",
+        ),
+        ("solver=CG(rtol=1e-12, max_steps=10)", "solver=CG(rtol=1e-12, max_steps=11)", "test_pipeline -k paper"),
+        (
+            "weights=Weights(descriptors=0.1, commutativity=0.0,",
+            "weights=Weights(descriptors=0.1, commutativity=1.0,",
+            "test_pipeline -k obcs12",
+        ),
+    )
+)

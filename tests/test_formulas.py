@@ -1,0 +1,278 @@
+"""Formulas that an answer barely shows when they are wrong: a law for each, from arrays to the functional map."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from conftest import blob, random_basis
+from kfmaps.descriptors.spectral import heat_times, normalised, spectral_range, wave_energies, wave_signature
+from kfmaps.functional import nearest as nearest_module
+from kfmaps.functional.cells import nearest_by_cells
+from kfmaps.functional.confidence import local_confidence
+from kfmaps.functional.nearest import nearest
+from kfmaps.functional.points import to_points
+from kfmaps.functional.refine import SampledBasis, ZoomOut, fitted
+from kfmaps.functional.slices import condensed
+from kfmaps.functional.terms import laplacian_term
+from kfmaps.kernel.kernels import Gaussian, Laplacian, resolved, squared_distances
+from kfmaps.kernel.nystrom import nystrom
+from kfmaps.surface import geodesics
+from kfmaps.surface.basis import Basis
+from kfmaps.surface.geodesics import distance_pairs, geodesic_distances
+from kfmaps.surface.mesh import Mesh, unit_area
+from kfmaps.surface.samples import _embedded, spectral_samples
+
+
+def with_values(values: list[float]) -> Basis:
+    """A basis that has these eigenvalues."""
+    return replace(random_basis(60, len(values), np.random.default_rng(0)), eigenvalues=np.array(values))
+
+
+def split(basis: Basis, rows: np.ndarray, parts: int) -> tuple[Basis, np.ndarray]:
+    """Each of the points ``rows`` cut into ``parts`` that share its area; and which point each of all now was."""
+    share = np.ones(len(basis.mass), dtype=int)
+    share[rows] = parts
+    was = np.repeat(np.arange(len(share)), share)
+    return Basis(basis.eigenvalues, basis.functions[was], (basis.mass / share)[was]), was
+
+
+# The kernel.
+
+
+@pytest.mark.parametrize("sharpness", [0.3, 1.0, 5.0])
+def test_a_typical_pair_has_the_same_value_in_both_kernels_of_distance(sharpness, rng):
+    """Of the median distance the Gaussian makes exp(−s), the Laplacian exp(−√s)."""
+    X = rng.normal(size=(31, 5)) * 7
+    squares = np.median(squared_distances(X, X)[np.triu_indices(31, 1)])
+    pair = np.array([[0.0] * 5, [np.sqrt(squares)] + [0.0] * 4])
+    for kind, exponent in ((Gaussian(), sharpness), (Laplacian(), np.sqrt(sharpness))):
+        kernel: Any = resolved(kind, X, sharpness)
+        assert kernel(pair[:1], pair[1:])[0, 0] == pytest.approx(np.exp(-exponent))
+
+
+@pytest.mark.parametrize("rtol", [1e-2, 1e-5, 1e-9])
+def test_what_is_dropped_is_below_the_tolerance_and_what_is_kept_above(rtol, rng):
+    X = rng.normal(size=(40, 2))
+    values = np.linalg.eigvalsh(Gaussian(0.5)(X, X))[::-1]
+    factor = nystrom(Gaussian(0.5), X, rtol)
+    assert factor.rank == np.count_nonzero(values > rtol * values[0])
+    assert 1 < factor.rank < 40
+    W = factor.features(X)
+    error = np.linalg.norm(Gaussian(0.5)(X, X) - W @ W.T, 2)
+    assert error == pytest.approx(values[factor.rank], rel=1e-4, abs=1e-13)
+
+
+# Surfaces.
+
+
+@pytest.mark.parametrize("unit", [1e-3, 40.0])
+def test_the_samples_embedding_is_a_distance(unit, rng):
+    """Biharmonic distances have the unit of the shape, so that they say something on thin parts as on thick ones."""
+    basis = random_basis(80, 12, rng)
+    large = Basis(basis.eigenvalues / unit**2, basis.functions / unit, basis.mass * unit**2)
+    np.testing.assert_allclose(_embedded(large)[1], unit * _embedded(basis)[1], rtol=1e-9)
+
+
+def test_the_samples_embedding_is_that_of_greens_function(small_mesh, small_basis):
+    """On a path of two functions: eigenvalues enter by their inverse."""
+    embedding = _embedded(small_basis)[1]
+    found = np.linalg.norm(embedding * np.sqrt(small_basis.mass)[:, None], axis=0)
+    np.testing.assert_allclose(found * small_basis.eigenvalues[1:], 1, rtol=1e-9)
+    assert embedding.shape == (len(small_mesh.vertices), 39)
+
+
+def test_pairs_are_searched_no_farther_than_they_need(monkeypatch):
+    """The straight line is a good guess of most distances: one search, of little, is enough for near pairs."""
+    mesh = unit_area(blob(1500))
+    everything = geodesic_distances(mesh, np.arange(0, 1500, 10))
+    target = np.argsort(everything, axis=1)[:, 12]  # some three edges away
+    seen, limits = [], []
+
+    def searched(graph, indices, limit=np.inf):
+        found = original(graph, indices=indices, limit=limit)
+        seen.append(int(np.isfinite(found).sum()))
+        limits.append(limit)
+        return found
+
+    original = geodesics.dijkstra
+    monkeypatch.setattr(geodesics, "dijkstra", searched)
+    found = distance_pairs(mesh, np.arange(0, 1500, 10), target)
+    np.testing.assert_allclose(found, np.take_along_axis(everything, target[:, None], 1)[:, 0], rtol=1e-12)
+    assert len(limits) <= 4  # three blocks, and one more for a stray
+    assert sum(seen) < 0.1 * 150 * 1500
+    assert max(limits) < 5 * found.max()
+
+
+# Descriptors.
+
+
+@pytest.mark.parametrize(
+    ("values", "low", "high"),
+    [
+        ([0, 1e-9, 5, 900], np.pi, 900),  # a speck's or a bridge's
+        ([0, 7, 30, 900], 7, 900),
+        ([0, 500, 600, 900], 4 * np.pi, 900),
+        ([0, 7, 8, 20], 5, 20),
+    ],
+)
+def test_the_range_of_the_spectrum_starts_near_weyls_second_eigenvalue(values, low, high):
+    assert spectral_range(with_values(values)) == pytest.approx((low, high))
+
+
+def test_the_range_is_common_to_both_shapes():
+    a, b = with_values([0, 5, 900]), with_values([0, 9, 700])
+    assert spectral_range(a, b) == spectral_range(b, a) == pytest.approx((9, 700))
+
+
+def test_heat_has_gone_from_the_last_function_first_and_from_the_lowest_last():
+    """At the first time a ten thousandth is left of the last function, at the last time of the lowest."""
+    basis = with_values([0, 7, 30, 900])
+    times = heat_times(6, basis)
+    assert np.exp(-900 * times[0]) == pytest.approx(1e-4)
+    assert np.exp(-7 * times[-1]) == pytest.approx(1e-4)
+    np.testing.assert_allclose(times[1:] / times[:-1], times[1] / times[0])
+    assert heat_times(1, basis)[0] == pytest.approx(np.sqrt(times[0] * times[-1]))
+
+
+@pytest.mark.parametrize(("count", "part"), [(350, 7 / 350), (105, 1 / 15), (20, 1 / 15)])
+def test_waves_lie_within_the_range_and_are_as_wide_as_they_say(count, part):
+    low, high = np.log([7, 900])
+    energies, sigma = wave_energies(count, with_values([0, 7, 30, 900]))
+    assert sigma == pytest.approx(part * (high - low))
+    assert (energies[0], energies[-1]) == pytest.approx((low + 2 * sigma, high - 2 * sigma))
+    np.testing.assert_allclose(np.diff(energies), (energies[-1] - energies[0]) / (count - 1))
+
+
+def test_a_wave_of_one_function_is_a_bell_of_width_sigma():
+    basis = with_values([0, 1, 50])
+    energies = np.log(50) + 0.4 * np.array([0.0, 1, -1, 2])
+    found = wave_signature(basis, energies, 0.4) / basis.functions[:, 2:] ** 2
+    # Of the function of eigenvalue 1 next to nothing is left so far away.
+    np.testing.assert_allclose(found.min(axis=0), np.exp([0, -0.5, -0.5, -2]), rtol=1e-3)
+
+
+def test_descriptors_of_random_vertices_differ_by_two(rng):
+    """In squared length, by area, over both shapes; however many there are and whatever their units."""
+    for d in (1, 7, 30):
+        D_s, D_t = (rng.normal(size=(n, d)) ** 3 * rng.uniform(0.1, 9, d) + 5 for n in (60, 50))
+        m_s, m_t = rng.random(60), 10 * rng.random(50)
+        found = np.concatenate(normalised(D_s, D_t, "variance", m_s, m_t))
+        weight = np.concatenate([m_s / m_s.sum(), m_t / m_t.sum()]) / 2
+        assert weight @ squared_distances(found, found) @ weight == pytest.approx(2)
+
+
+# Terms.
+
+
+def test_the_laplacian_term_is_the_same_from_either_side():
+    a, b = with_values([0, 5, 60]), with_values([0, 5, 30])
+    one, other = laplacian_term(a, b).weights, laplacian_term(b, a).weights
+    np.testing.assert_allclose(one, other.T)
+    assert one.max() == pytest.approx(1)
+
+
+def test_a_point_in_parts_condenses_as_a_whole(rng):
+    """What features count for is their share of the area, not of the points."""
+    source, target = random_basis(40, 6, rng), random_basis(30, 6, rng)
+    F_s, F_t = rng.normal(size=(40, 9)), rng.normal(size=(30, 9))
+    F_s[:5] *= 2
+    fine, was = split(source, np.arange(5), 50)
+    one, other = (condensed(b, F, target, F_t, 0.2) for b, F in ((source, F_s), (fine, F_s[was])))
+    assert 1 < one[0].shape[1] < 9
+    np.testing.assert_allclose(other[0] @ other[1].T, (one[0] @ one[1].T)[was], atol=1e-9)
+
+
+# From maps to points and back.
+
+
+class Adverse(np.ndarray):
+    """A product of single precision that errs as much as it may: for points that come later, against all before."""
+
+    def __matmul__(self, other: Any) -> Any:
+        x, y = (np.asarray(part, dtype=np.float64) for part in (self, other))
+        bound = (len(y) - 1 + 4) * 2.0**-24 * (np.abs(x) @ np.abs(y))
+        return np.asarray(x @ y + np.linspace(-1, 1, y.shape[1]) * bound)
+
+
+@pytest.mark.parametrize("d", [1, 3, 40])
+@pytest.mark.parametrize("far", [0.0, 3.0])
+def test_the_search_is_right_however_single_precision_errs(d, far, monkeypatch):
+    """Pairs of points on both sides of a query, one a little nearer than the other: any product may prefer either."""
+    rng = np.random.default_rng(0)
+    exact = nearest_module._single
+    queries = rng.normal(size=(400, d))
+    aside = rng.normal(size=(400, d))
+    aside /= np.linalg.norm(aside, axis=1, keepdims=True)
+    aside *= 0.02 * rng.uniform(0.5, 1, (400, 1)) * (d + 4) ** 0.5
+    nearer = 1 - 10.0 ** rng.uniform(-8, -2, (400, 1))
+    points = np.concatenate([queries + nearer * aside, queries - aside]) + far
+    queries = queries + far
+    wanted = ((queries[:, None] - points[None]) ** 2).sum(axis=2).argmin(axis=1)
+    monkeypatch.setattr(nearest_module, "_single", lambda *given: exact(*given).view(Adverse))
+    np.testing.assert_array_equal(nearest(queries, points), wanted)
+
+
+def test_cells_compare_points_of_any_length(rng):
+    """Half the square of a point belongs to its distance: without it the longest would always win."""
+    points = rng.normal(size=(400, 12)) * 10.0 ** rng.uniform(-2, 1, (400, 1))
+    queries = points[rng.permutation(400)[:100]] * (1 + 1e-3 * rng.normal(size=(100, 12)))
+    wanted = ((queries[:, None] - points[None]) ** 2).sum(axis=2).argmin(axis=1)
+    for size in (400, 50):
+        np.testing.assert_array_equal(nearest_by_cells(queries, points, size=size, probes=400), wanted)
+
+
+def test_the_damping_of_samples_lies_between_least_squares_and_projection(small_basis, rng):
+    samples = spectral_samples(small_basis, 90, 0).basis
+    points = rng.integers(0, len(small_basis.mass), 90)
+    phi, pulled = samples.functions[:, :30], small_basis.functions[points, :30]
+    root = np.sqrt(samples.mass)[:, None]
+    least = np.linalg.lstsq(root * phi, root * pulled, rcond=None)[0]
+    projected = (samples.mass[:, None] * phi).T @ pulled
+    np.testing.assert_allclose(fitted(points, small_basis, samples, 30, ridge=0.0), least, atol=1e-8)
+    np.testing.assert_allclose(fitted(points, small_basis, samples, 30, ridge=1e9), projected, atol=1e-6)
+    sizes = [np.linalg.norm(fitted(points, small_basis, samples, 30, ridge=r) - least) for r in (0.05, 0.2)]
+    usual = np.linalg.norm(fitted(points, small_basis, samples, 30) - least)
+    assert sizes[0] < usual < sizes[1] < np.linalg.norm(projected - least)
+
+
+def test_the_damping_of_samples_costs_no_size(small_basis, rng):
+    """Where the samples' functions are orthonormal it changes nothing."""
+    everywhere = SampledBasis(small_basis.eigenvalues, small_basis.functions, small_basis.mass)
+    points = rng.integers(0, len(small_basis.mass), len(small_basis.mass))
+    np.testing.assert_allclose(
+        fitted(points, small_basis, everywhere, 20), fitted(points, small_basis, small_basis, 20), atol=1e-9
+    )
+
+
+def test_the_last_step_of_zoomout_owes_nothing_to_samples(small_basis):
+    found = ZoomOut(6, 30, 6, samples=150)(np.eye(6), small_basis, small_basis)
+    np.testing.assert_array_equal(found.target_to_source, np.arange(len(small_basis.mass)))
+    np.testing.assert_allclose(found.functional_map, np.eye(30), atol=1e-8)
+    # From a start whose sampled map is wrong in places the points are those of the map that is returned.
+    other = ZoomOut(6, 12, 3, samples=40)(np.diag([1.0, 1, 1, 1, 1, -1]), small_basis, small_basis)
+    np.testing.assert_array_equal(other.target_to_source, to_points(other.functional_map, small_basis, small_basis))
+
+
+def test_confidence_is_known_everywhere_however_uneven_the_triangles_are():
+    """Samples are spread by area: where the vertices are few there are as many samples as where they crowd."""
+    mesh = unit_area(blob(3000))
+    # Pull four vertices in five into a twentieth of the surface, along the surface of the parameter sphere.
+    sphere = mesh.vertices / np.linalg.norm(mesh.vertices, axis=1, keepdims=True)
+    lower = np.flatnonzero(sphere[:, 2] < 0.6)
+    drawn = np.random.default_rng(0).choice(lower, 260, replace=False)
+    kept = np.concatenate([np.flatnonzero(sphere[:, 2] >= 0.6), drawn])
+    from scipy.spatial import ConvexHull
+
+    faces = ConvexHull(sphere[kept]).simplices
+    uneven = Mesh(mesh.vertices[kept], faces)
+    found = local_confidence(uneven, uneven, np.arange(len(kept)))
+    assert np.isfinite(found).all()
+    assert found == pytest.approx(1, abs=1e-9)
+    sparse = np.concatenate([np.zeros(len(kept) - 260, dtype=bool), np.ones(260, dtype=bool)])
+    shuffled = np.arange(len(kept))
+    shuffled[sparse] = np.random.default_rng(1).permutation(shuffled[sparse])
+    assert np.median(local_confidence(uneven, uneven, shuffled)[sparse]) < 0.2

@@ -1,0 +1,157 @@
+"""Formulas of a fit and of the search that an answer barely shows when they are wrong: a law for each."""
+
+from __future__ import annotations
+
+from dataclasses import astuple, replace
+
+import numpy as np
+import pytest
+
+from conftest import blob
+from kfmaps._arrays import inner
+from kfmaps.config import BasisConfig, Config, DescriptorConfig, NystromConfig
+from kfmaps.fit.features import Descriptors, Features, joint_samples, pair_descriptors
+from kfmaps.fit.problem import orientation_term, principal
+from kfmaps.fit.shape import Shape, prepare
+from kfmaps.functional.terms import value
+from kfmaps.kernel.kernels import Gaussian, squared_distances
+from kfmaps.search.choose import mirror_image
+from kfmaps.search.quality import Quality, map_quality, probe
+
+K = 20
+CONFIG = Config(
+    basis=BasisConfig(functions=K),
+    descriptors=DescriptorConfig(count=12, eigenfunctions=60, shot=True, shot_radius=0.15),
+    refinement=None,
+    threads=1,
+)
+NO_LANDMARKS = np.zeros((0, 2), dtype=np.int64)
+
+
+@pytest.fixture(scope="module")
+def shape() -> Shape:
+    return prepare(blob(500), CONFIG, name="blob")
+
+
+@pytest.fixture(scope="module")
+def other() -> Shape:
+    return prepare(blob(420, twist=0.4), CONFIG, name="other")
+
+
+# A fit.
+
+
+@pytest.mark.parametrize("weight", [0.25, 1.0, 9.0])
+def test_shot_counts_as_its_weight_says_in_squared_distances(shape, other, weight):
+    """Of two random vertices they are 2 for the spectral descriptors and 2 × the weight for SHOT.
+
+    Columns that are the same everywhere, such as bins that no normal falls into, count among the number of them.
+    """
+    config = replace(CONFIG.descriptors, shot_weight=weight)
+    found = pair_descriptors(shape, other, (shape.basis, other.basis), config, NO_LANDMARKS, None)
+    mass = [s.basis.mass / s.basis.mass.sum() / 2 for s in (shape, other)]
+    both, area = np.concatenate([found.source, found.target]), np.concatenate(mass)
+    told = np.mean(np.ptp(both[:, 12:], axis=0) > 0)
+    assert told > 0.2
+    for columns, expected in ((slice(None, 12), 2), (slice(12, None), 2 * weight * told)):
+        assert area @ squared_distances(both[:, columns], both[:, columns]) @ area == pytest.approx(expected, rel=1e-6)
+
+
+@pytest.mark.parametrize("sampling", ["descriptor", "geodesic", "uniform"])
+def test_half_of_the_samples_come_from_each_shape(shape, other, sampling):
+    settings = NystromConfig(samples=60, sampling=sampling)
+    rng = np.random.default_rng(0)
+    marked = Descriptors(
+        *(np.column_stack([np.full(len(s.basis.mass), i), s.mesh.vertices]) for i, s in enumerate((shape, other)))
+    )
+    rows = joint_samples(shape, other, marked, Gaussian(1.0), settings, rng)
+    assert np.bincount(rows[:, 0].astype(int)).tolist() == [30, 30]
+    few = replace(other, mesh=replace(other.mesh, vertices=other.mesh.vertices[:20], faces=np.zeros((0, 3), int)))
+    scarce = Descriptors(marked.source, marked.target[:20])
+    rows = joint_samples(shape, few, scarce, Gaussian(1.0), settings, rng)
+    assert np.bincount(rows[:, 0].astype(int)).tolist() == [30, 20]
+
+
+@pytest.fixture(scope="module")
+def strongest(shape) -> Features:
+    rng = np.random.default_rng(0)
+    features = shape.basis.functions[:, 1:20] @ rng.normal(size=(19, 8))
+    return principal((shape.basis, shape.basis), Features(features, features, Gaussian(1.0)), 5)
+
+
+def test_orientation_is_kept_by_the_identity_and_lost_in_the_mirror(shape, strongest):
+    """On a mirror image the identity turns each operator round: ½ Σ‖2 Ω‖², of which Σ‖Ω‖² on both is the size."""
+    image = mirror_image(shape)
+    bases = shape.basis.truncated(K), shape.basis.truncated(K)
+    for size in (1.0, 70.0):
+        same = orientation_term((shape, shape), (shape, shape), bases, strongest, K, size)
+        turned = orientation_term((shape, image), (shape, image), bases, strongest, K, size)
+        assert value(same, np.eye(K)) == pytest.approx(0, abs=1e-9 * size)
+        assert value(turned, np.eye(K)) == pytest.approx(size)
+        assert value(turned, -np.eye(K)) == pytest.approx(size)
+        grams = turned.sides()
+        assert sum(np.trace(S) for S in grams) == pytest.approx(size)
+        # The value is never negative, whatever the map.
+        C = np.random.default_rng(1).normal(size=(K, K))
+        assert value(same, C) > 0
+        assert inner(C, same.apply(C)) == pytest.approx(2 * value(same, C))
+
+
+def test_a_constant_more_in_the_features_changes_no_principal_direction(shape, other, rng):
+    bases = shape.basis, other.basis
+    F = [rng.normal(size=(len(b.mass), 6)) * [5, 4, 3, 2, 1, 1] for b in bases]
+    found = principal(bases, Features(F[0], F[1], Gaussian(1.0)), 4)
+    moved = principal(bases, Features(F[0] + 100, F[1] + 100, Gaussian(1.0)), 4)
+    for a, b in ((found.source, moved.source), (found.target, moved.target)):
+        np.testing.assert_allclose(a @ a.T, b @ b.T, atol=1e-6)
+    # Left out is the mean by area, of both shapes alike: features that differ between them by a constant keep it.
+    middle = [b.mass @ f / b.mass.sum() for b, f in zip(bases, (found.source, found.target), strict=True)]
+    np.testing.assert_allclose(middle[0], -middle[1], atol=1e-12)
+    # The strongest come first, and they are as strong as the sum of squares over both areas allows.
+    gram = sum((f * b.mass[:, None]).T @ f for b, f in zip(bases, (found.source, found.target), strict=True))
+    np.testing.assert_allclose(gram, np.diag(np.diag(gram)), atol=1e-9)
+    assert (np.diff(np.diag(gram)) < 0).all()
+
+
+# The search.
+
+USUAL = Quality(0.9, 0.1, 0.1, 0.2, 0.1, 0.01, 0.9, 0.05, 1.0)
+
+
+@pytest.mark.parametrize(
+    ("measure", "weight"),
+    [
+        ("orientation", 1.0),
+        ("distortion", -6.0),
+        ("stretch", -10.0),
+        ("descriptors", -12.0),
+        ("heat", -2.0),
+        ("coverage", 1.0),
+        ("laplacian", -2.0),
+    ],
+)
+def test_every_measure_has_its_weight_in_the_score(measure, weight):
+    """Those of the table in docs/automatic.md."""
+    more = replace(USUAL, **{measure: getattr(USUAL, measure) + 0.01})
+    assert more.score - USUAL.score == pytest.approx(0.01 * weight)
+
+
+def test_the_score_is_the_same_from_either_side(shape, other):
+    """An orthogonal map and its inverse pair up the same samples, so that all that compares these must agree."""
+    here, there = probe(shape, 300), probe(other, 300)
+    C = np.linalg.qr(np.eye(40) + 0.05 * np.random.default_rng(0).normal(size=(40, 40)))[0]
+    one, back = map_quality(C, here, there), map_quality(C.T, there, here)
+    for measure in ("distortion", "stretch", "descriptors", "heat", "coverage"):
+        assert getattr(one, measure) == pytest.approx(getattr(back, measure), rel=1e-9)
+        assert getattr(one, measure) > 0
+
+
+def test_measures_of_a_random_map_are_what_their_definitions_say(shape):
+    """Differences of descriptors are those of random points: about 1; distances are as wrong as of random pairs."""
+    judge = probe(shape, 300)
+    C = np.linalg.qr(np.random.default_rng(0).normal(size=(60, 60)))[0]
+    found = map_quality(C, judge, judge)
+    assert 0.6 < found.heat < 1.6
+    assert 0.6 < found.descriptors < 1.6
+    assert 0.3 < found.distortion < 1.0
+    assert np.isfinite(astuple(found)).all()

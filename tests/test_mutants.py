@@ -1,0 +1,29 @@
+"""The list of formulas that ``benchmarks/mutants.py`` breaks does not rot."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+import pytest
+
+import kfmaps
+
+BENCHMARKS = Path(__file__).parents[1] / "benchmarks"
+TEXTS = [path.read_text() for path in Path(kfmaps.__file__).parent.rglob("*.py")]
+sys.path.insert(0, str(BENCHMARKS))
+from mutants_list import MUTANTS  # noqa: E402
+
+sys.path.remove(str(BENCHMARKS))
+
+
+def test_there_are_many_and_none_twice() -> None:
+    assert len({m.line + m.broken for m in MUTANTS}) == len(MUTANTS) >= 60
+
+
+@pytest.mark.parametrize("mutant", MUTANTS, ids=lambda m: m.line)
+def test_its_line_is_there_once_and_its_tests_too(mutant) -> None:
+    assert sum(text.count(mutant.line) for text in TEXTS) == 1, "name the line that has taken its place"
+    assert mutant.broken != mutant.line
+    for name in mutant.tests.partition(" -k ")[0].split():
+        assert (Path(__file__).parent / f"{name}.py").is_file()
