@@ -221,11 +221,15 @@ MUTANTS = tuple(
         (
             "coverage=float(min(area_s[",
             "coverage=float(max(area_s[",
-            "test_automatic -k worse_maps",
+            f"{MATCH} -k coverage",
         ),
         ("short = distances <= max(NEAR,", "short = distances >= max(NEAR,", "test_automatic -k short"),
         ("max(spread(there) + spread(here), 2 * flat)", "max(spread(there), 2 * flat)", f"{MATCH} -k random"),
-        ("carried = to_numpy(basis_s.functions) @ C.T", "carried = to_numpy(basis_s.functions) @ C", MATCH),
+        (
+            "carried = to_numpy(basis_s.functions) @ C.T",
+            "carried = to_numpy(basis_s.functions) @ C",
+            f"{MATCH} -k points_are",
+        ),
         ("rotation = expm((generator - generator.T) / 2)", "rotation = expm(generator / 2)", "test_automatic -k kicks"),
         ("best.score > order[0].score - CLEAR", "best.score > order[0].score", "test_automatic -k rival"),
         (
@@ -238,7 +242,7 @@ MUTANTS = tuple(
             "areas = np.ones(count)",
             "test_automatic -k few_samples",
         ),
-        ("-np.expm1(-margin / CLEAR)", "-np.expm1(-margin * CLEAR)", "test_automatic -k asymmetric"),
+        ("-np.expm1(-margin / CLEAR)", "-np.expm1(-margin * CLEAR)", f"{MATCH} -k confidence"),
         # config
         (
             "max(self.basis.functions, self.descriptors.eigenfunctions, zoom)",

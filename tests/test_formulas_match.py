@@ -9,12 +9,14 @@ import pytest
 
 from conftest import blob
 from kfmaps._arrays import inner
-from kfmaps.config import BasisConfig, Config, DescriptorConfig, NystromConfig
+from kfmaps.config import BasisConfig, Config, DescriptorConfig, NystromConfig, Search
 from kfmaps.fit.features import Descriptors, Features, joint_samples, pair_descriptors
-from kfmaps.fit.problem import orientation_term, principal
+from kfmaps.fit.problem import orientation_term, principal, problem
 from kfmaps.fit.shape import Shape, prepare
+from kfmaps.functional.points import to_points
 from kfmaps.functional.terms import value
 from kfmaps.kernel.kernels import Gaussian, squared_distances
+from kfmaps.matching import match
 from kfmaps.search.choose import mirror_image
 from kfmaps.search.quality import Quality, map_quality, probe
 
@@ -97,6 +99,17 @@ def test_orientation_is_kept_by_the_identity_and_lost_in_the_mirror(shape, stron
         assert inner(C, same.apply(C)) == pytest.approx(2 * value(same, C))
 
 
+def test_orientation_and_commutativity_weigh_the_same(shape, other):
+    """The operators of both are as large, summed over both shapes, so that their weights compare."""
+    bases = shape.basis, other.basis
+    config = replace(CONFIG, weights=replace(CONFIG.weights, orientation=1.0))
+    used = pair_descriptors(shape, other, bases, config.descriptors, NO_LANDMARKS, None)
+    terms = problem(shape, other, bases, used, config, np.random.default_rng(0)).energy.terms
+    sizes = [sum(np.trace(S) for S in terms[name].sides()) for name in ("orientation", "commutativity")]
+    assert sizes[0] == pytest.approx(sizes[1])
+    assert sizes[0] > 0
+
+
 def test_a_constant_more_in_the_features_changes_no_principal_direction(shape, other, rng):
     bases = shape.basis, other.basis
     F = [rng.normal(size=(len(b.mass), 6)) * [5, 4, 3, 2, 1, 1] for b in bases]
@@ -144,6 +157,31 @@ def test_the_score_is_the_same_from_either_side(shape, other):
     for measure in ("distortion", "stretch", "descriptors", "heat", "coverage"):
         assert getattr(one, measure) == pytest.approx(getattr(back, measure), rel=1e-9)
         assert getattr(one, measure) > 0
+
+
+def test_points_are_those_of_the_functional_map(shape, other):
+    """Told or not: a map that is far from symmetric tells C from its transpose."""
+    here, there = probe(shape, 200), probe(other, 200)
+    C = np.linalg.qr(np.random.default_rng(0).normal(size=(30, 30)))[0]
+    points = to_points(C, here.samples.basis, there.samples.basis)
+    assert astuple(map_quality(C, here, there)) == pytest.approx(astuple(map_quality(C, here, there, points)))
+
+
+def test_coverage_is_that_of_the_direction_that_covers_less(shape):
+    judge = probe(shape, 200)
+    one_place = map_quality(np.eye(30), judge, judge, np.full(200, 3))
+    assert one_place.coverage == pytest.approx(judge.samples.basis.mass[3])
+    assert map_quality(np.eye(30), judge, judge).coverage == pytest.approx(1)
+
+
+def test_confidence_follows_from_the_scores(shape):
+    """1 − exp(−margin / 0.3), and next to nothing where the best score is poor: see docs/automatic.md."""
+    config = replace(CONFIG, search=Search(candidates=1, signs=2))
+    found = match(shape, shape, config)
+    margin = found.scores[0] - found.scores[1]
+    assert found.scores[0] > -10
+    assert found.confidence == pytest.approx(1 - np.exp(-margin / 0.3))
+    assert (found.verdict == "sure") == (margin >= 0.3)
 
 
 def test_measures_of_a_random_map_are_what_their_definitions_say(shape):
