@@ -123,7 +123,9 @@ def test_descriptors_of_one_side(made: types.SimpleNamespace) -> None:
 
 
 def test_kernel_that_overflows(made: types.SimpleNamespace) -> None:
-    line = complaint(made, "--landmarks", made.landmarks, "-q", "--kernel", "polynomial", "--degree", "4000")
+    line = complaint(
+        made, "--landmarks", made.landmarks, "--preset", "default", "-q", "--kernel", "polynomial", "--degree", "4000"
+    )
     assert "Polynomial" in line
     assert "finite values" in line
 
@@ -173,7 +175,19 @@ def test_existing_output_needs_force(made: types.SimpleNamespace) -> None:
 def test_force_replaces(made: types.SimpleNamespace) -> None:
     path = made.folder / "m.npz"
     path.write_text("worthless")
-    words = ("match", made.source, made.target, "--landmarks", made.landmarks, *SMALL, "-q", "-o", path)
+    words = (
+        "match",
+        made.source,
+        made.target,
+        "--landmarks",
+        made.landmarks,
+        "--preset",
+        "default",
+        *SMALL,
+        "-q",
+        "-o",
+        path,
+    )
     assert run(*words, "--force").status == 0
     np.testing.assert_array_equal(mapfile.load_map(path).target_to_source, made.truth)
 
@@ -189,7 +203,7 @@ def test_no_half_file(raised: BaseException, made: types.SimpleNamespace, monkey
     monkeypatch.setattr(np, "savez_compressed", half)
     (made.folder / "m.npz").write_text("precious")
     before = sorted(made.folder.iterdir())
-    words = ("--landmarks", made.landmarks, *SMALL, "-q", "--force", "-o", made.folder / "m.npz")
+    words = ("--landmarks", made.landmarks, "--preset", "default", *SMALL, "-q", "--force", "-o", made.folder / "m.npz")
     ran = run("match", made.source, made.target, *words)
     assert ran.status == (130 if isinstance(raised, KeyboardInterrupt) else 2)
     assert sorted(made.folder.iterdir()) == before

@@ -23,7 +23,7 @@ def made(tmp_path_factory: pytest.TempPathFactory) -> types.SimpleNamespace:
 
 
 def match(made: types.SimpleNamespace, *words: object, landmarks: bool = True) -> Ran:
-    given = ("--landmarks", made.landmarks) if landmarks else ()
+    given = ("--landmarks", made.landmarks, "--preset", "default") if landmarks else ()
     return run("match", made.source, made.target, *given, *SMALL, *words)
 
 
@@ -170,10 +170,12 @@ def test_without_landmarks(made: types.SimpleNamespace, tmp_path: Path) -> None:
     assert "confidence" in told["times"]
 
 
-def test_search_options_beside_landmarks_are_told_of(made: types.SimpleNamespace, tmp_path: Path) -> None:
-    ran = match(made, "--orientation", "reversed", "-o", tmp_path / "m.npz")
-    assert "kfmaps: warning: --orientation has no effect" in ran.stderr
-    np.testing.assert_array_equal(load_map(tmp_path / "m.npz").target_to_source, made.truth)
+def test_landmarks_take_part_in_the_search(made: types.SimpleNamespace, tmp_path: Path) -> None:
+    words = ("--candidates", "2", "--zoom-stop", "80", "--landmarks", made.landmarks, "-o", tmp_path / "m.npz")
+    told = json.loads(match(made, *words, "--json", landmarks=False).stdout)
+    assert told["verdict"] in ("sure", "ambiguous", "poor")
+    assert (told["landmarks"], told["doubted"]) == (6, [])
+    assert len(told["scores"]) == 1 + told["runners_up"]
 
 
 def test_same_seed_same_map(made: types.SimpleNamespace, tmp_path: Path) -> None:

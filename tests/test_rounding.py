@@ -20,6 +20,7 @@ from kfmaps.functional.solvers import CG, solve
 from kfmaps.functional.terms import laplacian_term, slice_term, value
 from kfmaps.kernel.kernels import Gaussian, Laplacian, resolved
 from kfmaps.matching import match
+from kfmaps.search.arena import ground
 from kfmaps.search.candidates import judged, kicked
 from kfmaps.search.choose import distinct
 from kfmaps.search.quality import map_quality, probe, thinned
@@ -92,11 +93,11 @@ def test_the_order_of_candidates_knows_no_rounding(shape):
     maps = {"right": np.eye(K), **poor_maps()}
     for first in FIRST:
         judge = probe(starting(shape, first), 200)
-        found = [judged(name, C, (judge, judge)) for name, C in maps.items()]
+        found = judged([(name, True) for name in maps], np.stack(list(maps.values())), None, ground(judge, judge))
         assert distinct(found, judge)[0].name == "right"
         assert distinct(found[::-1], judge)[0].name == "right"
     # Symmetric maps tie but for rounding: the one that was found first stays first.
-    right = judged("right", np.eye(K), (judge, judge))
+    right = judged([("right", True)], np.eye(K)[None], None, ground(judge, judge))[0]
     up = replace(right, quality=replace(right.quality, coverage=right.quality.coverage + 1e-15))
     assert up.score == right.score
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -18,6 +18,7 @@ from kfmaps.fit.shape import Shape, prepare
 from kfmaps.fit.stages import Clock
 from kfmaps.functional.confidence import local_confidence
 from kfmaps.search.choose import Found, choose, mirror_image
+from kfmaps.search.marks import leading
 from kfmaps.surface.eigen.pencil import THREADED
 from kfmaps.surface.mesh import Mesh
 
@@ -58,6 +59,8 @@ class Match:
         Of a search: of the map and of each runner-up, higher is better.
     runners_up : tuple of arrays (n_t,)
         Of a search: the distinct other maps, best first.
+    doubted : (d,) int64
+        Of a search with landmarks: the numbers, from 0, of those that the map contradicts; they had no say.
     """
 
     target_to_source: np.ndarray
@@ -75,6 +78,7 @@ class Match:
     confidence: float | None = None
     scores: tuple[float, ...] = ()
     runners_up: tuple[np.ndarray, ...] = ()
+    doubted: np.ndarray = field(default_factory=lambda: np.zeros(0, dtype=np.int64))
 
 
 def match(
@@ -89,8 +93,10 @@ def match(
 ) -> Match:
     """Find for each vertex of ``target`` the corresponding vertex of ``source``.
 
-    With landmarks they settle which way round a symmetric shape goes, and one fit is made. Without, several
-    candidate maps are fitted and compared (:mod:`kfmaps.search.choose`), and the answer says how sure it is.
+    Many candidate maps are made and compared (:mod:`kfmaps.search.choose`), and the answer says how sure it is.
+    Landmarks, as many or few as there are, steer the candidates and help to choose between them; those that are
+    contradicted by a map that keeps to most of the others are named and left out. With ``config.search`` of ``None``
+    one fit is made, in which landmarks settle which way round a symmetric shape goes.
 
     Parameters
     ----------
@@ -98,7 +104,7 @@ def match(
         A :class:`Shape` from :func:`prepare` saves the work that depends on one shape alone; it must come from the
         same settings of the basis, SHOT and the numbers of functions.
     config : Config, optional
-        ``Config()`` with landmarks or given descriptors, ``Config.automatic()`` without.
+        ``Config.automatic()`` when not given; ``Config()``, one fit, with descriptors of the user's own.
     landmarks : (l, 2) whole numbers, optional
         Pairs "source vertex, target vertex", 0-based.
     descriptors : pair of arrays (n_s, d), (n_t, d), optional
@@ -115,7 +121,7 @@ def match(
     NotConverged
         When the eigensolver misses its tolerance.
     """
-    config = config or default_config(landmarks, descriptors)
+    config = config or default_config(descriptors)
     marks = landmarks if has_landmarks(landmarks) else None
     shapes = prepare_both(source, target, config, progress=progress)
     across = border(shapes[0], shapes[1])
@@ -123,16 +129,19 @@ def match(
     shapes = [across.source, across.target]
     clock = Clock(progress)
     more = {"descriptors": descriptors, "rng": rng, "progress": progress}
-    if config.search is not None and marks is None:
+    led = None
+    if config.search is not None:
         if config.search.orientation == "reversed":
             shapes[1] = mirror_image(shapes[1])
         with clock("candidates"):
-            found = choose(shapes[0], shapes[1], config, **more)
+            found = choose(shapes[0], shapes[1], config, landmarks=marks, **more)
+        led = leading(shapes[0], shapes[1], found.landmarks)
     else:
         one = fit(shapes[0], shapes[1], config, landmarks=marks, **more)
         clock.seconds.update(one.seconds)
         found = Found(one.functional_map, ONE_FIT, one, "unchecked" if marks is None else "landmarks")
-    end = finished(found.functional_map, shapes[0], shapes[1], config, raw=found.origin == ONE_FIT, progress=progress)
+    one = found.origin == ONE_FIT
+    end = finished(found.functional_map, shapes[0], shapes[1], config, raw=one, led=led, progress=progress)
     clock.seconds.update(end.seconds)
     with clock("confidence"):
         trust = local_confidence(shapes[0].mesh, shapes[1].mesh, end.target_to_source)
@@ -153,6 +162,7 @@ def match(
         confidence=found.confidence,
         scores=found.scores,
         runners_up=tuple(across.points(points) for points in found.runners_up),
+        doubted=found.doubted,
     )
 
 
@@ -202,6 +212,6 @@ def has_landmarks(landmarks: Any) -> bool:
     return landmarks is not None and np.asarray(landmarks).size > 0
 
 
-def default_config(landmarks: Any = None, descriptors: Any = None) -> Config:
+def default_config(descriptors: Any = None) -> Config:
     """What :func:`match` uses when no configuration is given."""
-    return Config() if has_landmarks(landmarks) or descriptors is not None else Config.automatic()
+    return Config() if descriptors is not None else Config.automatic()

@@ -73,6 +73,7 @@ def summary(outcome: MatchRun) -> dict[str, Any]:
         "version": kfmaps.__version__,
         **sides,
         "landmarks": len(outcome.landmarks),
+        "doubted": [int(number) for number in match.doubted],
         "seed": outcome.seed,
         "map_rows": k_t,
         "map_columns": k_s,
@@ -147,6 +148,11 @@ def _rows(match: Match, found: dict[str, Any], accuracy: Accuracy | None) -> lis
     spent = sorted(found["times"].items(), key=lambda item: -item[1])
     size = f"{found['map_rows']} × {found['map_columns']}"
     rows.append(("landmarks", str(found["landmarks"]) if found["landmarks"] else "none"))
+    if found["doubted"]:
+        numbers = ", ".join(str(number) for number in found["doubted"])
+        rows.append(
+            ("doubted", f"landmark {numbers}, counted from 0: the map keeps to the others, and they had no say")
+        )
     if match.fit is not None and match.origin == ONE_FIT:
         kernel = re.sub(r"\d+\.\d{5,}", lambda number: f"{float(number[0]):.4g}", found["kernel"])
         slices = f", {found['slices']} slices" if found["slices"] else ""

@@ -14,7 +14,7 @@ from kfmaps._threads import one_blas_thread
 from kfmaps.config import Config
 from kfmaps.fit.shape import Shape
 from kfmaps.fit.stages import Clock
-from kfmaps.functional.guide import guide
+from kfmaps.functional.guide import Guide, guide
 from kfmaps.functional.points import to_points
 from kfmaps.functional.refine import ZoomOut
 
@@ -47,12 +47,13 @@ def finished(
     config: Config,
     *,
     raw: bool = True,
+    led: Guide | None = None,
     progress: Progress | None = None,
 ) -> Finished:
     """The points of ``C (k_t, k_s)`` on all vertices, refined as ``config.refinement`` says.
 
-    ``raw`` asks for the point map before the refinement too. SHOT guides a refinement that wants guidance, where both
-    shapes have it.
+    ``raw`` asks for the point map before the refinement too. What guides a refinement that wants guidance is ``led``
+    or, without it, SHOT, where both shapes have it.
     """
     clock = Clock(progress)
     bases = (source.basis, target.basis)
@@ -68,7 +69,7 @@ def finished(
             return Finished(points, to_numpy(C), points, clock.seconds)
         refine = config.refinement
         if isinstance(refine, ZoomOut) and refine.guidance:
-            refine = partial(refine, guide=guide(source.shot, target.shot))
+            refine = partial(refine, guide=led or guide(source.shot, target.shot))
         with clock("refinement"):
             refined = refine(
                 C,

@@ -1,4 +1,4 @@
-"""Candidate maps for matching without landmarks, before anything is chosen.
+"""Candidate maps of two shapes, before anything is chosen.
 
 Many rough maps are refined on a few hundred points: diagonal functional maps with every choice of signs of the low
 functions (all symmetries of near-isometric bodies are among them, as in MapTree, Ren et al. 2020), small fits, and
@@ -7,9 +7,8 @@ random symmetries of the best of these. The best that differ are refined further
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass, replace
-from functools import partial
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, field
 from itertools import product
 from typing import Any
 
@@ -18,21 +17,22 @@ from scipy.linalg import expm
 
 from kfmaps._threads import parallel
 from kfmaps.config import Config
-from kfmaps.fit.fit import Fit, fit
 from kfmaps.fit.shape import Shape
-from kfmaps.functional.guide import guide
 from kfmaps.functional.points import nearest
-from kfmaps.functional.refine import ZoomOut
-from kfmaps.functional.solvers import CG
-from kfmaps.search.quality import Probe, Quality, map_quality, thinned
+from kfmaps.search.arena import Arena, Ground
+from kfmaps.search.fits import fitted_family, planned, sampled
+from kfmaps.search.marks import FAR, missed
+from kfmaps.search.quality import Probe, Quality, map_quality
+from kfmaps.search.zoom import zoomed
 
-WEIGHTS = (0.0, 4.0, 12.0)
-"""Of the descriptors in the rough refinement: none, so that symmetric maps are found too, some, and much."""
-POINTS = 400
-"""Points of the rough refinement; the first of the probe."""
-ROUGH = ZoomOut(start=6, stop=40, step=4)
-FINE = ZoomOut(start=20, stop=80, step=5, guidance=12.0)
-"""The refinement of the best, on all points of the probe; from fewer functions it loses right maps."""
+WEIGHTS = ((0.0, 0.0), (4.0, 12.0), (12.0, 12.0))
+"""Of SHOT and of landmarks in the rough refinement: none, so that symmetric maps are found too, some, and much."""
+FROM_FITS = ((4.0, 12.0), (12.0, 12.0))
+ROUGH, ROUGH_STEP = 40, 4
+"""Functions at the end of the rough refinement, and how many more at each step."""
+FINE, FINE_FROM, FINE_STEP = 80, 20, 5
+"""The same of the refinement of the best, on all points of the probe; from fewer functions it loses right maps."""
+FINE_WEIGHTS = (12.0, 12.0)
 STARTS = (6, 10, 20)
 """Where the rough refinement of a fit starts. From few functions it repairs maps that are wrong in part, also of
 shapes that are far from isometric; from many it keeps what is right."""
@@ -44,6 +44,8 @@ ZERO = 0.03
 """Frequency, the root of an eigenvalue at unit area, below which there is no wave: a sphere's first is 5."""
 APART = 0.04
 """Mean distance, in units of √area, from which rough maps count as different: nearer than in the end."""
+LANDMARK = 2.0
+"""What a landmark whose image is simply wrong costs."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -58,23 +60,37 @@ class Candidate:
     points : (q_t,) int64
         A source sample for each target sample.
     quality : Quality
-    fitted : Fit or None
-        The fit that it was refined from, if any.
     guided : bool
         Whether descriptors had a say; a map that none speak for is only a rival.
+    missed : (l,) float64
+        How far the image of each landmark is from where it belongs, in units of √area.
     """
 
     name: str
     functional_map: np.ndarray
     points: np.ndarray
     quality: Quality
-    fitted: Fit | None
     guided: bool = True
+    missed: np.ndarray = field(default_factory=lambda: np.zeros(0))
 
     @property
     def score(self) -> float:
-        """Of the quality, in steps so small that only what is equal but for rounding becomes equal."""
-        return round(self.quality.score, 9)
+        """Of the map itself and of the landmarks, each of which costs no more than :data:`LANDMARK`.
+
+        In steps so small that only what is equal but for rounding becomes equal.
+        """
+        return round(self.quality.score - LANDMARK * float(np.minimum(self.missed / FAR, 1.0).sum()), 9)
+
+
+@dataclass(frozen=True, eq=False)
+class Start:
+    """A rough map before its refinement: where it came from, and what takes part."""
+
+    name: str
+    functional_map: np.ndarray
+    functions: int
+    weights: tuple[float, float]
+    guided: bool
 
 
 Report = Callable[[float], None]
@@ -84,79 +100,173 @@ def candidates(
     source: Shape,
     target: Shape,
     config: Config,
-    probes: tuple[Probe, Probe],
+    on: Arena,
     seed: int,
     *,
+    landmarks: np.ndarray | None = None,
     descriptors: tuple[Any, Any] | None = None,
     report: Report | None = None,
 ) -> list[Candidate]:
-    """Refined candidates, in no order."""
+    """Refined candidates, in no order.
+
+    ``landmarks (l, 2)`` take part in the fits; elsewhere it is the arena that knows of them.
+    """
     assert config.search is not None
-    small = thinned(probes[0], POINTS), thinned(probes[1], POINTS)
-    surfaces = bool(len(source.mesh.faces) and len(target.mesh.faces))
-    guides = tuple(guide(a.descriptors, b.descriptors) for a, b in (probes, small))
-    rough_weights = WEIGHTS if guides[1] is not None else WEIGHTS[:1]
+    told = report or (lambda _done: None)
     functions = min(len(source.basis.eigenvalues), len(target.basis.eigenvalues))
-    done: list[int] = []
-    settings = variants(config, surfaces)
-
-    def rough(name: str, C: np.ndarray, start: int, weight: float, fitted: Fit | None = None) -> Candidate:
-        zoom = replace(ROUGH, start=min(start, functions), stop=min(ROUGH.stop, functions), guidance=weight)
-        refined = zoom(C, small[0].samples.basis, small[1].samples.basis, threads=1, guide=guides[1])
-        return judged(name, refined.functional_map, small, fitted, weight)
-
-    def signed(weight: float, signs: tuple[int, ...]) -> list[Candidate]:
-        mark = "".join("+" if sign > 0 else "-" for sign in signs)
-        return tell([rough(f"signs {mark}, weight {weight:g}", np.diag([1.0, *signs]), len(signs) + 1, weight)])
-
-    def fitting(name: str, chosen: Config) -> list[Candidate]:
-        found = fit(source, target, chosen, descriptors=descriptors, rng=seed)
-        C = found.functional_map
-        starts = [(start, weight) for start in STARTS for weight in rough_weights[1:] or rough_weights]
-        return tell([rough(f"{name}, from {start}, weight {w:g}", C, start, w, found) for start, w in starts], 8)
-
-    def kick(best: Candidate, i: int) -> list[Candidate]:
-        C = kicked(best.functional_map, source.basis.eigenvalues, np.random.default_rng(seed + i))
-        return tell([rough(f"kicked {i}", C, ROUGH.start, 0.0)])
-
-    def finish(candidate: Candidate) -> list[Candidate]:
-        """A rival is refined both with the descriptors and without."""
-        found = []
-        weights = {FINE.guidance if guides[0] else 0.0, FINE.guidance if candidate.guided else 0.0}
-        for guidance in sorted(weights):
-            zoom = replace(FINE, start=min(FINE.start, functions), stop=min(FINE.stop, functions), guidance=guidance)
-            bases = probes[0].samples.basis, probes[1].samples.basis
-            refined = zoom(candidate.functional_map, *bases, threads=1, guide=guides[0])
-            found.append(judged(candidate.name, refined.functional_map, probes, candidate.fitted, guidance))
-        return tell(found, 5)
-
-    low = min(config.search.signs, functions - 1)
-    tries = () if low == 0 else tuple(product((1, -1), repeat=low))
-    expected = 8 * len(settings) + len(rough_weights) * len(tries) + KICKS + 5 * FINALISTS
-
-    def tell(found: list[Candidate], cost: int = 1) -> list[Candidate]:
-        done.append(cost)
-        if report is not None:
-            report(min(sum(done) / expected, 1.0))
-        return found
-
-    jobs = [partial(fitting, *chosen) for chosen in settings]
-    jobs += [partial(signed, weight, signs) for weight in rough_weights for signs in tries]
-    found = _run(jobs, config.threads)
+    marks = np.zeros((0, 2), dtype=np.int64) if landmarks is None else landmarks
+    starts = from_signs(min(config.search.signs, functions - 1), on.few)
+    starts += from_fits(source, target, config, on, marks, descriptors, seed)
+    told(0.35)
+    found = rough(starts, on.few, functions, config.threads)
+    told(0.7)
     best = max(found, key=lambda c: c.score)
-    found += _run([partial(kick, best, i) for i in range(KICKS)], config.threads)
-    chosen = apart(sorted(found, key=lambda c: c.score, reverse=True), small[0], APART)[:FINALISTS]
-    return _run([partial(finish, c) for c in chosen], config.threads)
+    values = source.basis.eigenvalues
+    kicks = [kicked(best.functional_map, values, np.random.default_rng(seed + i)) for i in range(KICKS)]
+    again = [Start(f"kicked {i}", C, STARTS[0], WEIGHTS[0], False) for i, C in enumerate(kicks)]
+    found += rough(again, on.few, functions, config.threads)
+    told(0.75)
+    order = sorted(found, key=lambda c: c.score, reverse=True)
+    chosen = apart(order, on.few.source, APART)[:FINALISTS]
+    refined = fine(chosen, on.whole, functions, config.threads)
+    told(1.0)
+    return refined
+
+
+def from_signs(count: int, on: Ground) -> list[Start]:
+    """Diagonal maps with all choices of signs of ``count`` functions after the constant one."""
+    if count == 0:
+        return []
+    tries = [np.array([1.0, *signs]) for signs in product((1, -1), repeat=count)]
+    return [
+        Start(_signs(signs, weights), np.diag(signs), count + 1, weights, bool(weights[0]) or on.shot is None)
+        for weights in _told_apart(WEIGHTS, on)
+        for signs in tries
+    ]
+
+
+def _signs(signs: np.ndarray, weights: tuple[float, float]) -> str:
+    return "signs " + "".join("+" if s > 0 else "-" for s in signs[1:]) + f", weight {weights[0]:g}"
+
+
+def from_fits(
+    source: Shape,
+    target: Shape,
+    config: Config,
+    on: Arena,
+    landmarks: np.ndarray,
+    descriptors: tuple[Any, Any] | None,
+    seed: int,
+) -> list[Start]:
+    """Small kernel fits, each to be refined from several sizes and with several weights of the descriptors."""
+    surfaces = bool(len(source.mesh.faces) and len(target.mesh.faces))
+    fits = planned(config, surfaces)
+    families = list(dict.fromkeys(fit.family for fit in fits))
+    points = sampled(source, target, landmarks, descriptors)
+    cubes = on.whole.source.orientation, on.whole.target.orientation
+    weights = _told_apart(FROM_FITS, on.few)
+
+    def starts(family: str) -> list[Start]:
+        members = [fit for fit in fits if fit.family == family]
+        maps = fitted_family(family, members, points, config, cubes, seed)
+        return [
+            Start(f"{fit.name}, from {start}, weight {w[0]:g}", C, start, w, True)
+            for fit, C in zip(members, maps, strict=True)
+            for start in STARTS
+            for w in weights
+        ]
+
+    return [start for several in parallel(starts, families, config.threads) for start in several]
+
+
+def _told_apart(weights: Iterable[tuple[float, float]], on: Ground) -> list[tuple[float, float]]:
+    """The ``weights`` that differ on a ground which may know nothing of SHOT or of landmarks."""
+    shown = [(a if on.shot is not None else 0.0, b if on.landmarks is not None else 0.0) for a, b in weights]
+    return list(dict.fromkeys(shown))
+
+
+def rough(starts: list[Start], on: Ground, functions: int, threads: int | None = None) -> list[Candidate]:
+    """The starts refined on few points."""
+    stop = min(ROUGH, functions)
+    groups: dict[tuple[int, tuple[float, float]], list[Start]] = {}
+    for start in starts:
+        size = min(start.functions, stop, *start.functional_map.shape)
+        groups.setdefault((size, start.weights), []).append(start)
+    found = []
+    for (size, weights), members in groups.items():
+        maps = np.stack([start.functional_map[:size, :size] for start in members])
+        refined = refine(maps, on, (*range(size, stop, ROUGH_STEP), stop), weights, threads)
+        found += judged([(s.name, s.guided) for s in members], *refined, on, threads)
+    return found
+
+
+def fine(chosen: list[Candidate], on: Ground, functions: int, threads: int | None = None) -> list[Candidate]:
+    """The chosen maps refined on all points: all with the descriptors, and those that are rivals without as well."""
+    stop = min(FINE, functions)
+    size = min(FINE_FROM, stop, *chosen[0].functional_map.shape)
+    sizes = (*range(size, stop, FINE_STEP), stop)
+    guided, bare = _told_apart((FINE_WEIGHTS,), on)[0], WEIGHTS[0]
+    found = []
+    for weights in dict.fromkeys((bare, guided)):
+        members = [c for c in chosen if weights == guided or not c.guided]
+        if members:
+            maps = np.stack([c.functional_map[:size, :size] for c in members])
+            says = bool(weights[0]) or on.shot is None
+            refined = refine(maps, on, sizes, weights, threads)
+            found += judged([(c.name, says) for c in members], *refined, on, threads)
+    return found
+
+
+def again(found: list[Candidate], on: Ground, threads: int | None = None) -> list[Candidate]:
+    """The finished candidates settled once more on a ground of which something has changed."""
+    maps = np.stack([c.functional_map for c in found])
+    size = maps.shape[1]
+    out: list[Candidate] = []
+    for says in (True, False):
+        members = [i for i, c in enumerate(found) if c.guided == says]
+        if members:
+            weights = FINE_WEIGHTS if says else WEIGHTS[0]
+            refined = refine(maps[members], on, (max(size // 2, 2), size), weights, threads)
+            out += judged([(found[i].name, says) for i in members], *refined, on, threads)
+    return out
+
+
+def refine(
+    maps: np.ndarray, on: Ground, sizes: tuple[int, ...], weights: tuple[float, float], threads: int | None
+) -> tuple[np.ndarray, np.ndarray]:
+    """:func:`kfmaps.search.zoom.zoomed` on a ground."""
+    bases = on.source.samples.basis, on.target.samples.basis
+    return zoomed(maps, *bases, sizes, on.against(*weights), threads)
 
 
 def judged(
-    name: str, C: np.ndarray, probes: tuple[Probe, Probe], fitted: Fit | None = None, weight: float = 1.0
-) -> Candidate:
-    """A candidate with its point map on the samples and its quality."""
+    names: list[tuple[str, bool]],
+    maps: np.ndarray,
+    points: np.ndarray | None,
+    on: Ground,
+    threads: int | None = None,
+) -> list[Candidate]:
+    """Candidates of ``maps (m, k, k)`` with their quality.
+
+    ``names``: of each and whether descriptors had a say; ``points (m, q_t)``: a source sample for each target sample,
+    sought where they are ``None``.
+    """
+    functions = on.source.samples.basis.functions
+
+    def judge(i: int) -> Candidate:
+        C = maps[i]
+        at = points[i] if points is not None else mapped(C, on)
+        off = np.zeros(0) if on.marks is None else missed(C, functions, on.marks)
+        return Candidate(names[i][0], C, at, map_quality(C, on.source, on.target, at), names[i][1], off)
+
+    return parallel(judge, range(len(maps)), threads)
+
+
+def mapped(C: np.ndarray, on: Ground) -> np.ndarray:
+    """The source sample ``(q_t,)`` of each target sample by ``C (k_t, k_s)``."""
     k_t, k_s = C.shape
-    images = probes[0].samples.basis.functions[:, :k_s] @ C.T
-    points = nearest(probes[1].samples.basis.functions[:, :k_t], images, threads=1)
-    return Candidate(name, C, points, map_quality(C, *probes, points), fitted, bool(weight) or fitted is not None)
+    images = on.source.samples.basis.functions[:, :k_s] @ C.T
+    return nearest(on.target.samples.basis.functions[:, :k_t], images, threads=1)
 
 
 def apart(order: list[Candidate], source: Probe, distance: float) -> list[Candidate]:
@@ -171,50 +281,6 @@ def apart(order: list[Candidate], source: Probe, distance: float) -> list[Candid
 def differs(a: Candidate, b: Candidate, source: Probe) -> float:
     """Mean distance between the images of the target's samples, in units of √area."""
     return float(np.linalg.norm(source.positions[a.points] - source.positions[b.points], axis=1).mean())
-
-
-def variants(config: Config, surfaces: bool = True) -> list[tuple[str, Config]]:
-    """Names and configurations of the candidate fits: small, quick, and different from each other.
-
-    Descriptors (SHOT alone or with the wave kernel signature), basis size, and weight of orientation; in the order
-    of how often each was right on the shapes that they were chosen on. Point clouds (not ``surfaces``) have neither
-    SHOT nor orientation.
-    """
-    assert config.search is not None
-    base = replace(
-        config,
-        search=None,
-        refinement=None,
-        nystrom=replace(config.nystrom, samples=min(200, config.nystrom.samples)),
-        compression=max(config.compression, 1e-3),
-        solver=CG(rtol=1e-5, max_steps=300),
-        device="cpu",
-        threads=1,
-    )
-    both = replace(config.descriptors, count=30)
-    alone = replace(both, signature="none", landmark_map="none")
-    families = {"SHOT": alone, "SHOT and waves": both}
-    if not (both.shot and surfaces):
-        families = {"waves": replace(both, shot=False)}
-    sizes = [min(k, config.basis.functions) for k in (20, 35, 50)]
-    found = [
-        (
-            f"{name}, {k} functions, orientation {weight:g}",
-            replace(
-                base,
-                basis=replace(config.basis, functions=k),
-                descriptors=chosen,
-                weights=replace(config.weights, orientation=weight),
-            ),
-        )
-        for k, weight in zip(
-            (sizes[0], sizes[2], sizes[0], sizes[1], sizes[2], sizes[1]),
-            (0.1, 0.1, 1.0, 0.1, 1.0, 1.0) if surfaces else (0.0,) * 3,
-            strict=False,
-        )
-        for name, chosen in families.items()
-    ]
-    return found[: config.search.candidates]
 
 
 def kicked(C: np.ndarray, eigenvalues: np.ndarray, rng: np.random.Generator) -> np.ndarray:
@@ -234,7 +300,3 @@ def kicked(C: np.ndarray, eigenvalues: np.ndarray, rng: np.random.Generator) -> 
     signs = np.where(rng.random(k) < 0.25, -1.0, 1.0)
     signs[0] = 1.0
     return C[:k, :k] @ (rotation * signs[None, :])
-
-
-def _run(jobs: list[Callable[[], list[Candidate]]], threads: int | None) -> list[Candidate]:
-    return [c for several in parallel(lambda run: run(), jobs, threads) for c in several]

@@ -1,14 +1,15 @@
-"""Matching without landmarks: several candidate maps, judged without knowing the truth.
+"""The choice among many maps, judged without knowing the truth, with landmarks or without.
 
 A wave kernel signature cannot tell left from right, and one fit of a symmetric body easily returns a flipped or half-
 flipped map. So many candidates are refined cheaply on samples (:mod:`kfmaps.search.candidates`), all are judged by
-:func:`kfmaps.search.quality.map_quality`, and the best is finished on all points. *Rivals*, refined without a look at
-the descriptors, show whether some altogether different map would do as well, in which case the answer is "ambiguous".
+:func:`kfmaps.search.quality.map_quality` and by how well they keep to the landmarks, and the best is finished on all
+points. *Rivals*, refined without a look at the descriptors, show whether some altogether different map would do as
+well, in which case the answer is "ambiguous".
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -18,10 +19,12 @@ from kfmaps._progress import Progress
 from kfmaps._threads import parallel
 from kfmaps.config import Config
 from kfmaps.descriptors.shot import mirrored
-from kfmaps.fit.fit import Fit
+from kfmaps.fit.fit import Fit, checked_landmarks
 from kfmaps.fit.shape import Shape
 from kfmaps.functional.points import to_points
-from kfmaps.search.candidates import Candidate, apart, candidates
+from kfmaps.search.arena import arena, without
+from kfmaps.search.candidates import Candidate, again, apart, candidates
+from kfmaps.search.marks import doubted
 from kfmaps.search.quality import Probe, probe
 from kfmaps.surface.mesh import Mesh
 
@@ -44,7 +47,7 @@ class Found:
     origin : str
         What the candidate started from.
     fit : Fit or None
-        The small fit that it started from, if any.
+        Of one fit without a search.
     verdict : str
         "sure", "ambiguous" or "poor" of a search; "landmarks" or "unchecked" of one fit.
     confidence : float or None
@@ -52,6 +55,10 @@ class Found:
         Of the map and of each runner-up, higher is better.
     runners_up : tuple of arrays (n_t,)
         The distinct other maps, best first.
+    landmarks : (l, 2) int64
+        Those that the map keeps to, ...
+    doubted : (d,) int64
+        ... and the numbers, from 0, of those given that it contradicts.
     """
 
     functional_map: np.ndarray
@@ -61,6 +68,8 @@ class Found:
     confidence: float | None = None
     scores: tuple[float, ...] = ()
     runners_up: tuple[np.ndarray, ...] = ()
+    landmarks: np.ndarray = field(default_factory=lambda: np.zeros((0, 2), dtype=np.int64))
+    doubted: np.ndarray = field(default_factory=lambda: np.zeros(0, dtype=np.int64))
 
 
 def choose(
@@ -68,42 +77,68 @@ def choose(
     target: Shape,
     config: Config,
     *,
+    landmarks: Any = None,
     descriptors: tuple[Any, Any] | None = None,
     rng: int | np.random.Generator | None = 0,
     progress: Progress | None = None,
 ) -> Found:
-    """Find a map between two prepared shapes without landmarks, as ``config.search`` says.
+    """Find a map between two prepared shapes, as ``config.search`` says.
+
+    Parameters
+    ----------
+    source, target : Shape
+    config : Config
+    landmarks : (l, 2) whole numbers, optional
+        Pairs "source vertex, target vertex". They steer the candidates and rank them; those that the best map
+        contradicts while it keeps to most of the others are left out (:func:`kfmaps.search.marks.doubted`).
+    descriptors : pair of arrays (n_s, d), (n_t, d), optional
+    rng : seed or Generator
+    progress : callable, optional
 
     Raises
     ------
     InvalidInput
-        When ``config.search`` is ``None``.
+        When ``config.search`` is ``None``, or landmarks cannot be used.
     """
     if config.search is None:
-        raise refuse("search", "settings of a search", "None", "use Config.automatic(), or give landmarks")
+        raise refuse("search", "settings of a search", "None", "use Config.automatic()")
     seed = int(np.random.default_rng(rng).integers(2**31))
     report = progress or (lambda _stage, _done: None)
-    probes = parallel(lambda shape: probe(shape, rng=seed, threads=1), (source, target), config.threads)
+    pairs = checked_landmarks(landmarks, source, target)
+    sides = ((source, pairs[:, 0]), (target, pairs[:, 1]))
+    probes = parallel(lambda side: probe(side[0], rng=seed, threads=1, landmarks=side[1]), sides, config.threads)
+    report("candidates", 0.1)
+    on = arena(source, target, (probes[0], probes[1]), pairs)
     found = candidates(
         source,
         target,
         config,
-        (probes[0], probes[1]),
+        on,
         seed,
+        landmarks=pairs,
         descriptors=descriptors,
-        report=lambda done: report("candidates", done),
+        report=lambda done: report("candidates", 0.1 + 0.9 * done),
     )
     ranked = distinct(found, probes[0])
+    wrong = np.zeros(len(pairs), dtype=bool)
+    if len(pairs):
+        # Landmarks are judged by the best map as it is when they have no say.
+        alone = again(ranked[:1], replace(on.whole, landmarks=None), config.threads)
+        wrong = doubted(alone[0].missed)
+    if wrong.any():
+        ranked = distinct(again(found, without(on.whole, wrong), config.threads), probes[0])
     best, others = ranked[0], ranked[1 : 1 + config.search.runners_up]
-    margin = max(best.quality.score - ranked[1].quality.score, 0.0) if len(ranked) > 1 else np.inf
+    margin = max(best.score - ranked[1].score, 0.0) if len(ranked) > 1 else np.inf
     return Found(
         functional_map=best.functional_map,
         origin=best.name,
-        fit=best.fitted,
-        confidence=float(-np.expm1(-margin / CLEAR) * np.exp(min(best.score - POOR, 0.0))),
-        verdict="ambiguous" if margin < CLEAR else "poor" if best.score < POOR else "sure",
-        scores=tuple(float(c.quality.score) for c in (best, *others)),
+        fit=None,
+        confidence=float(-np.expm1(-margin / CLEAR) * np.exp(min(best.quality.score - POOR, 0.0))),
+        verdict="ambiguous" if margin < CLEAR else "poor" if best.quality.score < POOR else "sure",
+        scores=tuple(float(c.score) for c in (best, *others)),
         runners_up=tuple(to_points(c.functional_map, source.basis, target.basis, config.threads) for c in others),
+        landmarks=pairs[~wrong],
+        doubted=np.flatnonzero(wrong),
     )
 
 

@@ -10,6 +10,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
+from scipy.sparse.csgraph import dijkstra
 
 from kfmaps._arrays import Array, like, to_numpy
 from kfmaps.descriptors.spectral import heat_signature
@@ -17,18 +18,25 @@ from kfmaps.fit.shape import Shape
 from kfmaps.functional.guide import FLAT, spread
 from kfmaps.functional.points import nearest
 from kfmaps.functional.refine import SampledBasis, Samples, spectral_samples
-from kfmaps.surface.basis import zero_level
-from kfmaps.surface.geodesics import geodesic_distances
+from kfmaps.surface.basis import Basis, zero_level
+from kfmaps.surface.coarse import coarse
+from kfmaps.surface.mesh import Mesh
 from kfmaps.surface.orientation import orientation_slices
+from kfmaps.surface.samples import stratified_samples
+from kfmaps.surface.unfolding import surface_graph
 
 POINTS = 1000
 """Sample points on each shape."""
-COARSE = 400
+COARSE = 300
 """The first of them, between which geodesic distances are compared."""
+SURFACE = 6000
+"""Vertices from which distances and orientation are worked out on a coarse copy with that many."""
 NEAR = 0.2
 """Distance, in units of √area, up to which points are neighbours whose distance a good map keeps."""
 LOW = 20
 """Functions in which orientation is compared."""
+OPERATORS = 50
+"""Functions of the orientation operators that a probe keeps, also for fits."""
 TIMES = np.geomspace(0.005, 0.3, 8)
 """Diffusion times at unit area: from a fiftieth of the surface reached to most of it."""
 FLAT_HEAT = 0.02
@@ -47,13 +55,15 @@ class Probe:
         Farthest points; the first ``c`` of them are farthest points too.
     distances : (c, c) float64
         Geodesic distances between the first points.
-    orientation : (w, l, l) float64 or None
-        Orientation operators of the first functions; ``None`` for a point cloud.
+    orientation : (w, k, k) float64 or None
+        Orientation operators of the first functions, in the first functions; ``None`` for a point cloud.
     descriptors : (q, d) float64 or None
         SHOT at the samples.
     heat : (q, t) float64
         Logarithm of the heat kernel signature at the samples, for fixed times.
     positions : (q, 3) float64
+    marks : (l, q) float64
+        Geodesic distances from landmarks to the samples.
     """
 
     samples: Samples
@@ -62,6 +72,7 @@ class Probe:
     descriptors: np.ndarray | None
     heat: np.ndarray
     positions: np.ndarray
+    marks: np.ndarray
 
 
 @dataclass(frozen=True)
@@ -82,15 +93,10 @@ class Quality:
         mean of both directions. Less where the shapes have hardly any features.
     heat : float
         The same for the logarithm of the heat kernel signature, which knows thick from thin.
-    cycle : float
-        Mean distance between a source point and its image under source → target → source, in units of √area.
     coverage : float
         Part of the area that is the image of something, the smaller of both directions.
     laplacian : float
         ``‖C Λ_s − Λ_t C‖² / ‖C Λ_s‖²``; 1, as of unrelated shapes, for a map that carries constants alone.
-    smoothness : float
-        Dirichlet energy of the source's coordinates pulled back to the target, divided by their own on the source;
-        the mean of both directions.
     """
 
     orientation: float
@@ -98,10 +104,8 @@ class Quality:
     stretch: float
     descriptors: float
     heat: float
-    cycle: float
     coverage: float
     laplacian: float
-    smoothness: float
 
     @property
     def score(self) -> float:
@@ -117,22 +121,51 @@ class Quality:
         )
 
 
-def probe(shape: Shape, count: int = POINTS, rng: int | np.random.Generator = 0, threads: int | None = None) -> Probe:
-    """Sample ``count`` points of ``shape`` and work out what :func:`map_quality` compares."""
+def probe(
+    shape: Shape,
+    count: int = POINTS,
+    rng: int | np.random.Generator = 0,
+    threads: int | None = None,
+    landmarks: np.ndarray | None = None,
+) -> Probe:
+    """Sample ``count`` points of ``shape`` and work out what :func:`map_quality` compares.
+
+    ``landmarks (l,)``: vertices whose distances to the samples are wanted too.
+    """
     samples = spectral_samples(shape.basis, count, rng)
+    marked = np.zeros(0, dtype=np.int64) if landmarks is None else landmarks
     first = samples.vertices[:COARSE]
-    distances = geodesic_distances(shape.mesh, first)[:, first]
+    mesh, functions, rows = surface(shape, np.concatenate([samples.vertices, marked]))
+    wanted = np.concatenate([rows[: len(first)], rows[len(samples.vertices) :]])
+    distances = dijkstra(surface_graph(mesh, 1), indices=wanted)[:, rows[: len(samples.vertices)]]
     # Separate components are as far apart as the farthest points of one.
     joined = np.isfinite(distances)
     farthest = distances[joined].max() or float(np.linalg.norm(np.ptp(shape.mesh.vertices[first], axis=0)))
     distances = np.where(joined, distances, farthest)
     orientation = None
     if len(shape.mesh.faces):
-        low = shape.basis.truncated(min(LOW, shape.basis.functions.shape[1]))
-        orientation = orientation_slices(shape.mesh, low, shape.basis.functions[:, : 4 * WAVES], threads)
+        low = Basis(shape.basis.eigenvalues, functions[:, :OPERATORS], shape.basis.mass)
+        orientation = orientation_slices(mesh, low, functions[:, : 4 * WAVES], threads)
     local = None if shape.shot is None else shape.shot[samples.vertices]
     heat = np.log(np.maximum(to_numpy(heat_signature(samples.basis, TIMES)), 1e-12))
-    return Probe(samples, distances, orientation, local, heat, shape.mesh.vertices[samples.vertices])
+    return Probe(
+        samples,
+        distances[: len(first), : len(first)],
+        orientation,
+        local,
+        heat,
+        shape.mesh.vertices[samples.vertices],
+        distances[len(first) :],
+    )
+
+
+def surface(shape: Shape, wanted: np.ndarray) -> tuple[Mesh, np.ndarray, np.ndarray]:
+    """The surface itself or, of a large one, a coarse copy; the basis on it; and where the ``wanted`` vertices are."""
+    if len(shape.mesh.vertices) <= SURFACE:
+        return shape.mesh, to_numpy(shape.basis.functions), wanted
+    vertices = stratified_samples(shape.basis, SURFACE, 0, np.unique(wanted)).vertices
+    mesh = coarse(shape.mesh, vertices)
+    return mesh, to_numpy(shape.basis.functions)[vertices], np.searchsorted(vertices, wanted)
 
 
 def thinned(probe: Probe, count: int) -> Probe:
@@ -148,10 +181,11 @@ def thinned(probe: Probe, count: int) -> Probe:
     return replace(
         probe,
         samples=Samples(probe.samples.vertices[:count], few),
-        distances=probe.distances[:count, :count],
+        distances=probe.distances[: count // 2, : count // 2],
         descriptors=None if probe.descriptors is None else probe.descriptors[:count],
         heat=probe.heat[:count],
         positions=probe.positions[:count],
+        marks=probe.marks[:, :count],
     )
 
 
@@ -169,7 +203,6 @@ def map_quality(C: Array, source: Probe, target: Probe, points: np.ndarray | Non
     forth = nearest(carried, functions_t, threads=1)
     area_s, area_t = (to_numpy(b.mass) / float(b.mass.sum()) for b in (basis_s, basis_t))
     values_s, values_t = to_numpy(basis_s.eigenvalues), to_numpy(basis_t.eigenvalues)
-    moved = np.linalg.norm(source.positions[back[forth]] - source.positions, axis=1)
     distortion, stretch = _distortion(carried, functions_t, back, forth, source, target)
     commutator = C * values_s[None, :] - values_t[:, None] * C
     return Quality(
@@ -186,14 +219,8 @@ def map_quality(C: Array, source: Probe, target: Probe, points: np.ndarray | Non
             _difference(back, target.heat, source.heat, area_t, FLAT_HEAT)
             + _difference(forth, source.heat, target.heat, area_s, FLAT_HEAT)
         ),
-        cycle=float(moved @ area_s),
         coverage=float(min(area_s[np.unique(back)].sum(), area_t[np.unique(forth)].sum())),
         laplacian=_ratio((commutator**2).sum(), ((C * values_s[None, :]) ** 2).sum(), (values_s**2).sum(), 1.0),
-        smoothness=0.5
-        * (
-            _smoothness(back, basis_t.functions, area_t, values_t, source, values_s)
-            + _smoothness(forth, basis_s.functions, area_s, values_s, target, values_t)
-        ),
     )
 
 
@@ -208,7 +235,7 @@ def _ratio(part: float, whole: float, scale: float, otherwise: float) -> float:
 def _orientation(C: np.ndarray, source: Probe, target: Probe) -> float:
     if source.orientation is None or target.orientation is None:
         return 0.0
-    low = min(source.orientation.shape[1], target.orientation.shape[1], *C.shape)
+    low = min(LOW, source.orientation.shape[1], target.orientation.shape[1], *C.shape)
     waves = min(WAVES + 1, C.shape[1], len(source.orientation))
     rows = min(len(target.orientation), C.shape[0])
     square = C[:low, :low]
@@ -252,22 +279,3 @@ def _difference(
         return 0.0
     squares = ((there - here[points]) ** 2).sum(axis=1) @ area
     return float(squares / max(spread(there) + spread(here), 2 * flat))
-
-
-def _smoothness(
-    points: np.ndarray, functions: Array, area: np.ndarray, values: np.ndarray, other: Probe, own: np.ndarray
-) -> float:
-    """Dirichlet energy of ``other``'s coordinates pulled back along ``points``, over their own."""
-
-    def energy(phi: np.ndarray, weights: np.ndarray, x: np.ndarray, eigenvalues: np.ndarray) -> float:
-        scaled = phi * weights[:, None]
-        c = np.linalg.solve(scaled.T @ phi + 1e-3 * np.eye(phi.shape[1]), scaled.T @ x)
-        return float((eigenvalues[:, None] * c**2).sum())
-
-    basis = other.samples.basis
-    k = min(len(own), functions.shape[1])
-    weights = to_numpy(basis.mass) / float(basis.mass.sum())
-    before = energy(to_numpy(basis.functions)[:, :k], weights, other.positions, own[:k])
-    after = energy(to_numpy(functions)[:, :k], area, other.positions[points], values[:k])
-    size = float((other.positions**2).sum(axis=1) @ weights) * float(own[k - 1])
-    return _ratio(after, before, size, 1.0)

@@ -44,7 +44,7 @@ class Plan:
 
 
 def recommended(collection: ShapeFolder, pairs: Sequence[Pair], landmark_lines: bool, landmark_files: bool) -> Config:
-    """``Config()`` when every pair has landmarks, else ``Config.automatic()``, as ``match`` would choose."""
+    """``Config()``, one fit, when every pair has landmarks: a collection is many pairs; else ``Config.automatic()``."""
     named = {name for pair in pairs for name in (pair.source, pair.target)}
     known = landmark_lines or (landmark_files and named <= collection.landmarks.keys())
     return Config() if known else Config.automatic()

@@ -61,8 +61,8 @@ def landmarks(
     labels = [] if landmarks is None else read_landmark_names(landmarks)
     names = (source.stem, target.stem)
 
-    def chosen(pairs: np.ndarray) -> Config:
-        return settings.config(default_config(pairs))
+    def chosen(_: np.ndarray) -> Config:
+        return settings.config(default_config())
 
     chosen(pairs)  # what is wrong with the settings is said before the page opens
     matcher = Tryout(*shapes, names, (source, target), chosen)

@@ -71,10 +71,9 @@ def match(
     from kfmaps.app.summary import map_file, summary, table
     from kfmaps.matching import default_config
 
-    given = landmarks is not None, descriptors_source is not None or descriptors_target is not None
-    config = settings.config(default_config([[0, 0]] if given[0] else None, () if given[1] else None))
+    own_descriptors = descriptors_source is not None or descriptors_target is not None
+    config = settings.config(default_config(() if own_descriptors else None))
     config = _unrefined(config, settings) if raw else config
-    _warn_of_search(settings, given[0])
     check_device(config.device)
     known = read_truth(truth)
     pairs = None if landmarks is None else read_landmarks(landmarks, one_based=one_based)
@@ -167,13 +166,6 @@ def _unrefined(config: Config, settings: Chosen) -> Config:
     if asked is not None and asked.lower() != "none":
         raise refuse("--raw", "no refinement", f"--refine {asked} beside it", "leave one of the two out")
     return replace(config, refinement=None)
-
-
-def _warn_of_search(settings: Chosen, landmarks: bool) -> None:
-    for flag in ("--candidates", "--orientation"):
-        if landmarks and settings.flags.get(flag) is not None:
-            text = f"{flag} has no effect: the landmarks settle which way round the map goes"
-            warnings.warn(text, KfmapsWarning, stacklevel=2)
 
 
 def _check_landmarks(pairs: np.ndarray, meshes: tuple[Mesh, Mesh], paths: tuple[Path, Path]) -> None:

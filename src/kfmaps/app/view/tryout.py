@@ -37,7 +37,7 @@ class Tryout:
         target: Mesh,
         names: tuple[str, str],
         paths: tuple[Path, Path],
-        settings: Callable[[np.ndarray], Config] = default_config,
+        settings: Callable[[np.ndarray], Config] = lambda _: default_config(),
     ) -> None:
         self._meshes = (source, target)
         self._names = names

@@ -1,0 +1,130 @@
+"""Landmarks as evidence: they steer candidates, rank them, and are themselves judged by the best.
+
+A landmark may be wrong, so none is obeyed blindly: what each can cost a map is bounded, and those that the best map
+contradicts while it keeps to most of the others are named and left out of the rest.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from kfmaps._arrays import to_numpy
+from kfmaps.fit.shape import Shape
+from kfmaps.functional.guide import DIMENSIONS, Guide, guide
+from kfmaps.functional.points import nearest
+from kfmaps.surface.basis import Basis
+
+TIMES = (0.004, 0.02, 0.1)
+"""Diffusion times at unit area of the functions around a landmark: a hand, a limb, half of a body."""
+FAR = 0.3
+"""Distance, in units of √area, from which an image is simply wrong."""
+MISSED = 0.3
+"""Distance of a landmark's image from which the landmark is doubted, ..."""
+LEAD = 0.5
+"""Weight of landmarks beside that of SHOT in the refinement on all vertices."""
+KEPT = 0.6
+"""... if at least this part of all landmarks is nearer than :data:`MISSED`."""
+
+
+@dataclass(frozen=True, eq=False)
+class Marks:
+    """What landmarks say at the samples of both shapes; made by :func:`marks`.
+
+    Attributes
+    ----------
+    target : (l, k) float64
+        Rows of the target's basis at its landmarks.
+    distances : (l, q_s) float64
+        From each of the source's landmarks to its samples along the surface, in units of √area.
+    functions_s, functions_t : (l, q_s, t), (l, q_t, t) float64
+        Functions around each landmark at the samples, see :func:`around`.
+    """
+
+    target: np.ndarray
+    distances: np.ndarray
+    functions_s: np.ndarray
+    functions_t: np.ndarray
+
+    def thinned(self, q_s: int, q_t: int) -> Marks:
+        """Of the first samples."""
+        return Marks(
+            self.target,
+            self.distances[:, :q_s],
+            self.functions_s[:, :q_s],
+            self.functions_t[:, :q_t],
+        )
+
+    def without(self, doubted: np.ndarray) -> Marks:
+        """Of the other landmarks; ``doubted (l,)`` bool."""
+        kept = ~doubted
+        return Marks(*(getattr(self, name)[kept] for name in self.__dataclass_fields__))
+
+
+def around(points: Basis, basis: Basis, landmarks: np.ndarray) -> np.ndarray:
+    """Correlation of heat from each landmark with heat from each of ``points``, (l, q, t), from about 0 to 1.
+
+    ``h_t(p, x) / √(h_t(p, p) h_t(x, x))`` for the heat kernel h at :data:`TIMES`: 1 at the landmark, nearly free of
+    pose and of how thick the body is there. ``points`` are some of the points of ``basis``, whose vertices ``landmarks
+    (l,)`` are.
+    """
+    values, phi = to_numpy(basis.eigenvalues), to_numpy(points.functions)
+    here = to_numpy(basis.functions)[landmarks]
+    found = []
+    for time in TIMES:
+        decay = np.exp(-values * time)
+        own, theirs = (here**2) @ decay, (phi**2) @ decay
+        found.append(((here * decay) @ phi.T) / np.sqrt(np.outer(own, theirs)))
+    return np.stack(found, axis=2)
+
+
+def side_by_side(functions_s: np.ndarray, functions_t: np.ndarray) -> Guide:
+    """A guide of the functions ``(l, q, t)`` around landmarks; two random points differ by 1 on average."""
+    flat = [np.moveaxis(f, 0, 1).reshape(f.shape[1], -1) for f in (functions_s, functions_t)]
+    both = np.vstack(flat)
+    centred = both - both.mean(axis=0)
+    if centred.shape[1] > DIMENSIONS:
+        centred = centred @ np.linalg.eigh(centred.T @ centred)[1][:, ::-1][:, :DIMENSIONS]
+    centred = centred / np.sqrt(max(2 * (centred**2).sum(axis=1).mean(), 1e-300))
+    return Guide(centred[: len(flat[0])], centred[len(flat[0]) :])
+
+
+def joined(guides: list[tuple[float, Guide | None]]) -> Guide | None:
+    """One guide of several with weights, relative to the first that there is; its own weight is kept as 1."""
+    present = [(w, g) for w, g in guides if g is not None and w > 0]
+    if not present:
+        return None
+    scale = [np.sqrt(w / present[0][0]) for w, _ in present]
+    sides = [
+        [s * side for s, side in zip(scale, pair, strict=True)]
+        for pair in zip(*((g.source, g.target) for _, g in present), strict=True)
+    ]
+    return Guide(np.hstack(sides[0]), np.hstack(sides[1]))
+
+
+def missed(C: np.ndarray, functions_s: np.ndarray, found: Marks) -> np.ndarray:
+    """How far the image of each target landmark is from the source's, (l,), in units of √area.
+
+    ``functions_s (q_s, k)``: the source's basis at its samples. The other direction says less: the ends of limbs,
+    whose functions a map damps, have no image of their own there.
+    """
+    k_t, k_s = C.shape
+    back = nearest(found.target[:, :k_t], functions_s[:, :k_s] @ C.T, threads=1)
+    return found.distances[np.arange(len(back)), back]
+
+
+def doubted(distances: np.ndarray) -> np.ndarray:
+    """Which landmarks ``(l,)`` are contradicted by a map that keeps to most of them; none of fewer than three."""
+    wrong = distances > MISSED
+    few = len(distances) < 3 or (~wrong).mean() < KEPT
+    return np.zeros(len(distances), dtype=bool) if few else wrong
+
+
+def leading(source: Shape, target: Shape, landmarks: np.ndarray) -> Guide | None:
+    """SHOT and the ``landmarks (l, 2)`` on all vertices, for the refinement; ``None`` where there is neither."""
+    local = guide(source.shot, target.shot)
+    if len(landmarks) == 0:
+        return local
+    functions = [around(s.basis, s.basis, at) for s, at in zip((source, target), landmarks.T, strict=True)]
+    return joined([(1.0, local), (LEAD, side_by_side(*functions))])

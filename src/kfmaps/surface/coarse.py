@@ -1,0 +1,35 @@
+"""A coarse copy of a surface, for what may be a little inexact but must not grow with the mesh."""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.sparse.csgraph import dijkstra
+
+from kfmaps.surface.mesh import Mesh
+from kfmaps.surface.unfolding import surface_graph
+
+
+def coarse(mesh: Mesh, vertices: np.ndarray) -> Mesh:
+    """The triangulation of some ``vertices (q,)`` of ``mesh`` that is dual to the regions nearest to each.
+
+    Every vertex of the mesh belongs to the one of ``vertices`` that is nearest along edges; a face whose corners
+    belong to three becomes a face of these. With evenly spread vertices that is close to their geodesic Delaunay
+    triangulation; thin parts with few of them may lose faces. A point cloud stays one.
+
+    Returns
+    -------
+    Mesh
+        Its vertex i is ``vertices[i]``, with orientation kept.
+    """
+    if len(mesh.faces) == 0:
+        return Mesh(mesh.vertices[vertices], mesh.faces)
+    graph = surface_graph(mesh, 0)
+    owner = np.asarray(dijkstra(graph, indices=vertices, min_only=True, return_predecessors=True)[2])
+    number = np.full(len(mesh.vertices), -1, dtype=np.int64)
+    number[vertices] = np.arange(len(vertices))
+    found = np.where(owner >= 0, number[owner], -1)[mesh.faces]
+    a, b, c = found.T
+    found = found[(found >= 0).all(axis=1) & (a != b) & (b != c) & (c != a)]
+    # One face for each three, in the order of most of its originals, which rarely differ.
+    turned = np.take_along_axis(found, (found.argmin(axis=1)[:, None] + np.arange(3)) % 3, axis=1)
+    return Mesh(mesh.vertices[vertices], np.unique(turned, axis=0))

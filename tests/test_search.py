@@ -1,0 +1,204 @@
+"""The parts of a search: many refinements at once, families of fits, landmarks as evidence, coarse surfaces."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from conftest import blob
+from kfmaps.config import BasisConfig, Config, NystromConfig, Search
+from kfmaps.fit.fit import fit
+from kfmaps.fit.shape import prepare
+from kfmaps.functional.guide import guide
+from kfmaps.functional.points import nearest
+from kfmaps.functional.refine import ZoomOut
+from kfmaps.functional.solvers import CG
+from kfmaps.search.arena import arena, differences, ground, without
+from kfmaps.search.candidates import LANDMARK, again, fine, judged
+from kfmaps.search.choose import choose
+from kfmaps.search.fits import Fit, fitted_family, sampled
+from kfmaps.search.marks import around, doubted, joined, missed, side_by_side
+from kfmaps.search.quality import probe, surface
+from kfmaps.search.zoom import zoomed
+from kfmaps.surface.coarse import coarse
+from kfmaps.surface.geodesics import geodesic_distances
+from kfmaps.surface.mesh import Mesh, face_areas, unit_area, vertex_normals
+from kfmaps.surface.samples import spectral_samples
+
+SMALL = replace(
+    Config.automatic(),
+    basis=BasisConfig(functions=40),
+    descriptors=replace(Config.automatic().descriptors, eigenfunctions=90, shot_radius=0.15),
+    nystrom=NystromConfig(samples=100),
+    refinement=ZoomOut(50, 90, 10, guidance=36.0),
+    search=Search(candidates=2, signs=3),
+    threads=2,
+)
+
+
+@pytest.fixture(scope="module")
+def shape():
+    return prepare(blob(700), SMALL, name="blob")
+
+
+@pytest.fixture(scope="module")
+def other():
+    return prepare(blob(650, twist=0.4), SMALL, name="other")
+
+
+@pytest.fixture(scope="module")
+def truth(shape, other):
+    return nearest(other.mesh.vertices, shape.mesh.vertices)
+
+
+def marks_of(truth, rows):
+    rows = np.asarray(rows)
+    return np.stack([truth[rows], rows], axis=1)
+
+
+@pytest.mark.parametrize("weight", [0.0, 12.0])
+def test_many_maps_at_once_are_refined_as_one_is(shape, other, weight):
+    a, b = (spectral_samples(s.basis, 200) for s in (shape, other))
+    led = guide(shape.mesh.vertices[a.vertices], other.mesh.vertices[b.vertices])
+    assert led is not None
+    rng = np.random.default_rng(0)
+    starts = np.stack([np.diag([1.0, *signs]) for signs in rng.choice([-1.0, 1.0], size=(7, 5))])
+    against = np.float32(weight) * differences(led) if weight else None
+    maps, points = zoomed(starts, a.basis, b.basis, (6, 14, 22, 30), against, threads=2)
+    for C, here, start in zip(maps, points, starts, strict=True):
+        one = ZoomOut(6, 30, 8, guidance=weight)(start, a.basis, b.basis, threads=1, guide=led)
+        np.testing.assert_allclose(C, one.functional_map, atol=2e-3)
+        assert (here != one.target_to_source).mean() < 0.02
+
+
+def test_a_family_makes_the_maps_that_single_fits_make(shape, other):
+    """Leading blocks of one large problem, against problems of their own; orientation is tried apart."""
+    settings = replace(
+        SMALL,
+        descriptors=replace(SMALL.descriptors, count=30),
+        compression=1e-9,
+        solver=CG(rtol=1e-9),
+        weights=replace(SMALL.weights, orientation=0.0),
+    )
+    none = np.zeros((0, 2), dtype=np.int64)
+    points = sampled(shape, other, none, None)
+    wanted = [Fit("SHOT and waves", k, 0.0) for k in (30, 12)]
+    maps = fitted_family("SHOT and waves", wanted, points, settings, (None, None), 3)
+    for chosen, C in zip(wanted, maps, strict=True):
+        assert C.shape == (chosen.functions, chosen.functions)
+        alone = fit(shape, other, replace(settings, basis=BasisConfig(functions=chosen.functions)), rng=3)
+        assert np.linalg.norm(C - alone.functional_map) < 0.03 * np.linalg.norm(C)
+
+
+def test_the_orientation_of_a_family_turns_its_maps(shape, other):
+    none = np.zeros((0, 2), dtype=np.int64)
+    points = sampled(shape, other, none, None)
+    probes = probe(shape, 200), probe(other, 200)
+    cubes = probes[0].orientation, probes[1].orientation
+    assert cubes[1] is not None
+    maps = [
+        fitted_family("waves", [Fit("waves", 20, w)], points, SMALL, c, 0)[0]
+        for w, c in ((1.0, cubes), (1.0, (cubes[0], -cubes[1])), (0.0, cubes))
+    ]
+    on = ground(*probes)
+    kept, turned, free = (c.quality.orientation for c in judged([("", True)] * 3, np.stack(maps), None, on))
+    assert kept > 0.8
+    assert kept > turned + 0.3
+    assert kept >= free - 1e-6
+
+
+def test_heat_from_landmarks_is_one_at_the_landmark_and_nowhere_more(shape):
+    at = np.array([3, 77])
+    found = around(shape.basis, shape.basis, at)
+    assert found.shape == (2, 700, 3)
+    np.testing.assert_allclose(found[[0, 1], at], 1.0)
+    assert found.max() <= 1 + 1e-12
+    places = side_by_side(found, found)
+    gaps = ((places.source[:, None] - places.target[None]) ** 2).sum(axis=2).mean()
+    assert gaps == pytest.approx(1.0)
+
+
+def test_guides_are_joined_in_proportion_to_their_weights(shape):
+    first, second = (side_by_side(*[around(shape.basis, shape.basis, np.array([v]))] * 2) for v in (5, 300))
+    both = joined([(12.0, first), (3.0, second)])
+    assert both is not None
+    gap = ((both.source[1] - both.target[2]) ** 2).sum()
+    parts = [((g.source[1] - g.target[2]) ** 2).sum() for g in (first, second)]
+    assert gap == pytest.approx(parts[0] + parts[1] / 4)
+    assert joined([(12.0, None), (0.0, second)]) is None
+
+
+def test_landmarks_are_doubted_when_most_of_the_others_are_met():
+    near, far = 0.02, 0.9
+    assert doubted(np.array([near, near, far, near, near])).tolist() == [False, False, True, False, False]
+    assert not doubted(np.array([far, near])).any()
+    assert not doubted(np.array([far, far, near, near, far])).any()
+
+
+def test_missed_is_the_distance_from_where_a_landmark_belongs(shape):
+    at = np.array([10, 200, 400])
+    wrong = np.array([10, 200, 5])
+    judge = probe(shape, 300, landmarks=at)
+    on = arena(shape, shape, (judge, judge), np.stack([at, wrong], axis=1))
+    assert on.whole.marks is not None
+    off = missed(np.eye(60), judge.samples.basis.functions, on.whole.marks)
+    true = geodesic_distances(shape.mesh, at[2:])[0, 5]
+    assert off[:2].max() < 0.1
+    assert off[2] == pytest.approx(true, abs=0.1)
+    one = judged([("", True)], np.eye(60)[None], None, on.whole)[0]
+    assert one.quality.score - one.score == pytest.approx(LANDMARK, rel=0.3)
+    less = without(on.whole, np.array([False, False, True]))
+    assert again([one], less)[0].missed.shape == (2,)
+    assert len(fine([one], less, 90)[0].missed) == 2
+
+
+def test_no_landmarks_are_an_empty_list_of_them(shape, other):
+    with_none, with_empty = (choose(shape, other, SMALL, landmarks=marks) for marks in (None, []))
+    np.testing.assert_array_equal(with_none.functional_map, with_empty.functional_map)
+    assert with_none.scores == with_empty.scores
+
+
+def test_wrong_landmarks_are_named_and_spoil_nothing(shape, other, truth):
+    marks = marks_of(truth, [10, 120, 240, 360, 480, 600])
+    marks[3, 0] = truth[11]
+    found = choose(shape, other, SMALL, landmarks=marks)
+    assert found.doubted.tolist() == [3]
+    np.testing.assert_array_equal(found.landmarks, np.delete(marks, 3, axis=0))
+    right = choose(shape, other, SMALL, landmarks=np.delete(marks, 3, axis=0))
+    phi = other.basis.functions[:, : len(found.functional_map)].copy()
+    images = [shape.basis.functions[:, : len(phi.T)] @ f.functional_map.T for f in (found, right)]
+    moved = [shape.mesh.vertices[nearest(phi, i)] - other.mesh.vertices for i in images]
+    errors = [np.linalg.norm(m, axis=1).mean() for m in moved]
+    assert errors[0] < 0.05
+    assert errors[0] < errors[1] + 0.01
+
+
+def test_a_coarse_surface_has_the_distances_and_the_sides_of_the_fine_one():
+    mesh = unit_area(blob(3000))
+    basis = prepare(mesh, replace(SMALL, descriptors=replace(SMALL.descriptors, shot=False))).basis
+    vertices = np.sort(spectral_samples(basis, 500).vertices)
+    few = coarse(mesh, vertices)
+    np.testing.assert_array_equal(few.vertices, mesh.vertices[vertices])
+    assert face_areas(few).sum() == pytest.approx(1.0, rel=0.05)
+    true = geodesic_distances(mesh, vertices[:20])[:, vertices]
+    found = geodesic_distances(few, np.arange(20))
+    assert np.abs(found - true).mean() < 0.03 * true.mean()
+    sides = (vertex_normals(few) * vertex_normals(mesh)[vertices]).sum(axis=1)
+    assert sides.min() > 0.5
+    cloud = Mesh(mesh.vertices, np.zeros((0, 3), dtype=int))
+    assert len(coarse(cloud, vertices).faces) == 0
+
+
+def test_a_large_shape_is_judged_on_a_coarse_copy(monkeypatch):
+    shape = prepare(blob(1500), SMALL)
+    whole = probe(shape, 200, landmarks=np.array([7]))
+    monkeypatch.setattr("kfmaps.search.quality.SURFACE", 900)
+    assert len(surface(shape, np.arange(10))[0].vertices) < 950
+    less = probe(shape, 200, landmarks=np.array([7]))
+    np.testing.assert_array_equal(less.samples.vertices, whole.samples.vertices)
+    for a, b in ((less.distances, whole.distances), (less.marks, whole.marks)):
+        assert np.abs(a - b).mean() < 0.03 * b.mean()
+    assert less.orientation is not None
+    assert whole.orientation is not None
+    change = np.linalg.norm(less.orientation - whole.orientation) / np.linalg.norm(whole.orientation)
+    assert change < 0.2
