@@ -66,7 +66,7 @@ def test_pytorch_agrees_with_numpy(name, pair):
 def test_the_work_is_done_on_the_device(pair, monkeypatch):
     """The solver, the largest part, sees tensors."""
     seen = []
-    from kfmaps.fit import fit as pipeline
+    from kfmaps.functional import objective as pipeline
 
     original = pipeline.solve
 

@@ -11,7 +11,7 @@ from conftest import blob, random_basis
 from kfmaps.config import BasisConfig, Config, Search
 from kfmaps.descriptors.spectral import heat_signature, heat_times, normalised, wave_energies, wave_signature
 from kfmaps.fit.features import Features
-from kfmaps.fit.problem import orientation_term, principal
+from kfmaps.fit.problem import orientation_pair, principal
 from kfmaps.fit.shape import Shape, prepare
 from kfmaps.functional.confidence import local_confidence
 from kfmaps.functional.refine import ICP, ZoomOut, fitted
@@ -210,7 +210,8 @@ def test_constant_features_have_no_orientation(shape):
     constant = np.arange(1, 9) / 7 * (1 + 1e-15 * np.random.default_rng(1).normal(size=(500, 8)))
     bases = shape.basis.truncated(K), shape.basis.truncated(K)
     strongest = principal(bases, Features(constant, constant, Gaussian(1.0)), 40)
-    term = orientation_term((shape, shape), (shape, shape), bases, strongest, K, 50.0)
+    pair = orientation_pair((shape, shape), (shape, shape), bases, strongest, K, 50.0)
+    term = slice_term(*pair, parity=-1)
     assert value(term, np.random.default_rng(0).normal(size=(K, K))) == 0
 
 

@@ -18,7 +18,7 @@ from kfmaps.app.settings.document import updated
 from kfmaps.app.settings.merge import preset, read_settings, with_assignments, with_flags
 from kfmaps.app.settings.options import Chosen, with_settings
 from kfmaps.app.settings.toml import settings_text
-from kfmaps.config import RECORDS, Config, NystromConfig, Search, Weights, as_dict
+from kfmaps.config import RECORDS, Config, Formulation, NystromConfig, Search, Weights, as_dict
 from kfmaps.functional.refine import ICP, ZoomOut
 from kfmaps.functional.solvers import CG, Direct
 from kfmaps.kernel.kernels import KERNELS, Gaussian, Laplacian, Linear, Polynomial, Product, Sum, Tanh
@@ -52,6 +52,13 @@ REACHED: list[tuple[list[str], str, Any]] = [
     (["--weight-descriptors", "9"], "weights.descriptors", 9.0),
     (["--weight-commutativity", "0"], "weights.commutativity", 0.0),
     (["--weight-orientation", "0.5"], "weights.orientation", 0.5),
+    (["--constraint", "orthogonal"], "formulation.constraint", "orthogonal"),
+    (["--directions", "both"], "formulation.directions", "both"),
+    (["--loss", "huber"], "formulation.loss", "huber"),
+    (["--loss", "l21", "--loss-per", "descriptor"], "formulation.loss_per", "descriptor"),
+    (["--sparsity", "0.1"], "formulation.sparsity", 0.1),
+    (["--mask", "resolvent"], "formulation.mask", "resolvent"),
+    (["--bases", "coupled"], "formulation.bases", "coupled"),
     (["--solver", "direct"], "solver", Direct()),
     (["--rtol", "1e-3"], "solver.rtol", 1e-3),
     (["--max-steps", "44"], "solver.max_steps", 44),
@@ -121,7 +128,7 @@ def paths(record: type) -> set[str]:
 
 def test_the_catalogue_knows_every_setting() -> None:
     """A new field must be added to app/settings/catalogue.py, and one that is gone taken out."""
-    sections = {"basis", "descriptors", "nystrom", "weights"}
+    sections = {"basis", "descriptors", "nystrom", "weights", "formulation"}
     unions = {"kernel": KERNELS, "solver": (CG, Direct), "refinement": (ZoomOut, ICP), "search": (Search,)}
     wanted = paths(Config) - sections - unions.keys()
     for section in sections:
@@ -150,6 +157,12 @@ def test_assignment_reaches_every_setting(path: str) -> None:
         "descriptors.layout": "every-nth",
         "descriptors.normalisation": "row",
         "nystrom.sampling": "uniform",
+        "formulation.constraint": "orthogonal",
+        "formulation.directions": "both",
+        "formulation.loss": "geman",
+        "formulation.loss_per": "feature",
+        "formulation.mask": "resolvent",
+        "formulation.bases": "coupled",
         "preconditioner": "none",
         "search.orientation": "reversed",
         "search.signs": 7,
@@ -177,10 +190,11 @@ CONFIGS = [
     Config(kernel=Polynomial(3, 0.5), solver=CG(1e-7, None), threads=3, search=Search(2, "reversed"), device="cuda:0"),
     Config(refinement=ZoomOut(10, 20, 2, None), exact=True, weights=Weights(1e-30, 1e20, 0.1 + 0.2, 3)),
     Config(nystrom=NystromConfig(rtol=0.0), kernel=Laplacian(1 / 3)),
+    Config(formulation=Formulation("orthogonal", "both", 0.3, 2.0, "huber", "feature", 0.7, 1e-3, "resolvent", 0.6)),
 ]
 
 
-@pytest.mark.parametrize("base", [Config(), CONFIGS[6]], ids=["default", "another"])
+@pytest.mark.parametrize("base", [Config(), CONFIGS[len(PRESETS) + 1]], ids=["default", "another"])
 @pytest.mark.parametrize("config", CONFIGS, ids=range(len(CONFIGS)))
 def test_settings_file_round_trip(config: Config, base: Config, tmp_path: Path) -> None:
     """What is written is read back identically, whatever it is laid over."""
@@ -275,6 +289,9 @@ WRONG: list[tuple[list[str], str, str]] = [
     (["--preset", "best"], "--preset", "no17"),
     (["--paper", "--preset", "no17"], "--paper", "one preset"),
     (["--alpha", "-1", "--basis", "50"], "--alpha", "at least zero"),
+    (["--loss", "cubic"], "--loss", "huber"),
+    (["--loss", "huber", "--loss-per", "feature", "--exact"], "--", "loss per feature"),
+    (["--sparsity", "-1"], "--sparsity", "at least zero"),
     (["--set", "alpha"], "--set", "NAME=VALUE"),
     (["--set", "=3"], "--set", "NAME=VALUE"),
     (["--set", "weights.alpha=1"], "--set weights.alpha", "descriptors, commutativity, laplacian"),

@@ -13,6 +13,7 @@ from kfmaps.app.files import write_mesh as write_mesh
 from kfmaps.config import BasisConfig as BasisConfig
 from kfmaps.config import Config as Config
 from kfmaps.config import DescriptorConfig as DescriptorConfig
+from kfmaps.config import Formulation as Formulation
 from kfmaps.config import NystromConfig as NystromConfig
 from kfmaps.config import Search as Search
 from kfmaps.config import Weights as Weights

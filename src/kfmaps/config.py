@@ -8,13 +8,15 @@ from typing import Any, Literal, get_args
 from kfmaps import _records
 from kfmaps._arrays import check_count, check_positive, refuse
 from kfmaps.descriptors.spectral import NORMALISATIONS, Normalisation
+from kfmaps.functional.losses import LOSSES, LossName
+from kfmaps.functional.objective import CONSTRAINTS, Constraint, Preconditioner
 from kfmaps.functional.refine import Refinement, ZoomOut
 from kfmaps.functional.solvers import CG, Solver
+from kfmaps.functional.terms import MASKS, Mask
 from kfmaps.kernel.kernels import KERNELS, Gaussian, KernelLike, Linear, describe
 
 Sampling = Literal["descriptor", "geodesic", "uniform", "cholesky", "random-cholesky", "squared-cholesky"]
 SAMPLINGS: tuple[str, ...] = get_args(Sampling)
-Preconditioner = Literal["none", "jacobi", "sylvester"]
 
 
 def _choice(value: str, name: str, options: tuple[str, ...]) -> None:
@@ -119,6 +121,85 @@ class Weights:
                 )
 
 
+LossPer = Literal["landmark", "descriptor", "feature"]
+
+
+@dataclass(frozen=True)
+class Formulation:
+    """What is asked of the map beside least squares; by default nothing. See docs/formulations.md.
+
+    Attributes
+    ----------
+    constraint : "none" or "orthogonal"
+        Orthogonal maps keep areas (:mod:`kfmaps.functional.constraints`).
+    directions : "one" or "both"
+        Both maps at once, tied to each other (:func:`kfmaps.functional.objective.coupled_pair`).
+    inverse, adjoint : float
+        Weights of that tie: each map the other's inverse, each the other's adjoint. As that of ``sparsity`` they are in
+        units of the mean diagonal of the energy's operator.
+    loss : "squared", "huber", "l21" or "geman"
+        Of the data (:mod:`kfmaps.functional.losses`).
+    loss_per : "landmark", "descriptor" or "feature"
+        Whose residuals the loss is of. Landmarks and descriptors are weighed before the kernel
+        (:mod:`kfmaps.fit.robust`), features, which are the kernel's, after.
+    loss_width : float
+        Scale of the loss, in medians of the residuals of least squares.
+    sparsity : float
+        Weight of the entries' absolute values, growing away from the diagonal; 0 for none.
+    mask : "squared" or "resolvent"
+        How Laplacian commutativity weighs entries (:func:`kfmaps.functional.energy.laplacian_term`).
+    mask_power : float
+        Power of the Laplacian in the resolvent.
+    bases : "own" or "coupled"
+        Whether Laplacian commutativity and sparsity are asked for in coupled bases
+        (:mod:`kfmaps.functional.coupled`), which the map without them speaks for.
+    coupling : float
+        Weight of that map against diagonal Laplacians in the choice of the bases.
+    rounds : int
+        At most, of reweighting and of both directions in turn.
+    """
+
+    constraint: Constraint = "none"
+    directions: Literal["one", "both"] = "one"
+    inverse: float = 1.0
+    adjoint: float = 1.0
+    loss: LossName = "squared"
+    loss_per: LossPer = "landmark"
+    loss_width: float = 1.0
+    sparsity: float = 0.0
+    mask: Mask = "squared"
+    mask_power: float = 0.5
+    bases: Literal["own", "coupled"] = "own"
+    coupling: float = 1.0
+    rounds: int = 20
+
+    def __post_init__(self) -> None:
+        _choice(self.constraint, "constraint", CONSTRAINTS)
+        _choice(self.directions, "directions", ("one", "both"))
+        _choice(self.loss, "loss", LOSSES)
+        _choice(self.loss_per, "loss per", get_args(LossPer))
+        _choice(self.mask, "mask", MASKS)
+        _choice(self.bases, "bases", ("own", "coupled"))
+        for name in ("inverse", "adjoint", "sparsity"):
+            if not 0 <= getattr(self, name) < float("inf"):
+                raise refuse(name, "a finite number of at least zero", repr(getattr(self, name)), "use 0 to omit")
+        if self.directions == "both" and not (self.inverse or self.adjoint):
+            raise refuse("inverse and adjoint", "one of them above zero", "both 0", "nothing ties the two directions")
+        for name in ("loss_width", "mask_power", "coupling"):
+            check_positive(getattr(self, name), name)
+        check_count(self.rounds, "rounds")
+
+    @property
+    def weighs_data(self) -> bool:
+        """Whether landmarks or descriptors are weighed before the kernel."""
+        return self.loss != "squared" and self.loss_per != "feature"
+
+    @property
+    def weighs_features(self) -> bool:
+        """Whether features of the kernel are weighed."""
+        return self.loss != "squared" and self.loss_per == "feature"
+
+
 @dataclass(frozen=True)
 class Search:
     """How to find the map without landmarks; see :mod:`kfmaps.search.choose`.
@@ -153,6 +234,8 @@ class Config:
         The whole kernel in row blocks (equations 8 and 10 to 12) instead of its Nyström features; slow.
     sharpness : float
         For a kernel without explicit γ, see :func:`kfmaps.kernel.kernels.resolved`.
+    formulation : Formulation
+        What is asked of the map beside least squares.
     compression : float
         Part of the slices' squared norm that may be left out, see :func:`kfmaps.functional.slices.compressed`.
     preconditioner : "sylvester", "jacobi" or "none"
@@ -176,6 +259,7 @@ class Config:
     nystrom: NystromConfig = field(default_factory=NystromConfig)
     exact: bool = False
     weights: Weights = field(default_factory=Weights)
+    formulation: Formulation = field(default_factory=Formulation)
     compression: float = 1e-3
     solver: Solver = field(default_factory=lambda: CG(rtol=1e-6, max_steps=1000))
     preconditioner: Preconditioner = "sylvester"
@@ -194,6 +278,14 @@ class Config:
             check_count(self.fit_samples, "fit_samples", low=2)
         if self.threads is not None:
             check_count(self.threads, "threads")
+        if self.formulation.weighs_features:
+            if self.exact:
+                raise refuse(
+                    "loss per feature", "features", "the exact kernel, which has none", "take it per descriptor"
+                )
+            if not self.weights.descriptors:
+                remedy = "raise it, or take the loss per descriptor"
+                raise refuse("loss per feature", "a weight of descriptor preservation above zero", "0", remedy)
 
     @property
     def eigenfunctions(self) -> int:
@@ -252,6 +344,50 @@ class Config:
         method is better than this.
         """
         return replace(cls.no17(), weights=Weights(descriptors=0.1, commutativity=0.0, laplacian=1e-12))
+
+    @classmethod
+    def published(cls, formulation: Formulation) -> Config:
+        """``formulation`` with a linear kernel and nothing but descriptors and the Laplacian, as its authors had it.
+
+        Sizes, descriptors and weights are those of :meth:`obcs12` with α = 1, so that presets differ in the formulation
+        alone, and from a run with ``kernel=Gaussian()`` in the kernel alone.
+        """
+        return replace(cls.no17(), weights=Weights(1.0, 0.0, 1.0), formulation=formulation)
+
+    @classmethod
+    def kovnatsky13(cls) -> Config:
+        """Kovnatsky et al. (2013), Coupled quasi-harmonic bases: a fit in coupled bases."""
+        return cls.published(Formulation(bases="coupled"))
+
+    @classmethod
+    def pokrass13(cls) -> Config:
+        """Pokrass et al. (2013), Sparse modeling of intrinsic correspondences: few entries, near the diagonal."""
+        return cls.published(Formulation(sparsity=0.01))
+
+    @classmethod
+    def kovnatsky15(cls) -> Config:
+        """Kovnatsky et al. (2015), Functional correspondence by matrix completion: their L2,1 loss per descriptor."""
+        return cls.published(Formulation(loss="l21", loss_per="descriptor"))
+
+    @classmethod
+    def kovnatsky16(cls) -> Config:
+        """Kovnatsky et al. (2016), MADMM: the L2,1 loss over orthogonal maps."""
+        return cls.published(Formulation(constraint="orthogonal", loss="l21", loss_per="descriptor"))
+
+    @classmethod
+    def eynard16(cls) -> Config:
+        """Eynard et al. (2016), Coupled functional maps: both directions, each the other's inverse."""
+        return cls.published(Formulation(directions="both", inverse=1.0, adjoint=0.0))
+
+    @classmethod
+    def huang17(cls) -> Config:
+        """Huang and Ovsjanikov (2017), Adjoint map representation: both directions, each the other's adjoint."""
+        return cls.published(Formulation(directions="both", inverse=0.0, adjoint=1.0))
+
+    @classmethod
+    def ren19(cls) -> Config:
+        """Ren et al. (2019), Structured regularization: NO17 with the resolvent mask, γ = 0.5."""
+        return replace(cls.no17(), formulation=Formulation(mask="resolvent", mask_power=0.5))
 
 
 RECORDS = {kind.__name__: kind for kind in (*KERNELS, *get_args(Refinement), *get_args(Solver), Search)}

@@ -7,16 +7,17 @@ from typing import Any
 
 import numpy as np
 
-from kfmaps._arrays import refuse
+from kfmaps._arrays import check, refuse
 from kfmaps._progress import Progress
 from kfmaps._threads import available_cores, parallel
 from kfmaps.config import Config
-from kfmaps.fit.border import border
+from kfmaps.fit.border import Border, border
 from kfmaps.fit.finish import finished
 from kfmaps.fit.fit import Fit, fit
 from kfmaps.fit.shape import Shape, prepare
 from kfmaps.fit.stages import Clock
 from kfmaps.functional.confidence import local_confidence
+from kfmaps.functional.extended import carried
 from kfmaps.search.choose import Found, choose, mirror_image
 from kfmaps.search.marks import leading
 from kfmaps.surface.eigen.pencil import THREADED
@@ -61,6 +62,12 @@ class Match:
         Of a search: the distinct other maps, best first.
     doubted : (d,) int64
         Of a search with landmarks: the numbers, from 0, of those that the map contradicts; they had no say.
+    source_to_target : (n_s,) int64 or None
+        A target vertex for each source vertex, where ``config.formulation`` asks for both directions.
+    map_back : (k_s, k_t) float64 or None
+        Its functional map.
+    border : Border or None
+        Both shapes, for :meth:`transfer`.
     """
 
     target_to_source: np.ndarray
@@ -79,6 +86,30 @@ class Match:
     scores: tuple[float, ...] = ()
     runners_up: tuple[np.ndarray, ...] = ()
     doubted: np.ndarray = field(default_factory=lambda: np.zeros(0, dtype=np.int64))
+    source_to_target: np.ndarray | None = None
+    map_back: np.ndarray | None = None
+    border: Border | None = None
+
+    def transfer(self, values: Any, products: int | None = 20) -> np.ndarray:
+        """Functions ``values (n_s, d)`` or ``(n_s,)`` on the source, carried to the target by the functional map.
+
+        ``products`` of the first basis functions with each other are carried too, beyond what the map alone can; see
+        :func:`kfmaps.functional.extended.carried`. Labels, which are no functions, go by points:
+        ``values[match.target_to_source]``.
+
+        Raises
+        ------
+        InvalidInput
+            When there is not one row per source vertex.
+        """
+        across = self.border
+        if across is None:
+            raise refuse("transfer", "a match with its shapes", "one without", "match them again")
+        values = np.asarray(values, dtype=np.float64)
+        n = len(across.part_s.number)
+        check(values, "values", shape=(n, *(None,) * (values.ndim - 1)), remedy="give one row per source vertex")
+        bases = (across.source.basis, across.target.basis)
+        return carried(values[across.part_s.kept], self.functional_map, *bases, products)[across.part_t.number]
 
 
 def match(
@@ -140,8 +171,14 @@ def match(
         one = fit(shapes[0], shapes[1], config, landmarks=marks, **more)
         clock.seconds.update(one.seconds)
         found = Found(one.functional_map, ONE_FIT, one, "unchecked" if marks is None else "landmarks")
-    one = found.origin == ONE_FIT
-    end = finished(found.functional_map, shapes[0], shapes[1], config, raw=one, led=led, progress=progress)
+    single = found.origin == ONE_FIT
+    back = None
+    if config.formulation.directions == "both":
+        # The adjoint, where a search has found the map: its candidates are refined one way.
+        back = found.fit.back if single and found.fit is not None else found.functional_map.T
+    end = finished(
+        found.functional_map, shapes[0], shapes[1], config, raw=single, led=led, back=back, progress=progress
+    )
     clock.seconds.update(end.seconds)
     with clock("confidence"):
         trust = local_confidence(shapes[0].mesh, shapes[1].mesh, end.target_to_source)
@@ -163,6 +200,9 @@ def match(
         scores=found.scores,
         runners_up=tuple(across.points(points) for points in found.runners_up),
         doubted=found.doubted,
+        source_to_target=None if end.source_to_target is None else across.points_back(end.source_to_target),
+        map_back=end.map_back,
+        border=across,
     )
 
 

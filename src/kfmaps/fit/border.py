@@ -76,6 +76,10 @@ class Border:
         """A point map inside as one outside, (n_t,)."""
         return self.part_s.kept[target_to_source][self.part_t.number]
 
+    def points_back(self, source_to_target: np.ndarray) -> np.ndarray:
+        """A point map back inside as one outside, (n_s,)."""
+        return self.part_t.kept[source_to_target][self.part_s.number]
+
     def trust(self, confidence: np.ndarray) -> np.ndarray:
         """Confidence inside (m_t,) as outside (n_t,): none in vertices that lie on no surface."""
         return np.where(self.part_t.loose, 0.0, confidence[self.part_t.number])

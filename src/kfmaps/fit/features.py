@@ -26,13 +26,20 @@ from kfmaps.kernel.select import farthest, pivoted_cholesky, uniform
 from kfmaps.surface.basis import Basis
 from kfmaps.surface.geodesics import farthest_geodesic
 
+EVERY = 200
+"""Energies of the signature and of each landmark in the layout "every-nth"."""
+
 
 @dataclass(frozen=True, eq=False)
 class Descriptors:
-    """Normalised descriptors ``source (n_s, d)`` and ``target (n_t, d)``."""
+    """Normalised descriptors ``source (n_s, d)`` and ``target (n_t, d)``, and whose ``landmark (d,)`` each is.
+
+    Landmarks are counted from 0; a descriptor of none has −1.
+    """
 
     source: Array
     target: Array
+    landmark: np.ndarray
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,6 +74,7 @@ def pair_descriptors(
     size = min(config.eigenfunctions, *(b.functions.shape[1] for b in bases))
     small = (bases[0].truncated(size), bases[1].truncated(size))
     sides = [spectral_descriptors(i, small, config, landmarks[:, i]) for i in (0, 1)]
+    whose = landmark_of_each(config, len(landmarks))
     if given is not None:
         for i, shape in enumerate((source, target)):
             name = f"descriptors of {shape.name}"
@@ -92,7 +100,9 @@ def pair_descriptors(
         remedy = "turn on a signature, SHOT or landmarks, or give descriptors"
         raise refuse("descriptors", "at least one", "none", remedy)
     xp = namespace(blocks[0][0])
-    return Descriptors(*(xp.concat([b[i] for b in blocks], axis=1) for i in (0, 1)))
+    D_s, D_t = (xp.concat([b[i] for b in blocks], axis=1) for i in (0, 1))
+    others = np.full(D_s.shape[1] - len(whose), -1)
+    return Descriptors(D_s, D_t, np.concatenate([whose, others]))
 
 
 def spectral_descriptors(
@@ -105,19 +115,40 @@ def spectral_descriptors(
         return []
     if config.layout == "every-nth":
         return [_every_nth(side, bases, config, landmarks)]
-    if not with_signature:
-        per_landmark, on_signature = max(1, config.count // marks), 0
-    elif marks == 0:
-        per_landmark, on_signature = 0, config.count
-    else:
-        per_landmark = max(1, int((1 - config.signature_share) * config.count) // marks)
-        on_signature = max(config.count - per_landmark * marks, 0)
+    on_signature, per_landmark = _shares(config, marks)
     parts = []
     if on_signature:
         parts.append(_family(config.signature, bases[side], bases, None, on_signature))
     if per_landmark and marks:
         parts.append(_family(config.landmark_map, bases[side], bases, landmarks, per_landmark))
     return parts
+
+
+def _shares(config: DescriptorConfig, marks: int) -> tuple[int, int]:
+    """How many descriptors go to the signature and to each of ``marks`` landmarks."""
+    if config.signature == "none":
+        return 0, max(1, config.count // marks)
+    if marks == 0:
+        return config.count, 0
+    per_landmark = max(1, int((1 - config.signature_share) * config.count) // marks)
+    return max(config.count - per_landmark * marks, 0), per_landmark
+
+
+def landmark_of_each(config: DescriptorConfig, landmarks: int) -> np.ndarray:
+    """The landmark that each of the spectral descriptors is of, counted from 0, (d,); −1 for the signature."""
+    marks = landmarks if config.landmark_map != "none" else 0
+    if marks == 0 and config.signature == "none":
+        return np.zeros(0, dtype=np.int64)
+    if config.layout == "every-nth":
+        signature = 0 if config.signature == "none" else EVERY
+        return (_chosen(signature + EVERY * marks, config.count) - signature) // EVERY
+    on_signature, per_landmark = _shares(config, marks)
+    return np.concatenate([np.full(on_signature, -1), np.repeat(np.arange(marks), per_landmark)])
+
+
+def _chosen(total: int, count: int) -> np.ndarray:
+    """Every n-th of ``total``, ``count`` at most."""
+    return np.arange(0, total, max(1, total // count))[:count]
 
 
 def _family(kind: str, basis: Basis, bases: tuple[Basis, ...], landmarks: np.ndarray | None, count: int) -> Array:
@@ -135,14 +166,12 @@ def _every_nth(side: int, bases: tuple[Basis, ...], config: DescriptorConfig, la
     parts = (
         []
         if config.signature == "none"
-        else spectral_descriptors(side, bases, replace(whole, count=200), landmarks[:0])
+        else spectral_descriptors(side, bases, replace(whole, count=EVERY), landmarks[:0])
     )
     if len(landmarks) and config.landmark_map != "none":
-        parts.append(_family(config.landmark_map, bases[side], bases, landmarks, 200))
+        parts.append(_family(config.landmark_map, bases[side], bases, landmarks, EVERY))
     everything = namespace(*parts).concat(parts, axis=1)
-    total = everything.shape[1]
-    chosen = np.arange(0, total, max(1, total // config.count))[: config.count]
-    return take(everything, chosen, axis=1)
+    return take(everything, _chosen(everything.shape[1], config.count), axis=1)
 
 
 def resolved_kernel(descriptors: Descriptors, config: Config, rng: np.random.Generator) -> KernelLike:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any
 
@@ -14,9 +14,11 @@ from kfmaps._threads import one_blas_thread
 from kfmaps.config import Config
 from kfmaps.fit.shape import Shape
 from kfmaps.fit.stages import Clock
+from kfmaps.functional.bijective import zoomed_both
 from kfmaps.functional.guide import Guide, guide
 from kfmaps.functional.points import to_points
-from kfmaps.functional.refine import ZoomOut
+from kfmaps.functional.refine import ICP, ZoomOut
+from kfmaps.surface.basis import Basis
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,12 +34,18 @@ class Finished:
     raw_target_to_source : (n_t,) int64 or None
         The point map before the refinement, where it was asked for or there is none.
     seconds : dict of str to float
+    source_to_target : (n_s,) int64 or None
+        A target vertex for each source vertex, where a map back was given.
+    map_back : (k_s, k_t) float64 or None
+        Its functional map.
     """
 
     target_to_source: np.ndarray
     functional_map: np.ndarray
     raw_target_to_source: np.ndarray | None
     seconds: dict[str, float]
+    source_to_target: np.ndarray | None = None
+    map_back: np.ndarray | None = None
 
 
 def finished(
@@ -48,12 +56,14 @@ def finished(
     *,
     raw: bool = True,
     led: Guide | None = None,
+    back: Any = None,
     progress: Progress | None = None,
 ) -> Finished:
     """The points of ``C (k_t, k_s)`` on all vertices, refined as ``config.refinement`` says.
 
     ``raw`` asks for the point map before the refinement too. What guides a refinement that wants guidance is ``led``
-    or, without it, SHOT, where both shapes have it.
+    or, without it, SHOT, where both shapes have it. With a map ``back (k_s, k_t)`` both are finished: ZoomOut refines
+    them together (:mod:`kfmaps.functional.bijective`), ICP each by itself.
     """
     clock = Clock(progress)
     bases = (source.basis, target.basis)
@@ -66,8 +76,18 @@ def finished(
                 points = to_points(C, *bases, threads=config.threads)
         if config.refinement is None:
             assert points is not None
-            return Finished(points, to_numpy(C), points, clock.seconds)
+            found = Finished(points, to_numpy(C), points, clock.seconds)
+            if back is None:
+                return found
+            back = like(back, bases[0].functions)
+            return replace(
+                found,
+                source_to_target=to_points(back, bases[1], bases[0], threads=config.threads),
+                map_back=to_numpy(back),
+            )
         refine = config.refinement
+        if back is not None:
+            return _finished_both(C, like(back, C), (source, target), bases, config, points, clock, led)
         if isinstance(refine, ZoomOut) and refine.guidance:
             refine = partial(refine, guide=led or guide(source.shot, target.shot))
         with clock("refinement"):
@@ -79,3 +99,37 @@ def finished(
                 points=points,
             )
     return Finished(refined.target_to_source, to_numpy(refined.functional_map), points, clock.seconds)
+
+
+def _finished_both(
+    C: Any,
+    back: Any,
+    shapes: tuple[Shape, Shape],
+    bases: tuple[Basis, Basis],
+    config: Config,
+    points: np.ndarray | None,
+    clock: Clock,
+    led: Guide | None,
+) -> Finished:
+    """Both maps refined; see :func:`finished`."""
+    refine = config.refinement
+
+    def told(done: float) -> None:
+        clock.report("refinement", done)
+
+    with clock("refinement"):
+        if isinstance(refine, ZoomOut):
+            guiding = led or guide(shapes[0].shot, shapes[1].shot) if refine.guidance else None
+            forth, other = zoomed_both(refine, C, back, *bases, told, config.threads, guiding)
+        else:
+            assert isinstance(refine, ICP)
+            forth = refine(C, *bases, progress=told, threads=config.threads, points=points)
+            other = refine(back, bases[1], bases[0], threads=config.threads)
+    return Finished(
+        forth.target_to_source,
+        to_numpy(forth.functional_map),
+        points,
+        clock.seconds,
+        other.target_to_source,
+        to_numpy(other.functional_map),
+    )

@@ -1,28 +1,27 @@
-"""One fit: descriptors, kernel features, energy, conjugate gradients.
+"""One fit: descriptors, kernel features, energy, the minimiser.
 
 What comes after it, points and their refinement, is in :mod:`kfmaps.fit.finish`.
 """
 
 from __future__ import annotations
 
-import warnings
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
-from kfmaps._arrays import KfmapsWarning, check, like, refuse, to_numpy
+from kfmaps._arrays import check, refuse, to_numpy
 from kfmaps._progress import Progress
 from kfmaps._threads import one_blas_thread
 from kfmaps.config import Config
 from kfmaps.descriptors.spectral import check_landmarks
 from kfmaps.fit.features import Descriptors, pair_descriptors
 from kfmaps.fit.problem import problem
+from kfmaps.fit.robust import believed
 from kfmaps.fit.shape import Reduced, Shape, reduced
+from kfmaps.fit.solve import solved
 from kfmaps.fit.stages import Clock
-from kfmaps.functional.energy import Energy
-from kfmaps.functional.preconditioners import jacobi, sylvester
-from kfmaps.functional.solvers import CG, Solution, solve
+from kfmaps.functional.solvers import Solution
 from kfmaps.kernel.kernels import describe
 from kfmaps.surface.basis import Basis
 
@@ -49,6 +48,10 @@ class Fit:
         Of this fit; a search makes fits of other sizes than that of the match.
     seconds : dict of str to float
         Per stage.
+    back : (k, k) float64 or None
+        The map from target to source, where both directions were fitted.
+    weights : (g,) float64 or None
+        How far each landmark or descriptor was believed, 0 to 1, under a robust loss of them.
     """
 
     functional_map: np.ndarray
@@ -59,6 +62,8 @@ class Fit:
     kernel: str
     config: Config
     seconds: dict[str, float]
+    back: np.ndarray | None = None
+    weights: np.ndarray | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -72,11 +77,14 @@ class Points:
     bases : pair of Basis
         Theirs, on the device where the work is done.
     descriptors : Descriptors
+    weights : (g,) float64 or None
+        By which the descriptors of each landmark, or each descriptor, are scaled under a robust loss.
     """
 
     shapes: tuple[Shape, Shape]
     bases: tuple[Basis, Basis]
     descriptors: Descriptors
+    weights: np.ndarray | None = None
 
 
 def checked_landmarks(landmarks: Any, source: Shape, target: Shape) -> np.ndarray:
@@ -147,16 +155,18 @@ def fit(
         with clock("energy"):
             task = problem(*points.shapes, points.bases, points.descriptors, config, rng, (source, target))
         with clock("solve"):
-            solution = minimised(task.energy, config, clock.report, start)
+            found = solved(task, config, clock.report, start)
     return Fit(
-        functional_map=to_numpy(solution.value),
-        solution=solution,
-        energies=task.energy.breakdown(solution.value),
+        functional_map=to_numpy(found.solution.value),
+        solution=found.solution,
+        energies=found.energies,
         rank=task.rank,
         slices=task.slices,
         kernel=describe(task.kernel),
         config=config,
         seconds=clock.seconds,
+        back=None if found.back is None else to_numpy(found.back),
+        weights=points.weights,
     )
 
 
@@ -173,7 +183,11 @@ def fit_points(
     if descriptors is not None:
         descriptors = _on_samples(descriptors, parts, shapes)
     small, on = (parts[0].shape, parts[1].shape), (bases[0], bases[1])
-    return Points(small, on, pair_descriptors(*small, on, config.descriptors, marks, descriptors))
+    used = pair_descriptors(*small, on, config.descriptors, marks, descriptors)
+    if not config.formulation.weighs_data:
+        return Points(small, on, used)
+    weighed = believed(used, on, config)
+    return Points(small, on, weighed.descriptors, weighed.weights)
 
 
 def _on_samples(given: tuple[Any, Any], parts: list[Reduced], shapes: tuple[Shape, Shape]) -> tuple[Any, Any]:
@@ -185,33 +199,3 @@ def _on_samples(given: tuple[Any, Any], parts: list[Reduced], shapes: tuple[Shap
         check(values, f"descriptors of {shape.name}", shape=(n, None), remedy="give one row per vertex")
         rows.append(values[part.vertices])
     return rows[0], rows[1]
-
-
-def minimised(energy: Energy, config: Config, report: Progress, start: Any = None) -> Solution:
-    """The minimiser of ``energy`` by the solver of ``config``, from ``start`` where one is given."""
-    right = energy.rhs()
-    if start is not None:
-        start = np.asarray(to_numpy(start) if hasattr(start, "shape") else start, dtype=np.float64)
-        check(start, "start", shape=tuple(right.shape), remedy="give a functional map of the size of the basis")
-        start = like(start, right)
-    precondition = None
-    if config.preconditioner == "jacobi":
-        precondition = jacobi(energy.diagonal())
-    elif config.preconditioner == "sylvester":
-        precondition = sylvester(energy)
-    limit = config.solver.max_steps if isinstance(config.solver, CG) else None
-
-    def told(step: int, relative: float) -> None:
-        if limit is not None and isinstance(config.solver, CG):
-            # Whichever criterion is nearer to being met.
-            by_size = np.log(max(relative, 1e-300)) / np.log(max(config.solver.rtol, 1e-16))
-            report("solve", float(np.clip(max(step / limit, by_size), 0.0, 1.0)))
-
-    solution = solve(energy.apply, right, config.solver, start, precondition, told)
-    if solution.status == "breakdown":
-        text = (
-            f"the solver broke down after {solution.steps} steps: the energy is not positive definite or a number is "
-            "not finite, and the map is not its minimiser. Raise weights.laplacian, or look at kernel and descriptors"
-        )
-        warnings.warn(text, KfmapsWarning, stacklevel=3)
-    return solution

@@ -1,12 +1,13 @@
-"""The energy of a pair of shapes, made from its descriptors as a configuration says."""
+"""The energies of a pair of shapes, made from its descriptors as a configuration says."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
-from kfmaps._arrays import inner, like, refuse, to_numpy
+from kfmaps._arrays import Array, inner, like, refuse, to_numpy
 from kfmaps.config import Config
 from kfmaps.fit.features import Descriptors, Features, kernel_features, resolved_kernel
 from kfmaps.fit.shape import Shape
@@ -32,12 +33,72 @@ ORIENTATION_FEATURES = 40
 
 @dataclass(frozen=True, eq=False)
 class Problem:
-    """The energy of a pair and what it was made from."""
+    """What two shapes tell a map between them, in either direction; made by :func:`problem`.
 
-    energy: Energy
-    rank: int
-    slices: int
+    Attributes
+    ----------
+    config : Config
+    bases : pair of Basis
+        As large as the map, on the device of the work.
+    kernel : kernel
+        With every γ a number.
+    descriptors : Descriptors
+    features : Features or None
+        ``None`` with the exact kernel.
+    multiplications, orientations : pair of arrays (r, k, k), or None
+        Slices of the operators that the map should commute with, on source and target.
+    """
+
+    config: Config
+    bases: tuple[Basis, Basis]
     kernel: KernelLike
+    descriptors: Descriptors
+    features: Features | None = None
+    multiplications: tuple[Array, Array] | None = None
+    orientations: tuple[Array, Array] | None = None
+
+    @property
+    def rank(self) -> int:
+        """Features of the kernel; of an exact one all points."""
+        sides = (self.descriptors.source, self.descriptors.target)
+        return sum(D.shape[0] for D in sides) if self.features is None else int(self.features.source.shape[1])
+
+    @property
+    def slices(self) -> int:
+        """Multiplication slices left after compression."""
+        return 0 if self.multiplications is None else int(self.multiplications[0].shape[0])
+
+    @cached_property
+    def energy(self) -> Energy:
+        """The energy of the map from source to target."""
+        return self._energy(0, 1)
+
+    @cached_property
+    def reverse(self) -> Energy:
+        """The energy of the map from target to source."""
+        return self._energy(1, 0)
+
+    def _energy(self, s: int, t: int) -> Energy:
+        weights, small = self.config.weights, self.bases
+        masked = self.config.formulation
+        terms: dict[str, Term] = {
+            "laplacian": laplacian_term(small[s], small[t], mask=masked.mask, power=masked.mask_power)
+        }
+        if self.features is None:
+            D = (self.descriptors.source, self.descriptors.target)
+            arguments = (self.kernel, small[s], D[s], small[t], D[t])
+            if weights.descriptors:
+                terms["descriptors"] = kernel_descriptor_term(*arguments)
+            if weights.commutativity:
+                terms["commutativity"] = hadamard_term(*arguments)
+        elif weights.descriptors:
+            F = (self.features.source, self.features.target)
+            terms["descriptors"] = descriptor_term(small[s], F[s], small[t], F[t])
+        if self.multiplications is not None:
+            terms["commutativity"] = slice_term(self.multiplications[s], self.multiplications[t])
+        if self.orientations is not None:
+            terms["orientation"] = slice_term(self.orientations[s], self.orientations[t], parity=-1)
+        return Energy(terms, {name: getattr(weights, name) for name in terms})
 
 
 def problem(
@@ -49,52 +110,39 @@ def problem(
     rng: np.random.Generator,
     whole: tuple[Shape, Shape] | None = None,
 ) -> Problem:
-    """The energy that ``config`` describes, ready to be minimised.
+    """What ``config`` asks a map to keep: kernel, features and slices, from which energies are made.
 
     ``bases`` are of at least the map's size and on the device of ``descriptors``. Where ``source`` and ``target`` are
     samples of shapes (:func:`kfmaps.fit.shape.reduced`), ``whole`` are those shapes: orientation needs their faces.
     """
     small = (bases[0].truncated(config.basis.functions), bases[1].truncated(config.basis.functions))
     weights = config.weights
-    terms: dict[str, Term] = {"laplacian": laplacian_term(*small)}
     if config.exact:
-        kernel = resolved_kernel(descriptors, config, rng)
-        arguments = (kernel, small[0], descriptors.source, small[1], descriptors.target)
-        rank, slices = descriptors.source.shape[0] + descriptors.target.shape[0], 0
-        if weights.descriptors:
-            terms["descriptors"] = kernel_descriptor_term(*arguments)
-        if weights.commutativity:
-            terms["commutativity"] = hadamard_term(*arguments)
         if weights.orientation:
             raise refuse("orientation weight", "0 with the exact kernel", str(weights.orientation), "use features")
-    else:
-        features = kernel_features(source, target, descriptors, config, rng)
-        kernel, rank, slices, size = features.kernel, int(features.source.shape[1]), 0, 0.0
-        if weights.descriptors:
-            terms["descriptors"] = descriptor_term(small[0], features.source, small[1], features.target)
-        if weights.commutativity:
-            formed = (features.source, features.target)
-            if config.compression:
-                share = CONDENSATION * config.compression
-                formed = condensed(small[0], formed[0], small[1], formed[1], share)
-            packed_s, packed_t = (
-                packed_slices(b, F, threads=config.threads) for b, F in zip(small, formed, strict=True)
-            )
-            if config.compression:
-                packed_s, packed_t = compressed(packed_s, packed_t, config.compression)
-            slices = int(packed_s.shape[0])
-            size = inner(packed_s, packed_s) + inner(packed_t, packed_t)
-            terms["commutativity"] = slice_term(unpacked_slices(packed_s), unpacked_slices(packed_t))
-        if weights.orientation:
-            strongest = principal(small, features, ORIENTATION_FEATURES)
-            size = size or 2.0 * small[0].functions.shape[1]
-            shapes = (source, target)
-            k = config.basis.functions
-            terms["orientation"] = orientation_term(shapes, whole or shapes, bases, strongest, k, size, config.threads)
-    return Problem(Energy(terms, {name: getattr(weights, name) for name in terms}), rank, slices, kernel)
+        return Problem(config, small, resolved_kernel(descriptors, config, rng), descriptors)
+    features = kernel_features(source, target, descriptors, config, rng)
+    multiplications, orientations, size = None, None, 0.0
+    if weights.commutativity:
+        formed = (features.source, features.target)
+        if config.compression:
+            share = CONDENSATION * config.compression
+            formed = condensed(small[0], formed[0], small[1], formed[1], share)
+        packed_s, packed_t = (packed_slices(b, F, threads=config.threads) for b, F in zip(small, formed, strict=True))
+        if config.compression:
+            packed_s, packed_t = compressed(packed_s, packed_t, config.compression)
+        size = inner(packed_s, packed_s) + inner(packed_t, packed_t)
+        multiplications = (unpacked_slices(packed_s), unpacked_slices(packed_t))
+    if weights.orientation:
+        strongest = principal(small, features, ORIENTATION_FEATURES)
+        size = size or 2.0 * small[0].functions.shape[1]
+        shapes = (source, target)
+        k = config.basis.functions
+        orientations = orientation_pair(shapes, whole or shapes, bases, strongest, k, size, config.threads)
+    return Problem(config, small, features.kernel, descriptors, features, multiplications, orientations)
 
 
-def orientation_term(
+def orientation_pair(
     shapes: tuple[Shape, Shape],
     whole: tuple[Shape, Shape],
     bases: tuple[Basis, Basis],
@@ -102,10 +150,10 @@ def orientation_term(
     k: int,
     size: float,
     threads: int | None = None,
-) -> Term:
-    """Commutativity with ``Ω_w[g] = n · (∇w × ∇g)`` for each of ``features``, ``k`` × ``k`` (Ren et al. 2018).
+) -> tuple[Array, Array]:
+    """Slices of ``Ω_w[g] = n · (∇w × ∇g)`` for each of ``features``, ``k`` × ``k``, of both shapes (Ren et al. 2018).
 
-    The operators change sign under a mirror, so the term prefers maps that keep orientation. Their summed squared
+    The operators change sign under a mirror, so maps that commute with them keep orientation. Their summed squared
     norm is scaled to ``size``, that of the multiplication operators, so that the weights of both terms compare.
     Features on samples are continued to the ``whole`` shapes by what of them lies in the basis.
     """
@@ -116,7 +164,7 @@ def orientation_term(
         slices.append(like(orientation_slices(all_of_it.mesh, basis.truncated(k), F, threads), features.source))
     total = sum(inner(X, X) for X in slices)
     scale = (size / total) ** 0.5 if total else 0.0
-    return slice_term(slices[0] * scale, slices[1] * scale, parity=-1)
+    return slices[0] * scale, slices[1] * scale
 
 
 def principal(bases: tuple[Basis, Basis], features: Features, count: int) -> Features:

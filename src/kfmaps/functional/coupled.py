@@ -14,6 +14,8 @@ import numpy as np
 
 from kfmaps._arrays import Array, check, namespace
 from kfmaps.functional.constraints import nearest_orthogonal
+from kfmaps.functional.losses import Penalty
+from kfmaps.functional.terms import Term
 from kfmaps.surface.basis import Basis
 
 
@@ -115,3 +117,56 @@ def _rotated(basis: Basis, U: Array) -> Basis:
     xp = namespace(U)
     values = basis.eigenvalues[:k]
     return Basis(xp.sum(U * (values[:, None] * U), axis=0), basis.functions[:, :k] @ U, basis.mass)
+
+
+@dataclass(frozen=True, eq=False)
+class Seen:
+    """A term of the map as it is in coupled bases, ``C ↦ term(U_tᵀ C U_s)``; made by :func:`seen`."""
+
+    term: Term
+    U_t: Array
+    U_s: Array
+
+    def apply(self, C: Array) -> Array:
+        return self.U_t @ self.term.apply(self.U_t.T @ C @ self.U_s) @ self.U_s.T
+
+    def rhs(self) -> Array:
+        return self.U_t @ self.term.rhs() @ self.U_s.T
+
+    def diagonal(self) -> Array:
+        return self.term.rotated_diagonal(self.U_t.T, self.U_s.T)
+
+    def constant(self) -> float:
+        return self.term.constant()
+
+    def sides(self) -> tuple[Array, Array]:
+        S_t, S_s = self.term.sides()
+        return self.U_t @ S_t @ self.U_t.T, self.U_s @ S_s @ self.U_s.T
+
+    def rotated_diagonal(self, U_t: Array, U_s: Array) -> Array:
+        return self.term.rotated_diagonal(self.U_t.T @ U_t, self.U_s.T @ U_s)
+
+
+def seen(term: Term, U_t: Array, U_s: Array) -> Seen:
+    """``term`` of the map between the bases rotated by ``U_t`` and ``U_s``, as a term of the map itself."""
+    return Seen(term, U_t, U_s)
+
+
+@dataclass(frozen=True, eq=False)
+class SeenPenalty:
+    """A penalty of the map as it is in coupled bases; made by :func:`seen_penalty`."""
+
+    penalty: Penalty
+    U_t: Array
+    U_s: Array
+
+    def value(self, C: Array) -> float:
+        return self.penalty.value(self.U_t.T @ C @ self.U_s)
+
+    def majorizer(self, C: Array) -> Term:
+        return Seen(self.penalty.majorizer(self.U_t.T @ C @ self.U_s), self.U_t, self.U_s)
+
+
+def seen_penalty(penalty: Penalty, U_t: Array, U_s: Array) -> SeenPenalty:
+    """``penalty`` of the map between the bases rotated by ``U_t`` and ``U_s``, as a penalty of the map itself."""
+    return SeenPenalty(penalty, U_t, U_s)

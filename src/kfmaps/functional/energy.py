@@ -95,6 +95,13 @@ class Energy:
             {**self.weights, **{name: weight for name, (weight, _) in more.items()}},
         )
 
+    def without(self, name: str) -> Energy:
+        """The energy without the term of that name, if it has one."""
+        return Energy(
+            {other: term for other, term in self.terms.items() if other != name},
+            {other: weight for other, weight in self.weights.items() if other != name},
+        )
+
     def breakdown(self, C: Array) -> dict[str, float]:
         """Weighted value of each term at ``C``; they add up to ``value(self, C)``."""
         return {name: weight * value(self.terms[name], C) if weight else 0.0 for name, weight in self.weights.items()}

@@ -137,6 +137,29 @@ CATALOGUE: dict[str, tuple[Setting, ...]] = {
         ),
         Setting("compression", float, "part of the slices' squared norm that may be left out", "0 to below 1"),
     ),
+    "Formulation": (
+        Setting("formulation.constraint", str, "what the map must be", "none, orthogonal", "--constraint"),
+        Setting(
+            "formulation.directions",
+            str,
+            "whether both maps are fitted, tied to each other",
+            "one, both",
+            "--directions",
+        ),
+        Setting("formulation.inverse", float, "weight of each map being the other's inverse", "at least 0"),
+        Setting("formulation.adjoint", float, "weight of each map being the other's adjoint", "at least 0"),
+        Setting("formulation.loss", str, "loss of the data", "squared, huber, l21, geman", "--loss"),
+        Setting(
+            "formulation.loss_per", str, "whose residuals the loss is of", "landmark, descriptor, feature", "--loss-per"
+        ),
+        Setting("formulation.loss_width", float, "scale of the loss, in medians of the residuals", "above 0"),
+        Setting("formulation.sparsity", float, "weight of entries far from the diagonal", "at least 0", "--sparsity"),
+        Setting("formulation.mask", str, "how Laplacian commutativity weighs entries", "squared, resolvent", "--mask"),
+        Setting("formulation.mask_power", float, "power of the Laplacian in the resolvent", "above 0"),
+        Setting("formulation.bases", str, "bases that the Laplacians meet in", "own, coupled", "--bases"),
+        Setting("formulation.coupling", float, "weight of the map in the choice of coupled bases", "above 0"),
+        Setting("formulation.rounds", int, "rounds of reweighting and of both directions", "at least 1"),
+    ),
     "Solver": (
         Setting("solver.kind", str, "conjugate gradients, or dense for small bases", "cg, direct", "--solver"),
         Setting("solver.rtol", float, "relative residual at which CG stops", "at least 0", "--rtol", ("CG",)),
@@ -199,4 +222,11 @@ PRESETS: dict[str, str] = {
     "paper": "the paper's section 7",
     "no17": "Nogneng and Ovsjanikov 2017: no kernel",
     "obcs12": "Ovsjanikov et al. 2012: no kernel, descriptors only",
+    "kovnatsky13": "coupled bases, no kernel",
+    "pokrass13": "a sparse map, no kernel",
+    "kovnatsky15": "a robust loss per descriptor, no kernel",
+    "kovnatsky16": "the same over orthogonal maps, no kernel",
+    "eynard16": "both directions, each the other's inverse, no kernel",
+    "huang17": "both directions, each the other's adjoint, no kernel",
+    "ren19": "NO17 with the resolvent mask",
 }

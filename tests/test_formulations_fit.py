@@ -1,0 +1,249 @@
+"""Every formulation in whole matches: alone, combined, with and without landmarks, in every form of the kernel."""
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from conftest import blob
+from kfmaps._arrays import InvalidInput
+from kfmaps.config import BasisConfig, Config, DescriptorConfig, Formulation, NystromConfig, Search, Weights
+from kfmaps.fit.fit import fit
+from kfmaps.fit.shape import prepare
+from kfmaps.functional.evaluate import geodesic_errors
+from kfmaps.functional.points import nearest
+from kfmaps.functional.refine import ICP, ZoomOut
+from kfmaps.functional.solvers import CG, Direct
+from kfmaps.kernel.kernels import Gaussian, Linear, Polynomial
+from kfmaps.matching import match
+from kfmaps.surface.mesh import Mesh
+
+SMALL = Config(
+    basis=BasisConfig(functions=12),
+    descriptors=DescriptorConfig(count=12, eigenfunctions=30),
+    nystrom=NystromConfig(samples=40),
+    solver=CG(rtol=1e-6, max_steps=500),
+    refinement=None,
+    threads=1,
+)
+FORMULATIONS = {
+    "orthogonal": Formulation(constraint="orthogonal"),
+    "both": Formulation(directions="both"),
+    "robust landmarks": Formulation(loss="geman"),
+    "robust descriptors": Formulation(loss="huber", loss_per="descriptor"),
+    "robust features": Formulation(loss="huber", loss_per="feature", rounds=5),
+    "sparse": Formulation(sparsity=0.05),
+    "resolvent": Formulation(mask="resolvent"),
+    "coupled": Formulation(bases="coupled"),
+    "all": Formulation(
+        "orthogonal", "both", 0.5, 0.5, "huber", "feature", 1.0, 0.02, "resolvent", bases="coupled", rounds=3
+    ),
+}
+
+
+@pytest.fixture(scope="module")
+def shape():
+    return prepare(blob(300), SMALL, name="blob")
+
+
+@pytest.fixture(scope="module")
+def other():
+    return prepare(blob(260, twist=0.4), SMALL, name="other")
+
+
+@pytest.fixture(scope="module")
+def truth(shape, other):
+    """The source vertex nearest to each of the target's, one shape being another meshing of the other."""
+    return nearest(other.mesh.vertices, shape.mesh.vertices)
+
+
+def pairs(truth, rows):
+    return np.stack([truth[rows], rows], axis=1)
+
+
+@pytest.fixture(scope="module")
+def marks(truth):
+    return pairs(truth, np.array([5, 60, 120, 180, 230]))
+
+
+def with_(name, **more):
+    return replace(SMALL, formulation=FORMULATIONS[name], **more)
+
+
+@pytest.mark.parametrize("name", FORMULATIONS)
+@pytest.mark.parametrize(
+    "more",
+    [
+        {"kernel": Linear()},
+        {"kernel": Polynomial(2)},
+        {"device": "torch"},
+        {"exact": True},
+        {"solver": Direct()},
+        {"weights": Weights(orientation=0.1)},
+    ],
+    ids=["linear", "polynomial", "torch", "exact", "direct", "orientation"],
+)
+def test_every_formulation_with_every_form_of_the_kernel(shape, other, marks, truth, name, more):
+    if more == {"device": "torch"}:
+        pytest.importorskip("torch")
+    if more == {"exact": True} and FORMULATIONS[name].weighs_features:
+        with pytest.raises(InvalidInput, match="loss per feature"):
+            with_(name, **more)
+        return
+    found = fit(shape, other, with_(name, **more), landmarks=marks)
+    assert np.isfinite(found.functional_map).all()
+    assert (found.back is not None) == (FORMULATIONS[name].directions == "both")
+    if FORMULATIONS[name].constraint == "orthogonal":
+        np.testing.assert_allclose(found.functional_map.T @ found.functional_map, np.eye(12), atol=1e-8)
+    points = match(shape, other, with_(name, **more), landmarks=marks).target_to_source
+    everywhere = np.arange(len(points))
+    assert geodesic_errors(shape.mesh, points[everywhere], truth).mean() < 0.2
+
+
+@pytest.mark.parametrize("name", FORMULATIONS)
+def test_equal_shapes_give_the_identity(shape, marks, name):
+    same = np.stack([marks[:, 0], marks[:, 0]], axis=1)
+    found = match(shape, shape, with_(name), landmarks=same)
+    assert (found.target_to_source == np.arange(300)).mean() > 0.95
+    if found.source_to_target is not None:
+        assert (found.source_to_target == np.arange(300)).mean() > 0.95
+
+
+def test_nothing_asked_is_what_was_before_to_the_last_digit(shape, other, marks):
+    """Weights of zero, rounds, and a loss that is squared change no digit."""
+    plain = fit(shape, other, SMALL, landmarks=marks).functional_map
+    nothing = Formulation(loss="squared", loss_per="feature", sparsity=0.0, rounds=3, loss_width=9.0, coupling=7.0)
+    np.testing.assert_array_equal(
+        fit(shape, other, replace(SMALL, formulation=nothing), landmarks=marks).functional_map, plain
+    )
+
+
+def test_weak_formulations_come_close_to_least_squares(shape, other, marks):
+    config = replace(SMALL, solver=CG(rtol=1e-10, max_steps=2000), kernel=Gaussian(1.0))
+    plain = fit(shape, other, config, landmarks=marks).functional_map
+    for weak in (
+        Formulation(sparsity=1e-9),
+        Formulation(directions="both", inverse=1e-9, adjoint=1e-9),
+        Formulation(loss="huber", loss_per="feature", loss_width=1e9),
+    ):
+        found = fit(shape, other, replace(config, formulation=weak), landmarks=marks).functional_map
+        np.testing.assert_allclose(found, plain, atol=1e-5)
+
+
+@pytest.mark.parametrize("name", ["orthogonal", "both", "robust descriptors", "sparse", "coupled"])
+def test_permuted_vertices_permute_the_answer(shape, other, marks, name):
+    rng = np.random.default_rng(0)
+    order = rng.permutation(260)
+    place = np.argsort(order)
+    mesh = Mesh(other.mesh.vertices[order], place[other.mesh.faces])
+    # Every vertex a sample, so that the draw of samples does not depend on their order.
+    config = with_(name, nystrom=NystromConfig(samples=2000), kernel=Gaussian(1.0))
+    moved = np.stack([marks[:, 0], place[marks[:, 1]]], axis=1)
+    one = match(shape, other, config, landmarks=marks)
+    two = match(shape, prepare(mesh, SMALL), config, landmarks=moved)
+    assert (two.target_to_source == one.target_to_source[order]).mean() > 0.98
+
+
+def test_swapping_the_shapes_swaps_both_maps(shape, other, marks):
+    config = with_("both", refinement=ZoomOut(8, 30, 4), kernel=Linear())
+    forth = match(shape, other, config, landmarks=marks)
+    back = match(other, shape, config, landmarks=marks[:, ::-1])
+    assert forth.source_to_target is not None
+    assert (forth.source_to_target == back.target_to_source).mean() > 0.9
+    assert forth.source_to_target.shape == (300,)
+    assert forth.map_back is not None
+    np.testing.assert_allclose(forth.map_back, forth.functional_map.T, atol=1e-12)
+
+
+def test_both_directions_agree_more_than_one_at_a_time(shape, other, marks):
+    def cycle(forth, back):
+        there = geodesic_errors(shape.mesh, forth[back], np.arange(300)).mean()
+        return there + geodesic_errors(other.mesh, back[forth], np.arange(260)).mean()
+
+    for refinement in (None, ZoomOut(8, 30, 4), ICP(3)):
+        config = replace(SMALL, refinement=refinement)
+        apart = [
+            match(*order, config, landmarks=m)
+            for order, m in (((shape, other), marks), ((other, shape), marks[:, ::-1]))
+        ]
+        tied = match(shape, other, replace(config, formulation=FORMULATIONS["both"]), landmarks=marks)
+        free = cycle(apart[0].target_to_source, apart[1].target_to_source)
+        assert cycle(tied.target_to_source, tied.source_to_target) <= 1.05 * free
+
+
+@pytest.mark.parametrize("kernel", [Linear(), Gaussian()], ids=["linear", "gaussian"])
+def test_wrong_landmarks_are_found_out(shape, other, truth, kernel):
+    rows = np.unique(truth, return_index=True)[1][3::9][:20]
+    marks = pairs(truth, rows)
+    wrong = marks.copy()
+    bad = np.array([2, 5, 8, 11, 14, 17])
+    wrong[bad, 0] = marks[np.roll(bad, 1), 0]
+    config = replace(SMALL, kernel=kernel, descriptors=replace(SMALL.descriptors, count=60))
+    robust = replace(config, formulation=Formulation(loss="geman"))
+    found = fit(shape, other, robust, landmarks=wrong)
+    assert found.weights is not None
+    assert found.weights.shape == (20,)
+    assert found.weights[bad].max() < 0.5 * np.median(np.delete(found.weights, bad))
+
+    def error(config, landmarks):
+        points = match(shape, other, config, landmarks=landmarks).target_to_source
+        return geodesic_errors(shape.mesh, points, truth).mean()
+
+    assert error(robust, wrong) < 1.3 * error(robust, marks)
+    assert error(robust, wrong) < error(config, wrong)
+
+
+def test_loss_per_landmark_needs_landmarks(shape, other):
+    with pytest.raises(InvalidInput, match="loss per landmark: wanted landmarks"):
+        fit(shape, other, with_("robust landmarks"))
+
+
+def test_every_layout_knows_its_landmarks(shape, other, marks):
+    for more in ({"layout": "every-nth"}, {"signature": "none"}, {"landmark_map": "heat", "count": 31}):
+        config = with_("robust landmarks", descriptors=replace(SMALL.descriptors, **{"count": 60, **more}))
+        found = fit(shape, other, config, landmarks=marks)
+        assert found.weights is not None
+        assert found.weights.shape == (5,)
+
+
+def test_a_search_fits_in_any_formulation(shape, other):
+    config = Config.automatic()
+    config = replace(
+        config,
+        basis=BasisConfig(functions=12),
+        descriptors=replace(SMALL.descriptors, count=12),
+        refinement=ZoomOut(10, 30, 10),
+        search=Search(candidates=1, signs=0),
+        threads=1,
+        formulation=Formulation("orthogonal", "both"),
+    )
+    found = match(shape, other, config)
+    assert found.source_to_target is not None
+    assert found.source_to_target.shape == (300,)
+
+
+def test_functions_are_carried_beyond_the_basis(shape, other, truth, marks):
+    found = match(shape, other, replace(SMALL, refinement=ZoomOut(8, 30, 4)), landmarks=marks)
+    f = shape.mesh.vertices
+    better, alone = found.transfer(f, 12), found.transfer(f, None)
+    assert better.shape == (260, 3)
+    assert np.linalg.norm(better - f[truth]) < np.linalg.norm(alone - f[truth])
+    np.testing.assert_allclose(found.transfer(f[:, 0], 12), better[:, 0])
+    with pytest.raises(InvalidInput, match="values"):
+        found.transfer(f[:-1])
+
+
+def test_settings_that_contradict_each_other_are_refused():
+    wrong: list[tuple[dict[str, Any], str]] = [
+        ({"constraint": "unitary"}, "constraint"),
+        ({"directions": "both", "inverse": 0.0, "adjoint": 0.0}, "ties the two"),
+        ({"loss_width": 0.0}, "loss_width"),
+        ({"sparsity": -1.0}, "sparsity"),
+        ({"rounds": 0}, "rounds"),
+    ]
+    for more, wanted in wrong:
+        with pytest.raises(InvalidInput, match=wanted):
+            Formulation(**more)
+    with pytest.raises(InvalidInput, match="loss per feature"):
+        Config(weights=Weights(descriptors=0.0), formulation=FORMULATIONS["robust features"])
