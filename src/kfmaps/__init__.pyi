@@ -5,6 +5,12 @@ from kfmaps._arrays import KfmapsWarning as KfmapsWarning
 from kfmaps._arrays import MissingDependency as MissingDependency
 from kfmaps._arrays import NotConverged as NotConverged
 from kfmaps.app import datasets as datasets
+from kfmaps.app.api import Match as Match
+from kfmaps.app.api import match as match
+from kfmaps.app.api import prepare as prepare
+from kfmaps.app.api import render as render
+from kfmaps.app.api import transfer as transfer
+from kfmaps.app.api import view as view
 from kfmaps.app.files import load_map as load_map
 from kfmaps.app.files import read_landmarks as read_landmarks
 from kfmaps.app.files import read_mesh as read_mesh
@@ -18,7 +24,6 @@ from kfmaps.config import NystromConfig as NystromConfig
 from kfmaps.config import Search as Search
 from kfmaps.config import Weights as Weights
 from kfmaps.fit.shape import Shape as Shape
-from kfmaps.fit.shape import prepare as prepare
 from kfmaps.functional.evaluate import coverage as coverage
 from kfmaps.functional.evaluate import error_curve as error_curve
 from kfmaps.functional.evaluate import evaluation as evaluation
@@ -36,8 +41,6 @@ from kfmaps.kernel.kernels import Polynomial as Polynomial
 from kfmaps.kernel.kernels import Product as Product
 from kfmaps.kernel.kernels import Sum as Sum
 from kfmaps.kernel.kernels import Tanh as Tanh
-from kfmaps.matching import Match as Match
-from kfmaps.matching import match as match
 from kfmaps.surface.basis import Basis as Basis
 from kfmaps.surface.basis import laplace_basis as laplace_basis
 from kfmaps.surface.geodesics import geodesic_distances as geodesic_distances

@@ -10,7 +10,7 @@ from kfmaps._arrays import check, refuse
 from kfmaps.functional.points import check_point_map
 from kfmaps.surface.geodesics import distance_pairs
 from kfmaps.surface.inside import inside
-from kfmaps.surface.mesh import Mesh, surface_area, vertex_areas
+from kfmaps.surface.mesh import Mesh, check_is_mesh, surface_area, vertex_areas
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,6 +54,7 @@ def geodesic_errors(
     InvalidInput
         When the two lists differ in length or name vertices that the source does not have.
     """
+    check_is_mesh(source, "source")
     predicted, true = np.asarray(predicted), np.asarray(true)
     if predicted.shape != true.shape:
         got = f"{predicted.shape} and {true.shape}"
@@ -94,6 +95,7 @@ def coverage(target_to_source: np.ndarray, source: Mesh) -> float:
 
     Connected vertices in one place count as one; those that belong to no face count for nothing.
     """
+    check_is_mesh(source, "source")
     part = inside(source)
     areas = vertex_areas(part.mesh)
     points = check_point_map(target_to_source, len(source.vertices), len(target_to_source))

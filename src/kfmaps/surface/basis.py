@@ -13,7 +13,7 @@ from kfmaps.surface.cloud import cloud_laplacian
 from kfmaps.surface.eigen.factor import Sparse
 from kfmaps.surface.eigen.pencil import smallest_eigenpairs
 from kfmaps.surface.inside import inside
-from kfmaps.surface.mesh import Mesh, vertex_areas
+from kfmaps.surface.mesh import Mesh, check_is_mesh, vertex_areas
 
 THIN = 1e-6
 """Angle below which a face counts as one with longer edges, and how much longer they are."""
@@ -197,6 +197,7 @@ def laplace_basis(
     NotConverged
         When an eigenpair's residual is above 1e-10; see :func:`~kfmaps.surface.eigen.pencil.smallest_eigenpairs`.
     """
+    check_is_mesh(mesh)
     if laplacian not in ("robust", "cotangent"):
         raise refuse("laplacian", "'robust' or 'cotangent'", repr(laplacian), "choose one of them")
     part = inside(mesh)

@@ -26,7 +26,7 @@ from scipy.sparse.csgraph import connected_components, dijkstra
 
 from kfmaps._arrays import check_count, refuse
 from kfmaps.surface.inside import inside, representatives
-from kfmaps.surface.mesh import Mesh
+from kfmaps.surface.mesh import Mesh, check_is_mesh
 from kfmaps.surface.unfolding import surface_graph
 
 METHODS = ("unfolded", "dijkstra", "heat")
@@ -103,6 +103,7 @@ def geodesic_distances(mesh: Mesh, sources: ArrayLike, method: str = "unfolded")
     InvalidInput
         On a vertex number out of range or an unknown method.
     """
+    check_is_mesh(mesh)
     sources = _indices(sources, len(mesh.vertices), "sources")
     graph = _graph(mesh, method)
     if len(sources) == 0:

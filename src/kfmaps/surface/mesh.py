@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import warnings
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -20,15 +20,15 @@ class Mesh:
     vertices : (n, 3) float64
         Positions, in any unit.
     faces : (f, 3) int64
-        0-based vertex numbers, counter-clockwise seen from outside. ``(0, 3)`` for a point cloud.
+        0-based vertex numbers, counter-clockwise seen from outside; by default none, ``(0, 3)``: a point cloud.
     """
 
     vertices: np.ndarray
-    faces: np.ndarray
+    faces: np.ndarray = field(default_factory=lambda: np.zeros((0, 3), dtype=np.int64))
 
     def __post_init__(self) -> None:
         vertices = np.ascontiguousarray(self.vertices, dtype=np.float64)
-        faces = np.asarray(self.faces)
+        faces = np.asarray(() if self.faces is None else self.faces)
         if faces.size == 0:
             faces = np.zeros((0, 3), dtype=np.int64)
         faces = np.ascontiguousarray(faces, dtype=np.int64)
@@ -36,6 +36,12 @@ class Mesh:
         check(faces, "faces", shape=(None, 3), remedy="give three vertex numbers per face")
         object.__setattr__(self, "vertices", vertices)
         object.__setattr__(self, "faces", faces)
+
+
+def check_is_mesh(mesh: object, name: str = "mesh") -> None:
+    """Raise :class:`InvalidInput` when ``mesh`` is no :class:`Mesh`, as a path or another library's object."""
+    if not isinstance(mesh, Mesh):
+        raise refuse(name, "a Mesh", type(mesh).__name__, "use kfmaps.read_mesh, or kfmaps.Mesh(vertices, faces)")
 
 
 def _face_vectors(mesh: Mesh) -> np.ndarray:

@@ -160,6 +160,10 @@ def save_map(path: str | Path, mapfile: MapFile | Match, force: bool = False) ->
         On an unknown extension, and as :func:`atomic_output`.
     """
     if not isinstance(mapfile, MapFile):
+        from kfmaps.matching import Match  # only here, as above
+
+        if not isinstance(mapfile, Match):
+            raise refuse("map", "a Match or a MapFile", type(mapfile).__name__, "give what kfmaps.match returned")
         mapfile = match_map(mapfile)
     suffix = Path(path).suffix.lower()
     check_format(path)

@@ -17,7 +17,7 @@ from kfmaps.app.files.record import MeshFile, checked_colors
 from kfmaps.app.files.stl import parse_stl
 from kfmaps.app.files.text import read_bytes
 from kfmaps.app.files.xyz import parse_xyz
-from kfmaps.surface.mesh import Mesh, check_mesh
+from kfmaps.surface.mesh import Mesh, check_is_mesh, check_mesh
 from kfmaps.surface.topology import topology
 
 READERS = {
@@ -120,6 +120,7 @@ def write_mesh(path: str | Path, mesh: Mesh, *, colors: np.ndarray | None = None
     InvalidInput
         On an unknown extension, colours that do not fit, and as :func:`atomic_output`.
     """
+    check_is_mesh(mesh)
     writer = WRITERS.get(Path(path).suffix.lower())
     if writer is None:
         got = Path(path).suffix or "no extension"

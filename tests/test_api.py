@@ -1,0 +1,210 @@
+"""What the library takes and gives: files, arrays and other libraries' meshes in, a match that shows itself out."""
+
+from __future__ import annotations
+
+import types
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import trimesh
+
+import kfmaps
+from collecting import CONFIG
+from conftest import blob
+from kfmaps import InvalidInput, KfmapsWarning, Mesh
+from kfmaps.app.files import MapFile, write_landmarks
+from kfmaps.app.inputs import as_map, as_mesh
+
+MESH = blob(200)
+V, F = MESH.vertices, MESH.faces
+ORDER = np.random.default_rng(5).permutation(200)
+OTHER = Mesh(V[ORDER], np.argsort(ORDER)[F])
+"""The same shape in another order: vertex i is vertex ORDER[i] of the first."""
+MARKS = [(int(ORDER[i]), i) for i in (0, 40, 80, 120, 160)]
+QUICK = replace(CONFIG, refinement=kfmaps.ICP(2))
+
+SOURCES: dict[str, Any] = {
+    "mesh": MESH,
+    "tuple": (V, F),
+    "lists": [V.tolist(), F.tolist()],
+    "trimesh": trimesh.Trimesh(V, F, process=False),
+    "pyvista": types.SimpleNamespace(points=V.astype(np.float32), faces=np.insert(F, 0, 3, axis=1).ravel()),
+    "meshio": types.SimpleNamespace(
+        points=V,
+        cells=[
+            types.SimpleNamespace(type="line", data=np.array([[0, 1]])),
+            types.SimpleNamespace(type="triangle", data=F[:9]),
+            types.SimpleNamespace(type="triangle", data=F[9:]),
+        ],
+        cells_dict={},
+    ),
+    "open3d": types.SimpleNamespace(vertices=V, triangles=F.astype(np.int32)),
+}
+
+
+@pytest.mark.parametrize("kind", SOURCES)
+def test_shapes_of_other_libraries(kind: str) -> None:
+    """Vertices and faces are the object's own, in its order."""
+    found = as_mesh(SOURCES[kind])
+    np.testing.assert_allclose(found.vertices, V, atol=1e-6)
+    np.testing.assert_array_equal(found.faces, F)
+
+
+def test_polygons_become_fans() -> None:
+    square = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0.5, 2, 0]], dtype=float)
+    fans = [[0, 1, 2], [0, 2, 3], [3, 2, 4]]
+    flat = types.SimpleNamespace(points=square, faces=np.array([4, 0, 1, 2, 3, 3, 3, 2, 4]))
+    np.testing.assert_array_equal(as_mesh(flat).faces, fans)
+    blocks = {"quad": np.array([[0, 1, 2, 3]]), "triangle": np.array([[3, 2, 4]])}
+    meshio = types.SimpleNamespace(points=square, cells=blocks, cells_dict=blocks)
+    np.testing.assert_array_equal(as_mesh(meshio).faces, fans)
+    np.testing.assert_array_equal(as_mesh((square, [[0, 1, 2, 3]])).faces, fans[:2])
+
+
+def test_without_faces_it_is_a_point_cloud() -> None:
+    for cloud in (Mesh(V), Mesh(V, None), as_mesh(V), as_mesh(trimesh.PointCloud(V))):  # pyright: ignore
+        assert cloud.faces.shape == (0, 3)
+        np.testing.assert_array_equal(cloud.vertices, V)
+
+
+@pytest.mark.parametrize(
+    ("shape", "told"),
+    [
+        (3, "got int"),
+        ("no-such.off", "no-such.off"),
+        ((V, F, F), "got tuple"),
+        ((V, "faces"), "faces: wanted whole numbers"),
+        ((V, F[:, :2]), "three vertex numbers"),
+        ((V[:, :2], F), "shape"),
+        (("a", F), "got tuple"),
+        (types.SimpleNamespace(points=V, faces=np.array([3, 0, 1])), "cut short"),
+        (types.SimpleNamespace(points=V, faces=np.array([2, 0, 1])), "three corners"),
+        (types.SimpleNamespace(points=V, cells={"tetra": F}, cells_dict={}), "surface first"),
+    ],
+)
+def test_other_things_are_refused_by_name(shape: Any, told: str) -> None:
+    with pytest.raises(InvalidInput) as caught:
+        kfmaps.match(shape, MESH)
+    assert told in str(caught.value)
+
+
+@pytest.fixture(scope="module")
+def found() -> kfmaps.Match:
+    return kfmaps.match((V, F), SOURCES["trimesh"], QUICK, landmarks=[(v, v) for v, _ in MARKS])
+
+
+@pytest.fixture(scope="module")
+def shuffled(tmp_path_factory: pytest.TempPathFactory) -> kfmaps.Match:
+    folder = tmp_path_factory.mktemp("files")
+    kfmaps.write_mesh(folder / "a.ply", MESH)
+    kfmaps.write_mesh(folder / "b.ply", OTHER)
+    write_landmarks(folder / "pairs.txt", np.array(MARKS))
+    return kfmaps.match(folder / "a.ply", str(folder / "b.ply"), QUICK, landmarks=folder / "pairs.txt", rng=1)
+
+
+def test_files_objects_and_arrays_are_matched_alike(found: kfmaps.Match, shuffled: kfmaps.Match) -> None:
+    np.testing.assert_array_equal(found.target_to_source, np.arange(200))
+    np.testing.assert_array_equal(shuffled.target_to_source, ORDER)
+    assert found.source.vertices.shape == (200, 3)
+    prepared = [kfmaps.prepare(part, QUICK, name="a") for part in ((V, F), OTHER)]
+    again = kfmaps.match(prepared[0], prepared[1], QUICK, landmarks=MARKS, rng=1)
+    np.testing.assert_array_equal(again.target_to_source, ORDER)
+
+
+def test_progress_is_told(capsys: pytest.CaptureFixture[str]) -> None:
+    stages: list[str] = []
+    for progress in (True, lambda stage, _done: stages.append(stage), False):
+        kfmaps.match(MESH, MESH, replace(QUICK, refinement=None), landmarks=MARKS[:3], progress=progress)
+    told = capsys.readouterr().err
+    assert "solve" in told
+    assert told.count("solve") == 1
+    assert "solve" in stages
+
+
+def test_a_match_shows_itself(found: kfmaps.Match) -> None:
+    assert repr(found) == "Match(200 target to 200 source vertices: landmarks; C 20 × 20)"
+    html = found._repr_html_()
+    assert html.startswith('<img alt="Match(')
+    assert "data:image/png;base64," in html
+    figure = found.plot(title="both")
+    assert len(figure.axes) == 2
+    assert len(found.plot(truth=(np.arange(200), np.arange(200))).axes) == 4  # the error, and its bar
+
+
+def test_what_is_carried_over(shuffled: kfmaps.Match, tmp_path: Path) -> None:
+    heights = V[:, 1]
+    np.testing.assert_array_equal(shuffled.transfer(heights), heights[ORDER])
+    np.testing.assert_array_equal(kfmaps.transfer(heights, shuffled.target_to_source), heights[ORDER])
+    shuffled.save(tmp_path / "m.npz")
+    np.testing.assert_array_equal(kfmaps.transfer(heights, tmp_path / "m.npz"), heights[ORDER])
+    for carrier in (shuffled, tmp_path / "m.npz"):
+        with pytest.raises(InvalidInput, match="200 rows"):
+            kfmaps.transfer(heights[:-1], carrier)
+    with pytest.raises(InvalidInput, match="existing"):
+        shuffled.save(tmp_path / "m.npz")
+
+
+def test_inverse(shuffled: kfmaps.Match) -> None:
+    """Of a one-to-one map the inverse; else what it gives lands where it should, or as near as any does."""
+    np.testing.assert_array_equal(shuffled.inverse(), np.argsort(ORDER))
+    points = np.sort(np.random.default_rng(0).integers(0, 200, 200))
+    crowded = replace(shuffled, target_to_source=points, target=MESH)
+    back = crowded.inverse()
+    reached = np.unique(points)
+    np.testing.assert_array_equal(points[back[reached]], reached)
+    for vertex in reached[:20]:
+        there = np.flatnonzero(points == vertex)
+        middle = V[there].mean(axis=0)
+        assert np.linalg.norm(V[back[vertex]] - middle) <= np.linalg.norm(V[there] - middle, axis=1).min() + 1e-12
+    assert set(points[back]) <= set(reached)
+
+
+def test_picture_and_page_of_a_map(shuffled: kfmaps.Match, tmp_path: Path) -> None:
+    """From a match, or from the file and the shapes."""
+    path = kfmaps.view(shuffled, output=tmp_path / "page.html", descriptors=False, names=("one", "two"))
+    assert "one → two" in path.read_text(encoding="utf-8")
+    shuffled.save(tmp_path / "m.npz")
+    kfmaps.view(tmp_path / "m.npz", (V, F), OTHER, output=tmp_path / "again.html", descriptors=False)
+    kfmaps.render(tmp_path / "m.npz", MESH, OTHER, output=tmp_path / "pair.png")
+    assert (tmp_path / "pair.png").read_bytes().startswith(b"\x89PNG")
+    with pytest.raises(InvalidInput, match="give source="):
+        kfmaps.render(shuffled.target_to_source)
+    with pytest.raises(InvalidInput, match="equal length"):
+        kfmaps.render(shuffled, truth=([0, 1], [0]))
+    with pytest.raises(InvalidInput, match="existing"):
+        kfmaps.render(shuffled, output=tmp_path / "pair.png")
+
+
+@pytest.mark.parametrize(
+    ("call", "told"),
+    [
+        (lambda: kfmaps.match(MESH, MESH, "paper"), "config: wanted a Config, got str"),  # pyright: ignore
+        (lambda: kfmaps.prepare("a.off", 3), "config"),  # pyright: ignore
+        (lambda: kfmaps.laplace_basis("a.off", 5), "mesh: wanted a Mesh, got str"),  # pyright: ignore
+        (lambda: kfmaps.geodesic_distances((V, F), [0]), "mesh: wanted a Mesh, got tuple"),  # pyright: ignore
+        (lambda: kfmaps.geodesic_errors("a.off", ORDER, ORDER), "source: wanted a Mesh"),  # pyright: ignore
+        (lambda: kfmaps.coverage(ORDER, "a.off"), "source: wanted a Mesh"),  # pyright: ignore
+        (lambda: kfmaps.write_mesh("a.off", (V, F)), "mesh: wanted a Mesh"),  # pyright: ignore
+        (lambda: kfmaps.save_map("a.npz", ORDER), "map: wanted a Match"),  # pyright: ignore
+        (lambda: kfmaps.transfer(V, {"a": 1}), "map: wanted"),
+        (lambda: kfmaps.view({"a": 1}, MESH, MESH), "map: wanted"),
+    ],
+)
+def test_wrong_things_are_told_in_words(call: Any, told: str) -> None:
+    with pytest.raises(InvalidInput) as caught:
+        call()
+    assert told in str(caught.value)
+
+
+def test_a_map_may_be_handed_in_as_anything_that_is_one(shuffled: kfmaps.Match) -> None:
+    for given in (shuffled, MapFile(ORDER), ORDER, ORDER.tolist()):
+        np.testing.assert_array_equal(as_map(given).target_to_source, ORDER)
+
+
+def test_warnings_of_a_file_reach_the_caller(tmp_path: Path) -> None:
+    kfmaps.write_mesh(tmp_path / "torn.off", Mesh(V, F[3:]))
+    with pytest.warns(KfmapsWarning, match="boundary"):
+        as_mesh(tmp_path / "torn.off")
