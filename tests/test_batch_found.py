@@ -92,7 +92,7 @@ def test_bad_choices_of_pairs(tmp_path: Path) -> None:
         ({}, "test_pairs.txt"),
         ({"star": "x"}, "'x'"),
         ({"every": True}, "two shapes"),
-        ({"file": tmp_path / "none.txt"}, "No such file"),
+        ({"file": tmp_path / "none.txt"}, "nothing there"),
     ]
     for choice, message in choices:
         with pytest.raises(InvalidInput, match=message):

@@ -29,6 +29,7 @@ FLOORS = {
 
 APP = {
     "words": 0,
+    "terminal": 0,
     "progress": 1,
     "files": 0,
     "datasets": 0,

@@ -29,7 +29,17 @@ class KfmapsWarning(UserWarning):
 
 def refuse(name: str, wanted: str, got: str, remedy: str) -> InvalidInput:
     """The one form that every complaint takes: name, what was wanted, what was got, what to do."""
-    return InvalidInput(f"{name}: wanted {wanted}, got {got}; {remedy}")
+    return InvalidInput(shown(f"{name}: wanted {wanted}, got {got}; {remedy}"))
+
+
+def shown(text: str) -> str:
+    """``text`` fit for a terminal: control characters, and all else that cannot be printed, by their codes.
+
+    A file may be called anything; its name must not move the cursor, change colours or run together with the next.
+    """
+    if text.isprintable():
+        return text
+    return "".join(c if c.isprintable() else c.encode("unicode_escape").decode("ascii") for c in text)
 
 
 def namespace(*arrays: Array) -> Any:

@@ -6,6 +6,8 @@ Only the command that is asked for is imported, so that ``kfmaps --help`` is qui
 from __future__ import annotations
 
 import ast
+import contextlib
+import errno
 import importlib
 import io
 import os
@@ -18,7 +20,7 @@ from typing import Annotated, Any
 import typer
 
 import kfmaps
-from kfmaps._arrays import InvalidInput, KfmapsWarning, MissingDependency, NotConverged
+from kfmaps._arrays import InvalidInput, KfmapsWarning, MissingDependency, NotConverged, shown
 
 COMMANDS = (
     "match",
@@ -48,6 +50,9 @@ RENAMED = {
     "--rank": "--samples",
 }
 """Options that have gone, and what does the same."""
+
+FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO, errno.EBADF)
+"""What the system says when a stream takes no more."""
 
 FAILURE, INTERRUPTED, UNREAD = 2, 130, 1
 """Exit statuses: bad input, Ctrl-C, output that nobody reads."""
@@ -122,22 +127,62 @@ def main(arguments: Sequence[str] | None = None) -> int:
         warnings.simplefilter("default", KfmapsWarning)
         warnings.showwarning = _teller(warnings.showwarning)
         try:
+            _open_streams()
             status = _run(words)
-            sys.stdout.flush()
-            return status
+            return _flushed(status)
         except KeyboardInterrupt:
             return INTERRUPTED
         except BrokenPipeError:
-            # What is still buffered would raise again when Python flushes at its end.
-            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+            _let_go_of_output()
             return UNREAD
         except (InvalidInput, MissingDependency, NotConverged) as error:
             return _failed(str(error))
         except MemoryError as error:
             return _failed(f"not enough memory; use smaller meshes or fewer samples ({error or 'no details'})")
         except OSError as error:
+            if error.filename is None and error.errno in FULL:
+                return _unwritable(error)
             place = f"{error.filename}: " if error.filename else ""
             return _failed(f"{place}{error.strerror or error}; check the path, its rights and the space left")
+
+
+def _open_streams() -> None:
+    """Open the standard streams that whoever started this has closed, on nothing.
+
+    Else the next file that is opened would take the number of one of them, and be written to by mistake.
+    """
+    for number, name in enumerate(("stdin", "stdout", "stderr")):
+        if getattr(sys, name) is None:
+            try:
+                os.fstat(number)  # another file has the number already
+            except OSError:
+                nothing = os.open(os.devnull, os.O_RDWR)
+                if nothing != number:
+                    os.dup2(nothing, number)
+                    os.close(nothing)
+            setattr(sys, name, open(os.devnull, "r+" if name == "stdin" else "w", encoding="utf-8"))  # noqa: SIM115
+
+
+def _flushed(status: int) -> int:
+    """``status`` once all that was printed is out, or that of a failure."""
+    try:
+        sys.stdout.flush()
+    except BrokenPipeError:
+        raise
+    except OSError as error:
+        return _unwritable(error)
+    return status
+
+
+def _unwritable(error: OSError) -> int:
+    """Say that what was printed could not be written; files say their names themselves."""
+    _let_go_of_output()
+    return _failed(f"standard output: {error.strerror or error}; check the space left where it goes")
+
+
+def _let_go_of_output() -> None:
+    """Send what is still buffered to nowhere: it would raise again when Python flushes at its end."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 def _run(words: Sequence[str]) -> int:
@@ -183,8 +228,9 @@ def _failed(text: str) -> int:
 
 
 def _say(text: str) -> None:
-    """One line on standard error, whatever the text holds."""
-    print("kfmaps:", " ".join(text.split()), file=sys.stderr)
+    """One line on standard error, whatever the text holds; where nobody reads it any more, none."""
+    with contextlib.suppress(OSError):
+        print("kfmaps:", shown(" ".join(text.split())), file=sys.stderr)
 
 
 if __name__ == "__main__":

@@ -13,6 +13,8 @@ from rich.console import Console
 from rich.markup import escape
 from rich.progress import BarColumn, Progress, TaskID, TextColumn, TimeElapsedColumn, TimeRemainingColumn
 
+from kfmaps._arrays import shown
+from kfmaps.app.terminal import Terminal
 from kfmaps.app.words import in_words
 
 SECONDS_BETWEEN_LINES = 5.0
@@ -59,7 +61,7 @@ class Bars:
 
     def tell(self, name: str, done: float) -> None:
         if name not in self._tasks:
-            self._tasks[name] = self._bars.add_task(escape(name), total=1.0)
+            self._tasks[name] = self._bars.add_task(escape(shown(name)), total=1.0)
         elif done <= 0:
             self._bars.reset(self._tasks[name])
         self._bars.update(self._tasks[name], completed=done)
@@ -107,7 +109,7 @@ class Lines:
 
     def _say(self, line: str) -> None:
         self._last = time.monotonic()
-        print(line, file=sys.stderr, flush=True)
+        print(shown(line), file=sys.stderr, flush=True)
 
     def _go_on(self) -> None:
         while not self._ended.wait(self._silence / 10):
@@ -179,7 +181,7 @@ class Stages:
         self._way: Way | None = None
 
     def __enter__(self) -> Stages:
-        console = Console(file=sys.stderr)
+        console = Terminal(file=sys.stderr)
         if self._quiet:
             self._way = None
         elif console.is_jupyter:

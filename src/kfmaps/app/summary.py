@@ -13,6 +13,7 @@ from rich.table import Table
 from rich.text import Text
 
 import kfmaps
+from kfmaps._arrays import shown
 from kfmaps.app.evaluation import Accuracy
 from kfmaps.app.files import MapFile, match_map
 from kfmaps.app.words import UNIT, percent
@@ -134,7 +135,7 @@ def table(outcome: MatchRun, written: Path | None = None) -> Table:
     for name, value in _rows(match, found, outcome.accuracy):
         grid.add_row(name, Text(value, style="bold red" if value.startswith("AMBIGUOUS") else ""))
     if written is not None:
-        grid.add_row("written", Text(str(written)))
+        grid.add_row("written", Text(shown(str(written))))
     return grid
 
 
@@ -144,7 +145,7 @@ def _rows(match: Match, found: dict[str, Any], accuracy: Accuracy | None) -> lis
     for side in ("source", "target"):
         faces = found[f"{side}_faces"]
         what = f"{faces:,} faces" if faces else "a point cloud"
-        rows.append((side, f"{found[side]}: {found[f'{side}_vertices']:,} vertices, {what}"))
+        rows.append((side, f"{shown(found[side])}: {found[f'{side}_vertices']:,} vertices, {what}"))
     spent = sorted(found["times"].items(), key=lambda item: -item[1])
     size = f"{found['map_rows']} × {found['map_columns']}"
     rows.append(("landmarks", str(found["landmarks"]) if found["landmarks"] else "none"))

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from kfmaps._arrays import KfmapsWarning, check, refuse
+from kfmaps._arrays import KfmapsWarning, check, refuse, shown
 from kfmaps.surface.cloud import cloud_areas
 
 
@@ -146,5 +146,5 @@ def check_mesh(mesh: Mesh, name: str = "mesh", *, cloud: bool = False) -> Mesh:
     loose = n - len(np.unique(mesh.faces))
     for count, what in ((flat, "faces without area"), (loose, "vertices that no face uses")):
         if count:
-            warnings.warn(f"{name}: {count} {what}; they are kept", KfmapsWarning, stacklevel=2)
+            warnings.warn(f"{shown(name)}: {count} {what}; they are kept", KfmapsWarning, stacklevel=2)
     return mesh

@@ -9,6 +9,7 @@ from pathlib import Path
 
 from kfmaps._arrays import refuse
 from kfmaps.app.files.meshes import READERS
+from kfmaps.app.files.text import read_text
 
 SHAPE_FOLDERS = ("shapes", "off", "meshes", "ply", "obj")
 """Where the field keeps its shapes when they are not in the top folder; the first that has any counts."""
@@ -199,13 +200,8 @@ def _known(name: str, collection: ShapeFolder, where: str) -> str:
 
 def read_pairs(path: str | Path, collection: ShapeFolder) -> list[Pair]:
     """Read a list of pairs; see :func:`choose_pairs`."""
-    try:
-        text = Path(path).read_text(encoding="utf-8-sig")
-    except (OSError, UnicodeDecodeError) as error:
-        reason = "no text file" if isinstance(error, UnicodeDecodeError) else str(error.strerror)
-        raise refuse(f"pairs {path}", "a text file of two names a line", reason, "check the path") from error
     pairs = []
-    for number, line in enumerate(text.splitlines(), 1):
+    for number, line in enumerate(read_text(path).splitlines(), 1):
         words = line.split("#", 1)[0].replace(",", " ").split()
         if not words:
             continue

@@ -6,7 +6,6 @@ from pathlib import Path
 from typing import Annotated
 
 import typer
-from rich.console import Console
 from rich.text import Text
 
 from kfmaps._arrays import check_count, refuse
@@ -19,6 +18,7 @@ from kfmaps.app.batch.terminal import terminal_callback
 from kfmaps.app.files import atomic_output
 from kfmaps.app.settings.options import Chosen, with_settings
 from kfmaps.app.settings.toml import settings_text
+from kfmaps.app.terminal import Terminal
 from kfmaps.app.words import UNIT, percent
 
 TOML = "settings.toml"
@@ -74,7 +74,7 @@ def batch(
     chosen = choose_pairs(collection, file=pairs, every=every, star=star)
     config = settings.config(recommended(collection, chosen, bool(lines), landmarks))
     made = Settings(config, seed, lines, landmarks, identity)
-    console = Console(highlight=False)
+    console = Terminal(highlight=False)
     plan = make_plan(collection, chosen, made, output, cache_folder=cache, retry_failed=retry_failed)
     if not (plan.folder / TOML).exists():
         with atomic_output(plan.folder / TOML) as temporary:

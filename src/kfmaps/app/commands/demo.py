@@ -66,9 +66,9 @@ def demo(
     if json:
         typer.echo(jsonlib.dumps({**found.as_dict(), "output": str(output)}))
         return
-    from rich.console import Console
+    from kfmaps.app.terminal import Terminal
 
-    console = Console(highlight=False)
+    console = Terminal(highlight=False)
     console.print(found.table())
     console.print(f"picture: {output}", markup=False)
 

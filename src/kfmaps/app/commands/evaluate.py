@@ -69,9 +69,9 @@ def evaluate(
     if json:
         typer.echo(jsonlib.dumps(accuracy.as_dict()))
         return
-    from rich.console import Console
+    from kfmaps.app.terminal import Terminal
 
-    Console().print(_table(accuracy))
+    Terminal().print(_table(accuracy))
 
 
 def _table(accuracy: Accuracy) -> Table:

@@ -10,12 +10,12 @@ from typing import Annotated, Any
 
 import numpy as np
 import typer
-from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
-from kfmaps._arrays import InvalidInput, KfmapsWarning
+from kfmaps._arrays import InvalidInput, KfmapsWarning, shown
 from kfmaps.app.files import MeshFile, read_mesh_file
+from kfmaps.app.terminal import Terminal
 from kfmaps.surface.mesh import surface_area
 from kfmaps.surface.topology import topology
 
@@ -81,10 +81,10 @@ def info(
         if json:
             print(jsonlib.dumps(facts))
         else:
-            table = Table(title=Text(str(meshes[0])), show_header=False)
+            table = Table(title=Text(shown(str(meshes[0]))), show_header=False)
             for name, value in _rows(facts):
                 table.add_row(name, Text(value))
-            Console().print(table)
+            Terminal().print(table)
         return
     refused, known = [], []
     for path in meshes:
@@ -96,7 +96,7 @@ def info(
         for facts in known:
             print(jsonlib.dumps(facts))
     elif known:
-        Console().print(_overview(known))
+        Terminal().print(_overview(known))
     if refused:  # the others have been shown
         more = "" if len(refused) == 1 else f"; and {len(refused) - 1} more of the files cannot be read"
         raise InvalidInput(refused[0] + more)
@@ -117,12 +117,14 @@ def _overview(known: list[dict[str, Any]]) -> Table:
         sizes = f"{facts['vertices']:,}", f"{facts['faces']:,}"
         counts = facts["topology"]
         if counts is None:
-            table.add_row(Text(facts["file"]), *sizes, "", "", "", "a point cloud")
+            table.add_row(Text(shown(facts["file"])), *sizes, "", "", "", "a point cloud")
             continue
         genus = "" if counts["genus"] is None else str(counts["genus"])
         holes = [f"{counts['boundary_loops']:,} boundary loops"] if counts["boundary_loops"] else []
         odd = "\n".join([*holes, *_defects(counts)]) or "none"
-        table.add_row(Text(facts["file"]), *sizes, f"{facts['area']:.6g}", f"{counts['components']:,}", genus, odd)
+        table.add_row(
+            Text(shown(facts["file"])), *sizes, f"{facts['area']:.6g}", f"{counts['components']:,}", genus, odd
+        )
     return table
 
 

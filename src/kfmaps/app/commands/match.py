@@ -89,9 +89,9 @@ def match(
     if json:
         typer.echo(jsonlib.dumps({**summary(outcome), "output": str(output)}))
     elif not quiet:
-        from rich.console import Console
+        from kfmaps.app.terminal import Terminal
 
-        Console().print(table(outcome, output))
+        Terminal().print(table(outcome, output))
     if view:
         _show(outcome, known)
 

@@ -10,13 +10,13 @@ from pathlib import Path
 from typing import Annotated
 
 import typer
-from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
 
 from kfmaps.app.experiments.outputs import output_folder
 from kfmaps.app.experiments.reproduce import FIGURES, named
 from kfmaps.app.experiments.setting import Setting
 from kfmaps.app.experiments.store import Report
+from kfmaps.app.terminal import Terminal
 
 
 def reproduce(
@@ -44,7 +44,7 @@ def reproduce(
     names = named(figure)
     setting = Setting(data, output_folder(output), pairs, workers, vertices, seed=seed)
     found = setting.collections()
-    console = Console()
+    console = Terminal()
     if data is None:
         console.print("No --data: using shapes that the package generates.")
     else:
@@ -62,7 +62,7 @@ def reproduce(
 @contextmanager
 def progress(name: str) -> Iterator[Report]:
     """Finished jobs on standard error: a bar on a terminal, elsewhere a line for every tenth of them."""
-    console = Console(stderr=True)
+    console = Terminal(stderr=True)
     columns = (
         TextColumn("{task.description}"),
         BarColumn(),

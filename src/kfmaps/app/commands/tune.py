@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 from typing import Annotated
 
@@ -15,9 +16,10 @@ from kfmaps.app.experiments.collections import Collection, ShapePair
 from kfmaps.app.experiments.outputs import output_folder, write_table
 from kfmaps.app.experiments.setting import Setting
 from kfmaps.app.experiments.tune import Grid, Tuned, grid_search
-from kfmaps.app.files import atomic_output
+from kfmaps.app.files import atomic_output, read_text
 from kfmaps.app.settings.merge import preset, read_settings
 from kfmaps.app.settings.toml import settings_text
+from kfmaps.app.terminal import Terminal
 from kfmaps.descriptors.spectral import NORMALISATIONS, Normalisation
 
 SHOWN = 10
@@ -69,17 +71,18 @@ def tune(
         numbers(sharpness, "--sharpness"),
         names(normalisation),
         numbers(alpha, "--alpha"),
-        tuple(int(value) for value in numbers(samples, "--samples")),
-        tuple(int(value) for value in numbers(descriptors, "--descriptors")),
+        counts(samples, "--samples", low=2),
+        counts(descriptors, "--descriptors"),
     )
     grid = given if given != Grid() else DEFAULT
     start = read_settings(base, preset("default")) if Path(base).suffix == ".toml" else preset(base)
+    grid.candidates(start)  # what no setting may be is said before any work
     setting = Setting(data, output_folder(output), workers=workers, vertices=vertices, seed=seed)
     chosen = [(c, training(c, pairs, seed, pair_list)) for c in setting.collections()]
     chosen = [(c, some) for c, some in chosen if some]
     if not chosen:
         raise refuse(f"pairs {pair_list}", "pairs of shapes in the data", "none", "check the names")
-    console = Console()
+    console = Terminal()
     if data is None:
         console.print("No --data: using shapes that the package generates.")
     with progress("tune") as report:
@@ -99,7 +102,7 @@ def training(collection: Collection, count: int, seed: int, pair_list: Path | No
     if pair_list is None:
         return collection.training(count, seed)
     known = set(collection.shapes())
-    lines = [line.split() for line in pair_list.read_text(encoding="utf-8").splitlines() if line.strip()]
+    lines = [line.split() for line in read_text(pair_list).splitlines() if line.strip()]
     for number, words in enumerate(lines, start=1):
         if len(words) != 2:
             raise refuse(f"{pair_list}, line {number}", "source and target", " ".join(words), "write two names a line")
@@ -107,7 +110,7 @@ def training(collection: Collection, count: int, seed: int, pair_list: Path | No
 
 
 def numbers(text: str, flag: str) -> tuple[float, ...]:
-    """The numbers of a list with commas.
+    """The numbers of a list with commas, all of them finite.
 
     Raises
     ------
@@ -115,9 +118,27 @@ def numbers(text: str, flag: str) -> tuple[float, ...]:
         On anything else.
     """
     try:
-        return tuple(float(part) for part in text.split(",") if part.strip())
+        found = tuple(float(part) for part in text.split(",") if part.strip())
     except ValueError as error:
         raise refuse(flag, "numbers with commas between them", repr(text), "for instance 0.1,0.3,1") from error
+    for value in found:
+        if not math.isfinite(value):
+            raise refuse(flag, "finite numbers", f"{value}", "for instance 0.1,0.3,1")
+    return found
+
+
+def counts(text: str, flag: str, low: int = 1) -> tuple[int, ...]:
+    """The whole numbers of a list with commas, none below ``low``.
+
+    Raises
+    ------
+    InvalidInput
+        On anything else.
+    """
+    for value in numbers(text, flag):
+        if value != int(value) or value < low:
+            raise refuse(flag, f"whole numbers from {low} on", f"{value:g}", "for instance 100,200")
+    return tuple(int(value) for value in numbers(text, flag))
 
 
 def names(text: str) -> tuple[Normalisation, ...]:

@@ -1,6 +1,6 @@
 """Files: meshes, landmarks, maps, per-vertex values and exports, each read strictly and written whole."""
 
-from kfmaps.app.files.atomic import atomic_output, check_output
+from kfmaps.app.files.atomic import atomic_output, check_output, remove_unfinished
 from kfmaps.app.files.export import (
     grid_picture,
     projected_uv,
@@ -17,6 +17,7 @@ from kfmaps.app.files.numbers import (
     write_vertex_numbers,
 )
 from kfmaps.app.files.record import MeshFile
+from kfmaps.app.files.text import read_text
 from kfmaps.app.files.values import Values, read_values, transfer, write_values
 
 __all__ = [
@@ -34,8 +35,10 @@ __all__ = [
     "read_landmarks",
     "read_mesh",
     "read_mesh_file",
+    "read_text",
     "read_values",
     "read_vertex_numbers",
+    "remove_unfinished",
     "save_map",
     "transfer",
     "write_colored",

@@ -6,11 +6,26 @@ import os
 import secrets
 import shutil
 import stat
+import time
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from kfmaps._arrays import refuse
+
+UNFINISHED = ".unfinished-"
+"""How the names of files begin that are still being written."""
+
+STREAMS = ("/dev/std", "/dev/fd/", "/proc/")
+"""Names of what the process has open; a file put in the place of one would not be where its output goes."""
+
+
+def remove_unfinished(folder: Path, older: float = 0.0) -> None:
+    """Remove what a process that was killed left half written in ``folder``, ``older`` than so many seconds."""
+    for path in folder.glob(f"{UNFINISHED}*"):
+        with suppress(OSError):  # somebody else has removed it
+            if time.time() - path.stat().st_mtime >= older:
+                path.unlink()
 
 
 def check_output(path: str | Path, force: bool = False) -> Path:
@@ -27,7 +42,8 @@ def check_output(path: str | Path, force: bool = False) -> Path:
     final = Path(path)
     try:
         final = Path(os.path.realpath(path))
-        kind = stat.S_IFMT(os.stat(final).st_mode)
+        # Not of the real path: that of a pipe that somebody else holds, such as /dev/stdout, is no name of a file.
+        kind = stat.S_IFMT(os.stat(path).st_mode)
     except FileNotFoundError:
         kind = None
     except (OSError, ValueError) as error:  # ValueError: a NUL in the name
@@ -37,7 +53,7 @@ def check_output(path: str | Path, force: bool = False) -> Path:
         raise refuse(f"output {path}", "an existing folder", f"no folder {final.parent}", "make it first")
     if not os.access(final.parent, os.W_OK):
         raise refuse(f"output {path}", "a folder to write in", f"no right to write in {final.parent}", "choose another")
-    if kind not in (None, stat.S_IFREG):
+    if kind not in (None, stat.S_IFREG) or os.path.abspath(path).startswith(STREAMS):
         got = "a folder" if kind == stat.S_IFDIR else "a device or pipe"
         raise refuse(f"output {path}", "the name of a file", got, "name a file to write")
     if kind is not None and not force:
@@ -64,12 +80,12 @@ def atomic_output(path: str | Path, force: bool = False) -> Iterator[Path]:
         As :func:`check_output`, and when the folder cannot be written.
     """
     final = check_output(path, force)
-    temporary = final.with_name(f".unfinished-{secrets.token_hex(6)}{final.suffix}")
+    temporary = final.with_name(f"{UNFINISHED}{secrets.token_hex(6)}{final.suffix}")
     try:
-        os.close(os.open(temporary, os.O_CREAT | os.O_EXCL | os.O_WRONLY, 0o666))
-    except OSError as error:
-        raise refuse(f"output {path}", "a folder to write in", str(error.strerror), "choose another") from error
-    try:
+        try:
+            os.close(os.open(temporary, os.O_CREAT | os.O_EXCL | os.O_WRONLY, 0o666))
+        except OSError as error:
+            raise refuse(f"output {path}", "a folder to write in", str(error.strerror), "choose another") from error
         yield temporary
         check_output(path, force)  # someone else may have made it meanwhile
         if final.exists():
@@ -77,5 +93,10 @@ def atomic_output(path: str | Path, force: bool = False) -> Iterator[Path]:
         with open(temporary, "r+b") as file:
             os.fsync(file.fileno())  # otherwise a power cut after the rename could leave an empty file
         os.replace(temporary, final)
+    except OSError as error:
+        # A full disk says only that it is full, or names a file that nobody has heard of.
+        if error.filename is None or os.fspath(error.filename) == str(temporary):
+            raise OSError(error.errno or 0, error.strerror or str(error), str(path)) from error
+        raise
     finally:
         temporary.unlink(missing_ok=True)

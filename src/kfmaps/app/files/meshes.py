@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from kfmaps._arrays import KfmapsWarning, check, refuse
+from kfmaps._arrays import KfmapsWarning, check, refuse, shown
 from kfmaps.app.files.atomic import atomic_output, check_output
 from kfmaps.app.files.gltf import parse_gltf
 from kfmaps.app.files.obj import format_obj, parse_obj
@@ -100,7 +100,7 @@ def _warn_of_oddities(mesh: Mesh, name: str) -> None:
     ]
     told = ", ".join(f"{count} {one if count == 1 else many}" for count, one, many in odd if count)
     if told:
-        warnings.warn(f"{name}: {told}; all is kept as it is", KfmapsWarning, stacklevel=4)
+        warnings.warn(f"{shown(name)}: {told}; all is kept as it is", KfmapsWarning, stacklevel=4)
 
 
 def write_mesh(path: str | Path, mesh: Mesh, *, colors: np.ndarray | None = None, force: bool = False) -> None:

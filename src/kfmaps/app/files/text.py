@@ -69,6 +69,20 @@ def read_bytes(path: str | Path) -> bytes:
     return data
 
 
+def read_text(path: str | Path) -> str:
+    """The content of a regular file of UTF-8 text.
+
+    Raises
+    ------
+    InvalidInput
+        As :func:`read_bytes`, and when it is no text.
+    """
+    try:
+        return read_bytes(path).decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        raise refuse(str(path), "UTF-8 text", "something else", "check that it is the right file") from error
+
+
 def clean_text(data: bytes, name: str, comment: bytes = b"#") -> bytes:
     """``data`` with line ends made ``\\n`` and comments blanked; line numbers stay.
 
