@@ -48,12 +48,13 @@ def demo(
     """Make two poses of a shape, match them, print the error beside that without a kernel, draw a picture."""
     from kfmaps.app.files import atomic_output, check_output
     from kfmaps.app.pictures import match_figure, picture_format, save_figure
+    from kfmaps.app.terminal import Terminal, say
 
     if shape not in SHAPES:
         raise refuse("--shape", "one of " + ", ".join(SHAPES), repr(shape), "choose one of them")
     if write is not None:
         for path in written(write, shape, vertices, landmarks, seed, force):
-            typer.echo(str(path))
+            say(str(path))
         return
     picture_format(output)
     check_output(output, force)
@@ -66,8 +67,6 @@ def demo(
     if json:
         typer.echo(jsonlib.dumps({**found.as_dict(), "output": str(output)}))
         return
-    from kfmaps.app.terminal import Terminal
-
     console = Terminal(highlight=False)
     console.print(found.table())
     console.print(f"picture: {output}", markup=False)

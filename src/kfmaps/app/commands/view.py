@@ -9,6 +9,7 @@ import typer
 
 from kfmaps.app.evaluation import known_truth
 from kfmaps.app.files import atomic_output, check_output, load_map
+from kfmaps.app.terminal import say
 from kfmaps.app.view.page import check_up
 from kfmaps.app.view.results import map_mesh, map_page, mesh_path, open_page
 
@@ -57,4 +58,4 @@ def view(
             temporary.write_text(html, encoding="utf-8")
         return
     path, opened = open_page(html)
-    typer.echo(str(path) if opened else f"no browser was found; open {path.as_uri()}")
+    say(str(path) if opened else f"no browser was found; open {path.as_uri()}")
