@@ -442,3 +442,68 @@ def test_the_map_of_a_run_is_saved(serve: Serve, tmp_path: Path) -> None:
     assert load_map(path).target_to_source[0] == 0
     for wrong in (2, -1, True, "0", None):
         assert client.post("save-map", {"run": wrong}).status == 400
+
+
+# Who is slow, and who comes in crowds ---------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("opening", [b"", b"GET /", b"POST {path}save HTTP/1.1\r\nContent-Length: 900\r\n"])
+def test_who_sends_a_byte_now_and_then_is_not_kept(
+    serve: Serve, opening: bytes, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A request has so many seconds in all, however the bytes of it are spread."""
+    monkeypatch.setattr("kfmaps.app.view.server.SECONDS_TO_SPEAK", 0.5)
+    client = serve()
+    with socket.create_connection((LOOPBACK, client.port), timeout=10) as connection:
+        connection.sendall(opening.replace(b"{path}", client.path.encode()))
+        begun = time.monotonic()
+        connection.settimeout(0.05)
+        while time.monotonic() - begun < 8:
+            try:
+                connection.sendall(b"x")
+                if connection.recv(4096) == b"":
+                    break
+            except TimeoutError:
+                continue
+            except OSError:
+                break
+        assert time.monotonic() - begun < 5
+
+
+def test_a_body_that_never_ends_is_answered(serve: Serve, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("kfmaps.app.view.server.SECONDS_TO_SPEAK", 0.5)
+    client = serve()
+    head = f"POST {client.path}save HTTP/1.1\r\nHost: {LOOPBACK}:{client.port}\r\nContent-Type: application/json\r\n"
+    with socket.create_connection((LOOPBACK, client.port), timeout=10) as connection:
+        connection.sendall(f"{head}Content-Length: 900\r\n\r\n[".encode())
+        assert b" 408 " in connection.recv(4096)
+
+
+def test_a_hundred_saves_at_once_are_all_answered(serve: Serve, tmp_path: Path) -> None:
+    client = serve()
+    assert client.post("save", {"pairs": PAIRS}).status == 200
+    ready = threading.Barrier(100)
+    answers: list[int | str] = []
+
+    def save(i: int) -> None:
+        ready.wait()
+        try:
+            answers.append(client.post("save", {"pairs": [[i, i], [150, 150]]}).status)
+        except OSError as error:
+            answers.append(repr(error))
+
+    threads = [threading.Thread(target=save, args=(i,)) for i in range(100)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert answers == [200] * 100
+    assert len(read_landmarks(tmp_path / "pairs.txt")) == 2
+    assert [path.name for path in tmp_path.iterdir()] == ["pairs.txt"]
+
+
+def test_a_refusal_is_heard_before_the_body_is_read(serve: Serve) -> None:
+    """The connection is not closed on what was sent and not looked at, which would take the answer with it."""
+    client = serve()
+    for _ in range(20):
+        assert client.ask("POST", "/elsewhere/save", b"x" * 500_000).status == 403

@@ -7,10 +7,15 @@ token, which is in the address that only this program prints.
 
 from __future__ import annotations
 
+import contextlib
+import io
 import json
 import os
 import secrets
+import socket
 import socketserver
+import threading
+import time
 import traceback
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
@@ -22,7 +27,10 @@ from kfmaps.app.view.pack import plain
 
 LOOPBACK = "127.0.0.1"
 LARGEST_REQUEST = 1 << 20
-SECONDS_TO_SPEAK = 30
+SECONDS_TO_SPEAK = 30.0
+"""For a whole request and, again, for a whole answer: who sends a byte now and then is not waited for either."""
+SECONDS_TO_LISTEN = 2.0
+"""For what is left of a request that was refused before all of it was read."""
 
 HEADERS = {
     "Cache-Control": "no-store",
@@ -70,10 +78,12 @@ class LocalServer(ThreadingHTTPServer):
 
     daemon_threads = True
     allow_reuse_address = os.name == "posix"  # elsewhere it would let two programs share a port
+    request_queue_size = 256  # the system turns away who comes when as many wait to be let in
 
     def __init__(self, routes: Routes, port: int = 0) -> None:
         self.routes = routes
         self.token = secrets.token_urlsafe(24)
+        self.changing = threading.Lock()  # requests that change something come one after another
         try:
             super().__init__((LOOPBACK, port), _Handler)
         except (OSError, OverflowError) as error:
@@ -98,10 +108,32 @@ class LocalServer(ThreadingHTTPServer):
         """Say nothing when a browser goes away in the middle of an answer."""
 
 
+class _Until(io.RawIOBase):
+    """What comes from a connection until a moment, and not a byte later."""
+
+    def __init__(self, connection: socket.socket, seconds: float) -> None:
+        self.connection, self.end = connection, time.monotonic() + seconds
+
+    def readable(self) -> bool:
+        return True
+
+    def readinto(self, buffer: Any) -> int:
+        left = self.end - time.monotonic()
+        if left <= 0:
+            raise TimeoutError("the request took too long")
+        self.connection.settimeout(left)
+        return self.connection.recv_into(buffer)
+
+
 class _Handler(BaseHTTPRequestHandler):
-    timeout = SECONDS_TO_SPEAK
     server_version = "kfmaps"
     sys_version = ""
+
+    def setup(self) -> None:
+        super().setup()
+        self.rfile.close()
+        self.rfile = io.BufferedReader(_Until(self.connection, SECONDS_TO_SPEAK))
+        self.unread = 0
 
     @property
     def site(self) -> LocalServer:
@@ -118,8 +150,11 @@ class _Handler(BaseHTTPRequestHandler):
         pass
 
     def _answer(self, method: str) -> None:
+        length = self.headers.get("Content-Length", "")
+        self.unread = int(length) if length.isascii() and length.isdigit() and len(length) < 19 else 0
         reply = self._reply(method)
         self.close_connection = True  # a body that was refused may be left unread
+        self.connection.settimeout(SECONDS_TO_SPEAK)
         self.send_response(reply.status)
         for name, value in HEADERS.items():
             self.send_header(name, value)
@@ -128,6 +163,17 @@ class _Handler(BaseHTTPRequestHandler):
         self.send_header("Connection", "close")
         self.end_headers()
         self.wfile.write(reply.body)
+        self._listen()
+
+    def _listen(self) -> None:
+        """Take what is left of the request: closed with it unread, the connection would lose the answer as well."""
+        if not 0 < self.unread <= LARGEST_REQUEST:
+            return
+        with contextlib.suppress(OSError):
+            self.connection.shutdown(socket.SHUT_WR)
+            rest = _Until(self.connection, SECONDS_TO_LISTEN)
+            while rest.read(1 << 16):
+                pass
 
     def _reply(self, method: str) -> Reply:
         refusal = self._foreign()
@@ -140,7 +186,13 @@ class _Handler(BaseHTTPRequestHandler):
         if route is None:
             return json_reply({"error": "there is nothing here"}, 404)
         try:
-            return route(self._body() if method == "POST" else None)
+            if method != "POST":
+                return route(None)
+            body = self._body()
+            with self.site.changing:
+                return route(body)
+        except TimeoutError:
+            return json_reply({"error": "the request took too long"}, 408)
         except InvalidInput as error:
             return json_reply({"error": str(error)}, 400)
         except OSError as error:
@@ -169,6 +221,8 @@ class _Handler(BaseHTTPRequestHandler):
         if not length.isascii() or not length.isdigit() or int(length) > LARGEST_REQUEST:
             raise refuse("request", f"at most {LARGEST_REQUEST} bytes", repr(length), "send fewer landmarks")
         try:
-            return json.loads(self.rfile.read(int(length)))
+            content = self.rfile.read(int(length))
+            self.unread = 0
+            return json.loads(content)
         except (ValueError, RecursionError) as error:
             raise refuse("request", "JSON", "something else", "send application/json") from error
