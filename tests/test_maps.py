@@ -6,6 +6,7 @@ import pytest
 from conftest import blob, random_basis
 from kfmaps._arrays import InvalidInput, to_numpy
 from kfmaps.functional.evaluate import coverage, error_curve, evaluation, geodesic_errors, truth_from_pairs
+from kfmaps.functional.nearest import LARGE
 from kfmaps.functional.points import nearest, to_functional, to_points
 from kfmaps.functional.refine import ICP, ZoomOut, spectral_samples
 from kfmaps.surface.basis import Basis, laplace_basis
@@ -54,6 +55,22 @@ def test_nearest_on_large_sets_equals_the_product(rng):
     points, queries = rng.normal(size=(20_001, 2)), rng.normal(size=(200, 2))
     wanted = np.linalg.norm(queries[:, None] - points[None], axis=2).argmin(axis=1)
     np.testing.assert_array_equal(nearest(queries, points), wanted)
+
+
+@pytest.mark.parametrize("size", [1.0, 1e-200, 1e200])
+def test_nearest_on_large_sets_prefers_the_first_of_equals_at_any_scale(rng, size):
+    lattice = size * rng.integers(0, 12, (LARGE + 5000, 5)).astype(float)  # most points many times, most queries tied
+    queries = size * (rng.integers(0, 12, (100, 5)) + rng.choice([0.0, 0.5], (100, 5)))
+    squares = ((queries[:, None] / size - lattice / size) ** 2).sum(axis=2)
+    np.testing.assert_array_equal(nearest(queries, lattice), np.argmin(squares, axis=1))
+    several = size * np.repeat(rng.normal(size=(30, 5)), 1000, axis=0)
+    np.testing.assert_array_equal(nearest(several[::-77], several), np.arange(30000)[::-77] // 1000 * 1000)
+
+
+@pytest.mark.parametrize("size", [1e-200, 1e200])
+def test_nearest_on_small_sets_at_extreme_scales(rng, size):
+    queries, points = rng.normal(size=(50, 40)), rng.normal(size=(90, 40))
+    np.testing.assert_array_equal(nearest(queries * size, points * size), nearest(queries, points))
 
 
 @pytest.mark.parametrize(

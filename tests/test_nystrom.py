@@ -58,7 +58,6 @@ def test_indefinite_kernel_warns_and_stays_finite(rng):
     kernel = Tanh(2.0, -1.0)
     with pytest.warns(KfmapsWarning, match="not positive definite"):
         factor = nystrom(kernel, X)
-    assert factor.dropped_negative > 0.01
     assert np.isfinite(factor.features(X)).all()
 
 
@@ -122,3 +121,21 @@ def test_samplers_stop_when_nothing_is_left():
 def test_impossible_counts_are_refused(count):
     with pytest.raises(InvalidInput, match="sample count"):
         uniform(40, count)
+
+
+@pytest.mark.filterwarnings("ignore::kfmaps._arrays.KfmapsWarning")
+@pytest.mark.parametrize("spread", [0.3, 1.0])
+@pytest.mark.parametrize("dimension", [3, 8])
+@pytest.mark.parametrize("rtol", [1e-12, 1e-3])
+def test_an_indefinite_kernel_stays_bounded_off_the_samples(spread, dimension, rtol):
+    """Features are no longer than the kernel's positive part allows, and approximate it."""
+    points = spread * np.random.default_rng(0).normal(size=(500, dimension))
+    kernel = Tanh()
+    values = kernel(points, points)
+    eigenvalues, vectors = np.linalg.eigh(values)
+    assert eigenvalues[0] < -0.02 * eigenvalues[-1]
+    positive = (vectors * np.maximum(eigenvalues, 0)) @ vectors.T
+    for count in (60, 200):
+        W = nystrom(kernel, points[farthest(points, count)], rtol).features(points)
+        assert (W**2).sum(axis=1).max() < np.diag(positive).max()
+        assert np.linalg.norm(W @ W.T - positive) < 0.4 * np.linalg.norm(positive)

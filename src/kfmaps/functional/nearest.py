@@ -16,6 +16,12 @@ from kfmaps.functional.cells import nearest_by_cells
 TREE_DIMENSION = 32
 """Up to here a k-d tree beats the matrix product on large sets; beyond, space is too empty for it."""
 
+LARGE = 20_000
+"""Points beyond which a k-d tree is built."""
+
+TIE = 1e-12
+"""Relative difference below which two distances from the tree are compared anew."""
+
 EXACT_PAIRS = 10_000**2
 """Queries times points up to which the search is exact when nothing else is asked for."""
 
@@ -55,11 +61,42 @@ def nearest(
     if points.shape[0] == 0:
         raise refuse("points", "at least one", "none", "give some")
     if is_numpy(queries):
-        if points.shape[1] <= TREE_DIMENSION and len(points) > 20_000:
-            return np.asarray(KDTree(points).query(queries, workers=threads or available_cores())[1], dtype=np.int64)
+        queries, points = _in_range(queries, points)
+        if points.shape[1] <= TREE_DIMENSION and len(points) > LARGE:
+            return _by_tree(queries, points, threads)
         if exact is False or (exact is None and len(queries) * len(points) > EXACT_PAIRS):
             return nearest_by_cells(queries, points, threads=threads)
     return _exact(queries, points, block, threads)
+
+
+def _in_range(queries: np.ndarray, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Both times one power of two where squares of their numbers would not be numbers any more."""
+    size = max(float(np.abs(points).max(initial=0.0)), float(np.abs(queries).max(initial=0.0)))
+    if size == 0 or 2.0**-300 < size < 2.0**300:
+        return queries, points
+    shift = -int(np.frexp(size)[1])
+    return np.ldexp(queries, shift), np.ldexp(points, shift)
+
+
+def _by_tree(queries: np.ndarray, points: np.ndarray, threads: int | None) -> np.ndarray:
+    """The exact search by a k-d tree; what it finds as close as the closest is compared anew, for the first of it."""
+    tree, workers = KDTree(points), threads or available_cores()
+    distance, found = tree.query(queries, k=2, workers=workers)
+    answer = np.asarray(found[:, 0], dtype=np.int64)
+    ties = np.flatnonzero(distance[:, 1] <= distance[:, 0] * (1 + TIE))
+    if len(ties) == 0:
+        return answer
+    # Each place once, so that points given over and over do not all come back for every query.
+    first = np.sort(np.unique(points, axis=0, return_index=True)[1])
+    tree = KDTree(points[first])
+    for part in blocks(len(ties), 256):
+        rows = ties[part]
+        within = tree.query_ball_point(queries[rows], distance[rows, 0] * (1 + TIE), workers=workers)
+        for i, several in zip(rows, within, strict=True):
+            columns = first[np.sort(np.asarray(several, dtype=np.int64))]
+            gap = points[columns] - queries[i]
+            answer[i] = columns[np.argmin(np.einsum("ij,ij->i", gap, gap))]
+    return answer
 
 
 def _exact(queries: Array, points: Array, block: int, threads: int | None) -> np.ndarray:

@@ -17,6 +17,10 @@ from kfmaps._arrays import Array, KfmapsWarning, blocks, check, like, namespace,
 from kfmaps.kernel.kernels import KernelLike, describe, gram
 
 
+NEGATIVE = 0.2
+"""Part of the most negative eigenvalue's size below which positive ones of an indefinite kernel are dropped too."""
+
+
 @dataclass(frozen=True, eq=False)
 class Nystrom:
     """A factored kernel approximation; made by :func:`nystrom`.
@@ -28,15 +32,11 @@ class Nystrom:
         The descriptors that the approximation is built from.
     whitener : (q, r)
         ``V Λ^(-1/2)`` over the kept eigenvalues, largest first.
-    dropped_negative : float
-        Size of the most negative eigenvalue of ``R₀`` relative to the largest; above rounding, the kernel is not
-        positive definite and its negative part was left out.
     """
 
     kernel: KernelLike
     samples: Array
     whitener: Array
-    dropped_negative: float
 
     @property
     def rank(self) -> int:
@@ -60,7 +60,9 @@ def nystrom(kernel: KernelLike, samples: Array, rtol: float = 1e-12) -> Nystrom:
 
     ``R₀`` is numerically singular for smooth kernels, so eigenvalues below ``rtol`` times the largest are
     dropped. Negative ones beyond that (an indefinite kernel such as tanh) are dropped with a
-    :class:`KfmapsWarning`: what remains is the nearest positive semi-definite ``R₀``.
+    :class:`KfmapsWarning`, and with them all that are smaller than a fifth of the most negative one. Of those, a
+    point that is no sample has in ``k(P, S) V`` much of the negative part beside its own: divided by their roots it
+    would give features of any length, where it now has at most ``‖k(P, S)‖² / (λ_min / 5)``.
 
     Raises
     ------
@@ -77,9 +79,11 @@ def nystrom(kernel: KernelLike, samples: Array, rtol: float = 1e-12) -> Nystrom:
     if not top > 0:
         remedy = "use a positive definite kernel such as Gaussian"
         raise refuse(f"kernel {describe(kernel)}", "a positive eigenvalue", f"{top:.3g} as the largest", remedy)
-    keep = np.flatnonzero(spectrum > rtol * top)[::-1]
     negative = max(0.0, -float(spectrum[0])) / top
-    if negative > max(rtol, 1e-10):
+    indefinite = negative > max(rtol, 1e-10)
+    least = min(max(rtol, NEGATIVE * negative), 0.999) if indefinite else rtol  # the largest stays
+    keep = np.flatnonzero(spectrum > least * top)[::-1]
+    if indefinite:
         warnings.warn(
             f"kernel {describe(kernel)} is not positive definite on these samples (most negative eigenvalue "
             f"{negative:.2g} of the largest); its negative part is left out",
@@ -88,4 +92,4 @@ def nystrom(kernel: KernelLike, samples: Array, rtol: float = 1e-12) -> Nystrom:
         )
     kept = take(vectors, keep, axis=1)
     scale = like(1 / np.sqrt(spectrum[keep]), samples)
-    return Nystrom(kernel, samples, kept * scale[None, :], negative)
+    return Nystrom(kernel, samples, kept * scale[None, :])
