@@ -16,7 +16,6 @@ import numpy as np
 from kfmaps._arrays import Array, KfmapsWarning, blocks, check, like, namespace, refuse, take, to_numpy
 from kfmaps.kernel.kernels import KernelLike, describe, gram
 
-
 NEGATIVE = 0.2
 """Part of the most negative eigenvalue's size below which positive ones of an indefinite kernel are dropped too."""
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import robust_laplacian
@@ -49,7 +49,7 @@ class Basis:
         return self.functions @ c
 
     def truncated(self, k: int) -> Basis:
-        """The basis of the first ``k`` functions.
+        """The basis of the first ``k`` functions, of the same kind.
 
         Raises
         ------
@@ -57,10 +57,10 @@ class Basis:
             When there are fewer.
         """
         check_count(k, "k", 1, self.functions.shape[1])
-        return Basis(self.eigenvalues[:k], self.functions[:, :k], self.mass)
+        return replace(self, eigenvalues=self.eigenvalues[:k], functions=self.functions[:, :k])
 
     def to(self, device: str) -> Basis:
-        """The basis as PyTorch tensors on ``device``, or as NumPy arrays for ``"cpu"`` and ``"numpy"``.
+        """The basis as PyTorch tensors on ``device``, or as NumPy arrays for ``"cpu"`` and ``"numpy"``; of the same kind.
 
         ``"torch"`` is PyTorch on the CPU.
 
@@ -73,7 +73,7 @@ class Basis:
         """
         arrays = [to_numpy(a) for a in (self.eigenvalues, self.functions, self.mass)]
         if device in ("cpu", "numpy"):
-            return Basis(*arrays)
+            return type(self)(*arrays)
         try:
             import torch
         except ImportError as error:
@@ -82,7 +82,7 @@ class Basis:
             ) from error
         try:
             where = "cpu" if device == "torch" else device
-            return Basis(*(torch.asarray(a, device=where) for a in arrays))
+            return type(self)(*(torch.asarray(a, device=where) for a in arrays))
         except (RuntimeError, AssertionError, TypeError) as error:
             reason = str(error).splitlines()[0]
             raise refuse("device", "one that PyTorch can use", f"{device!r} ({reason})", "use cpu") from error
