@@ -5,10 +5,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from conftest import blob, random_basis
+from conftest import blob, fibonacci_sphere, random_basis
 from kfmaps._arrays import InvalidInput, inner
 from kfmaps.config import BasisConfig, Config, DescriptorConfig, NystromConfig, Weights
-from kfmaps.fit.fit import fit
+from kfmaps.fit.finish import finished
+from kfmaps.fit.fit import fit, fit_points
 from kfmaps.fit.shape import prepare, reduced
 from kfmaps.functional.cells import nearest_by_cells
 from kfmaps.functional.nearest import nearest
@@ -20,7 +21,7 @@ from kfmaps.kernel.select import farthest
 from kfmaps.surface.basis import laplace_basis
 from kfmaps.surface.geodesics import distance_pairs
 from kfmaps.surface.mesh import Mesh, unit_area
-from kfmaps.surface.samples import spectral_samples, stratified_samples
+from kfmaps.surface.samples import SampledBasis, spectral_samples, stratified_samples
 
 CONFIG = Config(
     basis=BasisConfig(functions=30),
@@ -41,6 +42,62 @@ def pair():
 
 def brute(queries, points):
     return np.array([np.argmin(((points - q) ** 2).sum(axis=1)) for q in queries])
+
+
+def necked(n: int, waist: float, half: float) -> Mesh:
+    """Two bells joined by a bridge of radius ``waist``, which ``half`` of the vertices lie on."""
+    sphere = fibonacci_sphere(n)
+    x, y, z = sphere.vertices.T
+    rise = np.clip((np.abs(z) - half) / 0.15, 0, 1)
+    radius = waist + (1 - waist) * rise**2 * (3 - 2 * rise)
+    return Mesh(np.stack([x * radius, 1.2 * y * radius, 1.6 * z], axis=1), sphere.faces)
+
+
+@pytest.mark.parametrize("count", [100, 300])
+def test_samples_do_not_crowd_on_a_thin_bridge(count):
+    basis = laplace_basis(unit_area(necked(1500, 0.004, 0.5)), 40)
+    bridge = np.abs(fibonacci_sphere(1500).vertices[:, 2]) < 0.5
+    assert basis.mass[bridge].sum() < 0.02
+    samples = spectral_samples(basis, count, 0)
+    assert bridge[samples.vertices].mean() < 0.05
+    assert len(set(samples.vertices.tolist())) == len(samples.vertices) == count
+    assert samples.basis.mass.sum() == pytest.approx(basis.mass.sum())
+    # Where they do not crowd, as on a wider bridge, they are the farthest points themselves.
+    wide = laplace_basis(unit_area(necked(1500, 0.2, 0.2)), 40)
+    expected = farthest(wide.functions[:, 1:] / wide.eigenvalues[1:], count, 0)
+    np.testing.assert_array_equal(spectral_samples(wide, count, 0).vertices, expected)
+
+
+@pytest.mark.parametrize("device", ["cpu", "torch"])
+def test_a_sampled_basis_stays_one(device):
+    if device == "torch":
+        pytest.importorskip("torch")
+    basis = spectral_samples(laplace_basis(blob(200), 5), 30).basis
+    for other in (basis.truncated(3), basis.to(device), basis.to(device).truncated(2)):
+        assert isinstance(other, SampledBasis)
+    with pytest.raises(InvalidInput, match="from 1 to 5"):
+        basis.truncated(99)
+
+
+def test_every_choice_of_points_comes_from_the_seed(pair):
+    source, target, truth = pair
+    config, none = replace(CONFIG, fit_samples=500), np.zeros((0, 2), dtype=np.int64)
+    for seed in (0, 5):
+        points = fit_points(source, target, config, none, rng=seed)
+        expected = reduced(source, 500, none[:, 0], seed).shape.mesh.vertices
+        np.testing.assert_array_equal(points.shapes[0].mesh.vertices, expected)
+    maps = [fit(source, target, config, rng=seed).functional_map for seed in (0, 0, 5, np.random.default_rng(5))]
+    np.testing.assert_array_equal(maps[0], maps[1])
+    assert not any(np.array_equal(maps[0], other) for other in maps[2:])
+    C = to_functional(truth, source.basis, target.basis)[:20, :20]
+    zoom = ZoomOut(20, 40, 10, samples=300)
+    ends = [
+        finished(C, source, target, replace(CONFIG, refinement=z), rng=r).functional_map
+        for z, r in ((zoom, 0), (zoom, 3), (replace(zoom, seed=3), 0), (zoom, 0))
+    ]
+    np.testing.assert_array_equal(ends[1], ends[2])
+    np.testing.assert_array_equal(ends[0], ends[3])
+    assert not np.array_equal(ends[0], ends[1])
 
 
 def test_search_of_all_cells_is_exact(rng):

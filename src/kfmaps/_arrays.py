@@ -79,6 +79,13 @@ def take(array: Array, indices: np.ndarray, axis: int = 0) -> Array:
     return xp.take(array, where, axis=axis)
 
 
+def seed_of(rng: int | np.random.Generator | None) -> int:
+    """The seed that ``rng`` is, or one that is drawn from it; ``None`` draws one at random."""
+    if rng is None or isinstance(rng, np.random.Generator):
+        return int(np.random.default_rng(rng).integers(2**31))
+    return int(rng)
+
+
 def blocks(n: int, size: int) -> list[slice]:
     """Slices that cut ``n`` rows into runs of ``size``, the last one shorter."""
     return [slice(a, min(a + size, n)) for a in range(0, n, size)]

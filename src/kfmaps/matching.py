@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from kfmaps._arrays import check, refuse
+from kfmaps._arrays import check, refuse, seed_of
 from kfmaps._progress import Progress
 from kfmaps._threads import available_cores, parallel
 from kfmaps.config import Config
@@ -159,7 +159,8 @@ def match(
     marks, descriptors = across.landmarks(marks), across.descriptors(descriptors)
     shapes = [across.source, across.target]
     clock = Clock(progress)
-    more = {"descriptors": descriptors, "rng": rng, "progress": progress}
+    seed = seed_of(rng)
+    more = {"descriptors": descriptors, "rng": seed, "progress": progress}
     led = None
     if config.search is not None:
         if config.search.orientation == "reversed":
@@ -177,7 +178,7 @@ def match(
         # The adjoint, where a search has found the map: its candidates are refined one way.
         back = found.fit.back if single and found.fit is not None else found.functional_map.T
     end = finished(
-        found.functional_map, shapes[0], shapes[1], config, raw=single, led=led, back=back, progress=progress
+        found.functional_map, shapes[0], shapes[1], config, raw=single, led=led, back=back, rng=seed, progress=progress
     )
     clock.seconds.update(end.seconds)
     with clock("confidence"):

@@ -57,14 +57,18 @@ def finished(
     raw: bool = True,
     led: Guide | None = None,
     back: Any = None,
+    rng: int = 0,
     progress: Progress | None = None,
 ) -> Finished:
     """The points of ``C (k_t, k_s)`` on all vertices, refined as ``config.refinement`` says.
 
     ``raw`` asks for the point map before the refinement too. What guides a refinement that wants guidance is ``led``
-    or, without it, SHOT, where both shapes have it. With a map ``back (k_s, k_t)`` both are finished: ZoomOut refines
-    them together (:mod:`kfmaps.functional.bijective`), ICP each by itself.
+    or, without it, SHOT, where both shapes have it. ``rng`` is added to the seed of ZoomOut's samples. With a
+    map ``back (k_s, k_t)`` both are finished: ZoomOut refines them together (:mod:`kfmaps.functional.bijective`), ICP
+    each by itself.
     """
+    if isinstance(config.refinement, ZoomOut):
+        config = replace(config, refinement=replace(config.refinement, seed=config.refinement.seed + rng))
     clock = Clock(progress)
     bases = (source.basis, target.basis)
     if config.device != "cpu":

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from kfmaps._arrays import check, refuse, to_numpy
+from kfmaps._arrays import check, refuse, seed_of, to_numpy
 from kfmaps._progress import Progress
 from kfmaps._threads import one_blas_thread
 from kfmaps.config import Config
@@ -133,7 +133,7 @@ def fit(
     descriptors : pair of arrays (n_s, d), (n_t, d), optional
         Of the user's own, used beside those that the configuration names.
     rng : seed or Generator
-        For the choice of samples.
+        For the choice of points that the fit is made from, and of samples for the kernel.
     start : (k, k) array, optional
         Functional map that conjugate gradients start from, zero otherwise: that of settings near to these spares
         steps in a search over settings.
@@ -147,13 +147,15 @@ def fit(
     """
     config = config or Config()
     clock = Clock(progress)
-    rng = np.random.default_rng(rng)
+    seed = seed_of(rng)
     pairs = checked_landmarks(landmarks, source, target)
     with one_blas_thread():
         with clock("descriptors"):
-            points = fit_points(source, target, config, pairs, descriptors)
+            points = fit_points(source, target, config, pairs, descriptors, seed)
         with clock("energy"):
-            task = problem(*points.shapes, points.bases, points.descriptors, config, rng, (source, target))
+            task = problem(
+                *points.shapes, points.bases, points.descriptors, config, np.random.default_rng(seed), (source, target)
+            )
         with clock("solve"):
             found = solved(task, config, clock.report, start)
     return Fit(
@@ -171,11 +173,16 @@ def fit(
 
 
 def fit_points(
-    source: Shape, target: Shape, config: Config, landmarks: np.ndarray, descriptors: tuple[Any, Any] | None = None
+    source: Shape,
+    target: Shape,
+    config: Config,
+    landmarks: np.ndarray,
+    descriptors: tuple[Any, Any] | None = None,
+    rng: int | np.random.Generator = 0,
 ) -> Points:
     """The points that ``config.fit_samples`` leaves of both shapes, with the ``landmarks (l, 2)``, and descriptors."""
     shapes = (source, target)
-    parts = [reduced(s, config.fit_samples, landmarks[:, i]) for i, s in enumerate(shapes)]
+    parts = [reduced(s, config.fit_samples, landmarks[:, i], rng) for i, s in enumerate(shapes)]
     bases = [part.shape.basis for part in parts]
     if config.device != "cpu":
         bases = [basis.to(config.device) for basis in bases]

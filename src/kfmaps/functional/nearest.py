@@ -81,8 +81,8 @@ def _in_range(queries: np.ndarray, points: np.ndarray) -> tuple[np.ndarray, np.n
 def _by_tree(queries: np.ndarray, points: np.ndarray, threads: int | None) -> np.ndarray:
     """The exact search by a k-d tree; what it finds as close as the closest is compared anew, for the first of it."""
     tree, workers = KDTree(points), threads or available_cores()
-    distance, found = tree.query(queries, k=2, workers=workers)
-    answer = np.asarray(found[:, 0], dtype=np.int64)
+    distance, found = map(np.asarray, tree.query(queries, k=2, workers=workers))
+    answer = found[:, 0].astype(np.int64)
     ties = np.flatnonzero(distance[:, 1] <= distance[:, 0] * (1 + TIE))
     if len(ties) == 0:
         return answer

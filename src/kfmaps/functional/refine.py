@@ -101,7 +101,7 @@ class ZoomOut:
         :data:`CANDIDATES` points that many are there to be chosen. ``None`` takes all points. The last step always
         does.
     seed : int
-        For the choice of samples.
+        For the choice of samples; that of a match (``rng``) is added to it.
     guidance : float
         Weight of the descriptors that guide the search for the nearest point, where :meth:`__call__` is given any:
         mean squared difference of two random points, which in k functions is about 2 k. 0 is ZoomOut as published.

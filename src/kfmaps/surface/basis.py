@@ -60,9 +60,9 @@ class Basis:
         return replace(self, eigenvalues=self.eigenvalues[:k], functions=self.functions[:, :k])
 
     def to(self, device: str) -> Basis:
-        """The basis as PyTorch tensors on ``device``, or as NumPy arrays for ``"cpu"`` and ``"numpy"``; of the same kind.
+        """The basis as PyTorch tensors on ``device``, or as NumPy arrays for ``"cpu"`` and ``"numpy"``.
 
-        ``"torch"`` is PyTorch on the CPU.
+        It stays of its kind. ``"torch"`` is PyTorch on the CPU.
 
         Raises
         ------
