@@ -17,7 +17,8 @@ from kfmaps.functional.confidence import local_confidence
 from kfmaps.functional.nearest import nearest
 from kfmaps.functional.points import to_points
 from kfmaps.functional.refine import SampledBasis, ZoomOut, fitted
-from kfmaps.functional.slices import condensed
+from kfmaps.functional.slices import compressed, condensed
+from kfmaps.functional.solvers import CG, solve
 from kfmaps.functional.terms import laplacian_term
 from kfmaps.kernel.kernels import Gaussian, Laplacian, resolved, squared_distances
 from kfmaps.kernel.nystrom import nystrom
@@ -187,7 +188,42 @@ def test_a_point_in_parts_condenses_as_a_whole(rng):
     np.testing.assert_allclose(other[0] @ other[1].T, (one[0] @ one[1].T)[was], atol=1e-9)
 
 
+@pytest.mark.parametrize("strong", [0, 1])
+def test_compression_drops_as_much_as_its_tolerance_allows_and_no_more(strong, rng):
+    """Of the slices of both shapes together, wherever the strong ones are."""
+    packed = [rng.normal(size=(12, 15)) * 0.6 ** np.arange(12)[:, None] for _ in range(2)]
+    packed[strong][::-1] *= 5 * 0.8 ** np.arange(12)[:, None]
+    spectrum = np.sort(np.linalg.eigvalsh(packed[0] @ packed[0].T + packed[1] @ packed[1].T))
+    lost = np.cumsum(spectrum) / spectrum.sum()
+    for rtol in (1e-3, 0.01, 0.1, 0.4):
+        kept = compressed(*packed, rtol)
+        part = 1 - sum(float((p**2).sum()) for p in kept) / spectrum.sum()
+        assert part <= rtol
+        assert len(kept[0]) == 12 - np.count_nonzero(lost <= rtol)
+        assert part == pytest.approx(lost[11 - len(kept[0])] if len(kept[0]) < 12 else 0, abs=1e-12)
+
+
+@pytest.mark.parametrize("unit", [1e-9, 1e6])
+def test_conjugate_gradients_know_no_units(unit, rng):
+    """The tolerance is relative to the right-hand side."""
+    values, b = rng.uniform(1, 50, 30), rng.normal(size=30)
+    one, other = (solve(lambda x: values * x, scale * b, CG(rtol=1e-6)) for scale in (1.0, unit))
+    assert one.status == other.status == "converged"
+    assert one.steps == other.steps
+    assert one.residuals[-1] <= 1e-6 * np.linalg.norm(b) < one.residuals[-2]
+    np.testing.assert_allclose(other.value, unit * one.value, rtol=1e-9)
+
+
 # From maps to points and back.
+
+
+def test_each_target_vertex_takes_the_nearest_image(rng):
+    """The image of source vertex p is C φ(p): C carries functions, and with them their peaks."""
+    source, target = random_basis(40, 7, rng), random_basis(30, 6, rng)
+    C = rng.normal(size=(6, 7))
+    images = [C @ phi for phi in source.functions]
+    wanted = [int(np.argmin([np.linalg.norm(place - image) for image in images])) for place in target.functions]
+    np.testing.assert_array_equal(to_points(C, source, target), wanted)
 
 
 class Adverse(np.ndarray):

@@ -117,7 +117,7 @@ class SliceCommutativity:
     def diagonal(self) -> Array:
         xp = namespace(self.gram_t)
         own = xp.linalg.diagonal(self.gram_t)[:, None] + xp.linalg.diagonal(self.gram_s)[None, :]
-        return own - (2 * self.parity) * self.cross_diagonal
+        return own - 2 * self.cross_diagonal  # zero where the slices are antisymmetric
 
     def constant(self) -> float:
         return 0.0
@@ -131,7 +131,7 @@ class SliceCommutativity:
         of_s = xp.sum(xp.reshape(self.right @ U_s, (self.count, k_s, k_s)) * U_s[None, :, :], axis=1)
         of_t = xp.sum(xp.reshape(self.left @ U_t, (k_t, self.count, k_t)) * U_t[:, None, :], axis=0)
         own = rotated(self.gram_t, U_t)[:, None] + rotated(self.gram_s, U_s)[None, :]
-        return own - (2 * self.parity) * (of_t.T @ of_s)
+        return own - 2 * (of_t.T @ of_s)  # zero where the slices are antisymmetric, in every basis
 
 
 def slice_term(slices_s: Array, slices_t: Array, parity: int = 1) -> SliceCommutativity:
