@@ -175,9 +175,9 @@ MUTANTS = tuple(
         ("k: int, ridge: float = 0.1", "k: int, ridge: float = 0.0", f"{FORMULAS} -k damping"),
         ("return (1 + ridge) * xp.linalg.solve", "return xp.linalg.solve", f"{FORMULAS} -k damping"),
         ("C = fitted(points, source, target, self.stop)", "pass", f"{FORMULAS} -k last_step"),
-        ("C = C[:first, :first]", "C = C.T[:first, :first]", "test_maps -k repairs"),
+        ("C = C[:first, :first]", "C = C.T[:first, :first]", f"{FORMULAS} -k low_part"),
         ("np.sqrt(2 * (reduced**2).sum(axis=1).mean())", "np.sqrt((reduced**2).sum(axis=1).mean())", "test_guided"),
-        ("np.sqrt(weight / float(target.mass.sum()))", "(weight / float(target.mass.sum()))", "test_guided"),
+        ("np.sqrt(weight / float(target.mass.sum()))", "(weight / float(target.mass.sum()))", f"{FORMULAS} -k guide"),
         (
             "stratified(target.vertices[used], areas[used], SAMPLES, rng=0)",
             "stratified(target.vertices[used], 0 * areas[used] + 1, SAMPLES, rng=0)",

@@ -14,6 +14,7 @@ from kfmaps.descriptors.spectral import heat_times, normalised, spectral_range, 
 from kfmaps.functional import nearest as nearest_module
 from kfmaps.functional.cells import nearest_by_cells
 from kfmaps.functional.confidence import local_confidence
+from kfmaps.functional.guide import guide
 from kfmaps.functional.nearest import nearest
 from kfmaps.functional.points import to_points
 from kfmaps.functional.refine import SampledBasis, ZoomOut, fitted
@@ -251,6 +252,23 @@ def test_the_search_is_right_however_single_precision_errs(d, far, monkeypatch):
     wanted = ((queries[:, None] - points[None]) ** 2).sum(axis=2).argmin(axis=1)
     monkeypatch.setattr(nearest_module, "_single", lambda *given: exact(*given).view(Adverse))
     np.testing.assert_array_equal(nearest(queries, points), wanted)
+
+
+def test_zoomout_starts_from_the_low_part_of_the_map(small_basis, rng):
+    C = rng.normal(size=(9, 9))
+    found = ZoomOut(6, 6)(C, small_basis, small_basis)
+    np.testing.assert_array_equal(found.functional_map, C[:6, :6])
+    np.testing.assert_array_equal(found.target_to_source, to_points(C[:6, :6], small_basis, small_basis))
+
+
+@pytest.mark.parametrize("area", [1.0, 9.0])
+def test_a_guide_weighs_what_it_says_on_a_shape_of_any_size(area, rng):
+    """Squared differences of functions are in 1/area; those of the descriptors beside them are too."""
+    source, target = (replace(b, mass=area * b.mass / b.mass.sum()) for b in [random_basis(60, 4, rng)] * 2)
+    led = guide(*(rng.normal(size=(60, 5)) for _ in range(2)))
+    assert led is not None
+    both = np.concatenate(led.beside(12.0, source, target))
+    assert squared_distances(both, both).mean() * area == pytest.approx(12)
 
 
 def test_cells_compare_points_of_any_length(rng):
