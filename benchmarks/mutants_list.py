@@ -105,7 +105,7 @@ MUTANTS = tuple(
             FORMULAS,
         ),
         ("np.minimum(10 * (1 - distance), 1)", "np.minimum(2 * (1 - distance), 1)", "test_shot -k plain"),
-        ("np.arccos(np.clip(z / pairs.distance, -1, 1))", "np.arccos(np.clip(z, -1, 1))", "test_shot -k plane"),
+        ("np.arccos(np.clip(z / pairs.distance, -1, 1))", "np.arccos(np.clip(z, -1, 1))", "test_shot -k plain"),
         ("_unit(np.sqrt(_histograms(", "_unit(np.abs(_histograms(", "test_shot -k plain"),
         ("AZIMUTHS, -1)[:, ::-1]", "AZIMUTHS, -1)[:, :]", "test_shot -k mirror"),
         # functional: the energy

@@ -10,7 +10,16 @@ import pytest
 from scipy.spatial import ConvexHull
 
 from conftest import blob, random_basis
-from kfmaps.descriptors.spectral import heat_times, normalised, spectral_range, wave_energies, wave_signature
+from kfmaps.descriptors.spectral import (
+    heat_map,
+    heat_signature,
+    heat_times,
+    normalised,
+    spectral_range,
+    wave_energies,
+    wave_map,
+    wave_signature,
+)
 from kfmaps.functional import nearest as nearest_module
 from kfmaps.functional.cells import nearest_by_cells
 from kfmaps.functional.confidence import local_confidence
@@ -156,6 +165,26 @@ def test_a_wave_of_one_function_is_a_bell_of_width_sigma():
     found = wave_signature(basis, energies, 0.4) / basis.functions[:, 2:] ** 2
     # Of the function of eigenvalue 1 next to nothing is left so far away.
     np.testing.assert_allclose(found.min(axis=0), np.exp([0, -0.5, -0.5, -2]), rtol=1e-3)
+
+
+def test_heat_is_all_there_and_decays_as_each_function_does(rng):
+    """Over the area the signature sums to the trace of the heat kernel."""
+    basis, times = random_basis(60, 9, rng), np.array([0.02, 0.3, 1.0])
+    trace = np.exp(-times[None, :] * basis.eigenvalues[:, None]).sum(axis=0)
+    np.testing.assert_allclose(basis.mass @ heat_signature(basis, times), trace)
+
+
+def test_what_comes_from_a_landmark_is_the_signature_there_and_goes_both_ways(rng):
+    basis, energies = random_basis(60, 9, rng), np.array([0.1, 0.7, 1.2])
+    marks = np.array([4, 50, 7])
+    for map_of, signature in (
+        (heat_map(basis, marks, energies), heat_signature(basis, energies)),
+        (wave_map(basis, marks, energies, 0.5), wave_signature(basis, energies, 0.5)),
+    ):
+        values = map_of.reshape(60, 3, 3)  # vertex, landmark, time or energy
+        for j, mark in enumerate(marks):
+            np.testing.assert_allclose(values[mark, j], signature[mark])
+        np.testing.assert_allclose(values[marks], values[marks].transpose(1, 0, 2))
 
 
 def test_descriptors_of_random_vertices_differ_by_two(rng):
