@@ -60,7 +60,7 @@ MUTANTS = tuple(
             "test_eigensolver",
         ),
         ("0.5 * np.linalg.norm(_face_vectors(mesh), axis=1)", "np.linalg.norm(_face_vectors(mesh), axis=1)", FORMULAS),
-        ("np.repeat(face_areas(mesh) / 3, 3)", "np.repeat(face_areas(mesh) / 2, 3)", "test_spectrum -k area"),
+        ("np.repeat(face_areas(mesh) / 3, 3)", "np.repeat(face_areas(mesh) / 2, 3)", f"{FORMULAS} -k areas_are"),
         ("return Mesh(centred / np.sqrt(area), mesh.faces)", "return Mesh(centred / area, mesh.faces)", FORMULAS),
         ("reach = 1.3 * straight + shortest_edge", "reach = 0 * straight + shortest_edge", f"{FORMULAS} -k farther"),
         ("result = np.where(a == b, 0.0, np.inf)", "result = np.where(a == b, 1.0, np.inf)", "test_geodesics -k pairs"),
@@ -199,7 +199,7 @@ MUTANTS = tuple(
             f"{MATCH} -k half",
         ),
         ("scale = (size / total) ** 0.5 if total", "scale = size / total if total", f"{MATCH} -k orientation"),
-        ("slices[1] * scale, parity=-1)", "slices[1] * scale, parity=1)", f"{MATCH} -k orientation"),
+        ("self.orientations[t], parity=-1)", "self.orientations[t])", f"{MATCH} -k orientation"),
         ("size = inner(packed_s, packed_s) + inner(packed_t, packed_t)", "size = inner(packed_s, packed_s)", MATCH),
         (
             "for m, f in zip(mass, F, strict=True)) / 2",

@@ -35,7 +35,7 @@ from kfmaps.kernel.nystrom import nystrom
 from kfmaps.surface import geodesics
 from kfmaps.surface.basis import Basis
 from kfmaps.surface.geodesics import distance_pairs, geodesic_distances
-from kfmaps.surface.mesh import Mesh, unit_area
+from kfmaps.surface.mesh import Mesh, face_areas, surface_area, unit_area, vertex_areas
 from kfmaps.surface.samples import _embedded, spectral_samples
 
 
@@ -81,6 +81,16 @@ def test_what_is_dropped_is_below_the_tolerance_and_what_is_kept_above(rtol, rng
 # Surfaces.
 
 
+def test_areas_are_areas():
+    """Of a right triangle, of its corners, and of anything once it is scaled to one."""
+    triangle = Mesh(np.array([[0.0, 0, 0], [3, 0, 0], [0, 4, 0]]), np.array([[0, 1, 2]]))
+    assert face_areas(triangle) == pytest.approx(6)
+    assert vertex_areas(triangle) == pytest.approx(2)
+    for mesh in (triangle, blob(100)):
+        assert surface_area(mesh) == pytest.approx(vertex_areas(mesh).sum())
+        assert surface_area(unit_area(mesh)) == pytest.approx(1)
+
+
 @pytest.mark.parametrize("unit", [1e-3, 40.0])
 def test_the_samples_embedding_is_a_distance(unit, rng):
     """Biharmonic distances have the unit of the shape, so that they say something on thin parts as on thick ones."""
@@ -101,7 +111,7 @@ def test_pairs_are_searched_no_farther_than_they_need(monkeypatch):
     """The straight line is a good guess of most distances: one search, of little, is enough for near pairs."""
     mesh = unit_area(blob(1500))
     everything = geodesic_distances(mesh, np.arange(0, 1500, 10))
-    target = np.argsort(everything, axis=1)[:, 12]  # some three edges away
+    target = np.argsort(everything, axis=1)[:, 120]  # some six edges away
     seen, limits = [], []
 
     def searched(graph, indices, limit=np.inf):
@@ -115,8 +125,8 @@ def test_pairs_are_searched_no_farther_than_they_need(monkeypatch):
     found = distance_pairs(mesh, np.arange(0, 1500, 10), target)
     np.testing.assert_allclose(found, np.take_along_axis(everything, target[:, None], 1)[:, 0], rtol=1e-12)
     assert len(limits) <= 4  # three blocks, and one more for a stray
-    assert sum(seen) < 0.1 * 150 * 1500
-    assert max(limits) < 5 * found.max()
+    assert sum(seen) < 0.4 * 150 * 1500
+    assert max(limits) < 3 * found.max()
 
 
 # Descriptors.
@@ -226,7 +236,7 @@ def test_compression_drops_as_much_as_its_tolerance_allows_and_no_more(strong, r
     spectrum = np.sort(np.linalg.eigvalsh(packed[0] @ packed[0].T + packed[1] @ packed[1].T))
     lost = np.cumsum(spectrum) / spectrum.sum()
     for rtol in (1e-3, 0.01, 0.1, 0.4):
-        kept = compressed(*packed, rtol)
+        kept = compressed(packed[0], packed[1], rtol)
         part = 1 - sum(float((p**2).sum()) for p in kept) / spectrum.sum()
         assert part <= rtol
         assert len(kept[0]) == 12 - np.count_nonzero(lost <= rtol)

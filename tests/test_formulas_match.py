@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import astuple, replace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -11,10 +12,10 @@ from conftest import blob
 from kfmaps._arrays import inner
 from kfmaps.config import BasisConfig, Config, DescriptorConfig, NystromConfig, Search
 from kfmaps.fit.features import Descriptors, Features, joint_samples, pair_descriptors
-from kfmaps.fit.problem import orientation_term, principal, problem
+from kfmaps.fit.problem import orientation_pair, principal, problem
 from kfmaps.fit.shape import Shape, prepare
 from kfmaps.functional.points import to_points
-from kfmaps.functional.terms import value
+from kfmaps.functional.terms import slice_term, value
 from kfmaps.kernel.kernels import Gaussian, squared_distances
 from kfmaps.matching import match
 from kfmaps.search.choose import mirror_image
@@ -63,13 +64,12 @@ def test_shot_counts_as_its_weight_says_in_squared_distances(shape, other, weigh
 def test_half_of_the_samples_come_from_each_shape(shape, other, sampling):
     settings = NystromConfig(samples=60, sampling=sampling)
     rng = np.random.default_rng(0)
-    marked = Descriptors(
-        *(np.column_stack([np.full(len(s.basis.mass), i), s.mesh.vertices]) for i, s in enumerate((shape, other)))
-    )
+    of = [np.column_stack([np.full(len(s.basis.mass), i), s.mesh.vertices]) for i, s in enumerate((shape, other))]
+    marked = Descriptors(of[0], of[1], np.full(4, -1))
     rows = joint_samples(shape, other, marked, Gaussian(1.0), settings, rng)
     assert np.bincount(rows[:, 0].astype(int)).tolist() == [30, 30]
     few = replace(other, mesh=replace(other.mesh, vertices=other.mesh.vertices[:20], faces=np.zeros((0, 3), int)))
-    scarce = Descriptors(marked.source, marked.target[:20])
+    scarce = replace(marked, target=marked.target[:20])
     rows = joint_samples(shape, few, scarce, Gaussian(1.0), settings, rng)
     assert np.bincount(rows[:, 0].astype(int)).tolist() == [30, 20]
 
@@ -86,8 +86,8 @@ def test_orientation_is_kept_by_the_identity_and_lost_in_the_mirror(shape, stron
     image = mirror_image(shape)
     bases = shape.basis.truncated(K), shape.basis.truncated(K)
     for size in (1.0, 70.0):
-        same = orientation_term((shape, shape), (shape, shape), bases, strongest, K, size)
-        turned = orientation_term((shape, image), (shape, image), bases, strongest, K, size)
+        pairs = [orientation_pair((shape, s), (shape, s), bases, strongest, K, size) for s in (shape, image)]
+        same, turned = (slice_term(*pair, parity=-1) for pair in pairs)
         assert value(same, np.eye(K)) == pytest.approx(0, abs=1e-9 * size)
         assert value(turned, np.eye(K)) == pytest.approx(size)
         assert value(turned, -np.eye(K)) == pytest.approx(size)
@@ -104,7 +104,7 @@ def test_orientation_and_commutativity_weigh_the_same(shape, other):
     bases = shape.basis, other.basis
     config = replace(CONFIG, weights=replace(CONFIG.weights, orientation=1.0))
     used = pair_descriptors(shape, other, bases, config.descriptors, NO_LANDMARKS, None)
-    terms = problem(shape, other, bases, used, config, np.random.default_rng(0)).energy.terms
+    terms: Any = problem(shape, other, bases, used, config, np.random.default_rng(0)).energy.terms
     sizes = [sum(np.trace(S) for S in terms[name].sides()) for name in ("orientation", "commutativity")]
     assert sizes[0] == pytest.approx(sizes[1])
     assert sizes[0] > 0
@@ -128,7 +128,7 @@ def test_a_constant_more_in_the_features_changes_no_principal_direction(shape, o
 
 # The search.
 
-USUAL = Quality(0.9, 0.1, 0.1, 0.2, 0.1, 0.01, 0.9, 0.05, 1.0)
+USUAL = Quality(orientation=0.9, distortion=0.1, stretch=0.1, descriptors=0.2, heat=0.1, coverage=0.9, laplacian=0.05)
 
 
 @pytest.mark.parametrize(

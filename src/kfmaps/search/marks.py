@@ -75,7 +75,7 @@ def around(points: Basis, basis: Basis, landmarks: np.ndarray) -> np.ndarray:
     for time in TIMES:
         decay = np.exp(-values * time)
         own, theirs = (here**2) @ decay, (phi**2) @ decay
-        found.append(((here * decay) @ phi.T) / np.sqrt(np.outer(own, theirs)))
+        found.append(((here * decay) @ phi.T) / np.sqrt(np.maximum(np.outer(own, theirs), 1e-300)))
     return np.stack(found, axis=2)
 
 
@@ -86,7 +86,7 @@ def side_by_side(functions_s: np.ndarray, functions_t: np.ndarray) -> Guide:
     centred = both - both.mean(axis=0)
     if centred.shape[1] > DIMENSIONS:
         centred = centred @ np.linalg.eigh(centred.T @ centred)[1][:, ::-1][:, :DIMENSIONS]
-    centred = centred / np.sqrt(max(2 * (centred**2).sum(axis=1).mean(), 1e-300))
+    centred = centred / np.sqrt(max(2 * (centred**2).sum(axis=1).mean(), 1e-12))
     return Guide(centred[: len(flat[0])], centred[len(flat[0]) :])
 
 
