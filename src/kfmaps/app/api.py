@@ -43,38 +43,10 @@ DPI = 72
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Match(matching.Match):
-    """The answer of a match, with the two shapes, so that it can be drawn, saved and carried over.
-
-    Attributes
-    ----------
-    target_to_source : (n_t,) int64
-        A source vertex for each target vertex, refined when the configuration says so.
-    functional_map : (k_t, k_s) float64
-        Carries coefficients of functions from source to target; of the refined map.
-    eigenvalues_s, eigenvalues_t : (k_s,), (k_t,) float64
-        Of the shapes at unit area, as many as ``functional_map`` has columns and rows.
-    verdict : "landmarks", "sure", "ambiguous", "poor" or "unchecked"
-    config : Config
-    seconds : dict of str to float
-        Per stage.
-    origin : str
-        What the refined map started from: "one fit", or the name of a candidate of the search.
-    raw_functional_map : (k, k) float64
-        What the refinement started from: of one fit the minimiser, of a search the best candidate.
-    raw_target_to_source : (n_t,) int64 or None
-        Its point map on all vertices; not worked out by a search.
-    fit : Fit or None
-        The fit that the map started from.
-    local_confidence : (n_t,) float64
-        How well the map keeps distances around each target vertex, 0 to 1, NaN where that cannot be told.
-    confidence : float or None
-        Of a search, how clearly the map beat every distinct other one.
-    scores : tuple of float
-        Of a search: of the map and of each runner-up, higher is better.
-    runners_up : tuple of arrays (n_t,)
-        Of a search: the distinct other maps, best first.
+    # The fields of the record that it extends are described there.
+    __doc__ = f"""{str(matching.Match.__doc__).rstrip()}
     source, target : Mesh
-        As they were handed in; those of a :class:`Shape` have unit area.
+        The two shapes as they were handed in; those of a :class:`Shape` have unit area.
     """
 
     source: Mesh
@@ -142,8 +114,10 @@ def match(
 ) -> Match:
     """Find for each vertex of ``target`` the corresponding vertex of ``source``.
 
-    With landmarks they settle which way round a symmetric shape goes, and one fit is made. Without, several
-    candidate maps are fitted and compared (:mod:`kfmaps.search.choose`), and the answer says how sure it is.
+    Many candidate maps are made and compared (:mod:`kfmaps.search.choose`), and the answer says how sure it is.
+    Landmarks, as many or few as there are, steer the candidates and help to choose between them; those that are
+    contradicted by a map that keeps to most of the others are named and left out. With ``config.search`` of ``None``
+    one fit is made, in which landmarks settle which way round a symmetric shape goes.
 
     Parameters
     ----------
@@ -152,7 +126,7 @@ def match(
         meshio or Open3D. A :class:`Shape` from :func:`prepare` saves the work that depends on one shape alone; it must
         come from the same settings of the basis, SHOT and the numbers of functions.
     config : Config, optional
-        ``Config()`` with landmarks or given descriptors, ``Config.automatic()`` without.
+        ``Config.automatic()`` when not given; ``Config()``, one fit, with descriptors of the user's own.
     landmarks : (l, 2) whole numbers, or a path, optional
         Pairs "source vertex, target vertex", 0-based.
     descriptors : pair of arrays (n_s, d), (n_t, d), optional

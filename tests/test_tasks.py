@@ -1,0 +1,122 @@
+"""The lines of the pages for users run as they stand, one after the other, on what ``demo --write`` makes."""
+
+from __future__ import annotations
+
+import re
+import shlex
+import shutil
+import warnings
+import webbrowser
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import kfmaps
+from commandline import run
+from kfmaps import matching
+from kfmaps.app.view.server import LocalServer
+from kfmaps.config import Config
+
+ROOT = Path(__file__).parents[1]
+PAGES = sorted((ROOT / "docs" / "tasks").glob("*.md"))
+ELSEWHERE = ("batch", "import bpy", "import numpy as np, kfmaps")
+"""What begins a block of another program, or of a folder of shapes that is not there."""
+
+
+@pytest.fixture(scope="module")
+def made(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("made")
+    assert run("demo", "--write", folder, "--vertices", "1500").status == 0
+    return folder
+
+
+@pytest.fixture(scope="module")
+def answer(made: Path) -> matching.Match:
+    """A map between the two shapes, quickly made: what is tried is the lines, not the map."""
+    config = replace(
+        Config(),
+        basis=kfmaps.BasisConfig(20),
+        descriptors=kfmaps.DescriptorConfig(20, eigenfunctions=40),
+        refinement=None,
+    )
+    pair = [kfmaps.read_mesh(made / name) for name in ("a.ply", "b.ply")]
+    found = matching.match(pair[0], pair[1], config, landmarks=kfmaps.read_landmarks(made / "pairs.txt"))
+    rng = np.random.default_rng(0)
+    rough = np.where(rng.random(len(found.target_to_source)) < 0.1, 0, found.target_to_source)
+    return replace(found, verdict="ambiguous", confidence=0.4, scores=(-1.0, -1.1), runners_up=(rough,))
+
+
+@pytest.fixture
+def place(made: Path, answer: matching.Match, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A folder with the shapes, in which a match is the one that is made already and no browser opens."""
+    for path in made.iterdir():
+        shutil.copy(path, tmp_path)
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(matching, "match", lambda *_, **__: answer)
+    monkeypatch.setattr(webbrowser, "open", lambda _: True)
+    monkeypatch.setattr(LocalServer, "serve_forever", lambda *_, **__: None)
+    return tmp_path
+
+
+def blocks(text: str) -> list[tuple[str, str]]:
+    """The fenced blocks of a page: their language, and what is in them."""
+    return re.findall(r"^```(\w*)\n(.*?)^```$", text, re.MULTILINE | re.DOTALL)
+
+
+def commands(block: str) -> list[list[str]]:
+    """The lines of a block that call the command, as words, without comments."""
+    lines = [line for line in block.replace("\\\n", " ").splitlines() if line.startswith("kfmaps ")]
+    return [shlex.split(line, comments=True)[1:] for line in lines]
+
+
+def tried(text: str, name: str) -> int:
+    """How many commands and blocks of Python of a page have been run, one after the other."""
+    names: dict[str, Any] = {"__name__": "page"}
+    ran = 0
+    for language, block in blocks(text):
+        if language == "python":
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore", kfmaps.KfmapsWarning)
+                exec(compile(block, name, "exec"), names)
+            ran += 1
+        elif not any(word in block for word in ELSEWHERE):
+            for words in commands(block):
+                done = run(*words)
+                assert done.status == 0, (words, done.stderr)
+                ran += 1
+    return ran
+
+
+@pytest.mark.parametrize("page", PAGES, ids=[page.stem for page in PAGES])
+def test_lines_of_a_task_run(page: Path, place: Path) -> None:
+    before = {path.name for path in place.iterdir()}
+    assert tried(page.read_text(encoding="utf-8"), page.name) >= 1
+    assert page.stem == "pyfm" or {path.name for path in place.iterdir()} > before
+
+
+@pytest.mark.usefixtures("place")
+@pytest.mark.xfail(strict=False, reason="README has its new commands only when this mark is gone")
+def test_lines_of_readme_run() -> None:
+    assert tried((ROOT / "README.md").read_text(encoding="utf-8"), "README.md") >= 5
+
+
+def test_first_map_page(place: Path) -> None:
+    """The table of what to do next: each command, in its order."""
+    (place / "labels.txt").write_text("1\n" * 1500)
+    text = (ROOT / "docs" / "first-map.md").read_text(encoding="utf-8")
+    assert run("match", "a.ply", "b.ply").status == 0
+    table = [shlex.split(words)[1:] for words in re.findall(r"^\| [^|]+\| `(kfmaps [^`]+)`", text, re.MULTILINE)]
+    assert len(table) >= 5
+    for words in table:
+        done = run(*words)
+        assert done.status == 0, (words, done.stderr)
+
+
+def test_every_task_is_in_the_guide() -> None:
+    guide = (ROOT / "docs" / "guide.md").read_text(encoding="utf-8")
+    for page in PAGES:
+        assert f"(tasks/{page.name})" in guide
+        assert f"\ntasks/{page.stem}\n" in guide
