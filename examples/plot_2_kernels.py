@@ -42,7 +42,7 @@ for name, kernel in kernels.items():
     means[name] = kfmaps.geodesic_errors(pair.source, result.target_to_source, pair.truth).mean()
     fit = result.fit
     assert fit is not None  # without landmarks a search may do without
-    print(f"{name:22} {fit.rank:3} features  mean error x 100: {100 * means[name]:.2f}  {fit.kernel}")
+    print(f"{name:22} {fit.rank:3} features  mean error {100 * means[name]:.2f} % of √area  {fit.kernel}")
 
 # %%
 # With the linear kernel the features are the ten descriptors themselves. The quadratic kernel has all their products
@@ -51,7 +51,7 @@ for name, kernel in kernels.items():
 
 figure, ax = plt.subplots(figsize=(6, 2.4), layout="constrained")
 ax.barh(list(means), [100 * value for value in means.values()], color="#0072B2")
-ax.set_xlabel("mean geodesic error / √area, times 100")
+ax.set_xlabel("mean geodesic error (% of √area)")
 ax.invert_yaxis()
 ax.spines[["top", "right"]].set_visible(False)
 

@@ -398,9 +398,9 @@ def tiny(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Setting:
 COLUMNS = {
     "figure2": {"gamma", "k", "relative eigenvalue", "best rank-k error"},
     "figure3": {"gamma", "sampling", "rank", "relative error"},
-    "figure4": {"descriptors", "method", "mean error × 100"},
-    "figure5": {"kernel", "pairs", "mean error × 100"},
-    "figure6": {"data", "descriptors", "pairs", "method", "mean error × 100"},
+    "figure4": {"descriptors", "method", "mean error (% of √area)"},
+    "figure5": {"kernel", "pairs", "mean error (% of √area)"},
+    "figure6": {"data", "descriptors", "pairs", "method", "mean error (% of √area)"},
     "figure7": {"settings", "step", "relative residual"},
     "section44": {"descriptors", "kernel", "system", "rank", "condition number"},
 }
@@ -443,7 +443,7 @@ def test_grid_search_takes_the_lowest_error(tmp_path: Path) -> None:
     setting = Setting(None, tmp_path, workers=1, vertices=1500)
     base = small(recommended(20))
     found = grid_search(setting, base, Grid(sharpness=(0.3,), alpha=(1.0, 1e9)), [(SMALL, [PAIR])], False)
-    errors = [line["mean error × 100"] for line in found.table]
+    errors = [line["mean error (% of √area)"] for line in found.table]
     assert errors == sorted(errors)
     assert found.error == pytest.approx(errors[0] / 100)
     # A map that only commutes with the Laplacian knows nothing of the descriptors.

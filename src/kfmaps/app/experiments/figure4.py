@@ -10,6 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
+from matplotlib.ticker import PercentFormatter
 
 from kfmaps._arrays import KfmapsWarning
 from kfmaps.app.experiments import style
@@ -19,6 +20,7 @@ from kfmaps.app.experiments.outputs import Outcome, write_conclusions, write_pic
 from kfmaps.app.experiments.pairs import fitted
 from kfmaps.app.experiments.setting import Setting
 from kfmaps.app.pictures import ERROR_MAP, View, automatic_view, draw_surface, following_view, position_colors
+from kfmaps.app.words import UNIT
 from kfmaps.config import Config
 from kfmaps.functional.evaluate import geodesic_errors
 from kfmaps.kernel.kernels import Gaussian
@@ -82,8 +84,8 @@ def figure4(setting: Setting) -> Outcome:
             "data": collection.name,
             "descriptors": p.count,
             "method": p.method,
-            "mean error × 100": 100 * float(p.errors.mean()),
-            "median error × 100": 100 * float(np.median(p.errors)),
+            f"mean error ({UNIT})": 100 * float(p.errors.mean()),
+            f"median error ({UNIT})": 100 * float(np.median(p.errors)),
             "within 0.05 (%)": 100 * float((p.errors <= 0.05).mean()),
         }
         for p in panels
@@ -115,7 +117,7 @@ def conclusions(panels: list[Panel], alone: bool) -> list[str]:
     error = {(p.method, p.count): 100 * float(p.errors.mean()) for p in panels}
     kind = "wave kernel signature alone" if alone else "wave kernel signature and landmark maps"
     lines = [
-        f"{count} descriptors ({kind}): mean error × 100 is {error[METHODS[1], count]:.2f} with the Gaussian kernel "
+        f"{count} descriptors ({kind}): mean error in {UNIT} {error[METHODS[1], count]:.2f} with the Gaussian kernel "
         f"(γ = {GAMMA:g}) and {error[METHODS[0], count]:.2f} without (OBCS12)."
         for count in COUNTS
     ]
@@ -149,15 +151,20 @@ def draw(source: Mesh, target: Mesh, correspondence: np.ndarray, panels: list[Pa
         errors[p.vertices] = p.errors
         _surface(axes[row, column + 1], target, ERROR_MAP(scale(np.maximum(errors, SHOWN[0])))[:, :3], seen_t)
         axes[row, column].set_title(f"{p.count} descriptors", fontsize=9)
-        axes[row, column + 1].set_title(f"error {100 * p.errors.mean():.1f} · 10⁻²", fontsize=9)
+        axes[row, column + 1].set_title(f"error {100 * p.errors.mean():.1f} {UNIT}", fontsize=9)
     for row, name in enumerate(METHODS):
         axes[row, 1].text(
             -0.08, 0.5, name, rotation=90, va="center", ha="right", fontsize=10, transform=axes[row, 1].transAxes
         )
     bar = figure.colorbar(
-        ScalarMappable(scale, ERROR_MAP), ax=axes[1, 0], location="left", fraction=0.35, extend="both"
+        ScalarMappable(scale, ERROR_MAP),
+        ax=axes[1, 0],
+        location="left",
+        fraction=0.35,
+        extend="both",
+        format=PercentFormatter(1.0, symbol=""),
     )
-    bar.set_label("geodesic error (√area)", fontsize=9, color=style.TEXT)
+    bar.set_label(f"geodesic error ({UNIT})", fontsize=9, color=style.TEXT)
     return figure
 
 

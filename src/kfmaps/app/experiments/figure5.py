@@ -13,6 +13,7 @@ from kfmaps.app.experiments.methods import literal
 from kfmaps.app.experiments.outputs import Outcome, write_conclusions, write_pictures, write_table
 from kfmaps.app.experiments.pairs import THRESHOLDS, Row
 from kfmaps.app.experiments.setting import Setting, by_method
+from kfmaps.app.words import UNIT
 from kfmaps.config import Config
 from kfmaps.kernel.kernels import Gaussian, Tanh
 
@@ -42,8 +43,8 @@ def figure5(setting: Setting) -> Outcome:
                 "data": collection.name,
                 "kernel": name,
                 "pairs": len(rows),
-                "mean error × 100": means[name],
-                "median of pairs × 100": 100 * float(np.median([row.mean for row in rows])),
+                f"mean error ({UNIT})": means[name],
+                f"median of pairs ({UNIT})": 100 * float(np.median([row.mean for row in rows])),
                 "mean rank": float(np.mean([row.rank for row in rows])),
             }
             for name, rows in grouped.items()
@@ -68,7 +69,7 @@ def conclusion(means: Mapping[str, float]) -> str:
         "the largest, as in the paper" if best == max(GAMMAS) else "not the largest, so sharper is not always better"
     )
     return (
-        f"the best of γ = {', '.join(f'{g:g}' for g in GAMMAS)} is {best:g} (mean error × 100: {gaussian[best]:.2f}, "
+        f"the best of γ = {', '.join(f'{g:g}' for g in GAMMAS)} is {best:g} (mean error {gaussian[best]:.2f} {UNIT}, "
         f"against {gaussian[min(GAMMAS)]:.2f} at the smallest and "
         f"{gaussian[max(GAMMAS)]:.2f} at the largest): {largest}. "
         f"The best tanh kernel, {tanh}, has {means[tanh]:.2f}."

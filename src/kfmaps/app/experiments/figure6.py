@@ -24,6 +24,7 @@ from kfmaps.app.experiments.outputs import Outcome, write_conclusions, write_pic
 from kfmaps.app.experiments.pairs import THRESHOLDS, Row
 from kfmaps.app.experiments.setting import Setting, by_method
 from kfmaps.app.experiments.statistics import Interval, difference, ratio
+from kfmaps.app.words import UNIT
 from kfmaps.config import Config
 
 COUNTS = (100, 10)
@@ -100,9 +101,9 @@ def summary(name: str, rows: Sequence[Row], other: Sequence[Row]) -> dict[str, o
     apart = difference(100 * means, 100 * np.array([row.mean for row in other]))
     return {
         "method": name,
-        "mean error × 100": 100 * float(means.mean()),
-        "median of pairs × 100": 100 * float(np.median(means)),
-        "worst pair × 100": 100 * float(means.max()),
+        f"mean error ({UNIT})": 100 * float(means.mean()),
+        f"median of pairs ({UNIT})": 100 * float(np.median(means)),
+        f"worst pair ({UNIT})": 100 * float(means.max()),
         "minus NO17": apart.value,
         "low": apart.low,
         "high": apart.high,
@@ -116,7 +117,7 @@ def summary(name: str, rows: Sequence[Row], other: Sequence[Row]) -> dict[str, o
 class Comparison:
     """One method against another on the same pairs.
 
-    ``claim`` says what should hold of ``interval``, of a difference of mean errors × 100 or of their ratio;
+    ``claim`` says what should hold of ``interval``, of a difference of mean errors in % of √area or of their ratio;
     ``holds`` whether the measured value does so.
     """
 

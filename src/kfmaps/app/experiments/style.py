@@ -8,6 +8,9 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.ticker import PercentFormatter
+
+from kfmaps.app.words import UNIT
 
 # Okabe and Ito (2008).
 BLACK, ORANGE, SKY, GREEN = "#000000", "#E69F00", "#56B4E9", "#009E73"
@@ -84,4 +87,5 @@ def error_curves(
         ax.plot(thresholds, percent, color=color, linestyle=dash, linewidth=1.6, label=name)
     ax.set_xlim(0, thresholds[-1])
     ax.set_ylim(0, 100)
-    labels(ax, "geodesic error allowed (√area)", "vertices within it (%)")
+    ax.xaxis.set_major_formatter(PercentFormatter(1.0, symbol=""))
+    labels(ax, f"geodesic error allowed ({UNIT})", "vertices within it (%)")

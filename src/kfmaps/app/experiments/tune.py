@@ -14,6 +14,7 @@ from kfmaps.app.experiments.collections import Collection, ShapePair
 from kfmaps.app.experiments.methods import with_count
 from kfmaps.app.experiments.pairs import Row
 from kfmaps.app.experiments.setting import Setting, by_method
+from kfmaps.app.words import UNIT
 from kfmaps.config import Config
 from kfmaps.descriptors.spectral import Normalisation
 from kfmaps.kernel.kernels import Gaussian, Laplacian
@@ -116,7 +117,7 @@ def grid_search(
     table = [
         {
             "settings": name,
-            "mean error × 100": 100 * float(np.mean(errors[name])),
+            f"mean error ({UNIT})": 100 * float(np.mean(errors[name])),
             **{c.name: 100 * value for (c, _), value in zip(pairs, errors[name], strict=True)},
             "pairs": sum(len(some) for _, some in pairs),
         }
