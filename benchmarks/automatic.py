@@ -1,32 +1,54 @@
-"""Maps without landmarks on the field's benchmarks: errors, verdicts and times, one setting for all sets.
+"""Maps on the field's benchmarks, without landmarks or with some: errors, verdicts and times, one setting for all.
 
-    python benchmarks/automatic.py --data DIR [--sets FAUST_r,TOSCA_r,catlion,own] [--workers 2] [--json FILE]
+    python benchmarks/automatic.py --data DIR [--sets FAUST_r,SHREC19_r,...] [--pairs 60] [--workers 2] [--json FILE]
+    python benchmarks/automatic.py --data DIR --landmarks 0,1,2,3,5,10,25 [--wrong 0.2]
     python benchmarks/automatic.py --data DIR --time
 
-DIR holds the folders FAUST_r, TOSCA_r and catlion (see the layouts in docs/collections.md); without it only the
-package's own shapes are matched. What the settings were chosen on is left out: pairs of FAUST_r in which both are of
-the first four people, and seeds 0 to 4 of the package's own non-isometric shapes.
+DIR holds folders in the layouts of docs/collections.md, and ``cross/cat_dog.txt``; without it only the package's own
+shapes are matched. What the settings were chosen on is left out: pairs of which both shapes are in the half named by
+:data:`CHOSEN_ON`. At the end stand, over all sets, how many maps were called what, and how often that was right.
 """
 
 from __future__ import annotations
 
 import argparse
 import json
-import os
 import time
 import warnings
 from concurrent.futures import ProcessPoolExecutor
-from dataclasses import replace
-from itertools import combinations
+from dataclasses import dataclass, replace
+from itertools import permutations, product
 from pathlib import Path
 
 import numpy as np
 
 import kfmaps
 from kfmaps import datasets
+from kfmaps.kernel.select import farthest
 
-TUNED = 40
-"""Shapes of FAUST_r below this number are of the people that the settings were chosen on."""
+CHOSEN_ON = {
+    "FAUST_r": {f"tr_reg_{i:03d}" for i in range(40)},
+    "SHREC19_r": {"2", "9", "13", "19", "26", "32", "36", "39"},
+    "TOSCA_r": {"cat0", "cat8", "cat10", "dog0", "dog3", "dog8", "horse0", "horse6", "horse17", "centaur0", "centaur3"},
+    "catdog": {"cat0", "cat8", "cat10", "dog0", "dog3", "dog8"},
+    "TOSCA_nonIsometric_r": {"8_gorilla_01", "8_woman_01", "8_woman_02"},
+}
+OWN = (("two_poses", 5), ("symmetric_creature", 5), ("non_isometric", 5), ("non_isometric", 6))
+RIGHT = 8.0
+"""Mean error × 100 below which a map counts as right."""
+
+
+@dataclass(frozen=True, eq=False)
+class Job:
+    """One pair: the set and the names of its shapes, how many landmarks are given and how many of them are wrong."""
+
+    data: Path | None
+    kind: str
+    source: str
+    target: str
+    landmarks: int = 0
+    wrong: float = 0.0
+    threads: int = 1
 
 
 def read(path: Path) -> kfmaps.Mesh:
@@ -39,136 +61,149 @@ def mesh_file(folder: Path, name: str) -> Path:
     return next(folder / f"{name}{e}" for e in (".ply", ".off") if (folder / f"{name}{e}").exists())
 
 
-def faust_pairs(folder: Path, count: int = 60, seed: int = 0) -> list[tuple[str, str]]:
-    """``count`` pairs across people, none of them of two people that the settings were chosen on."""
-    lines = (folder / "test_pairs.txt").read_text(encoding="utf-8").split("\n")
-    pairs = [(a, b) for a, b in (line.split() for line in lines if line.strip())]
-    number = {name: int(name[-3:]) for pair in pairs for name in pair}
-    across = [(a, b) for a, b in pairs if number[a] // 10 != number[b] // 10 and max(number[a], number[b]) >= TUNED]
-    chosen = np.random.default_rng(seed).permutation(len(across))[:count]
-    return [across[i] for i in np.sort(chosen)]
+def lines(folder: Path, name: str) -> np.ndarray:
+    return np.loadtxt(folder / "corres" / f"{name}.vts", dtype=np.int64) - 1
 
 
-def tosca_pairs(folder: Path) -> list[tuple[str, str]]:
-    """All pairs within an animal."""
-    names = sorted(p.stem for p in folder.glob("*.off"))
-    return [p for p in combinations(names, 2) if p[0].rstrip("0123456789") == p[1].rstrip("0123456789")]
+def loaded(job: Job) -> tuple[kfmaps.Mesh, kfmaps.Mesh, np.ndarray, np.ndarray]:
+    """Both meshes and true pairs of vertices."""
+    if job.kind == "own":
+        pair = getattr(datasets, job.source)(4000, rng=int(job.target))
+        return pair.source, pair.target, pair.truth, np.arange(len(pair.truth))
+    assert job.data is not None
+    folder = job.data / ("TOSCA_r" if job.kind == "catdog" else job.kind)
+    whole = job.data / "FAUST_r" if job.kind.startswith("PFAUST") else folder
+    meshes = read(mesh_file(whole, job.source)), read(mesh_file(folder, job.target))
+    if job.kind == "catdog":
+        both = np.loadtxt(job.data / "cross" / "cat_dog.txt", dtype=np.int64) - 1
+        side = 0 if job.source.startswith("cat") else 1
+        return *meshes, lines(folder, job.source)[both[:, side]], lines(folder, job.target)[both[:, 1 - side]]
+    if job.kind.startswith("PFAUST"):
+        true = np.loadtxt(folder / f"{job.target}.txt", dtype=np.int64)
+        return *meshes, true[:, 0], true[:, 1]
+    if job.kind == "SHREC16":
+        places = np.loadtxt(folder / f"{job.target}.baryc_gt")
+        corners = meshes[0].faces[places[:, 0].astype(np.int64) - 1]
+        vertices = corners[np.arange(len(corners)), places[:, 1:4].argmax(axis=1)]
+        return *meshes, vertices, np.arange(len(vertices))
+    return *meshes, lines(folder, job.source), lines(folder, job.target)
 
 
-def judged(name: str, source: kfmaps.Mesh, target: kfmaps.Mesh, true_s, true_t, mirrored_t=None) -> dict:
-    start = time.perf_counter()
-    found = kfmaps.match(source, target, replace(kfmaps.Config.automatic(), threads=THREADS))
-    row = {"pair": name, "seconds": time.perf_counter() - start, "verdict": found.verdict}
-    row |= {"confidence": found.confidence, "score": found.scores[0], "stages": found.seconds}
-
-    def error(points, where) -> float:
-        return 100 * float(kfmaps.geodesic_errors(source, points[where], true_s).mean())
-
-    row["error"] = error(found.target_to_source, true_t)
-    if mirrored_t is not None:
-        row["mirrored"] = error(found.target_to_source, mirrored_t)
-    row["runners_up"] = [error(other, true_t) for other in found.runners_up]
-    return row
-
-
-def collection(job: tuple[Path, str, str]) -> dict:
-    folder, a, b = job
-    lines = [np.loadtxt(folder / "corres" / f"{n}.vts", dtype=np.int64) - 1 for n in (a, b, f"{b}.sym")]
-    return judged(f"{a} {b}", read(mesh_file(folder, a)), read(mesh_file(folder, b)), *lines)
-
-
-def cat_and_lion(folder: Path) -> dict:
-    pairs = np.loadtxt(folder / "cat_lion_landmarks.txt", dtype=np.int64)
-    return judged("cat lion", read(folder / "cat-00.off"), read(folder / "lion-00.off"), pairs[:, 0], pairs[:, 1])
+def pairs_of(kind: str, data: Path | None, count: int) -> list[tuple[str, str]]:
+    """At most ``count`` pairs of a set, drawn with a fixed seed, none of two shapes that settings were chosen on."""
+    if kind == "own":
+        return [(name, str(seed)) for name, seed in OWN]
+    assert data is not None
+    folder = data / ("TOSCA_r" if kind == "catdog" else kind)
+    if kind in ("catdog", "TOSCA_r"):
+        names = sorted(p.stem for p in folder.glob("*.off"))
+        animal = {name: name.rstrip("0123456789") for name in names}
+        wanted = [("cat", "dog"), ("dog", "cat")] if kind == "catdog" else [(a, a) for a in set(animal.values())]
+        found = [(a, b) for a, b in permutations(names, 2) if (animal[a], animal[b]) in wanted]
+        found = [(a, b) for a, b in found if kind == "catdog" or a < b]
+    else:
+        text = (folder / "test_pairs.txt").read_text(encoding="utf-8").split("\n")
+        found = [(a, b) for a, b in (line.split() for line in text if line.strip())]
+        if kind == "FAUST_r":
+            found = [(a, b) for a, b in found if int(a[-3:]) // 10 != int(b[-3:]) // 10]
+    left_out = CHOSEN_ON.get(kind, set())
+    found = [pair for pair in found if not left_out.issuperset(pair)]
+    drawn = np.random.default_rng(0).permutation(len(found))[:count]
+    return [found[i] for i in np.sort(drawn)]
 
 
-def own(job: tuple[str, int]) -> dict:
-    kind, seed = job
-    if kind in ("sphere", "vase"):
-        make = getattr(datasets, kind)
-        meshes = make(3000, rng=seed), make(3000, rng=seed + 1000)
-        found = kfmaps.match(*meshes, replace(kfmaps.Config.automatic(), threads=THREADS))
-        return {"pair": f"{kind} {seed}", "verdict": found.verdict, "confidence": found.confidence}
-    pair = getattr(datasets, kind)(4000, rng=seed)
-    return judged(f"{kind} {seed}", pair.source, pair.target, pair.truth, np.arange(len(pair.truth)))
+def chosen_landmarks(source: kfmaps.Shape, true: tuple[np.ndarray, np.ndarray], count: int, wrong: float) -> np.ndarray:
+    """``count`` true pairs spread over the source, a part ``wrong`` of them with another target."""
+    _, rows = np.unique(true[0], return_index=True)
+    rows = rows[np.unique(true[1][rows], return_index=True)[1]]
+    places = source.basis.functions[true[0][rows], 1:40] / source.basis.eigenvalues[1:40]
+    rng = np.random.default_rng(0)
+    pairs = np.stack(true, axis=1)[rows[farthest(places, count, rng)]]
+    bad = rng.permutation(count)[: round(wrong * count)]
+    pairs[bad, 1] = rng.permutation(np.setdiff1d(true[1], pairs[:, 1]))[: len(bad)]
+    return pairs
 
 
-THREADS = 1
-"""Of one match, when several pairs are matched at once."""
-
-
-def time_pairs(folder: Path, count: int = 5) -> None:
-    """Wall-clock seconds of a match from two meshes, with every core and with one thread."""
-    pairs = faust_pairs(folder)[::12][:count]
-    meshes = [(read(mesh_file(folder, a)), read(mesh_file(folder, b))) for a, b in pairs]
-    found: dict[str, list[dict[str, float]]] = {}
-    for threads in (None, 1):
-        for a, b in meshes:
-            config = replace(kfmaps.Config.automatic(), threads=threads)
-            start = time.perf_counter()
-            shapes = [kfmaps.prepare(mesh, config) for mesh in (a, b)]
-            match = kfmaps.match(shapes[0], shapes[1], config)
-            seconds = {k: sum(shape.seconds[k] for shape in shapes) for k in shapes[0].seconds}
-            seconds |= {**match.seconds, "whole match": time.perf_counter() - start}
-            found.setdefault("one thread" if threads else f"{os.cpu_count()} cores", []).append(seconds)
-    columns = list(found)
-    print(f"seconds, mean of {len(pairs)} pairs of 5,000 vertices" + "".join(f"{c:>14}" for c in columns))
-    for stage in found[columns[0]][0]:
-        print(f"{stage:46}" + "".join(f"{np.mean([s[stage] for s in found[c]]):14.2f}" for c in columns))
+def judged(job: Job) -> dict:
+    source, target, true_s, true_t = loaded(job)
+    config = replace(kfmaps.Config.automatic(), threads=job.threads)
+    start = time.process_time() if job.threads == 1 else time.perf_counter()
+    shapes = [kfmaps.prepare(mesh, config, name=name) for mesh, name in ((source, "source"), (target, "target"))]
+    pairs = chosen_landmarks(shapes[0], (true_s, true_t), job.landmarks, job.wrong) if job.landmarks else None
+    found = kfmaps.match(*shapes, config, landmarks=pairs)
+    end = time.process_time() if job.threads == 1 else time.perf_counter()
+    errors = kfmaps.geodesic_errors(source, found.target_to_source[true_t], true_s)
+    return {
+        "set": job.kind,
+        "pair": f"{job.source} {job.target}",
+        "landmarks": job.landmarks,
+        "error": 100 * float(errors.mean()),
+        "verdict": found.verdict,
+        "confidence": found.confidence,
+        "orientation": found.orientation,
+        "doubted": found.doubted.tolist(),
+        "scores": list(found.scores),
+        "seconds": end - start,
+        "stages": {**{f"{k} of both": sum(s.seconds[k] for s in shapes) for k in shapes[0].seconds}, **found.seconds},
+    }
 
 
 def report(title: str, rows: list[dict]) -> None:
-    errors = np.array([r["error"] for r in rows if "error" in r])
-    print(f"\n{title}: {len(rows)} pairs")
-    if len(errors):
-        print(
-            f"  mean error x 100  {errors.mean():.2f}   median {np.median(errors):.2f}   worst {errors.max():.2f}"
-            f"   above 5: {int((errors > 5).sum())}"
-        )
-    unsure = [r["pair"] for r in rows if r["verdict"] != "sure"]
-    print(f"  ambiguous: {len(unsure)} {', '.join(unsure)}")
-    for r in rows:
-        if r.get("error", 0) > 5:
-            print(f"  {r['pair']}: {r['error']:.1f}, verdict {r['verdict']}, runners-up {np.round(r['runners_up'], 1)}")
-    if any("seconds" in r for r in rows):
-        timed = [r for r in rows if "seconds" in r]
-        print(f"  seconds a pair, eigenproblems included: {np.mean([r['seconds'] for r in timed]):.1f}")
-        for stage in sorted({stage for r in timed for stage in r["stages"]}):
-            print(f"    {stage:28} {np.mean([r['stages'].get(stage, 0.0) for r in timed]):6.2f}")
+    errors = np.array([r["error"] for r in rows])
+    called = [sum(r["verdict"] == name for r in rows) for name in ("sure", "ambiguous", "poor")]
+    wrong = sum(r["verdict"] == "sure" and r["error"] >= RIGHT for r in rows)
+    print(
+        f"{title:34} {len(rows):4} {errors.mean():7.2f} {np.median(errors):7.2f} {errors.max():7.2f}"
+        f" {int((errors > 10).sum()):6} {called[0]:6} {called[1]:6} {called[2]:6} {wrong:8}"
+        f" {np.mean([r['seconds'] for r in rows]):7.1f}"
+    )
+
+
+def reliability(rows: list[dict]) -> None:
+    """How often maps of about one confidence are right."""
+    print("\nconfidence      maps   mean confidence   right")
+    for low, high in ((0, 0.2), (0.2, 0.5), (0.5, 0.8), (0.8, 0.95), (0.95, 1.01)):
+        here = [r for r in rows if r["confidence"] is not None and low <= r["confidence"] < high]
+        if here:
+            right = np.mean([r["error"] < RIGHT for r in here])
+            mean = np.mean([r["confidence"] for r in here])
+            print(f"{low:.2f} to {min(high, 1):.2f} {len(here):7} {mean:17.2f} {right:7.2f}")
 
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--data", type=Path)
-    parser.add_argument("--sets", default="FAUST_r,TOSCA_r,catlion,own")
+    parser.add_argument("--sets", default="FAUST_r,SHREC19_r,TOSCA_r,catdog,TOSCA_nonIsometric_r,SHREC16,PFAUST_M,own")
+    parser.add_argument("--pairs", type=int, default=60, help="at most, of each set")
+    parser.add_argument("--landmarks", default="0", help="how many, several numbers for a curve")
+    parser.add_argument("--wrong", type=float, default=0.0, help="part of the landmarks that are wrong")
     parser.add_argument("--workers", type=int, default=2, help="pairs at once, each with one thread")
     parser.add_argument("--time", action="store_true", help="only time five pairs of FAUST_r, one after the other")
     parser.add_argument("--json", type=Path)
     arguments = parser.parse_args()
     if arguments.time:
-        time_pairs(arguments.data / "FAUST_r")
+        pairs = pairs_of("FAUST_r", arguments.data, 5)
+        rows = [judged(Job(arguments.data, "FAUST_r", *pair)) for pair in pairs]
+        for stage in rows[0]["stages"]:
+            print(f"{stage:34}{np.mean([r['stages'][stage] for r in rows]):8.2f}")
+        print(f"{'whole match, one thread, CPU':34}{np.mean([r['seconds'] for r in rows]):8.2f}")
         return
-    results: dict[str, list[dict]] = {}
+    counts = [int(word) for word in arguments.landmarks.split(",")]
+    everything: list[dict] = []
+    heads = ("pairs", "mean", "median", "worst", ">10", "sure", "ambig.", "poor", "sure, ≥8", "CPU s")
+    print(f"{'mean error × 100':34} " + " ".join(heads))
     with ProcessPoolExecutor(arguments.workers) as pool:
-        for name in arguments.sets.split(","):
-            if name == "own":
-                kinds = [("non_isometric", 5), ("non_isometric", 6), ("two_poses", 5), ("symmetric_creature", 5)]
-                rows = list(pool.map(own, [*kinds, ("sphere", 5), ("vase", 5)]))
-            elif arguments.data is None or not (arguments.data / name).is_dir():
-                print(f"{name}: no such folder in --data; left out")
+        for kind, count in product(arguments.sets.split(","), counts):
+            if kind != "own" and arguments.data is None:
                 continue
-            elif name == "catlion":
-                rows = [cat_and_lion(arguments.data / name)]
-            else:
-                pairs = (faust_pairs if name == "FAUST_r" else tosca_pairs)(arguments.data / name)
-                rows = list(pool.map(collection, [(arguments.data / name, *p) for p in pairs]))
-            results[name] = rows
-            report(name, rows)
-            if name == "FAUST_r":
-                apart = [r for r in rows if min(int(n[-3:]) for n in r["pair"].split()) >= TUNED]
-                report("FAUST_r, of these only people that nothing was chosen on", apart)
-            if arguments.json:
-                arguments.json.write_text(json.dumps(results, indent=1), encoding="utf-8")
+            pairs = pairs_of(kind, arguments.data, arguments.pairs)
+            jobs = [Job(arguments.data, kind, *pair, count, arguments.wrong) for pair in pairs]
+            rows = list(pool.map(judged, jobs))
+            report(kind + (f", {count} landmarks" if len(counts) > 1 or count else ""), rows)
+            everything += rows
+    reliability(everything)
+    if arguments.json:
+        arguments.json.write_text(json.dumps(everything, indent=1), encoding="utf-8")
 
 
 if __name__ == "__main__":

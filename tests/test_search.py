@@ -13,6 +13,7 @@ from kfmaps.functional.guide import guide
 from kfmaps.functional.points import nearest
 from kfmaps.functional.refine import ZoomOut
 from kfmaps.functional.solvers import CG
+from kfmaps.matching import match
 from kfmaps.search.arena import arena, differences, ground, without
 from kfmaps.search.candidates import LANDMARK, again, fine, judged
 from kfmaps.search.choose import choose
@@ -202,3 +203,15 @@ def test_a_large_shape_is_judged_on_a_coarse_copy(monkeypatch):
     assert whole.orientation is not None
     change = np.linalg.norm(less.orientation - whole.orientation) / np.linalg.norm(whole.orientation)
     assert change < 0.2
+
+
+def test_a_mirrored_shape_is_told_from_a_kept_one(shape, other):
+    """Left and right bones: the answer says which one was found, and keeps orientation where either would do."""
+    image = Mesh(blob(650, twist=0.4).vertices * [1.0, 1.0, -1.0], blob(650).faces[:, ::-1])
+    either = replace(SMALL, search=replace(SMALL.search, orientation="either"))
+    reversed_one = match(shape, prepare(image, SMALL, name="image"), either)
+    moved = shape.mesh.vertices[reversed_one.target_to_source] * [1, 1, -1] - unit_area(image).vertices
+    assert reversed_one.orientation == "reversed"
+    assert np.linalg.norm(moved - moved.mean(axis=0), axis=1).mean() < 0.04
+    assert choose(shape, other, either).orientation == "kept"
+    assert choose(shape, prepare(image, SMALL), SMALL).orientation == "kept"

@@ -206,12 +206,14 @@ class Search:
 
     ``candidates``: how many small fits are tried, each refined from three starts; ``signs``: how many low functions
     after the constant one have both their signs tried, 2^signs diagonal maps; ``orientation``: whether the map keeps
-    orientation ("kept") or is one to a mirror image ("reversed"); ``runners_up``: how many distinct other maps are
+    orientation ("kept"), is one to a mirror image ("reversed"), or the one of both that fits clearly better
+    ("either": for bones, shoes or hands, which are not their own mirror images; of a body that is, either map fits, and
+    "kept" is right); ``runners_up``: how many distinct other maps are
     returned at most.
     """
 
     candidates: int = 6
-    orientation: Literal["kept", "reversed"] = "kept"
+    orientation: Literal["kept", "reversed", "either"] = "kept"
     runners_up: int = 3
     signs: int = 5
 
@@ -221,7 +223,7 @@ class Search:
         if self.signs > 10:
             raise refuse("signs", "at most 10", str(self.signs), "they make 2^signs maps: take more candidates instead")
         check_count(self.runners_up, "runners_up", low=0)
-        _choice(self.orientation, "orientation", ("kept", "reversed"))
+        _choice(self.orientation, "orientation", ("kept", "reversed", "either"))
 
 
 @dataclass(frozen=True)
@@ -299,7 +301,7 @@ class Config:
         """What we recommend without landmarks: a search, with SHOT to guide it and the refinement."""
         return cls(
             descriptors=DescriptorConfig(shot=True),
-            refinement=ZoomOut(start=50, stop=200, step=10, samples=5000, guidance=36.0),
+            refinement=ZoomOut(start=50, stop=200, step=25, samples=2000, guidance=36.0),
             search=Search(),
         )
 

@@ -62,6 +62,8 @@ class Match:
         Of a search: the distinct other maps, best first.
     doubted : (d,) int64
         Of a search with landmarks: the numbers, from 0, of those that the map contradicts; they had no say.
+    orientation : "kept" or "reversed"
+        Whether it is a map to the target or, of a left and a right part say, to its mirror image.
     source_to_target : (n_s,) int64 or None
         A target vertex for each source vertex, where ``config.formulation`` asks for both directions.
     map_back : (k_s, k_t) float64 or None
@@ -86,6 +88,7 @@ class Match:
     scores: tuple[float, ...] = ()
     runners_up: tuple[np.ndarray, ...] = ()
     doubted: np.ndarray = field(default_factory=lambda: np.zeros(0, dtype=np.int64))
+    orientation: str = "kept"
     source_to_target: np.ndarray | None = None
     map_back: np.ndarray | None = None
     border: Border | None = None
@@ -167,6 +170,8 @@ def match(
             shapes[1] = mirror_image(shapes[1])
         with clock("candidates"):
             found = choose(shapes[0], shapes[1], config, landmarks=marks, **more)
+        if found.orientation == "reversed" and config.search.orientation == "either":
+            shapes[1] = mirror_image(shapes[1])
         led = leading(shapes[0], shapes[1], found.landmarks)
     else:
         one = fit(shapes[0], shapes[1], config, landmarks=marks, **more)
@@ -201,6 +206,7 @@ def match(
         scores=found.scores,
         runners_up=tuple(across.points(points) for points in found.runners_up),
         doubted=found.doubted,
+        orientation=found.orientation,
         source_to_target=None if end.source_to_target is None else across.points_back(end.source_to_target),
         map_back=end.map_back,
         border=across,

@@ -74,6 +74,7 @@ def summary(outcome: MatchRun) -> dict[str, Any]:
         "version": kfmaps.__version__,
         **sides,
         "landmarks": len(outcome.landmarks),
+        "orientation": match.orientation,
         "doubted": [int(number) for number in match.doubted],
         "seed": outcome.seed,
         "map_rows": k_t,
@@ -149,6 +150,8 @@ def _rows(match: Match, found: dict[str, Any], accuracy: Accuracy | None) -> lis
     spent = sorted(found["times"].items(), key=lambda item: -item[1])
     size = f"{found['map_rows']} × {found['map_columns']}"
     rows.append(("landmarks", str(found["landmarks"]) if found["landmarks"] else "none"))
+    if found["orientation"] == "reversed":
+        rows.append(("orientation", "reversed: the target is matched as the mirror image of the source"))
     if found["doubted"]:
         numbers = ", ".join(str(number) for number in found["doubted"])
         rows.append(

@@ -9,7 +9,7 @@ import numpy as np
 from kfmaps.fit.shape import Shape
 from kfmaps.functional.guide import Guide, guide
 from kfmaps.search.marks import Marks, around, side_by_side
-from kfmaps.search.quality import Probe, thinned
+from kfmaps.search.quality import Probe, mirrored_probe, thinned
 
 POINTS = 400
 """Points of the rough refinement; the first of the probe."""
@@ -73,6 +73,11 @@ def ground(source: Probe, target: Probe, marks: Marks | None = None) -> Ground:
 def without(on: Ground, wrong: np.ndarray) -> Ground:
     """The ground without the ``wrong (l,)`` landmarks."""
     return ground(on.source, on.target, on.marks and on.marks.without(wrong))
+
+
+def turned(on: Ground) -> Ground:
+    """The ground with the target's mirror image."""
+    return ground(on.source, mirrored_probe(on.target), on.marks)
 
 
 def differences(found: Guide) -> np.ndarray:

@@ -22,8 +22,8 @@ from kfmaps.descriptors.shot import mirrored
 from kfmaps.fit.fit import Fit, checked_landmarks
 from kfmaps.fit.shape import Shape
 from kfmaps.functional.points import to_points
-from kfmaps.search.arena import arena, without
-from kfmaps.search.candidates import Candidate, again, apart, candidates
+from kfmaps.search.arena import Ground, arena, turned, without
+from kfmaps.search.candidates import Candidate, again, apart, candidates, judged
 from kfmaps.search.marks import doubted
 from kfmaps.search.quality import Probe, probe
 from kfmaps.surface.mesh import Mesh
@@ -32,6 +32,8 @@ DISTINCT = 0.08
 """Mean distance, in units of √area, from which two maps count as different ones."""
 CLEAR = 0.3
 """Margin of the score from which a map counts as sure."""
+SETTLED = 3
+"""Maps to a mirror image that are worth a refinement of their own."""
 POOR = -10.0
 """Score below which no map is called sure, however much worse the others are. Where the search was made, right maps
 had -7 and better, the best maps of a part of a body, or of a person to a cat, -13 and worse."""
@@ -59,6 +61,8 @@ class Found:
         Those that the map keeps to, ...
     doubted : (d,) int64
         ... and the numbers, from 0, of those given that it contradicts.
+    orientation : "kept" or "reversed"
+        Whether it is a map to the target or to its mirror image.
     """
 
     functional_map: np.ndarray
@@ -70,6 +74,7 @@ class Found:
     runners_up: tuple[np.ndarray, ...] = ()
     landmarks: np.ndarray = field(default_factory=lambda: np.zeros((0, 2), dtype=np.int64))
     doubted: np.ndarray = field(default_factory=lambda: np.zeros(0, dtype=np.int64))
+    orientation: str = "kept"
 
 
 def choose(
@@ -120,6 +125,13 @@ def choose(
         report=lambda done: report("candidates", 0.1 + 0.9 * done),
     )
     ranked = distinct(found, probes[0])
+    orientation = "reversed" if config.search.orientation == "reversed" else "kept"
+    surfaces = all(p.orientation is not None for p in probes)
+    if config.search.orientation == "either" and surfaces:
+        other = turned(on.whole)
+        images = reversed_best(found, other, config.threads)
+        if images and images[0].score > ranked[0].score + CLEAR:
+            orientation, found, ranked, on = "reversed", images, distinct(images, probes[0]), replace(on, whole=other)
     wrong = np.zeros(len(pairs), dtype=bool)
     if len(pairs):
         # Landmarks are judged by the best map as it is when they have no say.
@@ -139,7 +151,20 @@ def choose(
         runners_up=tuple(to_points(c.functional_map, source.basis, target.basis, config.threads) for c in others),
         landmarks=pairs[~wrong],
         doubted=np.flatnonzero(wrong),
+        orientation=orientation,
     )
+
+
+def reversed_best(found: list[Candidate], turned: Ground, threads: int | None = None) -> list[Candidate]:
+    """The candidates as maps to the mirror image, best first; the best are settled once more with its descriptors.
+
+    Rivals are among ``found``, refined without a look at descriptors: those of an isometry that reverses orientation.
+    """
+    names = [(c.name, True) for c in found]
+    maps, points = np.stack([c.functional_map for c in found]), np.stack([c.points for c in found])
+    images = sorted(judged(names, maps, points, turned, threads), key=lambda c: c.score, reverse=True)
+    images = again(images[:SETTLED], turned, threads) + images[SETTLED:]
+    return sorted(images, key=lambda c: c.score, reverse=True)
 
 
 def distinct(found: list[Candidate], source: Probe) -> list[Candidate]:

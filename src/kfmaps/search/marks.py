@@ -22,7 +22,7 @@ FAR = 0.3
 """Distance, in units of √area, from which an image is simply wrong."""
 MISSED = 0.3
 """Distance of a landmark's image from which the landmark is doubted, ..."""
-LEAD = 0.5
+LEAD = 1.0
 """Weight of landmarks beside that of SHOT in the refinement on all vertices."""
 KEPT = 0.6
 """... if at least this part of all landmarks is nearer than :data:`MISSED`."""

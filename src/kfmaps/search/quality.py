@@ -13,6 +13,7 @@ import numpy as np
 from scipy.sparse.csgraph import dijkstra
 
 from kfmaps._arrays import Array, like, to_numpy
+from kfmaps.descriptors.shot import mirrored
 from kfmaps.descriptors.spectral import heat_signature
 from kfmaps.fit.shape import Shape
 from kfmaps.functional.guide import FLAT, spread
@@ -186,6 +187,15 @@ def thinned(probe: Probe, count: int) -> Probe:
         heat=probe.heat[:count],
         positions=probe.positions[:count],
         marks=probe.marks[:, :count],
+    )
+
+
+def mirrored_probe(probe: Probe) -> Probe:
+    """The probe of the mirror image of the shape, with the same vertices."""
+    return replace(
+        probe,
+        descriptors=None if probe.descriptors is None else mirrored(probe.descriptors),
+        orientation=None if probe.orientation is None else -probe.orientation,
     )
 
 

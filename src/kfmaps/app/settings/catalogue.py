@@ -197,8 +197,8 @@ CATALOGUE: dict[str, tuple[Setting, ...]] = {
         Setting(
             "search.orientation",
             str,
-            "whether the map keeps orientation or is one to a mirror image",
-            "kept, reversed",
+            "whether the map keeps orientation, is one to a mirror image, or whichever fits clearly better",
+            "kept, reversed, either",
             "--orientation",
             ("Search",),
         ),
