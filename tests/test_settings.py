@@ -19,6 +19,7 @@ from kfmaps.app.settings.merge import preset, read_settings, with_assignments, w
 from kfmaps.app.settings.options import Chosen, with_settings
 from kfmaps.app.settings.toml import settings_text
 from kfmaps.config import RECORDS, Config, Formulation, NystromConfig, Search, Weights, as_dict
+from kfmaps.functional.nonrigid import NonRigid
 from kfmaps.functional.refine import ICP, ZoomOut
 from kfmaps.functional.solvers import CG, Direct
 from kfmaps.kernel.kernels import KERNELS, Gaussian, Laplacian, Linear, Polynomial, Product, Sum, Tanh
@@ -73,6 +74,7 @@ REACHED: list[tuple[list[str], str, Any]] = [
     (["--zoom-step", "3"], "refinement.step", 3),
     (["--zoom-samples", "500"], "refinement.samples", 500),
     (["--zoom-samples", "all"], "refinement.samples", None),
+    (["--finish", "none"], "finish", None),
     (["--candidates", "3"], "search.candidates", 3),
     (["--orientation", "reversed"], "search.orientation", "reversed"),
     (["--device", "cuda:1"], "device", "cuda:1"),
@@ -129,7 +131,13 @@ def paths(record: type) -> set[str]:
 def test_the_catalogue_knows_every_setting() -> None:
     """A new field must be added to app/settings/catalogue.py, and one that is gone taken out."""
     sections = {"basis", "descriptors", "nystrom", "weights", "formulation"}
-    unions = {"kernel": KERNELS, "solver": (CG, Direct), "refinement": (ZoomOut, ICP), "search": (Search,)}
+    unions = {
+        "kernel": KERNELS,
+        "solver": (CG, Direct),
+        "refinement": (ZoomOut, ICP),
+        "finish": (NonRigid,),
+        "search": (Search,),
+    }
     wanted = paths(Config) - sections - unions.keys()
     for section in sections:
         wanted |= {f"{section}.{name}" for name in paths(type(getattr(Config(), section)))}
@@ -150,6 +158,7 @@ def test_assignment_reaches_every_setting(path: str) -> None:
         "kernel.kind": "tanh",
         "solver.kind": "direct",
         "refinement.kind": "icp",
+        "finish.kind": "none",
         "search.kind": "none",
         "basis.laplacian": "cotangent",
         "descriptors.signature": "heat",

@@ -9,6 +9,7 @@ from kfmaps import _records
 from kfmaps._arrays import check_count, check_positive, refuse
 from kfmaps.descriptors.spectral import NORMALISATIONS, Normalisation
 from kfmaps.functional.losses import LOSSES, LossName
+from kfmaps.functional.nonrigid import NonRigid
 from kfmaps.functional.objective import CONSTRAINTS, Constraint, Preconditioner
 from kfmaps.functional.refine import Refinement, ZoomOut
 from kfmaps.functional.solvers import CG, Solver
@@ -246,6 +247,9 @@ class Config:
         Points of each shape that the fit is made from when there are more; the point map and the end of the
         refinement always use all. ``None`` takes all.
     refinement : ZoomOut, ICP or None
+    finish : NonRigid or None
+        The fit that makes a refined map finer than the source's vertices, see :mod:`kfmaps.functional.nonrigid`.
+        Without a refinement there is none.
     search : Search or None
         Used when there are no landmarks; ``None`` makes one fit, which cannot tell left from right.
     device : str
@@ -267,6 +271,7 @@ class Config:
     preconditioner: Preconditioner = "sylvester"
     fit_samples: int | None = 10_000
     refinement: Refinement | None = field(default_factory=lambda: ZoomOut(start=50, stop=200, step=10, samples=5000))
+    finish: NonRigid | None = field(default_factory=NonRigid)
     search: Search | None = None
     device: str = "cpu"
     threads: int | None = None
@@ -323,6 +328,7 @@ class Config:
             preconditioner="none",
             fit_samples=None,
             refinement=None,
+            finish=None,
         )
 
     @classmethod
@@ -392,7 +398,7 @@ class Config:
         return replace(cls.no17(), formulation=Formulation(mask="resolvent", mask_power=0.5))
 
 
-RECORDS = {kind.__name__: kind for kind in (*KERNELS, *get_args(Refinement), *get_args(Solver), Search)}
+RECORDS = {kind.__name__: kind for kind in (*KERNELS, *get_args(Refinement), *get_args(Solver), NonRigid, Search)}
 """Records that a settings file names by ``kind``, since a field may hold one of several."""
 
 

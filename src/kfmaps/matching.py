@@ -14,11 +14,14 @@ from kfmaps.config import Config
 from kfmaps.fit.border import Border, border
 from kfmaps.fit.finish import finished
 from kfmaps.fit.fit import Fit, fit
+from kfmaps.fit.places import placed
 from kfmaps.fit.shape import Shape, prepare
 from kfmaps.fit.stages import Clock
-from kfmaps.functional.confidence import local_confidence
 from kfmaps.functional.extended import carried
-from kfmaps.search.choose import Found, choose, mirror_image
+from kfmaps.functional.guide import guide
+from kfmaps.functional.precise import PointMap, to_places
+from kfmaps.functional.refine import ZoomOut
+from kfmaps.search.choose import MIRROR, Found, choose, mirror_image
 from kfmaps.search.marks import leading
 from kfmaps.surface.eigen.pencil import THREADED
 from kfmaps.surface.mesh import Mesh
@@ -69,7 +72,12 @@ class Match:
     map_back : (k_s, k_t) float64 or None
         Its functional map.
     border : Border or None
-        Both shapes, for :meth:`transfer`.
+        Both shapes, for :meth:`transfer` and :meth:`precise`.
+    place : PointMap or None
+        A point inside a triangle of the source for each target vertex, where the non-rigid fit was kept.
+    bent : (n_s, 3) float64 or None
+        The source's vertices in the shape of the target, where that fit was kept: on the target scaled and centred as
+        by :func:`kfmaps.surface.mesh.unit_area`.
     """
 
     target_to_source: np.ndarray
@@ -92,6 +100,35 @@ class Match:
     source_to_target: np.ndarray | None = None
     map_back: np.ndarray | None = None
     border: Border | None = None
+    place: PointMap | None = None
+    bent: np.ndarray | None = None
+
+    def precise(self) -> PointMap:
+        """A point inside a triangle of the source for each target vertex: finer than ``target_to_source``.
+
+        Of the non-rigid fit, where it was kept; else the exact nearest point of the source's surface in the spectral
+        embedding (:func:`kfmaps.functional.precise.to_places`), which is found anew with every call.
+
+        Raises
+        ------
+        InvalidInput
+            When one of the shapes is a point cloud.
+        """
+        if self.place is not None:
+            return self.place
+        across = self.border
+        if across is None:
+            raise refuse("precise", "a match with its shapes", "one without", "match them again")
+        for shape in (across.source, across.target):
+            if len(shape.mesh.faces) == 0:
+                raise refuse(shape.name, "a surface with triangles", "a point cloud", "use target_to_source")
+        refine, beside = self.config.refinement, None
+        mirrored = self.config.search is not None and self.config.search.orientation == "reversed"
+        if isinstance(refine, ZoomOut) and refine.guidance and not mirrored:
+            guiding = guide(across.source.shot, across.target.shot)
+            beside = guiding and guiding.beside(refine.guidance, across.source.basis, across.target.basis)
+        bases, faces = (across.source.basis, across.target.basis), across.source.mesh.faces
+        return across.place(to_places(self.functional_map, *bases, faces, self.config.threads, beside))
 
     def transfer(self, values: Any, products: int | None = 20) -> np.ndarray:
         """Functions ``values (n_s, d)`` or ``(n_s,)`` on the source, carried to the target by the functional map.
@@ -186,11 +223,14 @@ def match(
         found.functional_map, shapes[0], shapes[1], config, raw=single, led=led, back=back, rng=seed, progress=progress
     )
     clock.seconds.update(end.seconds)
-    with clock("confidence"):
-        trust = local_confidence(shapes[0].mesh, shapes[1].mesh, end.target_to_source)
+    last = placed(end.target_to_source, shapes[0], shapes[1], config, clock)
+    bent = last.bent
+    if bent is not None:
+        mirrored = config.search is not None and config.search.orientation == "reversed"
+        bent = across.bent(bent * MIRROR if mirrored else bent)
     k_t, k_s = end.functional_map.shape
     return Match(
-        target_to_source=across.points(end.target_to_source),
+        target_to_source=across.points(last.target_to_source),
         functional_map=end.functional_map,
         eigenvalues_s=shapes[0].basis.eigenvalues[:k_s],
         eigenvalues_t=shapes[1].basis.eigenvalues[:k_t],
@@ -201,7 +241,7 @@ def match(
         raw_functional_map=found.functional_map,
         raw_target_to_source=None if end.raw_target_to_source is None else across.points(end.raw_target_to_source),
         fit=found.fit,
-        local_confidence=across.trust(trust),
+        local_confidence=across.trust(last.trust),
         confidence=found.confidence,
         scores=found.scores,
         runners_up=tuple(across.points(points) for points in found.runners_up),
@@ -210,6 +250,8 @@ def match(
         source_to_target=None if end.source_to_target is None else across.points_back(end.source_to_target),
         map_back=end.map_back,
         border=across,
+        place=None if last.place is None else across.place(last.place),
+        bent=bent,
     )
 
 

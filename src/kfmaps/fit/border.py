@@ -10,7 +10,8 @@ import numpy as np
 from kfmaps._arrays import check, refuse, to_numpy
 from kfmaps.fit.fit import checked_landmarks
 from kfmaps.fit.shape import Shape, inner
-from kfmaps.surface.inside import Inside
+from kfmaps.functional.precise import PointMap
+from kfmaps.surface.inside import Inside, outer_faces
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,6 +80,17 @@ class Border:
     def points_back(self, source_to_target: np.ndarray) -> np.ndarray:
         """A point map back inside as one outside, (n_s,)."""
         return self.part_t.kept[source_to_target][self.part_s.number]
+
+    def place(self, places: PointMap) -> PointMap:
+        """Points in triangles inside as such outside."""
+        faces = outer_faces(self.outside[0].mesh, self.part_s)[places.faces]
+        return PointMap(faces[self.part_t.number], places.weights[self.part_t.number])
+
+    def bent(self, vertices: np.ndarray) -> np.ndarray:
+        """Positions on the target of the source's vertices inside (m_s, 3), as outside (n_s, 3): in its unit there."""
+        here, there = self.target.mesh.vertices, self.outside[1].mesh.vertices[self.part_t.kept]
+        scale = np.linalg.norm(there - there.mean(axis=0)) / np.linalg.norm(here - here.mean(axis=0))
+        return scale * (vertices - here.mean(axis=0))[self.part_s.number] + there.mean(axis=0)
 
     def trust(self, confidence: np.ndarray) -> np.ndarray:
         """Confidence inside (m_t,) as outside (n_t,): none in vertices that lie on no surface."""

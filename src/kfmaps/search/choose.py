@@ -77,6 +77,10 @@ class Found:
     orientation: str = "kept"
 
 
+MIRROR = np.array([-1.0, 1.0, 1.0])
+"""What takes positions to those of the mirror image."""
+
+
 def choose(
     source: Shape,
     target: Shape,
@@ -189,5 +193,5 @@ def mirror_image(shape: Shape) -> Shape:
     """
     if len(shape.mesh.faces) == 0:
         raise refuse(shape.name, "a surface, which can be mirrored", "a point cloud", "leave orientation at 'kept'")
-    mesh = Mesh(shape.mesh.vertices * np.array([-1.0, 1.0, 1.0]), shape.mesh.faces[:, ::-1])
+    mesh = Mesh(shape.mesh.vertices * MIRROR, shape.mesh.faces[:, ::-1])
     return replace(shape, mesh=mesh, shot=None if shape.shot is None else mirrored(shape.shot))

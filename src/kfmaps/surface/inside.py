@@ -130,6 +130,18 @@ def inside(mesh: Mesh, specks: bool = False) -> Inside:
     return Inside(Mesh(mesh.vertices[kept], faces), kept, number, ~used, joined, gone)
 
 
+def outer_faces(mesh: Mesh, part: Inside) -> np.ndarray:
+    """The face of ``mesh`` that each face inside is, (g,) int64; ``part`` is its inside, corners in the same order."""
+    if part.mesh.faces is mesh.faces:
+        return np.arange(len(mesh.faces))
+    within = part.number[mesh.faces]
+    within[part.loose[mesh.faces].any(axis=1)] = -1
+    # Equal rows get equal numbers; of faces that are there twice any will do.
+    label = np.unique(np.concatenate([within, part.mesh.faces]), axis=0, return_inverse=True)[1].reshape(-1)
+    order = np.argsort(label[: len(within)], kind="stable")
+    return order[np.searchsorted(label[: len(within)], label[len(within) :], sorter=order)]
+
+
 def _no_speck(mesh: Mesh) -> tuple[np.ndarray, int]:
     """Which faces lie on no speck, (f,) bool, and how many specks there are."""
     n, faces = len(mesh.vertices), mesh.faces

@@ -191,6 +191,12 @@ CATALOGUE: dict[str, tuple[Setting, ...]] = {
         ),
         Setting("refinement.steps", int, "steps of ICP", "at least 1", "--icp-steps", ("ICP",)),
     ),
+    "Finish": (
+        Setting("finish.kind", str, "what makes a refined map finer than vertices", "nonrigid, none", "--finish"),
+        Setting("finish.stiffness", float, "of the first level, in units of area", "above 0", kinds=("NonRigid",)),
+        Setting("finish.levels", int, "each a third as stiff as the one before", "at least 1", kinds=("NonRigid",)),
+        Setting("finish.steps", int, "searches for closest points at each level", "at least 1", kinds=("NonRigid",)),
+    ),
     "Search without landmarks": (
         Setting("search.kind", str, "whether several maps are tried", "search, none"),
         Setting("search.candidates", int, "how many small fits are tried", "at least 1", "--candidates", ("Search",)),

@@ -50,7 +50,7 @@ def with_flags(base: Config, flags: Mapping[str, Any]) -> Config:
     """
     given = {flag: value for flag, value in flags.items() if value is not None}
     paths = {flag: (FLAGS[flag].path, value) for flag, value in given.items()}
-    for section in ("kernel", "solver", "refinement", "search"):
+    for section in ("kernel", "solver", "refinement", "finish", "search"):
         inside = [FLAGS[flag] for flag in given if FLAGS[flag].section == section and FLAGS[flag].kinds]
         if inside:
             kind_flag = next((f for f, s in FLAGS.items() if s.path == f"{section}.kind"), "")

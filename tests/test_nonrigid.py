@@ -1,0 +1,157 @@
+"""Closest points, bending, and the non-rigid fit."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import kfmaps
+from kfmaps import datasets
+from kfmaps._arrays import InvalidInput
+from kfmaps.functional.nonrigid import NonRigid
+from kfmaps.functional.precise import at_vertices, points_of
+from kfmaps.surface.closest import closest_of, places_on
+from kfmaps.surface.mesh import Mesh, unit_area
+from kfmaps.surface.rigidity import bending, nearest_rotations, pull, rigidity, rotations
+
+
+def turn(rng: np.random.Generator) -> np.ndarray:
+    return nearest_rotations(rng.normal(size=(1, 3, 3)))[0]
+
+
+@pytest.fixture(scope="module")
+def pair() -> datasets.Pair:
+    return datasets.two_poses(1500, rng=3)
+
+
+def test_places_on_a_surface_are_the_closest_of_all_faces() -> None:
+    """Against every face; one face is huge, which no bound by the mean size survives."""
+    rng = np.random.default_rng(0)
+    mesh = datasets.sphere(300, rng=0)
+    vertices = np.vstack([mesh.vertices, [[3.0, 0, 0], [0, 5.0, 0], [0, 0, 4.0]]])
+    n = len(mesh.vertices)
+    faces = np.vstack([mesh.faces, [[n, n + 1, n + 2]]])
+    points = rng.normal(size=(200, 3))
+    found = places_on(points, vertices, faces)
+    each = np.repeat(np.arange(len(points)), len(faces))
+    brute = closest_of(points, vertices, faces, np.tile(np.arange(len(faces)), len(points)), each)
+    np.testing.assert_allclose(found.distances, brute.distances, atol=1e-12)
+    np.testing.assert_allclose(found.weights.sum(axis=1), 1)
+    places = np.einsum("qi,qij->qj", found.weights, vertices[faces[found.faces]])
+    np.testing.assert_allclose(np.linalg.norm(places - points, axis=1), brute.distances, atol=1e-12)
+    assert (brute.faces == len(faces) - 1).any()
+
+
+def test_no_point_of_a_triangle_is_closer() -> None:
+    rng = np.random.default_rng(1)
+    corners, points = rng.normal(size=(100, 3, 3)), rng.normal(size=(100, 3))
+    corners[:10, 2] = corners[:10, 1]  # without area
+    faces = np.arange(300).reshape(100, 3)
+    found = closest_of(points, corners.reshape(-1, 3), faces, np.arange(100), np.arange(100))
+    weights = rng.dirichlet(np.ones(3) / 2, size=2000)
+    others = np.einsum("wi,tij->wtj", weights, corners)
+    assert (np.linalg.norm(others - points, axis=2).min(axis=0) >= found.distances - 1e-12).all()
+
+
+def test_bending_is_nothing_for_motions_and_has_no_unit() -> None:
+    rng = np.random.default_rng(2)
+    mesh = datasets.sphere(200, rng=0)
+    R = turn(rng)
+    assert np.linalg.det(R) == pytest.approx(1)
+    energy = rigidity(mesh)
+    moved = mesh.vertices @ R.T + 1.0
+    assert bending(energy, moved) < 1e-10
+    np.testing.assert_allclose(rotations(energy, moved), np.broadcast_to(R, (len(moved), 3, 3)), atol=1e-8)
+    stretched = mesh.vertices * np.array([1.0, 1.0, 1.5])
+    large = rigidity(Mesh(7 * mesh.vertices, mesh.faces))
+    assert bending(large, 7 * stretched) == pytest.approx(49 * bending(energy, stretched))
+
+
+def test_bending_is_its_definition_and_pull_its_slope() -> None:
+    rng = np.random.default_rng(3)
+    mesh = datasets.sphere(100, rng=0)
+    energy = rigidity(mesh)
+    x, R = rng.normal(size=mesh.vertices.shape), nearest_rotations(rng.normal(size=(len(mesh.vertices), 3, 3)))
+    edges = energy.laplacian.tocoo()
+    i, j = edges.row, edges.col
+    gap = (x[i] - x[j]) - np.einsum("eab,eb->ea", R[i], mesh.vertices[i] - mesh.vertices[j])
+    assert bending(energy, x, R) == pytest.approx(float((-0.5 * edges.data * (gap**2).sum(axis=1))[i != j].sum()))
+    step = 1e-6 * rng.normal(size=x.shape)
+    slope = 2 * (energy.laplacian @ x - pull(energy, R))
+    change = (bending(energy, x + step, R) - bending(energy, x - step, R)) / 2
+    assert change == pytest.approx(float((slope * step).sum()), rel=1e-6)
+    assert bending(energy, x) <= bending(energy, x, R)  # the best rotations are the best
+
+
+def test_a_moved_copy_is_found(pair: datasets.Pair) -> None:
+    """From a map that is wrong by several edges: the fit knows nothing but closest points and rigidity."""
+    rng = np.random.default_rng(4)
+    source = unit_area(pair.source)
+    target = Mesh(source.vertices @ turn(rng).T, source.faces)
+    near = np.linalg.norm(source.vertices[:, None] - source.vertices[None], axis=2).argsort(axis=1)[:, :12]
+    start = near[np.arange(len(near)), rng.integers(0, 12, len(near))]
+    found = NonRigid()(source, target, start)
+    assert np.linalg.norm(found.vertices - target.vertices, axis=1).mean() < 3e-3
+    assert found.gap < 1e-3
+    assert found.bending < 1e-3
+    places = np.einsum("ti,tij->tj", found.weights, source.vertices[source.faces[found.faces]])
+    assert np.linalg.norm(places - source.vertices, axis=1).mean() < 3e-3
+
+
+def test_sliding_and_a_folded_limb_are_mended(pair: datasets.Pair) -> None:
+    """A smooth wrong map: every target vertex slides, and around one end the map is the mirror image."""
+    source, target = unit_area(pair.source), unit_area(pair.target)
+    truth = source.vertices[pair.truth]
+    slid = truth + 0.03 * np.sin(7 * truth[:, [1, 2, 0]])
+    start = np.linalg.norm(slid[:, None] - source.vertices[None], axis=2).argmin(axis=1)
+    before = np.linalg.norm(source.vertices[start] - truth, axis=1).mean()
+    found = NonRigid()(source, target, start)
+    after = np.linalg.norm(
+        np.einsum("ti,tij->tj", found.weights, source.vertices[source.faces[found.faces]]) - truth, axis=1
+    ).mean()
+    assert after < 0.6 * before
+
+
+def test_a_match_has_points_in_triangles(pair: datasets.Pair) -> None:
+    """Closer to the truth than its vertices; ``target_to_source`` is the nearest corner."""
+    config = replace(kfmaps.Config(), threads=1)
+    marks = np.stack([pair.truth[::300], np.arange(len(pair.truth))[::300]], axis=1)
+    found = kfmaps.match(pair.source, pair.target, config, landmarks=marks)
+    place = found.precise()
+    assert found.bent is not None
+    np.testing.assert_allclose(place.weights.sum(axis=1), 1)
+    assert (place.weights >= 0).all()
+    corners = pair.source.faces[place.faces]
+    assert (corners == found.target_to_source[:, None]).any(axis=1).all()
+    true = np.einsum("ti,tij->tj", pair.truth_weights, pair.source.vertices[pair.source.faces[pair.truth_faces]])
+    plain = kfmaps.match(pair.source, pair.target, replace(config, finish=None), landmarks=marks)
+    errors = [
+        np.linalg.norm(points_of(p, pair.source) - true, axis=1).mean()
+        for p in (place, at_vertices(plain.target_to_source, pair.source))
+    ]
+    assert errors[0] < 0.75 * errors[1]
+    target = unit_area(pair.target)
+    away = places_on(found.bent, target.vertices, target.faces).distances
+    assert away.mean() < 2e-3
+    spectral = np.linalg.norm(points_of(plain.precise(), pair.source) - true, axis=1).mean()
+    assert errors[0] < spectral < errors[1]
+
+
+def test_a_whole_body_is_not_bent_onto_something_else(pair: datasets.Pair) -> None:
+    """A sphere's shape is no pose of a body: the map stays as it was, its points found in the embedding."""
+    other = datasets.sphere(900, rng=0)
+    config = replace(kfmaps.Config(), threads=1)
+    found = kfmaps.match(pair.source, other, config)
+    assert found.bent is None
+    plain = kfmaps.match(pair.source, other, replace(config, finish=None))
+    np.testing.assert_array_equal(found.target_to_source, plain.target_to_source)
+    assert len(found.precise().faces) == len(other.vertices)
+
+
+def test_what_cannot_be_bent_is_refused(pair: datasets.Pair) -> None:
+    cloud = Mesh(pair.source.vertices, np.zeros((0, 3)))
+    with pytest.raises(InvalidInput, match="point cloud"):
+        NonRigid()(cloud, pair.target, pair.truth)
+    for make in (lambda: NonRigid(stiffness=0.0), lambda: NonRigid(levels=0), lambda: NonRigid(steps=0)):
+        with pytest.raises(InvalidInput):
+            make()
