@@ -63,7 +63,7 @@ def test_nothing_is_replaced(folder: Path) -> None:
     ("words", "told"),
     [
         (["--shape", "cube"], ", ".join(SHAPES)),
-        (["--vertices", "10"], "1500 to 50000"),
+        (["--vertices", "10"], "1500 to 300000"),
         (["-o", "demo.bmp"], ".png"),
         (["--landmarks", "0"], "--landmarks"),
     ],

@@ -5,10 +5,11 @@ import pytest
 
 from kfmaps._arrays import NotConverged
 from kfmaps.app import datasets
+from kfmaps.app.datasets import pairs, skeleton, surface
 from kfmaps.app.datasets.creature import CREATURE, WAVE
 from kfmaps.app.datasets.skeleton import Bend, Body
 from kfmaps.app.datasets.surface import closed_mesh
-from kfmaps.surface.mesh import surface_area
+from kfmaps.surface.mesh import face_normals, surface_area, vertex_normals
 
 
 def test_field_is_negative_inside_and_its_gradient_is_its_derivative() -> None:
@@ -66,3 +67,42 @@ def test_sphere_has_its_radius_and_its_area() -> None:
 def test_torus_has_its_area() -> None:
     assert surface_area(datasets.torus(900)) == pytest.approx(4 * np.pi**2 * 0.4, rel=0.02)
     assert surface_area(datasets.torus(900, tube=0.6)) == pytest.approx(4 * np.pi**2 * 0.6, rel=0.02)
+
+
+@pytest.mark.parametrize("count", [801, 802, 803, 804, 3500])
+def test_subdivided_meshes_are_as_good(count: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(surface, "SCATTERED", 400)
+    for mesh, genus in ((datasets.sphere(count), 0), (datasets.torus(count), 1)):
+        assert len(mesh.vertices) == count
+        assert surface.is_closed(mesh.faces, count, genus)
+        edges = np.linalg.norm(mesh.vertices[mesh.faces] - mesh.vertices[np.roll(mesh.faces, 1, axis=1)], axis=2)
+        assert (edges.max(axis=1) / edges.min(axis=1)).max() < 4
+        outside = (face_normals(mesh) * vertex_normals(mesh)[mesh.faces[:, 0]]).sum(axis=1)
+        assert outside.min() > 0.5
+    np.testing.assert_allclose(np.linalg.norm(datasets.sphere(count).vertices, axis=1), 1, rtol=1e-12)
+
+
+def test_large_pairs_have_their_exact_truth(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(surface, "SCATTERED", 2000)
+    for module in (pairs, skeleton):
+        monkeypatch.setattr(module, "BLOCK", 4000)
+    pair = datasets.two_poses(6001)
+    assert (len(pair.source.vertices), len(pair.target.vertices)) == (6001, 4801)
+    for mesh in (pair.source, pair.target):
+        assert surface.is_closed(mesh.faces, len(mesh.vertices))
+    corners = pair.source.vertices[pair.source.faces[pair.truth_faces]]
+    places = (corners * pair.truth_weights[:, :, None]).sum(axis=1)
+    spacing = np.sqrt(surface_area(pair.source) / 6001)
+    away = np.linalg.norm(pair.source.vertices[pair.truth] - places, axis=1)
+    assert away.max() < 1.2 * spacing
+    assert (away <= np.linalg.norm(corners - places[:, None], axis=2).min(axis=1) + 0.1 * spacing).mean() > 0.99
+
+
+def test_working_in_blocks_changes_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
+    body = Body(CREATURE)
+    points = np.random.default_rng(0).uniform(body.box()[0], body.box()[1], (2500, 3))
+    one = (*body(points), body.bent(points, WAVE))
+    monkeypatch.setattr(skeleton, "BLOCK", 999)
+    monkeypatch.setattr(skeleton, "ROOM", 999)
+    for a, b in zip(one, (*body(points), body.bent(points, WAVE)), strict=True):
+        np.testing.assert_allclose(a, b, atol=1e-12)

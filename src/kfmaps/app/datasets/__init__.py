@@ -28,12 +28,15 @@ __all__ = [
     "vase",
 ]
 
+LARGEST = 300_000
+"""Vertices of the largest mesh."""
+
 Seed = int | np.random.Generator
 
 
 def _counts(vertices: int) -> tuple[int, int]:
     """The source has as many as asked for, the target a fifth fewer."""
-    check_count(vertices, "vertices", low=1500, high=50000)
+    check_count(vertices, "vertices", low=1500, high=LARGEST)
     return vertices, round(0.8 * vertices)
 
 
@@ -47,7 +50,7 @@ def two_poses(vertices: int = 6000, rng: Seed = 0) -> Pair:
     Parameters
     ----------
     vertices : int
-        Of the source, from 1500 to 50000; the target has four fifths of them.
+        Of the source, from 1500 to 300000; the target has four fifths of them.
     rng : int or numpy.random.Generator
 
     Returns
@@ -81,7 +84,7 @@ def partial(vertices: int = 6000, rng: Seed = 0, kept: float = 0.6) -> Pair:
     Parameters
     ----------
     vertices : int
-        Of the source, from 1500 to 50000; the whole that the target is cut from has four fifths of them.
+        Of the source, from 1500 to 300000; the whole that the target is cut from has four fifths of them.
     rng : int or numpy.random.Generator
     kept : float
         About how much of the target to keep, from 0.2 to 0.95. What the cut leaves apart from the largest
@@ -138,19 +141,19 @@ def _revolved(body: Body, vertices: int, rng: Seed) -> Mesh:
 
 
 def vase(vertices: int = 5000, rng: Seed = 0) -> Mesh:
-    """A hollow vase, a surface of revolution about the y axis, with ``vertices`` (3000 to 50000) vertices.
+    """A hollow vase, a surface of revolution about the y axis, with ``vertices`` (3000 to 300000) vertices.
 
     Turning it changes nothing, so no map between two of them is the right one.
     """
-    check_count(vertices, "vertices", low=3000, high=50000)
+    check_count(vertices, "vertices", low=3000, high=LARGEST)
     profile = ((0, 0), (0.30, 0.02), (0.52, 0.30), (0.55, 0.58), (0.36, 0.95), (0.28, 1.2), (0.42, 1.45))
     wall = Limb("wall", None, tuple((x, y, 0) for x, y in profile), (0.07,) * len(profile))
     return _revolved(Body((wall,), segments=60), vertices, rng)
 
 
 def sphere(vertices: int = 2000, rng: Seed = 0) -> Mesh:
-    """The unit sphere with ``vertices`` (100 to 50000) evenly spread random vertices."""
-    check_count(vertices, "vertices", low=100, high=50000)
+    """The unit sphere with ``vertices`` (100 to 300000) evenly spread random vertices."""
+    check_count(vertices, "vertices", low=100, high=LARGEST)
 
     def field(points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         radius = np.linalg.norm(points, axis=1)
@@ -161,11 +164,11 @@ def sphere(vertices: int = 2000, rng: Seed = 0) -> Mesh:
 
 
 def torus(vertices: int = 2000, rng: Seed = 0, tube: float = 0.4) -> Mesh:
-    """The torus (genus 1) of radius 1 about the y axis, with ``vertices`` (400 to 50000) vertices.
+    """The torus (genus 1) of radius 1 about the y axis, with ``vertices`` (400 to 300000) vertices.
 
     Its tube's radius is ``tube``, from 0.2 to 0.8.
     """
-    check_count(vertices, "vertices", low=400, high=50000)
+    check_count(vertices, "vertices", low=400, high=LARGEST)
     if not 0.2 <= tube <= 0.8:
         raise refuse("tube", "a number from 0.2 to 0.8", repr(tube), "choose one in that range")
 

@@ -10,9 +10,13 @@ from scipy.sparse.csgraph import connected_components
 from scipy.spatial import KDTree
 from trimesh.triangles import closest_point, points_to_barycentric
 
+from kfmaps._arrays import blocks
 from kfmaps.app.datasets.skeleton import Bend, Body
 from kfmaps.app.datasets.surface import closed_mesh
 from kfmaps.surface.mesh import Mesh, face_areas
+
+BLOCK = 50_000
+"""Points worked on together, which bounds the memory."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,6 +53,9 @@ def locate(points: np.ndarray, mesh: Mesh) -> tuple[np.ndarray, np.ndarray]:
     Looks at the faces around the three nearest vertices, which is enough for points that lie as close to
     the surface as those of another mesh of it.
     """
+    if len(points) > BLOCK:
+        parts = [locate(points[part], mesh) for part in blocks(len(points), BLOCK)]
+        return np.concatenate([face for face, _ in parts]), np.concatenate([weights for _, weights in parts])
     corners = mesh.faces.ravel()
     order = np.argsort(corners, kind="stable")
     count = np.bincount(corners, minlength=len(mesh.vertices))

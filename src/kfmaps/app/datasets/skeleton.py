@@ -8,12 +8,20 @@ import numpy as np
 from scipy.interpolate import CubicSpline, PchipInterpolator
 from scipy.spatial.transform import Rotation
 
+from kfmaps._arrays import blocks
+
 FILLET = 0.022
 """How softly limbs melt into each other, in units of the body (about two high)."""
 SOFTNESS = 0.045
 """How far around a limb its motion is felt, in the same units."""
 REACH = 12 * FILLET
 """A limb further away than this adds less than 1e-5 of FILLET to the field and is left out."""
+
+
+BLOCK = 50_000
+"""Points worked on together, which bounds the memory."""
+ROOM = 250_000
+"""Points that the field is asked for at once, at most."""
 
 
 @dataclass(frozen=True)
@@ -108,6 +116,9 @@ class Body:
 
         Far from every limb the value is REACH and the gradient zero.
         """
+        if len(points) > ROOM:
+            parts = [self(points[part]) for part in blocks(len(points), BLOCK)]
+            return np.concatenate([v for v, _ in parts]), np.concatenate([g for _, g in parts])
         values = np.full((len(self.limbs), len(points)), REACH)
         gradients = np.zeros((len(self.limbs), len(points), 3))
         for limb in range(len(self.limbs)):
@@ -166,6 +177,8 @@ class Body:
 
     def bent(self, points: np.ndarray, bends: dict[str, Bend]) -> np.ndarray:
         """``points`` (n, 3) of the skin carried along by the limbs (linear blend skinning), (n, 3)."""
+        if len(points) > BLOCK:
+            return np.concatenate([self.bent(points[part], bends) for part in blocks(len(points), BLOCK)])
         linear, offset = self.motions(bends)
         pieces = [self._distances(points, limb)[0] for limb in range(len(self.limbs))]
         distances = np.concatenate(pieces, axis=1)
