@@ -8,8 +8,8 @@ export OPENBLAS_NUM_THREADS ?= 1
 export OMP_NUM_THREADS ?= 1
 
 # What CI runs twice more, with the last bits changed as other processors would: see tests/shake.py.
-CORE := automatic confidence device eigensolver energy formulas formulas_match geodesics guided kernels maps nystrom \
-	orientation pipeline preconditioners rounding scale shot solvers spectrum topology
+CORE := automatic clouds confidence device eigensolver energy formulas formulas_match formulations geodesics guided inside \
+	kernels maps nystrom orientation pipeline preconditioners rounding scale search shot solvers spectrum topology
 
 .PHONY: demo test shake lint docs web clean
 
