@@ -43,7 +43,7 @@ MUTANTS = tuple(
         ("gamma = sharpness / typical", "gamma = sharpness * typical", KERNEL),
         ("float(np.sqrt(gamma))", "float(gamma)", f"{FORMULAS} -k typical_pair"),
         ("float(np.median(positive))", "float(np.mean(positive))", KERNEL),
-        ("spectrum > rtol * top", "spectrum > 0.1 * rtol * top", f"{FORMULAS} -k dropped"),
+        ("spectrum > least * top", "spectrum > 0.1 * least * top", f"{FORMULAS} -k dropped"),
         ("like(1 / np.sqrt(spectrum[keep]), samples)", "like(1 / spectrum[keep], samples)", "test_nystrom"),
         ("squares - 2 * (X @ X[following])", "squares - (X @ X[following])", "test_nystrom"),
         ("nearest[taken[: i + 1]] = -np.inf", "pass", "test_nystrom"),
@@ -247,6 +247,35 @@ MUTANTS = tuple(
             "test_automatic -k few_samples",
         ),
         ("-np.expm1(-margin / CLEAR)", "-np.expm1(-margin * CLEAR)", f"{MATCH} -k confidence"),
+        (
+            'score -= 0.5 * np.einsum("mik,mik->mi"',
+            'score -= 0.4 * np.einsum("mik,mik->mi"',
+            "test_search -k many_maps",
+        ),
+        ("weighted @ phi + RIDGE * np.eye(k), weighted", "weighted @ phi, weighted", "test_search -k many_maps"),
+        ("scale = (wanted / total) ** 0.5", "scale = (wanted / total)", "test_search -k family"),
+        (
+            "(0.5 * (found.source**2).sum(axis=1)[None, :]",
+            "((found.source**2).sum(axis=1)[None, :]",
+            "test_search -k many",
+        ),
+        ("self.quality.score - LANDMARK * float(", "self.quality.score - 0 * float(", f"{MATCH} -k landmark"),
+        ("decay = np.exp(-values * time)", "decay = np.exp(-2 * values * time)", f"{MATCH} -k landmark"),
+        ("scale = [np.sqrt(w / present[0][0])", "scale = [(w / present[0][0])", "test_search -k joined"),
+        # formulations
+        ("2 * d * np.sqrt(e) - d * d)", "2 * d * np.sqrt(e))", "test_formulations -k loss_weight"),
+        ("return d / np.sqrt(np.maximum(e, d * d))", "return d / np.maximum(e, d)", "test_formulations -k loss_weight"),
+        ("return (d * d / (d * d + e)) ** 2", "return d * d / (d * d + e)", "test_formulations -k loss_weight"),
+        (
+            "Elementwise(self.weights / xp.sqrt(C * C + self.smoothing**2))",
+            "Elementwise(self.weights / (C * C + self.smoothing**2))",
+            "test_formulations -k majorizer",
+        ),
+        (
+            "return G - 0.5 * (C @ (product + product.T))",
+            "return G - C @ (product + product.T)",
+            "test_formulations -k tangent",
+        ),
         # config
         (
             "self.descriptors.eigenfunctions if spectral else 0, zoom)",

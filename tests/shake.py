@@ -29,7 +29,6 @@ EQUAL = 1e-9
 ROOMS = ("kernel", "surface", "descriptors", "functional", "fit", "search")
 PRODUCTS = {
     "kernel.kernels": ("gram",),
-    "surface.mesh": ("vertex_areas",),
     "descriptors.spectral": ("heat_signature", "wave_signature", "heat_map", "wave_map"),
     "descriptors.shot": ("shot",),
     "functional.slices": ("packed_slices",),

@@ -11,6 +11,7 @@ import pytest
 from conftest import blob
 from kfmaps._arrays import inner
 from kfmaps.config import BasisConfig, Config, DescriptorConfig, NystromConfig, Search
+from kfmaps.descriptors.spectral import heat_map, heat_signature
 from kfmaps.fit.features import Descriptors, Features, joint_samples, pair_descriptors
 from kfmaps.fit.problem import orientation_pair, principal, problem
 from kfmaps.fit.shape import Shape, prepare
@@ -18,7 +19,9 @@ from kfmaps.functional.points import to_points
 from kfmaps.functional.terms import slice_term, value
 from kfmaps.kernel.kernels import Gaussian, squared_distances
 from kfmaps.matching import match
+from kfmaps.search.candidates import Candidate
 from kfmaps.search.choose import mirror_image
+from kfmaps.search.marks import TIMES, around
 from kfmaps.search.quality import Quality, map_quality, probe
 
 K = 20
@@ -172,6 +175,24 @@ def test_coverage_is_that_of_the_direction_that_covers_less(shape):
     one_place = map_quality(np.eye(30), judge, judge, np.full(200, 3))
     assert one_place.coverage == pytest.approx(judge.samples.basis.mass[3])
     assert map_quality(np.eye(30), judge, judge).coverage == pytest.approx(1)
+
+
+def test_a_landmark_costs_what_it_is_missed_by_and_no_more_than_two(shape):
+    judge = probe(shape, 100)
+    quality = map_quality(np.eye(30), judge, judge)
+    for missed, cost in (([0.0], 0), ([0.15], 1), ([0.3], 2), ([5.0], 2), ([0.15, 5.0, 0.0], 3)):
+        found = Candidate("a", np.eye(30), np.arange(100), quality, missed=np.array(missed))
+        assert found.score == pytest.approx(quality.score - cost)
+
+
+def test_heat_around_a_landmark_is_that_of_its_time(shape):
+    """Between two landmarks: what is left after twice the time is the heat kernel's, normalised."""
+    marks = np.array([3, 90])
+    found = around(shape.basis, shape.basis, marks)
+    heat = heat_map(shape.basis, marks, np.array(TIMES)).reshape(500, 2, len(TIMES))
+    for i, time in enumerate(TIMES):
+        own = heat_signature(shape.basis, np.array([time]))[:, 0]
+        np.testing.assert_allclose(found[0, :, i], heat[:, 0, i] / np.sqrt(own[3] * own), rtol=1e-8, atol=1e-12)
 
 
 def test_confidence_follows_from_the_scores(shape):
