@@ -56,9 +56,10 @@ SWAPS = {
 }
 
 
-def where(line: str) -> Path:
-    """The file of the package that has ``line``, once."""
-    found = [path for path in sorted(PACKAGE.rglob("*.py")) for _ in range(path.read_text().count(line))]
+def where(line: str, file: str = "") -> Path:
+    """The file of the package that has ``line``, once, among those whose path has ``file``."""
+    paths = [path for path in sorted(PACKAGE.rglob("*.py")) if file in path.as_posix()]
+    found = [path for path in paths for _ in range(path.read_text().count(line))]
     if len(found) != 1:
         raise SystemExit(f"{line!r} occurs {len(found)} times in {PACKAGE}, not once")
     return found[0]
@@ -113,8 +114,8 @@ def _load_libraries() -> None:
 def listed(word: str) -> list[tuple[Path, str, str, str]]:
     """File, its text when broken, the tests, and a name, of each mutant of the list that has ``word``."""
     found = []
-    for line, broken, tests in MUTANTS:
-        path = where(line)
+    for line, broken, tests, file in MUTANTS:
+        path = where(line, file)
         if word in line or word in str(path):
             found.append((path, path.read_text().replace(line, broken), tests, f"{line}  →  {broken}"))
     return found

@@ -1,8 +1,8 @@
 """Formulas of the core and how each is broken: the list that ``mutants.py`` works through.
 
-A mutant is its line's text, which occurs once in the package, what stands there instead, and the fewest tests that
-should notice (``file``, or ``file -k expression``, of the folder ``tests``). ``tests/test_mutants.py`` fails when a
-line is no longer there: then name the line that has taken its place.
+A mutant is its line's text, which occurs once in the package (or in the files whose path has ``file``), what stands
+there instead, and the fewest tests that should notice (``file``, or ``file -k expression``, of the folder ``tests``).
+``tests/test_mutants.py`` fails when a line is no longer there: then name the line that has taken its place.
 """
 
 from __future__ import annotations
@@ -14,6 +14,7 @@ class Mutant(NamedTuple):
     line: str
     broken: str
     tests: str
+    file: str = ""
 
 
 KERNEL = "test_kernels"
@@ -154,6 +155,7 @@ MUTANTS = tuple(
             "images, places = source.functions @ C.T,",
             "images, places = source.functions @ C,",
             f"{FORMULAS} -k nearest_image",
+            "functional/points.py",
         ),
         (
             "np.flatnonzero(to_numpy(source.mass) > 0)",
