@@ -180,3 +180,42 @@ def test_remaining_time_is_honest_on_uneven_work() -> None:
 
 def test_durations_in_words() -> None:
     assert [in_words(s) for s in (7.4, 99, 130, 12000)] == ["7 s", "99 s", "2 min", "3 h 20 min"]
+
+
+def test_long_names_have_files_all_the_same(tmp_path: Path) -> None:
+    """Two names of 140 letters make more than a file's name can hold; so do 70 letters of four bytes."""
+    for letter in ("a", "𝔞"):
+        long = letter * (140 if letter == "a" else 55)
+        pairs = [Pair(long + x, long + y) for x in "xyz" for y in "xyz" if x != y]
+        keys = {pair.key for pair in pairs}
+        assert len(keys) == len(pairs)
+        for key in keys:
+            touch(tmp_path / f"{key}.json")
+            touch(tmp_path / f".unfinished-0123456789ab{key[:0]}.json")
+            assert key.startswith(letter * 20)
+    assert Pair("a" * 99, "b" * 99).key == f"{'a' * 99}-{'b' * 99}"
+    assert Pair("a" * 100, "b" * 100).key != f"{'a' * 100}-{'b' * 100}"
+
+
+def test_numbers_beside_a_gltf_belong_to_it(tmp_path: Path) -> None:
+    from kfmaps.app.batch.cache import file_digest
+
+    touch(tmp_path / "a.gltf", '{"asset": {"version": "2.0"}, "buffers": [{"byteLength": 3, "uri": "a%20b.bin"}]}')
+    seen = set()
+    for content in ("123", "124", "123"):
+        touch(tmp_path / "a b.bin", content)
+        seen.add(file_digest(tmp_path / "a.gltf"))
+    assert len(seen) == 2
+    (tmp_path / "a b.bin").unlink()
+    assert file_digest(tmp_path / "a.gltf") not in seen
+
+
+@pytest.mark.parametrize("deep", ["[" * 100_000, '{"a":' * 100_000])
+def test_deep_results_and_settings(tmp_path: Path, deep: str) -> None:
+    from kfmaps.app.batch.results import read_result
+    from kfmaps.app.batch.settings import read_settings
+
+    assert read_result(touch(tmp_path / "r.json", deep)) is None
+    touch(tmp_path / "settings.json", deep)
+    with pytest.raises(InvalidInput, match="settings of a run"):
+        read_settings(tmp_path)

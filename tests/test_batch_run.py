@@ -5,8 +5,10 @@ from __future__ import annotations
 import json
 import os
 import signal
+import socket
 import subprocess
 import sys
+import threading
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -23,11 +25,11 @@ from collecting import CONFIG, Deadly, done, plan_of, write_collection
 from kfmaps._arrays import InvalidInput, MissingDependency
 from kfmaps.app.batch.clock import RunStatus
 from kfmaps.app.batch.cluster import Workers, local_workers, running_workers
-from kfmaps.app.batch.collection import match_collection
+from kfmaps.app.batch.collection import _tidied, match_collection
 from kfmaps.app.batch.layout import Pair, find_collection
 from kfmaps.app.batch.plan import Plan, make_plan
 from kfmaps.app.batch.results import Result, result_path
-from kfmaps.app.batch.run import _Run, run_plan
+from kfmaps.app.batch.run import _Run, check_workers, run_plan
 from kfmaps.app.batch.settings import Settings
 from kfmaps.app.batch.work import attempts, begin, map_path, prepare_shape
 from kfmaps.app.files import load_map
@@ -138,6 +140,9 @@ class Machine:
 
     def __init__(self, deadly: str) -> None:
         self.deadly, self.done, self.prepared = deadly, [], []
+
+    def has_ready(self) -> bool:
+        return True
 
     def submit(self, function: Callable, task: Any, *shapes: Answer, **_: object) -> Answer:
         from distributed import KilledWorker
@@ -309,3 +314,77 @@ def test_one_run_at_a_time(tmp_path: Path) -> None:
         fcntl.flock(file, fcntl.LOCK_EX)
         with pytest.raises(InvalidInput, match="in use by another run"):
             match_collection(plan)
+
+
+def test_what_killed_workers_left_is_taken_away(tmp_path: Path) -> None:
+    plan = plan_of(write_collection(tmp_path / "c", 2), tmp_path / "out")
+    elsewhere = replace(plan, tasks=tuple(replace(t, source=replace(t.source, entry=str(tmp_path / "shelf" / "x")))
+                                          for t in plan.tasks))  # fmt: skip
+    (tmp_path / "shelf").mkdir()
+    (plan.folder / "maps").mkdir()
+    left = [plan.folder / place / ".unfinished-0123456789ab.json" for place in (".", "pairs", "maps", "cache")]
+    left += [tmp_path / "shelf" / name for name in (".unfinished-old.npz", ".unfinished-new.npz")]
+    for path in left:
+        path.write_text("half")
+    os.utime(left[-2], (0, 0))
+    with _tidied(plan):
+        assert not any(path.exists() for path in left[:4])
+        left[1].write_text("half")
+    with _tidied(elsewhere):
+        assert [path.exists() for path in left] == [False] * 5 + [True]
+
+
+@pytest.mark.parametrize("error", [RuntimeError("Nanny failed to start."), OSError("gone"), TimeoutError()])
+def test_workers_that_end_as_they_start(error: Exception, monkeypatch: pytest.MonkeyPatch) -> None:
+    def fail(*_: object, **__: object) -> None:
+        raise error
+
+    monkeypatch.setattr("distributed.LocalCluster", fail)
+    with pytest.raises(InvalidInput, match="ended as they started; there may be too little memory"), local_workers(2):
+        pass
+    with pytest.raises(InvalidInput, match=r"workers: wanted what fits .* got 120,000,000 GB"), local_workers(10**9):
+        pass
+
+
+def test_workers_that_are_lost_on_the_way(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Dask would wait for others for ever."""
+    plan = plan_of(write_collection(tmp_path / "c", 2), tmp_path / "out")
+
+    class Nobody:
+        def nthreads(self) -> dict[str, int]:
+            return {}
+
+        def has_ready(self) -> bool:
+            return False
+
+        def run(self, *_: object) -> None:
+            raise OSError("closed")
+
+    nobody: Any = Nobody()
+    with pytest.raises(InvalidInput, match="workers: wanted processes that answer, got some that ended"):
+        check_workers(plan, Workers(nobody, 2, ""))
+    monkeypatch.setattr("kfmaps.app.batch.run.PATIENCE", 0.1)
+    with pytest.raises(InvalidInput, match="workers: wanted processes that stay alive, got none for"):
+        _Run(plan, Workers(nobody, 2, ""), nobody).next()
+
+
+SILENT, TALKING = "silent", "talking"
+
+
+@pytest.mark.parametrize(
+    "address", ["nonsense", "", "tcp://a:0", "tcp://a:99999", "ws://x", "tls://127.0.0.1:9", SILENT, TALKING]
+)
+def test_no_scheduler_but_something_else(address: str) -> None:
+    """Whatever answers at the address, or does not: one line, soon."""
+    with socket.create_server(("127.0.0.1", 0)) as server:
+
+        def talk() -> None:
+            with server.accept()[0] as connection:
+                connection.sendall(b"HTTP/1.1 200 OK\r\n\r\n")
+
+        if address in (SILENT, TALKING):
+            if address == TALKING:
+                threading.Thread(target=talk, daemon=True).start()
+            address = f"tcp://127.0.0.1:{server.getsockname()[1]}"
+        with pytest.raises(InvalidInput, match="scheduler"), running_workers(address, timeout=0.3):
+            pass

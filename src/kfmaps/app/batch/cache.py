@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 import hashlib
+from contextlib import suppress
 from pathlib import Path
 
 import numpy as np
 
 import kfmaps
+from kfmaps._arrays import InvalidInput
 from kfmaps.app.batch.settings import digest_of
 from kfmaps.app.files import atomic_output
+from kfmaps.app.files.gltf import buffer_files
+from kfmaps.app.files.text import read_bytes
 from kfmaps.config import Config
 from kfmaps.fit.shape import Shape
 from kfmaps.surface.basis import Basis
@@ -20,9 +24,14 @@ LAYOUT = 2
 
 
 def file_digest(path: str | Path) -> str:
-    """32 hexadecimal digits that stand for the content of a file."""
+    """32 hexadecimal digits that stand for the content of a file, and of those that a .gltf keeps its numbers in."""
     with open(path, "rb") as file:
-        return hashlib.file_digest(file, "sha256").hexdigest()[:32]
+        digest = hashlib.file_digest(file, "sha256")
+    if Path(path).suffix.lower() == ".gltf":
+        with suppress(InvalidInput):  # what cannot be read is told when its shape is prepared
+            for beside in buffer_files(read_bytes(path), str(path)):
+                digest.update(hashlib.sha256(read_bytes(beside)).digest())
+    return digest.hexdigest()[:32]
 
 
 def shape_key(content: str, suffix: str, config: Config) -> str:

@@ -13,11 +13,13 @@ from kfmaps.app.batch.cluster import local_workers, running_workers
 from kfmaps.app.batch.gallery import worst_pictures
 from kfmaps.app.batch.page import summary_page
 from kfmaps.app.batch.plan import Plan
-from kfmaps.app.batch.results import Result, all_results, write_csv, write_parquet
+from kfmaps.app.batch.results import FOLDER, Result, all_results, write_csv, write_parquet
 from kfmaps.app.batch.run import Callback, run_plan
 from kfmaps.app.batch.settings import read_settings
-from kfmaps.app.files import atomic_output
+from kfmaps.app.batch.work import MAPS
+from kfmaps.app.files import atomic_output, remove_unfinished
 
+A_DAY = 86400.0
 TABLE, COLUMNS, PAGE = "results.csv", "results.parquet", "summary.html"
 
 
@@ -77,7 +79,7 @@ def match_collection(
         When another run is using the output folder, or the workers cannot be used.
     """
     matched, interrupted = 0, False
-    with _only_one(plan.folder):
+    with _only_one(plan.folder), _tidied(plan):
         if plan.todo:
             connection = running_workers(scheduler) if scheduler else local_workers(workers)
             count = 0
@@ -116,6 +118,27 @@ def write_outputs(plan: Plan, results: list[Result], name: str, worst: int) -> t
     with atomic_output(plan.folder / PAGE, force=True) as temporary:
         temporary.write_text(page, encoding="utf-8")
     return (*files, plan.folder / PAGE)
+
+
+@contextmanager
+def _tidied(plan: Plan) -> Iterator[None]:
+    """Before and after the block, away with what workers that were killed have left half written.
+
+    In a cache elsewhere, which other runs may be writing to, only what nobody can be working on any more.
+    """
+    shelves = {Path(task.source.entry).parent for task in plan.tasks}
+
+    def tidy() -> None:
+        for folder in (plan.folder, plan.folder / FOLDER, plan.folder / MAPS):
+            remove_unfinished(folder)
+        for shelf in shelves:
+            remove_unfinished(shelf, 0.0 if plan.folder in shelf.parents else A_DAY)
+
+    tidy()
+    try:
+        yield
+    finally:
+        tidy()
 
 
 @contextmanager

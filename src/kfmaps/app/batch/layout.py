@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import hashlib
+import os
 import re
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
@@ -18,6 +20,10 @@ LANDMARK_FOLDER = "landmarks"
 PAIRS_FILE = "test_pairs.txt"
 
 
+LONGEST_KEY = 200
+"""Bytes of a key; file systems take names of 255."""
+
+
 @dataclass(frozen=True, order=True)
 class Pair:
     """Names of a source and a target."""
@@ -27,9 +33,18 @@ class Pair:
 
     @property
     def key(self) -> str:
-        """Name of the pair's files: ``A-B``, or ``A--B`` where a name itself has a hyphen."""
+        """Name of the pair's files: ``A-B``, or ``A--B`` where a name itself has a hyphen.
+
+        Of names too long for one file of both, it has how they begin and a digest of the whole.
+        """
         joint = "--" if "-" in self.source + self.target else "-"
-        return f"{self.source}{joint}{self.target}"
+        whole = f"{self.source}{joint}{self.target}"
+        if len(os.fsencode(whole)) <= LONGEST_KEY:
+            return whole
+        digest = hashlib.sha256(os.fsencode(f"{self.source}\0{self.target}")).hexdigest()[:16]
+        start = LONGEST_KEY // 2 - 10
+        names = (os.fsencode(name)[:start].decode("utf-8", "ignore") for name in (self.source, self.target))
+        return f"{joint.join(names)}{joint}{digest}"
 
 
 @dataclass(frozen=True)

@@ -104,7 +104,7 @@ def read_result(path: Path) -> Result | None:
         known = {f.name for f in fields(Result)}
         values = {k: tuple(v) if isinstance(v, list) else v for k, v in values.items() if k in known}
         return Result(**values)
-    except (OSError, ValueError, TypeError, AttributeError):
+    except (OSError, ValueError, TypeError, AttributeError, RecursionError):
         return None
 
 

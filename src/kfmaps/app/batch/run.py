@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import time
 from collections import deque
 from collections.abc import Callable
 from pathlib import Path
@@ -11,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 import kfmaps
 from kfmaps._arrays import refuse
 from kfmaps.app.batch.clock import RunStatus, remaining_seconds
-from kfmaps.app.batch.cluster import DEATHS, Workers
+from kfmaps.app.batch.cluster import DEATHS, LOST, Workers
 from kfmaps.app.batch.plan import Plan
 from kfmaps.app.batch.results import Result, result_path
 from kfmaps.app.batch.settings import FILE
@@ -24,6 +25,8 @@ if TYPE_CHECKING:
 Callback = Callable[[RunStatus, Result | None], None]
 """Called with how the run stands, and with the result that has just come, if one has."""
 
+PATIENCE = 60.0
+"""Seconds that a run goes on without any worker; one that was killed takes a few to come back."""
 AHEAD = 2
 """Pairs that are handed to Dask for each worker."""
 
@@ -65,6 +68,8 @@ def check_workers(plan: Plan, workers: Workers) -> None:
     name = "workers"
     try:
         seen: Any = workers.client.run(_seen, str(plan.folder / FILE))
+    except OSError as error:
+        raise refuse(name, "processes that answer", "some that ended", LOST) from error
     except Exception as error:  # whatever a foreign worker runs into
         got = " ".join(f"{type(error).__name__}: {error}".split())[:200]
         raise refuse(name, "kfmaps installed on them", got, "install the same version there") from error
@@ -126,6 +131,7 @@ class _Run:
         """Wait for the next thing that ends; its result when it is a pair's."""
         from distributed import CancelledError
 
+        self._wait()
         future = next(self.coming)
         task = self.jobs.pop(future)
         if future.status in ("lost", "pending"):
@@ -149,6 +155,28 @@ class _Run:
             self.results.append(result)
             self.pair_seconds += [result.seconds["total"]] if result.status == "done" else []
         return result
+
+    def _wait(self) -> None:
+        """Until something has ended.
+
+        Raises
+        ------
+        InvalidInput
+            When there has been no worker for :data:`PATIENCE` seconds: Dask gives up those that are killed as they
+            start, and would wait for others for ever.
+        """
+        looked = alive = time.monotonic()
+        while not self.coming.has_ready():
+            time.sleep(0.02)
+            if (now := time.monotonic()) - looked > min(2.0, PATIENCE):
+                looked = now
+                try:
+                    alive = now if self.workers.client.nthreads() else alive
+                except (OSError, RuntimeError, TimeoutError):
+                    continue  # a scheduler that does not answer
+                if now - alive > PATIENCE:
+                    wanted = "processes that stay alive"
+                    raise refuse("workers", wanted, f"none for {PATIENCE:.0f} seconds", LOST)
 
     def _failed(self, error: Exception, task: PairTask) -> Result | None:
         """A pair whose task raised, which is not the pair's doing unless it has killed several workers."""

@@ -118,7 +118,7 @@ def read_settings(folder: Path) -> dict[str, Any]:
         values = json.loads(path.read_text(encoding="utf-8"))
     except FileNotFoundError as error:
         raise refuse(f"{folder}", "an output folder of kfmaps batch", f"no {FILE} in it", "check the path") from error
-    except (OSError, ValueError) as error:
+    except (OSError, ValueError, RecursionError) as error:
         raise refuse(f"{path}", "the settings of a run", str(error), "remove it to begin anew") from error
     if not isinstance(values, dict) or "digest" not in values:
         raise refuse(f"{path}", "the settings of a run", "other content", "remove it to begin anew")
