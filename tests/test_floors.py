@@ -40,6 +40,7 @@ APP = {
     "summary": 3,
     "batch": 4,
     "experiments": 4,
+    "learn": 4,
     "view": 4,
     "api": 5,
     "commands": 5,

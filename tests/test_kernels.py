@@ -20,6 +20,7 @@ from kfmaps.kernel.kernels import (
     resolved,
     squared_distances,
 )
+from kfmaps.kernel.lifted import Metric, Network, Scaled
 
 KERNELS = [
     Linear(),
@@ -29,6 +30,10 @@ KERNELS = [
     Tanh(0.3, 0.1),
     Sum(Linear(), Gaussian(2.0)),
     Product(Polynomial(2, 1.0), Laplacian(0.2)),
+    Metric(Gaussian(0.7), (0.5, 2.0, 0.0)),
+    Metric(Sum(Linear(), Laplacian(0.5)), ((1.0, 0.5, 0.0), (0.0, -1.0, 2.0))),
+    Network(Gaussian(0.7), (((1.0, -1.0, 0.3), (0.5, 0.2, -0.1)), ((2.0, 1.0, 0.5),)), (2, 0)),
+    Scaled(Gaussian(0.7), 2.5),
 ]
 POSITIVE = [k for k in KERNELS if not isinstance(k, Tanh)]
 
@@ -50,6 +55,15 @@ def plain(kernel, x, y):
             return plain(a, x, y) + plain(b, x, y)
         case Product(a, b):
             return plain(a, x, y) * plain(b, x, y)
+        case Metric(inner, matrix):
+            M = np.asarray(matrix)
+            return plain(inner, *(M * v if M.ndim == 1 else M @ v for v in (x, y)))
+        case Network(inner, (first, second), columns):
+            A, B = np.asarray(first), np.asarray(second)
+            hidden = [np.tanh(A[:, :-1] @ v[list(columns)] + A[:, -1]) for v in (x, y)]
+            return plain(inner, *(np.append(v, B[:, :-1] @ h + B[:, -1]) for v, h in zip((x, y), hidden, strict=True)))
+        case Scaled(inner, factor):
+            return factor * plain(inner, x, y)
     raise AssertionError(kernel)
 
 
@@ -146,3 +160,43 @@ def test_bad_kernels_are_refused(rng):
         gram(Polynomial(400), 1e3 * X, X)
     with pytest.raises(InvalidInput, match="resolved"):
         gram(Gaussian(), X, X)
+
+
+def test_equal_rows_are_at_no_distance(rng):
+    """So that the Laplacian kernel, whose root magnifies rounding, is 1 between a point and itself."""
+    X = rng.normal(size=(50, 7)) + 100
+    values = np.diag(gram(Laplacian(3.0), X, X[:, :]))
+    np.testing.assert_array_equal(values, 1.0)
+
+
+def test_automatic_widths_inside_transforming_kernels(rng):
+    """Scaling what goes in, or the metric, changes no value of a kernel of automatic width."""
+    X = rng.normal(size=(20, 3))
+    weights = (1.0, 0.5, 2.0)
+    wanted = gram(resolved(Metric(Gaussian(), weights), X), X, X)
+    doubled = tuple(2 * w for w in weights)
+    np.testing.assert_allclose(gram(resolved(Metric(Gaussian(), doubled), X), X, X), wanted, rtol=1e-9)
+    layers = (((1.0, 2.0, 0.0, 0.0),),)
+    for kernel in (Scaled(Gaussian(), 2.0), Network(Laplacian(), layers)):
+        found = resolved(kernel, X)
+        assert found.kernel.gamma > 0
+        assert gram(found, X, X).shape == (20, 20)
+
+
+@pytest.mark.parametrize(
+    "make",
+    [
+        lambda: Metric(Gaussian(1.0), ()),
+        lambda: Metric(Gaussian(1.0), ((1.0, 2.0), (1.0,))),
+        lambda: Metric(Gaussian(1.0), (float("nan"),)),
+        lambda: Metric(Gaussian(1.0), "x"),
+        lambda: Network(Gaussian(1.0), ()),
+        lambda: Network(Gaussian(1.0), (((1.0, 2.0),), ((1.0,),))),
+        lambda: Scaled(Gaussian(1.0), 0.0),
+        lambda: Metric(Gaussian(1.0), (1.0, 2.0))(np.zeros((3, 3)), np.zeros((3, 3))),
+        lambda: Network(Gaussian(1.0), (((1.0, 2.0),),))(np.zeros((3, 3)), np.zeros((3, 3))),
+    ],
+)
+def test_transforming_kernels_refuse_what_does_not_fit(make):
+    with pytest.raises(InvalidInput, match="wanted"):
+        make()

@@ -5,6 +5,7 @@ from kfmaps._arrays import KfmapsWarning as KfmapsWarning
 from kfmaps._arrays import MissingDependency as MissingDependency
 from kfmaps._arrays import NotConverged as NotConverged
 from kfmaps.app import datasets as datasets
+from kfmaps.app import learn as learn
 from kfmaps.app.api import Match as Match
 from kfmaps.app.api import match as match
 from kfmaps.app.api import prepare as prepare

@@ -93,7 +93,12 @@ def blocks(n: int, size: int) -> list[slice]:
 
 def inner(x: Array, y: Array) -> float:
     """Sum of elementwise products, as a Python number."""
-    return float(array_namespace(x, y).sum(x * y))
+    return number(array_namespace(x, y).sum(x * y))
+
+
+def number(x: Array) -> float:
+    """A Python number of an array with one value, without what PyTorch knows of its derivatives."""
+    return float(x.detach() if is_torch(x) else x)
 
 
 def check(

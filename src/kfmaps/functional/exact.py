@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from kfmaps._arrays import Array, blocks, namespace
+from kfmaps._arrays import Array, blocks, namespace, number
 from kfmaps.functional.terms import Preservation, rotated, same_count
 from kfmaps.kernel.kernels import KernelLike, gram
 from kfmaps.surface.basis import Basis
@@ -30,7 +30,7 @@ def kernel_descriptor_term(
             for part in blocks(rows.shape[0], block)
         )
 
-    trace = float(namespace(descriptors_t).linalg.trace(sandwich(1, 1)))
+    trace = number(namespace(descriptors_t).linalg.trace(sandwich(1, 1)))
     return Preservation(sandwich(0, 0), sandwich(1, 0), 0.5 * trace)
 
 

@@ -28,6 +28,15 @@ class Kernel(Protocol):
         ...
 
 
+@runtime_checkable
+class Adaptable(Protocol):
+    """A kernel that holds another and knows what that one sees, see :mod:`kfmaps.kernel.lifted`."""
+
+    def resolved(self, samples: Array, sharpness: float) -> Kernel:
+        """The same with every automatic γ made a number."""
+        ...
+
+
 KernelLike = Kernel | Callable[[Any, Any], Any]
 
 
@@ -43,7 +52,10 @@ def squared_distances(X: Array, Y: Array) -> Array:
 
 def distances(X: Array, Y: Array) -> Array:
     """``(n, m)`` Euclidean distances between rows."""
-    return namespace(X, Y).sqrt(squared_distances(X, Y))
+    xp = namespace(X, Y)
+    squares = squared_distances(X, Y)
+    # What rounding leaves between equal rows is none. It is set to 1e-150, not to 0, where the root has no derivative.
+    return xp.sqrt(xp.where(squares > 1e-15 * xp.max(squares), squares, 1e-300 * xp.ones_like(squares)))
 
 
 def _ones(X: Array) -> Array:
@@ -221,6 +233,8 @@ def resolved(kernel: KernelLike, samples: Array, sharpness: float = 1.0) -> Kern
     """
     if isinstance(kernel, Sum | Product):
         return replace(kernel, a=resolved(kernel.a, samples, sharpness), b=resolved(kernel.b, samples, sharpness))
+    if isinstance(kernel, Adaptable):
+        return kernel.resolved(samples, sharpness)
     if not isinstance(kernel, Gaussian | Laplacian) or kernel.gamma is not None:
         return kernel
     squares = to_numpy(squared_distances(samples, samples))

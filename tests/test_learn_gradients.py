@@ -1,0 +1,229 @@
+"""The gradient of the map that minimises an energy, against differences, for every kernel and every term."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from conftest import random_basis
+from kfmaps._arrays import NotConverged, inner
+from kfmaps.functional.energy import (
+    Energy,
+    descriptor_term,
+    hadamard_term,
+    kernel_descriptor_term,
+    laplacian_term,
+    slice_term,
+)
+from kfmaps.functional.solvers import CG, Direct, solve
+from kfmaps.functional.terms import Elementwise
+from kfmaps.kernel.kernels import Gaussian, Laplacian, Linear, Polynomial, Product, Sum, Tanh
+from kfmaps.kernel.lifted import Metric, Scaled
+
+torch = pytest.importorskip("torch")
+
+from kfmaps.app.learn import losses  # noqa: E402
+from kfmaps.app.learn.energies import features, operators, pair_energy  # noqa: E402
+from kfmaps.app.learn.implicit import minimiser  # noqa: E402
+from kfmaps.app.learn.model import opened  # noqa: E402
+
+N_S, N_T, K_S, K_T, D = 10, 9, 4, 3, 2
+EXACT = CG(rtol=1e-13, max_steps=500)
+
+
+def leaf(values):
+    return torch.tensor(values, dtype=torch.float64, requires_grad=True)
+
+
+@pytest.fixture
+def case(rng):
+    bases = random_basis(N_S, K_S, rng).to("torch"), random_basis(N_T, K_T, rng).to("torch")
+    return (*bases, leaf(rng.normal(size=(N_S, D))), leaf(rng.normal(size=(N_T, D))))
+
+
+def right(function, *inputs, fast=True):
+    """PyTorch's check with differences of 1e-6, to 1e-6 of the derivative: along random directions, or every entry."""
+    return torch.autograd.gradcheck(function, inputs, eps=1e-6, atol=1e-8, rtol=1e-6, fast_mode=fast)
+
+
+def ground(source, target):
+    """What makes every energy here positive definite."""
+    return Elementwise(torch.ones(K_T, K_S, dtype=torch.float64)), laplacian_term(source, target)
+
+
+def minimum(parts, weights, bases):
+    ones, laplacian = ground(*bases)
+    terms = {**parts, "ones": ones, "laplacian": laplacian}
+    return minimiser(Energy(terms, {**weights, "ones": 0.1, "laplacian": 0.5}), EXACT).C
+
+
+TERMS = {
+    "descriptors": lambda s, t, F, G: descriptor_term(s, F, t, G),
+    "slices": lambda s, t, F, G: slice_term(operators(s, F), operators(t, G)),
+    "antisymmetric slices": lambda s, t, F, G: slice_term(_skew(operators(s, F)), _skew(operators(t, G)), -1),
+    "kernel descriptors": lambda s, t, F, G: kernel_descriptor_term(Gaussian(0.3), s, F, t, G, block=5),
+    "hadamard": lambda s, t, F, G: hadamard_term(Gaussian(0.3), s, F, t, G, block=5),
+    "elementwise": lambda s, t, F, G: Elementwise(t.project(G**2)[:, :1] ** 2 + s.project(F**2)[:, :1].T ** 2),
+}
+
+
+def _skew(slices):
+    k = slices.shape[1]
+    sign = torch.triu(torch.ones(k, k, dtype=slices.dtype), 1)
+    return slices * (sign - sign.T)
+
+
+@pytest.mark.parametrize("name", TERMS)
+def test_every_term_and_its_weight(name, case):
+    source, target, F, G = case
+    fixed = descriptor_term(source, F.detach() + 1, target, G.detach() - 1)  # a right-hand side for those without
+
+    def C(F, G, weight):
+        parts = {name: TERMS[name](source, target, F, G), "fixed": fixed}
+        return minimum(parts, {name: weight, "fixed": 1.0}, (source, target))
+
+    assert right(C, F, G, leaf(0.7), fast=False)
+
+
+KERNELS = {
+    "linear": (lambda: Linear(), ()),
+    "polynomial": (lambda offset: opened(Polynomial(3, 0.5), offset=offset), (0.5,)),
+    "gaussian": (lambda gamma: opened(Gaussian(1.0), gamma=gamma), (0.4,)),
+    "laplacian": (lambda gamma: opened(Laplacian(1.0), gamma=gamma), (0.6,)),
+    "tanh": (lambda scale, offset: opened(Tanh(0.3, 0.1), scale=scale, offset=offset), (0.3, 0.1)),
+    "sum": (lambda gamma, a: Sum(opened(Gaussian(1.0), gamma=gamma), opened(Scaled(Linear()), factor=a)), (0.4, 0.2)),
+    "product": (
+        lambda gamma, offset: Product(opened(Laplacian(1.0), gamma=gamma), opened(Polynomial(2, 1.0), offset=offset)),
+        (0.4, 0.8),
+    ),
+}
+
+
+@pytest.mark.parametrize("name", KERNELS)
+def test_every_kernel(name, case):
+    """Through the descriptors, so that any transformation of them can be learned, and through its own numbers."""
+    source, target, F, G = case
+    build, numbers = KERNELS[name]
+
+    def C(F, G, *numbers):
+        kernel = build(*numbers)
+        parts = {
+            "descriptors": kernel_descriptor_term(kernel, source, F, target, G),
+            "commutativity": hadamard_term(kernel, source, F, target, G),
+        }
+        return minimum(parts, {"descriptors": 1.0, "commutativity": 0.3}, (source, target))
+
+    assert right(C, F, G, *[leaf(number) for number in numbers])
+
+
+@pytest.mark.parametrize("name", [name for name in KERNELS if name not in ("tanh", "linear", "polynomial")])
+def test_features_of_samples(name, case):
+    """The way that learning goes: Nyström features, slices, a positive definite energy."""
+    source, target, F, G = case
+    build, numbers = KERNELS[name]
+
+    def C(F, G, S, *numbers):
+        W = features(build(*numbers), F, G, S)
+        return minimiser(
+            pair_energy(source, target, *W, {"descriptors": 2.0, "commutativity": 1.0, "laplacian": 0.5}), EXACT
+        ).C
+
+    assert right(C, F, G, leaf(F.detach()[:4].numpy() + 0.1), *[leaf(number) for number in numbers])
+
+
+def test_features_reproduce_the_kernel_where_every_point_is_a_sample(case):
+    _, _, F, G = case
+    kernel = Gaussian(0.4)
+    W_s, W_t = features(kernel, F, G, torch.cat([F, G]))
+    np.testing.assert_allclose((W_t @ W_s.T).detach(), kernel(G, F).detach(), atol=1e-6)
+
+
+def test_the_map_is_that_of_the_other_solver(case):
+    source, target, F, G = case
+    energy = pair_energy(source, target, F, G, {"descriptors": 1.0, "commutativity": 1.0, "laplacian": 0.5})
+    found = minimiser(energy, EXACT)
+    with torch.no_grad():
+        wanted = solve(energy.apply, energy.rhs(), Direct()).value
+    np.testing.assert_allclose(found.C.detach(), wanted, rtol=1e-9)
+    assert found.solution.status == "converged"
+
+
+def test_memory_does_not_grow_with_the_iterations(case):
+    """What the graph holds is the same however many steps were made."""
+    source, target, F, G = case
+
+    def held(solver):
+        kept = []
+        with torch.autograd.graph.saved_tensors_hooks(lambda t: kept.append(t.numel()) or t, lambda t: t):
+            energy = pair_energy(source, target, F, G, {"descriptors": 1.0, "commutativity": 1.0, "laplacian": 0.5})
+            found = minimiser(energy, solver)
+        return sum(kept), found.solution.steps
+
+    (few, short), (many, long) = held(CG(max_steps=1)), held(EXACT)
+    assert short == 1
+    assert long > 3
+    assert few == many
+
+
+def test_compression_hardly_changes_the_gradient(case):
+    source, target, F, G = case
+    weights = {"descriptors": 1.0, "commutativity": 1.0, "laplacian": 0.5}
+    spread = torch.cat([F, G[:, :1].mean() + 1e-4 * F], dim=1), torch.cat([G, G[:, :1].mean() + 1e-4 * G], dim=1)
+    gradients = []
+    for rtol in (0.0, 1e-6):
+        C = minimiser(pair_energy(source, target, *spread, weights, rtol), EXACT).C
+        gradients.append(torch.autograd.grad((C**2).sum(), F, retain_graph=True)[0])
+    np.testing.assert_allclose(*gradients, rtol=1e-3, atol=1e-5)
+
+
+def test_a_breakdown_is_told(case):
+    source, target, F, G = case
+    energy = pair_energy(source, target, F * float("nan"), G, {"descriptors": 1.0, "laplacian": 0.5})
+    with pytest.raises((NotConverged, torch.linalg.LinAlgError)):
+        minimiser(energy, EXACT)
+
+
+@pytest.mark.parametrize("name", ["supervised", "orthogonality", "cycle", "commutativity", "geodesic", "coupling"])
+def test_losses(name, case, rng):
+    source, target, _, _ = case
+    wanted, back = torch.from_numpy(rng.normal(size=(K_T, K_S))), leaf(rng.normal(size=(K_S, K_T)))
+    distances = torch.from_numpy(rng.random((N_T, N_S)))
+    loss = {
+        "supervised": lambda C, _: losses.supervised(C, wanted),
+        "orthogonality": lambda C, _: losses.orthogonality(C),
+        "cycle": losses.cycle,
+        "commutativity": lambda C, _: losses.commutativity(C, source, target),
+        # At a fixed scale: what the temperature is measured in has no derivative, by choice.
+        "geodesic": lambda C, _: losses.geodesic(C, source.functions, target.functions, distances, 3.0),
+        "coupling": lambda C, _: losses.coupling(C, distances, source.functions, target.functions),
+    }[name]
+    C = leaf(rng.normal(size=(K_T, K_S)))
+    if name == "geodesic":
+        assert float(loss(C, back).detach()) < float(distances.max())
+        return
+    assert right(loss, C, back)
+
+
+def test_losses_are_zero_where_they_should_be(rng):
+    basis = random_basis(N_S, K_S, rng).to("torch")
+    identity = torch.eye(K_S, dtype=torch.float64)
+    assert float(losses.orthogonality(identity)) == 0
+    assert float(losses.cycle(2 * identity, identity / 2)) == 0
+    assert float(losses.commutativity(identity, basis, basis)) == 0
+    assert float(losses.supervised(identity, identity)) == 0
+    everywhere = torch.eye(N_S, dtype=torch.float64)
+    assert float(losses.coupling(identity, everywhere, basis.functions, basis.functions, 0.0)) < 1e-20
+    far = 1 - everywhere
+    nearest = losses.geodesic(identity, basis.functions, basis.functions + 1e-3, far, 1e-6)
+    assert float(nearest) < 1e-9
+    assert inner(identity, identity) == K_S
+
+
+def test_a_metric_of_tensors_is_the_metric_of_numbers(case):
+    _, _, F, G = case
+    for matrix in ([0.5, 2.0], [[0.5, 1.0], [1.0, -1.0], [0.0, 2.0]]):
+        kernel = Metric(Gaussian(0.3), matrix)
+        M = torch.tensor(matrix, dtype=torch.float64)
+        lifted = [X * M if M.ndim == 1 else X @ M.T for X in (F, G)]
+        torch.testing.assert_close(kernel(F, G), Gaussian(0.3)(*lifted))
+        assert replace(kernel) == kernel
