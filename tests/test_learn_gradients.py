@@ -179,7 +179,7 @@ def test_compression_hardly_changes_the_gradient(case):
 def test_a_breakdown_is_told(case):
     source, target, F, G = case
     energy = pair_energy(source, target, F * float("nan"), G, {"descriptors": 1.0, "laplacian": 0.5})
-    with pytest.raises((NotConverged, torch.linalg.LinAlgError)):
+    with pytest.raises((NotConverged, RuntimeError)):
         minimiser(energy, EXACT)
 
 
@@ -221,7 +221,7 @@ def test_losses_are_zero_where_they_should_be(rng):
 
 def test_a_metric_of_tensors_is_the_metric_of_numbers(case):
     _, _, F, G = case
-    for matrix in ([0.5, 2.0], [[0.5, 1.0], [1.0, -1.0], [0.0, 2.0]]):
+    for matrix in ((0.5, 2.0), ((0.5, 1.0), (1.0, -1.0), (0.0, 2.0))):
         kernel = Metric(Gaussian(0.3), matrix)
         M = torch.tensor(matrix, dtype=torch.float64)
         lifted = [X * M if M.ndim == 1 else X @ M.T for X in (F, G)]

@@ -22,7 +22,8 @@ from kfmaps.config import RECORDS, Config, Formulation, NystromConfig, Search, W
 from kfmaps.functional.nonrigid import NonRigid
 from kfmaps.functional.refine import ICP, ZoomOut
 from kfmaps.functional.solvers import CG, Direct
-from kfmaps.kernel.kernels import KERNELS, Gaussian, Laplacian, Linear, Polynomial, Product, Sum, Tanh
+from kfmaps.kernel.kernels import Gaussian, Laplacian, Linear, Polynomial, Product, Sum, Tanh
+from kfmaps.kernel.lifted import KERNELS, Metric, Network, Scaled
 
 FAR = Config.paper()
 """A base that differs from the recommended settings in most things."""
@@ -149,7 +150,11 @@ def test_the_catalogue_knows_every_setting() -> None:
         assert set(setting.kinds) == having, setting.path
 
 
-@pytest.mark.parametrize("path", [s.path for s in SETTINGS if s.field not in ("a", "b")])
+INSIDE = ("a", "b", "kernel", "matrix", "layers", "columns")
+"""What only settings files can say."""
+
+
+@pytest.mark.parametrize("path", [s.path for s in SETTINGS if s.field not in INSIDE])
 def test_assignment_reaches_every_setting(path: str) -> None:
     """A value unlike the one before is found where it was put."""
     setting = next(s for s in SETTINGS if s.path == path)
@@ -200,6 +205,8 @@ CONFIGS = [
     Config(refinement=ZoomOut(10, 20, 2, None), exact=True, weights=Weights(1e-30, 1e20, 0.1 + 0.2, 3)),
     Config(nystrom=NystromConfig(rtol=0.0), kernel=Laplacian(1 / 3)),
     Config(formulation=Formulation("orthogonal", "both", 0.3, 2.0, "huber", "feature", 0.7, 1e-3, "resolvent", 0.6)),
+    Config(kernel=Metric(Sum(Gaussian(2.0), Scaled(Gaussian(0.1), 1 / 3)), (1.0, 0.1, 1e-9))),
+    Config(kernel=Metric(Network(Gaussian(), (((1.0, 2.0, 3.0),), ((0.5, 0.1),)), (0,)), ((1.0, 2.0), (0.1, 1 / 3)))),
 ]
 
 
@@ -364,3 +371,11 @@ def test_document_is_current() -> None:
     assert updated(text) == text
     for setting in SETTINGS:
         assert f"`{setting.path}`" in text
+
+
+@pytest.mark.parametrize("matrix", ["1.0", '["a"]', "[[1.0], 2.0]", "[[[[[[1.0]]]]]]", "[true]", "[]", "[nan]"])
+def test_a_metric_that_is_none(matrix: str, tmp_path: Path) -> None:
+    path = tmp_path / "settings.toml"
+    path.write_text(f'[kernel]\nkind = "metric"\nmatrix = {matrix}\n', encoding="utf-8")
+    with pytest.raises(InvalidInput, match=r"(?i)matrix.*wanted"):
+        read_settings(path, Config())

@@ -42,6 +42,9 @@ from kfmaps.kernel.kernels import Polynomial as Polynomial
 from kfmaps.kernel.kernels import Product as Product
 from kfmaps.kernel.kernels import Sum as Sum
 from kfmaps.kernel.kernels import Tanh as Tanh
+from kfmaps.kernel.lifted import Metric as Metric
+from kfmaps.kernel.lifted import Network as Network
+from kfmaps.kernel.lifted import Scaled as Scaled
 from kfmaps.surface.basis import Basis as Basis
 from kfmaps.surface.basis import laplace_basis as laplace_basis
 from kfmaps.surface.geodesics import geodesic_distances as geodesic_distances

@@ -96,6 +96,8 @@ def _changed(kind: type, values: Mapping[str, Any], place: Place, unions: Unions
 def _value(value: Any, hint: Any, place: Place, unions: Unions) -> Any:
     if isinstance(hint, type) and is_dataclass(hint):
         return _changed(hint, _table(value, place.label), place, unions)
+    if any(get_origin(option) is tuple for option in (hint, *get_args(hint))):
+        return _tuple(value, place.label)
     options: tuple[Any, ...] = unions.get(hint) or get_args(hint) or (hint,)
     if value is None or (NoneType in options and isinstance(value, str) and value.lower() in NOTHING):
         if NoneType not in options:
@@ -113,6 +115,16 @@ def _value(value: Any, hint: Any, place: Place, unions: Unions) -> Any:
     if type(value) is not plain or (isinstance(value, float) and not math.isfinite(value)):
         raise refuse(place.label, _wanted(hint), repr(value), "compare with `kfmaps config`")
     return value
+
+
+def _tuple(value: Any, label: str, depth: int = 0) -> tuple[Any, ...]:
+    """Nested lists of numbers as tuples; how many there must be is for their record to say."""
+    if not isinstance(value, list | tuple) or depth > 3:
+        raise refuse(label, "a list of numbers, or of lists of them", repr(value)[:60], "write [1.0, 2.0]")
+    items = [_tuple(item, label, depth + 1) if isinstance(item, list | tuple) else item for item in value]
+    if any(not isinstance(item, tuple) and type(item) not in (int, float) for item in items):
+        raise refuse(label, "a list of numbers, or of lists of them", repr(value)[:60], "write [1.0, 2.0]")
+    return tuple(items)
 
 
 def _one_of(value: Any, options: tuple[Any, ...], place: Place, unions: Unions) -> Any:

@@ -14,7 +14,8 @@ from kfmaps.functional.objective import CONSTRAINTS, Constraint, Preconditioner
 from kfmaps.functional.refine import Refinement, ZoomOut
 from kfmaps.functional.solvers import CG, Solver
 from kfmaps.functional.terms import MASKS, Mask
-from kfmaps.kernel.kernels import KERNELS, Gaussian, KernelLike, Linear, describe
+from kfmaps.kernel.kernels import Gaussian, KernelLike, Linear, describe
+from kfmaps.kernel.lifted import KERNELS
 
 Sampling = Literal["descriptor", "geodesic", "uniform", "cholesky", "random-cholesky", "squared-cholesky"]
 SAMPLINGS: tuple[str, ...] = get_args(Sampling)

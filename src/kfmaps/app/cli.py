@@ -36,6 +36,7 @@ COMMANDS = (
     "render",
     "reproduce",
     "tune",
+    "learn",
 )
 """Modules of ``kfmaps.app.commands``, each with a function of its own name or a ``typer.Typer`` called ``app``."""
 

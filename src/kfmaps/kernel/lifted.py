@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 
 from kfmaps._arrays import Array, check_positive, like, namespace, refuse, take
+from kfmaps.kernel import kernels
 from kfmaps.kernel.kernels import Gaussian, KernelLike, describe, gram, gram_diagonal, resolved
 
 
@@ -28,7 +29,7 @@ class Metric:
     """
 
     kernel: KernelLike = field(default_factory=Gaussian)
-    matrix: Any = ()
+    matrix: tuple[float, ...] | tuple[tuple[float, ...], ...] = ()
 
     def __post_init__(self) -> None:
         values = _matrix(self.matrix, "Metric matrix")
@@ -72,7 +73,7 @@ class Network:
     """
 
     kernel: KernelLike = field(default_factory=Gaussian)
-    layers: Any = ()
+    layers: tuple[tuple[tuple[float, ...], ...], ...] = ()
     columns: tuple[int, ...] = ()
 
     def __post_init__(self) -> None:
@@ -128,6 +129,10 @@ class Scaled:
     def resolved(self, samples: Array, sharpness: float) -> Scaled:
         """The same with every automatic γ of the inner kernel made a number."""
         return replace(self, kernel=resolved(self.kernel, samples, sharpness))
+
+
+KERNELS: tuple[type, ...] = (*kernels.KERNELS, Metric, Network, Scaled)
+"""Every kernel that a settings file can name."""
 
 
 def forward(layers: tuple[Array, ...], X: Array) -> Array:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import pickle
 from dataclasses import astuple
 from pathlib import Path
 from typing import Any
@@ -12,8 +11,7 @@ import torch
 from kfmaps._arrays import refuse
 from kfmaps.app.files import atomic_output
 from kfmaps.app.learn.training import Epoch, State
-
-FORMAT = 1
+from kfmaps.app.settings.learned import FORMAT, read_learned
 
 
 def save(path: str | Path, state: State, settings: str, request: dict[str, Any]) -> None:
@@ -45,7 +43,7 @@ def load(path: str | Path) -> tuple[State, str, dict[str, Any]]:
     InvalidInput
         When the file is missing, damaged, or something else.
     """
-    content = read(path)
+    content = read_learned(path)
     try:
         history = tuple(Epoch(*row) for row in content["history"])
         tensors = [dict(content[name]) for name in ("parameters", "best", "start")]
@@ -55,18 +53,3 @@ def load(path: str | Path) -> tuple[State, str, dict[str, Any]]:
         return state, str(content["settings"]), dict(content["request"])
     except (KeyError, TypeError, ValueError) as error:
         raise refuse(f"{path}", "a file of kfmaps learn", f"one without {error}", "learn anew") from error
-
-
-def read(path: str | Path) -> dict[str, Any]:
-    """The plain content of the file."""
-    wanted, remedy = "a file that kfmaps learn wrote", "check the path, or learn anew"
-    try:
-        content = torch.load(Path(path), map_location="cpu", weights_only=True)
-    except OSError as error:
-        raise refuse(f"{path}", wanted, error.strerror or str(error), remedy) from error
-    except (pickle.UnpicklingError, RuntimeError, EOFError, ValueError, KeyError) as error:
-        got = (str(error) or type(error).__name__).splitlines()[0][:120]
-        raise refuse(f"{path}", wanted, got, remedy) from error
-    if not isinstance(content, dict) or content.get("format") != FORMAT:
-        raise refuse(f"{path}", wanted, "another content or version", remedy)
-    return content

@@ -5,11 +5,12 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 import torch
 
-from kfmaps._arrays import NotConverged, check_count, check_positive, refuse
+from kfmaps._arrays import InvalidInput, NotConverged, check_count, check_positive, refuse
 from kfmaps.app.learn.fitting import pair_loss, point_error
 from kfmaps.app.learn.lessons import Lesson
 from kfmaps.app.learn.model import Model
@@ -17,6 +18,9 @@ from kfmaps.app.learn.names import LOSSES
 from kfmaps.functional.solvers import CG
 
 Progress = Callable[[str, float], None]
+
+MATRICES = 0.05
+"""Part of the rate at which entries of a metric or network are changed."""
 
 
 @dataclass(frozen=True)
@@ -150,8 +154,7 @@ def learn(
     report = progress or (lambda _stage, _done: None)
     if not lessons:
         raise refuse("pairs to learn from", "at least one", "none", "check the names of shapes and pairs")
-    learned = [p for p in model.parameters() if p.requires_grad]
-    optimiser = torch.optim.Adam(learned, lr=training.rate)
+    optimiser = torch.optim.Adam(_groups(model, training.rate))
     begun = time.perf_counter()
     if state is None:
         now = _copied(model)
@@ -171,6 +174,15 @@ def learn(
     finally:
         model.load_state_dict(state.best)
     return state
+
+
+def _groups(model: Model, rate: float) -> list[dict[str, Any]]:
+    """Logarithms at the full rate; entries of matrices, which begin small, at :data:`MATRICES` of it."""
+    learned = [(name, p) for name, p in model.named_parameters() if p.requires_grad]
+    logs = [p for name, p in learned if name.startswith("log_")]
+    matrices = [p for name, p in learned if not name.startswith("log_")]
+    groups = [{"params": logs, "lr": rate}, {"params": matrices, "lr": MATRICES * rate}]
+    return [group for group in groups if group["params"]]
 
 
 def _finished(state: State, training: Training) -> bool:
@@ -201,15 +213,21 @@ def _epoch(
         some = order[a : a + training.batch]
         optimiser.zero_grad()
         for i in some:
-            loss = _loss(model, lessons[i], training, draw) / len(some)
-            loss.backward()
+            try:
+                loss = _loss(model, lessons[i], training, draw) / len(some)
+                loss.backward()
+            except (NotConverged, InvalidInput, RuntimeError) as error:
+                raise _stopped(str(error).splitlines()[0], lessons[i].name, state) from error
             total += float(loss.detach()) * len(some)
             _check_finite(model, lessons[i].name, float(loss.detach()), state)
         if training.decay:
             (training.decay * _moved(model, state.start)).backward()
         optimiser.step()
         report(stage, min(1.0, (a + len(some)) / len(order)))
-    judged = _judged(model, lessons, held_out, training, report, loss=total / len(order))
+    try:
+        judged = _judged(model, lessons, held_out, training, report, loss=total / len(order))
+    except (NotConverged, InvalidInput, RuntimeError) as error:
+        raise _stopped(str(error).splitlines()[0], "held out", state) from error
     epoch = Epoch(number, *judged, time.perf_counter() - begun)
     now = _copied(model)
     best = now if epoch.held_out < state.chosen.held_out else state.best
@@ -262,10 +280,13 @@ def _check_finite(model: Model, name: str, loss: float, state: State) -> None:
     if np.isfinite(loss) and not bad:
         return
     what = f"the gradient of {', '.join(bad)}" if np.isfinite(loss) else "the loss"
-    raise NotConverged(
-        f"learning: wanted finite numbers, got NaN or infinity in {what} at the pair {name}, epoch "
-        f"{state.history[-1].number + 1}; the state of epoch {state.chosen.number}, the best so far, is kept: "
-        "lower the rate and resume"
+    raise _stopped(f"NaN or infinity in {what}", name, state)
+
+
+def _stopped(got: str, name: str, state: State) -> NotConverged:
+    return NotConverged(
+        f"learning: wanted finite numbers, got “{got}” at the pair {name}, epoch {state.history[-1].number + 1}; "
+        f"the state of epoch {state.chosen.number}, the best so far, is kept: learn again with a lower rate"
     )
 
 

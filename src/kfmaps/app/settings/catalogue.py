@@ -79,7 +79,7 @@ CATALOGUE: dict[str, tuple[Setting, ...]] = {
             "kernel.kind",
             str,
             "the kernel",
-            "gaussian, laplacian, linear, polynomial, tanh; sum, product in files",
+            "gaussian, laplacian, linear, polynomial, tanh; sum, product, metric, network, scaled in files",
             "--kernel",
         ),
         Setting(
@@ -103,6 +103,11 @@ CATALOGUE: dict[str, tuple[Setting, ...]] = {
         Setting("kernel.scale", float, "factor of x·y in the tanh kernel", "above 0", "--scale", ("Tanh",)),
         Setting("kernel.a", str, "first kernel of a sum or product", "a kernel", kinds=("Sum", "Product")),
         Setting("kernel.b", str, "second kernel of a sum or product", "a kernel", kinds=("Sum", "Product")),
+        Setting("kernel.kernel", str, "the kernel inside", "a kernel", kinds=("Metric", "Network", "Scaled")),
+        Setting("kernel.matrix", str, "weights of descriptors, or rows of a metric", "numbers", kinds=("Metric",)),
+        Setting("kernel.layers", str, "matrices of a network, biases last", "numbers", kinds=("Network",)),
+        Setting("kernel.columns", str, "descriptors that a network sees", "numbers; none: all", kinds=("Network",)),
+        Setting("kernel.factor", float, "factor of the kernel inside", "above 0", kinds=("Scaled",)),
         Setting("exact", bool, "the whole kernel in row blocks, no Nyström; slow", "true, false", "--exact"),
     ),
     "Nyström": (

@@ -9,6 +9,7 @@ from typing import Any
 
 from kfmaps._arrays import InvalidInput, refuse
 from kfmaps.app.settings.catalogue import FLAGS, PRESETS, Setting
+from kfmaps.app.settings.learned import SUFFIX, read_learned
 from kfmaps.app.settings.values import blamed
 from kfmaps.config import Config, from_dict
 
@@ -21,7 +22,7 @@ def preset(name: str) -> Config:
 
 
 def read_settings(path: str | Path, base: Config) -> Config:
-    """``base`` with the settings of a TOML file.
+    """``base`` with the settings of a TOML file, or of a ``.pt`` file of ``kfmaps learn``.
 
     Raises
     ------
@@ -29,7 +30,8 @@ def read_settings(path: str | Path, base: Config) -> Config:
         When the file is missing or no TOML, and on names and values that are not settings.
     """
     try:
-        text = Path(path).read_bytes().decode("utf-8-sig")
+        learned = Path(path).suffix == SUFFIX
+        text = read_learned(path)["settings"] if learned else Path(path).read_bytes().decode("utf-8-sig")
     except (OSError, UnicodeDecodeError) as error:
         got = getattr(error, "strerror", None) or "text that is not UTF-8"
         raise refuse(f"--config {path}", "a settings file", got, "check the path") from error

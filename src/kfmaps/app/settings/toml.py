@@ -47,6 +47,8 @@ def _lines(values: dict[str, Any], section: str, comments: bool) -> list[str]:
 def _text(value: Any, path: str) -> str:
     if value is None:
         return json.dumps(_WORDS.get(path, "automatic" if path.endswith(".gamma") else "none"))
+    if isinstance(value, tuple):
+        return f"[{', '.join(_text(item, path) for item in value)}]"
     if isinstance(value, bool):
         return "true" if value else "false"
     return json.dumps(value, ensure_ascii=False) if isinstance(value, str) else repr(value)

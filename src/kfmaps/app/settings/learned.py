@@ -1,0 +1,41 @@
+"""Settings inside a file of ``kfmaps learn``."""
+
+from __future__ import annotations
+
+import pickle
+from pathlib import Path
+from typing import Any
+
+from kfmaps._arrays import MissingDependency, refuse
+
+SUFFIX = ".pt"
+FORMAT = 1
+WANTED, REMEDY = "a file that kfmaps learn wrote", "check the path, or learn anew"
+
+
+def read_learned(path: str | Path) -> dict[str, Any]:
+    """What the file holds: tensors and plain values. Nothing in it is ever executed.
+
+    Raises
+    ------
+    InvalidInput
+        When the file is missing, damaged, or something else.
+    MissingDependency
+        Without PyTorch.
+    """
+    try:
+        import torch
+    except ImportError as error:
+        remedy = "install it with: pip install 'kfmaps[learn]', or learn to a .toml file"
+        raise MissingDependency(f"{path}: wanted PyTorch to read it with, got none; {remedy}") from error
+    try:
+        # A file that asks for more than tensors and plain values is refused before anything of it runs.
+        content = torch.load(Path(path), map_location="cpu", weights_only=True)
+    except OSError as error:
+        raise refuse(f"{path}", WANTED, error.strerror or str(error), REMEDY) from error
+    except (pickle.UnpicklingError, RuntimeError, EOFError, ValueError, KeyError) as error:
+        got = (str(error) or type(error).__name__).splitlines()[0][:120]
+        raise refuse(f"{path}", WANTED, got, REMEDY) from error
+    if not isinstance(content, dict) or content.get("format") != FORMAT or not isinstance(content.get("settings"), str):
+        raise refuse(f"{path}", WANTED, "another content or version", REMEDY)
+    return content

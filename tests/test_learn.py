@@ -1,0 +1,348 @@
+"""Learning: it starts as the settings that it was given, what it learned is what a match then uses, and it resumes."""
+
+import sys
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+from scipy.spatial import KDTree
+
+from commandline import run
+from conftest import blob, fibonacci_sphere
+from kfmaps._arrays import InvalidInput, MissingDependency, NotConverged
+from kfmaps.app.files import write_mesh
+from kfmaps.app.settings.merge import read_settings
+from kfmaps.app.settings.toml import settings_text
+from kfmaps.config import BasisConfig, Config, DescriptorConfig, NystromConfig, Weights
+from kfmaps.fit.shape import prepare
+from kfmaps.kernel.kernels import Gaussian, Laplacian, Linear, Polynomial, gram, resolved
+from kfmaps.kernel.lifted import Metric
+from kfmaps.matching import match
+
+torch = pytest.importorskip("torch")
+
+from kfmaps.app.learn import (  # noqa: E402
+    LOSSES,
+    Model,
+    Training,
+    functional_map,
+    learn,
+    learning_figure,
+    lesson,
+    load,
+    pair_loss,
+    point_error,
+    save,
+)
+from kfmaps.app.learn.model import columns  # noqa: E402
+from kfmaps.functional.solvers import CG  # noqa: E402
+
+CONFIG = Config(
+    basis=BasisConfig(functions=12),
+    descriptors=DescriptorConfig(count=10, eigenfunctions=30),
+    nystrom=NystromConfig(samples=60),
+    compression=0.0,
+    refinement=None,
+)
+EXACT = CG(rtol=1e-12, max_steps=500)
+SIZES = ((150, 0.0), (130, 0.9), (140, 2.0))
+QUICK = Training(epochs=3, batch=2, patience=3, solver=CG(1e-8, 300), compression=0.0)
+
+
+@pytest.fixture(scope="module")
+def shapes():
+    return [prepare(blob(n, twist), CONFIG, name=f"blob{i}") for i, (n, twist) in enumerate(SIZES)]
+
+
+def partners(a, b):
+    """For each vertex of ``b`` the one of ``a`` that is closest on the sphere that both are bent from."""
+    spheres = [fibonacci_sphere(*SIZES[i]).vertices for i in (a, b)]
+    return np.asarray(KDTree(spheres[0]).query(spheres[1])[1])
+
+
+def taught(shapes, a, b, config=CONFIG, truth=True, landmarks=2):
+    known = partners(a, b)
+    marks = np.array([[known[v], v] for v in (5, 120)])[:landmarks]
+    sides = (known, np.arange(len(known))) if truth else None
+    return lesson(shapes[a], shapes[b], config, landmarks=marks, truth=sides, samples=40)
+
+
+@pytest.fixture(scope="module")
+def lessons(shapes):
+    return [taught(shapes, 0, 1), taught(shapes, 1, 2), taught(shapes, 2, 0)]
+
+
+PARTS = [("gamma",), ("ard", "terms"), ("metric", "mixture"), ("network", "ard"), ("network", "metric", "terms")]
+
+
+def shaken(model, size=0.3):
+    draw = np.random.default_rng(4)
+    with torch.no_grad():
+        for p in model.parameters():
+            if p.requires_grad:
+                p += torch.from_numpy(size * draw.normal(size=tuple(p.shape)))
+    return model
+
+
+@pytest.mark.parametrize("parts", PARTS, ids="+".join)
+def test_what_is_learned_is_what_the_settings_say(parts, lessons):
+    """The model's kernel matrix is that of the record, whatever the parameters."""
+    model = shaken(Model(CONFIG, lessons, parts, rank=3))
+    D_s, D_t = lessons[0].descriptors_s, lessons[0].descriptors_t
+    with torch.no_grad():
+        found = model.matrix(model.lift(D_t), model.lift(D_s))
+    config = model.settings()
+    np.testing.assert_allclose(found, gram(config.kernel, D_t.numpy(), D_s.numpy()), rtol=1e-10, atol=1e-14)
+    assert ("terms" in parts) == (config.weights != CONFIG.weights)
+
+
+def test_it_begins_as_the_settings_it_was_given(lessons):
+    model = Model(CONFIG, lessons[:1], ["gamma", "ard", "terms"])
+    kernel = resolved(CONFIG.kernel, lessons[0].samples.numpy(), CONFIG.sharpness)
+    D = lessons[0].descriptors_s
+    with torch.no_grad():
+        np.testing.assert_allclose(model.matrix(D, D), gram(kernel, D.numpy(), D.numpy()), rtol=1e-12)
+    assert model.settings().weights.descriptors == pytest.approx(CONFIG.weights.descriptors)
+
+
+def test_the_map_is_that_of_a_match(shapes):
+    """The whole way, with as many samples: descriptors, features, energy, minimiser."""
+    known = partners(0, 1)
+    marks = np.array([[known[v], v] for v in (5, 120)])
+    each = lesson(shapes[0], shapes[1], CONFIG, landmarks=marks, samples=200)
+    model = shaken(Model(CONFIG, [each], ["ard", "terms"]))
+    with torch.no_grad():
+        C = functional_map(model, each, EXACT)
+    config = replace(model.settings(), solver=EXACT, nystrom=NystromConfig(samples=200, rtol=1e-9))
+    found = match(shapes[0], shapes[1], config, landmarks=marks)
+    np.testing.assert_allclose(C, found.functional_map, atol=2e-4)
+
+
+@pytest.mark.parametrize("parts", [("gamma", "ard", "terms"), ("metric", "mixture"), ("network",)], ids="+".join)
+def test_gradient_of_a_loss_is_its_difference(parts, lessons):
+    model = shaken(Model(CONFIG, lessons, parts, rank=3), 0.1)
+
+    def loss():
+        return pair_loss(model, lessons[0], {"supervised": 1.0, "orthogonality": 0.3}, solver=EXACT)
+
+    loss().backward()
+    draw, step = np.random.default_rng(1), 1e-5
+    learned = [p for p in model.parameters() if p.requires_grad]
+    direction = [torch.from_numpy(draw.normal(size=tuple(p.shape))) for p in learned]
+    slope = sum(float((p.grad * d).sum()) for p, d in zip(learned, direction, strict=True))
+    values = []
+    with torch.no_grad():
+        for sign in (1, -2):
+            for p, d in zip(learned, direction, strict=True):
+                p += sign * step * d
+            values.append(float(loss()))
+    assert (values[0] - values[1]) / (2 * step) == pytest.approx(slope, rel=1e-6)
+
+
+def test_landmarks_share_their_weights(lessons):
+    """Whichever point is the first landmark, what was learned is the same."""
+    kinds = columns(CONFIG.descriptors, 2, lessons[0].descriptors_s.shape[1])
+    assert kinds.kinds.count("landmark") == 2
+    assert kinds.count == 10
+    kernel = shaken(Model(CONFIG, lessons, ["ard"])).settings().kernel
+    assert isinstance(kernel, Metric)
+    first, second = (
+        [kernel.matrix[i] for i in block]
+        for block, kind in zip(kinds.blocks, kinds.kinds, strict=True)
+        if kind == "landmark"
+    )
+    assert first == second
+
+
+def test_columns_of_every_kind():
+    config = DescriptorConfig(count=20, shot=True)
+    found = columns(config, 3, 20 + 352)
+    assert found.kinds == ("signature", "landmark", "landmark", "landmark", "shot")
+    assert found.blocks[-1] == tuple(range(20, 372))
+    assert columns(replace(config, signature="none"), 0, 352).kinds == ("shot",)
+    assert columns(DescriptorConfig(count=20, layout="every-nth"), 3, 20).kinds == ("signature",)
+
+
+def test_it_learns_stops_and_resumes_alike(lessons, tmp_path):
+    """From a bad start the error falls; the same seed gives the same; stopped and resumed gives the same."""
+    poor = replace(CONFIG, kernel=Gaussian(30.0), weights=Weights(1.0, 1.0, 0.01))
+
+    def model():
+        return Model(poor, lessons, ["gamma", "ard", "terms"])
+
+    whole = learn(model(), lessons[:2], lessons[2:], QUICK)
+    assert whole.history[-1].loss < whole.history[0].loss
+    assert whole.chosen.held_out <= whole.history[0].held_out
+    again = model()
+    kept = []
+    first = learn(again, lessons[:2], lessons[2:], replace(QUICK, epochs=1), keep=kept.append)
+    assert [state.history[-1].number for state in kept] == [0, 1]
+    file = tmp_path / "state.pt"
+    save(file, first, settings_text(again.settings()), {"seed": 0})
+    loaded, text, request = load(file)
+    assert request == {"seed": 0}
+    assert 'kind = "Metric"' in text
+    resumed = model()
+    rest = learn(resumed, lessons[:2], lessons[2:], QUICK, state=loaded)
+    for a, b in zip(whole.history, rest.history, strict=True):
+        assert (a.number, a.loss, a.held_out) == (b.number, b.loss, b.held_out)
+    for name, tensor in whole.best.items():
+        torch.testing.assert_close(rest.best[name], tensor, rtol=0, atol=0)
+        torch.testing.assert_close(dict(resumed.named_parameters())[name].detach(), tensor, rtol=0, atol=0)
+    assert len(learning_figure(rest.history).axes) == 2
+
+
+def test_patience(lessons):
+    """A rate that only does harm stops early, and the start is kept."""
+    model = Model(CONFIG, lessons, ["terms"])
+    before = model.settings()
+    state = learn(model, lessons[:1], lessons[1:2], replace(QUICK, epochs=9, rate=3.0, patience=1))
+    assert len(state.history) < 9
+    if state.chosen.number == 0:
+        assert model.settings() == before
+
+
+@pytest.mark.parametrize("rate", [1e3, 1e5])
+def test_a_number_that_is_none_stops_and_keeps_the_best(rate, lessons):
+    model = Model(CONFIG, lessons, ["gamma", "ard", "terms"])
+    kept = []
+    with pytest.raises(NotConverged, match="the best so far, is kept"):
+        learn(model, lessons[:2], lessons[2:], replace(QUICK, rate=rate, epochs=20, patience=20), keep=kept.append)
+    best = kept[-1].best
+    assert all(bool(torch.isfinite(t).all()) for t in best.values())
+    torch.testing.assert_close(dict(model.named_parameters())["log_terms"].detach(), best["log_terms"])
+
+
+@pytest.mark.parametrize("name", LOSSES)
+def test_every_loss_has_a_gradient(name, lessons):
+    model = Model(CONFIG, lessons, ["gamma", "terms"])
+    value = pair_loss(model, lessons[0], {name: 1.0}, solver=CG(1e-8, 300))
+    value.backward()
+    gradient = model.get_parameter("log_terms").grad
+    assert float(value.detach()) > 0
+    assert gradient is not None
+    assert bool(torch.isfinite(gradient).all())
+    assert float(gradient.abs().max()) > 0
+
+
+def test_what_needs_the_truth_says_so(shapes):
+    unknown = taught(shapes, 0, 1, truth=False)
+    model = Model(CONFIG, [unknown], ["gamma"])
+    for name in ("geodesic", "supervised"):
+        with pytest.raises(InvalidInput, match=f"loss {name}"):
+            pair_loss(model, unknown, {name: 1.0}, solver=EXACT)
+    with pytest.raises(InvalidInput, match="held-out pairs"):
+        point_error(model, unknown, solver=EXACT)
+    state = learn(model, [unknown], [unknown], replace(QUICK, losses={"orthogonality": 1.0}, epochs=1))
+    assert state.history[-1].loss > 0
+
+
+@pytest.mark.parametrize("kernel", [Linear(), Polynomial(2, 1.0), Laplacian()])
+def test_other_kernels(kernel, shapes):
+    config = replace(CONFIG, kernel=kernel)
+    each = taught(shapes, 0, 1, config)
+    model = Model(config, [each], ["ard", "terms"])
+    state = learn(model, [each], [], replace(QUICK, epochs=1))
+    assert np.isfinite(state.history[-1].loss)
+    assert isinstance(model.settings().kernel, Metric)
+
+
+@pytest.mark.parametrize(
+    ("parts", "kernel"),
+    [([], Gaussian()), (["wits"], Gaussian()), (["ard", "metric"], Gaussian()), (["gamma"], Linear())],
+)
+def test_what_cannot_be_learned(parts, kernel, lessons):
+    with pytest.raises(InvalidInput, match="wanted"):
+        Model(replace(CONFIG, kernel=kernel), lessons, parts)
+
+
+def test_pairs_must_be_alike(shapes, lessons):
+    with pytest.raises(InvalidInput, match="equally many landmarks"):
+        Model(CONFIG, [*lessons, taught(shapes, 0, 1, landmarks=1)], ["ard"])
+    with pytest.raises(InvalidInput, match="truth of blob"):
+        lesson(shapes[0], shapes[1], CONFIG, truth=(np.arange(30), np.arange(31)))
+    with pytest.raises(InvalidInput, match="orientation"):
+        taught(shapes, 0, 1, replace(CONFIG, weights=Weights(orientation=1.0)))
+    bad: list[dict[str, Any]] = [{"losses": {}}, {"losses": {"wits": 1.0}}, {"rate": 0.0}, {"epochs": 0}, {"decay": -1}]
+    for wrong in bad:
+        with pytest.raises(InvalidInput, match="wanted"):
+            Training(**wrong)
+
+
+class Harmful:
+    def __reduce__(self):
+        return (print, ("executed",))
+
+
+def test_a_file_never_runs_anything(tmp_path, capsys):
+    file = tmp_path / "kernel.pt"
+    torch.save({"format": 1, "settings": Harmful()}, file)
+    for read in (load, lambda path: read_settings(path, Config())):
+        with pytest.raises(InvalidInput, match="wanted a file that kfmaps learn wrote"):
+            read(file)
+    assert "executed" not in capsys.readouterr().out
+    file.write_bytes(b"nothing")
+    with pytest.raises(InvalidInput, match="wanted a file that kfmaps learn wrote"):
+        load(file)
+    torch.save({"format": 99}, file)
+    with pytest.raises(InvalidInput, match="another content"):
+        load(file)
+    with pytest.raises(InvalidInput, match="wanted a file"):
+        load(tmp_path / "missing.pt")
+
+
+WORDS = (
+    *("--basis", "12", "--descriptors", "10", "--set", "descriptors.eigenfunctions=30", "--samples", "60"),
+    *("--truth-landmarks", "6,121", "--pairs", "2", "--held-out-pairs", "1", "--refine", "none"),
+    *("--shapes", "blob*", "--held-out", "blob0,blob1"),
+)
+
+
+@pytest.fixture
+def folder(tmp_path):
+    (tmp_path / "data" / "corres").mkdir(parents=True)
+    base = fibonacci_sphere(180).vertices
+    for i, (n, twist) in enumerate((*SIZES, (120, 1.0))):
+        write_mesh(tmp_path / "data" / f"blob{i}.ply", blob(n, twist))
+        near = np.asarray(KDTree(fibonacci_sphere(n, twist).vertices).query(base)[1]) + 1
+        (tmp_path / "data" / "corres" / f"blob{i}.vts").write_text("\n".join(str(v) for v in near))
+    return tmp_path
+
+
+def test_command(folder, monkeypatch):
+    out = folder / "kernel.toml"
+    words = ("learn", "--data", str(folder / "data"), "-o", str(out), *WORDS)
+    ran = run(*words, "--epochs", "1")
+    assert ran.status == 0, ran.stderr
+    assert "held-out pairs" in ran.stdout
+    assert sorted(p.name for p in folder.iterdir()) == ["data", "kernel.png", "kernel.pt", "kernel.toml"]
+    assert "a new file" in run(*words, "--epochs", "1").error
+    assert run(*words, "--epochs", "2", "--resume", "-q").status == 0
+    assert len(load(folder / "kernel.pt")[0].history) == 3
+    assert "another rate" in run(*words, "--resume", "--rate", "0.01").stderr
+    config = read_settings(folder / "kernel.pt", Config())
+    monkeypatch.setitem(sys.modules, "torch", None)
+    assert read_settings(out, Config()) == config  # without PyTorch
+    assert isinstance(config.kernel, Metric)
+    with pytest.raises(MissingDependency, match=r"kfmaps\[learn\]"):
+        read_settings(folder / "kernel.pt", Config())
+
+
+def test_command_without_truth(folder):
+    for path in (folder / "data" / "corres").iterdir():
+        path.unlink()
+    words = ("--data", str(folder / "data"), "-o", str(folder / "kernel.pt"), "--descriptors", "10", "--refine", "none")
+    small = ("--basis", "8", "--set", "descriptors.eigenfunctions=20", "--pairs", "1", "--held-out-pairs", "1")
+    ran = run("learn", *words, *small, "--held-out", "blob0,blob1", "--epochs", "1", "--no-shot", "--learn", "gamma")
+    assert ran.status == 0, ran.stderr
+    assert isinstance(read_settings(folder / "kernel.pt", Config()).kernel, Gaussian)
+
+
+def test_command_refuses(folder):
+    words = ("learn", "--data", str(folder / "data"), "-o", str(folder / "kernel.toml"))
+    assert "--shapes" in run(*words, "--shapes", "cat*").error
+    assert "--loss" in run(*words, "--loss", "cycle=much").error
+    assert "ends in .toml or .pt" in run(*words[:-1], str(folder / "kernel.txt")).error
+    assert "--resume" in run(*words, "--resume").error
+    assert "--minutes" in run(*words, "--minutes", "0").error
