@@ -142,7 +142,9 @@ def table(outcome: MatchRun, written: Path | None = None) -> Table:
 
 def _rows(match: Match, found: dict[str, Any], accuracy: Accuracy | None) -> list[tuple[str, str]]:
     """Names and values of the table."""
-    rows = []
+    rows = [("verdict", _verdict(match))]
+    if accuracy is not None:
+        rows.append(("error", errors_text(accuracy)))
     for side in ("source", "target"):
         faces = found[f"{side}_faces"]
         what = f"{faces:,} faces" if faces else "a point cloud"
@@ -172,10 +174,7 @@ def _rows(match: Match, found: dict[str, Any], accuracy: Accuracy | None) -> lis
         rows.append(("map", f"{size}, started from {match.origin}"))
     rows += [
         ("time", f"{sum(found['times'].values()):.1f} s: " + ", ".join(f"{name} {t:.2f}" for name, t in spent)),
-        ("outcome", _verdict(match)),
     ]
-    if accuracy is not None:
-        rows.append(("error", errors_text(accuracy)))
     return rows
 
 

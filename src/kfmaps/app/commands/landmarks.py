@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import warnings
 from pathlib import Path
 from typing import Annotated
 
 import numpy as np
 import typer
 
+from kfmaps._arrays import KfmapsWarning
 from kfmaps.app.files import check_output, read_landmark_names, read_landmarks, read_mesh
 from kfmaps.app.files.mapfile import check_format
 from kfmaps.app.settings.options import Chosen, with_settings
@@ -56,7 +58,9 @@ def landmarks(
     check_format(map_output)
     for path in (output, map_output):
         check_output(path, force=True)  # the page asks before it replaces a file
-    shapes = read_mesh(source), read_mesh(target)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", KfmapsWarning)  # what is odd about them says kfmaps match, once
+        shapes = read_mesh(source), read_mesh(target)
     pairs = check_pairs([] if landmarks is None else read_landmarks(landmarks).tolist(), *shapes)
     labels = [] if landmarks is None else read_landmark_names(landmarks)
     names = (source.stem, target.stem)
