@@ -62,6 +62,18 @@ def test_help_of_each(name: str) -> None:
     assert " ".join(words[:4]) in " ".join(help.stdout.split())
 
 
+def test_h_is_help() -> None:
+    for words in ((), ("info",), ("render", "pair")):
+        assert run(*words, "-h").stdout == run(*words, "--help").stdout != ""
+
+
+def test_options_that_have_gone_say_what_they_are_now() -> None:
+    assert (
+        "there is no --truth-target, it is --truth SOURCE TARGET" in run("match", "a", "b", "--truth-target", "c").error
+    )
+    assert "there is no --rank, it is --samples" in run("tune", "--rank", "3").error
+
+
 def test_list_imports_nothing_heavy() -> None:
     code = "import sys; from kfmaps.app.cli import main; main(['--help']); print(*sys.modules, file=sys.stderr)"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)

@@ -356,6 +356,8 @@ def test_view_writes_one_page(pair: tuple, tmp_path: Path) -> None:
     assert (unpacked(data["errors"][0]) == 0).all()
     with pytest.raises(InvalidInput, match="--force"):
         view(tmp_path / "m.npz", output=page)
+    with pytest.raises(InvalidInput, match="up: wanted x, y or z"):
+        view(tmp_path / "none.npz", output=tmp_path / "other.html", up="w")
     with pytest.raises(InvalidInput, match="equally many"):
         view(tmp_path / "m.npz", output=page, identity=True, force=True)
     with pytest.raises(InvalidInput, match="truth of the target: wanted vertices from 0 to 239"):

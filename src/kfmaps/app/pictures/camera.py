@@ -171,7 +171,7 @@ def turn_between(source: Mesh, target: Mesh, target_to_source: np.ndarray | None
     misfits = [_misfit(some_a @ turn.T, some_b) for turn in turns]
     best = int(np.argmin(misfits))
     small = np.rad2deg(Rotation.from_matrix(turns[best]).magnitude()) <= SAME_VIEW
-    return None if small or misfits[best] > CLEARLY * _misfit(some_a, some_b) else turns[best]
+    return turns[best] if misfits[best] < CLEARLY * _misfit(some_a, some_b) and not small else None
 
 
 def _standard(points: np.ndarray) -> np.ndarray:
