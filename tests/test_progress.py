@@ -5,10 +5,15 @@ from __future__ import annotations
 import sys
 import time
 import types
+from dataclasses import replace
 
+import numpy as np
 import pytest
 
+from collecting import CONFIG
+from conftest import blob
 from kfmaps.app.progress import Lines, Notebook, Stages, bars_html, seconds_left, standing
+from kfmaps.fit.shape import prepare
 
 
 def test_what_is_left_follows_from_what_is_done() -> None:
@@ -68,3 +73,22 @@ def test_a_notebook_gets_bars_of_its_own(monkeypatch: pytest.MonkeyPatch) -> Non
     assert 'value="1.000"' in shown[-1]
     assert "a&lt;b" in shown[-1]
     assert "about 30 s left" in bars_html({"solve": (0.25, 10.0)})
+
+
+def test_the_long_stages_of_a_shape_tell_how_far_they_are() -> None:
+    """Eigenfunctions and SHOT: never back, to the end, and without a trace in what is computed."""
+    config = replace(CONFIG, descriptors=replace(CONFIG.descriptors, shot=True))
+    told: dict[str, list[float]] = {}
+    mesh = blob(600)
+    shape = prepare(mesh, config, name="it", progress=lambda stage, done: told.setdefault(stage, []).append(done))
+    assert set(told) == {"eigenfunctions of it", "SHOT of it"}
+    for stages in told.values():
+        assert stages[0] == 0
+        assert stages[-1] == 1
+        assert stages == sorted(stages)
+        assert len(stages) > 5
+    silent = prepare(mesh, config)
+    np.testing.assert_array_equal(shape.basis.functions, silent.basis.functions)
+    assert shape.shot is not None
+    assert silent.shot is not None
+    np.testing.assert_array_equal(shape.shot, silent.shot)

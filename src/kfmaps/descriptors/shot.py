@@ -7,6 +7,7 @@ Tombari, Salti and Di Stefano, "Unique signatures of histograms for local surfac
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Literal, get_args
 
@@ -64,6 +65,7 @@ def shot(
     form: Form = "surface",
     samples: int = 20_000,
     threads: int | None = None,
+    progress: Callable[[float], None] | None = None,
 ) -> np.ndarray:
     """Signature of histograms of orientations of every vertex.
 
@@ -97,6 +99,8 @@ def shot(
         are divided, and where there are more than twice as many faces, neighbouring ones are merged.
     threads : int, optional
         Python threads; every available core when not given.
+    progress : callable, optional
+        Told how much is done, from 0 to 1.
 
     Returns
     -------
@@ -125,7 +129,8 @@ def shot(
     check(mesh.vertices, "vertices")
     part = inside(mesh)
     if not part.whole:
-        return shot(part.mesh, radius, bins=bins, form=form, samples=samples, threads=threads)[part.number]
+        same = {"bins": bins, "form": form, "samples": samples, "threads": threads, "progress": progress}
+        return shot(part.mesh, radius, **same)[part.number]
     mesh = unit_area(mesh)
     normals = vertex_normals(mesh)
     vertices = _Support(mesh.vertices, normals, np.ones(len(normals)))
@@ -133,8 +138,14 @@ def shot(
     tree = KDTree(support.points)
     result = np.empty((len(mesh.vertices), VOLUMES * (bins + 1)))
 
+    done = 0
+
     def fill(block: np.ndarray) -> None:
+        nonlocal done
         result[block] = _describe(mesh.vertices[block], tree, support, radius, bins, form)
+        done += len(block)  # one of several threads may be forgotten: it is only told
+        if progress is not None:
+            progress(done / len(result))
 
     parallel(fill, _blocks(mesh.vertices, tree, radius), threads)
     return result

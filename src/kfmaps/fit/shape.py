@@ -130,14 +130,25 @@ def prepare(
     seconds = {}
     start = time.perf_counter()
     report(f"eigenfunctions of {name}", 0.0)
-    basis = laplace_basis(small, wanted, config.basis.laplacian, threads=config.threads)
+    basis = laplace_basis(
+        small,
+        wanted,
+        config.basis.laplacian,
+        threads=config.threads,
+        progress=lambda done: report(f"eigenfunctions of {name}", done),
+    )
     seconds["eigenfunctions"] = time.perf_counter() - start
     report(f"eigenfunctions of {name}", 1.0)
     local = None
     if config.descriptors.shot and len(mesh.faces):
         start = time.perf_counter()
         report(f"SHOT of {name}", 0.0)
-        local = shot(small, config.descriptors.shot_radius, threads=config.threads)
+        local = shot(
+            small,
+            config.descriptors.shot_radius,
+            threads=config.threads,
+            progress=lambda done: report(f"SHOT of {name}", min(done, 0.99)),
+        )
         seconds["SHOT"] = time.perf_counter() - start
         report(f"SHOT of {name}", 1.0)
     radius = None if local is None else config.descriptors.shot_radius

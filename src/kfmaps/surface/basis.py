@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -162,6 +163,7 @@ def laplace_basis(
     laplacian: str = "robust",
     rng: int | np.random.Generator = 0,
     threads: int | None = None,
+    progress: Callable[[float], None] | None = None,
 ) -> Basis:
     """The first ``k`` eigenfunctions of the Laplacian of a mesh or point cloud.
 
@@ -188,6 +190,8 @@ def laplace_basis(
         magnitude is positive, but signs, and bases of repeated eigenvalues, mean nothing.
     threads : int, optional
         Python threads on large meshes; ``None`` takes every available core.
+    progress : callable, optional
+        Told about how much is done, from 0 to 1.
 
     Raises
     ------
@@ -205,7 +209,7 @@ def laplace_basis(
         wanted = f"fewer eigenfunctions than the {len(part.kept)} vertices in use"
         raise refuse("k", wanted, str(k), "ask for fewer, or refine the mesh")
     stiffness, area = _operators(part.mesh, laplacian)
-    pairs = smallest_eigenpairs(stiffness, area, k, rng=rng, threads=threads)
+    pairs = smallest_eigenpairs(stiffness, area, k, rng=rng, threads=threads, progress=progress)
     if part.whole:
         return Basis(pairs.values, pairs.vectors, area)
     mass = np.zeros(len(mesh.vertices))

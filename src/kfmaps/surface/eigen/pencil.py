@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import ExitStack
 from dataclasses import dataclass
@@ -15,7 +16,7 @@ from scipy.sparse.linalg import ArpackError, LinearOperator, eigsh
 from kfmaps._arrays import NotConverged, check, check_count, check_positive, refuse
 from kfmaps._threads import available_cores, one_blas_thread
 from kfmaps.surface.eigen.factor import Map, Sparse, factorise, fill_order
-from kfmaps.surface.eigen.lanczos import largest_eigenpairs
+from kfmaps.surface.eigen.lanczos import WIDTH, largest_eigenpairs
 
 METHODS = ("auto", "block", "arpack", "dense")
 
@@ -25,6 +26,9 @@ MASS_FLOOR = 1e-10
 
 MENDED = 2
 """Steps of subspace iteration for pairs that miss the tolerance: specks and caps make the Lanczos basis lose digits."""
+
+SOLVES = 1.25
+"""Blocks that are solved for, with the search for missed pairs, over those of a Krylov basis of ``3k + 60`` vectors."""
 
 THREADED = 50_000
 """Rows from which threads pay."""
@@ -60,6 +64,7 @@ def smallest_eigenpairs(
     threads: int | None = None,
     method: str = "auto",
     ordering: str = "auto",
+    progress: Callable[[float], None] | None = None,
 ) -> Eigenpairs:
     """The ``k`` smallest eigenpairs of ``stiffness x = λ mass x``, by Lanczos on ``(stiffness + σ mass)⁻¹``.
 
@@ -90,6 +95,8 @@ def smallest_eigenpairs(
         where the Krylov basis would not fit (``n ≤ max(400, 4k + 200)``), else block.
     ordering : {"auto", "metis", "mmd"}
         Ordering of the factorisation; METIS is faster on large meshes and comes with ``kfmaps[fast]``.
+    progress : callable, optional
+        Told about how much is done, from 0 to 1, as the blocks of the basis grow.
 
     Raises
     ------
@@ -129,12 +136,30 @@ def smallest_eigenpairs(
         if order is not None:
             matrix, floored = matrix[order][:, order], floored[order]
         pencil = _Pencil(matrix, floored, order is not None, each)
+        if progress is not None:
+            pencil.solve = _counted(pencil.solve, (3 * k + 60) * SOLVES / WIDTH, progress)
         vectors = _vectors(pencil, k, method, tolerance, np.random.default_rng(rng))
         for _ in range(MENDED):
             if not len(_missed(pencil, vectors, tolerance)):
                 break
             vectors = _improved(pencil, pencil.root[:, None] * vectors)
         return _signed(_checked(pencil, vectors, tolerance), order)
+
+
+def _counted(
+    solve: Callable[[np.ndarray], np.ndarray], expected: float, progress: Callable[[float], None]
+) -> Callable[[np.ndarray], np.ndarray]:
+    """``solve``, which tells how many of about ``expected`` blocks have been solved for."""
+    done = 0
+
+    def counted(block: np.ndarray) -> np.ndarray:
+        nonlocal done
+        found = solve(block)
+        done += 1
+        progress(min(done / expected, 0.99))
+        return found
+
+    return counted
 
 
 class _Pencil:
