@@ -17,9 +17,10 @@ from kfmaps.functional.refine import ZoomOut
 from kfmaps.matching import match
 from kfmaps.search.arena import arena
 from kfmaps.search.candidates import Candidate, candidates, kicked
-from kfmaps.search.choose import POOR, choose, distinct, mirror_image
+from kfmaps.search.choose import choose, distinct, mirror_image
 from kfmaps.search.fits import planned
 from kfmaps.search.quality import _near, map_quality, probe, thinned
+from kfmaps.search.verdict import MIDDLE, SLOPE, probability, verdict
 from kfmaps.surface.mesh import Mesh
 
 SMALL = replace(
@@ -169,12 +170,19 @@ def test_no_map_between_unlike_shapes_is_called_sure(shape):
     assert found.confidence < 0.6
 
 
-def test_a_clear_winner_that_fits_badly_is_poor(shape, other, monkeypatch):
-    monkeypatch.setattr("kfmaps.search.choose.POOR", 100.0)
-    found = match(shape, other, SMALL)
-    assert found.verdict == "poor"
-    assert found.confidence is not None
-    assert found.confidence < 1e-6
+def test_a_verdict_follows_the_score_and_the_margin():
+    good, bad = MIDDLE + 6, MIDDLE - 6
+    assert verdict(good, 1.0) == "sure"
+    assert verdict(good, 0.0) == "ambiguous"
+    assert verdict(bad, np.inf) == "poor"
+    assert probability(MIDDLE, np.inf) == pytest.approx(0.5)
+    assert probability(100.0, 0.0) == pytest.approx(0.5)
+    assert probability(MIDDLE + 1 / SLOPE, np.inf) == pytest.approx(1 / (1 + np.exp(-1)))
+    scores = [probability(s, 0.2) for s in np.linspace(-1e4, 1e4, 50)]
+    margins = [probability(good, m) for m in np.linspace(0, 1, 20)]
+    assert scores == sorted(scores)
+    assert margins == sorted(margins)
+    assert 0 <= scores[0] <= scores[-1] <= 1
 
 
 def test_a_part_is_not_called_a_match():
@@ -182,7 +190,7 @@ def test_a_part_is_not_called_a_match():
     found = match(pair.source, pair.target, replace(Config.automatic(), threads=2))
     assert geodesic_errors(pair.source, found.target_to_source, pair.truth).mean() > 0.1
     assert found.verdict != "sure"
-    assert found.scores[0] < POOR
+    assert found.scores[0] < MIDDLE
     assert found.confidence is not None
     assert found.confidence < 0.1
 

@@ -16,7 +16,7 @@ from kfmaps.functional.solvers import CG
 from kfmaps.matching import match
 from kfmaps.search.arena import arena, differences, ground, without
 from kfmaps.search.candidates import LANDMARK, again, fine, judged
-from kfmaps.search.choose import choose
+from kfmaps.search.choose import Found, choose, closing
 from kfmaps.search.fits import Fit, fitted_family, sampled
 from kfmaps.search.marks import around, doubted, joined, missed, side_by_side
 from kfmaps.search.quality import probe, surface
@@ -215,3 +215,18 @@ def test_a_mirrored_shape_is_told_from_a_kept_one(shape, other):
     assert np.linalg.norm(moved - moved.mean(axis=0), axis=1).mean() < 0.04
     assert choose(shape, other, either).orientation == "kept"
     assert choose(shape, prepare(image, SMALL), SMALL).orientation == "kept"
+
+
+def test_a_refinement_of_unlike_shapes_ends_early():
+    zoom = ZoomOut(50, 200, 25, guidance=36.0)
+
+    def found(quality):
+        return Found(np.eye(80), "signs", None, "sure", quality=quality)
+
+    assert closing(zoom, found(-5.0)) is zoom
+    assert closing(zoom, found(None)) is zoom
+    assert closing(None, found(-12.0)) is None
+    early = closing(zoom, found(-12.0))
+    assert isinstance(early, ZoomOut)
+    assert (early.start, early.stop, early.guidance) == (50, 100, 36.0)
+    assert closing(ZoomOut(20, 60, 5), found(-12.0)) == ZoomOut(20, 60, 5)

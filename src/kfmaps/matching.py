@@ -21,7 +21,7 @@ from kfmaps.functional.extended import carried
 from kfmaps.functional.guide import guide
 from kfmaps.functional.precise import PointMap, to_places
 from kfmaps.functional.refine import ZoomOut
-from kfmaps.search.choose import MIRROR, Found, choose, mirror_image
+from kfmaps.search.choose import MIRROR, Found, choose, closing, mirror_image
 from kfmaps.search.marks import leading
 from kfmaps.surface.eigen.pencil import THREADED
 from kfmaps.surface.mesh import Mesh
@@ -58,7 +58,7 @@ class Match:
         How well the map keeps distances around each target vertex, 0 to 1, 0 where nothing can be told; see
         :mod:`kfmaps.functional.confidence`.
     confidence : float or None
-        Of a search, how clearly the map beat every distinct other one; see :mod:`kfmaps.search.choose`.
+        Of a search, the probability that the map is right; see :mod:`kfmaps.search.verdict`.
     scores : tuple of float
         Of a search: of the map and of each runner-up, higher is better.
     runners_up : tuple of arrays (n_t,)
@@ -219,14 +219,15 @@ def match(
     if config.formulation.directions == "both":
         # The adjoint, where a search has found the map: its candidates are refined one way.
         back = found.fit.back if single and found.fit is not None else found.functional_map.T
+    ending = replace(config, refinement=closing(config.refinement, found))
     end = finished(
-        found.functional_map, shapes[0], shapes[1], config, raw=single, led=led, back=back, rng=seed, progress=progress
+        found.functional_map, shapes[0], shapes[1], ending, raw=single, led=led, back=back, rng=seed, progress=progress
     )
     clock.seconds.update(end.seconds)
     last = placed(end.target_to_source, shapes[0], shapes[1], config, clock)
     bent = last.bent
     if bent is not None:
-        mirrored = config.search is not None and config.search.orientation == "reversed"
+        mirrored = found.orientation == "reversed"
         bent = across.bent(bent * MIRROR if mirrored else bent)
     k_t, k_s = end.functional_map.shape
     return Match(

@@ -22,21 +22,24 @@ from kfmaps.descriptors.shot import mirrored
 from kfmaps.fit.fit import Fit, checked_landmarks
 from kfmaps.fit.shape import Shape
 from kfmaps.functional.points import to_points
+from kfmaps.functional.refine import Refinement, ZoomOut
 from kfmaps.search.arena import Ground, arena, turned, without
 from kfmaps.search.candidates import Candidate, again, apart, candidates, judged
 from kfmaps.search.marks import doubted
 from kfmaps.search.quality import Probe, probe
+from kfmaps.search.verdict import probability, verdict
 from kfmaps.surface.mesh import Mesh
 
 DISTINCT = 0.08
 """Mean distance, in units of √area, from which two maps count as different ones."""
 CLEAR = 0.3
-"""Margin of the score from which a map counts as sure."""
+"""Margin of the score from which a rival, or a map to the mirror image, comes first."""
+UNLIKE = -8.0
+"""Score below which two shapes differ so much that their high functions do not correspond, ..."""
+FEWER = 100
+"""... and the refinement ends with this many."""
 SETTLED = 3
 """Maps to a mirror image that are worth a refinement of their own."""
-POOR = -10.0
-"""Score below which no map is called sure, however much worse the others are. Where the search was made, right maps
-had -7 and better, the best maps of a part of a body, or of a person to a cat, -13 and worse."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,6 +56,7 @@ class Found:
     verdict : str
         "sure", "ambiguous" or "poor" of a search; "landmarks" or "unchecked" of one fit.
     confidence : float or None
+        Probability that the map is right, see :mod:`kfmaps.search.verdict`.
     scores : tuple of float
         Of the map and of each runner-up, higher is better.
     runners_up : tuple of arrays (n_t,)
@@ -63,6 +67,8 @@ class Found:
         ... and the numbers, from 0, of those given that it contradicts.
     orientation : "kept" or "reversed"
         Whether it is a map to the target or to its mirror image.
+    quality : float or None
+        Score of the map of a search, apart from landmarks.
     """
 
     functional_map: np.ndarray
@@ -75,6 +81,7 @@ class Found:
     landmarks: np.ndarray = field(default_factory=lambda: np.zeros((0, 2), dtype=np.int64))
     doubted: np.ndarray = field(default_factory=lambda: np.zeros(0, dtype=np.int64))
     orientation: str = "kept"
+    quality: float | None = None
 
 
 MIRROR = np.array([-1.0, 1.0, 1.0])
@@ -149,14 +156,27 @@ def choose(
         functional_map=best.functional_map,
         origin=best.name,
         fit=None,
-        confidence=float(-np.expm1(-margin / CLEAR) * np.exp(min(best.quality.score - POOR, 0.0))),
-        verdict="ambiguous" if margin < CLEAR else "poor" if best.quality.score < POOR else "sure",
+        confidence=probability(best.quality.score, float(margin)),
+        verdict=verdict(best.quality.score, float(margin)),
         scores=tuple(float(c.score) for c in (best, *others)),
         runners_up=tuple(to_points(c.functional_map, source.basis, target.basis, config.threads) for c in others),
         landmarks=pairs[~wrong],
         doubted=np.flatnonzero(wrong),
         orientation=orientation,
+        quality=best.quality.score,
     )
+
+
+def closing(refinement: Refinement | None, found: Found) -> Refinement | None:
+    """The refinement that a found map deserves: of shapes that differ much it ends with :data:`FEWER` functions.
+
+    Found on a gorilla and a woman, 5.2 instead of 8.5, and on cats and dogs, 10.5 instead of 10.9 on average, where
+    people of other bodies lose nothing.
+    """
+    if not isinstance(refinement, ZoomOut) or found.quality is None or found.quality >= UNLIKE:
+        return refinement
+    stop = min(refinement.stop, FEWER)
+    return replace(refinement, stop=stop, start=min(refinement.start, stop), step=min(refinement.step, 10))
 
 
 def reversed_best(found: list[Candidate], turned: Ground, threads: int | None = None) -> list[Candidate]:
