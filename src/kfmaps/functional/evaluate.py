@@ -8,9 +8,11 @@ import numpy as np
 
 from kfmaps._arrays import check, refuse
 from kfmaps.functional.points import check_point_map
+from kfmaps.functional.precise import PointMap, at_vertices, check_places, points_of
+from kfmaps.surface.between import distance_places
 from kfmaps.surface.geodesics import distance_pairs
 from kfmaps.surface.inside import inside
-from kfmaps.surface.mesh import Mesh, check_is_mesh, surface_area, vertex_areas
+from kfmaps.surface.mesh import Mesh, check_is_mesh, face_areas, surface_area, vertex_areas, vertex_normals
 
 
 @dataclass(frozen=True, eq=False)
@@ -63,6 +65,72 @@ def geodesic_errors(
     predicted = check_point_map(predicted, n, len(predicted))
     true = check_point_map(true, n, len(true))
     return distance_pairs(source, true, predicted, method=method) / np.sqrt(surface_area(source))
+
+
+def place_errors(source: Mesh, predicted: PointMap | np.ndarray, true: PointMap | np.ndarray) -> np.ndarray:
+    """Geodesic distance on ``source`` from each ``predicted`` to its ``true`` point, (q,), divided by √area.
+
+    Points lie inside triangles (:class:`kfmaps.functional.precise.PointMap`, not snapped) or are vertices (whole
+    numbers).
+
+    Raises
+    ------
+    InvalidInput
+        When the two differ in length or do not fit the source.
+    """
+    ends = []
+    for name, given in (("predicted", predicted), ("true", true)):
+        if not isinstance(given, PointMap):
+            given = at_vertices(check_point_map(np.asarray(given), len(source.vertices), len(given)), source)
+        ends.append(check_places(given, source))
+        if len(ends[0].faces) != len(given.faces):
+            got = f"{len(ends[0].faces)} and {len(given.faces)}"
+            raise refuse(f"{name} points", "lists of equal length", got, "evaluate the same points")
+    distances = distance_places(source, ends[0].faces, ends[0].weights, ends[1].faces, ends[1].weights)
+    return distances / np.sqrt(surface_area(source))
+
+
+@dataclass(frozen=True)
+class Smoothness:
+    """How smooth and how nearly one-to-one a map is.
+
+    Attributes
+    ----------
+    coverage : float
+        Part of the source's area with an image nearby: that of the vertices of which a face has one.
+    flipped : float
+        Part of the target's area whose triangles come out turned over.
+    stretched : float
+        Part of the target's edges that come out more than twice as long, or less than half.
+    """
+
+    coverage: float
+    flipped: float
+    stretched: float
+
+
+def smoothness(source: Mesh, target: Mesh, places: PointMap | np.ndarray) -> Smoothness:
+    """Whether the map tears, folds or leaves parts out; ``places`` a point or a vertex for each target vertex.
+
+    Lengths are compared at equal areas of the shapes, in space.
+    """
+    if not isinstance(places, PointMap):
+        places = at_vertices(check_point_map(np.asarray(places), len(source.vertices), len(target.vertices)), source)
+    places = check_places(places, source, len(target.vertices))
+    images, faces = points_of(places, source), target.faces
+    hit = np.unique(source.faces[places.faces][places.weights > 0])
+    areas = vertex_areas(source)
+    normals = vertex_normals(source)
+    there = np.einsum("ti,tij->tj", places.weights, normals[source.faces[places.faces]])
+    turned = np.cross(images[faces[:, 1]] - images[faces[:, 0]], images[faces[:, 2]] - images[faces[:, 0]])
+    over = np.einsum("fi,fi->f", turned, there[faces].sum(axis=1)) < 0
+    sizes = face_areas(target)
+    ends = np.unique(np.sort(np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]), axis=1), axis=0)
+    before = np.linalg.norm(target.vertices[ends[:, 0]] - target.vertices[ends[:, 1]], axis=1)
+    after = np.linalg.norm(images[ends[:, 0]] - images[ends[:, 1]], axis=1)
+    scale = np.sqrt(surface_area(source) / surface_area(target))
+    long = (after > 2 * scale * before) | (after < 0.5 * scale * before)
+    return Smoothness(float(areas[hit].sum() / areas.sum()), float(sizes[over].sum() / sizes.sum()), float(long.mean()))
 
 
 def evaluation(errors: np.ndarray, auc_limit: float = 0.25) -> Evaluation:

@@ -1,0 +1,142 @@
+"""What the finish does for maps, against the truth.
+
+    python benchmarks/precise.py --data DIR [--sets own,FAUST,FAUST_r,...] [--pairs N] [--json FILE]
+
+DIR holds the folders FAUST, FAUST_r and SHREC19_r (see the layouts in docs/collections.md); ``own`` needs none. Of each
+pair one map is made, then finished. Errors are mean geodesic distances between points inside triangles, in per cent of
+√area: of the refined map of vertices, of the nearest points in the spectral embedding, and after the non-rigid fit.
+Pairs are of people that nothing was chosen on: 4 to 7 of FAUST_r; 2 and 3 of FAUST.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import time
+import warnings
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+from automatic import mesh_file, read
+
+import kfmaps
+from kfmaps import datasets
+from kfmaps.fit.places import placed
+from kfmaps.fit.stages import Clock
+from kfmaps.functional.evaluate import place_errors, smoothness
+from kfmaps.functional.precise import PointMap
+
+PEOPLE = 40
+"""Shapes of FAUST_r from this number on: both of a pair, so that nothing was chosen on either."""
+
+
+def faust_pairs(folder: Path, count: int = 60, seed: int = 0) -> list[tuple[str, ...]]:
+    """Of ``count`` pairs across people, drawn at random, those of people that nothing was chosen on."""
+    lines = (folder / "test_pairs.txt").read_text(encoding="utf-8").split("\n")
+    pairs = [tuple(line.split()) for line in lines if line.strip()]
+    number = {name: int(name[-3:]) for pair in pairs for name in pair}
+    across = [p for p in pairs if number[p[0]] // 10 != number[p[1]] // 10 and max(number[n] for n in p) >= PEOPLE]
+    chosen = np.sort(np.random.default_rng(seed).permutation(len(across))[:count])
+    return [across[i] for i in chosen if min(number[n] for n in across[i]) >= PEOPLE]
+
+
+def vertices_of_lines(folder: Path, name: str) -> np.ndarray:
+    return np.loadtxt(folder / "corres" / f"{name}.vts", dtype=np.int64) - 1
+
+
+def jobs(data: Path | None, kind: str, count: int):
+    """Name, source, target, and the truth: where target vertices ``(q,)`` lie on the source."""
+    if kind == "own":
+        for seed in range(10, 10 + min(count, 3)):
+            pair = datasets.two_poses(4000, rng=seed)
+            truth = PointMap(pair.truth_faces, pair.truth_weights)
+            yield f"two poses {seed}", pair.source, pair.target, truth, np.arange(len(pair.truth)), None
+        return
+    assert data is not None
+    folder = data / kind
+    if kind == "FAUST":
+        numbers = [(20 + i, 30 + (3 * i) % 10) for i in range(10)] + [
+            (30 + i, 20 + (7 * i + 4) % 10) for i in range(10)
+        ]
+        for a, b in numbers[:count]:
+            meshes = [read(folder / f"tr_reg_{i:03d}.ply") for i in (a, b)]
+            every = np.arange(len(meshes[0].vertices))
+            yield f"{a:03d} {b:03d}", *meshes, every, every, None
+        return
+    if kind == "FAUST_r" or kind == "FAUST_r landmarks":
+        folder = data / "FAUST_r"
+        pairs = faust_pairs(folder)
+    else:
+        lines = (folder / "test_pairs.txt").read_text(encoding="utf-8").split("\n")
+        pairs = [tuple(line.split()) for line in lines if line.strip()]
+    for a, b in pairs[:: max(1, len(pairs) // count)][:count]:
+        true = [vertices_of_lines(folder, n) for n in (a, b)]
+        rows = np.linspace(0, len(true[0]) - 1, 8).astype(int)[1:-1]
+        marks = np.stack([t[rows] for t in true], axis=1) if kind.endswith("landmarks") else None
+        yield f"{a} {b}", read(mesh_file(folder, a)), read(mesh_file(folder, b)), true[0], true[1], marks
+
+
+def row(name, source, target, truth, where, marks) -> dict:
+    config = replace(kfmaps.Config() if marks is not None else kfmaps.Config.automatic(), threads=1)
+    found = kfmaps.match(source, target, replace(config, finish=None), landmarks=marks)
+    assert found.border is not None
+    across, clock = found.border, Clock()
+    start = time.process_time()
+    inner_points = across.part_s.number[found.target_to_source][across.part_t.kept]
+    last = placed(inner_points, across.source, across.target, config, clock)
+    spent = time.process_time() - start
+    spectral = found.precise()
+    fitted = spectral if last.place is None else across.place(last.place)
+
+    def error(places: PointMap | np.ndarray) -> float:
+        some = PointMap(places.faces[where], places.weights[where]) if isinstance(places, PointMap) else places[where]
+        return 100 * float(place_errors(source, some, truth).mean())
+
+    smooth = [smoothness(source, target, p) for p in (found.target_to_source, fitted)]
+    return {
+        "pair": name,
+        "verdict": found.verdict,
+        "kept": last.place is not None,
+        "vertices": error(found.target_to_source),
+        "spectral": error(spectral),
+        "finish": error(fitted),
+        "coverage": [s.coverage for s in smooth],
+        "flipped": [s.flipped for s in smooth],
+        "stretched": [s.stretched for s in smooth],
+        "seconds": spent,
+    }
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--data", type=Path)
+    parser.add_argument("--sets", default="own,FAUST,FAUST_r,FAUST_r landmarks")
+    parser.add_argument("--pairs", type=int, default=20, help="of each set, spread over its list")
+    parser.add_argument("--json", type=Path)
+    options = parser.parse_args()
+    warnings.simplefilter("ignore", kfmaps.KfmapsWarning)
+    results: dict[str, list[dict]] = {}
+    for kind in options.sets.split(","):
+        if kind != "own" and options.data is None:
+            print(f"{kind}: needs --data; left out")
+            continue
+        rows = results[kind] = []
+        for job in jobs(options.data, kind, options.pairs):
+            rows.append(row(*job))
+            r = rows[-1]
+            print(
+                f"{kind:20} {r['pair']:24} {r['verdict']:10} {'kept' if r['kept'] else 'left':5}"
+                + "".join(f"{r[n]:8.2f}" for n in ("vertices", "spectral", "finish")),
+                flush=True,
+            )
+            if options.json:
+                options.json.write_text(json.dumps(results, indent=1), encoding="utf-8")
+        means = {n: np.mean([r[n] for r in rows]) for n in ("vertices", "spectral", "finish", "seconds")}
+        pairs = {n: np.mean([r[n] for r in rows], axis=0) for n in ("coverage", "flipped", "stretched")}
+        print(f"{kind}: {len(rows)} pairs, " + ", ".join(f"{n} {v:.2f}" for n, v in means.items()), end="; ")
+        print(", ".join(f"{n} {v[0]:.3f} to {v[1]:.3f}" for n, v in pairs.items()))
+
+
+if __name__ == "__main__":
+    main()
