@@ -201,3 +201,47 @@ def test_values_that_cannot_be_written(tmp_path: Path, name: str, array: np.ndar
     assert not list(tmp_path.iterdir())
     write_values(tmp_path / "a.npy", Values(array))
     np.testing.assert_array_equal(read_values(tmp_path / "a.npy").array, array)
+
+
+@pytest.mark.parametrize("suffix", [".csv", ".txt", ".npy"])
+@pytest.mark.parametrize(
+    "labels",
+    [
+        [2**60 + 1, -(2**63), 2**63 - 1],
+        [2**64 - 1, 0, 2**63],
+        [10**30 + 1, 7, -(10**25) - 1],
+        [10**500, 1, 2],
+    ],
+)
+def test_whole_numbers_keep_every_digit(tmp_path: Path, suffix: str, labels: list[int]) -> None:
+    """A label that is carried by the identity is the label that it was, whatever its length."""
+    if suffix == ".npy":
+        if abs(max(labels, key=abs)) >= 2**64:
+            pytest.skip("no such numbers in an array")
+        np.save(tmp_path / "a.npy", np.array(labels, dtype=np.int64 if min(labels) < 0 else np.uint64))
+    else:
+        (tmp_path / f"a{suffix}").write_text("".join(f"{label}\n" for label in labels))
+    found = read_values(tmp_path / f"a{suffix}")
+    write_values(tmp_path / f"b{suffix}", Values(transfer(found.array, np.arange(3)), found.columns))
+    again = read_values(tmp_path / f"b{suffix}").array
+    assert [int(label) for label in again.tolist()] == labels
+
+
+def test_a_long_label_beside_a_fraction_is_kept(tmp_path: Path) -> None:
+    (tmp_path / "a.csv").write_text(f"{2**60 + 1},0.5\n{2**60},0.25\n")
+    assert read_values(tmp_path / "a.csv").array.tolist() == [[str(2**60 + 1), "0.5"], [str(2**60), "0.25"]]
+    (tmp_path / "a.csv").write_text(f"{2**60},0.5\n100000000000000000000,0.25\n")  # both are exact
+    assert read_values(tmp_path / "a.csv").array.tolist() == [[2.0**60, 0.5], [1e20, 0.25]]
+
+
+def test_landmarks_of_a_vts_file_count_from_one(tmp_path: Path) -> None:
+    pairs = np.array([[0, 4], [7, 2]])
+    write_landmarks(tmp_path / "a.vts", pairs)
+    assert (tmp_path / "a.vts").read_text().split("\n")[1:3] == ["1 5", "8 3"]
+    np.testing.assert_array_equal(read_landmarks(tmp_path / "a.vts"), pairs)
+    (tmp_path / "a.vts").write_text("1 5\n8 3\n")
+    np.testing.assert_array_equal(read_landmarks(tmp_path / "a.vts"), pairs)
+    with pytest.raises(InvalidInput, match="from 1 on, got 0 5; check the numbers; are they counted from 0"):
+        read_landmarks(tmp_path / "b.vts" if (tmp_path / "b.vts").write_text("0 5\n") else tmp_path)
+    (tmp_path / "a.vts").write_text("# source target, counted from 0\n0 4\n7 2\n")  # as older versions wrote them
+    np.testing.assert_array_equal(read_landmarks(tmp_path / "a.vts"), pairs)

@@ -12,6 +12,7 @@ from kfmaps._progress import Progress
 from kfmaps._threads import available_cores, parallel
 from kfmaps.config import Config
 from kfmaps.fit.border import Border, border
+from kfmaps.fit.demand import check_demand
 from kfmaps.fit.finish import finished
 from kfmaps.fit.fit import Fit, fit
 from kfmaps.fit.places import placed
@@ -197,6 +198,8 @@ def match(
     shapes = prepare_both(source, target, config, progress=progress)
     across = border(shapes[0], shapes[1])
     marks, descriptors = across.landmarks(marks), across.descriptors(descriptors)
+    n_s, n_t = (len(shape.mesh.vertices) for shape in shapes)
+    check_demand(config, n_s, n_t, 0 if marks is None else len(marks))
     shapes = [across.source, across.target]
     clock = Clock(progress)
     seed = seed_of(rng)

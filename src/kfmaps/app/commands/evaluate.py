@@ -54,7 +54,7 @@ def evaluate(
         if curve.suffix.lower() not in CURVES:
             got = curve.suffix or "no extension"
             raise refuse(f"--curve {curve}", f"one of {' '.join(CURVES)}", got, "rename it")
-        check_output(curve, force)
+        check_output(curve, force, (map, source, target, symmetric, *(truth or ())))
     if truth is None and symmetric is None and not identity:
         raise refuse("truth", "--truth SOURCE TARGET, or --identity", "neither", "say what is true")
     found = load_map(map)

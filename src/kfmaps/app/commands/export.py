@@ -61,7 +61,7 @@ def export(
     if suffix not in formats:
         got = suffix or "no extension"
         raise refuse(f"output {output}", f"one of {' '.join(formats)}", got, "choose one of these")
-    check_output(output, force)
+    check_output(output, force, (map, source, target, picture))
     found = load_map(map)
     shape_s = None if source is None else read_mesh_file(source)
     shape_t = None if target is None else read_mesh_file(target)

@@ -57,7 +57,8 @@ def landmarks(
     output = output or landmarks or Path("landmarks.txt")
     check_format(map_output)
     for path in (output, map_output):
-        check_output(path, force=True)  # the page asks before it replaces a file
+        # The page asks before it replaces a file, that of the landmarks it began with too; the shapes it never does.
+        check_output(path, True, (source, target) if path is output else (source, target, landmarks, output))
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", KfmapsWarning)  # what is odd about them says kfmaps match, once
         shapes = read_mesh(source), read_mesh(target)

@@ -34,7 +34,9 @@ def match(
         Path | None,
         typer.Option(help='Pairs of vertices, "source target" a line, counted from 0.', show_default=False),
     ] = None,
-    one_based: Annotated[bool, typer.Option("--one-based", help="The landmarks file counts from 1.")] = False,
+    one_based: Annotated[
+        bool, typer.Option("--one-based", help="The landmarks file counts from 1, as .vts does.")
+    ] = False,
     output: Annotated[
         Path, typer.Option("-o", "--output", help="The map: .npz or .mat (everything), .txt or .vts (vertices).")
     ] = Path("map.npz"),
@@ -61,7 +63,8 @@ def match(
     from kfmaps.app.files.mapfile import check_format
 
     check_format(output)
-    check_output(output, force)
+    reads = (source, target, landmarks, descriptors_source, descriptors_target, *(truth or ()))
+    check_output(output, force, reads)
     if quiet:
         warnings.simplefilter("ignore", KfmapsWarning)
 
@@ -69,6 +72,7 @@ def match(
     from kfmaps.app.files import read_landmarks, save_map
     from kfmaps.app.settings.device import check_device
     from kfmaps.app.summary import map_file, summary, table
+    from kfmaps.fit.demand import check_demand
     from kfmaps.matching import default_config
 
     own_descriptors = descriptors_source is not None or descriptors_target is not None
@@ -76,10 +80,12 @@ def match(
     config = _unrefined(config, settings) if raw else config
     check_device(config.device)
     known = read_truth(truth)
-    pairs = None if landmarks is None else read_landmarks(landmarks, one_based=one_based)
+    pairs = None if landmarks is None else read_landmarks(landmarks, one_based=one_based or None)
     meshes = _read(source, config), _read(target, config)
     if pairs is not None:
         _check_landmarks(pairs, meshes, (source, target))
+    n_s, n_t = (len(mesh.vertices) for mesh in meshes)
+    check_demand(config, n_s, n_t, 0 if pairs is None else len(pairs))
     own = _own_descriptors((descriptors_source, descriptors_target), meshes)
     if known is not None:
         check_truth(known, meshes[0], len(meshes[1].vertices))

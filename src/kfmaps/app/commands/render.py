@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Annotated
 
@@ -75,7 +76,7 @@ def render_pair(
     force: Force = False,
 ) -> None:
     """One map: the source, the target in the source's colours, and the error when the truth is given."""
-    _check(output, force)
+    _check(output, force, (map, source, target, *(truth or ())))
     found = load_map(map)
     source_mesh, target_mesh = (map_mesh(g, found, s, map) for g, s in ((source, "source"), (target, "target")))
     points = check_map(found, len(source_mesh.vertices), len(target_mesh.vertices))
@@ -174,10 +175,10 @@ def render_curves(
         save_figure(curves_figure(curves, title=title), temporary, dpi=dpi)
 
 
-def _check(output: Path, force: bool) -> None:
+def _check(output: Path, force: bool, reads: Iterable[Path | None] = ()) -> None:
     """Whether the figure can be written, before anything is read."""
     picture_format(output)
-    check_output(output, force)
+    check_output(output, force, reads)
 
 
 def _results(folder: Path) -> list[Result]:

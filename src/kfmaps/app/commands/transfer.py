@@ -24,6 +24,6 @@ def transfer(
     force: Annotated[bool, typer.Option("--force", help="Replace an existing file.")] = False,
 ) -> None:
     """Carry a function or labels from the source's vertices to the target's."""
-    check_output(output, force)
+    check_output(output, force, (map, values))
     found = read_values(values)
     write_values(output, Values(carried(found.array, load_map(map)), found.columns), force)

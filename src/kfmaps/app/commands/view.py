@@ -45,7 +45,7 @@ def view(
     """Show a map in the browser, or write it as one page that needs no network."""
     check_up(up)
     if output is not None:
-        check_output(output, force)
+        check_output(output, force, (map, source, target, *(truth or ())))
     found = load_map(map)
     paths = [mesh_path(given, found, side, map) for given, side in ((source, "source"), (target, "target"))]
     meshes = [map_mesh(path, found, side, map) for path, side in zip(paths, ("source", "target"), strict=True)]

@@ -7,7 +7,7 @@ import secrets
 import shutil
 import stat
 import time
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
@@ -28,16 +28,24 @@ def remove_unfinished(folder: Path, older: float = 0.0) -> None:
                 path.unlink()
 
 
-def check_output(path: str | Path, force: bool = False) -> Path:
+def check_output(path: str | Path, force: bool = False, reads: Iterable[str | Path | None] = ()) -> Path:
     """The file that writing to ``path`` would make, links followed, when it may be written.
 
     Worth calling before long work, so that a name that cannot be written is found out early.
 
+    Parameters
+    ----------
+    path : str or Path
+    force : bool
+        Whether an existing file may be replaced.
+    reads : iterable of path or None
+        Files that the work reads, none of which may be replaced by what comes of it.
+
     Raises
     ------
     InvalidInput
-        When its folder is missing or may not be written, it is a folder or device, or it exists and ``force`` is
-        not given.
+        When its folder is missing or may not be written, it is a folder or device, it is one of ``reads``, or it
+        exists and ``force`` is not given.
     """
     final = Path(path)
     try:
@@ -56,6 +64,9 @@ def check_output(path: str | Path, force: bool = False) -> Path:
     if kind not in (None, stat.S_IFREG) or os.path.abspath(path).startswith(STREAMS):
         got = "a folder" if kind == stat.S_IFDIR else "a device or pipe"
         raise refuse(f"output {path}", "the name of a file", got, "name a file to write")
+    for other in reads:
+        if kind is not None and other is not None and os.path.exists(other) and os.path.samefile(path, other):
+            raise refuse(f"output {path}", "another file than those that are read", f"{other}", "name another")
     if kind is not None and not force:
         raise refuse(f"output {path}", "a new file", "an existing one", "give --force to replace it")
     return final

@@ -29,14 +29,23 @@ def _read_numbers(path: str | Path, columns: int, one_based: bool, wanted: str) 
     return numbers - low
 
 
-def read_landmarks(path: str | Path, *, one_based: bool = False) -> np.ndarray:
+FROM_ZERO = b"# source target, counted from 0"
+
+
+def _counts_from_one(path: str | Path) -> bool:
+    """Whether a file's format counts vertices from 1: that of the remeshed benchmarks does."""
+    return Path(path).suffix.lower() == ".vts"
+
+
+def read_landmarks(path: str | Path, *, one_based: bool | None = None) -> np.ndarray:
     """Read landmark pairs: two whole numbers a line, "source target"; ``#`` starts a comment.
 
     Parameters
     ----------
     path : str or Path
-    one_based : bool
-        Whether the file counts vertices from 1.
+    one_based : bool, optional
+        Whether the file counts vertices from 1; by default only a ``.vts`` file does, unless its first line says
+        that it counts from 0.
 
     Returns
     -------
@@ -48,6 +57,8 @@ def read_landmarks(path: str | Path, *, one_based: bool = False) -> np.ndarray:
     InvalidInput
         On a file that is missing, empty, or has a line of anything else.
     """
+    if one_based is None:
+        one_based = _counts_from_one(path) and not read_bytes(path).startswith(FROM_ZERO)
     return _read_numbers(path, 2, one_based, "two whole numbers a line, source and target")
 
 
@@ -67,13 +78,14 @@ def write_landmarks(
     pairs: np.ndarray,
     *,
     names: Sequence[str] = (),
-    one_based: bool = False,
+    one_based: bool | None = None,
     force: bool = False,
 ) -> None:
-    """Write 0-based ``pairs`` (l, 2) so that :func:`read_landmarks` reads them back.
+    """Write 0-based ``pairs`` (l, 2) so that :func:`read_landmarks` reads them back; ``.vts`` counts from 1.
 
     ``names``, one for each pair, stand behind ``#`` on the pairs' lines; :func:`read_landmark_names` reads them.
     """
+    one_based = _counts_from_one(path) if one_based is None else one_based
     pairs = check(np.asarray(pairs), "landmarks", shape=(None, 2), remedy="give one row source, target each")
     if len(names) not in (0, len(pairs)):
         raise refuse("names", f"{len(pairs)}, one for each pair", str(len(names)), "give one for each, or none")
@@ -104,8 +116,7 @@ def read_vertex_numbers(path: str | Path, one_based: bool | None = None) -> np.n
     InvalidInput
         On a file that is missing, empty, or has a line of anything else.
     """
-    if one_based is None:
-        one_based = Path(path).suffix.lower() == ".vts"
+    one_based = _counts_from_one(path) if one_based is None else one_based
     return _read_numbers(path, 1, one_based, "one whole number a line")[:, 0]
 
 
@@ -113,8 +124,7 @@ def write_vertex_numbers(
     path: str | Path, numbers: np.ndarray, one_based: bool | None = None, *, force: bool = False
 ) -> None:
     """Write 0-based ``numbers`` (m,) so that :func:`read_vertex_numbers` reads them back."""
-    if one_based is None:
-        one_based = Path(path).suffix.lower() == ".vts"
+    one_based = _counts_from_one(path) if one_based is None else one_based
     numbers = check(np.asarray(numbers), "vertex numbers", shape=(None,), remedy="give a list")
     with atomic_output(path, force) as temporary:
         lines = map(str, (numbers.astype(np.int64) + int(one_based)).tolist())

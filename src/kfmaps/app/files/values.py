@@ -18,7 +18,7 @@ from kfmaps.app.files.text import REPAIR, read_bytes
 
 FORMATS = (".npy", ".csv", ".txt")
 _NUMBER = re.compile(r"[+-]?(\d+(\.\d*)?|\.\d+)([eE][+-]?\d+)?|[+-]?inf|[+-]?nan", re.ASCII | re.IGNORECASE)
-_WHOLE = re.compile(r"[+-]?\d{1,18}", re.ASCII)
+_WHOLE = re.compile(r"[+-]?\d+", re.ASCII)
 
 
 @dataclass(frozen=True, eq=False)
@@ -28,7 +28,8 @@ class Values:
     Attributes
     ----------
     array : (n,) or (n, d) array
-        int64 when all are whole numbers, float64 when they are numbers, else texts (labels).
+        int64 (or uint64) when all are whole numbers, float64 when they are numbers, else texts (labels). Whole
+        numbers whose digits neither would keep are texts.
     columns : tuple of str or None
         The header of a ``.csv`` file that has one.
     """
@@ -138,9 +139,24 @@ def _table(rows: list[tuple[int, list[str]]], name: str) -> np.ndarray:
     cells = [row for _, row in rows]
     if not numbers:
         return np.array(cells)
-    integral = all(_WHOLE.fullmatch(cell) for row in cells for cell in row)
+    kind = _kind([cell for row in cells for cell in row])
     with np.errstate(over="ignore"):  # 1e999 is infinity
-        return np.array(cells).astype(np.int64 if integral else np.float64)
+        return np.array(cells) if kind is None else np.array(cells).astype(kind)
+
+
+def _kind(cells: list[str]) -> type | None:
+    """The type that keeps every digit of whole numbers; ``None`` where none does, and they must stay texts."""
+    integral = all(_WHOLE.fullmatch(cell) for cell in cells)
+    long = [cell for cell in cells if len(cell) > 15 and _WHOLE.fullmatch(cell)]
+    if max(map(len, long), default=0) > 400:
+        return None
+    if not integral:
+        return np.float64 if all(int(cell) == float(cell) for cell in long) else None
+    low, high = min(map(int, long), default=0), max(map(int, long), default=0)
+    if low >= -(2**63) and high < 2**63:
+        return np.int64
+    shortest = min(map(int, cells))
+    return np.uint64 if shortest >= 0 and high < 2**64 else None
 
 
 def _npy(data: bytes, name: str) -> np.ndarray:

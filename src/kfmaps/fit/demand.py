@@ -1,0 +1,35 @@
+"""What a fit would take, before it is asked for."""
+
+from __future__ import annotations
+
+from kfmaps._memory import check_memory
+from kfmaps.config import Config
+
+
+def check_demand(config: Config, n_s: int, n_t: int, landmarks: int = 0) -> None:
+    """Refuse numbers of descriptors or samples whose arrays do not fit into the machine's memory.
+
+    Counted are only the arrays that cannot be avoided, so that nothing is refused which could be done.
+
+    Parameters
+    ----------
+    config : Config
+    n_s, n_t : int
+        Vertices of source and target.
+    landmarks : int
+        Each makes one descriptor or more.
+
+    Raises
+    ------
+    InvalidInput
+        Saying how much it would take.
+    """
+    most = config.fit_samples or max(n_s, n_t)
+    rows = min(n_s, most) + min(n_t, most)
+    count = max(config.descriptors.count, landmarks)
+    remedy = "lower descriptors.count (--descriptors); 100 are usual"
+    check_memory(8.0 * rows * count, "settings", f"{count:,} descriptors of {rows:,} points", remedy)
+    samples = min(config.nystrom.samples, n_s + n_t)
+    remedy = "lower nystrom.samples (--samples); 400 are usual"
+    need = 8.0 * samples * (samples + rows)
+    check_memory(need, "settings", f"{samples:,} Nyström samples of {rows:,} points", remedy)
