@@ -154,6 +154,8 @@ def test_error_panel_and_its_bar() -> None:
     bar = figure.axes[-1]
     assert bar.get_ylim() == (0, 0.2)
     assert "% of √area" in bar.get_ylabel()
+    ticks = bar.yaxis.get_major_formatter()
+    assert [ticks(value, 0) for value in (0.0, 0.025, 0.15)] == ["0", "2.5", "15"]
     assert len(figure.axes) == 4
     assert len(pictures.match_figure(source, source, np.arange(n)).axes) == 2
     calm = pictures.match_figure(source, source, np.arange(n), errors=0 * errors, limit=0.2, title="A title")

@@ -10,7 +10,6 @@ from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
-from matplotlib.ticker import PercentFormatter
 
 from kfmaps._arrays import KfmapsWarning
 from kfmaps.app.experiments import style
@@ -20,6 +19,7 @@ from kfmaps.app.experiments.outputs import Outcome, write_conclusions, write_pic
 from kfmaps.app.experiments.pairs import fitted
 from kfmaps.app.experiments.setting import Setting
 from kfmaps.app.pictures import ERROR_MAP, View, automatic_view, draw_surface, following_view, position_colors
+from kfmaps.app.pictures.colors import percent_ticks
 from kfmaps.app.words import UNIT
 from kfmaps.config import Config
 from kfmaps.functional.evaluate import geodesic_errors
@@ -162,7 +162,7 @@ def draw(source: Mesh, target: Mesh, correspondence: np.ndarray, panels: list[Pa
         location="left",
         fraction=0.35,
         extend="both",
-        format=PercentFormatter(1.0, symbol=""),
+        format=percent_ticks(),
     )
     bar.set_label(f"geodesic error ({UNIT})", fontsize=9, color=style.TEXT)
     return figure

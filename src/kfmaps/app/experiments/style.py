@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.ticker import PercentFormatter
 
+from kfmaps.app.pictures.colors import percent_ticks
 from kfmaps.app.words import UNIT
 
 # Okabe and Ito (2008).
@@ -87,5 +87,5 @@ def error_curves(
         ax.plot(thresholds, percent, color=color, linestyle=dash, linewidth=1.6, label=name)
     ax.set_xlim(0, thresholds[-1])
     ax.set_ylim(0, 100)
-    ax.xaxis.set_major_formatter(PercentFormatter(1.0, symbol=""))
+    ax.xaxis.set_major_formatter(percent_ticks())
     labels(ax, f"geodesic error allowed ({UNIT})", "vertices within it (%)")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 from matplotlib.colors import LinearSegmentedColormap
+from matplotlib.ticker import FuncFormatter
 
 from kfmaps._arrays import check, check_positive
 from kfmaps.surface.mesh import Mesh, vertex_areas
@@ -63,6 +64,11 @@ def error_limit(errors: np.ndarray) -> float:
         return 0.01
     power = 10.0 ** np.floor(np.log10(top))
     return next(float(step * power) for step in (1, 2, 3, 4, 6, 8, 10) if step * power >= top * (1 - 1e-12))
+
+
+def percent_ticks() -> FuncFormatter:
+    """Marks of an axis of errors, which has units of √area, as numbers of per cent."""
+    return FuncFormatter(lambda error, _: f"{100 * error:g}")
 
 
 def error_colors(errors: np.ndarray, limit: float | None = None) -> np.ndarray:

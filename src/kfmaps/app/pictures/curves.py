@@ -11,6 +11,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import PercentFormatter
 
 from kfmaps._arrays import check, refuse
+from kfmaps.app.pictures.colors import percent_ticks
 from kfmaps.app.words import UNIT
 
 # Okabe and Ito (2008): told apart without colour vision; the dashes do it in grey too.
@@ -95,7 +96,7 @@ def _axes(ax: Axes, end: float) -> None:
     ax.set_xlim(0, end)
     ax.set_ylim(0, 1.005)
     ax.yaxis.set_major_formatter(PercentFormatter(1.0))
-    ax.xaxis.set_major_formatter(PercentFormatter(1.0, symbol=""))
+    ax.xaxis.set_major_formatter(percent_ticks())
     ax.set_xlabel(f"geodesic error ({UNIT})", fontsize=10, color=TEXT)
     ax.set_ylabel("points within that error", fontsize=10, color=TEXT)
     ax.spines[["top", "right"]].set_visible(False)

@@ -10,11 +10,10 @@ from matplotlib import rc_context
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
-from matplotlib.ticker import PercentFormatter
 
 from kfmaps._arrays import check, refuse
 from kfmaps.app.pictures.camera import View, automatic_view, following_view
-from kfmaps.app.pictures.colors import ERROR_MAP, error_colors, error_limit, position_colors
+from kfmaps.app.pictures.colors import ERROR_MAP, error_colors, error_limit, percent_ticks, position_colors
 from kfmaps.app.pictures.surfaces import draw_surface
 from kfmaps.app.words import UNIT
 from kfmaps.surface.mesh import Mesh
@@ -150,7 +149,7 @@ def match_figure(
         place = (1 - 0.8 / width, bottom + 0.15 * (top - bottom), 0.12 / width, 0.7 * (top - bottom))
         scale = ScalarMappable(Normalize(0, end), ERROR_MAP)
         over = "max" if shown.max() > end else "neither"
-        bar = figure.colorbar(scale, cax=figure.add_axes(place), extend=over, format=PercentFormatter(1.0, symbol=""))
+        bar = figure.colorbar(scale, cax=figure.add_axes(place), extend=over, format=percent_ticks())
         bar.set_label(f"geodesic error ({UNIT})", color=TEXT, fontsize=9)
         bar.ax.tick_params(colors=TEXT, labelsize=8)
     if title:
