@@ -10,7 +10,18 @@ import pytest
 
 from kfmaps._arrays import InvalidInput
 from kfmaps.app.cli import main
-from kfmaps.app.experiments import figure2, figure3, figure4, figure5, figure6, figure7, pairs, section44
+from kfmaps.app.experiments import (
+    figure2,
+    figure3,
+    figure4,
+    figure5,
+    figure6,
+    figure7,
+    formulation_pairs,
+    formulations,
+    pairs,
+    section44,
+)
 from kfmaps.app.experiments.collections import Collection, ShapePair, collections, person
 from kfmaps.app.experiments.kernel_matrix import best_errors, gaussian_matrix, nystrom_error
 from kfmaps.app.experiments.methods import no17, obcs12, paper, recommended
@@ -24,8 +35,9 @@ from kfmaps.app.experiments.store import Job, append_store, read_store, run_jobs
 from kfmaps.app.experiments.tune import Grid, grid_search
 from kfmaps.app.pictures import surfaces
 from kfmaps.app.settings.merge import preset, read_settings
-from kfmaps.config import Config
+from kfmaps.config import BasisConfig, Config, NystromConfig
 from kfmaps.functional.evaluate import geodesic_errors
+from kfmaps.functional.refine import ZoomOut
 from kfmaps.kernel.kernels import Gaussian
 from kfmaps.surface.basis import Basis
 
@@ -392,6 +404,17 @@ def tiny(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Setting:
     monkeypatch.setattr(section44, "COUNTS", (1, 30))
     monkeypatch.setattr(section44, "SIZE", 10)
     monkeypatch.setattr(section44, "WHOLE_SIZE", 5)
+    few = ("least squares", "both directions")
+    chosen = {name: formulation_pairs.FORMULATIONS[name] for name in few}
+    for module in (formulation_pairs, formulations):
+        monkeypatch.setattr(module, "FORMULATIONS", chosen)
+    smaller = replace(formulation_pairs.CONFIG, nystrom=NystromConfig(30), basis=BasisConfig(functions=10))
+    monkeypatch.setattr(formulation_pairs, "CONFIG", smaller)
+    monkeypatch.setattr(formulation_pairs, "ZOOM", ZoomOut(10, 40, 10))
+    monkeypatch.setattr(formulation_pairs, "SHARES", (0.0, 0.3))
+    monkeypatch.setattr(formulation_pairs, "LOSSES", ("squared", "geman"))
+    monkeypatch.setattr(formulations, "LOSSES", ("squared", "geman"))
+    monkeypatch.setattr(formulations, "MOST", {"generated": 1, "FAUST_r": 1})
     return Setting(None, tmp_path, pairs=1, workers=1, vertices=1500, timing_vertices=1500)
 
 
@@ -403,6 +426,7 @@ COLUMNS = {
     "figure6": {"data", "descriptors", "pairs", "method", "mean error (% of √area)"},
     "figure7": {"settings", "step", "relative residual"},
     "section44": {"descriptors", "kernel", "system", "rank", "condition number"},
+    "formulations": {"data", "descriptors", "formulation", "kernel", "pairs", "raw", "refined"},
 }
 
 

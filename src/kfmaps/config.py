@@ -163,8 +163,8 @@ class Formulation:
 
     constraint: Constraint = "none"
     directions: Literal["one", "both"] = "one"
-    inverse: float = 1.0
-    adjoint: float = 1.0
+    inverse: float = 0.1
+    adjoint: float = 0.1
     loss: LossName = "squared"
     loss_per: LossPer = "landmark"
     loss_width: float = 1.0
@@ -371,7 +371,7 @@ class Config:
     @classmethod
     def pokrass13(cls) -> Config:
         """Pokrass et al. (2013), Sparse modeling of intrinsic correspondences: few entries, near the diagonal."""
-        return cls.published(Formulation(sparsity=0.01))
+        return cls.published(Formulation(sparsity=0.001))
 
     @classmethod
     def kovnatsky15(cls) -> Config:

@@ -15,23 +15,29 @@ from kfmaps.fit.problem import Problem
 from kfmaps.functional.coupled import Coupled, coupled, seen, seen_penalty
 from kfmaps.functional.energy import Energy, laplacian_term
 from kfmaps.functional.losses import Loss, Penalty, RobustData, sparse
-from kfmaps.functional.objective import Coupling, How, Objective, coupled_pair, minimised
+from kfmaps.functional.objective import Coupling, How, Objective, Told, coupled_pair, minimised
 from kfmaps.functional.solvers import CG, Solution
 
 
 @dataclass(frozen=True, eq=False)
-class Solved:
-    """The solution from source to target, the map ``back`` (k_s, k_t) where both were asked for, and the energies."""
+class Minimised:
+    """The solution from source to target, the map ``back (k_s, k_t)`` where both were asked for, and the energies."""
 
     solution: Solution
     back: Array | None
     energies: dict[str, float]
 
 
-def solved(task: Problem, config: Config, report: Progress, start: Any = None) -> Solved:
-    """The minimiser of what ``task`` and ``config.formulation`` ask, from ``start`` where one is given."""
-    right = task.energy.rhs()
+def solved(task: Problem, config: Config, report: Progress, start: Any = None) -> Minimised:
+    """:func:`minimiser` from ``start`` where one is given, which is checked; told as the stage "solve".
+
+    Warns
+    -----
+    KfmapsWarning
+        When the solver broke down, so that the map is not the minimiser.
+    """
     if start is not None:
+        right = task.energy.rhs()
         start = np.asarray(to_numpy(start) if hasattr(start, "shape") else start, dtype=np.float64)
         check(start, "start", shape=tuple(right.shape), remedy="give a functional map of the size of the basis")
         start = like(start, right)
@@ -43,28 +49,34 @@ def solved(task: Problem, config: Config, report: Progress, start: Any = None) -
             by_size = np.log(max(relative, 1e-300)) / np.log(max(config.solver.rtol, 1e-16))
             report("solve", float(np.clip(max(step / limit, by_size), 0.0, 1.0)))
 
+    found = minimiser(task, config, start, told)
+    if found.solution.status == "breakdown" and config.formulation.constraint == "none":
+        text = (
+            f"the solver broke down after {found.solution.steps} steps: the energy is not positive definite or a "
+            "number is not finite, and the map is not its minimiser. Raise weights.laplacian, or look at kernel and "
+            "descriptors"
+        )
+        warnings.warn(text, KfmapsWarning, stacklevel=3)
+    return found
+
+
+def minimiser(task: Problem, config: Config, start: Array | None = None, told: Told | None = None) -> Minimised:
+    """What minimises what ``task`` and ``config.formulation`` ask, reached from ``start``."""
     asked = config.formulation
     how = How(config.solver, config.preconditioner, asked.rounds)
     if asked.weighs_features or asked.bases == "coupled":
         start = minimised(Objective(task.energy), how, start, told).value
     rotation = _rotation(task, start, config) if asked.bases == "coupled" and start is not None else None
     forth = objective(task, config, start, rotation)
-    if asked.directions == "both":
-        back_rotation = None if rotation is None else Coupled(rotation.U_t, rotation.U_s, rotation.history)
-        back = objective(task, config, None if start is None else start.T, back_rotation, reverse=True)
-        size = typical(task.energy)
-        tied = Coupling(asked.inverse * size, asked.adjoint * size)
-        pair = coupled_pair(forth, back, tied, how, (start, None), told)
-        solution, other = pair.forth, pair.back.value
-    else:
-        solution, other = minimised(forth, how, start, told), None
-    if solution.status == "breakdown" and asked.constraint == "none":
-        text = (
-            f"the solver broke down after {solution.steps} steps: the energy is not positive definite or a number is "
-            "not finite, and the map is not its minimiser. Raise weights.laplacian, or look at kernel and descriptors"
-        )
-        warnings.warn(text, KfmapsWarning, stacklevel=3)
-    return Solved(solution, other, forth.breakdown(solution.value))
+    if asked.directions == "one":
+        solution = minimised(forth, how, start, told)
+        return Minimised(solution, None, forth.breakdown(solution.value))
+    turned = None if rotation is None else Coupled(rotation.U_t, rotation.U_s, rotation.history)
+    back = objective(task, config, None if start is None else start.T, turned, reverse=True)
+    size = typical(task.energy)
+    tied = Coupling(asked.inverse * size, asked.adjoint * size)
+    pair = coupled_pair(forth, back, tied, how, (start, None), told)
+    return Minimised(pair.forth, pair.back.value, forth.breakdown(pair.forth.value))
 
 
 def objective(

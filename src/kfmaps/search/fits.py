@@ -13,13 +13,14 @@ import numpy as np
 
 from kfmaps._arrays import inner, to_numpy
 from kfmaps.config import Config, DescriptorConfig
-from kfmaps.fit.features import kernel_features, pair_descriptors
-from kfmaps.fit.problem import CONDENSATION, ORIENTATION_FEATURES, principal
+from kfmaps.fit.features import Descriptors, kernel_features, pair_descriptors
+from kfmaps.fit.problem import CONDENSATION, ORIENTATION_FEATURES, Problem, principal
+from kfmaps.fit.robust import believed
 from kfmaps.fit.shape import Shape, reduced
-from kfmaps.functional.energy import Energy, Term, descriptor_term, laplacian_term, slice_term
-from kfmaps.functional.preconditioners import sylvester
+from kfmaps.fit.solve import minimiser
 from kfmaps.functional.slices import compressed, condensed, packed_slices, unpacked_slices
-from kfmaps.functional.solvers import CG, solve
+from kfmaps.functional.solvers import CG
+from kfmaps.surface.basis import Basis
 
 POINTS = 2000
 """Samples of each shape that a fit is made from."""
@@ -99,10 +100,18 @@ def fitted_family(
     shapes, bases = on.shapes, (on.shapes[0].basis, on.shapes[1].basis)
     descriptors = described(family, config.descriptors)
     marks = on.landmarks if descriptors.landmark_map != "none" else on.landmarks[:0]
-    used = pair_descriptors(*shapes, bases, descriptors, marks, on.given)
+    used = believable(pair_descriptors(*shapes, bases, descriptors, marks, on.given), bases, config)
     size = min(max(f.functions for f in fits), *(b.functions.shape[1] for b in bases))
     low = (bases[0].truncated(size), bases[1].truncated(size))
-    small = replace(config, nystrom=replace(config.nystrom, samples=min(NYSTROM, config.nystrom.samples)))
+    # Both directions at once are for the answer; a candidate is refined one way.
+    small = replace(
+        config,
+        nystrom=replace(config.nystrom, samples=min(NYSTROM, config.nystrom.samples)),
+        exact=False,
+        solver=SOLVER,
+        preconditioner="sylvester",
+        formulation=replace(config.formulation, directions="one"),
+    )
     features = kernel_features(*shapes, used, small, np.random.default_rng(seed))
     rtol = max(config.compression, COMPRESSION)
     formed = condensed(low[0], features.source, low[1], features.target, CONDENSATION * rtol)
@@ -120,18 +129,22 @@ def fitted_family(
         k = min(fit.functions, size)
         bases_k = (low[0].truncated(k), low[1].truncated(k))
         blocks = [X[:, :k, :k] for X in slices]
-        terms: dict[str, Term] = {
-            "laplacian": laplacian_term(*bases_k),
-            "descriptors": descriptor_term(bases_k[0], features.source, bases_k[1], features.target),
-            "commutativity": slice_term(blocks[0], blocks[1]),
-        }
+        orientations = None
         if fit.orientation and turned:
             antisymmetric = [X[:, :k, :k] for X in turned]
             total = sum(inner(X, X) for X in antisymmetric)
             wanted = sum(inner(X, X) for X in blocks)
             scale = (wanted / total) ** 0.5 if total else 0.0
-            terms["orientation"] = slice_term(antisymmetric[0] * scale, antisymmetric[1] * scale, parity=-1)
-        weights = replace(config.weights, orientation=fit.orientation)
-        energy = Energy(terms, {name: getattr(weights, name) for name in terms})
-        maps.append(to_numpy(solve(energy.apply, energy.rhs(), SOLVER, None, sylvester(energy)).value))
+            orientations = (antisymmetric[0] * scale, antisymmetric[1] * scale)
+        asked = replace(small, weights=replace(config.weights, orientation=fit.orientation))
+        task = Problem(asked, bases_k, features.kernel, used, features, (blocks[0], blocks[1]), orientations)
+        maps.append(to_numpy(minimiser(task, asked).solution.value))
     return maps
+
+
+def believable(used: Descriptors, bases: tuple[Basis, Basis], config: Config) -> Descriptors:
+    """``used``, weighed by a robust loss where the formulation has one; without landmarks theirs weighs nothing."""
+    asked = config.formulation
+    if not asked.weighs_data or (asked.loss_per == "landmark" and not (used.landmark >= 0).any()):
+        return used
+    return believed(used, bases, config).descriptors

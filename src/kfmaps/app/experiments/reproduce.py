@@ -11,6 +11,7 @@ from kfmaps.app.experiments.figure4 import figure4
 from kfmaps.app.experiments.figure5 import figure5
 from kfmaps.app.experiments.figure6 import figure6
 from kfmaps.app.experiments.figure7 import figure7
+from kfmaps.app.experiments.formulations import formulations
 from kfmaps.app.experiments.outputs import Outcome
 from kfmaps.app.experiments.section44 import section44
 from kfmaps.app.experiments.setting import Setting
@@ -23,6 +24,7 @@ FIGURES: dict[str, Callable[[Setting], Outcome]] = {
     "figure6": figure6,
     "figure7": figure7,
     "section44": section44,
+    "formulations": formulations,
 }
 
 
