@@ -8,6 +8,7 @@ import pytest
 
 from conftest import blob
 from kfmaps._arrays import InvalidInput
+from kfmaps.app.files import load_map, save_map
 from kfmaps.config import BasisConfig, Config, DescriptorConfig, Formulation, NystromConfig, Search, Weights
 from kfmaps.fit.fit import fit
 from kfmaps.fit.shape import prepare
@@ -154,6 +155,15 @@ def test_swapping_the_shapes_swaps_both_maps(shape, other, marks):
     assert forth.source_to_target.shape == (300,)
     assert forth.map_back is not None
     np.testing.assert_allclose(forth.map_back, forth.functional_map.T, atol=1e-12)
+
+
+def test_both_maps_are_saved(shape, other, marks, tmp_path):
+    found = match(shape, other, with_("both"), landmarks=marks)
+    for name in ("map.npz", "map.mat"):
+        save_map(tmp_path / name, found)
+        extra = load_map(tmp_path / name).extra
+        np.testing.assert_array_equal(extra["source_to_target"], found.source_to_target)
+        np.testing.assert_array_equal(extra["map_back"], found.map_back)
 
 
 def test_both_directions_agree_more_than_one_at_a_time(shape, other, marks):

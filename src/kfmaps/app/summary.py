@@ -93,6 +93,7 @@ def summary(outcome: MatchRun) -> dict[str, Any]:
         "scores": [float(score) for score in match.scores],
         "runners_up": len(match.runners_up),
         "errors": None if outcome.accuracy is None else outcome.accuracy.as_dict(),
+        "weights": None if fit is None or fit.weights is None else fit.weights.tolist(),
         "energies": None if fit is None else {name: float(value) for name, value in fit.energies.items()},
         "times": {name: float(value) for name, value in outcome.seconds.items()},
         "residuals": None if residuals is None else residuals.tolist(),
@@ -159,6 +160,13 @@ def _rows(match: Match, found: dict[str, Any], accuracy: Accuracy | None) -> lis
         rows.append(
             ("doubted", f"landmark {numbers}, counted from 0: the map keeps to the others, and they had no say")
         )
+    if found["weights"] is not None:
+        per, least = (
+            match.config.formulation.loss_per,
+            sorted(enumerate(found["weights"]), key=lambda item: item[1])[:3],
+        )
+        told = ", ".join(f"{per} {number} {weight:.2f}" for number, weight in least)
+        rows.append(("believed least", f"{told} (counted from 0; 1 is fully)"))
     if match.fit is not None and match.origin == ONE_FIT:
         kernel = re.sub(r"\d+\.\d{5,}", lambda number: f"{float(number[0]):.4g}", found["kernel"])
         slices = f", {found['slices']} slices" if found["slices"] else ""

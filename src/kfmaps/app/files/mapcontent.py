@@ -50,6 +50,8 @@ def checked_extra(extra: Mapping[str, Any], n_t: int, n_s: int | None) -> dict[s
         match name:
             case "raw_target_to_source":
                 found[name] = vertex_numbers(check(real(value, title), title, shape=(n_t,), remedy=REPAIR), title, n_s)
+            case "source_to_target":
+                found[name] = vertex_numbers(check(real(value, title), title, shape=(n_s,), remedy=REPAIR), title, n_t)
             case "runners_up":
                 rows = real(value, title)
                 rows = rows[None] if rows.ndim == 1 else rows  # a .mat file does not tell one row from a list
@@ -67,7 +69,7 @@ def checked_extra(extra: Mapping[str, Any], n_t: int, n_s: int | None) -> dict[s
                 if np.isinf(values).any():
                     raise refuse(title, "numbers, NaN where it is not known", "infinite ones", REPAIR)
                 found[name] = values
-            case "raw_functional_map":
+            case "raw_functional_map" | "map_back":
                 found[name] = check(real(value, title), title, shape=(None, None), remedy=REPAIR).astype(np.float64)
             case "source" | "target":
                 found[name] = _path(value, title)

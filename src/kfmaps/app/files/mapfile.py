@@ -140,6 +140,8 @@ def match_map(match: Match) -> MapFile:
         extra["runners_up"] = np.stack(match.runners_up)
     if match.confidence is not None:
         extra["confidence"] = np.float64(match.confidence)
+    if match.source_to_target is not None and match.map_back is not None:
+        extra |= {"source_to_target": match.source_to_target, "map_back": match.map_back}
     extra["local_confidence"] = match.local_confidence
     config = json.dumps(as_dict(match.config))
     return MapFile(
