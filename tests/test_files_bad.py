@@ -49,6 +49,13 @@ def test_device_and_impossible_name(tmp_path: Path) -> None:
         read_mesh(tmp_path / ("a" * 5000 + ".off"))
 
 
+def test_a_file_larger_than_memory(tmp_path: Path) -> None:
+    """A sparse one takes no room on the disk, and all of the memory."""
+    with open(tmp_path / "a.off", "wb") as file:
+        file.truncate(1 << 42)
+    assert "of memory, got 4,398 GB for the file alone" in refused(tmp_path / "a.off")
+
+
 def test_unreadable(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     def denied(_: Path) -> bytes:
         raise PermissionError(13, "Permission denied")

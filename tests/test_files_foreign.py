@@ -6,6 +6,7 @@ import base64
 import json
 import re
 import struct
+import warnings
 from pathlib import Path
 from typing import Any
 
@@ -282,6 +283,35 @@ def accessor(tree: dict[str, Any], **more: Any) -> None:
 )
 def test_bad_glb(tmp_path: Path, change: Any, part: str) -> None:
     assert part in refused(tmp_path / "a.glb", rewritten(change))
+
+
+STRANGE = [None, -1, 0, 1, 2**31, 10**30, 1.5, float("nan"), "", "a", [], {}, [[]], True, "VEC2", 5120, 5125, [1] * 16]
+
+
+def test_glb_with_other_values_in_its_tree(tmp_path: Path) -> None:
+    """Whatever stands where: a mesh, or a line that says what is wrong."""
+    rng = np.random.default_rng(0)
+
+    def places(tree: Any) -> list[tuple[Any, Any]]:
+        inside = tree.items() if isinstance(tree, dict) else enumerate(tree) if isinstance(tree, list) else ()
+        return [place for key, value in inside for place in ((tree, key), *places(value))]
+
+    def change(tree: dict[str, Any]) -> None:
+        found = places(tree)
+        for i in rng.choice(len(found), 2):
+            where, key = found[i]
+            where[key] = STRANGE[rng.integers(len(STRANGE))]
+
+    outcomes = set()
+    for _ in range(300):
+        (tmp_path / "a.glb").write_bytes(rewritten(change))
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", KfmapsWarning)
+            try:
+                outcomes.add(len(read_mesh(tmp_path / "a.glb").vertices) > 0)
+            except InvalidInput as error:
+                outcomes.add("\n" not in str(error))
+    assert outcomes == {True}
 
 
 def test_glb_of_another_version_or_none_at_all(tmp_path: Path) -> None:

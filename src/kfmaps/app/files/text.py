@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from kfmaps._arrays import InvalidInput, refuse
+from kfmaps._memory import check_memory
 
 REPAIR = "repair the file or export it again"
 _BLANK = np.zeros(256, dtype=bool)
@@ -58,6 +59,7 @@ def read_bytes(path: str | Path) -> bytes:
         if not path.is_file():
             got = "a folder" if path.is_dir() else "a device or pipe" if path.exists() else "nothing there"
             raise refuse(str(path), "a file", got, "check the name")
+        check_memory(path.stat().st_size, str(path), "the file alone", "make it smaller, or use a larger machine")
         data = path.read_bytes()
     except (OSError, ValueError) as error:  # ValueError: a NUL in the name
         if isinstance(error, InvalidInput):
