@@ -204,7 +204,7 @@ class Formulation:
 
 @dataclass(frozen=True)
 class Search:
-    """How to find the map without landmarks; see :mod:`kfmaps.search.choose`.
+    """How to find the map among many; see :mod:`kfmaps.search.choose`.
 
     ``candidates``: how many small fits are tried, each refined from three starts; ``signs``: how many low functions
     after the constant one have both their signs tried, 2^signs diagonal maps; ``orientation``: whether the map keeps
@@ -230,7 +230,7 @@ class Search:
 
 @dataclass(frozen=True)
 class Config:
-    """A whole match. ``Config()`` is what we recommend with landmarks; see the class methods for others.
+    """A whole match. ``Config()`` makes one fit; :meth:`automatic`, a search, is what we recommend.
 
     Attributes
     ----------
@@ -252,7 +252,7 @@ class Config:
         The fit that makes a refined map finer than the source's vertices, see :mod:`kfmaps.functional.nonrigid`.
         Without a refinement there is none.
     search : Search or None
-        Used when there are no landmarks; ``None`` makes one fit, which cannot tell left from right.
+        ``None`` makes one fit, which without landmarks cannot tell left from right.
     device : str
         "cpu" for NumPy, or a PyTorch device such as "cuda"; "torch" is PyTorch on the CPU.
     threads : int or None
@@ -304,7 +304,7 @@ class Config:
 
     @classmethod
     def automatic(cls) -> Config:
-        """What we recommend without landmarks: a search, with SHOT to guide it and the refinement."""
+        """What we recommend: a search, with SHOT to guide it and the refinement."""
         return cls(
             descriptors=DescriptorConfig(shot=True),
             refinement=ZoomOut(start=50, stop=200, step=25, samples=2000, guidance=36.0),

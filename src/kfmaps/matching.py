@@ -124,7 +124,7 @@ class Match:
             if len(shape.mesh.faces) == 0:
                 raise refuse(shape.name, "a surface with triangles", "a point cloud", "use target_to_source")
         refine, beside = self.config.refinement, None
-        mirrored = self.config.search is not None and self.config.search.orientation == "reversed"
+        mirrored = self.orientation == "reversed"
         if isinstance(refine, ZoomOut) and refine.guidance and not mirrored:
             guiding = guide(across.source.shot, across.target.shot)
             beside = guiding and guiding.beside(refine.guidance, across.source.basis, across.target.basis)

@@ -18,7 +18,7 @@ def config(
     ] = None,
     force: Annotated[bool, typer.Option("--force", help="Replace an existing file.")] = False,
 ) -> None:
-    """Print the settings that match would use without landmarks, as TOML that --config reads."""
+    """Print the settings that match would use, as TOML that --config reads."""
     from kfmaps.app.files import atomic_output, check_output
     from kfmaps.app.settings.toml import settings_text
     from kfmaps.config import Config

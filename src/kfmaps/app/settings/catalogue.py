@@ -202,7 +202,7 @@ CATALOGUE: dict[str, tuple[Setting, ...]] = {
         Setting("finish.levels", int, "each a third as stiff as the one before", "at least 1", kinds=("NonRigid",)),
         Setting("finish.steps", int, "searches for closest points at each level", "at least 1", kinds=("NonRigid",)),
     ),
-    "Search without landmarks": (
+    "Search": (
         Setting("search.kind", str, "whether several maps are tried", "search, none"),
         Setting("search.candidates", int, "how many small fits are tried", "at least 1", "--candidates", ("Search",)),
         Setting(
@@ -228,8 +228,8 @@ SETTINGS: tuple[Setting, ...] = tuple(setting for group in CATALOGUE.values() fo
 FLAGS: dict[str, Setting] = {setting.flag: setting for setting in SETTINGS if setting.flag}
 
 PRESETS: dict[str, str] = {
-    "automatic": "recommended without landmarks",
-    "default": "recommended with landmarks",
+    "automatic": "recommended: a search, with landmarks or without",
+    "default": "one fit, without a search",
     "paper": "the paper's section 7",
     "no17": "Nogneng and Ovsjanikov 2017: no kernel",
     "obcs12": "Ovsjanikov et al. 2012: no kernel, descriptors only",

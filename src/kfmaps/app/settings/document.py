@@ -46,7 +46,7 @@ def tables() -> str:
             recommended, paper = default_of(s, Config()), default_of(s, preset("paper"))
             automatic = default_of(s, preset("automatic"))
             if automatic != recommended:
-                recommended += f"; without landmarks {automatic}"
+                recommended += f"; automatic {automatic}"
             flag = f"`{s.flag}`" if s.flag else ""
             of = f" ({', '.join(kind.lower() for kind in s.kinds)})" if s.kinds else ""
             lines.append(f"| `{s.path}` | {flag} | {s.meaning}{of} | {s.values} | {recommended} | {paper} |")
