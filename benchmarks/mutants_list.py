@@ -248,7 +248,12 @@ MUTANTS = tuple(
             "areas = np.ones(count)",
             "test_automatic -k few_samples",
         ),
-        ("-np.expm1(-margin / CLEAR)", "-np.expm1(-margin * CLEAR)", f"{MATCH} -k confidence"),
+        (
+            "1.0 - 0.5 * math.exp(-max(margin, 0.0) / TIE)",
+            "1.0 - math.exp(-max(margin, 0.0) / TIE)",
+            "test_automatic -k verdict",
+        ),
+        ("SLOPE * (score - MIDDLE)", "SLOPE * (MIDDLE - score)", "test_automatic -k verdict"),
         (
             'score -= 0.5 * np.einsum("mik,mik->mi"',
             'score -= 0.4 * np.einsum("mik,mik->mi"',

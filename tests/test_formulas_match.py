@@ -196,13 +196,13 @@ def test_heat_around_a_landmark_is_that_of_its_time(shape):
 
 
 def test_confidence_follows_from_the_scores(shape):
-    """1 − exp(−margin / 0.3), and next to nothing where the best score is poor: see docs/automatic.md."""
+    """The probability of docs/automatic.md, from the score of the best map and how far the next is behind."""
     config = replace(CONFIG, search=Search(candidates=1, signs=2))
     found = match(shape, shape, config)
     margin = found.scores[0] - found.scores[1]
-    assert found.scores[0] > -10
-    assert found.confidence == pytest.approx(1 - np.exp(-margin / 0.3))
-    assert (found.verdict == "sure") == (margin >= 0.3)
+    right = (1 - 0.5 * np.exp(-margin / 0.1)) / (1 + np.exp(-0.92 * (found.scores[0] + 10.5)))
+    assert found.confidence == pytest.approx(right)
+    assert (found.verdict == "sure") == (right >= 0.85)
 
 
 def test_measures_of_a_random_map_are_what_their_definitions_say(shape):
