@@ -160,7 +160,8 @@ def sphere(vertices: int = 2000, rng: Seed = 0) -> Mesh:
         return radius - 1, points / np.maximum(radius, 1e-12)[:, None]
 
     box = 1.1 * np.array([[-1.0, -1, -1], [1, 1, 1]])
-    return Mesh(*closed_mesh(field, box, vertices, np.random.default_rng(rng)))
+    # Tetrahedra between points on one sphere take time that grows as the square of their number.
+    return Mesh(*closed_mesh(field, box, vertices, np.random.default_rng(rng), scattered=4000))
 
 
 def torus(vertices: int = 2000, rng: Seed = 0, tube: float = 0.4) -> Mesh:

@@ -199,11 +199,12 @@ def closed_mesh(
     *,
     genus: int = 0,
     warp: Warp | None = None,
+    scattered: int | None = None,
 ) -> tuple[np.ndarray, np.ndarray]:
     """``count`` points (count, 3) on the surface and the faces (f, 3) of a closed mesh through them.
 
     With a ``warp`` the points are given before that deformation, but spread and triangulated after it. More than
-    :data:`SCATTERED` points are those of a mesh of a quarter as many, subdivided, which takes a tenth of the time.
+    ``scattered`` points (:data:`SCATTERED`, and at most that) are those of a mesh of a quarter as many, subdivided, which takes a tenth of the time.
 
     Raises
     ------
@@ -211,9 +212,9 @@ def closed_mesh(
         When no draw of the points gives a closed manifold of that ``genus``: too few of them for the
         thinnest part.
     """
-    if count > SCATTERED:
+    if count > min(SCATTERED, scattered or SCATTERED):
         fewer = (count + 3 * (2 - 2 * genus)) // 4
-        points, faces = closed_mesh(field, box, fewer, rng, genus=genus, warp=warp)
+        points, faces = closed_mesh(field, box, fewer, rng, genus=genus, warp=warp, scattered=scattered)
         return subdivided(field, points, faces, count)
     for _ in range(ATTEMPTS):
         points, normals = spread(field, box, count, rng, warp)
