@@ -204,7 +204,8 @@ def closed_mesh(
     """``count`` points (count, 3) on the surface and the faces (f, 3) of a closed mesh through them.
 
     With a ``warp`` the points are given before that deformation, but spread and triangulated after it. More than
-    ``scattered`` points (:data:`SCATTERED`, and at most that) are those of a mesh of a quarter as many, subdivided, which takes a tenth of the time.
+    ``scattered`` points (:data:`SCATTERED`, and at most that) are those of a mesh of a quarter as many, subdivided,
+    which takes a tenth of the time.
 
     Raises
     ------

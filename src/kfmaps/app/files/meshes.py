@@ -17,6 +17,7 @@ from kfmaps.app.files.record import MeshFile, checked_colors
 from kfmaps.app.files.stl import parse_stl
 from kfmaps.app.files.text import read_bytes
 from kfmaps.app.files.xyz import parse_xyz
+from kfmaps.surface.inside import inside
 from kfmaps.surface.mesh import Mesh, check_is_mesh, check_mesh
 from kfmaps.surface.topology import topology
 
@@ -90,13 +91,14 @@ def _warn_of_oddities(mesh: Mesh, name: str) -> None:
     if len(mesh.faces) == 0:
         return
     counts = topology(mesh)
+    apart = counts.duplicated_vertices - inside(mesh).joined  # who connects seams tells of them
     odd = [
         (counts.components if counts.components > 1 else 0, "component", "components"),
         (counts.boundary_loops, "boundary loop", "boundary loops"),
         (counts.nonmanifold_edges, "non-manifold edge", "non-manifold edges"),
         (counts.nonmanifold_vertices, "non-manifold vertex", "non-manifold vertices"),
         (counts.inconsistent_edges, "inconsistently oriented edge", "inconsistently oriented edges"),
-        (counts.duplicated_vertices, "duplicated vertex", "duplicated vertices"),
+        (apart, "duplicated vertex", "duplicated vertices"),
     ]
     told = ", ".join(f"{count} {one if count == 1 else many}" for count, one, many in odd if count)
     if told:
