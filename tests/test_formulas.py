@@ -32,6 +32,7 @@ from kfmaps.functional.solvers import CG, solve
 from kfmaps.functional.terms import laplacian_term
 from kfmaps.kernel.kernels import Gaussian, Laplacian, resolved, squared_distances
 from kfmaps.kernel.nystrom import nystrom
+from kfmaps.kernel.select import farthest
 from kfmaps.surface import geodesics
 from kfmaps.surface.basis import Basis
 from kfmaps.surface.geodesics import distance_pairs, geodesic_distances
@@ -76,6 +77,12 @@ def test_what_is_dropped_is_below_the_tolerance_and_what_is_kept_above(rtol, rng
     W = factor.features(X)
     error = np.linalg.norm(Gaussian(0.5)(X, X) - W @ W.T, 2)
     assert error == pytest.approx(values[factor.rank], rel=1e-4, abs=1e-13)
+
+
+def test_farthest_points_of_a_small_pool_are_those_of_all_rows_where_there_are_no_more(rng):
+    """At least four times as many as wanted are chosen from, however small the pool is to be."""
+    X = rng.normal(size=(150, 3))
+    np.testing.assert_array_equal(farthest(X, 40, 0, pool=10), farthest(X, 40, 0, pool=None))
 
 
 # Surfaces.
