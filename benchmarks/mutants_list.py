@@ -78,7 +78,7 @@ MUTANTS = tuple(
         (
             "areas = np.bincount(closest, to_numpy(basis.mass)[candidates], minlength=len(chosen))",
             "areas = np.bincount(closest, minlength=len(chosen)) / len(closest)",
-            "test_maps -k spread",
+            f"{FORMULAS} -k areas_of_samples",
         ),
         ("sign = np.where(p < q, 1.0, -1.0) / 12", "sign = np.where(p < q, 1.0, -1.0) / 6", "test_orientation"),
         ("result[s] = half - half.T", "result[s] = 2 * half", "test_orientation"),

@@ -98,6 +98,17 @@ def test_areas_are_areas():
         assert surface_area(unit_area(mesh)) == pytest.approx(1)
 
 
+def test_areas_of_samples_are_those_of_the_vertices_nearest_to_them(small_basis, rng):
+    """However the area is spread: what is cut into parts counts as it did in one."""
+    uneven = replace(small_basis, mass=small_basis.mass * rng.uniform(0.1, 5, len(small_basis.mass)))
+    samples = spectral_samples(uneven, 30, 0)
+    candidates, embedding = _embedded(uneven)
+    np.testing.assert_array_equal(candidates, np.arange(len(uneven.mass)))
+    gaps = squared_distances(embedding, embedding[samples.vertices])
+    areas = [uneven.mass[gaps.argmin(axis=1) == i].sum() for i in range(30)]
+    np.testing.assert_allclose(samples.basis.mass, areas)
+
+
 @pytest.mark.parametrize("unit", [1e-3, 40.0])
 def test_the_samples_embedding_is_a_distance(unit, rng):
     """Biharmonic distances have the unit of the shape, so that they say something on thin parts as on thick ones."""

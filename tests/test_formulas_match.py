@@ -111,6 +111,11 @@ def test_orientation_and_commutativity_weigh_the_same(shape, other):
     sizes = [sum(np.trace(S) for S in terms[name].sides()) for name in ("orientation", "commutativity")]
     assert sizes[0] == pytest.approx(sizes[1])
     assert sizes[0] > 0
+    # And the identity of a shape is what both want.
+    used = pair_descriptors(shape, shape, (bases[0],) * 2, config.descriptors, NO_LANDMARKS, None)
+    terms = problem(shape, shape, (bases[0],) * 2, used, config, np.random.default_rng(0)).energy.terms
+    for name in ("orientation", "commutativity"):
+        assert value(terms[name], np.eye(K)) == pytest.approx(0, abs=1e-9 * sizes[1])
 
 
 def test_a_constant_more_in_the_features_changes_no_principal_direction(shape, other, rng):
