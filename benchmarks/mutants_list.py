@@ -65,8 +65,18 @@ MUTANTS = tuple(
         ("return Mesh(centred / np.sqrt(area), mesh.faces)", "return Mesh(centred / area, mesh.faces)", FORMULAS),
         ("reach = 1.3 * straight + shortest_edge", "reach = 0 * straight + shortest_edge", f"{FORMULAS} -k farther"),
         ("result = np.where(a == b, 0.0, np.inf)", "result = np.where(a == b, 1.0, np.inf)", "test_geodesics -k pairs"),
-        ("(to_right**2 - to_left**2 + length**2)", "(to_left**2 - to_right**2 + length**2)", "test_geodesics"),
-        ("np.maximum(to_right**2 - along**2, 0)", "np.maximum(to_right**2 + along**2, 0)", "test_geodesics"),
+        (
+            "(to_right**2 - to_left**2 + length**2)",
+            "(to_left**2 - to_right**2 + length**2)",
+            "test_geodesics",
+            "unfolding",
+        ),
+        (
+            "np.maximum(to_right**2 - along**2, 0)",
+            "np.maximum(to_right**2 + along**2, 0)",
+            "test_geodesics",
+            "unfolding",
+        ),
         (
             "_cross(w.low, at) >= 0, _cross(at, w.high) >= 0",
             "_cross(w.low, at) >= 0, _cross(w.low, at) >= 0",
@@ -254,6 +264,7 @@ MUTANTS = tuple(
             "test_automatic -k verdict",
         ),
         ("SLOPE * (score - MIDDLE)", "SLOPE * (MIDDLE - score)", "test_automatic -k verdict"),
+        ("math.exp(-max(margin, 0.0) / TIE)", "math.exp(-max(margin, 0.0) * TIE)", f"{MATCH} -k close_behind"),
         (
             'score -= 0.5 * np.einsum("mik,mik->mi"',
             'score -= 0.4 * np.einsum("mik,mik->mi"',
@@ -269,8 +280,9 @@ MUTANTS = tuple(
         ("self.quality.score - LANDMARK * float(", "self.quality.score - 0 * float(", f"{MATCH} -k landmark"),
         ("decay = np.exp(-values * time)", "decay = np.exp(-2 * values * time)", f"{MATCH} -k landmark"),
         ("scale = [np.sqrt(w / present[0][0])", "scale = [(w / present[0][0])", "test_search -k joined"),
+        ("antisymmetric[1] * scale, parity=-1)", "antisymmetric[1] * scale)", "test_search -k family"),
         # formulations
-        ("2 * d * np.sqrt(e) - d * d)", "2 * d * np.sqrt(e))", "test_formulations -k loss_weight"),
+        ("2 * d * np.sqrt(e) - d * d)", "2 * d * np.sqrt(e))", f"{FORMULAS} -k losses"),
         ("return d / np.sqrt(np.maximum(e, d * d))", "return d / np.maximum(e, d)", "test_formulations -k loss_weight"),
         ("return (d * d / (d * d + e)) ** 2", "return d * d / (d * d + e)", "test_formulations -k loss_weight"),
         (

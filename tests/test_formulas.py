@@ -24,6 +24,7 @@ from kfmaps.functional import nearest as nearest_module
 from kfmaps.functional.cells import nearest_by_cells
 from kfmaps.functional.confidence import local_confidence
 from kfmaps.functional.guide import guide
+from kfmaps.functional.losses import LOSSES, Loss
 from kfmaps.functional.nearest import nearest
 from kfmaps.functional.points import to_points
 from kfmaps.functional.refine import SampledBasis, ZoomOut, fitted
@@ -259,6 +260,19 @@ def test_compression_drops_as_much_as_its_tolerance_allows_and_no_more(strong, r
         assert part <= rtol
         assert len(kept[0]) == 12 - np.count_nonzero(lost <= rtol)
         assert part == pytest.approx(lost[11 - len(kept[0])] if len(kept[0]) < 12 else 0, abs=1e-12)
+
+
+@pytest.mark.parametrize("delta", [0.1, 3.0])
+def test_losses_start_at_zero_and_have_no_steps(delta):
+    for name in LOSSES:
+        loss = Loss(name, delta)
+        e = np.linspace(0, 4 * delta**2, 4001)
+        assert loss.value(e[:1])[0] == pytest.approx(0, abs=3e-3 * delta**2)
+        assert np.diff(loss.value(e)).max() <= loss.weight(e).max() * e[1] * (1 + 1e-9)
+        small = np.array([1e-4 * delta**2])
+        if name in ("huber", "geman"):
+            assert loss.value(small)[0] == pytest.approx(small[0], rel=1e-3)
+        assert (np.diff(loss.value(e)) >= 0).all()
 
 
 @pytest.mark.parametrize("unit", [1e-9, 1e6])

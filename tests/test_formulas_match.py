@@ -23,6 +23,7 @@ from kfmaps.search.candidates import Candidate
 from kfmaps.search.choose import mirror_image
 from kfmaps.search.marks import TIMES, around
 from kfmaps.search.quality import Quality, map_quality, probe
+from kfmaps.search.verdict import probability
 
 K = 20
 CONFIG = Config(
@@ -208,6 +209,15 @@ def test_confidence_follows_from_the_scores(shape):
     right = (1 - 0.5 * np.exp(-margin / 0.1)) / (1 + np.exp(-0.92 * (found.scores[0] + 10.5)))
     assert found.confidence == pytest.approx(right)
     assert (found.verdict == "sure") == (right >= 0.85)
+
+
+def test_a_rival_close_behind_leaves_one_half_and_fades_within_its_margin():
+    """See docs/automatic.md: half where both are as good, and a third of that doubt a tenth of the score further on."""
+    for score in (-12.0, -8.0, 0.0):
+        alone = probability(score, np.inf)
+        assert probability(score, 0.0) == pytest.approx(alone / 2)
+        assert probability(score, 0.1) == pytest.approx(alone * (1 - 0.5 / np.e))
+    assert probability(-10.5, np.inf) == pytest.approx(0.5)
 
 
 def test_measures_of_a_random_map_are_what_their_definitions_say(shape):
