@@ -280,7 +280,6 @@ MUTANTS = tuple(
         ("self.quality.score - LANDMARK * float(", "self.quality.score - 0 * float(", f"{MATCH} -k landmark"),
         ("decay = np.exp(-values * time)", "decay = np.exp(-2 * values * time)", f"{MATCH} -k landmark"),
         ("scale = [np.sqrt(w / present[0][0])", "scale = [(w / present[0][0])", "test_search -k joined"),
-        ("antisymmetric[1] * scale, parity=-1)", "antisymmetric[1] * scale)", "test_search -k family"),
         # formulations
         ("2 * d * np.sqrt(e) - d * d)", "2 * d * np.sqrt(e))", f"{FORMULAS} -k losses"),
         ("return d / np.sqrt(np.maximum(e, d * d))", "return d / np.maximum(e, d)", "test_formulations -k loss_weight"),
