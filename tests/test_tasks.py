@@ -100,7 +100,6 @@ def test_lines_of_a_task_run(page: Path, place: Path) -> None:
     assert page.stem == "pyfm" or {path.name for path in place.iterdir()} > before
 
 
-@pytest.mark.xfail(strict=False, reason="README has its new commands only when this mark is gone")
 def test_lines_of_readme_run(place: Path) -> None:
     """They begin with nothing."""
     for path in place.iterdir():
