@@ -298,7 +298,7 @@ MUTANTS = tuple(
         (
             "self.descriptors.eigenfunctions if spectral else 0, zoom)",
             "zoom)",
-            "test_automatic -k few_eigen",
+            f"{MATCH} -k most_that",
         ),
         ("solver=CG(rtol=1e-12, max_steps=10)", "solver=CG(rtol=1e-12, max_steps=11)", "test_pipeline -k paper"),
         (

@@ -16,6 +16,7 @@ from kfmaps.fit.features import Descriptors, Features, joint_samples, pair_descr
 from kfmaps.fit.problem import orientation_pair, principal, problem
 from kfmaps.fit.shape import Shape, prepare
 from kfmaps.functional.points import to_points
+from kfmaps.functional.refine import ZoomOut
 from kfmaps.functional.terms import slice_term, value
 from kfmaps.kernel.kernels import Gaussian, squared_distances
 from kfmaps.matching import match
@@ -46,6 +47,17 @@ def other() -> Shape:
 
 
 # A fit.
+
+
+@pytest.mark.parametrize(("basis", "descriptors", "stop"), [(20, 60, 40), (70, 60, 40), (20, 60, 80), (20, 60, None)])
+def test_a_shape_has_as_many_functions_as_the_most_that_anything_asks_for(basis, descriptors, stop):
+    asked = replace(
+        CONFIG,
+        basis=BasisConfig(functions=basis),
+        descriptors=replace(CONFIG.descriptors, eigenfunctions=descriptors),
+        refinement=None if stop is None else ZoomOut(stop=stop),
+    )
+    assert asked.eigenfunctions == max(basis, descriptors, stop or 0)
 
 
 @pytest.mark.parametrize("weight", [0.25, 1.0, 9.0])
