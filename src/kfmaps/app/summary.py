@@ -16,6 +16,7 @@ import kfmaps
 from kfmaps._arrays import shown
 from kfmaps.app.evaluation import Accuracy
 from kfmaps.app.files import MapFile, match_map
+from kfmaps.app.files.named import sha256
 from kfmaps.app.words import UNIT, percent
 from kfmaps.config import as_dict
 from kfmaps.fit.fit import Fit
@@ -123,6 +124,9 @@ def map_file(outcome: MatchRun) -> MapFile:
         "n_s": np.int64(len(outcome.meshes[0].vertices)),
         "summary": json.dumps(summary(outcome)),
     }
+    for side, path in zip(("source", "target"), outcome.paths, strict=True):
+        if digest := sha256(path):
+            extra[f"{side}_sha256"] = digest
     if len(outcome.landmarks):
         extra["landmarks"] = outcome.landmarks
     return replace(found, extra={**found.extra, **extra})

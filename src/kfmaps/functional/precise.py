@@ -15,7 +15,7 @@ from kfmaps._arrays import Array, check, namespace, refuse, to_numpy
 from kfmaps._threads import parallel
 from kfmaps.functional.nearest import EXACT_PAIRS, nearest
 from kfmaps.surface.basis import Basis
-from kfmaps.surface.closest import Rings, closest_weights, rings
+from kfmaps.surface.closest import Rings, closest_weights, places_on, rings
 from kfmaps.surface.mesh import Mesh
 
 BLOCK = 256
@@ -232,3 +232,20 @@ def _among_neighbours(
         order = np.argsort(owner, kind="stable")
         best[rows], weights[rows] = _settled(queries, points, faces, lengths, further[order], rows[owner[order]])
     return PointMap(best, weights)
+
+
+def inverse(places: PointMap, source: Mesh, target: Mesh) -> PointMap:
+    """The map the other way: a point on the target for each source vertex.
+
+    The target's faces lie, flat between the images of their corners, on or near the source; each source vertex takes
+    the closest place on them. Where the map is one-to-one that is its inverse; parts that nothing is mapped to get
+    the nearest that something is.
+
+    Raises
+    ------
+    InvalidInput
+        When the map does not fit the two shapes.
+    """
+    places = check_places(places, source, len(target.vertices))
+    found = places_on(source.vertices, points_of(places, source), target.faces)
+    return PointMap(found.faces, found.weights)

@@ -22,9 +22,12 @@ from kfmaps.app.files import (
     write_textured,
     write_values,
 )
+from kfmaps.app.files.export import place_of, write_morph
+from kfmaps.app.files.named import warn_of_change
 from kfmaps.app.pictures import position_colors
+from kfmaps.app.view.results import mesh_path
 
-SHAPES = (".obj", ".ply", ".off")
+SHAPES = (".obj", ".ply", ".off", ".glb")
 MAPS = (".txt", ".vts", ".mat", ".npz")
 MATRICES = (".txt", ".csv", ".npy")
 
@@ -36,12 +39,14 @@ def export(
         typer.Option(
             "-o",
             "--output",
-            help="OBJ (with texture, MTL and picture), PLY or OFF (with colours), .txt, .vts, .mat, .npz.",
+            help="OBJ (texture, MTL and picture), GLB (texture inside), PLY, OFF (colours), .txt, .vts, .mat, .npz.",
             show_default=False,
         ),
     ],
-    source: Annotated[Path | None, typer.Option(help="The source mesh.", show_default=False)] = None,
-    target: Annotated[Path | None, typer.Option(help="The target mesh.", show_default=False)] = None,
+    source: Annotated[
+        Path | None, typer.Option(help="The source mesh; default: the one the map names.", show_default=False)
+    ] = None,
+    target: Annotated[Path | None, typer.Option(help="The same for the target.", show_default=False)] = None,
     picture: Annotated[
         Path | None, typer.Option(help="The source's texture (PNG, JPEG); default: a grid.", show_default=False)
     ] = None,
@@ -51,10 +56,15 @@ def export(
     confidence: Annotated[
         bool, typer.Option("--confidence", help="Write the confidence of each target vertex (.txt, .csv, .npy).")
     ] = False,
+    morph: Annotated[
+        bool, typer.Option("--morph", help="Write the source in the target's shape (GLB: as a morph target).")
+    ] = False,
     force: Annotated[bool, typer.Option("--force", help="Replace existing files.")] = False,
 ) -> None:
     """Write the target with the source's texture or colours, or the map in another format."""
     suffix = output.suffix.lower()
+    if morph and suffix not in SHAPES:
+        raise refuse("--morph", f"an output {' '.join(SHAPES)}", suffix or "no extension", "rename it")
     if functional and confidence:
         raise refuse("export", "--functional or --confidence", "both", "run the command twice")
     formats = MATRICES if functional or confidence else SHAPES + MAPS
@@ -63,8 +73,11 @@ def export(
         raise refuse(f"output {output}", f"one of {' '.join(formats)}", got, "choose one of these")
     check_output(output, force, (map, source, target, picture))
     found = load_map(map)
-    shape_s = None if source is None else read_mesh_file(source)
-    shape_t = None if target is None else read_mesh_file(target)
+    whole = suffix in SHAPES
+    shape_s, shape_t = (
+        _shape(given, found, side, map) if whole or given is not None else None
+        for given, side in ((source, "source"), (target, "target"))
+    )
     _check(found, shape_s, shape_t)
     if functional:
         if found.functional_map is None:
@@ -79,11 +92,24 @@ def export(
         save_map(output, found, force)
     elif shape_s is None or shape_t is None:
         raise refuse("export", "--source and --target for a shape", "not both", "name the two meshes")
-    elif suffix == ".obj":
+    elif morph:
+        bent = found.extra.get("bent")
+        if bent is None:
+            raise refuse(str(map), "a non-rigid fit for --morph", "none", "give the .npz file of a match that kept it")
+        write_morph(output, shape_s, shape_t.mesh, np.asarray(bent), force)
+    elif suffix in (".obj", ".glb"):
         write_textured(output, shape_s, shape_t.mesh, found, picture=picture, force=force)
     else:
         colors = position_colors(shape_s.mesh) if shape_s.colors is None else shape_s.colors
-        write_colored(output, colors, shape_t.mesh, found, force=force)
+        place = place_of(found, shape_s.mesh)
+        write_colored(output, colors, shape_t.mesh, found, place=place, faces_s=shape_s.mesh.faces, force=force)
+
+
+def _shape(given: Path | None, found: MapFile, side: str, map: Path) -> MeshFile:
+    """The shape ``side``, by default the file that the map names."""
+    path = mesh_path(given, found, side, map)
+    warn_of_change(found, side, path)
+    return read_mesh_file(path)
 
 
 def _check(found: MapFile, source: MeshFile | None, target: MeshFile | None) -> None:

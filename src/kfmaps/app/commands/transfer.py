@@ -1,14 +1,22 @@
-"""``kfmaps transfer``: carry per-vertex values over a map."""
+"""``kfmaps transfer``: carry per-vertex values or named points over a map."""
 
 from __future__ import annotations
 
 from pathlib import Path
 from typing import Annotated
 
+import numpy as np
 import typer
 
-from kfmaps.app.files import Values, check_output, load_map, read_values, write_values
+from kfmaps._arrays import refuse
+from kfmaps.app.files import MapFile, Values, check_map, check_output, load_map, read_mesh, read_values, write_values
 from kfmaps.app.files import transfer as carried
+from kfmaps.app.files.export import place_of
+from kfmaps.app.files.named import warn_of_change
+from kfmaps.app.files.named_points import carried_points, read_named_points, write_named_points
+from kfmaps.app.view.results import mesh_path
+from kfmaps.functional.precise import PointMap, at_vertices, inverse
+from kfmaps.surface.mesh import Mesh
 
 
 def transfer(
@@ -21,9 +29,75 @@ def transfer(
         Path,
         typer.Option("-o", "--output", help="A row for each target vertex (.npy, .csv, .txt).", show_default=False),
     ],
+    points: Annotated[
+        bool,
+        typer.Option("--points", help='VALUES are points: "name, vertex" or "name, x, y, z" a row (.csv).'),
+    ] = False,
+    back: Annotated[bool, typer.Option("--back", help="From the target to the source.")] = False,
+    source: Annotated[
+        Path | None, typer.Option(help="The source mesh; default: the one the map names.", show_default=False)
+    ] = None,
+    target: Annotated[Path | None, typer.Option(help="The same for the target.", show_default=False)] = None,
     force: Annotated[bool, typer.Option("--force", help="Replace an existing file.")] = False,
 ) -> None:
-    """Carry a function or labels from the source's vertices to the target's."""
-    check_output(output, force, (map, values))
-    found = read_values(values)
-    write_values(output, Values(carried(found.array, load_map(map)), found.columns), force)
+    """Carry functions, labels or named points from the source to the target, or back."""
+    check_output(output, force)
+    found = load_map(map)
+    if points:
+        _points(found, map, values, output, back, (source, target), force)
+        return
+    given = read_values(values)
+    if back:
+        write_values(output, Values(_back(found, map, given.array, (source, target)), given.columns), force)
+        return
+    faces = None
+    if found.place is not None and given.array.dtype.kind == "f":
+        shape = _shape(found, "source", source, map)
+        place_of(found, shape)
+        faces = shape.faces
+    write_values(output, Values(carried(given.array, found, faces), given.columns), force)
+
+
+def _shape(found: MapFile, side: str, given: Path | None, map: Path) -> Mesh:
+    path = mesh_path(given, found, side, map)
+    warn_of_change(found, side, path)
+    return read_mesh(path)
+
+
+def _both(found: MapFile, map: Path, given: tuple[Path | None, Path | None]) -> tuple[Mesh, Mesh, PointMap]:
+    """Both shapes and the map's points on the source, vertices where it has none inside triangles."""
+    source, target = (_shape(found, side, path, map) for side, path in zip(("source", "target"), given, strict=True))
+    for mesh, side in ((source, "source"), (target, "target")):
+        if len(mesh.faces) == 0:
+            raise refuse(side, "a surface with faces", "a point cloud", "carry values instead, not back")
+    check_map(found, len(source.vertices), len(target.vertices), str(map))
+    return source, target, place_of(found, source) or at_vertices(found.target_to_source, source)
+
+
+def _points(
+    found: MapFile,
+    map: Path,
+    values: Path,
+    output: Path,
+    back: bool,
+    given: tuple[Path | None, Path | None],
+    force: bool,
+) -> None:
+    source, target, place = _both(found, map, given)
+    trust = found.extra.get("local_confidence")
+    confidence = None if trust is None else np.asarray(trust)
+    named = read_named_points(values, target if back else source)
+    write_named_points(output, carried_points(named, source, target, place, confidence, back=back), force)
+
+
+def _back(found: MapFile, map: Path, values: np.ndarray, given: tuple[Path | None, Path | None]) -> np.ndarray:
+    """Values of the target on the source: each source vertex takes those of its own place on the target."""
+    source, target, place = _both(found, map, given)
+    if values.ndim == 0 or len(values) != len(target.vertices):
+        got = f"{len(values)}" if values.ndim else "a single value"
+        raise refuse("values", f"{len(target.vertices)} rows, one per target vertex", got, "are they the target's?")
+    there = inverse(place, source, target)
+    if values.dtype.kind == "f":
+        return np.einsum("ti,ti...->t...", there.weights, values[target.faces[there.faces]])
+    corner = target.faces[there.faces, there.weights.argmax(axis=1)]
+    return values[corner]

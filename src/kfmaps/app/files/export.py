@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import shutil
+import io
 from contextlib import ExitStack
 from pathlib import Path
 from typing import Any
@@ -12,11 +12,13 @@ from scipy.spatial import KDTree
 
 from kfmaps._arrays import check, refuse
 from kfmaps.app.files.atomic import atomic_output
-from kfmaps.app.files.mapfile import check_map
+from kfmaps.app.files.glb import format_glb
+from kfmaps.app.files.mapfile import MapFile, check_map
 from kfmaps.app.files.meshes import write_mesh
 from kfmaps.app.files.obj import format_obj
 from kfmaps.app.files.record import MeshFile
-from kfmaps.surface.mesh import Mesh
+from kfmaps.functional.precise import PointMap, check_places, matrix_of, points_of
+from kfmaps.surface.mesh import Mesh, surface_area
 
 PICTURES = (".png", ".jpg", ".jpeg")
 _CHOICES = 8
@@ -98,27 +100,78 @@ def _squared(p: np.ndarray, q: np.ndarray) -> np.ndarray:
     return ((p[:, :, None] - q[:, None, :]) ** 2).sum(axis=-1)
 
 
+def carried_uv(
+    source: MeshFile, target: Mesh, target_to_source: np.ndarray, place: PointMap | None = None
+) -> tuple[np.ndarray, np.ndarray]:
+    """Texture coordinates of the target, ``uv`` (m, 2) and ``uv_faces`` (f_t, 3), from those of the source.
+
+    With points inside triangles (``place``) each corner has the coordinates of its point; a face over a seam of the
+    texture keeps to one side of it. Without, they are those of the nearest vertices (:func:`carried_uv_faces`). A
+    source without coordinates has those of :func:`projected_uv`.
+    """
+    bare = source.uv is None or source.uv_faces is None
+    uv = projected_uv(source.mesh.vertices) if source.uv is None or bare else source.uv
+    corners_uv = source.mesh.faces if source.uv_faces is None or bare else source.uv_faces
+    snapped = target_to_source[target.faces] if bare else carried_uv_faces(source, target, target_to_source)
+    if place is None:
+        return uv, snapped
+    exact = np.einsum("ti,tij->tj", place.weights, uv[corners_uv[place.faces]])
+
+    def spread(corners: np.ndarray) -> np.ndarray:
+        return ((corners - np.roll(corners, 1, axis=1)) ** 2).sum(axis=(1, 2))
+
+    # A face over a seam would reach across the picture. There it lies in the picture as if the source's face under one
+    # of its corners went on: of the three the one that spreads least, unless the nearest vertices' lie closer still.
+    result = np.concatenate([exact, uv])
+    uv_faces = target.faces.copy()
+    usual = np.median(spread(uv[corners_uv]))
+    seam = np.flatnonzero(spread(exact[target.faces]) > 4 * (np.minimum(spread(uv[snapped]), usual) + usual))
+    if len(seam) == 0:
+        return result, uv_faces
+    images = points_of(place, source.mesh)[target.faces[seam]]  # (b, 3, 3)
+    options = [uv[snapped[seam]]]
+    for i in range(3):
+        under = place.faces[target.faces[seam, i]]
+        triangle = source.mesh.vertices[source.mesh.faces[under]]
+        u, v = triangle[:, 1] - triangle[:, 0], triangle[:, 2] - triangle[:, 0]
+        gap = images - triangle[:, :1]
+        inner = [(a * b).sum(axis=-1) for a, b in ((u, u), (u, v), (v, v))]
+        on_u, on_v = ((gap * edge[:, None]).sum(axis=2) for edge in (u, v))
+        flat = np.maximum(inner[0] * inner[2] - inner[1] ** 2, 1e-12 * inner[0] * inner[2])[:, None]
+        s = (inner[2][:, None] * on_u - inner[1][:, None] * on_v) / flat
+        t = (inner[0][:, None] * on_v - inner[1][:, None] * on_u) / flat
+        corners = uv[corners_uv[under]]
+        options.append(np.einsum("bij,bjk->bik", np.stack([1 - s - t, s, t], axis=2), corners))
+    best = np.argmin([spread(option) for option in options], axis=0)
+    chosen = np.stack(options)[best, np.arange(len(seam))]
+    uv_faces[seam] = len(result) + np.arange(3 * len(seam)).reshape(-1, 3)
+    return np.concatenate([result, chosen.reshape(-1, 2)]), uv_faces
+
+
 def write_textured(
     path: str | Path,
     source: MeshFile,
     target: Mesh,
     target_to_source: Any,
     *,
+    place: PointMap | None = None,
     picture: str | Path | None = None,
     force: bool = False,
 ) -> list[Path]:
-    """Write the target as OBJ with the source's texture on it, and the MTL and picture beside it.
+    """Write the target with the source's texture on it: OBJ with the MTL and picture beside it, or GLB with all in it.
 
     Parameters
     ----------
     path : str or Path
-        ``NAME.obj``; ``NAME.mtl`` and ``NAME.png`` (or the suffix of ``picture``) lie beside it.
+        ``NAME.obj``, with ``NAME.mtl`` and ``NAME.png`` (or the suffix of ``picture``) beside it, or ``NAME.glb``.
     source : MeshFile
         With its texture coordinates; without any they come from :func:`projected_uv`.
     target : Mesh
     target_to_source : (n_t,) int64 or MapFile
+    place : PointMap, optional
+        Points inside triangles; by default those of the map file.
     picture : str or Path, optional
-        The source's texture, PNG or JPEG, copied; by default a coloured grid (:func:`grid_picture`).
+        The source's texture, PNG or JPEG; by default a coloured grid (:func:`grid_picture`).
     force : bool
         Whether existing files may be replaced.
 
@@ -134,8 +187,8 @@ def write_textured(
         format, and as :func:`atomic_output`.
     """
     path = Path(path)
-    if path.suffix.lower() != ".obj":
-        raise refuse(f"output {path}", "the extension .obj", path.suffix or "none", "rename it")
+    if path.suffix.lower() not in (".obj", ".glb"):
+        raise refuse(f"output {path}", "the extension .obj or .glb", path.suffix or "none", "rename it")
     if any(ord(letter) < 32 for letter in path.name):
         raise refuse(f"output {path}", "a printable name", "a control character", "rename it")
     if len(target.faces) == 0:
@@ -143,10 +196,13 @@ def write_textured(
     points = check_map(target_to_source, len(source.mesh.vertices), len(target.vertices))
     if picture is not None and not (Path(picture).is_file() and Path(picture).suffix.lower() in PICTURES):
         raise refuse(f"picture {picture}", f"a file {' '.join(PICTURES)}", "none", "check the name")
-    if source.uv is None:
-        uv, uv_faces = projected_uv(source.mesh.vertices), points[target.faces]
-    else:
-        uv, uv_faces = source.uv, carried_uv_faces(source, target, points)
+    place = place_of(target_to_source, source.mesh) if place is None else check_places(place, source.mesh, len(points))
+    uv, uv_faces = carried_uv(source, target, points, place)
+    if path.suffix.lower() == ".glb":
+        content, kind = _picture(picture)
+        with atomic_output(path, force) as temporary:
+            temporary.write_bytes(format_glb(target, uv=uv, uv_faces=uv_faces, picture=(content, kind)))
+        return [path]
 
     material = path.with_suffix(".mtl")
     image = path.with_suffix(".png" if picture is None else Path(picture).suffix)
@@ -155,20 +211,46 @@ def write_textured(
     with ExitStack() as files:  # renamed in reverse order, the OBJ file that names the others last
         files.enter_context(atomic_output(path, force)).write_bytes(content)
         files.enter_context(atomic_output(material, force)).write_text("\n".join(lines), encoding="utf-8")
-        temporary = files.enter_context(atomic_output(image, force))
-        if picture is None:
-            from matplotlib.image import imsave
-
-            imsave(temporary, grid_picture())
-        else:
-            shutil.copyfile(picture, temporary)
+        files.enter_context(atomic_output(image, force)).write_bytes(_picture(picture)[0])
     return [path, material, image]
 
 
+def _picture(picture: str | Path | None) -> tuple[bytes, str]:
+    """The bytes of a picture, by default of the grid, and their media type."""
+    if picture is not None:
+        return Path(picture).read_bytes(), "image/png" if Path(picture).suffix.lower() == ".png" else "image/jpeg"
+    from matplotlib.image import imsave
+
+    buffer = io.BytesIO()
+    imsave(buffer, grid_picture(), format="png")
+    return buffer.getvalue(), "image/png"
+
+
+def place_of(found: Any, source: Mesh) -> PointMap | None:
+    """The points inside triangles of a map file, where it has any; checked.
+
+    Raises
+    ------
+    InvalidInput
+        When they are not on ``source``.
+    """
+    place = found.place if isinstance(found, MapFile) else None
+    return None if place is None else check_places(place, source, len(found.target_to_source))
+
+
 def write_colored(
-    path: str | Path, colors: np.ndarray, target: Mesh, target_to_source: Any, *, force: bool = False
+    path: str | Path,
+    colors: np.ndarray,
+    target: Mesh,
+    target_to_source: Any,
+    *,
+    place: PointMap | None = None,
+    faces_s: np.ndarray | None = None,
+    force: bool = False,
 ) -> None:
-    """Write the target (PLY, OFF or OBJ) with the colours (n_s, 3), sRGB from 0 to 1, of the source's vertices.
+    """Write the target (PLY, OFF, OBJ or GLB) with the colours (n_s, 3), sRGB from 0 to 1, of the source's vertices.
+
+    With points inside triangles, ``place`` on ``faces_s`` (f_s, 3), colours are mixed between the corners.
 
     Raises
     ------
@@ -178,4 +260,29 @@ def write_colored(
     colors = np.asarray(colors)
     check(colors, "colors", shape=(None, 3), remedy="give one colour per source vertex")
     points = check_map(target_to_source, len(colors), len(target.vertices))
-    write_mesh(path, target, colors=colors[points], force=force)
+    mixed = colors[points]
+    if place is not None and faces_s is not None:
+        mixed = np.clip(matrix_of(place, faces_s, len(colors)) @ colors, 0, 1)
+    write_mesh(path, target, colors=mixed, force=force)
+
+
+def morphed(source: Mesh, target: Mesh, bent: np.ndarray) -> Mesh:
+    """The source's triangulation in the target's shape and place; ``bent`` (n_s, 3) as a map file has it."""
+    scale = np.sqrt(surface_area(target))
+    return Mesh(bent * scale + target.vertices.mean(axis=0), source.faces)
+
+
+def write_morph(path: str | Path, source: MeshFile, target: Mesh, bent: np.ndarray, force: bool = False) -> None:
+    """Write the source in the target's shape: as a morph target of the source (GLB), else the bent mesh alone."""
+    check(np.asarray(bent), "bent", shape=(len(source.mesh.vertices), 3), remedy="check that the map is the source's")
+    moved = morphed(source.mesh, target, bent)
+    if Path(path).suffix.lower() != ".glb":
+        write_mesh(path, moved, colors=source.colors, force=force)
+        return
+    with atomic_output(path, force) as temporary:
+        # Both in one place and size, so that the morph bends and does not travel.
+        scale = np.sqrt(surface_area(source.mesh) / surface_area(target))
+        ends = scale * (moved.vertices - moved.vertices.mean(axis=0)) + source.mesh.vertices.mean(axis=0)
+        temporary.write_bytes(
+            format_glb(source.mesh, source.colors, uv=source.uv, uv_faces=source.uv_faces, morph=ends)
+        )

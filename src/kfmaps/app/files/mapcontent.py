@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Mapping
 from typing import Any
 
@@ -71,6 +72,20 @@ def checked_extra(extra: Mapping[str, Any], n_t: int, n_s: int | None) -> dict[s
                 found[name] = values
             case "raw_functional_map" | "map_back":
                 found[name] = check(real(value, title), title, shape=(None, None), remedy=REPAIR).astype(np.float64)
+            case "place_faces":
+                found[name] = vertex_numbers(check(real(value, title), title, shape=(n_t,), remedy=REPAIR), title, None)
+            case "place_weights":
+                weights = check(real(value, title), title, shape=(n_t, 3), remedy=REPAIR).astype(np.float64)
+                if len(weights) and (weights.min() < 0 or np.abs(weights.sum(axis=1) - 1).max() > 1e-6):
+                    raise refuse(title, "numbers of at least 0 with sum 1 in each row", "others", REPAIR)
+                found[name] = weights
+            case "bent":
+                rows = check(real(value, title), title, shape=(n_s, 3), remedy=REPAIR)
+                found[name] = rows.astype(np.float64)
+            case "source_sha256" | "target_sha256":
+                if not isinstance(value, str) or not re.fullmatch("[0-9a-f]{64}", value):
+                    raise refuse(title, "64 hexadecimal digits", _kind(value), REPAIR)
+                found[name] = value
             case "source" | "target":
                 found[name] = _path(value, title)
             case "summary":

@@ -21,14 +21,15 @@ from kfmaps.app.files.mapcontent import checked_extra, json_text, real
 from kfmaps.app.files.matfile import read_mat
 from kfmaps.app.files.numbers import read_vertex_numbers, write_vertex_numbers
 from kfmaps.app.files.text import REPAIR, read_bytes
+from kfmaps.functional.precise import PointMap
 
 if TYPE_CHECKING:
     from kfmaps.matching import Match
 
 FORMATS = (".npz", ".txt", ".vts", ".mat")
 
-VERTEX_NUMBERS = ("target_to_source", "raw_target_to_source", "runners_up", "landmarks")
-"""The arrays that hold vertex numbers, which a .mat file counts from 1."""
+VERTEX_NUMBERS = ("target_to_source", "raw_target_to_source", "runners_up", "landmarks", "place_faces")
+"""The arrays that hold numbers of vertices or faces, which a .mat file counts from 1."""
 
 LARGEST = 1 << 28
 """Numbers that a map file may hold: 2 GiB of them, a map of 30 million vertices with all that is known of it."""
@@ -53,7 +54,10 @@ class MapFile:
         The settings as JSON text; empty when unknown.
     extra : dict
         Further arrays of numbers and texts by name. Names that are in use: ``runners_up`` (c, n_t) int64,
-        ``confidence`` (one number), ``local_confidence`` (n_t,) float64, ``landmarks`` (l, 2) int64, ``n_s`` (how
+        ``confidence`` (one number), ``local_confidence`` (n_t,) float64, ``landmarks`` (l, 2) int64,
+        ``place_faces`` (n_t,) int64 and ``place_weights`` (n_t, 3) float64 (points inside the source's triangles),
+        ``bent`` (n_s, 3) float64 (the source's vertices on the target at unit area), ``source_sha256`` and
+        ``target_sha256`` (of the files), ``n_s`` (how
         many vertices the source has), ``source``, ``target`` (paths) and ``summary`` (JSON text).
     """
 
@@ -96,6 +100,14 @@ class MapFile:
         if value.size != 1 or value.dtype.kind not in "iuf" or not 0 < value.item() < 2**53:
             raise refuse("extra n_s", "one whole number above 0", repr(self.extra["n_s"]), REPAIR)
         return int(value.item())
+
+    @property
+    def place(self) -> PointMap | None:
+        """Points inside the source's triangles, where the file has them."""
+        faces, weights = self.extra.get("place_faces"), self.extra.get("place_weights")
+        if faces is None or weights is None:
+            return None
+        return PointMap(np.asarray(faces), np.asarray(weights))
 
 
 def check_map(target_to_source: Any, n_s: int | None = None, n_t: int | None = None, name: str = "map") -> np.ndarray:
@@ -143,6 +155,10 @@ def match_map(match: Match) -> MapFile:
     if match.source_to_target is not None and match.map_back is not None:
         extra |= {"source_to_target": match.source_to_target, "map_back": match.map_back}
     extra["local_confidence"] = match.local_confidence
+    if match.place is not None:
+        extra |= {"place_faces": match.place.faces, "place_weights": match.place.weights}
+    if match.bent is not None:
+        extra["bent"] = match.bent
     config = json.dumps(as_dict(match.config))
     return MapFile(
         match.target_to_source, match.functional_map, match.eigenvalues_s, match.eigenvalues_t, config, extra

@@ -9,6 +9,7 @@ import numpy as np
 
 from kfmaps._arrays import KfmapsWarning, check, refuse, shown
 from kfmaps.app.files.atomic import atomic_output, check_output
+from kfmaps.app.files.glb import format_glb
 from kfmaps.app.files.gltf import parse_gltf
 from kfmaps.app.files.obj import format_obj, parse_obj
 from kfmaps.app.files.off import format_off, parse_off
@@ -30,7 +31,7 @@ READERS = {
     ".gltf": parse_gltf,
     ".xyz": parse_xyz,
 }
-WRITERS = {".off": format_off, ".obj": format_obj, ".ply": format_ply}
+WRITERS = {".off": format_off, ".obj": format_obj, ".ply": format_ply, ".glb": format_glb}
 
 LARGEST = 1e70
 """Coordinates beyond this overflow in areas and are refused; no unit makes them meaningful."""

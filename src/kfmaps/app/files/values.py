@@ -38,7 +38,7 @@ class Values:
     columns: tuple[str, ...] | None = None
 
 
-def transfer(values_s: Any, target_to_source: Any) -> np.ndarray:
+def transfer(values_s: Any, target_to_source: Any, faces_s: np.ndarray | None = None) -> np.ndarray:
     """Carry values from the vertices of the source to those of the target.
 
     Parameters
@@ -47,11 +47,14 @@ def transfer(values_s: Any, target_to_source: Any) -> np.ndarray:
         Functions, labels, colours: anything with a row per source vertex.
     target_to_source : (n_t,) int64 or MapFile
         A source vertex for each target vertex.
+    faces_s : (f_s, 3) int64, optional
+        The source's faces: with those, functions (floating numbers) are mixed between the corners of the points inside
+        triangles that the map file has. Labels and whole numbers are those of the nearest vertex.
 
     Returns
     -------
     (n_t, ...) array
-        Of the same dtype: row j is ``values_s[target_to_source[j]]``.
+        Of the same dtype: row j is ``values_s[target_to_source[j]]``, or the mean of three rows.
 
     Raises
     ------
@@ -66,7 +69,17 @@ def transfer(values_s: Any, target_to_source: Any) -> np.ndarray:
     if n_s not in (None, len(values)):
         wanted = f"{n_s} rows, one per source vertex"
         raise refuse("values", wanted, str(len(values)), "check that they are the source's")
-    return values[check_map(target_to_source, n_s=len(values))]
+    points = check_map(target_to_source, n_s=len(values))
+    place = target_to_source.place if isinstance(target_to_source, MapFile) else None
+    if place is None or faces_s is None or values.dtype.kind != "f":
+        return values[points]
+    corners = values[faces_s[place.faces]]
+    mixed = np.einsum("ti,ti...->t...", place.weights, np.where(np.isfinite(corners), corners, 0.0))
+    # A corner without a finite value makes none of the mean; one of weight 0 has no say.
+    unknown = (~np.isfinite(corners) & (place.weights > 0).reshape(*place.weights.shape, *[1] * (values.ndim - 1))).any(
+        axis=1
+    )
+    return np.where(unknown, values[points], mixed).astype(values.dtype)
 
 
 def read_values(path: str | Path) -> Values:

@@ -1,0 +1,194 @@
+"""Things carried through points inside triangles: values, named points, colours, textures, and another shape."""
+
+import json
+import types
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import kfmaps
+from commandline import run
+from kfmaps import datasets
+from kfmaps.app.files import MapFile, MeshFile, load_map, read_mesh_file, read_values, save_map, write_mesh
+from kfmaps.app.files.export import carried_uv, projected_uv
+from kfmaps.app.files.glb import format_glb
+from kfmaps.app.files.gltf import parse_gltf
+from kfmaps.app.files.named import sha256
+from kfmaps.functional.precise import PointMap, inverse, points_of
+from kfmaps.surface.mesh import Mesh, unit_area
+
+
+@pytest.fixture(scope="module")
+def made(tmp_path_factory: pytest.TempPathFactory) -> types.SimpleNamespace:
+    """A map with points inside triangles, known exactly, between files that it names."""
+    folder = tmp_path_factory.mktemp("carried")
+    pair = datasets.two_poses(1500, rng=2)
+    paths = {side: folder / f"{side}.ply" for side in ("source", "target")}
+    write_mesh(paths["source"], pair.source)
+    write_mesh(paths["target"], pair.target)
+    extra = {
+        "place_faces": pair.truth_faces,
+        "place_weights": pair.truth_weights,
+        "local_confidence": np.linspace(0, 1, len(pair.truth)),
+        "bent": 2 * pair.source.vertices,
+        "n_s": np.int64(len(pair.source.vertices)),
+        **{side: str(path) for side, path in paths.items()},
+        **{f"{side}_sha256": sha256(path) for side, path in paths.items()},
+    }
+    save_map(folder / "map.npz", MapFile(pair.truth, extra=extra))
+    place = PointMap(pair.truth_faces, pair.truth_weights)
+    return types.SimpleNamespace(folder=folder, pair=pair, place=place, paths=paths, map=folder / "map.npz")
+
+
+def test_coordinates_are_carried_finer_than_vertices(made: types.SimpleNamespace, tmp_path: Path) -> None:
+    np.save(tmp_path / "x.npy", made.pair.source.vertices)
+    run("transfer", made.map, tmp_path / "x.npy", "-o", tmp_path / "y.npy")
+    np.testing.assert_allclose(np.load(tmp_path / "y.npy"), points_of(made.place, made.pair.source), atol=1e-12)
+    labels = np.arange(len(made.pair.source.vertices))
+    np.save(tmp_path / "labels.npy", labels)
+    run("transfer", made.map, tmp_path / "labels.npy", "-o", tmp_path / "carried.npy")
+    np.testing.assert_array_equal(np.load(tmp_path / "carried.npy"), made.pair.truth)
+
+
+def test_there_and_back_is_where_it_was(made: types.SimpleNamespace, tmp_path: Path) -> None:
+    np.save(tmp_path / "y.npy", made.pair.target.vertices)
+    run("transfer", made.map, tmp_path / "y.npy", "--back", "-o", tmp_path / "x.npy")
+    there = inverse(made.place, made.pair.source, made.pair.target)
+    np.testing.assert_allclose(np.load(tmp_path / "x.npy"), points_of(there, made.pair.target), atol=1e-12)
+    images = points_of(made.place, made.pair.source)
+    again = np.einsum("ti,tij->tj", there.weights, images[made.pair.target.faces[there.faces]])
+    off = np.linalg.norm(again - made.pair.source.vertices, axis=1) / np.sqrt(
+        kfmaps.surface.mesh.surface_area(made.pair.source)
+    )
+    assert np.median(off) < 0.005
+
+
+def test_named_points_go_both_ways(made: types.SimpleNamespace, tmp_path: Path) -> None:
+    """By vertex and by place; there and back a point is nearly where it was, in the mesh's unit."""
+    source = made.pair.source
+    chosen = np.array([3, 400, 900])
+    rows = [f"p{v},{v}" for v in chosen]
+    (tmp_path / "a.csv").write_text("\n".join(["name,vertex", *rows]) + "\n")
+    run("transfer", made.map, tmp_path / "a.csv", "--points", "-o", tmp_path / "b.csv")
+    lines = (tmp_path / "b.csv").read_text().splitlines()
+    assert lines[0] == "name,vertex,x,y,z,confidence"
+    there = [line.split(",") for line in lines[1:]]
+    assert [row[0] for row in there] == ["p3", "p400", "p900"]
+    assert all(0 <= float(row[5]) <= 1 for row in there)
+    (tmp_path / "c.csv").write_text("\n".join(",".join([row[0], *row[2:5]]) for row in there) + "\n")
+    run("transfer", made.map, tmp_path / "c.csv", "--points", "--back", "-o", tmp_path / "d.csv")
+    back = np.array([line.split(",")[2:5] for line in (tmp_path / "d.csv").read_text().splitlines()[1:]], dtype=float)
+    size = np.sqrt(kfmaps.surface.mesh.surface_area(source))
+    assert np.linalg.norm(back - source.vertices[chosen], axis=1).max() < 0.02 * size
+
+
+@pytest.mark.parametrize("text", ["a,1\na,2\n", "a,1,2\n", "a,999999\n", "a,1.5\n", "", "a,1\nb\n", "a,nan\n"])
+def test_wrong_points_are_refused(made: types.SimpleNamespace, tmp_path: Path, text: str) -> None:
+    (tmp_path / "a.csv").write_text(text)
+    ran = run("transfer", made.map, tmp_path / "a.csv", "--points", "-o", tmp_path / "b.csv")
+    assert ran.status != 0
+    assert "wanted" in ran.stderr
+    assert not (tmp_path / "b.csv").exists()
+
+
+def test_a_picture_travels_inside_a_glb_and_no_shape_is_named(made: types.SimpleNamespace, tmp_path: Path) -> None:
+    run("export", made.map, "-o", tmp_path / "b.glb")
+    data = (tmp_path / "b.glb").read_bytes()
+    found = read_mesh_file(tmp_path / "b.glb")
+    assert len(found.mesh.faces) == len(made.pair.target.faces)
+    assert found.uv is not None
+    corners = found.mesh.vertices[found.mesh.faces]
+    np.testing.assert_allclose(corners, made.pair.target.vertices[made.pair.target.faces], rtol=1e-6, atol=1e-6)
+    size = int.from_bytes(data[12:16], "little")
+    tree = json.loads(data[20 : 20 + size])
+    view = tree["bufferViews"][tree["images"][0]["bufferView"]]
+    picture = data[28 + size + view["byteOffset"] :][: view["byteLength"]]
+    assert picture.startswith(b"\x89PNG")
+
+
+def test_the_texture_lies_where_the_points_do(made: types.SimpleNamespace) -> None:
+    """Coordinates mixed in triangles, not those of vertices; a face over a seam keeps to one side of it."""
+    source = made.pair.source
+    uv, uv_faces = carried_uv(MeshFile(source), made.pair.target, made.pair.truth, made.place)
+    span = np.ptp(source.vertices, axis=0)
+    exact = projected_uv(np.vstack([points_of(made.place, source), source.vertices]))[: len(made.pair.truth)]
+    assert span.max() > 0
+    kept = uv_faces < len(exact)
+    assert kept.mean() > 0.95
+    np.testing.assert_allclose(uv[uv_faces][kept], exact[made.pair.target.faces][kept], atol=1e-9)
+    # The same picture cut in two: the upper half moved far away in it.
+    up = source.vertices[source.faces].mean(axis=1)[:, 1] > np.median(source.vertices[:, 1])
+    n = len(source.vertices)
+    cut = MeshFile(
+        source,
+        uv=np.vstack([projected_uv(source.vertices), projected_uv(source.vertices) + 10]),
+        uv_faces=source.faces + n * up[:, None],
+    )
+    uv, uv_faces = carried_uv(cut, made.pair.target, made.pair.truth, made.place)
+    reach = np.ptp(uv[uv_faces], axis=1).max(axis=1)
+    assert reach.max() < 1  # the halves are 10 apart
+
+
+def test_a_changed_file_is_told(made: types.SimpleNamespace, tmp_path: Path) -> None:
+    found = load_map(made.map)
+    extra = {**found.extra, "target_sha256": "0" * 64}
+    save_map(tmp_path / "map.npz", MapFile(found.target_to_source, extra=extra))
+    assert "has changed" in run("export", tmp_path / "map.npz", "-o", tmp_path / "b.ply").stderr
+    assert "changed" not in run("export", made.map, "-o", tmp_path / "c.ply").stderr
+    colors = read_mesh_file(tmp_path / "b.ply").colors
+    assert colors is not None
+    assert len(np.unique(colors, axis=0)) > 100
+
+
+def test_the_source_morphs_into_the_target(made: types.SimpleNamespace, tmp_path: Path) -> None:
+    run("export", made.map, "--morph", "-o", tmp_path / "m.glb")
+    data = (tmp_path / "m.glb").read_bytes()
+    tree = json.loads(data[20 : 20 + int.from_bytes(data[12:16], "little")])
+    assert tree["meshes"][0]["weights"] == [0.0]
+    assert len(tree["meshes"][0]["primitives"][0]["targets"]) == 1
+    run("export", made.map, "--morph", "-o", tmp_path / "m.ply")
+    bent = read_mesh_file(tmp_path / "m.ply").mesh
+    np.testing.assert_array_equal(bent.faces, made.pair.source.faces)
+    inside = (bent.vertices - made.pair.target.vertices.mean(axis=0)) / np.sqrt(
+        kfmaps.surface.mesh.surface_area(made.pair.target)
+    )
+    np.testing.assert_allclose(inside, 2 * made.pair.source.vertices, atol=1e-9)
+
+
+def test_map_files_keep_points_and_refuse_wrong_ones(made: types.SimpleNamespace, tmp_path: Path) -> None:
+    found = load_map(made.map)
+    for suffix in (".npz", ".mat"):
+        save_map(tmp_path / f"m{suffix}", found)
+        place = load_map(tmp_path / f"m{suffix}").place
+        assert place is not None
+        np.testing.assert_array_equal(place.faces, made.place.faces)
+        np.testing.assert_allclose(place.weights, made.place.weights)
+    for wrong in (
+        {"place_weights": made.place.weights * 2},
+        {"place_faces": made.place.faces[1:]},
+        {"source_sha256": "short"},
+        {"bent": np.zeros((3, 2))},
+    ):
+        with pytest.raises(kfmaps.InvalidInput):
+            MapFile(found.target_to_source, extra={**found.extra, **wrong})
+
+
+def test_glb_keeps_colours_and_shape() -> None:
+    mesh = unit_area(datasets.sphere(200, rng=0))
+    colors = np.random.default_rng(0).uniform(size=(len(mesh.vertices), 3))
+    found = parse_gltf(format_glb(mesh, colors), "x.glb")
+    np.testing.assert_array_equal(found.mesh.faces, mesh.faces)
+    np.testing.assert_allclose(found.mesh.vertices, mesh.vertices, atol=1e-6)
+    assert found.colors is not None
+    assert format_glb(Mesh(mesh.vertices, np.zeros((0, 3)))).startswith(b"glTF")
+
+
+def test_values_of_text_files_are_carried_too(made: types.SimpleNamespace, tmp_path: Path) -> None:
+    n = len(made.pair.source.vertices)
+    (tmp_path / "a.csv").write_text("height\n" + "".join(f"{i}.5\n" for i in range(n)))
+    run("transfer", made.map, tmp_path / "a.csv", "-o", tmp_path / "b.csv")
+    found = read_values(tmp_path / "b.csv")
+    assert found.columns == ("height",)
+    wanted = np.einsum("ti,ti->t", made.place.weights, made.pair.source.faces[made.place.faces] + 0.5)
+    np.testing.assert_allclose(found.array, wanted)
