@@ -16,7 +16,7 @@ from kfmaps.app.files.glb import format_glb
 from kfmaps.app.files.gltf import parse_gltf
 from kfmaps.app.files.named import sha256
 from kfmaps.functional.precise import PointMap, inverse, points_of
-from kfmaps.surface.mesh import Mesh, unit_area
+from kfmaps.surface.mesh import Mesh, surface_area, unit_area
 
 
 @pytest.fixture(scope="module")
@@ -58,9 +58,7 @@ def test_there_and_back_is_where_it_was(made: types.SimpleNamespace, tmp_path: P
     np.testing.assert_allclose(np.load(tmp_path / "x.npy"), points_of(there, made.pair.target), atol=1e-12)
     images = points_of(made.place, made.pair.source)
     again = np.einsum("ti,tij->tj", there.weights, images[made.pair.target.faces[there.faces]])
-    off = np.linalg.norm(again - made.pair.source.vertices, axis=1) / np.sqrt(
-        kfmaps.surface.mesh.surface_area(made.pair.source)
-    )
+    off = np.linalg.norm(again - made.pair.source.vertices, axis=1) / np.sqrt(surface_area(made.pair.source))
     assert np.median(off) < 0.005
 
 
@@ -79,7 +77,7 @@ def test_named_points_go_both_ways(made: types.SimpleNamespace, tmp_path: Path) 
     (tmp_path / "c.csv").write_text("\n".join(",".join([row[0], *row[2:5]]) for row in there) + "\n")
     run("transfer", made.map, tmp_path / "c.csv", "--points", "--back", "-o", tmp_path / "d.csv")
     back = np.array([line.split(",")[2:5] for line in (tmp_path / "d.csv").read_text().splitlines()[1:]], dtype=float)
-    size = np.sqrt(kfmaps.surface.mesh.surface_area(source))
+    size = np.sqrt(surface_area(source))
     assert np.linalg.norm(back - source.vertices[chosen], axis=1).max() < 0.02 * size
 
 
@@ -150,9 +148,7 @@ def test_the_source_morphs_into_the_target(made: types.SimpleNamespace, tmp_path
     run("export", made.map, "--morph", "-o", tmp_path / "m.ply")
     bent = read_mesh_file(tmp_path / "m.ply").mesh
     np.testing.assert_array_equal(bent.faces, made.pair.source.faces)
-    inside = (bent.vertices - made.pair.target.vertices.mean(axis=0)) / np.sqrt(
-        kfmaps.surface.mesh.surface_area(made.pair.target)
-    )
+    inside = (bent.vertices - made.pair.target.vertices.mean(axis=0)) / np.sqrt(surface_area(made.pair.target))
     np.testing.assert_allclose(inside, 2 * made.pair.source.vertices, atol=1e-9)
 
 
