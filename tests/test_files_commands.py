@@ -176,7 +176,7 @@ def test_exports_that_do_not_fit(folder: Path) -> None:
     swapped = ("--source", folder / "b.off", "--target", folder / "a.off")
     for more, name, part in (
         (source + target, "o.stl", "one of .obj .ply"),
-        (source, "o.obj", "--source and --target"),
+        (source, "o.obj", "give --target FILE"),
         (swapped, "o.txt", "check that the map belongs"),
         (swapped, "o.ply", "check that the map belongs"),
         ((), "none/o.txt", "existing folder"),
