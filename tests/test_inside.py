@@ -6,6 +6,7 @@ import warnings
 
 import numpy as np
 import pytest
+from scipy.sparse.csgraph import dijkstra
 
 from conftest import blob
 from kfmaps._arrays import InvalidInput, KfmapsWarning
@@ -21,6 +22,7 @@ from kfmaps.surface.geodesics import METHODS, distance_pairs, geodesic_distances
 from kfmaps.surface.inside import SPECK, inside, representatives
 from kfmaps.surface.mesh import Mesh, surface_area
 from kfmaps.surface.topology import topology
+from kfmaps.surface.unfolding import surface_graph
 
 SMALL = Config(
     basis=BasisConfig(functions=20),
@@ -202,6 +204,21 @@ def test_specks_are_told_by_their_part_of_the_area() -> None:
         assert (part.specks, part.loose.sum()) == (specks, 4 * specks)
     leaves = joined(*(placed(TETRAHEDRON, 1.0, (3.0 * i, 0, 0)) for i in range(400)))
     assert inside(leaves, specks=True).mesh is leaves  # equals of each other
+
+
+def test_the_graph_of_a_cut_surface_is_that_of_the_whole() -> None:
+    mesh = blob(200)
+    pieces, was = soup(mesh)
+    for depth in (0, 2):
+        whole, cut = (dijkstra(surface_graph(m, depth)) for m in (mesh, pieces))
+        np.testing.assert_allclose(cut, whole[np.ix_(was, was)], rtol=1e-12, atol=1e-300)
+
+
+def test_edges_of_no_length_connect_nothing() -> None:
+    """Two needles that touch in the place of their short edges."""
+    vertices = np.array([[0.0, 0, 0], [0, 0, 0], [1, 0, 0], [0, 0, 0], [0, 0, 0], [0, 1, 0]])
+    needles = Mesh(vertices, np.array([[0, 1, 2], [3, 4, 5]]))
+    np.testing.assert_array_equal(representatives(needles), [0, 0, 2, 3, 3, 5])
 
 
 def test_a_shape_that_is_clean_is_worked_on_as_it_is() -> None:

@@ -145,13 +145,29 @@ def test_faces_without_area_do_little_harm(mesh: Mesh, laplacian: str) -> None:
 @pytest.mark.parametrize("laplacian", LAPLACIANS)
 @pytest.mark.parametrize(("speck", "size"), [(blob(300), 1e-4), (blob(12), 1e-5)])
 def test_a_floating_speck_only_adds_a_zero(laplacian: str, speck: Mesh, size: float) -> None:
-    mesh = unit_area(blob(1500))
+    mesh = blob(1500)
     both = Mesh(
-        np.concatenate([mesh.vertices, size * speck.vertices + 3]), np.concatenate([mesh.faces, speck.faces + 1500])
+        np.concatenate([mesh.vertices, size * speck.vertices + np.array([3.0, 0, 0])]),
+        np.concatenate([mesh.faces, speck.faces + 1500]),
     )
-    one, other = laplace_basis(mesh, 60, laplacian), laplace_basis(both, 61, laplacian)
+    one, other = laplace_basis(mesh, 99, laplacian), laplace_basis(both, 100, laplacian)
     assert abs(other.eigenvalues[1]) < 1e-3  # the speck's constant, of the order of what its mass was raised by
     np.testing.assert_allclose(other.eigenvalues[2:], one.eigenvalues[1:], rtol=1e-6)
+
+
+def test_thin_faces_count_as_ones_with_longer_edges() -> None:
+    for corners in (
+        [[0, 0, 0], [1, 0, 0], [0.3, 1e-9, 0]],
+        [[0, 0, 0], [1, 0, 0], [1, 1e-8, 0]],
+        [[0, 0, 0], [2, 0, 0], [2, 0, 0]],
+    ):
+        thin = np.array(corners, dtype=float)
+        a, b, c = (np.linalg.norm(thin[i] - thin[j]) for i, j in ((1, 2), (2, 0), (0, 1)))
+        a, b, c = np.array([a, b, c]) + 1e-6 * max(a, b, c)
+        x = (b**2 + c**2 - a**2) / (2 * c)
+        longer = np.array([[0, 0, 0], [c, 0, 0], [x, np.sqrt(b**2 - x**2), 0]])
+        one, other = (cotangent_laplacian(Mesh(v, np.array([[0, 1, 2]]))).toarray() for v in (thin, longer))
+        np.testing.assert_allclose(one, other, rtol=1e-3)
 
 
 @pytest.mark.parametrize("height", [1e-4, 3e-6, 1e-7, 0.0])
