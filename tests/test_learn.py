@@ -14,7 +14,7 @@ from kfmaps._arrays import InvalidInput, MissingDependency, NotConverged
 from kfmaps.app.files import write_mesh
 from kfmaps.app.settings.merge import read_settings
 from kfmaps.app.settings.toml import settings_text
-from kfmaps.config import BasisConfig, Config, DescriptorConfig, NystromConfig, Weights
+from kfmaps.config import BasisConfig, Config, DescriptorConfig, Formulation, NystromConfig, Weights
 from kfmaps.fit.shape import prepare
 from kfmaps.kernel.kernels import Gaussian, Laplacian, Linear, Polynomial, gram, resolved
 from kfmaps.kernel.lifted import Metric
@@ -106,12 +106,14 @@ def test_it_begins_as_the_settings_it_was_given(lessons):
     assert model.settings().weights.descriptors == pytest.approx(CONFIG.weights.descriptors)
 
 
-def test_the_map_is_that_of_a_match(shapes):
+@pytest.mark.parametrize("formulation", [Formulation(), Formulation(mask="resolvent")], ids=["squared", "resolvent"])
+def test_the_map_is_that_of_a_match(formulation, shapes):
     """The whole way, with as many samples: descriptors, features, energy, minimiser."""
+    base = replace(CONFIG, formulation=formulation)
     known = partners(0, 1)
     marks = np.array([[known[v], v] for v in (5, 120)])
-    each = lesson(shapes[0], shapes[1], CONFIG, landmarks=marks, samples=200)
-    model = shaken(Model(CONFIG, [each], ["ard", "terms"]))
+    each = lesson(shapes[0], shapes[1], base, landmarks=marks, samples=200)
+    model = shaken(Model(base, [each], ["ard", "terms"]))
     with torch.no_grad():
         C = functional_map(model, each, EXACT)
     config = replace(model.settings(), solver=EXACT, nystrom=NystromConfig(samples=200, rtol=1e-9))
@@ -264,6 +266,8 @@ def test_pairs_must_be_alike(shapes, lessons):
         lesson(shapes[0], shapes[1], CONFIG, truth=(np.arange(30), np.arange(31)))
     with pytest.raises(InvalidInput, match="orientation"):
         taught(shapes, 0, 1, replace(CONFIG, weights=Weights(orientation=1.0)))
+    with pytest.raises(InvalidInput, match="quadratic in one map"):
+        taught(shapes, 0, 1, replace(CONFIG, formulation=Formulation(constraint="orthogonal")))
     bad: list[dict[str, Any]] = [{"losses": {}}, {"losses": {"wits": 1.0}}, {"rate": 0.0}, {"epochs": 0}, {"decay": -1}]
     for wrong in bad:
         with pytest.raises(InvalidInput, match="wanted"):

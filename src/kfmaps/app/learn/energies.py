@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping
 
 import torch
 
+from kfmaps.config import Formulation
 from kfmaps.functional.energy import Energy, Term, descriptor_term, laplacian_term, slice_term
 from kfmaps.surface.basis import Basis
 
@@ -65,6 +66,7 @@ def pair_energy(
     W_t: torch.Tensor,
     weights: Mapping[str, torch.Tensor | float],
     compression: float = 0.0,
+    asked: Formulation = Formulation(),  # noqa: B008
 ) -> Energy:
     """The energy of features ``(n_s, r)``, ``(n_t, r)``, of terms whose weights may be tensors.
 
@@ -74,11 +76,13 @@ def pair_energy(
         Of ``descriptors``, ``commutativity`` and ``laplacian``; a term that is not named, or of weight 0, is left out.
     compression : float
         Part of the features' weight that may be left out of commutativity; 0 keeps the gradient exact.
+    asked : Formulation
+        Of which the mask of the Laplacian term counts.
     """
     given = {name: weight for name, weight in weights.items() if bool(weight > 0)}
     terms: dict[str, Term] = {}
     if "laplacian" in given:
-        terms["laplacian"] = laplacian_term(source, target)
+        terms["laplacian"] = laplacian_term(source, target, mask=asked.mask, power=asked.mask_power)
     if "descriptors" in given:
         terms["descriptors"] = descriptor_term(source, W_s, target, W_t)
     if "commutativity" in given:

@@ -25,7 +25,8 @@ def functional_map(model: Model, lesson: Lesson, solver: CG, compression: float 
     """The map ``C (k, k)`` that minimises the model's energy of a pair, differentiable in its parameters."""
     lifted = [model.lift(D) for D in (lesson.descriptors_s, lesson.descriptors_t, lesson.samples)]
     W_s, W_t = features(model.matrix, *lifted)
-    energy = pair_energy(lesson.source, lesson.target, W_s, W_t, model.weights(), compression)
+    asked = model.config.formulation
+    energy = pair_energy(lesson.source, lesson.target, W_s, W_t, model.weights(), compression, asked)
     return minimiser(energy, solver).C
 
 

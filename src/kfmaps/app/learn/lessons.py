@@ -9,7 +9,7 @@ import numpy as np
 import torch
 
 from kfmaps._arrays import check, refuse, to_numpy
-from kfmaps.config import Config
+from kfmaps.config import Config, Formulation
 from kfmaps.fit.features import pair_descriptors
 from kfmaps.fit.fit import checked_landmarks
 from kfmaps.fit.shape import Shape, reduced
@@ -111,6 +111,10 @@ def lesson(
     if config.weights.orientation or config.exact:
         got = "an orientation term" if config.weights.orientation else "the exact kernel"
         raise refuse("settings to learn from", "features and the terms of the paper", got, "leave it out")
+    asked = config.formulation
+    if replace(Formulation(), mask=asked.mask, mask_power=asked.mask_power) != asked:
+        remedy = "leave the formulation out but for its mask"
+        raise refuse("settings to learn from", "an energy that is quadratic in one map", repr(asked), remedy)
     draw = np.random.default_rng(rng)
     pairs = checked_landmarks(landmarks, source, target)
     parts = [reduced(shape, config.fit_samples, pairs[:, i]) for i, shape in enumerate((source, target))]
