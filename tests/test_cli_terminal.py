@@ -234,6 +234,11 @@ def test_no_command_writes_to_a_device(words: tuple[str, ...], tmp_path: Path, m
     assert Path("/dev/null").is_char_device()
 
 
+@pytest.mark.skipif(not Path("/dev/zero").exists(), reason="no devices here")
+def test_settings_from_a_device_that_never_ends() -> None:
+    assert "a device" in run("config", "--config", "/dev/zero").error
+
+
 @pytest.mark.parametrize(
     ("words", "told"),
     [

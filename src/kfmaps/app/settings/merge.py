@@ -30,6 +30,8 @@ def read_settings(path: str | Path, base: Config) -> Config:
         When the file is missing or no TOML, and on names and values that are not settings.
     """
     try:
+        if Path(path).is_char_device():  # one like /dev/zero never ends
+            raise refuse(f"--config {path}", "a settings file", "a device", "check the path")
         learned = Path(path).suffix == SUFFIX
         text = read_learned(path)["settings"] if learned else Path(path).read_bytes().decode("utf-8-sig")
     except (OSError, UnicodeDecodeError) as error:
