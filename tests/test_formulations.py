@@ -3,6 +3,8 @@
 On small random problems with every array library; the whole match is in test_formulations_fit.py.
 """
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -142,12 +144,21 @@ def robust(case, name, width=0.5):
     return data.scaled(E.rhs(), width)
 
 
+def relative(case):
+    sizes = np.array([1.0, 4.0, 0.1, 30.0])
+    return replace(robust(case, "huber"), sizes=sizes).scaled(case[-1].rhs(), 0.5)
+
+
 def penalties(case):
     *_, E = case
-    return {**{name: robust(case, name) for name in LOSSES}, "sparse": sparse(E.rhs(), 1e-2)}
+    return {
+        "relative": relative(case),
+        **{name: robust(case, name) for name in LOSSES},
+        "sparse": sparse(E.rhs(), 1e-2),
+    }
 
 
-@pytest.mark.parametrize("name", [*LOSSES, "sparse"])
+@pytest.mark.parametrize("name", [*LOSSES, "sparse", "relative"])
 def test_majorizer_touches_from_above(case, name):
     penalty = penalties(case)[name]
     *_, E = case

@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+import kfmaps
 from conftest import blob
 from kfmaps._arrays import InvalidInput
 from kfmaps.app.files import load_map, save_map
@@ -242,6 +243,9 @@ def test_functions_are_carried_beyond_the_basis(shape, other, truth, marks):
     np.testing.assert_allclose(found.transfer(f[:, 0], 12), better[:, 0])
     with pytest.raises(InvalidInput, match="values"):
         found.transfer(f[:-1])
+    public = kfmaps.match(shape, other, replace(SMALL, refinement=ZoomOut(8, 30, 4)), landmarks=marks)
+    np.testing.assert_array_equal(public.transfer(f, products=12), better)
+    np.testing.assert_array_equal(public.transfer(f), f[public.target_to_source])
 
 
 def test_settings_that_contradict_each_other_are_refused():

@@ -80,9 +80,13 @@ class Match(matching.Match):
         """Write the map (.npz, .mat, .txt, .vts): short for :func:`kfmaps.save_map`."""
         save_map(path, _with_size(self), force)
 
-    def transfer(self, values: Any) -> np.ndarray:
-        """Carry ``values (n_s, ...)`` to the target's vertices, (n_t, ...): short for :func:`kfmaps.transfer`."""
-        return transfer(values, self)
+    def transfer(self, values: Any, products: int | None = None) -> np.ndarray:
+        """Carry ``values (n_s, ...)`` to the target's vertices, (n_t, ...): short for :func:`kfmaps.transfer`.
+
+        With ``products`` the values are functions, which the functional map carries instead of the points, and with it
+        products of that many of its first functions (:func:`kfmaps.functional.extended.carried`).
+        """
+        return transfer(values, self) if products is None else matching.Match.transfer(self, values, products)
 
     def inverse(self) -> np.ndarray:
         """A target vertex for each source vertex, (n_s,) int64.

@@ -92,7 +92,10 @@ def objective(
         assert plain is not None
         F = (task.features.source, task.features.target)
         P = [basis.project(f) for basis, f in zip(bases, F[::-1] if reverse else F, strict=True)]
-        data = RobustData(P[0], P[1], np.arange(P[0].shape[1]), Loss(asked.loss)).scaled(plain, asked.loss_width)
+        # Features of a kernel differ in size by orders of magnitude: the loss is of their relative residuals.
+        sizes = to_numpy(P[0] * P[0]).sum(axis=0) + to_numpy(P[1] * P[1]).sum(axis=0)
+        data = RobustData(P[0], P[1], np.arange(len(sizes)), Loss(asked.loss), sizes=np.maximum(sizes, 1e-300))
+        data = data.scaled(plain, asked.loss_width)
         energy = energy.without("descriptors")
         penalties["descriptors"] = (config.weights.descriptors, data)
     if asked.sparsity:

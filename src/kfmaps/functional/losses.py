@@ -21,7 +21,7 @@ All are concave in ``e``, which is what makes the reweighted term lie above them
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal, Protocol
 
 import numpy as np
@@ -89,7 +89,7 @@ class Loss:
 
 @dataclass(frozen=True, eq=False)
 class RobustData:
-    """``½ Σ_g ρ(Σ_{i in g} ‖C p_i − q_i‖² + ν ‖C X_i − Y_i C‖²)``: preservation and commutativity by groups of data.
+    """``½ Σ_g s_g ρ(e_g / s_g)``, ``e_g = Σ_{i in g} ‖C p_i − q_i‖² + ν ‖C X_i − Y_i C‖²``: data by groups.
 
     Attributes
     ----------
@@ -102,6 +102,8 @@ class RobustData:
         Symmetric, ``X_i`` and ``Y_i``.
     commutativity : float
         ``ν``.
+    sizes : (g,) float64 or None
+        ``s_g``, for a loss of relative residuals; ``None`` is 1 for all.
     """
 
     coefficients_s: Array
@@ -111,24 +113,17 @@ class RobustData:
     slices_s: Array | None = None
     slices_t: Array | None = None
     commutativity: float = 0.0
+    sizes: np.ndarray | None = None
 
     def residuals(self, C: Array) -> np.ndarray:
-        """Squared residuals ``e`` of the groups ``0, 1, …``, (g,)."""
-        return self._grouped(self._columns(C))
+        """Squared residuals ``e / s`` of the groups ``0, 1, …``, (g,)."""
+        return self._relative(self._grouped(self._columns(C)))
 
     def scaled(self, C: Array, width: float) -> RobustData:
         """The same with ``delta`` at ``width`` times the median residual of the groups at ``C``."""
         e = self.residuals(C)
         delta = width * float(np.sqrt(np.median(e))) if len(e) else 1.0
-        return RobustData(
-            self.coefficients_s,
-            self.coefficients_t,
-            self.groups,
-            Loss(self.loss.name, max(delta, 1e-150)),
-            self.slices_s,
-            self.slices_t,
-            self.commutativity,
-        )
+        return replace(self, loss=Loss(self.loss.name, max(delta, 1e-150)))
 
     def weights(self, C: Array) -> np.ndarray:
         """The weight of each column at ``C``, (r,), from 0 to 1 but for "l21"."""
@@ -137,7 +132,9 @@ class RobustData:
 
     def value(self, C: Array) -> float:
         e = self._columns(C)
-        return 0.5 * float(self.loss.value(self._grouped(e)).sum() + e[self.groups < 0].sum())
+        losses = self.loss.value(self._relative(self._grouped(e)))
+        losses = losses if self.sizes is None else self.sizes * losses
+        return 0.5 * float(losses.sum() + e[self.groups < 0].sum())
 
     def majorizer(self, C: Array) -> Term:
         w = like(self.weights(C), self.coefficients_s)
@@ -150,6 +147,9 @@ class RobustData:
         root = namespace(w).sqrt(w)[:, None, None]
         terms = {"data": data, "slices": slice_term(root * self.slices_s, root * self.slices_t)}
         return Energy(terms, {"data": 1.0, "slices": self.commutativity})
+
+    def _relative(self, e: np.ndarray) -> np.ndarray:
+        return e if self.sizes is None else e / self.sizes
 
     def _columns(self, C: Array) -> np.ndarray:
         xp = namespace(C)
