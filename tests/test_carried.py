@@ -188,3 +188,21 @@ def test_values_of_text_files_are_carried_too(made: types.SimpleNamespace, tmp_p
     assert found.columns == ("height",)
     wanted = np.einsum("ti,ti->t", made.place.weights, made.pair.source.faces[made.place.faces] + 0.5)
     np.testing.assert_allclose(found.array, wanted)
+
+
+def test_evaluate_measures_points_in_triangles(made: types.SimpleNamespace, tmp_path: Path) -> None:
+    """Against vertices that are the nearest to the truth: their points are off by that rounding and no more."""
+    found = json.loads(run("evaluate", made.map, "--json", *truth_files(made, tmp_path)).stdout)
+    assert found["mean"] == 0
+    assert 0 < found["precise"]["mean"] < 0.02
+    assert found["smoothness"]["flipped"] < 0.05
+    assert found["smoothness"]["coverage"] > 0.9
+    shown = run("evaluate", made.map, *truth_files(made, tmp_path)).stdout
+    assert "points in triangles" in shown
+    assert "turned over" in shown
+
+
+def truth_files(made: types.SimpleNamespace, folder: Path) -> list[object]:
+    np.savetxt(folder / "s.txt", made.pair.truth, fmt="%d")
+    np.savetxt(folder / "t.txt", np.arange(len(made.pair.truth)), fmt="%d")
+    return ["--truth", folder / "s.txt", folder / "t.txt"]

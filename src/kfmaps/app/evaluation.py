@@ -5,7 +5,7 @@ from __future__ import annotations
 import csv
 import io
 import math
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
@@ -13,7 +13,18 @@ import numpy as np
 
 from kfmaps._arrays import refuse
 from kfmaps.app.files import atomic_output, check_map, read_vertex_numbers
-from kfmaps.functional.evaluate import Evaluation, coverage, error_curve, evaluation, geodesic_errors, truth_from_pairs
+from kfmaps.functional.evaluate import (
+    Evaluation,
+    Smoothness,
+    coverage,
+    error_curve,
+    evaluation,
+    geodesic_errors,
+    place_errors,
+    smoothness,
+    truth_from_pairs,
+)
+from kfmaps.functional.precise import PointMap
 from kfmaps.surface.mesh import Mesh
 
 THRESHOLDS = np.linspace(0.0, 0.25, 251)
@@ -98,17 +109,26 @@ def check_truth(truth: Truth, source: Mesh, n_t: int) -> Truth:
 
 @dataclass(frozen=True, eq=False)
 class Accuracy:
-    """How good a map is: its errors, those against the mirrored truth, and what part of the source it reaches."""
+    """How good a map is: its errors, those against the mirrored truth, and what part of the source it reaches.
+
+    ``precise``: the errors of points inside triangles; ``smooth``: whether the map tears or folds; where known.
+    """
 
     errors: Evaluation
     mirrored: Evaluation | None
     coverage: float
+    precise: Evaluation | None = None
+    smooth: Smoothness | None = None
 
     def as_dict(self) -> dict[str, Any]:
         """Plain numbers for JSON, errors in units of √area, ``None`` for infinite ones."""
         found = {**_numbers(self.errors), "points": len(self.errors.errors), "coverage": self.coverage}
         if self.mirrored is not None:
             found["mirrored"] = _numbers(self.mirrored)
+        if self.precise is not None:
+            found["precise"] = _numbers(self.precise)
+        if self.smooth is not None:
+            found["smoothness"] = asdict(self.smooth)
         return found
 
 
@@ -117,8 +137,18 @@ def _numbers(errors: Evaluation) -> dict[str, float | None]:
     return {name: value if math.isfinite(value := getattr(errors, name)) else None for name in names}
 
 
-def assessed(source: Mesh, target_to_source: np.ndarray, truth: Truth) -> Accuracy:
+def assessed(
+    source: Mesh,
+    target_to_source: np.ndarray,
+    truth: Truth,
+    *,
+    place: PointMap | None = None,
+    target: Mesh | None = None,
+) -> Accuracy:
     """Compare a map with the truth; geodesic errors on ``source`` in units of √area.
+
+    With points inside triangles (``place``) their errors are measured too, not snapped; with the ``target``, of which
+    both are surfaces, how smooth the map is.
 
     Raises
     ------
@@ -133,7 +163,15 @@ def assessed(source: Mesh, target_to_source: np.ndarray, truth: Truth) -> Accura
         return evaluation(geodesic_errors(source, predicted, truth.source))
 
     mirrored = None if truth.mirrored is None else errors(truth.mirrored)
-    return Accuracy(errors(truth.target), mirrored, coverage(target_to_source, source))
+    precise = smooth = None
+    # A vertex that no face uses lies in no triangle.
+    if place is not None and np.isin(truth.source, source.faces).all():
+        at = PointMap(place.faces[truth.target], place.weights[truth.target])
+        precise = evaluation(place_errors(source, at, truth.source))
+    whole = place is not None or bool(np.isin(target_to_source, source.faces).all())
+    if target is not None and len(target.faces) and whole:
+        smooth = smoothness(source, target, target_to_source if place is None else place)
+    return Accuracy(errors(truth.target), mirrored, coverage(target_to_source, source), precise, smooth)
 
 
 def write_curve(path: Path, errors: Evaluation, label: str, force: bool = False) -> None:

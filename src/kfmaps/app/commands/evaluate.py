@@ -8,12 +8,14 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from kfmaps._arrays import refuse
+from kfmaps._arrays import InvalidInput, refuse
 
 if TYPE_CHECKING:
     from rich.table import Table
 
     from kfmaps.app.evaluation import Accuracy
+    from kfmaps.app.files import MapFile
+    from kfmaps.surface.mesh import Mesh
 
 CURVES = (".csv", ".png", ".svg", ".pdf")
 
@@ -48,6 +50,7 @@ def evaluate(
     """Print the geodesic error of a map, by the Princeton protocol, in per cent of √area."""
     from kfmaps.app.evaluation import assessed, known_truth, write_curve
     from kfmaps.app.files import check_map, check_output, load_map
+    from kfmaps.app.files.export import place_of
     from kfmaps.app.view.results import map_mesh
 
     if curve is not None:
@@ -61,9 +64,9 @@ def evaluate(
     shape = map_mesh(source, found, "source", map)
     known = known_truth(truth, identity, shape, len(found.target_to_source), symmetric)
     assert known is not None
-    n_t = None if target is None else len(map_mesh(target, found, "target", map).vertices)
-    check_map(found, len(shape.vertices), n_t, str(map))
-    accuracy = assessed(shape, found.target_to_source, known)
+    other = _target(target, found, map)
+    check_map(found, len(shape.vertices), None if other is None else len(other.vertices), str(map))
+    accuracy = assessed(shape, found.target_to_source, known, place=place_of(found, shape), target=other)
     if curve is not None:
         write_curve(curve, accuracy.errors, map.stem, force)
     if json:
@@ -72,6 +75,19 @@ def evaluate(
     from kfmaps.app.terminal import Terminal
 
     Terminal().print(_table(accuracy))
+
+
+def _target(given: Path | None, found: MapFile, map: Path) -> Mesh | None:
+    """The target, as given or as the map names it; ``None`` where it does not, or the file is gone or another."""
+    from kfmaps.app.view.results import map_mesh
+
+    if given is not None:
+        return map_mesh(given, found, "target", map)
+    try:
+        mesh = map_mesh(None, found, "target", map)
+    except InvalidInput:
+        return None
+    return mesh if len(mesh.vertices) == len(found.target_to_source) else None
 
 
 def _table(accuracy: Accuracy) -> Table:
@@ -83,6 +99,8 @@ def _table(accuracy: Accuracy) -> Table:
     table = Table(caption=f"errors in {UNIT}: per cent of the square root of the source's area", caption_justify="left")
     table.add_column("")
     sides = [("error", accuracy.errors)]
+    if accuracy.precise is not None:
+        sides = [("vertices", accuracy.errors), ("points in triangles", accuracy.precise)]
     if accuracy.mirrored is not None:
         sides.append(("against the mirrored truth", accuracy.mirrored))
     for name, _ in sides:
@@ -93,6 +111,13 @@ def _table(accuracy: Accuracy) -> Table:
     table.add_row("points without error", *(f"{100 * e.exact:.1f} %" for _, e in sides))
     table.add_row("points compared", *(f"{len(e.errors):,}" for _, e in sides))
     table.add_row("source covered", f"{100 * accuracy.coverage:.1f} %", *([""] * (len(sides) - 1)))
+    if accuracy.smooth is not None:
+        for name, value in (
+            ("source covered, with neighbours", accuracy.smooth.coverage),
+            ("target's area turned over", accuracy.smooth.flipped),
+            ("edges stretched or shrunk twofold", accuracy.smooth.stretched),
+        ):
+            table.add_row(name, *[""] * (1 if accuracy.precise is not None else 0), f"{100 * value:.1f} %")
     if accuracy.mirrored is not None and accuracy.mirrored.mean < accuracy.errors.mean:
         table.add_row("", "left and right are swapped", style="bold red")
     return table
