@@ -8,12 +8,13 @@ import pytest
 from conftest import blob
 from kfmaps.config import BasisConfig, Config, NystromConfig, Search
 from kfmaps.fit.fit import fit
-from kfmaps.fit.shape import prepare
+from kfmaps.fit.shape import prepare, reduced
 from kfmaps.functional.guide import guide
 from kfmaps.functional.points import nearest
 from kfmaps.functional.refine import ZoomOut
 from kfmaps.functional.solvers import CG
 from kfmaps.matching import match
+from kfmaps.search import candidates, fits
 from kfmaps.search.arena import arena, differences, ground, without
 from kfmaps.search.candidates import LANDMARK, again, fine, judged
 from kfmaps.search.choose import Found, choose, closing
@@ -89,6 +90,23 @@ def test_a_family_makes_the_maps_that_single_fits_make(shape, other):
         assert C.shape == (chosen.functions, chosen.functions)
         alone = fit(shape, other, replace(settings, basis=BasisConfig(functions=chosen.functions)), rng=3)
         assert np.linalg.norm(C - alone.functional_map) < 0.03 * np.linalg.norm(C)
+
+
+def test_the_points_of_the_fits_come_from_the_seed(shape, other, monkeypatch):
+    asked = []
+
+    def spy(*arguments):
+        asked.append(arguments[-1])
+        return sampled(*arguments)
+
+    monkeypatch.setattr(candidates, "sampled", spy)
+    for seed in (7, 0):
+        choose(shape, other, SMALL, rng=seed)
+    assert asked == [7, 0]
+    monkeypatch.setattr(fits, "POINTS", 300)
+    none = np.zeros((0, 2), dtype=np.int64)
+    expected = reduced(shape, 300, none[:, 0], 7).shape.mesh.vertices
+    np.testing.assert_array_equal(sampled(shape, other, none, None, 7).shapes[0].mesh.vertices, expected)
 
 
 def test_the_orientation_of_a_family_turns_its_maps(shape, other):

@@ -105,18 +105,20 @@ def candidates(
     *,
     landmarks: np.ndarray | None = None,
     descriptors: tuple[Any, Any] | None = None,
+    drawn: int = 0,
     report: Report | None = None,
 ) -> list[Candidate]:
     """Refined candidates, in no order.
 
-    ``landmarks (l, 2)`` take part in the fits; elsewhere it is the arena that knows of them.
+    ``landmarks (l, 2)`` take part in the fits; elsewhere it is the arena that knows of them. ``drawn`` is the seed of
+    the points that the fits are made from, ``seed`` that of everything else.
     """
     assert config.search is not None
     told = report or (lambda _done: None)
     functions = min(len(source.basis.eigenvalues), len(target.basis.eigenvalues))
     marks = np.zeros((0, 2), dtype=np.int64) if landmarks is None else landmarks
     starts = from_signs(min(config.search.signs, functions - 1), on.few)
-    starts += from_fits(source, target, config, on, marks, descriptors, seed)
+    starts += from_fits(source, target, config, on, marks, descriptors, seed, drawn)
     told(0.35)
     found = rough(starts, on.few, functions, config.threads)
     told(0.7)
@@ -157,12 +159,13 @@ def from_fits(
     landmarks: np.ndarray,
     descriptors: tuple[Any, Any] | None,
     seed: int,
+    drawn: int,
 ) -> list[Start]:
     """Small kernel fits, each to be refined from several sizes and with several weights of the descriptors."""
     surfaces = bool(len(source.mesh.faces) and len(target.mesh.faces))
     fits = planned(config, surfaces)
     families = list(dict.fromkeys(fit.family for fit in fits))
-    points = sampled(source, target, landmarks, descriptors)
+    points = sampled(source, target, landmarks, descriptors, drawn)
     cubes = on.whole.source.orientation, on.whole.target.orientation
     weights = _told_apart(FROM_FITS, on.few)
 

@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 
-from kfmaps._arrays import refuse
+from kfmaps._arrays import refuse, seed_of
 from kfmaps._progress import Progress
 from kfmaps._threads import parallel
 from kfmaps.config import Config
@@ -118,7 +118,8 @@ def choose(
     """
     if config.search is None:
         raise refuse("search", "settings of a search", "None", "use Config.automatic()")
-    seed = int(np.random.default_rng(rng).integers(2**31))
+    given = seed_of(rng)
+    seed = int(np.random.default_rng(given).integers(2**31))
     report = progress or (lambda _stage, _done: None)
     pairs = checked_landmarks(landmarks, source, target)
     sides = ((source, pairs[:, 0]), (target, pairs[:, 1]))
@@ -133,6 +134,7 @@ def choose(
         seed,
         landmarks=pairs,
         descriptors=descriptors,
+        drawn=given,
         report=lambda done: report("candidates", 0.1 + 0.9 * done),
     )
     ranked = distinct(found, probes[0])

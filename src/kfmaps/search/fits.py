@@ -75,8 +75,10 @@ class Sampled:
     given: tuple[Any, Any] | None
 
 
-def sampled(source: Shape, target: Shape, landmarks: np.ndarray, given: tuple[Any, Any] | None) -> Sampled:
-    parts = [reduced(shape, POINTS, landmarks[:, i]) for i, shape in enumerate((source, target))]
+def sampled(
+    source: Shape, target: Shape, landmarks: np.ndarray, given: tuple[Any, Any] | None, rng: int = 0
+) -> Sampled:
+    parts = [reduced(shape, POINTS, landmarks[:, i], rng) for i, shape in enumerate((source, target))]
     rows = None
     if given is not None:
         values = [to_numpy(g) if hasattr(g, "shape") else np.asarray(g) for g in given]
