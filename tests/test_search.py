@@ -226,7 +226,7 @@ def test_a_large_shape_is_judged_on_a_coarse_copy(monkeypatch):
 def test_a_mirrored_shape_is_told_from_a_kept_one(shape, other):
     """Left and right bones: the answer says which one was found, and keeps orientation where either would do."""
     image = Mesh(blob(650, twist=0.4).vertices * [1.0, 1.0, -1.0], blob(650).faces[:, ::-1])
-    either = replace(SMALL, search=replace(SMALL.search, orientation="either"))
+    either = replace(SMALL, search=Search(candidates=2, signs=3, orientation="either"))
     reversed_one = match(shape, prepare(image, SMALL, name="image"), either)
     moved = shape.mesh.vertices[reversed_one.target_to_source] * [1, 1, -1] - unit_area(image).vertices
     assert reversed_one.orientation == "reversed"
