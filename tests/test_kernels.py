@@ -20,7 +20,7 @@ from kfmaps.kernel.kernels import (
     resolved,
     squared_distances,
 )
-from kfmaps.kernel.lifted import Metric, Network, Scaled
+from kfmaps.kernel.lifted import Metric, Network, Scaled, width
 
 KERNELS = [
     Linear(),
@@ -132,6 +132,14 @@ def test_automatic_gamma_is_one_over_the_median_squared_distance(rng):
 def test_identical_descriptors_do_not_break_the_automatic_gamma():
     kernel: Any = resolved(Gaussian(), np.ones((5, 2)))
     assert np.isfinite(kernel.gamma)
+
+
+def test_how_many_descriptors_a_kernel_takes():
+    metric = Metric(Gaussian(1.0), (1.0, 2.0))
+    assert width(Gaussian()) is None
+    assert width(metric) == width(Scaled(metric, 2.0)) == width(Sum(Linear(), Product(metric, Linear()))) == 2
+    assert width(Metric(metric, ((1.0, 2.0, 3.0), (0.0, 0.0, 1.0)))) == 3
+    assert width(Network(Gaussian(), (((1.0, 2.0, 3.0),),))) == 2
 
 
 @pytest.mark.parametrize(

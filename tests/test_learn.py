@@ -14,7 +14,7 @@ from kfmaps._arrays import InvalidInput, MissingDependency, NotConverged
 from kfmaps.app.files import write_mesh
 from kfmaps.app.settings.merge import read_settings
 from kfmaps.app.settings.toml import settings_text
-from kfmaps.config import BasisConfig, Config, DescriptorConfig, Formulation, NystromConfig, Weights
+from kfmaps.config import BasisConfig, Config, DescriptorConfig, Formulation, NystromConfig, Search, Weights
 from kfmaps.fit.shape import prepare
 from kfmaps.kernel.kernels import Gaussian, Laplacian, Linear, Polynomial, gram, resolved
 from kfmaps.kernel.lifted import Metric
@@ -193,6 +193,24 @@ def test_it_learns_stops_and_resumes_alike(lessons, tmp_path):
         torch.testing.assert_close(rest.best[name], tensor, rtol=0, atol=0)
         torch.testing.assert_close(dict(resumed.named_parameters())[name].detach(), tensor, rtol=0, atol=0)
     assert len(learning_figure(rest.history).axes) == 2
+
+
+def test_without_landmarks():
+    """A kernel learned from descriptors alone serves the search, whose small fits have other descriptors."""
+    config = Config(
+        basis=BasisConfig(functions=20),
+        descriptors=DescriptorConfig(count=10, eigenfunctions=30, shot=True, shot_radius=0.3),
+        nystrom=NystromConfig(samples=40),
+        refinement=None,
+        search=Search(candidates=1, signs=0),
+    )
+    source, target = (prepare(blob(n, twist), config, name="blob") for n, twist in SIZES[:2])
+    each = lesson(source, target, config, samples=30)
+    model = Model(config, [each], ["metric"], rank=3)
+    learn(model, [each], [], Training({"coupling": 1.0}, epochs=1))
+    found = match(source, target, model.settings())
+    assert found.target_to_source.shape == (SIZES[1][0],)
+    assert isinstance(found.config.kernel, Metric)
 
 
 def test_patience(lessons):

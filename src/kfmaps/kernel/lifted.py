@@ -135,6 +135,16 @@ KERNELS: tuple[type, ...] = (*kernels.KERNELS, Metric, Network, Scaled)
 """Every kernel that a settings file can name."""
 
 
+def width(kernel: KernelLike) -> int | None:
+    """How many descriptors ``kernel`` takes; ``None`` when it takes any number."""
+    if isinstance(kernel, Metric):
+        return int(np.shape(kernel.matrix)[-1])
+    if isinstance(kernel, Network) and not kernel.columns:
+        return len(kernel.layers[0][0]) - 1
+    inside = [getattr(kernel, name) for name in ("kernel", "a", "b") if hasattr(kernel, name)]
+    return next((found for found in map(width, inside) if found is not None), None)
+
+
 def forward(layers: tuple[Array, ...], X: Array) -> Array:
     """``(n, out)`` outputs of a network for rows ``X (n, in)``; its ``layers`` as in :class:`Network`."""
     xp = namespace(X)

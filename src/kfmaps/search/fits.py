@@ -20,6 +20,8 @@ from kfmaps.fit.shape import Shape, reduced
 from kfmaps.fit.solve import minimiser
 from kfmaps.functional.slices import compressed, condensed, packed_slices, unpacked_slices
 from kfmaps.functional.solvers import CG
+from kfmaps.kernel.kernels import Gaussian
+from kfmaps.kernel.lifted import width
 from kfmaps.surface.basis import Basis
 
 POINTS = 2000
@@ -106,8 +108,11 @@ def fitted_family(
     size = min(max(f.functions for f in fits), *(b.functions.shape[1] for b in bases))
     low = (bases[0].truncated(size), bases[1].truncated(size))
     # Both directions at once are for the answer; a candidate is refined one way.
+    # A kernel learned for other descriptors has nothing to say about these.
+    suits = width(config.kernel) in (None, used.source.shape[1])
     small = replace(
         config,
+        kernel=config.kernel if suits else Gaussian(),
         nystrom=replace(config.nystrom, samples=min(NYSTROM, config.nystrom.samples)),
         exact=False,
         solver=SOLVER,
