@@ -21,7 +21,7 @@ def carried(
     source: Basis,
     target: Basis,
     products: int | None = 20,
-    ridge: float = 1e-3,
+    ridge: float = 0.1,
 ) -> Array:
     """The images ``(n_t, d)`` on the target of functions ``values (n_s, d)`` on the source.
 
