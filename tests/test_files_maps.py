@@ -304,13 +304,14 @@ def zeros_mat(names: int, megabytes: int) -> bytes:
     return head + names * element
 
 
+@pytest.mark.parametrize("sizes", [(64, 1), (1, 64)])
 @pytest.mark.parametrize(("suffix", "packed"), [(".npz", zeros_npz), (".mat", zeros_mat)])
 def test_sizes_are_looked_at_before_memory_is_taken(
-    tmp_path: Path, suffix: str, packed: Any, monkeypatch: pytest.MonkeyPatch
+    tmp_path: Path, suffix: str, packed: Any, sizes: tuple[int, int], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Kilobytes of file that unpack to much more than a map has: refused with a small part of it unpacked."""
     monkeypatch.setattr("kfmaps.app.files.mapfile.LARGEST", 1 << 20)
-    content = packed(64, 1)
+    content = packed(*sizes)
     assert len(content) < 1 << 17
     tracemalloc.start()
     told = refused(tmp_path / f"m{suffix}", content)
