@@ -33,10 +33,10 @@ TIMEOUT = 300
 ROOMS = {
     "kernel": "test_kernels test_nystrom test_formulas",
     "surface": "test_formulas test_geodesics test_spectrum test_orientation test_eigensolver test_maps test_topology "
-    "test_scale test_clouds test_inside",
+    "test_scale test_clouds test_inside test_precise",
     "descriptors": "test_formulas test_shot test_formulas_match",
     "functional": "test_formulas test_energy test_maps test_solvers test_preconditioners test_guided test_confidence "
-    "test_formulations test_rounding",
+    "test_formulations test_rounding test_precise",
     "fit": "test_formulas_match test_pipeline test_rounding test_scale test_formulations_fit",
     "search": "test_formulas_match test_rounding test_search test_automatic",
     "config": "test_pipeline test_settings",
