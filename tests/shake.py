@@ -103,10 +103,14 @@ def _moved(original: Callable[..., Any], seed: int) -> Callable[..., Any]:
 
 
 def _own_factor(values: np.ndarray, seed: int) -> np.ndarray:
-    """Numbers near one, by a hash of each value: equal numbers, such as those of a vertex given twice, stay equal."""
+    """Numbers near one, by a hash of each value: equal numbers, such as those of a vertex given twice, stay equal.
+
+    Whole numbers, such as a kernel's 1 between equal rows, come out the same everywhere and stay.
+    """
     bits = np.ascontiguousarray(values, dtype=np.float64).view(np.uint64)
     mixed = (bits ^ np.uint64(seed)) * np.uint64(0x9E3779B97F4A7C15)
-    return 1 + 1e-15 * (2.0 * (mixed >> np.uint64(11)).astype(np.float64) / 2**53 - 1)
+    moves = 2.0 * (mixed >> np.uint64(11)).astype(np.float64) / 2**53 - 1
+    return np.where(values == np.rint(values), 1.0, 1 + 1e-15 * moves)
 
 
 def _everywhere(original: Any, new: Any) -> None:
