@@ -29,8 +29,10 @@ from kfmaps.functional.evaluate import coverage as coverage
 from kfmaps.functional.evaluate import error_curve as error_curve
 from kfmaps.functional.evaluate import evaluation as evaluation
 from kfmaps.functional.evaluate import geodesic_errors as geodesic_errors
+from kfmaps.functional.nonrigid import NonRigid as NonRigid
 from kfmaps.functional.points import to_functional as to_functional
 from kfmaps.functional.points import to_points as to_points
+from kfmaps.functional.precise import PointMap as PointMap
 from kfmaps.functional.refine import ICP as ICP
 from kfmaps.functional.refine import ZoomOut as ZoomOut
 from kfmaps.functional.solvers import CG as CG
