@@ -33,7 +33,7 @@ TIMEOUT = 300
 ROOMS = {
     "kernel": "test_kernels test_nystrom test_formulas",
     "surface": "test_formulas test_geodesics test_spectrum test_orientation test_eigensolver test_maps test_topology "
-    "test_scale test_clouds test_inside test_precise",
+    "test_scale test_clouds test_inside test_precise test_nonrigid",
     "descriptors": "test_formulas test_shot test_formulas_match",
     "functional": "test_formulas test_energy test_maps test_solvers test_preconditioners test_guided test_confidence "
     "test_formulations test_rounding test_precise",
