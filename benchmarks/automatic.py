@@ -130,7 +130,7 @@ def judged(job: Job) -> dict:
     start = time.process_time() if job.threads == 1 else time.perf_counter()
     shapes = [kfmaps.prepare(mesh, config, name=name) for mesh, name in ((source, "source"), (target, "target"))]
     pairs = chosen_landmarks(shapes[0], (true_s, true_t), job.landmarks, job.wrong) if job.landmarks else None
-    found = kfmaps.match(*shapes, config, landmarks=pairs)
+    found = kfmaps.match(shapes[0], shapes[1], config, landmarks=pairs)
     end = time.process_time() if job.threads == 1 else time.perf_counter()
     errors = kfmaps.geodesic_errors(source, found.target_to_source[true_t], true_s)
     return {

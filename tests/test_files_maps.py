@@ -280,7 +280,7 @@ def test_arrays_of_another_kind_or_length(tmp_path: Path, content: dict[str, Any
 
 def test_what_a_map_says_in_its_own_words_is_kept() -> None:
     found = MapFile(
-        ONE, config="by hand", extra={"summary": "made on a Monday", "weights": np.ones(3), "n_s": np.int64(9)}
+        ONE, config="by hand", extra={"summary": "made on a Monday", "weights": np.ones(3), "n_s": np.array(9)}
     )
     assert (found.config, found.extra["summary"], found.n_s) == ("by hand", "made on a Monday", 9)
     assert MapFile(ONE, extra={"runners_up": ONE * 1.0}).extra["runners_up"].shape == (1, 4)  # pyright: ignore
