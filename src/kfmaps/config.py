@@ -307,7 +307,7 @@ class Config:
         """What we recommend: a search, with SHOT to guide it and the refinement."""
         return cls(
             descriptors=DescriptorConfig(shot=True),
-            refinement=ZoomOut(start=50, stop=200, step=25, samples=2000, guidance=36.0),
+            refinement=ZoomOut(start=50, stop=200, step=10, samples=5000, guidance=36.0),
             search=Search(),
         )
 

@@ -64,8 +64,9 @@ def spectral_samples(basis: Basis, count: int, rng: int | np.random.Generator = 
     if not _crowded(samples, count):
         return samples
     pool = stratified(embedding, to_numpy(basis.mass)[candidates], 2 * count, rng)
-    chosen = pool[farthest(embedding[pool], min(count, len(pool)), rng, None)]
-    return _samples(basis, candidates, embedding, chosen)
+    spread = pool[farthest(embedding[pool], min(count, len(pool)), rng, None)]
+    # Where places coincide in the embedding, as those of one of many components do, fewer of them may be left.
+    return samples if len(spread) < len(chosen) else _samples(basis, candidates, embedding, spread)
 
 
 def _crowded(samples: Samples, count: int) -> bool:

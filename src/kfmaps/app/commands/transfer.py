@@ -41,7 +41,7 @@ def transfer(
     force: Annotated[bool, typer.Option("--force", help="Replace an existing file.")] = False,
 ) -> None:
     """Carry functions, labels or named points from the source to the target, or back."""
-    check_output(output, force)
+    check_output(output, force, (map, values, source, target))
     found = load_map(map)
     if points:
         _points(found, map, values, output, back, (source, target), force)
