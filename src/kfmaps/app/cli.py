@@ -5,7 +5,6 @@ Only the command that is asked for is imported, so that ``kfmaps --help`` is qui
 
 from __future__ import annotations
 
-import ast
 import contextlib
 import errno
 import importlib
@@ -14,7 +13,6 @@ import os
 import sys
 import warnings
 from collections.abc import Callable, Sequence
-from pathlib import Path
 from typing import Annotated, Any
 
 import typer
@@ -22,25 +20,24 @@ import typer
 import kfmaps
 from kfmaps._arrays import InvalidInput, KfmapsWarning, MissingDependency, NotConverged, shown
 
-COMMANDS = (
-    "match",
-    "demo",
-    "evaluate",
-    "info",
-    "config",
-    "transfer",
-    "export",
-    "view",
-    "landmarks",
-    "batch",
-    "render",
-    "reproduce",
-    "tune",
-    "learn",
-)
-"""Modules of ``kfmaps.app.commands``, each with a function of its own name or a ``typer.Typer`` called ``app``."""
-
-FOLDER = Path(__file__).parent / "commands"
+COMMANDS = {
+    "match": "Find for each vertex of the target the corresponding vertex of the source, and write the map.",
+    "demo": "Make two poses of a shape, match them, print the error beside that without a kernel, draw a picture.",
+    "evaluate": "Print the geodesic error of a map, by the Princeton protocol, in per cent of √area.",
+    "info": "Show what is in files: vertices, faces, components, area, genus, defects.",
+    "config": "Print the settings that match would use, as TOML that --config reads.",
+    "transfer": "Carry functions, labels or named points from the source to the target, or back.",
+    "export": "Write the target with the source's texture or colours, or the map in another format.",
+    "view": "Show a map in the browser, or write it as one page that needs no network.",
+    "landmarks": "Pick landmarks on a local page: click a point on one shape, then its match on the other.",
+    "batch": "Match many pairs in parallel: a table, every map and a summary page.",
+    "render": "Figures for papers (PNG, SVG, PDF), drawn without a display.",
+    "reproduce": "Repeat experiments of the paper: a table, a picture and conclusions for each.",
+    "tune": "Try settings on training pairs and write the best for ``kfmaps match --config``.",
+    "learn": "Learn a kernel from pairs of shapes, and write settings for kfmaps match --config.",
+}
+"""Modules of ``kfmaps.app.commands``, each with a function of its own name or a ``typer.Typer`` called ``app``; with
+the first line of its documentation, said here too so that ``--help`` imports no command."""
 
 USAGE_ERROR: type[Exception] = next(kind for kind in typer.BadParameter.__mro__ if kind.__name__ == "ClickException")
 """What Typer raises about unknown options and missing arguments; it has no public name in all versions."""
@@ -70,8 +67,6 @@ def application(only: str | None = None) -> typer.Typer:
     )
     app.callback()(_general)
     for name in COMMANDS:
-        if not (FOLDER / f"{name}.py").is_file():
-            continue
         if only is not None and name != only:
             app.command(name)(_named(name))
             continue
@@ -103,21 +98,8 @@ def _named(name: str) -> Callable[[], None]:
     def command() -> None:
         raise AssertionError(f"{name} was not loaded")
 
-    command.__doc__ = summary(name)
+    command.__doc__ = COMMANDS[name]
     return command
-
-
-def summary(name: str) -> str:
-    """The first line of a command's documentation, read without importing it."""
-    tree = ast.parse((FOLDER / f"{name}.py").read_text(encoding="utf-8"))
-    for node in tree.body:
-        if isinstance(node, ast.FunctionDef) and node.name == name:
-            return (ast.get_docstring(node) or "").partition("\n")[0]
-        if isinstance(node, ast.Assign) and isinstance(node.value, ast.Call):  # app = typer.Typer(help=...)
-            for keyword in node.value.keywords:
-                if keyword.arg == "help" and isinstance(keyword.value, ast.Constant):
-                    return str(keyword.value.value)
-    return ""
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
