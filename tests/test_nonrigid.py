@@ -119,6 +119,11 @@ def test_a_match_has_points_in_triangles(pair: datasets.Pair) -> None:
     found = kfmaps.match(pair.source, pair.target, config, landmarks=marks)
     place = found.precise()
     assert found.bent is not None
+    assert found.bend is not None
+    assert found.bend.kept
+    assert found.bend.why is None
+    assert found.bend.loss is not None
+    assert found.bend.after == pytest.approx(found.local_confidence.mean())
     np.testing.assert_allclose(place.weights.sum(axis=1), 1)
     assert (place.weights >= 0).all()
     corners = pair.source.faces[place.faces]
@@ -143,6 +148,10 @@ def test_a_whole_body_is_not_bent_onto_something_else(pair: datasets.Pair) -> No
     config = replace(kfmaps.Config(), threads=1)
     found = kfmaps.match(pair.source, other, config)
     assert found.bent is None
+    assert found.bend is not None
+    assert not found.bend.kept
+    assert found.bend.why in ("gap", "loss")
+    assert found.bend.before == pytest.approx(found.local_confidence.mean())
     plain = kfmaps.match(pair.source, other, replace(config, finish=None))
     np.testing.assert_array_equal(found.target_to_source, plain.target_to_source)
     assert len(found.precise().faces) == len(other.vertices)

@@ -15,7 +15,7 @@ from kfmaps.fit.border import Border, border
 from kfmaps.fit.demand import check_demand
 from kfmaps.fit.finish import finished
 from kfmaps.fit.fit import Fit, fit
-from kfmaps.fit.places import placed
+from kfmaps.fit.places import Bend, placed
 from kfmaps.fit.shape import Shape, prepare
 from kfmaps.fit.stages import Clock
 from kfmaps.functional.extended import carried
@@ -79,6 +79,8 @@ class Match:
     bent : (n_s, 3) float64 or None
         The source's vertices in the shape of the target, where that fit was kept: on the target scaled and centred as
         by :func:`kfmaps.surface.mesh.unit_area`.
+    bend : Bend or None
+        What that fit tells of the map, whether it was kept or not, and why not; ``None`` where none was made.
     """
 
     target_to_source: np.ndarray
@@ -103,6 +105,7 @@ class Match:
     border: Border | None = None
     place: PointMap | None = None
     bent: np.ndarray | None = None
+    bend: Bend | None = None
 
     def precise(self) -> PointMap:
         """A point inside a triangle of the source for each target vertex: finer than ``target_to_source``.
@@ -256,6 +259,7 @@ def match(
         border=across,
         place=None if last.place is None else across.place(last.place),
         bent=bent,
+        bend=last.fit,
     )
 
 
