@@ -11,22 +11,25 @@ import numpy as np
 import pytest
 from threadpoolctl import threadpool_info, threadpool_limits
 
-from collecting import CONFIG, LANDMARKS, done, plan_of, touch, write_collection
+from collecting import CONFIG, LANDMARKS, bent, done, plan_of, touch, write_collection
 from conftest import blob
 from kfmaps._arrays import InvalidInput
 from kfmaps.app.batch import work
 from kfmaps.app.batch.cache import file_digest, load_shape, save_shape, shape_key
+from kfmaps.app.batch.kept import kept_probe, load_probe, probe_path
 from kfmaps.app.batch.layout import Pair, find_collection
 from kfmaps.app.batch.plan import make_plan
 from kfmaps.app.batch.settings import Settings
 from kfmaps.app.batch.summary import summarised
 from kfmaps.app.batch.work import attempts, map_path, match_pair, prepare_shape
+from kfmaps.app.evaluation import Truth, assessed
 from kfmaps.app.files import load_map, read_mesh, read_vertex_numbers, write_mesh, write_vertex_numbers
-from kfmaps.config import NystromConfig
+from kfmaps.config import NystromConfig, Search
 from kfmaps.fit.shape import prepare
 from kfmaps.functional.evaluate import geodesic_errors
 from kfmaps.kernel.kernels import Linear
 from kfmaps.matching import match
+from kfmaps.search.choose import probed
 from kfmaps.surface.mesh import Mesh
 
 
@@ -57,6 +60,37 @@ def test_damaged_entries_count_as_none(tmp_path: Path) -> None:
     data = path.read_bytes()
     path.write_bytes(data[: len(data) // 2])
     assert load_shape(path, "b") is None
+
+
+def test_a_kept_probe_changes_no_bit(tmp_path: Path) -> None:
+    config = replace(CONFIG, search=Search(candidates=1, signs=2), threads=1)
+    a, b = (prepare(bent(i, 300), config, name=str(i)) for i in (0, 1))
+    entry = tmp_path / "a.npz"
+    first = kept_probe(a, entry, 3)
+    assert probe_path(entry, 3).exists()
+    assert not probe_path(entry, 4).exists()
+    read = kept_probe(a, entry, 3)
+    assert read is not first
+    np.testing.assert_array_equal(read.samples.basis.functions, first.samples.basis.functions)
+    plain, quick = match(a, b, config, rng=3), match(a, b, config, rng=3, probes=(read, probed(b, 3)))
+    np.testing.assert_array_equal(quick.target_to_source, plain.target_to_source)
+    assert quick.scores == plain.scores
+    data = probe_path(entry, 3).read_bytes()
+    probe_path(entry, 3).write_bytes(data[: len(data) // 2])
+    assert load_probe(probe_path(entry, 3)) is None
+
+
+def test_far_mirrored_points_are_sampled(folder: Path) -> None:
+    source = read_mesh(folder / "b0.off")
+    rng = np.random.default_rng(0)
+    points, true, swapped = (rng.permutation(200) for _ in range(3))
+    truth = Truth(np.arange(200), true, swapped)
+    every, some = (assessed(source, points, truth, mirrored=most) for most in (None, 60))
+    assert every.mirrored is not None
+    assert some.mirrored is not None
+    assert every.errors.mean == some.errors.mean
+    assert len(some.mirrored.errors) == 50
+    np.testing.assert_allclose(some.mirrored.errors, every.mirrored.errors[::4])
 
 
 def test_entries_depend_on_content_and_on_what_prepares(tmp_path: Path) -> None:

@@ -97,6 +97,7 @@ def choose(
     descriptors: tuple[Any, Any] | None = None,
     rng: int | np.random.Generator | None = 0,
     progress: Progress | None = None,
+    probes: tuple[Probe, Probe] | None = None,
 ) -> Found:
     """Find a map between two prepared shapes, as ``config.search`` says.
 
@@ -110,6 +111,9 @@ def choose(
     descriptors : pair of arrays (n_s, d), (n_t, d), optional
     rng : seed or Generator
     progress : callable, optional
+    probes : pair of Probe, optional
+        Of :func:`probed` with the same ``rng``: spares the work where a shape is matched many times. Not used with
+        landmarks, whose distances a probe knows too.
 
     Raises
     ------
@@ -119,13 +123,15 @@ def choose(
     if config.search is None:
         raise refuse("search", "settings of a search", "None", "use Config.automatic()")
     given = seed_of(rng)
-    seed = int(np.random.default_rng(given).integers(2**31))
+    seed = _drawn(given)
     report = progress or (lambda _stage, _done: None)
     pairs = checked_landmarks(landmarks, source, target)
     sides = ((source, pairs[:, 0]), (target, pairs[:, 1]))
-    probes = parallel(lambda side: probe(side[0], rng=seed, threads=1, landmarks=side[1]), sides, config.threads)
+    if probes is None or len(pairs):
+        made = parallel(lambda side: probe(side[0], rng=seed, threads=1, landmarks=side[1]), sides, config.threads)
+        probes = made[0], made[1]
     report("candidates", 0.1)
-    on = arena(source, target, (probes[0], probes[1]), pairs)
+    on = arena(source, target, probes, pairs)
     found = candidates(
         source,
         target,
@@ -167,6 +173,16 @@ def choose(
         orientation=orientation,
         quality=best.quality.score,
     )
+
+
+def probed(shape: Shape, rng: int | np.random.Generator | None = 0) -> Probe:
+    """What a search with ``rng`` needs to know of one shape, whatever it is matched with."""
+    return probe(shape, rng=_drawn(seed_of(rng)), threads=1)
+
+
+def _drawn(seed: int) -> int:
+    """The seed of the samples and of all that is drawn after them."""
+    return int(np.random.default_rng(seed).integers(2**31))
 
 
 def closing(refinement: Refinement | None, found: Found) -> Refinement | None:

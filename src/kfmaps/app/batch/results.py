@@ -38,7 +38,7 @@ class Result:
     vertices_s, vertices_t, landmarks : int
     error_mean, error_median, error_max, auc : float or None
     mirrored_mean : float or None
-        Mean error against the truth with left and right swapped: small where the map is mirrored.
+        Mean error against the truth with left and right swapped, at 500 points: small where the map is mirrored.
     coverage : float or None
         Part of the source's area that the map reaches.
     confidence : float or None

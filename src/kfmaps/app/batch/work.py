@@ -19,6 +19,7 @@ import numpy as np
 from kfmaps._arrays import InvalidInput, KfmapsWarning, MissingDependency, NotConverged, refuse
 from kfmaps._threads import one_blas_thread
 from kfmaps.app.batch.cache import file_digest, load_shape, save_shape
+from kfmaps.app.batch.kept import kept_probe
 from kfmaps.app.batch.results import CURVE_ERRORS, Result, read_result, result_path, write_result
 from kfmaps.app.batch.tasks import PairTask, Prepared, ShapeTask
 from kfmaps.app.batch.truth import landmark_pairs, true_vertices
@@ -30,6 +31,8 @@ from kfmaps.functional.evaluate import coverage, error_curve
 from kfmaps.matching import match
 
 ATTEMPTS, MAPS = "attempts", "maps"
+MIRRORED = 500
+"""Points at which a map is compared with the mirrored truth."""
 EXPECTED = (InvalidInput, NotConverged, MissingDependency, OSError)
 """What may go wrong with one shape or pair; of anything else the type is told as well."""
 
@@ -159,10 +162,15 @@ def _matched(task: PairTask) -> dict[str, Any]:
     sizes = len(source.mesh.vertices), len(target.mesh.vertices)
     truth = true_vertices(task, *sizes)
     landmarks = landmark_pairs(task, truth, *sizes)
-    found = match(source, target, replace(task.config, threads=1), landmarks=landmarks, rng=task.seed)
+    probes = None
+    if task.config.search is not None and landmarks is None:
+        probes = tuple(
+            kept_probe(s, Path(t.entry), task.seed) for s, t in ((source, task.source), (target, task.target))
+        )
+    found = match(source, target, replace(task.config, threads=1), landmarks=landmarks, rng=task.seed, probes=probes)
     start = time.perf_counter()
     points = found.target_to_source
-    accuracy = None if truth is None else assessed(source.mesh, points, truth)
+    accuracy = None if truth is None else assessed(source.mesh, points, truth, mirrored=MIRRORED)
     reached = coverage(points, source.mesh)
     seconds = {**found.seconds, "evaluation": time.perf_counter() - start}
     marks = np.zeros((0, 2), dtype=np.int64) if landmarks is None else landmarks
