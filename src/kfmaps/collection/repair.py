@@ -1,0 +1,237 @@
+"""Which pairs of a collection are exchanged, for what and why.
+
+:func:`kfmaps.collection.agree.agree` says how probable each candidate of each pair is beside all others. Where the map
+in use is rather wrong, the composition of the maps on the best way round is made another candidate, judged as the
+others are, and all is settled once more. A pair is exchanged only where the map in use is improbable and another
+probable; where no candidate is, that is said.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from kfmaps.collection.agree import SAY, Agreement, Link, agree
+from kfmaps.collection.judge import TURNED, Judged, choices
+from kfmaps.collection.paths import Way, best_way
+from kfmaps.collection.signs import hands
+
+DOUBT = 0.5
+"""Probability of the map in use below which a way round is looked for; ..."""
+WRONG = 0.1
+"""... below which it is exchanged, ..."""
+RIGHT = 0.5
+"""... for another of at least this one."""
+SAFE = 0.3
+"""Probability that all maps of a way round are right, below which it is not gone."""
+ROUNDS = 3
+"""Times that ways round are looked for: an exchanged pair may open one for others."""
+
+
+@dataclass(frozen=True)
+class Step:
+    """One map on a way round.
+
+    Attributes
+    ----------
+    link, choice : int
+        Of which pair, and which of its candidates.
+    forth : bool
+        Whether the way goes from the pair's source to its target.
+    """
+
+    link: int
+    choice: int
+    forth: bool
+
+
+@dataclass(frozen=True)
+class Round:
+    """A way round a pair: its steps from the pair's source to its target, and the shapes between."""
+
+    steps: tuple[Step, ...]
+    through: tuple[int, ...]
+    chance: float
+
+
+@dataclass(frozen=True)
+class Change:
+    """What became of a pair whose map in use is improbable.
+
+    Attributes
+    ----------
+    link : int
+    kind : "runner-up", "composition" or "none"
+        What it was exchanged for; "none" where no candidate is probable, and the map stays.
+    choice : int
+        The runner-up's number, from 1.
+    way : Round or None
+        Of a composition.
+    before, after : float
+        Probability of the map that was in use, and of the one that is.
+    score_before, score_after : float
+        What speaks for each alone, :attr:`kfmaps.search.quality.Quality.score`.
+    misfit_before, misfit_after : float
+        How far each is from what the rest of the collection says, see :class:`kfmaps.collection.agree.Agreement`.
+    contradicts : bool
+        Whether the map that was in use is of another orientation than it claims, or than the collection agrees on.
+    """
+
+    link: int
+    kind: str
+    choice: int = 0
+    way: Round | None = None
+    before: float = 0.0
+    after: float = 0.0
+    score_before: float = 0.0
+    score_after: float = 0.0
+    misfit_before: float = 0.0
+    misfit_after: float = 0.0
+    contradicts: bool = False
+
+
+@dataclass(frozen=True, eq=False)
+class Repaired:
+    """What :func:`repaired` finds.
+
+    Attributes
+    ----------
+    agreement : Agreement
+        With the compositions among the candidates.
+    changes : tuple of Change
+        In the order of the links.
+    hands : (n,) int64
+        1 and -1: shapes that are mirror images of each other's kind.
+    """
+
+    agreement: Agreement
+    changes: tuple[Change, ...]
+    hands: np.ndarray
+
+    @property
+    def in_use(self) -> np.ndarray:
+        """Probability of the map of each link after the changes, (l,)."""
+        found = np.array([chances[0] for chances in self.agreement.chances])
+        for change in self.changes:
+            found[change.link] = change.after
+        return found
+
+
+Compose = Callable[[list[tuple[int, Round]]], list[Judged]]
+"""Given pairs and ways round them, the compositions, judged; in the same order."""
+
+
+def repaired(
+    count: int, ends: Sequence[tuple[int, int]], maps: Sequence[Sequence[Judged]], compose: Compose
+) -> Repaired:
+    """Settle which maps of a collection of ``count`` shapes are right.
+
+    Parameters
+    ----------
+    ends : sequence of (int, int)
+        Source and target of each pair.
+    maps : sequence of sequences of Judged
+        Of each pair the map in use and its runners-up.
+    compose : callable
+        Makes and judges compositions, all that one round asks for at once.
+    """
+    known = [list(several) for several in maps]
+    ways: list[Round | None] = [None] * len(ends)
+    signs, found = _settled(count, ends, known)
+    for _ in range(ROUNDS):
+        asked = []
+        for number, chances in enumerate(found.chances):
+            if chances[0] >= DOUBT:
+                continue
+            way = way_round(count, ends, found, number, ways)
+            if way is not None and way.chance >= SAFE and (ways[number] is None or _other(way, ways[number])):
+                asked.append((number, way))
+        if not asked:
+            break
+        for (number, way), made in zip(asked, compose(asked), strict=True):
+            del known[number][len(maps[number]) :]
+            known[number].append(made)
+            ways[number] = way
+        signs, found = _settled(count, ends, known)
+    changes = [
+        change
+        for number in range(len(ends))
+        if (change := _change(number, known[number], len(maps[number]), ways[number], found, signs, ends)) is not None
+    ]
+    return Repaired(found, tuple(changes), signs)
+
+
+def _other(way: Round, before: Round | None) -> bool:
+    """Whether a way is new and clearly surer than the one before."""
+    return before is None or (way.steps != before.steps and way.chance > before.chance + 0.1)
+
+
+def way_round(
+    count: int, ends: Sequence[tuple[int, int]], found: Agreement, number: int, ways: Sequence[Round | None]
+) -> Round | None:
+    """The best way from the source of link ``number`` to its target through others, each by its best candidate.
+
+    Links of which a composition is the best are no part of it: they are ways themselves.
+    """
+    best = [int(chances[:-1].argmax()) for chances in found.chances]
+    chance = [float(chances[b]) for chances, b in zip(found.chances, best, strict=True)]
+    for i, way in enumerate(ways):
+        if way is not None and best[i] == len(found.chances[i]) - 2:
+            chance[i] = 0.0
+    way: Way | None = best_way(count, ends, chance, *ends[number], without=number)
+    if way is None:
+        return None
+    steps = tuple(Step(link, best[link], ends[link][0] == at) for link, at in zip(way.links, way.shapes, strict=False))
+    return Round(steps, way.shapes[1:-1], way.chance)
+
+
+def _settled(count: int, ends: Sequence[tuple[int, int]], maps: list[list[Judged]]) -> tuple[np.ndarray, Agreement]:
+    """Hands, and the agreement of candidates that do not contradict them."""
+    offered = [choices(several) for several in maps]
+    signs = np.ones(count, dtype=np.int64)
+    if any(one.reversed for several in maps for one in several):
+        first = [several[int(np.argmax([c.odds for c in several]))] for several in offered]
+        sure = [1.0 / (1.0 + np.exp(-c.odds)) for c in first]
+        signs = hands(count, ends, [not c.reversed for c in first], sure)
+        offered = [
+            tuple(c if c.reversed == bool(signs[a] != signs[b]) else replace(c, odds=c.odds - 2 * SAY) for c in several)
+            for (a, b), several in zip(ends, offered, strict=True)
+        ]
+    links = [Link(a, b, several) for (a, b), several in zip(ends, offered, strict=True)]
+    return signs, agree(count, links)
+
+
+def _change(
+    number: int,
+    maps: list[Judged],
+    given: int,
+    way: Round | None,
+    found: Agreement,
+    signs: np.ndarray,
+    ends: Sequence[tuple[int, int]],
+) -> Change | None:
+    chances, misfits = found.chances[number], found.misfits[number]
+    before = float(chances[0])
+    if before >= WRONG:
+        return None
+    best = int(chances[:-1].argmax())
+    a, b = ends[number]
+    turned = maps[0].reversed != bool(signs[a] != signs[b]) or maps[0].orientation < TURNED
+    told = {
+        "before": before,
+        "score_before": maps[0].score,
+        "misfit_before": float(misfits[0]),
+        "contradicts": turned,
+    }
+    if best == 0 or chances[best] < RIGHT:
+        return Change(number, "none", after=before, score_after=maps[0].score, misfit_after=float(misfits[0]), **told)
+    told |= {
+        "after": float(chances[best]),
+        "score_after": maps[best].score,
+        "misfit_after": float(misfits[best]),
+    }
+    if best >= given:
+        return Change(number, "composition", way=way, **told)
+    return Change(number, "runner-up", choice=best, **told)

@@ -1,0 +1,114 @@
+"""Laws of shape differences: equal shapes differ by nothing, and what is planted is found."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from kfmaps._arrays import InvalidInput
+from kfmaps.collection.agree import Choice, Link, agree, orthogonal
+from kfmaps.collection.differences import (
+    area_difference,
+    components,
+    conformal_difference,
+    density,
+    latent_basis,
+    operators,
+    shape_distances,
+    truncated,
+    variation,
+)
+from kfmaps.collection.graph import every
+from kfmaps.surface.basis import Basis
+
+K = 8
+VALUES = np.array([0.0, 3, 4, 9, 11, 14, 20, 26])
+
+
+def collection(stretches: list[np.ndarray], seed: int = 0):
+    """Shapes with equal eigenvalues whose maps agree exactly and stretch as told; links, agreement, values."""
+    rng = np.random.default_rng(seed)
+    own = [orthogonal(rng.normal(size=(K, K))) @ s for s in stretches]
+    pairs = every(len(own))
+    links = [Link(a, b, (Choice(own[b] @ np.linalg.inv(own[a])),)) for a, b in pairs]
+    return own, links, agree(len(own), links, K), np.tile(VALUES, (len(own), 1))
+
+
+def test_equal_shapes_do_not_differ() -> None:
+    C = orthogonal(np.random.default_rng(0).normal(size=(K, K)))
+    np.testing.assert_allclose(area_difference(C), np.eye(K), atol=1e-12)
+    signs = np.diag([1.0, -1, 1, 1, -1, 1, -1, 1])
+    np.testing.assert_allclose(conformal_difference(signs, VALUES, VALUES), np.eye(K - 1), atol=1e-12)
+    _, links, found, values = collection([np.eye(K)] * 4)
+    latent = latent_basis(found, links, [0] * len(links), values)
+    for kind in ("area", "conformal"):
+        assert shape_distances(operators(latent, values, "area")).max() < 1e-7, kind
+    np.testing.assert_allclose(latent.areas.mean(axis=0), np.eye(K), atol=1e-7)
+    assert (np.diff(latent.values) >= -1e-9).all()
+
+
+def test_scaling_shows_in_the_conformal_difference_alone() -> None:
+    C = np.eye(K)
+    np.testing.assert_allclose(conformal_difference(C, VALUES, 2 * VALUES), 2 * np.eye(K - 1), atol=1e-12)
+    np.testing.assert_allclose(area_difference(2 * C), 4 * np.eye(K), atol=1e-12)
+
+
+def test_planted_stretches_are_the_distances() -> None:
+    one = np.diag([1, 1, 1.2, 1, 1, 1, 1, 1.0])
+    own, links, found, values = collection([np.eye(K), one, np.eye(K), one @ one])
+    latent = latent_basis(found, links, [0] * len(links), values)
+    D = shape_distances(operators(latent, values))
+    assert D[0, 2] < 1e-6
+    assert 0 < D[0, 1] < D[0, 3]
+    # The same in any order of the shapes.
+    order = [2, 0, 3, 1]
+    again = [Link(order.index(a.source), order.index(a.target), a.choices) for a in links]
+    other = latent_basis(agree(4, again, K), again, [0] * len(again), values)
+    np.testing.assert_allclose(shape_distances(operators(other, values)), D[np.ix_(order, order)], atol=1e-6)
+    # Maps into the latent space agree with those between shapes.
+    for link in links:
+        np.testing.assert_allclose(link.choices[0].map @ latent.maps[link.source], latent.maps[link.target], atol=1e-6)
+    assert truncated(latent, 3).maps.shape == (4, K, 3)
+    assert len(own) == 4
+
+
+def test_one_way_of_changing_is_one_component() -> None:
+    rng = np.random.default_rng(1)
+    direction = rng.normal(size=(5, 5))
+    direction = (direction + direction.T) / np.linalg.norm(direction + direction.T)
+    along = np.array([-2.0, -1.0, 0.0, 1.0, 4.0])
+    matrices = np.eye(5) + along[:, None, None] * direction
+    found = components(matrices, 3)
+    assert found.parts[0] == pytest.approx(1.0)
+    assert abs(np.corrcoef(found.scores[:, 0], along)[0, 1]) == pytest.approx(1.0)
+    np.testing.assert_allclose(found.scores.mean(axis=0), 0, atol=1e-12)
+    rebuilt = found.mean + np.tensordot(found.scores, found.directions, axes=1)
+    np.testing.assert_allclose(rebuilt, matrices, atol=1e-12)
+    same = components(np.tile(np.eye(3), (4, 1, 1)))
+    assert not same.parts.any()
+    assert components(matrices[:2], 9).scores.shape == (2, 1)
+
+
+def test_what_is_larger_is_denser_there() -> None:
+    """One function stands for one region; a shape in which it is larger has more area there and nowhere else."""
+    own, links, found, values = collection([np.eye(K), np.diag([1, 1, 1, 1, 1, 1, 1, 1.3])])
+    latent = latent_basis(found, links, [0] * len(links), values)
+    functions = own[0] @ np.eye(K)  # vertex i of shape 0 is the i-th of the planted functions
+    basis = Basis(VALUES, functions.T, np.ones(K))
+    D = operators(latent, values)
+    ratio = density(D, latent, 0, basis)
+    np.testing.assert_allclose(ratio.mean(axis=0), 1.0, atol=1e-6)
+    assert ratio[1, 7] / ratio[0, 7] == pytest.approx(1.3**2, rel=1e-3)
+    np.testing.assert_allclose(ratio[1, :7] / ratio[0, :7], 1.0, atol=1e-3)
+    assert variation(D, latent, 0, basis).argmax() == 7
+
+
+def test_what_hangs_together_not_has_no_common_basis() -> None:
+    C = np.eye(K)
+    links = [Link(0, 1, (Choice(C),)), Link(2, 3, (Choice(C),))]
+    found, values = agree(4, links, K), np.tile(VALUES, (4, 1))
+    with pytest.raises(InvalidInput, match="hang together"):
+        latent_basis(found, links, [0, 0], values)
+    latent = latent_basis(agree(2, links[:1], K), links[:1], [0], values[:2])
+    with pytest.raises(InvalidInput, match="conformal"):
+        operators(latent, values[:2], "other")
