@@ -22,7 +22,7 @@ FLOORS = {
     "fit": 7,
     "search": 8,
     "matching": 9,
-    "collection": 10,
+    "many": 10,
     "app": 11,
     "__main__": 12,
 }

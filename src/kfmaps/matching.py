@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 
-from kfmaps._arrays import check, refuse, seed_of
+from kfmaps._arrays import check, refuse, seed_of, to_numpy
 from kfmaps._progress import Progress
 from kfmaps._threads import available_cores, parallel
 from kfmaps.config import Config
@@ -19,7 +19,8 @@ from kfmaps.fit.places import Bend, placed
 from kfmaps.fit.shape import Shape, prepare
 from kfmaps.fit.stages import Clock
 from kfmaps.functional.extended import carried
-from kfmaps.functional.guide import guide
+from kfmaps.functional.guide import Guide, guide
+from kfmaps.functional.points import check_point_map, to_functional
 from kfmaps.functional.precise import PointMap, to_places
 from kfmaps.functional.refine import ZoomOut
 from kfmaps.search.choose import MIRROR, Found, choose, closing, mirror_image
@@ -29,6 +30,8 @@ from kfmaps.surface.eigen.pencil import THREADED
 from kfmaps.surface.mesh import Mesh
 
 ONE_FIT = "one fit"
+CONTINUED = 80
+"""Functions of a map that is finished from its points, as many as a search hands on."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -216,7 +219,6 @@ def match(
     if config.search is not None:
         if config.search.orientation == "reversed":
             shapes[1] = mirror_image(shapes[1])
-        if not across.open or config.search.orientation == "reversed":
             probes = None  # they are of the shapes as they were given
         with clock("candidates"):
             found = choose(shapes[0], shapes[1], config, landmarks=marks, probes=probes, **more)
@@ -227,14 +229,87 @@ def match(
         one = fit(shapes[0], shapes[1], config, landmarks=marks, **more)
         clock.seconds.update(one.seconds)
         found = Found(one.functional_map, ONE_FIT, one, "unchecked" if marks is None else "landmarks")
-    single = found.origin == ONE_FIT
     back = None
     if config.formulation.directions == "both":
         # The adjoint, where a search has found the map: its candidates are refined one way.
-        back = found.fit.back if single and found.fit is not None else found.functional_map.T
+        back = found.fit.back if found.origin == ONE_FIT and found.fit is not None else found.functional_map.T
+    return _ended(found, across, shapes, config, clock, led, back, seed)
+
+
+def continued(
+    source: Shape,
+    target: Shape,
+    points: np.ndarray,
+    config: Config | None = None,
+    *,
+    origin: str,
+    orientation: Literal["kept", "reversed"] = "kept",
+    verdict: str = "unchecked",
+    confidence: float | None = None,
+    quality: float | None = None,
+    runners_up: tuple[np.ndarray, ...] = (),
+    rng: int | np.random.Generator | None = 0,
+    progress: Progress | None = None,
+) -> Match:
+    """A map that is known but for its details, finished as :func:`match` finishes the one that it has found.
+
+    Parameters
+    ----------
+    source, target : Shape
+    points : (n_t,) whole numbers
+        A source vertex for each target vertex: of a composition of other maps, say.
+    origin : str
+        Where it comes from, for :attr:`Match.origin`.
+    orientation : "kept" or "reversed"
+        Whether it is a map to the target or to its mirror image.
+    verdict, confidence, runners_up
+        For the fields of the match.
+    quality : float, optional
+        :attr:`kfmaps.search.quality.Quality.score` of ``points``: where shapes differ much the refinement ends early.
+
+    Raises
+    ------
+    InvalidInput
+        When the shapes were prepared otherwise, or the points are none of the source.
+    """
+    config = config or Config.automatic()
+    for shape in (source, target):
+        check_prepared(shape, config)
+    points = check_point_map(points, len(source.mesh.vertices), len(target.mesh.vertices))
+    across, clock = border(source, target), Clock(progress)
+    shapes = [across.source, mirror_image(across.target) if orientation == "reversed" else across.target]
+    within = across.part_s.number[points[across.part_t.kept]]
+    size = min(CONTINUED, *(len(shape.basis.eigenvalues) for shape in shapes))
+    C = to_numpy(to_functional(within, *(shape.basis.truncated(size) for shape in shapes)))
+    found = Found(C, origin, None, verdict, confidence, orientation=orientation, quality=quality)
+    led = leading(shapes[0], shapes[1], found.landmarks)
+    back = C.T if config.formulation.directions == "both" else None
+    return replace(_ended(found, across, shapes, config, clock, led, back, seed_of(rng)), runners_up=runners_up)
+
+
+def _ended(
+    found: Found,
+    across: Border,
+    shapes: list[Shape],
+    config: Config,
+    clock: Clock,
+    led: Guide | None,
+    back: np.ndarray | None,
+    seed: int,
+) -> Match:
+    """The match of a map that is ``found`` between two ``shapes`` inside their border, the target turned as it says."""
+    single = found.origin == ONE_FIT
     ending = replace(config, refinement=closing(config.refinement, found))
     end = finished(
-        found.functional_map, shapes[0], shapes[1], ending, raw=single, led=led, back=back, rng=seed, progress=progress
+        found.functional_map,
+        shapes[0],
+        shapes[1],
+        ending,
+        raw=single,
+        led=led,
+        back=back,
+        rng=seed,
+        progress=clock.report,
     )
     clock.seconds.update(end.seconds)
     last = placed(end.target_to_source, shapes[0], shapes[1], config, clock)

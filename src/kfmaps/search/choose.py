@@ -20,7 +20,7 @@ from kfmaps._threads import parallel
 from kfmaps.config import Config
 from kfmaps.descriptors.shot import mirrored
 from kfmaps.fit.fit import Fit, checked_landmarks
-from kfmaps.fit.shape import Shape
+from kfmaps.fit.shape import Shape, inner
 from kfmaps.functional.points import to_points
 from kfmaps.functional.refine import Refinement, ZoomOut
 from kfmaps.search.arena import Ground, arena, turned, without
@@ -177,7 +177,7 @@ def choose(
 
 def probed(shape: Shape, rng: int | np.random.Generator | None = 0) -> Probe:
     """What a search with ``rng`` needs to know of one shape, whatever it is matched with."""
-    return probe(shape, rng=_drawn(seed_of(rng)), threads=1)
+    return probe(inner(shape)[0], rng=_drawn(seed_of(rng)), threads=1)
 
 
 def _drawn(seed: int) -> int:

@@ -12,8 +12,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from kfmaps._arrays import check_count, refuse, to_numpy
-from kfmaps.collection.agree import Choice, Link, agree, orthogonal
 from kfmaps.functional.points import nearest, to_functional
+from kfmaps.many.agree import Choice, Link, agree, orthogonal
 from kfmaps.surface.basis import Basis
 
 

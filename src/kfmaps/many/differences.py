@@ -17,7 +17,7 @@ import numpy as np
 from scipy.linalg import eigh
 
 from kfmaps._arrays import check, check_count, refuse, to_numpy
-from kfmaps.collection.agree import Agreement, Link
+from kfmaps.many.agree import Agreement, Link
 from kfmaps.surface.basis import Basis
 
 SETTLING = 30

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from kfmaps._arrays import InvalidInput
-from kfmaps.collection.agree import Choice, Link, agree, orthogonal
-from kfmaps.collection.differences import (
+from kfmaps.many.agree import Choice, Link, agree, orthogonal
+from kfmaps.many.differences import (
     area_difference,
     components,
     conformal_difference,
@@ -18,7 +18,7 @@ from kfmaps.collection.differences import (
     truncated,
     variation,
 )
-from kfmaps.collection.graph import every
+from kfmaps.many.graph import every
 from kfmaps.surface.basis import Basis
 
 K = 8

@@ -8,9 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from kfmaps._arrays import to_numpy
-from kfmaps.collection.agree import FUNCTIONS, SAY, Choice
 from kfmaps.fit.shape import Shape
 from kfmaps.functional.points import to_functional
+from kfmaps.many.agree import FUNCTIONS, SAY, Choice
 from kfmaps.search.quality import Probe, map_quality, mirrored_probe
 from kfmaps.search.verdict import probability
 
@@ -27,7 +27,7 @@ class Judged:
     Attributes
     ----------
     map : (k, k) float64
-        Its functional map, source → target, of :data:`kfmaps.collection.agree.FUNCTIONS` functions.
+        Its functional map, source → target, of :data:`kfmaps.many.agree.FUNCTIONS` functions.
     score : float
         :attr:`kfmaps.search.quality.Quality.score`.
     orientation : float

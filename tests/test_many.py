@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 
 from kfmaps._arrays import InvalidInput
-from kfmaps.collection.agree import Choice, Link, agree, orthogonal
-from kfmaps.collection.graph import every, medoid, near, signature, star, unlikeness
-from kfmaps.collection.judge import Judged, choices
-from kfmaps.collection.paths import best_way, composed, turned_back
-from kfmaps.collection.repair import repaired
-from kfmaps.collection.signs import hands
-from kfmaps.collection.zoom import ConsistentZoomOut, through_latent
+from kfmaps.many.agree import Choice, Link, agree, orthogonal
+from kfmaps.many.graph import every, medoid, near, signature, star, unlikeness
+from kfmaps.many.judge import Judged, choices
+from kfmaps.many.paths import best_way, composed, turned_back
+from kfmaps.many.repair import repaired
+from kfmaps.many.signs import hands
+from kfmaps.many.zoom import ConsistentZoomOut, through_latent
 from kfmaps.surface.basis import Basis
 
 K = 8

@@ -1,6 +1,6 @@
 """Which pairs of a collection are exchanged, for what and why.
 
-:func:`kfmaps.collection.agree.agree` says how probable each candidate of each pair is beside all others. Where the map
+:func:`kfmaps.many.agree.agree` says how probable each candidate of each pair is beside all others. Where the map
 in use is rather wrong, the composition of the maps on the best way round is made another candidate, judged as the
 others are, and all is settled once more. A pair is exchanged only where the map in use is improbable and another
 probable; where no candidate is, that is said.
@@ -13,10 +13,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from kfmaps.collection.agree import SAY, Agreement, Link, agree
-from kfmaps.collection.judge import TURNED, Judged, choices
-from kfmaps.collection.paths import Way, best_way
-from kfmaps.collection.signs import hands
+from kfmaps.many.agree import SAY, Agreement, Link, agree
+from kfmaps.many.judge import TURNED, Judged, choices
+from kfmaps.many.paths import Way, best_way
+from kfmaps.many.signs import hands
 
 DOUBT = 0.5
 """Probability of the map in use below which a way round is looked for; ..."""
@@ -74,7 +74,7 @@ class Change:
     score_before, score_after : float
         What speaks for each alone, :attr:`kfmaps.search.quality.Quality.score`.
     misfit_before, misfit_after : float
-        How far each is from what the rest of the collection says, see :class:`kfmaps.collection.agree.Agreement`.
+        How far each is from what the rest of the collection says, see :class:`kfmaps.many.agree.Agreement`.
     contradicts : bool
         Whether the map that was in use is of another orientation than it claims, or than the collection agrees on.
     """

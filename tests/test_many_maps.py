@@ -1,0 +1,58 @@
+"""Maps of real surfaces in a collection: judged, composed, and finished from their points."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from collecting import CONFIG, bent
+from kfmaps._arrays import InvalidInput
+from kfmaps.config import Search
+from kfmaps.fit.shape import Shape, prepare
+from kfmaps.many.judge import judged
+from kfmaps.many.paths import composed, turned_back
+from kfmaps.matching import continued
+from kfmaps.search.choose import mirror_image, probed
+
+N = 400
+LOCAL = replace(CONFIG, search=Search(), descriptors=replace(CONFIG.descriptors, shot=True), threads=1)
+
+
+@pytest.fixture(scope="module")
+def shapes() -> list[Shape]:
+    return [prepare(bent(i, N), LOCAL, name=str(i)) for i in range(3)]
+
+
+def test_the_true_map_is_judged_best(shapes: list[Shape]) -> None:
+    a, b = shapes[:2]
+    probes = probed(a), probed(b)
+    true = judged(np.arange(N), a, b, probes)
+    random = judged(np.random.default_rng(0).integers(0, N, N), a, b, probes)
+    shifted = judged(np.roll(np.arange(N), 5), a, b, probes)
+    assert true.orientation > 0.8
+    assert true.score > max(random.score, shifted.score) + 1
+    turned = judged(np.arange(N), a, mirror_image(b), (probes[0], probed(mirror_image(b))))
+    assert turned.orientation < -0.8
+    back = judged(np.arange(N), a, mirror_image(b), (probes[0], probed(mirror_image(b))), reversed=True)
+    assert back.score == pytest.approx(true.score, abs=0.1)
+
+
+def test_a_known_map_is_finished(shapes: list[Shape]) -> None:
+    a, b = shapes[:2]
+    rough = np.arange(N)
+    rough[:60] = np.roll(rough[:60], 7)
+    found = continued(a, b, rough, LOCAL, origin="composition", confidence=0.9, verdict="sure", runners_up=(rough,))
+    assert (found.target_to_source == np.arange(N)).mean() > max((rough == np.arange(N)).mean(), 0.9)
+    assert (found.origin, found.verdict, found.confidence) == ("composition", "sure", 0.9)
+    np.testing.assert_array_equal(found.runners_up[0], rough)
+    turned = continued(a, mirror_image(b), np.arange(N), LOCAL, origin="known", orientation="reversed")
+    assert (turned.target_to_source == np.arange(N)).mean() > 0.9
+    with pytest.raises(InvalidInput, match="vertices 0 to 399"):
+        continued(a, b, rough + 1, LOCAL, origin="known")
+
+
+def test_round_trips_of_true_maps_return(shapes: list[Shape]) -> None:
+    order = np.random.default_rng(1).permutation(N)
+    np.testing.assert_array_equal(composed([order, turned_back(order, shapes[0].basis, N)]), np.arange(N))
