@@ -18,6 +18,7 @@ from kfmaps.functional.losses import LOSSES, Loss, RobustData, sparse
 from kfmaps.functional.objective import Coupling, How, Objective, coupled_pair, minimised, quadratic
 from kfmaps.functional.slices import packed_slices, unpacked_slices
 from kfmaps.functional.solvers import CG, Direct, solve
+from kfmaps.functional.spatial import costs, spatial, transport
 from kfmaps.functional.terms import inverse_term
 
 N, R = 60, 9
@@ -155,10 +156,11 @@ def penalties(case):
         "relative": relative(case),
         **{name: robust(case, name) for name in LOSSES},
         "sparse": sparse(E.rhs(), 1e-2),
+        "spatial": spatial(E.rhs() / inner(E.rhs(), E.rhs()) ** 0.5, case[0], case[1]),
     }
 
 
-@pytest.mark.parametrize("name", [*LOSSES, "sparse", "relative"])
+@pytest.mark.parametrize("name", [*LOSSES, "sparse", "relative", "spatial"])
 def test_majorizer_touches_from_above(case, name):
     penalty = penalties(case)[name]
     *_, E = case
@@ -195,7 +197,8 @@ def test_squared_loss_is_the_least_squares_term(case):
 @pytest.mark.parametrize("constraint", ["none", "orthogonal"])
 def test_objective_falls_whatever_is_combined(case, constraint):
     *_, E = case
-    parts = {"data": (2.0, robust(case, "huber")), "sparsity": (0.3, sparse(E.rhs(), 1e-2))}
+    extra = penalties(case)
+    parts = {"data": (2.0, extra["huber"]), "sparsity": (0.3, extra["sparse"]), "area": (1.0, extra["spatial"])}
     objective = Objective(E, parts, constraint)
     C = nearest_orthogonal(E.rhs()) if constraint == "orthogonal" else 0 * E.rhs()
     values = [objective.value(C)]
@@ -339,3 +342,41 @@ def test_bad_input_is_refused(small_basis):
     E = energy(*bases(5, 5), *features())
     with pytest.raises(InvalidInput, match="start"):
         orthogonal(E, Direct(), np.eye(4))
+
+
+@pytest.mark.parametrize("blur", [1.0, 0.1, 0.003])
+def test_transport_is_what_it_minimises(asarray, blur):
+    """The value is that of the plan, no other plan has a lower one, and both sides swapped transpose it."""
+    rng = np.random.default_rng(0)
+    x, y = rng.normal(size=(40, 3)), rng.normal(size=(30, 3))
+    c = ((x[:, None] - y[None, :]) ** 2).sum(axis=-1)
+    a, b = (m / m.sum() for m in (rng.random(40), rng.random(30)))
+
+    def divergence(p, q):
+        return (p * np.log(np.maximum(p, 1e-300) / q) - p + q).sum()
+
+    def whole(p):
+        sides = divergence(p.sum(axis=1), a) + divergence(p.sum(axis=0), b)
+        return (p * c).sum() + blur * divergence(p, a[:, None] * b) + 10 * blur * sides
+
+    found, told = transport(asarray(c), asarray(a), asarray(b), blur)
+    plan = to_numpy(found)
+    assert told == pytest.approx(whole(plan), rel=1e-6)
+    for _ in range(5):
+        assert whole(plan * np.exp(0.05 * rng.normal(size=plan.shape))) > told
+    turned, same = transport(asarray(c.T), asarray(b), asarray(a), blur)
+    np.testing.assert_allclose(to_numpy(turned).T, plan, atol=1e-5 * plan.max())
+    assert same == pytest.approx(told, rel=1e-6)
+
+
+def test_spatial_of_equal_shapes_is_nothing_but_blur(numbers):
+    """Where every point has its image, the sharper plan moves its area there and costs the less."""
+    source, *_ = numbers
+    values = []
+    for blur in (1e-1, 1e-2, 1e-3):
+        few = source.functions, source.functions
+        mass = source.mass / source.mass.sum()
+        plan, value = transport(costs(np.eye(source.functions.shape[1]), *few), mass, mass, blur)
+        values.append(value)
+        assert (plan.argmax(axis=1) == np.arange(len(mass))).mean() > 0.9
+    assert values[0] > 3 * values[1] > 9 * values[2] > 0

@@ -38,8 +38,20 @@ FORMULATIONS = {
     "sparse": Formulation(sparsity=0.05),
     "resolvent": Formulation(mask="resolvent"),
     "coupled": Formulation(bases="coupled"),
+    "spatial": Formulation(spatial=0.1),
     "all": Formulation(
-        "orthogonal", "both", 0.5, 0.5, "huber", "feature", 1.0, 0.02, "resolvent", bases="coupled", rounds=3
+        "orthogonal",
+        "both",
+        0.5,
+        0.5,
+        "huber",
+        "feature",
+        1.0,
+        0.02,
+        "resolvent",
+        bases="coupled",
+        rounds=3,
+        spatial=0.1,
     ),
 }
 
@@ -115,7 +127,9 @@ def test_equal_shapes_give_the_identity(shape, marks, name):
 def test_nothing_asked_is_what_was_before_to_the_last_digit(shape, other, marks):
     """Weights of zero, rounds, and a loss that is squared change no digit."""
     plain = fit(shape, other, SMALL, landmarks=marks).functional_map
-    nothing = Formulation(loss="squared", loss_per="feature", sparsity=0.0, rounds=3, loss_width=9.0, coupling=7.0)
+    nothing = Formulation(
+        loss="squared", loss_per="feature", sparsity=0.0, rounds=3, loss_width=9.0, coupling=7.0, spatial_blur=3.0
+    )
     np.testing.assert_array_equal(
         fit(shape, other, replace(SMALL, formulation=nothing), landmarks=marks).functional_map, plain
     )
@@ -126,6 +140,7 @@ def test_weak_formulations_come_close_to_least_squares(shape, other, marks):
     plain = fit(shape, other, config, landmarks=marks).functional_map
     for weak in (
         Formulation(sparsity=1e-9),
+        Formulation(spatial=1e-9),
         Formulation(directions="both", inverse=1e-9, adjoint=1e-9),
         Formulation(loss="huber", loss_per="feature", loss_width=1e9),
     ):
@@ -254,6 +269,8 @@ def test_settings_that_contradict_each_other_are_refused():
         ({"directions": "both", "inverse": 0.0, "adjoint": 0.0}, "ties the two"),
         ({"loss_width": 0.0}, "loss_width"),
         ({"sparsity": -1.0}, "sparsity"),
+        ({"spatial": -1.0}, "spatial"),
+        ({"spatial_blur": 0.0}, "spatial_blur"),
         ({"rounds": 0}, "rounds"),
     ]
     for more, wanted in wrong:

@@ -59,6 +59,7 @@ REACHED: list[tuple[list[str], str, Any]] = [
     (["--loss", "huber"], "formulation.loss", "huber"),
     (["--loss", "l21", "--loss-per", "descriptor"], "formulation.loss_per", "descriptor"),
     (["--sparsity", "0.1"], "formulation.sparsity", 0.1),
+    (["--spatial", "0.1"], "formulation.spatial", 0.1),
     (["--mask", "resolvent"], "formulation.mask", "resolvent"),
     (["--bases", "coupled"], "formulation.bases", "coupled"),
     (["--solver", "direct"], "solver", Direct()),

@@ -137,8 +137,8 @@ class Formulation:
     directions : "one" or "both"
         Both maps at once, tied to each other (:func:`kfmaps.functional.objective.coupled_pair`).
     inverse, adjoint : float
-        Weights of that tie: each map the other's inverse, each the other's adjoint. As that of ``sparsity`` they are in
-        units of the mean diagonal of the energy's operator.
+        Weights of that tie: each map the other's inverse, each the other's adjoint. As those of ``sparsity`` and
+        ``spatial`` they are in units of the mean diagonal of the energy's operator.
     loss : "squared", "huber", "l21" or "geman"
         Of the data (:mod:`kfmaps.functional.losses`).
     loss_per : "landmark", "descriptor" or "feature"
@@ -159,6 +159,11 @@ class Formulation:
         Weight of that map against diagonal Laplacians in the choice of the bases.
     rounds : int
         At most, of reweighting and of both directions in turn.
+    spatial : float
+        Weight of agreement with the soft point map that moves the whole area of both shapes
+        (:mod:`kfmaps.functional.spatial`); 0 for none.
+    spatial_blur : float
+        How soft that map is, in units of the cost of a nearest point.
     """
 
     constraint: Constraint = "none"
@@ -174,6 +179,8 @@ class Formulation:
     bases: Literal["own", "coupled"] = "own"
     coupling: float = 1.0
     rounds: int = 20
+    spatial: float = 0.0
+    spatial_blur: float = 1.0
 
     def __post_init__(self) -> None:
         _choice(self.constraint, "constraint", CONSTRAINTS)
@@ -182,12 +189,12 @@ class Formulation:
         _choice(self.loss_per, "loss per", get_args(LossPer))
         _choice(self.mask, "mask", MASKS)
         _choice(self.bases, "bases", ("own", "coupled"))
-        for name in ("inverse", "adjoint", "sparsity"):
+        for name in ("inverse", "adjoint", "sparsity", "spatial"):
             if not 0 <= getattr(self, name) < float("inf"):
                 raise refuse(name, "a finite number of at least zero", repr(getattr(self, name)), "use 0 to omit")
         if self.directions == "both" and not (self.inverse or self.adjoint):
             raise refuse("inverse and adjoint", "one of them above zero", "both 0", "nothing ties the two directions")
-        for name in ("loss_width", "mask_power", "coupling"):
+        for name in ("loss_width", "mask_power", "coupling", "spatial_blur"):
             check_positive(getattr(self, name), name)
         check_count(self.rounds, "rounds")
 
@@ -392,6 +399,11 @@ class Config:
     def huang17(cls) -> Config:
         """Huang and Ovsjanikov (2017), Adjoint map representation: both directions, each the other's adjoint."""
         return cls.published(Formulation(directions="both", inverse=0.0, adjoint=1.0))
+
+    @classmethod
+    def gasparetto17(cls) -> Config:
+        """Gasparetto et al. (2017), Spatial maps: a map that moves the whole area of both shapes."""
+        return cls.published(Formulation(spatial=0.1))
 
     @classmethod
     def ren19(cls) -> Config:

@@ -17,6 +17,7 @@ from kfmaps.functional.energy import Energy, laplacian_term
 from kfmaps.functional.losses import Loss, Penalty, RobustData, sparse
 from kfmaps.functional.objective import Coupling, How, Objective, Told, coupled_pair, minimised
 from kfmaps.functional.solvers import CG, Solution
+from kfmaps.functional.spatial import spatial
 
 
 @dataclass(frozen=True, eq=False)
@@ -64,7 +65,7 @@ def minimiser(task: Problem, config: Config, start: Array | None = None, told: T
     """What minimises what ``task`` and ``config.formulation`` ask, reached from ``start``."""
     asked = config.formulation
     how = How(config.solver, config.preconditioner, asked.rounds)
-    if asked.weighs_features or asked.bases == "coupled":
+    if asked.weighs_features or asked.bases == "coupled" or asked.spatial:
         start = minimised(Objective(task.energy), how, start, told).value
     rotation = _rotation(task, start, config) if asked.bases == "coupled" and start is not None else None
     forth = objective(task, config, start, rotation)
@@ -100,6 +101,10 @@ def objective(
         penalties["descriptors"] = (config.weights.descriptors, data)
     if asked.sparsity:
         penalties["sparsity"] = (asked.sparsity * typical(energy), sparse(energy.rhs()))
+    if asked.spatial:
+        assert plain is not None
+        moving = spatial(plain, *bases, asked.spatial_blur)
+        penalties["spatial"] = (asked.spatial * typical(energy), moving)
     if rotation is not None:
         U = (rotation.U_t, rotation.U_s)
         term = laplacian_term(*rotation.rotated(*bases), mask=asked.mask, power=asked.mask_power)

@@ -33,6 +33,15 @@ def transfer(
         bool,
         typer.Option("--points", help='VALUES are points: "name, vertex" or "name, x, y, z" a row (.csv).'),
     ] = False,
+    products: Annotated[
+        int | None,
+        typer.Option(
+            min=2,
+            metavar="NUMBER",
+            show_default=False,
+            help="Carry VALUES by the functional map, with products of so many eigenfunctions, not by points; 20 say.",
+        ),
+    ] = None,
     back: Annotated[bool, typer.Option("--back", help="From the target to the source.")] = False,
     source: Annotated[
         Path | None, typer.Option(help="The source mesh; default: the one the map names.", show_default=False)
@@ -42,6 +51,9 @@ def transfer(
 ) -> None:
     """Carry functions, labels or named points from the source to the target, or back."""
     check_output(output, force, (map, values, source, target))
+    if products is not None and (points or back):
+        with_it = "--points" if points else "--back"
+        raise refuse("--products", "values of the source", with_it, "leave one of them out")
     found = load_map(map)
     if points:
         _points(found, map, values, output, back, (source, target), force)
@@ -49,6 +61,12 @@ def transfer(
     given = read_values(values)
     if back:
         write_values(output, Values(_back(found, map, given.array, (source, target)), given.columns), force)
+        return
+    if products is not None:
+        from kfmaps.app.files.functions import carried_functions
+
+        shapes = [_shape(found, side, path, map) for side, path in (("source", source), ("target", target))]
+        write_values(output, Values(carried_functions(given.array, found, *shapes, products), given.columns), force)
         return
     faces = None
     if found.place is not None and given.array.dtype.kind == "f":

@@ -57,6 +57,7 @@ FORMULATIONS: dict[str, tuple[Formulation, Weights]] = {
     "sparse": (Formulation(sparsity=0.001), Weights()),
     "resolvent": (Formulation(mask="resolvent"), Weights()),
     "coupled bases": (Formulation(bases="coupled"), Weights()),
+    "spatial": (Formulation(spatial=0.1), Weights()),
     "orientation": (Formulation(), Weights(orientation=0.1)),
 }
 """What is compared; every other setting is that of :data:`CONFIG`."""

@@ -29,9 +29,9 @@ from kfmaps.app.experiments.formulation_pairs import (
 )
 from kfmaps.app.experiments.formulation_shapes import Shapes
 from kfmaps.app.experiments.outputs import Outcome, write_conclusions, write_pictures, write_table
-from kfmaps.app.experiments.setting import Setting
+from kfmaps.app.experiments.setting import PIECES, Setting
 from kfmaps.app.experiments.statistics import Interval, difference
-from kfmaps.app.experiments.store import Job
+from kfmaps.app.experiments.store import Job, read_store
 
 MOST = {"FAUST_r": 40, "TOSCA_r": 20, "generated": 8}
 """Pairs of each data set, where no fewer are asked for."""
@@ -49,9 +49,23 @@ WAYS = ("error", "cycle", "coverage")
 Rows = list[dict[str, Any]]
 
 
+USED: Mapping[str, tuple[str, ...]] = {
+    "between": ("least squares", "both directions"),
+    "outliers": (),
+    "functions": ("least squares",),
+}
+"""Formulations that a measurement fits; "compared" has a piece for each."""
+
+
 def piece(kind: str, shapes: Shapes, a: str, b: str, count: int) -> list[Rows]:
     """One kind of measurement on one pair, for a worker process."""
     return [KINDS[kind](shapes, a, b, count)]
+
+
+def pieces(shapes: Shapes, a: str, b: str, count: int, names: Sequence[str]) -> list[Rows]:
+    """The comparison on one pair for some formulations, a list of rows for each."""
+    rows = compared(shapes, a, b, count, names)
+    return [[row for row in rows if row["formulation"] == name] for name in names]
 
 
 def data_sets(setting: Setting) -> list[Shapes]:
@@ -72,8 +86,11 @@ def data_sets(setting: Setting) -> list[Shapes]:
 
 
 def measured(setting: Setting, kind: str, share: float = 1.0, counts: Sequence[int] = COUNTS) -> dict[str, Rows]:
-    """Rows of one kind of measurement by data set, each with its ``pair``; on a ``share`` of the pairs."""
-    version = hashlib.sha256(repr((CONFIG, FORMULATIONS, LOSSES)).encode()).hexdigest()[:12]
+    """Rows of one kind of measurement by data set, each with its ``pair``; on a ``share`` of the pairs.
+
+    A further formulation, or one that has changed, is all that is measured again.
+    """
+    known = read_store(setting.folder / PIECES)
     jobs, places = [], []
     for shapes in data_sets(setting):
         count = max(1, round(share * MOST[shapes.collection] * min(1.0, setting.pairs / MOST["FAUST_r"])))
@@ -81,14 +98,28 @@ def measured(setting: Setting, kind: str, share: float = 1.0, counts: Sequence[i
         # Pairs of one source next to each other: a worker keeps the shapes that it has prepared.
         for a, b in sorted(shapes.pairs(count, setting.seed)):
             for n in counts:
-                key = f"formulations {version} {kind} {shapes.collection}{size} {a} {b} {n}"
-                jobs.append(Job((key,), piece, (kind, shapes, a, b, n)))
-                places.append((shapes.collection, f"{a} {b}", key))
+                told = f"{kind} {shapes.collection}{size} {a} {b} {n}"
+                if kind == "compared":
+                    keys = {name: f"formulations {version((name,))} {told} {name}" for name in FORMULATIONS}
+                    for done in (True, False):
+                        names = tuple(name for name, key in keys.items() if (key in known) == done)
+                        if names:
+                            jobs.append(Job(tuple(keys[n] for n in names), pieces, (shapes, a, b, n, names)))
+                else:
+                    keys = {kind: f"formulations {version(USED[kind])} {told}"}
+                    jobs.append(Job(tuple(keys.values()), piece, (kind, shapes, a, b, n)))
+                places += [(shapes.collection, f"{a} {b}", key) for key in keys.values()]
     values = setting.run(jobs)
     rows: dict[str, Rows] = {}
     for collection, pair, key in places:
         rows.setdefault(collection, []).extend({"pair": pair, **row} for row in values[key])
     return rows
+
+
+def version(names: Sequence[str]) -> str:
+    """What rows of these formulations depend on beside their pair."""
+    asked = repr((CONFIG, {name: FORMULATIONS[name] for name in names}, LOSSES))
+    return hashlib.sha256(asked.encode()).hexdigest()[:12]
 
 
 def column(rows: Rows, value: str, **where: Any) -> np.ndarray:

@@ -13,6 +13,7 @@ from kfmaps.config import Config, Formulation
 from kfmaps.fit.features import pair_descriptors
 from kfmaps.fit.fit import checked_landmarks
 from kfmaps.fit.shape import Shape, reduced
+from kfmaps.functional.nearest import nearest
 from kfmaps.kernel.kernels import Gaussian, Laplacian, resolved
 from kfmaps.kernel.select import farthest
 from kfmaps.surface.basis import Basis
@@ -34,11 +35,15 @@ class Known:
         Basis of the target at the judged points.
     distances : (m, n_s) float32 tensor
         Geodesic, in √area, from the true partner of each to every point of the source.
+    rows_s, rows_t : (m,) int64 tensors
+        The points of source and target at, or nearest to, these correspondences.
     """
 
     wanted: torch.Tensor
     functions_t: torch.Tensor
     distances: torch.Tensor
+    rows_s: torch.Tensor
+    rows_t: torch.Tensor
 
 
 @dataclass(frozen=True, eq=False)
@@ -124,7 +129,7 @@ def lesson(
     rows = [D[farthest(D, min(samples // 2, len(D)), draw)] for D in (both.source, both.target)]
     k = config.basis.functions
     found = resolved(config.kernel, np.concatenate(rows), config.sharpness)
-    known = None if truth is None else _known(source, target, parts[0].vertices, k, truth, draw)
+    known = None if truth is None else _known(source, target, (parts[0].vertices, parts[1].vertices), k, truth)
     return Lesson(
         f"{source.name} {target.name}",
         bases[0].truncated(k).to("torch"),
@@ -141,12 +146,11 @@ def lesson(
 def _known(
     source: Shape,
     target: Shape,
-    points: np.ndarray,
+    points: tuple[np.ndarray, np.ndarray],
     k: int,
     truth: tuple[Any, Any],
-    draw: np.random.Generator,
 ) -> Known:
-    """The truth at no more than :data:`JUDGED` correspondences; distances reach to ``points`` of the source."""
+    """The truth at no more than :data:`JUDGED` correspondences, of a fit made from ``points`` of source and target."""
     true_s, true_t = (np.asarray(side) for side in truth)
     for side, shape in ((true_s, source), (true_t, target)):
         name, n = f"truth of {shape.name}", len(shape.mesh.vertices)
@@ -156,10 +160,18 @@ def _known(
             raise refuse(name, f"at least {k} vertices, 0 to {n - 1}", got, "take the lists of these shapes")
     functions_s, functions_t = (shape.basis.truncated(k).functions for shape in (source, target))
     wanted = np.linalg.lstsq(functions_t[true_t], functions_s[true_s], rcond=None)[0]
-    chosen = np.sort(draw.choice(len(true_s), min(JUDGED, len(true_s)), replace=False))
-    distances = geodesic_distances(source.mesh, true_s[chosen])[:, points]
+    # The same lines for every pair of a collection: distances from them can be kept with the shape.
+    lines = np.random.default_rng(0)
+    chosen = np.sort(lines.choice(len(true_s), min(JUDGED, len(true_s)), replace=False))
+    distances = geodesic_distances(source.mesh, true_s[chosen])[:, points[0]]
+    rows = [
+        nearest(shape.mesh.vertices[side[chosen]], shape.mesh.vertices[kept])
+        for shape, side, kept in zip((source, target), (true_s, true_t), points, strict=True)
+    ]
     return Known(
         torch.from_numpy(wanted),
         torch.from_numpy(functions_t[true_t[chosen]]),
         torch.from_numpy(distances.astype(np.float32)),
+        torch.from_numpy(rows[0]),
+        torch.from_numpy(rows[1]),
     )

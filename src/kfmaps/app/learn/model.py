@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import copy
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -17,6 +17,8 @@ from kfmaps.config import Config, DescriptorConfig, Weights
 from kfmaps.kernel.kernels import Gaussian, KernelLike, Laplacian, Sum, gram, resolved
 from kfmaps.kernel.lifted import Metric, Network, Scaled, forward
 
+RIDGE = 1e-3
+"""Added to the variance between corresponding points, in units of the mean one of a shape's."""
 SPREAD = 6.0
 """Factor from one γ of a mixture to the next, at the start."""
 
@@ -63,8 +65,9 @@ class Model(torch.nn.Module):
         Of which only descriptors are looked at: their number, automatic γ and directions.
     parts : sequence of str
         Keys of :data:`kfmaps.app.learn.names.PARTS`.
-    rank : int
-        Rows of the metric for the signature, and for SHOT; landmarks get half as many each.
+    rank : int, or mapping of "signature", "landmark", "shot" to int
+        Rows of the metric for each kind; a number alone is for the signature and SHOT, and half as many for each
+        landmark.
     components : int
         Kernels of a mixture.
     hidden, outputs : int
@@ -78,7 +81,7 @@ class Model(torch.nn.Module):
         lessons: Sequence[Lesson],
         parts: Sequence[str],
         *,
-        rank: int = 8,
+        rank: int | Mapping[str, int] = 8,
         components: int = 3,
         hidden: int = 16,
         outputs: int = 8,
@@ -120,7 +123,7 @@ class Model(torch.nn.Module):
                 self._add(f"log_weight_{kind}", np.zeros(len(block)), {"ard"})
         if "metric" in parts:
             for kind in kinds:
-                wanted = max(1, rank // 2) if kind == "landmark" else rank
+                wanted = rows_of(rank, kind)
                 self._add(f"metric_{kind}", _directions(lessons, self.columns, kind, wanted), {"metric"})
         if "network" in parts:
             seen = len(self.network_columns)
@@ -128,6 +131,12 @@ class Model(torch.nn.Module):
             inner = np.hstack([draw.normal(size=(hidden, seen)) * 2.0, np.zeros((hidden, 1))])
             self._add("layer_0", inner, {"network"})
             self._add("layer_1", 0.01 * draw.normal(size=(outputs, hidden + 1)), {"network"})
+        if "metric" in parts and isinstance(kernel, Gaussian | Laplacian):
+            # The metric has another scale than the descriptors.
+            with torch.no_grad():
+                lifted = [self.lift(lesson.samples).numpy() for lesson in lessons]
+                moved = np.log(_width(kernel, lifted, config.sharpness)) - start
+                self._tensor("log_gamma").add_(moved)
 
     def _add(self, name: str, values: Any, parts: set[str]) -> None:
         tensor = torch.tensor(np.asarray(values), dtype=torch.float64)
@@ -214,6 +223,21 @@ class Model(torch.nn.Module):
         return whole
 
 
+def rows_of(rank: int | Mapping[str, int], kind: str) -> int:
+    """How many rows the metric of a kind of descriptors has."""
+    if isinstance(rank, int):
+        return max(1, rank // 2) if kind == "landmark" else rank
+    if rank.get(kind, 0) < 1:
+        raise refuse("rank", f"rows for {kind}", repr(dict(rank)), "name as many kinds as there are")
+    return rank[kind]
+
+
+def _width(kernel: Gaussian | Laplacian, lifted: Sequence[np.ndarray], sharpness: float) -> float:
+    """The automatic γ for transformed samples of pairs: the median over them."""
+    automatic = replace(kernel, gamma=None)
+    return float(np.median([float(resolved(automatic, X, sharpness).gamma or 1.0) for X in lifted]))
+
+
 def opened(kernel: Any, **values: Any) -> Any:
     """A kernel's record with tensors in place of its numbers, unchecked: the same formula, with derivatives."""
     record = copy.copy(kernel)
@@ -223,12 +247,30 @@ def opened(kernel: Any, **values: Any) -> Any:
 
 
 def _directions(lessons: Sequence[Lesson], columns: Columns, kind: str, rank: int) -> np.ndarray:
-    """The ``rank`` strongest directions (r, d) of a kind's descriptors over all pairs: the metric's start."""
-    total: Any = 0.0
+    """Where the metric of a kind of descriptors starts, (rank, d).
+
+    The directions in which points of a shape differ most, measured by how much corresponding points of two shapes do
+    (linear discriminant analysis, Fisher 1936); each row is scaled so that the latter is 1. Where no truth is known the
+    strongest directions.
+    """
+    spread, gap = 0.0, 0.0
     for lesson in lessons:
-        for basis, D in ((lesson.source, lesson.descriptors_s), (lesson.target, lesson.descriptors_t)):
-            for name, block in zip(columns.kinds, columns.blocks, strict=True):
-                if name == kind:
-                    part = D[:, block[0] : block[-1] + 1].numpy()
-                    total = total + (part * basis.mass.numpy()[:, None]).T @ part
-    return np.linalg.eigh(total)[1][:, ::-1][:, :rank].T.copy()
+        sides = (lesson.descriptors_s.numpy(), lesson.descriptors_t.numpy())
+        masses = [basis.mass.numpy() / float(basis.mass.sum()) for basis in (lesson.source, lesson.target)]
+        for name, block in zip(columns.kinds, columns.blocks, strict=True):
+            if name != kind:
+                continue
+            parts = [D[:, block[0] : block[-1] + 1] for D in sides]
+            middle = sum(m @ part for m, part in zip(masses, parts, strict=True)) / 2
+            for m, part in zip(masses, parts, strict=True):
+                spread = spread + ((part - middle) * m[:, None]).T @ (part - middle) / 2
+            if lesson.known is not None:
+                moved = parts[0][lesson.known.rows_s.numpy()] - parts[1][lesson.known.rows_t.numpy()]
+                gap = gap + moved.T @ moved / len(moved)
+    spread = np.asarray(spread) / len(lessons)
+    whole = float(np.trace(spread)) / len(spread)
+    if np.ndim(gap) == 0:
+        return np.linalg.eigh(spread)[1][:, ::-1][:, :rank].T.copy()
+    noise = np.asarray(gap) / len(lessons) + RIDGE * whole * np.eye(len(spread))
+    root = np.linalg.inv(np.linalg.cholesky(noise))
+    return (root.T @ np.linalg.eigh(root @ spread @ root.T)[1][:, ::-1][:, :rank]).T.copy()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
@@ -19,8 +20,8 @@ from kfmaps.functional.solvers import CG
 
 Progress = Callable[[str, float], None]
 
-MATRICES = 0.05
-"""Part of the rate at which entries of a metric or network are changed."""
+MATRICES = 0.3
+"""Part of the rate at which entries of a metric or network are changed, in units of their root mean square."""
 
 
 @dataclass(frozen=True)
@@ -37,6 +38,8 @@ class Training:
         Pairs whose gradients are averaged for one step.
     rate : float
         Adam's; most parameters are logarithms, so 0.1 changes a weight by about a tenth a step.
+    falling : bool
+        Whether the rate falls to zero over the epochs, as half a cosine: learning then ends where it settles.
     patience : int
         Epochs without a better mean over the pairs held out, after which it stops.
     decay : float
@@ -56,6 +59,7 @@ class Training:
     epochs: int = 30
     batch: int = 4
     rate: float = 0.1
+    falling: bool = True
     patience: int = 6
     decay: float = 0.0
     temperature: float = 0.03
@@ -177,12 +181,20 @@ def learn(
 
 
 def _groups(model: Model, rate: float) -> list[dict[str, Any]]:
-    """Logarithms at the full rate; entries of matrices, which begin small, at :data:`MATRICES` of it."""
-    learned = [(name, p) for name, p in model.named_parameters() if p.requires_grad]
-    logs = [p for name, p in learned if name.startswith("log_")]
-    matrices = [p for name, p in learned if not name.startswith("log_")]
-    groups = [{"params": logs, "lr": rate}, {"params": matrices, "lr": MATRICES * rate}]
-    return [group for group in groups if group["params"]]
+    """Logarithms at the full rate, entries of matrices at a part of it in units of how large they began."""
+    groups = []
+    for name, p in model.named_parameters():
+        if p.requires_grad:
+            share = 1.0 if name.startswith("log_") else MATRICES * max(0.15, float((p.detach() ** 2).mean().sqrt()))
+            groups.append({"params": [p], "share": share, "lr": rate * share})
+    return groups
+
+
+def _paced(optimiser: torch.optim.Optimizer, training: Training, epochs: float) -> None:
+    """Set the rate for a step after so many ``epochs``, which need not be whole."""
+    share = 0.5 * (1 + math.cos(math.pi * min(1.0, epochs / training.epochs))) if training.falling else 1.0
+    for group in optimiser.param_groups:
+        group["lr"] = training.rate * share * group["share"]
 
 
 def _finished(state: State, training: Training) -> bool:
@@ -211,6 +223,7 @@ def _epoch(
     report(stage, 0.0)
     for a in range(0, len(order), training.batch):
         some = order[a : a + training.batch]
+        _paced(optimiser, training, number - 1 + a / len(order))
         optimiser.zero_grad()
         for i in some:
             try:

@@ -159,6 +159,8 @@ CATALOGUE: dict[str, tuple[Setting, ...]] = {
         ),
         Setting("formulation.loss_width", float, "scale of the loss, in medians of the residuals", "above 0"),
         Setting("formulation.sparsity", float, "weight of entries far from the diagonal", "at least 0", "--sparsity"),
+        Setting("formulation.spatial", float, "weight of a map that moves all area", "at least 0", "--spatial"),
+        Setting("formulation.spatial_blur", float, "softness of that map, in nearest points' costs", "above 0"),
         Setting("formulation.mask", str, "how Laplacian commutativity weighs entries", "squared, resolvent", "--mask"),
         Setting("formulation.mask_power", float, "power of the Laplacian in the resolvent", "above 0"),
         Setting("formulation.bases", str, "bases that the Laplacians meet in", "own, coupled", "--bases"),
@@ -239,5 +241,6 @@ PRESETS: dict[str, str] = {
     "kovnatsky16": "the same over orthogonal maps, no kernel",
     "eynard16": "both directions, each the other's inverse, no kernel",
     "huang17": "both directions, each the other's adjoint, no kernel",
+    "gasparetto17": "a map that moves the whole area of both shapes, no kernel",
     "ren19": "NO17 with the resolvent mask",
 }
