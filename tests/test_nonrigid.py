@@ -150,7 +150,7 @@ def test_a_whole_body_is_not_bent_onto_something_else(pair: datasets.Pair) -> No
     assert found.bent is None
     assert found.bend is not None
     assert not found.bend.kept
-    assert found.bend.why in ("gap", "loss")
+    assert found.bend.why in ("gap", "harm")
     assert found.bend.before == pytest.approx(found.local_confidence.mean())
     plain = kfmaps.match(pair.source, other, replace(config, finish=None))
     np.testing.assert_array_equal(found.target_to_source, plain.target_to_source)

@@ -14,7 +14,7 @@ from kfmaps.config import Config
 from kfmaps.fit.border import Border, border
 from kfmaps.fit.demand import check_demand
 from kfmaps.fit.finish import finished
-from kfmaps.fit.fit import Fit, fit
+from kfmaps.fit.fit import Fit, checked_landmarks, fit
 from kfmaps.fit.places import Bend, placed
 from kfmaps.fit.shape import Shape, prepare
 from kfmaps.fit.stages import Clock
@@ -312,7 +312,8 @@ def _ended(
         progress=clock.report,
     )
     clock.seconds.update(end.seconds)
-    last = placed(end.target_to_source, shapes[0], shapes[1], config, clock)
+    believed = checked_landmarks(marks, shapes[0], shapes[1]) if config.search is None else found.landmarks
+    last = placed(end.target_to_source, shapes[0], shapes[1], config, clock, believed)
     bent = last.bent
     if bent is not None:
         mirrored = found.orientation == "reversed"

@@ -10,13 +10,19 @@ from kfmaps.config import Config
 from kfmaps.fit.shape import Shape
 from kfmaps.fit.stages import Clock
 from kfmaps.functional.confidence import local_confidence
+from kfmaps.functional.nonrigid import Registered
 from kfmaps.functional.precise import PointMap, vertices_of
+from kfmaps.surface.mesh import vertex_areas
 
 GAP = 0.01
 """Distance that may be left between the bent source and the target, in √area: right maps leave 0.0006 to 0.003, a
 cat on a dog 0.018, a whole body on a part of one 0.02 and more."""
-LOSS = 0.02
-"""Confidence, averaged over the target, that a fit may lose and still count as no worse: right ones gain."""
+DROP = 0.2
+"""Change of the confidence of a vertex that counts: such vertices are harmed, or healed, by a fit."""
+HARMED = 0.006
+"""Share of the target's area that a right fit harms at most, fingertips mostly; above, what it harmed is held back."""
+HEALED = 0.5
+"""Area healed over area harmed from which a fit is kept all the same: it mends more than it hides."""
 
 
 @dataclass(frozen=True)
@@ -33,18 +39,25 @@ class Bend:
         Confidence, averaged over the target's vertices, of the map that the fit began with, ...
     after : float or None
         ... and of the map that it ends with; ``None`` where the gap alone refused it.
+    harmed, healed : float
+        Shares of the target's area in which the confidence falls and rises by more than :data:`DROP`.
+    held : bool
+        Whether the map was held fast where a first fit had harmed it.
     kept : bool
         Whether the match has taken the fit's points.
-    why : "gap", "loss" or None
+    why : "gap", "harm" or None
         What spoke against it.
     """
 
     gap: float
     bending: float
     before: float
-    after: float | None
-    kept: bool
-    why: str | None
+    after: float | None = None
+    harmed: float = 0.0
+    healed: float = 0.0
+    held: bool = False
+    kept: bool = False
+    why: str | None = "gap"
 
     @property
     def loss(self) -> float | None:
@@ -77,34 +90,63 @@ class Placed:
     fit: Bend | None = None
 
 
+@dataclass(frozen=True, eq=False)
+class _Tried:
+    """A fit and what it tells."""
+
+    found: Registered
+    vertices: np.ndarray
+    trust: np.ndarray
+    told: Bend
+
+
 def placed(
     points: np.ndarray,
     source: Shape,
     target: Shape,
     config: Config,
     clock: Clock,
+    landmarks: np.ndarray | None = None,
 ) -> Placed:
-    """The map ``points (n_t,)`` made finer than vertices as ``config.finish`` says.
+    """The map ``points (n_t,)`` made finer than vertices as ``config.finish`` says; ``landmarks (l, 2)`` hold softly.
 
-    A fit is kept when the bent source reaches the target up to :data:`GAP` and distances to the surroundings are kept
-    about as well as before, which they are not on parts and between bodies of altogether different shape.
+    A fit that does not bring the source to the target up to :data:`GAP` is left: so are parts. One that harms more of
+    the target than :data:`HARMED` (distances to the surroundings are kept clearly worse than before) is made once more
+    with the map held fast there. Of the two the last is kept for which the evidence speaks: that harms little, or heals
+    at least half as much as it harms.
     """
     with clock("confidence"):
         trust = local_confidence(source.mesh, target.mesh, points)
     surfaces = bool(len(source.mesh.faces) and len(target.mesh.faces))
-    if config.finish is None or config.refinement is None or not surfaces:
+    finish = config.finish
+    if finish is None or config.refinement is None or not surfaces:
         return Placed(points, None, None, trust)
-    with clock("non-rigid fit"):
-        found = config.finish(
-            source.mesh, target.mesh, points, progress=lambda done: clock.report("non-rigid fit", done)
-        )
-    told = Bend(found.gap, found.bending, float(trust.mean()), None, False, "gap")
-    if found.gap > GAP:
-        return Placed(points, None, None, trust, told)
-    place = PointMap(found.faces, found.weights)
-    vertices = vertices_of(place, source.mesh)
-    with clock("confidence after the fit"):
-        better = local_confidence(source.mesh, target.mesh, vertices)
-    kept = bool(better.mean() >= trust.mean() - LOSS)
-    told = replace(told, after=float(better.mean()), kept=kept, why=None if kept else "loss")
-    return Placed(vertices, place, found.vertices, better, told) if kept else Placed(points, None, None, trust, told)
+    areas = vertex_areas(target.mesh)
+    areas = areas / areas.sum()
+
+    def tried(held: np.ndarray | None) -> _Tried:
+        stage = "non-rigid fit" if held is None else "non-rigid fit, held"
+        with clock(stage):
+            found = finish(
+                source.mesh, target.mesh, points, lambda done: clock.report(stage, done), landmarks=landmarks, held=held
+            )
+        told = Bend(found.gap, found.bending, float(trust.mean()), held=held is not None)
+        if found.gap > GAP:
+            return _Tried(found, points, trust, told)
+        vertices = vertices_of(PointMap(found.faces, found.weights), source.mesh)
+        with clock("confidence after the fit"):
+            after = local_confidence(source.mesh, target.mesh, vertices)
+        harmed, healed = (float(areas[change > DROP].sum()) for change in (trust - after, after - trust))
+        kept = harmed <= HARMED or healed >= HEALED * harmed
+        told = replace(told, after=float(after.mean()), harmed=harmed, healed=healed)
+        return _Tried(found, vertices, after, replace(told, kept=kept, why=None if kept else "harm"))
+
+    first = best = tried(None)
+    if first.told.after is not None and first.told.harmed > HARMED:
+        held = np.clip(2 * (trust - first.trust) / DROP - 1, 0.0, 1.0)
+        second = tried(held)
+        best = second if second.told.kept or not first.told.kept else first
+    if not best.told.kept:
+        return Placed(points, None, None, trust, best.told)
+    place = PointMap(best.found.faces, best.found.weights)
+    return Placed(best.vertices, place, best.found.vertices, best.trust, best.told)

@@ -3,7 +3,9 @@
 A refined functional map is right up to a smooth sliding of points, which its basis hardly sees, and here and there a
 limb is twisted or folded. So the source's mesh is bent onto the target as rigidly as possible (Sorkine and Alexa 2007)
 by a non-rigid ICP (Amberg et al. 2007) that begins with the map: closest points in both directions, compared with
-normals, and distances mostly along the normal, so that points may slide to where they bend the source least. Then each
+normals, and distances mostly along the normal, so that points may slide to where they bend the source least.
+Neighbouring rotations are kept alike (Levi and Gotsman 2015): their differences are less at the true correspondence
+than at a map whose limbs are twisted, where bending alone hardly tells the two apart. Landmarks hold softly. Then each
 target vertex takes the closest point on the bent source, inside a triangle.
 
 It comes last: a refinement after it would go back to where it was.
@@ -44,6 +46,12 @@ SMOOTH = 1e-4
 """Area over which the map's images are averaged before anything is known of rotations."""
 INNER = 3
 """Steps of conjugate gradients for each set of closest points."""
+HOLD = 6.0
+"""Weight of a landmark over the stiffness of a level: softly enough that those 3 % of √area off do no harm."""
+DISC = 1e-3
+"""Area around a landmark that goes with it."""
+SLOPPY = 0.03
+"""Distance from a landmark, in √area, from which its pull fades: a click that is off does no harm."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -83,16 +91,21 @@ class NonRigid:
         Each has a third (``10^-½``) of the stiffness of the one before.
     steps : int
         Searches for closest points at each level.
+    evenness : float
+        Area over which rotations are averaged, so that limbs are not twisted; 0 leaves each vertex its own.
     """
 
     stiffness: float = 2e-4
     levels: int = 3
     steps: int = 5
+    evenness: float = 1e-3
 
     def __post_init__(self) -> None:
         check_positive(self.stiffness, "stiffness of the non-rigid fit")
         check_count(self.levels, "levels of the non-rigid fit")
         check_count(self.steps, "steps of the non-rigid fit")
+        if self.evenness != 0:
+            check_positive(self.evenness, "evenness of the non-rigid fit", "give 0 or a number above it")
 
     def __call__(
         self,
@@ -100,8 +113,13 @@ class NonRigid:
         target: Mesh,
         target_to_source: np.ndarray,
         progress: Callable[[float], None] | None = None,
+        landmarks: np.ndarray | None = None,
+        held: np.ndarray | None = None,
     ) -> Registered:
         """Bend ``source`` onto ``target``, beginning with the map ``target_to_source (n_t,)``.
+
+        ``landmarks (l, 2)``, pairs "source vertex, target vertex", are pulled together softly; so is each target
+        vertex with its image in the map, where ``held (n_t,)``, from 0 to 1, says that it shall stay.
 
         Raises
         ------
@@ -116,13 +134,20 @@ class NonRigid:
         pair = _pair(source, target)
         x = unfolded(pair, points)
         report(0.2)
+        even = _evened(pair, self.evenness)
+        marked = landmarks is not None and len(landmarks) > 0
+        discs = _discs(pair, landmarks) if marked else np.zeros((len(x), 0))
+        stays = [] if held is None or not held.any() else [_stays(pair, points, held)]
         gap = 0.0
         for level in range(self.levels):
             stiffness = self.stiffness * DECLINE**level
             solve = _solver(pair, stiffness, 2.0)
             for step in range(self.steps):
                 terms, gap = _closest_terms(pair, x)
-                x = _descended(pair, stiffness, solve, terms, x, rotations(pair.energy, x))
+                terms += stays
+                if marked:
+                    terms.append(_marked(pair, landmarks, discs, x, HOLD * stiffness))
+                x = _descended(pair, stiffness, solve, terms, x, even(rotations(pair.energy, x)))
                 report(0.2 + 0.8 * (level * self.steps + step + 1) / (self.levels * self.steps))
         found = places_on(target.vertices, x, source.faces)
         energy = bending(pair.energy, x) / float(pair.areas_s.sum())
@@ -216,6 +241,40 @@ def _unit(rows: np.ndarray) -> np.ndarray:
 def _solver(pair: _Pair, stiffness: float, data: float) -> Callable[[np.ndarray], np.ndarray]:
     """Solves with ``stiffness L + data A``: the preconditioner of one level, factorised once for all its steps."""
     return factorise(stiffness * pair.energy.laplacian + diags_array(data * pair.areas_s), ordered=False)
+
+
+def _evened(pair: _Pair, area: float) -> Callable[[np.ndarray], np.ndarray]:
+    """Averages rotations ``(n_s, 3, 3)`` with those around: one step of implicit diffusion over ``area``."""
+    if area == 0:
+        return lambda turns: turns
+    diffuse = factorise(area * pair.energy.laplacian + diags_array(pair.areas_s), ordered=False)
+    return lambda turns: nearest_rotations(
+        diffuse(pair.areas_s[:, None] * turns.reshape(len(turns), 9)).reshape(turns.shape)
+    )
+
+
+def _stays(pair: _Pair, points: np.ndarray, held: np.ndarray) -> _Term:
+    """The map itself as a term, with weights ``held (n_t,)``."""
+    some = np.flatnonzero(held)
+    rows = csr_array((np.ones(len(some)), points[some], np.arange(len(some) + 1)), shape=(len(some), len(pair.areas_s)))
+    return _Term(held[some] * pair.areas_t[some], pair.target.vertices[some], rows)
+
+
+def _discs(pair: _Pair, landmarks: np.ndarray) -> np.ndarray:
+    """How much of each source vertex belongs to each landmark of ``(l, 2)``: columns (n_s, l) with sum 1."""
+    n, count = len(pair.areas_s), len(landmarks)
+    points = np.zeros((n, count))
+    points[landmarks[:, 0], np.arange(count)] = 1.0
+    diffuse = factorise(DISC * pair.energy.laplacian + diags_array(pair.areas_s), ordered=False)
+    return pair.areas_s[:, None] * np.asarray(diffuse(points)).reshape(n, count)
+
+
+def _marked(pair: _Pair, landmarks: np.ndarray, discs: np.ndarray, x: np.ndarray, weight: float) -> _Term:
+    """Landmarks ``(l, 2)`` as a term: each takes its disc along, those that are far off with less weight."""
+    missing = pair.target.vertices[landmarks[:, 1]] - x[landmarks[:, 0]]
+    shares = weight * discs / (1 + (missing**2).sum(axis=1) / SLOPPY**2) ** 2
+    held = shares.sum(axis=1)
+    return _Term(held, x + shares @ missing / np.maximum(held, 1e-300)[:, None])
 
 
 def _descended(

@@ -1,0 +1,148 @@
+"""When a non-rigid fit is kept, and what holds it."""
+
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from kfmaps import datasets
+from kfmaps.fit.places import GAP, HARMED, Placed, placed
+from kfmaps.fit.stages import Clock
+from kfmaps.functional.nonrigid import NonRigid, Registered, _evened, _pair
+from kfmaps.functional.precise import PointMap, at_vertices, points_of
+from kfmaps.surface.mesh import Mesh, unit_area, vertex_areas
+from kfmaps.surface.rigidity import nearest_rotations
+
+
+@pytest.fixture(scope="module")
+def pair() -> datasets.Pair:
+    return datasets.two_poses(1500, rng=3)
+
+
+def errors(found: Registered | PointMap, source: Mesh, truth: np.ndarray) -> np.ndarray:
+    return np.linalg.norm(points_of(PointMap(found.faces, found.weights), source) - truth, axis=1)
+
+
+class Pretended:
+    """A fit that returns the true map, but wrong around ``spot`` as long as nothing holds it there."""
+
+    def __init__(self, pair: datasets.Pair, spot: np.ndarray, gap: float = 0.0, stubborn: bool = False) -> None:
+        self.pair, self.spot, self.gap, self.stubborn = pair, spot, gap, stubborn
+        self.held: list[np.ndarray | None] = []
+
+    def __call__(self, source: Mesh, *_: Any, held: np.ndarray | None, **_more: Any) -> Registered:
+        self.held.append(held)
+        points = self.pair.truth.copy()
+        if held is None or self.stubborn:
+            points[self.spot] = np.random.default_rng(0).permutation(points[self.spot])
+        place = at_vertices(points, source)
+        return Registered(source.vertices, place.faces, place.weights, 0.0, self.gap)
+
+
+def end(pair: datasets.Pair, finish: Any, points: np.ndarray | None = None) -> Placed:
+    shapes: Any = [SimpleNamespace(mesh=unit_area(mesh)) for mesh in (pair.source, pair.target)]
+    config: Any = SimpleNamespace(finish=finish, refinement="some")
+    return placed(pair.truth if points is None else points, shapes[0], shapes[1], config, Clock())
+
+
+def spot_of(pair: datasets.Pair, share: float) -> np.ndarray:
+    """Target vertices around one, with that share of the area."""
+    target = unit_area(pair.target)
+    order = np.argsort(np.linalg.norm(target.vertices - target.vertices[0], axis=1))
+    return order[: np.searchsorted(np.cumsum(vertex_areas(target)[order]), share)]
+
+
+def test_a_fit_that_harms_a_part_is_made_again_with_the_map_held_there(pair: datasets.Pair) -> None:
+    spot = spot_of(pair, 0.05)
+    finish = Pretended(pair, spot)
+    last = end(pair, finish)
+    assert finish.held[0] is None
+    held = finish.held[1]
+    assert held is not None
+    assert held[spot].mean() > 0.5
+    assert np.delete(held, spot).mean() < 0.05
+    assert last.fit is not None
+    assert last.fit.kept
+    assert last.fit.held
+    assert last.fit.harmed <= HARMED
+    np.testing.assert_array_equal(last.target_to_source, pair.truth)
+
+
+def test_a_fit_that_harms_all_the_same_is_left(pair: datasets.Pair) -> None:
+    last = end(pair, Pretended(pair, spot_of(pair, 0.05), stubborn=True))
+    assert last.fit is not None
+    assert last.fit.why == "harm"
+    assert last.fit.harmed > HARMED
+    assert last.fit.loss == pytest.approx(last.fit.before - (last.fit.after or 0))
+    assert last.place is None
+
+
+def test_a_fit_that_heals_more_than_it_harms_is_kept(pair: datasets.Pair) -> None:
+    target = unit_area(pair.target)
+    other = np.argsort(-np.linalg.norm(target.vertices - target.vertices[0], axis=1))[: len(target.vertices) // 5]
+    wrong = pair.truth.copy()
+    wrong[other] = np.random.default_rng(1).permutation(wrong[other])
+    last = end(pair, Pretended(pair, spot_of(pair, 0.05), stubborn=True), wrong)
+    assert last.fit is not None
+    assert last.fit.kept
+    assert last.fit.healed > last.fit.harmed > HARMED
+
+
+def test_a_gap_speaks_first(pair: datasets.Pair) -> None:
+    finish = Pretended(pair, spot_of(pair, 0.05), gap=1.01 * GAP)
+    last = end(pair, finish)
+    assert last.fit is not None
+    assert (last.fit.why, last.fit.after, last.fit.kept) == ("gap", None, False)
+    assert len(finish.held) == 1
+
+
+def test_rotations_become_even_and_constant_ones_stay(pair: datasets.Pair) -> None:
+    rng = np.random.default_rng(0)
+    two = _pair(unit_area(pair.source), unit_area(pair.target))
+    n = len(pair.source.vertices)
+    one = np.broadcast_to(nearest_rotations(rng.normal(size=(1, 3, 3))), (n, 3, 3))
+    np.testing.assert_allclose(_evened(two, 1e-3)(one), one, atol=1e-8)
+    rough = nearest_rotations(one + 0.5 * rng.normal(size=(n, 3, 3)))
+    differences = [
+        float(np.sum(turns.reshape(n, 9) * (two.energy.laplacian @ turns.reshape(n, 9))))
+        for turns in (_evened(two, area)(rough) for area in (0.0, 1e-3, 1e-2))
+    ]
+    assert differences[1] < 0.1 * differences[0]
+    assert differences[2] < 0.5 * differences[1]
+    np.testing.assert_array_equal(_evened(two, 0.0)(rough), rough)
+
+
+def test_landmarks_pull_their_surroundings_and_bad_ones_hardly(pair: datasets.Pair) -> None:
+    source, target = unit_area(pair.source), unit_area(pair.target)
+    truth = source.vertices[pair.truth]
+    slid = truth + 0.04 * np.sin(7 * truth[:, [1, 2, 0]])
+    start = np.linalg.norm(slid[:, None] - source.vertices[None], axis=2).argmin(axis=1)
+    free = errors(NonRigid()(source, target, start), source, truth)
+    worst = np.argsort(-free)
+    marks = [worst[0]]
+    for i in worst:
+        if np.linalg.norm(target.vertices[marks] - target.vertices[i], axis=1).min() > 0.3 and len(marks) < 4:
+            marks.append(i)
+    right = np.stack([pair.truth[marks], marks], axis=1)
+    around = np.linalg.norm(target.vertices[:, None] - target.vertices[marks], axis=2).min(axis=1) < 0.06
+    held = errors(NonRigid()(source, target, start, landmarks=right), source, truth)
+    assert held[around].mean() < 0.9 * free[around].mean()
+    assert held[marks].mean() < 0.85 * free[marks].mean()
+    assert held.mean() < free.mean()
+    wrong = np.stack([np.roll(pair.truth[marks], 1), marks], axis=1)
+    misled = errors(NonRigid()(source, target, start, landmarks=wrong), source, truth)
+    assert misled.mean() < 1.1 * free.mean()
+
+
+def test_what_is_held_stays(pair: datasets.Pair) -> None:
+    source, target = unit_area(pair.source), unit_area(pair.target)
+    truth = source.vertices[pair.truth]
+    slid = truth + 0.03 * np.sin(7 * truth[:, [1, 2, 0]])
+    start = np.linalg.norm(slid[:, None] - source.vertices[None], axis=2).argmin(axis=1)
+    half = truth[:, 1] > np.median(truth[:, 1])
+    own = source.vertices[start]
+    free = errors(NonRigid()(source, target, start), source, own)
+    held = errors(NonRigid()(source, target, start, held=half.astype(float)), source, own)
+    assert held[half].mean() < 0.6 * free[half].mean()
+    assert held[~half].mean() > 0.8 * free[~half].mean()
