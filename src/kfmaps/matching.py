@@ -228,7 +228,8 @@ def match(
     else:
         one = fit(shapes[0], shapes[1], config, landmarks=marks, **more)
         clock.seconds.update(one.seconds)
-        found = Found(one.functional_map, ONE_FIT, one, "unchecked" if marks is None else "landmarks")
+        verdict, pairs = "unchecked" if marks is None else "landmarks", checked_landmarks(marks, *shapes)
+        found = Found(one.functional_map, ONE_FIT, one, verdict, landmarks=pairs)
     back = None
     if config.formulation.directions == "both":
         # The adjoint, where a search has found the map: its candidates are refined one way.
@@ -312,8 +313,7 @@ def _ended(
         progress=clock.report,
     )
     clock.seconds.update(end.seconds)
-    believed = checked_landmarks(marks, shapes[0], shapes[1]) if config.search is None else found.landmarks
-    last = placed(end.target_to_source, shapes[0], shapes[1], config, clock, believed)
+    last = placed(end.target_to_source, shapes[0], shapes[1], config, clock, found.landmarks)
     bent = last.bent
     if bent is not None:
         mirrored = found.orientation == "reversed"
