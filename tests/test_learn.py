@@ -157,6 +157,46 @@ def test_landmarks_share_their_weights(lessons):
     assert first == second
 
 
+def test_metric_starts_where_corresponding_points_agree(lessons):
+    """Rows are of unit variance between corresponding points, uncorrelated, and blind to what does not correspond."""
+    rng = np.random.default_rng(0)
+    noisy = []
+    for each in lessons:
+        sides = (each.descriptors_s.clone(), each.descriptors_t.clone())
+        for D in sides:
+            D[:, 0] = torch.from_numpy(rng.normal(size=len(D)))  # the signature's first says nothing
+        noisy.append(replace(each, descriptors_s=sides[0], descriptors_t=sides[1]))
+    model = Model(CONFIG, noisy, ["metric"], rank={"signature": 3, "landmark": 1})
+    M = model.get_parameter("metric_signature").detach().numpy()
+    assert M.shape == (3, len(model.columns.blocks[0]))
+    assert len(model.get_parameter("metric_landmark")) == 1
+    size = np.abs(M).max(axis=0)
+    assert size[0] < 0.2 * size[1:].max()
+    block = list(model.columns.blocks[0])
+    gaps = [
+        x.descriptors_s[x.known.rows_s][:, block] - x.descriptors_t[x.known.rows_t][:, block]
+        for x in noisy
+        if x.known is not None
+    ]
+    between = M @ np.mean([(g.T @ g).numpy() / len(g) for g in gaps], axis=0) @ M.T
+    np.testing.assert_allclose(between - np.diag(np.diag(between)), 0, atol=0.1)
+    assert (np.diag(between) < 1.0 + 1e-9).all()
+    with pytest.raises(InvalidInput, match="rows for landmark"):
+        Model(CONFIG, noisy, ["metric"], rank={"signature": 3})
+
+
+def test_the_rate_falls_to_zero(lessons):
+    """The last of many steps are small, where a constant rate still moves."""
+    moved = {}
+    for falling in (True, False):
+        model = Model(CONFIG, lessons, ["gamma"])
+        seen = []
+        many = replace(QUICK, epochs=6, batch=4, patience=9, falling=falling, rate=0.3)
+        learn(model, lessons, [], many, keep=lambda state, seen=seen: seen.append(float(state.parameters["log_gamma"])))
+        moved[falling] = abs(seen[-1] - seen[-2])
+    assert moved[True] < 0.3 * moved[False]
+
+
 def test_columns_of_every_kind():
     config = DescriptorConfig(count=20, shot=True)
     found = columns(config, 3, 20 + 352)
@@ -356,7 +396,7 @@ def test_command_without_truth(folder):
         path.unlink()
     words = ("--data", str(folder / "data"), "-o", str(folder / "kernel.pt"), "--descriptors", "10", "--refine", "none")
     small = ("--basis", "8", "--set", "descriptors.eigenfunctions=20", "--pairs", "1", "--held-out-pairs", "1")
-    ran = run("learn", *words, *small, "--held-out", "blob0,blob1", "--epochs", "1", "--no-shot", "--learn", "gamma")
+    ran = run("learn", *words, *small, "--held-out", "none", "--epochs", "1", "--no-shot", "--learn", "gamma")
     assert ran.status == 0, ran.stderr
     assert isinstance(read_settings(folder / "kernel.pt", Config()).kernel, Gaussian)
 
@@ -367,4 +407,5 @@ def test_command_refuses(folder):
     assert "--loss" in run(*words, "--loss", "cycle=much").error
     assert "ends in .toml or .pt" in run(*words[:-1], str(folder / "kernel.txt")).error
     assert "--resume" in run(*words, "--resume").error
+    assert "--rank" in run(*words, "--rank", "2,0,1").error
     assert "--minutes" in run(*words, "--minutes", "0").error

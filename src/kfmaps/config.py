@@ -180,7 +180,7 @@ class Formulation:
     coupling: float = 1.0
     rounds: int = 20
     spatial: float = 0.0
-    spatial_blur: float = 1.0
+    spatial_blur: float = 0.3
 
     def __post_init__(self) -> None:
         _choice(self.constraint, "constraint", CONSTRAINTS)

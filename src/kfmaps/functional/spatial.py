@@ -82,7 +82,7 @@ class Spatial:
         return self._last["found"]
 
 
-def spatial(C: Array, source: Basis, target: Basis, blur: float = 1.0) -> Spatial:
+def spatial(C: Array, source: Basis, target: Basis, blur: float = 0.3) -> Spatial:
     """The penalty for maps near to ``C (k_t, k_s)``.
 
     Parameters

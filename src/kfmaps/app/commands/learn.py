@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 
 WITH_TRUTH = {"geodesic": 1.0}
 WITHOUT = {"orthogonality": 0.05, "cycle": 0.05, "coupling": 1.0}
+WITH_LANDMARKS, WITHOUT_THEM = "gamma,metric,terms", "gamma,ard,terms"
 PART_LIST = "; ".join(f"{name}: {meaning}" for name, meaning in PARTS.items())
 LOSS_LIST = "; ".join(f"{name}: {meaning}" for name, meaning in LOSSES.items())
 
@@ -44,8 +45,14 @@ def learn(
     ],
     settings: Chosen,
     parts: Annotated[
-        str, typer.Option("--learn", metavar="NAMES", help=f"What to learn, with commas. {PART_LIST}.")
-    ] = "gamma,ard,terms",
+        str,
+        typer.Option(
+            "--learn",
+            metavar="NAMES",
+            show_default=False,
+            help=f"What to learn; default: {WITH_LANDMARKS}, without landmarks {WITHOUT_THEM}. {PART_LIST}.",
+        ),
+    ] = "",
     losses: Annotated[
         str,
         typer.Option(
@@ -58,7 +65,7 @@ def learn(
         typer.Option(
             metavar="PATTERNS",
             show_default=False,
-            help="Shapes to stop by; default: the last quarter of those.",
+            help="Shapes to stop by; default: the last quarter of those. none: learn from all, to the end.",
         ),
     ] = "",
     pairs: Annotated[int, typer.Option(min=1, help="Pairs to learn from.")] = 12,
@@ -72,7 +79,13 @@ def learn(
     rate: Annotated[float, typer.Option(help="Of learning.")] = 0.2,
     patience: Annotated[int, typer.Option(min=1, help="Epochs without anything better before it stops.")] = 3,
     minutes: Annotated[float | None, typer.Option(help="Time to stay within.", show_default=False)] = None,
-    rank: Annotated[int, typer.Option(min=1, help="Rows of the metric.")] = 8,
+    rank: Annotated[
+        str,
+        typer.Option(
+            metavar="NUMBERS",
+            help="Rows of the metric for the signature, each landmark and SHOT; one number r is r, r / 2 and r.",
+        ),
+    ] = "2,1,2",
     resume: Annotated[bool, typer.Option("--resume", help="Go on from where the output's .pt file is.")] = False,
     force: Annotated[bool, typer.Option("--force", help="Replace existing files.")] = False,
     seed: Annotated[int, typer.Option(min=0, help="For everything that is drawn at random.")] = 0,
@@ -82,8 +95,9 @@ def learn(
 
     Needs PyTorch; what it learns does not, unless it is written as .pt.
     """
+    parts = parts or (WITH_LANDMARKS if truth_landmarks else WITHOUT_THEM)
     names = tuple(part.strip() for part in parts.split(",") if part.strip())
-    chosen, limit = _losses(losses), _seconds(minutes)
+    chosen, limit, rows = _losses(losses), _seconds(minutes), _rank(rank)
     files = _files(output, force, resume)
     # PyTorch's absence is told before anything is read.
     from kfmaps.app.learn import Model, Training
@@ -97,7 +111,7 @@ def learn(
     with Stages(quiet) as stages:
         training_pairs, judges = _lessons(task, config, seed, stages)
         chosen = chosen or (WITH_TRUTH if all(each.known for each in training_pairs) else WITHOUT)
-        model = Model(config, training_pairs, names, rank=rank, seed=seed)
+        model = Model(config, training_pairs, names, rank=rows, seed=seed)
         training = Training(chosen, epochs, rate=rate, patience=patience, seed=seed, seconds=limit)
         # What must be asked for again to go on: everything but when to stop.
         request = {
@@ -106,7 +120,7 @@ def learn(
             "pairs": [each.name for each in training_pairs],
             "held out": [each.name for each in judges],
             "rate": rate,
-            "rank": rank,
+            "rank": rows,
             "seed": seed,
             "settings": settings_text(config, comments=False),
         }
@@ -118,7 +132,7 @@ def learn(
         def keep(state: State) -> None:
             best = _best(model, state)
             save(files.state, state, settings_text(best), request)
-            _written(files, best, state, truth=all(each.known for each in judges), training=training)
+            _written(files, best, state, truth=bool(judges) and all(each.known for each in judges), training=training)
 
         done = learned(model, training_pairs, judges, training, state=state, keep=keep, progress=stages)
     if not quiet:
@@ -165,13 +179,26 @@ def _seconds(minutes: float | None) -> float | None:
     return None if minutes is None else 60 * minutes
 
 
+def _rank(text: str) -> int | dict[str, int]:
+    """``"2,1,2"`` as rows for each kind of descriptors, ``"8"`` as the number."""
+    words = [word.strip() for word in text.split(",")]
+    if len(words) not in (1, 3) or not all(word.isdecimal() and int(word) > 0 for word in words):
+        raise refuse("--rank", "a whole number above zero, or three with commas", repr(text), "for instance 2,1,2")
+    numbers = [int(word) for word in words]
+    return numbers[0] if len(numbers) == 1 else dict(zip(("signature", "landmark", "shot"), numbers, strict=True))
+
+
 def _base(truth_landmarks: str | None) -> Config:
     from dataclasses import replace
 
-    from kfmaps.config import Config, DescriptorConfig
+    from kfmaps.config import Config, DescriptorConfig, Formulation, Weights
 
-    # Without landmarks it takes SHOT to tell what the signature cannot.
-    return Config() if truth_landmarks else replace(Config(), descriptors=DescriptorConfig(shot=True))
+    # SHOT tells what the signature cannot, and few strong descriptors want less commutativity and a sharper kernel.
+    start = replace(Config(), descriptors=DescriptorConfig(shot=True))
+    if not truth_landmarks:
+        return start
+    weights = Weights(descriptors=1000.0, commutativity=1.0, laplacian=300.0)
+    return replace(start, sharpness=5.0, weights=weights, formulation=Formulation(mask="resolvent"))
 
 
 def _without_search(config: Config) -> Config:
@@ -207,7 +234,9 @@ def _task(
 
     folder = find_collection(data)
     names = [name for name in folder.shapes if _like(name, shapes) and not (held_out and _like(name, held_out))]
-    if held_out:
+    if held_out == "none":
+        judges = []
+    elif held_out:
         judges = [name for name in folder.shapes if _like(name, held_out)]
     else:
         names, judges = names[: len(names) - len(names) // 4], names[len(names) - len(names) // 4 :]
@@ -225,7 +254,7 @@ def _task(
     return _Task(
         folder,
         drawn(names, count, 0, "--shapes"),
-        drawn(judges, held_out_count, 1, "--held-out"),
+        [] if held_out == "none" else drawn(judges, held_out_count, 1, "--held-out"),
         lines,
         identity,
     )

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from typing import Any
+from weakref import WeakKeyDictionary
 
 import numpy as np
 import torch
@@ -18,6 +19,7 @@ from kfmaps.kernel.kernels import Gaussian, Laplacian, resolved
 from kfmaps.kernel.select import farthest
 from kfmaps.surface.basis import Basis
 from kfmaps.surface.geodesics import geodesic_distances
+from kfmaps.surface.mesh import Mesh
 
 JUDGED = 500
 """True correspondences of a pair, at most, at which errors are measured."""
@@ -163,7 +165,9 @@ def _known(
     # The same lines for every pair of a collection: distances from them can be kept with the shape.
     lines = np.random.default_rng(0)
     chosen = np.sort(lines.choice(len(true_s), min(JUDGED, len(true_s)), replace=False))
-    distances = geodesic_distances(source.mesh, true_s[chosen])[:, points[0]]
+    distances = _distances(source.mesh, true_s[chosen])
+    if len(points[0]) < distances.shape[1]:
+        distances = distances[:, points[0]]
     rows = [
         nearest(shape.mesh.vertices[side[chosen]], shape.mesh.vertices[kept])
         for shape, side, kept in zip((source, target), (true_s, true_t), points, strict=True)
@@ -171,7 +175,19 @@ def _known(
     return Known(
         torch.from_numpy(wanted),
         torch.from_numpy(functions_t[true_t[chosen]]),
-        torch.from_numpy(distances.astype(np.float32)),
+        torch.from_numpy(distances),
         torch.from_numpy(rows[0]),
         torch.from_numpy(rows[1]),
     )
+
+
+_KEPT: WeakKeyDictionary[Mesh, dict[bytes, np.ndarray]] = WeakKeyDictionary()
+
+
+def _distances(mesh: Mesh, sources: np.ndarray) -> np.ndarray:
+    """Geodesic distances ``(m, n)`` float32, kept as long as the mesh is: a shape is the source of many pairs."""
+    kept = _KEPT.setdefault(mesh, {})
+    name = sources.tobytes()
+    if name not in kept:
+        kept[name] = geodesic_distances(mesh, sources).astype(np.float32)
+    return kept[name]
