@@ -24,7 +24,7 @@ from kfmaps.app.batch.results import (
     write_parquet,
     write_result,
 )
-from kfmaps.app.batch.summary import summarised, worst_first
+from kfmaps.app.batch.summary import fitting_limit, summarised, worst_first
 
 
 @pytest.fixture(scope="module")
@@ -91,13 +91,39 @@ class Elements(HTMLParser):
 def test_the_summary_escapes_and_needs_no_network() -> None:
     page = summary_page("<b>name</b>", some_results(), {"seed": "</pre><script>"}, {"<i>a</i>": b"png"}, 5)
     found = Elements(page)
-    assert not {"script", "b", "i", "iframe", "link", "object"} & set(found.tags)
+    assert not {"b", "i", "iframe", "link", "object"} & set(found.tags)
+    assert found.tags.count("script") == 1  # its own, which sorts
+    assert "script-src &#x27;sha256-" in page
     assert found.tags.count("img") == 2  # the curve and the picture, not those of names
     assert all(address.startswith("data:image/") for address in found.addresses)
     assert "default-src &#x27;none&#x27;" in page
     text = " ".join(found.text)
     for told in ("<b>name</b>", "<script>alert(2)</script>", "2 not done yet", "</pre><script>", "11.00", "1 failed"):
         assert told in text
+
+
+def test_columns_of_which_nothing_is_known_are_left_out() -> None:
+    plain = [replace(r, error_mean=None, error_median=None, error_max=None, mirrored_mean=None) for r in some_results()]
+    page = summary_page("c", plain, {}, {}, 3)
+    assert "mirrored" not in page
+    assert '<th class="n">mean' not in page
+    assert "<th>verdict</th>" in page
+    assert "geodesic" not in page
+    changed = [replace(some_results()[0], changed="runner-up 1", why="<why>", error_before=0.4, agreement=0.99)]
+    page = summary_page("c", changed, {}, {}, 1, pages={("a", "b"): "pages/a-b.html"}, doubted=["<x> → y"])
+    assert "Exchanged maps" in page
+    assert "&lt;why&gt;" in page
+    assert "40.00" in page
+    assert "&lt;x&gt; → y" in page
+    assert page.count('href="pages/a-b.html"') == 2
+
+
+def test_colours_end_where_the_errors_do() -> None:
+    base = some_results()[0]
+    assert fitting_limit([replace(base, error_mean=0.012)]) == 0.05
+    assert fitting_limit([replace(base, error_mean=0.012), replace(base, error_mean=0.6)]) == 0.05
+    assert fitting_limit([replace(base, error_mean=0.6)]) == 0.5
+    assert fitting_limit([]) == 0.5
 
 
 def test_numbers_of_the_summary() -> None:

@@ -39,13 +39,13 @@ APP = {
     "pictures": 1,
     "evaluation": 2,
     "summary": 3,
-    "batch": 4,
     "experiments": 4,
     "learn": 4,
     "view": 4,
-    "api": 5,
-    "commands": 5,
-    "cli": 6,
+    "batch": 5,
+    "api": 6,
+    "commands": 6,
+    "cli": 7,
 }
 """The same inside ``app``."""
 

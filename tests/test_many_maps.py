@@ -28,14 +28,15 @@ def shapes() -> list[Shape]:
 def test_the_true_map_is_judged_best(shapes: list[Shape]) -> None:
     a, b = shapes[:2]
     probes = probed(a), probed(b)
-    true = judged(np.arange(N), a, b, probes)
-    random = judged(np.random.default_rng(0).integers(0, N, N), a, b, probes)
-    shifted = judged(np.roll(np.arange(N), 5), a, b, probes)
+    rng = np.random.default_rng(0)
+    true, random, shifted = judged([np.arange(N), rng.integers(0, N, N), np.roll(np.arange(N), 5)], a, b, probes)
     assert true.orientation > 0.8
     assert true.score > max(random.score, shifted.score) + 1
-    turned = judged(np.arange(N), a, mirror_image(b), (probes[0], probed(mirror_image(b))))
-    assert turned.orientation < -0.8
-    back = judged(np.arange(N), a, mirror_image(b), (probes[0], probed(mirror_image(b))), reversed=True)
+    mirrored = mirror_image(b)
+    probes = probes[0], probed(mirrored)
+    turned, back = judged([np.arange(N)] * 2, a, mirrored, probes, [False, True])
+    assert turned.orientation < 0
+    assert (turned.reversed, back.reversed) == (False, True)
     assert back.score == pytest.approx(true.score, abs=0.1)
 
 

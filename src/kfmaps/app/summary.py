@@ -17,21 +17,11 @@ from kfmaps._arrays import shown
 from kfmaps.app.evaluation import Accuracy
 from kfmaps.app.files import MapFile, match_map
 from kfmaps.app.files.named import sha256
-from kfmaps.app.words import UNIT, percent
+from kfmaps.app.words import LOUD, UNIT, percent, verdict_line
 from kfmaps.config import as_dict
 from kfmaps.fit.fit import Fit
 from kfmaps.matching import ONE_FIT, Match
 from kfmaps.surface.mesh import Mesh
-
-VERDICTS = {
-    "landmarks": "the landmarks settle which way round it goes",
-    "sure": "clearly better than every other map that was found",
-    "ambiguous": "AMBIGUOUS: another map is about as good. Give landmarks (kfmaps landmarks), "
-    "or look at the other maps (kfmaps view)",
-    "poor": "POOR: no map that was found fits. One may be a part of the other, or they differ too much; "
-    "landmarks may help",
-    "unchecked": "one fit, not compared with others: without landmarks it may swap left and right",
-}
 
 
 @dataclass(frozen=True, eq=False)
@@ -139,7 +129,8 @@ def table(outcome: MatchRun, written: Path | None = None) -> Table:
     grid.add_column(style="bold", no_wrap=True)
     grid.add_column(overflow="fold")
     for name, value in _rows(match, found, outcome.accuracy):
-        grid.add_row(name, Text(value, style="bold red" if value.startswith("AMBIGUOUS") else ""))
+        loud = value.startswith(tuple(f"{kind.upper()}:" for kind in LOUD))
+        grid.add_row(name, Text(value, style="bold red" if loud else ""))
     if written is not None:
         grid.add_row("written", Text(shown(str(written))))
     return grid
@@ -191,7 +182,7 @@ def _rows(match: Match, found: dict[str, Any], accuracy: Accuracy | None) -> lis
 
 
 def _verdict(match: Match) -> str:
-    text = VERDICTS.get(match.verdict, match.verdict)
+    text = verdict_line(match.verdict)
     return text if match.confidence is None else f"{text} (confidence {match.confidence:.2f})"
 
 

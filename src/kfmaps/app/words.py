@@ -22,3 +22,24 @@ def in_words(seconds: float) -> str:
     if minutes < 100:
         return f"{minutes} min"
     return f"{minutes // 60} h {minutes % 60:02d} min"
+
+
+VERDICTS = {
+    "landmarks": "The landmarks settle which way round it goes.",
+    "sure": "Right in all probability: of maps that score like this hardly any is wrong, and no other comes near.",
+    "ambiguous": "Another map is about as good. Compare the runners-up; a few landmarks decide.",
+    "poor": "No map that was found fits well. One shape may be a part of the other, or they differ too much.",
+    "unchecked": "One fit, compared with no other: without landmarks it may swap left and right.",
+}
+"""What the verdict of a match means, wherever it is told; the confidence is the probability of being right."""
+LOUD = {
+    "ambiguous": "give landmarks (kfmaps landmarks), or look at the other maps (kfmaps view)",
+    "poor": "landmarks may help (kfmaps landmarks)",
+}
+"""Verdicts that a terminal must not bury in a table, and what to do."""
+
+
+def verdict_line(kind: str) -> str:
+    """A verdict for a terminal, in one line; the name itself where it is not known."""
+    text = VERDICTS.get(kind, kind)
+    return f"{kind.upper()}: {text} What to do: {LOUD[kind]}" if kind in LOUD else text

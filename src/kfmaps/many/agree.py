@@ -31,6 +31,8 @@ SPARE = (0.15, 0.7)
 right ones between near-isometric bodies 0.02 to 0.1."""
 FAR = 4.0
 """Of the typical misfit of the maps that fit, from which one is rather wrong."""
+RECONSIDERED = 5
+"""Times that shapes may take what one of their links says instead of the mean of all."""
 DENSE = 1500
 """Unknowns up to which eigenvectors are worked out densely."""
 SAY = 4.0
@@ -132,9 +134,47 @@ def _annealed(latent: np.ndarray, links: list[Link], maps: list[np.ndarray], odd
         chances = [_chances(m, o, limit, spread) for m, o in zip(misfits, odds, strict=True)]
         mean = [np.tensordot(p[:-1], C, axes=1) for p, C in zip(chances, maps, strict=True)]
         latent = _settled(latent, links, mean)
+    for _ in range(RECONSIDERED):
+        latent, moved = _reconsidered(latent, links, maps, odds, limit)
+        misfits = [_misfits(C, latent[a.source], latent[a.target]) for C, a in zip(maps, links, strict=True)]
+        chances = [_chances(m, o, limit, limit / 3) for m, o in zip(misfits, odds, strict=True)]
+        if not moved:
+            break
+        mean = [np.tensordot(p[:-1], C, axes=1) for p, C in zip(chances, maps, strict=True)]
+        latent = _settled(latent, links, mean)
     misfits = [_misfits(C, latent[a.source], latent[a.target]) for C, a in zip(maps, links, strict=True)]
     chances = [_chances(m, o, limit, limit / 3) for m, o in zip(misfits, odds, strict=True)]
     return Agreement(latent, tuple(chances), tuple(misfits), limit)
+
+
+def _reconsidered(
+    latent: np.ndarray, links: list[Link], maps: list[np.ndarray], odds: list[np.ndarray], limit: float
+) -> tuple[np.ndarray, bool]:
+    """Each shape in turn takes the map that one candidate of its links says, where that explains its links better."""
+    latent, moved = latent.copy(), False
+    around: list[list[int]] = [[] for _ in latent]
+    for i, link in enumerate(links):
+        around[link.source].append(i)
+        around[link.target].append(i)
+
+    def worth(v: int, Y: np.ndarray) -> float:
+        total = 0.0
+        for i in around[v]:
+            ends = (Y, latent[links[i].target]) if links[i].source == v else (latent[links[i].source], Y)
+            total += _worth(_misfits(maps[i], *ends), odds[i], limit)
+        return total
+
+    for v, near in enumerate(around):
+        best, most = latent[v], worth(v, latent[v])
+        for i in near:
+            other = latent[links[i].source if links[i].target == v else links[i].target]
+            for C in maps[i]:
+                said = orthogonal((C if links[i].target == v else C.T) @ other)
+                if (value := worth(v, said)) > most + 1e-6:
+                    best, most = said, value
+        moved = moved or best is not latent[v]
+        latent[v] = best
+    return latent, moved
 
 
 def _worth(misfits: np.ndarray, odds: np.ndarray, limit: float) -> float:

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -11,11 +12,15 @@ from kfmaps._arrays import to_numpy
 from kfmaps.fit.shape import Shape
 from kfmaps.functional.points import to_functional
 from kfmaps.many.agree import FUNCTIONS, SAY, Choice
+from kfmaps.search.arena import ground
+from kfmaps.search.candidates import FINE_WEIGHTS, refine
 from kfmaps.search.quality import Probe, map_quality, mirrored_probe
 from kfmaps.search.verdict import probability
 
 JUDGED = 80
 """Functions of the maps that are judged, as many as the search judges by."""
+SAME = 0.1
+"""Misfit between two maps, ``‖C − C'‖² / k``, below which they are one."""
 TURNED = -0.2
 """Orientation below which a map turns the surface inside out, which one that is to keep orientation cannot."""
 
@@ -43,18 +48,43 @@ class Judged:
 
 
 def judged(
-    points: np.ndarray,
+    maps: Sequence[np.ndarray],
     source: Shape,
     target: Shape,
     probes: tuple[Probe, Probe],
-    reversed: bool = False,
-) -> Judged:
-    """Judge the map ``points (n_t,)``, a source vertex for each target vertex, by the ``probes`` of both shapes."""
+    reversed: Sequence[bool] | None = None,
+) -> list[Judged]:
+    """Judge ``maps (n_t,)`` of one pair, a source vertex for each target vertex, by the ``probes`` of both shapes.
+
+    Each is settled on the samples first, as candidates of a search are. A map that was finished on all vertices and one
+    that was not are then comparable, and scores mean what they mean there.
+    """
+    turned = [False] * len(maps) if reversed is None else list(reversed)
     k = min(JUDGED, len(source.basis.eigenvalues), len(target.basis.eigenvalues))
-    C = to_numpy(to_functional(points, source.basis.truncated(k), target.basis.truncated(k)))
-    other = mirrored_probe(probes[1]) if reversed else probes[1]
-    quality = map_quality(C, probes[0], other)
-    return Judged(C[:FUNCTIONS, :FUNCTIONS], quality.score, quality.orientation, reversed)
+    bases = source.basis.truncated(k), target.basis.truncated(k)
+    rough = np.stack([to_numpy(to_functional(points, *bases)) for points in maps])
+    found: list[Judged | None] = [None] * len(maps)
+    for back in sorted(set(turned)):
+        on = ground(probes[0], mirrored_probe(probes[1]) if back else probes[1])
+        rows = [i for i, one in enumerate(turned) if one == back]
+        weights = FINE_WEIGHTS if on.shot is not None else (0.0, 0.0)
+        settled, points = refine(rough[rows], on, (max(k // 2, 2), k), (weights[0], 0.0), 1)
+        for i, C, at in zip(rows, settled, points, strict=True):
+            quality = map_quality(C, on.source, on.target, at)
+            found[i] = Judged(C[:FUNCTIONS, :FUNCTIONS], quality.score, quality.orientation, back)
+    return [one for one in found if one is not None]
+
+
+def better(one: Judged, other: Judged) -> Judged:
+    """``one``, with the score of ``other`` where that is the same map and scores better."""
+    if not same(one, other) or other.score <= one.score:
+        return one
+    return replace(one, score=other.score, orientation=other.orientation)
+
+
+def same(one: Judged, other: Judged) -> bool:
+    """Whether two candidates of a pair are one map but for details."""
+    return one.reversed == other.reversed and float(((one.map - other.map) ** 2).sum()) / len(one.map) < SAME
 
 
 def choices(maps: list[Judged]) -> tuple[Choice, ...]:

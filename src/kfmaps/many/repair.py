@@ -13,8 +13,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from kfmaps.many.agree import SAY, Agreement, Link, agree
-from kfmaps.many.judge import TURNED, Judged, choices
+from kfmaps.many.agree import FUNCTIONS, SAY, Agreement, Link, agree
+from kfmaps.many.judge import TURNED, Judged, better, choices, same
 from kfmaps.many.paths import Way, best_way
 from kfmaps.many.signs import hands
 
@@ -26,6 +26,8 @@ RIGHT = 0.5
 """... for another of at least this one."""
 SAFE = 0.3
 """Probability that all maps of a way round are right, below which it is not gone."""
+SHORT = 3
+"""Ways of two steps by the maps in use that are tried for a doubted pair."""
 ROUNDS = 3
 """Times that ways round are looked for: an exchanged pair may open one for others."""
 
@@ -138,22 +140,23 @@ def repaired(
         Makes and judges compositions, all that one round asks for at once.
     """
     known = [list(several) for several in maps]
-    ways: list[Round | None] = [None] * len(ends)
+    ways: list[list[Round]] = [[] for _ in ends]
+    tried: set[tuple[int, tuple[Step, ...]]] = set()
     signs, found = _settled(count, ends, known)
     for _ in range(ROUNDS):
         asked = []
         for number, chances in enumerate(found.chances):
             if chances[0] >= DOUBT:
                 continue
-            way = way_round(count, ends, found, number, ways)
-            if way is not None and way.chance >= SAFE and (ways[number] is None or _other(way, ways[number])):
-                asked.append((number, way))
+            offered = [way_round(count, ends, found, number, ways), *in_use(ends, known, number)]
+            for way in offered:
+                if way is not None and (number, way.steps) not in tried:
+                    tried.add((number, way.steps))
+                    asked.append((number, way))
         if not asked:
             break
         for (number, way), made in zip(asked, compose(asked), strict=True):
-            del known[number][len(maps[number]) :]
-            known[number].append(made)
-            ways[number] = way
+            _offer(known[number], ways[number], made, way)
         signs, found = _settled(count, ends, known)
     changes = [
         change
@@ -163,13 +166,41 @@ def repaired(
     return Repaired(found, tuple(changes), signs)
 
 
-def _other(way: Round, before: Round | None) -> bool:
-    """Whether a way is new and clearly surer than the one before."""
-    return before is None or (way.steps != before.steps and way.chance > before.chance + 0.1)
+def _offer(maps: list[Judged], ways: list[Round], made: Judged, way: Round) -> None:
+    """A composition beside the candidates of a pair; where it is nearly one of them, that may have its score."""
+    for i, one in enumerate(maps):
+        if same(one, made):
+            maps[i] = better(one, made)
+            return
+    maps.append(made)
+    ways.append(way)
+
+
+def in_use(ends: Sequence[tuple[int, int]], maps: Sequence[Sequence[Judged]], number: int) -> list[Round]:
+    """Ways of two steps round link ``number`` by the maps in use, those of the best scores; at most :data:`SHORT`.
+
+    What most candidates say may be wrong together. These say what the maps say that a search thought best.
+    """
+    source, target = ends[number]
+    near: dict[int, dict[int, int]] = {source: {}, target: {}}
+    for i, (a, b) in enumerate(ends):
+        for here in (source, target):
+            if i != number and here in (a, b):
+                other = b if a == here else a
+                if other not in near[here] or maps[i][0].score > maps[near[here][other]][0].score:
+                    near[here][other] = i
+    found = []
+    for middle in sorted(near[source].keys() & near[target].keys() - {source, target}):
+        first, second = near[source][middle], near[target][middle]
+        worth = min(maps[first][0].score, maps[second][0].score)
+        steps = (Step(first, 0, ends[first][0] == source), Step(second, 0, ends[second][0] == middle))
+        found.append((worth, Round(steps, (middle,), 0.0)))
+    found.sort(key=lambda item: -item[0])
+    return [way for _, way in found[:SHORT]]
 
 
 def way_round(
-    count: int, ends: Sequence[tuple[int, int]], found: Agreement, number: int, ways: Sequence[Round | None]
+    count: int, ends: Sequence[tuple[int, int]], found: Agreement, number: int, ways: Sequence[Sequence[Round]]
 ) -> Round | None:
     """The best way from the source of link ``number`` to its target through others, each by its best candidate.
 
@@ -177,11 +208,11 @@ def way_round(
     """
     best = [int(chances[:-1].argmax()) for chances in found.chances]
     chance = [float(chances[b]) for chances, b in zip(found.chances, best, strict=True)]
-    for i, way in enumerate(ways):
-        if way is not None and best[i] == len(found.chances[i]) - 2:
+    for i, several in enumerate(ways):
+        if best[i] >= len(found.chances[i]) - 1 - len(several):
             chance[i] = 0.0
     way: Way | None = best_way(count, ends, chance, *ends[number], without=number)
-    if way is None:
+    if way is None or way.chance < SAFE:
         return None
     steps = tuple(Step(link, best[link], ends[link][0] == at) for link, at in zip(way.links, way.shapes, strict=False))
     return Round(steps, way.shapes[1:-1], way.chance)
@@ -200,14 +231,15 @@ def _settled(count: int, ends: Sequence[tuple[int, int]], maps: list[list[Judged
             for (a, b), several in zip(ends, offered, strict=True)
         ]
     links = [Link(a, b, several) for (a, b), several in zip(ends, offered, strict=True)]
-    return signs, agree(count, links)
+    size = min([FUNCTIONS, *(min(c.map.shape) for several in offered for c in several)])
+    return signs, agree(count, links, size)
 
 
 def _change(
     number: int,
     maps: list[Judged],
     given: int,
-    way: Round | None,
+    ways: list[Round],
     found: Agreement,
     signs: np.ndarray,
     ends: Sequence[tuple[int, int]],
@@ -233,5 +265,5 @@ def _change(
         "misfit_after": float(misfits[best]),
     }
     if best >= given:
-        return Change(number, "composition", way=way, **told)
+        return Change(number, "composition", way=ways[best - given], **told)
     return Change(number, "runner-up", choice=best, **told)

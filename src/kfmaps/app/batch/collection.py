@@ -9,13 +9,19 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from kfmaps._arrays import MissingDependency, refuse
-from kfmaps.app.batch.cluster import local_workers, running_workers
-from kfmaps.app.batch.gallery import worst_pictures
+from kfmaps.app.batch.consistent import Agreed, make_consistent
+from kfmaps.app.batch.evidence import EVIDENCE, WAYS
+from kfmaps.app.batch.evidence import FOLDER as CONSISTENT
+from kfmaps.app.batch.gallery import changed_pictures, worst_pictures
 from kfmaps.app.batch.page import summary_page
+from kfmaps.app.batch.pages import write_pages
 from kfmaps.app.batch.plan import Plan
 from kfmaps.app.batch.results import FOLDER, Result, all_results, write_csv, write_parquet
 from kfmaps.app.batch.run import Callback, run_plan
 from kfmaps.app.batch.settings import read_settings
+from kfmaps.app.batch.specimen_page import specimen_sections
+from kfmaps.app.batch.spread import Told, crew
+from kfmaps.app.batch.summary import worst_first
 from kfmaps.app.batch.work import MAPS
 from kfmaps.app.files import atomic_output, remove_unfinished
 
@@ -37,12 +43,15 @@ class BatchOutcome:
         Whether it was stopped by the user; the same call goes on.
     files : tuple of Path
         Tables and summary.
+    agreed : Agreed or None
+        What came of making the maps agree, where that was asked for.
     """
 
     results: tuple[Result, ...]
     matched: int
     interrupted: bool
     files: tuple[Path, ...]
+    agreed: Agreed | None = None
 
 
 def match_collection(
@@ -53,6 +62,8 @@ def match_collection(
     name: str = "collection",
     worst: int = 6,
     callback: Callback | None = None,
+    consistent: bool = False,
+    told: Told | None = None,
 ) -> BatchOutcome:
     """Do what the plan leaves to do, then write the tables and the summary.
 
@@ -70,6 +81,10 @@ def match_collection(
         How many of the worst pairs the summary shows as pictures.
     callback : callable, optional
         See :func:`~kfmaps.app.batch.run.run_plan`.
+    consistent : bool
+        Whether the maps are made to agree in the end (:func:`~kfmaps.app.batch.consistent.make_consistent`).
+    told : callable, optional
+        Is told of that as of :meth:`~kfmaps.app.batch.spread.Crew.each`.
 
     Raises
     ------
@@ -78,10 +93,9 @@ def match_collection(
     InvalidInput
         When another run is using the output folder, or the workers cannot be used.
     """
-    matched, interrupted = 0, False
-    with _only_one(plan.folder), _tidied(plan):
+    matched, interrupted, agreed = 0, False, None
+    with _only_one(plan.folder), _tidied(plan), crew(workers, scheduler, told) as hands:
         if plan.todo:
-            connection = running_workers(scheduler) if scheduler else local_workers(workers)
             count = 0
 
             def counted(status, result) -> None:
@@ -91,19 +105,27 @@ def match_collection(
                     callback(status, result)
 
             try:
-                with connection as connected:
-                    run_plan(plan, connected, counted)
+                run_plan(plan, hands.connected(), counted)
             except KeyboardInterrupt:
                 interrupted = True
             matched = count
         asked = {(task.pair.source, task.pair.target) for task in plan.tasks}
         everything = all_results(plan.folder, plan.settings.digest)
-        files = write_outputs(plan, everything, name, 0 if interrupted else worst)
+        if consistent and not interrupted:
+            try:
+                agreed = make_consistent(plan, [r for r in everything if (r.source, r.target) in asked], hands)
+                better = {(r.source, r.target): r for r in agreed.results}
+                everything = [better.get((r.source, r.target), r) for r in everything]
+            except KeyboardInterrupt:
+                interrupted = True
+        files = write_outputs(plan, everything, name, 0 if interrupted else worst, agreed)
     results = tuple(r for r in everything if (r.source, r.target) in asked)
-    return BatchOutcome(results, matched, interrupted, files)
+    return BatchOutcome(results, matched, interrupted, files, agreed)
 
 
-def write_outputs(plan: Plan, results: list[Result], name: str, worst: int) -> tuple[Path, ...]:
+def write_outputs(
+    plan: Plan, results: list[Result], name: str, worst: int, agreed: Agreed | None = None
+) -> tuple[Path, ...]:
     """Write the tables and the summary anew from the ``results``; their paths."""
     files = [plan.folder / TABLE]
     write_csv(files[0], results)
@@ -112,9 +134,22 @@ def write_outputs(plan: Plan, results: list[Result], name: str, worst: int) -> t
         files.append(plan.folder / COLUMNS)
     except MissingDependency:
         (plan.folder / COLUMNS).unlink(missing_ok=True)  # one of an earlier run would be out of date
-    pictures = worst_pictures(plan.tasks, results, worst)
+    pictures = {} if agreed is None else changed_pictures(plan.tasks, agreed, worst)
+    shown = worst_first(results)[:worst] + [r for r in results if r.changed][:worst]
+    pages = write_pages(plan.folder, plan.tasks, shown)
+    worse = worst_pictures(plan.tasks, results, worst)
     pairs = len({(r.source, r.target) for r in results} | {(t.pair.source, t.pair.target) for t in plan.tasks})
-    page = summary_page(name, results, read_settings(plan.folder), pictures, pairs)
+    page = summary_page(
+        name,
+        results,
+        read_settings(plan.folder),
+        worse,
+        pairs,
+        pages=pages,
+        changed=pictures,
+        doubted=() if agreed is None else agreed.doubted,
+        specimens=() if agreed is None else specimen_sections(plan),
+    )
     with atomic_output(plan.folder / PAGE, force=True) as temporary:
         temporary.write_text(page, encoding="utf-8")
     return (*files, plan.folder / PAGE)
@@ -129,7 +164,9 @@ def _tidied(plan: Plan) -> Iterator[None]:
     shelves = {Path(task.source.entry).parent for task in plan.tasks}
 
     def tidy() -> None:
-        for folder in (plan.folder, plan.folder / FOLDER, plan.folder / MAPS):
+        beside = plan.folder / CONSISTENT
+        parts = (plan.folder, beside, *(top / part for top in (plan.folder, beside) for part in (FOLDER, MAPS)))
+        for folder in (*parts, beside / EVIDENCE, beside / WAYS):
             remove_unfinished(folder)
         for shelf in shelves:
             remove_unfinished(shelf, 0.0 if plan.folder in shelf.parents else A_DAY)

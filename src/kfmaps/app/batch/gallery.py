@@ -9,9 +9,11 @@ from pathlib import Path
 
 from kfmaps._arrays import InvalidInput, KfmapsWarning
 from kfmaps._threads import one_blas_thread
+from kfmaps.app.batch.consistent import Agreed
+from kfmaps.app.batch.exchange import map_in_use
 from kfmaps.app.batch.layout import Pair
 from kfmaps.app.batch.results import Result
-from kfmaps.app.batch.summary import worst_first
+from kfmaps.app.batch.summary import fitting_limit, worst_first
 from kfmaps.app.batch.tasks import PairTask
 from kfmaps.app.batch.truth import true_vertices
 from kfmaps.app.batch.work import map_path
@@ -19,12 +21,11 @@ from kfmaps.app.files import check_map, load_map, read_mesh
 from kfmaps.app.pictures import match_figure, painted_errors, save_figure, true_views
 from kfmaps.app.words import UNIT, percent
 
-LIMIT = 0.2
-"""Where the colours of the error end, the same for all pairs, in units of √area."""
 
-
-def pair_picture(task: PairTask) -> bytes:
+def pair_picture(task: PairTask, limit: float = 0.1, path: Path | None = None) -> bytes:
     """The PNG of a matched pair: source, target in the source's colours, and the error when the truth is known.
+
+    The error's colours end at ``limit``, in √area. ``path`` is another map than the one in use.
 
     Raises
     ------
@@ -35,7 +36,7 @@ def pair_picture(task: PairTask) -> bytes:
         warnings.simplefilter("ignore", KfmapsWarning)  # the run has noted them
         source, target = read_mesh(task.source.path), read_mesh(task.target.path)
     sizes = len(source.vertices), len(target.vertices)
-    points = check_map(load_map(map_path(Path(task.folder), task.pair.key)), *sizes)
+    points = check_map(load_map(path or map_in_use(Path(task.folder), task.pair.key)), *sizes)
     truth = true_vertices(task, *sizes)
     errors, views = None, (None, None)
     with one_blas_thread():
@@ -43,7 +44,7 @@ def pair_picture(task: PairTask) -> bytes:
             errors = painted_errors(source, target, points, truth.source, truth.target)
             views = true_views(source, target, truth.source, truth.target)
     buffer = io.BytesIO()
-    figure = match_figure(source, target, points, errors=errors, limit=LIMIT, view=views[0], target_view=views[1])
+    figure = match_figure(source, target, points, errors=errors, limit=limit, view=views[0], target_view=views[1])
     save_figure(figure, buffer, "png")
     return buffer.getvalue()
 
@@ -56,10 +57,30 @@ def caption(result: Result) -> str:
     return ", ".join(told)
 
 
+def changed_pictures(tasks: Sequence[PairTask], agreed: Agreed, count: int) -> dict[str, bytes]:
+    """Pictures of exchanged pairs by caption, before and after, of at most ``count`` of them."""
+    known = {task.pair: task for task in tasks}
+    pictures: dict[str, bytes] = {}
+    limit = fitting_limit(agreed.results)
+    for result in [r for r in agreed.results if r.changed][:count]:
+        task = known.get(Pair(result.source, result.target))
+        before = agreed.before.get((result.source, result.target))
+        if task is None or before is None:
+            continue
+        own = map_path(Path(task.folder), task.pair.key)
+        try:
+            pictures[f"before: {caption(before)}"] = pair_picture(task, limit, own)
+            pictures[f"now: {caption(result)}, {result.changed}"] = pair_picture(task, limit)
+        except (InvalidInput, OSError):
+            continue
+    return pictures
+
+
 def worst_pictures(tasks: Sequence[PairTask], results: Sequence[Result], count: int) -> dict[str, bytes]:
     """Pictures of the ``count`` worst of the ``tasks`` by caption; one that cannot be drawn is left out."""
     known = {task.pair: task for task in tasks}
     pictures: dict[str, bytes] = {}
+    limit = fitting_limit(results)
     for result in worst_first(results):
         if len(pictures) == count:
             break
@@ -67,7 +88,7 @@ def worst_pictures(tasks: Sequence[PairTask], results: Sequence[Result], count: 
         if task is None:
             continue
         try:
-            pictures[caption(result)] = pair_picture(task)
+            pictures[caption(result)] = pair_picture(task, limit)
         except (InvalidInput, OSError):
             continue
     return pictures

@@ -1,4 +1,4 @@
-"""The summary of a collection as one HTML file: no script, no network, every name escaped."""
+"""The summary of a collection as one HTML file: no network, every name escaped, one script of its own to sort by."""
 
 from __future__ import annotations
 
@@ -13,26 +13,11 @@ from typing import Any
 import matplotlib
 
 from kfmaps.app.batch.results import Result
-from kfmaps.app.batch.summary import BAD, Summary, error_curve_of, summarised, worst_first
+from kfmaps.app.batch.style import SCRIPT, STYLE
+from kfmaps.app.batch.summary import BAD, Summary, error_curve_of, summarised
+from kfmaps.app.batch.tables import changes_table, pairs_table
 from kfmaps.app.pictures import curves_figure, save_figure
 from kfmaps.app.words import UNIT, in_words, percent
-
-STYLE = """
-:root { color-scheme: light; font: 16px/1.5 system-ui, sans-serif; color: #222; background: #fff; }
-body { max-width: 74rem; margin: 2rem auto; padding: 0 1.5rem; }
-h1 { font-size: 1.7rem; margin-bottom: 0; } h2 { font-size: 1.2rem; margin: 2.2rem 0 .6rem; }
-.note { color: #555; margin: .2rem 0; }
-dl { display: grid; grid-template-columns: repeat(auto-fit, minmax(9.5rem, 1fr)); gap: 1rem; margin: 1.4rem 0; }
-dl div { border-left: 3px solid #0072b2; padding-left: .7rem; }
-dt { color: #555; font-size: .85rem; } dd { margin: 0; font-size: 1.4rem; font-variant-numeric: tabular-nums; }
-.gallery { display: grid; grid-template-columns: repeat(auto-fit, minmax(30rem, 1fr)); gap: 1rem 2rem; }
-figure { margin: 0 0 1rem; } figcaption { color: #555; font-size: .9rem; } img { max-width: 100%; height: auto; }
-.scroll { overflow-x: auto; } table { border-collapse: collapse; font-size: .85rem; width: 100%; }
-th, td { padding: .25rem .7rem .25rem 0; text-align: left; border-bottom: 1px solid #e2e2e2; vertical-align: top; }
-th { position: sticky; top: 0; background: #fff; } .n { text-align: right; font-variant-numeric: tabular-nums; }
-.bad td { background: #fdeeee; } pre { background: #f6f6f6; padding: 1rem; overflow: auto; font-size: .8rem; }
-summary { cursor: pointer; }
-"""
 
 
 def summary_page(
@@ -41,6 +26,11 @@ def summary_page(
     settings: Mapping[str, Any],
     pictures: Mapping[str, bytes],
     pairs: int,
+    *,
+    pages: Mapping[tuple[str, str], str] | None = None,
+    changed: Mapping[str, bytes] | None = None,
+    doubted: Sequence[str] = (),
+    specimens: Sequence[str] = (),
 ) -> str:
     """The page.
 
@@ -55,10 +45,21 @@ def summary_page(
         In the order to be shown.
     pairs : int
         How many pairs were asked for.
+    pages : mapping of (source, target) to address, optional
+        Of the pages of single maps, relative to the summary.
+    changed : mapping of caption to PNG bytes, optional
+        Of exchanged pairs, before and after.
+    doubted : sequence of str
+        Pairs that others contradict and that nothing better is known for, a line each.
+    specimens : sequence of str
+        Sections about the shapes, as HTML.
     """
+    addresses = dict(pages or {})
     numbers = summarised(results)
-    hashed = base64.b64encode(hashlib.sha256(STYLE.encode()).digest()).decode("ascii")
-    policy = f"default-src 'none'; style-src 'sha256-{hashed}'; img-src data:; base-uri 'none'; form-action 'none'"
+    policy = (
+        f"default-src 'none'; style-src '{_hash(STYLE)}'; script-src '{_hash(SCRIPT)}'; img-src data:; "
+        "base-uri 'none'; form-action 'none'"
+    )
     parts = [
         "<!DOCTYPE html>",
         '<html lang="en"><head><meta charset="utf-8">',
@@ -70,13 +71,21 @@ def summary_page(
         f'<p class="note">{_state(numbers, pairs)}</p>',
         _tiles(numbers),
         _curves(results),
+        changes_table(results, addresses),
+        _figures(changed or {}),
+        _doubts(doubted),
+        *specimens,
         _gallery(pictures, numbers),
         _failures(results),
-        _table(results),
+        pairs_table(results, addresses),
         _settings(settings),
-        "</body></html>",
+        f"<script>{SCRIPT}</script></body></html>",
     ]
     return "\n".join(part for part in parts if part) + "\n"
+
+
+def _hash(text: str) -> str:
+    return f"sha256-{base64.b64encode(hashlib.sha256(text.encode()).digest()).decode('ascii')}"
 
 
 def _state(numbers: Summary, pairs: int) -> str:
@@ -84,7 +93,8 @@ def _state(numbers: Summary, pairs: int) -> str:
     told = [f"{numbers.done} pairs matched"]
     told += [f"{numbers.failed} failed"] if numbers.failed else []
     told += [f"{left} not done yet"] if left else []
-    return ", ".join(told) + ". Errors are geodesic, in per cent of the square root of the source's area."
+    known = " Errors are geodesic, in per cent of the square root of the source's area." if numbers.evaluated else ""
+    return ", ".join(told) + "." + known
 
 
 def _tiles(numbers: Summary) -> str:
@@ -95,8 +105,9 @@ def _tiles(numbers: Summary) -> str:
             (f"median pair ({UNIT})", percent(numbers.error_median)),
             (f"worst pair ({UNIT})", percent(numbers.error_worst)),
             (f"pairs above {100 * BAD:g} {UNIT}", str(numbers.bad)),
-            ("nearer to the mirrored truth", str(numbers.flipped)),
         ]
+        tiles += [("nearer to the mirrored truth", str(numbers.flipped))] if numbers.mirrored else []
+    tiles += [("maps exchanged", str(numbers.changed))] if numbers.agreed else []
     tiles += [(f"verdict: {verdict}", str(count)) for verdict, count in numbers.verdicts.items() if verdict]
     if numbers.seconds_mean is not None and numbers.seconds_total is not None:
         tiles += [
@@ -126,15 +137,26 @@ def _at(curve: Any, threshold: float) -> float:
     return curve.fractions[int((curve.thresholds <= threshold + 1e-12).sum()) - 1]
 
 
+def _doubts(lines: Sequence[str]) -> str:
+    if not lines:
+        return ""
+    items = "".join(f"<li>{escape(line)}</li>" for line in lines)
+    return f"<h2>Maps that others contradict, and no better one is known</h2><ul>{items}</ul>"
+
+
 def _gallery(pictures: Mapping[str, bytes], numbers: Summary) -> str:
     if not pictures:
         return ""
     title = "Worst pairs" if numbers.evaluated else "Least sure pairs"
+    return f"<h2>{title}</h2>{_figures(pictures)}"
+
+
+def _figures(pictures: Mapping[str, bytes]) -> str:
     shown = (
         f'<figure><img alt="{escape(name)}" src="{_data("png", png)}"><figcaption>{escape(name)}</figcaption></figure>'
         for name, png in pictures.items()
     )
-    return f'<h2>{title}</h2><div class="gallery">{"".join(shown)}</div>'
+    return f'<div class="gallery">{"".join(shown)}</div>' if pictures else ""
 
 
 def _failures(results: Sequence[Result]) -> str:
@@ -146,28 +168,6 @@ def _failures(results: Sequence[Result]) -> str:
     )
     head = "<tr><th>source</th><th>target</th><th>reason</th></tr>"
     return f'<h2>Failed pairs</h2><div class="scroll"><table>{head}{rows}</table></div>'
-
-
-def _table(results: Sequence[Result]) -> str:
-    errors = [f"{what} ({UNIT})" for what in ("mean", "median", "max", "mirrored")]
-    columns = (*errors, "confidence", "verdict", "time (s)")
-    head = "<th>source</th><th>target</th>" + "".join(
-        f'<th class="n">{c}</th>' if c != "verdict" else f"<th>{c}</th>" for c in columns
-    )
-    rows = []
-    for r in worst_first(results):
-        found = (r.error_mean, r.error_median, r.error_max, r.mirrored_mean)
-        cells = [f'<td class="n">{percent(e)}</td>' for e in found]
-        cells.append(f'<td class="n">{"" if r.confidence is None else format(r.confidence, ".3g")}</td>')
-        cells.append(f"<td>{escape(r.verdict)}</td>")
-        cells.append(f'<td class="n">{r.seconds.get("total", 0.0):.1f}</td>')
-        wrong = r.error_mean is not None and r.error_mean > BAD
-        names = f"<td>{escape(r.source)}</td><td>{escape(r.target)}</td>"
-        rows.append(f"<tr{' class=bad' if wrong else ''}>{names}{''.join(cells)}</tr>")
-    if not rows:
-        return ""
-    table = f"<table><thead><tr>{head}</tr></thead><tbody>{''.join(rows)}</tbody></table>"
-    return f'<h2>All pairs, worst first</h2><div class="scroll">{table}</div>'
 
 
 def _settings(settings: Mapping[str, Any]) -> str:

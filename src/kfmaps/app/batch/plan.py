@@ -77,18 +77,9 @@ def make_plan(
         remedy = "leave --identity out, or move the files away"
         raise refuse("--identity", "a collection without files of correspondences", "one with such files", remedy)
     folder = _folder(output)
-    claim(folder, settings)
-    shelf = _folder(cache_folder or folder / "cache")
-    _folder(folder / FOLDER)
     digest = cache(file_digest)
-
-    @cache
-    def shape_task(name: str) -> ShapeTask:
-        path = collection.shapes[name].resolve()
-        content = digest(path)
-        entry = shelf / f"{shape_key(content, path.suffix, settings.config)}.npz"
-        return ShapeTask(name, str(path), content, str(entry), str(folder), settings.config)
-
+    shape_task = cache(_shape_tasks(collection, settings, folder, cache_folder, digest))
+    _folder(folder / FOLDER)
     used = settings.digest
     tasks = tuple(_pair_task(collection, pair, settings, used, folder, shape_task, digest) for pair in pairs)
     todo, results, changed = [], [], 0
@@ -104,6 +95,33 @@ def make_plan(
         else:
             results.append(there)
     return Plan(folder, settings, tasks, tuple(todo), tuple(results), changed)
+
+
+def shape_tasks(
+    collection: ShapeFolder, settings: Settings, output: str | Path, cache_folder: str | Path | None = None
+) -> dict[str, ShapeTask]:
+    """The tasks of preparing every shape, by name; makes the output folder as :func:`make_plan` does."""
+    task = _shape_tasks(collection, settings, _folder(output), cache_folder, file_digest)
+    return {name: task(name) for name in collection.shapes}
+
+
+def _shape_tasks(
+    collection: ShapeFolder,
+    settings: Settings,
+    folder: Path,
+    cache_folder: str | Path | None,
+    digest: Callable[[Path], str],
+) -> Callable[[str], ShapeTask]:
+    claim(folder, settings)
+    shelf = _folder(cache_folder or folder / "cache")
+
+    def task(name: str) -> ShapeTask:
+        path = collection.shapes[name].resolve()
+        content = digest(path)
+        entry = shelf / f"{shape_key(content, path.suffix, settings.config)}.npz"
+        return ShapeTask(name, str(path), content, str(entry), str(folder), settings.config)
+
+    return task
 
 
 def _folder(path: str | Path) -> Path:

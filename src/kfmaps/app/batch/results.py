@@ -46,6 +46,16 @@ class Result:
     local_confidence : float or None
         Mean over the target's vertices, see :mod:`kfmaps.functional.confidence`.
     verdict : str
+    orientation : "kept", "reversed" or ""
+        Whether it is a map to the target or to its mirror image.
+    agreement : float or None
+        Probability that the map is right beside all others of the collection, where they were made to agree.
+    changed : str
+        What a map was exchanged for that others contradict: "runner-up 1", "composition through A, B"; empty mostly.
+    why : str
+        For what reason.
+    error_before : float or None
+        Mean error of the map that was exchanged.
     solver, solver_steps, rank
     seconds : dict of str to float
         Per stage; ``total`` is all of it, with reading and evaluation.
@@ -74,6 +84,11 @@ class Result:
     confidence: float | None = None
     local_confidence: float | None = None
     verdict: str = ""
+    orientation: str = ""
+    agreement: float | None = None
+    changed: str = ""
+    why: str = ""
+    error_before: float | None = None
     solver: str = ""
     solver_steps: int | None = None
     rank: int | None = None
@@ -162,7 +177,7 @@ def write_parquet(path: Path, results: Iterable[Result]) -> None:
     kinds = {"attempts": pa.int64(), "vertices_s": pa.int64(), "vertices_t": pa.int64(), "landmarks": pa.int64()}
     kinds |= {"solver_steps": pa.int64(), "rank": pa.int64()}
     texts = ("source", "target", "status", "settings", "inputs", "reason", "worker", "finished", "verdict", "solver")
-    kinds |= dict.fromkeys((*texts, "notes"), pa.string())
+    kinds |= dict.fromkeys((*texts, "orientation", "changed", "why", "notes"), pa.string())
     schema = pa.schema([(name, kinds.get(name, pa.float64())) for name in columns])
     with atomic_output(path, force=True) as temporary:
         parquet.write_table(pa.Table.from_pylist(rows, schema=schema), temporary)

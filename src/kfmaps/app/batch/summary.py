@@ -14,6 +14,9 @@ BAD = 0.05
 """A mean error above this counts as a wrong map."""
 
 
+LIMITS = (0.02, 0.03, 0.05, 0.1, 0.15, 0.2, 0.3, 0.5)
+
+
 @dataclass(frozen=True)
 class Summary:
     """Numbers over all pairs; errors in units of √area, ``None`` where no truth is known.
@@ -34,6 +37,10 @@ class Summary:
     seconds_mean, seconds_total : float or None
         Of the pairs' matching, without the shapes' preparation.
     verdicts : dict of str to int
+    mirrored : int
+        Pairs whose mirrored truth is known.
+    agreed, changed : int
+        Pairs that were set beside the others of the collection, and those of them whose map was exchanged.
     """
 
     done: int
@@ -47,6 +54,9 @@ class Summary:
     seconds_mean: float | None
     seconds_total: float | None
     verdicts: dict[str, int]
+    mirrored: int = 0
+    agreed: int = 0
+    changed: int = 0
 
 
 def summarised(results: Sequence[Result]) -> Summary:
@@ -72,7 +82,21 @@ def summarised(results: Sequence[Result]) -> Summary:
         seconds_mean=float(np.mean(seconds)) if seconds else None,
         seconds_total=float(np.sum(seconds)) if seconds else None,
         verdicts=verdicts,
+        mirrored=sum(r.mirrored_mean is not None for r in done),
+        agreed=sum(r.agreement is not None for r in done),
+        changed=sum(bool(r.changed) for r in done),
     )
+
+
+def fitting_limit(results: Sequence[Result]) -> float:
+    """Where an error's colours end, in √area: a round number a little above the errors that are not plainly wrong.
+
+    The same for all pictures of a collection, so that they can be compared.
+    """
+    errors = [r.error_mean for r in results if r.error_mean is not None]
+    usual = [e for e in errors if e <= BAD] or errors
+    wanted = 3 * max(usual, default=LIMITS[-1])
+    return next((limit for limit in LIMITS if limit >= wanted), LIMITS[-1])
 
 
 def worst_first(results: Sequence[Result]) -> list[Result]:

@@ -13,6 +13,7 @@ from rich.text import Text
 from kfmaps.app.batch.clock import RunStatus
 from kfmaps.app.batch.results import Result
 from kfmaps.app.batch.run import Callback
+from kfmaps.app.batch.spread import Told
 from kfmaps.app.words import in_words
 
 EVERY = 30.0
@@ -81,6 +82,23 @@ def _lines(console: Console) -> Callback:
             console.print(Text(f"{in_words(last - begun)}: {line(status)}"), soft_wrap=True)
 
     return callback
+
+
+@contextmanager
+def stage_lines(console: Console, quiet: bool = False) -> Iterator[Told | None]:
+    """Something to hand to :func:`~kfmaps.app.batch.spread.crew` as ``told``: now and then a line."""
+    if quiet:
+        yield None
+        return
+    last = 0.0
+
+    def told(what: str, done: int, of: int) -> None:
+        nonlocal last
+        if time.monotonic() - last >= EVERY or done == of:
+            last = time.monotonic()
+            console.print(Text(f"{what} {done}/{of}"), soft_wrap=True)
+
+    yield told
 
 
 def failure(result: Result) -> str:

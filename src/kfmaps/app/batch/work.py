@@ -23,12 +23,12 @@ from kfmaps.app.batch.kept import kept_probe
 from kfmaps.app.batch.results import CURVE_ERRORS, Result, read_result, result_path, write_result
 from kfmaps.app.batch.tasks import PairTask, Prepared, ShapeTask
 from kfmaps.app.batch.truth import landmark_pairs, true_vertices
-from kfmaps.app.evaluation import Accuracy, assessed
+from kfmaps.app.evaluation import Accuracy, Truth, assessed
 from kfmaps.app.files import read_mesh, save_map
 from kfmaps.app.summary import MatchRun, map_file, mean_confidence
 from kfmaps.fit.shape import Shape, prepare
 from kfmaps.functional.evaluate import coverage, error_curve
-from kfmaps.matching import match
+from kfmaps.matching import Match, match
 
 ATTEMPTS, MAPS = "attempts", "maps"
 MIRRORED = 500
@@ -44,7 +44,7 @@ def map_path(folder: Path, key: str) -> Path:
 
 def begin(folder: Path, key: str) -> int:
     """Note that work on ``key`` begins, in a small file of its own that outlives a kill; which attempt it is."""
-    content = json.dumps({"host": platform.node(), "process": os.getpid(), "time": _now()})
+    content = json.dumps({"host": platform.node(), "process": os.getpid(), "time": now()})
     (folder / ATTEMPTS).mkdir(parents=True, exist_ok=True)
     attempt = 1
     while True:
@@ -71,7 +71,7 @@ def prepare_shape(task: ShapeTask) -> Prepared:
         return Prepared(task.name)
     start = time.perf_counter()
     begin(Path(task.folder), entry.stem)
-    with _catching() as caught, one_blas_thread():
+    with catching() as caught, one_blas_thread():
         if file_digest(task.path) != task.content:
             raise refuse(task.path, "the file of the run's start", "a changed one", "run the command again")
         mesh = read_mesh(task.path)
@@ -90,7 +90,7 @@ def match_pair(task: PairTask, source: Prepared, target: Prepared) -> Result:
     attempt = begin(folder, task.pair.key)
     map_path(folder, task.pair.key).unlink(missing_ok=True)  # of files that have changed since
     values: dict[str, Any] = {"seconds": {}}
-    with _catching() as caught, one_blas_thread():
+    with catching() as caught, one_blas_thread():
         for part in (source, target):
             if part.reason:
                 raise InvalidInput(f"shape {part.name} could not be prepared: {part.reason}")
@@ -101,7 +101,7 @@ def match_pair(task: PairTask, source: Prepared, target: Prepared) -> Result:
         reason=caught.reason,
         attempts=attempt,
         worker=f"{platform.node()}:{os.getpid()}",
-        finished=_now(),
+        finished=now(),
         notes=tuple(dict.fromkeys([*source.notes, *target.notes, *caught.notes])),
         **values,
     )
@@ -116,7 +116,7 @@ def give_up(task: PairTask, reason: str) -> Result:
         *(task.pair.source, task.pair.target, "failed", task.settings, task.inputs),
         reason=reason,
         attempts=attempts(folder, task.pair.key),
-        finished=_now(),
+        finished=now(),
     )
     write_result(result_path(folder, task.pair.key), result)
     return result
@@ -131,7 +131,7 @@ class _Caught:
 
 
 @contextmanager
-def _catching() -> Iterator[_Caught]:
+def catching() -> Iterator[_Caught]:
     """Turn exceptions and our own warnings into text; one bad pair must not end the run."""
     caught = _Caught()
     with warnings.catch_warnings(record=True) as told:
@@ -145,11 +145,12 @@ def _catching() -> Iterator[_Caught]:
     caught.notes = [str(w.message) for w in told if issubclass(w.category, KfmapsWarning)]
 
 
-def _now() -> str:
+def now() -> str:
     return datetime.now(UTC).isoformat(timespec="milliseconds")
 
 
-def _loaded(task: ShapeTask) -> Shape:
+def loaded(task: ShapeTask) -> Shape:
+    """The prepared shape, which must be in the cache."""
     shape = load_shape(Path(task.entry), task.name)
     if shape is None:
         raise refuse(f"prepared shape {task.name}", "an entry in the cache", "none", "run the command again")
@@ -158,7 +159,7 @@ def _loaded(task: ShapeTask) -> Shape:
 
 def _matched(task: PairTask) -> dict[str, Any]:
     """Match, save the map, and give the fields of the result."""
-    source, target = _loaded(task.source), _loaded(task.target)
+    source, target = loaded(task.source), loaded(task.target)
     sizes = len(source.mesh.vertices), len(target.mesh.vertices)
     truth = true_vertices(task, *sizes)
     landmarks = landmark_pairs(task, truth, *sizes)
@@ -168,6 +169,21 @@ def _matched(task: PairTask) -> dict[str, Any]:
             kept_probe(s, Path(t.entry), task.seed) for s, t in ((source, task.source), (target, task.target))
         )
     found = match(source, target, replace(task.config, threads=1), landmarks=landmarks, rng=task.seed, probes=probes)
+    path = map_path(Path(task.folder), task.pair.key)
+    return recorded(task, found, (source, target), truth, landmarks, path)
+
+
+def recorded(
+    task: PairTask,
+    found: Match,
+    shapes: tuple[Shape, Shape],
+    truth: Truth | None,
+    landmarks: np.ndarray | None,
+    path: Path,
+) -> dict[str, Any]:
+    """Save the map of a pair to ``path``, and give the fields of its result."""
+    source, target = shapes
+    sizes = len(source.mesh.vertices), len(target.mesh.vertices)
     start = time.perf_counter()
     points = found.target_to_source
     accuracy = None if truth is None else assessed(source.mesh, points, truth, mirrored=MIRRORED)
@@ -176,7 +192,6 @@ def _matched(task: PairTask) -> dict[str, Any]:
     marks = np.zeros((0, 2), dtype=np.int64) if landmarks is None else landmarks
     paths = Path(task.source.path), Path(task.target.path)
     outcome = MatchRun(found, (source.mesh, target.mesh), paths, marks, task.seed, dict(found.seconds), accuracy)
-    path = map_path(Path(task.folder), task.pair.key)
     path.parent.mkdir(parents=True, exist_ok=True)
     save_map(path, map_file(outcome), force=True)
     return _errors(accuracy) | {
@@ -187,6 +202,7 @@ def _matched(task: PairTask) -> dict[str, Any]:
         "confidence": None if found.confidence is None else float(found.confidence),
         "local_confidence": mean_confidence(found),
         "verdict": found.verdict,
+        "orientation": found.orientation,
         "solver": None if found.fit is None else str(found.fit.solution.status),
         "solver_steps": None if found.fit is None else int(found.fit.solution.steps),
         "rank": None if found.fit is None else int(found.fit.rank),

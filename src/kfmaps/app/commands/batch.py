@@ -10,11 +10,14 @@ from rich.text import Text
 
 from kfmaps._arrays import check_count, refuse
 from kfmaps.app.batch.collection import BatchOutcome, match_collection
-from kfmaps.app.batch.layout import choose_pairs, find_collection
+from kfmaps.app.batch.consistent import Agreed
+from kfmaps.app.batch.graphing import graph_pairs
+from kfmaps.app.batch.layout import Pair, choose_pairs, find_collection
 from kfmaps.app.batch.plan import Plan, make_plan, recommended
 from kfmaps.app.batch.settings import Settings
+from kfmaps.app.batch.spread import crew
 from kfmaps.app.batch.summary import summarised
-from kfmaps.app.batch.terminal import terminal_callback
+from kfmaps.app.batch.terminal import stage_lines, terminal_callback
 from kfmaps.app.files import atomic_output
 from kfmaps.app.settings.options import Chosen, with_settings
 from kfmaps.app.settings.toml import settings_text
@@ -40,6 +43,18 @@ def batch(
     star: Annotated[
         str | None, typer.Option(help="This shape to all others.", metavar="SHAPE", show_default=False)
     ] = None,
+    graph: Annotated[
+        str | None,
+        typer.Option(
+            help="Choose pairs by the shapes: near (each with those most like it), star or all.",
+            metavar="near|star|all",
+            show_default=False,
+        ),
+    ] = None,
+    consistent: Annotated[
+        bool,
+        typer.Option("--consistent", help="Make the maps agree over cycles: exchange those that others contradict."),
+    ] = False,
     identity: Annotated[bool, typer.Option("--identity", help="Truth: vertex i is vertex i.")] = False,
     truth_landmarks: Annotated[
         str | None,
@@ -71,19 +86,36 @@ def batch(
         raise refuse("--workers", "no --scheduler beside it", "both", "the scheduler has its own workers")
     lines = _lines(truth_landmarks)
     collection = find_collection(folder)
-    chosen = choose_pairs(collection, file=pairs, every=every, star=star)
-    config = settings.config(recommended(collection, chosen, bool(lines), landmarks))
-    made = Settings(config, seed, lines, landmarks, identity)
     console = Terminal(highlight=False)
+    if graph is not None:
+        if pairs is not None or every or star is not None:
+            raise refuse("pairs", "one of --graph, --pairs, --all and --star", "several", "leave the others out")
+        config = settings.config(
+            recommended(collection, [Pair(n, n) for n in collection.shapes], bool(lines), landmarks)
+        )
+        made = Settings(config, seed, lines, landmarks, identity)
+        with stage_lines(console, quiet) as told, crew(workers, scheduler, told) as hands:
+            chosen = graph_pairs(collection, made, output, graph, hands, cache_folder=cache)
+    else:
+        chosen = choose_pairs(collection, file=pairs, every=every, star=star)
+        config = settings.config(recommended(collection, chosen, bool(lines), landmarks))
+        made = Settings(config, seed, lines, landmarks, identity)
     plan = make_plan(collection, chosen, made, output, cache_folder=cache, retry_failed=retry_failed)
     if not (plan.folder / TOML).exists():
         with atomic_output(plan.folder / TOML) as temporary:
             temporary.write_text(settings_text(config), encoding="utf-8")
     if not quiet:
         console.print(Text(_before(plan)), soft_wrap=True)
-    with terminal_callback(console, quiet) as callback:
+    with terminal_callback(console, quiet) as callback, stage_lines(console, quiet) as told:
         outcome = match_collection(
-            plan, workers=workers, scheduler=scheduler, name=folder.resolve().name, worst=worst, callback=callback
+            plan,
+            workers=workers,
+            scheduler=scheduler,
+            name=folder.resolve().name,
+            worst=worst,
+            callback=callback,
+            consistent=consistent,
+            told=told,
         )
     if not quiet:
         for line in _after(plan, outcome):
@@ -132,4 +164,22 @@ def _after(plan: Plan, outcome: BatchOutcome) -> list[str]:
         )
     verdicts = ", ".join(f"{count} {verdict}" for verdict, count in numbers.verdicts.items() if verdict)
     lines += [f"verdicts: {verdicts}"] if verdicts else []
+    lines += [] if outcome.agreed is None else _agreed(outcome.agreed)
     return lines + [str(path) for path in outcome.files]
+
+
+def _agreed(found: Agreed) -> list[str]:
+    """Which pairs were exchanged, for what and why."""
+    pairs = "1 pair" if found.exchanged == 1 else f"{found.exchanged} pairs"
+    lines = [
+        f"{pairs} exchanged, since others contradict them" if found.exchanged else "all maps agree: none exchanged"
+    ]
+    lines = lines if found.exchanged or not found.doubted else ["no pair exchanged"]
+    for r in found.results:
+        if r.changed:
+            errors = (
+                "" if r.error_mean is None else f"; error {percent(r.error_before)}, now {percent(r.error_mean)} {UNIT}"
+            )
+            lines.append(f"  {r.source} → {r.target}: {r.changed}; {r.why}{errors}")
+    lines += [f"  doubted, kept: {line}" for line in found.doubted]
+    return lines + [f"  {note}" for note in found.notes]

@@ -14,6 +14,7 @@ from kfmaps.app.pictures.colors import position_colors
 from kfmaps.app.view.document import document
 from kfmaps.app.view.fields import alignment, area_distortion, nearest_reached
 from kfmaps.app.view.pack import packed, quantised
+from kfmaps.app.words import VERDICTS
 from kfmaps.surface.mesh import Mesh, unit_area
 
 
@@ -42,16 +43,6 @@ def map_record(source: Mesh, target: Mesh, target_to_source: np.ndarray, label: 
         "nearest": packed(nearest_reached(source, target_to_source)),
         "distortion": quantised(area_distortion(source, target, target_to_source)),
     }
-
-
-VERDICTS = {
-    "landmarks": "The landmarks settle which way round it goes.",
-    "sure": "Clearly better than every other map that was found.",
-    "ambiguous": "Another map is about as good. Compare the runners-up; a few landmarks decide.",
-    "poor": "No map that was found fits well. One shape may be a part of the other, or they differ too much.",
-    "unchecked": "One fit, compared with no other: without landmarks it may swap left and right.",
-}
-"""What the verdict of a match means, for who looks at the page."""
 
 
 def verdict_record(summary: Mapping[str, Any]) -> dict[str, Any] | None:

@@ -1,0 +1,176 @@
+"""Batches whose maps are made to agree: what is exchanged, kept, written, and found again after a kill."""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from collecting import CONFIG, LANDMARKS, done, write_collection
+from kfmaps._arrays import InvalidInput
+from kfmaps.app.batch.collection import write_outputs
+from kfmaps.app.batch.consistent import make_consistent
+from kfmaps.app.batch.evidence import FOLDER
+from kfmaps.app.batch.exchange import exchanged_map, exchanged_result, map_in_use
+from kfmaps.app.batch.graphing import graph_pairs
+from kfmaps.app.batch.layout import find_collection
+from kfmaps.app.batch.plan import Plan, make_plan
+from kfmaps.app.batch.results import Result, read_result
+from kfmaps.app.batch.settings import Settings
+from kfmaps.app.batch.spread import Crew
+from kfmaps.app.batch.work import map_path
+from kfmaps.app.files import load_map, save_map
+
+MADE = Settings(replace(CONFIG, descriptors=replace(CONFIG.descriptors, shot=True)), landmark_lines=LANDMARKS)
+
+
+class Alone(Crew):
+    """A crew of this process."""
+
+    def __init__(self, stop_after: int | None = None) -> None:
+        super().__init__(None, None, lambda _what, _done, _of: None)
+        self.asked: list[str] = []
+        self.left = stop_after
+
+    def each(self, what: str, function: Callable[[Any], Any], items: Sequence[Any]) -> list[Any]:
+        found = []
+        for item in items:
+            if self.left is not None and self.left == 0:
+                raise KeyboardInterrupt
+            self.left = None if self.left is None else self.left - 1
+            self.asked.append(what)
+            found.append(function(item))
+        return found
+
+
+@pytest.fixture(scope="module")
+def run(tmp_path_factory: pytest.TempPathFactory) -> tuple[Plan, list[Result]]:
+    """Five poses matched all to all one way, and one map then replaced by a wrong one."""
+    folder = write_collection(tmp_path_factory.mktemp("shapes"), 5)
+    collection = find_collection(folder)
+    output = tmp_path_factory.mktemp("out")
+    pairs = graph_pairs(collection, MADE, output, "all", Alone())
+    plan = make_plan(collection, pairs, MADE, output)
+    results = done(plan)
+    assert max(1.0 if r.error_mean is None else r.error_mean for r in results) < 0.05
+    path = map_path(plan.folder, "b1-b3")
+    found = load_map(path)
+    wrong = np.random.default_rng(0).permutation(found.target_to_source)
+    save_map(path, replace(found, target_to_source=wrong), force=True)
+    return plan, results
+
+
+def rows(path: Path) -> list[dict[str, str]]:
+    with open(path, encoding="utf-8", newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def test_the_wrong_map_is_exchanged_and_no_other(run: tuple[Plan, list[Result]]) -> None:
+    plan, results = run
+    before = {p: p.read_bytes() for p in (plan.folder / "maps").iterdir()}
+    found = make_consistent(plan, results, Alone())
+    assert found.exchanged == 1
+    assert not found.doubted
+    assert not found.notes
+    (changed,) = [r for r in found.results if r.changed]
+    assert (changed.source, changed.target) == ("b1", "b3")
+    assert changed.changed.startswith("composition through b")
+    assert changed.error_mean is not None
+    assert changed.error_mean < 0.05
+    assert changed.agreement is not None
+    assert all((r.agreement or 0) > 0.5 for r in found.results)
+    assert found.before["b1", "b3"] == results[[r.target for r in results if r.source == "b1"].index("b3") + 4]
+    assert {p: p.read_bytes() for p in before} == before  # the run's own maps are as they were
+    ours = load_map(map_in_use(plan.folder, "b1-b3"))
+    assert map_in_use(plan.folder, "b1-b3") == exchanged_map(plan.folder, "b1-b3")
+    assert map_in_use(plan.folder, "b0-b1") == map_path(plan.folder, "b0-b1")
+    assert ours.extra["runners_up"].shape[0] == 1  # type: ignore[union-attr]
+    table = {(r["source"], r["target"]): r for r in rows(plan.folder / FOLDER / "pairs.csv")}
+    assert float(table["b1", "b3"]["probability"]) < 0.1
+    assert table["b1", "b3"]["changed"] == changed.changed
+    assert sum(bool(r["changed"]) for r in table.values()) == 1
+
+
+def test_what_is_finished_is_found_again(run: tuple[Plan, list[Result]]) -> None:
+    plan, results = run
+    first = make_consistent(plan, results, Alone())
+    stamp = exchanged_map(plan.folder, "b1-b3").stat().st_mtime_ns
+    again = make_consistent(plan, results, Alone())
+    assert again.results == first.results
+    assert exchanged_map(plan.folder, "b1-b3").stat().st_mtime_ns == stamp
+    # However early it is cut off, the end is the same and nothing that was finished is lost.
+    for path in (plan.folder / FOLDER).rglob("*.*"):
+        path.unlink()
+    for stop in (3, 10, 11):
+        with pytest.raises(KeyboardInterrupt):
+            make_consistent(plan, results, Alone(stop))
+    kept = len(list((plan.folder / FOLDER / "evidence").glob("*.npz")))
+    assert kept == len(plan.tasks)
+    last = make_consistent(plan, results, Alone())
+    plain = [replace(r, seconds={}, finished="", worker="") for r in last.results]
+    assert plain == [replace(r, seconds={}, finished="", worker="") for r in first.results]
+    # A damaged file is made again.
+    damaged = plan.folder / FOLDER / "evidence" / "b0-b1.npz"
+    damaged.write_bytes(damaged.read_bytes()[:100])
+    assert make_consistent(plan, results, Alone()).exchanged == 1
+
+
+def test_specimens_are_told_of(run: tuple[Plan, list[Result]]) -> None:
+    plan, results = run
+    found = make_consistent(plan, results, Alone())
+    shapes = rows(plan.folder / FOLDER / "shapes.csv")
+    assert [r["shape"] for r in shapes] == [f"b{i}" for i in range(5)]
+    bend = [float(r["area_1"]) for r in shapes]
+    assert abs(np.corrcoef(bend, np.arange(5))[0, 1]) > 0.9  # each pose bends the shape a little more
+    distances = {(r["shape"], r["other"]): float(r["area"]) for r in rows(plan.folder / FOLDER / "distances.csv")}
+    assert distances["b0", "b1"] < distances["b0", "b4"]
+    write_outputs(plan, list(found.results), "c", 1, found)
+    page = (plan.folder / "summary.html").read_text(encoding="utf-8")
+    assert "composition through" in page
+    assert "How the shapes differ" in page
+    assert 'href="pages/b1-b3.html"' in page
+    assert (plan.folder / "pages" / "b1-b3.html").exists()
+    assert page.count("data:image/png;base64,") == 4  # before, now, where they differ, and the worst
+
+
+def test_pairs_that_match_again_are_not_exchanged_any_more(run: tuple[Plan, list[Result]]) -> None:
+    plan, results = run
+    make_consistent(plan, results, Alone())
+    path = map_path(plan.folder, "b1-b3")
+    wrong = path.read_bytes()
+    right = load_map(exchanged_map(plan.folder, "b1-b3"))
+    save_map(path, replace(right, extra={k: v for k, v in right.extra.items() if k != "runners_up"}), force=True)
+    try:
+        assert make_consistent(plan, results, Alone()).exchanged == 0
+        assert not exchanged_map(plan.folder, "b1-b3").exists()
+        assert read_result(exchanged_result(plan.folder, "b1-b3")) is None
+    finally:
+        path.write_bytes(wrong)
+
+
+def test_nothing_to_speak_of(run: tuple[Plan, list[Result]]) -> None:
+    plan, _ = run
+    with pytest.raises(InvalidInput, match="pairs that are matched"):
+        make_consistent(plan, [], Alone())
+
+
+def test_graphs_are_kept(tmp_path: Path) -> None:
+    folder = write_collection(tmp_path / "shapes", 5)
+    collection = find_collection(folder)
+    crew = Alone()
+    pairs = graph_pairs(collection, MADE, tmp_path / "out", "near", crew)
+    assert len(pairs) >= 5
+    assert "shapes" in crew.asked
+    again = Alone()
+    assert graph_pairs(collection, MADE, tmp_path / "out", "near", again) == pairs
+    assert not again.asked
+    star = graph_pairs(collection, MADE, tmp_path / "out", "star", Alone())
+    assert len({p.source for p in star}) == 1
+    assert len(star) == 4
+    with pytest.raises(InvalidInput, match="near, star or all"):
+        graph_pairs(collection, MADE, tmp_path / "out", "ring", Alone())
