@@ -109,3 +109,24 @@ def test_other_settings_are_refused(folder: Path, tmp_path: Path, capsys: pytest
     assert main([*words, "-q"]) == 0
     assert main([*words, "--alpha", "2"]) == 2
     assert "config.weights.laplacian 1.0, now 2.0" in capsys.readouterr().err
+
+
+def test_a_graph_of_pairs_that_agree(folder: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    out = tmp_path / "out"
+    words = ["batch", str(folder), "-o", str(out), "--workers", "1", "--graph", "near", "--consistent", "--worst", "0"]
+    words += [*SIZES, *ZOOM, *MARKS]
+    assert main(words) == 0
+    told = capsys.readouterr().out
+    assert "3 pairs of 3 shapes" in told
+    assert "evidence of pairs 3/3" in told
+    assert "all maps agree: none exchanged" in told
+    with open(out / "results.csv", encoding="utf-8", newline="") as file:
+        assert all(float(row["agreement"]) > 0.5 for row in csv.DictReader(file))
+    assert {p.name for p in (out / "consistent").iterdir()} >= {
+        "pairs.csv",
+        "shapes.csv",
+        "distances.csv",
+        "latent.npz",
+    }
+    assert main([*words, "--star", "b0"]) == 2
+    assert "one of --graph, --pairs, --all and --star" in capsys.readouterr().err
