@@ -57,27 +57,48 @@ def best_way(
     without : int, optional
         A link that is not to be used.
     """
+    return _searched(count, ends, chances, source, target, without).get(target)
+
+
+def ways_from(count: int, ends: Sequence[tuple[int, int]], chances: Sequence[float], source: int) -> dict[int, Way]:
+    """The best ways from one shape to all that can be reached, itself too; as :func:`best_way` finds them.
+
+    A way's first part is the way to where that ends, so that points can be carried along all of them step by step. In
+    the order of how probable they are.
+    """
+    return _searched(count, ends, chances, source)
+
+
+def _searched(
+    count: int,
+    ends: Sequence[tuple[int, int]],
+    chances: Sequence[float],
+    source: int,
+    target: int | None = None,
+    without: int | None = None,
+) -> dict[int, Way]:
+    """Dijkstra's search from ``source``, until ``target`` is found."""
     around: list[list[tuple[int, int]]] = [[] for _ in range(count)]
     for number, (a, b) in enumerate(ends):
         if number != without and chances[number] > LEAST:
             around[a].append((b, number))
             around[b].append((a, number))
     queue: list[tuple[float, int, tuple[int, ...], tuple[int, ...]]] = [(0.0, 0, (source,), ())]
-    done = set()
+    found: dict[int, Way] = {}
     while queue:
         cost, length, shapes, links = heappop(queue)
         here = shapes[-1]
-        if here == target:
-            return Way(shapes, links, float(np.exp(-cost)))
-        if here in done:
+        if here in found:
             continue
-        done.add(here)
+        found[here] = Way(shapes, links, float(np.exp(-cost)))
+        if here == target:
+            break
         for other, number in around[here]:
-            if other not in done:
+            if other not in found:
                 # Rounded, so that what is equal but for rounding is equal; each step costs a little by itself.
                 further = round(cost - float(np.log(min(chances[number], 1.0))) + 1e-6, 9)
                 heappush(queue, (further, length + 1, (*shapes, other), (*links, number)))
-    return None
+    return found
 
 
 def composed(maps: Sequence[np.ndarray]) -> np.ndarray:

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import warnings
 from pathlib import Path
 from typing import Annotated
 
 import numpy as np
 import typer
 
-from kfmaps._arrays import refuse
+from kfmaps._arrays import KfmapsWarning, refuse
 from kfmaps.app.files import MapFile, Values, check_map, check_output, load_map, read_mesh, read_values, write_values
 from kfmaps.app.files import transfer as carried
 from kfmaps.app.files.export import place_of
@@ -20,15 +21,34 @@ from kfmaps.surface.mesh import Mesh
 
 
 def transfer(
-    map: Annotated[Path, typer.Argument(help="A map (.npz, .txt, .vts, .mat).", metavar="MAP", show_default=False)],
-    values: Annotated[
-        Path,
-        typer.Argument(help="A row for each source vertex (.npy, .csv, .txt).", metavar="VALUES", show_default=False),
-    ],
     output: Annotated[
         Path,
         typer.Option("-o", "--output", help="A row for each target vertex (.npy, .csv, .txt).", show_default=False),
     ],
+    map: Annotated[
+        Path | None, typer.Argument(help="A map (.npz, .txt, .vts, .mat).", metavar="MAP", show_default=False)
+    ] = None,
+    values: Annotated[
+        Path | None,
+        typer.Argument(help="A row for each source vertex (.npy, .csv, .txt).", metavar="VALUES", show_default=False),
+    ] = None,
+    collection: Annotated[
+        Path | None,
+        typer.Option(help="Instead of MAP: the output folder of kfmaps batch.", metavar="OUT", show_default=False),
+    ] = None,
+    landmarks: Annotated[
+        Path | None,
+        typer.Option(
+            help='Of one specimen, to all of --collection: "name, vertex" or "name, x, y, z" a row (.csv).',
+            show_default=False,
+        ),
+    ] = None,
+    on: Annotated[
+        str | None, typer.Option(help="The specimen that --landmarks are on.", metavar="SHAPE", show_default=False)
+    ] = None,
+    tps: Annotated[
+        Path | None, typer.Option(help="Write all landmarks as TPS too (geomorph, MorphoJ).", show_default=False)
+    ] = None,
     points: Annotated[
         bool,
         typer.Option("--points", help='VALUES are points: "name, vertex" or "name, x, y, z" a row (.csv).'),
@@ -49,7 +69,12 @@ def transfer(
     target: Annotated[Path | None, typer.Option(help="The same for the target.", show_default=False)] = None,
     force: Annotated[bool, typer.Option("--force", help="Replace an existing file.")] = False,
 ) -> None:
-    """Carry functions, labels or named points from the source to the target, or back."""
+    """Carry functions, labels or named points from the source to the target, or back; or landmarks to a collection."""
+    if collection is not None or landmarks is not None:
+        _everywhere(collection, landmarks, on, output, tps, force, (map, values, source, target))
+        return
+    if map is None or values is None:
+        raise refuse("transfer", "MAP and VALUES, or --collection and --landmarks", "neither", "give two of them")
     check_output(output, force, (map, values, source, target))
     if products is not None and (points or back):
         with_it = "--points" if points else "--back"
@@ -74,6 +99,36 @@ def transfer(
         place_of(found, shape)
         faces = shape.faces
     write_values(output, Values(carried(given.array, found, faces), given.columns), force)
+
+
+def _everywhere(
+    collection: Path | None,
+    landmarks: Path | None,
+    on: str | None,
+    output: Path,
+    tps: Path | None,
+    force: bool,
+    others: tuple[Path | None, ...],
+) -> None:
+    """Landmarks of one specimen on all of a collection."""
+    from kfmaps.app.batch.carried import landmarks_everywhere, write_landmarks_csv, write_tps
+
+    if collection is None or landmarks is None:
+        missing = "--landmarks" if landmarks is None else "--collection"
+        raise refuse("transfer", "--collection and --landmarks together", f"no {missing}", "give both")
+    if any(one is not None for one in others):
+        raise refuse("transfer", "--collection and --landmarks alone", "a map or mesh beside them", "leave it out")
+    if output.suffix.lower() != ".csv":
+        raise refuse(f"output {output}", "the extension .csv", output.suffix or "none", "rename it")
+    for path in [output] + [tps] * (tps is not None):
+        check_output(path, force, (landmarks,))
+    found, missed = landmarks_everywhere(collection, landmarks, on)
+    write_landmarks_csv(output, found, force)
+    if tps is not None:
+        write_tps(tps, found, force)
+    if missed:
+        text = f"no map leads to {', '.join(missed[:5])}{' and others' if len(missed) > 5 else ''}"
+        warnings.warn(f"{text}; they have no landmarks", KfmapsWarning, stacklevel=2)
 
 
 def _shape(found: MapFile, side: str, given: Path | None, map: Path) -> Mesh:

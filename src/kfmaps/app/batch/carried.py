@@ -1,0 +1,205 @@
+"""Landmarks of one specimen on all specimens of a run, along the best ways over its maps."""
+
+from __future__ import annotations
+
+import csv
+import io
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+
+from kfmaps._arrays import refuse
+from kfmaps.app.batch.evidence import FOLDER as CONSISTENT
+from kfmaps.app.batch.exchange import exchanged_result, map_in_use
+from kfmaps.app.batch.layout import Pair
+from kfmaps.app.batch.results import Result, all_results, read_result
+from kfmaps.app.batch.settings import read_settings
+from kfmaps.app.files import MapFile, atomic_output, check_map, check_output, load_map, read_mesh
+from kfmaps.app.files.export import place_of
+from kfmaps.app.files.named_points import NamedPoints, carried_points, read_named_points
+from kfmaps.functional.precise import at_vertices
+from kfmaps.many.paths import ways_from
+from kfmaps.surface.mesh import Mesh
+
+UNKNOWN = 0.5
+"""Probability of a map of which nothing is known."""
+PAIRS = "pairs.csv"
+
+
+@dataclass(frozen=True, eq=False)
+class Carried:
+    """The landmarks on one specimen.
+
+    Attributes
+    ----------
+    specimen : str
+    points : NamedPoints
+    through : tuple of str
+        The specimens between it and that with the landmarks.
+    """
+
+    specimen: str
+    points: NamedPoints
+    through: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class _Edge:
+    pair: Pair
+    path: Path
+    chance: float
+
+
+def landmarks_everywhere(folder: Path, landmarks: Path, on: str | None = None) -> tuple[list[Carried], list[str]]:
+    """The points of a CSV file (:func:`~kfmaps.app.files.named_points.read_named_points`) on every specimen of a run.
+
+    Each map on the way carries them once: from the specimen with the landmarks along the paths whose maps are most
+    probably all right. The confidence of a point is that of the way times, at each step, how well distances around it
+    are kept.
+
+    Parameters
+    ----------
+    folder : Path
+        Output of ``kfmaps batch``; maps that were exchanged are used in the place of the old.
+    on : str, optional
+        The specimen that the landmarks are on; where all maps start from one, that.
+
+    Returns
+    -------
+    list of Carried
+        The specimen with the landmarks first, then in the order of how sure the ways are.
+    list of str
+        Specimens that no map leads to.
+
+    Raises
+    ------
+    InvalidInput
+        When there are no maps, or they and their meshes do not fit each other any more.
+    """
+    edges = _edges(folder)
+    names = sorted({name for e in edges for name in (e.pair.source, e.pair.target)})
+    if not names:
+        raise refuse(f"collection {folder}", "maps of kfmaps batch", "none", "see why its pairs failed")
+    start = _start(names, edges, on)
+    number = {name: i for i, name in enumerate(names)}
+    ends = [(number[e.pair.source], number[e.pair.target]) for e in edges]
+    ways = ways_from(len(names), ends, [e.chance for e in edges], number[start])
+    meshes: dict[str, Mesh] = {}
+    found: dict[int, Carried] = {}
+    for at, way in ways.items():
+        if not way.links:
+            mesh = _mesh(start, edges, meshes)
+            points = read_named_points(landmarks, mesh)
+            points = replace(points, confidence=np.ones(len(points.names)))
+            found[at] = Carried(start, points, ())
+            continue
+        edge, before = edges[way.links[-1]], found[way.shapes[-2]]
+        known = load_map(edge.path)
+        source, target = (_mesh(name, edges, meshes) for name in (edge.pair.source, edge.pair.target))
+        check_map(known, len(source.vertices), len(target.vertices), str(edge.path))
+        place = place_of(known, source) or at_vertices(known.target_to_source, source)
+        trust = known.extra.get("local_confidence")
+        local = np.ones(len(target.vertices)) if trust is None else np.nan_to_num(np.asarray(trust))
+        back = ends[way.links[-1]][1] == way.shapes[-2]
+        points = carried_points(before.points, source, target, place, local, back=back)
+        sure = before.points.confidence * points.confidence * edge.chance
+        through = tuple(names[i] for i in way.shapes[1:-1])
+        found[at] = Carried(names[at], replace(points, confidence=sure), through)
+    return list(found.values()), [name for name in names if number[name] not in found]
+
+
+def _edges(folder: Path) -> list[_Edge]:
+    """The maps of a run with their probabilities."""
+    settings = read_settings(folder)
+    agreed = _agreed(folder)
+    edges = []
+    for result in all_results(folder, str(settings["digest"])):
+        pair = Pair(result.source, result.target)
+        path = map_in_use(folder, pair.key)
+        if result.status != "done" or not path.exists():
+            continue
+        other = read_result(exchanged_result(folder, pair.key))
+        used = other if other is not None and other.status == "done" else result
+        edges.append(_Edge(pair, path, _chance(used, agreed.get((pair.source, pair.target)))))
+    return edges
+
+
+def _chance(result: Result, agreed: float | None) -> float:
+    """What is known of a map, best first: agreement with others, the search's confidence, distances kept."""
+    for value in (result.agreement, agreed, result.confidence, result.local_confidence):
+        if value is not None:
+            return float(np.clip(value, 1e-3, 1.0))
+    return UNKNOWN
+
+
+def _agreed(folder: Path) -> dict[tuple[str, str], float]:
+    try:
+        with open(folder / CONSISTENT / PAIRS, encoding="utf-8", newline="") as file:
+            return {(row["source"], row["target"]): float(row["probability"]) for row in csv.DictReader(file)}
+    except (OSError, ValueError, KeyError):
+        return {}
+
+
+def _start(names: Sequence[str], edges: Sequence[_Edge], on: str | None) -> str:
+    if on is not None:
+        for name in (on, Path(on).stem):
+            if name in names:
+                return name
+        raise refuse("--on", f"a specimen ({', '.join(names[:5])}, ...)", repr(on), "check the spelling")
+    sources = {e.pair.source for e in edges}
+    if len(sources) == 1:
+        return sources.pop()
+    raise refuse("--on", "the specimen that the landmarks are on", "none", f"name one of {', '.join(names[:5])}, ...")
+
+
+def _mesh(name: str, edges: Sequence[_Edge], known: dict[str, Mesh]) -> Mesh:
+    """The mesh of a specimen, from where its maps say that it lies."""
+    if name not in known:
+        edge = next(e for e in edges if name in (e.pair.source, e.pair.target))
+        side = "source" if edge.pair.source == name else "target"
+        path = _named(load_map(edge.path), side, edge.path)
+        mesh = read_mesh(path)
+        if len(mesh.faces) == 0:
+            raise refuse(str(path), "a surface with faces", "a point cloud", "landmarks are carried between surfaces")
+        known[name] = mesh
+    return known[name]
+
+
+def _named(found: MapFile, side: str, path: Path) -> str:
+    named = found.extra.get(side)
+    if not isinstance(named, str) or not Path(named).exists():
+        raise refuse(str(path), f"its {side} where it says", str(named), "put the mesh back, or match again")
+    return named
+
+
+def write_landmarks_csv(path: Path, carried: Sequence[Carried], force: bool = False) -> None:
+    """One row a landmark and specimen: where it is in the specimen's own unit, on which triangle, and how sure it is."""
+    check_output(path, force)
+    text = io.StringIO(newline="")
+    out = csv.writer(text, lineterminator="\n")
+    titles = ["name", "specimen", "x", "y", "z", "vertex", "face", "weight_1", "weight_2", "weight_3"]
+    out.writerow([*titles, "confidence", "through"])
+    for one in carried:
+        p = one.points
+        for i, name in enumerate(p.names):
+            place = [repr(x) for x in p.points[i].tolist()]
+            weights = [f"{w:.9g}" for w in p.place.weights[i].tolist()]
+            known = f"{p.confidence[i]:.4f}"
+            row = [name, one.specimen, *place, int(p.vertices[i]), int(p.place.faces[i]), *weights, known]
+            out.writerow([*row, " ".join(one.through)])
+    with atomic_output(path, force) as temporary:
+        temporary.write_text(text.getvalue(), encoding="utf-8", newline="")
+
+
+def write_tps(path: Path, carried: Sequence[Carried], force: bool = False) -> None:
+    """The landmarks as TPS (Rohlf), which geomorph and MorphoJ read: ``LM3=`` and a row each, then ``ID=``."""
+    check_output(path, force)
+    lines = []
+    for one in carried:
+        lines.append(f"LM3={len(one.points.names)}")
+        lines += [" ".join(f"{x:.9g}" for x in row) for row in one.points.points.tolist()]
+        lines.append(f"ID={' '.join(one.specimen.split())}")
+    with atomic_output(path, force) as temporary:
+        temporary.write_text("\n".join(lines) + "\n", encoding="utf-8")

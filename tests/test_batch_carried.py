@@ -1,0 +1,108 @@
+"""Landmarks of one specimen on all of a collection, along the maps of a run."""
+
+from __future__ import annotations
+
+import csv
+import itertools
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from collecting import CONFIG, LANDMARKS, done, touch, write_collection
+from kfmaps._arrays import InvalidInput
+from kfmaps.app.batch.carried import landmarks_everywhere
+from kfmaps.app.batch.layout import Pair, find_collection
+from kfmaps.app.batch.plan import make_plan
+from kfmaps.app.batch.settings import Settings
+from kfmaps.app.batch.work import map_path
+from kfmaps.app.cli import main
+from kfmaps.app.files import load_map, read_mesh, read_vertex_numbers, save_map
+
+NAMES = ("tip", "base", 'a "quoted", one')
+LINES = np.array([20, 90, 150])
+
+
+@pytest.fixture(scope="module")
+def run(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Path]:
+    """Poses 0 to 3 in a chain, 0 → 1, 2 → 1, 2 → 3, each in a unit of its own; and landmarks on the first."""
+    folder = write_collection(tmp_path_factory.mktemp("shapes"), 4)
+    out = tmp_path_factory.mktemp("out")
+    pairs = [Pair("b0", "b1"), Pair("b2", "b1"), Pair("b2", "b3")]
+    done(make_plan(find_collection(folder), pairs, Settings(CONFIG, landmark_lines=LANDMARKS), out))
+    for pair in pairs:  # as sure as can be of true maps
+        path = map_path(out, pair.key)
+        found = load_map(path)
+        truth = [read_vertex_numbers(folder / "corres" / f"{n}.vts") for n in (pair.source, pair.target)]
+        points = np.empty_like(found.target_to_source)
+        points[truth[1]] = truth[0]
+        extra = {k: v for k, v in found.extra.items() if not k.startswith("place_")}
+        save_map(path, replace(found, target_to_source=points, extra=extra), force=True)
+    return folder, out
+
+
+def marks(folder: Path, name: str = "b0") -> np.ndarray:
+    return read_vertex_numbers(folder / "corres" / f"{name}.vts")[LINES]
+
+
+def landmark_file(path: Path, vertices: np.ndarray) -> Path:
+    with open(path, "w", encoding="utf-8", newline="") as file:
+        csv.writer(file).writerows([["name", "vertex"], *zip(NAMES, vertices.tolist(), strict=True)])
+    return path
+
+
+def test_landmarks_reach_all_along_true_maps(run: tuple[Path, Path], tmp_path: Path) -> None:
+    folder, out = run
+    found, missed = landmarks_everywhere(out, landmark_file(tmp_path / "m.csv", marks(folder)), "b0")
+    assert not missed
+    assert [one.specimen for one in found] == ["b0", "b1", "b2", "b3"]
+    assert [one.through for one in found] == [(), (), ("b1",), ("b1", "b2")]
+    for one in found:
+        mesh = read_mesh(folder / f"{one.specimen}.off")
+        np.testing.assert_allclose(one.points.points, mesh.vertices[marks(folder, one.specimen)], atol=1e-6)
+        np.testing.assert_array_equal(one.points.vertices, marks(folder, one.specimen))
+        assert one.points.names == NAMES
+    sure = [one.points.confidence for one in found]
+    assert (sure[0] == 1).all()
+    assert all((a >= b - 1e-12).all() for a, b in itertools.pairwise(sure))  # each step can only lose
+
+
+def test_the_command_writes_csv_and_tps(
+    run: tuple[Path, Path], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    folder, out = run
+    file = landmark_file(tmp_path / "m.csv", marks(folder, "b2"))
+    words = ["transfer", "--collection", str(out), "--landmarks", str(file), "-o", str(tmp_path / "all.csv")]
+    assert main([*words, "--on", "b2.off", "--tps", str(tmp_path / "all.tps")]) == 0
+    with open(tmp_path / "all.csv", encoding="utf-8", newline="") as table:
+        rows = list(csv.DictReader(table))
+    assert len(rows) == 12
+    assert {r["name"] for r in rows} == set(NAMES)
+    for row in rows:
+        mesh = read_mesh(folder / f"{row['specimen']}.off")
+        here = np.array([float(row[c]) for c in "xyz"])
+        weights = np.array([float(row[f"weight_{i}"]) for i in (1, 2, 3)])
+        np.testing.assert_allclose(weights @ mesh.vertices[mesh.faces[int(row["face"])]], here, atol=1e-6)
+        assert 0 <= float(row["confidence"]) <= 1
+    blocks = (tmp_path / "all.tps").read_text(encoding="utf-8").split("LM3=3\n")[1:]
+    ids = [b.strip().split("\n")[-1] for b in blocks]
+    assert ids[0] == "ID=b2"
+    assert set(ids) == {"ID=b0", "ID=b1", "ID=b2", "ID=b3"}
+    first = np.array([[float(x) for x in line.split()] for line in blocks[0].split("\n")[:3]])
+    np.testing.assert_allclose(first, read_mesh(folder / "b2.off").vertices[marks(folder, "b2")], atol=1e-6)
+    assert main([*words, "--force"]) == 2
+    assert "--on" in capsys.readouterr().err
+    assert main([*words, "--force", "--on", "nobody"]) == 2
+    assert main(["transfer", "--landmarks", str(file), "-o", str(tmp_path / "x.csv")]) == 2
+    assert "no --collection" in capsys.readouterr().err
+    assert main(["transfer", "-o", str(tmp_path / "x.csv")]) == 2
+    assert "MAP and VALUES" in capsys.readouterr().err
+
+
+def test_what_cannot_be_carried(run: tuple[Path, Path], tmp_path: Path) -> None:
+    _, out = run
+    with pytest.raises(InvalidInput, match="an output folder of kfmaps batch"):
+        landmarks_everywhere(tmp_path, touch(tmp_path / "m.csv", "a,1\n"))
+    with pytest.raises(InvalidInput, match="vertices from 0 to 199"):
+        landmarks_everywhere(out, touch(tmp_path / "m.csv", "a,999\n"), "b0")
