@@ -175,7 +175,7 @@ def _named(found: MapFile, side: str, path: Path) -> str:
 
 
 def write_landmarks_csv(path: Path, carried: Sequence[Carried], force: bool = False) -> None:
-    """One row a landmark and specimen: where it is in the specimen's own unit, on which triangle, and how sure it is."""
+    """One row a landmark and specimen: where it is in the specimen's own unit, on which triangle, how sure it is."""
     check_output(path, force)
     text = io.StringIO(newline="")
     out = csv.writer(text, lineterminator="\n")
