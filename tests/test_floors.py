@@ -39,6 +39,7 @@ APP = {
     "pictures": 1,
     "evaluation": 2,
     "summary": 3,
+    "collected": 3,
     "experiments": 4,
     "learn": 4,
     "view": 4,

@@ -12,6 +12,8 @@ from kfmaps.app.api import prepare as prepare
 from kfmaps.app.api import render as render
 from kfmaps.app.api import transfer as transfer
 from kfmaps.app.api import view as view
+from kfmaps.app.collected import Collection as Collection
+from kfmaps.app.collected import collection as collection
 from kfmaps.app.files import load_map as load_map
 from kfmaps.app.files import read_landmarks as read_landmarks
 from kfmaps.app.files import read_mesh as read_mesh

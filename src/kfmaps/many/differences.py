@@ -20,6 +20,8 @@ from kfmaps._arrays import check, check_count, refuse, to_numpy
 from kfmaps.many.agree import Agreement, Link
 from kfmaps.surface.basis import Basis
 
+RIGHT = 0.5
+"""Probability from which a candidate takes part in the common basis."""
 SETTLING = 30
 """Iterations of the latent maps."""
 
@@ -96,6 +98,23 @@ def latent_basis(
     means, functions = eigh(gradients, areas + 1e-9 * np.trace(areas) / k * np.eye(k))
     maps = (maps @ functions)[:, :, :size]
     return Latent(maps * _signs(maps), np.maximum(means[:size], 0.0))
+
+
+def common_basis(found: Agreement, links: Sequence[Link], eigenvalues: np.ndarray, size: int) -> Latent | None:
+    """:func:`latent_basis` by the candidates that are probably right, at most ``size`` functions.
+
+    ``links`` may lack the last candidates of those that ``found`` is of, such as compositions. ``None`` for fewer than
+    three shapes, and where pairs do not join them all.
+    """
+    count, k = found.latent.shape[:2]
+    if count < 3 or len(np.unique(found.component)) > 1:
+        return None
+    best = [int(chances[:-1].argmax()) for chances in found.chances]
+    chosen = [
+        b if b < len(link.choices) and chances[b] >= RIGHT else None
+        for b, chances, link in zip(best, found.chances, links, strict=True)
+    ]
+    return latent_basis(found, links, chosen, eigenvalues, min(size, k))
 
 
 def _normalised(maps: np.ndarray) -> np.ndarray:

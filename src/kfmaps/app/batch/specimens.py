@@ -15,9 +15,9 @@ from kfmaps.app.batch.tasks import PairTask, ShapeTask
 from kfmaps.app.batch.work import loaded
 from kfmaps.app.files import atomic_output
 from kfmaps.many.agree import Link
-from kfmaps.many.differences import components, latent_basis, operators, shape_distances, variation
+from kfmaps.many.differences import common_basis, components, operators, shape_distances, variation
 from kfmaps.many.graph import medoid
-from kfmaps.many.repair import RIGHT, Repaired
+from kfmaps.many.repair import Repaired
 
 SHAPES, DISTANCES, LATENT = "shapes.csv", "distances.csv", "latent.npz"
 SIZE = 15
@@ -38,17 +38,15 @@ def write_specimens(
     for task in tasks:
         shapes |= {task.pair.source: task.source, task.pair.target: task.target}
     hand = ["" if (found.hands == 1).all() else ("+" if h > 0 else "-") for h in found.hands]
-    parts = found.agreement.component
-    if len(np.unique(parts)) > 1 or len(names) < 3:
+    parts, k = found.agreement.component, found.agreement.latent.shape[1]
+    values = np.stack([loaded(shapes[name]).basis.eigenvalues[:k] for name in names])
+    latent = common_basis(found.agreement, links, values, SIZE)
+    if latent is None:
         rows = [[name, hand[i], int(parts[i])] for i, name in enumerate(names)]
         _table(folder / SHAPES, ["shape", "hand", "part"], rows)
         for name in (DISTANCES, LATENT):
             (folder / name).unlink(missing_ok=True)
         return ["shapes that hang together, three or more, would have a common basis and principal components"]
-    chosen = [_right(chances, len(link.choices)) for chances, link in zip(found.agreement.chances, links, strict=True)]
-    k = found.agreement.latent.shape[1]
-    values = np.stack([loaded(shapes[name]).basis.eigenvalues[:k] for name in names])
-    latent = latent_basis(found.agreement, links, chosen, values, min(SIZE, k))
     matrices = {kind: operators(latent, values, kind) for kind in KINDS}
     pca = {kind: components(matrices[kind], COMPONENTS) for kind in KINDS}
     titles = [f"{kind}_{i + 1}" for kind in KINDS for i in range(pca[kind].scores.shape[1])]
@@ -78,12 +76,6 @@ def write_specimens(
             **varied,
         )
     return []
-
-
-def _right(chances: np.ndarray, given: int) -> int | None:
-    """The candidate of a link that is probably right, among those it was matched with."""
-    best = int(chances[:-1].argmax())
-    return best if best < given and chances[best] >= RIGHT else None
 
 
 def _table(path: Path, titles: list[str], rows: list[list]) -> None:

@@ -1,0 +1,87 @@
+"""``kfmaps.collection``: shapes in, maps that agree out."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import kfmaps
+from collecting import CONFIG, bent
+from kfmaps._arrays import InvalidInput
+from kfmaps.fit.shape import Shape, prepare
+
+N = 300
+LOCAL = replace(CONFIG, search=kfmaps.Search(candidates=1, signs=2), threads=1)
+LOCAL = replace(LOCAL, descriptors=replace(LOCAL.descriptors, shot=True))
+
+
+@pytest.fixture(scope="module")
+def shapes() -> dict[str, Shape]:
+    return {f"s{i}": prepare(bent(i, N), LOCAL, name=f"s{i}") for i in range(4)}
+
+
+def true_maps(shapes: dict[str, Shape]) -> dict[tuple[str, str], np.ndarray]:
+    names = list(shapes)
+    return {(a, b): np.arange(N) for i, a in enumerate(names) for b in names[i + 1 :]}
+
+
+def test_given_maps_are_kept_but_for_the_wrong_one(shapes: dict[str, Shape]) -> None:
+    maps = true_maps(shapes)
+    maps["s0", "s2"] = np.random.default_rng(0).permutation(N)
+    told: list[str] = []
+    found = kfmaps.collection(shapes, maps, config=LOCAL, progress=lambda what, *_: told.append(what))
+    assert list(found.changes) == [("s0", "s2")]
+    assert found.changes["s0", "s2"].startswith("composition through s")
+    at = found.pairs.index(("s0", "s2"))
+    assert (found.maps[at] == np.arange(N)).mean() > 0.9
+    match = found.matches[at]
+    assert match is not None
+    assert match.origin == found.changes["s0", "s2"]
+    assert [m is None for m in found.matches].count(False) == 1
+    assert min(found.chances) > 0.5
+    assert set(found.hands.values()) == {1}
+    assert set(told) == {"shapes", "pairs"}
+    D = found.distances()
+    assert D.shape == (4, 4)
+    assert D[0, 1] < D[0, 3]
+    assert found.distances("conformal")[0, 3] > 0
+
+
+def test_any_two_shapes_have_a_map(shapes: dict[str, Shape]) -> None:
+    chain = {("s0", "s1"): np.arange(N), ("s2", "s1"): np.arange(N), ("s2", "s3"): np.arange(N)}
+    found = kfmaps.collection(shapes, chain, config=LOCAL)
+    np.testing.assert_array_equal(found.map("s3", "s0"), np.arange(N))
+    np.testing.assert_array_equal(found.map("s0", "s0"), np.arange(N))
+    np.testing.assert_array_equal(found.map("s1", "s2"), np.arange(N))
+    apart = kfmaps.collection(shapes, {("s0", "s1"): np.arange(N)}, config=LOCAL)
+    assert apart.latent is None
+    with pytest.raises(InvalidInput, match="shapes that maps join"):
+        apart.map("s0", "s3")
+    with pytest.raises(InvalidInput, match="three shapes or more"):
+        apart.distances()
+    with pytest.raises(InvalidInput, match="check the spelling"):
+        apart.map("s0", "nobody")
+
+
+def test_without_maps_pairs_are_matched(shapes: dict[str, Shape]) -> None:
+    few = [shapes["s0"], shapes["s1"], shapes["s2"]]
+    found = kfmaps.collection(few, config=LOCAL)
+    assert found.names == ("0", "1", "2")
+    assert set(found.pairs) == {("0", "1"), ("0", "2"), ("1", "2")}
+    assert all(m is not None for m in found.matches)
+    assert max(m.max() for m in found.maps) < N
+
+
+def test_what_makes_no_collection(shapes: dict[str, Shape]) -> None:
+    with pytest.raises(InvalidInput, match="shapes"):
+        kfmaps.collection({"s0": shapes["s0"]}, config=LOCAL)
+    with pytest.raises(InvalidInput, match="near, star or all"):
+        kfmaps.collection(shapes, graph="ring", config=LOCAL)
+    with pytest.raises(InvalidInput, match="nobody"):
+        kfmaps.collection(shapes, {("s0", "nobody"): np.arange(N)}, config=LOCAL)
+    with pytest.raises(InvalidInput, match="s0 → s1"):
+        kfmaps.collection(shapes, {("s0", "s1"): np.arange(N) + 1}, config=LOCAL)
+    with pytest.raises(InvalidInput, match="at least one"):
+        kfmaps.collection(shapes, {}, config=LOCAL)
