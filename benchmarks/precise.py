@@ -14,7 +14,7 @@ import argparse
 import json
 import time
 import warnings
-from dataclasses import replace
+from dataclasses import asdict, replace
 from pathlib import Path
 
 import numpy as np
@@ -78,13 +78,14 @@ def jobs(data: Path | None, kind: str, count: int):
 
 
 def row(name, source, target, truth, where, marks) -> dict:
-    config = replace(kfmaps.Config() if marks is not None else kfmaps.Config.automatic(), threads=1)
+    config = replace(kfmaps.Config.automatic(), threads=1)
     found = kfmaps.match(source, target, replace(config, finish=None), landmarks=marks)
     assert found.border is not None
     across, clock = found.border, Clock()
     start = time.process_time()
     inner_points = across.part_s.number[found.target_to_source][across.part_t.kept]
-    last = placed(inner_points, across.source, across.target, config, clock)
+    doubted = np.zeros((0, 2), dtype=np.int64) if marks is None else np.delete(marks, found.doubted, axis=0)
+    last = placed(inner_points, across.source, across.target, config, clock, across.landmarks(doubted))
     spent = time.process_time() - start
     spectral = found.precise()
     fitted = spectral if last.place is None else across.place(last.place)
@@ -98,6 +99,7 @@ def row(name, source, target, truth, where, marks) -> dict:
         "pair": name,
         "verdict": found.verdict,
         "kept": last.place is not None,
+        "bend": None if last.fit is None else asdict(last.fit),
         "vertices": error(found.target_to_source),
         "spectral": error(spectral),
         "finish": error(fitted),

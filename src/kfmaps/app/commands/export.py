@@ -48,7 +48,8 @@ def export(
     ] = None,
     target: Annotated[Path | None, typer.Option(help="The same for the target.", show_default=False)] = None,
     picture: Annotated[
-        Path | None, typer.Option(help="The source's texture (PNG, JPEG); default: a grid.", show_default=False)
+        Path | None,
+        typer.Option(help="The source's texture (PNG, JPEG); default: its own, or a grid.", show_default=False),
     ] = None,
     functional: Annotated[
         bool, typer.Option("--functional", help="Write the functional map C alone (.txt, .csv, .npy).")
@@ -98,7 +99,7 @@ def export(
             raise refuse(str(map), "a non-rigid fit for --morph", "none", "give the .npz file of a match that kept it")
         write_morph(output, shape_s, shape_t.mesh, np.asarray(bent), force)
     elif suffix in (".obj", ".glb"):
-        write_textured(output, shape_s, shape_t.mesh, found, picture=picture, force=force)
+        write_textured(output, shape_s, shape_t, found, picture=picture, force=force)
     else:
         colors = position_colors(shape_s.mesh) if shape_s.colors is None else shape_s.colors
         place = place_of(found, shape_s.mesh)

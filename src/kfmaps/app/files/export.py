@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import io
+import warnings
 from contextlib import ExitStack
 from pathlib import Path
 from typing import Any
@@ -10,13 +10,14 @@ from typing import Any
 import numpy as np
 from scipy.spatial import KDTree
 
-from kfmaps._arrays import check, refuse
+from kfmaps._arrays import KfmapsWarning, check, refuse
 from kfmaps.app.files.atomic import atomic_output
+from kfmaps.app.files.bake import bakeable, baked, pixels_of, png_of
 from kfmaps.app.files.glb import format_glb
 from kfmaps.app.files.mapfile import MapFile, check_map
 from kfmaps.app.files.meshes import write_mesh
 from kfmaps.app.files.obj import format_obj
-from kfmaps.app.files.record import MeshFile
+from kfmaps.app.files.record import MeshFile, Picture
 from kfmaps.functional.precise import PointMap, check_places, matrix_of, points_of
 from kfmaps.surface.mesh import Mesh, surface_area
 
@@ -151,7 +152,7 @@ def carried_uv(
 def write_textured(
     path: str | Path,
     source: MeshFile,
-    target: Mesh,
+    target: Mesh | MeshFile,
     target_to_source: Any,
     *,
     place: PointMap | None = None,
@@ -160,18 +161,23 @@ def write_textured(
 ) -> list[Path]:
     """Write the target with the source's texture on it: OBJ with the MTL and picture beside it, or GLB with all in it.
 
+    A target that comes with texture coordinates of its own keeps them, and the picture is resampled into its atlas
+    (:mod:`kfmaps.app.files.bake`); unless several of its faces share their place there. Otherwise the target gets
+    the source's coordinates and the picture as it is.
+
     Parameters
     ----------
     path : str or Path
         ``NAME.obj``, with ``NAME.mtl`` and ``NAME.png`` (or the suffix of ``picture``) beside it, or ``NAME.glb``.
     source : MeshFile
         With its texture coordinates; without any they come from :func:`projected_uv`.
-    target : Mesh
+    target : Mesh or MeshFile
     target_to_source : (n_t,) int64 or MapFile
     place : PointMap, optional
         Points inside triangles; by default those of the map file.
     picture : str or Path, optional
-        The source's texture, PNG or JPEG; by default a coloured grid (:func:`grid_picture`).
+        The source's texture, PNG or JPEG; by default its own, if its file holds one, or a coloured grid
+        (:func:`grid_picture`).
     force : bool
         Whether existing files may be replaced.
 
@@ -191,39 +197,46 @@ def write_textured(
         raise refuse(f"output {path}", "the extension .obj or .glb", path.suffix or "none", "rename it")
     if any(ord(letter) < 32 for letter in path.name):
         raise refuse(f"output {path}", "a printable name", "a control character", "rename it")
-    if len(target.faces) == 0:
+    atlas = target if isinstance(target, MeshFile) else MeshFile(target)
+    mesh = atlas.mesh
+    if len(mesh.faces) == 0:
         raise refuse("target", "a surface with faces", "a point cloud", "export colours as .ply")
-    points = check_map(target_to_source, len(source.mesh.vertices), len(target.vertices))
+    points = check_map(target_to_source, len(source.mesh.vertices), len(mesh.vertices))
     if picture is not None and not (Path(picture).is_file() and Path(picture).suffix.lower() in PICTURES):
         raise refuse(f"picture {picture}", f"a file {' '.join(PICTURES)}", "none", "check the name")
     place = place_of(target_to_source, source.mesh) if place is None else check_places(place, source.mesh, len(points))
-    uv, uv_faces = carried_uv(source, target, points, place)
+    image = _picture(picture, source)
+    uv, uv_faces = carried_uv(source, mesh, points, place)
+    if atlas.uv is not None and atlas.uv_faces is not None:
+        if bakeable(atlas):
+            image = png_of(baked(source, atlas, pixels_of(image), uv, uv_faces, place))
+            uv, uv_faces = atlas.uv, atlas.uv_faces
+        else:
+            told = "several faces of the target share their place in its texture: it gets the source's coordinates"
+            warnings.warn(told, KfmapsWarning, stacklevel=2)
     if path.suffix.lower() == ".glb":
-        content, kind = _picture(picture)
         with atomic_output(path, force) as temporary:
-            temporary.write_bytes(format_glb(target, uv=uv, uv_faces=uv_faces, picture=(content, kind)))
+            content = format_glb(mesh, uv=uv, uv_faces=uv_faces, picture=(image.data, image.kind))
+            temporary.write_bytes(content)
         return [path]
 
     material = path.with_suffix(".mtl")
-    image = path.with_suffix(".png" if picture is None else Path(picture).suffix)
-    content = format_obj(target, uv=uv, uv_faces=uv_faces, material=(material.name, "carried"))
-    lines = ["newmtl carried", "Ka 1 1 1", "Kd 1 1 1", "Ks 0 0 0", f"map_Kd {image.name}", ""]
+    beside = path.with_suffix(image.suffix if picture is None or image.kind == "image/png" else Path(picture).suffix)
+    content = format_obj(mesh, uv=uv, uv_faces=uv_faces, material=(material.name, "carried"))
+    lines = ["newmtl carried", "Ka 1 1 1", "Kd 1 1 1", "Ks 0 0 0", f"map_Kd {beside.name}", ""]
     with ExitStack() as files:  # renamed in reverse order, the OBJ file that names the others last
         files.enter_context(atomic_output(path, force)).write_bytes(content)
         files.enter_context(atomic_output(material, force)).write_text("\n".join(lines), encoding="utf-8")
-        files.enter_context(atomic_output(image, force)).write_bytes(_picture(picture)[0])
-    return [path, material, image]
+        files.enter_context(atomic_output(beside, force)).write_bytes(image.data)
+    return [path, material, beside]
 
 
-def _picture(picture: str | Path | None) -> tuple[bytes, str]:
-    """The bytes of a picture, by default of the grid, and their media type."""
+def _picture(picture: str | Path | None, source: MeshFile) -> Picture:
+    """A picture file, by default the source's own or the grid."""
     if picture is not None:
-        return Path(picture).read_bytes(), "image/png" if Path(picture).suffix.lower() == ".png" else "image/jpeg"
-    from matplotlib.image import imsave
-
-    buffer = io.BytesIO()
-    imsave(buffer, grid_picture(), format="png")
-    return buffer.getvalue(), "image/png"
+        kind = "image/png" if Path(picture).suffix.lower() == ".png" else "image/jpeg"
+        return Picture(Path(picture).read_bytes(), kind)
+    return source.picture or png_of(grid_picture())
 
 
 def place_of(found: Any, source: Mesh) -> PointMap | None:
@@ -284,5 +297,12 @@ def write_morph(path: str | Path, source: MeshFile, target: Mesh, bent: np.ndarr
         scale = np.sqrt(surface_area(source.mesh) / surface_area(target))
         ends = scale * (moved.vertices - moved.vertices.mean(axis=0)) + source.mesh.vertices.mean(axis=0)
         temporary.write_bytes(
-            format_glb(source.mesh, source.colors, uv=source.uv, uv_faces=source.uv_faces, morph=ends)
+            format_glb(
+                source.mesh,
+                source.colors,
+                uv=source.uv,
+                uv_faces=source.uv_faces,
+                picture=None if source.picture is None else (source.picture.data, source.picture.kind),
+                morph=ends,
+            )
         )

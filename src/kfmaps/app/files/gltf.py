@@ -13,7 +13,7 @@ import numpy as np
 
 from kfmaps._arrays import InvalidInput, refuse
 from kfmaps._memory import check_memory
-from kfmaps.app.files.record import MeshFile
+from kfmaps.app.files.record import MeshFile, Picture
 from kfmaps.app.files.text import REPAIR, read_bytes
 from kfmaps.surface.mesh import Mesh
 
@@ -22,6 +22,7 @@ _FLOAT, _UNSIGNED = 5126, {5121, 5123, 5125}
 _WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4}
 _TRIANGLES, _STRIP, _FAN = 4, 5, 6
 _CUT = "the file is cut short or damaged: export it again"
+_PICTURES = {b"\x89PNG\r\n\x1a\n": "image/png", b"\xff\xd8\xff": "image/jpeg"}
 _BYTES_PER_ROW = 100
 """About what a vertex or a triangle takes while it is read."""
 
@@ -40,7 +41,8 @@ def parse_gltf(data: bytes, name: str) -> MeshFile:
     """Read the triangles of a glTF 2.0 file, text (.gltf) or binary (.glb), with its .bin beside it.
 
     Nothing is merged: where a file repeats a vertex, as exporters do along seams of a texture, it stays repeated.
-    Several parts follow one another in the order of the file, each placed by its node. Pictures are not read.
+    Several parts follow one another in the order of the file, each placed by its node. A picture is read
+    when it is the one colour texture of all parts; else there is none.
     Specification: Khronos Group, "glTF 2.0", https://registry.khronos.org/glTF/specs/2.0/glTF-2.0.html.
 
     Raises
@@ -261,7 +263,42 @@ def _joined(tree: dict[str, Any], buffers: list[bytes], name: str) -> MeshFile:
     if whole_uv is not None:
         whole_uv[:, 1] = 1 - whole_uv[:, 1]  # glTF counts from the top of the picture
     tints = np.clip(np.vstack(colors), 0.0, 1.0) if len(colors) == len(parts) else None
-    return MeshFile(mesh, tints, whole_uv, None if whole_uv is None else mesh.faces)
+    if whole_uv is None:
+        return MeshFile(mesh, tints)
+    return MeshFile(mesh, tints, whole_uv, mesh.faces, _picture(tree, buffers, primitives, name))
+
+
+def _picture(tree: dict[str, Any], buffers: list[bytes], primitives: list[dict[str, Any]], name: str) -> Picture | None:
+    """The colour texture that all ``primitives`` share; ``None`` when there is no such one, or it is of another kind.
+
+    A picture beside the file that is not there is none either: who wants the shape alone need not have it.
+    """
+    images = set()
+    for primitive in primitives:
+        material = tree["materials"][_count(primitive["material"])] if "material" in primitive else {}
+        texture = material.get("pbrMetallicRoughness", {}).get("baseColorTexture")
+        plain = texture is not None and texture.get("texCoord", 0) == 0 and not texture.get("extensions")
+        images.add(tree["textures"][_count(texture["index"])].get("source") if plain and texture else None)
+    number = images.pop() if len(images) == 1 else None
+    if number is None:
+        return None
+    image = tree["images"][_count(number)]
+    uri = image.get("uri")
+    if uri is None:
+        view = tree["bufferViews"][_count(image["bufferView"])]
+        buffer, first, size = buffers[_count(view["buffer"])], _count(view.get("byteOffset", 0)), view["byteLength"]
+        if first + _count(size) > len(buffer):
+            raise refuse(name, f"a picture of {size} bytes", f"{max(len(buffer) - first, 0)}", _CUT)
+        data = buffer[first : first + size]
+    elif uri.startswith("data:"):
+        data = base64.b64decode(uri.partition(",")[2], validate=True)
+    else:
+        path = _beside(uri, name)
+        data = read_bytes(path) if path.is_file() else b""
+    for mark, kind in _PICTURES.items():
+        if data.startswith(mark):
+            return Picture(data, kind)
+    return None
 
 
 def _triangles(tree: dict[str, Any], buffers: list[bytes], primitive: dict[str, Any], n: int, name: str) -> np.ndarray:

@@ -10,6 +10,25 @@ from kfmaps._arrays import check, refuse
 from kfmaps.surface.mesh import Mesh
 
 
+@dataclass(frozen=True)
+class Picture:
+    """A picture as it lies in a file.
+
+    Attributes
+    ----------
+    data : bytes
+    kind : "image/png" or "image/jpeg"
+    """
+
+    data: bytes
+    kind: str
+
+    @property
+    def suffix(self) -> str:
+        """The extension of a file of this kind."""
+        return ".png" if self.kind == "image/png" else ".jpg"
+
+
 @dataclass(frozen=True, eq=False)
 class MeshFile:
     """A mesh with what else its file says about the vertices.
@@ -24,12 +43,15 @@ class MeshFile:
         Texture coordinates; (0, 0) is the lower left corner of the picture.
     uv_faces : (f, 3) int64 or None
         For each corner of each face the row of ``uv``. At a seam one vertex has several.
+    picture : Picture or None
+        The one texture of the whole shape, of files that hold it (GLB, glTF).
     """
 
     mesh: Mesh
     colors: np.ndarray | None = None
     uv: np.ndarray | None = None
     uv_faces: np.ndarray | None = None
+    picture: Picture | None = None
 
 
 def fan(sizes: np.ndarray) -> np.ndarray:

@@ -1,0 +1,245 @@
+"""Textures baked into the target's own atlas, and pictures in and out of GLB files."""
+
+from __future__ import annotations
+
+import base64
+import io
+import json
+import struct
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from conftest import fibonacci_sphere
+from kfmaps._arrays import InvalidInput, KfmapsWarning
+from kfmaps.app.files import MeshFile, grid_picture, read_mesh_file, write_textured
+from kfmaps.app.files.bake import bakeable, baked, pixels_of, png_of, sampled, texels_of
+from kfmaps.app.files.export import carried_uv
+from kfmaps.app.files.glb import format_glb
+from kfmaps.app.files.gltf import parse_gltf
+from kfmaps.app.files.record import Picture
+from kfmaps.functional.precise import PointMap, at_vertices
+from kfmaps.surface.closest import places_on
+from kfmaps.surface.mesh import Mesh
+from test_files_export import globe
+
+
+def own_atlas(mesh: Mesh) -> MeshFile:
+    """Each face has a cell of the picture for itself, and fills half of it but for a margin."""
+    f = len(mesh.faces)
+    side = int(np.ceil(np.sqrt(f)))
+    cell = np.stack([np.arange(f) % side, np.arange(f) // side], axis=1)[:, None]
+    corners = (cell + np.array([[0.1, 0.1], [0.85, 0.1], [0.1, 0.85]])) / side
+    return MeshFile(mesh, None, corners.reshape(-1, 2), np.arange(3 * f).reshape(-1, 3))
+
+
+def round_picture(size: int = 512) -> np.ndarray:
+    """Smooth, and the same at the left border as at the right."""
+    across, down = np.meshgrid(*2 * [(np.arange(size) + 0.5) / size])
+    up = 1 - down
+    angle = 2 * np.pi * across
+    return np.stack([0.5 + 0.5 * np.cos(angle), 0.5 + 0.5 * np.sin(angle), up], axis=2)
+
+
+def test_texels_are_where_the_triangle_is() -> None:
+    """Against every texel's centre, one by one; together they have its area."""
+    size = 64
+    corners = np.array([[[0.1, 0.2], [0.8, 0.3], [0.4, 0.9]]])
+    face, texel, weights = texels_of(corners, size)
+    x, y = (texel % size + 0.5) / size, 1 - (texel // size + 0.5) / size
+    np.testing.assert_allclose(np.einsum("qi,qij->qj", weights, corners[face]), np.stack([x, y], axis=1))
+    assert weights.min() >= -1e-6
+    u, v = corners[0, 1] - corners[0, 0], corners[0, 2] - corners[0, 0]
+    assert len(np.unique(texel)) == len(texel)
+    assert len(texel) / size**2 == pytest.approx(abs(u[0] * v[1] - u[1] * v[0]) / 2, rel=0.02)
+
+
+def test_colours_are_linear_between_texels_and_repeat() -> None:
+    pixels = np.random.default_rng(0).random((4, 8, 3))
+    centres = np.stack([(np.arange(8) + 0.5) / 8, np.full(8, 1 - 1.5 / 4)], axis=1)
+    np.testing.assert_allclose(sampled(pixels, centres), pixels[1])
+    between = (centres[:-1] + centres[1:]) / 2
+    np.testing.assert_allclose(sampled(pixels, between), (pixels[1, :-1] + pixels[1, 1:]) / 2)
+    np.testing.assert_allclose(sampled(pixels, centres + np.array([2, -1])), sampled(pixels, centres))
+
+
+def test_the_identity_gives_back_the_picture() -> None:
+    """Every texel inside a face, when source and target are one and the same."""
+    shape = own_atlas(fibonacci_sphere(60))
+    assert shape.uv is not None
+    assert shape.uv_faces is not None
+    pixels = np.random.default_rng(1).integers(0, 256, (256, 256, 3)) / 255.0
+    place = at_vertices(np.arange(60), shape.mesh)
+    uv, uv_faces = shape.uv, shape.uv_faces
+    found = baked(shape, shape, pixels, uv, uv_faces, None, size=256)
+    _, texel, _ = texels_of(uv[uv_faces], 256)
+    rows = found.reshape(-1, 3)
+    np.testing.assert_array_equal(rows[texel], np.rint(255 * pixels.reshape(-1, 3))[texel])
+    # With points in triangles every face lies over a seam here, and every texel finds itself on the surface.
+    carried = carried_uv(shape, shape.mesh, np.arange(60), place)
+    again = baked(shape, shape, pixels, *carried, place, size=256).reshape(-1, 3)
+    assert (np.abs(again[texel].astype(int) - rows[texel]) <= 1).mean() > 0.97
+
+
+def test_a_picture_goes_around_a_seam_without_a_scar() -> None:
+    """The colour in the target's atlas is that of the place on the sphere, at the seam of the source's texture too."""
+    source, mesh = globe(900), fibonacci_sphere(700)
+    found = places_on(mesh.vertices, source.mesh.vertices, source.mesh.faces)
+    place = PointMap(found.faces, found.weights)
+    points = source.mesh.faces[found.faces, found.weights.argmax(axis=1)]
+    target = own_atlas(mesh)
+    assert bakeable(target)
+    assert target.uv is not None
+    assert target.uv_faces is not None
+    pixels = round_picture()
+    uv, uv_faces = carried_uv(source, mesh, points, place)
+    picture = baked(source, target, pixels, uv, uv_faces, place, size=512).reshape(-1, 3) / 255.0
+    face, texel, weights = texels_of(target.uv[target.uv_faces], 512)
+    at = np.einsum("qi,qij->qj", weights, mesh.vertices[mesh.faces[face]])
+    angle = np.arctan2(at[:, 1], at[:, 0]) + np.pi
+    true = np.stack([0.5 + 0.5 * np.cos(angle), 0.5 + 0.5 * np.sin(angle), 0.5 + 0.5 * at[:, 2]], axis=1)
+    wide = np.hypot(at[:, 0], at[:, 1]) > 0.4  # longitude means little at the poles
+    off = np.abs(picture[texel] - true).max(axis=1)[wide]
+    assert np.quantile(off, 0.99) < 0.08
+    assert off.max() < 0.25
+    # Beyond the charts too there is no colour that is not next to them.
+    assert picture.sum(axis=1).min() > 0.2
+
+
+def test_padding_is_the_nearest_colour() -> None:
+    mesh = Mesh(np.eye(3), np.array([[0, 1, 2]]))
+    target = MeshFile(mesh, None, np.array([[0.4, 0.4], [0.6, 0.4], [0.4, 0.6]]), np.array([[0, 1, 2]]))
+    assert target.uv is not None
+    blue = np.zeros((8, 8, 3))
+    blue[:, :, 2] = 1.0
+    picture = baked(target, target, blue, target.uv, mesh.faces, size=64)
+    assert (picture == [0, 0, 255]).all()
+
+
+def test_an_atlas_whose_faces_share_space_gets_the_sources_coordinates(tmp_path: Path) -> None:
+    source = globe()
+    mesh = source.mesh
+    stacked = MeshFile(mesh, None, np.array([[0.0, 0], [1, 0], [0, 1]]), np.tile([0, 1, 2], (len(mesh.faces), 1)))
+    assert not bakeable(stacked)
+    assert not bakeable(MeshFile(mesh))
+    flat = MeshFile(mesh, None, np.zeros((1, 2)), np.zeros_like(mesh.faces))
+    assert not bakeable(flat)
+    with pytest.warns(KfmapsWarning, match="share"):
+        write_textured(tmp_path / "b.glb", source, stacked, np.arange(len(mesh.vertices)))
+    back = read_mesh_file(tmp_path / "b.glb")
+    assert back.picture is not None
+    np.testing.assert_array_equal(np.rint(255 * pixels_of(back.picture)), grid_picture())
+
+
+def test_a_target_keeps_its_own_coordinates(tmp_path: Path) -> None:
+    source, mesh = globe(), fibonacci_sphere(90)
+    target = own_atlas(mesh)
+    assert target.uv is not None
+    assert target.uv_faces is not None
+    red = png_of(np.broadcast_to(np.array([1.0, 0, 0]), (4, 4, 3)))
+    source = MeshFile(source.mesh, None, source.uv, source.uv_faces, red)
+    points = np.linalg.norm(mesh.vertices[:, None] - source.mesh.vertices[None], axis=2).argmin(axis=1)
+    for name in ("b.glb", "b.obj"):
+        write_textured(tmp_path / name, source, target, points)
+        back = read_mesh_file(tmp_path / name)
+        assert back.uv is not None
+        assert back.uv_faces is not None
+        np.testing.assert_allclose(back.uv[back.uv_faces], target.uv[target.uv_faces], atol=1e-6)
+    picture = pixels_of(Picture((tmp_path / "b.png").read_bytes(), "image/png"))
+    assert picture.shape == (1024, 1024, 3)
+    np.testing.assert_allclose(picture, np.broadcast_to([1.0, 0, 0], picture.shape))
+
+
+def changed(data: bytes, edit: Any) -> bytes:
+    """A GLB whose tree is edited."""
+    size = int.from_bytes(data[12:16], "little")
+    tree = json.loads(data[20 : 20 + size])
+    edit(tree)
+    text = json.dumps(tree).encode()
+    text += b" " * (-len(text) % 4)
+    rest = data[20 + size :]
+    head = struct.pack("<4sIII4s", b"glTF", 2, 20 + len(text) + len(rest), len(text), b"JSON")
+    return head + text + rest
+
+
+@pytest.fixture(scope="module")
+def glb() -> bytes:
+    shape = globe(30)
+    picture = png_of(grid_picture(32, 4))
+    return format_glb(shape.mesh, uv=shape.uv, uv_faces=shape.uv_faces, picture=(picture.data, picture.kind))
+
+
+def test_a_texture_comes_in_as_it_went_out(glb: bytes, tmp_path: Path) -> None:
+    found = parse_gltf(glb, "a.glb").picture
+    assert found is not None
+    assert found.data == png_of(grid_picture(32, 4)).data
+    assert found.kind == "image/png"
+
+    def elsewhere(tree: dict) -> None:
+        tree["images"][0] = {"uri": "skin%20of%20a.png"}
+
+    def inside(tree: dict) -> None:
+        tree["images"][0] = {"uri": "data:image/png;base64," + base64.b64encode(found.data).decode()}
+
+    name = str(tmp_path / "a.glb")
+    assert parse_gltf(changed(glb, elsewhere), name).picture is None
+    (tmp_path / "skin of a.png").write_bytes(found.data)
+    assert parse_gltf(changed(glb, elsewhere), name).picture == found
+    assert parse_gltf(changed(glb, inside), name).picture == found
+
+
+@pytest.mark.parametrize(
+    "edit",
+    [
+        lambda tree: tree["images"].__setitem__(0, {"uri": "data:image/png;base64," + base64.b64encode(b"x").decode()}),
+        lambda tree: tree["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"].update(texCoord=1),
+        lambda tree: tree["meshes"][0]["primitives"][0].pop("material"),
+        lambda tree: tree["textures"][0].pop("source"),
+    ],
+)
+def test_what_is_not_the_one_colour_texture_is_none(glb: bytes, edit: Any) -> None:
+    found = parse_gltf(changed(glb, edit), "a.glb")
+    assert found.uv is not None
+    assert found.picture is None
+
+
+def test_two_textures_are_none(glb: bytes) -> None:
+    def edit(tree: dict) -> None:
+        part = tree["meshes"][0]["primitives"][0]
+        tree["meshes"][0]["primitives"].append({**part, "material": 1})
+        plain = tree["materials"][0]["pbrMetallicRoughness"]
+        tree["materials"].append({"pbrMetallicRoughness": {**plain, "baseColorTexture": {"index": 1}}})
+        tree["textures"].append({"source": 1})
+        tree["images"].append(dict(tree["images"][0]))
+
+    assert parse_gltf(changed(glb, edit), "a.glb").picture is None
+
+
+@pytest.mark.parametrize("uri", ["../skin.png", "/etc/skin.png", "https://x.org/skin.png"])
+def test_a_picture_elsewhere_is_refused(glb: bytes, uri: str) -> None:
+    with pytest.raises(InvalidInput, match="beside it"):
+        parse_gltf(changed(glb, lambda tree: tree["images"].__setitem__(0, {"uri": uri})), "a.glb")
+
+
+def test_a_picture_cut_short_is_refused(glb: bytes) -> None:
+    def edit(tree: dict) -> None:
+        tree["bufferViews"][tree["images"][0]["bufferView"]]["byteLength"] += 10**6
+
+    with pytest.raises(InvalidInput, match="picture"):
+        parse_gltf(changed(glb, edit), "a.glb")
+
+
+def test_a_picture_that_is_none_is_refused() -> None:
+    with pytest.raises(InvalidInput, match="PNG or JPEG"):
+        pixels_of(Picture(b"\x89PNG\r\n\x1a\nno more", "image/png"))
+
+
+def test_grey_pictures_have_three_channels() -> None:
+
+    buffer = io.BytesIO()
+    Image.fromarray(np.full((5, 7), 51, dtype=np.uint8)).save(buffer, format="png")
+    assert pixels_of(Picture(buffer.getvalue(), "image/png")).shape == (5, 7, 3)
+    np.testing.assert_allclose(pixels_of(Picture(buffer.getvalue(), "image/png")), 0.2)
