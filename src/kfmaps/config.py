@@ -235,6 +235,41 @@ class Search:
         _choice(self.orientation, "orientation", ("kept", "reversed", "either"))
 
 
+Which = Literal["auto", "none", "source", "target", "both"]
+Units = Literal["unknown", "same"]
+
+
+@dataclass(frozen=True)
+class Partial:
+    """What of the shapes may be missing; see :mod:`kfmaps.parts`.
+
+    Attributes
+    ----------
+    which : "auto", "none", "source", "target" or "both"
+        Which shape is a part of the other; "both": each has something that the other lacks. "auto" looks at their
+        boundaries and, where these differ, at how one fits into the other.
+    units : "unknown" or "same"
+        Whether sizes of the two as they are given can be compared.
+    samples, whole_samples : int
+        Evenly spread points of the part and of the whole that are matched first.
+    candidates : int
+        Scales of the part that are followed up.
+    """
+
+    which: Which = "none"
+    units: Units = "unknown"
+    samples: int = 300
+    whole_samples: int = 1000
+    candidates: int = 3
+
+    def __post_init__(self) -> None:
+        _choice(self.which, "partial", get_args(Which))
+        _choice(self.units, "units", get_args(Units))
+        check_count(self.samples, "samples of a part", low=20)
+        check_count(self.whole_samples, "samples of a whole", low=20)
+        check_count(self.candidates, "candidates of a part")
+
+
 @dataclass(frozen=True)
 class Config:
     """A whole match. ``Config()`` makes one fit; :meth:`automatic`, a search, is what we recommend.
@@ -260,6 +295,8 @@ class Config:
         Without a refinement there is none.
     search : Search or None
         ``None`` makes one fit, which without landmarks cannot tell left from right.
+    partial : Partial
+        Whether one of the shapes is only a part of the other.
     device : str
         "cpu" for NumPy, or a PyTorch device such as "cuda"; "torch" is PyTorch on the CPU.
     threads : int or None
@@ -281,6 +318,7 @@ class Config:
     refinement: Refinement | None = field(default_factory=lambda: ZoomOut(start=50, stop=200, step=10, samples=5000))
     finish: NonRigid | None = field(default_factory=NonRigid)
     search: Search | None = None
+    partial: Partial = field(default_factory=Partial)
     device: str = "cpu"
     threads: int | None = None
 

@@ -64,10 +64,11 @@ def shot(
     bins: int = 10,
     form: Form = "surface",
     samples: int = 20_000,
+    at: np.ndarray | None = None,
     threads: int | None = None,
     progress: Callable[[float], None] | None = None,
 ) -> np.ndarray:
-    """Signature of histograms of orientations of every vertex.
+    """Signature of histograms of orientations of every vertex, or of some.
 
     The ball around a vertex is cut into 32 volumes: 8 in azimuth, 2 in elevation, 2 in distance. In each a
     histogram counts the surface by the cosine between its normal and the vertical axis of the vertex's frame.
@@ -97,6 +98,8 @@ def shot(
     samples : int
         About how many support points ``"surface"`` uses on the whole mesh, whatever its resolution: large faces
         are divided, and where there are more than twice as many faces, neighbouring ones are merged.
+    at : (q,) int64, optional
+        Vertices whose descriptors are wanted; all when not given.
     threads : int, optional
         Python threads; every available core when not given.
     progress : callable, optional
@@ -104,7 +107,7 @@ def shot(
 
     Returns
     -------
-    (n, 32 · (bins + 1)) float64
+    (n, 32 · (bins + 1)) float64, or (q, 32 · (bins + 1))
         Rows of unit length, without negative values. The volume varies slowest: azimuth, elevation, shell, then
         bin. A row is zero where the ball has no other support point, or (``"surface"``) no mean normal.
 
@@ -130,24 +133,27 @@ def shot(
     part = inside(mesh)
     if not part.whole:
         same = {"bins": bins, "form": form, "samples": samples, "threads": threads, "progress": progress}
-        return shot(part.mesh, radius, **same)[part.number]
+        if at is None:
+            return shot(part.mesh, radius, **same)[part.number]
+        return shot(part.mesh, radius, at=part.number[at], **same)
     mesh = unit_area(mesh)
     normals = vertex_normals(mesh)
     vertices = _Support(mesh.vertices, normals, np.ones(len(normals)))
     support = vertices if form == "paper" else _surface_support(mesh, normals, samples)
     tree = KDTree(support.points)
-    result = np.empty((len(mesh.vertices), VOLUMES * (bins + 1)))
+    centres = mesh.vertices if at is None else mesh.vertices[at]
+    result = np.empty((len(centres), VOLUMES * (bins + 1)))
 
     done = 0
 
     def fill(block: np.ndarray) -> None:
         nonlocal done
-        result[block] = _describe(mesh.vertices[block], tree, support, radius, bins, form)
+        result[block] = _describe(centres[block], tree, support, radius, bins, form)
         done += len(block)  # one of several threads may be forgotten: it is only told
         if progress is not None:
             progress(done / len(result))
 
-    parallel(fill, _blocks(mesh.vertices, tree, radius), threads)
+    parallel(fill, _blocks(centres, tree, radius), threads)
     return result
 
 

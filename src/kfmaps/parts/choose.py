@@ -1,0 +1,187 @@
+"""The best of several ways to place a part on a whole, and how sure that is."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from kfmaps._arrays import refuse
+from kfmaps.config import Partial
+from kfmaps.parts.bend import FULL, QUICK, Bent, Ground, bent, ground
+from kfmaps.parts.overlap import Overlap, overlap
+from kfmaps.parts.side import Side, side
+from kfmaps.parts.units import LARGER, SCALES, Rough, grown, tried
+from kfmaps.surface.closest import places_on
+from kfmaps.surface.mesh import Mesh
+
+ALIKE = 1.12
+"""Ratio of scales from which two are worth a trial each."""
+
+
+@dataclass(frozen=True, eq=False)
+class Evidence:
+    """What speaks for one placing without knowing the truth; see :func:`score`.
+
+    Attributes
+    ----------
+    support : float
+        Consistency of the first samples' pairs, 0 to 1, at the scale tried.
+    consistency : float
+        Of all samples with their neighbours, 0 to 1.
+    unlike : float
+        Mean logarithm of the part of the whole's samples that resemble a sample more than its place does: 0 and less.
+    bending, gap, folded : float
+        Of :class:`kfmaps.parts.bend.Bent`.
+    spread : float
+        Part of the samples that have places of their own.
+    """
+
+    support: float
+    consistency: float
+    unlike: float
+    bending: float
+    gap: float
+    folded: float
+    spread: float
+
+
+def score(found: Evidence) -> float:
+    """One number, higher is better."""
+    return (
+        4.0 * found.consistency
+        - 1.0 * found.unlike
+        - 15.0 * found.bending
+        - 50.0 * found.gap
+        - 4.0 * found.folded
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class Parted:
+    """A part placed on a whole.
+
+    Attributes
+    ----------
+    bent : Bent
+    overlap : Overlap
+    evidence : Evidence
+        Of the best candidate before it was finished.
+    score : float
+    others : tuple of float
+        Scores of the other candidates.
+    wrong : (l,) float64
+        How far each landmark ended from where it was said to be, in √area of the whole.
+    """
+
+    bent: Bent
+    overlap: Overlap
+    evidence: Evidence
+    score: float
+    others: tuple[float, ...]
+    wrong: np.ndarray
+
+    @property
+    def scale(self) -> float:
+        """√area of the part over that of the whole."""
+        return self.bent.scale
+
+
+def parted(
+    part: Mesh,
+    whole: Mesh,
+    settings: Partial,
+    *,
+    ratio: float | None = None,
+    landmarks: np.ndarray | None = None,
+    loose: bool = False,
+    rng: int = 0,
+    threads: int | None = None,
+    progress: Callable[[float], None] | None = None,
+) -> Parted:
+    """Place ``part`` on ``whole``, both at unit area.
+
+    ``ratio``: √area of the part over that of the whole as they were given, one of the scales that are tried, and the
+    only one where ``settings.units`` says "same". ``landmarks (l, 2)``: vertices of the part and of the whole.
+    ``loose``: neither holds all of the other.
+    """
+    told = progress or (lambda _done: None)
+    pairs = np.zeros((0, 2), dtype=np.int64) if landmarks is None else np.asarray(landmarks)
+    if settings.units == "same" and ratio is None:
+        raise refuse("units", "shapes whose sizes are known", "prepared ones without", "prepare them again")
+    sides = side(part, settings.samples, pairs[:, 0], rng), side(whole, settings.whole_samples, pairs[:, 1], rng)
+    told(0.15)
+    marked = np.stack([np.arange(len(pairs))] * 2, axis=1)
+    fixed = settings.units == "same"
+    scales = [ratio] if fixed and ratio else [*SCALES, *(LARGER if loose else ())]
+    if not fixed and ratio and scales[0] / ALIKE < ratio < scales[-1] * ALIKE:
+        scales.append(ratio)
+    rough = distinct(tried(*sides, scales, marked, threads))[: settings.candidates]
+    told(0.4)
+    on = ground(whole, sides[1].border)
+    found: list[tuple[float, Evidence, Rough, Bent]] = []
+    for i, one in enumerate(rough):
+        full = grown(*sides, one, marked, fixed)
+        bend = placed_on(full, *sides, on)
+        seen = evidence(one, full, bend)
+        found.append((score(seen), seen, full, bend))
+        told(0.4 + 0.3 * (i + 1) / len(rough))
+    found.sort(key=lambda item: -item[0])
+    best = found[0]
+    last = finished(best[3], sides[0], on, pairs, fixed, lambda done: told(0.7 + 0.3 * done))
+    ends = last.vertices[pairs[:, 0]] - whole.vertices[pairs[:, 1]]
+    return Parted(
+        last,
+        overlap(last, on, sides[0].border),
+        best[1],
+        best[0],
+        tuple(item[0] for item in found[1:]),
+        np.linalg.norm(ends, axis=1),
+    )
+
+
+def distinct(rough: Sequence[Rough]) -> list[Rough]:
+    """The best, then the best of those at scales that differ from it by more than steps between them."""
+    kept: list[Rough] = []
+    for one in rough:
+        if all(max(one.scale / other.scale, other.scale / one.scale) > ALIKE for other in kept):
+            kept.append(one)
+    return kept
+
+
+def placed_on(full: Rough, part: Side, whole: Side, on: Ground) -> Bent:
+    """The part bent quickly by its placed samples."""
+    at = whole.samples[full.placed.match]
+    trust = np.maximum(full.placed.trust, 0.01)
+    return bent(part.mesh, full.scale, on, part.samples, on.mesh.vertices[at], on.normals[at], trust, QUICK, 3)
+
+
+def finished(
+    bend: Bent, part: Side, on: Ground, pairs: np.ndarray, fixed: bool, progress: Callable[[float], None]
+) -> Bent:
+    """Bent once more, from where it came to lie, at the scale that its edges say."""
+    places = places_on(bend.vertices[part.samples], on.mesh.vertices, on.mesh.faces)
+    points, normals = places.points, on.normals[on.mesh.faces[places.faces]].mean(axis=1)
+    trust = bend.inside[part.samples] * np.exp2(-((places.distances / 0.02) ** 2)) + 1e-3
+    points[: len(pairs)], normals[: len(pairs)] = on.mesh.vertices[pairs[:, 1]], on.normals[pairs[:, 1]]
+    normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-12)
+    scale = bend.scale if fixed else bend.scale * bend.longer
+    return bent(part.mesh, scale, on, part.samples, points, normals, trust, FULL, 5, progress)
+
+
+def evidence(rough: Rough, full: Rough, bend: Bent) -> Evidence:
+    """Of one candidate, as it was tried, placed and bent."""
+    match, alike = full.placed.match, full.alike
+    own = alike[np.arange(len(match)), match]
+    better = (alike > own[:, None]).sum(axis=1)
+    return Evidence(
+        rough.placed.support,
+        full.placed.support,
+        float(np.log((better + 1) / alike.shape[1]).mean()),
+        bend.bending,
+        bend.gap,
+        bend.folded,
+        len(np.unique(match)) / len(match),
+    )
+

@@ -1,0 +1,64 @@
+"""What two shapes have in common, once one is bent onto the other."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from kfmaps.functional.nonrigid import _look
+from kfmaps.functional.precise import PointMap
+from kfmaps.parts.bend import Bent, Ground
+from kfmaps.surface.closest import rings
+from kfmaps.surface.mesh import Mesh, vertex_normals
+
+WIDTH = 0.02
+"""Distance between the surfaces, in √area of the whole, at which a common point is as likely as not."""
+
+
+@dataclass(frozen=True, eq=False)
+class Overlap:
+    """What is common, by vertices, and where each lies on the other shape.
+
+    Attributes
+    ----------
+    part : (n_p,) float64
+        Probability to be on both.
+    whole : (n_w,) float64
+    on_whole : PointMap
+        For each vertex of the part.
+    on_part : PointMap
+        For each vertex of the whole; means something only where ``whole`` is above a half.
+    """
+
+    part: np.ndarray
+    whole: np.ndarray
+    on_whole: PointMap
+    on_part: PointMap
+
+
+def overlap(bent: Bent, whole: Ground, border: np.ndarray) -> Overlap:
+    """Of a part ``bent`` onto ``whole``; ``border (n_p,)`` are the part's vertices on its boundary."""
+    faces = bent.rest.faces
+    mesh = Mesh(bent.vertices, faces)
+    look = _look(mesh, vertex_normals(mesh), rings(faces, len(mesh.vertices)))
+    found, _, agree = look(whole.mesh.vertices, whole.normals)
+    counts = found.weights > 1e-9
+    edge = (border[faces[found.faces]] | ~counts).all(axis=1) & ~counts.all(axis=1)
+    # Beyond the part's edge the closest point lies on it: half the length of its edges is as near as vertices can tell.
+    corners = mesh.vertices[faces[found.faces]]
+    half = 0.5 * np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).mean(axis=1)
+    width = np.where(edge, np.minimum(half, WIDTH), WIDTH)
+    common = _near(found.distances, width) * np.where(agree > 0, 1.0, 0.25)
+    own = np.where(bent.inside, _near(bent.places.distances, WIDTH), 0.0)
+    return Overlap(
+        own,
+        common,
+        PointMap(bent.places.faces, bent.places.weights),
+        PointMap(found.faces, found.weights),
+    )
+
+
+def _near(distances: np.ndarray, width: np.ndarray | float) -> np.ndarray:
+    """1 at no distance, a half at ``width``."""
+    return np.exp2(-((distances / np.maximum(width, 1e-12)) ** 2))

@@ -1,0 +1,77 @@
+"""How large the part is against the whole, which nobody says: tried from a thirteenth of its area to all of it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from kfmaps._threads import parallel
+from kfmaps.parts.labels import Placed, gauge, relaxed, settled, stretch
+from kfmaps.parts.side import Side
+
+RADII = (0.09, 0.14)
+"""Of SHOT, in √area of the whole."""
+SCALES = tuple(0.28 * 1.15**i for i in range(10))
+"""√area of the part over that of the whole; SHOT and consistency take a tenth more or less."""
+LARGER = tuple(SCALES[-1] * 1.15**i for i in range(1, 4))
+"""Further ones where what is bent is no part, but overlaps with one."""
+LIMITS = (0.1, 1.6)
+ROUNDS = 3
+"""In which samples are placed anew, before and after descriptors are worked out at the scale that was found."""
+
+
+@dataclass(frozen=True, eq=False)
+class Rough:
+    """Samples of the part placed at one scale.
+
+    Attributes
+    ----------
+    scale : float
+        √area of the part over that of the whole.
+    placed : Placed
+    alike : (q, m) float32
+        Products of descriptors.
+    """
+
+    scale: float
+    placed: Placed
+    alike: np.ndarray
+
+
+def likeness(part: Side, whole: Side, scale: float, pairs: np.ndarray, threads: int | None = None) -> np.ndarray:
+    """Mean products ``(q, m)`` of the SHOT of both, in balls of equal size; landmarks ``pairs`` are settled."""
+    total = sum(part.shot(r / scale, threads) @ whole.shot(r, threads).T for r in RADII)
+    alike = np.asarray(total, dtype=np.float32) / len(RADII)
+    if len(pairs):
+        alike[pairs[:, 0]] = -1.0
+        alike[pairs[:, 0], pairs[:, 1]] = 2.0
+    return alike
+
+
+def tried(part: Side, whole: Side, scales: Sequence[float], pairs: np.ndarray, threads: int | None = None) -> list[Rough]:
+    """The first samples placed at each of ``scales``, the best supported first."""
+    for radius in RADII:
+        whole.shot(radius, threads)
+
+    def at(scale: float) -> Rough:
+        alike = likeness(part, whole, scale, pairs, 1)
+        placed = relaxed(gauge(part.distances, part.edge, scale), whole.distances, alike, part.marks)
+        return Rough(scale, placed, alike)
+
+    return sorted(parallel(at, list(scales), threads), key=lambda rough: -rough.placed.support)
+
+
+def grown(part: Side, whole: Side, rough: Rough, pairs: np.ndarray, fixed: bool = False) -> Rough:
+    """All samples placed, and the scale found with them unless it is ``fixed``."""
+    scale, placed, alike = rough.scale, rough.placed, rough.alike
+    for repeated in range(2):
+        for _ in range(ROUNDS):
+            measure = gauge(part.distances, part.edge, scale)
+            placed = settled(measure, whole.distances, alike, placed, part.marks)
+            if not fixed:
+                scale = float(np.clip(scale * stretch(measure, whole.distances, placed), *LIMITS))
+        if not repeated and not fixed:
+            alike = likeness(part, whole, scale, pairs, 1)
+    return Rough(scale, placed, alike)
