@@ -354,6 +354,7 @@ class Config:
             descriptors=DescriptorConfig(shot=True),
             refinement=ZoomOut(start=50, stop=200, step=10, samples=5000, guidance=36.0),
             search=Search(),
+            partial=Partial("auto"),
         )
 
     @classmethod

@@ -23,6 +23,8 @@ from kfmaps.functional.guide import Guide, guide
 from kfmaps.functional.points import check_point_map, to_functional
 from kfmaps.functional.precise import PointMap, to_places
 from kfmaps.functional.refine import ZoomOut
+from kfmaps.parts.answer import Partly, partly, reason
+from kfmaps.parts.decide import suspicion
 from kfmaps.search.choose import MIRROR, Found, choose, closing, mirror_image
 from kfmaps.search.marks import leading
 from kfmaps.search.quality import Probe
@@ -41,7 +43,8 @@ class Match:
     Attributes
     ----------
     target_to_source : (n_t,) int64
-        A source vertex for each target vertex, refined when the configuration says so.
+        A source vertex for each target vertex, refined when the configuration says so; −1 where there is none, which
+        only parts have.
     functional_map : (k_t, k_s) float64
         Carries coefficients of functions from source to target; of the refined map.
     eigenvalues_s, eigenvalues_t : (k_s,), (k_t,) float64
@@ -85,6 +88,14 @@ class Match:
         by :func:`kfmaps.surface.mesh.unit_area`.
     bend : Bend or None
         What that fit tells of the map, whether it was kept or not, and why not; ``None`` where none was made.
+    partial : "none", "source", "target" or "both"
+        Which shape was taken for a part of the other.
+    partial_reason : str
+        Why, in words; empty where nobody asked.
+    part_scale : float or None
+        √area of the part over that of the whole, as found.
+    overlap_source, overlap_target : (n_s,), (n_t,) float64 or None
+        Probability of each vertex to be in the part that both have; ``None`` where both were taken for whole.
     """
 
     target_to_source: np.ndarray
@@ -110,6 +121,11 @@ class Match:
     place: PointMap | None = None
     bent: np.ndarray | None = None
     bend: Bend | None = None
+    partial: str = "none"
+    partial_reason: str = ""
+    part_scale: float | None = None
+    overlap_source: np.ndarray | None = None
+    overlap_target: np.ndarray | None = None
 
     def precise(self) -> PointMap:
         """A point inside a triangle of the source for each target vertex: finer than ``target_to_source``.
@@ -141,6 +157,9 @@ class Match:
     def transfer(self, values: Any, products: int | None = 20) -> np.ndarray:
         """Functions ``values (n_s, d)`` or ``(n_s,)`` on the source, carried to the target by the functional map.
 
+        Of a part and a whole they go by points inside triangles, and are NaN where there is no counterpart: what is
+        outside the common part is in every coefficient.
+
         ``products`` of the first basis functions with each other are carried too, beyond what the map alone can; see
         :func:`kfmaps.functional.extended.carried`. Labels, which are no functions, go by points:
         ``values[match.target_to_source]``.
@@ -156,6 +175,11 @@ class Match:
         values = np.asarray(values, dtype=np.float64)
         n = len(across.part_s.number)
         check(values, "values", shape=(n, *(None,) * (values.ndim - 1)), remedy="give one row per source vertex")
+        if self.partial != "none" and self.place is not None:
+            corners = values[across.outside[0].mesh.faces[self.place.faces]]
+            mixed = np.einsum("ti,ti...->t...", self.place.weights, corners)
+            mixed[self.target_to_source < 0] = np.nan
+            return mixed
         bases = (across.source.basis, across.target.basis)
         return carried(values[across.part_s.kept], self.functional_map, *bases, products)[across.part_t.number]
 
@@ -177,6 +201,9 @@ def match(
     Landmarks, as many or few as there are, steer the candidates and help to choose between them; those that are
     contradicted by a map that keeps to most of the others are named and left out. With ``config.search`` of ``None``
     one fit is made, in which landmarks settle which way round a symmetric shape goes.
+
+    Where ``config.partial`` says that one shape is a part of the other, or their boundaries and how one fits into the
+    other do, it is placed there by distances and SHOT (:mod:`kfmaps.parts`) and vertices without a counterpart have −1.
 
     Parameters
     ----------
@@ -215,6 +242,16 @@ def match(
     clock = Clock(progress)
     seed = seed_of(rng)
     more = {"descriptors": descriptors, "rng": seed, "progress": progress}
+    which, why = config.partial.which, "as asked for"
+    if which == "auto":
+        seen = suspicion(shapes[0].mesh, shapes[1].mesh)
+        which, why = seen.which, seen.why
+    if which != "none":
+        with clock("parts"):
+            part = partly(shapes[0], shapes[1], config, which, landmarks=marks, rng=seed, progress=progress)
+        if config.partial.which != "auto" or (not part.whole and part.verdict != "poor"):
+            return _parted(part, why, across, shapes, config, clock)
+        why = f"taken for whole: {why}, but " + ("each covers all of the other" if part.whole else "it fits nowhere")
     led = None
     if config.search is not None:
         if config.search.orientation == "reversed":
@@ -234,7 +271,39 @@ def match(
     if config.formulation.directions == "both":
         # The adjoint, where a search has found the map: its candidates are refined one way.
         back = found.fit.back if found.origin == ONE_FIT and found.fit is not None else found.functional_map.T
-    return _ended(found, across, shapes, config, clock, led, back, seed)
+    ended = _ended(found, across, shapes, config, clock, led, back, seed)
+    return replace(ended, partial_reason=why) if config.partial.which == "auto" else ended
+
+
+def _parted(part: Partly, why: str, across: Border, shapes: list[Shape], config: Config, clock: Clock) -> Match:
+    """The match of a part and a whole."""
+    k_t, k_s = part.functional_map.shape
+    overlaps = across.overlap(part.overlap_source, part.overlap_target)
+    return Match(
+        target_to_source=across.points(part.target_to_source),
+        functional_map=part.functional_map,
+        eigenvalues_s=shapes[0].basis.eigenvalues[:k_s],
+        eigenvalues_t=shapes[1].basis.eigenvalues[:k_t],
+        verdict=part.verdict,
+        config=config,
+        seconds=clock.seconds,
+        origin="a part bent onto the other",
+        raw_functional_map=part.functional_map,
+        raw_target_to_source=None,
+        fit=None,
+        local_confidence=across.trust(part.trust),
+        confidence=part.confidence,
+        scores=part.scores,
+        doubted=part.doubted,
+        border=across,
+        place=across.place(part.place),
+        bent=None if part.bent is None else across.bent(part.bent),
+        partial=part.part,
+        partial_reason=reason(part, why),
+        part_scale=part.scale,
+        overlap_source=overlaps[0],
+        overlap_target=overlaps[1],
+    )
 
 
 def continued(

@@ -1,24 +1,32 @@
-// A point map read both ways.
+// A point map read both ways. Of a part, target vertices may have no counterpart: theirs is the number after the last.
 import { numbers, reals } from "./data.js";
+
+const GREY = 160;
 
 export class Link {
   /** `record` as kfmaps.app.view.page.map_record makes it. */
   constructor(record, sourceCount) {
     this.label = record.label;
+    this.sourceCount = sourceCount;
     this.points = numbers(record.points); // source vertex of each target vertex
     this.nearest = numbers(record.nearest); // nearest source vertex that some target vertex lands on
     this.distortion = reals(record.distortion);
-    this.first = new Uint32Array(sourceCount + 1);
+    this.first = new Uint32Array(sourceCount + 2);
     for (const s of this.points) this.first[s + 1]++;
-    for (let s = 0; s < sourceCount; s++) this.first[s + 1] += this.first[s];
+    for (let s = 0; s <= sourceCount; s++) this.first[s + 1] += this.first[s];
     const next = this.first.slice(0, -1);
     this.sorted = new Uint32Array(this.points.length);
     this.points.forEach((s, t) => (this.sorted[next[s]++] = t));
   }
 
-  /** Source vertex of a target vertex. */
+  /** Source vertex of a target vertex; -1 where there is none. */
   toSource(target) {
-    return this.points[target];
+    return this.points[target] < this.sourceCount ? this.points[target] : -1;
+  }
+
+  /** How many source vertices some target vertex lands on. */
+  reached() {
+    return new Set(this.points.filter((s) => s < this.sourceCount)).size;
   }
 
   /** Target vertices of a source vertex, or of the nearest that has any: {from, targets}. */
@@ -27,10 +35,11 @@ export class Link {
     return { from, targets: [...this.sorted.subarray(this.first[from], this.first[from + 1])] };
   }
 
-  /** Colours (or any numbers, `width` of them a vertex) of the source, at the target's vertices. */
+  /** Colours (or any numbers, `width` of them a vertex) of the source, at the target's vertices; else grey, or 0. */
   carried(values, width) {
-    const out = new values.constructor(width * this.points.length);
+    const out = new values.constructor(width * this.points.length).fill(width === 3 ? GREY : 0);
     for (let t = 0; t < this.points.length; t++) {
+      if (this.points[t] >= this.sourceCount) continue;
       for (let c = 0; c < width; c++) out[width * t + c] = values[width * this.points[t] + c];
     }
     return out;

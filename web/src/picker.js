@@ -75,7 +75,7 @@ export function startPicker(data) {
     if (!pairs.half || !link()) return null;
     const { i, vertex } = pairs.half;
     const other = i === 1 ? link().toSource(vertex) : link().toTarget(vertex).targets[0];
-    return pairs.holder(1 - i, other) < 0 ? { i: 1 - i, vertex: other } : null;
+    return other >= 0 && pairs.holder(1 - i, other) < 0 ? { i: 1 - i, vertex: other } : null;
   };
 
   /** Whether no other pair has the vertex on side `i`; says so where one has. */
@@ -92,7 +92,8 @@ export function startPicker(data) {
   const matched = () => {
     const at = state.hovered;
     if (!at || !link()) return [[], []];
-    return at.i === 1 ? [[link().toSource(at.vertex)], []] : [[], link().toTarget(at.vertex).targets.slice(0, 60)];
+    const to = at.i === 1 ? link().toSource(at.vertex) : -1;
+    return at.i === 1 ? [to < 0 ? [] : [to], []] : [[], link().toTarget(at.vertex).targets.slice(0, 60)];
   };
 
   const mark = () => {
@@ -131,7 +132,10 @@ export function startPicker(data) {
     const named = element("td");
     named.append(name);
     made.append(head, ...pair.slice(0, 2).map((vertex) => element("td", vertex, { class: "number" })), named);
-    if (link()) made.append(element("td", percent(shapes[0].apart(pair[0], link().toSource(pair[1])), 2), { class: "number" }));
+    if (link()) {
+      const to = link().toSource(pair[1]);
+      made.append(element("td", to < 0 ? "\u2013" : percent(shapes[0].apart(pair[0], to), 2), { class: "number" }));
+    }
     const last = element("td");
     last.append(remove);
     made.append(last);

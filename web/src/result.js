@@ -98,6 +98,7 @@ export function startResult(data) {
   const match = ({ i, vertex }) => {
     if (i === 1) {
       const to = link().toSource(vertex);
+      if (to < 0) return { marks: [[], [vertex]], text: `target ${vertex}: no counterpart` };
       return { marks: [[to], [vertex]], text: `target ${vertex} → source ${to}${measured(vertex)}` };
     }
     const { from, targets } = link().toTarget(vertex);
@@ -202,6 +203,6 @@ function facts(link, count, errors, confidence) {
   return [
     ...(Number.isNaN(error) ? [] : [`mean error ${percent(error)} ${UNIT}`]),
     ...(Number.isNaN(sure) ? [] : [`mean confidence ${short(sure, 2)}`]),
-    `${Math.round((100 * new Set(link.points).size) / count)} % of the source's vertices are reached`,
+    `${Math.round((100 * link.reached()) / count)} % of the source's vertices are reached`,
   ].join(" · ");
 }

@@ -92,10 +92,14 @@ class Match(matching.Match):
         """A target vertex for each source vertex, (n_s,) int64.
 
         One that lands on it or, where none does, on the nearest source vertex (along the edges) that any lands on; of
-        several the one nearest to the middle of them all. Of a one-to-one map it is the inverse.
+        several the one nearest to the middle of them all. Of a one-to-one map it is the inverse. −1 outside the part
+        that both shapes have.
         """
-        points, n_s = self.target_to_source, len(self.source.vertices)
-        places = self.target.vertices
+        known = np.flatnonzero(self.target_to_source >= 0)
+        points, n_s = self.target_to_source[known], len(self.source.vertices)
+        places = self.target.vertices[known]
+        if len(known) == 0:
+            return np.full(n_s, -1, dtype=np.int64)
         count = np.bincount(points, minlength=n_s)
         middle = np.stack([np.bincount(points, axis, minlength=n_s) for axis in places.T], axis=1)
         middle /= np.maximum(count, 1)[:, None]
@@ -103,7 +107,8 @@ class Match(matching.Match):
         order = np.lexsort((off, points))
         first = np.searchsorted(points[order], np.arange(n_s))
         central = order[np.minimum(first, len(points) - 1)]
-        return central[nearest_reached(self.source, points)].astype(np.int64)
+        found = known[central[nearest_reached(self.source, points)]].astype(np.int64)
+        return found if self.overlap_source is None else np.where(self.overlap_source > 0.5, found, -1)
 
 
 def match(
@@ -192,7 +197,7 @@ def prepare(
         return prepared(as_mesh(shape, name), config, name=name, progress=report)
 
 
-def transfer(values: Any, found: Any) -> np.ndarray:
+def transfer(values: Any, found: Any, lost: Any = None) -> np.ndarray:
     """Carry values from the vertices of the source to those of the target.
 
     Parameters
@@ -201,6 +206,8 @@ def transfer(values: Any, found: Any) -> np.ndarray:
         Functions, labels, colours: anything with a row per source vertex.
     found : Match, MapFile, path, or (n_t,) whole numbers
         The map.
+    lost : optional
+        What target vertices without a counterpart get; by default NaN, for whole numbers −1, for texts the empty one.
 
     Returns
     -------
@@ -212,7 +219,7 @@ def transfer(values: Any, found: Any) -> np.ndarray:
     InvalidInput
         When the map names a vertex that has no value, or the source has another number of vertices.
     """
-    return carried(values, _with_size(found))
+    return carried(values, _with_size(found), lost=lost)
 
 
 def render(
@@ -253,7 +260,7 @@ def render(
     from kfmaps.app.pictures import match_figure, painted_errors, picture_format, save_figure, true_views
 
     shapes = _shapes(found, source, target)
-    points = check_map(as_map(found), len(shapes[0].vertices), len(shapes[1].vertices))
+    points = check_map(as_map(found), len(shapes[0].vertices), len(shapes[1].vertices), lost=True)
     if truth is not None:
         known = _truth(truth, shapes)
         options.setdefault("errors", painted_errors(*shapes, points, known.source, known.target))

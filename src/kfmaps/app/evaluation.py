@@ -111,7 +111,8 @@ def check_truth(truth: Truth, source: Mesh, n_t: int) -> Truth:
 class Accuracy:
     """How good a map is: its errors, those against the mirrored truth, and what part of the source it reaches.
 
-    ``precise``: the errors of points inside triangles; ``smooth``: whether the map tears or folds; where known.
+    ``matched``: part of the truth's points that the map gives a counterpart; the others are in no mean. ``precise``:
+    the errors of points inside triangles; ``smooth``: whether the map tears or folds; where known.
     """
 
     errors: Evaluation
@@ -119,20 +120,23 @@ class Accuracy:
     coverage: float
     precise: Evaluation | None = None
     smooth: Smoothness | None = None
+    matched: float = 1.0
 
     def as_dict(self) -> dict[str, Any]:
         """Plain numbers for JSON, errors in units of √area, ``None`` for infinite ones."""
-        found = {**_numbers(self.errors), "points": len(self.errors.errors), "coverage": self.coverage}
+        found = {**numbers_of(self.errors), "points": len(self.errors.errors), "coverage": self.coverage}
+        if self.matched < 1:
+            found["matched"] = self.matched
         if self.mirrored is not None:
-            found["mirrored"] = _numbers(self.mirrored)
+            found["mirrored"] = numbers_of(self.mirrored)
         if self.precise is not None:
-            found["precise"] = _numbers(self.precise)
+            found["precise"] = numbers_of(self.precise)
         if self.smooth is not None:
             found["smoothness"] = asdict(self.smooth)
         return found
 
 
-def _numbers(errors: Evaluation) -> dict[str, float | None]:
+def numbers_of(errors: Evaluation) -> dict[str, float | None]:
     names = ("mean", "median", "worst", "auc", "exact")
     return {name: value if math.isfinite(value := getattr(errors, name)) else None for name in names}
 
@@ -157,24 +161,32 @@ def assessed(
     InvalidInput
         When the map or the truth names vertices that the shapes do not have.
     """
-    check_map(target_to_source, len(source.vertices))
+    target_to_source = check_map(target_to_source, len(source.vertices), lost=True)
     check_truth(truth, source, len(target_to_source))
 
     def errors(target: np.ndarray, most: int | None = None) -> Evaluation:
         step = 1 if most is None else -(-len(target) // most)
         predicted = truth_from_pairs(truth.source, target, target_to_source)
-        return evaluation(geodesic_errors(source, predicted[::step], truth.source[::step]))
+        predicted, true = predicted[::step], truth.source[::step]
+        if not (predicted >= 0).any():
+            raise refuse("map", "a counterpart for some of the truth's points", "none", "nothing can be compared")
+        return evaluation(geodesic_errors(source, predicted[predicted >= 0], true[predicted >= 0]))
 
     swapped = None if truth.mirrored is None else errors(truth.mirrored, mirrored)
     precise = smooth = None
     # A vertex that no face uses lies in no triangle.
     if place is not None and np.isin(truth.source, source.faces).all():
-        at = PointMap(place.faces[truth.target], place.weights[truth.target])
-        precise = evaluation(place_errors(source, at, truth.source))
-    whole = place is not None or bool(np.isin(target_to_source, source.faces).all())
+        rows = truth.target[target_to_source[truth.target] >= 0]
+        at = PointMap(place.faces[rows], place.weights[rows])
+        precise = evaluation(place_errors(source, at, truth.source[target_to_source[truth.target] >= 0]))
+    lost = target_to_source < 0
+    whole = place is not None or bool(np.isin(target_to_source[~lost], source.faces).all())
     if target is not None and len(target.faces) and whole:
-        smooth = smoothness(source, target, target_to_source if place is None else place)
-    return Accuracy(errors(truth.target), swapped, coverage(target_to_source, source), precise, smooth)
+        common = Mesh(target.vertices, target.faces[~lost[target.faces].any(axis=1)])
+        if len(common.faces):
+            smooth = smoothness(source, common, np.maximum(target_to_source, 0) if place is None else place)
+    matched = float((target_to_source[truth.target] >= 0).mean())
+    return Accuracy(errors(truth.target), swapped, coverage(target_to_source, source), precise, smooth, matched)
 
 
 def write_curve(path: Path, errors: Evaluation, label: str, force: bool = False) -> None:

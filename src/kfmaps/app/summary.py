@@ -83,6 +83,10 @@ def summary(outcome: MatchRun) -> dict[str, Any]:
         "local_confidence": mean_confidence(match),
         "scores": [float(score) for score in match.scores],
         "runners_up": len(match.runners_up),
+        "partial": match.partial,
+        "partial_reason": match.partial_reason,
+        "part_scale": match.part_scale,
+        "without_counterpart": int((match.target_to_source < 0).sum()),
         "errors": None if outcome.accuracy is None else outcome.accuracy.as_dict(),
         "weights": None if fit is None or fit.weights is None else fit.weights.tolist(),
         "energies": None if fit is None else {name: float(value) for name, value in fit.energies.items()},
@@ -139,6 +143,11 @@ def table(outcome: MatchRun, written: Path | None = None) -> Table:
 def _rows(match: Match, found: dict[str, Any], accuracy: Accuracy | None) -> list[tuple[str, str]]:
     """Names and values of the table."""
     rows = [("verdict", _verdict(match))]
+    if match.partial != "none" or match.partial_reason.startswith("taken for whole"):
+        rows.append(("parts", match.partial_reason))
+    if found["without_counterpart"]:
+        lost, n_t = found["without_counterpart"], len(match.target_to_source)
+        rows.append(("no counterpart", f"{lost:,} of the target's {n_t:,} vertices: they are -1 in the map"))
     if accuracy is not None:
         rows.append(("error", errors_text(accuracy)))
     for side in ("source", "target"):

@@ -74,8 +74,8 @@ class Border:
         return rows[0], rows[1]
 
     def points(self, target_to_source: np.ndarray) -> np.ndarray:
-        """A point map inside as one outside, (n_t,)."""
-        return self.part_s.kept[target_to_source][self.part_t.number]
+        """A point map inside as one outside, (n_t,); −1 stays."""
+        return np.where(target_to_source < 0, -1, self.part_s.kept[target_to_source])[self.part_t.number]
 
     def points_back(self, source_to_target: np.ndarray) -> np.ndarray:
         """A point map back inside as one outside, (n_s,)."""
@@ -91,6 +91,12 @@ class Border:
         here, there = self.target.mesh.vertices, self.outside[1].mesh.vertices[self.part_t.kept]
         scale = np.linalg.norm(there - there.mean(axis=0)) / np.linalg.norm(here - here.mean(axis=0))
         return scale * (vertices - here.mean(axis=0))[self.part_s.number] + there.mean(axis=0)
+
+    def overlap(self, source: np.ndarray, target: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Probabilities inside (m_s,) and (m_t,) as outside (n_s,), (n_t,): none in vertices that lie on no surface."""
+        sides = ((source, self.part_s), (target, self.part_t))
+        first, second = (np.where(part.loose, 0.0, values[part.number]) for values, part in sides)
+        return first, second
 
     def trust(self, confidence: np.ndarray) -> np.ndarray:
         """Confidence inside (m_t,) as outside (n_t,): none in vertices that lie on no surface."""

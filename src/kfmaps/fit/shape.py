@@ -14,7 +14,7 @@ from kfmaps.config import Config
 from kfmaps.descriptors.shot import shot
 from kfmaps.surface.basis import Basis, laplace_basis
 from kfmaps.surface.inside import Inside, inside
-from kfmaps.surface.mesh import Mesh, check_mesh, unit_area
+from kfmaps.surface.mesh import Mesh, check_mesh, surface_area, unit_area
 from kfmaps.surface.samples import stratified_samples
 
 
@@ -38,6 +38,8 @@ class Shape:
         Which one the functions are of.
     shot_radius : float or None
         Of ``shot``, in units of √area.
+    extent : float or None
+        √area before it was scaled, where that is known.
     """
 
     mesh: Mesh
@@ -47,6 +49,7 @@ class Shape:
     seconds: dict[str, float]
     laplacian: str = "robust"
     shot_radius: float | None = None
+    extent: float | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -152,7 +155,8 @@ def prepare(
         seconds["SHOT"] = time.perf_counter() - start
         report(f"SHOT of {name}", 1.0)
     radius = None if local is None else config.descriptors.shot_radius
-    shape = Shape(Mesh(small.vertices, mesh.faces), basis, local, name, seconds, config.basis.laplacian, radius)
+    size = float(np.sqrt(surface_area(part.mesh))) if len(mesh.faces) else None
+    shape = Shape(Mesh(small.vertices, mesh.faces), basis, local, name, seconds, config.basis.laplacian, radius, size)
     if part.whole:
         return shape
     mass = np.zeros(len(mesh.vertices))

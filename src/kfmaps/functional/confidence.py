@@ -26,7 +26,7 @@ BLOCK = 64
 
 
 def local_confidence(
-    source: Mesh, target: Mesh, target_to_source: np.ndarray, samples: np.ndarray | None = None
+    source: Mesh, target: Mesh, target_to_source: np.ndarray, samples: np.ndarray | None = None, *, sized: bool = False
 ) -> np.ndarray:
     """How well the map keeps each target vertex's distances to its surroundings, (n_t,), from 0 to 1.
 
@@ -43,8 +43,11 @@ def local_confidence(
     source, target : Mesh
         In any units; point clouds too, along the graph of their nearest neighbours.
     target_to_source : (n_t,) int
+        −1 where a vertex has no counterpart: nothing can be told there.
     samples : (q,) int, optional
         Target vertices; by default 200, one from each of as many compact regions of equal area.
+    sized : bool
+        Whether lengths of both can be compared as they are, in units of √area of the larger: of a part and a whole.
 
     Returns
     -------
@@ -57,24 +60,31 @@ def local_confidence(
     InvalidInput
         When the map does not fit the two shapes, or one of them has no area.
     """
-    points = check_point_map(target_to_source, len(source.vertices), len(target.vertices))
+    points = np.asarray(target_to_source)
+    lost = points < 0
+    points = check_point_map(np.where(points == -1, 0, points), len(source.vertices), len(target.vertices))
     part_s, part_t = inside(source, specks=True), inside(target, specks=True)
     if not (part_s.whole and part_t.whole):
         if samples is not None:
             samples = np.unique(part_t.number[samples[~part_t.loose[samples]]])
-        kept = local_confidence(part_s.mesh, part_t.mesh, part_s.number[points[part_t.kept]], samples)
+        within = np.where(lost, -1, part_s.number[points])[part_t.kept]
+        kept = local_confidence(part_s.mesh, part_t.mesh, within, samples, sized=sized)
         return np.where(part_t.loose, 0.0, kept[part_t.number])
-    source, target = unit_area(source), unit_area(target)
+    if not sized:
+        source, target = unit_area(source), unit_area(target)
     if samples is None:
         areas = vertex_areas(target)
         used = np.flatnonzero(areas > 0)
         samples = used[stratified(target.vertices[used], areas[used], SAMPLES, rng=0)]
+    if lost.any():
+        samples = samples[~lost[samples]]
     graph_s, graph_t = surface_graph(source, 0), surface_graph(target, 0)
     change, whole = np.zeros(len(points)), np.zeros(len(points))
     for part in blocks(len(samples), BLOCK):
         here = dijkstra(graph_t, indices=samples[part], limit=RADIUS)
         there = dijkstra(graph_s, indices=points[samples[part]], limit=2 * RADIUS)
         near = np.isfinite(here)
+        near[:, lost] = False
         here[~near] = 0.0
         moved = np.abs(np.minimum(there, 2 * RADIUS)[:, points] - here)
         change += np.where(near, moved, 0.0).sum(axis=0)

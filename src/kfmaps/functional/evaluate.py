@@ -161,12 +161,14 @@ def error_curve(errors: np.ndarray, thresholds: np.ndarray) -> np.ndarray:
 def coverage(target_to_source: np.ndarray, source: Mesh) -> float:
     """Fraction of the source's area whose vertices are the image of some target vertex.
 
-    Connected vertices in one place count as one; those that belong to no face count for nothing.
+    Those without counterpart, −1, reach none. Connected vertices in one place count as one; those that belong to no face count for nothing.
     """
     check_is_mesh(source, "source")
     part = inside(source)
     areas = vertex_areas(part.mesh)
-    points = check_point_map(target_to_source, len(source.vertices), len(target_to_source))
+    points = np.asarray(target_to_source)
+    points = points[points != -1]
+    points = check_point_map(points, len(source.vertices), len(points))
     hit = np.unique(part.number[points[~part.loose[points]]])
     return float(areas[hit].sum() / areas.sum())
 

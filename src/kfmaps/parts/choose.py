@@ -49,13 +49,7 @@ class Evidence:
 
 def score(found: Evidence) -> float:
     """One number, higher is better."""
-    return (
-        4.0 * found.consistency
-        - 1.0 * found.unlike
-        - 15.0 * found.bending
-        - 50.0 * found.gap
-        - 4.0 * found.folded
-    )
+    return 4.0 * found.consistency - 1.0 * found.unlike - 15.0 * found.bending - 50.0 * found.gap - 4.0 * found.folded
 
 
 @dataclass(frozen=True, eq=False)
@@ -184,4 +178,3 @@ def evidence(rough: Rough, full: Rough, bend: Bent) -> Evidence:
         bend.folded,
         len(np.unique(match)) / len(match),
     )
-

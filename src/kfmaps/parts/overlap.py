@@ -9,7 +9,7 @@ import numpy as np
 from kfmaps.functional.nonrigid import _look
 from kfmaps.functional.precise import PointMap
 from kfmaps.parts.bend import Bent, Ground
-from kfmaps.surface.closest import rings
+from kfmaps.surface.closest import Places, rings
 from kfmaps.surface.mesh import Mesh, vertex_normals
 
 WIDTH = 0.02
@@ -37,19 +37,28 @@ class Overlap:
     on_part: PointMap
 
 
-def overlap(bent: Bent, whole: Ground, border: np.ndarray) -> Overlap:
-    """Of a part ``bent`` onto ``whole``; ``border (n_p,)`` are the part's vertices on its boundary."""
-    faces = bent.rest.faces
-    mesh = Mesh(bent.vertices, faces)
-    look = _look(mesh, vertex_normals(mesh), rings(faces, len(mesh.vertices)))
-    found, _, agree = look(whole.mesh.vertices, whole.normals)
+def covered(
+    bent: Mesh, border: np.ndarray, whole: Mesh, normals: np.ndarray | None = None
+) -> tuple[np.ndarray, Places]:
+    """Probability (n_w,) of each vertex of ``whole`` to lie on a ``bent`` mesh, and the closest place on it.
+
+    Both in the unit of the whole, which has unit area. ``border``: the bent mesh's vertices on its boundary;
+    ``normals``: the whole's.
+    """
+    look = _look(bent, vertex_normals(bent), rings(bent.faces, len(bent.vertices)))
+    found, _, agree = look(whole.vertices, vertex_normals(whole) if normals is None else normals)
     counts = found.weights > 1e-9
-    edge = (border[faces[found.faces]] | ~counts).all(axis=1) & ~counts.all(axis=1)
+    edge = (border[bent.faces[found.faces]] | ~counts).all(axis=1) & ~counts.all(axis=1)
     # Beyond the part's edge the closest point lies on it: half the length of its edges is as near as vertices can tell.
-    corners = mesh.vertices[faces[found.faces]]
+    corners = bent.vertices[bent.faces[found.faces]]
     half = 0.5 * np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).mean(axis=1)
     width = np.where(edge, np.minimum(half, WIDTH), WIDTH)
-    common = _near(found.distances, width) * np.where(agree > 0, 1.0, 0.25)
+    return _near(found.distances, width) * np.where(agree > 0, 1.0, 0.25), found
+
+
+def overlap(bent: Bent, whole: Ground, border: np.ndarray) -> Overlap:
+    """Of a part ``bent`` onto ``whole``; ``border (n_p,)`` are the part's vertices on its boundary."""
+    common, found = covered(Mesh(bent.vertices, bent.rest.faces), border, whole.mesh, whole.normals)
     own = np.where(bent.inside, _near(bent.places.distances, WIDTH), 0.0)
     return Overlap(
         own,

@@ -50,7 +50,9 @@ def likeness(part: Side, whole: Side, scale: float, pairs: np.ndarray, threads: 
     return alike
 
 
-def tried(part: Side, whole: Side, scales: Sequence[float], pairs: np.ndarray, threads: int | None = None) -> list[Rough]:
+def tried(
+    part: Side, whole: Side, scales: Sequence[float], pairs: np.ndarray, threads: int | None = None
+) -> list[Rough]:
     """The first samples placed at each of ``scales``, the best supported first."""
     for radius in RADII:
         whole.shot(radius, threads)

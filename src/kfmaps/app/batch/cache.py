@@ -65,6 +65,8 @@ def save_shape(path: Path, shape: Shape) -> None:
         "seconds": np.array(list(shape.seconds.values()), dtype=np.float64),
         "laplacian": np.array(shape.laplacian),
     }
+    if shape.extent is not None:
+        arrays["extent"] = np.float64(shape.extent)
     if shape.shot is not None:
         arrays |= {"shot": shape.shot, "shot_radius": np.float64(shape.shot_radius)}
     with atomic_output(path, force=True) as temporary, open(temporary, "wb") as file:
@@ -84,6 +86,7 @@ def load_shape(path: Path, name: str) -> Shape | None:
                 seconds,
                 str(arrays["laplacian"]),
                 float(arrays["shot_radius"]) if "shot" in arrays.files else None,
+                float(arrays["extent"]) if "extent" in arrays.files else None,
             )
     except FileNotFoundError:
         return None

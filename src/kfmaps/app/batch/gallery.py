@@ -36,7 +36,7 @@ def pair_picture(task: PairTask, limit: float = 0.1, path: Path | None = None) -
         warnings.simplefilter("ignore", KfmapsWarning)  # the run has noted them
         source, target = read_mesh(task.source.path), read_mesh(task.target.path)
     sizes = len(source.vertices), len(target.vertices)
-    points = check_map(load_map(path or map_in_use(Path(task.folder), task.pair.key)), *sizes)
+    points = check_map(load_map(path or map_in_use(Path(task.folder), task.pair.key)), *sizes, lost=True)
     truth = true_vertices(task, *sizes)
     errors, views = None, (None, None)
     with one_blas_thread():

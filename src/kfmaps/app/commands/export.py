@@ -116,4 +116,4 @@ def _shape(given: Path | None, found: MapFile, side: str, map: Path) -> MeshFile
 def _check(found: MapFile, source: MeshFile | None, target: MeshFile | None) -> None:
     n_s = None if source is None else len(source.mesh.vertices)
     n_t = None if target is None else len(target.mesh.vertices)
-    check_map(found, n_s, n_t)
+    check_map(found, n_s, n_t, lost=True)

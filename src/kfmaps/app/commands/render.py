@@ -79,7 +79,7 @@ def render_pair(
     _check(output, force, (map, source, target, *(truth or ())))
     found = load_map(map)
     source_mesh, target_mesh = (map_mesh(g, found, s, map) for g, s in ((source, "source"), (target, "target")))
-    points = check_map(found, len(source_mesh.vertices), len(target_mesh.vertices))
+    points = check_map(found, len(source_mesh.vertices), len(target_mesh.vertices), lost=True)
     errors, seen, seen_target = None, _view(towards, up), None
     known = known_truth(truth, False, source_mesh, len(target_mesh.vertices))
     if known is not None:
@@ -136,7 +136,7 @@ def render_grid(
         if centre is None:
             centre = map_mesh(None, found, "source", path)
         mesh = map_mesh(None, found, "target", path)
-        points = check_map(found, len(centre.vertices), len(mesh.vertices), str(path))
+        points = check_map(found, len(centre.vertices), len(mesh.vertices), str(path), lost=True)
         told = errors and result.error_mean is not None
         panels.append(
             Panel(f"{result.target}  {percent(result.error_mean, 1)} %" if told else result.target, mesh, points)

@@ -67,6 +67,12 @@ def transfer(
         Path | None, typer.Option(help="The source mesh; default: the one the map names.", show_default=False)
     ] = None,
     target: Annotated[Path | None, typer.Option(help="The same for the target.", show_default=False)] = None,
+    lost: Annotated[
+        float | None,
+        typer.Option(
+            help="For target vertices without counterpart; default: NaN, -1 of whole numbers.", show_default=False
+        ),
+    ] = None,
     force: Annotated[bool, typer.Option("--force", help="Replace an existing file.")] = False,
 ) -> None:
     """Carry functions, labels or named points from the source to the target, or back; or landmarks to a collection."""
@@ -98,7 +104,10 @@ def transfer(
         shape = _shape(found, "source", source, map)
         place_of(found, shape)
         faces = shape.faces
-    write_values(output, Values(carried(given.array, found, faces), given.columns), force)
+    gone: float | int | None = lost
+    if lost is not None and given.array.dtype.kind in "iu" and lost == int(lost):
+        gone = int(lost)
+    write_values(output, Values(carried(given.array, found, faces, gone), given.columns), force)
 
 
 def _everywhere(

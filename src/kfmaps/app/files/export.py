@@ -22,6 +22,8 @@ from kfmaps.functional.precise import PointMap, check_places, matrix_of, points_
 from kfmaps.surface.mesh import Mesh, surface_area
 
 PICTURES = (".png", ".jpg", ".jpeg")
+LOST = 0.62
+"""Grey of target vertices without a counterpart."""
 _CHOICES = 8
 """Texture coordinates that are considered per vertex; a seam gives two, a corner of seams three or four."""
 
@@ -201,12 +203,17 @@ def write_textured(
     mesh = atlas.mesh
     if len(mesh.faces) == 0:
         raise refuse("target", "a surface with faces", "a point cloud", "export colours as .ply")
-    points = check_map(target_to_source, len(source.mesh.vertices), len(mesh.vertices))
+    points = check_map(target_to_source, len(source.mesh.vertices), len(mesh.vertices), lost=True)
     if picture is not None and not (Path(picture).is_file() and Path(picture).suffix.lower() in PICTURES):
         raise refuse(f"picture {picture}", f"a file {' '.join(PICTURES)}", "none", "check the name")
     place = place_of(target_to_source, source.mesh) if place is None else check_places(place, source.mesh, len(points))
     image = _picture(picture, source)
-    uv, uv_faces = carried_uv(source, mesh, points, place)
+    lost = points < 0
+    uv, uv_faces = carried_uv(source, mesh, np.where(lost, points.max(), points), place)
+    if lost.any():
+        # All three corners in one place: the face has one colour of the picture, and the picture does not spread.
+        faces = lost[mesh.faces].any(axis=1)
+        uv, uv_faces = np.concatenate([uv, np.zeros((1, 2))]), np.where(faces[:, None], len(uv), uv_faces)
     if atlas.uv is not None and atlas.uv_faces is not None:
         if bakeable(atlas):
             image = png_of(baked(source, atlas, pixels_of(image), uv, uv_faces, place))
@@ -272,10 +279,11 @@ def write_colored(
     """
     colors = np.asarray(colors)
     check(colors, "colors", shape=(None, 3), remedy="give one colour per source vertex")
-    points = check_map(target_to_source, len(colors), len(target.vertices))
+    points = check_map(target_to_source, len(colors), len(target.vertices), lost=True)
     mixed = colors[points]
     if place is not None and faces_s is not None:
         mixed = np.clip(matrix_of(place, faces_s, len(colors)) @ colors, 0, 1)
+    mixed = np.where(points[:, None] < 0, LOST, mixed)
     write_mesh(path, target, colors=mixed, force=force)
 
 

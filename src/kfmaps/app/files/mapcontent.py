@@ -65,6 +65,12 @@ def checked_extra(extra: Mapping[str, Any], n_t: int, n_s: int | None) -> dict[s
                 if real(value, title).size != 1 or not np.isfinite(np.asarray(value)).all():
                     raise refuse(title, "one number", f"shape {np.shape(value)}", REPAIR)
                 found[name] = np.float64(np.asarray(value).item())
+            case "overlap_source" | "overlap_target":
+                n = n_s if name == "overlap_source" else n_t
+                values = check(real(value, title), title, shape=(n,), remedy=REPAIR).astype(np.float64)
+                if len(values) and (values.min() < 0 or values.max() > 1):
+                    raise refuse(title, "probabilities", f"{values.min():g} to {values.max():g}", REPAIR)
+                found[name] = values
             case "local_confidence":
                 values = check(real(value, title), title, shape=(n_t,), finite=False, remedy=REPAIR).astype(np.float64)
                 if np.isinf(values).any():

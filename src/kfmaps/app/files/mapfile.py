@@ -45,7 +45,7 @@ class MapFile:
     Attributes
     ----------
     target_to_source : (n_t,) int64
-        A source vertex for each target vertex, 0-based.
+        A source vertex for each target vertex, 0-based; −1 where it has no counterpart.
     functional_map : (k_t, k_s) float64 or None
         Carries coefficients of functions from source to target.
     eigenvalues_s, eigenvalues_t : (k_s,) and (k_t,) float64 or None
@@ -56,6 +56,7 @@ class MapFile:
         Further arrays of numbers and texts by name. Names that are in use: ``runners_up`` (c, n_t) int64,
         ``confidence`` (one number), ``local_confidence`` (n_t,) float64, ``landmarks`` (l, 2) int64,
         ``place_faces`` (n_t,) int64 and ``place_weights`` (n_t, 3) float64 (points inside the source's triangles),
+        ``overlap_source`` (n_s,) and ``overlap_target`` (n_t,) float64 (probability to be in the part that both have),
         ``bent`` (n_s, 3) float64 (the source's vertices on the target at unit area), ``source_sha256`` and
         ``target_sha256`` (of the files), ``n_s`` (how
         many vertices the source has), ``source``, ``target`` (paths) and ``summary`` (JSON text).
@@ -69,7 +70,7 @@ class MapFile:
     extra: Mapping[str, np.ndarray | str] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "target_to_source", check_map(self.target_to_source))
+        object.__setattr__(self, "target_to_source", check_map(self.target_to_source, lost=True))
         for name in ("functional_map", "eigenvalues_s", "eigenvalues_t"):
             value = getattr(self, name)
             if value is not None:
@@ -88,7 +89,7 @@ class MapFile:
                 raise refuse("extra", wanted, repr(name), "rename it")
         object.__setattr__(self, "config", json_text(self.config, "config"))
         n_s, n_t = self.n_s, len(self.target_to_source)
-        check_map(self.target_to_source, n_s, name="target_to_source")
+        check_map(self.target_to_source, n_s, name="target_to_source", lost=True)
         object.__setattr__(self, "extra", checked_extra(self.extra, n_t, n_s))
 
     @property
@@ -110,7 +111,9 @@ class MapFile:
         return PointMap(np.asarray(faces), np.asarray(weights))
 
 
-def check_map(target_to_source: Any, n_s: int | None = None, n_t: int | None = None, name: str = "map") -> np.ndarray:
+def check_map(
+    target_to_source: Any, n_s: int | None = None, n_t: int | None = None, name: str = "map", *, lost: bool = False
+) -> np.ndarray:
     """``target_to_source`` as (n_t,) int64 when it names a source vertex for every target vertex.
 
     Parameters
@@ -120,6 +123,8 @@ def check_map(target_to_source: Any, n_s: int | None = None, n_t: int | None = N
         How many vertices the source and target have, when known.
     name : str
         How messages call it.
+    lost : bool
+        Whether −1 may stand for a vertex without counterpart.
 
     Raises
     ------
@@ -135,9 +140,12 @@ def check_map(target_to_source: Any, n_s: int | None = None, n_t: int | None = N
         got = "none" if len(numbers) == 0 else "fractions"
         raise refuse(name, "a whole number for each target vertex", got, REPAIR)
     low, high = numbers.min(), numbers.max()
-    if low < 0 or high >= (2**53 if n_s is None else n_s):
+    if low == -1 and not lost:
+        wanted, got = "a counterpart of every target vertex", f"{np.count_nonzero(numbers == -1)} without one"
+        raise refuse(name, wanted, got, "this needs a map between whole shapes")
+    if low < -int(lost) or high >= (2**53 if n_s is None else n_s):
         wanted = "source vertices from 0 on" if n_s is None else f"source vertices from 0 to {n_s - 1}"
-        raise refuse(name, wanted, f"{int(low if low < 0 else high)}", remedy)
+        raise refuse(name, wanted, f"{int(low if low < -int(lost) else high)}", remedy)
     return numbers.astype(np.int64)
 
 
@@ -159,6 +167,8 @@ def match_map(match: Match) -> MapFile:
         extra |= {"place_faces": match.place.faces, "place_weights": match.place.weights}
     if match.bent is not None:
         extra["bent"] = match.bent
+    if match.overlap_source is not None and match.overlap_target is not None:
+        extra |= {"overlap_source": match.overlap_source, "overlap_target": match.overlap_target}
     config = json.dumps(as_dict(match.config))
     return MapFile(
         match.target_to_source, match.functional_map, match.eigenvalues_s, match.eigenvalues_t, config, extra
@@ -170,7 +180,8 @@ def save_map(path: str | Path, mapfile: MapFile | Match, force: bool = False) ->
 
     ``.npz`` and ``.mat`` hold everything: arrays under the names of :class:`MapFile` and ``extra``, texts as
     0-d strings. In ``.mat`` vertex numbers count from 1, as MATLAB does, and lists are columns of doubles.
-    ``.txt`` and ``.vts`` hold ``target_to_source`` alone, one number a line, counted from 0 and from 1.
+    ``.txt`` and ``.vts`` hold ``target_to_source`` alone, one number a line, counted from 0 and from 1; of a vertex
+    without counterpart it is −1 and 0.
 
     Raises
     ------
@@ -228,7 +239,7 @@ def load_map(path: str | Path) -> MapFile:
     check_format(path)
     suffix = path.suffix.lower()
     if suffix in (".txt", ".vts"):
-        return MapFile(read_vertex_numbers(path))
+        return MapFile(read_vertex_numbers(path, lost=True))
     data = read_bytes(path)
     try:
         content = (_npz_content if suffix == ".npz" else _mat_content)(data, name)

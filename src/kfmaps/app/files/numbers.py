@@ -12,15 +12,15 @@ from kfmaps.app.files.atomic import atomic_output
 from kfmaps.app.files.text import clean_text, parse_rows, read_bytes, table, whole
 
 
-def _read_numbers(path: str | Path, columns: int, one_based: bool, wanted: str) -> np.ndarray:
-    """The whole numbers of a text file, (rows, columns) int64, made 0-based."""
+def _read_numbers(path: str | Path, columns: int, one_based: bool, wanted: str, lost: bool = False) -> np.ndarray:
+    """The whole numbers of a text file, (rows, columns) int64, made 0-based; with ``lost`` they may be −1 then."""
     name = str(path)
     rows = parse_rows(clean_text(read_bytes(path), name), name)
     if len(rows) == 0:
         raise refuse(name, wanted, "no numbers", "check that it is the right file")
     numbers = whole(table(rows, columns, name, wanted), name)
     low = int(one_based)
-    small = np.flatnonzero((numbers < low).any(axis=1))
+    small = np.flatnonzero((numbers < low - int(lost)).any(axis=1))
     if len(small):
         got = " ".join(map(str, numbers[small[0]]))
         habit = "are they counted from 0?" if one_based else "are they counted from 1?"
@@ -97,7 +97,7 @@ def write_landmarks(
         temporary.write_text("\n".join(lines) + "\n", encoding="utf-8")
 
 
-def read_vertex_numbers(path: str | Path, one_based: bool | None = None) -> np.ndarray:
+def read_vertex_numbers(path: str | Path, one_based: bool | None = None, *, lost: bool = False) -> np.ndarray:
     """Read a list of vertex numbers, one a line; ``#`` starts a comment.
 
     Parameters
@@ -105,11 +105,13 @@ def read_vertex_numbers(path: str | Path, one_based: bool | None = None) -> np.n
     path : str or Path
     one_based : bool, optional
         Whether the file counts vertices from 1; by default only a ``.vts`` file does.
+    lost : bool
+        Whether the number before the first may stand for no vertex.
 
     Returns
     -------
     (m,) int64
-        0-based.
+        0-based, −1 for no vertex.
 
     Raises
     ------
@@ -117,7 +119,7 @@ def read_vertex_numbers(path: str | Path, one_based: bool | None = None) -> np.n
         On a file that is missing, empty, or has a line of anything else.
     """
     one_based = _counts_from_one(path) if one_based is None else one_based
-    return _read_numbers(path, 1, one_based, "one whole number a line")[:, 0]
+    return _read_numbers(path, 1, one_based, "one whole number a line", lost)[:, 0]
 
 
 def write_vertex_numbers(

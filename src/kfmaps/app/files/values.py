@@ -38,7 +38,7 @@ class Values:
     columns: tuple[str, ...] | None = None
 
 
-def transfer(values_s: Any, target_to_source: Any, faces_s: np.ndarray | None = None) -> np.ndarray:
+def transfer(values_s: Any, target_to_source: Any, faces_s: np.ndarray | None = None, lost: Any = None) -> np.ndarray:
     """Carry values from the vertices of the source to those of the target.
 
     Parameters
@@ -50,6 +50,8 @@ def transfer(values_s: Any, target_to_source: Any, faces_s: np.ndarray | None = 
     faces_s : (f_s, 3) int64, optional
         The source's faces: with those, functions (floating numbers) are mixed between the corners of the points inside
         triangles that the map file has. Labels and whole numbers are those of the nearest vertex.
+    lost : optional
+        What target vertices without a counterpart get; by default NaN, for whole numbers −1, for texts the empty one.
 
     Returns
     -------
@@ -69,7 +71,9 @@ def transfer(values_s: Any, target_to_source: Any, faces_s: np.ndarray | None = 
     if n_s not in (None, len(values)):
         wanted = f"{n_s} rows, one per source vertex"
         raise refuse("values", wanted, str(len(values)), "check that they are the source's")
-    points = check_map(target_to_source, n_s=len(values))
+    points = check_map(target_to_source, n_s=len(values), lost=True)
+    if (points < 0).any():
+        return _with_gaps(values, target_to_source, points, faces_s, lost)
     place = target_to_source.place if isinstance(target_to_source, MapFile) else None
     if place is None or faces_s is None or values.dtype.kind != "f":
         return values[points]
@@ -80,6 +84,24 @@ def transfer(values_s: Any, target_to_source: Any, faces_s: np.ndarray | None = 
         axis=1
     )
     return np.where(unknown, values[points], mixed).astype(values.dtype)
+
+
+def _with_gaps(
+    values: np.ndarray, target_to_source: Any, points: np.ndarray, faces_s: np.ndarray | None, lost: Any
+) -> np.ndarray:
+    """:func:`transfer` of a map with vertices that have no counterpart."""
+    gone = points < 0
+    if lost is None:
+        lost = {"f": np.nan, "c": np.nan, "U": "", "i": -1}.get(values.dtype.kind)
+    if lost is None or (values.dtype.kind in "ui" and not np.can_cast(np.min_scalar_type(lost), values.dtype)):
+        got = f"{values.dtype}, and {gone.sum()} vertices without a counterpart"
+        raise refuse("values", "a kind with a value for vertices without counterpart", got, "give the value: lost=")
+    known = np.where(gone, points[~gone][0] if (~gone).any() else 0, points)
+    place = target_to_source.place if isinstance(target_to_source, MapFile) else None
+    extra = {} if place is None else {"place_faces": place.faces, "place_weights": place.weights}
+    found = np.array(transfer(values, MapFile(known, extra=extra), faces_s))
+    found[gone] = lost
+    return found
 
 
 def read_values(path: str | Path) -> Values:

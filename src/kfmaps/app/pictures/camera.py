@@ -162,7 +162,12 @@ def turn_between(source: Mesh, target: Mesh, target_to_source: np.ndarray | None
     halves = [np.eye(3), *(Rotation.from_rotvec(np.pi * axis).as_matrix() for axis in axes.T)]
     first, alike = np.eye(3), 0.0
     if target_to_source is not None:
-        first, alike = best_turn(a[target_to_source], b)
+        known = np.asarray(target_to_source) >= 0
+        if known.all():
+            first, alike = best_turn(a[target_to_source], b)
+        elif known.any():
+            ends = a[np.asarray(target_to_source)[known]], b[known]
+            first, alike = best_turn(*(x - x.mean(axis=0) for x in ends))
     if alike < LIKENESS:
         other = np.linalg.eigh(b.T @ b)[1]
         first = other @ np.diag([1, 1, np.sign(np.linalg.det(other @ axes.T))]) @ axes.T

@@ -26,10 +26,15 @@ def painted_errors(
     ----------
     source, target : Mesh
     target_to_source : (n_t,) int64
+        Vertices without a counterpart, −1, take the error of the nearest one too: they are to be painted over.
     truth_s, truth_t : (q,) int64
         Corresponding vertices, at least one. Of several truths for one target vertex the last counts.
     """
     errors = np.full(len(target.vertices), np.nan)
+    known = np.asarray(target_to_source)[truth_t] >= 0
+    if not known.any():
+        return np.zeros(len(target.vertices))
+    truth_s, truth_t = truth_s[known], truth_t[known]
     errors[truth_t] = geodesic_errors(source, truth_from_pairs(truth_s, truth_t, target_to_source), truth_s)
     endless = np.isinf(errors)  # on another component
     errors[endless] = max(errors[np.isfinite(errors)].max(initial=0.0), 1.0)

@@ -11,6 +11,7 @@ from matplotlib.figure import Figure
 from kfmaps._arrays import check_count, refuse
 from kfmaps.app.pictures.camera import View, automatic_view, following_view
 from kfmaps.app.pictures.colors import position_colors
+from kfmaps.app.pictures.matches import carried_colors
 from kfmaps.app.pictures.surfaces import draw_surface
 from kfmaps.surface.mesh import Mesh, surface_area
 
@@ -77,14 +78,14 @@ def grid_figure(
     view = view or automatic_view(source)
     for item in panels:
         n_t, points = len(item.mesh.vertices), np.asarray(item.target_to_source)
-        if points.shape != (n_t,) or points.min() < 0 or points.max() >= len(source.vertices):
+        if points.shape != (n_t,) or points.min() < -1 or points.max() >= len(source.vertices):
             wanted = f"{n_t} source vertices below {len(source.vertices)}"
             got = f"{points.shape} up to {points.max(initial=0)}"
             raise refuse(f"map to {item.label}", wanted, got, "check which mesh is which")
     cells = [(label, source, colors, view)]
     for item in panels:
         seen = following_view(view, source, item.mesh, item.target_to_source)
-        cells.append((item.label, item.mesh, colors[item.target_to_source], seen))
+        cells.append((item.label, item.mesh, carried_colors(colors, np.asarray(item.target_to_source)), seen))
 
     # All shapes at one scale, that of equal areas, in panels that hold the largest.
     half = np.max([_half(mesh, seen) / _scale(mesh) for _, mesh, _, seen in cells], axis=0) * 1.03

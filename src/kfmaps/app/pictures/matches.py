@@ -21,6 +21,8 @@ from kfmaps.surface.mesh import Mesh
 FORMATS = ("png", "svg", "pdf")
 DPI = 160
 TEXT = "#333333"
+LOST = 0.75
+"""Grey of target vertices without a counterpart."""
 PANEL = 3.4
 """Width of a panel in inches."""
 EACH = "give one per target vertex"
@@ -70,16 +72,21 @@ def save_figure(figure: Figure, file: str | Path | IO[bytes], kind: str | None =
 
 
 def _map_between(source: Mesh, target: Mesh, target_to_source: np.ndarray) -> np.ndarray:
-    """The map when it has a source vertex for each target vertex."""
+    """The map when it has a source vertex, or −1, for each target vertex."""
     carried = np.asarray(target_to_source)
     if not np.issubdtype(carried.dtype, np.integer):
         raise refuse("target_to_source", "whole numbers", f"dtype {carried.dtype}", "give vertex numbers")
     check(carried, "target_to_source", shape=(len(target.vertices),), remedy=EACH)
-    outside = carried[(carried < 0) | (carried >= len(source.vertices))]
+    outside = carried[(carried < -1) | (carried >= len(source.vertices))]
     if len(outside):
         wanted = f"vertex numbers from 0 to {len(source.vertices) - 1}"
         raise refuse("target_to_source", wanted, str(outside[0]), "check which mesh is the source")
     return carried
+
+
+def carried_colors(colors: np.ndarray, target_to_source: np.ndarray) -> np.ndarray:
+    """The source's ``colors (n_s, 3)`` at the target's vertices (n_t, 3), grey where there is no counterpart."""
+    return np.where(target_to_source[:, None] < 0, LOST, np.asarray(colors)[target_to_source])
 
 
 def match_figure(
@@ -100,7 +107,7 @@ def match_figure(
     ----------
     source, target : Mesh
     target_to_source : (n_t,)
-        A source vertex for each target vertex.
+        A source vertex for each target vertex; −1 where it has no counterpart, which is grey.
     errors : (n_t,), optional
         Geodesic errors in units of √area; given, a third panel shows them on the target with a colour bar.
     limit : float, optional
@@ -129,14 +136,20 @@ def match_figure(
     view_t = following_view(view_s, source, target, carried) if target_view is None else target_view
     panels = [
         ("source", source, colors, view_s),
-        ("target, coloured by the map", target, np.asarray(colors)[carried], view_t),
+        ("target, coloured by the map", target, carried_colors(colors, carried), view_t),
     ]
     width, height = 2 * PANEL, 4.4 + (0.4 if title else 0)
     shown, end = None, 0.0
     if errors is not None:
-        shown = check(np.asarray(errors, dtype=np.float64), "errors", shape=carried.shape, remedy=EACH)
-        end = error_limit(shown) if limit is None else limit
-        panels.append(("error on the target", target, error_colors(shown, end), view_t))
+        shown = (
+            np.where(carried < 0, 0.0, np.asarray(errors, dtype=np.float64))
+            if np.shape(errors) == carried.shape
+            else errors
+        )
+        shown = check(np.asarray(shown, dtype=np.float64), "errors", shape=carried.shape, remedy=EACH)
+        end = error_limit(shown[carried >= 0]) if limit is None else limit
+        painted = np.where(carried[:, None] < 0, LOST, error_colors(np.where(carried < 0, 0.0, shown), end))
+        panels.append(("error on the target", target, painted, view_t))
         width += PANEL + 0.7
 
     figure = Figure(figsize=(width, height), facecolor="white")
@@ -148,7 +161,7 @@ def match_figure(
     if shown is not None:
         place = (1 - 0.8 / width, bottom + 0.15 * (top - bottom), 0.12 / width, 0.7 * (top - bottom))
         scale = ScalarMappable(Normalize(0, end), ERROR_MAP)
-        over = "max" if shown.max() > end else "neither"
+        over = "max" if shown[carried >= 0].max(initial=0.0) > end else "neither"
         bar = figure.colorbar(scale, cax=figure.add_axes(place), extend=over, format=percent_ticks())
         bar.set_label(f"geodesic error ({UNIT})", color=TEXT, fontsize=9)
         bar.ax.tick_params(colors=TEXT, labelsize=8)

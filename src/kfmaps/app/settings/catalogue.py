@@ -219,6 +219,21 @@ CATALOGUE: dict[str, tuple[Setting, ...]] = {
         Setting("search.runners_up", int, "distinct other maps that are kept", "at least 0", kinds=("Search",)),
         Setting("search.signs", int, "low functions whose signs are tried", "0 to 10", kinds=("Search",)),
     ),
+    "Parts": (
+        Setting(
+            "partial.which",
+            str,
+            "which shape may be a part of the other; auto tells by boundaries and fit",
+            "auto, none, source, target, both",
+            "--partial",
+        ),
+        Setting(
+            "partial.units", str, "whether sizes of the shapes can be compared as given", "unknown, same", "--units"
+        ),
+        Setting("partial.samples", int, "points of the part that are matched first", "at least 20"),
+        Setting("partial.whole_samples", int, "points of the whole that they are matched with", "at least 20"),
+        Setting("partial.candidates", int, "scales of the part that are followed up", "at least 1"),
+    ),
     "Machine": (
         Setting("device", str, "cpu, or a PyTorch device", "cpu, cuda, cuda:1, ..., torch", "--device"),
         Setting("threads", int, "Python threads", "at least 1, or none: every core", "--threads"),

@@ -15,17 +15,20 @@ def area_distortion(source: Mesh, target: Mesh, target_to_source: np.ndarray) ->
 
     The area on the source of the images of the faces around a vertex over the area of those faces on the
     target, both shapes scaled to unit area. 0 keeps area, 1 doubles it, -1 halves it; faces collapsed to
-    nothing are held at -4. NaN where no face with area meets the vertex, and everywhere on point clouds.
+    nothing are held at -4. NaN where no face with area meets the vertex, around vertices without a counterpart (−1),
+    and everywhere on point clouds.
     """
     n = len(target.vertices)
     if len(target.faces) == 0 or len(source.faces) == 0:
         return np.full(n, np.nan)
+    lost = np.asarray(target_to_source) < 0
     image = face_areas(Mesh(source.vertices[target_to_source], target.faces)) / face_areas(source).sum()
     own = face_areas(target) / face_areas(target).sum()
     corners = target.faces.ravel()
     here = np.bincount(corners, np.repeat(own, 3), minlength=n)
     there = np.bincount(corners, np.repeat(image, 3), minlength=n)
     ratio = np.divide(there, here, out=np.full(n, np.nan), where=here > 0)
+    ratio[np.unique(target.faces[lost[target.faces].any(axis=1)])] = np.nan
     return np.log2(np.clip(ratio, 2.0**-4, 2.0**4))
 
 
@@ -37,6 +40,9 @@ def nearest_reached(source: Mesh, target_to_source: np.ndarray) -> np.ndarray:
     """
     n = len(source.vertices)
     reached = np.unique(target_to_source)
+    reached = reached[reached >= 0]
+    if len(reached) == 0:
+        return np.arange(n)
     nearest = np.full(n, -1, dtype=np.int64)
     if len(source.faces):
         ends = source.faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)
@@ -57,8 +63,11 @@ def nearest_reached(source: Mesh, target_to_source: np.ndarray) -> np.ndarray:
 
 def alignment(source: Mesh, target: Mesh, target_to_source: np.ndarray) -> np.ndarray:
     """The rotation, (3, 3), that turns the target's vertices best onto their matches (Kabsch 1976)."""
-    there = source.vertices[target_to_source]
-    here = target.vertices - target.vertices.mean(axis=0)
+    known = np.asarray(target_to_source) >= 0
+    if not known.any():
+        return np.eye(3)
+    there = source.vertices[np.asarray(target_to_source)[known]]
+    here = target.vertices[known] - target.vertices[known].mean(axis=0)
     u, _, vt = np.linalg.svd(here.T @ (there - there.mean(axis=0)))
     flip = np.diag([1.0, 1.0, np.sign(np.linalg.det(u @ vt)) or 1.0])
     return (u @ flip @ vt).T

@@ -25,9 +25,13 @@ def shape_record(mesh: Mesh, name: str) -> dict[str, Any]:
     return {"name": name, "positions": quantised(placed), "faces": packed(mesh.faces)}
 
 
-def source_record(mesh: Mesh, name: str) -> dict[str, Any]:
-    """As :func:`shape_record`, with the colours and texture coordinates that a map carries over."""
-    colours = np.rint(255 * position_colors(mesh)).astype(np.uint8)
+def source_record(mesh: Mesh, name: str, common: np.ndarray | None = None) -> dict[str, Any]:
+    """As :func:`shape_record`, with the colours and texture coordinates that a map carries over.
+
+    Grey where the vertices are not ``common`` (n_s,) to both shapes.
+    """
+    painted = position_colors(mesh) if common is None else np.where(common[:, None], position_colors(mesh), LOST)
+    colours = np.rint(255 * painted).astype(np.uint8)
     return {
         **shape_record(mesh, name),
         "colours": packed(colours),
@@ -36,13 +40,21 @@ def source_record(mesh: Mesh, name: str) -> dict[str, Any]:
 
 
 def map_record(source: Mesh, target: Mesh, target_to_source: np.ndarray, label: str) -> dict[str, Any]:
-    """A point map as the page reads it: the map, its links back from the source, its distortion of area."""
+    """A point map as the page reads it: the map, its links back from the source, its distortion of area.
+
+    A vertex without counterpart has the number after the source's last.
+    """
+    lost = target_to_source < 0
     return {
         "label": label,
-        "points": packed(target_to_source),
+        "points": packed(np.where(lost, len(source.vertices), target_to_source)),
         "nearest": packed(nearest_reached(source, target_to_source)),
         "distortion": quantised(area_distortion(source, target, target_to_source)),
     }
+
+
+LOST = 160 / 255
+"""Grey of vertices without a counterpart, as in the page's script."""
 
 
 def verdict_record(summary: Mapping[str, Any]) -> dict[str, Any] | None:
@@ -121,6 +133,7 @@ def result_page(
     summary: Mapping[str, Any] | None = None,
     names: tuple[str, str] = ("source", "target"),
     up: str | None = None,
+    common: np.ndarray | None = None,
 ) -> str:
     """One HTML file that shows a map: it needs no network, no server and nothing beside it.
 
@@ -129,7 +142,7 @@ def result_page(
     source, target : Mesh
         Surfaces, or point clouds.
     target_to_source : (n_t,) int
-        A source vertex for each target vertex.
+        A source vertex for each target vertex; −1 where there is none, which is grey.
     functional_map : (k_t, k_s), optional
         Shown as a picture.
     errors : (n_t,) or (1 + c, n_t), optional
@@ -149,6 +162,8 @@ def result_page(
         Any text, shown as text.
     up : {"x", "y", "z"}, optional
         The shapes' vertical axis; by default a good side is found. It can be changed in the page.
+    common : (n_s,) bool, optional
+        Of a part and a whole, which source vertices are on both; the others are grey.
 
     Returns
     -------
@@ -163,7 +178,7 @@ def result_page(
     check_up(up)
     check_count(most_descriptors, "most_descriptors", low=0)
     sizes = len(source.vertices), len(target.vertices)
-    points = [check_map(target_to_source, *sizes)]
+    points = [check_map(target_to_source, *sizes, lost=True)]
     points += [check_map(m, *sizes, f"runner-up {i}") for i, m in enumerate(runners_up, 1)]
     labels = ["Best"] + [f"Runner-up {i}" for i in range(1, len(points))]
     matrix = None
@@ -174,7 +189,7 @@ def result_page(
         "up": up or "auto",
         "views": views_record(source, target, points[0]),
         "verdict": verdict_record(summary or {}),
-        "source": source_record(source, names[0]),
+        "source": source_record(source, names[0], common),
         "target": shape_record(target, names[1]),
         "rotation": alignment(source, target, points[0]).ravel(),
         "maps": [map_record(source, target, m, label) for m, label in zip(points, labels, strict=True)],

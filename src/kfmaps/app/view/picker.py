@@ -166,7 +166,7 @@ def picker_server(picker: Picker, port: int = 0) -> PickerServer:
     def work(pairs: np.ndarray, progress: Progress) -> dict[str, Any]:
         assert picker.matcher is not None
         found = picker.matcher(pairs, progress)
-        points = check_map(found, len(picker.source.vertices), len(picker.target.vertices))
+        points = check_map(found, len(picker.source.vertices), len(picker.target.vertices), lost=True)
         maps.append(found)
         label = f"{len(pairs)} landmark" + ("" if len(pairs) == 1 else "s")
         sure = local_confidence(picker.source, picker.target, points)

@@ -42,6 +42,7 @@ def match_summary(match: Match) -> dict[str, Any]:
         "scores": list(match.scores),
         "size of the map": f"{k_t} × {k_s}",
         "started from": match.origin,
+        "parts": match.partial_reason if match.partial != "none" else None,
     }
     told: dict[str, Any] = {}
     if match.fit is not None:
@@ -91,6 +92,7 @@ def match_page(
         confidence=_confidences(source, target, maps, match.local_confidence),
         runners_up=match.runners_up,
         descriptors=signatures(source, target) if descriptors else None,
+        common=None if match.overlap_source is None else match.overlap_source > 0.5,
         summary=match_summary(match),
         names=names,
         up=up,
@@ -117,6 +119,7 @@ def map_page(
     others = found.extra.get("runners_up")
     others = np.zeros((0, len(target.vertices)), dtype=np.int64) if others is None else np.atleast_2d(others)
     maps = [found.target_to_source, *others]
+    overlap = found.extra.get("overlap_source")
     return result_page(
         source,
         target,
@@ -126,6 +129,7 @@ def map_page(
         confidence=_confidences(source, target, maps, found.extra.get("local_confidence")),
         runners_up=others,
         descriptors=signatures(source, target) if descriptors else None,
+        common=None if overlap is None else np.asarray(overlap) > 0.5,
         summary=summary,
         names=names,
         up=up,
@@ -135,7 +139,7 @@ def map_page(
 def _confidences(source: Mesh, target: Mesh, maps: Sequence[np.ndarray], known: Any) -> np.ndarray:
     """Confidence of each map at each target vertex, (m, n_t); ``known`` is that of the first, or ``None``."""
     sizes = len(source.vertices), len(target.vertices)
-    rows = [local_confidence(source, target, check_map(m, *sizes)) for m in maps[known is not None :]]
+    rows = [local_confidence(source, target, check_map(m, *sizes, lost=True)) for m in maps[known is not None :]]
     return np.stack(rows if known is None else [np.asarray(known), *rows])
 
 
@@ -151,7 +155,7 @@ def _json_of(text: Any) -> dict[str, Any]:
 
 
 def errors_against(source: Mesh, maps: Sequence[np.ndarray], truth_s: np.ndarray, truth_t: np.ndarray) -> np.ndarray:
-    """Geodesic error of each map at each target vertex, (m, n_t), in √area; NaN where the truth is not known.
+    """Geodesic error of each map at each target vertex, (m, n_t), in √area; NaN where the truth is not known, or the map has none.
 
     Parameters
     ----------
@@ -163,7 +167,10 @@ def errors_against(source: Mesh, maps: Sequence[np.ndarray], truth_s: np.ndarray
     rows = np.full((len(maps), len(maps[0])), np.nan)
     # All at once, so that one search from a true vertex serves every map.
     predicted = np.concatenate([truth_from_pairs(truth_s, truth_t, points) for points in maps])
-    rows[:, truth_t] = geodesic_errors(source, predicted, np.tile(truth_s, len(maps))).reshape(len(maps), -1)
+    known = predicted >= 0
+    errors = np.full(len(predicted), np.nan)
+    errors[known] = geodesic_errors(source, predicted[known], np.tile(truth_s, len(maps))[known])
+    rows[:, truth_t] = errors.reshape(len(maps), -1)
     return rows
 
 
