@@ -174,7 +174,7 @@ def lying_npz() -> bytes:
     ("content", "part"),
     [
         (npz(other=ONE), "wanted an array target_to_source, got other"),
-        (npz(target_to_source=ONE - 1), "source vertices from 0 on, got -1"),
+        (npz(target_to_source=ONE - 2), "source vertices from 0 on, got -2"),
         (npz(target_to_source=ONE + 0.5), "got fractions"),
         (npz(target_to_source=np.full(4, 1e300)), "source vertices from 0 on"),
         (npz(target_to_source=np.full(4, np.nan)), "finite"),
@@ -212,7 +212,7 @@ def test_names_that_cannot_be_kept() -> None:
 
 
 @pytest.mark.parametrize(
-    ("content", "part"), [("1 2\n", "line 1"), ("0\n1.5\n", "1.5"), ("-1\n", "from 0 on"), ("#\n", "no numbers")]
+    ("content", "part"), [("1 2\n", "line 1"), ("0\n1.5\n", "1.5"), ("-2\n", "from 0 on"), ("#\n", "no numbers")]
 )
 def test_text_that_is_no_map(tmp_path: Path, content: str, part: str) -> None:
     assert part in refused(tmp_path / "m.txt", content.encode())

@@ -95,8 +95,8 @@ def test_mat_text_as_matlab_writes_it(order: str, mark: bytes, codec: str) -> No
         (HEAD + b"IM" + matrix(flags=(4, 0)), "cut short or damaged"),
         (HEAD + b"IM" + matrix(flags=(4, 0), kind=16, body=b"\xff"), "cut short or damaged"),
         (HEAD + b"IM" + matrix(flags=(4, 0), kind=16, body=b"12"), "an array of numbers"),
-        (HEAD + b"IM" + matrix(body=struct.pack("<2d", 0, 1)), "source vertices from 0 on, got -1"),
-        (HEAD + b"IM" + matrix(shape=(1, 16), kind=2, body=bytes(16)), "source vertices from 0 on, got -1"),
+        (HEAD + b"IM" + matrix(body=struct.pack("<2d", 0, 1)), "numbers from 1 on, -1 for none, got 0"),
+        (HEAD + b"IM" + matrix(shape=(1, 16), kind=2, body=bytes(16)), "numbers from 1 on, -1 for none, got 0"),
     ],
 )
 def test_bad_mat(tmp_path: Path, content: bytes, part: str) -> None:

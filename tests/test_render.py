@@ -139,7 +139,7 @@ def _area(mesh: Mesh) -> float:
 def test_bad_grids() -> None:
     with pytest.raises(InvalidInput, match="at least one target"):
         grid_figure(blob(200), [])
-    for points in (np.arange(199), np.full(200, 200), np.full(200, -1)):
+    for points in (np.arange(199), np.full(200, 200), np.full(200, -2)):
         with pytest.raises(InvalidInput, match="map to x"):
             grid_figure(blob(200), [Panel("x", blob(200), points)])
 

@@ -79,6 +79,8 @@ REACHED: list[tuple[list[str], str, Any]] = [
     (["--finish", "none"], "finish", None),
     (["--candidates", "3"], "search.candidates", 3),
     (["--orientation", "reversed"], "search.orientation", "reversed"),
+    (["--partial", "target"], "partial.which", "target"),
+    (["--units", "same"], "partial.units", "same"),
     (["--device", "cuda:1"], "device", "cuda:1"),
     (["--threads", "2"], "threads", 2),
     (["--threads", "none"], "threads", None),
@@ -132,7 +134,7 @@ def paths(record: type) -> set[str]:
 
 def test_the_catalogue_knows_every_setting() -> None:
     """A new field must be added to app/settings/catalogue.py, and one that is gone taken out."""
-    sections = {"basis", "descriptors", "nystrom", "weights", "formulation"}
+    sections = {"basis", "descriptors", "nystrom", "weights", "formulation", "partial"}
     unions = {
         "kernel": KERNELS,
         "solver": (CG, Direct),
@@ -181,6 +183,8 @@ def test_assignment_reaches_every_setting(path: str) -> None:
         "preconditioner": "none",
         "search.orientation": "reversed",
         "search.signs": 7,
+        "partial.which": "both",
+        "partial.units": "same",
         "device": "cuda",
     }
     value: Any = (

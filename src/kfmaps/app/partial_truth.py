@@ -89,7 +89,8 @@ class PartAccuracy:
     errors : Evaluation
         In units of √area of the whole.
     matched : float
-        Part of the points with a known truth that the map gives a counterpart; the others are in no mean.
+        Part of the points with a known truth (of the true common area, where the source is the part) that the map gives
+        a counterpart; the others are in no mean.
     overlap : float or None
         Intersection over union, by area of the whole, of the common part found and the true one.
     missing : float
@@ -139,8 +140,11 @@ def part_accuracy(source: Mesh, target: Mesh, found: MapFile, truth: PartTruth, 
     share = None
     if ours is not None:
         share = float(areas[ours & true_common].sum() / max(areas[ours | true_common].sum(), 1e-300))
+    matched = float(known.mean())
+    if part == "source":
+        matched = float(areas[(points >= 0) & true_common].sum() / max(areas[true_common].sum(), 1e-300))
     missing = 1 - float(areas[true_common].sum() / areas.sum())
-    return PartAccuracy(errors, float(known.mean()), share, missing)
+    return PartAccuracy(errors, matched, share, missing)
 
 
 def common_vertices(found: MapFile, part: Side) -> np.ndarray | None:

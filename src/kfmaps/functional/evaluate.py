@@ -161,7 +161,8 @@ def error_curve(errors: np.ndarray, thresholds: np.ndarray) -> np.ndarray:
 def coverage(target_to_source: np.ndarray, source: Mesh) -> float:
     """Fraction of the source's area whose vertices are the image of some target vertex.
 
-    Those without counterpart, −1, reach none. Connected vertices in one place count as one; those that belong to no face count for nothing.
+    Those without counterpart, −1, reach none.
+    Connected vertices in one place count as one; those that belong to no face count for nothing.
     """
     check_is_mesh(source, "source")
     part = inside(source)

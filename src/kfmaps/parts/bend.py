@@ -91,7 +91,7 @@ def bent(
     steps: int = 5,
     progress: Callable[[float], None] | None = None,
 ) -> Bent:
-    """Bend ``part``, at unit area and times ``scale``, so that its vertices ``samples (q,)`` begin at ``places (q, 3)``.
+    """Bend ``part``, at unit area and times ``scale``; its vertices ``samples (q,)`` begin at ``places (q, 3)``.
 
     ``normals (q, 3)`` are the whole's there, ``trust (q,)`` how much each counts.
     """

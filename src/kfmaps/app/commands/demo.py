@@ -130,8 +130,8 @@ class Row:
 
     @property
     def error(self) -> float:
-        """Mean of ``errors``."""
-        return float(self.errors.mean())
+        """Mean of ``errors`` where there is a counterpart."""
+        return float(self.errors[self.points >= 0].mean())
 
 
 @dataclass(frozen=True, eq=False)
@@ -198,7 +198,7 @@ def compared(shape: str, vertices: int, landmarks: int, seed: int, *, quiet: boo
         without = replace(Config.no17(), refinement=ours.refinement)
         methods = (
             ("kernel", "no landmarks", automatic, None),
-            ("kernel", told, ours, pairs),
+            ("kernel", told, automatic if shape == "partial" else ours, pairs),
             ("no kernel (NO17)", told, without, pairs),
         )
         found = tuple(_row(*method, pair, shapes, seed, stages) for method in methods)
@@ -215,6 +215,8 @@ def _row(
     seed: int,
     stages: Callable[[str, float], None],
 ) -> Row:
+    import numpy as np
+
     from kfmaps.functional.evaluate import geodesic_errors
     from kfmaps.matching import match
 
@@ -224,7 +226,9 @@ def _row(
     found: Match = match(shapes[0], shapes[1], config, landmarks=landmarks, rng=seed)
     stages(name, 1.0)
     seconds = time.perf_counter() - start
-    errors = geodesic_errors(pair.source, found.target_to_source, pair.truth)
+    known = found.target_to_source >= 0
+    errors = np.full(len(known), np.nan)
+    errors[known] = geodesic_errors(pair.source, found.target_to_source[known], pair.truth[known])
     raw = found.raw_target_to_source
     raw_error = None if raw is None else float(geodesic_errors(pair.source, raw, pair.truth).mean())
     return Row(method, given, found.target_to_source, errors, raw_error, found.verdict, seconds)

@@ -179,9 +179,9 @@ def save_map(path: str | Path, mapfile: MapFile | Match, force: bool = False) ->
     """Write a map, or that of a match; the extension chooses the format.
 
     ``.npz`` and ``.mat`` hold everything: arrays under the names of :class:`MapFile` and ``extra``, texts as
-    0-d strings. In ``.mat`` vertex numbers count from 1, as MATLAB does, and lists are columns of doubles.
-    ``.txt`` and ``.vts`` hold ``target_to_source`` alone, one number a line, counted from 0 and from 1; of a vertex
-    without counterpart it is −1 and 0.
+    0-d strings. In ``.mat`` vertex numbers count from 1, as MATLAB does, −1 stays, and lists are columns of doubles.
+    ``.txt`` and ``.vts`` hold ``target_to_source`` alone, one number a line, counted from 0 and from 1; −1 where a
+    vertex has no counterpart.
 
     Raises
     ------
@@ -208,7 +208,7 @@ def save_map(path: str | Path, mapfile: MapFile | Match, force: bool = False) ->
         if suffix == ".npz":
             np.savez_compressed(file, **content)
         else:
-            shifted = {k: v + 1.0 if k in VERTEX_NUMBERS else v for k, v in content.items()}
+            shifted = {k: np.where(v < 0, -1.0, v + 1.0) if k in VERTEX_NUMBERS else v for k, v in content.items()}
             savemat(file, shifted, oned_as="column", do_compression=True)
 
 
@@ -302,5 +302,8 @@ def _mat_content(data: bytes, name: str) -> dict[str, Any]:
             content[key] = value[:, 0] if value.ndim == 2 and value.shape[1] == 1 else value
         if key in VERTEX_NUMBERS:
             # through float64, in which MATLAB keeps them: an unsigned 0 must not wrap around
-            content[key] = real(content[key], f"{name}: {key}").astype(np.float64) - 1
+            numbers = real(content[key], f"{name}: {key}").astype(np.float64)
+            if (numbers == 0).any():
+                raise refuse(f"{name}: {key}", "numbers from 1 on, -1 for none", "0", "a .mat file counts from 1")
+            content[key] = np.where(numbers == -1, -1, numbers - 1)
     return content

@@ -13,20 +13,21 @@ from kfmaps.app.files.text import clean_text, parse_rows, read_bytes, table, who
 
 
 def _read_numbers(path: str | Path, columns: int, one_based: bool, wanted: str, lost: bool = False) -> np.ndarray:
-    """The whole numbers of a text file, (rows, columns) int64, made 0-based; with ``lost`` they may be −1 then."""
+    """The whole numbers of a text file, (rows, columns) int64, made 0-based; with ``lost`` a −1 may be among them, and stays."""
     name = str(path)
     rows = parse_rows(clean_text(read_bytes(path), name), name)
     if len(rows) == 0:
         raise refuse(name, wanted, "no numbers", "check that it is the right file")
     numbers = whole(table(rows, columns, name, wanted), name)
     low = int(one_based)
-    small = np.flatnonzero((numbers < low - int(lost)).any(axis=1))
+    gone = (numbers == -1) & lost
+    small = np.flatnonzero(((numbers < low) & ~gone).any(axis=1))
     if len(small):
         got = " ".join(map(str, numbers[small[0]]))
         habit = "are they counted from 0?" if one_based else "are they counted from 1?"
         remedy = f"check the numbers; {habit}" if low and numbers.min() == 0 else "check the numbers"
         raise refuse(f"{name}, line {rows.lines[small[0]]}", f"vertex numbers from {low} on", got, remedy)
-    return numbers - low
+    return np.where(gone, -1, numbers - low)
 
 
 FROM_ZERO = b"# source target, counted from 0"
@@ -106,7 +107,7 @@ def read_vertex_numbers(path: str | Path, one_based: bool | None = None, *, lost
     one_based : bool, optional
         Whether the file counts vertices from 1; by default only a ``.vts`` file does.
     lost : bool
-        Whether the number before the first may stand for no vertex.
+        Whether −1 may stand for no vertex.
 
     Returns
     -------
@@ -125,9 +126,10 @@ def read_vertex_numbers(path: str | Path, one_based: bool | None = None, *, lost
 def write_vertex_numbers(
     path: str | Path, numbers: np.ndarray, one_based: bool | None = None, *, force: bool = False
 ) -> None:
-    """Write 0-based ``numbers`` (m,) so that :func:`read_vertex_numbers` reads them back."""
+    """Write 0-based ``numbers`` (m,), −1 for no vertex as it is, so that :func:`read_vertex_numbers` reads them back."""
     one_based = _counts_from_one(path) if one_based is None else one_based
     numbers = check(np.asarray(numbers), "vertex numbers", shape=(None,), remedy="give a list")
     with atomic_output(path, force) as temporary:
-        lines = map(str, (numbers.astype(np.int64) + int(one_based)).tolist())
+        numbers = numbers.astype(np.int64)
+        lines = map(str, np.where(numbers == -1, -1, numbers + int(one_based)).tolist())
         temporary.write_text("\n".join(lines) + "\n", encoding="ascii")

@@ -141,12 +141,9 @@ def match_figure(
     width, height = 2 * PANEL, 4.4 + (0.4 if title else 0)
     shown, end = None, 0.0
     if errors is not None:
-        shown = (
-            np.where(carried < 0, 0.0, np.asarray(errors, dtype=np.float64))
-            if np.shape(errors) == carried.shape
-            else errors
-        )
-        shown = check(np.asarray(shown, dtype=np.float64), "errors", shape=carried.shape, remedy=EACH)
+        given = np.asarray(errors, dtype=np.float64)
+        given = np.where(carried < 0, 0.0, given) if given.shape == carried.shape else given
+        shown = check(given, "errors", shape=carried.shape, remedy=EACH)
         end = error_limit(shown[carried >= 0]) if limit is None else limit
         painted = np.where(carried[:, None] < 0, LOST, error_colors(np.where(carried < 0, 0.0, shown), end))
         panels.append(("error on the target", target, painted, view_t))

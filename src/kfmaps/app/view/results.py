@@ -155,7 +155,9 @@ def _json_of(text: Any) -> dict[str, Any]:
 
 
 def errors_against(source: Mesh, maps: Sequence[np.ndarray], truth_s: np.ndarray, truth_t: np.ndarray) -> np.ndarray:
-    """Geodesic error of each map at each target vertex, (m, n_t), in √area; NaN where the truth is not known, or the map has none.
+    """Geodesic error of each map at each target vertex, (m, n_t), in √area.
+
+    NaN where the truth is not known, or a vertex has no counterpart.
 
     Parameters
     ----------
