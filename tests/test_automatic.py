@@ -8,7 +8,7 @@ import pytest
 from conftest import blob, fibonacci_sphere
 from kfmaps._arrays import InvalidInput
 from kfmaps.app.datasets import partial, symmetric_creature
-from kfmaps.config import BasisConfig, Config, NystromConfig, Search
+from kfmaps.config import BasisConfig, Config, NystromConfig, Partial, Search
 from kfmaps.descriptors.shot import shot
 from kfmaps.fit.shape import prepare
 from kfmaps.functional.evaluate import geodesic_errors
@@ -187,7 +187,7 @@ def test_a_verdict_follows_the_score_and_the_margin():
 
 def test_a_part_is_not_called_a_match():
     pair = partial(2500, rng=0)
-    found = match(pair.source, pair.target, replace(Config.automatic(), threads=2))
+    found = match(pair.source, pair.target, replace(Config.automatic(), threads=2, partial=Partial("none")))
     assert geodesic_errors(pair.source, found.target_to_source, pair.truth).mean() > 0.1
     assert found.verdict != "sure"
     assert found.scores[0] < MIDDLE

@@ -24,6 +24,7 @@ from kfmaps.config import Config as Config
 from kfmaps.config import DescriptorConfig as DescriptorConfig
 from kfmaps.config import Formulation as Formulation
 from kfmaps.config import NystromConfig as NystromConfig
+from kfmaps.config import Partial as Partial
 from kfmaps.config import Search as Search
 from kfmaps.config import Weights as Weights
 from kfmaps.fit.shape import Shape as Shape

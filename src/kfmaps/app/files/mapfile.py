@@ -303,7 +303,7 @@ def _mat_content(data: bytes, name: str) -> dict[str, Any]:
         if key in VERTEX_NUMBERS:
             # through float64, in which MATLAB keeps them: an unsigned 0 must not wrap around
             numbers = real(content[key], f"{name}: {key}").astype(np.float64)
-            if (numbers == 0).any():
+            if key == "target_to_source" and (numbers == 0).any():
                 raise refuse(f"{name}: {key}", "numbers from 1 on, -1 for none", "0", "a .mat file counts from 1")
-            content[key] = np.where(numbers == -1, -1, numbers - 1)
+            content[key] = np.where((numbers == -1) & (key == "target_to_source"), -1, numbers - 1)
     return content

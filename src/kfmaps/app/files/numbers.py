@@ -13,7 +13,7 @@ from kfmaps.app.files.text import clean_text, parse_rows, read_bytes, table, who
 
 
 def _read_numbers(path: str | Path, columns: int, one_based: bool, wanted: str, lost: bool = False) -> np.ndarray:
-    """The whole numbers of a text file, (rows, columns) int64, made 0-based; with ``lost`` a −1 may be among them, and stays."""
+    """The whole numbers of a text file, (rows, columns) int64, made 0-based; a −1 stays where ``lost`` allows it."""
     name = str(path)
     rows = parse_rows(clean_text(read_bytes(path), name), name)
     if len(rows) == 0:
@@ -126,7 +126,7 @@ def read_vertex_numbers(path: str | Path, one_based: bool | None = None, *, lost
 def write_vertex_numbers(
     path: str | Path, numbers: np.ndarray, one_based: bool | None = None, *, force: bool = False
 ) -> None:
-    """Write 0-based ``numbers`` (m,), −1 for no vertex as it is, so that :func:`read_vertex_numbers` reads them back."""
+    """Write 0-based ``numbers`` (m,) so that :func:`read_vertex_numbers` reads them back; −1 stays."""
     one_based = _counts_from_one(path) if one_based is None else one_based
     numbers = check(np.asarray(numbers), "vertex numbers", shape=(None,), remedy="give a list")
     with atomic_output(path, force) as temporary:
