@@ -281,6 +281,15 @@ MUTANTS = tuple(
         ("decay = np.exp(-values * time)", "decay = np.exp(-2 * values * time)", f"{MATCH} -k landmark"),
         ("scale = [np.sqrt(w / present[0][0])", "scale = [(w / present[0][0])", "test_search -k joined"),
         # formulations
+        ("damped = stiffness / (1.0 + stiffness)", "damped = 1.0", "test_formulations -k transport"),
+        ("(leaving[:, None] * self.functions_s)", "self.functions_s", "test_formulations -k majorizer"),
+        (
+            "cost = 0.5 * squares - functions_t @ images.T",
+            "cost = squares - functions_t @ images.T",
+            "test_formulations -k majorizer",
+        ),
+        ("noise = np.asarray(gap) / len(lessons) + RIDGE", "noise = RIDGE", "test_learn -k metric_starts"),
+        ("0.5 * (1 + math.cos(math.pi", "0.5 * (2 + math.cos(math.pi", "test_learn -k rate_falls"),
         ("2 * d * np.sqrt(e) - d * d)", "2 * d * np.sqrt(e))", f"{FORMULAS} -k losses"),
         ("return d / np.sqrt(np.maximum(e, d * d))", "return d / np.maximum(e, d)", "test_formulations -k loss_weight"),
         ("return (d * d / (d * d + e)) ** 2", "return d * d / (d * d + e)", "test_formulations -k loss_weight"),

@@ -288,6 +288,16 @@ def function_lines(found: dict[str, Rows]) -> list[str]:
     return lines
 
 
+WORDS = {
+    "linear": "no kernel",
+    "gaussian": "default kernel",
+    "squared": "squares",
+    "huber": "Huber",
+    "geman": "Geman and McClure",
+}
+"""What pictures call kernels and losses."""
+
+
 def draw(main: dict[str, Rows], wrong: dict[str, Rows]) -> Figure:
     """Errors of each formulation without and with the kernel, and against the share of wrong landmarks."""
     collection = next(iter(main))
@@ -297,17 +307,20 @@ def draw(main: dict[str, Rows], wrong: dict[str, Rows]) -> Figure:
     colors = {("linear", 10): style.ORANGE, ("gaussian", 10): style.BLUE}
     for i, ((kernel, count), color) in enumerate(colors.items()):
         values = [column(rows, "raw", **_at(name, kernel, count)).mean() for name in names]
-        axes[0].barh(places + 0.38 * (i - 0.5), values, 0.36, color=color, label=f"{kernel} kernel")
+        axes[0].barh(places + 0.38 * (i - 0.5), values, 0.36, color=color, label=WORDS[kernel])
     axes[0].set_yticks(places, names)
     axes[0].invert_yaxis()
-    axes[0].legend(fontsize=7, frameon=False)
+    axes[0].set_xlim(0, 1.35 * axes[0].get_xlim()[1])  # room for the names
+    axes[0].legend(fontsize=7, frameon=False, loc="upper right")
     style.labels(axes[0], "mean error × 100, 10 descriptors", "", collection)
     for loss, color in zip(LOSSES, (style.BLACK, style.SKY, style.GREEN, style.VERMILION), strict=False):
         for kernel, dashes in zip(KERNELS, ("dashed", "solid"), strict=True):
             part = wrong[collection]
             shares = sorted({row["wrong"] for row in part})
             values = [column(part, "raw", loss=loss, kernel=kernel, wrong=share).mean() for share in shares]
-            axes[1].plot(100 * np.array(shares), values, color=color, linestyle=dashes, label=f"{loss}, {kernel}")
+            axes[1].plot(
+                100 * np.array(shares), values, color=color, linestyle=dashes, label=f"{WORDS[loss]}, {WORDS[kernel]}"
+            )
     axes[1].legend(fontsize=7, frameon=False)
     style.labels(axes[1], "wrong landmarks of 20 (%)", "mean error × 100", "robust losses")
     return figure
