@@ -17,6 +17,7 @@ from conftest import blob
 from kfmaps import InvalidInput, KfmapsWarning, Mesh
 from kfmaps.app.files import MapFile, write_landmarks
 from kfmaps.app.inputs import as_map, as_mesh
+from kfmaps.surface.mesh import surface_area
 
 MESH = blob(200)
 V, F = MESH.vertices, MESH.faces
@@ -151,7 +152,7 @@ def test_inverse(shuffled: kfmaps.Match) -> None:
     """Of a one-to-one map the inverse; else what it gives lands where it should, or as near as any does."""
     np.testing.assert_array_equal(shuffled.inverse(), np.argsort(ORDER))
     points = np.sort(np.random.default_rng(0).integers(0, 200, 200))
-    crowded = replace(shuffled, target_to_source=points, target=MESH)
+    crowded = replace(shuffled, target_to_source=points, target=MESH, place=None)
     back = crowded.inverse()
     reached = np.unique(points)
     np.testing.assert_array_equal(points[back[reached]], reached)
@@ -160,6 +161,27 @@ def test_inverse(shuffled: kfmaps.Match) -> None:
         middle = V[there].mean(axis=0)
         assert np.linalg.norm(V[back[vertex]] - middle) <= np.linalg.norm(V[there] - middle, axis=1).min() + 1e-12
     assert set(points[back]) <= set(reached)
+
+
+def test_the_inverse_is_finer_where_the_map_is() -> None:
+    """Points inside triangles of the target: nearer to the truth than the vertices on which the target's land."""
+    pair = kfmaps.datasets.two_poses(1500, rng=6)
+    place = kfmaps.PointMap(pair.truth_faces, pair.truth_weights)
+    plain = kfmaps.match(pair.source, pair.target, replace(QUICK, finish=None))
+    coarse = replace(plain, target_to_source=pair.truth)
+    fine = replace(coarse, place=place)
+    back = fine.precise_inverse()
+    there = np.einsum("si,sij->sj", back.weights, pair.target.vertices[pair.target.faces[back.faces]])
+    true = np.einsum("ti,tij->tj", place.weights, pair.source.vertices[pair.source.faces[place.faces]])
+    # Carried back through the true map, linear in the target's faces, each source vertex is where it was.
+    again = np.einsum("si,sij->sj", back.weights, true[pair.target.faces[back.faces]])
+    edge = np.sqrt(surface_area(pair.source) / len(pair.source.faces))
+    assert np.linalg.norm(again - pair.source.vertices, axis=1).mean() < 0.1 * edge
+    corners = fine.inverse()
+    away = np.linalg.norm(pair.target.vertices[pair.target.faces[back.faces]] - there[:, None], axis=2)
+    np.testing.assert_allclose(np.linalg.norm(pair.target.vertices[corners] - there, axis=1), away.min(axis=1))
+    off = [np.linalg.norm(true[found] - pair.source.vertices, axis=1).mean() for found in (corners, coarse.inverse())]
+    assert off[0] < off[1]
 
 
 def test_picture_and_page_of_a_map(shuffled: kfmaps.Match, tmp_path: Path) -> None:

@@ -28,6 +28,7 @@ from kfmaps.app.view.fields import nearest_reached
 from kfmaps.config import Config
 from kfmaps.fit.shape import Shape
 from kfmaps.fit.shape import prepare as prepared
+from kfmaps.functional.precise import PointMap, inverse, vertices_of
 from kfmaps.surface.mesh import Mesh
 
 if TYPE_CHECKING:
@@ -91,7 +92,8 @@ class Match(matching.Match):
     def inverse(self) -> np.ndarray:
         """A target vertex for each source vertex, (n_s,) int64.
 
-        One that lands on it or, where none does, on the nearest source vertex (along the edges) that any lands on; of
+        Where the match has points inside triangles, the corner that is nearest to :meth:`precise_inverse`. Else one
+        that lands on it or, where none does, on the nearest source vertex (along the edges) that any lands on; of
         several the one nearest to the middle of them all. Of a one-to-one map it is the inverse. −1 outside the part
         that both shapes have.
         """
@@ -100,6 +102,8 @@ class Match(matching.Match):
         places = self.target.vertices[known]
         if len(known) == 0:
             return np.full(n_s, -1, dtype=np.int64)
+        if self.place is not None and self.overlap_source is None:
+            return vertices_of(self.precise_inverse(), self.target)
         count = np.bincount(points, minlength=n_s)
         middle = np.stack([np.bincount(points, axis, minlength=n_s) for axis in places.T], axis=1)
         middle /= np.maximum(count, 1)[:, None]
@@ -109,6 +113,16 @@ class Match(matching.Match):
         central = order[np.minimum(first, len(points) - 1)]
         found = known[central[nearest_reached(self.source, points)]].astype(np.int64)
         return found if self.overlap_source is None else np.where(self.overlap_source > 0.5, found, -1)
+
+    def precise_inverse(self) -> PointMap:
+        """A point inside a triangle of the target for each source vertex: the inverse of :meth:`precise`.
+
+        Raises
+        ------
+        InvalidInput
+            When one of the shapes is a point cloud.
+        """
+        return inverse(self.precise(), self.source, self.target)
 
 
 def match(
