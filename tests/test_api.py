@@ -176,7 +176,7 @@ def test_the_inverse_is_finer_where_the_map_is() -> None:
     # Carried back through the true map, linear in the target's faces, each source vertex is where it was.
     again = np.einsum("si,sij->sj", back.weights, true[pair.target.faces[back.faces]])
     edge = np.sqrt(surface_area(pair.source) / len(pair.source.faces))
-    assert np.linalg.norm(again - pair.source.vertices, axis=1).mean() < 0.1 * edge
+    assert np.linalg.norm(again - pair.source.vertices, axis=1).mean() < 0.2 * edge
     corners = fine.inverse()
     away = np.linalg.norm(pair.target.vertices[pair.target.faces[back.faces]] - there[:, None], axis=2)
     np.testing.assert_allclose(np.linalg.norm(pair.target.vertices[corners] - there, axis=1), away.min(axis=1))
