@@ -336,3 +336,21 @@ def test_what_is_one_map_is_not_two_candidates() -> None:
     assert better(near, one) is near
     assert better(one, Judged(-C, -1.0, 0.9)) is one
     assert better(one, Judged(C, -1.0, 0.9, True)) is one
+
+
+def test_a_loose_map_is_exchanged_for_a_better_one_alone() -> None:
+    latent, pairs = rotations(6, size=20), every(6)
+    rng = np.random.default_rng(3)
+    maps = [[Judged(latent[b] @ latent[a].T + 0.005 * rng.normal(size=(20, 20)), -5.0, 0.9)] for a, b in pairs]
+    loose = orthogonal(maps[4][0].map + 0.08 * rng.normal(size=(20, 20)))
+    maps[4] = [Judged(loose, -6.0, 0.9)]
+    a, b = pairs[4]
+
+    def compose(score: float):
+        return lambda ways: [Judged(latent[b] @ latent[a].T, score, 0.9) for _ in ways]
+
+    (change,) = repaired(6, pairs, maps, compose(-5.2)).changes
+    assert (change.link, change.kind, change.improved) == (4, "composition", True)
+    assert change.misfit_after < change.misfit_before
+    assert change.before == change.after > 0.5
+    assert not repaired(6, pairs, maps, compose(-5.9)).changes  # hardly better

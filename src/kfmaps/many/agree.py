@@ -126,7 +126,7 @@ def _annealed(latent: np.ndarray, links: list[Link], maps: list[np.ndarray], odd
     limit = SPARE[1]
     chances = [_chances(np.zeros(len(o)), o, limit, 1.0) for o in odds]
     for level in range(LEVELS):
-        misfits = [_misfits(C, latent[a.source], latent[a.target]) for C, a in zip(maps, links, strict=True)]
+        misfits = [misfits_of(C, latent[a.source], latent[a.target]) for C, a in zip(maps, links, strict=True)]
         typical = [float(m[p[:-1].argmax()]) for m, p in zip(misfits, chances, strict=True) if p[-1] < 0.5]
         limit = float(np.clip(FAR * np.median(typical), *SPARE)) if typical else SPARE[1]
         # At first the tolerance is that of any map, at last a third of the limit.
@@ -136,13 +136,13 @@ def _annealed(latent: np.ndarray, links: list[Link], maps: list[np.ndarray], odd
         latent = _settled(latent, links, mean)
     for _ in range(RECONSIDERED):
         latent, moved = _reconsidered(latent, links, maps, odds, limit)
-        misfits = [_misfits(C, latent[a.source], latent[a.target]) for C, a in zip(maps, links, strict=True)]
+        misfits = [misfits_of(C, latent[a.source], latent[a.target]) for C, a in zip(maps, links, strict=True)]
         chances = [_chances(m, o, limit, limit / 3) for m, o in zip(misfits, odds, strict=True)]
         if not moved:
             break
         mean = [np.tensordot(p[:-1], C, axes=1) for p, C in zip(chances, maps, strict=True)]
         latent = _settled(latent, links, mean)
-    misfits = [_misfits(C, latent[a.source], latent[a.target]) for C, a in zip(maps, links, strict=True)]
+    misfits = [misfits_of(C, latent[a.source], latent[a.target]) for C, a in zip(maps, links, strict=True)]
     chances = [_chances(m, o, limit, limit / 3) for m, o in zip(misfits, odds, strict=True)]
     return Agreement(latent, tuple(chances), tuple(misfits), limit)
 
@@ -161,7 +161,7 @@ def _reconsidered(
         total = 0.0
         for i in around[v]:
             ends = (Y, latent[links[i].target]) if links[i].source == v else (latent[links[i].source], Y)
-            total += _worth(_misfits(maps[i], *ends), odds[i], limit)
+            total += _worth(misfits_of(maps[i], *ends), odds[i], limit)
         return total
 
     for v, near in enumerate(around):
@@ -189,7 +189,7 @@ def _chances(misfits: np.ndarray, odds: np.ndarray, limit: float, spread: float)
     return grown / grown.sum()
 
 
-def _misfits(maps: np.ndarray, source: np.ndarray, target: np.ndarray) -> np.ndarray:
+def misfits_of(maps: np.ndarray, source: np.ndarray, target: np.ndarray) -> np.ndarray:
     """``‖C Y_s − Y_t‖² / k`` for each of ``maps (c, k, k)``: (c,)."""
     return ((maps @ source - target) ** 2).sum(axis=(1, 2)) / len(source)
 

@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from kfmaps.many.agree import FUNCTIONS, SAY, Agreement, Link, agree
+from kfmaps.many.agree import FAR, FUNCTIONS, SAY, Agreement, Link, agree, misfits_of
 from kfmaps.many.judge import TURNED, Judged, better, choices, same
 from kfmaps.many.paths import Way, best_way
 from kfmaps.many.signs import hands
@@ -26,6 +26,8 @@ RIGHT = 0.5
 """... for another of at least this one."""
 SAFE = 0.3
 """Probability that all maps of a way round are right, below which it is not gone."""
+BETTER = 0.3
+"""How much better a composition must score to be put in the place of a map that is right on the whole."""
 SHORT = 3
 """Ways of two steps by the maps in use that are tried for a doubted pair."""
 ROUNDS = 3
@@ -79,6 +81,8 @@ class Change:
         How far each is from what the rest of the collection says, see :class:`kfmaps.many.agree.Agreement`.
     contradicts : bool
         Whether the map that was in use is of another orientation than it claims, or than the collection agrees on.
+    improved : bool
+        Whether that map was right on the whole, and a way round merely fits better.
     """
 
     link: int
@@ -92,6 +96,7 @@ class Change:
     misfit_before: float = 0.0
     misfit_after: float = 0.0
     contradicts: bool = False
+    improved: bool = False
 
 
 @dataclass(frozen=True, eq=False)
@@ -163,7 +168,55 @@ def repaired(
         for number in range(len(ends))
         if (change := _change(number, known[number], len(maps[number]), ways[number], found, signs, ends)) is not None
     ]
-    return Repaired(found, tuple(changes), signs)
+    changes += _improved(count, ends, known, ways, found, compose, {change.link for change in changes})
+    return Repaired(found, tuple(sorted(changes, key=lambda change: change.link)), signs)
+
+
+def _improved(
+    count: int,
+    ends: Sequence[tuple[int, int]],
+    maps: Sequence[Sequence[Judged]],
+    ways: Sequence[Sequence[Round]],
+    found: Agreement,
+    compose: Compose,
+    done: set[int],
+) -> list[Change]:
+    """Maps that are right on the whole and loose in part, exchanged where a way round fits better and scores better.
+
+    Loose are those whose misfit is beyond :data:`kfmaps.many.agree.FAR` times what is usual.
+    """
+    own = np.array([misfits[0] for misfits in found.misfits])
+    usual = float(np.median(own)) if len(own) else 0.0
+    asked = []
+    for number in np.flatnonzero(own > FAR * usual + 1e-9).tolist():
+        if number in done or found.chances[number][0] < DOUBT:
+            continue
+        best = way_round(count, ends, found, number, ways)
+        offered = [best, *in_use(ends, maps, number)]
+        seen = {way.steps: way for way in offered if way is not None}
+        asked += [(number, way) for way in seen.values()]
+    better_ones: dict[int, Change] = {}
+    for (number, way), made in zip(asked, compose(asked) if asked else [], strict=True):
+        a, b = ends[number]
+        size = found.latent.shape[1]
+        misfit = float(misfits_of(made.map[None, :size, :size], found.latent[a], found.latent[b])[0])
+        first, before = maps[number][0], better_ones.get(number)
+        least = first.score + BETTER if before is None else before.score_after
+        if made.score > least and misfit < own[number] and made.reversed == first.reversed:
+            chance = float(found.chances[number][0])
+            better_ones[number] = Change(
+                number,
+                "composition",
+                way=way,
+                before=chance,
+                after=chance,
+                score_before=first.score,
+                score_after=made.score,
+                misfit_before=float(own[number]),
+                misfit_after=misfit,
+                improved=True,
+            )
+    return list(better_ones.values())
 
 
 def _offer(maps: list[Judged], ways: list[Round], made: Judged, way: Round) -> None:

@@ -135,7 +135,7 @@ def write_outputs(
     except MissingDependency:
         (plan.folder / COLUMNS).unlink(missing_ok=True)  # one of an earlier run would be out of date
     pictures = {} if agreed is None else changed_pictures(plan.tasks, agreed, worst)
-    shown = worst_first(results)[:worst] + [r for r in results if r.changed][:worst]
+    shown = worst_first(results)[:worst] + [r for r in results if r.changed][: 2 * worst]
     pages = write_pages(plan.folder, plan.tasks, shown)
     worse = worst_pictures(plan.tasks, results, worst)
     pairs = len({(r.source, r.target) for r in results} | {(t.pair.source, t.pair.target) for t in plan.tasks})

@@ -77,11 +77,15 @@ def kind_of(change: Change, through: Sequence[str]) -> str:
 
 def reason_of(change: Change) -> str:
     """Why, in words."""
+    scores = f"score {change.score_before:.1f}, now {change.score_after:.1f}"
+    if change.improved:
+        misfits = f"by {change.misfit_before:.2f}, and this by {change.misfit_after:.2f}"
+        return f"it strays from what other pairs say, {misfits}; {scores}"
     told = [f"other pairs leave it a probability of {change.before:.1%}, and this {change.after:.0%}"]
     if change.kind == "none":
         told = [f"other pairs leave it a probability of {change.before:.1%}, and no other map is probable"]
     told += ["it is of another orientation than it claims"] if change.contradicts else []
-    told += [f"score {change.score_before:.1f}, now {change.score_after:.1f}"] if change.kind != "none" else []
+    told += [scores] if change.kind != "none" else []
     return "; ".join(told)
 
 

@@ -21,6 +21,9 @@ from kfmaps.app.files import check_map, load_map, read_mesh
 from kfmaps.app.pictures import match_figure, painted_errors, save_figure, true_views
 from kfmaps.app.words import UNIT, percent
 
+TEXT = 18.0
+"""Letters in points: the pictures are shown at half their size."""
+
 
 def pair_picture(task: PairTask, limit: float = 0.1, path: Path | None = None) -> bytes:
     """The PNG of a matched pair: source, target in the source's colours, and the error when the truth is known.
@@ -44,7 +47,8 @@ def pair_picture(task: PairTask, limit: float = 0.1, path: Path | None = None) -
             errors = painted_errors(source, target, points, truth.source, truth.target)
             views = true_views(source, target, truth.source, truth.target)
     buffer = io.BytesIO()
-    figure = match_figure(source, target, points, errors=errors, limit=limit, view=views[0], target_view=views[1])
+    seen = {"view": views[0], "target_view": views[1]}
+    figure = match_figure(source, target, points, errors=errors, limit=limit, text=TEXT, **seen)
     save_figure(figure, buffer, "png")
     return buffer.getvalue()
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import base64
 import csv
 import io
+import warnings
 from html import escape
 from pathlib import Path
 
@@ -12,6 +13,7 @@ import matplotlib
 import numpy as np
 from matplotlib.figure import Figure
 
+from kfmaps._arrays import KfmapsWarning
 from kfmaps.app.batch.evidence import FOLDER
 from kfmaps.app.batch.plan import Plan
 from kfmaps.app.batch.specimens import KINDS, LATENT, SHAPES
@@ -70,7 +72,9 @@ def _varied(plan: Plan, known: dict[str, np.ndarray]) -> str:
     path = next((t.path for task in plan.tasks for t in (task.source, task.target) if t.name == name), None)
     if path is None or not Path(path).exists():
         return ""
-    mesh = read_mesh(path)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", KfmapsWarning)  # the run has noted them
+        mesh = read_mesh(path)
     values = {f"{kind} differs by": known[f"variation_{kind}"] for kind in KINDS}
     if any(len(v) != len(mesh.vertices) for v in values.values()):
         return ""

@@ -40,10 +40,10 @@ def _percent(value: float | str) -> str:
 
 
 COLUMNS = (
-    Column(f"mean ({UNIT})", lambda r: r.error_mean, _percent, bar=True),
-    Column(f"median ({UNIT})", lambda r: r.error_median, _percent),
-    Column(f"max ({UNIT})", lambda r: r.error_max, _percent),
-    Column(f"mirrored ({UNIT})", lambda r: r.mirrored_mean, _percent),
+    Column("mean", lambda r: r.error_mean, _percent, bar=True),
+    Column("median", lambda r: r.error_median, _percent),
+    Column("max", lambda r: r.error_max, _percent),
+    Column("mirrored", lambda r: r.mirrored_mean, _percent),
     Column("verdict", lambda r: r.verdict or None),
     Column("confidence", lambda r: r.confidence, lambda v: f"{float(v):.3g}"),
     Column("local confidence", lambda r: r.local_confidence, lambda v: f"{float(v):.2f}"),
@@ -71,7 +71,8 @@ def pairs_table(results: Sequence[Result], pages: dict[tuple[str, str], str]) ->
         cells = "".join(_cell(c, c.value(r), _numeric(c, rows), most.get(c.title, 0.0)) for c in columns)
         body.append(f"<tr{' class=bad' if wrong else ''}>{names(r, pages)}{cells}</tr>")
     table = f'<table class="sorts"><thead><tr>{head}</tr></thead><tbody>{"".join(body)}</tbody></table>'
-    return f'<h2>All pairs, worst first</h2><div class="scroll">{table}</div>'
+    unit = f" (errors in {UNIT})" if any(r.error_mean is not None for r in rows) else ""
+    return f'<h2>All pairs, worst first{unit}</h2><div class="scroll">{table}</div>'
 
 
 def names(result: Result, pages: dict[tuple[str, str], str]) -> str:
@@ -110,7 +111,7 @@ def changes_table(results: Sequence[Result], pages: dict[tuple[str, str], str]) 
         return ""
     known = any(r.error_before is not None for r in rows)
     head = "<th>source</th><th>target</th><th>exchanged for</th>"
-    head += f'<th class="n">before ({UNIT})</th><th class="n">now ({UNIT})</th>' if known else ""
+    head += f'<th class="n">error before</th><th class="n">now ({UNIT})</th>' if known else ""
     body = []
     for r in rows:
         cells = f"<td>{escape(r.changed)}</td>"

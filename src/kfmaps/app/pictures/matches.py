@@ -100,6 +100,7 @@ def match_figure(
     title: str | None = None,
     view: View | None = None,
     target_view: View | None = None,
+    text: float = 10.0,
 ) -> Figure:
     """Source and target side by side, the source's colours carried over by the map, and the error.
 
@@ -119,6 +120,8 @@ def match_figure(
         Of the source; by default :func:`automatic_view`.
     target_view : View, optional
         Of the target; by default from the same side as the source, as far as the map tells.
+    text : float
+        Size of letters in points; larger for pictures that are shown small.
 
     Returns
     -------
@@ -139,6 +142,8 @@ def match_figure(
         ("target, coloured by the map", target, carried_colors(colors, carried), view_t),
     ]
     width, height = 2 * PANEL, 4.4 + (0.4 if title else 0)
+    wide = max(text / 10, 1.0)
+    room = 0.42 * wide
     shown, end = None, 0.0
     if errors is not None:
         given = np.asarray(errors, dtype=np.float64)
@@ -147,21 +152,26 @@ def match_figure(
         end = error_limit(shown[carried >= 0]) if limit is None else limit
         painted = np.where(carried[:, None] < 0, LOST, error_colors(np.where(carried < 0, 0.0, shown), end))
         panels.append(("error on the target", target, painted, view_t))
-        width += PANEL + 0.7
+        width += PANEL + 0.7 * wide
 
     figure = Figure(figsize=(width, height), facecolor="white")
-    bottom, top = 0.42 / height, 1 - (0.45 if title else 0.08) / height
+    bottom, top = room / height, 1 - (0.45 if title else 0.08) / height
     for i, (label, mesh, painted, seen) in enumerate(panels):
         left, middle = (PANEL * i + 0.1) / width, PANEL * (i + 0.5) / width
         draw_surface(figure.add_axes((left, bottom, (PANEL - 0.2) / width, top - bottom)), mesh, painted, seen)
-        figure.text(middle, 0.15 / height, label, ha="center", va="bottom", color=TEXT, fontsize=10)
+        figure.text(middle, 0.15 / height, label, ha="center", va="bottom", color=TEXT, fontsize=text)
     if shown is not None:
-        place = (1 - 0.8 / width, bottom + 0.15 * (top - bottom), 0.12 / width, 0.7 * (top - bottom))
+        place = (
+            1 - 0.8 * wide / width,
+            bottom + 0.15 * (top - bottom),
+            0.12 / width,
+            0.7 * (top - bottom),
+        )
         scale = ScalarMappable(Normalize(0, end), ERROR_MAP)
         over = "max" if shown[carried >= 0].max(initial=0.0) > end else "neither"
         bar = figure.colorbar(scale, cax=figure.add_axes(place), extend=over, format=percent_ticks())
-        bar.set_label(f"geodesic error ({UNIT})", color=TEXT, fontsize=9)
-        bar.ax.tick_params(colors=TEXT, labelsize=8)
+        bar.set_label(f"geodesic error ({UNIT})", color=TEXT, fontsize=0.9 * text)
+        bar.ax.tick_params(colors=TEXT, labelsize=0.8 * text)
     if title:
         figure.text(0.5, 1 - 0.12 / height, title, ha="center", va="top", color="black", fontsize=12)
     return figure
