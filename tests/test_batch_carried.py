@@ -100,6 +100,22 @@ def test_the_command_writes_csv_and_tps(
     assert "MAP and VALUES" in capsys.readouterr().err
 
 
+def test_maps_of_parts_are_gone_round(run: tuple[Path, Path], tmp_path: Path) -> None:
+    folder, out = run
+    path = map_path(out, "b2-b3")
+    whole = path.read_bytes()
+    found = load_map(path)
+    lost = found.target_to_source.copy()
+    lost[:3] = -1
+    try:
+        save_map(path, replace(found, target_to_source=lost), force=True)
+        carried, missed = landmarks_everywhere(out, landmark_file(tmp_path / "m.csv", marks(folder)), "b0")
+        assert missed == ["b3"]
+        assert [one.specimen for one in carried] == ["b0", "b1", "b2"]
+    finally:
+        path.write_bytes(whole)
+
+
 def test_what_cannot_be_carried(run: tuple[Path, Path], tmp_path: Path) -> None:
     _, out = run
     with pytest.raises(InvalidInput, match="an output folder of kfmaps batch"):

@@ -176,6 +176,7 @@ def collection(
         found = work.match(a, b) if one is None else None
         file = as_map(found) if one is None else one
         matches.append(found)
+        check_map(file, name=f"map {names[a]} → {names[b]}")
         points.append([file.target_to_source, *_runners_up(file)])
         told_of = found if one is None else (maps or {}).get((names[a], names[b]))
         turned = isinstance(told_of, Match) and told_of.orientation == "reversed"

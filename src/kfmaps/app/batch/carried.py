@@ -85,29 +85,40 @@ def landmarks_everywhere(folder: Path, landmarks: Path, on: str | None = None) -
     start = _start(names, edges, on)
     number = {name: i for i, name in enumerate(names)}
     ends = [(number[e.pair.source], number[e.pair.target]) for e in edges]
-    ways = ways_from(len(names), ends, [e.chance for e in edges], number[start])
+    chances = [e.chance for e in edges]
     meshes: dict[str, Mesh] = {}
+    while True:
+        ways = ways_from(len(names), ends, chances, number[start])
+        used = dict.fromkeys(link for way in ways.values() for link in way.links)
+        parts = [link for link in used if (load_map(edges[link].path).target_to_source < 0).any()]
+        if not parts:
+            break
+        for link in parts:  # a part has no counterpart for every landmark: round it, where there is another way
+            chances[link] = 0.0
     found: dict[int, Carried] = {}
     for at, way in ways.items():
         if not way.links:
-            mesh = _mesh(start, edges, meshes)
-            points = read_named_points(landmarks, mesh)
-            points = replace(points, confidence=np.ones(len(points.names)))
-            found[at] = Carried(start, points, ())
+            points = read_named_points(landmarks, _mesh(start, edges, meshes))
+            found[at] = Carried(start, replace(points, confidence=np.ones(len(points.names))), ())
             continue
         edge, before = edges[way.links[-1]], found[way.shapes[-2]]
-        known = load_map(edge.path)
-        source, target = (_mesh(name, edges, meshes) for name in (edge.pair.source, edge.pair.target))
-        check_map(known, len(source.vertices), len(target.vertices), str(edge.path))
-        place = place_of(known, source) or at_vertices(known.target_to_source, source)
-        trust = known.extra.get("local_confidence")
-        local = np.ones(len(target.vertices)) if trust is None else np.nan_to_num(np.asarray(trust))
-        back = ends[way.links[-1]][1] == way.shapes[-2]
-        points = carried_points(before.points, source, target, place, local, back=back)
-        sure = before.points.confidence * points.confidence * edge.chance
-        through = tuple(names[i] for i in way.shapes[1:-1])
-        found[at] = Carried(names[at], replace(points, confidence=sure), through)
+        points = _carried(edge, before.points, ends[way.links[-1]][1] == way.shapes[-2], edges, meshes)
+        found[at] = Carried(names[at], points, tuple(names[i] for i in way.shapes[1:-1]))
     return list(found.values()), [name for name in names if number[name] not in found]
+
+
+def _carried(
+    edge: _Edge, before: NamedPoints, back: bool, edges: Sequence[_Edge], meshes: dict[str, Mesh]
+) -> NamedPoints:
+    """Points carried over one map, with what is left of their confidence."""
+    known = load_map(edge.path)
+    source, target = (_mesh(name, edges, meshes) for name in (edge.pair.source, edge.pair.target))
+    check_map(known, len(source.vertices), len(target.vertices), str(edge.path))
+    place = place_of(known, source) or at_vertices(known.target_to_source, source)
+    trust = known.extra.get("local_confidence")
+    local = np.ones(len(target.vertices)) if trust is None else np.nan_to_num(np.asarray(trust))
+    points = carried_points(before, source, target, place, local, back=back)
+    return replace(points, confidence=before.confidence * points.confidence * edge.chance)
 
 
 def _edges(folder: Path) -> list[_Edge]:

@@ -14,7 +14,7 @@ from kfmaps.app.batch.kept import kept_probe
 from kfmaps.app.batch.settings import digest_of
 from kfmaps.app.batch.tasks import PairTask
 from kfmaps.app.batch.work import loaded, map_path
-from kfmaps.app.files import MapFile, atomic_output, load_map
+from kfmaps.app.files import MapFile, atomic_output, check_map, load_map
 from kfmaps.fit.border import Border, border
 from kfmaps.functional.points import to_points
 from kfmaps.many.judge import Judged, better, judged
@@ -105,11 +105,13 @@ def _evidence(task: PairTask, found: MapFile) -> list[Judged]:
 
     Runners-up are not finished, and finishing does not aim at the score.
     """
+    shapes = loaded(task.source), loaded(task.target)
+    check_map(found, *(len(shape.mesh.vertices) for shape in shapes))  # one of a part takes no part
     maps = candidates(found)
     raw = found.extra.get("raw_functional_map")
     if raw is None:
         return _judged(task, maps)
-    source, target = loaded(task.source).basis, loaded(task.target).basis
+    source, target = (shape.basis for shape in shapes)
     rough = to_points(np.asarray(raw)[: len(target.eigenvalues), : len(source.eigenvalues)], source, target, 1)
     first, before, *others = _judged(task, [maps[0], (rough, maps[0][1]), *maps[1:]])
     return [better(first, before), *others]
