@@ -25,6 +25,8 @@ if TYPE_CHECKING:
 WITH_TRUTH = {"geodesic": 1.0}
 WITHOUT = {"orthogonality": 0.05, "cycle": 0.05, "coupling": 1.0}
 WITH_LANDMARKS, WITHOUT_THEM = "gamma,metric,terms", "gamma,ard,terms"
+POINTS = 2500
+"""Of each shape that learning fits maps from; matches take as many as the settings say."""
 PART_LIST = "; ".join(f"{name}: {meaning}" for name, meaning in PARTS.items())
 LOSS_LIST = "; ".join(f"{name}: {meaning}" for name, meaning in LOSSES.items())
 
@@ -68,15 +70,15 @@ def learn(
             help="Shapes to stop by; default: the last quarter of those. none: learn from all, to the end.",
         ),
     ] = "",
-    pairs: Annotated[int, typer.Option(min=1, help="Pairs to learn from.")] = 12,
+    pairs: Annotated[int, typer.Option(min=1, help="Pairs to learn from.")] = 32,
     held_out_pairs: Annotated[int, typer.Option(min=1, help="Pairs to stop by.")] = 6,
     truth_landmarks: Annotated[
         str | None,
         typer.Option(help="Landmarks: these lines of the truth, counted from 1.", metavar="201,1121,..."),
     ] = None,
     identity: Annotated[bool, typer.Option("--identity", help="Truth: vertex i is vertex i.")] = False,
-    epochs: Annotated[int, typer.Option(min=1, help="Times through all pairs, at most.")] = 12,
-    rate: Annotated[float, typer.Option(help="Of learning.")] = 0.2,
+    epochs: Annotated[int, typer.Option(min=1, help="Times through all pairs, at most.")] = 5,
+    rate: Annotated[float, typer.Option(help="Of learning.")] = 0.1,
     patience: Annotated[int, typer.Option(min=1, help="Epochs without anything better before it stops.")] = 3,
     minutes: Annotated[float | None, typer.Option(help="Time to stay within.", show_default=False)] = None,
     rank: Annotated[
@@ -106,7 +108,8 @@ def learn(
     from kfmaps.app.progress import Stages
     from kfmaps.app.settings.toml import settings_text
 
-    config = _without_search(settings.config(_base(truth_landmarks)))
+    asked = _without_search(settings.config(_base(truth_landmarks)))
+    config = _lean(asked)
     task = _task(data, shapes, held_out, pairs, held_out_pairs, truth_landmarks, identity, seed)
     with Stages(quiet) as stages:
         training_pairs, judges = _lessons(task, config, seed, stages)
@@ -130,7 +133,7 @@ def learn(
             _same_request(before, request, files.state)
 
         def keep(state: State) -> None:
-            best = _best(model, state)
+            best = _asked(_best(model, state), asked)
             save(files.state, state, settings_text(best), request)
             _written(files, best, state, truth=bool(judges) and all(each.known for each in judges), training=training)
 
@@ -199,6 +202,20 @@ def _base(truth_landmarks: str | None) -> Config:
         return start
     weights = Weights(descriptors=1000.0, commutativity=1.0, laplacian=300.0)
     return replace(start, sharpness=5.0, weights=weights, formulation=Formulation(mask="resolvent"))
+
+
+def _lean(config: Config) -> Config:
+    """The same from fewer points of each shape: thousands of fits are made."""
+    from dataclasses import replace
+
+    return replace(config, fit_samples=min(config.fit_samples or POINTS, POINTS))
+
+
+def _asked(learned: Config, asked: Config) -> Config:
+    """What was learned, for fits from as many points as were asked for."""
+    from dataclasses import replace
+
+    return replace(learned, fit_samples=asked.fit_samples)
 
 
 def _without_search(config: Config) -> Config:

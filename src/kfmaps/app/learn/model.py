@@ -17,7 +17,7 @@ from kfmaps.config import Config, DescriptorConfig, Weights
 from kfmaps.kernel.kernels import Gaussian, KernelLike, Laplacian, Sum, gram, resolved
 from kfmaps.kernel.lifted import Metric, Network, Scaled, forward
 
-RIDGE = 1e-3
+RIDGE = 0.1
 """Added to the variance between corresponding points, in units of the mean one of a shape's."""
 SPREAD = 6.0
 """Factor from one γ of a mixture to the next, at the start."""

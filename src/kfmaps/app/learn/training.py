@@ -57,7 +57,7 @@ class Training:
 
     losses: Mapping[str, float] = field(default_factory=lambda: {"geodesic": 1.0})
     epochs: int = 30
-    batch: int = 4
+    batch: int = 2
     rate: float = 0.1
     falling: bool = True
     patience: int = 6
