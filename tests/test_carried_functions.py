@@ -62,6 +62,9 @@ def test_what_cannot_be_is_said(made: types.SimpleNamespace, tmp_path: Path) -> 
     ):
         with pytest.raises(InvalidInput, match=words):
             carried_functions(values, made.found, source, target, products)
+    part = np.where(np.arange(len(target.vertices)) < 9, -1, made.pair.truth)
+    with pytest.raises(InvalidInput, match="a map of the whole target"):
+        carried_functions(ones, MapFile(part), source, target, 5)
     np.save(tmp_path / "x.npy", ones)
     ran = run("transfer", made.map, tmp_path / "x.npy", "-o", tmp_path / "y.npy", "--products", 5, "--back")
     assert "leave one of them out" in ran.error

@@ -103,7 +103,7 @@ def objective(
         penalties["sparsity"] = (asked.sparsity * typical(energy), sparse(energy.rhs()))
     if asked.spatial:
         assert plain is not None
-        moving = spatial(plain, *bases, asked.spatial_blur)
+        moving = spatial(plain, bases[0], bases[1], asked.spatial_blur)
         penalties["spatial"] = (asked.spatial * typical(energy), moving)
     if rotation is not None:
         U = (rotation.U_t, rotation.U_s)

@@ -96,8 +96,8 @@ def transfer(
     if products is not None:
         from kfmaps.app.files.functions import carried_functions
 
-        shapes = [_shape(found, side, path, map) for side, path in (("source", source), ("target", target))]
-        write_values(output, Values(carried_functions(given.array, found, *shapes, products), given.columns), force)
+        sides = _shape(found, "source", source, map), _shape(found, "target", target, map)
+        write_values(output, Values(carried_functions(given.array, found, *sides, products), given.columns), force)
         return
     faces = None
     if found.place is not None and given.array.dtype.kind == "f":

@@ -33,6 +33,9 @@ def carried_functions(
     """
     if values.dtype.kind not in "fiu":
         raise refuse("values", "numbers", str(values.dtype), "leave --products out: labels go by points")
+    if (found.target_to_source < 0).any():
+        got = "one of a part, with vertices without counterpart"
+        raise refuse("--products", "a map of the whole target", got, "leave it out: values then go by points")
     check_map(found, len(source.vertices), len(target.vertices), "the map")
     tail = (None,) * (values.ndim - 1)
     check(values, "values", shape=(len(source.vertices), *tail), remedy="give one row per source vertex")

@@ -135,8 +135,8 @@ class Model(torch.nn.Module):
             # The metric has another scale than the descriptors.
             with torch.no_grad():
                 lifted = [self.lift(lesson.samples).numpy() for lesson in lessons]
-                moved = np.log(_width(kernel, lifted, config.sharpness)) - start
-                self._tensor("log_gamma").add_(moved)
+                middle = np.log(np.median([lesson.gamma for lesson in lessons]))
+                self._tensor("log_gamma").add_(np.log(_width(kernel, lifted, config.sharpness)) - middle)
 
     def _add(self, name: str, values: Any, parts: set[str]) -> None:
         tensor = torch.tensor(np.asarray(values), dtype=torch.float64)
@@ -234,8 +234,8 @@ def rows_of(rank: int | Mapping[str, int], kind: str) -> int:
 
 def _width(kernel: Gaussian | Laplacian, lifted: Sequence[np.ndarray], sharpness: float) -> float:
     """The automatic γ for transformed samples of pairs: the median over them."""
-    automatic = replace(kernel, gamma=None)
-    return float(np.median([float(resolved(automatic, X, sharpness).gamma or 1.0) for X in lifted]))
+    found = [resolved(replace(kernel, gamma=None), X, sharpness) for X in lifted]
+    return float(np.median([k.gamma or 1.0 for k in found if isinstance(k, Gaussian | Laplacian)]))
 
 
 def opened(kernel: Any, **values: Any) -> Any:
