@@ -129,7 +129,7 @@ def _everywhere(
         raise refuse("transfer", "--collection and --landmarks alone", "a map or mesh beside them", "leave it out")
     if output.suffix.lower() != ".csv":
         raise refuse(f"output {output}", "the extension .csv", output.suffix or "none", "rename it")
-    for path in [output] + [tps] * (tps is not None):
+    for path in (output, *([] if tps is None else [tps])):
         check_output(path, force, (landmarks,))
     found, missed = landmarks_everywhere(collection, landmarks, on)
     write_landmarks_csv(output, found, force)
