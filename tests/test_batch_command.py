@@ -10,8 +10,10 @@ import numpy as np
 import pytest
 
 from collecting import LANDMARKS, touch, write_collection
+from kfmaps.app.batch.need import needed
 from kfmaps.app.cli import main
 from kfmaps.app.files import load_map, read_vertex_numbers, write_landmarks
+from kfmaps.config import Config
 
 SIZES = ("--basis", "20", "--descriptors", "20", "--set", "descriptors.eigenfunctions=40", "--samples", "60")
 ZOOM = ("--zoom-start", "10", "--zoom-stop", "40", "--zoom-step", "5")
@@ -130,3 +132,12 @@ def test_a_graph_of_pairs_that_agree(folder: Path, tmp_path: Path, capsys: pytes
     }
     assert main([*words, "--star", "b0"]) == 2
     assert "one of --graph, --pairs, --all and --star" in capsys.readouterr().err
+
+
+def test_what_is_needed_grows_with_the_work() -> None:
+    one = needed(100, 300, 5000, Config.automatic(), 2)
+    assert needed(200, 600, 5000, Config.automatic(), 2).seconds == pytest.approx(2 * one.seconds)
+    assert needed(200, 600, 5000, Config.automatic(), 2).disk == pytest.approx(2 * one.disk)
+    assert needed(100, 300, 5000, Config.automatic(), 4).memory == pytest.approx(2 * one.memory)
+    assert needed(100, 300, 5000, Config(), 2).seconds < one.seconds
+    assert one.told().startswith("300 pairs of 100 shapes of about 5,000 vertices need about 3.")

@@ -2,23 +2,26 @@
 
 from __future__ import annotations
 
+import warnings
 from pathlib import Path
 from typing import Annotated
 
 import typer
 from rich.text import Text
 
-from kfmaps._arrays import check_count, refuse
+from kfmaps._arrays import InvalidInput, KfmapsWarning, check_count, refuse
+from kfmaps._threads import available_cores
 from kfmaps.app.batch.collection import BatchOutcome, match_collection
 from kfmaps.app.batch.consistent import Agreed
 from kfmaps.app.batch.graphing import graph_pairs
 from kfmaps.app.batch.layout import Pair, choose_pairs, find_collection
+from kfmaps.app.batch.need import needed
 from kfmaps.app.batch.plan import Plan, make_plan, recommended
 from kfmaps.app.batch.settings import Settings
 from kfmaps.app.batch.spread import crew
 from kfmaps.app.batch.summary import summarised
 from kfmaps.app.batch.terminal import stage_lines, terminal_callback
-from kfmaps.app.files import atomic_output
+from kfmaps.app.files import atomic_output, read_mesh
 from kfmaps.app.settings.options import Chosen, with_settings
 from kfmaps.app.settings.toml import settings_text
 from kfmaps.app.terminal import Terminal
@@ -26,6 +29,8 @@ from kfmaps.app.words import UNIT, percent
 
 TOML = "settings.toml"
 """In the output folder, for ``kfmaps match --config``."""
+MANY = 20
+"""Pairs from which it is told before what they need."""
 FAILED, INTERRUPTED = 1, 130
 """Exit status when a pair failed, and after Ctrl-C."""
 
@@ -105,7 +110,7 @@ def batch(
         with atomic_output(plan.folder / TOML) as temporary:
             temporary.write_text(settings_text(config), encoding="utf-8")
     if not quiet:
-        console.print(Text(_before(plan)), soft_wrap=True)
+        console.print(Text(_before(plan, workers)), soft_wrap=True)
     with terminal_callback(console, quiet) as callback, stage_lines(console, quiet) as told:
         outcome = match_collection(
             plan,
@@ -138,13 +143,30 @@ def _lines(text: str | None) -> tuple[int, ...]:
         raise refuse("--truth-landmarks", wanted, repr(text), "count lines from 1") from error
 
 
-def _before(plan: Plan) -> str:
-    """What there is to do."""
+def _before(plan: Plan, workers: int | None) -> str:
+    """What there is to do, and for many pairs what that needs."""
     shapes = len({name for task in plan.tasks for name in (task.pair.source, task.pair.target)})
     told = [f"{len(plan.tasks)} pairs of {shapes} shapes"]
     told += [f"{len(plan.results)} done already"] if plan.results else []
     told += [f"{plan.changed} to do again since their files have changed"] if plan.changed else []
+    if len(plan.todo) >= MANY:
+        vertices = _vertices(plan)
+        if vertices:
+            left = {name for task in plan.todo for name in (task.pair.source, task.pair.target)}
+            count = available_cores() if workers is None else workers
+            need = needed(len(left), len(plan.todo), vertices, plan.settings.config, count)
+            return f"{', '.join(told)}; {need.told()}"
     return ", ".join(told)
+
+
+def _vertices(plan: Plan) -> int:
+    """Of the first shape that is to be matched; 0 where it cannot be read, which is told with its pairs."""
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", KfmapsWarning)
+            return len(read_mesh(plan.todo[0].source.path).vertices)
+    except (InvalidInput, OSError):
+        return 0
 
 
 def _after(plan: Plan, outcome: BatchOutcome) -> list[str]:

@@ -1,0 +1,143 @@
+"""Cost and accuracy of a collection of generated specimens against their number.
+
+    python benchmarks/collection.py [--shapes 25,50,100] [--vertices 1000] [--workers 2] [--out DIR] [--wrong 0.2]
+    python benchmarks/collection.py --shapes 1000 --vertices 5000 --plan
+
+Every specimen is one body bent, stretched and swollen at random, and triangulated for itself, so that the truth is
+known. Pairs are chosen by likeness (``--graph near``), matched by ``kfmaps batch``'s own machinery, and made to agree
+(``--consistent``). A part ``--wrong`` of the maps is replaced by random ones before that. ``--plan`` tells the pairs,
+memory and time that a run needs, and runs nothing. Errors are in per cent of √area.
+"""
+
+from __future__ import annotations
+
+import argparse
+import resource
+import tempfile
+import time
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+from scipy.spatial import KDTree
+
+from kfmaps import datasets
+from kfmaps.app.batch.collection import match_collection
+from kfmaps.app.batch.graphing import graph_pairs
+from kfmaps.app.batch.layout import find_collection
+from kfmaps.app.batch.need import needed
+from kfmaps.app.batch.plan import make_plan
+from kfmaps.app.batch.settings import Settings
+from kfmaps.app.batch.spread import crew
+from kfmaps.app.batch.work import map_path
+from kfmaps.app.files import load_map, save_map, write_mesh, write_vertex_numbers
+from kfmaps.config import Config, Search
+from kfmaps.surface.coarse import coarse
+from kfmaps.surface.mesh import Mesh
+from kfmaps.surface.samples import stratified
+
+FULL = Config.automatic()
+QUICK = replace(FULL, search=Search(candidates=2, signs=3), finish=None)
+"""A smaller search: what is measured is the collection, not the search."""
+LINES = 500
+"""Points of the body whose places are known on every specimen."""
+
+
+def specimen(body: Mesh, vertices: int, rng: np.random.Generator) -> tuple[Mesh, np.ndarray]:
+    """A variant of ``body`` with ``vertices`` vertices, and where the first :data:`LINES` of its points are on it."""
+    places = body.vertices - body.vertices.mean(axis=0)
+    places = places / np.abs(places).max()
+    x, y, z = (places * rng.uniform(0.85, 1.15, 3)).T
+    bend, twist = rng.uniform(-0.2, 0.2), rng.uniform(-0.3, 0.3)
+    x = x + bend * y**2
+    x, z = np.cos(twist * y) * x - np.sin(twist * y) * z, np.sin(twist * y) * x + np.cos(twist * y) * z
+    moved = np.stack([x, y, z], axis=1)
+    centre = moved[rng.integers(len(moved))]
+    swell = 0.3 * rng.uniform(-1, 1) * np.exp(-((moved - centre) ** 2).sum(axis=1) / 0.1)
+    moved = centre + (moved - centre) * (1 + swell[:, None])
+    kept = np.sort(stratified(places, np.ones(len(places)), vertices, rng))
+    mesh = coarse(Mesh(moved, body.faces), kept)
+    lines = np.linspace(0, len(places) - 1, LINES).astype(np.int64)
+    return mesh, KDTree(moved[kept]).query(moved[lines])[1]
+
+
+def write_specimens(folder: Path, count: int, vertices: int) -> None:
+    """``count`` specimens with their truth, in the layout of the field."""
+    (folder / "corres").mkdir(parents=True)
+    body = datasets.two_poses(max(3 * vertices, 3000)).source
+    for i in range(count):
+        mesh, lines = specimen(body, vertices, np.random.default_rng(i))
+        write_mesh(folder / f"s{i:04d}.ply", mesh)
+        write_vertex_numbers(folder / "corres" / f"s{i:04d}.vts", lines)
+
+
+def cpu() -> float:
+    """CPU seconds of this process and of its workers that have ended."""
+    used = [resource.getrusage(who) for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN)]
+    return sum(u.ru_utime + u.ru_stime for u in used)
+
+
+def measured(count: int, vertices: int, workers: int, wrong: float, full: bool, folder: Path) -> str:
+    """One row of the table."""
+    shapes, out = folder / f"shapes{count}", folder / f"out{count}"
+    write_specimens(shapes, count, vertices)
+    collection, settings = find_collection(shapes), Settings(FULL if full else QUICK)
+    begin, used = time.perf_counter(), cpu()
+    with crew(workers) as hands:
+        pairs = graph_pairs(collection, settings, out, "near", hands)
+    plan = make_plan(collection, pairs, settings, out)
+    match_collection(plan, workers=workers, worst=0)
+    matched, between = cpu() - used, cpu()
+    rng = np.random.default_rng(0)
+    planted = rng.permutation(len(pairs))[: round(wrong * len(pairs))]
+    for i in planted:
+        path = map_path(plan.folder, pairs[i].key)
+        found = load_map(path)
+        points = rng.permutation(found.target_to_source)
+        extra = {k: v for k, v in found.extra.items() if k not in ("raw_functional_map", "runners_up")}
+        save_map(path, replace(found, target_to_source=points, extra=extra), force=True)
+    outcome = match_collection(make_plan(collection, pairs, settings, out), workers=workers, worst=0, consistent=True)
+    agreed, seconds = cpu() - between, time.perf_counter() - begin
+    assert outcome.agreed is not None
+    bad = {(pairs[i].source, pairs[i].target) for i in planted}
+    changed = {(r.source, r.target) for r in outcome.results if r.changed}
+    errors = np.array([r.error_mean for r in outcome.results])
+    peak = resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss / 1e6
+    disk = sum(p.stat().st_size for p in out.rglob("*") if p.is_file()) / 1e9
+    return (
+        f"{count:6d} {len(pairs):6d} {matched / count:10.2f} {agreed / count:10.2f} {seconds:8.0f} {peak:7.2f} "
+        f"{disk:7.2f} "
+        f"{100 * errors.mean():6.2f} {100 * errors.max():6.2f} {len(bad):6d} {len(bad & changed):6d} "
+        f"{len(changed - bad):6d}"
+    )
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--shapes", default="25,50,100")
+    parser.add_argument("--vertices", type=int, default=1000)
+    parser.add_argument("--workers", type=int, default=2)
+    parser.add_argument("--wrong", type=float, default=0.2)
+    parser.add_argument("--out", type=Path)
+    parser.add_argument(
+        "--full", action="store_true", help="the recommended search and finish, about three times as long"
+    )
+    parser.add_argument("--plan", action="store_true")
+    chosen = parser.parse_args()
+    counts = [int(word) for word in chosen.shapes.split(",")]
+    if chosen.plan:
+        for count in counts:
+            print(needed(count, 3 * count, chosen.vertices, Config.automatic(), chosen.workers).told())
+        return
+    print(
+        "CPU seconds a shape to match and to agree, seconds in all, GB of memory and disk, errors, planted maps:\n"
+        "shapes  pairs      match      agree  seconds  memory    disk   mean  worst  wrong  found  other"
+    )
+    with tempfile.TemporaryDirectory() as temporary:
+        for count in counts:
+            folder = chosen.out or Path(temporary)
+            print(measured(count, chosen.vertices, chosen.workers, chosen.wrong, chosen.full, folder), flush=True)
+
+
+if __name__ == "__main__":
+    main()
