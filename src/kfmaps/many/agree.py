@@ -260,11 +260,10 @@ def _spectral(
     degree = np.zeros(count)
     for link, C, own in zip(links, maps, odds, strict=True):
         p = _chances(np.zeros(len(own)), own, 0.0, 1.0)[:-1]
-        ends = (link.target, link.source)
         mean = np.tensordot(p, C, axes=1)
-        blocks[ends] = blocks.get(ends, 0) + mean
-        blocks[ends[::-1]] = blocks.get(ends[::-1], 0) + mean.T
-        degree[list(ends)] += p.sum()
+        for a, b, one in ((link.target, link.source, mean), (link.source, link.target, mean.T)):
+            blocks[a, b] = blocks.get((a, b), np.zeros_like(one)) + one
+        degree[[link.source, link.target]] += p.sum()
     root = 1.0 / np.sqrt(np.maximum(degree, 1e-9))
     size = count * functions
     whole = csr_array((size, size))
@@ -279,6 +278,6 @@ def _spectral(
         vectors = np.linalg.eigh(whole.toarray())[1][:, -functions:]
     else:
         start = np.random.default_rng(0).normal(size=size)
-        vectors = eigsh(whole, k=functions, which="LA", v0=start, tol=1e-3)[1]
+        vectors = eigsh(whole, k=functions, which="LA", v0=start, tol=1e-3)[1]  # pyright: ignore[reportArgumentType]
     parts = vectors.reshape(count, functions, functions)
     return np.stack([orthogonal(part) for part in parts])

@@ -106,7 +106,8 @@ def _evidence(task: PairTask, found: MapFile) -> list[Judged]:
     Runners-up are not finished, and finishing does not aim at the score.
     """
     shapes = loaded(task.source), loaded(task.target)
-    check_map(found, *(len(shape.mesh.vertices) for shape in shapes))  # one of a part takes no part
+    n_s, n_t = (len(shape.mesh.vertices) for shape in shapes)
+    check_map(found, n_s, n_t)  # one of a part takes no part
     maps = candidates(found)
     raw = found.extra.get("raw_functional_map")
     if raw is None:

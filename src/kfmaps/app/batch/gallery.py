@@ -47,8 +47,8 @@ def pair_picture(task: PairTask, limit: float = 0.1, path: Path | None = None) -
             errors = painted_errors(source, target, points, truth.source, truth.target)
             views = true_views(source, target, truth.source, truth.target)
     buffer = io.BytesIO()
-    seen = {"view": views[0], "target_view": views[1]}
-    figure = match_figure(source, target, points, errors=errors, limit=limit, text=TEXT, **seen)
+    a, b = views
+    figure = match_figure(source, target, points, errors=errors, limit=limit, text=TEXT, view=a, target_view=b)
     save_figure(figure, buffer, "png")
     return buffer.getvalue()
 

@@ -165,9 +165,8 @@ def _matched(task: PairTask) -> dict[str, Any]:
     landmarks = landmark_pairs(task, truth, *sizes)
     probes = None
     if task.config.search is not None and landmarks is None:
-        probes = tuple(
-            kept_probe(s, Path(t.entry), task.seed) for s, t in ((source, task.source), (target, task.target))
-        )
+        entries = Path(task.source.entry), Path(task.target.entry)
+        probes = kept_probe(source, entries[0], task.seed), kept_probe(target, entries[1], task.seed)
     found = match(source, target, replace(task.config, threads=1), landmarks=landmarks, rng=task.seed, probes=probes)
     path = map_path(Path(task.folder), task.pair.key)
     return recorded(task, found, (source, target), truth, landmarks, path)
