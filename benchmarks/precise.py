@@ -1,11 +1,15 @@
 """What the finish does for maps, against the truth.
 
     python benchmarks/precise.py --data DIR [--sets own,FAUST,FAUST_r,...] [--pairs N] [--json FILE]
+    python benchmarks/precise.py --growth 5000,20000,80000,300000
 
 DIR holds the folders FAUST, FAUST_r and SHREC19_r (see the layouts in docs/collections.md); ``own`` needs none. Of each
 pair one map is made, then finished. Errors are mean geodesic distances between points inside triangles, in per cent of
 √area: of the refined map of vertices, of the nearest points in the spectral embedding, and after the non-rigid fit.
 Pairs are of people that nothing was chosen on: 4 to 7 of FAUST_r; 2 and 3 of FAUST.
+
+``--growth`` times the two pieces alone on generated shapes of so many vertices, in CPU seconds: the fit, from the true
+map of vertices, and the nearest points among triangles in an embedding of 200 smooth functions (waves of places).
 """
 
 from __future__ import annotations
@@ -25,7 +29,9 @@ from kfmaps import datasets
 from kfmaps.fit.places import placed
 from kfmaps.fit.stages import Clock
 from kfmaps.functional.evaluate import place_errors, smoothness
-from kfmaps.functional.precise import PointMap
+from kfmaps.functional.nonrigid import NonRigid
+from kfmaps.functional.precise import PointMap, nearest_places, points_of
+from kfmaps.surface.mesh import unit_area
 
 PEOPLE = 40
 """Shapes of FAUST_r from this number on: both of a pair, so that nothing was chosen on either."""
@@ -110,13 +116,46 @@ def row(name, source, target, truth, where, marks) -> dict:
     }
 
 
+def growth(sizes: list[int]) -> None:
+    """CPU seconds of the pieces, and their growth from one size to the next as an exponent."""
+    before: list[float] = []
+    last = 0
+    for size in sizes:
+        pair = datasets.two_poses(size, rng=0)
+        source, target = unit_area(pair.source), unit_area(pair.target)
+        true = points_of(PointMap(pair.truth_faces, pair.truth_weights), source)
+        waves = np.random.default_rng(0).normal(size=(3, 100), scale=4.0)
+        seconds = []
+        for piece in ("fit", "points"):
+            start = time.process_time()
+            if piece == "fit":
+                found = NonRigid()(source, target, pair.truth)
+            else:
+                embedded = (np.hstack([np.cos(x @ waves), np.sin(x @ waves)]) for x in (true, source.vertices))
+                found = nearest_places(*embedded, source.faces, threads=1)
+            seconds.append(time.process_time() - start)
+            error = np.linalg.norm(points_of(PointMap(found.faces, found.weights), source) - true, axis=1)
+            print(
+                f"  {piece} {len(source.vertices):8,} {seconds[-1]:8.2f} s, off {error.mean():.5f}", end="", flush=True
+            )
+        if before:
+            grown = np.log(np.array(seconds) / before) / np.log(size / last)
+            print(f"; exponents {grown[0]:.2f} {grown[1]:.2f}", end="")
+        print(flush=True)
+        before, last = seconds, size
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--data", type=Path)
     parser.add_argument("--sets", default="own,FAUST,FAUST_r,FAUST_r landmarks")
     parser.add_argument("--pairs", type=int, default=20, help="of each set, spread over its list")
     parser.add_argument("--json", type=Path)
+    parser.add_argument("--growth", help="numbers of vertices: time the pieces alone")
     options = parser.parse_args()
+    if options.growth:
+        growth([int(size) for size in options.growth.split(",")])
+        return
     warnings.simplefilter("ignore", kfmaps.KfmapsWarning)
     results: dict[str, list[dict]] = {}
     for kind in options.sets.split(","):
