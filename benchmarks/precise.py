@@ -131,8 +131,9 @@ def growth(sizes: list[int]) -> None:
             if piece == "fit":
                 found = NonRigid()(source, target, pair.truth)
             else:
-                embedded = (np.hstack([np.cos(x @ waves), np.sin(x @ waves)]) for x in (true, source.vertices))
-                found = nearest_places(*embedded, source.faces, threads=1)
+                angles = (true @ waves, source.vertices @ waves)
+                queries, points = (np.hstack([np.cos(a), np.sin(a)]) for a in angles)
+                found = nearest_places(queries, points, source.faces, threads=1)
             seconds.append(time.process_time() - start)
             error = np.linalg.norm(points_of(PointMap(found.faces, found.weights), source) - true, axis=1)
             print(

@@ -109,6 +109,26 @@ def test_a_picture_goes_around_a_seam_without_a_scar() -> None:
     assert picture.sum(axis=1).min() > 0.2
 
 
+def test_faces_outside_a_part_have_one_colour(tmp_path: Path) -> None:
+    source = globe()
+    n = len(source.mesh.vertices)
+    target = own_atlas(source.mesh)
+    assert target.uv is not None
+    assert target.uv_faces is not None
+    points = np.arange(n)
+    away = source.mesh.vertices[:, 2] > 0.5
+    points[away] = -1
+    write_textured(tmp_path / "b.glb", source, target, points, place=at_vertices(np.arange(n), source.mesh))
+    found = read_mesh_file(tmp_path / "b.glb").picture
+    assert found is not None
+    picture = pixels_of(found)
+    face, texel, _ = texels_of(target.uv[target.uv_faces], len(picture))
+    outside = away[source.mesh.faces].any(axis=1)[face]
+    colours = picture.reshape(-1, 3)[texel]
+    assert np.ptp(colours[outside], axis=0).max() == 0
+    assert np.ptp(colours[~outside], axis=0).max() > 0.5
+
+
 def test_padding_is_the_nearest_colour() -> None:
     mesh = Mesh(np.eye(3), np.array([[0, 1, 2]]))
     target = MeshFile(mesh, None, np.array([[0.4, 0.4], [0.6, 0.4], [0.4, 0.6]]), np.array([[0, 1, 2]]))

@@ -135,8 +135,8 @@ class NonRigid:
         x = unfolded(pair, points)
         report(0.2)
         even = _evened(pair, self.evenness)
-        marked = landmarks is not None and len(landmarks) > 0
-        discs = _discs(pair, landmarks) if marked else np.zeros((len(x), 0))
+        marks = np.zeros((0, 2), dtype=np.int64) if landmarks is None else np.asarray(landmarks)
+        discs = _discs(pair, marks)
         stays = [] if held is None or not held.any() else [_stays(pair, points, held)]
         gap = 0.0
         for level in range(self.levels):
@@ -145,8 +145,8 @@ class NonRigid:
             for step in range(self.steps):
                 terms, gap = _closest_terms(pair, x)
                 terms += stays
-                if marked:
-                    terms.append(_marked(pair, landmarks, discs, x, HOLD * stiffness))
+                if len(marks):
+                    terms.append(_marked(pair, marks, discs, x, HOLD * stiffness))
                 x = _descended(pair, stiffness, solve, terms, x, even(rotations(pair.energy, x)))
                 report(0.2 + 0.8 * (level * self.steps + step + 1) / (self.levels * self.steps))
         found = places_on(target.vertices, x, source.faces)
@@ -263,6 +263,8 @@ def _stays(pair: _Pair, points: np.ndarray, held: np.ndarray) -> _Term:
 def _discs(pair: _Pair, landmarks: np.ndarray) -> np.ndarray:
     """How much of each source vertex belongs to each landmark of ``(l, 2)``: columns (n_s, l) with sum 1."""
     n, count = len(pair.areas_s), len(landmarks)
+    if count == 0:
+        return np.zeros((n, 0))
     points = np.zeros((n, count))
     points[landmarks[:, 0], np.arange(count)] = 1.0
     diffuse = factorise(DISC * pair.energy.laplacian + diags_array(pair.areas_s), ordered=False)

@@ -124,7 +124,7 @@ def bakeable(target: MeshFile, size: int = SMALLEST) -> bool:
     _, texel, _ = texels_of(corners, size)
     hits = np.bincount(texel)
     # Texels on an edge that two faces share count for both: those are few, and no more than one in each row of a face.
-    return bool(len(texel)) and np.count_nonzero(hits > 1) <= TWICE * np.count_nonzero(hits)
+    return bool(len(texel) and np.count_nonzero(hits > 1) <= TWICE * np.count_nonzero(hits))
 
 
 def baked(
@@ -169,7 +169,8 @@ def baked(
     if place is not None and source.uv is not None and source.uv_faces is not None:
         chart = charts(source.uv_faces, len(source.uv))[place.faces][target.mesh.faces]
         torn = (chart != chart[:, :1]).any(axis=1) | (uv_faces != target.mesh.faces).any(axis=1)
-        seam = np.flatnonzero(torn[face])
+        single = (uv_faces == uv_faces[:, :1]).all(axis=1)  # faces outside a part have one colour
+        seam = np.flatnonzero((torn & ~single)[face])
         corners = points_of(place, source.mesh)[target.mesh.faces[face[seam]]]
         points = np.einsum("qi,qij->qj", weights[seam], corners)
         found = places_on(points, source.mesh.vertices, source.mesh.faces)

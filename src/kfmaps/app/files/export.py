@@ -208,7 +208,7 @@ def write_textured(
         raise refuse(f"picture {picture}", f"a file {' '.join(PICTURES)}", "none", "check the name")
     place = place_of(target_to_source, source.mesh) if place is None else check_places(place, source.mesh, len(points))
     image = _picture(picture, source)
-    lost = points < 0
+    lost = np.asarray(points < 0)
     uv, uv_faces = carried_uv(source, mesh, np.where(lost, points.max(), points), place)
     if lost.any():
         # All three corners in one place: the face has one colour of the picture, and the picture does not spread.
