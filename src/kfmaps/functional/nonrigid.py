@@ -23,15 +23,14 @@ from scipy.spatial import KDTree
 
 from kfmaps._arrays import check_count, check_positive, refuse
 from kfmaps.functional.points import check_point_map
+from kfmaps.functional.pulls import Term, descended
 from kfmaps.surface.closest import Places, Rings, closest_of, places_on, rings
 from kfmaps.surface.eigen.factor import factorise
 from kfmaps.surface.mesh import Mesh, vertex_areas, vertex_normals
-from kfmaps.surface.rigidity import Rigidity, bending, nearest_rotations, pull, rigidity, rotations
+from kfmaps.surface.rigidity import Rigidity, bending, nearest_rotations, rigidity, rotations
 
 DECLINE = 10**-0.5
 """Stiffness of a level over that of the one before."""
-SLIDING = 0.03
-"""Weight of squared distances along the surface, against 1 along its normal."""
 NORMALS = 0.02
 """Distance in space, at unit area, that counts as much as normals that differ by 1."""
 AGREEMENT = 0.3
@@ -44,8 +43,6 @@ UNFOLDINGS = 3
 """... so many rounds."""
 SMOOTH = 1e-4
 """Area over which the map's images are averaged before anything is known of rotations."""
-INNER = 3
-"""Steps of conjugate gradients for each set of closest points."""
 HOLD = 6.0
 """Weight of a landmark over the stiffness of a level: softly enough that those 3 % of √area off do no harm."""
 DISC = 1e-3
@@ -147,7 +144,7 @@ class NonRigid:
                 terms += stays
                 if len(marks):
                     terms.append(_marked(pair, marks, discs, x, HOLD * stiffness))
-                x = _descended(pair, stiffness, solve, terms, x, even(rotations(pair.energy, x)))
+                x = descended(pair.energy, stiffness, solve, terms, x, even(rotations(pair.energy, x)))
                 report(0.2 + 0.8 * (level * self.steps + step + 1) / (self.levels * self.steps))
         found = places_on(target.vertices, x, source.faces)
         energy = bending(pair.energy, x) / float(pair.areas_s.sum())
@@ -187,35 +184,6 @@ class _Look:
         return found, there, np.clip((cosine - AGREEMENT) / (1 - AGREEMENT), 0.0, 1.0)
 
 
-@dataclass(frozen=True, eq=False)
-class _Term:
-    """``Σ_q weights_q ‖P_q((rows x)_q − places_q)‖²``, ``P`` shortened to :data:`SLIDING` across ``normals``.
-
-    ``rows`` is sparse ``(q, n_s)``, ``None`` for the vertices themselves; without normals ``P`` is the identity.
-    """
-
-    weights: np.ndarray
-    places: np.ndarray
-    rows: Any = None
-    normals: np.ndarray | None = None
-
-    def at(self, x: np.ndarray) -> np.ndarray:
-        """The matrix of the term on ``x (n_s, 3)``."""
-        inside = self._shortened(x if self.rows is None else self.rows @ x)
-        return inside if self.rows is None else self.rows.T @ inside
-
-    def right(self) -> np.ndarray:
-        """The right-hand side, (n_s, 3)."""
-        inside = self._shortened(self.places)
-        return inside if self.rows is None else self.rows.T @ inside
-
-    def _shortened(self, z: np.ndarray) -> np.ndarray:
-        if self.normals is None:
-            return self.weights[:, None] * z
-        along = np.einsum("qi,qi->q", self.normals, z)
-        return self.weights[:, None] * (SLIDING * z + ((1 - SLIDING) * along)[:, None] * self.normals)
-
-
 def _pair(source: Mesh, target: Mesh) -> _Pair:
     normals = vertex_normals(target)
     return _Pair(
@@ -253,11 +221,11 @@ def _evened(pair: _Pair, area: float) -> Callable[[np.ndarray], np.ndarray]:
     )
 
 
-def _stays(pair: _Pair, points: np.ndarray, held: np.ndarray) -> _Term:
+def _stays(pair: _Pair, points: np.ndarray, held: np.ndarray) -> Term:
     """The map itself as a term, with weights ``held (n_t,)``."""
     some = np.flatnonzero(held)
     rows = csr_array((np.ones(len(some)), points[some], np.arange(len(some) + 1)), shape=(len(some), len(pair.areas_s)))
-    return _Term(held[some] * pair.areas_t[some], pair.target.vertices[some], rows)
+    return Term(held[some] * pair.areas_t[some], pair.target.vertices[some], rows)
 
 
 def _discs(pair: _Pair, landmarks: np.ndarray) -> np.ndarray:
@@ -271,58 +239,23 @@ def _discs(pair: _Pair, landmarks: np.ndarray) -> np.ndarray:
     return pair.areas_s[:, None] * np.asarray(diffuse(points)).reshape(n, count)
 
 
-def _marked(pair: _Pair, landmarks: np.ndarray, discs: np.ndarray, x: np.ndarray, weight: float) -> _Term:
+def _marked(pair: _Pair, landmarks: np.ndarray, discs: np.ndarray, x: np.ndarray, weight: float) -> Term:
     """Landmarks ``(l, 2)`` as a term: each takes its disc along, those that are far off with less weight."""
     missing = pair.target.vertices[landmarks[:, 1]] - x[landmarks[:, 0]]
     shares = weight * discs / (1 + (missing**2).sum(axis=1) / SLOPPY**2) ** 2
     held = shares.sum(axis=1)
-    return _Term(held, x + shares @ missing / np.maximum(held, 1e-300)[:, None])
+    return Term(held, x + shares @ missing / np.maximum(held, 1e-300)[:, None])
 
 
-def _descended(
-    pair: _Pair,
-    stiffness: float,
-    solve: Callable[[np.ndarray], np.ndarray],
-    terms: list[_Term],
-    x: np.ndarray,
-    turns: np.ndarray,
-    steps: int = INNER,
-) -> np.ndarray:
-    """``x`` after a few steps of conjugate gradients on the quadratic energy for fixed rotations and terms.
-
-    Every step lowers that energy, so that none needs to be exact.
-    """
-
-    def apply(z: np.ndarray) -> np.ndarray:
-        return stiffness * (pair.energy.laplacian @ z) + sum(term.at(z) for term in terms)
-
-    residual = stiffness * pull(pair.energy, turns) + sum(term.right() for term in terms) - apply(x)
-    direction = towards = solve(residual)
-    size = float(np.sum(residual * towards))
-    for step in range(steps):
-        if not size > 0:
-            break
-        image = apply(direction)
-        length = size / float(np.sum(direction * image))
-        x = x + length * direction
-        if step == steps - 1:
-            break
-        residual = residual - length * image
-        towards = solve(residual)
-        before, size = size, float(np.sum(residual * towards))
-        direction = towards + size / before * direction
-    return x
-
-
-def _closest_terms(pair: _Pair, x: np.ndarray) -> tuple[list[_Term], float]:
+def _closest_terms(pair: _Pair, x: np.ndarray) -> tuple[list[Term], float]:
     """Closest points in both directions as terms, and how far the surfaces are apart (root mean square)."""
     bent = Mesh(x, pair.source.faces)
     normals = vertex_normals(bent)
     forth, there, agree_s = pair.look_t(x, normals)
     back, _, agree_t = _look(bent, normals, pair.rings_s)(pair.target.vertices, pair.normals_t)
     terms = [
-        _Term(pair.areas_s * agree_s, forth.points, None, there),
-        _Term(pair.areas_t * agree_t, pair.target.vertices, _rows(pair, back), pair.normals_t),
+        Term(pair.areas_s * agree_s, forth.points, None, there),
+        Term(pair.areas_t * agree_t, pair.target.vertices, _rows(pair, back), pair.normals_t),
     ]
     squares = [
         np.average(places.distances**2, weights=areas)
@@ -360,7 +293,7 @@ def unfolded(pair: _Pair, points: np.ndarray) -> np.ndarray:
         turns = rotations(pair.energy, x).reshape(n, 9)
         diffusion = factorise(DIFFUSION * 0.5**round * pair.energy.laplacian + diags_array(held), ordered=False)
         turns = nearest_rotations(diffusion(held[:, None] * turns).reshape(n, 3, 3))
-        terms = [_Term(pair.areas_t * trust[points], pair.target.vertices, rows)]
-        x = _descended(pair, START, solve, terms, x, turns, 8)
-        x = _descended(pair, START, solve, terms, x, rotations(pair.energy, x), 8)
+        terms = [Term(pair.areas_t * trust[points], pair.target.vertices, rows)]
+        x = descended(pair.energy, START, solve, terms, x, turns, 8)
+        x = descended(pair.energy, START, solve, terms, x, rotations(pair.energy, x), 8)
     return x

@@ -13,7 +13,8 @@ from typing import Any
 
 import numpy as np
 
-from kfmaps.functional.nonrigid import _descended, _Look, _look, _Pair, _solver, _Term, unfolded
+from kfmaps.functional.nonrigid import _Look, _look, _Pair, _solver, unfolded
+from kfmaps.functional.pulls import Term, descended
 from kfmaps.parts.side import scaled
 from kfmaps.surface.closest import Places, places_on, rings
 from kfmaps.surface.mesh import Mesh, surface_area, vertex_areas, vertex_normals
@@ -107,8 +108,13 @@ def bent(
         for step in range(steps):
             found, there, agree = whole.look(x, vertex_normals(Mesh(x, rest.faces)))
             counts = agree * within(found, whole)
-            x = _descended(
-                pair, stiffness, solve, [_Term(areas * counts, found.points, None, there)], x, rotations(energy, x)
+            x = descended(
+                pair.energy,
+                stiffness,
+                solve,
+                [Term(areas * counts, found.points, None, there)],
+                x,
+                rotations(energy, x),
             )
             if progress is not None:
                 progress((i * steps + step + 1) / (len(levels) * steps))
