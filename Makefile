@@ -9,7 +9,7 @@ export OMP_NUM_THREADS ?= 1
 
 # What CI runs twice more, with the last bits changed as other processors would: see tests/shake.py.
 CORE := automatic clouds confidence device eigensolver energy formulas formulas_match formulations geodesics guided inside \
-	kernels maps nystrom orientation pipeline preconditioners rounding scale search shot solvers spectrum topology
+	kernels many many_differences many_maps maps nystrom orientation pipeline preconditioners rounding scale search shot solvers spectrum topology
 
 .PHONY: demo test shake lint docs web clean
 

@@ -39,6 +39,7 @@ ROOMS = {
     "test_formulations test_rounding test_precise",
     "fit": "test_formulas_match test_pipeline test_rounding test_scale test_formulations_fit",
     "search": "test_formulas_match test_rounding test_search test_automatic",
+    "many": "test_many test_many_differences test_many_maps",
     "config": "test_pipeline test_settings",
 }
 """Where random mutants are drawn, and the tests that should notice, the quickest first."""

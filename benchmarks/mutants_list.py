@@ -303,6 +303,32 @@ MUTANTS = tuple(
             "return G - C @ (product + product.T)",
             "test_formulations -k tangent",
         ),
+        # many
+        (
+            "say = np.append(odds - (misfits - limit) / spread, 0.0)",
+            "say = np.append(odds + (misfits - limit) / spread, 0.0)",
+            "test_many -k planted",
+        ),
+        ("return left @ right\n", "return right @ left\n", "test_many -k that_agree_are", "many/agree"),
+        (
+            "further = round(cost - float(np.log(",
+            "further = round(cost + float(np.log(",
+            "test_many -k best_way",
+        ),
+        ("gain = -signs * (signed @ signs)", "gain = signs * (signed @ signs)", "test_many -k hands"),
+        (
+            "inside = C.T @ (np.asarray(eigenvalues_t)[:, None] * C)",
+            "inside = C.T @ (np.asarray(eigenvalues_s)[:, None] * C)",
+            "test_many_differences -k scaling",
+        ),
+        ("return own - 2 * SAY if one.orientation < TURNED else own", "return own", "test_many -k inside_out"),
+        ("parts = sizes[:kept] ** 2 / whole", "parts = sizes[:kept] / whole", "test_many_differences -k component"),
+        ("if made.score > least and misfit < own[number]", "if misfit < own[number]", "test_many -k loose"),
+        (
+            "*in_use(ends, known, number)]",
+            "*in_use(ends, known, number)[:0]]",
+            "test_many -k family",
+        ),
         # config
         (
             "self.descriptors.eigenfunctions if spectral else 0, zoom)",
