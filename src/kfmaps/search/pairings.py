@@ -1,0 +1,94 @@
+"""Which tip of one shape is which of another, and the rough map that follows.
+
+All ways to pair the tips are tried, and those kept whose tips lie alike; then, for each, the distances to the tips and
+the sense in which they grow are compared at all points, which tells a limb from another and left from right.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import combinations, permutations
+
+import numpy as np
+
+from kfmaps.search.quality import Probe
+from kfmaps.search.tips import Tips
+
+FEWEST = 3
+"""Tips without which nothing is told apart."""
+LEFT_OUT = 0.15
+"""Cost of leaving one of the tips out, as its part of all: an ear of a dog has no partner on a cat."""
+SPARE = 5
+"""Tips from which one may be left out."""
+TRIED = 200
+"""Pairings whose points are compared, ..."""
+THIN = 150
+"""... at so many of the samples, ..."""
+KEPT = 32
+"""... and those that are refined."""
+SHOT = 0.02
+"""Weight of SHOT beside distances from tips, where those are the same."""
+
+
+@dataclass(frozen=True, eq=False)
+class Pairing:
+    """Tips ``source (m,)`` of one shape and, in the same order, ``target (m,)`` of the other."""
+
+    source: np.ndarray
+    target: np.ndarray
+
+
+def pairings(source: Probe, target: Probe, shot: np.ndarray | None) -> list[Pairing]:
+    """The likeliest, best first; none where a shape has hardly any tips.
+
+    ``shot (q_t, q_s)``: half the squared differences of descriptors, see :func:`kfmaps.search.arena.differences`.
+    """
+    a, b = source.tips, target.tips
+    if min(len(a.points), len(b.points)) < FEWEST:
+        return []
+    tried = alike(source, target)[:TRIED]
+    thin = a.thinned(THIN), b.thinned(THIN)
+    less = None if shot is None else shot[:THIN, :THIN]
+    left = [float(against(*thin, pairing, less).min(axis=1).mean()) for pairing in tried]
+    return [tried[i] for i in np.argsort(left, kind="stable")[:KEPT]]
+
+
+def alike(source: Probe, target: Probe) -> list[Pairing]:
+    """All pairings of as many tips as both shapes have, or of one less, in the order of how alike the tips lie.
+
+    Their distances from each other and from the rest are compared, and the heat kernel signature, which knows a tail
+    from a leg.
+    """
+    a, b = source.tips, target.tips
+    between_s, between_t = a.distances[:, a.points], b.distances[:, b.points]
+    apart = np.abs(a.reach[:, None] - b.reach[None, :])
+    heat_s, heat_t = source.heat[a.points], target.heat[b.points]
+    apart = apart + np.sqrt(((heat_s[:, None] - heat_t[None, :]) ** 2).mean(axis=2))
+    both = min(len(a.points), len(b.points))
+    costs, found = [], []
+    for size in (both, both - 1) if both >= SPARE else (both,):
+        images = np.array(list(permutations(range(len(b.points)), size)))
+        for chosen in combinations(range(len(a.points)), size):
+            ours = between_s[np.ix_(chosen, chosen)]
+            theirs = between_t[images[:, :, None], images[:, None, :]]
+            cost = np.abs(theirs - ours).sum(axis=(1, 2)) / (size * (size - 1))
+            cost = cost + apart[np.array(chosen), images].mean(axis=1) + LEFT_OUT * (both - size) / both
+            best = np.argsort(cost, kind="stable")[:TRIED]
+            costs.append(cost[best])
+            found += [Pairing(np.array(chosen), images[i]) for i in best]
+    order = np.argsort(np.concatenate(costs), kind="stable")
+    return [found[i] for i in order]
+
+
+def against(a: Tips, b: Tips, pairing: Pairing, shot: np.ndarray | None = None) -> np.ndarray:
+    """What speaks against each pair of samples ``(q_t, q_s)``: squared differences of all that tips tell."""
+    there, here = told(b, pairing.target), told(a, pairing.source)
+    cost = (there**2).sum(axis=1)[:, None] + (here**2).sum(axis=1)[None, :] - 2 * there @ here.T
+    return cost if shot is None else cost + SHOT * shot
+
+
+def told(found: Tips, chosen: np.ndarray) -> np.ndarray:
+    """What the ``chosen`` tips tell of each sample: distances and turns, each of them one on average."""
+    upper = np.triu_indices(len(chosen), 1)
+    turn = found.turn[np.ix_(chosen, chosen)][upper]
+    return np.vstack([found.distances[chosen] / np.sqrt(len(chosen)), turn / np.sqrt(max(len(turn), 1))]).T
