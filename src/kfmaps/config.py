@@ -214,7 +214,8 @@ class Search:
     """How to find the map among many; see :mod:`kfmaps.search.choose`.
 
     ``candidates``: how many small fits are tried, each refined from three starts; ``signs``: how many low functions
-    after the constant one have both their signs tried, 2^signs diagonal maps; ``orientation``: whether the map keeps
+    after the constant one have both their signs tried, 2^signs diagonal maps; ``tips``: whether the tips of limbs are
+    paired in all likely ways as well, for bodies of different proportions; ``orientation``: whether the map keeps
     orientation ("kept"), is one to a mirror image ("reversed"), or the one of both that fits clearly better
     ("either": for bones, shoes or hands, which are not their own mirror images; of a body that is, either map fits, and
     "kept" is right); ``runners_up``: how many distinct other maps are
@@ -225,6 +226,7 @@ class Search:
     orientation: Literal["kept", "reversed", "either"] = "kept"
     runners_up: int = 3
     signs: int = 5
+    tips: bool = True
 
     def __post_init__(self) -> None:
         check_count(self.candidates, "candidates")

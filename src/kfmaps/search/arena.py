@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -9,6 +10,7 @@ import numpy as np
 from kfmaps.fit.shape import Shape
 from kfmaps.functional.guide import Guide, guide
 from kfmaps.search.marks import Marks, around, side_by_side
+from kfmaps.search.pairings import Pairing, against
 from kfmaps.search.quality import Probe, mirrored_probe, thinned
 
 POINTS = 400
@@ -35,12 +37,23 @@ class Ground:
     landmarks: np.ndarray | None = None
     marks: Marks | None = None
 
-    def against(self, shot: float, landmarks: float = 0.0) -> np.ndarray | None:
-        """What speaks against pairs, with weights, for :func:`kfmaps.search.zoom.zoomed`."""
+    def against(
+        self, shot: float, landmarks: float = 0.0, tips: float = 0.0, paired: Sequence[Pairing | None] = ()
+    ) -> np.ndarray | None:
+        """What speaks against pairs, with weights, for :func:`kfmaps.search.zoom.zoomed`.
+
+        (q_t, q_s), or (m, q_t, q_s) when the tips of m maps are ``paired`` and count.
+        """
         total = None
         for weight, part in ((shot, self.shot), (landmarks, self.landmarks)):
             if part is not None and weight:
                 total = np.float32(weight) * part + (0 if total is None else total)
+        if tips and any(pairing is not None for pairing in paired):
+            each = np.zeros((len(paired), len(self.target.positions), len(self.source.positions)), dtype=np.float32)
+            for i, pairing in enumerate(paired):
+                if pairing is not None:
+                    each[i] = tips * against(self.source.tips, self.target.tips, pairing)
+            total = each if total is None else each + total
         return total
 
 

@@ -7,7 +7,7 @@ random symmetries of the best of these. The best that differ are refined further
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
 from itertools import product
 from typing import Any
@@ -22,17 +22,23 @@ from kfmaps.functional.points import nearest
 from kfmaps.search.arena import Arena, Ground
 from kfmaps.search.fits import fitted_family, planned, sampled
 from kfmaps.search.marks import FAR, missed
+from kfmaps.search.pairings import Pairing, against, induced, pairings
 from kfmaps.search.quality import Probe, Quality, map_quality
-from kfmaps.search.zoom import zoomed
+from kfmaps.search.zoom import projector, zoomed
 
-WEIGHTS = ((0.0, 0.0), (4.0, 12.0), (12.0, 12.0))
-"""Of SHOT and of landmarks in the rough refinement: none, so that symmetric maps are found too, some, and much."""
-FROM_FITS = ((4.0, 12.0), (12.0, 12.0))
+Weights = tuple[float, ...]
+"""Of SHOT, of landmarks and of the tips of limbs."""
+WEIGHTS: tuple[Weights, ...] = ((0.0, 0.0), (4.0, 12.0), (12.0, 12.0))
+"""In the rough refinement: none, so that symmetric maps are found too, some, and much."""
+FROM_FITS: tuple[Weights, ...] = ((4.0, 12.0), (12.0, 12.0))
 ROUGH, ROUGH_STEP = 40, 4
 """Functions at the end of the rough refinement, and how many more at each step."""
 FINE, FINE_FROM, FINE_STEP = 80, 20, 5
 """The same of the refinement of the best, on all points of the probe; from fewer functions it loses right maps."""
-FINE_WEIGHTS = (12.0, 12.0)
+FINE_WEIGHTS: Weights = (12.0, 12.0, 30.0)
+FROM_TIPS: tuple[Weights, ...] = ((4.0, 12.0, 30.0),)
+TIP_FUNCTIONS = 12
+"""Functions of the map that a pairing of tips starts from."""
 STARTS = (6, 10, 20)
 """Where the rough refinement of a fit starts. From few functions it repairs maps that are wrong in part, also of
 shapes that are far from isometric; from many it keeps what is right."""
@@ -89,8 +95,9 @@ class Start:
     name: str
     functional_map: np.ndarray
     functions: int
-    weights: tuple[float, float]
+    weights: Weights
     guided: bool
+    pairing: Pairing | None = None
 
 
 Report = Callable[[float], None]
@@ -119,6 +126,7 @@ def candidates(
     marks = np.zeros((0, 2), dtype=np.int64) if landmarks is None else landmarks
     starts = from_signs(min(config.search.signs, functions - 1), on.few)
     starts += from_fits(source, target, config, on, marks, descriptors, seed, drawn)
+    starts += from_tips(functions, on.few)
     told(0.35)
     found = rough(starts, on.few, functions, config.threads)
     told(0.7)
@@ -130,7 +138,7 @@ def candidates(
     told(0.75)
     order = sorted(found, key=lambda c: c.score, reverse=True)
     chosen = apart(order, on.few.source, APART)[:FINALISTS]
-    refined = fine(chosen, on.whole, functions, config.threads)
+    refined = fine(chosen, on.few, on.whole, functions, config.threads)
     told(1.0)
     return refined
 
@@ -147,7 +155,7 @@ def from_signs(count: int, on: Ground) -> list[Start]:
     ]
 
 
-def _signs(signs: np.ndarray, weights: tuple[float, float]) -> str:
+def _signs(signs: np.ndarray, weights: Weights) -> str:
     return "signs " + "".join("+" if s > 0 else "-" for s in signs[1:]) + f", weight {weights[0]:g}"
 
 
@@ -182,29 +190,59 @@ def from_fits(
     return [start for several in parallel(starts, families, config.threads) for start in several]
 
 
-def _told_apart(weights: Iterable[tuple[float, float]], on: Ground) -> list[tuple[float, float]]:
+def from_tips(functions: int, on: Ground) -> list[Start]:
+    """Maps that follow from pairings of the tips of limbs; see :mod:`kfmaps.search.pairings`."""
+    maps = [(pairing, paired_map(pairing, on, min(TIP_FUNCTIONS, functions))) for pairing in paired(on)]
+    return [
+        Start(
+            f"tips {'-'.join(map(str, pairing.source))} to {'-'.join(map(str, pairing.target))}",
+            C,
+            len(C),
+            w,
+            True,
+            pairing,
+        )
+        for w in _told_apart(FROM_TIPS, on)
+        for pairing, C in maps
+    ]
+
+
+def paired(on: Ground) -> list[Pairing]:
+    return pairings(on.source, on.target, on.shot)
+
+
+def paired_map(pairing: Pairing, on: Ground, k: int) -> np.ndarray:
+    """The functional map (k, k) of the points that the tips of a pairing say are alike."""
+    points = against(on.source.tips, on.target.tips, pairing, on.shot).argmin(axis=1)
+    return np.asarray(projector(on.target.samples.basis, k) @ on.source.samples.basis.functions[points, :k], float)
+
+
+def _told_apart(weights: Iterable[Weights], on: Ground) -> list[Weights]:
     """The ``weights`` that differ on a ground which may know nothing of SHOT or of landmarks."""
-    shown = [(a if on.shot is not None else 0.0, b if on.landmarks is not None else 0.0) for a, b in weights]
-    return list(dict.fromkeys(shown))
+    known = (on.shot is not None, on.landmarks is not None, True)
+    return list(dict.fromkeys(tuple(w if k else 0.0 for w, k in zip(each, known, strict=False)) for each in weights))
 
 
 def rough(starts: list[Start], on: Ground, functions: int, threads: int | None = None) -> list[Candidate]:
     """The starts refined on few points."""
     stop = min(ROUGH, functions)
-    groups: dict[tuple[int, tuple[float, float]], list[Start]] = {}
+    groups: dict[tuple[int, Weights], list[Start]] = {}
     for start in starts:
         size = min(start.functions, stop, *start.functional_map.shape)
         groups.setdefault((size, start.weights), []).append(start)
     found = []
     for (size, weights), members in groups.items():
         maps = np.stack([start.functional_map[:size, :size] for start in members])
-        refined = refine(maps, on, (*range(size, stop, ROUGH_STEP), stop), weights, threads)
+        pairs = [start.pairing for start in members]
+        refined = refine(maps, on, (*range(size, stop, ROUGH_STEP), stop), weights, pairs, threads)
         found += judged([(s.name, s.guided) for s in members], *refined, on, threads)
     return found
 
 
-def fine(chosen: list[Candidate], on: Ground, functions: int, threads: int | None = None) -> list[Candidate]:
-    """The chosen maps refined on all points: all with the descriptors, and those that are rivals without as well."""
+def fine(
+    chosen: list[Candidate], few: Ground, on: Ground, functions: int, threads: int | None = None
+) -> list[Candidate]:
+    """The chosen maps, found on ``few`` points, refined on all: with the descriptors, and rivals without as well."""
     stop = min(FINE, functions)
     size = min(FINE_FROM, stop, *chosen[0].functional_map.shape)
     sizes = (*range(size, stop, FINE_STEP), stop)
@@ -215,7 +253,8 @@ def fine(chosen: list[Candidate], on: Ground, functions: int, threads: int | Non
         if members:
             maps = np.stack([c.functional_map[:size, :size] for c in members])
             says = bool(weights[0]) or on.shot is None
-            refined = refine(maps, on, sizes, weights, threads)
+            pairs = [induced(c.points, few.source, few.target) for c in members]
+            refined = refine(maps, on, sizes, weights, pairs, threads)
             found += judged([(c.name, says) for c in members], *refined, on, threads)
     return found
 
@@ -229,17 +268,23 @@ def again(found: list[Candidate], on: Ground, threads: int | None = None) -> lis
         members = [i for i, c in enumerate(found) if c.guided == says]
         if members:
             weights = FINE_WEIGHTS if says else WEIGHTS[0]
-            refined = refine(maps[members], on, (max(size // 2, 2), size), weights, threads)
+            pairs = [induced(found[i].points, on.source, on.target) for i in members]
+            refined = refine(maps[members], on, (max(size // 2, 2), size), weights, pairs, threads)
             out += judged([(found[i].name, says) for i in members], *refined, on, threads)
     return out
 
 
 def refine(
-    maps: np.ndarray, on: Ground, sizes: tuple[int, ...], weights: tuple[float, float], threads: int | None
+    maps: np.ndarray,
+    on: Ground,
+    sizes: tuple[int, ...],
+    weights: Weights,
+    paired: Sequence[Pairing | None],
+    threads: int | None,
 ) -> tuple[np.ndarray, np.ndarray]:
-    """:func:`kfmaps.search.zoom.zoomed` on a ground."""
+    """:func:`kfmaps.search.zoom.zoomed` on a ground; ``paired``: the tips that each map takes to each other."""
     bases = on.source.samples.basis, on.target.samples.basis
-    return zoomed(maps, *bases, sizes, on.against(*weights), threads)
+    return zoomed(maps, *bases, sizes, on.against(*weights, paired=paired), threads)
 
 
 def judged(

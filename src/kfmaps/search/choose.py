@@ -130,6 +130,8 @@ def choose(
     if probes is None or len(pairs):
         made = parallel(lambda side: probe(side[0], rng=seed, threads=1, landmarks=side[1]), sides, config.threads)
         probes = made[0], made[1]
+    if not config.search.tips:
+        probes = replace(probes[0], tips=probes[0].tips.none()), replace(probes[1], tips=probes[1].tips.none())
     report("candidates", 0.1)
     on = arena(source, target, probes, pairs)
     found = candidates(

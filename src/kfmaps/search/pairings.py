@@ -26,6 +26,8 @@ THIN = 150
 """... at so many of the samples, ..."""
 KEPT = 32
 """... and those that are refined."""
+NEAR = 0.5
+"""Distance, over the mean one of all points, up to which a tip whose image is nearest to another goes to that one."""
 SHOT = 0.02
 """Weight of SHOT beside distances from tips, where those are the same."""
 
@@ -36,6 +38,9 @@ class Pairing:
 
     source: np.ndarray
     target: np.ndarray
+
+    def __str__(self) -> str:
+        return f"tips {'-'.join(map(str, self.source))} to {'-'.join(map(str, self.target))}"
 
 
 def pairings(source: Probe, target: Probe, shot: np.ndarray | None) -> list[Pairing]:
@@ -85,6 +90,18 @@ def against(a: Tips, b: Tips, pairing: Pairing, shot: np.ndarray | None = None) 
     there, here = told(b, pairing.target), told(a, pairing.source)
     cost = (there**2).sum(axis=1)[:, None] + (here**2).sum(axis=1)[None, :] - 2 * there @ here.T
     return cost if shot is None else cost + SHOT * shot
+
+
+def induced(points: np.ndarray, source: Probe, target: Probe) -> Pairing | None:
+    """The tips that a map ``points (q_t,)`` takes to each other, nearly; ``None`` where they are fewer than three."""
+    a, b = source.tips, target.tips
+    if min(len(a.points), len(b.points)) < FEWEST:
+        return None
+    # From each tip of the source to the image of each of the target.
+    off = a.distances[:, points[b.points]]
+    nearest_s, nearest_t = off.argmin(axis=0), off.argmin(axis=1)
+    theirs = np.flatnonzero((off.min(axis=0) < NEAR) & (nearest_t[nearest_s] == np.arange(len(b.points))))
+    return Pairing(nearest_s[theirs], theirs) if len(theirs) >= FEWEST else None
 
 
 def told(found: Tips, chosen: np.ndarray) -> np.ndarray:

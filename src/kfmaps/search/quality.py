@@ -19,6 +19,7 @@ from kfmaps.fit.shape import Shape
 from kfmaps.functional.guide import FLAT, spread
 from kfmaps.functional.points import nearest
 from kfmaps.functional.refine import SampledBasis, Samples, spectral_samples
+from kfmaps.search.tips import Tips, tips
 from kfmaps.surface.basis import Basis, zero_level
 from kfmaps.surface.coarse import coarse
 from kfmaps.surface.mesh import Mesh
@@ -65,6 +66,8 @@ class Probe:
     positions : (q, 3) float64
     marks : (l, q) float64
         Geodesic distances from landmarks to the samples.
+    tips : Tips
+        The tips of its limbs.
     """
 
     samples: Samples
@@ -74,6 +77,7 @@ class Probe:
     heat: np.ndarray
     positions: np.ndarray
     marks: np.ndarray
+    tips: Tips
 
 
 @dataclass(frozen=True)
@@ -149,14 +153,16 @@ def probe(
         orientation = orientation_slices(mesh, low, functions[:, : 4 * WAVES], threads)
     local = None if shape.shot is None else shape.shot[samples.vertices]
     heat = np.log(np.maximum(to_numpy(heat_signature(samples.basis, TIMES)), 1e-12))
+    close = distances[: len(first), : len(first)]
     return Probe(
         samples,
-        distances[: len(first), : len(first)],
+        close,
         orientation,
         local,
         heat,
         shape.mesh.vertices[samples.vertices],
         distances[len(first) :],
+        tips(close, areas_of_first(samples.basis, len(first)), mesh, rows[: len(samples.vertices)]),
     )
 
 
@@ -174,10 +180,7 @@ def thinned(probe: Probe, count: int) -> Probe:
     basis = probe.samples.basis
     if count >= len(probe.samples.vertices):
         return probe
-    functions, values = to_numpy(basis.functions)[:, 1 : LOW + 1], to_numpy(basis.eigenvalues)[1 : LOW + 1]
-    embedding = functions / np.maximum(values, max(1e-6 * values[-1], zero_level(basis)))
-    closest = nearest(embedding, embedding[:count], threads=1)
-    areas = np.bincount(closest, to_numpy(basis.mass), minlength=count)
+    areas = areas_of_first(basis, count)
     few = SampledBasis(basis.eigenvalues, basis.functions[:count], like(areas, basis.mass))
     return replace(
         probe,
@@ -187,7 +190,16 @@ def thinned(probe: Probe, count: int) -> Probe:
         heat=probe.heat[:count],
         positions=probe.positions[:count],
         marks=probe.marks[:, :count],
+        tips=probe.tips.thinned(count),
     )
+
+
+def areas_of_first(basis: SampledBasis, count: int) -> np.ndarray:
+    """The areas (count,) that the first samples stand for when the others are given to the nearest of them."""
+    functions, values = to_numpy(basis.functions)[:, 1 : LOW + 1], to_numpy(basis.eigenvalues)[1 : LOW + 1]
+    embedding = functions / np.maximum(values, max(1e-6 * values[-1], zero_level(basis)))
+    closest = nearest(embedding, embedding[:count], threads=1)
+    return np.bincount(closest, to_numpy(basis.mass), minlength=count)
 
 
 def mirrored_probe(probe: Probe) -> Probe:
@@ -196,6 +208,7 @@ def mirrored_probe(probe: Probe) -> Probe:
         probe,
         descriptors=None if probe.descriptors is None else mirrored(probe.descriptors),
         orientation=None if probe.orientation is None else -probe.orientation,
+        tips=probe.tips.mirrored(),
     )
 
 

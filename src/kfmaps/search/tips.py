@@ -38,8 +38,8 @@ class Tips:
     distances : (m, q) float64
         From each tip to each sample, over the mean distance of all points from each other.
     turn : (m, m, q) float64
-        ``n · (∇dᵢ × ∇dⱼ)`` of the distances from tips i and j at each sample, averaged nearby, from −1 to 1: the sine of
-        the angle from one direction to the other. It changes sign in a mirror. 0 for point clouds.
+        ``n · (∇dᵢ × ∇dⱼ)`` of the distances from tips i and j at each sample, averaged nearby, from −1 to 1: the sine
+        of the angle from one direction to the other. It changes sign in a mirror. 0 for point clouds.
     """
 
     points: np.ndarray
@@ -50,6 +50,10 @@ class Tips:
     def thinned(self, count: int) -> Tips:
         """At the first samples."""
         return replace(self, distances=self.distances[:, :count], turn=self.turn[:, :, :count])
+
+    def none(self) -> Tips:
+        """As of a shape without any."""
+        return Tips(self.points[:0], self.reach[:0], self.distances[:0], self.turn[:0, :0])
 
     def mirrored(self) -> Tips:
         """Of the mirror image."""

@@ -38,9 +38,9 @@ def zoomed(
         Of q_s and q_t points, the total area 1.
     sizes : tuple of int
         Growing; the last is the size of the result.
-    against : (q_t, q_s), optional
-        Half the squared differences of descriptors, up to a constant for each target point: what speaks against a
-        pair besides the functions; see :func:`kfmaps.search.arena.differences`.
+    against : (q_t, q_s) or (m, q_t, q_s), optional
+        Half the squared differences of descriptors, up to a constant for each target point, for all maps or for each:
+        what speaks against a pair besides the functions; see :func:`kfmaps.search.arena.differences`.
     threads : int, optional
 
     Returns
@@ -53,20 +53,21 @@ def zoomed(
     phi_t = np.asarray(to_numpy(target.functions)[:, : sizes[-1]], dtype=np.float32)
     solvers = [projector(target, k) for k in sizes[1:]]
     count = max(1, PAIRS // (len(phi_s) * len(phi_t)))
-    chunks = [maps[i : i + count, : sizes[0], : sizes[0]] for i in range(0, len(maps), count)]
 
-    def through(C: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        C = np.asarray(C, dtype=np.float32)
+    def through(first: int) -> tuple[np.ndarray, np.ndarray]:
+        some = slice(first, first + count)
+        says = against[some] if against is not None and against.ndim == 3 else against
+        C = np.asarray(maps[some, : sizes[0], : sizes[0]], dtype=np.float32)
         for (_, larger), solver in zip(pairwise(sizes), solvers, strict=True):
-            C = solver @ phi_s[:, :larger][closest(C, phi_s, phi_t, against)]
-        return np.asarray(C, dtype=np.float64), closest(C, phi_s, phi_t, against)
+            C = solver @ phi_s[:, :larger][closest(C, phi_s, phi_t, says)]
+        return np.asarray(C, dtype=np.float64), closest(C, phi_s, phi_t, says)
 
-    found = parallel(through, chunks, threads)
+    found = parallel(through, range(0, len(maps), count), threads)
     return np.concatenate([f[0] for f in found]), np.concatenate([f[1] for f in found])
 
 
 def closest(C: np.ndarray, phi_s: np.ndarray, phi_t: np.ndarray, against: np.ndarray | None) -> np.ndarray:
-    """The nearest image of a source point, (m, q_t), for the maps ``C (m, k, k)``."""
+    """The nearest image of a source point, (m, q_t), for the maps ``C (m, k, k)``; ``against`` as in :func:`zoomed`."""
     k = C.shape[1]
     images = phi_s[:, :k] @ C.transpose(0, 2, 1)
     score = phi_t[:, :k] @ images.transpose(0, 2, 1)
