@@ -35,7 +35,9 @@ ROUGH, ROUGH_STEP = 40, 4
 """Functions at the end of the rough refinement, and how many more at each step."""
 FINE, FINE_FROM, FINE_STEP = 80, 20, 5
 """The same of the refinement of the best, on all points of the probe; from fewer functions it loses right maps."""
-FINE_WEIGHTS: Weights = (12.0, 12.0, 30.0)
+FINE_WEIGHTS: tuple[Weights, ...] = ((12.0, 12.0), (12.0, 12.0, 30.0))
+"""Without tips of limbs and with them: distances from tips mislead where a hand has grown to a thigh."""
+AGAIN: Weights = (12.0, 12.0)
 FROM_TIPS: tuple[Weights, ...] = ((4.0, 12.0, 30.0),)
 TIP_FUNCTIONS = 12
 """Functions of the map that a pairing of tips starts from."""
@@ -246,14 +248,14 @@ def fine(
     stop = min(FINE, functions)
     size = min(FINE_FROM, stop, *chosen[0].functional_map.shape)
     sizes = (*range(size, stop, FINE_STEP), stop)
-    guided, bare = _told_apart((FINE_WEIGHTS,), on)[0], WEIGHTS[0]
+    led, bare = _told_apart(FINE_WEIGHTS, on), WEIGHTS[0]
     found = []
-    for weights in dict.fromkeys((bare, guided)):
-        members = [c for c in chosen if weights == guided or not c.guided]
+    for weights in dict.fromkeys((bare, *led)):
+        members = [c for c in chosen if weights in led or not c.guided]
         if members:
             maps = np.stack([c.functional_map[:size, :size] for c in members])
             says = bool(weights[0]) or on.shot is None
-            pairs = [induced(c.points, few.source, few.target) for c in members]
+            pairs = [induced(c.points, few.source, few.target) for c in members] if weights[2:] else []
             refined = refine(maps, on, sizes, weights, pairs, threads)
             found += judged([(c.name, says) for c in members], *refined, on, threads)
     return found
@@ -267,9 +269,8 @@ def again(found: list[Candidate], on: Ground, threads: int | None = None) -> lis
     for says in (True, False):
         members = [i for i, c in enumerate(found) if c.guided == says]
         if members:
-            weights = FINE_WEIGHTS if says else WEIGHTS[0]
-            pairs = [induced(found[i].points, on.source, on.target) for i in members]
-            refined = refine(maps[members], on, (max(size // 2, 2), size), weights, pairs, threads)
+            weights = _told_apart((AGAIN if says else WEIGHTS[0],), on)[0]
+            refined = refine(maps[members], on, (max(size // 2, 2), size), weights, (), threads)
             out += judged([(found[i].name, says) for i in members], *refined, on, threads)
     return out
 
