@@ -7,6 +7,7 @@ random symmetries of the best of these. The best that differ are refined further
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
 from itertools import product
@@ -52,6 +53,8 @@ ZERO = 0.03
 """Frequency, the root of an eigenvalue at unit area, below which there is no wave: a sphere's first is 5."""
 APART = 0.04
 """Mean distance, in units of √area, from which rough maps count as different: nearer than in the end."""
+BEND, USUAL = 5.0, 0.15
+"""Weight of the logarithm of the bending energy over a usual one."""
 LANDMARK = 2.0
 """What a landmark whose image is simply wrong costs."""
 
@@ -72,6 +75,8 @@ class Candidate:
         Whether descriptors had a say; a map that none speak for is only a rival.
     missed : (l,) float64
         How far the image of each landmark is from where it belongs, in units of √area.
+    bending : float or None
+        See :func:`kfmaps.search.bends.bending`; ``None`` where it is not known.
     """
 
     name: str
@@ -80,6 +85,7 @@ class Candidate:
     quality: Quality
     guided: bool = True
     missed: np.ndarray = field(default_factory=lambda: np.zeros(0))
+    bending: float | None = None
 
     @property
     def score(self) -> float:
@@ -87,7 +93,13 @@ class Candidate:
 
         In steps so small that only what is equal but for rounding becomes equal.
         """
-        return round(self.quality.score - LANDMARK * float(np.minimum(self.missed / FAR, 1.0).sum()), 9)
+        return round(self.evidence - LANDMARK * float(np.minimum(self.missed / FAR, 1.0).sum()), 9)
+
+    @property
+    def evidence(self) -> float:
+        """What the two shapes say about the map: its quality and, where that is known, how little they must bend."""
+        bent = 0.0 if self.bending is None else -BEND * math.log(self.bending / USUAL)
+        return self.quality.score + bent
 
 
 @dataclass(frozen=True, eq=False)

@@ -24,6 +24,7 @@ from kfmaps.fit.shape import Shape, inner
 from kfmaps.functional.points import to_points
 from kfmaps.functional.refine import Refinement, ZoomOut
 from kfmaps.search.arena import Ground, arena, turned, without
+from kfmaps.search.bends import bending
 from kfmaps.search.candidates import Candidate, again, apart, candidates, judged
 from kfmaps.search.marks import doubted
 from kfmaps.search.quality import Probe, probe
@@ -38,6 +39,10 @@ UNLIKE = -8.0
 """Score below which two shapes differ so much that their high functions do not correspond, ..."""
 FEWER = 100
 """... and the refinement ends with this many."""
+BENT = 3
+"""Distinct maps that the source is bent for, ..."""
+BEHIND = 3.0
+"""... unless they are so far behind in the score."""
 SETTLED = 3
 """Maps to a mirror image that are worth a refinement of their own."""
 
@@ -145,21 +150,23 @@ def choose(
         drawn=given,
         report=lambda done: report("candidates", 0.1 + 0.9 * done),
     )
-    ranked = distinct(found, probes[0])
+    ranked = ranking(found, on.whole, source, target, config.threads)
     orientation = "reversed" if config.search.orientation == "reversed" else "kept"
     surfaces = all(p.orientation is not None for p in probes)
     if config.search.orientation == "either" and surfaces:
         other = turned(on.whole)
         images = reversed_best(found, other, config.threads)
-        if images and images[0].score > ranked[0].score + CLEAR:
-            orientation, found, ranked, on = "reversed", images, distinct(images, probes[0]), replace(on, whole=other)
+        turned_best = ranking(images, other, source, target, config.threads)
+        if turned_best and turned_best[0].score > ranked[0].score + CLEAR:
+            orientation, found, ranked, on = "reversed", images, turned_best, replace(on, whole=other)
     wrong = np.zeros(len(pairs), dtype=bool)
     if len(pairs):
         # Landmarks are judged by the best map as it is when they have no say.
         alone = again(ranked[:1], replace(on.whole, landmarks=None), config.threads)
         wrong = doubted(alone[0].missed)
     if wrong.any():
-        ranked = distinct(again(found, without(on.whole, wrong), config.threads), probes[0])
+        rest = without(on.whole, wrong)
+        ranked = ranking(again(found, rest, config.threads), rest, source, target, config.threads)
     best, others = ranked[0], ranked[1 : 1 + config.search.runners_up]
     margin = max(best.score - ranked[1].score, 0.0) if len(ranked) > 1 else np.inf
     return Found(
@@ -211,16 +218,38 @@ def reversed_best(found: list[Candidate], turned: Ground, threads: int | None = 
     return sorted(images, key=lambda c: c.score, reverse=True)
 
 
+def ranking(
+    found: list[Candidate], on: Ground, source: Shape, target: Shape, threads: int | None = None
+) -> list[Candidate]:
+    """The distinct ones of ``found``, best first; the first few are judged by how far the source must bend as well."""
+    ranked = distinct(found, on.source)
+    copies = on.source.copy, on.target.copy
+    if copies[0] is None or copies[1] is None or not ranked:
+        return ranked
+    both = copies[0], copies[1]
+    near = [c for c in ranked[:BENT] if c.score > ranked[0].score - BEHIND]
+    energies = parallel(lambda c: bending(c.functional_map, source, target, both), near, threads)
+    tried = [replace(c, bending=energy) for c, energy in zip(near, energies, strict=True)]
+    # As bad as the worst, so that none that was not tried comes first.
+    worst = max(energies)
+    return in_order([*tried, *(replace(c, bending=worst) for c in ranked[len(near) :])])
+
+
 def distinct(found: list[Candidate], source: Probe) -> list[Candidate]:
-    """The best of ``found``, then the best of those that differ from it, and so on.
+    """The best of ``found``, then the best of those that differ from it, and so on."""
+    return apart(in_order(found), source, DISTINCT)
+
+
+def in_order(found: list[Candidate]) -> list[Candidate]:
+    """Best first.
 
     A rival, which no descriptors speak for, comes first only when it is clearly better than every other candidate.
     """
     order = sorted(found, key=lambda c: c.score, reverse=True)
     best = next((c for c in order if c.guided), None)
     if best is not None and best.score > order[0].score - CLEAR:
-        order.insert(0, best)
-    return apart(order, source, DISTINCT)
+        order.insert(0, order.pop(next(i for i, c in enumerate(order) if c is best)))
+    return order
 
 
 def mirror_image(shape: Shape) -> Shape:

@@ -19,6 +19,7 @@ from kfmaps.fit.shape import Shape
 from kfmaps.functional.guide import FLAT, spread
 from kfmaps.functional.points import nearest
 from kfmaps.functional.refine import SampledBasis, Samples, spectral_samples
+from kfmaps.search.bends import Copy, copied
 from kfmaps.search.tips import Tips, tips
 from kfmaps.surface.basis import Basis, zero_level
 from kfmaps.surface.coarse import coarse
@@ -68,6 +69,8 @@ class Probe:
         Geodesic distances from landmarks to the samples.
     tips : Tips
         The tips of its limbs.
+    copy : Copy or None
+        A coarse copy that can be bent; ``None`` for a point cloud.
     """
 
     samples: Samples
@@ -78,6 +81,7 @@ class Probe:
     positions: np.ndarray
     marks: np.ndarray
     tips: Tips
+    copy: Copy | None
 
 
 @dataclass(frozen=True)
@@ -163,6 +167,7 @@ def probe(
         shape.mesh.vertices[samples.vertices],
         distances[len(first) :],
         tips(close, areas_of_first(samples.basis, len(first)), mesh, rows[: len(samples.vertices)]),
+        copied(shape),
     )
 
 
@@ -209,6 +214,7 @@ def mirrored_probe(probe: Probe) -> Probe:
         descriptors=None if probe.descriptors is None else mirrored(probe.descriptors),
         orientation=None if probe.orientation is None else -probe.orientation,
         tips=probe.tips.mirrored(),
+        copy=None if probe.copy is None else probe.copy.mirrored(),
     )
 
 

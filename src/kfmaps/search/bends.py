@@ -1,0 +1,87 @@
+"""How far the source has to bend to take the target's shape as a map says: evidence that is not intrinsic.
+
+A map that swaps front and back together with left and right keeps all distances and orientation. Only, the body that
+follows it has to be turned inside out at its feet, hands and face. So the source is bent onto the target as rigidly as
+possible (:mod:`kfmaps.functional.nonrigid`), both in coarse copies, and the energy left is compared between maps.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from kfmaps._arrays import NotConverged, to_numpy
+from kfmaps.fit.shape import Shape
+from kfmaps.functional.nonrigid import NonRigid
+from kfmaps.functional.points import nearest
+from kfmaps.surface.coarse import coarse
+from kfmaps.surface.mesh import Mesh
+from kfmaps.surface.samples import stratified_samples
+
+POINTS = 1200
+"""Vertices of a coarse copy."""
+FEWEST = 12
+"""Faces below which there is nothing to bend."""
+FIT = NonRigid(levels=2, steps=2)
+LEAST, MOST = 1e-3, 10.0
+"""Energies below which maps are alike, next to none, and above which they are: nothing is left of the shape."""
+
+
+@dataclass(frozen=True, eq=False)
+class Copy:
+    """A coarse copy of a shape; made by :func:`copied`.
+
+    Attributes
+    ----------
+    mesh : Mesh
+    vertices : (q,) int64
+        The shape's vertex of each of its vertices.
+    """
+
+    mesh: Mesh
+    vertices: np.ndarray
+
+    def mirrored(self) -> Copy:
+        """Of the mirror image."""
+        return replace(self, mesh=Mesh(self.mesh.vertices * [-1.0, 1.0, 1.0], self.mesh.faces[:, ::-1]))
+
+
+def copied(shape: Shape) -> Copy | None:
+    """A coarse copy of a shape; ``None`` where it has no faces, or too few."""
+    if len(shape.mesh.faces) < FEWEST:
+        return None
+    vertices = np.arange(len(shape.mesh.vertices))
+    mesh = shape.mesh
+    if len(vertices) > POINTS:
+        vertices = stratified_samples(shape.basis, POINTS, 0).vertices
+        mesh = coarse(shape.mesh, vertices)
+    # Thin parts may lose their faces, and a point that no face uses bends with nothing.
+    used = np.unique(mesh.faces)
+    if len(mesh.faces) < FEWEST:
+        return None
+    number = np.full(len(vertices), -1, dtype=np.int64)
+    number[used] = np.arange(len(used))
+    return Copy(Mesh(mesh.vertices[used], number[mesh.faces]), vertices[used])
+
+
+def bending(C: np.ndarray, source: Shape, target: Shape, copies: tuple[Copy, Copy]) -> float:
+    """As-rigid-as-possible energy per area of each shape on the other as ``C (k_t, k_s)`` says: 0 for a motion.
+
+    The geometric mean of both directions; :data:`MOST` where a copy falls apart.
+    """
+    k_t, k_s = C.shape
+    a, b = copies
+    images = to_numpy(source.basis.functions)[a.vertices, :k_s] @ C.T
+    rows = np.ascontiguousarray(to_numpy(target.basis.functions)[b.vertices, :k_t])
+    there = _bent(a.mesh, b.mesh, nearest(rows, images, threads=1))
+    return math.sqrt(there * _bent(b.mesh, a.mesh, nearest(images, rows, threads=1)))
+
+
+def _bent(source: Mesh, target: Mesh, points: np.ndarray) -> float:
+    try:
+        found = FIT(source, target, points)
+    except NotConverged:
+        return MOST
+    return min(max(float(found.bending), LEAST), MOST)

@@ -1,0 +1,197 @@
+"""Tips of limbs, pairings of them, and how far a shape must bend: evidence for bodies of different proportions."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from kfmaps import datasets
+from kfmaps.fit.shape import prepare
+from kfmaps.search.arena import arena
+from kfmaps.search.bends import LEAST, MOST, Copy, bending, copied
+from kfmaps.search.candidates import from_tips, paired_map, rough
+from kfmaps.search.choose import choose, in_order, ranking
+from kfmaps.search.pairings import FEWEST, Pairing, against, alike, induced, pairings, told
+from kfmaps.search.quality import mirrored_probe, probe
+from kfmaps.search.tips import APART, tips, turns
+from kfmaps.search.zoom import zoomed
+from kfmaps.surface.mesh import Mesh
+from test_search import SMALL
+
+
+@pytest.fixture(scope="module")
+def creature():
+    """Six limbs, in two poses and with limbs of two lengths."""
+    pair = datasets.non_isometric(1500, rng=1)
+    return prepare(pair.source, SMALL, name="source"), prepare(pair.target, SMALL, name="target"), pair.truth
+
+
+@pytest.fixture(scope="module")
+def probes(creature):
+    return probe(creature[0]), probe(creature[1])
+
+
+@pytest.fixture(scope="module")
+def on(creature, probes):
+    return arena(*creature[:2], probes)
+
+
+def identity(count):
+    return Pairing(np.arange(count), np.arange(count))
+
+
+def test_tips_are_far_from_everything_around_them_and_from_each_other(probes):
+    for one in probes:
+        between = one.distances[np.ix_(one.tips.points, one.tips.points)]
+        assert len(one.tips.points) >= 5
+        assert (between[~np.eye(len(between), dtype=bool)] >= APART).all()
+        assert (np.diff(one.tips.reach) <= 0).all() and (one.tips.reach > 1.0).all()
+        assert one.tips.distances[np.arange(len(between)), one.tips.points] == pytest.approx(0.0, abs=1e-12)
+
+
+def test_tips_know_nothing_of_units_position_and_numbering(creature, probes):
+    shape, one = creature[0], probes[0]
+    order = np.random.default_rng(0).permutation(len(shape.mesh.vertices))
+    number = np.argsort(order)
+    rotation = np.linalg.qr(np.random.default_rng(1).normal(size=(3, 3)))[0]
+    rotation *= np.sign(np.linalg.det(rotation))
+    moved = Mesh((shape.mesh.vertices @ rotation.T + 5.0)[order], number[shape.mesh.faces])
+    rows = number[one.samples.vertices]
+    mass = np.ones(len(one.distances))
+    before = tips(one.distances, mass, shape.mesh, one.samples.vertices)
+    after = tips(one.distances, mass, moved, rows)
+    assert np.array_equal(before.points, after.points)
+    assert after.distances == pytest.approx(before.distances, abs=1e-9)
+    assert after.turn == pytest.approx(before.turn, abs=1e-6)
+
+
+def test_turn_is_the_sine_between_two_directions():
+    x, y = np.meshgrid(np.linspace(0, 1, 12), np.linspace(0, 1, 12))
+    sheet = np.stack([x.ravel(), y.ravel(), np.zeros(x.size)], axis=1)
+    corner = (np.arange(11)[:, None] * 12 + np.arange(11)).ravel()
+    faces = np.vstack(
+        [np.stack([corner, corner + 1, corner + 12], 1), np.stack([corner + 1, corner + 13, corner + 12], 1)]
+    )
+    angle = 0.7
+    slanted = sheet[:, 0] * np.cos(angle) + sheet[:, 1] * np.sin(angle)
+    found = turns(Mesh(sheet, faces), np.stack([sheet[:, 0], slanted]))
+    assert found[0, 1] == pytest.approx(np.sin(angle))
+    assert found[1, 0] == pytest.approx(-np.sin(angle))
+    mirrored = turns(Mesh(sheet, faces[:, ::-1]), np.stack([sheet[:, 0], slanted]))
+    assert mirrored == pytest.approx(-found)
+    assert not turns(Mesh(sheet, faces[:0]), np.stack([sheet[:, 0], slanted])).any()
+
+
+def test_a_shape_is_told_from_its_mirror_image_by_turns_alone(probes):
+    one = probes[0].tips
+    m = len(one.points)
+    whole = identity(m)
+    same, turned = against(one, one, whole), against(one, one.mirrored(), whole)
+    assert np.diag(same) == pytest.approx(0.0, abs=1e-9)
+    assert (same.argmin(axis=1) == np.arange(len(same))).mean() > 0.99
+    assert np.diag(turned).mean() > 0.1
+    assert told(one, whole.source).shape == (len(one.distances[0]), m + m * (m - 1) // 2)
+
+
+def test_the_true_pairing_is_among_the_first(creature, probes, on):
+    """Tips in which the truth nearly agrees, most of them, among the pairings that are refined."""
+    found = pairings(on.few.source, on.few.target, on.few.shot)
+    a, b = probes[0], probes[1]
+    truth = creature[2]
+    images = truth[b.samples.vertices[b.tips.points]]
+    vertices = creature[0].mesh.vertices
+    tip = a.samples.vertices[a.tips.points]
+    off = np.linalg.norm(vertices[tip][:, None] - vertices[images][None], axis=2)
+    worst = [off[pairing.source, pairing.target].max() for pairing in found]
+    assert min(worst[:8]) < 0.2
+    assert max(worst) > 0.5
+    assert all(len(set(p.target)) == len(p.target) == len(p.source) for p in found)
+
+
+def test_equal_shapes_pair_their_tips_with_themselves(probes):
+    one = probes[0]
+    first = alike(one, one)[0]
+    assert np.array_equal(first.source, first.target) and len(first.source) == len(one.tips.points)
+    everywhere = np.arange(len(one.positions))
+    back = induced(everywhere, one, one)
+    assert back is not None and np.array_equal(back.source, back.target) and len(back.source) == len(one.tips.points)
+    assert induced(np.zeros_like(everywhere), one, one) is None
+
+
+def test_shapes_without_limbs_are_not_paired(probes):
+    one = probes[0]
+    bare = replace(one, tips=one.tips.none())
+    assert pairings(one, bare, None) == [] and induced(np.arange(len(one.positions)), bare, one) is None
+    few = replace(one.tips, points=one.tips.points[: FEWEST - 1])
+    assert pairings(replace(one, tips=few), one, None) == []
+
+
+def test_the_map_of_a_pairing_is_nearly_the_identity(on):
+    few = replace(on.few, target=on.few.source, shot=None)
+    k = 8
+    C = paired_map(identity(len(few.source.tips.points)), few, k)
+    assert np.linalg.norm(C - np.eye(k)) < 0.5
+
+
+def test_pairings_find_the_map_between_bodies_of_other_proportions(creature, on):
+    found = rough(from_tips(40, on.few), on.few, 40)
+    best = max(found, key=lambda c: c.score)
+    truth = creature[2][on.few.target.samples.vertices]
+    where = creature[0].mesh.vertices
+    off = np.linalg.norm(where[on.few.source.samples.vertices[best.points]] - where[truth], axis=1)
+    assert off.mean() < 0.12
+
+
+def test_each_map_may_have_evidence_of_its_own(on):
+    bases = on.few.source.samples.basis, on.few.target.samples.basis
+    pairs = [identity(6), None, Pairing(np.arange(6), np.arange(6)[::-1].copy())]
+    maps = np.repeat(np.eye(10)[None], 3, axis=0)
+    cost = on.few.against(4.0, 0.0, 30.0, pairs)
+    assert cost.shape == (3, len(on.few.target.positions), len(on.few.source.positions))
+    together = zoomed(maps, *bases, (10, 20, 30), cost, 1)
+    for i, pairing in enumerate(pairs):
+        alone = zoomed(maps[:1], *bases, (10, 20, 30), on.few.against(4.0, 0.0, 30.0, [pairing]), 1)
+        assert np.array_equal(together[1][i], alone[1][0])
+    assert not np.array_equal(together[1][0], together[1][2])
+
+
+def test_a_shape_bends_least_onto_itself(creature, probes):
+    shape, one = creature[0], probes[0]
+    both = one.copy, one.copy
+    k = 40
+    signs = np.diag(np.where(np.arange(k) % 2, -1.0, 1.0))
+    assert bending(np.eye(k), shape, shape, both) == LEAST
+    assert LEAST < 0.05 < bending(signs, shape, shape, both) <= MOST
+
+
+def test_copies_have_no_loose_points(creature):
+    shape = creature[0]
+    loose = replace(shape, mesh=Mesh(np.vstack([shape.mesh.vertices, [[9.0, 9.0, 9.0]]]), shape.mesh.faces))
+    found = copied(loose)
+    assert isinstance(found, Copy) and len(found.mesh.vertices) == len(shape.mesh.vertices)
+    assert copied(replace(shape, mesh=Mesh(shape.mesh.vertices, shape.mesh.faces[:3]))) is None
+    turned = found.mirrored().mesh
+    assert turned.vertices[:, 0] == pytest.approx(-found.mesh.vertices[:, 0])
+    assert np.array_equal(turned.faces[:, ::-1], found.mesh.faces)
+
+
+def test_what_bends_less_comes_first_and_what_was_not_tried_never(creature, probes, on):
+    found = rough(from_tips(40, on.few), on.few, 40)
+    ranked = ranking(found, on.whole, *creature[:2])
+    scores = [c.score for c in ranked]
+    assert scores == sorted(scores, reverse=True)
+    equal = [replace(ranked[0], bending=b) for b in (0.3, 0.1, 0.2)]
+    assert [c.bending for c in in_order(equal)] == [0.1, 0.2, 0.3]
+    assert equal[0].quality == ranked[0].quality and equal[0].score < equal[1].score
+
+
+def test_the_probe_of_a_mirror_image_turns_the_other_way(probes):
+    turned = mirrored_probe(probes[0])
+    assert np.array_equal(turned.tips.turn, -probes[0].tips.turn)
+    assert turned.copy.mesh.vertices[:, 0] == pytest.approx(-probes[0].copy.mesh.vertices[:, 0])
+
+
+def test_tips_can_be_left_out(creature):
+    plain = replace(SMALL, search=replace(SMALL.search, tips=False))
+    names = choose(*creature[:2], plain, rng=0).origin, choose(*creature[:2], SMALL, rng=0)
+    assert not names[0].startswith("tips") and names[1].confidence is not None
