@@ -45,7 +45,8 @@ def test_tips_are_far_from_everything_around_them_and_from_each_other(probes):
         between = one.distances[np.ix_(one.tips.points, one.tips.points)]
         assert len(one.tips.points) >= 5
         assert (between[~np.eye(len(between), dtype=bool)] >= APART).all()
-        assert (np.diff(one.tips.reach) <= 0).all() and (one.tips.reach > 1.0).all()
+        assert (np.diff(one.tips.reach) <= 0).all()
+        assert (one.tips.reach > 1.0).all()
         assert one.tips.distances[np.arange(len(between)), one.tips.points] == pytest.approx(0.0, abs=1e-12)
 
 
@@ -111,17 +112,21 @@ def test_the_true_pairing_is_among_the_first(creature, probes, on):
 def test_equal_shapes_pair_their_tips_with_themselves(probes):
     one = probes[0]
     first = alike(one, one)[0]
-    assert np.array_equal(first.source, first.target) and len(first.source) == len(one.tips.points)
+    assert np.array_equal(first.source, first.target)
+    assert len(first.source) == len(one.tips.points)
     everywhere = np.arange(len(one.positions))
     back = induced(everywhere, one, one)
-    assert back is not None and np.array_equal(back.source, back.target) and len(back.source) == len(one.tips.points)
+    assert back is not None
+    assert np.array_equal(back.source, back.target)
+    assert len(back.source) == len(one.tips.points)
     assert induced(np.zeros_like(everywhere), one, one) is None
 
 
 def test_shapes_without_limbs_are_not_paired(probes):
     one = probes[0]
     bare = replace(one, tips=one.tips.none())
-    assert pairings(one, bare, None) == [] and induced(np.arange(len(one.positions)), bare, one) is None
+    assert pairings(one, bare, None) == []
+    assert induced(np.arange(len(one.positions)), bare, one) is None
     few = replace(one.tips, points=one.tips.points[: FEWEST - 1])
     assert pairings(replace(one, tips=few), one, None) == []
 
@@ -168,21 +173,23 @@ def test_copies_have_no_loose_points(creature):
     shape = creature[0]
     loose = replace(shape, mesh=Mesh(np.vstack([shape.mesh.vertices, [[9.0, 9.0, 9.0]]]), shape.mesh.faces))
     found = copied(loose)
-    assert isinstance(found, Copy) and len(found.mesh.vertices) == len(shape.mesh.vertices)
+    assert isinstance(found, Copy)
+    assert len(found.mesh.vertices) == len(shape.mesh.vertices)
     assert copied(replace(shape, mesh=Mesh(shape.mesh.vertices, shape.mesh.faces[:3]))) is None
     turned = found.mirrored().mesh
     assert turned.vertices[:, 0] == pytest.approx(-found.mesh.vertices[:, 0])
     assert np.array_equal(turned.faces[:, ::-1], found.mesh.faces)
 
 
-def test_what_bends_less_comes_first_and_what_was_not_tried_never(creature, probes, on):
+def test_what_bends_less_comes_first_and_what_was_not_tried_never(creature, on):
     found = rough(from_tips(40, on.few), on.few, 40)
     ranked = ranking(found, on.whole, *creature[:2])
     scores = [c.score for c in ranked]
     assert scores == sorted(scores, reverse=True)
     equal = [replace(ranked[0], bending=b) for b in (0.3, 0.1, 0.2)]
     assert [c.bending for c in in_order(equal)] == [0.1, 0.2, 0.3]
-    assert equal[0].quality == ranked[0].quality and equal[0].score < equal[1].score
+    assert equal[0].quality == ranked[0].quality
+    assert equal[0].score < equal[1].score
 
 
 def test_the_probe_of_a_mirror_image_turns_the_other_way(probes):
@@ -194,4 +201,5 @@ def test_the_probe_of_a_mirror_image_turns_the_other_way(probes):
 def test_tips_can_be_left_out(creature):
     plain = replace(SMALL, search=replace(SMALL.search, tips=False))
     names = choose(*creature[:2], plain, rng=0).origin, choose(*creature[:2], SMALL, rng=0)
-    assert not names[0].startswith("tips") and names[1].confidence is not None
+    assert not names[0].startswith("tips")
+    assert names[1].confidence is not None
