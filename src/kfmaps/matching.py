@@ -261,7 +261,8 @@ def match(
             found = choose(shapes[0], shapes[1], config, landmarks=marks, probes=probes, **more)
         if found.orientation == "reversed" and config.search.orientation == "either":
             shapes[1] = mirror_image(shapes[1])
-        led = leading(shapes[0], shapes[1], found.landmarks)
+        tips = found.limbs and found.limbs.guide(shapes[0].mesh, shapes[1].mesh)
+        led = leading(shapes[0], shapes[1], found.landmarks, tips)
     else:
         one = fit(shapes[0], shapes[1], config, landmarks=marks, **more)
         clock.seconds.update(one.seconds)

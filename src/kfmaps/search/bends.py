@@ -24,7 +24,7 @@ POINTS = 1200
 """Vertices of a coarse copy."""
 FEWEST = 12
 """Faces below which there is nothing to bend."""
-FIT = NonRigid(levels=2, steps=2)
+FIT = NonRigid(levels=2, steps=2, evenness=0.0)
 LEAST, MOST = 1e-3, 10.0
 """Energies below which maps are alike, next to none, and above which they are: nothing is left of the shape."""
 

@@ -27,6 +27,7 @@ from kfmaps.search.arena import Ground, arena, turned, without
 from kfmaps.search.bends import bending
 from kfmaps.search.candidates import Candidate, again, apart, candidates, judged
 from kfmaps.search.marks import doubted
+from kfmaps.search.pairings import Limbs, limbs
 from kfmaps.search.quality import Probe, probe
 from kfmaps.search.verdict import probability, verdict
 from kfmaps.surface.mesh import Mesh
@@ -74,6 +75,8 @@ class Found:
         Whether it is a map to the target or to its mirror image.
     quality : float or None
         Score of the map of a search, apart from landmarks.
+    limbs : Limbs or None
+        Tips of limbs that lead the refinement, where the shapes differ so much that they should.
     """
 
     functional_map: np.ndarray
@@ -87,6 +90,7 @@ class Found:
     doubted: np.ndarray = field(default_factory=lambda: np.zeros(0, dtype=np.int64))
     orientation: str = "kept"
     quality: float | None = None
+    limbs: Limbs | None = None
 
 
 MIRROR = np.array([-1.0, 1.0, 1.0])
@@ -181,6 +185,7 @@ def choose(
         doubted=np.flatnonzero(wrong),
         orientation=orientation,
         quality=best.quality.score,
+        limbs=limbs(best.points, *probes) if best.quality.score < UNLIKE else None,
     )
 
 

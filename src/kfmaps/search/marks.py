@@ -24,6 +24,8 @@ MISSED = 0.3
 """Distance of a landmark's image from which the landmark is doubted, ..."""
 LEAD = 1.0
 """Weight of landmarks beside that of SHOT in the refinement on all vertices."""
+LIMBS = 0.8
+"""The same of the tips of limbs."""
 KEPT = 0.6
 """... if at least this part of all landmarks is nearer than :data:`MISSED`."""
 
@@ -121,9 +123,9 @@ def doubted(distances: np.ndarray) -> np.ndarray:
     return np.zeros(len(distances), dtype=bool) if few else wrong
 
 
-def leading(source: Shape, target: Shape, landmarks: np.ndarray) -> Guide | None:
-    """SHOT and the ``landmarks (l, 2)`` on all vertices, for the refinement; ``None`` where there is neither."""
-    local = guide(source.shot, target.shot)
+def leading(source: Shape, target: Shape, landmarks: np.ndarray, limbs: Guide | None = None) -> Guide | None:
+    """SHOT, ``landmarks (l, 2)`` and ``limbs`` on all vertices, for the refinement; ``None`` where nothing leads."""
+    local = joined([(1.0, guide(source.shot, target.shot)), (LIMBS, limbs)])
     if len(landmarks) == 0:
         return local
     functions = [around(s.basis, s.basis, at) for s, at in zip((source, target), landmarks.T, strict=True)]

@@ -11,8 +11,10 @@ from itertools import combinations, permutations
 
 import numpy as np
 
+from kfmaps.functional.guide import Guide
 from kfmaps.search.quality import Probe
-from kfmaps.search.tips import Tips
+from kfmaps.search.tips import Tips, everywhere
+from kfmaps.surface.mesh import Mesh
 
 FEWEST = 3
 """Tips without which nothing is told apart."""
@@ -102,6 +104,36 @@ def induced(points: np.ndarray, source: Probe, target: Probe) -> Pairing | None:
     nearest_s, nearest_t = off.argmin(axis=0), off.argmin(axis=1)
     theirs = np.flatnonzero((off.min(axis=0) < NEAR) & (nearest_t[nearest_s] == np.arange(len(b.points))))
     return Pairing(nearest_s[theirs], theirs) if len(theirs) >= FEWEST else None
+
+
+@dataclass(frozen=True, eq=False)
+class Limbs:
+    """Paired tips as vertices ``source (m,)`` and ``target (m,)`` of both shapes, and the unit of distances of each."""
+
+    source: np.ndarray
+    target: np.ndarray
+    units: tuple[float, float]
+
+    def guide(self, source: Mesh, target: Mesh) -> Guide:
+        """What the tips tell of all vertices, for the refinement: half its squared differences are :func:`against`."""
+        everything = np.arange(len(self.source))
+        sides = ((source, self.source), (target, self.target))
+        return Guide(
+            *(
+                np.sqrt(2.0) * told(everywhere(mesh, at, unit), everything)
+                for (mesh, at), unit in zip(sides, self.units, strict=True)
+            )
+        )
+
+
+def limbs(points: np.ndarray, source: Probe, target: Probe) -> Limbs | None:
+    """Those that a map ``points (q_t,)`` of samples pairs (:func:`induced`)."""
+    found = induced(points, source, target)
+    if found is None:
+        return None
+    at = source.tips.points[found.source], target.tips.points[found.target]
+    units = source.tips.unit, target.tips.unit
+    return Limbs(source.samples.vertices[at[0]], target.samples.vertices[at[1]], units)
 
 
 def told(found: Tips, chosen: np.ndarray) -> np.ndarray:

@@ -46,6 +46,7 @@ class Tips:
     reach: np.ndarray
     distances: np.ndarray
     turn: np.ndarray
+    unit: float
 
     def thinned(self, count: int) -> Tips:
         """At the first samples."""
@@ -53,7 +54,7 @@ class Tips:
 
     def none(self) -> Tips:
         """As of a shape without any."""
-        return Tips(self.points[:0], self.reach[:0], self.distances[:0], self.turn[:0, :0])
+        return Tips(self.points[:0], self.reach[:0], self.distances[:0], self.turn[:0, :0], self.unit)
 
     def mirrored(self) -> Tips:
         """Of the mirror image."""
@@ -78,10 +79,16 @@ def tips(distances: np.ndarray, mass: np.ndarray, mesh: Mesh, rows: np.ndarray) 
     mean = float(far @ (mass / mass.sum())) or 1.0
     farthest = [i for i, near in enumerate(distances < APART) if far[i] >= far[near].max(initial=0.0)]
     points = np.array(sorted(farthest, key=lambda i: -far[i])[:MOST], dtype=np.int64)
-    found = dijkstra(surface_graph(mesh, 1), indices=rows[points])
+    found = everywhere(mesh, rows[points], mean)
+    return Tips(points, far[points] / mean, found.distances[:, rows], found.turn[:, :, rows], mean)
+
+
+def everywhere(mesh: Mesh, vertices: np.ndarray, unit: float) -> Tips:
+    """What the tips at ``vertices (m,)`` tell of all n vertices, with distances in ``unit``."""
+    found = dijkstra(surface_graph(mesh, 1), indices=vertices)
     joined = np.isfinite(found)
     found = np.where(joined, found, found[joined].max(initial=0.0))
-    return Tips(points, far[points] / mean, found[:, rows] / mean, turns(mesh, found)[:, :, rows])
+    return Tips(vertices, found.mean(axis=1) / unit, found / unit, turns(mesh, found), unit)
 
 
 def turns(mesh: Mesh, functions: np.ndarray) -> np.ndarray:
