@@ -168,7 +168,7 @@ def test_missed_is_the_distance_from_where_a_landmark_belongs(shape):
     assert one.quality.score - one.score == pytest.approx(LANDMARK, rel=0.3)
     less = without(on.whole, np.array([False, False, True]))
     assert again([one], less)[0].missed.shape == (2,)
-    assert len(fine([one], less, 90)[0].missed) == 2
+    assert len(fine([one], less, less, 90)[0].missed) == 2
 
 
 def test_no_landmarks_are_an_empty_list_of_them(shape, other):

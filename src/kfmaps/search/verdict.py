@@ -11,7 +11,7 @@ import math
 
 SLOPE, MIDDLE = 0.92, -10.5
 """Of the logistic function of the score, and the score at which half of all maps are right."""
-TIE = 0.1
+TIE = 0.4
 """Margin of the score at which the doubt that a different map casts is down to a third."""
 SURE = 0.85
 """Probability from which a map is called sure."""

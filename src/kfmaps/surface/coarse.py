@@ -27,7 +27,7 @@ def coarse(mesh: Mesh, vertices: np.ndarray) -> Mesh:
     owner = np.asarray(dijkstra(graph, indices=vertices, min_only=True, return_predecessors=True)[2])
     number = np.full(len(mesh.vertices), -1, dtype=np.int64)
     number[vertices] = np.arange(len(vertices))
-    found = np.where(owner >= 0, number[owner], -1)[mesh.faces]
+    found = np.where(owner >= 0, number[np.maximum(owner, 0)], -1)[mesh.faces]
     a, b, c = found.T
     found = found[(found >= 0).all(axis=1) & (a != b) & (b != c) & (c != a)]
     # One face for each three, in the order of most of its originals, which rarely differ.
