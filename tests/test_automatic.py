@@ -187,7 +187,7 @@ def test_a_verdict_follows_the_score_and_the_margin():
 
 def test_a_part_is_not_called_a_match():
     pair = partial(2500, rng=0)
-found = match(pair.source, pair.target, replace(Config.automatic(), threads=2, partial=Partial("none")))
+    found = match(pair.source, pair.target, replace(Config.automatic(), threads=2, partial=Partial("none")))
     assert geodesic_errors(pair.source, found.target_to_source, pair.truth).mean() > 0.05
     assert found.verdict != "sure"
     assert found.scores[0] < MIDDLE

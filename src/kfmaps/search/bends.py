@@ -20,11 +20,12 @@ from kfmaps.surface.coarse import coarse
 from kfmaps.surface.mesh import Mesh
 from kfmaps.surface.samples import stratified_samples
 
-POINTS = 1200
-"""Vertices of a coarse copy."""
+POINTS, MORE = 1200, 3000
+"""Vertices of a coarse copy, and of one for a second look where two maps are close."""
 FEWEST = 12
 """Faces below which there is nothing to bend."""
-FIT = NonRigid(levels=2, steps=2, evenness=0.0)
+FIT, LONGER = NonRigid(levels=2, steps=2, evenness=0.0), NonRigid(levels=3, steps=3)
+"""The fits of both."""
 LEAST, MOST = 1e-3, 10.0
 """Energies below which maps are alike, next to none, and above which they are: nothing is left of the shape."""
 
@@ -48,14 +49,14 @@ class Copy:
         return replace(self, mesh=Mesh(self.mesh.vertices * [-1.0, 1.0, 1.0], self.mesh.faces[:, ::-1]))
 
 
-def copied(shape: Shape) -> Copy | None:
-    """A coarse copy of a shape; ``None`` where it has no faces, or too few."""
+def copied(shape: Shape, points: int = POINTS) -> Copy | None:
+    """A coarse copy of a shape with so many ``points``; ``None`` where it has no faces, or too few."""
     if len(shape.mesh.faces) < FEWEST:
         return None
     vertices = np.arange(len(shape.mesh.vertices))
     mesh = shape.mesh
-    if len(vertices) > POINTS:
-        vertices = stratified_samples(shape.basis, POINTS, 0).vertices
+    if len(vertices) > points:
+        vertices = stratified_samples(shape.basis, points, 0).vertices
         mesh = coarse(shape.mesh, vertices)
     # Thin parts may lose their faces, and a point that no face uses bends with nothing.
     used = np.unique(mesh.faces)
@@ -66,7 +67,7 @@ def copied(shape: Shape) -> Copy | None:
     return Copy(Mesh(mesh.vertices[used], number[mesh.faces]), vertices[used])
 
 
-def bending(C: np.ndarray, source: Shape, target: Shape, copies: tuple[Copy, Copy]) -> float:
+def bending(C: np.ndarray, source: Shape, target: Shape, copies: tuple[Copy, Copy], fit: NonRigid = FIT) -> float:
     """As-rigid-as-possible energy per area of each shape on the other as ``C (k_t, k_s)`` says: 0 for a motion.
 
     The geometric mean of both directions; :data:`MOST` where a copy falls apart.
@@ -75,13 +76,13 @@ def bending(C: np.ndarray, source: Shape, target: Shape, copies: tuple[Copy, Cop
     a, b = copies
     images = to_numpy(source.basis.functions)[a.vertices, :k_s] @ C.T
     rows = np.ascontiguousarray(to_numpy(target.basis.functions)[b.vertices, :k_t])
-    there = _bent(a.mesh, b.mesh, nearest(rows, images, threads=1))
-    return math.sqrt(there * _bent(b.mesh, a.mesh, nearest(images, rows, threads=1)))
+    there = _bent(fit, a.mesh, b.mesh, nearest(rows, images, threads=1))
+    return math.sqrt(there * _bent(fit, b.mesh, a.mesh, nearest(images, rows, threads=1)))
 
 
-def _bent(source: Mesh, target: Mesh, points: np.ndarray) -> float:
+def _bent(fit: NonRigid, source: Mesh, target: Mesh, points: np.ndarray) -> float:
     try:
-        found = FIT(source, target, points)
+        found = fit(source, target, points)
     except NotConverged:
         return MOST
     return min(max(float(found.bending), LEAST), MOST)

@@ -24,7 +24,7 @@ from kfmaps.fit.shape import Shape, inner
 from kfmaps.functional.points import to_points
 from kfmaps.functional.refine import Refinement, ZoomOut
 from kfmaps.search.arena import Ground, arena, turned, without
-from kfmaps.search.bends import bending
+from kfmaps.search.bends import LONGER, MORE, bending, copied
 from kfmaps.search.candidates import Candidate, again, apart, candidates, judged
 from kfmaps.search.marks import doubted
 from kfmaps.search.pairings import Limbs, limbs
@@ -44,6 +44,8 @@ BENT = 3
 """Distinct maps that the source is bent for, ..."""
 BEHIND = 3.0
 """... unless they are so far behind in the score."""
+CLOSE = 1.0
+"""Margin below which the first two are looked at again."""
 SETTLED = 3
 """Maps to a mirror image that are worth a refinement of their own."""
 
@@ -237,7 +239,22 @@ def ranking(
     tried = [replace(c, bending=energy) for c, energy in zip(near, energies, strict=True)]
     # As bad as the worst, so that none that was not tried comes first.
     worst = max(energies)
-    return in_order([*tried, *(replace(c, bending=worst) for c in ranked[len(near) :])])
+    order = in_order([*tried, *(replace(c, bending=worst) for c in ranked[len(near) :])])
+    if len(near) > 1 and order[0].score - order[1].score < CLOSE:
+        return second_look(order, on, source, target, threads)
+    return order
+
+
+def second_look(
+    order: list[Candidate], on: Ground, source: Shape, target: Shape, threads: int | None = None
+) -> list[Candidate]:
+    """The first two bent again, with more points and more patience."""
+    finer = copied(source, MORE), copied(target, MORE)
+    if finer[0] is None or finer[1] is None:
+        return order
+    both = finer[0], finer[1].mirrored() if on.target.mirrored else finer[1]
+    energies = parallel(lambda c: bending(c.functional_map, source, target, both, LONGER), order[:2], threads)
+    return in_order([replace(c, bending=e) for c, e in zip(order[:2], energies, strict=True)]) + order[2:]
 
 
 def distinct(found: list[Candidate], source: Probe) -> list[Candidate]:

@@ -71,6 +71,8 @@ class Probe:
         The tips of its limbs.
     copy : Copy or None
         A coarse copy that can be bent; ``None`` for a point cloud.
+    mirrored : bool
+        Whether it is of the mirror image.
     """
 
     samples: Samples
@@ -82,6 +84,7 @@ class Probe:
     marks: np.ndarray
     tips: Tips
     copy: Copy | None
+    mirrored: bool = False
 
 
 @dataclass(frozen=True)
@@ -215,6 +218,7 @@ def mirrored_probe(probe: Probe) -> Probe:
         orientation=None if probe.orientation is None else -probe.orientation,
         tips=probe.tips.mirrored(),
         copy=None if probe.copy is None else probe.copy.mirrored(),
+        mirrored=not probe.mirrored,
     )
 
 
