@@ -20,7 +20,7 @@ from kfmaps.search.candidates import Candidate, candidates, kicked
 from kfmaps.search.choose import choose, distinct, mirror_image
 from kfmaps.search.fits import planned
 from kfmaps.search.quality import _near, map_quality, probe, thinned
-from kfmaps.search.verdict import MIDDLE, SLOPE, probability, verdict
+from kfmaps.search.verdict import BENT, MIDDLE, MUCH, PER_SCORE, SLOPE, probability, verdict
 from kfmaps.surface.mesh import Mesh
 
 SMALL = replace(
@@ -183,6 +183,13 @@ def test_a_verdict_follows_the_score_and_the_margin():
     assert scores == sorted(scores)
     assert margins == sorted(margins)
     assert 0 <= scores[0] <= scores[-1] <= 1
+    usual = np.exp(BENT + PER_SCORE * good)
+    bent = [probability(good, 1.0, usual * more) for more in np.geomspace(0.1, 10, 20)]
+    assert bent == sorted(bent, reverse=True)
+    assert bent[0] == pytest.approx(probability(good, 1.0), rel=0.01)
+    assert probability(100.0, np.inf, np.exp(BENT + 100 * PER_SCORE + MUCH)) == pytest.approx(0.5)
+    assert verdict(good, 1.0, usual) == "sure"
+    assert verdict(good, 1.0, 4 * usual) == "poor"
 
 
 def test_a_part_is_not_called_a_match():

@@ -172,9 +172,13 @@ def test_a_shape_bends_least_onto_itself(creature, probes):
 def test_copies_have_no_loose_points(creature):
     shape = creature[0]
     loose = replace(shape, mesh=Mesh(np.vstack([shape.mesh.vertices, [[9.0, 9.0, 9.0]]]), shape.mesh.faces))
-    found = copied(loose)
+    found = copied(loose, len(loose.mesh.vertices))
     assert isinstance(found, Copy)
     assert len(found.mesh.vertices) == len(shape.mesh.vertices)
+    fewer = copied(loose, 500)
+    assert isinstance(fewer, Copy)
+    assert len(fewer.mesh.vertices) <= 500
+    assert np.array_equal(np.unique(fewer.mesh.faces), np.arange(len(fewer.mesh.vertices)))
     assert copied(replace(shape, mesh=Mesh(shape.mesh.vertices, shape.mesh.faces[:3]))) is None
     turned = found.mirrored().mesh
     assert turned.vertices[:, 0] == pytest.approx(-found.mesh.vertices[:, 0])

@@ -1,8 +1,9 @@
 """How sure a search is: the probability that its map is right.
 
 "Right" means a mean geodesic error below 0.08 √area. A logistic function of the score says how likely that is of the
-best map of a search; where a different map scores nearly as well, it is the likelier the other one, down to one half
-where both are equal. The numbers and what they rest on are in docs/automatic.md.
+best map of a search; where a different map is nearly as good, it is the likelier the other one, down to one half
+where both are equal; and where the source must bend much more than for other right maps of that score, something that
+the score does not see is wrong: a left bone on a right one. The numbers and what they rest on are in docs/automatic.md.
 """
 
 from __future__ import annotations
@@ -12,19 +13,33 @@ import math
 SLOPE, MIDDLE = 0.92, -10.5
 """Of the logistic function of the score, and the score at which half of all maps are right."""
 TIE = 0.4
-"""Margin of the score at which the doubt that a different map casts is down to a third."""
+"""Margin at which the doubt that a different map casts is down to a third."""
+BENT, PER_SCORE = -3.6, -0.233
+"""Logarithm of the bending energy that right maps have, at a score of 0, and its change with the score."""
+MUCH, WIDTH = 0.65, 0.1
+"""By how much that logarithm is exceeded where half of all maps are wrong, and how fast their share grows there. The
+highest of a right map between people was 0.43, those of creatures on their mirror images 0.9 and 2.1."""
 SURE = 0.85
 """Probability from which a map is called sure."""
 
 
-def probability(score: float, margin: float) -> float:
-    """That a map of this ``score`` is right, when the best different one is ``margin`` behind."""
-    fits = 1.0 / (1.0 + math.exp(-min(max(SLOPE * (score - MIDDLE), -700.0), 700.0)))
+def probability(score: float, margin: float, bending: float | None = None) -> float:
+    """That a map of this ``score`` is right, when the best different one is ``margin`` behind.
+
+    ``bending``: see :func:`kfmaps.search.bends.bending`; ``None`` where nothing can be bent.
+    """
+    fits = _logistic(SLOPE * (score - MIDDLE))
+    if bending is not None:
+        fits *= _logistic((MUCH - (math.log(bending) - BENT - PER_SCORE * score)) / WIDTH)
     return fits * (1.0 - 0.5 * math.exp(-max(margin, 0.0) / TIE))
 
 
-def verdict(score: float, margin: float) -> str:
+def _logistic(x: float) -> float:
+    return 1.0 / (1.0 + math.exp(-min(max(x, -700.0), 700.0)))
+
+
+def verdict(score: float, margin: float, bending: float | None = None) -> str:
     """ "sure", "poor" where the map would not be sure without any rival, or "ambiguous"."""
-    if probability(score, margin) >= SURE:
+    if probability(score, margin, bending) >= SURE:
         return "sure"
-    return "poor" if probability(score, math.inf) < SURE else "ambiguous"
+    return "poor" if probability(score, math.inf, bending) < SURE else "ambiguous"
