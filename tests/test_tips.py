@@ -33,7 +33,7 @@ def probes(creature):
 
 @pytest.fixture(scope="module")
 def on(creature, probes):
-    return arena(*creature[:2], probes)
+    return arena(creature[0], creature[1], probes)
 
 
 def identity(count):
@@ -198,12 +198,16 @@ def test_what_bends_less_comes_first_and_what_was_not_tried_never(creature, on):
 
 def test_the_probe_of_a_mirror_image_turns_the_other_way(probes):
     turned = mirrored_probe(probes[0])
+    assert turned.copy is not None
+    assert turned.mirrored
     assert np.array_equal(turned.tips.turn, -probes[0].tips.turn)
     assert turned.copy.mesh.vertices[:, 0] == pytest.approx(-probes[0].copy.mesh.vertices[:, 0])
 
 
 def test_tips_can_be_left_out(creature):
+    assert SMALL.search is not None
     plain = replace(SMALL, search=replace(SMALL.search, tips=False))
-    names = choose(*creature[:2], plain, rng=0).origin, choose(*creature[:2], SMALL, rng=0)
+    source, target = creature[:2]
+    names = choose(source, target, plain, rng=0).origin, choose(source, target, SMALL, rng=0)
     assert not names[0].startswith("tips")
     assert names[1].confidence is not None

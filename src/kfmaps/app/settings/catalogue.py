@@ -218,6 +218,7 @@ CATALOGUE: dict[str, tuple[Setting, ...]] = {
         ),
         Setting("search.runners_up", int, "distinct other maps that are kept", "at least 0", kinds=("Search",)),
         Setting("search.signs", int, "low functions whose signs are tried", "0 to 10", kinds=("Search",)),
+        Setting("search.tips", bool, "pair the tips of limbs in all likely ways", "true, false", kinds=("Search",)),
     ),
     "Parts": (
         Setting(
