@@ -354,3 +354,17 @@ def test_a_loose_map_is_exchanged_for_a_better_one_alone() -> None:
     assert change.misfit_after < change.misfit_before
     assert change.before == change.after > 0.5
     assert not repaired(6, pairs, maps, compose(-5.9)).changes  # hardly better
+
+
+def test_left_and_right_specimens_are_told_apart() -> None:
+    """A pair that claims to keep orientation against all others is exchanged for its runner-up, which reverses it."""
+    latent, pairs = rotations(6, size=20), every(6)
+    side = np.array([1, 1, -1, 1, -1, -1])
+    bad = orthogonal(np.random.default_rng(2).normal(size=(20, 20)))
+    maps = [[Judged(latent[b] @ latent[a].T, -5.0, 0.9, bool(side[a] != side[b]))] for a, b in pairs]
+    at = pairs.index((1, 4))
+    maps[at] = [Judged(bad, -4.9, 0.9, False), *maps[at]]
+    found = repaired(6, pairs, maps, lambda ways: [Judged(bad, -30.0, 0.0) for _ in ways])
+    np.testing.assert_array_equal(found.hands, side)
+    (change,) = found.changes
+    assert (change.link, change.kind, change.choice, change.contradicts) == (at, "runner-up", 1, True)
