@@ -400,7 +400,9 @@ def test_command_without_truth(folder):
     small = ("--basis", "8", "--set", "descriptors.eigenfunctions=20", "--pairs", "1", "--held-out-pairs", "1")
     ran = run("learn", *words, *small, "--held-out", "none", "--epochs", "1", "--no-shot", "--learn", "gamma")
     assert ran.status == 0, ran.stderr
-    assert isinstance(read_settings(folder / "kernel.pt", Config()).kernel, Gaussian)
+    learned = read_settings(folder / "kernel.pt", Config())
+    assert isinstance(learned.kernel, Gaussian)
+    assert learned.fit_samples == Config().fit_samples  # fewer points are for learning alone
 
 
 def test_command_refuses(folder):
