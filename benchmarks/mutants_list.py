@@ -341,5 +341,31 @@ MUTANTS = tuple(
             "weights=Weights(descriptors=0.1, commutativity=1.0,",
             "test_pipeline -k obcs12",
         ),
+        # non-rigid fit, and what it is kept by
+        ("kept = harmed <= HARMED or healed >= HEALED * harmed", "kept = harmed <= HARMED", "test_places"),
+        (
+            "held = np.clip(2 * (trust - first.trust) / DROP - 1, 0.0, 1.0)",
+            "held = np.zeros(len(trust))",
+            "test_places",
+        ),
+        (
+            "shares @ missing / np.maximum(held, 1e-300)[:, None]",
+            "shares @ -missing / np.maximum(held, 1e-300)[:, None]",
+            "test_places",
+        ),
+        (
+            "(1 + (missing**2).sum(axis=1) / SLOPPY**2) ** 2",
+            "(1 + 0 * (missing**2).sum(axis=1) / SLOPPY**2) ** 2",
+            "test_places",
+        ),
+        ("even(rotations(pair.energy, x))", "rotations(pair.energy, x)", "test_places test_nonrigid"),
+        # baked textures
+        (
+            "y = uv[:, 0] * width - 0.5, (1 - uv[:, 1]) * height - 0.5",
+            "y = uv[:, 0] * width, uv[:, 1] * height",
+            "test_bake",
+        ),
+        ("seam = np.flatnonzero((torn & ~single)[face])", "seam = np.flatnonzero(single[face])", "test_bake"),
+        ("hits > 1) <= TWICE * np.count_nonzero(hits)", "hits > 1) <= np.count_nonzero(hits)", "test_bake"),
     )
 )

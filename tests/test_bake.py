@@ -145,6 +145,12 @@ def test_an_atlas_whose_faces_share_space_gets_the_sources_coordinates(tmp_path:
     stacked = MeshFile(mesh, None, np.array([[0.0, 0], [1, 0], [0, 1]]), np.tile([0, 1, 2], (len(mesh.faces), 1)))
     assert not bakeable(stacked)
     assert not bakeable(MeshFile(mesh))
+    cells = own_atlas(mesh)
+    assert cells.uv is not None
+    assert cells.uv_faces is not None
+    half = len(mesh.faces) // 2
+    mirrored = np.concatenate([cells.uv_faces[:half], cells.uv_faces[: len(mesh.faces) - half]])
+    assert not bakeable(MeshFile(mesh, None, cells.uv, mirrored))
     flat = MeshFile(mesh, None, np.zeros((1, 2)), np.zeros_like(mesh.faces))
     assert not bakeable(flat)
     with pytest.warns(KfmapsWarning, match="share"):
