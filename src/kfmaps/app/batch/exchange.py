@@ -101,9 +101,11 @@ def exchange(job: Exchange) -> Result:
         steps = [] if job.way is None else [[s.choice, s.forth, map_digest(s.task)] for s in job.way.steps]
         inputs = digest_of([map_digest(task), change.kind, change.choice, steps])
         there = read_result(path)
-        if there is not None and (there.settings, there.inputs) == (task.settings, inputs):
+        other = exchanged_map(folder, task.pair.key)
+        if there is not None and (there.settings, there.inputs) == (task.settings, inputs) and other.exists():
             return there
         path.unlink(missing_ok=True)
+        other.unlink(missing_ok=True)
         values = _exchanged(job)
     values["seconds"]["total"] = time.perf_counter() - begun
     result = Result(
