@@ -13,7 +13,7 @@ from kfmaps.fit.shape import Shape
 from kfmaps.functional.points import to_functional
 from kfmaps.many.agree import FUNCTIONS, SAY, Choice
 from kfmaps.search.arena import ground
-from kfmaps.search.candidates import FINE_WEIGHTS, refine
+from kfmaps.search.candidates import AGAIN, refine
 from kfmaps.search.quality import Probe, map_quality, mirrored_probe
 from kfmaps.search.verdict import probability
 
@@ -67,8 +67,8 @@ def judged(
     for back in sorted(set(turned)):
         on = ground(probes[0], mirrored_probe(probes[1]) if back else probes[1])
         rows = [i for i, one in enumerate(turned) if one == back]
-        weights = FINE_WEIGHTS if on.shot is not None else (0.0, 0.0)
-        settled, points = refine(rough[rows], on, (max(k // 2, 2), k), (weights[0], 0.0), 1)
+        weights = (AGAIN[0] if on.shot is not None else 0.0, 0.0)
+        settled, points = refine(rough[rows], on, (max(k // 2, 2), k), weights, (), 1)
         for i, C, at in zip(rows, settled, points, strict=True):
             quality = map_quality(C, on.source, on.target, at)
             found[i] = Judged(C[:FUNCTIONS, :FUNCTIONS], quality.score, quality.orientation, back)

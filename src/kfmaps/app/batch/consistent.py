@@ -76,7 +76,8 @@ def make_consistent(plan: Plan, results: Sequence[Result], crew: Crew) -> Agreed
     ]
     both = [(task, maps) for task, (maps, reason) in zip(tasks, said, strict=True) if not reason]
     if not both:
-        raise refuse("--consistent", "pairs that are matched", "none", "see why the pairs failed")
+        got = f"none ({notes[0]})" if notes else "none"
+        raise refuse("--consistent", "pairs that are matched", got, "see why the pairs failed")
     tasks, maps = [task for task, _ in both], [m for _, m in both]
     names = list(dict.fromkeys(name for task in tasks for name in (task.pair.source, task.pair.target)))
     number = {name: i for i, name in enumerate(names)}

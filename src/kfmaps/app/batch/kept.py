@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import fields, is_dataclass
 from pathlib import Path
-from typing import Any, get_type_hints
+from typing import Any, get_args, get_type_hints
 
 import numpy as np
 
@@ -68,8 +68,10 @@ def _record(kind: Any, arrays: dict[str, np.ndarray], before: str) -> Any:
     """
     values = {}
     for name, hint in get_type_hints(kind).items():
-        if is_dataclass(hint):
-            values[name] = _record(hint, arrays, f"{before}{name}.")
+        within = next((part for part in (hint, *get_args(hint)) if is_dataclass(part)), None)
+        if within is not None:
+            there = within is hint or any(key.startswith(f"{before}{name}.") for key in arrays)
+            values[name] = _record(within, arrays, f"{before}{name}.") if there else None
         elif before + name in arrays or "None" not in str(hint):
             array = arrays[before + name]
             values[name] = array if array.ndim else array.item()
