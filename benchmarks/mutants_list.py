@@ -254,8 +254,8 @@ MUTANTS = tuple(
             "test_automatic -k mirror_image_equals",
         ),
         (
-            "areas = np.bincount(closest, to_numpy(basis.mass), minlength=count)",
-            "areas = np.ones(count)",
+            "return np.bincount(closest, to_numpy(basis.mass), minlength=count)",
+            "return np.ones(count)",
             "test_automatic -k few_samples",
         ),
         (
@@ -277,7 +277,7 @@ MUTANTS = tuple(
             "((found.source**2).sum(axis=1)[None, :]",
             "test_search -k many",
         ),
-        ("self.quality.score - LANDMARK * float(", "self.quality.score - 0 * float(", f"{MATCH} -k landmark"),
+        ("self.evidence - LANDMARK * float(", "self.evidence - 0 * float(", f"{MATCH} -k landmark"),
         ("decay = np.exp(-values * time)", "decay = np.exp(-2 * values * time)", f"{MATCH} -k landmark"),
         ("scale = [np.sqrt(w / present[0][0])", "scale = [(w / present[0][0])", "test_search -k joined"),
         # formulations
