@@ -10,7 +10,7 @@ from kfmaps.fit.shape import prepare
 from kfmaps.search.arena import arena
 from kfmaps.search.bends import LEAST, MOST, Copy, bending, copied
 from kfmaps.search.candidates import from_tips, paired_map, rough
-from kfmaps.search.choose import choose, in_order, ranking
+from kfmaps.search.choose import choose, in_order, mirror_image, ranking
 from kfmaps.search.pairings import FEWEST, Pairing, against, alike, induced, pairings, told
 from kfmaps.search.quality import mirrored_probe, probe
 from kfmaps.search.tips import APART, tips, turns
@@ -211,3 +211,18 @@ def test_tips_can_be_left_out(creature):
     names = choose(source, target, plain, rng=0).origin, choose(source, target, SMALL, rng=0)
     assert not names[0].startswith("tips")
     assert names[1].confidence is not None
+
+
+def test_a_creature_is_matched_to_a_mirror_image_in_another_pose_unasked():
+    """A left bone and a right one: the score sees nothing wrong with a map that keeps orientation, bending does."""
+    pair = datasets.two_poses(1500, rng=1)
+    source, other = (prepare(mesh, SMALL, name="creature") for mesh in (pair.source, pair.target))
+    mirrored = mirror_image(other)
+    found = choose(source, mirrored, SMALL, rng=0)
+    assert found.orientation == "reversed"
+    assert found.verdict == "sure"
+    assert SMALL.search is not None
+    kept = choose(source, mirrored, replace(SMALL, search=replace(SMALL.search, orientation="kept")), rng=0)
+    assert kept.orientation == "kept"
+    assert kept.verdict != "sure"
+    assert choose(source, other, SMALL, rng=0).orientation == "kept"

@@ -216,14 +216,15 @@ class Search:
     ``candidates``: how many small fits are tried, each refined from three starts; ``signs``: how many low functions
     after the constant one have both their signs tried, 2^signs diagonal maps; ``tips``: whether the tips of limbs are
     paired in all likely ways as well, for bodies of different proportions; ``orientation``: whether the map keeps
-    orientation ("kept"), is one to a mirror image ("reversed"), or the one of both that fits clearly better
+    orientation ("kept"), is one to a mirror image ("reversed"), the latter only where one that keeps it would have to
+    bend the source unduly and the other does not ("auto"), or the one of both that fits clearly better
     ("either": for bones, shoes or hands, which are not their own mirror images; of a body that is, either map fits, and
     "kept" is right); ``runners_up``: how many distinct other maps are
     returned at most.
     """
 
     candidates: int = 6
-    orientation: Literal["kept", "reversed", "either"] = "kept"
+    orientation: Literal["auto", "kept", "reversed", "either"] = "auto"
     runners_up: int = 3
     signs: int = 5
     tips: bool = True
@@ -234,7 +235,7 @@ class Search:
         if self.signs > 10:
             raise refuse("signs", "at most 10", str(self.signs), "they make 2^signs maps: take more candidates instead")
         check_count(self.runners_up, "runners_up", low=0)
-        _choice(self.orientation, "orientation", ("kept", "reversed", "either"))
+        _choice(self.orientation, "orientation", ("auto", "kept", "reversed", "either"))
 
 
 Which = Literal["auto", "none", "source", "target", "both"]

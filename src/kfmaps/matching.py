@@ -259,7 +259,7 @@ def match(
             probes = None  # they are of the shapes as they were given
         with clock("candidates"):
             found = choose(shapes[0], shapes[1], config, landmarks=marks, probes=probes, **more)
-        if found.orientation == "reversed" and config.search.orientation == "either":
+        if found.orientation == "reversed" and config.search.orientation != "reversed":
             shapes[1] = mirror_image(shapes[1])
         tips = found.limbs and found.limbs.guide(shapes[0].mesh, shapes[1].mesh)
         led = leading(shapes[0], shapes[1], found.landmarks, tips)

@@ -29,13 +29,15 @@ from kfmaps.search.candidates import Candidate, again, apart, candidates, judged
 from kfmaps.search.marks import doubted
 from kfmaps.search.pairings import Limbs, limbs
 from kfmaps.search.quality import Probe, probe
-from kfmaps.search.verdict import probability, verdict
+from kfmaps.search.verdict import MUCH, excess, probability, verdict
 from kfmaps.surface.mesh import Mesh
 
 DISTINCT = 0.08
 """Mean distance, in units of √area, from which two maps count as different ones."""
 CLEAR = 0.3
 """Margin of the score from which a rival, or a map to the mirror image, comes first."""
+SURELY = 5.0
+"""Margin from which a map to the mirror image comes first though none was asked for; bones have 10, other maps none."""
 UNLIKE = -8.0
 """Score below which two shapes differ so much that their high functions do not correspond, ..."""
 FEWER = 100
@@ -159,11 +161,13 @@ def choose(
     ranked = ranking(found, on.whole, source, target, config.threads)
     orientation = "reversed" if config.search.orientation == "reversed" else "kept"
     surfaces = all(p.orientation is not None for p in probes)
-    if config.search.orientation == "either" and surfaces:
+    asked = config.search.orientation
+    unduly = ranked[0].bending is not None and excess(ranked[0].quality.score, ranked[0].bending) > MUCH
+    if surfaces and (asked == "either" or (asked == "auto" and unduly)):
         other = turned(on.whole)
         images = reversed_best(found, other, config.threads)
         turned_best = ranking(images, other, source, target, config.threads)
-        if turned_best and turned_best[0].score > ranked[0].score + CLEAR:
+        if turned_best and turned_best[0].score > ranked[0].score + (CLEAR if asked == "either" else SURELY):
             orientation, found, ranked, on = "reversed", images, turned_best, replace(on, whole=other)
     wrong = np.zeros(len(pairs), dtype=bool)
     if len(pairs):

@@ -16,9 +16,9 @@ TIE = 0.4
 """Margin at which the doubt that a different map casts is down to a third."""
 BENT, PER_SCORE = -3.6, -0.233
 """Logarithm of the bending energy that right maps have, at a score of 0, and its change with the score."""
-MUCH, WIDTH = 0.65, 0.1
+MUCH, WIDTH = 0.55, 0.08
 """By how much that logarithm is exceeded where half of all maps are wrong, and how fast their share grows there. The
-highest of a right map between people was 0.43, those of creatures on their mirror images 0.9 and 2.1."""
+highest of a right map of nearly isometric shapes was 0.38, those of creatures on their mirror images 0.9 and 2.1."""
 SURE = 0.85
 """Probability from which a map is called sure."""
 
@@ -30,8 +30,13 @@ def probability(score: float, margin: float, bending: float | None = None) -> fl
     """
     fits = _logistic(SLOPE * (score - MIDDLE))
     if bending is not None:
-        fits *= _logistic((MUCH - (math.log(bending) - BENT - PER_SCORE * score)) / WIDTH)
+        fits *= _logistic((MUCH - excess(score, bending)) / WIDTH)
     return fits * (1.0 - 0.5 * math.exp(-max(margin, 0.0) / TIE))
+
+
+def excess(score: float, bending: float) -> float:
+    """By how much the logarithm of the bending energy exceeds that of right maps of such a ``score``."""
+    return math.log(bending) - BENT - PER_SCORE * score
 
 
 def _logistic(x: float) -> float:

@@ -211,8 +211,9 @@ CATALOGUE: dict[str, tuple[Setting, ...]] = {
         Setting(
             "search.orientation",
             str,
-            "whether the map keeps orientation, is one to a mirror image, or whichever fits clearly better",
-            "kept, reversed, either",
+            "whether the map keeps orientation, is one to a mirror image, or whichever fits clearly better; auto: kept "
+            "unless that would bend the source unduly",
+            "auto, kept, reversed, either",
             "--orientation",
             ("Search",),
         ),
