@@ -58,7 +58,7 @@ def specimen(body: Mesh, vertices: int, rng: np.random.Generator) -> tuple[Mesh,
     kept = np.sort(stratified(places, np.ones(len(places)), vertices, rng))
     mesh = coarse(Mesh(moved, body.faces), kept)
     lines = np.linspace(0, len(places) - 1, LINES).astype(np.int64)
-    return mesh, KDTree(moved[kept]).query(moved[lines])[1]
+    return mesh, np.asarray(KDTree(moved[kept]).query(moved[lines])[1])
 
 
 def write_specimens(folder: Path, count: int, vertices: int) -> None:

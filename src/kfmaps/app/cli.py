@@ -26,7 +26,7 @@ COMMANDS = {
     "evaluate": "Print the geodesic error of a map, by the Princeton protocol, in per cent of √area.",
     "info": "Show what is in files: vertices, faces, components, area, genus, defects.",
     "config": "Print the settings that match would use, as TOML that --config reads.",
-    "transfer": "Carry functions, labels or named points from the source to the target, or back.",
+    "transfer": "Carry functions, labels or named points over a map, or landmarks to all shapes of a collection.",
     "export": "Write the target with the source's texture or colours, or the map in another format.",
     "view": "Show a map in the browser, or write it as one page that needs no network.",
     "landmarks": "Pick landmarks on a local page: click a point on one shape, then its match on the other.",

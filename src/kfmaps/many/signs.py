@@ -5,13 +5,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from kfmaps._arrays import check, refuse
 
 ROUNDS = 100
 
 
-def hands(count: int, ends: Sequence[tuple[int, int]], kept: Sequence[bool], weights: Sequence[float]) -> np.ndarray:
+def hands(count: int, ends: Sequence[tuple[int, int]], kept: Sequence[bool], weights: ArrayLike) -> np.ndarray:
     """1 or -1 for each shape, such that pairs of equal sign keep orientation and others reverse it: (n,) int64.
 
     As much of the ``weights`` as can be is to agree: the leading eigenvector of the signed graph gives signs
@@ -29,9 +30,8 @@ def hands(count: int, ends: Sequence[tuple[int, int]], kept: Sequence[bool], wei
     (n,) int64
         Where pairs join shapes, the one with the lowest number has 1.
     """
-    if not len(ends) == len(kept) == len(weights):
-        got = f"{len(ends)}, {len(kept)} and {len(weights)}"
-        raise refuse("pairs", "shapes, orientation and weight of each", got, "give lists of equal length")
+    if len(ends) != len(kept):
+        raise refuse("pairs", "shapes and orientation of each", f"{len(ends)} and {len(kept)}", "give equally many")
     weight = check(np.asarray(weights, dtype=np.float64), "weights", shape=(len(ends),), finite=True)
     if len(weight) and weight.min() < 0:
         raise refuse("weights", "numbers from 0 on", f"{weight.min():g}", "give probabilities")

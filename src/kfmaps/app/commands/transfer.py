@@ -75,7 +75,7 @@ def transfer(
     ] = None,
     force: Annotated[bool, typer.Option("--force", help="Replace an existing file.")] = False,
 ) -> None:
-    """Carry functions, labels or named points from the source to the target, or back; or landmarks to a collection."""
+    """Carry functions, labels or named points over a map, or landmarks to all shapes of a collection."""
     if collection is not None or landmarks is not None:
         _everywhere(collection, landmarks, on, output, tps, force, (map, values, source, target))
         return
