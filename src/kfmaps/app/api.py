@@ -117,6 +117,8 @@ class Match(matching.Match):
     def precise_inverse(self) -> PointMap:
         """A point inside a triangle of the target for each source vertex: the inverse of :meth:`precise`.
 
+        Of a match of parts it means something in the part alone that both shapes have (``overlap_source``).
+
         Raises
         ------
         InvalidInput

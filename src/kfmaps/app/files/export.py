@@ -212,7 +212,7 @@ def write_textured(
     uv, uv_faces = carried_uv(source, mesh, np.where(lost, points.max(), points), place)
     if lost.any():
         # All three corners in one place: the face has one colour of the picture, and the picture does not spread.
-        faces = lost[mesh.faces].any(axis=1)
+        faces = lost[mesh.faces].max(axis=1)
         uv, uv_faces = np.concatenate([uv, np.zeros((1, 2))]), np.where(faces[:, None], len(uv), uv_faces)
     if atlas.uv is not None and atlas.uv_faces is not None:
         if bakeable(atlas):
