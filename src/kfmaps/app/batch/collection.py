@@ -108,6 +108,9 @@ def match_collection(
                 run_plan(plan, hands.connected(), counted)
             except KeyboardInterrupt:
                 interrupted = True
+            finally:
+                if interrupted or not consistent:
+                    hands.dismiss()  # what they are still at is not to end behind the back of the tables
             matched = count
         asked = {(task.pair.source, task.pair.target) for task in plan.tasks}
         everything = all_results(plan.folder, plan.settings.digest)
@@ -118,6 +121,8 @@ def match_collection(
                 everything = [better.get((r.source, r.target), r) for r in everything]
             except KeyboardInterrupt:
                 interrupted = True
+            finally:
+                hands.dismiss()
         files = write_outputs(plan, everything, name, 0 if interrupted else worst, agreed)
     results = tuple(r for r in everything if (r.source, r.target) in asked)
     return BatchOutcome(results, matched, interrupted, files, agreed)

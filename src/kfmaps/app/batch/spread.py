@@ -33,6 +33,11 @@ class Crew:
             self.workers = self.stack.enter_context(where)
         return self.workers
 
+    def dismiss(self) -> None:
+        """End the workers; they are started again when they are needed again."""
+        self.stack.close()
+        self.workers = None
+
     def each(self, what: str, function: Callable[[Item], Value], items: Sequence[Item]) -> list[Value]:
         """``function`` of each of the ``items``, in their order. It is handed to the workers, so it must not raise.
 
