@@ -88,7 +88,7 @@ def data_sets(setting: Setting) -> list[Shapes]:
 def measured(setting: Setting, kind: str, share: float = 1.0, counts: Sequence[int] = COUNTS) -> dict[str, Rows]:
     """Rows of one kind of measurement by data set, each with its ``pair``; on a ``share`` of the pairs.
 
-    A further formulation, or one that has changed, is all that is measured again.
+    A further row of :data:`FORMULATIONS` is all that is measured again; a new setting changes every key.
     """
     known = read_store(setting.folder / PIECES)
     jobs, places = [], []
