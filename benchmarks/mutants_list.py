@@ -279,6 +279,45 @@ MUTANTS = tuple(
         ),
         ("self.evidence - LANDMARK * float(", "self.evidence - 0 * float(", f"{MATCH} -k landmark"),
         ("decay = np.exp(-values * time)", "decay = np.exp(-2 * values * time)", f"{MATCH} -k landmark"),
+        (
+            "(along[0][i] * along[1][j] - along[1][i] * along[0][j]) / 2",
+            "along[0][i] * along[1][j] / 2",
+            "test_tips -k turn",
+        ),
+        (
+            "found[i, j], found[j, i] = values[:, column], -values[:, column]",
+            "found[i, j] = values[:, column]",
+            "test_tips -k turn",
+        ),
+        ("return replace(self, turn=-self.turn)", "return self", "test_tips -k mirror"),
+        ("if far[i] >= far[near].max(initial=0.0)", "if far[i] <= far[near].max(initial=0.0)", "test_tips -k far_from"),
+        (
+            "cost = np.abs(theirs - ours).sum(axis=(1, 2)) / (size * (size - 1))",
+            "cost = np.zeros(len(images))",
+            "test_tips -k pairing",
+        ),
+        (
+            "cost = cost + apart[np.array(chosen), images].mean(axis=1)",
+            "cost = cost - apart[np.array(chosen), images].mean(axis=1)",
+            "test_tips -k pair",
+        ),
+        (
+            "(here**2).sum(axis=1)[None, :] - 2 * there @ here.T",
+            "(here**2).sum(axis=1)[None, :] - there @ here.T",
+            "test_tips -k turns_alone",
+        ),
+        ("each[i] = tips * against(", "each[i] = -tips * against(", "test_tips -k evidence"),
+        (
+            "bent = 0.0 if self.bending is None else -BEND",
+            "bent = 0.0 if self.bending is None else BEND",
+            "test_tips -k bends_less",
+        ),
+        (
+            "return math.log(bending) - BENT - PER_SCORE * score",
+            "return math.log(bending) - BENT",
+            "test_automatic -k verdict",
+        ),
+        ("fits *= _logistic((MUCH - excess(score, bending)) / WIDTH)", "fits *= 1.0", "test_automatic -k verdict"),
         ("scale = [np.sqrt(w / present[0][0])", "scale = [(w / present[0][0])", "test_search -k joined"),
         # formulations
         ("damped = stiffness / (1.0 + stiffness)", "damped = 1.0", "test_formulations -k transport"),
