@@ -294,7 +294,7 @@ MUTANTS = tuple(
         (
             "cost = np.abs(theirs - ours).sum(axis=(1, 2)) / (size * (size - 1))",
             "cost = np.zeros(len(images))",
-            "test_tips -k pairing",
+            "test_tips -k alone_pair",
         ),
         (
             "cost = cost + apart[np.array(chosen), images].mean(axis=1)",

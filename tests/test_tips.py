@@ -122,6 +122,15 @@ def test_equal_shapes_pair_their_tips_with_themselves(probes):
     assert induced(np.zeros_like(everywhere), one, one) is None
 
 
+def test_distances_between_tips_alone_pair_them(probes):
+    one = probes[0]
+    plain = replace(one, heat=np.zeros_like(one.heat), tips=replace(one.tips, reach=np.ones(len(one.tips.points))))
+    order = np.array([3, 0, 5, 1, 4, 2, *range(6, len(one.tips.points))])
+    tips = replace(plain.tips, points=plain.tips.points[order], distances=plain.tips.distances[order])
+    first = alike(plain, replace(plain, tips=tips))[0]
+    assert np.array_equal(order[first.target], first.source)
+
+
 def test_shapes_without_limbs_are_not_paired(probes):
     one = probes[0]
     bare = replace(one, tips=one.tips.none())
@@ -158,6 +167,9 @@ def test_each_map_may_have_evidence_of_its_own(on):
         alone = zoomed(maps[:1], *bases, (10, 20, 30), on.few.against(4.0, 0.0, 30.0, [pairing]), 1)
         assert np.array_equal(together[1][i], alone[1][0])
     assert not np.array_equal(together[1][0], together[1][2])
+    speaks = on.few.against(0.0, 0.0, 2.0, pairs[:1])
+    assert speaks is not None
+    assert speaks[0] == pytest.approx(2 * against(on.few.source.tips, on.few.target.tips, pairs[0]), abs=1e-5)
 
 
 def test_a_shape_bends_least_onto_itself(creature, probes):
