@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 from scipy.sparse import coo_array
@@ -21,7 +22,7 @@ MORE = 3.0
 class Suspicion:
     """``which``: "none", "source" or "target"; ``why``: in words."""
 
-    which: str
+    which: Literal["none", "source", "target"]
     why: str
 
 
@@ -50,7 +51,7 @@ def suspicion(source: Mesh, target: Mesh) -> Suspicion:
     """Which of two surfaces may be a part of the other."""
     if len(source.faces) == 0 or len(target.faces) == 0:
         return Suspicion("none", "point clouds are taken for whole")
-    openings = {"source": opening(source), "target": opening(target)}
+    openings: dict[Literal["source", "target"], float] = {"source": opening(source), "target": opening(target)}
     part, whole = sorted(openings, key=lambda name: -openings[name])
     if openings[part] < OPEN:
         return Suspicion("none", "no boundary is long enough for a cut")
