@@ -8,16 +8,21 @@ from dataclasses import dataclass
 import numpy as np
 
 from kfmaps._arrays import refuse
+from kfmaps._threads import parallel
 from kfmaps.config import Partial
 from kfmaps.parts.bend import FULL, QUICK, Bent, Ground, bent, ground
 from kfmaps.parts.overlap import Overlap, overlap
 from kfmaps.parts.side import Side, side
-from kfmaps.parts.units import LARGER, SCALES, Rough, grown, tried
+from kfmaps.parts.units import LARGER, SCALES, TRIALS, Rough, grown, tried
 from kfmaps.surface.closest import places_on
 from kfmaps.surface.mesh import Mesh
 
 ALIKE = 1.12
 """Ratio of scales from which two are worth a trial each."""
+AGAIN = 2
+"""Scales at which all trials are made."""
+CONSISTENCY = 4.0
+"""Weight in the score."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,7 +54,7 @@ class Evidence:
 
 def score(found: Evidence) -> float:
     """One number, higher is better."""
-    return 4.0 * found.consistency - 1.0 * found.unlike - 15.0 * found.bending - 50.0 * found.gap - 4.0 * found.folded
+    return CONSISTENCY * found.consistency - found.unlike - 20.0 * found.bending - 50.0 * found.gap - 4.0 * found.folded
 
 
 @dataclass(frozen=True, eq=False)
@@ -111,19 +116,25 @@ def parted(
     scales = [ratio] if fixed and ratio else [*SCALES, *(LARGER if loose else ())]
     if not fixed and ratio and scales[0] / ALIKE < ratio < scales[-1] * ALIKE:
         scales.append(ratio)
-    rough = distinct(tried(*sides, scales, marked, threads))[: settings.candidates]
+    first = distinct(tried(*sides, scales, marked, TRIALS[0], threads))[: settings.candidates]
+    told(0.3)
+    rough = [*first]
+    for trial in TRIALS[1:]:
+        rough += tried(*sides, [one.scale for one in first[:AGAIN]], marked, trial, threads)
     told(0.4)
+    full = parallel(lambda one: (one, grown(*sides, one, marked, fixed)), rough, threads)
+    full.sort(key=lambda pair: -plain_score(pair[1]))
+    told(0.5)
     on = ground(whole, sides[1].border)
-    found: list[tuple[float, Evidence, Rough, Bent]] = []
-    for i, one in enumerate(rough):
-        full = grown(*sides, one, marked, fixed)
-        bend = placed_on(full, *sides, on)
-        seen = evidence(one, full, bend)
-        found.append((score(seen), seen, full, bend))
-        told(0.4 + 0.3 * (i + 1) / len(rough))
+    found: list[tuple[float, Evidence, Bent]] = []
+    for i, (one, placed) in enumerate(full[: settings.candidates + 1]):
+        bend = placed_on(placed, *sides, on)
+        seen = evidence(one, placed, bend)
+        found.append((score(seen), seen, bend))
+        told(0.5 + 0.25 * (i + 1) / (settings.candidates + 1))
     found.sort(key=lambda item: -item[0])
     best = found[0]
-    last = finished(best[3], sides[0], on, pairs, fixed, lambda done: told(0.7 + 0.3 * done))
+    last = finished(best[2], sides[0], on, pairs, fixed, lambda done: told(0.75 + 0.25 * done))
     ends = last.vertices[pairs[:, 0]] - whole.vertices[pairs[:, 1]]
     return Parted(
         last,
@@ -164,15 +175,26 @@ def finished(
     return bent(part.mesh, scale, on, part.samples, points, normals, trust, FULL, 5, progress)
 
 
-def evidence(rough: Rough, full: Rough, bend: Bent) -> Evidence:
-    """Of one candidate, as it was tried, placed and bent."""
+def unlikeness(full: Rough) -> float:
+    """See :attr:`Evidence.unlike`."""
     match, alike = full.placed.match, full.alike
     own = alike[np.arange(len(match)), match]
     better = (alike > own[:, None]).sum(axis=1)
+    return float(np.log((better + 1) / alike.shape[1]).mean())
+
+
+def plain_score(full: Rough) -> float:
+    """What of :func:`score` is known before the part is bent."""
+    return CONSISTENCY * full.placed.support - unlikeness(full)
+
+
+def evidence(rough: Rough, full: Rough, bend: Bent) -> Evidence:
+    """Of one candidate, as it was tried, placed and bent."""
+    match = full.placed.match
     return Evidence(
         rough.placed.support,
         full.placed.support,
-        float(np.log((better + 1) / alike.shape[1]).mean()),
+        unlikeness(full),
         bend.bending,
         bend.gap,
         bend.folded,

@@ -15,14 +15,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-CANDIDATES = 12
-"""Of each sample at first."""
-FIRST = 150
-"""Samples that are placed at first."""
 STEPS = 12
 """Of the relaxation."""
-REACH = 0.6
-"""Distance up to which pairs count in the relaxation, in √area of the whole."""
 SLACK = (0.02, 0.1)
 """Change of a distance that speaks against a pair altogether: at no distance, and per distance."""
 NARROW = (0.03, 0.08)
@@ -35,6 +29,28 @@ TRUST = 0.3
 """Consistency from which a sample is trusted."""
 MARK = 3.0
 """Trust in a landmark, where that of a sample is at most 1."""
+
+
+@dataclass(frozen=True)
+class Trial:
+    """One way to begin: what is compared, and how much is left open.
+
+    Attributes
+    ----------
+    radii : tuple of float
+        Of SHOT, in √area of the whole.
+    first : int
+        Samples that are placed at first, and ...
+    candidates : int
+        ... how many places each may have: few samples with many places find what descriptors alone do not.
+    reach : float
+        Distance up to which pairs count, in √area of the whole.
+    """
+
+    radii: tuple[float, ...] = (0.09, 0.14)
+    first: int = 150
+    candidates: int = 12
+    reach: float = 0.6
 
 
 @dataclass(frozen=True, eq=False)
@@ -87,13 +103,13 @@ class Placed:
     support: float
 
 
-def relaxed(part: Gauge, whole: np.ndarray, alike: np.ndarray, marks: int = 0) -> Placed:
+def relaxed(part: Gauge, whole: np.ndarray, alike: np.ndarray, trial: Trial, marks: int = 0) -> Placed:
     """The first few samples placed, by ``alike (q, m)``, the products of their descriptors with the whole's.
 
     ``whole (m, m)`` are distances there. Rows of the first ``marks`` samples have one entry above all others.
     """
-    n = min(max(FIRST, marks), len(alike))
-    k = min(CANDIDATES, alike.shape[1])
+    n = min(max(trial.first, marks), len(alike))
+    k = min(trial.candidates, alike.shape[1])
     far, low, alike = part.far[:n, :n], part.low[:n, :n], alike[:n]
     candidates = np.argsort(-alike, axis=1, kind="stable")[:, :k]
     speaks = np.take_along_axis(alike, candidates, 1)
@@ -102,7 +118,7 @@ def relaxed(part: Gauge, whole: np.ndarray, alike: np.ndarray, marks: int = 0) -
     share = np.exp(speaks / 0.05)
     share /= share.sum(axis=1, keepdims=True)
     own, label = np.repeat(np.arange(n), k), candidates.ravel()
-    near = (far <= REACH) & ~np.eye(n, dtype=bool)
+    near = (far <= trial.reach) & ~np.eye(n, dtype=bool)
     pairs = np.ix_(own, own)
     fits = consistency(far[pairs], low[pairs], whole[np.ix_(label, label)], SLACK) * near[pairs]
     backed = share

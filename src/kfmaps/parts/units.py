@@ -8,11 +8,15 @@ from dataclasses import dataclass
 import numpy as np
 
 from kfmaps._threads import parallel
-from kfmaps.parts.labels import Placed, gauge, relaxed, settled, stretch
+from kfmaps.parts.labels import Placed, Trial, gauge, relaxed, settled, stretch
 from kfmaps.parts.side import Side
 
-RADII = (0.09, 0.14)
-"""Of SHOT, in √area of the whole."""
+TRIALS = (
+    Trial(),
+    Trial((0.06, 0.09, 0.14, 0.2), 100, 30, 1.2),
+    Trial((0.06, 0.09, 0.14, 0.2), 70, 45, 1.2),
+)
+"""The first tries all scales, the others the best of these."""
 SCALES = tuple(0.28 * 1.15**i for i in range(10))
 """√area of the part over that of the whole; SHOT and consistency take a tenth more or less."""
 LARGER = tuple(SCALES[-1] * 1.15**i for i in range(1, 4))
@@ -30,20 +34,24 @@ class Rough:
     ----------
     scale : float
         √area of the part over that of the whole.
+    trial : Trial
     placed : Placed
     alike : (q, m) float32
         Products of descriptors.
     """
 
     scale: float
+    trial: Trial
     placed: Placed
     alike: np.ndarray
 
 
-def likeness(part: Side, whole: Side, scale: float, pairs: np.ndarray, threads: int | None = None) -> np.ndarray:
+def likeness(
+    part: Side, whole: Side, scale: float, radii: tuple[float, ...], pairs: np.ndarray, threads: int | None = None
+) -> np.ndarray:
     """Mean products ``(q, m)`` of the SHOT of both, in balls of equal size; landmarks ``pairs`` are settled."""
-    total = sum(part.shot(r / scale, threads) @ whole.shot(r, threads).T for r in RADII)
-    alike = np.asarray(total, dtype=np.float32) / len(RADII)
+    total = sum(part.shot(r / scale, threads) @ whole.shot(r, threads).T for r in radii)
+    alike = np.asarray(total, dtype=np.float32) / len(radii)
     if len(pairs):
         alike[pairs[:, 0]] = -1.0
         alike[pairs[:, 0], pairs[:, 1]] = 2.0
@@ -51,16 +59,21 @@ def likeness(part: Side, whole: Side, scale: float, pairs: np.ndarray, threads: 
 
 
 def tried(
-    part: Side, whole: Side, scales: Sequence[float], pairs: np.ndarray, threads: int | None = None
+    part: Side,
+    whole: Side,
+    scales: Sequence[float],
+    pairs: np.ndarray,
+    trial: Trial = TRIALS[0],
+    threads: int | None = None,
 ) -> list[Rough]:
-    """The first samples placed at each of ``scales``, the best supported first."""
-    for radius in RADII:
+    """The first samples placed at each of ``scales`` as ``trial`` says, the best supported first."""
+    for radius in trial.radii:
         whole.shot(radius, threads)
 
     def at(scale: float) -> Rough:
-        alike = likeness(part, whole, scale, pairs, 1)
-        placed = relaxed(gauge(part.distances, part.edge, scale), whole.distances, alike, part.marks)
-        return Rough(scale, placed, alike)
+        alike = likeness(part, whole, scale, trial.radii, pairs, 1)
+        placed = relaxed(gauge(part.distances, part.edge, scale), whole.distances, alike, trial, part.marks)
+        return Rough(scale, trial, placed, alike)
 
     return sorted(parallel(at, list(scales), threads), key=lambda rough: -rough.placed.support)
 
@@ -75,5 +88,5 @@ def grown(part: Side, whole: Side, rough: Rough, pairs: np.ndarray, fixed: bool 
             if not fixed:
                 scale = float(np.clip(scale * stretch(measure, whole.distances, placed), *LIMITS))
         if not repeated and not fixed:
-            alike = likeness(part, whole, scale, pairs, 1)
-    return Rough(scale, placed, alike)
+            alike = likeness(part, whole, scale, rough.trial.radii, pairs, 1)
+    return Rough(scale, rough.trial, placed, alike)

@@ -10,7 +10,7 @@ import math
 
 from kfmaps.parts.choose import Parted
 
-SLOPE, MIDDLE = 3.0, 5.6
+SLOPE, MIDDLE = 3.0, 5.8
 """Of the logistic function of the score, and the score at which half of all are right."""
 SURE = 0.85
 POOR = 0.5
