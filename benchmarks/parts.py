@@ -1,0 +1,154 @@
+"""Parts matched to their wholes: errors, overlaps, verdicts and times, one setting for all.
+
+    python benchmarks/parts.py --data DIR [--sets cuts,holes,PFAUST_M,PFAUST_H] [--half report] [--every 2] [--json FILE]
+    python benchmarks/parts.py --data DIR --landmarks 6
+    python benchmarks/parts.py --data DIR --turned
+
+DIR holds ``SHREC16``, ``PFAUST_M``, ``PFAUST_H`` and the wholes of the latter in ``FAUST_r``, each with ``test_pairs.txt``
+of lines "whole part". Settings were chosen on the wholes named by :data:`CHOSEN_ON`; ``--half report`` leaves these out.
+``--turned`` turns each part at random and scales it by a factor from 0.1 to 10, ``--landmarks`` gives farthest points of
+the part. Errors are distances on the whole between points inside triangles, in % of its √area, over the vertices that the
+map gives a counterpart; the overlap is intersection over union of areas of the whole. At the end stand the errors by the
+area that is missing.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import tempfile
+import time
+import warnings
+import zlib
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+import kfmaps
+from kfmaps.app.files import load_map
+from kfmaps.app.partial_truth import part_accuracy, read_part_truth
+from kfmaps.functional.precise import points_of
+from kfmaps.surface.geodesics import farthest_geodesic
+
+CHOSEN_ON = {"cat", "horse", *(f"tr_reg_{i:03d}" for i in range(20))}
+SETS = {"cuts": "SHREC16", "holes": "SHREC16", "PFAUST_M": "PFAUST_M", "PFAUST_H": "PFAUST_H"}
+WRONG = 10.0
+"""Mean error × 100 above which no map should be called sure."""
+
+
+@dataclass(frozen=True)
+class Job:
+    """One pair: the set, the names of the whole and the part, and how it is made harder or easier."""
+
+    data: Path
+    kind: str
+    whole: str
+    part: str
+    landmarks: int = 0
+    turned: bool = False
+
+
+def jobs(data: Path, kind: str, half: str) -> list[Job]:
+    lines = (data / SETS[kind] / "test_pairs.txt").read_text(encoding="utf-8").split("\n")
+    found = [Job(data, kind, *line.split()) for line in lines if line.strip()]
+    found = [job for job in found if kind not in ("cuts", "holes") or job.part.startswith(kind)]
+    keep = {"all": (True, False), "choice": (True,), "report": (False,)}[half]
+    return [job for job in found if (job.whole in CHOSEN_ON) in keep]
+
+
+def mesh_of(folder: Path, name: str) -> kfmaps.Mesh:
+    path = next(folder / f"{name}{end}" for end in (".ply", ".off") if (folder / f"{name}{end}").exists())
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", kfmaps.KfmapsWarning)
+        return kfmaps.read_mesh(path)
+
+
+def moved(mesh: kfmaps.Mesh, seed: int) -> kfmaps.Mesh:
+    """Turned at random and scaled by a factor from 0.1 to 10."""
+    rng = np.random.default_rng(seed)
+    rotation = np.linalg.qr(rng.normal(size=(3, 3)))[0]
+    rotation *= np.sign(np.linalg.det(rotation))
+    return kfmaps.Mesh(10 ** rng.uniform(-1, 1) * mesh.vertices @ rotation.T, mesh.faces)
+
+
+def run(job: Job) -> dict[str, object]:
+    folder = job.data / SETS[job.kind]
+    whole, part = (
+        mesh_of(folder if SETS[job.kind] == "SHREC16" else job.data / "FAUST_r", job.whole),
+        mesh_of(folder, job.part),
+    )
+    truth_file = next(path for end in (".baryc_gt", ".txt") for path in [folder / f"{job.part}{end}"] if path.exists())
+    truth = read_part_truth(truth_file, whole, part)
+    marks = None
+    if job.landmarks:
+        known = np.isin(np.arange(len(part.vertices)), truth.vertices)
+        far = farthest_geodesic(part, 4 * job.landmarks, 0)
+        far = far[known[far]][: job.landmarks]
+        row = (
+            np.searchsorted(truth.vertices, far)
+            if truth.dense
+            else [int(np.flatnonzero(truth.vertices == v)[0]) for v in far]
+        )
+        at = truth.places.faces[row], truth.places.weights[row]
+        marks = np.stack([whole.faces[at[0], at[1].argmax(axis=1)], far], axis=1)
+        marks = marks[np.unique(marks[:, 0], return_index=True)[1]]
+    given = moved(part, zlib.crc32(job.part.encode())) if job.turned else part
+    begun = time.process_time()
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", kfmaps.KfmapsWarning)
+        found = kfmaps.match(whole, given, kfmaps.Config.automatic(threads=1), landmarks=marks)
+    seconds = time.process_time() - begun
+    with tempfile.TemporaryDirectory() as where:
+        path = Path(where) / "map.npz"
+        found.save(path)
+        scored = part_accuracy(whole, part, load_map(path), truth, "target")
+    return {
+        "set": job.kind, "whole": job.whole, "part": job.part, "error": 100 * scored.errors.mean,
+        "matched": scored.matched, "overlap": scored.overlap, "missing": scored.missing,
+        "verdict": found.verdict, "confidence": found.confidence, "seconds": seconds,
+        "taken_for_part": found.overlap_target is not None,
+    }  # fmt: skip
+
+
+def line(name: str, rows: list[dict[str, object]]) -> str:
+    error = np.array([row["error"] for row in rows], dtype=float)
+    overlap = np.array([np.nan if row["overlap"] is None else row["overlap"] for row in rows], dtype=float)
+    sure = np.array([row["verdict"] == "sure" for row in rows])
+    seconds = np.mean([float(str(row["seconds"])) for row in rows])
+    share = "" if np.isnan(overlap).all() else f"{100 * np.nanmean(overlap):.1f}"
+    return (
+        f"{name:24s}{len(rows):6d}{error.mean():8.2f}{np.median(error):8.2f}{error.max():8.2f}{(error > WRONG).sum():6d}"
+        f"{share:>9s}{sure.sum():6d}{(sure & (error > WRONG)).sum():12d}{seconds:9.1f}"
+    )
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--data", type=Path, required=True)
+    parser.add_argument("--sets", default=",".join(SETS))
+    parser.add_argument("--half", choices=("choice", "report", "all"), default="report")
+    parser.add_argument("--every", type=int, default=1, help="only every n-th pair of each set")
+    parser.add_argument("--landmarks", type=int, default=0)
+    parser.add_argument("--turned", action="store_true")
+    parser.add_argument("--json", type=Path)
+    arguments = parser.parse_args()
+    print(f"{'mean error × 100':24s}{'pairs':>6s}{'mean':>8s}{'median':>8s}{'worst':>8s}{'>10':>6s}{'IoU %':>9s}{'sure':>6s}{'sure, >10':>12s}{'CPU s':>9s}")  # fmt: skip
+    everything: list[dict[str, object]] = []
+    for kind in arguments.sets.split(","):
+        rows = []
+        for job in jobs(arguments.data, kind, arguments.half)[:: arguments.every]:
+            rows.append(run(Job(job.data, kind, job.whole, job.part, arguments.landmarks, arguments.turned)))
+            if arguments.json:
+                arguments.json.write_text(json.dumps([*everything, *rows], indent=1), encoding="utf-8")
+        if rows:
+            print(line(kind, rows), flush=True)
+        everything += rows
+    for low, high in ((0.0, 0.2), (0.2, 0.4), (0.4, 0.6), (0.6, 1.0)):
+        some = [row for row in everything if low <= float(str(row["missing"])) < high]
+        if some:
+            print(line(f"missing {100 * low:.0f} to {100 * high:.0f} %", some))
+
+
+if __name__ == "__main__":
+    main()
