@@ -1,15 +1,15 @@
 """Parts matched to their wholes: errors, overlaps, verdicts and times, one setting for all.
 
-    python benchmarks/parts.py --data DIR [--sets cuts,holes,PFAUST_M,PFAUST_H] [--half report] [--every 2] [--json FILE]
+    python benchmarks/parts.py --data DIR [--sets cuts,holes,PFAUST_M,PFAUST_H] [--half report] [--every 2]
     python benchmarks/parts.py --data DIR --landmarks 6
     python benchmarks/parts.py --data DIR --turned
 
-DIR holds ``SHREC16``, ``PFAUST_M``, ``PFAUST_H`` and the wholes of the latter in ``FAUST_r``, each with ``test_pairs.txt``
-of lines "whole part". Settings were chosen on the wholes named by :data:`CHOSEN_ON`; ``--half report`` leaves these out.
-``--turned`` turns each part at random and scales it by a factor from 0.1 to 10, ``--landmarks`` gives farthest points of
-the part. Errors are distances on the whole between points inside triangles, in % of its √area, over the vertices that the
-map gives a counterpart; the overlap is intersection over union of areas of the whole. At the end stand the errors by the
-area that is missing.
+DIR holds ``SHREC16``, ``PFAUST_M``, ``PFAUST_H`` and the wholes of the latter in ``FAUST_r``, each with
+``test_pairs.txt`` of lines "whole part". Settings were chosen on the wholes named by :data:`CHOSEN_ON`; ``--half report``
+leaves these out. ``--turned`` turns each part at random and scales it by a factor from 0.1 to 10, ``--landmarks`` gives
+farthest points of the part. Errors are distances on the whole between points inside triangles, in % of its √area, over
+the vertices that the map gives a counterpart; the overlap is intersection over union of areas of the whole. At the end
+stand the errors by the area that is missing.
 """
 
 from __future__ import annotations
@@ -28,11 +28,11 @@ import numpy as np
 import kfmaps
 from kfmaps.app.files import load_map
 from kfmaps.app.partial_truth import part_accuracy, read_part_truth
-from kfmaps.functional.precise import points_of
 from kfmaps.surface.geodesics import farthest_geodesic
 
 CHOSEN_ON = {"cat", "horse", *(f"tr_reg_{i:03d}" for i in range(20))}
 SETS = {"cuts": "SHREC16", "holes": "SHREC16", "PFAUST_M": "PFAUST_M", "PFAUST_H": "PFAUST_H"}
+WIDTHS = (6, 8, 8, 8, 6, 9, 6, 12, 9)
 WRONG = 10.0
 """Mean error × 100 above which no map should be called sure."""
 
@@ -118,7 +118,8 @@ def line(name: str, rows: list[dict[str, object]]) -> str:
     seconds = np.mean([float(str(row["seconds"])) for row in rows])
     share = "" if np.isnan(overlap).all() else f"{100 * np.nanmean(overlap):.1f}"
     return (
-        f"{name:24s}{len(rows):6d}{error.mean():8.2f}{np.median(error):8.2f}{error.max():8.2f}{(error > WRONG).sum():6d}"
+        f"{name:24s}{len(rows):6d}{error.mean():8.2f}{np.median(error):8.2f}{error.max():8.2f}"
+        f"{(error > WRONG).sum():6d}"
         f"{share:>9s}{sure.sum():6d}{(sure & (error > WRONG)).sum():12d}{seconds:9.1f}"
     )
 
@@ -133,7 +134,8 @@ def main() -> None:
     parser.add_argument("--turned", action="store_true")
     parser.add_argument("--json", type=Path)
     arguments = parser.parse_args()
-    print(f"{'mean error × 100':24s}{'pairs':>6s}{'mean':>8s}{'median':>8s}{'worst':>8s}{'>10':>6s}{'IoU %':>9s}{'sure':>6s}{'sure, >10':>12s}{'CPU s':>9s}")  # fmt: skip
+    heads = zip(("pairs", "mean", "median", "worst", ">10", "IoU %", "sure", "sure, >10", "CPU s"), WIDTHS, strict=True)
+    print(f"{'mean error × 100':24s}" + "".join(f"{word:>{width}s}" for word, width in heads))
     everything: list[dict[str, object]] = []
     for kind in arguments.sets.split(","):
         rows = []
