@@ -5,7 +5,7 @@
     python benchmarks/parts.py --data DIR --turned
 
 DIR holds ``SHREC16``, ``PFAUST_M``, ``PFAUST_H`` and the wholes of the latter in ``FAUST_r``, each with
-``test_pairs.txt`` of lines "whole part". Settings were chosen on the wholes named by :data:`CHOSEN_ON`; ``--half report``
+``test_pairs.txt`` of lines "whole part". Settings were chosen on the wholes of :data:`CHOSEN_ON`; ``--half report``
 leaves these out. ``--turned`` turns each part at random and scales it by a factor from 0.1 to 10, ``--landmarks`` gives
 farthest points of the part. Errors are distances on the whole between points inside triangles, in % of its √area, over
 the vertices that the map gives a counterpart; the overlap is intersection over union of areas of the whole. At the end
@@ -20,7 +20,7 @@ import tempfile
 import time
 import warnings
 import zlib
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -97,7 +97,7 @@ def run(job: Job) -> dict[str, object]:
     begun = time.process_time()
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", kfmaps.KfmapsWarning)
-        found = kfmaps.match(whole, given, kfmaps.Config.automatic(threads=1), landmarks=marks)
+        found = kfmaps.match(whole, given, replace(kfmaps.Config.automatic(), threads=1), landmarks=marks)
     seconds = time.process_time() - begun
     with tempfile.TemporaryDirectory() as where:
         path = Path(where) / "map.npz"
