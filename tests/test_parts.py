@@ -1,40 +1,178 @@
-"""Parts: what distances on a part say of the whole, and who looks like a part."""
+"""Parts and wholes: what boundaries tell, distances that a cut lengthens, the part placed, bent and answered."""
+
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from kfmaps.parts.decide import opening, suspicion
-from kfmaps.parts.labels import consistency, gauge
-from kfmaps.surface.mesh import Mesh
+from kfmaps import datasets
+from kfmaps.app.files import load_map
+from kfmaps.app.partial_truth import PartTruth, part_accuracy, true_overlap
+from kfmaps.config import Config, Partial
+from kfmaps.functional.evaluate import place_errors
+from kfmaps.functional.precise import PointMap
+from kfmaps.matching import match
+from kfmaps.parts.decide import OPEN, opening, suspicion
+from kfmaps.parts.labels import SLACK, consistency, gauge
+from kfmaps.parts.side import border_of, side
+from kfmaps.parts.verdict import MIDDLE, POOR, SURE, part_verdict
+from kfmaps.surface.mesh import Mesh, surface_area
+from test_search import SMALL
+
+AUTO = replace(SMALL, partial=Partial("auto"))
 
 
-def ball(n: int = 24) -> Mesh:
-    """A sphere of n rings of n vertices, closed."""
-    up, around = np.meshgrid(np.linspace(0, np.pi, n)[1:-1], np.arange(n) * 2 * np.pi / n, indexing="ij")
-    rings = np.stack([np.sin(up) * np.cos(around), np.sin(up) * np.sin(around), np.cos(up)], axis=2).reshape(-1, 3)
-    v = np.concatenate([rings, [[0, 0, 1], [0, 0, -1]]])
-    f = []
-    for i in range(n - 2):
-        for j in range(n):
-            a, b = i * n + j, i * n + (j + 1) % n
-            if i < n - 3:
-                f += [[a, a + n, b], [b, a + n, b + n]]
-            if i == 0:
-                f.append([len(v) - 2, a, b])
-            if i == n - 3:
-                f.append([len(v) - 1, b, a])
-    return Mesh(v, np.array(f))
+@pytest.fixture(scope="module")
+def pair():
+    return datasets.partial(1500, rng=0)
 
 
-def test_a_cut_is_an_opening_and_names_the_part():
-    whole = ball()
-    half = Mesh(whole.vertices, whole.faces[(whole.vertices[whole.faces, 2] > -0.2).all(axis=1)])
-    assert opening(whole) == 0
-    assert opening(half) > 0.1
-    assert opening(Mesh(7 * half.vertices, half.faces)) == pytest.approx(opening(half))
-    assert suspicion(whole, half).which == "target"
-    assert suspicion(half, whole).which == "source"
-    assert suspicion(half, half).which == suspicion(whole, whole).which == "none"
+@pytest.fixture(scope="module")
+def turned(pair):
+    """The part in another unit, turned."""
+    rotation = np.linalg.qr(np.random.default_rng(3).normal(size=(3, 3)))[0]
+    rotation *= np.sign(np.linalg.det(rotation))
+    return Mesh(0.2 * pair.target.vertices @ rotation.T, pair.target.faces)
+
+
+@pytest.fixture(scope="module")
+def found(pair, turned):
+    return match(pair.source, turned, AUTO)
+
+
+@pytest.fixture(scope="module")
+def truth(pair):
+    places = PointMap(pair.truth_faces, pair.truth_weights)
+    return PartTruth(np.arange(len(pair.target.vertices)), places, True)
+
+
+def disc(count):
+    """A flat one of radius 1, as a fan."""
+    angle = np.arange(count) * 2 * np.pi / count
+    rim = np.stack([np.cos(angle), np.sin(angle), 0 * angle], axis=1)
+    each = np.arange(count)
+    return Mesh(
+        np.vstack([rim, [[0.0, 0.0, 0.0]]]), np.stack([each, (each + 1) % count, np.full(count, count)], axis=1)
+    )
+
+
+def test_the_opening_of_a_disc_is_another_disc(pair):
+    assert opening(disc(200)) == pytest.approx(1.0, rel=1e-3)
+    assert opening(pair.source) == 0.0
+    assert opening(Mesh(pair.source.vertices, pair.source.faces[:0])) == 0.0
+    assert opening(Mesh(5.0 * disc(200).vertices, disc(200).faces)) == pytest.approx(opening(disc(200)))
+
+
+def test_boundaries_tell_which_is_a_part(pair):
+    assert suspicion(pair.source, pair.target).which == "target"
+    assert suspicion(pair.target, pair.source).which == "source"
+    assert suspicion(pair.source, pair.source).which == "none"
+    assert suspicion(pair.target, pair.target).which == "none"
+    cloud = Mesh(pair.target.vertices, pair.target.faces[:0])
+    assert suspicion(pair.source, cloud).which == "none"
+    # A pinhole is none: a face of many is left out.
+    pinhole = Mesh(pair.source.vertices, pair.source.faces[1:])
+    assert 0.0 < opening(pinhole) < OPEN
+    assert suspicion(pair.source, pinhole).which == "none"
+
+
+def test_only_edges_of_one_face_are_a_boundary(pair):
+    assert not border_of(pair.source).any()
+    rim = border_of(disc(30))
+    assert rim[:30].all()
+    assert not rim[30]
+
+
+def test_distances_that_may_pass_a_cut_may_be_shorter_on_the_whole():
+    far, low = np.array([[0.5]]), np.array([[0.2]])
+    fits = [float(consistency(far, low, np.array([[d]]), SLACK)[0, 0]) for d in (0.5, 0.49, 0.47, 0.1, 0.51, 0.8)]
+    assert fits[0] == 1.0
+    assert fits[0] > fits[1] > fits[2] > fits[3] == 0.0
+    assert fits[4] < 1.0
+    assert fits[5] == 0.0
+    # Far from every boundary a shorter way counts against a pair in full, near one it hardly does.
+    inner = float(consistency(far, far, np.array([[0.47]]), SLACK)[0, 0])
+    assert inner < fits[2]
+    assert consistency(np.array([[np.inf]]), np.array([[np.inf]]), np.array([[1.0]]), SLACK)[0, 0] == 0.0
+
+
+def test_a_gauge_grows_with_the_scale_and_knows_the_way_round_by_the_edge(pair):
+    one = side(pair.target, 60)
+    small, large = gauge(one.distances, one.edge, 0.5), gauge(one.distances, one.edge, 1.0)
+    assert large.far == pytest.approx(2 * small.far)
+    assert (large.low <= large.far).all()
+    assert np.isfinite(one.edge).all()
+    assert not np.isfinite(side(pair.source, 60).edge).any()
+
+
+def test_a_part_in_another_unit_and_turned_is_placed(pair, found, truth):
+    assert found.overlap_target is not None
+    errors = place_errors(pair.source, found.precise(), truth.places)
+    assert errors.mean() < 0.03
+    common = found.target_to_source >= 0
+    assert common.mean() > 0.95
+    ours, true = found.overlap_source > 0.5, true_overlap(pair.source, pair.target, truth)
+    assert (ours & true).sum() / (ours | true).sum() > 0.85
+    assert found.verdict == "sure"
+    for overlap in (found.overlap_source, found.overlap_target):
+        assert overlap.min() >= 0.0
+        assert overlap.max() <= 1.0
+
+
+def test_the_other_way_round_vertices_without_counterpart_are_minus_one(pair, turned, truth):
+    back = match(turned, pair.source, AUTO)
+    assert back.overlap_target is not None
+    lost = back.target_to_source < 0
+    assert (back.target_to_source[lost] == -1).all()
+    true = true_overlap(pair.source, pair.target, truth)
+    assert (lost == ~true).mean() > 0.9
+    # Where there is a counterpart, going there and by the truth back is no way at all.
+    here = np.flatnonzero(~lost)
+    ends = pair.source.vertices[pair.truth[back.target_to_source[here]]]
+    off = np.linalg.norm(ends - pair.source.vertices[here], axis=1) / np.sqrt(surface_area(pair.source))
+    assert off.mean() < 0.05
+
+
+def test_constants_go_to_constants_on_a_part(found):
+    C = found.functional_map
+    assert C.shape[0] < C.shape[1]
+    assert C[0, 0] == pytest.approx(1.0, abs=0.05)
+    assert np.abs(C[1:, 0]).max() < 0.2
+
+
+def test_the_truth_is_measured_as_a_user_measures_it(pair, turned, found, truth, tmp_path):
+    from kfmaps.app.files import save_map
+
+    save_map(tmp_path / "map.npz", found)
+    seen = part_accuracy(pair.source, turned, load_map(tmp_path / "map.npz"), truth, "target")
+    assert seen.errors.mean < 0.03
+    assert seen.overlap is not None
+    assert seen.overlap > 0.85
+    assert seen.matched == pytest.approx((found.target_to_source >= 0).mean())
+    assert 0.1 < seen.missing < 0.6
+
+
+def test_whole_shapes_are_matched_as_if_nobody_had_thought_of_parts():
+    whole = datasets.two_poses(1500, rng=2)
+    plain = match(whole.source, whole.target, replace(AUTO, partial=Partial("none")))
+    auto = match(whole.source, whole.target, AUTO)
+    assert auto.overlap_source is None
+    assert np.array_equal(auto.target_to_source, plain.target_to_source)
+    assert np.array_equal(auto.functional_map, plain.functional_map)
+
+
+def test_a_verdict_of_a_part_follows_its_probability():
+    assert [part_verdict(p) for p in (SURE, SURE - 1e-9, POOR, POOR - 1e-9)] == [
+        "sure",
+        "ambiguous",
+        "ambiguous",
+        "poor",
+    ]
+    assert MIDDLE > 0
+
+
+def test_the_default_of_the_command_is_auto():
+    assert Config.automatic().partial.which == "auto"
 
 
 def test_only_what_a_detour_explains_is_forgiven():
