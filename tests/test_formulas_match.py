@@ -19,9 +19,8 @@ from kfmaps.functional.points import to_points
 from kfmaps.functional.refine import ZoomOut
 from kfmaps.functional.terms import slice_term, value
 from kfmaps.kernel.kernels import Gaussian, squared_distances
-from kfmaps.matching import match
 from kfmaps.search.candidates import Candidate
-from kfmaps.search.choose import mirror_image
+from kfmaps.search.choose import choose, mirror_image
 from kfmaps.search.marks import TIMES, around
 from kfmaps.search.quality import Quality, map_quality, probe
 from kfmaps.search.verdict import probability
@@ -213,23 +212,32 @@ def test_heat_around_a_landmark_is_that_of_its_time(shape):
         np.testing.assert_allclose(found[0, :, i], heat[:, 0, i] / np.sqrt(own[3] * own), rtol=1e-8, atol=1e-12)
 
 
-def test_confidence_follows_from_the_scores(shape):
-    """The probability of docs/automatic.md, from the score of the best map and how far the next is behind."""
+def test_confidence_follows_from_score_bending_and_margin(shape):
+    """The probability of docs/automatic.md, and the scores: bending counts against them by five times its logarithm."""
     config = replace(CONFIG, search=Search(candidates=1, signs=2))
-    found = match(shape, shape, config)
+    found = choose(shape, shape, config)
+    assert found.quality is not None
+    assert found.bending is not None
+    assert found.scores[0] == pytest.approx(found.quality - 5 * np.log(found.bending / 0.15))
     margin = found.scores[0] - found.scores[1]
-    right = (1 - 0.5 * np.exp(-margin / 0.1)) / (1 + np.exp(-0.92 * (found.scores[0] + 10.5)))
+    excess = np.log(found.bending) + 3.6 + 0.233 * found.quality
+    right = (1 - 0.5 * np.exp(-margin / 0.4)) / (1 + np.exp(-0.92 * (found.quality + 10.5)))
+    right /= 1 + np.exp(12.5 * (excess - 0.55))
     assert found.confidence == pytest.approx(right)
     assert (found.verdict == "sure") == (right >= 0.85)
 
 
 def test_a_rival_close_behind_leaves_one_half_and_fades_within_its_margin():
-    """See docs/automatic.md: half where both are as good, and a third of that doubt a tenth of the score further on."""
+    """See docs/automatic.md: half where both are as good, and a third of that doubt four tenths further on."""
     for score in (-12.0, -8.0, 0.0):
         alone = probability(score, np.inf)
         assert probability(score, 0.0) == pytest.approx(alone / 2)
-        assert probability(score, 0.1) == pytest.approx(alone * (1 - 0.5 / np.e))
+        assert probability(score, 0.4) == pytest.approx(alone * (1 - 0.5 / np.e))
     assert probability(-10.5, np.inf) == pytest.approx(0.5)
+    for bending in (0.02, 0.2):
+        excess = np.log(bending) + 3.6 + 0.233 * -6.0
+        share = 1 / (1 + np.exp(12.5 * (excess - 0.55)))
+        assert probability(-6.0, 0.3, bending) == pytest.approx(share * probability(-6.0, 0.3))
 
 
 def test_measures_of_a_random_map_are_what_their_definitions_say(shape):

@@ -79,6 +79,8 @@ class Found:
         Whether it is a map to the target or to its mirror image.
     quality : float or None
         Score of the map of a search, apart from landmarks.
+    bending : float or None
+        How far the shapes bend to follow it; see :func:`kfmaps.search.bends.bending`.
     limbs : Limbs or None
         Tips of limbs that lead the refinement, where the shapes differ so much that they should.
     """
@@ -94,6 +96,7 @@ class Found:
     doubted: np.ndarray = field(default_factory=lambda: np.zeros(0, dtype=np.int64))
     orientation: str = "kept"
     quality: float | None = None
+    bending: float | None = None
     limbs: Limbs | None = None
 
 
@@ -191,6 +194,7 @@ def choose(
         doubted=np.flatnonzero(wrong),
         orientation=orientation,
         quality=best.quality.score,
+        bending=best.bending,
         limbs=limbs(best.points, *probes) if best.quality.score < UNLIKE else None,
     )
 
