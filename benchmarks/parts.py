@@ -51,7 +51,8 @@ class Job:
 
 def jobs(data: Path, kind: str, half: str) -> list[Job]:
     lines = (data / SETS[kind] / "test_pairs.txt").read_text(encoding="utf-8").split("\n")
-    found = [Job(data, kind, *line.split()) for line in lines if line.strip()]
+    names = [line.split() for line in lines if line.strip()]
+    found = [Job(data, kind, whole, part) for whole, part in names]
     found = [job for job in found if kind not in ("cuts", "holes") or job.part.startswith(kind)]
     keep = {"all": (True, False), "choice": (True,), "report": (False,)}[half]
     return [job for job in found if (job.whole in CHOSEN_ON) in keep]
