@@ -249,8 +249,8 @@ MUTANTS = tuple(
         ("rotation = expm((generator - generator.T) / 2)", "rotation = expm(generator / 2)", "test_automatic -k kicks"),
         ("best.score > order[0].score - CLEAR", "best.score > order[0].score", "test_automatic -k rival"),
         (
-            "shape.mesh.vertices * MIRROR, shape.mesh.faces[:, ::-1]",
-            "shape.mesh.vertices * MIRROR, shape.mesh.faces",
+            "mesh.vertices * MIRROR, mesh.faces[:, ::-1]",
+            "mesh.vertices * MIRROR, mesh.faces",
             "test_automatic -k mirror_image_equals",
         ),
         (

@@ -25,11 +25,11 @@ from kfmaps.functional.precise import PointMap, to_places
 from kfmaps.functional.refine import ZoomOut
 from kfmaps.parts.answer import Partly, partly, reason
 from kfmaps.parts.decide import suspicion
-from kfmaps.search.choose import MIRROR, Found, choose, closing, mirror_image
+from kfmaps.search.choose import Found, choose, closing, mirror_image
 from kfmaps.search.marks import leading
 from kfmaps.search.quality import Probe
 from kfmaps.surface.eigen.pencil import THREADED
-from kfmaps.surface.mesh import Mesh
+from kfmaps.surface.mesh import MIRROR, Mesh
 
 ONE_FIT = "one fit"
 CONTINUED = 80

@@ -145,7 +145,10 @@ def _judged(x: np.ndarray, rest: Mesh, scale: float, whole: Ground, energy: Rigi
 
 def within(found: Places, whole: Ground) -> np.ndarray:
     """Which places (q,) are no points of the whole's boundary that something beyond it is nearest to."""
-    corners = whole.mesh.faces[found.faces]
+    return ~(on_border(found, whole.mesh.faces, whole.border) & (found.distances > OUTSIDE))
+
+
+def on_border(found: Places, faces: np.ndarray, border: np.ndarray) -> np.ndarray:
+    """Which places (q,) on ``faces (m, 3)`` lie on an edge between vertices of the ``border (n,)``."""
     counts = found.weights > 1e-9
-    edge = (whole.border[corners] | ~counts).all(axis=1) & ~counts.all(axis=1)
-    return ~(edge & (found.distances > OUTSIDE))
+    return np.asarray((border[faces[found.faces]] | ~counts).all(axis=1) & ~counts.all(axis=1))

@@ -8,7 +8,7 @@ import numpy as np
 
 from kfmaps.functional.nonrigid import _look
 from kfmaps.functional.precise import PointMap
-from kfmaps.parts.bend import Bent, Ground
+from kfmaps.parts.bend import Bent, Ground, on_border
 from kfmaps.surface.closest import Places, rings
 from kfmaps.surface.mesh import Mesh, vertex_normals
 
@@ -47,8 +47,7 @@ def covered(
     """
     look = _look(bent, vertex_normals(bent), rings(bent.faces, len(bent.vertices)))
     found, _, agree = look(whole.vertices, vertex_normals(whole) if normals is None else normals)
-    counts = found.weights > 1e-9
-    edge = (border[bent.faces[found.faces]] | ~counts).all(axis=1) & ~counts.all(axis=1)
+    edge = on_border(found, bent.faces, border)
     # Beyond the part's edge the closest point lies on it: half the length of its edges is as near as vertices can tell.
     corners = bent.vertices[bent.faces[found.faces]]
     half = 0.5 * np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).mean(axis=1)

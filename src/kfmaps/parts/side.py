@@ -10,7 +10,7 @@ from scipy.sparse.csgraph import dijkstra
 from kfmaps.descriptors.shot import shot
 from kfmaps.surface.coarse import coarse
 from kfmaps.surface.geodesics import farthest_geodesic
-from kfmaps.surface.mesh import Mesh, surface_area
+from kfmaps.surface.mesh import Mesh
 from kfmaps.surface.samples import stratified
 from kfmaps.surface.unfolding import surface_graph
 
@@ -98,8 +98,3 @@ def side(mesh: Mesh, count: int, landmarks: np.ndarray | None = None, rng: int =
 def scaled(mesh: Mesh, scale: float) -> Mesh:
     """``mesh`` with all lengths times ``scale``."""
     return Mesh(mesh.vertices * scale, mesh.faces)
-
-
-def extent(mesh: Mesh) -> float:
-    """√area."""
-    return float(np.sqrt(surface_area(mesh)))

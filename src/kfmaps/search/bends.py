@@ -17,7 +17,7 @@ from kfmaps.fit.shape import Shape
 from kfmaps.functional.nonrigid import NonRigid
 from kfmaps.functional.points import nearest
 from kfmaps.surface.coarse import coarse
-from kfmaps.surface.mesh import Mesh
+from kfmaps.surface.mesh import Mesh, mirrored
 from kfmaps.surface.samples import stratified_samples
 
 POINTS, MORE = 1200, 3000
@@ -46,7 +46,7 @@ class Copy:
 
     def mirrored(self) -> Copy:
         """Of the mirror image."""
-        return replace(self, mesh=Mesh(self.mesh.vertices * [-1.0, 1.0, 1.0], self.mesh.faces[:, ::-1]))
+        return replace(self, mesh=mirrored(self.mesh))
 
 
 def copied(shape: Shape, points: int = POINTS) -> Copy | None:

@@ -206,7 +206,8 @@ def from_fits(
 
 def from_tips(functions: int, on: Ground) -> list[Start]:
     """Maps that follow from pairings of the tips of limbs; see :mod:`kfmaps.search.pairings`."""
-    maps = [(pairing, paired_map(pairing, on, min(TIP_FUNCTIONS, functions))) for pairing in paired(on)]
+    tried = pairings(on.source, on.target, on.shot)
+    maps = [(pairing, paired_map(pairing, on, min(TIP_FUNCTIONS, functions))) for pairing in tried]
     return [
         Start(
             f"tips {'-'.join(map(str, pairing.source))} to {'-'.join(map(str, pairing.target))}",
@@ -219,10 +220,6 @@ def from_tips(functions: int, on: Ground) -> list[Start]:
         for w in _told_apart(FROM_TIPS, on)
         for pairing, C in maps
     ]
-
-
-def paired(on: Ground) -> list[Pairing]:
-    return pairings(on.source, on.target, on.shot)
 
 
 def paired_map(pairing: Pairing, on: Ground, k: int) -> np.ndarray:

@@ -30,7 +30,7 @@ from kfmaps.search.marks import doubted
 from kfmaps.search.pairings import Limbs, limbs
 from kfmaps.search.quality import Probe, probe
 from kfmaps.search.verdict import MUCH, excess, probability, verdict
-from kfmaps.surface.mesh import Mesh
+from kfmaps.surface.mesh import mirrored as mirrored_mesh
 
 DISTINCT = 0.08
 """Mean distance, in units of √area, from which two maps count as different ones."""
@@ -98,10 +98,6 @@ class Found:
     quality: float | None = None
     bending: float | None = None
     limbs: Limbs | None = None
-
-
-MIRROR = np.array([-1.0, 1.0, 1.0])
-"""What takes positions to those of the mirror image."""
 
 
 def choose(
@@ -292,5 +288,4 @@ def mirror_image(shape: Shape) -> Shape:
     """
     if len(shape.mesh.faces) == 0:
         raise refuse(shape.name, "a surface, which can be mirrored", "a point cloud", "leave orientation at 'kept'")
-    mesh = Mesh(shape.mesh.vertices * MIRROR, shape.mesh.faces[:, ::-1])
-    return replace(shape, mesh=mesh, shot=None if shape.shot is None else mirrored(shape.shot))
+    return replace(shape, mesh=mirrored_mesh(shape.mesh), shot=None if shape.shot is None else mirrored(shape.shot))

@@ -149,7 +149,8 @@ def probe(
     first = samples.vertices[:COARSE]
     mesh, functions, rows = surface(shape, np.concatenate([samples.vertices, marked]))
     wanted = np.concatenate([rows[: len(first)], rows[len(samples.vertices) :]])
-    distances = dijkstra(surface_graph(mesh, 1), indices=wanted)[:, rows[: len(samples.vertices)]]
+    graph = surface_graph(mesh, 1)
+    distances = dijkstra(graph, indices=wanted)[:, rows[: len(samples.vertices)]]
     # Separate components are as far apart as the farthest points of one.
     joined = np.isfinite(distances)
     farthest = distances[joined].max() or float(np.linalg.norm(np.ptp(shape.mesh.vertices[first], axis=0)))
@@ -169,7 +170,7 @@ def probe(
         heat,
         shape.mesh.vertices[samples.vertices],
         distances[len(first) :],
-        tips(close, areas_of_first(samples.basis, len(first)), mesh, rows[: len(samples.vertices)]),
+        tips(close, areas_of_first(samples.basis, len(first)), mesh, rows[: len(samples.vertices)], graph),
         copied(shape),
     )
 

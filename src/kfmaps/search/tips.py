@@ -61,7 +61,7 @@ class Tips:
         return replace(self, turn=-self.turn)
 
 
-def tips(distances: np.ndarray, mass: np.ndarray, mesh: Mesh, rows: np.ndarray) -> Tips:
+def tips(distances: np.ndarray, mass: np.ndarray, mesh: Mesh, rows: np.ndarray, graph: csr_array | None = None) -> Tips:
     """The tips of a shape.
 
     Parameters
@@ -74,18 +74,20 @@ def tips(distances: np.ndarray, mass: np.ndarray, mesh: Mesh, rows: np.ndarray) 
         The surface, or a coarse copy.
     rows : (q,) int64
         The vertex of ``mesh`` of each sample, the first c of them those of ``distances``.
+    graph : sparse (n, n), optional
+        The surface graph of ``mesh`` of depth 1, where it is there already.
     """
     far = distances @ (mass / mass.sum())
     mean = float(far @ (mass / mass.sum())) or 1.0
     farthest = [i for i, near in enumerate(distances < APART) if far[i] >= far[near].max(initial=0.0)]
     points = np.array(sorted(farthest, key=lambda i: -far[i])[:MOST], dtype=np.int64)
-    found = everywhere(mesh, rows[points], mean)
+    found = everywhere(mesh, rows[points], mean, graph)
     return Tips(points, far[points] / mean, found.distances[:, rows], found.turn[:, :, rows], mean)
 
 
-def everywhere(mesh: Mesh, vertices: np.ndarray, unit: float) -> Tips:
-    """What the tips at ``vertices (m,)`` tell of all n vertices, with distances in ``unit``."""
-    found = dijkstra(surface_graph(mesh, 1), indices=vertices)
+def everywhere(mesh: Mesh, vertices: np.ndarray, unit: float, graph: csr_array | None = None) -> Tips:
+    """What the tips at ``vertices (m,)`` tell of all n vertices, with distances in ``unit``; ``graph`` as in tips."""
+    found = dijkstra(surface_graph(mesh, 1) if graph is None else graph, indices=vertices)
     joined = np.isfinite(found)
     found = np.where(joined, found, found[joined].max(initial=0.0))
     return Tips(vertices, found.mean(axis=1) / unit, found / unit, turns(mesh, found), unit)

@@ -91,6 +91,15 @@ def vertex_normals(mesh: Mesh) -> np.ndarray:
     return _unit_rows(np.stack(summed, axis=1))
 
 
+MIRROR = np.array([-1.0, 1.0, 1.0])
+"""What takes positions to those of the mirror image."""
+
+
+def mirrored(mesh: Mesh) -> Mesh:
+    """The mirror image, with the same vertices and its outside outside."""
+    return Mesh(mesh.vertices * MIRROR, mesh.faces[:, ::-1])
+
+
 def unit_area(mesh: Mesh) -> Mesh:
     """The mesh centred on its vertices' mean and scaled so that its area is 1.
 
