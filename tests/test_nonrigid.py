@@ -24,6 +24,22 @@ def pair() -> datasets.Pair:
     return datasets.two_poses(1500, rng=3)
 
 
+def test_the_nearest_rotation_is_that_of_singular_values() -> None:
+    """Also of matrices of rank two, of reflections, and of those whose rotation is hardly determined."""
+    rng = np.random.default_rng(3)
+    left, right = (np.linalg.qr(rng.normal(size=(2000, 3, 3)))[0] for _ in range(2))
+    sizes = np.sort(rng.random((2000, 3)) ** 3, axis=1)[:, ::-1] * 1e-4
+    sizes[::5, 2] = 0.0
+    given = left * sizes[:, None, :] @ right
+    u, _, vh = np.linalg.svd(given)
+    u[:, :, 2] *= (np.linalg.det(u) * np.linalg.det(vh))[:, None]
+    found = nearest_rotations(given)
+    assert np.allclose(np.linalg.det(found), 1.0)
+    assert np.abs(found @ found.transpose(0, 2, 1) - np.eye(3)).max() < 1e-13
+    assert np.abs(found - u @ vh).max() < 1e-10
+    assert np.allclose(nearest_rotations(np.zeros((1, 3, 3))), np.eye(3))
+
+
 def test_places_on_a_surface_are_the_closest_of_all_faces() -> None:
     """Against every face; one face is huge, which no bound by the mean size survives."""
     rng = np.random.default_rng(0)

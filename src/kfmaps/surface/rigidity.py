@@ -20,6 +20,11 @@ LEAST = 0.05
 """Weight that every edge has at least: obtuse triangles make negative ones, with which the energy has no bottom."""
 SHARPEST = 20.0
 """Cotangent of the sharpest corner that counts, so that no sliver outweighs all else."""
+DETERMINED = 0.02
+"""Product of the sums of two singular values each, of a matrix of norm 1, above which its rotation is well determined:
+errors of rounding grow with the inverse square; a rotation has 1.5, a round one of rank two 0.7."""
+ROOT_STEPS = 12
+"""Newton's steps for the sum of singular values: as many as the hardest above that need."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -75,10 +80,40 @@ def rotations(energy: Rigidity, x: np.ndarray) -> np.ndarray:
 
 
 def nearest_rotations(matrices: np.ndarray) -> np.ndarray:
-    """The rotation closest to each of ``matrices (n, 3, 3)``; never a reflection."""
-    u, _, vh = np.linalg.svd(matrices)
-    u[:, :, 2] *= np.where(np.linalg.det(u) * np.linalg.det(vh) < 0, -1.0, 1.0)[:, None]
-    return u @ vh
+    """The rotation closest to each of ``matrices (n, 3, 3)``; never a reflection.
+
+    In closed form (Markley, Attitude determination using vector observations: a fast optimal matrix algorithm, 1993),
+    a tenth of the time of singular value decompositions. These do the few whose rotation is hardly determined.
+    """
+    size = np.linalg.norm(matrices, axis=(1, 2), keepdims=True)
+    m = matrices / np.where(size > 0, size, 1.0)
+    cofactors = np.empty_like(m)
+    for i, j, k in ((0, 1, 2), (1, 2, 0), (2, 0, 1)):
+        for a, b, c in ((0, 1, 2), (1, 2, 0), (2, 0, 1)):
+            cofactors[:, i, a] = m[:, j, b] * m[:, k, c] - m[:, j, c] * m[:, k, b]
+    det = (m[:, 0] * cofactors[:, 0]).sum(axis=1)
+    squares = 1.0 - 4.0 * np.einsum("nij,nij->n", cofactors, cofactors)
+    # The sum of the singular values, the last with the sign of the determinant: the largest root of a quartic, which
+    # Newton's steps from above approach without going beyond.
+    root = np.full(len(m), np.sqrt(3.0))
+    for _ in range(ROOT_STEPS):
+        slope = 4.0 * (root * (root * root - 1.0) - 2.0 * det)
+        value = ((root * root - 2.0) * root - 8.0 * det) * root + squares
+        root = root - np.divide(value, slope, out=np.zeros_like(root), where=slope > 0)
+    half = 0.5 * (root * root - 1.0)
+    known = half * root - det
+    clear = known > DETERMINED
+    inverse = np.divide(1.0, known, out=np.zeros_like(known), where=clear)[:, None, None]
+    found = (
+        (half + 1.0)[:, None, None] * m + root[:, None, None] * cofactors - m @ (m.transpose(0, 2, 1) @ m)
+    ) * inverse
+    found = found @ (1.5 * np.eye(3) - 0.5 * found.transpose(0, 2, 1) @ found)
+    rest = np.flatnonzero(~clear)
+    if len(rest):
+        u, _, vh = np.linalg.svd(matrices[rest])
+        u[:, :, 2] *= np.where(np.linalg.det(u) * np.linalg.det(vh) < 0, -1.0, 1.0)[:, None]
+        found[rest] = u @ vh
+    return found
 
 
 def pull(energy: Rigidity, turns: np.ndarray) -> np.ndarray:
