@@ -12,6 +12,7 @@ from kfmaps.config import BasisConfig, Config, NystromConfig, Partial, Search
 from kfmaps.descriptors.shot import shot
 from kfmaps.fit.shape import prepare
 from kfmaps.functional.evaluate import geodesic_errors
+from kfmaps.functional.guide import FLAT, spread
 from kfmaps.functional.points import nearest
 from kfmaps.functional.refine import ZoomOut
 from kfmaps.matching import match
@@ -19,6 +20,7 @@ from kfmaps.search.arena import arena
 from kfmaps.search.candidates import Candidate, candidates, kicked
 from kfmaps.search.choose import choose, distinct, mirror_image
 from kfmaps.search.fits import planned
+from kfmaps.search.known import known
 from kfmaps.search.quality import _near, map_quality, probe, thinned
 from kfmaps.search.verdict import BENT, MIDDLE, MUCH, PER_SCORE, SLOPE, probability, verdict
 from kfmaps.surface.mesh import Mesh
@@ -99,8 +101,31 @@ def test_a_torn_map_is_stretched_more_than_a_shaken_one(shape):
 def test_stretch_counts_short_distances_alone():
     distances = np.abs(np.subtract.outer(*[np.array([0.0, 0.1, 0.2, 1.0, 1.1])] * 2))
     short = distances <= 0.2
-    assert _near(np.where(short, 0.0, 5.0), distances) == 0
-    assert _near(np.where(short, distances / 2, 0.0), distances) == pytest.approx(0.5)
+    of = known(np.ones((5, 1)), np.full(5, 0.2), distances, None, None, np.ones((5, 1)))
+    assert _near(np.where(short, 0.0, 5.0), of) == 0
+    assert _near(np.where(short, distances / 2, 0.0), of) == pytest.approx(0.5)
+
+
+def test_quality_is_what_its_definition_says(shape, other):
+    """One product in single precision finds what exact searches find; differences keep to their formulas."""
+    here, there = thinned(probe(shape, 300), 200), thinned(probe(other, 300), 200)
+    C = np.linalg.qr(np.eye(40) + 0.05 * np.random.default_rng(2).normal(size=(40, 40)))[0]
+    found = map_quality(C, here, there)
+    images, rows = here.samples.basis.functions[:, :40] @ C.T, there.samples.basis.functions[:, :40]
+    back, forth = nearest(rows, images), nearest(images, rows)
+    squares = [
+        ((a[np.arange(200)] - b[at]) ** 2).sum(axis=1) @ mass
+        for a, b, at, mass in (
+            (there.descriptors, here.descriptors, back, there.samples.basis.mass),
+            (here.descriptors, there.descriptors, forth, here.samples.basis.mass),
+        )
+    ]
+    both = max(spread(here.descriptors) + spread(there.descriptors), 2 * FLAT)
+    assert found.descriptors == pytest.approx(np.mean(squares) / both, rel=1e-4)
+    first_back, first_forth = nearest(rows[:100], images[:100]), nearest(images[:100], rows[:100])
+    change = np.abs(here.distances[np.ix_(first_back, first_back)] - there.distances).mean()
+    change += np.abs(there.distances[np.ix_(first_forth, first_forth)] - here.distances).mean()
+    assert found.distortion == pytest.approx(change / (here.distances.mean() + there.distances.mean()), rel=1e-6)
 
 
 def test_few_samples_of_a_probe_are_a_probe(shape):

@@ -151,7 +151,7 @@ def candidates(
     found += rough(again, on.few, functions, config.threads)
     told(0.75)
     order = sorted(found, key=lambda c: c.score, reverse=True)
-    chosen = apart(order, on.few.source, APART)[:FINALISTS]
+    chosen = apart(order, on.few.source, APART, FINALISTS)
     refined = fine(chosen, on.few, on.whole, functions, config.threads)
     told(1.0)
     return refined
@@ -327,10 +327,12 @@ def mapped(C: np.ndarray, on: Ground) -> np.ndarray:
     return nearest(on.target.samples.basis.functions[:, :k_t], images, threads=1)
 
 
-def apart(order: list[Candidate], source: Probe, distance: float) -> list[Candidate]:
-    """The first of ``order``, then the first of those that are ``distance`` from it on average, and so on."""
+def apart(order: list[Candidate], source: Probe, distance: float, most: int | None = None) -> list[Candidate]:
+    """The first of ``order``, then the first of those that are ``distance`` from it on average, and so on: ``most``."""
     kept: list[Candidate] = []
     for candidate in order:
+        if len(kept) == most:
+            break
         if all(differs(candidate, other, source) > distance for other in kept):
             kept.append(candidate)
     return kept

@@ -8,6 +8,7 @@ is smooth. :func:`map_quality` works them out on a few hundred points of each sh
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 from scipy.sparse.csgraph import dijkstra
@@ -16,10 +17,11 @@ from kfmaps._arrays import Array, like, to_numpy
 from kfmaps.descriptors.shot import mirrored
 from kfmaps.descriptors.spectral import heat_signature
 from kfmaps.fit.shape import Shape
-from kfmaps.functional.guide import FLAT, spread
+from kfmaps.functional.guide import FLAT
 from kfmaps.functional.points import nearest
 from kfmaps.functional.refine import SampledBasis, Samples, spectral_samples
 from kfmaps.search.bends import Copy, copied
+from kfmaps.search.known import Known, Rows, known
 from kfmaps.search.tips import Tips, tips
 from kfmaps.surface.basis import Basis, zero_level
 from kfmaps.surface.coarse import coarse
@@ -34,8 +36,6 @@ COARSE = 300
 """The first of them, between which geodesic distances are compared."""
 SURFACE = 6000
 """Vertices from which distances and orientation are worked out on a coarse copy with that many."""
-NEAR = 0.2
-"""Distance, in units of √area, up to which points are neighbours whose distance a good map keeps."""
 LOW = 20
 """Functions in which orientation is compared."""
 OPERATORS = 50
@@ -85,6 +85,13 @@ class Probe:
     tips: Tips
     copy: Copy | None
     mirrored: bool = False
+
+    @cached_property
+    def known(self) -> Known:
+        """What judging each of many maps would find again."""
+        basis = self.samples.basis
+        areas = to_numpy(basis.mass) / float(basis.mass.sum())
+        return known(basis.functions, areas, self.distances, self.orientation, self.descriptors, self.heat)
 
 
 @dataclass(frozen=True)
@@ -230,32 +237,60 @@ def map_quality(C: Array, source: Probe, target: Probe, points: np.ndarray | Non
     """
     C = to_numpy(C)
     k_t, k_s = C.shape
-    basis_s, basis_t = source.samples.basis.truncated(k_s), target.samples.basis.truncated(k_t)
-    carried = to_numpy(basis_s.functions) @ C.T
-    functions_t = to_numpy(basis_t.functions)
-    back = nearest(functions_t, carried, threads=1) if points is None else points  # target -> source
-    forth = nearest(carried, functions_t, threads=1)
-    area_s, area_t = (to_numpy(b.mass) / float(b.mass.sum()) for b in (basis_s, basis_t))
-    values_s, values_t = to_numpy(basis_s.eigenvalues), to_numpy(basis_t.eigenvalues)
-    distortion, stretch = _distortion(carried, functions_t, back, forth, source, target)
+    known_s, known_t = source.known, target.known
+    found = _images(C, source, target, points)
+    values_s, values_t = (to_numpy(p.samples.basis.eigenvalues)[:k] for p, k in ((source, k_s), (target, k_t)))
+    distortion, stretch = _distortion(found, source, target)
     commutator = C * values_s[None, :] - values_t[:, None] * C
+    back, forth, area_s, area_t = found.back, found.forth, known_s.areas, known_t.areas
+    covered = [area[np.bincount(at, minlength=len(area)) > 0].sum() for area, at in ((area_s, back), (area_t, forth))]
     return Quality(
         orientation=_orientation(C, source, target),
         distortion=distortion,
         stretch=stretch,
         descriptors=0.5
         * (
-            _difference(back, target.descriptors, source.descriptors, area_t, FLAT)
-            + _difference(forth, source.descriptors, target.descriptors, area_s, FLAT)
+            _difference(back, known_t.descriptors, known_s.descriptors, area_t, FLAT)
+            + _difference(forth, known_s.descriptors, known_t.descriptors, area_s, FLAT)
         ),
         heat=0.5
         * (
-            _difference(back, target.heat, source.heat, area_t, FLAT_HEAT)
-            + _difference(forth, source.heat, target.heat, area_s, FLAT_HEAT)
+            _difference(back, known_t.heat, known_s.heat, area_t, FLAT_HEAT)
+            + _difference(forth, known_s.heat, known_t.heat, area_s, FLAT_HEAT)
         ),
-        coverage=float(min(area_s[np.unique(back)].sum(), area_t[np.unique(forth)].sum())),
+        coverage=float(min(covered)),
         laplacian=_ratio((commutator**2).sum(), ((C * values_s[None, :]) ** 2).sum(), (values_s**2).sum(), 1.0),
     )
+
+
+@dataclass(frozen=True, eq=False)
+class _Images:
+    """The nearest sample on the other shape, of all samples and, among the first, of the first."""
+
+    back: np.ndarray
+    forth: np.ndarray
+    first_back: np.ndarray
+    first_forth: np.ndarray
+
+
+def _images(C: np.ndarray, source: Probe, target: Probe, points: np.ndarray | None) -> _Images:
+    """Nearest neighbours in both directions, from one product in single precision."""
+    k_t, k_s = C.shape
+    carried = source.known.functions[:, :k_s] @ np.asarray(C.T, dtype=np.float32)
+    there = target.known.functions[:, :k_t]
+    half_s, half_t = (0.5 * np.einsum("ij,ij->i", x, x) for x in (carried, there))
+    score = carried @ there.T
+    c_s, c_t = len(source.distances), len(target.distances)
+    all_of_them = (c_s, c_t) == score.shape
+    first = None if all_of_them else score[:c_s, :c_t].copy()
+    back = (score.T - half_s).argmax(axis=1) if points is None else points
+    score -= half_t
+    forth = score.argmax(axis=1)
+    if first is None:
+        return _Images(back, forth, back, forth)
+    first_back = (first.T - half_s[:c_s]).argmax(axis=1)
+    first -= half_t[:c_t]
+    return _Images(back, forth, first_back, first.argmax(axis=1))
 
 
 def _ratio(part: float, whole: float, scale: float, otherwise: float) -> float:
@@ -277,39 +312,32 @@ def _orientation(C: np.ndarray, source: Probe, target: Probe) -> float:
     theirs = np.tensordot(C[:rows, 1:waves].T, target.orientation[:rows, :low, :low], axes=1)
     size = np.sqrt((ours**2).sum() * (theirs**2).sum())
     # Of a map that carries next to nothing but constants both are rounding, and so would their correlation be.
-    usual = np.linalg.norm(C) ** 3 * np.linalg.norm(source.orientation) * np.linalg.norm(target.orientation)
+    usual = np.linalg.norm(C) ** 3 * source.known.orientation * target.known.orientation
     return _ratio((ours * theirs).sum(), size, float(usual), 0.0)
 
 
-def _distortion(
-    carried: np.ndarray, functions_t: np.ndarray, back: np.ndarray, forth: np.ndarray, source: Probe, target: Probe
-) -> tuple[float, float]:
+def _distortion(found: _Images, source: Probe, target: Probe) -> tuple[float, float]:
     """Mean change of all distances and of the short ones, both divided by their mean."""
-    c_s, c_t = len(source.distances), len(target.distances)
-    if (c_s, c_t) != (len(carried), len(functions_t)):  # distances are known between the first samples only
-        back = nearest(functions_t[:c_t], carried[:c_s], threads=1)
-        forth = nearest(carried[:c_s], functions_t[:c_t], threads=1)
-    change = np.abs(source.distances[np.ix_(back, back)] - target.distances)
-    change_back = np.abs(target.distances[np.ix_(forth, forth)] - source.distances)
-    mean = source.distances.mean() + target.distances.mean()
-    far = (change.mean() + change_back.mean()) / mean if mean > 0 else 0.0
-    near = [_near(change, target.distances), _near(change_back, source.distances)]
-    return float(far), float(np.mean(near))
+    near, far = [], 0.0
+    for here, there, at in ((target, source, found.first_back), (source, target, found.first_forth)):
+        change = there.distances[at[:, None], at]
+        change -= here.distances
+        np.abs(change, out=change)
+        far += float(change.mean())
+        near.append(_near(change, here.known))
+    mean = source.known.mean + target.known.mean
+    return far / mean if mean > 0 else 0.0, float(np.mean(near))
 
 
-def _near(change: np.ndarray, distances: np.ndarray) -> float:
-    """Mean of ``change`` where ``distances`` are short, over the mean of these; with few points, of the nearest."""
-    nearest_other = np.partition(distances, 1, axis=1)[:, 1] if len(distances) > 1 else np.ones(1)
-    short = distances <= max(NEAR, float(nearest_other.max()))
-    mean = distances[short].mean()
-    return float(change[short].mean() / mean) if mean > 0 else 0.0
+def _near(change: np.ndarray, of: Known) -> float:
+    """Mean of ``change`` where distances are short, over the mean of these."""
+    return float(change.ravel()[of.short].mean()) / of.short_mean if of.short_mean > 0 else 0.0
 
 
-def _difference(
-    points: np.ndarray, there: np.ndarray | None, here: np.ndarray | None, area: np.ndarray, flat: float
-) -> float:
+def _difference(points: np.ndarray, there: Rows | None, here: Rows | None, area: np.ndarray, flat: float) -> float:
     """Of the descriptors ``there`` from those ``here`` of the points that they are mapped to."""
     if there is None or here is None:
         return 0.0
-    squares = ((there - here[points]) ** 2).sum(axis=1) @ area
-    return float(squares / max(spread(there) + spread(here), 2 * flat))
+    both = np.einsum("ij,ij->i", there.values, here.values.take(points, axis=0))
+    squares = (there.squares + here.squares[points] - 2.0 * both) @ area
+    return float(squares / max(there.spread + here.spread, 2 * flat))
