@@ -397,7 +397,7 @@ MUTANTS = tuple(
             "(1 + 0 * (missing**2).sum(axis=1) / SLOPPY**2) ** 2",
             "test_places",
         ),
-        ("even(rotations(pair.energy, x))", "rotations(pair.energy, x)", "test_places test_nonrigid"),
+        ("even(rotations(pair.body.energy, x))", "rotations(pair.body.energy, x)", "test_places test_nonrigid"),
         # baked textures
         (
             "y = uv[:, 0] * width - 0.5, (1 - uv[:, 1]) * height - 0.5",

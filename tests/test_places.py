@@ -105,7 +105,7 @@ def test_rotations_become_even_and_constant_ones_stay(pair: datasets.Pair) -> No
     np.testing.assert_allclose(_evened(two, 1e-3)(one), one, atol=1e-8)
     rough = nearest_rotations(one + 0.5 * rng.normal(size=(n, 3, 3)))
     differences = [
-        float(np.sum(turns.reshape(n, 9) * (two.energy.laplacian @ turns.reshape(n, 9))))
+        float(np.sum(turns.reshape(n, 9) * (two.body.energy.laplacian @ turns.reshape(n, 9))))
         for turns in (_evened(two, area)(rough) for area in (0.0, 1e-3, 1e-2))
     ]
     assert differences[1] < 0.1 * differences[0]

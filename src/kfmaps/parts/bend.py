@@ -8,17 +8,15 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from types import SimpleNamespace
-from typing import Any
 
 import numpy as np
 
-from kfmaps.functional.nonrigid import _Look, _look, _Pair, _solver, unfolded
+from kfmaps.functional.bodies import Body, Look, body_of, look, unfolded
 from kfmaps.functional.pulls import Term, descended
 from kfmaps.parts.side import scaled
-from kfmaps.surface.closest import Places, places_on, rings
-from kfmaps.surface.mesh import Mesh, surface_area, vertex_areas, vertex_normals
-from kfmaps.surface.rigidity import Rigidity, bending, rigidity, rotations
+from kfmaps.surface.closest import Places, places_on
+from kfmaps.surface.mesh import Mesh, surface_area, vertex_normals
+from kfmaps.surface.rigidity import bending, rotations
 
 QUICK = (2e-3, 6e-4, 2e-4)
 """Stiffness of the levels by which candidates are compared, ..."""
@@ -34,14 +32,14 @@ class Ground:
 
     mesh: Mesh
     normals: np.ndarray
-    look: _Look
+    look: Look
     border: np.ndarray
 
 
 def ground(mesh: Mesh, border: np.ndarray) -> Ground:
     """``border (n,)``: its vertices that lie on the boundary."""
     normals = vertex_normals(mesh)
-    return Ground(mesh, normals, _look(mesh, normals, rings(mesh.faces, len(mesh.vertices))), border)
+    return Ground(mesh, normals, look(mesh, normals), border)
 
 
 @dataclass(frozen=True, eq=False)
@@ -96,32 +94,29 @@ def bent(
 
     ``normals (q, 3)`` are the whole's there, ``trust (q,)`` how much each counts.
     """
-    rest = scaled(part, scale)
-    energy, areas = rigidity(rest), vertex_areas(rest)
-    share = areas.sum() * trust / trust.sum()
-    target: Any = SimpleNamespace(vertices=places)
-    around = rings(rest.faces, len(rest.vertices))
-    pair = _Pair(rest, target, energy, areas, share, around, normals, whole.look)
-    x = unfolded(pair, samples)
+    rest = body_of(scaled(part, scale))
+    share = rest.areas.sum() * trust / trust.sum()
+    x = unfolded(rest, samples, places, normals, share)
     for i, stiffness in enumerate(levels):
-        solve = _solver(pair, stiffness, 1.0)
+        solve = rest.solver(stiffness, 1.0)
         for step in range(steps):
-            found, there, agree = whole.look(x, vertex_normals(Mesh(x, rest.faces)))
+            found, there, agree = whole.look(x, vertex_normals(Mesh(x, rest.mesh.faces)))
             counts = agree * within(found, whole)
             x = descended(
-                pair.energy,
+                rest.energy,
                 stiffness,
                 solve,
-                [Term(areas * counts, found.points, None, there)],
+                [Term(rest.areas * counts, found.points, None, there)],
                 x,
-                rotations(energy, x),
+                rotations(rest.energy, x),
             )
             if progress is not None:
                 progress((i * steps + step + 1) / (len(levels) * steps))
-    return _judged(x, rest, scale, whole, energy, areas)
+    return _judged(x, rest, scale, whole)
 
 
-def _judged(x: np.ndarray, rest: Mesh, scale: float, whole: Ground, energy: Rigidity, areas: np.ndarray) -> Bent:
+def _judged(x: np.ndarray, body: Body, scale: float, whole: Ground) -> Bent:
+    rest, energy, areas = body.mesh, body.energy, body.areas
     found = places_on(x, whole.mesh.vertices, whole.mesh.faces)
     there = whole.normals[whole.mesh.faces[found.faces]].mean(axis=1)
     cosine = np.einsum("ij,ij->i", vertex_normals(Mesh(x, rest.faces)), there)

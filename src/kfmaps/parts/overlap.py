@@ -6,10 +6,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from kfmaps.functional.nonrigid import _look
+from kfmaps.functional.bodies import look
 from kfmaps.functional.precise import PointMap
 from kfmaps.parts.bend import Bent, Ground, on_border
-from kfmaps.surface.closest import Places, rings
+from kfmaps.surface.closest import Places
 from kfmaps.surface.mesh import Mesh, vertex_normals
 
 WIDTH = 0.02
@@ -45,8 +45,7 @@ def covered(
     Both in the unit of the whole, which has unit area. ``border``: the bent mesh's vertices on its boundary;
     ``normals``: the whole's.
     """
-    look = _look(bent, vertex_normals(bent), rings(bent.faces, len(bent.vertices)))
-    found, _, agree = look(whole.vertices, vertex_normals(whole) if normals is None else normals)
+    found, _, agree = look(bent)(whole.vertices, vertex_normals(whole) if normals is None else normals)
     edge = on_border(found, bent.faces, border)
     # Beyond the part's edge the closest point lies on it: half the length of its edges is as near as vertices can tell.
     corners = bent.vertices[bent.faces[found.faces]]
