@@ -111,7 +111,8 @@ def test_a_point_on_its_way_is_handed_over_smoothly():
         flat = np.sin(elevation)
         direction = np.stack([flat * np.cos(azimuth), flat * np.sin(azimuth), np.cos(elevation)], axis=1)
         normal = np.stack([np.sqrt(1 - cosine**2), 0 * s, cosine], axis=1)
-        pairs = module._Pairs(np.arange(steps), direction * distance[:, None], distance, normal, np.ones(steps), steps)
+        offset = (direction * distance[:, None]).T
+        pairs = module._Pairs(np.arange(steps), offset, distance, normal.T, np.ones(steps), steps)
         rows = module._histograms(pairs, np.tile(np.eye(3), (steps, 1, 1)), np.ones(steps), 10)
         moved = np.abs(np.diff(rows, axis=0)).sum(axis=1)
         assert 0 < moved.max() < 25 / steps  # a point that changed its bin at once would move 1
@@ -206,7 +207,7 @@ def test_flat_neighbourhoods_stand_upright():
 
 def test_a_frame_of_points_straight_above_is_a_rotation():
     up = np.array([[0.0, 0.0, 1.0]] * 2)
-    pairs = module._Pairs(np.zeros(2, dtype=int), up * [[0.3], [0.5]], np.array([0.3, 0.5]), up, np.ones(2), 1)
+    pairs = module._Pairs(np.zeros(2, dtype=int), (up * [[0.3], [0.5]]).T, np.array([0.3, 0.5]), up.T, np.ones(2), 1)
     frame = module._frames(pairs, "surface")[0]
     np.testing.assert_allclose(frame @ frame.T, np.eye(3), atol=1e-12)
     assert np.linalg.det(frame) == pytest.approx(1)

@@ -42,7 +42,7 @@ class _Support:
 class _Pairs:
     """The support points in the balls around ``count`` vertices; lengths in units of the radius.
 
-    Pair p is a point at ``offset[p]`` from vertex ``i[p]``, ``distance[p]`` away.
+    Pair p is a point at ``offset[:, p]`` from vertex ``i[p]``, ``distance[p]`` away, with ``normal[:, p]``.
     """
 
     i: np.ndarray
@@ -55,6 +55,10 @@ class _Pairs:
     def total(self, values: np.ndarray) -> np.ndarray:
         """Sums of ``values`` over the pairs of each vertex, (count,)."""
         return np.bincount(self.i, values, self.count).astype(np.float64)  # it counts in int where it is empty
+
+    def along(self, axis: np.ndarray, vectors: np.ndarray) -> np.ndarray:
+        """Of ``vectors (3, p)``, the part along the ``axis (count, 3)`` of each vertex."""
+        return sum(axis[:, c].take(self.i) * vectors[c] for c in range(3))
 
 
 def shot(
@@ -240,8 +244,9 @@ def _describe(centres: np.ndarray, tree: KDTree, support: _Support, radius: floa
     found = KDTree(centres).sparse_distance_matrix(tree, radius, output_type="ndarray")
     keep = found["v"] > 1e-9 * radius
     i, j, distance = found["i"][keep], found["j"][keep], found["v"][keep] / radius
-    offset = (support.points.take(j, axis=0) - centres.take(i, axis=0)) / radius
-    pairs = _Pairs(i, offset, distance, support.normals.take(j, axis=0), support.weights[j], len(centres))
+    offset = (support.points.take(j, axis=0).T - centres.take(i, axis=0).T) / radius
+    normal = np.ascontiguousarray(support.normals.take(j, axis=0).T)
+    pairs = _Pairs(i, offset, distance, normal, support.weights[j], len(centres))
     if form == "paper":
         return _unit(_histograms(pairs, _frames(pairs, form), pairs.weight, bins))
     faded = pairs.weight * np.minimum(10 * (1 - distance), 1)
@@ -252,12 +257,13 @@ def _frames(pairs: _Pairs, form: Form) -> np.ndarray:
     """Right-handed frames, (count, 3, 3), one axis a row; zero where there is none."""
     offset = pairs.offset
     near = pairs.weight * np.maximum(1 - pairs.distance, 0)
+    lever = near * offset
     covariance = np.empty((pairs.count, 3, 3))
     for a in range(3):
         for b in range(a, 3):
-            covariance[:, a, b] = covariance[:, b, a] = pairs.total(near * offset[:, a] * offset[:, b])
-    mean_normal = np.stack([pairs.total(near * column) for column in pairs.normal.T], axis=1)
-    moment = np.stack([pairs.total(near * column) for column in offset.T], axis=1)
+            covariance[:, a, b] = covariance[:, b, a] = pairs.total(lever[a] * offset[b])
+    mean_normal = np.stack([pairs.total(near * column) for column in pairs.normal], axis=1)
+    moment = np.stack([pairs.total(column) for column in lever], axis=1)
     if form == "paper":
         vectors = np.linalg.eigh(covariance)[1]
         x, z = vectors[:, :, 2], _towards(pairs, vectors[:, :, 0], mean_normal)
@@ -276,7 +282,7 @@ def _frames(pairs: _Pairs, form: Form) -> np.ndarray:
 
 def _towards(pairs: _Pairs, axis: np.ndarray, fallback: np.ndarray) -> np.ndarray:
     """``axis`` (count, 3) turned to the heavier side, or to the side of ``fallback`` where both weigh the same."""
-    height = np.einsum("ij,ij->i", pairs.offset, axis[pairs.i])
+    height = pairs.along(axis, pairs.offset)
     votes = pairs.total(pairs.weight * np.sign(np.where(np.abs(height) < 1e-9, 0, height)))
     tie = np.abs(votes) <= 1e-9 * pairs.total(pairs.weight)
     side = np.where(tie, np.einsum("ij,ij->i", axis, fallback), votes)
@@ -291,27 +297,35 @@ def _histograms(pairs: _Pairs, frames: np.ndarray, weight: np.ndarray, bins: int
     """
     i, count = pairs.i, pairs.count
     weight = weight * (np.abs(frames).max(axis=(1, 2)) > 0)[i]
-    own = frames.reshape(count, 9).take(i, axis=0).reshape(-1, 3, 3)
-    x, y, z = np.einsum("pij,pj->ip", own, pairs.offset)
-    cosine = np.clip(np.einsum("pj,pj->p", own[:, 2], pairs.normal), -1, 1)
+    x, y, z = (pairs.along(frames[:, axis], pairs.offset) for axis in range(3))
+    cosine = np.clip(pairs.along(frames[:, 2], pairs.normal), -1, 1)
     turn = np.arctan2(y, x) * (AZIMUTHS / (2 * np.pi)) - 0.5
-    sector = np.floor(turn).astype(np.int64)
+    sector = np.floor(turn)
+    turn -= sector
+    sector = sector.astype(np.int64)
     step = (cosine + 1) * (bins / 2)
     first = np.minimum(step.astype(np.int64), bins - 1)
-    rows = np.empty((len(i), 2, 2), dtype=np.int32)
-    parts = np.empty((len(i), 2, 2))
-    for a, share_a in ((0, 1 - (turn - sector)), (1, turn - sector)):
-        row = (i * AZIMUTHS + (sector + a) % AZIMUTHS) * (bins + 1) + first
-        for b, share_b in ((0, 1 - (step - first)), (1, step - first)):
-            rows[:, a, b] = row + b
-            parts[:, a, b] = share_a * share_b
+    step -= first
+    rows = np.empty((len(i), 4), dtype=np.int32)
+    parts = np.empty((len(i), 4))
+    ahead = turn * step
+    parts[:, 0], parts[:, 1], parts[:, 2], parts[:, 3] = 1 - turn - step + ahead, step - ahead, turn - ahead, ahead
+    start = i * AZIMUTHS
+    for a in (0, 1):
+        # Minus one is the last of eight, and eight the first.
+        row = (start + ((sector + a) & (AZIMUTHS - 1))) * (bins + 1) + first
+        rows[:, 2 * a], rows[:, 2 * a + 1] = row, row + 1
     height = np.arccos(np.clip(z / pairs.distance, -1, 1)) * (ELEVATIONS / np.pi) - 0.5
     depth = pairs.distance * SHELLS - 0.5
-    across = np.maximum(1 - np.abs(height[:, None] - np.arange(ELEVATIONS)), 0) * weight[:, None]
-    nodes = across[:, :, None] * np.maximum(1 - np.abs(depth[:, None] - np.arange(SHELLS)), 0)[:, None, :]
+    nodes = np.empty((len(i), ELEVATIONS * SHELLS))
+    inward = [np.maximum(1 - np.abs(depth - d), 0) for d in range(SHELLS)]
+    for e in range(ELEVATIONS):
+        across = np.maximum(1 - np.abs(height - e), 0) * weight
+        for d in range(SHELLS):
+            nodes[:, e * SHELLS + d] = across * inward[d]
     starts = np.arange(0, 4 * len(i) + 1, 4, dtype=np.int32)
     spread = csc_array((parts.ravel(), rows.ravel(), starts), shape=(count * AZIMUTHS * (bins + 1), len(i)))
-    summed = spread @ nodes.reshape(len(i), ELEVATIONS * SHELLS)
+    summed = spread @ nodes
     summed = summed.reshape(count, AZIMUTHS, bins + 1, ELEVATIONS * SHELLS)
     return summed.transpose(0, 1, 3, 2).reshape(count, VOLUMES * (bins + 1))
 
