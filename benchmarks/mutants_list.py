@@ -398,6 +398,9 @@ MUTANTS = tuple(
             "test_places",
         ),
         ("even(rotations(pair.body.energy, x))", "rotations(pair.body.energy, x)", "test_places test_nonrigid"),
+        ("owner[lost] = KDTree(", "owner[lost] = 0 * KDTree(", "test_lift"),
+        ('np.einsum("eij,ej->ei", turns[node], rest)', "rest", "test_lift"),
+        ("a.owner[target_to_source[b.vertices]]", "a.owner[b.vertices]", "test_lift"),
         # baked textures
         (
             "y = uv[:, 0] * width - 0.5, (1 - uv[:, 1]) * height - 0.5",

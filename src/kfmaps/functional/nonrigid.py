@@ -22,6 +22,7 @@ from scipy.sparse import csr_array, diags_array
 
 from kfmaps._arrays import check_count, check_positive, refuse
 from kfmaps.functional.bodies import Body, Look, body_of, look, unfolded
+from kfmaps.functional.lift import LARGE, bent_copy
 from kfmaps.functional.points import check_point_map
 from kfmaps.functional.pulls import Term, descended
 from kfmaps.surface.closest import Places, places_on
@@ -31,6 +32,8 @@ from kfmaps.surface.rigidity import bending, nearest_rotations, rotations
 
 DECLINE = 10**-0.5
 """Stiffness of a level over that of the one before."""
+LAST = 3
+"""Searches of a large mesh, at the last level: the others are its coarse copy's."""
 HOLD = 6.0
 """Weight of a landmark over the stiffness of a level: softly enough that those 3 % of √area off do no harm."""
 DISC = 1e-3
@@ -116,24 +119,31 @@ class NonRigid:
                 raise refuse(name, "a surface with faces", "a point cloud", "leave out the non-rigid fit")
         report = progress or (lambda _done: None)
         points = check_point_map(target_to_source, len(source.vertices), len(target.vertices))
-        pair = _pair(source, target)
-        x = unfolded(pair.body, points, target.vertices, pair.normals_t, pair.areas_t)
-        report(0.2)
-        even = _evened(pair, self.evenness)
         marks = np.zeros((0, 2), dtype=np.int64) if landmarks is None else np.asarray(landmarks)
+        levels, steps, begun = range(self.levels), self.steps, 0.2
+        x = None
+        if max(len(source.vertices), len(target.vertices)) > LARGE:
+            levels, steps, begun = range(self.levels)[-1:], min(self.steps, LAST), 0.3
+            x = bent_copy(self, source, target, points, lambda done: report(begun * done), marks, held)
+        pair = _pair(source, target)
+        if x is None:
+            x = unfolded(pair.body, points, target.vertices, pair.normals_t, pair.areas_t)
+            report(begun)
+        even = _evened(pair, self.evenness)
         discs = _discs(pair, marks)
         stays = [] if held is None or not held.any() else [_stays(pair, points, held)]
         gap = 0.0
-        for level in range(self.levels):
+        for level in levels:
             stiffness = self.stiffness * DECLINE**level
             solve = pair.body.solver(stiffness, 2.0)
-            for step in range(self.steps):
+            for step in range(steps):
                 terms, gap = _closest_terms(pair, x)
                 terms += stays
                 if len(marks):
                     terms.append(_marked(pair, marks, discs, x, HOLD * stiffness))
                 x = descended(pair.body.energy, stiffness, solve, terms, x, even(rotations(pair.body.energy, x)))
-                report(0.2 + 0.8 * (level * self.steps + step + 1) / (self.levels * self.steps))
+                done = (level - levels[0]) * steps + step + 1
+                report(begun + (1 - begun) * done / (len(levels) * steps))
         found = places_on(target.vertices, x, source.faces)
         energy = bending(pair.body.energy, x) / float(pair.body.areas.sum())
         return Registered(x, found.faces, found.weights, energy, gap)

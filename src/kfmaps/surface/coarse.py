@@ -9,12 +9,21 @@ from kfmaps.surface.mesh import Mesh
 from kfmaps.surface.unfolding import surface_graph
 
 
-def coarse(mesh: Mesh, vertices: np.ndarray) -> Mesh:
+def regions(mesh: Mesh, vertices: np.ndarray) -> np.ndarray:
+    """For each vertex of ``mesh`` which of ``vertices (q,)`` is nearest along edges, (n,); −1 where none is reached."""
+    owner = np.asarray(dijkstra(surface_graph(mesh, 0), indices=vertices, min_only=True, return_predecessors=True)[2])
+    number = np.full(len(mesh.vertices), -1, dtype=np.int64)
+    number[vertices] = np.arange(len(vertices))
+    return np.where(owner >= 0, number[np.maximum(owner, 0)], -1)
+
+
+def coarse(mesh: Mesh, vertices: np.ndarray, owner: np.ndarray | None = None) -> Mesh:
     """The triangulation of some ``vertices (q,)`` of ``mesh`` that is dual to the regions nearest to each.
 
     Every vertex of the mesh belongs to the one of ``vertices`` that is nearest along edges; a face whose corners
     belong to three becomes a face of these. With evenly spread vertices that is close to their geodesic Delaunay
-    triangulation; thin parts with few of them may lose faces. A point cloud stays one.
+    triangulation; thin parts with few of them may lose faces. A point cloud stays one. ``owner`` is :func:`regions` of
+    them, where they are known.
 
     Returns
     -------
@@ -23,11 +32,7 @@ def coarse(mesh: Mesh, vertices: np.ndarray) -> Mesh:
     """
     if len(mesh.faces) == 0:
         return Mesh(mesh.vertices[vertices], mesh.faces)
-    graph = surface_graph(mesh, 0)
-    owner = np.asarray(dijkstra(graph, indices=vertices, min_only=True, return_predecessors=True)[2])
-    number = np.full(len(mesh.vertices), -1, dtype=np.int64)
-    number[vertices] = np.arange(len(vertices))
-    found = np.where(owner >= 0, number[np.maximum(owner, 0)], -1)[mesh.faces]
+    found = (regions(mesh, vertices) if owner is None else owner)[mesh.faces]
     a, b, c = found.T
     found = found[(found >= 0).all(axis=1) & (a != b) & (b != c) & (c != a)]
     # One face for each three, in the order of most of its originals, which rarely differ.
