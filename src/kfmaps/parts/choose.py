@@ -13,7 +13,7 @@ from kfmaps.config import Partial
 from kfmaps.parts.bend import FULL, QUICK, Bent, Ground, bent, ground
 from kfmaps.parts.overlap import Overlap, overlap
 from kfmaps.parts.side import Side, side
-from kfmaps.parts.units import LARGER, SCALES, TRIALS, Rough, grown, tried
+from kfmaps.parts.units import LARGER, SCALES, TRIALS, Rough, grown, searched, tried
 from kfmaps.surface.closest import places_on
 from kfmaps.surface.mesh import Mesh
 
@@ -21,6 +21,8 @@ ALIKE = 1.12
 """Ratio of scales from which two are worth a trial each."""
 AGAIN = 2
 """Scales at which all trials are made."""
+BEAMS = 4
+"""Placings of the beam searches that are followed up."""
 CONSISTENCY = 4.0
 """Weight in the score."""
 
@@ -121,6 +123,7 @@ def parted(
     rough = [*first]
     for trial in TRIALS[1:]:
         rough += tried(*sides, [one.scale for one in first[:AGAIN]], marked, trial, threads)
+    rough += sorted(searched(*sides, scales, marked, threads), key=lambda one: -plain_score(one))[:BEAMS]
     told(0.4)
     full = parallel(lambda one: (one, grown(*sides, one, marked, fixed)), rough, threads)
     full.sort(key=lambda pair: -plain_score(pair[1]))

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from kfmaps._threads import parallel
+from kfmaps.parts.beams import beamed
 from kfmaps.parts.labels import Placed, Trial, gauge, relaxed, settled, stretch
 from kfmaps.parts.side import Side
 
@@ -21,6 +22,8 @@ SCALES = tuple(0.28 * 1.15**i for i in range(10))
 """√area of the part over that of the whole; SHOT and consistency take a tenth more or less."""
 LARGER = tuple(SCALES[-1] * 1.15**i for i in range(1, 4))
 """Further ones where what is bent is no part, but overlaps with one."""
+FOLLOWED = 3
+"""Scales whose beam searches are followed up."""
 LIMITS = (0.1, 1.6)
 ROUNDS = 3
 """In which samples are placed anew, before and after descriptors are worked out at the scale that was found."""
@@ -76,6 +79,34 @@ def tried(
         return Rough(scale, trial, placed, alike)
 
     return sorted(parallel(at, list(scales), threads), key=lambda rough: -rough.placed.support)
+
+
+def searched(
+    part: Side,
+    whole: Side,
+    scales: Sequence[float],
+    pairs: np.ndarray,
+    threads: int | None = None,
+) -> list[Rough]:
+    """All samples placed by the beam searches at each of ``scales``, the best that each finds, best first."""
+    trial = TRIALS[0]
+    for radius in trial.radii:
+        whole.shot(radius, threads)
+
+    def at(scale: float) -> list[Rough]:
+        alike = likeness(part, whole, scale, trial.radii, pairs, 1)
+        measure = gauge(part.distances, part.edge, scale)
+        begun = beamed(measure, part.edge * np.float32(scale), whole.distances, alike, part.marks)
+        return [Rough(scale, trial, placed, alike) for placed in begun]
+
+    def all_placed(rough: Rough) -> Rough:
+        measure = gauge(part.distances, part.edge, rough.scale)
+        placed = settled(measure, whole.distances, rough.alike, rough.placed, part.marks)
+        return replace(rough, placed=placed)
+
+    found = sorted(parallel(at, list(scales), threads), key=lambda some: -some[0].placed.support)
+    likely = [rough for some in found[:FOLLOWED] for rough in some]
+    return parallel(all_placed, likely, threads)
 
 
 def grown(part: Side, whole: Side, rough: Rough, pairs: np.ndarray, fixed: bool = False) -> Rough:
