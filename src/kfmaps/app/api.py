@@ -124,7 +124,8 @@ class Match(matching.Match):
         InvalidInput
             When one of the shapes is a point cloud.
         """
-        return inverse(self.precise(), self.source, self.target)
+        known = self.target_to_source >= 0
+        return inverse(self.precise(), self.source, self.target, None if known.all() else known)
 
 
 def match(

@@ -234,18 +234,21 @@ def _among_neighbours(
     return PointMap(best, weights)
 
 
-def inverse(places: PointMap, source: Mesh, target: Mesh) -> PointMap:
+def inverse(places: PointMap, source: Mesh, target: Mesh, known: np.ndarray | None = None) -> PointMap:
     """The map the other way: a point on the target for each source vertex.
 
     The target's faces lie, flat between the images of their corners, on or near the source; each source vertex takes
     the closest place on them. Where the map is one-to-one that is its inverse; parts that nothing is mapped to get
-    the nearest that something is.
+    the nearest that something is. With ``known (n_t,)`` only faces whose corners all are known count.
 
     Raises
     ------
     InvalidInput
-        When the map does not fit the two shapes.
+        When the map does not fit the two shapes, or no face is known.
     """
     places = check_places(places, source, len(target.vertices))
-    found = places_on(source.vertices, points_of(places, source), target.faces)
-    return PointMap(found.faces, found.weights)
+    rows = np.arange(len(target.faces)) if known is None else np.flatnonzero(known[target.faces].all(axis=1))
+    if len(rows) == 0:
+        raise refuse("map", "a face of the target with a counterpart", "none", "carry values of the source instead")
+    found = places_on(source.vertices, points_of(places, source), target.faces[rows])
+    return PointMap(rows[found.faces], found.weights)

@@ -107,6 +107,7 @@ def _tiles(numbers: Summary) -> str:
             (f"pairs above {100 * BAD:g} {UNIT}", str(numbers.bad)),
         ]
         tiles += [("nearer to the mirrored truth", str(numbers.flipped))] if numbers.mirrored else []
+    tiles += [("pairs with a part", str(numbers.parts))] if numbers.parts else []
     tiles += [("maps exchanged", str(numbers.changed))] if numbers.agreed else []
     tiles += [(f"verdict: {verdict}", str(count)) for verdict, count in numbers.verdicts.items() if verdict]
     if numbers.seconds_mean is not None and numbers.seconds_total is not None:

@@ -50,6 +50,8 @@ class Result:
         Whether it is a map to the target or to its mirror image.
     agreement : float or None
         Probability that the map is right beside all others of the collection, where they were made to agree.
+    common_s, common_t : float or None
+        Part of the area of source and target that both have, where one was taken for a part of the other.
     changed : str
         What a map was exchanged for that others contradict: "runner-up 1", "composition through A, B"; empty mostly.
     why : str
@@ -86,6 +88,8 @@ class Result:
     verdict: str = ""
     orientation: str = ""
     agreement: float | None = None
+    common_s: float | None = None
+    common_t: float | None = None
     changed: str = ""
     why: str = ""
     error_before: float | None = None

@@ -39,6 +39,8 @@ class Summary:
     verdicts : dict of str to int
     mirrored : int
         Pairs whose mirrored truth is known.
+    parts : int
+        Pairs of which one shape was taken for a part of the other.
     agreed, changed : int
         Pairs that were set beside the others of the collection, and those of them whose map was exchanged.
     """
@@ -57,6 +59,7 @@ class Summary:
     mirrored: int = 0
     agreed: int = 0
     changed: int = 0
+    parts: int = 0
 
 
 def summarised(results: Sequence[Result]) -> Summary:
@@ -85,6 +88,7 @@ def summarised(results: Sequence[Result]) -> Summary:
         mirrored=sum(r.mirrored_mean is not None for r in done),
         agreed=sum(r.agreement is not None for r in done),
         changed=sum(bool(r.changed) for r in done),
+        parts=sum(r.common_s is not None for r in done),
     )
 
 

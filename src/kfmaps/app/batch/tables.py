@@ -49,6 +49,8 @@ COLUMNS = (
     Column("local confidence", lambda r: r.local_confidence, lambda v: f"{float(v):.2f}"),
     Column("agreement", lambda r: r.agreement, lambda v: f"{float(v):.3g}"),
     Column("orientation", lambda r: r.orientation if r.orientation == "reversed" else None),
+    Column("of source", lambda r: r.common_s, lambda v: f"{float(v):.0%}"),
+    Column("of target", lambda r: r.common_t, lambda v: f"{float(v):.0%}"),
     Column("exchanged for", lambda r: r.changed or None),
     Column("time (s)", lambda r: r.seconds.get("total"), lambda v: f"{float(v):.1f}"),
 )

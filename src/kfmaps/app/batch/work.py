@@ -29,6 +29,7 @@ from kfmaps.app.summary import MatchRun, map_file, mean_confidence
 from kfmaps.fit.shape import Shape, prepare
 from kfmaps.functional.evaluate import coverage, error_curve
 from kfmaps.matching import Match, match
+from kfmaps.surface.mesh import vertex_areas
 
 ATTEMPTS, MAPS = "attempts", "maps"
 MIRRORED = 500
@@ -198,6 +199,7 @@ def recorded(
         "vertices_t": sizes[1],
         "landmarks": len(marks),
         "coverage": reached,
+        **_common(found, shapes),
         "confidence": None if found.confidence is None else float(found.confidence),
         "local_confidence": mean_confidence(found),
         "verdict": found.verdict,
@@ -206,6 +208,17 @@ def recorded(
         "solver_steps": None if found.fit is None else int(found.fit.solution.steps),
         "rank": None if found.fit is None else int(found.fit.rank),
         "seconds": seconds,
+    }
+
+
+def _common(found: Match, shapes: tuple[Shape, Shape]) -> dict[str, float]:
+    """How much of either shape's area both have; nothing of whole shapes."""
+    overlaps = {"common_s": found.overlap_source, "common_t": found.overlap_target}
+    told = zip(overlaps.items(), shapes, strict=True)
+    return {
+        name: float(np.average(overlap, weights=vertex_areas(shape.mesh)))
+        for (name, overlap), shape in told
+        if overlap is not None
     }
 
 

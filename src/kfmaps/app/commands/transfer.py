@@ -10,13 +10,14 @@ import numpy as np
 import typer
 
 from kfmaps._arrays import KfmapsWarning, refuse
-from kfmaps.app.files import MapFile, Values, check_map, check_output, load_map, read_mesh, read_values, write_values
+from kfmaps.app.files import MapFile, Values, check_output, load_map, read_mesh, read_values, write_values
 from kfmaps.app.files import transfer as carried
+from kfmaps.app.files.counterparts import Counterparts, counterparts
 from kfmaps.app.files.export import place_of
 from kfmaps.app.files.named import warn_of_change
 from kfmaps.app.files.named_points import carried_points, read_named_points, write_named_points
+from kfmaps.app.files.values import without
 from kfmaps.app.view.results import mesh_path
-from kfmaps.functional.precise import PointMap, at_vertices, inverse
 from kfmaps.surface.mesh import Mesh
 
 
@@ -69,9 +70,7 @@ def transfer(
     target: Annotated[Path | None, typer.Option(help="The same for the target.", show_default=False)] = None,
     lost: Annotated[
         float | None,
-        typer.Option(
-            help="For target vertices without counterpart; default: NaN, -1 of whole numbers.", show_default=False
-        ),
+        typer.Option(help="For vertices without counterpart; default: NaN, -1 of whole numbers.", show_default=False),
     ] = None,
     force: Annotated[bool, typer.Option("--force", help="Replace an existing file.")] = False,
 ) -> None:
@@ -90,8 +89,11 @@ def transfer(
         _points(found, map, values, output, back, (source, target), force)
         return
     given = read_values(values)
+    gone: float | int | None = lost
+    if lost is not None and given.array.dtype.kind in "iu" and lost == int(lost):
+        gone = int(lost)
     if back:
-        write_values(output, Values(_back(found, map, given.array, (source, target)), given.columns), force)
+        write_values(output, Values(_back(found, map, given.array, (source, target), gone), given.columns), force)
         return
     if products is not None:
         from kfmaps.app.files.functions import carried_functions
@@ -104,9 +106,6 @@ def transfer(
         shape = _shape(found, "source", source, map)
         place_of(found, shape)
         faces = shape.faces
-    gone: float | int | None = lost
-    if lost is not None and given.array.dtype.kind in "iu" and lost == int(lost):
-        gone = int(lost)
     write_values(output, Values(carried(given.array, found, faces, gone), given.columns), force)
 
 
@@ -146,14 +145,13 @@ def _shape(found: MapFile, side: str, given: Path | None, map: Path) -> Mesh:
     return read_mesh(path)
 
 
-def _both(found: MapFile, map: Path, given: tuple[Path | None, Path | None]) -> tuple[Mesh, Mesh, PointMap]:
-    """Both shapes and the map's points on the source, vertices where it has none inside triangles."""
+def _both(found: MapFile, map: Path, given: tuple[Path | None, Path | None]) -> tuple[Mesh, Mesh, Counterparts]:
+    """Both shapes and what of each has a counterpart, at vertices where the map has no points inside triangles."""
     source, target = (_shape(found, side, path, map) for side, path in zip(("source", "target"), given, strict=True))
     for mesh, side in ((source, "source"), (target, "target")):
         if len(mesh.faces) == 0:
             raise refuse(side, "a surface with faces", "a point cloud", "carry values instead, not back")
-    check_map(found, len(source.vertices), len(target.vertices), str(map))
-    return source, target, place_of(found, source) or at_vertices(found.target_to_source, source)
+    return source, target, counterparts(found, source, target, str(map))
 
 
 def _points(
@@ -165,21 +163,25 @@ def _points(
     given: tuple[Path | None, Path | None],
     force: bool,
 ) -> None:
-    source, target, place = _both(found, map, given)
+    source, target, ways = _both(found, map, given)
     trust = found.extra.get("local_confidence")
     confidence = None if trust is None else np.asarray(trust)
     named = read_named_points(values, target if back else source)
-    write_named_points(output, carried_points(named, source, target, place, confidence, back=back), force)
+    some = {} if ways.complete else {"known": ways.target, "common": ways.source}
+    write_named_points(output, carried_points(named, source, target, ways.place, confidence, back=back, **some), force)
 
 
-def _back(found: MapFile, map: Path, values: np.ndarray, given: tuple[Path | None, Path | None]) -> np.ndarray:
+def _back(
+    found: MapFile, map: Path, values: np.ndarray, given: tuple[Path | None, Path | None], lost: float | int | None
+) -> np.ndarray:
     """Values of the target on the source: each source vertex takes those of its own place on the target."""
-    source, target, place = _both(found, map, given)
+    _, target, ways = _both(found, map, given)
     if values.ndim == 0 or len(values) != len(target.vertices):
         got = f"{len(values)}" if values.ndim else "a single value"
         raise refuse("values", f"{len(target.vertices)} rows, one per target vertex", got, "are they the target's?")
-    there = inverse(place, source, target)
+    there = ways.back
     if values.dtype.kind == "f":
-        return np.einsum("ti,ti...->t...", there.weights, values[target.faces[there.faces]])
-    corner = target.faces[there.faces, there.weights.argmax(axis=1)]
-    return values[corner]
+        mixed = np.einsum("ti,ti...->t...", there.weights, values[target.faces[there.faces]])
+    else:
+        mixed = values[target.faces[there.faces, there.weights.argmax(axis=1)]]
+    return mixed if ways.source.all() else without(mixed, ~ways.source, lost)

@@ -29,7 +29,7 @@ class NamedPoints:
     points : (q, 3) float64
         The same in space, in the mesh's unit.
     vertices : (q,) int64
-        The nearest vertices.
+        The nearest vertices; −1 of a point without counterpart, whose place in space is NaN.
     confidence : (q,) float64
         From 0 to 1, NaN where nothing is known.
     apart : (q,) float64
@@ -110,6 +110,8 @@ def carried_points(
     confidence: np.ndarray | None = None,
     *,
     back: bool = False,
+    known: np.ndarray | None = None,
+    common: np.ndarray | None = None,
 ) -> NamedPoints:
     """``given`` points of the source on the target, or (``back``) of the target on the source.
 
@@ -117,6 +119,9 @@ def carried_points(
     a point lies in. Forth the source's points are sought among the images of the target's faces, flat between those
     of their corners: the closest place on that surface, in the source's space. The confidence is that of the target's
     vertices around the point.
+
+    Of a map of parts ``known (n_t,)`` and ``common (n_s,)`` say which vertices have a counterpart. A point has none
+    where most of its face has none: its vertex is −1, its place and confidence are NaN.
     """
     images = points_of(place, source)
     if back:
@@ -124,15 +129,25 @@ def carried_points(
         found = places_on(at, source.vertices, source.faces)
         there, mesh, on_target = PointMap(found.faces, found.weights), source, given.place
         # Where a face is torn apart the mean of its corners lies on no surface: then the nearest corner's image.
-        torn = np.flatnonzero(found.distances > 0.02 * np.sqrt(surface_area(source)))
+        torn = found.distances > 0.02 * np.sqrt(surface_area(source))
+        if known is not None:
+            torn |= ~known[target.faces[given.place.faces]].all(axis=1)
+        torn = np.flatnonzero(torn)
         there.faces[torn], there.weights[torn] = place.faces[given.vertices[torn]], place.weights[given.vertices[torn]]
     else:
-        found = places_on(given.points, images, target.faces)
-        there, mesh, on_target = PointMap(found.faces, found.weights), target, PointMap(found.faces, found.weights)
-    known = np.full(len(given.names), np.nan)
+        rows = np.arange(len(target.faces)) if known is None else np.flatnonzero(known[target.faces].all(axis=1))
+        found = places_on(given.points, images, target.faces[rows])
+        there = on_target = PointMap(rows[found.faces], found.weights)
+        mesh = target
+    trust = np.full(len(given.names), np.nan)
     if confidence is not None:
-        known = np.einsum("qi,qi->q", on_target.weights, confidence[target.faces[on_target.faces]])
-    return NamedPoints(given.names, there, points_of(there, mesh), vertices_of(there, mesh), known, found.distances)
+        trust = np.einsum("qi,qi->q", on_target.weights, confidence[target.faces[on_target.faces]])
+    points, vertices = points_of(there, mesh), vertices_of(there, mesh)
+    own, on = (known, target) if back else (common, source)
+    if own is not None:
+        lost = np.einsum("qi,qi->q", given.place.weights, own[on.faces[given.place.faces]]) < 0.5
+        points[lost], vertices[lost], trust[lost] = np.nan, -1, np.nan
+    return NamedPoints(given.names, there, points, vertices, trust, found.distances)
 
 
 def write_named_points(path: str | Path, points: NamedPoints, force: bool = False) -> None:

@@ -91,17 +91,27 @@ def _with_gaps(
 ) -> np.ndarray:
     """:func:`transfer` of a map with vertices that have no counterpart."""
     gone = points < 0
+    known = np.where(gone, points[~gone][0] if (~gone).any() else 0, points)
+    place = target_to_source.place if isinstance(target_to_source, MapFile) else None
+    extra = {} if place is None else {"place_faces": place.faces, "place_weights": place.weights}
+    return without(np.array(transfer(values, MapFile(known, extra=extra), faces_s)), gone, lost)
+
+
+def without(values: np.ndarray, gone: np.ndarray, lost: Any = None) -> np.ndarray:
+    """``values (n, ...)`` with ``lost`` in the rows ``gone (n,)``; see :func:`transfer` for what that is by default.
+
+    Raises
+    ------
+    InvalidInput
+        When their kind has no such value.
+    """
     if lost is None:
         lost = {"f": np.nan, "c": np.nan, "U": "", "i": -1}.get(values.dtype.kind)
     if lost is None or (values.dtype.kind in "ui" and not np.can_cast(np.min_scalar_type(lost), values.dtype)):
         got = f"{values.dtype}, and {gone.sum()} vertices without a counterpart"
         raise refuse("values", "a kind with a value for vertices without counterpart", got, "give the value: lost=")
-    known = np.where(gone, points[~gone][0] if (~gone).any() else 0, points)
-    place = target_to_source.place if isinstance(target_to_source, MapFile) else None
-    extra = {} if place is None else {"place_faces": place.faces, "place_weights": place.weights}
-    found = np.array(transfer(values, MapFile(known, extra=extra), faces_s))
-    found[gone] = lost
-    return found
+    values[gone] = lost
+    return values
 
 
 def read_values(path: str | Path) -> Values:

@@ -1,0 +1,140 @@
+"""Things carried over maps of parts in both directions: what has no counterpart gets nothing, all else its own."""
+
+import types
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from commandline import run
+from kfmaps import datasets
+from kfmaps.app.batch.page import summary_page
+from kfmaps.app.batch.results import Result
+from kfmaps.app.files import MapFile, load_map, save_map, write_mesh
+from kfmaps.app.files.counterparts import counterparts
+from kfmaps.app.partial_truth import PartTruth, true_overlap
+from kfmaps.functional.precise import PointMap, inverse, points_of, vertices_of
+from kfmaps.surface.mesh import surface_area
+
+NEAR = 0.02
+"""In √area of the whole: the meshes of part and whole have nothing to do with each other."""
+
+
+@pytest.fixture(scope="module")
+def made(tmp_path_factory: pytest.TempPathFactory) -> types.SimpleNamespace:
+    """True maps from a whole to its part, "down", and from the part to the whole, "up"."""
+    folder = tmp_path_factory.mktemp("parts")
+    pair = datasets.partial(1500, rng=1)
+    whole, part = pair.source, pair.target
+    place = PointMap(pair.truth_faces, pair.truth_weights)
+    common = true_overlap(whole, part, PartTruth(np.arange(len(part.vertices)), place, True))
+    write_mesh(folder / "whole.ply", whole)
+    write_mesh(folder / "part.ply", part)
+    down = {"source": str(folder / "whole.ply"), "target": str(folder / "part.ply")}
+    up = {"source": down["target"], "target": down["source"]}
+    told = {"place_faces": place.faces, "place_weights": place.weights, "overlap_source": common.astype(float)}
+    save_map(folder / "down.npz", MapFile(pair.truth, extra={**down, **told}))
+    back = inverse(place, whole, part)
+    points = np.where(common, vertices_of(back, part), -1)
+    save_map(folder / "up.npz", MapFile(points, extra={**up, "place_faces": back.faces, "place_weights": back.weights}))
+    size = np.sqrt(surface_area(whole))
+    return types.SimpleNamespace(
+        folder=folder, whole=whole, part=part, common=common, true=points_of(place, whole), size=size
+    )
+
+
+def test_values_of_a_part_come_back_to_what_both_have(made: types.SimpleNamespace, tmp_path: Path) -> None:
+    np.save(tmp_path / "x.npy", made.true)
+    run("transfer", made.folder / "down.npz", tmp_path / "x.npy", "--back", "-o", tmp_path / "y.npy")
+    found = np.load(tmp_path / "y.npy")
+    np.testing.assert_array_equal(np.isnan(found).any(axis=1), ~made.common)
+    off = np.linalg.norm(found - made.whole.vertices, axis=1)[made.common] / made.size
+    assert off.mean() < NEAR
+    labels = np.arange(len(made.part.vertices))
+    np.save(tmp_path / "x.npy", labels)
+    for more, lost in (((), -1), (("--lost", 7), 7)):
+        run(
+            "transfer",
+            made.folder / "down.npz",
+            tmp_path / "x.npy",
+            "--back",
+            *more,
+            "--force",
+            "-o",
+            tmp_path / "l.npy",
+        )
+        np.testing.assert_array_equal(np.load(tmp_path / "l.npy")[~made.common], lost)
+
+
+def test_values_of_a_whole_come_back_to_its_part(made: types.SimpleNamespace, tmp_path: Path) -> None:
+    """Faces of the whole with a corner that has no counterpart lie nowhere on the part, and have no say."""
+    given = made.whole.vertices.copy()
+    given[~made.common] = 1e6
+    np.save(tmp_path / "x.npy", given)
+    run("transfer", made.folder / "up.npz", tmp_path / "x.npy", "--back", "-o", tmp_path / "y.npy")
+    found = np.load(tmp_path / "y.npy")
+    known = ~np.isnan(found).any(axis=1)
+    assert known.mean() > 0.9
+    assert np.linalg.norm(found - made.true, axis=1)[known].mean() / made.size < NEAR
+
+
+def named(path: Path, vertices: np.ndarray) -> None:
+    path.write_text("".join(f"p{v},{v}\n" for v in vertices), encoding="utf-8")
+
+
+def read(path: Path) -> np.ndarray:
+    rows = [line.split(",") for line in path.read_text(encoding="utf-8").splitlines()[1:]]
+    return np.array([[float(cell) for cell in row[1:5]] for row in rows])
+
+
+@pytest.mark.parametrize(("map", "more"), [("down.npz", ()), ("up.npz", ("--back",))])
+def test_points_outside_the_part_are_nowhere(
+    made: types.SimpleNamespace, tmp_path: Path, map: str, more: tuple[str, ...]
+) -> None:
+    chosen = np.random.default_rng(0).permutation(len(made.whole.vertices))[:60]
+    named(tmp_path / "a.csv", chosen)
+    run("transfer", made.folder / map, tmp_path / "a.csv", "--points", *more, "-o", tmp_path / "b.csv")
+    found = read(tmp_path / "b.csv")
+    np.testing.assert_array_equal(found[:, 0] == -1, ~made.common[chosen])
+    np.testing.assert_array_equal(np.isnan(found[:, 1:]).all(axis=1), ~made.common[chosen])
+    inside = made.common[chosen]
+    ends = made.true[found[inside, 0].astype(int)]
+    assert np.linalg.norm(ends - made.whole.vertices[chosen[inside]], axis=1).mean() / made.size < 2 * NEAR
+
+
+@pytest.mark.parametrize(("map", "more"), [("down.npz", ("--back",)), ("up.npz", ())])
+def test_points_of_a_part_are_on_the_whole(
+    made: types.SimpleNamespace, tmp_path: Path, map: str, more: tuple[str, ...]
+) -> None:
+    chosen = np.random.default_rng(0).permutation(len(made.part.vertices))[:40]
+    named(tmp_path / "a.csv", chosen)
+    run("transfer", made.folder / map, tmp_path / "a.csv", "--points", *more, "-o", tmp_path / "b.csv")
+    found = read(tmp_path / "b.csv")
+    there = found[:, 0] >= 0
+    assert there.mean() > 0.85
+    assert np.linalg.norm(found[there, 1:] - made.true[chosen[there]], axis=1).mean() / made.size < NEAR
+
+
+def test_of_a_list_without_overlap_the_distance_tells(made: types.SimpleNamespace) -> None:
+    plain = MapFile(load_map(made.folder / "up.npz").target_to_source)
+    ways = counterparts(plain, made.part, made.whole)
+    np.testing.assert_array_equal(ways.target, made.common)
+    assert ways.source.mean() > 0.5
+    some = MapFile(
+        np.where(made.whole.vertices[:, 1] > np.median(made.whole.vertices[:, 1]), plain.target_to_source, -1)
+    )
+    fewer = counterparts(some, made.part, made.whole)
+    assert fewer.source.mean() < ways.source.mean()
+    assert not fewer.complete
+
+
+def test_the_summary_shows_how_much_both_have() -> None:
+    done = Result("a", "b", "done", "s", "i", verdict="sure", seconds={"total": 1.0})
+    part = replace(done, target="c", common_s=0.421, common_t=0.987)
+    page = summary_page("x", [done, part], {}, {}, 2)
+    for text in ("of source", "42%", "99%", "pairs with a part"):
+        assert text in page
+    plain = summary_page("x", [done], {}, {}, 1)
+    assert "of source" not in plain
+    assert "pairs with a part" not in plain
