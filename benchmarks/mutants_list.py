@@ -401,6 +401,13 @@ MUTANTS = tuple(
         ("owner[lost] = KDTree(", "owner[lost] = 0 * KDTree(", "test_lift"),
         ('np.einsum("eij,ej->ei", turns[node], rest)', "rest", "test_lift"),
         ("a.owner[target_to_source[b.vertices]]", "a.owner[b.vertices]", "test_lift"),
+        # pictures of OBJ files
+        (
+            "found = {pictures.get(used[i][1]) for i in np.unique(last)}",
+            "found = set(pictures.values())",
+            "test_files_obj_picture",
+        ),
+        ("path = found.pop() if len(found) == 1 else None", "path = found.pop()", "test_files_obj_picture"),
         # baked textures
         (
             "y = uv[:, 0] * width - 0.5, (1 - uv[:, 1]) * height - 0.5",

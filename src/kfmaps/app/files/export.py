@@ -227,8 +227,15 @@ def write_textured(
             temporary.write_bytes(content)
         return [path]
 
-    material = path.with_suffix(".mtl")
-    beside = path.with_suffix(image.suffix if picture is None or image.kind == "image/png" else Path(picture).suffix)
+    suffix = image.suffix if picture is None or image.kind == "image/png" else Path(picture).suffix
+    return _write_obj(path, mesh, uv, uv_faces, image, suffix, force)
+
+
+def _write_obj(
+    path: Path, mesh: Mesh, uv: np.ndarray, uv_faces: np.ndarray, image: Picture, suffix: str, force: bool
+) -> list[Path]:
+    """An OBJ file with its MTL and picture beside it; their names."""
+    material, beside = path.with_suffix(".mtl"), path.with_suffix(suffix)
     content = format_obj(mesh, uv=uv, uv_faces=uv_faces, material=(material.name, "carried"))
     lines = ["newmtl carried", "Ka 1 1 1", "Kd 1 1 1", "Ks 0 0 0", f"map_Kd {beside.name}", ""]
     with ExitStack() as files:  # renamed in reverse order, the OBJ file that names the others last
@@ -294,9 +301,15 @@ def morphed(source: Mesh, target: Mesh, bent: np.ndarray) -> Mesh:
 
 
 def write_morph(path: str | Path, source: MeshFile, target: Mesh, bent: np.ndarray, force: bool = False) -> None:
-    """Write the source in the target's shape: as a morph target of the source (GLB), else the bent mesh alone."""
+    """Write the source in the target's shape: as a morph target of the source (GLB), else the bent mesh alone.
+
+    GLB and OBJ keep the source's texture.
+    """
     check(np.asarray(bent), "bent", shape=(len(source.mesh.vertices), 3), remedy="check that the map is the source's")
     moved = morphed(source.mesh, target, bent)
+    if Path(path).suffix.lower() == ".obj" and source.picture and source.uv is not None and source.uv_faces is not None:
+        _write_obj(Path(path), moved, source.uv, source.uv_faces, source.picture, source.picture.suffix, force)
+        return
     if Path(path).suffix.lower() != ".glb":
         write_mesh(path, moved, colors=source.colors, force=force)
         return

@@ -13,7 +13,7 @@ import numpy as np
 
 from kfmaps._arrays import InvalidInput, refuse
 from kfmaps._memory import check_memory
-from kfmaps.app.files.record import MeshFile, Picture
+from kfmaps.app.files.record import MeshFile, Picture, picture_in
 from kfmaps.app.files.text import REPAIR, read_bytes
 from kfmaps.surface.mesh import Mesh
 
@@ -22,7 +22,6 @@ _FLOAT, _UNSIGNED = 5126, {5121, 5123, 5125}
 _WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4}
 _TRIANGLES, _STRIP, _FAN = 4, 5, 6
 _CUT = "the file is cut short or damaged: export it again"
-_PICTURES = {b"\x89PNG\r\n\x1a\n": "image/png", b"\xff\xd8\xff": "image/jpeg"}
 _BYTES_PER_ROW = 100
 """About what a vertex or a triangle takes while it is read."""
 
@@ -295,10 +294,7 @@ def _picture(tree: dict[str, Any], buffers: list[bytes], primitives: list[dict[s
     else:
         path = _beside(uri, name)
         data = read_bytes(path) if path.is_file() else b""
-    for mark, kind in _PICTURES.items():
-        if data.startswith(mark):
-            return Picture(data, kind)
-    return None
+    return picture_in(data)
 
 
 def _triangles(tree: dict[str, Any], buffers: list[bytes], primitive: dict[str, Any], n: int, name: str) -> np.ndarray:

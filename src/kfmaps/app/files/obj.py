@@ -1,4 +1,4 @@
-"""Wavefront OBJ: vertices with colours, texture coordinates and polygons; materials are left out."""
+"""Wavefront OBJ: vertices with colours, texture coordinates and polygons; of materials the picture alone."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from kfmaps._arrays import refuse
+from kfmaps.app.files.mtl import obj_picture
 from kfmaps.app.files.record import MeshFile, fan, unit_colors
 from kfmaps.app.files.text import REPAIR, Rows, clean_text, parse_rows, quoted, table, whole, words
 from kfmaps.surface.mesh import Mesh
@@ -22,11 +23,15 @@ _OTHER, _V, _VT, _VN, _F = range(5)
 
 @dataclass(frozen=True, eq=False)
 class _Lines:
-    """A text, ``letters`` (uint8), its first words blanked, and the ``kind`` and ``length`` of each line."""
+    """A text, ``letters`` (uint8), its first words blanked, and the ``kind`` and ``length`` of each line.
+
+    ``said`` are the lines about materials: number, word, rest.
+    """
 
     letters: np.ndarray
     kind: np.ndarray
     length: np.ndarray
+    said: list[tuple[int, str, str]]
 
     def of(self, kind: int) -> tuple[bytes, np.ndarray]:
         """The text of the lines of one kind, and their numbers in the file."""
@@ -40,7 +45,7 @@ def parse_obj(data: bytes, name: str) -> MeshFile:
     A vertex is ``v x y z``, perhaps with a weight of 1, or ``v x y z red green blue``; vertices have colours
     only when all of them do. A corner of a face is ``v``, ``v/vt``, ``v//vn`` or ``v/vt/vn``, counted from
     1, or backwards from the last one read when negative. Texture coordinates are kept when every corner
-    has them.
+    has them, and then the picture of its materials (:func:`kfmaps.app.files.mtl.obj_picture`).
 
     Raises
     ------
@@ -62,7 +67,7 @@ def parse_obj(data: bytes, name: str) -> MeshFile:
     mesh = Mesh(places, absolute(0, _V, len(places)))
     if len(numbers) == 0 or (numbers[:, 1] == 0).any():
         return MeshFile(mesh, colors)
-    return MeshFile(mesh, colors, uv, absolute(1, _VT, len(uv)))
+    return MeshFile(mesh, colors, uv, absolute(1, _VT, len(uv)), obj_picture(lines.said, at, name))
 
 
 def _split(text: bytes, name: str) -> _Lines:
@@ -81,15 +86,18 @@ def _split(text: bytes, name: str) -> _Lines:
     found[short & (one == ord("f"))] = _F
     found[pair & (one == ord("v")) & (two == ord("t"))] = _VT
     found[pair & (one == ord("v")) & (two == ord("n"))] = _VN
+    said = []
     for i in np.flatnonzero(found == _OTHER):
-        word = text[at[i] : ends[line[i]]].split(None, 1)[0]
+        word, *rest = text[at[i] : ends[line[i]]].split(None, 1)
+        if word in (b"mtllib", b"usemtl"):
+            said.append((int(line[i]) + 1, word.decode(), b"".join(rest).strip().decode("utf-8", "replace")))
         if word not in _SKIPPED:
             raise refuse(f"{name}, line {line[i] + 1}", "a word of the OBJ format", quoted(word), REPAIR)
     letters[at[found > _OTHER]] = 32
     letters[at[found == _VT] + 1] = 32
     kind = np.zeros(len(ends), dtype=np.int8)
     kind[line] = found
-    return _Lines(letters, kind, np.diff(ends, prepend=0))
+    return _Lines(letters, kind, np.diff(ends, prepend=0), said)
 
 
 def _numbers(lines: _Lines, kind: int, name: str, wanted: str) -> Rows:

@@ -29,6 +29,15 @@ class Picture:
         return ".png" if self.kind == "image/png" else ".jpg"
 
 
+_MARKS = {b"\x89PNG\r\n\x1a\n": "image/png", b"\xff\xd8\xff": "image/jpeg"}
+"""How the files of each kind begin."""
+
+
+def picture_in(data: bytes) -> Picture | None:
+    """The picture that ``data`` is, told by its first bytes; ``None`` when it is neither PNG nor JPEG."""
+    return next((Picture(data, kind) for mark, kind in _MARKS.items() if data.startswith(mark)), None)
+
+
 @dataclass(frozen=True, eq=False)
 class MeshFile:
     """A mesh with what else its file says about the vertices.
@@ -44,7 +53,7 @@ class MeshFile:
     uv_faces : (f, 3) int64 or None
         For each corner of each face the row of ``uv``. At a seam one vertex has several.
     picture : Picture or None
-        The one texture of the whole shape, of files that hold it (GLB, glTF).
+        The one texture of the whole shape, of files that hold it (GLB, glTF) or name it (OBJ).
     """
 
     mesh: Mesh
