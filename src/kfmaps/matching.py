@@ -278,27 +278,25 @@ def match(
 
 def _parted(part: Partly, why: str, across: Border, shapes: list[Shape], config: Config, clock: Clock) -> Match:
     """The match of a part and a whole."""
-    k_t, k_s = part.functional_map.shape
     overlaps = across.overlap(part.overlap_source, part.overlap_target)
-    return Match(
-        target_to_source=across.points(part.target_to_source),
-        functional_map=part.functional_map,
-        eigenvalues_s=shapes[0].basis.eigenvalues[:k_s],
-        eigenvalues_t=shapes[1].basis.eigenvalues[:k_t],
+    return _filled(
+        part.target_to_source,
+        part.functional_map,
+        part.trust,
+        across,
+        shapes,
+        config,
+        clock,
+        place=part.place,
+        bent=part.bent,
         verdict=part.verdict,
-        config=config,
-        seconds=clock.seconds,
         origin="a part bent onto the other",
         raw_functional_map=part.functional_map,
         raw_target_to_source=None,
         fit=None,
-        local_confidence=across.trust(part.trust),
         confidence=part.confidence,
         scores=part.scores,
         doubted=part.doubted,
-        border=across,
-        place=across.place(part.place),
-        bent=None if part.bent is None else across.bent(part.bent),
         partial=part.part,
         partial_reason=reason(part, why),
         part_scale=part.scale,
@@ -385,23 +383,23 @@ def _ended(
     clock.seconds.update(end.seconds)
     last = placed(end.target_to_source, shapes[0], shapes[1], config, clock, found.landmarks)
     bent = last.bent
-    if bent is not None:
-        mirrored = found.orientation == "reversed"
-        bent = across.bent(bent * MIRROR if mirrored else bent)
-    k_t, k_s = end.functional_map.shape
-    return Match(
-        target_to_source=across.points(last.target_to_source),
-        functional_map=end.functional_map,
-        eigenvalues_s=shapes[0].basis.eigenvalues[:k_s],
-        eigenvalues_t=shapes[1].basis.eigenvalues[:k_t],
+    if bent is not None and found.orientation == "reversed":
+        bent = bent * MIRROR
+    return _filled(
+        last.target_to_source,
+        end.functional_map,
+        last.trust,
+        across,
+        shapes,
+        config,
+        clock,
+        place=last.place,
+        bent=bent,
         verdict=found.verdict,
-        config=config,
-        seconds=clock.seconds,
         origin=found.origin,
         raw_functional_map=found.functional_map,
         raw_target_to_source=None if end.raw_target_to_source is None else across.points(end.raw_target_to_source),
         fit=found.fit,
-        local_confidence=across.trust(last.trust),
         confidence=found.confidence,
         scores=found.scores,
         runners_up=tuple(across.points(points) for points in found.runners_up),
@@ -409,10 +407,37 @@ def _ended(
         orientation=found.orientation,
         source_to_target=None if end.source_to_target is None else across.points_back(end.source_to_target),
         map_back=end.map_back,
-        border=across,
-        place=None if last.place is None else across.place(last.place),
-        bent=bent,
         bend=last.fit,
+    )
+
+
+def _filled(
+    points: np.ndarray,
+    C: np.ndarray,
+    trust: np.ndarray,
+    across: Border,
+    shapes: list[Shape],
+    config: Config,
+    clock: Clock,
+    *,
+    place: PointMap | None,
+    bent: np.ndarray | None,
+    **more: Any,
+) -> Match:
+    """The record of a map that was made inside its border: what is given per vertex goes out to the shapes as given."""
+    k_t, k_s = C.shape
+    return Match(
+        target_to_source=across.points(points),
+        functional_map=C,
+        eigenvalues_s=shapes[0].basis.eigenvalues[:k_s],
+        eigenvalues_t=shapes[1].basis.eigenvalues[:k_t],
+        config=config,
+        seconds=clock.seconds,
+        local_confidence=across.trust(trust),
+        border=across,
+        place=None if place is None else across.place(place),
+        bent=None if bent is None else across.bent(bent),
+        **more,
     )
 
 
