@@ -6,7 +6,10 @@
 DIR holds the folders FAUST, FAUST_r and SHREC19_r (see the layouts in docs/collections.md); ``own`` needs none. Of each
 pair one map is made, then finished. Errors are mean geodesic distances between points inside triangles, in per cent of
 √area: of the refined map of vertices, of the nearest points in the spectral embedding, and after the non-rigid fit.
-Pairs are of people that nothing was chosen on: 4 to 7 of FAUST_r; 2 and 3 of FAUST.
+
+The truth of ``FAUST_r`` (.vts) is rounded to vertices. That of ``FAUST_r exact`` lies in triangles: the original
+registrations of the same people, laid onto the remeshed shapes. Pairs are of people that nothing was chosen on: 4 to 7
+of FAUST_r; 2 and 3 of FAUST, and of ``FAUST_r exact``.
 
 ``--growth`` times the two pieces alone on generated shapes of so many vertices, in CPU seconds: the fit, from the true
 map of vertices, and the nearest points among triangles in an embedding of 200 smooth functions (waves of places).
@@ -31,8 +34,11 @@ from kfmaps.fit.stages import Clock
 from kfmaps.functional.evaluate import place_errors, smoothness
 from kfmaps.functional.nonrigid import NonRigid
 from kfmaps.functional.precise import PointMap, nearest_places, points_of
-from kfmaps.surface.mesh import unit_area
+from kfmaps.surface.closest import places_on
+from kfmaps.surface.mesh import Mesh, unit_area
 
+NUMBERS = [(20 + i, 30 + (3 * i) % 10) for i in range(10)] + [(30 + i, 20 + (7 * i + 4) % 10) for i in range(10)]
+"""Pairs of registrations of the people 2 and 3."""
 PEOPLE = 40
 """Shapes of FAUST_r from this number on: both of a pair, so that nothing was chosen on either."""
 
@@ -51,6 +57,29 @@ def vertices_of_lines(folder: Path, name: str) -> np.ndarray:
     return np.loadtxt(folder / "corres" / f"{name}.vts", dtype=np.int64) - 1
 
 
+def laid(folder: Path, name: str, mesh: Mesh) -> Mesh:
+    """The original registration ``name`` in the unit and place of its remeshed ``mesh``, by closest places."""
+    original = read(folder / "FAUST" / f"{name}.ply")
+    fixed = mesh.vertices[vertices_of_lines(folder / "FAUST_r", name)]
+    moved = free = original.vertices
+    free = free[vertices_of_lines(folder / "FAUST_r", "sampleID")]
+    for _ in range(5):
+        middle, centre = free.mean(axis=0), fixed.mean(axis=0)
+        u, sizes, vh = np.linalg.svd((free - middle).T @ (fixed - centre))
+        moved = sizes.sum() / ((free - middle) ** 2).sum() * (moved - middle) @ (u @ vh) + centre
+        free, fixed = places_on(mesh.vertices, moved, original.faces).points, mesh.vertices
+    return Mesh(moved, original.faces)
+
+
+def exact(folder: Path, names: list[str], meshes: list[Mesh]) -> PointMap:
+    """Where the target's vertices lie on the source, by the original registrations of both."""
+    source, target = (laid(folder, name, mesh) for name, mesh in zip(names, meshes, strict=True))
+    on = places_on(meshes[1].vertices, target.vertices, target.faces)
+    there = np.einsum("qi,qij->qj", on.weights, source.vertices[source.faces[on.faces]])
+    found = places_on(there, meshes[0].vertices, meshes[0].faces)
+    return PointMap(found.faces, found.weights)
+
+
 def jobs(data: Path | None, kind: str, count: int):
     """Name, source, target, and the truth: where target vertices ``(q,)`` lie on the source."""
     if kind == "own":
@@ -61,11 +90,15 @@ def jobs(data: Path | None, kind: str, count: int):
         return
     assert data is not None
     folder = data / kind
+    if kind == "FAUST_r exact":
+        for a, b in NUMBERS[:: max(1, len(NUMBERS) // count)][:count]:
+            names = [f"tr_reg_{i:03d}" for i in (a, b)]
+            meshes = [read(mesh_file(data / "FAUST_r", name)) for name in names]
+            truth = exact(data, names, meshes)
+            yield f"{a:03d} {b:03d}", *meshes, truth, np.arange(len(truth.faces)), None
+        return
     if kind == "FAUST":
-        numbers = [(20 + i, 30 + (3 * i) % 10) for i in range(10)] + [
-            (30 + i, 20 + (7 * i + 4) % 10) for i in range(10)
-        ]
-        for a, b in numbers[:count]:
+        for a, b in NUMBERS[:count]:
             meshes = [read(folder / f"tr_reg_{i:03d}.ply") for i in (a, b)]
             every = np.arange(len(meshes[0].vertices))
             yield f"{a:03d} {b:03d}", *meshes, every, every, None
@@ -149,7 +182,7 @@ def growth(sizes: list[int]) -> None:
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--data", type=Path)
-    parser.add_argument("--sets", default="own,FAUST,FAUST_r,FAUST_r landmarks")
+    parser.add_argument("--sets", default="own,FAUST,FAUST_r exact,FAUST_r,FAUST_r landmarks")
     parser.add_argument("--pairs", type=int, default=20, help="of each set, spread over its list")
     parser.add_argument("--json", type=Path)
     parser.add_argument("--growth", help="numbers of vertices: time the pieces alone")
