@@ -153,7 +153,7 @@ def test_the_catalogue_knows_every_setting() -> None:
         assert set(setting.kinds) == having, setting.path
 
 
-INSIDE = ("a", "b", "kernel", "matrix", "layers", "columns")
+INSIDE = ("a", "b", "kernel", "matrix", "landmarks", "layers", "columns")
 """What only settings files can say."""
 
 

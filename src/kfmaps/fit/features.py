@@ -21,6 +21,7 @@ from kfmaps.descriptors.spectral import (
 )
 from kfmaps.fit.shape import Shape
 from kfmaps.kernel.kernels import KernelLike, Linear, resolved
+from kfmaps.kernel.lifted import landmarks as taught
 from kfmaps.kernel.nystrom import nystrom
 from kfmaps.kernel.select import farthest, pivoted_cholesky, uniform
 from kfmaps.surface.basis import Basis
@@ -175,7 +176,17 @@ def _every_nth(side: int, bases: tuple[Basis, ...], config: DescriptorConfig, la
 
 
 def resolved_kernel(descriptors: Descriptors, config: Config, rng: np.random.Generator) -> KernelLike:
-    """The kernel of ``config`` with automatic γ chosen from farthest points of both shapes' descriptors."""
+    """The kernel of ``config`` with automatic γ chosen from farthest points of both shapes' descriptors.
+
+    Raises
+    ------
+    InvalidInput
+        When the kernel was learned with another number of landmarks.
+    """
+    wanted, given = taught(config.kernel), int(np.max(descriptors.landmark, initial=-1)) + 1
+    if wanted is not None and wanted != given:
+        remedy = "give as many, or learn a kernel with as many (kfmaps learn --truth-landmarks, or without)"
+        raise refuse("landmarks", f"{wanted}, as the kernel was learned with", str(given), remedy)
     rows = [_farthest_rows(D, 100, rng) for D in (descriptors.source, descriptors.target)]
     return resolved(config.kernel, namespace(rows[0]).concat(rows), config.sharpness)
 

@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from kfmaps._arrays import Array, check_positive, like, namespace, refuse, take
+from kfmaps._arrays import Array, check_count, check_positive, like, namespace, refuse, take
 from kfmaps.kernel import kernels
 from kfmaps.kernel.kernels import Gaussian, KernelLike, describe, gram, gram_diagonal, resolved
 
@@ -26,12 +26,18 @@ class Metric:
     kernel : Kernel
     matrix : tuple of d numbers, or tuple of r tuples of d numbers
         A weight for each descriptor ("automatic relevance determination", MacKay 1994), or the rows of ``M (r, d)``.
+    landmarks : int or None
+        Of how many landmarks these descriptors are, where that matters: as many descriptors of other landmarks are
+        other descriptors. Checked by :func:`kfmaps.fit.features.resolved_kernel`.
     """
 
     kernel: KernelLike = field(default_factory=Gaussian)
     matrix: tuple[float, ...] | tuple[tuple[float, ...], ...] = ()
+    landmarks: int | None = None
 
     def __post_init__(self) -> None:
+        if self.landmarks is not None:
+            check_count(self.landmarks, "Metric landmarks", low=0)
         values = _matrix(self.matrix, "Metric matrix")
         plain = values.tolist()
         object.__setattr__(self, "matrix", tuple(tuple(row) if values.ndim == 2 else row for row in plain))
@@ -143,6 +149,13 @@ def width(kernel: KernelLike) -> int | None:
         return len(kernel.layers[0][0]) - 1
     inside = [getattr(kernel, name) for name in ("kernel", "a", "b") if hasattr(kernel, name)]
     return next((found for found in map(width, inside) if found is not None), None)
+
+
+def landmarks(kernel: KernelLike) -> int | None:
+    """Of how many landmarks the descriptors of ``kernel`` are; ``None`` when it does not say."""
+    own = getattr(kernel, "landmarks", None)
+    inside = [getattr(kernel, name) for name in ("kernel", "a", "b") if hasattr(kernel, name)]
+    return own if own is not None else next((found for found in map(landmarks, inside) if found is not None), None)
 
 
 def forward(layers: tuple[Array, ...], X: Array) -> Array:

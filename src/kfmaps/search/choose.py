@@ -23,9 +23,10 @@ from kfmaps.fit.fit import Fit, checked_landmarks
 from kfmaps.fit.shape import Shape, inner
 from kfmaps.functional.points import to_points
 from kfmaps.functional.refine import Refinement, ZoomOut
-from kfmaps.search.arena import Ground, arena, turned, without
+from kfmaps.search.arena import Arena, Ground, arena, turned, without
 from kfmaps.search.bends import LONGER, MORE, bending, copied
-from kfmaps.search.candidates import Candidate, again, apart, candidates, judged
+from kfmaps.search.candidates import Candidate, again, apart, candidates, differs, judged
+from kfmaps.search.learned import learned, plain, speaks
 from kfmaps.search.marks import doubted
 from kfmaps.search.pairings import Limbs, limbs
 from kfmaps.search.quality import Probe, probe
@@ -130,10 +131,11 @@ def choose(
     Raises
     ------
     InvalidInput
-        When ``config.search`` is ``None``, or landmarks cannot be used.
+        When ``config.search`` is ``None``, landmarks cannot be used, or the kernel was learned with landmarks.
     """
     if config.search is None:
         raise refuse("search", "settings of a search", "None", "use Config.automatic()")
+    taught = speaks(config, source, target)
     given = seed_of(rng)
     seed = _drawn(given)
     report = progress or (lambda _stage, _done: None)
@@ -149,7 +151,7 @@ def choose(
     found = candidates(
         source,
         target,
-        config,
+        plain(config),
         on,
         seed,
         landmarks=pairs,
@@ -176,6 +178,10 @@ def choose(
     if wrong.any():
         rest = without(on.whole, wrong)
         ranked = ranking(again(found, rest, config.threads), rest, source, target, config.threads)
+        on = Arena(without(on.few, wrong), rest)
+    if taught and (orientation == "kept" or asked == "reversed"):
+        more = learned(source, target, config, on, seed, given)
+        ranked = beside(ranked, more, on.whole, source, target, config.threads)
     best, others = ranked[0], ranked[1 : 1 + config.search.runners_up]
     margin = max(best.score - ranked[1].score, 0.0) if len(ranked) > 1 else np.inf
     return Found(
@@ -247,6 +253,24 @@ def ranking(
     if len(near) > 1 and order[0].score - order[1].score < CLOSE:
         return second_look(order, on, source, target, threads)
     return order
+
+
+def beside(
+    ranked: list[Candidate],
+    more: list[Candidate],
+    on: Ground,
+    source: Shape,
+    target: Shape,
+    threads: int | None = None,
+) -> list[Candidate]:
+    """``ranked``, and the best of ``more`` that is none of them: first where it is clearly better, else a rival."""
+    others = [c for c in more if all(differs(c, one, on.source) > DISTINCT for one in ranked)]
+    if not others or max(c.quality.score for c in others) < ranked[0].quality.score - BEHIND:
+        return ranked
+    new = ranking(others, on, source, target, threads)[0]
+    if new.score > ranked[0].score + CLEAR:
+        return [new, *ranked]
+    return [ranked[0], *sorted([*ranked[1:], new], key=lambda c: c.score, reverse=True)]
 
 
 def second_look(

@@ -20,10 +20,10 @@ from kfmaps.fit.shape import Shape, reduced
 from kfmaps.fit.solve import minimiser
 from kfmaps.functional.slices import compressed, condensed, packed_slices, unpacked_slices
 from kfmaps.functional.solvers import CG
-from kfmaps.kernel.kernels import Gaussian
-from kfmaps.kernel.lifted import width
 from kfmaps.surface.basis import Basis
 
+LEARNED = "learned"
+"""The family of fits with a learned kernel, see :mod:`kfmaps.search.learned`."""
 POINTS = 2000
 """Samples of each shape that a fit is made from."""
 SIZES = (20, 50, 20, 35, 50, 35)
@@ -62,6 +62,8 @@ def planned(config: Config, surfaces: bool = True) -> list[Fit]:
 
 def described(family: str, base: DescriptorConfig) -> DescriptorConfig:
     """The descriptors of a family."""
+    if family == LEARNED:
+        return replace(base, landmark_map="none")
     both = replace(base, count=30)
     if family == "SHOT":
         return replace(both, signature="none", landmark_map="none")
@@ -108,11 +110,8 @@ def fitted_family(
     size = min(max(f.functions for f in fits), *(b.functions.shape[1] for b in bases))
     low = (bases[0].truncated(size), bases[1].truncated(size))
     # Both directions at once are for the answer; a candidate is refined one way.
-    # A kernel learned for other descriptors has nothing to say about these.
-    suits = width(config.kernel) in (None, used.source.shape[1])
     small = replace(
         config,
-        kernel=config.kernel if suits else Gaussian(),
         nystrom=replace(config.nystrom, samples=min(NYSTROM, config.nystrom.samples)),
         exact=False,
         solver=SOLVER,

@@ -24,7 +24,12 @@ if TYPE_CHECKING:
 
 WITH_TRUTH = {"geodesic": 1.0}
 WITHOUT = {"orthogonality": 0.05, "cycle": 0.05, "coupling": 1.0}
-WITH_LANDMARKS, WITHOUT_THEM = "gamma,metric,terms", "gamma,ard,terms"
+KNOWN, UNKNOWN = "gamma,metric,terms", "gamma,ard,terms"
+"""What is learned where the truth is known, and else."""
+RANK, RANK_ALONE = "2,1,2", "4,1,28"
+"""Rows of the metric with landmarks, and without."""
+COUNT_ALONE = 30
+"""Energies of the signature without landmarks, as many as the search's own fits have."""
 POINTS = 2500
 """Of each shape that learning fits maps from; matches take as many as the settings say."""
 PART_LIST = "; ".join(f"{name}: {meaning}" for name, meaning in PARTS.items())
@@ -52,7 +57,7 @@ def learn(
             "--learn",
             metavar="NAMES",
             show_default=False,
-            help=f"What to learn; default: {WITH_LANDMARKS}, without landmarks {WITHOUT_THEM}. {PART_LIST}.",
+            help=f"What to learn; default: {KNOWN}, where no truth is known {UNKNOWN}. {PART_LIST}.",
         ),
     ] = "",
     losses: Annotated[
@@ -85,9 +90,11 @@ def learn(
         str,
         typer.Option(
             metavar="NUMBERS",
-            help="Rows of the metric for the signature, each landmark and SHOT; one number r is r, r / 2 and r.",
+            show_default=False,
+            help="Rows of the metric for the signature, each landmark and SHOT; one number r is r, r / 2 and r. "
+            f"Default: {RANK}, without landmarks {RANK_ALONE}.",
         ),
-    ] = "2,1,2",
+    ] = "",
     resume: Annotated[bool, typer.Option("--resume", help="Go on from where the output's .pt file is.")] = False,
     force: Annotated[bool, typer.Option("--force", help="Replace existing files.")] = False,
     seed: Annotated[int, typer.Option(min=0, help="For everything that is drawn at random.")] = 0,
@@ -97,9 +104,7 @@ def learn(
 
     Needs PyTorch; what it learns does not, unless it is written as .pt.
     """
-    parts = parts or (WITH_LANDMARKS if truth_landmarks else WITHOUT_THEM)
-    names = tuple(part.strip() for part in parts.split(",") if part.strip())
-    chosen, limit, rows = _losses(losses), _seconds(minutes), _rank(rank)
+    chosen, limit, rows = _losses(losses), _seconds(minutes), _rank(rank or (RANK if truth_landmarks else RANK_ALONE))
     files = _files(output, force, resume)
     # PyTorch's absence is told before anything is read.
     from kfmaps.app.learn import Model, Training
@@ -108,12 +113,14 @@ def learn(
     from kfmaps.app.progress import Stages
     from kfmaps.app.settings.toml import settings_text
 
-    asked = _without_search(settings.config(_base(truth_landmarks)))
+    asked = settings.config(_base(truth_landmarks))
     config = _lean(asked)
     task = _task(data, shapes, held_out, pairs, held_out_pairs, truth_landmarks, identity, seed)
     with Stages(quiet) as stages:
         training_pairs, judges = _lessons(task, config, seed, stages)
-        chosen = chosen or (WITH_TRUTH if all(each.known for each in training_pairs) else WITHOUT)
+        known = all(each.known for each in training_pairs)
+        chosen = chosen or (WITH_TRUTH if known else WITHOUT)
+        names = tuple(part.strip() for part in (parts or (KNOWN if known else UNKNOWN)).split(",") if part.strip())
         model = Model(config, training_pairs, names, rank=rows, seed=seed)
         training = Training(chosen, epochs, rate=rate, patience=patience, seed=seed, seconds=limit)
         # What must be asked for again to go on: everything but when to stop.
@@ -197,9 +204,9 @@ def _base(truth_landmarks: str | None) -> Config:
     from kfmaps.config import Config, DescriptorConfig, Formulation, Weights
 
     # SHOT tells what the signature cannot, and few strong descriptors want less commutativity and a sharper kernel.
-    start = replace(Config(), descriptors=DescriptorConfig(shot=True))
     if not truth_landmarks:
-        return start
+        return replace(Config.automatic(), descriptors=DescriptorConfig(count=COUNT_ALONE, shot=True))
+    start = replace(Config(), descriptors=DescriptorConfig(shot=True))
     weights = Weights(descriptors=1000.0, commutativity=1.0, laplacian=300.0)
     return replace(start, sharpness=5.0, weights=weights, formulation=Formulation(mask="resolvent"))
 
@@ -216,12 +223,6 @@ def _asked(learned: Config, asked: Config) -> Config:
     from dataclasses import replace
 
     return replace(learned, fit_samples=asked.fit_samples)
-
-
-def _without_search(config: Config) -> Config:
-    from dataclasses import replace
-
-    return replace(config, search=None)
 
 
 @dataclass(frozen=True)

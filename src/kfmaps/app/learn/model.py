@@ -202,11 +202,12 @@ class Model(torch.nn.Module):
                 kernel = Sum(kernel, other)
         if "network" in self.parts:
             kernel = Network(kernel, tuple(plain(f"layer_{i}").tolist() for i in (0, 1)), self.network_columns)
+        marks = self.columns.kinds.count("landmark") if self.config.descriptors.layout == "even" else None
         if "ard" in self.parts:
             named = [np.exp(plain(f"log_weight_{kind}")) for kind in self.columns.kinds]
-            kernel = Metric(kernel, np.concatenate(named).tolist())
+            kernel = Metric(kernel, np.concatenate(named).tolist(), marks)
         if "metric" in self.parts:
-            kernel = Metric(kernel, self._whole_metric(plain).tolist())
+            kernel = Metric(kernel, self._whole_metric(plain).tolist(), marks)
         terms = np.exp(plain("log_terms"))
         changes = {name: float(terms[i]) for i, name in enumerate(self.terms)} if "terms" in self.parts else {}
         weights: Weights = replace(self.config.weights, **changes)

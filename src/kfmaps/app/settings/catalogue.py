@@ -105,6 +105,9 @@ CATALOGUE: dict[str, tuple[Setting, ...]] = {
         Setting("kernel.b", str, "second kernel of a sum or product", "a kernel", kinds=("Sum", "Product")),
         Setting("kernel.kernel", str, "the kernel inside", "a kernel", kinds=("Metric", "Network", "Scaled")),
         Setting("kernel.matrix", str, "weights of descriptors, or rows of a metric", "numbers", kinds=("Metric",)),
+        Setting(
+            "kernel.landmarks", int, "landmarks that it was learned with", "at least 0, or none: any", kinds=("Metric",)
+        ),
         Setting("kernel.layers", str, "matrices of a network, biases last", "numbers", kinds=("Network",)),
         Setting("kernel.columns", str, "descriptors that a network sees", "numbers; none: all", kinds=("Network",)),
         Setting("kernel.factor", float, "factor of the kernel inside", "above 0", kinds=("Scaled",)),

@@ -1,0 +1,134 @@
+"""What a learned kernel adds to a search: maps beside all others, and no digit of a map that it cannot better."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scipy.linalg import eigh
+
+from kfmaps._arrays import InvalidInput
+from kfmaps.app import datasets
+from kfmaps.config import BasisConfig, Config, DescriptorConfig, Formulation, Search, Weights
+from kfmaps.fit.features import pair_descriptors
+from kfmaps.fit.fit import fit
+from kfmaps.fit.shape import prepare
+from kfmaps.kernel.kernels import Gaussian
+from kfmaps.kernel.lifted import Metric, landmarks
+from kfmaps.matching import match
+from kfmaps.search.arena import arena
+from kfmaps.search.candidates import Candidate
+from kfmaps.search.choose import BEHIND, CLEAR, beside, choose, probed
+from kfmaps.search.learned import by_metric, learned, plain, seen
+from kfmaps.search.quality import Quality
+
+COUNT = 12 + 352
+CONFIG = Config(
+    basis=BasisConfig(functions=30),
+    descriptors=DescriptorConfig(count=12, eigenfunctions=40, shot=True, shot_radius=0.12),
+    search=Search(candidates=1, signs=2, tips=False),
+    refinement=None,
+    finish=None,
+    threads=1,
+)
+NONE = np.zeros((0, 2), dtype=np.int64)
+
+
+@pytest.fixture(scope="module")
+def creature():
+    made = datasets.two_poses(vertices=1500, rng=3)
+    return prepare(made.source, CONFIG), prepare(made.target, CONFIG), made.truth
+
+
+def taught(matrix, marks=0, **more):
+    """``CONFIG`` with a metric, and with other weights than the usual ones, as if all had been learned."""
+    kernel = Metric(Gaussian(1.0), matrix, marks)
+    weights, asked = Weights(1000.0, 1.0, 300.0), Formulation(mask="resolvent")
+    return replace(CONFIG, kernel=kernel, weights=weights, sharpness=5.0, formulation=asked, **more)
+
+
+def test_a_metric_that_knows_nothing_changes_no_digit(creature):
+    source, target, _ = creature
+    nonsense = np.random.default_rng(0).normal(size=(3, COUNT)).tolist()
+    usual, found = (match(source, target, c) for c in (CONFIG, taught(nonsense)))
+    np.testing.assert_array_equal(found.target_to_source, usual.target_to_source)
+    np.testing.assert_array_equal(found.functional_map, usual.functional_map)
+    assert found.origin == usual.origin
+
+
+def test_what_was_learned_stays_out_of_the_searchs_own_fits():
+    config = taught(np.eye(COUNT)[:2].tolist())
+    own = plain(config)
+    assert own == replace(CONFIG, kernel=Config().kernel)
+    assert plain(CONFIG) is CONFIG
+    mine = replace(CONFIG, kernel=Gaussian(3.0), weights=Weights(5.0, 1.0, 1.0))
+    assert plain(mine) is mine  # a user's own settings, which nothing was learned for
+
+
+def discriminant(creature):
+    """Rows in which corresponding points agree and others do not (Fisher 1936)."""
+    source, target, truth = creature
+    used = pair_descriptors(source, target, (source.basis, target.basis), CONFIG.descriptors, NONE, None)
+    moved = used.source[truth] - used.target
+    spread = np.cov(used.source.T)
+    noise = moved.T @ moved / len(moved) + 0.1 * np.trace(spread) / COUNT * np.eye(COUNT)
+    return eigh(spread, noise)[1][:, ::-1][:, :12].T.tolist()
+
+
+def test_candidates_of_the_metric(creature):
+    """They are judged as all others are, and go where the metric says: compared in it, the truth is near."""
+    source, target, truth = creature
+    config = taught(discriminant(creature))
+    on = arena(source, target, (probed(source), probed(target)), NONE)
+    rows = seen(source, target, config, on.whole.source, on.whole.target)
+    assert rows is not None
+    ground = by_metric(on.whole, *rows)
+    assert ground.shot is not None
+    assert on.whole.shot is not None
+    assert ground.shot.shape == on.whole.shot.shape
+    found = learned(source, target, config, on, 0, 0)
+    assert found
+    assert all(c.name.startswith("learned") and c.guided for c in found)
+    best = max(found, key=lambda c: c.score)
+    own = choose(source, target, plain(config))
+    assert best.quality.score > (own.quality or 0.0) - 3.0
+    wanted = truth[on.whole.target.samples.vertices]
+    images = source.mesh.vertices[on.whole.source.samples.vertices[best.points]]
+    assert np.linalg.norm(images - source.mesh.vertices[wanted], axis=1).mean() < 0.15
+    assert learned(source, target, taught([1.0, 2.0]), on, 0, 0) == []  # of other descriptors
+
+
+def candidate(name, score, place, on):
+    """A map that sends all points to ``place``, of a given score."""
+    points = np.full(len(on.target.positions), place)
+    return Candidate(name, np.eye(3), points, Quality(score, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0), bending=None)
+
+
+def test_only_what_is_clearly_better_comes_first(creature):
+    source, target, _ = creature
+    on = arena(source, target, (probed(source), probed(target)), NONE).whole
+    on = replace(on, source=replace(on.source, copy=None), target=replace(on.target, copy=None))
+    far = int(np.linalg.norm(on.source.positions - on.source.positions[0], axis=1).argmax())
+    usual = [candidate("own", 1.0, 0, on)]
+
+    def first(score, place):
+        return [c.name for c in beside(usual, [candidate("new", score, place, on)], on, source, target)]
+
+    assert first(1.0 + 0.9 * CLEAR, far) == ["own", "new"]
+    assert first(1.0 + 1.1 * CLEAR, far) == ["new", "own"]
+    assert first(9.0, 0) == ["own"]  # the same map
+    assert first(1.0 - 1.1 * BEHIND, far) == ["own"]
+    assert beside(usual, [], on, source, target) is usual
+
+
+def test_a_kernel_knows_its_landmarks(creature):
+    source, target, truth = creature
+    marks = np.array([[truth[v], v] for v in (3, 200, 500)])
+    with pytest.raises(InvalidInput, match="learned with 6"):
+        choose(source, target, taught([1.0] * COUNT, 6), landmarks=marks)
+    one = replace(taught([1.0] * COUNT, 3), search=None)
+    assert landmarks(one.kernel) == 3
+    assert fit(source, target, one, landmarks=marks).functional_map.shape == (30, 30)
+    with pytest.raises(InvalidInput, match="wanted 3, as the kernel was learned with, got 0"):
+        fit(source, target, one)  # as many descriptors, of other things
+    with pytest.raises(InvalidInput, match="Metric landmarks"):
+        Metric(Gaussian(1.0), (1.0,), -1)
