@@ -5,12 +5,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+import kfmaps.fit.shape as fit_shape
 from conftest import blob, fibonacci_sphere, random_basis
 from kfmaps._arrays import InvalidInput, inner
 from kfmaps.config import BasisConfig, Config, DescriptorConfig, NystromConfig, Weights
 from kfmaps.fit.finish import finished
 from kfmaps.fit.fit import fit, fit_points
-from kfmaps.fit.shape import prepare, reduced
+from kfmaps.fit.shape import local_descriptors, prepare, reduced
 from kfmaps.functional.cells import nearest_by_cells
 from kfmaps.functional.nearest import nearest
 from kfmaps.functional.points import to_functional, to_points
@@ -51,6 +52,17 @@ def necked(n: int, waist: float, half: float) -> Mesh:
     rise = np.clip((np.abs(z) - half) / 0.15, 0, 1)
     radius = waist + (1 - waist) * rise**2 * (3 - 2 * rise)
     return Mesh(np.stack([x * radius, 1.2 * y * radius, 1.6 * z], axis=1), sphere.faces)
+
+
+def test_shot_of_some_vertices_stands_for_all(pair, monkeypatch):
+    shape = pair[0]
+    exact = local_descriptors(shape.mesh, shape.basis, 0.15)
+    monkeypatch.setattr(fit_shape, "DESCRIBED", 800)
+    found = local_descriptors(shape.mesh, shape.basis, 0.15)
+    assert found.shape == exact.shape
+    np.testing.assert_allclose(np.linalg.norm(found, axis=1), 1.0)
+    away = np.linalg.norm(found - exact, axis=1).mean()
+    assert 0 < away < 0.25 * np.linalg.norm(exact - exact[::-1], axis=1).mean()
 
 
 @pytest.mark.parametrize("count", [100, 300])
@@ -217,6 +229,7 @@ def test_zoomout_chooses_from_some_of_a_large_source(pair, monkeypatch):
     source, target, truth = pair
     start = to_functional(truth, source.basis.truncated(10), target.basis.truncated(10))
     zoom = ZoomOut(10, 50, 10, samples=300)
+    monkeypatch.setattr("kfmaps.functional.refine.EACH", 100)
     every = zoom(start, source.basis, target.basis)
     monkeypatch.setattr("kfmaps.functional.refine.CANDIDATES", 1000)
     some = zoom(start, source.basis, target.basis)

@@ -16,9 +16,9 @@ from kfmaps._arrays import Array, refuse
 from kfmaps._progress import Done
 from kfmaps.functional.guide import Guide
 from kfmaps.functional.points import to_points
-from kfmaps.functional.refine import CANDIDATES, Refined, ZoomOut, fitted
+from kfmaps.functional.refine import Refined, ZoomOut, candidates, fitted
 from kfmaps.surface.basis import Basis
-from kfmaps.surface.samples import spectral_samples, stratified_samples
+from kfmaps.surface.samples import stratified_samples
 
 
 @dataclass(frozen=True, eq=False)
@@ -82,10 +82,10 @@ def _side(basis: Basis, zoom: ZoomOut) -> _Side:
     n = basis.functions.shape[0]
     mapped, mapped_rows, choice, choice_rows = basis, None, basis, None
     if zoom.samples is not None and zoom.samples < n:
-        samples = spectral_samples(basis, zoom.samples, zoom.seed)
+        samples = stratified_samples(basis, zoom.samples, zoom.seed)
         mapped, mapped_rows = samples.basis, samples.vertices
-        if n > CANDIDATES:
-            samples = stratified_samples(basis, CANDIDATES, zoom.seed)
+        if n > candidates(zoom.samples):
+            samples = stratified_samples(basis, candidates(zoom.samples), zoom.seed)
             choice, choice_rows = samples.basis, samples.vertices
     return _Side(mapped, choice, mapped_rows, choice_rows)
 

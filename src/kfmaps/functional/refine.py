@@ -19,8 +19,9 @@ from kfmaps.surface.samples import SampledBasis, Samples, spectral_samples, stra
 
 __all__ = ["ICP", "Refined", "Refinement", "SampledBasis", "Samples", "ZoomOut", "fitted", "spectral_samples"]
 
-CANDIDATES = 8_000
-"""Points of the source that ZoomOut's steps on samples choose from, spread evenly; the last step has them all."""
+CANDIDATES, EACH = 8_000, 2
+"""Points of the source that ZoomOut's steps on samples choose from, spread evenly, at most: so many in all, and so many
+for each sample. The last step has them all."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -98,8 +99,8 @@ class ZoomOut:
     samples : int or None
         Points of the target that the steps before the last work on: the functional map is then fitted to them by
         damped least squares, each weighted by the area that is closest to it, and of a source with more than
-        :data:`CANDIDATES` points that many are there to be chosen. ``None`` takes all points. The last step always
-        does.
+        :data:`EACH` times as many points, or :data:`CANDIDATES`, that many are there to be chosen. ``None`` takes all
+        points. The last step always does.
     seed : int
         For the choice of samples; that of a match (``rng``) is added to it.
     guidance : float
@@ -146,10 +147,10 @@ class ZoomOut:
         coarse, choice = target, source
         few = guide
         if self.samples is not None and self.samples < target.functions.shape[0]:
-            sampled = spectral_samples(target, self.samples, self.seed)
+            sampled = stratified_samples(target, self.samples, self.seed)
             coarse, few = sampled.basis, guide and guide.at(None, sampled.vertices)
-            if source.functions.shape[0] > CANDIDATES:
-                chosen = stratified_samples(source, CANDIDATES, self.seed)
+            if source.functions.shape[0] > candidates(self.samples):
+                chosen = stratified_samples(source, candidates(self.samples), self.seed)
                 choice, few = chosen.basis, few and few.at(chosen.vertices, None)
             points = None
 
@@ -170,6 +171,11 @@ class ZoomOut:
         if progress is not None:
             progress(1.0)
         return Refined(C, points, tuple(sizes))
+
+
+def candidates(samples: int) -> int:
+    """Points of the source that steps on so many ``samples`` choose from."""
+    return min(CANDIDATES, EACH * samples)
 
 
 def fitted(points: np.ndarray, source: Basis, target: Basis, k: int, ridge: float = 0.1) -> Array:
