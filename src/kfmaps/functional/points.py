@@ -17,6 +17,7 @@ def to_points(
     target: Basis,
     threads: int | None = None,
     beside: tuple[Array, Array] | None = None,
+    exact: bool | None = None,
 ) -> np.ndarray:
     """The point map ``target_to_source (n_t,)`` of a functional map ``C (k_t, k_s)``.
 
@@ -24,7 +25,8 @@ def to_points(
     the latter takes the closest of the former (Ovsjanikov et al. 2012). Bases larger than ``C`` are truncated.
     ``beside``: further columns ``(n_s, d)`` and ``(n_t, d)`` to compare, see
     :meth:`kfmaps.functional.guide.Guide.beside`.
-    From about 10,000 points on each side the search is by cells, see :func:`kfmaps.functional.nearest.nearest`.
+    From about 10,000 points on each side the search is by cells, unless ``exact`` says otherwise, see
+    :func:`kfmaps.functional.nearest.nearest`.
     """
     k_t, k_s = C.shape
     source, target = source.truncated(k_s), target.truncated(k_t)
@@ -35,8 +37,8 @@ def to_points(
     # A vertex that no face uses has no area and the values of a neighbour: it is nobody's image.
     used = np.flatnonzero(to_numpy(source.mass) > 0)
     if len(used) == images.shape[0]:
-        return nearest(places, images, threads=threads)
-    return used[nearest(places, take(images, used), threads=threads)]
+        return nearest(places, images, threads=threads, exact=exact)
+    return used[nearest(places, take(images, used), threads=threads, exact=exact)]
 
 
 def to_functional(target_to_source: np.ndarray, source: Basis, target: Basis) -> Array:

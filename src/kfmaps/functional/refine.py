@@ -22,6 +22,8 @@ __all__ = ["ICP", "Refined", "Refinement", "SampledBasis", "Samples", "ZoomOut",
 CANDIDATES, EACH = 8_000, 2
 """Points of the source that ZoomOut's steps on samples choose from, spread evenly, at most: so many in all, and so many
 for each sample. The last step has them all."""
+PAIRS = 2_000_000
+"""Pairs of points above which steps on samples search by cells."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -154,20 +156,24 @@ class ZoomOut:
                 choice, few = chosen.basis, few and few.at(chosen.vertices, None)
             points = None
 
-        def matched(C: Array, source: Basis, target: Basis, guide: Guide | None) -> np.ndarray:
+        def matched(C: Array, source: Basis, target: Basis, guide: Guide | None, exact: bool | None) -> np.ndarray:
             beside = None if guide is None else guide.beside(self.guidance, source, target)
-            return to_points(C, source, target, threads, beside)
+            return to_points(C, source, target, threads, beside, exact)
 
+        # On samples the next step forgives a point in a thousand that is not quite the nearest.
+        exact = (
+            False if choice.functions.shape[0] * coarse.functions.shape[0] > PAIRS and coarse is not target else None
+        )
         for i, larger in enumerate(sizes[1:]):
-            found = matched(C, choice, coarse, few) if points is None else points
+            found = matched(C, choice, coarse, few, exact) if points is None else points
             C, points = fitted(found, choice, coarse, larger), None
             if progress is not None:
                 progress((i + 1) / len(sizes))
-        points = matched(C, source, target, guide) if points is None else points
+        points = matched(C, source, target, guide, None) if points is None else points
         if coarse is not target:
             # Once more with all points, whose functional map owes nothing to the choice of samples.
             C = fitted(points, source, target, self.stop)
-            points = matched(C, source, target, guide)
+            points = matched(C, source, target, guide, None)
         if progress is not None:
             progress(1.0)
         return Refined(C, points, tuple(sizes))
