@@ -1,6 +1,6 @@
 """A small collection on disk, in the layout of the remeshed benchmarks, for the tests of collections.
 
-As a program it matches one: ``python collecting.py FOLDER OUTPUT``, to be killed by a test.
+As a program it matches one: ``python collecting.py FOLDER OUTPUT [consistent]``, to be killed by a test.
 """
 
 from __future__ import annotations
@@ -9,14 +9,14 @@ import os
 import signal
 import sys
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
 
 from conftest import blob
 from kfmaps.app.batch.collection import match_collection
-from kfmaps.app.batch.layout import choose_pairs, find_collection
+from kfmaps.app.batch.layout import Pair, choose_pairs, find_collection
 from kfmaps.app.batch.plan import Plan, make_plan
 from kfmaps.app.batch.results import Result
 from kfmaps.app.batch.settings import Settings
@@ -101,5 +101,19 @@ class Deadly:
         return x @ y.T
 
 
+AGREED = replace(CONFIG, descriptors=replace(CONFIG.descriptors, shot=True))
+"""For maps that are made to agree: they are judged by SHOT too."""
+
+
+def agreed_plan(folder: Path, output: Path) -> Plan:
+    """The plan of all pairs of a folder, one way."""
+    names = sorted(find_collection(folder).shapes)
+    pairs = [Pair(a, b) for i, a in enumerate(names) for b in names[i + 1 :]]
+    return make_plan(find_collection(folder), pairs, Settings(AGREED, landmark_lines=LANDMARKS), output)
+
+
 if __name__ == "__main__":
-    match_collection(plan_of(Path(sys.argv[1]), Path(sys.argv[2])), workers=1)
+    if sys.argv[3:]:
+        match_collection(agreed_plan(Path(sys.argv[1]), Path(sys.argv[2])), workers=1, worst=0, consistent=True)
+    else:
+        match_collection(plan_of(Path(sys.argv[1]), Path(sys.argv[2])), workers=1)

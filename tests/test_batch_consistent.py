@@ -3,17 +3,22 @@
 from __future__ import annotations
 
 import csv
+import shutil
+import signal
+import subprocess
+import sys
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+import psutil
 import pytest
 
-from collecting import CONFIG, LANDMARKS, done, write_collection
+from collecting import AGREED, LANDMARKS, agreed_plan, done, write_collection
 from kfmaps._arrays import InvalidInput
-from kfmaps.app.batch.collection import write_outputs
+from kfmaps.app.batch.collection import match_collection, write_outputs
 from kfmaps.app.batch.consistent import make_consistent
 from kfmaps.app.batch.evidence import FOLDER
 from kfmaps.app.batch.exchange import exchanged_map, exchanged_result, map_in_use
@@ -25,8 +30,10 @@ from kfmaps.app.batch.settings import Settings
 from kfmaps.app.batch.spread import Crew
 from kfmaps.app.batch.work import map_path
 from kfmaps.app.files import load_map, save_map
+from kfmaps.app.files.atomic import UNFINISHED
+from test_batch_run import until
 
-MADE = Settings(replace(CONFIG, descriptors=replace(CONFIG.descriptors, shot=True)), landmark_lines=LANDMARKS)
+MADE = Settings(AGREED, landmark_lines=LANDMARKS)
 
 
 class Alone(Crew):
@@ -174,3 +181,77 @@ def test_graphs_are_kept(tmp_path: Path) -> None:
     assert len(star) == 4
     with pytest.raises(InvalidInput, match="near, star or all"):
         graph_pairs(collection, MADE, tmp_path / "out", "ring", Alone())
+
+
+def test_maps_of_parts_take_no_part(run: tuple[Plan, list[Result]]) -> None:
+    """They stay as they are, and it says so; the others agree as without them."""
+    plan, results = run
+    path = map_path(plan.folder, "b0-b4")
+    whole = path.read_bytes()
+    found = load_map(path)
+    some = np.where(np.arange(len(found.target_to_source)) < 20, -1, found.target_to_source)
+    save_map(path, replace(found, target_to_source=some), force=True)
+    try:
+        agreed = make_consistent(plan, results, Alone())
+        (note,) = agreed.notes
+        assert note.startswith("b0 → b4: the map of a part stays as it is")
+        assert "20 of 200 vertices" in note
+        assert agreed.exchanged == 1
+        assert {(r.source, r.target) for r in agreed.results if r.agreement is None} == {("b0", "b4")}
+        alone = [r for r in results if (r.source, r.target) == ("b0", "b4")]
+        only = make_consistent(plan, alone, Alone())
+        assert only.results == tuple(alone)
+        assert (only.exchanged, len(only.notes)) == (0, 1)
+    finally:
+        path.write_bytes(whole)
+
+
+def test_a_kill_while_maps_are_made_to_agree_loses_nothing(tmp_path: Path) -> None:
+    """SIGKILL to the run and its workers, once at the evidence and once after it; then the same command again."""
+    folder, out = write_collection(tmp_path / "c", 5), tmp_path / "out"
+    plan = agreed_plan(folder, out)
+    done(plan)
+    path = map_path(out, "b1-b3")
+    found = load_map(path)
+    save_map(path, replace(found, target_to_source=np.random.default_rng(0).permutation(200)), force=True)
+    reference = tmp_path / "reference"
+    shutil.copytree(out, reference)
+    script = Path(__file__).with_name("collecting.py")
+    stages = {"evidence/*.npz": 2, "ways/*.npz": 1}
+    kept: dict[Path, tuple[bytes, int]] = {}
+    for pattern, enough in stages.items():
+        with subprocess.Popen([sys.executable, str(script), str(folder), str(out), "consistent"]) as process:
+            until(lambda p=pattern, n=enough: len(finished(out / FOLDER, p)) >= n, 60.0)
+            for each in (*psutil.Process(process.pid).children(recursive=True), process):
+                each.kill()
+        assert process.returncode == -signal.SIGKILL
+        assert not (out / "results.csv").exists()
+        now = {p: (p.read_bytes(), p.stat().st_mtime_ns) for p in finished(out / FOLDER, pattern)}
+        assert {p: (p.read_bytes(), p.stat().st_mtime_ns) for p in kept} == kept
+        kept |= now
+    pairs = {p: p.read_bytes() for p in (*(out / "pairs").iterdir(), *(out / "maps").iterdir())}
+    again = agreed_plan(folder, out)
+    assert again.todo == ()
+    last = match_collection(again, workers=1, worst=0, consistent=True)
+    assert {p: p.read_bytes() for p in pairs} == pairs
+    assert {p: (p.read_bytes(), p.stat().st_mtime_ns) for p in kept} == kept  # nothing finished was made again
+    wanted = make_consistent(agreed_plan(folder, reference), list(done_results(reference)), Alone())
+
+    def plain(results: Sequence[Result]) -> list[Result]:
+        found = [replace(r, seconds={}, finished="", worker="", attempts=1) for r in results]
+        return sorted(found, key=lambda r: (r.source, r.target))
+
+    assert plain(last.results) == plain(wanted.results)
+    ours, theirs = (load_map(exchanged_map(f, "b1-b3")).target_to_source for f in (out, reference))
+    np.testing.assert_array_equal(ours, theirs)
+    assert not list(out.rglob(f"{UNFINISHED}*"))
+
+
+def finished(folder: Path, pattern: str) -> list[Path]:
+    """Files that are whole: what is being written has a name of its own."""
+    return [p for p in folder.glob(pattern) if not p.name.startswith(UNFINISHED)]
+
+
+def done_results(folder: Path) -> list[Result]:
+    found = [read_result(p) for p in sorted((folder / "pairs").glob("*.json"))]
+    return [r for r in found if r is not None]

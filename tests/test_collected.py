@@ -85,3 +85,24 @@ def test_what_makes_no_collection(shapes: dict[str, Shape]) -> None:
         kfmaps.collection(shapes, {("s0", "s1"): np.arange(N) + 1}, config=LOCAL)
     with pytest.raises(InvalidInput, match="at least one"):
         kfmaps.collection(shapes, {}, config=LOCAL)
+
+
+def test_maps_of_parts_stay_apart(shapes: dict[str, Shape]) -> None:
+    """They change nothing for the others, lead nowhere else, and are there as they were given."""
+    maps = true_maps({name: shapes[name] for name in ("s0", "s1", "s2")})
+    usual = kfmaps.collection({name: shapes[name] for name in ("s0", "s1", "s2")}, maps, config=LOCAL)
+    part = np.where(np.arange(N) % 3 == 0, -1, np.arange(N))
+    found = kfmaps.collection(shapes, {**maps, ("s0", "s3"): part}, config=LOCAL)
+    assert found.parts == (("s0", "s3"),)
+    assert found.pairs == (*usual.pairs, ("s0", "s3"))
+    assert found.chances[:-1] == pytest.approx(usual.chances)
+    assert np.isnan(found.chances[-1])
+    np.testing.assert_array_equal(found.map("s0", "s3"), part)
+    with pytest.raises(InvalidInput, match="shapes that maps join"):
+        found.map("s1", "s3")
+    assert found.latent is None
+    np.testing.assert_allclose(found.distances()[:3, :3], usual.distances(), atol=1e-9)
+    assert np.isnan(found.distances()[:3, 3]).all()
+    only = kfmaps.collection(shapes, {("s0", "s3"): part}, config=LOCAL)
+    assert only.parts == only.pairs == (("s0", "s3"),)
+    assert only.changes == {}

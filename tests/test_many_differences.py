@@ -9,6 +9,7 @@ from kfmaps._arrays import InvalidInput
 from kfmaps.many.agree import Choice, Link, agree, orthogonal
 from kfmaps.many.differences import (
     area_difference,
+    common_bases,
     components,
     conformal_difference,
     density,
@@ -112,3 +113,26 @@ def test_what_hangs_together_not_has_no_common_basis() -> None:
     latent = latent_basis(agree(2, links[:1], K), links[:1], [0], values[:2])
     with pytest.raises(InvalidInput, match="conformal"):
         operators(latent, values[:2], "other")
+
+
+def test_each_part_has_the_basis_that_it_has_alone() -> None:
+    """Two families that no pair joins, one with a shape more, and a pair by itself."""
+    rng = np.random.default_rng(3)
+    values = np.sort(rng.uniform(1, 60, (9, K)), axis=1)
+
+    def family(first: int, count: int) -> list[Link]:
+        frames = [np.linalg.qr(rng.normal(size=(K, K)))[0] for _ in range(count)]
+        ends = [(i, j) for i in range(count) for j in range(i + 1, count)]
+        return [Link(first + i, first + j, (Choice(frames[j] @ frames[i].T),)) for i, j in ends]
+
+    small, large, rest = family(0, 3), family(3, 4), family(7, 2)
+    found = agree(9, [*small, *large, *rest], K)
+    bases = common_bases(found, [*small, *large, *rest], values, K - 1)
+    assert [b.members.tolist() for b in bases] == [[3, 4, 5, 6], [0, 1, 2]]
+    alone = agree(3, small, K)
+    (own,) = common_bases(alone, small, values[:3], K - 1)
+    for kind in ("area", "conformal"):
+        both = [shape_distances(operators(b.latent, values[:3], kind)) for b in (bases[1], own)]
+        np.testing.assert_allclose(both[0], both[1], atol=1e-7)
+    assert own.latent.maps.shape == (3, K, K - 1)
+    assert common_bases(agree(2, rest[:0], K), [], values[:2], K) == ()

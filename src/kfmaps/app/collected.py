@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -16,7 +16,7 @@ from kfmaps.config import Config
 from kfmaps.fit.border import border
 from kfmaps.fit.shape import Shape, prepare
 from kfmaps.many.agree import Link
-from kfmaps.many.differences import Latent, common_basis, operators, shape_distances
+from kfmaps.many.differences import Common, Latent, common_bases, operators, shape_distances
 from kfmaps.many.graph import every, medoid, near, signature, star, unlikeness
 from kfmaps.many.judge import Judged, choices, judged
 from kfmaps.many.paths import Way, composed, turned_back, ways_from
@@ -47,13 +47,17 @@ class Collection:
     matches : tuple of Match or None
         Of each pair, with all that is known of it; ``None`` where a map was given and was kept.
     chances : tuple of float
-        Probability of each map beside all others.
+        Probability of each map beside all others; NaN of maps of parts.
     changes : dict of (str, str) to str
         Of each pair whose map others contradict: what it was exchanged for, or "doubted".
     hands : dict of str to int
         1 and -1: shapes that are mirror images of each other's kind.
-    latent : Latent or None
-        The common basis; ``None`` where pairs do not join all shapes, or there are only two.
+    bases : tuple of Common
+        A common basis of all shapes or, where pairs do not join them all, of each part of three or more, the largest
+        first.
+    parts : tuple of (str, str)
+        Pairs of which one shape is a part of the other: their maps, with −1 where there is no counterpart, are as they
+        were given or matched, speak for or against no other, and are no way to a third shape.
     """
 
     names: tuple[str, ...]
@@ -64,12 +68,20 @@ class Collection:
     chances: tuple[float, ...]
     changes: dict[tuple[str, str], str]
     hands: dict[str, int]
-    latent: Latent | None = field(default=None)
+    bases: tuple[Common, ...] = ()
+    parts: tuple[tuple[str, str], ...] = ()
+
+    @property
+    def latent(self) -> Latent | None:
+        """The common basis of all shapes; ``None`` where pairs do not join them all, or there are only two."""
+        whole = self.bases and len(self.bases[0].members) == len(self.names)
+        return self.bases[0].latent if whole else None
 
     def map(self, source: str, target: str) -> np.ndarray:
         """A vertex of ``source`` for each vertex of ``target``, (n_t,): of any two shapes that maps join.
 
-        Along the path whose maps are most probably all right: the pair's own map where that is best.
+        Along the path whose maps are most probably all right: the pair's own map where that is best. Where no path
+        leads there, the pair's own map of a part, if it has one: −1 where there is no counterpart.
 
         Raises
         ------
@@ -80,25 +92,32 @@ class Collection:
         if a == b:
             return np.arange(len(self.shapes[a].mesh.vertices))
         ways = ways_from(len(self.names), self._ends(), self.chances, a)
+        if b not in ways and (source, target) in self.parts:
+            return self.maps[self.pairs.index((source, target))]
         if b not in ways:
             raise refuse("map", "shapes that maps join", f"{source} and {target}", "match more pairs")
         return _composed(self, ways[b])
 
     def distances(self, kind: str = "area") -> np.ndarray:
-        """How much the shapes differ, (n, n): in areas, or ("conformal") but for areas.
+        """How much the shapes differ, (n, n): in areas, or ("conformal") but for areas; NaN where no maps join them.
 
         Raises
         ------
         InvalidInput
             Where there is no common basis.
         """
-        if self.latent is None:
+        if not self.bases:
             raise refuse("distances", "three shapes or more that maps join", "fewer", "match more pairs")
-        return shape_distances(operators(self.latent, self.eigenvalues(), kind))
+        found = np.full((len(self.names),) * 2, np.nan)
+        np.fill_diagonal(found, 0.0)
+        for one in self.bases:
+            values = self.eigenvalues()[one.members]
+            found[np.ix_(one.members, one.members)] = shape_distances(operators(one.latent, values, kind))
+        return found
 
     def eigenvalues(self) -> np.ndarray:
-        """Of each shape at unit area, as many as the common basis needs, (n, k)."""
-        k = 0 if self.latent is None else self.latent.maps.shape[1]
+        """Of each shape at unit area, as many as the common bases need, (n, k)."""
+        k = self.bases[0].latent.maps.shape[1] if self.bases else 0
         return np.stack([shape.basis.eigenvalues[:k] for shape in self.shapes])
 
     def _number(self, name: str) -> int:
@@ -132,7 +151,9 @@ def collection(
 
     Each pair's map and its runners-up are judged, and set beside compositions through other shapes. A map that the
     others contradict is exchanged for a runner-up or a composition that they speak for, and that is finished as a match
-    is. All is done in this process; ``kfmaps batch --consistent`` does it with many, and goes on where it stopped.
+    is. Maps of parts, in which some vertices have no counterpart, stay as they are and take no part in this
+    (:attr:`Collection.parts`). All is done in this process; ``kfmaps batch --consistent`` does it with many, and goes
+    on where it stopped.
 
     Parameters
     ----------
@@ -170,19 +191,36 @@ def collection(
     ends = list(known) if maps is not None else _graph(graph, ready)
     work = _Work(names, ready, config, rng, [probed(shape, rng) for shape in ready])
     matches: list[Match | None] = []
-    evidence, points = [], []
+    evidence, points, whole = [], [], []
+    apart: dict[tuple[int, int], tuple[np.ndarray, Match | None]] = {}
     for i, (a, b) in enumerate(ends):
         one = known.get((a, b))
         found = work.match(a, b) if one is None else None
         file = as_map(found) if one is None else one
+        told("pairs", i + 1, len(ends))
+        if (check_map(file, name=f"map {names[a]} → {names[b]}", lost=True) < 0).any():
+            apart[a, b] = (file.target_to_source, found)
+            continue
+        whole.append((a, b))
         matches.append(found)
-        check_map(file, name=f"map {names[a]} → {names[b]}")
         points.append([file.target_to_source, *_runners_up(file)])
         told_of = found if one is None else (maps or {}).get((names[a], names[b]))
         turned = isinstance(told_of, Match) and told_of.orientation == "reversed"
         evidence.append(work.judge((a, b), points[-1], turned))
-        told("pairs", i + 1, len(ends))
-    return work.agreed(ends, points, matches, evidence)
+    return _with_parts(work.agreed(whole, points, matches, evidence), apart)
+
+
+def _with_parts(found: Collection, apart: Mapping[tuple[int, int], tuple[np.ndarray, Match | None]]) -> Collection:
+    """The collection with the maps of parts, as they are."""
+    pairs = tuple((found.names[a], found.names[b]) for a, b in apart)
+    return replace(
+        found,
+        pairs=found.pairs + pairs,
+        maps=found.maps + tuple(points for points, _ in apart.values()),
+        matches=found.matches + tuple(match for _, match in apart.values()),
+        chances=found.chances + (float("nan"),) * len(apart),
+        parts=pairs,
+    )
 
 
 @dataclass(frozen=True, eq=False)
@@ -265,7 +303,7 @@ class _Work:
             tuple(found.in_use.tolist()),
             changes,
             dict(zip(self.names, found.hands.tolist(), strict=True)),
-            common_basis(found.agreement, links, values, LATENT),
+            common_bases(found.agreement, links, values, LATENT),
         )
 
     def described(self, change: Change) -> str:
@@ -287,7 +325,7 @@ def _given(
         a, b = names.index(source), names.index(target)
         file = as_map(one)
         sizes = len(shapes[a].mesh.vertices), len(shapes[b].mesh.vertices)
-        points = check_map(file, *sizes, name=f"map {source} → {target}")
+        points = check_map(file, *sizes, name=f"map {source} → {target}", lost=True)
         found[a, b] = replace(file, target_to_source=points)
     if not found:
         raise refuse("maps", "at least one", "none", "leave them out, and pairs are matched")

@@ -100,21 +100,45 @@ def latent_basis(
     return Latent(maps * _signs(maps), np.maximum(means[:size], 0.0))
 
 
-def common_basis(found: Agreement, links: Sequence[Link], eigenvalues: np.ndarray, size: int) -> Latent | None:
-    """:func:`latent_basis` by the candidates that are probably right, at most ``size`` functions.
+@dataclass(frozen=True, eq=False)
+class Common:
+    """Shapes that pairs join, by number, ``members (m,)``, and their common basis, of ``m`` maps."""
 
-    ``links`` may lack the last candidates of those that ``found`` is of, such as compositions. ``None`` for fewer than
-    three shapes, and where pairs do not join them all.
+    members: np.ndarray
+    latent: Latent
+
+
+def common_bases(found: Agreement, links: Sequence[Link], eigenvalues: np.ndarray, size: int) -> tuple[Common, ...]:
+    """:func:`latent_basis` of each part of the collection that pairs join, by the candidates that are probably right.
+
+    Parts of three shapes or more, the largest first; at most ``size`` functions. ``links`` may lack the last candidates
+    of those that ``found`` is of, such as compositions.
     """
-    count, k = found.latent.shape[:2]
-    if count < 3 or len(np.unique(found.component)) > 1:
-        return None
+    k = found.latent.shape[1]
     best = [int(chances[:-1].argmax()) for chances in found.chances]
     chosen = [
         b if b < len(link.choices) and chances[b] >= RIGHT else None
         for b, chances, link in zip(best, found.chances, links, strict=True)
     ]
-    return latent_basis(found, links, chosen, eigenvalues, min(size, k))
+    numbers, counts = np.unique(found.component, return_counts=True)
+    bases = []
+    for part in numbers[np.argsort(-counts, kind="stable")]:
+        members = np.flatnonzero(found.component == part)
+        if len(members) < 3:
+            continue
+        place = {int(v): i for i, v in enumerate(members)}
+        inside = [i for i, link in enumerate(links) if link.source in place]
+        own = [replace(links[i], source=place[links[i].source], target=place[links[i].target]) for i in inside]
+        alone = Agreement(
+            found.latent[members],
+            tuple(found.chances[i] for i in inside),
+            tuple(found.misfits[i] for i in inside),
+            found.limit,
+            np.zeros(len(members), dtype=np.int64),
+        )
+        values = np.asarray(eigenvalues)[members]
+        bases.append(Common(members, latent_basis(alone, own, [chosen[i] for i in inside], values, min(size, k))))
+    return tuple(bases)
 
 
 def _normalised(maps: np.ndarray) -> np.ndarray:

@@ -75,9 +75,11 @@ def make_consistent(plan: Plan, results: Sequence[Result], crew: Crew) -> Agreed
         f"{t.pair.source} → {t.pair.target}: {reason}" for t, (_, reason) in zip(tasks, said, strict=True) if reason
     ]
     both = [(task, maps) for task, (maps, reason) in zip(tasks, said, strict=True) if not reason]
+    if not tasks:
+        raise refuse("--consistent", "pairs that are matched", "none", "see why the pairs failed")
     if not both:
-        got = f"none ({notes[0]})" if notes else "none"
-        raise refuse("--consistent", "pairs that are matched", got, "see why the pairs failed")
+        _forget(plan, set())
+        return Agreed(tuple(results), {}, (), 0, tuple(notes))
     tasks, maps = [task for task, _ in both], [m for _, m in both]
     names = list(dict.fromkeys(name for task in tasks for name in (task.pair.source, task.pair.target)))
     number = {name: i for i, name in enumerate(names)}

@@ -71,14 +71,24 @@ def map_digest(task: PairTask) -> str:
     return digest_of([LAYOUT, task.settings, task.inputs, file_digest(path)], 32)
 
 
+PART = "the map of a part stays as it is and takes no part in this: {lost} of {count} vertices have no counterpart"
+
+
 def evidence(task: PairTask) -> tuple[list[Judged], str]:
-    """The map of a pair and its runners-up, judged, unless that is kept; and why not, where it cannot be."""
+    """The map of a pair and its runners-up, judged, unless that is kept; and why not, where it cannot be.
+
+    Maps of parts take no part: neither cycles nor a common basis are defined where points have no counterpart.
+    """
     try:
         inputs = map_digest(task)
         kept = _read(evidence_path(task), inputs)
         if kept is None:
+            found = load_map(map_path(Path(task.folder), task.pair.key))
+            lost = int((found.target_to_source < 0).sum())
+            if lost:
+                return [], PART.format(lost=lost, count=len(found.target_to_source))
             with one_blas_thread():
-                kept = _evidence(task, load_map(map_path(Path(task.folder), task.pair.key)))
+                kept = _evidence(task, found)
             _write(evidence_path(task), inputs, kept)
         return kept, ""
     except Exception as error:  # told of with the pair; one bad file must not end the run
@@ -107,7 +117,7 @@ def _evidence(task: PairTask, found: MapFile) -> list[Judged]:
     """
     shapes = loaded(task.source), loaded(task.target)
     n_s, n_t = (len(shape.mesh.vertices) for shape in shapes)
-    check_map(found, n_s, n_t)  # one of a part takes no part
+    check_map(found, n_s, n_t)
     maps = candidates(found)
     raw = found.extra.get("raw_functional_map")
     if raw is None:

@@ -16,7 +16,7 @@ from matplotlib.figure import Figure
 from kfmaps._arrays import KfmapsWarning
 from kfmaps.app.batch.evidence import FOLDER
 from kfmaps.app.batch.plan import Plan
-from kfmaps.app.batch.specimens import KINDS, LATENT, SHAPES
+from kfmaps.app.batch.specimens import KINDS, SHAPES, latent_paths
 from kfmaps.app.files import read_mesh
 from kfmaps.app.pictures import save_figure
 from kfmaps.app.pictures.variation import varied_figure
@@ -28,24 +28,27 @@ NAMED = 60
 def specimen_sections(plan: Plan) -> list[str]:
     """The sections; none where there is no common basis."""
     folder = plan.folder / FOLDER
-    latent = folder / LATENT
-    if not latent.exists():
+    paths = latent_paths(folder)
+    if not paths:
         return []
     with open(folder / SHAPES, encoding="utf-8", newline="") as file:
         rows = list(csv.DictReader(file))
-    with np.load(latent, allow_pickle=False) as arrays:
-        known = {name: arrays[name] for name in arrays.files}
-    parts = [_chart(rows, known), _varied(plan, known), _table(rows)]
-    return [part for part in parts if part]
+    parts = []
+    for path in paths:
+        with np.load(path, allow_pickle=False) as arrays:
+            known = {name: arrays[name] for name in arrays.files}
+        own = set(known["names"].tolist())
+        parts += [_chart([row for row in rows if row["shape"] in own], known, len(paths) > 1), _varied(plan, known)]
+    return [part for part in (*parts, _table(rows)) if part]
 
 
-def _chart(rows: list[dict[str, str]], known: dict[str, np.ndarray]) -> str:
+def _chart(rows: list[dict[str, str]], known: dict[str, np.ndarray], several: bool) -> str:
     figure = Figure(figsize=(9.6, 4.4), facecolor="white", layout="constrained")
     axes = figure.subplots(1, len(KINDS))
     for ax, kind in zip(axes, KINDS, strict=True):
         titles = [f"{kind}_{i}" for i in (1, 2)]
         explained = known[f"explained_{kind}"]
-        if titles[1] not in rows[0] or not explained.any():
+        if len(explained) < len(titles) or not explained.any():
             ax.set_axis_off()
             continue
         x, y = (np.array([float(row[title]) for row in rows]) for title in titles)
@@ -64,7 +67,8 @@ def _chart(rows: list[dict[str, str]], known: dict[str, np.ndarray]) -> str:
         save_figure(figure, buffer, "svg")
     image = f'<img alt="Principal components of the shapes" src="{_data("svg+xml", buffer.getvalue())}">'
     told = "Each point is a shape. Shapes that lie together have alike areas (left) or are alike but for areas (right)."
-    return f"<h2>How the shapes differ</h2><figure>{image}<figcaption>{told}</figcaption></figure>"
+    which = f": {len(rows)} like {known['middle']}" if several else ""
+    return f"<h2>How the shapes differ{escape(which)}</h2><figure>{image}<figcaption>{told}</figcaption></figure>"
 
 
 def _varied(plan: Plan, known: dict[str, np.ndarray]) -> str:
@@ -96,7 +100,7 @@ def _table(rows: list[dict[str, str]]) -> str:
 def _cell(text: str, title: str) -> str:
     if title in ("shape", "hand"):
         return f"<td>{escape(text)}</td>"
-    return f'<td class="n" data-v="{escape(text)}">{float(text):.3f}</td>'
+    return f'<td class="n" data-v="{escape(text)}">{float(text):.3f}</td>' if text else "<td></td>"
 
 
 def _data(kind: str, content: bytes) -> str:

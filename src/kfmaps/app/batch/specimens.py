@@ -15,9 +15,18 @@ from kfmaps.app.batch.tasks import PairTask, ShapeTask
 from kfmaps.app.batch.work import loaded
 from kfmaps.app.files import atomic_output
 from kfmaps.many.agree import Link
-from kfmaps.many.differences import common_basis, components, operators, shape_distances, variation
+from kfmaps.many.differences import (
+    Components,
+    Latent,
+    common_bases,
+    components,
+    operators,
+    shape_distances,
+    variation,
+)
 from kfmaps.many.graph import medoid
 from kfmaps.many.repair import Repaired
+from kfmaps.surface.basis import Basis
 
 SHAPES, DISTANCES, LATENT = "shapes.csv", "distances.csv", "latent.npz"
 SIZE = 15
@@ -29,7 +38,7 @@ KINDS = ("area", "conformal")
 def write_specimens(
     plan: Plan, names: list[str], links: Sequence[Link], found: Repaired, tasks: list[PairTask]
 ) -> list[str]:
-    """Write the tables and the latent basis; what could not be, in words.
+    """Write the tables and the common basis of each part that pairs join; what could not be, in words.
 
     ``links`` hold the candidates as they were matched; those of which a composition or none is right take no part.
     """
@@ -40,31 +49,71 @@ def write_specimens(
     hand = ["" if (found.hands == 1).all() else ("+" if h > 0 else "-") for h in found.hands]
     parts, k = found.agreement.component, found.agreement.latent.shape[1]
     values = np.stack([loaded(shapes[name]).basis.eigenvalues[:k] for name in names])
-    latent = common_basis(found.agreement, links, values, SIZE)
-    if latent is None:
-        rows = [[name, hand[i], int(parts[i])] for i, name in enumerate(names)]
-        _table(folder / SHAPES, ["shape", "hand", "part"], rows)
-        for name in (DISTANCES, LATENT):
-            (folder / name).unlink(missing_ok=True)
-        return ["shapes that hang together, three or more, would have a common basis and principal components"]
-    matrices = {kind: operators(latent, values, kind) for kind in KINDS}
-    pca = {kind: components(matrices[kind], COMPONENTS) for kind in KINDS}
-    titles = [f"{kind}_{i + 1}" for kind in KINDS for i in range(pca[kind].scores.shape[1])]
-    scores = np.hstack([pca[kind].scores for kind in KINDS])
-    rows = [[name, hand[i], int(parts[i]), *(f"{x:.6g}" for x in scores[i])] for i, name in enumerate(names)]
+    bases = common_bases(found.agreement, links, values, SIZE)
+    for path in folder.glob(f"{Path(LATENT).stem}*.npz"):
+        path.unlink()
+    scores: dict[int, dict[str, float]] = {i: {} for i in range(len(names))}
+    apart: list[list] = []
+    for number, common in enumerate(bases):
+        own = [names[i] for i in common.members]
+        matrices = {kind: operators(common.latent, values[common.members], kind) for kind in KINDS}
+        pca = {kind: components(matrices[kind], COMPONENTS) for kind in KINDS}
+        for kind in KINDS:
+            for i, row in zip(common.members.tolist(), pca[kind].scores, strict=True):
+                scores[i] |= {f"{kind}_{c + 1}": float(x) for c, x in enumerate(row)}
+        distances = {kind: shape_distances(matrices[kind]) for kind in KINDS}
+        apart += [
+            [own[i], own[j], *(f"{distances[kind][i, j]:.6g}" for kind in KINDS)]
+            for i in range(len(own))
+            for j in range(i + 1, len(own))
+        ]
+        middle = medoid(distances["area"])
+        basis = loaded(shapes[own[middle]]).basis
+        _latent(latent_path(folder, number), own, middle, common.latent, pca, matrices, basis)
+    titles = [f"{kind}_{i + 1}" for kind in KINDS for i in range(COMPONENTS)]
+    titles = [title for title in titles if any(title in row for row in scores.values())]
+    rows = [
+        [name, hand[i], int(parts[i]), *(f"{scores[i][t]:.6g}" if t in scores[i] else "" for t in titles)]
+        for i, name in enumerate(names)
+    ]
     _table(folder / SHAPES, ["shape", "hand", "part", *titles], rows)
-    distances = {kind: shape_distances(matrices[kind]) for kind in KINDS}
-    pairs = [(i, j) for i in range(len(names)) for j in range(i + 1, len(names))]
-    _table(
-        folder / DISTANCES,
-        ["shape", "other", *KINDS],
-        [[names[i], names[j], *(f"{distances[kind][i, j]:.6g}" for kind in KINDS)] for i, j in pairs],
-    )
-    middle = medoid(distances["area"])
-    basis = loaded(shapes[names[middle]]).basis
+    if not bases:
+        (folder / DISTANCES).unlink(missing_ok=True)
+        return ["shapes that hang together, three or more, would have a common basis and principal components"]
+    _table(folder / DISTANCES, ["shape", "other", *KINDS], apart)
+    count, alone = len(np.unique(parts)), len(names) - sum(len(common.members) for common in bases)
+    if count == 1:
+        return []
+    told = f"no pair joins the {count} parts of the collection: {len(bases)} of them have a common basis each"
+    return [told + (f"; {alone} shapes are in parts of fewer than three" if alone else "")]
+
+
+def latent_path(folder: Path, number: int) -> Path:
+    """Where the common basis of a part lies: the largest has number 0."""
+    return folder / (LATENT if number == 0 else f"{Path(LATENT).stem}-{number + 1}.npz")
+
+
+def latent_paths(folder: Path) -> list[Path]:
+    """Where common bases lie, of the largest part first."""
+    found = []
+    while (path := latent_path(folder, len(found))).exists():
+        found.append(path)
+    return found
+
+
+def _latent(
+    path: Path,
+    names: list[str],
+    middle: int,
+    latent: Latent,
+    pca: dict[str, Components],
+    matrices: dict[str, np.ndarray],
+    basis: Basis,
+) -> None:
+    """Write the common basis of a part; ``basis`` is that of the shape in its ``middle``."""
     varied = {f"variation_{kind}": variation(matrices[kind], latent, middle, basis) for kind in KINDS}
     explained = {f"explained_{kind}": pca[kind].parts for kind in KINDS}
-    with atomic_output(folder / LATENT, force=True) as temporary, open(temporary, "wb") as file:
+    with atomic_output(path, force=True) as temporary, open(temporary, "wb") as file:
         np.savez(
             file,
             allow_pickle=False,
@@ -75,7 +124,6 @@ def write_specimens(
             **explained,
             **varied,
         )
-    return []
 
 
 def _table(path: Path, titles: list[str], rows: list[list]) -> None:
