@@ -9,7 +9,8 @@ pair one map is made, then finished. Errors are mean geodesic distances between 
 
 The truth of ``FAUST_r`` (.vts) is rounded to vertices. That of ``FAUST_r exact`` lies in triangles: the original
 registrations of the same people, laid onto the remeshed shapes. Pairs are of people that nothing was chosen on: 4 to 7
-of FAUST_r; 2 and 3 of FAUST, and of ``FAUST_r exact``.
+of FAUST_r; 2 and 3 of FAUST, and of ``FAUST_r exact``. ``unlike`` are cats with dogs and women with a gorilla, of
+TOSCA_r and TOSCA_nonIsometric_r, with the rows of ``cross/cat_dog.txt``.
 
 ``--growth`` times the two pieces alone on generated shapes of so many vertices, in CPU seconds: the fit, from the true
 map of vertices, and the nearest points among triangles in an embedding of 200 smooth functions (waves of places).
@@ -39,6 +40,8 @@ from kfmaps.surface.mesh import Mesh, unit_area
 
 NUMBERS = [(20 + i, 30 + (3 * i) % 10) for i in range(10)] + [(30 + i, 20 + (7 * i + 4) % 10) for i in range(10)]
 """Pairs of registrations of the people 2 and 3."""
+UNLIKE = ("cat1 dog6", "dog1 cat2", "cat6 dog1", "dog6 cat6", "8_gorilla_02 8_woman_03", "8_woman_04 8_gorilla_02")
+"""Pairs of bodies of different kinds, of TOSCA_r and TOSCA_nonIsometric_r."""
 PEOPLE = 40
 """Shapes of FAUST_r from this number on: both of a pair, so that nothing was chosen on either."""
 
@@ -96,6 +99,16 @@ def jobs(data: Path | None, kind: str, count: int):
             meshes = [read(mesh_file(data / "FAUST_r", name)) for name in names]
             truth = exact(data, names, meshes)
             yield f"{a:03d} {b:03d}", *meshes, truth, np.arange(len(truth.faces)), None
+        return
+    if kind == "unlike":
+        lines = np.loadtxt(data / "cross" / "cat_dog.txt", dtype=np.int64) - 1
+        for a, b in [pair.split() for pair in UNLIKE[:count]]:
+            folder = data / ("TOSCA_nonIsometric_r" if "_" in a else "TOSCA_r")
+            true = [vertices_of_lines(folder, n) for n in (a, b)]
+            if "_" not in a:
+                true = [t[lines[:, int(n.startswith("dog"))]] for t, n in zip(true, (a, b), strict=True)]
+            told = (true[0] >= 0) & (true[1] >= 0)
+            yield f"{a} {b}", *(read(mesh_file(folder, n)) for n in (a, b)), true[0][told], true[1][told], None
         return
     if kind == "FAUST":
         for a, b in NUMBERS[:count]:
