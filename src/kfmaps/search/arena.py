@@ -50,10 +50,12 @@ class Ground:
                 total = np.float32(weight) * part + (0 if total is None else total)
         if tips and any(pairing is not None for pairing in paired):
             each = np.zeros((len(paired), len(self.target.positions), len(self.source.positions)), dtype=np.float32)
+            if total is not None:
+                each[:] = total
             for i, pairing in enumerate(paired):
                 if pairing is not None:
-                    each[i] = tips * against(self.source.tips, self.target.tips, pairing)
-            total = each if total is None else each + total
+                    each[i] += tips * against(self.source.tips, self.target.tips, pairing)
+            total = each
         return total
 
 

@@ -90,8 +90,12 @@ def alike(source: Probe, target: Probe) -> list[Pairing]:
 def against(a: Tips, b: Tips, pairing: Pairing, shot: np.ndarray | None = None) -> np.ndarray:
     """What speaks against each pair of samples ``(q_t, q_s)``: squared differences of all that tips tell."""
     there, here = told(b, pairing.target), told(a, pairing.source)
-    cost = (there**2).sum(axis=1)[:, None] + (here**2).sum(axis=1)[None, :] - 2 * there @ here.T
-    return cost if shot is None else cost + SHOT * shot
+    cost = -2 * there @ here.T
+    cost += (there**2).sum(axis=1)[:, None]
+    cost += (here**2).sum(axis=1)
+    if shot is not None:
+        cost += SHOT * shot
+    return cost
 
 
 def induced(points: np.ndarray, source: Probe, target: Probe) -> Pairing | None:
