@@ -3,19 +3,25 @@
     python benchmarks/parts.py --data DIR [--sets cuts,holes,PFAUST_M,PFAUST_H] [--half report] [--every 2]
     python benchmarks/parts.py --data DIR --landmarks 6
     python benchmarks/parts.py --data DIR --turned
+    python benchmarks/parts.py --data DIR --both
 
 DIR holds ``SHREC16``, ``PFAUST_M``, ``PFAUST_H`` and the wholes of the latter in ``FAUST_r``, each with
 ``test_pairs.txt`` of lines "whole part". Settings were chosen on the wholes of :data:`CHOSEN_ON`; ``--half report``
 leaves these out. ``--turned`` turns each part at random and scales it by a factor from 0.1 to 10, ``--landmarks`` gives
 farthest points of the part. Errors are distances on the whole between points inside triangles, in % of its √area, over
 the vertices that the map gives a counterpart; the overlap is intersection over union of areas of the whole. At the end
-stand the errors by the area that is missing.
+stand the errors by the area that is missing. The last column is the most memory that the process has held so far.
+
+``--both`` matches each of the SHREC'16 cuts of an animal to the next but one, neither of which holds all of the other:
+errors are over the target's vertices that both truly have and the map gives a counterpart, the overlap is of areas of
+the target, and "missing" is the part of its area that the source lacks.
 """
 
 from __future__ import annotations
 
 import argparse
 import json
+import resource
 import tempfile
 import time
 import warnings
@@ -27,12 +33,19 @@ import numpy as np
 
 import kfmaps
 from kfmaps.app.files import load_map
-from kfmaps.app.partial_truth import part_accuracy, read_part_truth
+from kfmaps.app.partial_truth import PartTruth, part_accuracy, read_part_truth
+from kfmaps.functional.evaluate import place_errors
+from kfmaps.functional.precise import PointMap, points_of
+from kfmaps.parts.answer import COMMON
+from kfmaps.parts.overlap import covered
+from kfmaps.parts.side import border_of
+from kfmaps.surface.closest import places_on
 from kfmaps.surface.geodesics import farthest_geodesic
+from kfmaps.surface.mesh import Mesh, unit_area, vertex_areas
 
 CHOSEN_ON = {"cat", "horse", *(f"tr_reg_{i:03d}" for i in range(20))}
 SETS = {"cuts": "SHREC16", "holes": "SHREC16", "PFAUST_M": "PFAUST_M", "PFAUST_H": "PFAUST_H"}
-WIDTHS = (6, 8, 8, 8, 6, 9, 6, 12, 9)
+WIDTHS = (6, 8, 8, 8, 6, 9, 6, 12, 9, 9)
 WRONG = 10.0
 """Mean error × 100 above which no map should be called sure."""
 
@@ -47,6 +60,8 @@ class Job:
     part: str
     landmarks: int = 0
     turned: bool = False
+    other: str = ""
+    """A second part, matched instead of the whole."""
 
 
 def jobs(data: Path, kind: str, half: str) -> list[Job]:
@@ -108,7 +123,57 @@ def run(job: Job) -> dict[str, object]:
         "set": job.kind, "whole": job.whole, "part": job.part, "error": 100 * scored.errors.mean,
         "matched": scored.matched, "overlap": scored.overlap, "missing": scored.missing,
         "verdict": found.verdict, "confidence": found.confidence, "seconds": seconds,
-        "taken_for_part": found.overlap_target is not None,
+        "taken_for_part": found.overlap_target is not None, "score": found.scores[0], "gib": peak(),
+    }  # fmt: skip
+
+
+def peak() -> float:
+    """The most memory held so far, in GiB."""
+    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 2**20
+
+
+def both_jobs(data: Path, half: str) -> list[Job]:
+    """Pairs of cuts of one animal; ``other`` is the source."""
+    cuts = jobs(data, "cuts", half)
+    pairs = zip(cuts, cuts[2:], strict=False)
+    return [replace(second, kind="both", other=first.part) for first, second in pairs if first.whole == second.whole]
+
+
+def run_both(job: Job) -> dict[str, object]:
+    """Two parts of one whole."""
+    folder = job.data / "SHREC16"
+    names = job.other, job.part
+    whole = unit_area(mesh_of(folder, job.whole))
+    parts = [mesh_of(folder, name) for name in names]
+    truths: list[PartTruth] = [
+        read_part_truth(folder / f"{name}.baryc_gt", whole, part) for name, part in zip(names, parts, strict=True)
+    ]
+    source, target = (
+        Mesh(points_of(truth.places, whole), part.faces) for truth, part in zip(truths, parts, strict=True)
+    )
+    config = kfmaps.Config.automatic()
+    begun = time.process_time()
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", kfmaps.KfmapsWarning)
+        found = kfmaps.match(*parts, replace(config, threads=1, partial=replace(config.partial, which="both")))
+    seconds = time.process_time() - begun
+    true = covered(source, border_of(source), target)[0] > COMMON
+    areas, rows = vertex_areas(target), np.flatnonzero(true & (found.target_to_source >= 0))
+    ours = np.asarray(found.overlap_target) > COMMON
+    error = float("nan")
+    if len(rows):
+        place = found.precise()
+        ends = points_of(PointMap(place.faces[rows], place.weights[rows]), source)
+        on, places = places_on(ends, whole.vertices, whole.faces), truths[1].places
+        errors = place_errors(whole, PointMap(on.faces, on.weights), PointMap(places.faces[rows], places.weights[rows]))
+        error = 100 * float(errors.mean())
+    return {
+        "set": "both", "whole": job.other, "part": job.part, "error": error,
+        "matched": float(areas[rows].sum() / areas[true].sum()),
+        "overlap": float(areas[true & ours].sum() / areas[true | ours].sum()),
+        "missing": 1 - float(areas[true].sum() / areas.sum()),
+        "verdict": found.verdict, "confidence": found.confidence, "seconds": seconds,
+        "taken_for_part": True, "score": found.scores[0], "gib": peak(),
     }  # fmt: skip
 
 
@@ -122,6 +187,7 @@ def line(name: str, rows: list[dict[str, object]]) -> str:
         f"{name:24s}{len(rows):6d}{error.mean():8.2f}{np.median(error):8.2f}{error.max():8.2f}"
         f"{(error > WRONG).sum():6d}"
         f"{share:>9s}{sure.sum():6d}{(sure & (error > WRONG)).sum():12d}{seconds:9.1f}"
+        f"{max(float(str(row['gib'])) for row in rows):9.2f}"
     )
 
 
@@ -131,17 +197,25 @@ def main() -> None:
     parser.add_argument("--sets", default=",".join(SETS))
     parser.add_argument("--half", choices=("choice", "report", "all"), default="report")
     parser.add_argument("--every", type=int, default=1, help="only every n-th pair of each set")
+    parser.add_argument("--first", type=int, default=0, help="the number of the first of these")
+    parser.add_argument("--both", action="store_true", help="cuts against other cuts")
     parser.add_argument("--landmarks", type=int, default=0)
     parser.add_argument("--turned", action="store_true")
     parser.add_argument("--json", type=Path)
     arguments = parser.parse_args()
-    heads = zip(("pairs", "mean", "median", "worst", ">10", "IoU %", "sure", "sure, >10", "CPU s"), WIDTHS, strict=True)
+    heads = zip(
+        ("pairs", "mean", "median", "worst", ">10", "IoU %", "sure", "sure, >10", "CPU s", "GiB"), WIDTHS, strict=True
+    )
     print(f"{'mean error × 100':24s}" + "".join(f"{word:>{width}s}" for word, width in heads))
     everything: list[dict[str, object]] = []
-    for kind in arguments.sets.split(","):
+    for kind in ["both"] if arguments.both else arguments.sets.split(","):
         rows = []
-        for job in jobs(arguments.data, kind, arguments.half)[:: arguments.every]:
-            rows.append(run(Job(job.data, kind, job.whole, job.part, arguments.landmarks, arguments.turned)))
+        every = (
+            both_jobs(arguments.data, arguments.half) if arguments.both else jobs(arguments.data, kind, arguments.half)
+        )
+        for job in every[arguments.first :: arguments.every]:
+            more = replace(job, landmarks=arguments.landmarks, turned=arguments.turned)
+            rows.append(run_both(job) if arguments.both else run(more))
             if arguments.json:
                 arguments.json.write_text(json.dumps([*everything, *rows], indent=1), encoding="utf-8")
         if rows:
