@@ -408,6 +408,56 @@ MUTANTS = tuple(
             "test_files_obj_picture",
         ),
         ("path = found.pop() if len(found) == 1 else None", "path = found.pop()", "test_files_obj_picture"),
+        # parts
+        ("counts = agree * within(found, whole)", "counts = agree", "test_parts_bend"),
+        (
+            "share = rest.areas.sum() * trust / trust.sum()",
+            "share = rest.areas.sum() * np.ones(len(trust)) / len(trust)",
+            "test_parts_bend",
+        ),
+        ("longer = np.divide(after, before,", "longer = np.divide(before, after,", "test_parts_bend"),
+        ("np.average(found.distances**2, weights=on)", "np.average(found.distances, weights=on)", "test_parts_bend"),
+        ("areas[cosine < 0.3].sum()", "areas[cosine > 0.3].sum()", "test_parts_bend"),
+        ("on = areas * inside\n", "on = areas\n", "test_parts_bend", "parts/bend"),
+        (
+            "whole.border) & (found.distances > OUTSIDE)",
+            "whole.border) | (found.distances > OUTSIDE)",
+            "test_parts_bend",
+        ),
+        (
+            "(border[faces[found.faces]] | ~counts).all(axis=1) & ~counts.all(axis=1)",
+            "border[faces[found.faces]].any(axis=1)",
+            "test_parts_bend",
+        ),
+        ("np.where(edge, np.minimum(half, WIDTH), WIDTH)", "np.full(len(edge), WIDTH)", "test_parts_bend"),
+        (
+            "half = 0.5 * np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).mean(axis=1)\n    width",
+            "half = 2.0 * np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).mean(axis=1)\n    width",
+            "test_parts_bend",
+        ),
+        ("* np.where(agree > 0, 1.0, 0.25), found", ", found", "test_parts_bend"),
+        ("np.exp2(-((distances / np.maximum(width", "np.exp(-((distances / np.maximum(width", "test_parts_bend"),
+        (
+            "np.where(bent.inside, _near(bent.places.distances, WIDTH), 0.0)",
+            "_near(bent.places.distances, WIDTH)",
+            "test_parts_bend",
+        ),
+        ("inner = 2.0 * np.minimum(edge", "inner = 9.0 + np.minimum(edge", "test_parts_beams"),
+        ("chosen.append(int(value.argmax()))", "chosen.append(int((value > 0).argmax()))", "test_parts_beams"),
+        (
+            "np.median(off, axis=1) if mostly else off.max(axis=1)",
+            "np.median(off, axis=1)",
+            "test_parts_beams",
+        ),
+        ("+ single[:, None] + unlike[t]", "+ single[:, None]", "test_parts_beams"),
+        ("there, SLACK)[states[:, s]]", "there, SLACK)[states[:, 0]]", "test_parts_beams"),
+        ("mixed if ways.source.all() else without(mixed, ~ways.source, lost)", "mixed", "test_carried_parts"),
+        (
+            "inverse(place, source, target, None if known.all() else known)",
+            "inverse(place, source, target)",
+            "test_carried_parts",
+        ),
+        ("own[on.faces[given.place.faces]]) < 0.5", "own[on.faces[given.place.faces]]) < 0.0", "test_carried_parts"),
         # baked textures
         (
             "y = uv[:, 0] * width - 0.5, (1 - uv[:, 1]) * height - 0.5",

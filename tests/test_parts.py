@@ -12,14 +12,15 @@ from kfmaps.config import Config, Partial
 from kfmaps.functional.evaluate import place_errors
 from kfmaps.functional.precise import PointMap
 from kfmaps.matching import match
+from kfmaps.parts.choose import CLEAR, margin
 from kfmaps.parts.decide import OPEN, opening, suspicion
 from kfmaps.parts.labels import SLACK, consistency, gauge
 from kfmaps.parts.side import border_of, side
-from kfmaps.parts.verdict import MIDDLE, POOR, SURE, part_verdict
+from kfmaps.parts.verdict import POOR, SURE, part_probability, part_verdict
 from kfmaps.surface.mesh import Mesh, surface_area
 from test_search import SMALL
 
-AUTO = replace(SMALL, partial=Partial("auto"))
+AUTO = replace(SMALL, partial=Partial("auto", samples=150, whole_samples=500))
 
 
 @pytest.fixture(scope="module")
@@ -168,7 +169,26 @@ def test_a_verdict_of_a_part_follows_its_probability():
         "ambiguous",
         "poor",
     ]
-    assert MIDDLE > 0
+
+
+def test_score_margin_and_little_bending_speak_for_a_place():
+    middle = part_probability(6.5, 0.5, 0.03)
+    assert 0 < part_probability(4.0, 0.5, 0.03) < middle < part_probability(8.0, 0.5, 0.03) < 1
+    assert part_probability(6.5, 0.0, 0.03) < middle < part_probability(6.5, 1.0, 0.03)
+    assert part_probability(6.5, 0.5, 0.1) < middle < part_probability(6.5, 0.5, 0.0)
+    assert part_probability(-1e6, 0.0, 1e6) == pytest.approx(0.0)
+    # What the best of the generated shapes that it was fitted to showed, and a half of one taken for the other half.
+    assert part_probability(6.99, CLEAR, 0.022) > SURE > part_probability(6.46, 0.72, 0.029)
+
+
+def test_only_candidates_that_differ_are_rivals():
+    rng = np.random.default_rng(0)
+    here = rng.normal(size=(50, 3))
+    near, elsewhere = here + 0.01, here + 1.0
+    assert margin([(7.0, here)]) == CLEAR
+    assert margin([(7.0, here), (6.9, near)]) == CLEAR
+    assert margin([(7.0, here), (6.9, near), (6.6, elsewhere), (2.0, elsewhere)]) == pytest.approx(0.4)
+    assert margin([(7.0, here), (2.0, elsewhere)]) == CLEAR
 
 
 def test_the_default_of_the_command_is_auto():

@@ -29,7 +29,9 @@ def test_anchors_are_far_from_each_other_and_from_the_edge(plane):
         for some in (rng.permutation(len(own))[:ANCHORS] for _ in range(50))
     ]
     assert float((part.far[np.ix_(chosen, chosen)] + 9 * np.eye(ANCHORS)).min()) > max(least)
-    assert edge[chosen].min() > edge.min()
+    plain = spread(part, np.full(len(own), np.inf), ANCHORS)
+    assert edge[chosen].mean() > edge[plain].mean()
+    assert edge[chosen].min() > 2 * edge[plain].min()
     assert chosen[0] == edge.argmax()
     assert spread(part, edge, ANCHORS, 3)[:3].tolist() == [0, 1, 2]
 

@@ -122,7 +122,7 @@ def partly(
     trust = local_confidence(here, there, points, sized=True)
     masses = to_numpy(part.basis.mass), to_numpy(whole.basis.mass)
     common = float(masses[0] @ found.overlap.part), float(masses[1] @ found.overlap.whole)
-    confidence = part_probability(found)
+    confidence = part_probability(found.score, found.margin, found.evidence.bending)
     return Partly(
         which,
         points,

@@ -112,10 +112,11 @@ def bent(
             )
             if progress is not None:
                 progress((i * steps + step + 1) / (len(levels) * steps))
-    return _judged(x, rest, scale, whole)
+    return judged(x, rest, scale, whole)
 
 
-def _judged(x: np.ndarray, body: Body, scale: float, whole: Ground) -> Bent:
+def judged(x: np.ndarray, body: Body, scale: float, whole: Ground) -> Bent:
+    """What a part, ``body`` at rest, shows with its vertices at ``x (n, 3)``."""
     rest, energy, areas = body.mesh, body.energy, body.areas
     found = places_on(x, whole.mesh.vertices, whole.mesh.faces)
     there = whole.normals[whole.mesh.faces[found.faces]].mean(axis=1)

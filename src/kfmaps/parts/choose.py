@@ -22,7 +22,13 @@ ALIKE = 1.12
 AGAIN = 2
 """Scales at which all trials are made."""
 BEAMS = 4
-"""Placings of the beam searches that are followed up."""
+"""Placings of the beam searches in which all samples are placed, ..."""
+BENT = 2
+"""... and those that are bent."""
+CLEAR = 1.0
+"""Margin from which more does not count."""
+ELSEWHERE = 0.1
+"""Median distance between places, in √area of the whole, from which two candidates differ."""
 CONSISTENCY = 4.0
 """Weight in the score."""
 
@@ -72,6 +78,8 @@ class Parted:
     score : float
     others : tuple of float
         Scores of the other candidates.
+    margin : float
+        By how much the best of those that place the part elsewhere scores less; at most :data:`CLEAR`.
     wrong : (l,) float64
         How far each landmark ended from where it was said to be, in √area of the whole.
     """
@@ -81,6 +89,7 @@ class Parted:
     evidence: Evidence
     score: float
     others: tuple[float, ...]
+    margin: float
     wrong: np.ndarray
 
     @property
@@ -123,18 +132,22 @@ def parted(
     rough = [*first]
     for trial in TRIALS[1:]:
         rough += tried(*sides, [one.scale for one in first[:AGAIN]], marked, trial, threads)
-    rough += sorted(searched(*sides, scales, marked, threads), key=lambda one: -plain_score(one))[:BEAMS]
+    further = sorted(searched(*sides, scales, marked, threads), key=lambda one: -plain_score(one))[:BEAMS]
     told(0.4)
-    full = parallel(lambda one: (one, grown(*sides, one, marked, fixed)), rough, threads)
-    full.sort(key=lambda pair: -plain_score(pair[1]))
+    full = parallel(lambda one: (one, grown(*sides, one, marked, fixed)), [*rough, *further], threads)
+    # Few of the samples of a beam search were placed by their descriptors: before it is bent it looks worse than it is.
+    plain, beams = (
+        sorted(some, key=lambda pair: -plain_score(pair[1])) for some in (full[: len(rough)], full[len(rough) :])
+    )
+    likely = [*plain[: settings.candidates + 1], *beams[:BENT]]
     told(0.5)
     on = ground(whole, sides[1].border)
     found: list[tuple[float, Evidence, Bent]] = []
-    for i, (one, placed) in enumerate(full[: settings.candidates + 1]):
+    for i, (one, placed) in enumerate(likely):
         bend = placed_on(placed, *sides, on)
         seen = evidence(one, placed, bend)
         found.append((score(seen), seen, bend))
-        told(0.5 + 0.25 * (i + 1) / (settings.candidates + 1))
+        told(0.5 + 0.25 * (i + 1) / len(likely))
     found.sort(key=lambda item: -item[0])
     best = found[0]
     last = finished(best[2], sides[0], on, pairs, fixed, lambda done: told(0.75 + 0.25 * done))
@@ -145,8 +158,17 @@ def parted(
         best[1],
         best[0],
         tuple(item[0] for item in found[1:]),
+        margin([(item[0], item[2].places.points[sides[0].samples]) for item in found]),
         np.linalg.norm(ends, axis=1),
     )
+
+
+def margin(found: Sequence[tuple[float, np.ndarray]]) -> float:
+    """Of candidates, best first, given by their scores and places ``(q, 3)``; see :attr:`Parted.margin`."""
+    best, places = found[0]
+    apart = [float(np.median(np.linalg.norm(other - places, axis=1))) for _, other in found]
+    rivals = [value for (value, _), off in zip(found, apart, strict=True) if off > ELSEWHERE]
+    return min(best - max(rivals), CLEAR) if rivals else CLEAR
 
 
 def distinct(rough: Sequence[Rough]) -> list[Rough]:

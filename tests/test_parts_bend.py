@@ -1,0 +1,146 @@
+"""A part bent onto a whole, and what they have in common, where both are known: a piece of a hilly plane."""
+
+import numpy as np
+import pytest
+
+from kfmaps.functional.bodies import body_of
+from kfmaps.parts.bend import OUTSIDE, bent, ground, judged, within
+from kfmaps.parts.overlap import WIDTH, covered, overlap
+from kfmaps.parts.side import border_of, scaled
+from kfmaps.surface.closest import places_on
+from kfmaps.surface.mesh import Mesh, surface_area, unit_area, vertex_normals
+
+TURN = np.linalg.qr(np.random.default_rng(3).normal(size=(3, 3)))[0]
+TURN *= np.sign(np.linalg.det(TURN))
+COUNT = 21
+X = np.array([1.0, 0.0, 0.0])
+
+
+def hills(x, y, bend=0.0):
+    z = 0.1 * np.sin(5 * x) * np.cos(4 * y + 1) + 0.05 * np.sin(9 * x + 2 * y) + bend * x**2
+    return np.stack([x, y, z], axis=1)
+
+
+def grid(x, y):
+    across, along = (part.ravel() for part in np.meshgrid(x, y, indexing="ij"))
+    a = (np.arange(len(x) - 1)[:, None] * len(y) + np.arange(len(y) - 1)).ravel()
+    faces = np.concatenate([np.stack([a, a + len(y), a + 1], 1), np.stack([a + 1, a + len(y), a + len(y) + 1], 1)])
+    return Mesh(hills(across, along), faces)
+
+
+@pytest.fixture(scope="module")
+def shapes():
+    """The whole, at unit area, and its half, which vertices these are."""
+    sides = np.linspace(-0.5, 0.5, COUNT)
+    whole = unit_area(grid(sides, sides))
+    own = np.arange(len(whole.vertices)).reshape(COUNT, COUNT)[:12].ravel()
+    number = np.full(len(whole.vertices), -1)
+    number[own] = np.arange(len(own))
+    faces = number[whole.faces]
+    return whole, Mesh(whole.vertices[own], faces[(faces >= 0).all(axis=1)]), own
+
+
+@pytest.fixture(scope="module")
+def laid(shapes):
+    """Its half in another unit and place, bent back by all but a few samples, which are said to be elsewhere."""
+    whole, half, own = shapes
+    size = float(np.sqrt(surface_area(half)))
+    part = Mesh(half.vertices @ TURN.T / size + 1.0, half.faces)
+    samples = np.arange(0, len(own), 5)
+    places, trust = whole.vertices[own[samples]].copy(), np.ones(len(samples))
+    places[::6] += [0.3, -0.2, 0.1]
+    trust[::6] = 1e-6
+    on = ground(whole, border_of(whole))
+    normals = on.normals[own[samples]]
+
+    def lay(factor=1.0, more=part):
+        return bent(more, factor * size, on, samples, places, normals, trust)
+
+    return lay, on, part, size
+
+
+def test_a_part_that_was_moved_lies_where_it_was_cut(shapes, laid):
+    _, half, _ = shapes
+    lay, _, _, size = laid
+    found = lay()
+    assert np.linalg.norm(found.vertices - half.vertices, axis=1).max() < 5e-3
+    assert found.scale == size
+    assert found.bending < 1e-4
+    assert found.gap < 1e-3
+    assert found.folded == 0.0
+    assert found.longer == pytest.approx(1.0, abs=5e-3)
+    assert found.inside.all()
+
+
+@pytest.mark.parametrize("factor", [0.8, 1.25])
+def test_edges_tell_the_scale(shapes, laid, factor):
+    """Where a part lies as it should, but was taken for smaller than it is, its edges are longer by as much."""
+    _, half, _ = shapes
+    _, on, part, size = laid
+    found = judged(half.vertices, body_of(scaled(part, factor * size)), factor * size, on)
+    assert found.longer == pytest.approx(1 / factor)
+    assert found.gap < 1e-9
+    # Of a uniform scaling each edge gains the square of what it became longer by: the same per area at any size.
+    assert found.bending == pytest.approx(1.5 * (1 / factor - 1) ** 2, rel=0.6)
+    shifted = judged(half.vertices + 0.02 * on.normals[: len(half.vertices)], body_of(half), size, on)
+    assert shifted.gap == pytest.approx(0.02, rel=0.05)
+
+
+def test_a_mirror_image_is_folded(laid):
+    lay, _, part, _ = laid
+    assert lay(more=Mesh(part.vertices, part.faces[:, ::-1])).folded > 0.5
+
+
+def test_what_lies_beyond_the_whole_is_let_alone(shapes):
+    """The whole onto its half: what has nothing to lie on is not drawn to its edge, and counts as outside."""
+    whole, half, own = shapes
+    size = float(np.sqrt(surface_area(half)))
+    on = ground(Mesh(half.vertices / size, half.faces), border_of(half))
+    found = bent(whole, 1 / size, on, own, on.mesh.vertices, on.normals, np.ones(len(own)))
+    assert np.linalg.norm(found.vertices - whole.vertices / size, axis=1)[own].mean() < 0.04
+    beyond = np.setdiff1d(np.arange(len(whole.vertices)), own)
+    assert found.inside[own].mean() > 0.9
+    far = np.linalg.norm(found.vertices - found.places.points, axis=1)[beyond] > OUTSIDE
+    assert far.mean() > 0.9
+    assert not found.inside[beyond[far]].any()
+    assert found.gap < 5e-3
+    common = overlap(found, on, border_of(whole))
+    assert (common.part[own] > 0.5).mean() > 0.9
+    assert (common.part[beyond[far]] == 0).all()
+    assert (common.whole > 0.5).mean() > 0.9
+
+
+def test_only_the_boundary_has_something_beyond_it(shapes):
+    whole, _, _ = shapes
+    on = ground(whole, border_of(whole))
+    middle = whole.vertices[len(whole.vertices) // 2] + np.array([0.0, 0.0, 0.2])
+    edge = whole.vertices[whole.vertices[:, 0].argmax()]
+    corner = whole.vertices[whole.faces[0]].mean(axis=0) + np.array([0.0, 0.0, 0.03])
+    asked = np.array([middle, corner, edge + 5 * OUTSIDE * X, edge + 0.2 * OUTSIDE * X])
+    assert within(places_on(asked, whole.vertices, whole.faces), on).tolist() == [True, True, False, True]
+
+
+def test_half_is_common_to_a_whole_and_its_half():
+    """Beyond the half's edge nothing is, though its vertices are nearer there than surfaces that are one may be."""
+    sides = np.linspace(-0.5, 0.5, 41)
+    whole = grid(sides, sides)
+    own = np.arange(20 * 41)
+    half = Mesh(whole.vertices[own], whole.faces[(whole.faces < len(own)).all(axis=1)])
+    common, found = covered(half, border_of(half), whole)
+    np.testing.assert_allclose(common[own], 1.0)
+    assert 0.02 < sides[1] - sides[0] < 1.5 * WIDTH
+    assert common[len(own) :].max() < 0.2
+    np.testing.assert_allclose(found.points[own], whole.vertices[own], atol=1e-9)
+
+
+def test_probability_falls_with_the_distance(shapes):
+    """A half at WIDTH, a sixteenth at twice that; and a quarter of it on the side that looks away."""
+    whole, _, _ = shapes
+    flat = Mesh(whole.vertices * [1, 1, 0], whole.faces)
+    inner = ~border_of(flat)
+    for times, expected in ((0.0, 1.0), (1.0, 0.5), (2.0, 0.0625)):
+        common = covered(Mesh(flat.vertices + np.array([0, 0, times * WIDTH]), flat.faces), border_of(flat), flat)[0]
+        np.testing.assert_allclose(common[inner], expected, atol=1e-6)
+    turned = covered(Mesh(flat.vertices, flat.faces[:, ::-1]), border_of(flat), flat)[0]
+    np.testing.assert_allclose(turned, 0.25)
+    assert vertex_normals(scaled(flat, 2.0)).shape == flat.vertices.shape
