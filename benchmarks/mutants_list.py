@@ -450,7 +450,7 @@ MUTANTS = tuple(
             "test_parts_beams",
         ),
         ("+ single[:, None] + unlike[t]", "+ single[:, None]", "test_parts_beams"),
-        ("there, SLACK)[states[:, s]]", "there, SLACK)[states[:, 0]]", "test_parts_beams"),
+        ("there[states[:, s]], SLACK)", "there[states[:, 0]], SLACK)", "test_parts_beams"),
         ("mixed if ways.source.all() else without(mixed, ~ways.source, lost)", "mixed", "test_carried_parts"),
         (
             "inverse(place, source, target, None if known.all() else known)",

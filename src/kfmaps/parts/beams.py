@@ -68,7 +68,7 @@ def beamed(part: Gauge, edge: np.ndarray, whole: np.ndarray, alike: np.ndarray, 
         now = anchors[t]
         fits = np.zeros((len(states), m), dtype=np.float32)
         for s, earlier in enumerate(anchors[:t]):
-            fits += consistency(part.far[earlier, now], part.low[earlier, now], there, SLACK)[states[:, s]]
+            fits += consistency(part.far[earlier, now], part.low[earlier, now], there[states[:, s]], SLACK)
         # What a sample adds is of the same weight in both: its mean consistency with the others, and its descriptor.
         total = (pairs[:, None] + fits) * np.float32(2 / t) + single[:, None] + unlike[t]
         best = _most(total, LOOKED * WIDTH)
@@ -89,13 +89,11 @@ def differing(states: np.ndarray, whole: np.ndarray, most: int, mostly: bool = F
     In at least one place by :data:`APART`, or where ``mostly`` in half of them.
     """
     kept: list[int] = []
-    alive = np.ones(len(states), dtype=bool)
-    while len(kept) < most and alive.any():
-        first = int(alive.argmax())
-        kept.append(first)
-        off = whole[states[first], states]
-        alive &= (np.median(off, axis=1) if mostly else off.max(axis=1)) > APART
-        alive[first] = False
+    left = np.arange(len(states))
+    while len(kept) < most and len(left):
+        kept.append(int(left[0]))
+        off = whole[states[left[0]], states[left[1:]]]
+        left = left[1:][(np.median(off, axis=1) if mostly else off.max(axis=1)) > APART]
     return np.array(kept, dtype=np.int64)
 
 
