@@ -302,8 +302,8 @@ MUTANTS = tuple(
             "test_tips -k pair",
         ),
         (
-            "(here**2).sum(axis=1)[None, :] - 2 * there @ here.T",
-            "(here**2).sum(axis=1)[None, :] - there @ here.T",
+            "cost = -2 * there @ here.T",
+            "cost = -1 * there @ here.T",
             "test_tips -k turns_alone",
         ),
         ("each[i] = tips * against(", "each[i] = -tips * against(", "test_tips -k evidence"),

@@ -15,10 +15,11 @@ from kfmaps.surface.mesh import Mesh, vertex_areas
 from kfmaps.surface.rigidity import rigidity, rotations
 from kfmaps.surface.samples import stratified
 
-LARGE = 40_000
+LARGE = 15_000
 """Vertices above which a mesh is bent with a copy first."""
-POINTS = 20_000
-"""Vertices of the copy: 0.7 % of √area apart, finer than what the fit's stiffness lets bend."""
+POINTS = 8_000
+"""Vertices of the copy: 1.1 % of √area apart, finer than what the first levels' stiffness lets bend. The last level has
+all vertices: of 20,000 two poses ended at 0.93 instead of 0.89, in two thirds of the time."""
 
 
 @dataclass(frozen=True, eq=False)
