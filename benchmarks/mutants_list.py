@@ -306,7 +306,7 @@ MUTANTS = tuple(
             "cost = -1 * there @ here.T",
             "test_tips -k turns_alone",
         ),
-        ("each[i] = tips * against(", "each[i] = -tips * against(", "test_tips -k evidence"),
+        ("each[i] += tips * against(", "each[i] = -tips * against(", "test_tips -k evidence"),
         (
             "bent = 0.0 if self.bending is None else -BEND",
             "bent = 0.0 if self.bending is None else BEND",
