@@ -58,7 +58,8 @@ class _Pairs:
 
     def along(self, axis: np.ndarray, vectors: np.ndarray) -> np.ndarray:
         """Of ``vectors (3, p)``, the part along the ``axis (count, 3)`` of each vertex."""
-        return sum(axis[:, c].take(self.i) * vectors[c] for c in range(3))
+        x, y, z = (axis[:, c].take(self.i) * vectors[c] for c in range(3))
+        return x + y + z
 
 
 def shot(
