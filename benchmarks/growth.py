@@ -1,5 +1,7 @@
 """Time and memory of a whole match as shapes grow: ``python benchmarks/growth.py [--large] [--huge] [--json PATH]``.
 
+With ``--automatic`` the pairs are ``datasets.two_poses`` without landmarks, matched with ``Config.automatic()``.
+
 Each size is a pair of generated shapes with six landmarks (``shapes.bumpy_pair``), matched with the recommended
 configuration in a process of its own, whose peak memory is shown; "rise" is how far a stage raised it. The exponent
 of a stage is the slope of log CPU seconds over log vertices from 20,000 up, by least squares. CPU seconds are of all
@@ -15,6 +17,7 @@ import resource
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -22,12 +25,14 @@ import numpy as np
 from shapes import bumpy_pair
 
 from kfmaps._threads import one_blas_thread
+from kfmaps.app import datasets
 from kfmaps.config import Config
 from kfmaps.fit.finish import finished
 from kfmaps.fit.fit import fit
 from kfmaps.fit.shape import prepare
+from kfmaps.matching import match
 from kfmaps.surface.geodesics import distance_pairs
-from kfmaps.surface.mesh import unit_area
+from kfmaps.surface.mesh import Mesh, unit_area
 
 SIZES, LARGE, HUGE = (5_000, 20_000, 80_000), 300_000, 1_000_000
 
@@ -37,40 +42,67 @@ def peak_gb() -> float:
     return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1e6
 
 
+class Stages:
+    """CPU seconds, seconds and rise of the peak memory of each stage that reports its beginning and end."""
+
+    def __init__(self) -> None:
+        self.spent: dict[str, dict[str, float]] = {}
+        self.begun: dict[str, tuple[float, float, float]] = {}
+
+    def report(self, stage: str, done: float) -> None:
+        if stage not in self.begun:
+            self.begun[stage] = (time.process_time(), time.perf_counter(), peak_gb())
+        elif done == 1.0 and stage not in self.spent:
+            work, wall, peak = self.begun[stage]
+            spent = {"work": time.process_time() - work, "wall": time.perf_counter() - wall}
+            self.spent[stage] = {**spent, "rise": peak_gb() - peak}
+
+    @contextmanager
+    def whole(self) -> Iterator[None]:
+        self.report("whole", 0.0)
+        yield
+        self.report("whole", 1.0)
+
+
 def measure(n: int, threads: int) -> dict[str, Any]:
     """All stages at one size."""
     pair = bumpy_pair(n)
-    stages: dict[str, dict[str, float]] = {}
-    begun: dict[str, tuple[float, float, float]] = {}
-
-    def report(stage: str, done: float) -> None:
-        if done == 0.0 and stage not in begun:
-            begun[stage] = (time.process_time(), time.perf_counter(), peak_gb())
-        elif done == 1.0 and stage not in stages:
-            work, wall, peak = begun[stage]
-            spent = {"work": time.process_time() - work, "wall": time.perf_counter() - wall}
-            stages[stage] = {**spent, "rise": peak_gb() - peak}
-
-    @contextmanager
-    def whole() -> Iterator[None]:
-        report("whole", 0.0)
-        yield
-        report("whole", 1.0)
-
+    stages = Stages()
     config = Config(threads=threads)
-    with one_blas_thread(), whole():
-        source = prepare(pair.source, config, name="source", progress=report)
-        target = prepare(pair.target, config, name="target", progress=report)
-        found = fit(source, target, config, landmarks=pair.landmarks, progress=report)
-        end = finished(found.functional_map, source, target, config, progress=report)
-    peak = peak_gb()
-    rows = np.random.default_rng(0).choice(len(pair.target_to_source), 1000, replace=False)
-    mesh, truth = unit_area(pair.source), pair.target_to_source[rows]
+    with one_blas_thread(), stages.whole():
+        source = prepare(pair.source, config, name="source", progress=stages.report)
+        target = prepare(pair.target, config, name="target", progress=stages.report)
+        found = fit(source, target, config, landmarks=pair.landmarks, progress=stages.report)
+        end = finished(found.functional_map, source, target, config, progress=stages.report)
     ends = {"raw": end.raw_target_to_source, "refined": end.target_to_source}
+    return row(n, threads, pair.source, pair.target_to_source, ends, stages)
+
+
+def measure_automatic(n: int, threads: int) -> dict[str, Any]:
+    """The same of two poses without landmarks."""
+    pair = datasets.two_poses(n, rng=0)
+    stages = Stages()
+    config = replace(Config.automatic(), threads=threads)
+    with one_blas_thread(), stages.whole():
+        source = prepare(pair.source, config, name="source", progress=stages.report)
+        target = prepare(pair.target, config, name="target", progress=stages.report)
+        found = match(source, target, config, progress=stages.report)
+    return row(n, threads, pair.source, pair.truth, {found.verdict: found.target_to_source}, stages)
+
+
+def row(
+    n: int, threads: int, source: Mesh, truth: np.ndarray, ends: dict[str, np.ndarray | None], stages: Stages
+) -> dict[str, Any]:
+    """What is printed of one size."""
+    peak = peak_gb()
+    rows = np.random.default_rng(0).choice(len(truth), 1000, replace=False)
+    mesh = unit_area(source)
     errors = {
-        name: 100 * float(distance_pairs(mesh, p[rows], truth).mean()) for name, p in ends.items() if p is not None
+        name: 100 * float(distance_pairs(mesh, p[rows], truth[rows]).mean())
+        for name, p in ends.items()
+        if p is not None
     }
-    return {"n": n, "threads": threads, "peak_gb": peak, "errors": errors, "stages": stages}
+    return {"n": n, "threads": threads, "peak_gb": peak, "errors": errors, "stages": stages.spent}
 
 
 def exponents(rows: list[dict[str, Any]]) -> dict[str, float]:
@@ -82,6 +114,7 @@ def exponents(rows: list[dict[str, Any]]) -> dict[str, float]:
     return {
         stage: float(np.polyfit(sizes, np.log([row["stages"][stage]["work"] for row in big]), 1)[0])
         for stage in big[0]["stages"]
+        if all(stage in row["stages"] for row in big)
     }
 
 
@@ -89,6 +122,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--large", action="store_true", help="300,000 vertices too (about 6 GB)")
     parser.add_argument("--huge", action="store_true", help="a million too (about 20 GB)")
+    parser.add_argument("--automatic", action="store_true", help="two poses without landmarks instead")
     parser.add_argument("--sizes", type=int, nargs="+", help="these sizes instead")
     parser.add_argument("--threads", type=int, default=2)
     parser.add_argument("--json", type=Path, help="write the rows there too")
@@ -98,11 +132,11 @@ def main() -> None:
     context = multiprocessing.get_context("spawn")
     for n in sizes:
         with context.Pool(1) as pool:  # a process of its own, for its peak memory
-            row = pool.apply(measure, (n, options.threads))
-        rows.append(row)
-        errors = ", ".join(f"{name} {value:.2f}" for name, value in row["errors"].items())
-        print(f"\n{n} vertices: peak {row['peak_gb']:.2f} GB, errors {errors}")
-        for stage, spent in row["stages"].items():
+            found = pool.apply(measure_automatic if options.automatic else measure, (n, options.threads))
+        rows.append(found)
+        errors = ", ".join(f"{name} {value:.2f}" for name, value in found["errors"].items())
+        print(f"\n{n} vertices: peak {found['peak_gb']:.2f} GB, errors {errors}")
+        for stage, spent in found["stages"].items():
             print(f"  {stage:26} {spent['work']:8.2f} CPU s {spent['wall']:8.2f} s {spent['rise']:7.2f} GB", flush=True)
         if options.json:
             options.json.write_text(json.dumps(rows, indent=1) + "\n", encoding="utf-8")
