@@ -6,7 +6,9 @@
 Every specimen is one body bent, stretched and swollen at random, and triangulated for itself, so that the truth is
 known. Pairs are chosen by likeness (``--graph near``), matched by ``kfmaps batch``'s own machinery, and made to agree
 (``--consistent``). A part ``--wrong`` of the maps is replaced by random ones before that. ``--plan`` tells the pairs,
-memory and time that a run needs, and runs nothing. Errors are in per cent of √area.
+memory and time that a run needs, and runs nothing. ``--zoom`` then compares each map in use, cut to k functions, with
+the map through the latent space after consistent ZoomOut to as many; ``--zoom --run DATA OUT`` does it for a run that
+is there. Errors are in per cent of √area.
 """
 
 from __future__ import annotations
@@ -16,6 +18,7 @@ import resource
 import tempfile
 import time
 from dataclasses import replace
+from fnmatch import fnmatch
 from pathlib import Path
 
 import numpy as np
@@ -23,15 +26,21 @@ from scipy.spatial import KDTree
 
 from kfmaps import datasets
 from kfmaps.app.batch.collection import match_collection
+from kfmaps.app.batch.exchange import map_in_use
 from kfmaps.app.batch.graphing import graph_pairs
-from kfmaps.app.batch.layout import find_collection
+from kfmaps.app.batch.layout import Pair, find_collection
 from kfmaps.app.batch.need import needed
 from kfmaps.app.batch.plan import make_plan
+from kfmaps.app.batch.results import read_result
 from kfmaps.app.batch.settings import Settings
 from kfmaps.app.batch.spread import crew
 from kfmaps.app.batch.work import map_path
-from kfmaps.app.files import load_map, save_map, write_mesh, write_vertex_numbers
+from kfmaps.app.evaluation import Truth, assessed
+from kfmaps.app.files import load_map, read_mesh, read_vertex_numbers, save_map, write_mesh, write_vertex_numbers
 from kfmaps.config import Config, Search
+from kfmaps.fit.shape import prepare
+from kfmaps.functional.points import to_functional, to_points
+from kfmaps.many.zoom import ConsistentZoomOut, through_latent
 from kfmaps.surface.coarse import coarse
 from kfmaps.surface.mesh import Mesh
 from kfmaps.surface.samples import stratified
@@ -39,6 +48,7 @@ from kfmaps.surface.samples import stratified
 FULL = Config.automatic()
 QUICK = replace(FULL, search=Search(candidates=2, signs=3), finish=None)
 """A smaller search: what is measured is the collection, not the search."""
+SPECTRAL = replace(FULL, descriptors=replace(FULL.descriptors, shot=False))
 LINES = 500
 """Points of the body whose places are known on every specimen."""
 
@@ -112,6 +122,41 @@ def measured(count: int, vertices: int, workers: int, wrong: float, full: bool, 
     )
 
 
+def zoomed(data: Path, out: Path, only: str = "*") -> None:
+    """A table of consistent ZoomOut on the maps in use of a run: those of which both shapes are like ``only``."""
+    collection = find_collection(data)
+    done = [result for path in sorted((out / "pairs").glob("*.json")) if (result := read_result(path)) is not None]
+    named = [Pair(r.source, r.target) for r in done if r.status == "done"]
+    pairs = [p for p in named if all(any(fnmatch(n, o) for o in only.split(",")) for n in (p.source, p.target))]
+    names = sorted({name for pair in pairs for name in (pair.source, pair.target)})
+    shapes = {name: prepare(read_mesh(collection.shapes[name]), SPECTRAL, name=name) for name in names}
+    truth = {name: read_vertex_numbers(collection.truth[name])[:LINES] for name in names}
+    ends = [(names.index(pair.source), names.index(pair.target)) for pair in pairs]
+    points = [load_map(map_in_use(out, pair.key)).target_to_source for pair in pairs]
+    bases = [shapes[name].basis for name in names]
+
+    def mean(found: list[np.ndarray]) -> float:
+        errors = []
+        for pair, images in zip(pairs, found, strict=True):
+            known = Truth(truth[pair.source], truth[pair.target])
+            errors.append(assessed(shapes[pair.source].mesh, images, known).errors.mean)
+        return 100 * float(np.mean(errors))
+
+    print(f"{len(pairs)} maps in use: {mean(points):.2f}\n functions  cut  through the latent space  worse    CPU s")
+    for k in (20, 40, 60):
+        few = [basis.truncated(k) for basis in bases]
+        cut = [np.asarray(to_functional(p, few[a], few[b])) for p, (a, b) in zip(points, ends, strict=True)]
+        begin = time.process_time()
+        latent = ConsistentZoomOut(min(20, k), k, 10)(bases, ends, points)[1]
+        used = time.process_time() - begin
+        through = [through_latent(latent, a, b) for a, b in ends]
+        own, joint = (
+            mean([to_points(C, few[a], few[b], threads=1) for C, (a, b) in zip(maps, ends, strict=True)])
+            for maps in (cut, through)
+        )
+        print(f"{k:10d} {own:5.2f} {joint:8.2f} {100 * (joint / own - 1):+20.0f} % {used:8.1f}", flush=True)
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--shapes", default="25,50,100")
@@ -123,7 +168,13 @@ def main() -> None:
         "--full", action="store_true", help="the recommended search and finish, about three times as long"
     )
     parser.add_argument("--plan", action="store_true")
+    parser.add_argument("--zoom", action="store_true")
+    parser.add_argument("--run", nargs=2, type=Path, metavar=("DATA", "OUT"))
+    parser.add_argument("--only", default="*", help="of such a run, shapes like these, with commas")
     chosen = parser.parse_args()
+    if chosen.run:
+        zoomed(*chosen.run, chosen.only)
+        return
     counts = [int(word) for word in chosen.shapes.split(",")]
     if chosen.plan:
         for count in counts:
@@ -137,6 +188,8 @@ def main() -> None:
         for count in counts:
             folder = chosen.out or Path(temporary)
             print(measured(count, chosen.vertices, chosen.workers, chosen.wrong, chosen.full, folder), flush=True)
+            if chosen.zoom:
+                zoomed(folder / f"shapes{count}", folder / f"out{count}")
 
 
 if __name__ == "__main__":
