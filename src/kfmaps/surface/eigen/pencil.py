@@ -139,11 +139,13 @@ def smallest_eigenpairs(
         if progress is not None:
             pencil.solve = _counted(pencil.solve, (3 * k + 60) * SOLVES / WIDTH, progress)
         vectors = _vectors(pencil, k, method, tolerance, np.random.default_rng(rng))
+        found = pencil.residuals(vectors)
         for _ in range(MENDED):
-            if not len(_missed(pencil, vectors, tolerance)):
+            if not len(_missed(pencil, vectors, *found, tolerance)):
                 break
             vectors = _improved(pencil, pencil.root[:, None] * vectors)
-        return _signed(_checked(pencil, vectors, tolerance), order)
+            found = pencil.residuals(vectors)
+        return _signed(_checked(pencil, vectors, *found, tolerance), order)
 
 
 def _counted(
@@ -217,9 +219,10 @@ def _improved(pencil: _Pencil, vectors: np.ndarray) -> np.ndarray:
     return images @ rotation
 
 
-def _missed(pencil: _Pencil, vectors: np.ndarray, tolerance: float) -> np.ndarray:
-    """Which of the pairs have residuals above the tolerance and what rounding costs."""
-    values, residuals = pencil.residuals(vectors)
+def _missed(
+    pencil: _Pencil, vectors: np.ndarray, values: np.ndarray, residuals: np.ndarray, tolerance: float
+) -> np.ndarray:
+    """Which of the pairs have ``residuals`` above the tolerance and what rounding costs."""
     bad = np.flatnonzero(~(residuals <= tolerance))
     if len(bad):
         spread = np.linalg.norm(abs(pencil.matrix) @ abs(vectors[:, bad]), axis=0)
@@ -229,10 +232,11 @@ def _missed(pencil: _Pencil, vectors: np.ndarray, tolerance: float) -> np.ndarra
     return bad
 
 
-def _checked(pencil: _Pencil, vectors: np.ndarray, tolerance: float) -> Eigenpairs:
-    """Sorted and checked pairs: the values are Rayleigh quotients."""
-    values, residuals = pencil.residuals(vectors)
-    bad = _missed(pencil, vectors, tolerance)
+def _checked(
+    pencil: _Pencil, vectors: np.ndarray, values: np.ndarray, residuals: np.ndarray, tolerance: float
+) -> Eigenpairs:
+    """Sorted and checked pairs: the ``values`` are Rayleigh quotients."""
+    bad = _missed(pencil, vectors, values, residuals, tolerance)
     if len(bad):
         raise NotConverged(
             f"eigenpairs: {len(bad)} of {len(values)} have residuals above {tolerance:.0e}, the largest "
