@@ -88,13 +88,16 @@ def moved(mesh: kfmaps.Mesh, seed: int) -> kfmaps.Mesh:
     return kfmaps.Mesh(10 ** rng.uniform(-1, 1) * mesh.vertices @ rotation.T, mesh.faces)
 
 
-def run(job: Job) -> dict[str, object]:
+def read_job(job: Job) -> tuple[kfmaps.Mesh, kfmaps.Mesh, Path]:
+    """The whole, the part, and the file of the truth."""
     folder = job.data / SETS[job.kind]
-    whole, part = (
-        mesh_of(folder if SETS[job.kind] == "SHREC16" else job.data / "FAUST_r", job.whole),
-        mesh_of(folder, job.part),
-    )
-    truth_file = next(path for end in (".baryc_gt", ".txt") for path in [folder / f"{job.part}{end}"] if path.exists())
+    whole = mesh_of(folder if SETS[job.kind] == "SHREC16" else job.data / "FAUST_r", job.whole)
+    ends = (folder / f"{job.part}{end}" for end in (".baryc_gt", ".txt"))
+    return whole, mesh_of(folder, job.part), next(path for path in ends if path.exists())
+
+
+def run(job: Job) -> dict[str, object]:
+    whole, part, truth_file = read_job(job)
     truth = read_part_truth(truth_file, whole, part)
     marks = None
     if job.landmarks:
@@ -155,7 +158,9 @@ def run_both(job: Job) -> dict[str, object]:
     begun = time.process_time()
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", kfmaps.KfmapsWarning)
-        found = kfmaps.match(*parts, replace(config, threads=1, partial=replace(config.partial, which="both")))
+        found = kfmaps.match(
+            parts[0], parts[1], replace(config, threads=1, partial=replace(config.partial, which="both"))
+        )
     seconds = time.process_time() - begun
     true = covered(source, border_of(source), target)[0] > COMMON
     areas, rows = vertex_areas(target), np.flatnonzero(true & (found.target_to_source >= 0))

@@ -12,6 +12,7 @@ from pathlib import Path
 
 import matplotlib
 import numpy as np
+from matplotlib.cm import ScalarMappable
 from matplotlib.figure import Figure
 
 import kfmaps
@@ -57,7 +58,7 @@ def main() -> None:
         draw_surface(axes, mesh, painted, view)
         figure.text(0.16 + 0.31 * i, 0.03, label, ha="center", fontsize=10)
     bar = figure.add_axes((0.945, 0.2, 0.012, 0.6))
-    figure.colorbar(matplotlib.cm.ScalarMappable(cmap="viridis"), cax=bar)
+    figure.colorbar(ScalarMappable(cmap="viridis"), cax=bar)
     save_figure(figure, arguments.output)
 
 
