@@ -69,10 +69,8 @@ def measured(job: Job) -> tuple[Mesh, Mesh, np.ndarray]:
 
 def candidates(pair: str, data: Path) -> list[dict[str, Any]]:
     """What each candidate shows, and how wrong it is."""
-    kind, *names = pair.split()
-    whole, part, places = (
-        measured(Job(data, kind, *names)) if kind in KINDS else generated(kind, *(int(name) for name in names))
-    )
+    kind, one, two = pair.split()
+    whole, part, places = measured(Job(data, kind, one, two)) if kind in KINDS else generated(kind, int(one), int(two))
     ratio = float(np.sqrt(surface_area(part) / surface_area(whole)))
     settings, none = Partial(), np.zeros((0, 2), dtype=np.int64)
     sides = side(unit_area(part), settings.samples), side(unit_area(whole), settings.whole_samples)
@@ -84,10 +82,10 @@ def candidates(pair: str, data: Path) -> list[dict[str, Any]]:
     beams = sorted(searched(*sides, scales, none), key=lambda one: -plain_score(one))[:BEAMS]
     pool += [("beam", one) for one in beams]
     on, rows = ground(sides[1].mesh, sides[1].border), []
-    for origin, one in pool:
-        full = grown(*sides, one, none)
+    for origin, begun in pool:
+        full = grown(*sides, begun, none)
         bent = placed_on(full, *sides, on)
-        seen = evidence(one, full, bent)
+        seen = evidence(begun, full, bent)
         off = np.linalg.norm(bent.places.points - places, axis=1)
         found = {"score": score(seen), "bending": seen.bending, "err": 100 * float(np.nanmean(off))}
         rows.append({"case": pair, "origin": origin, **found})
@@ -149,8 +147,9 @@ def main() -> None:
     parser.add_argument("--data", type=Path, required=True)
     parser.add_argument("--json", type=Path)
     arguments = parser.parse_args()
-    there = arguments.json is not None and arguments.json.exists()
-    rows: list[dict[str, Any]] = json.loads(arguments.json.read_text(encoding="utf-8")) if there else []
+    rows: list[dict[str, Any]] = []
+    if arguments.json is not None and arguments.json.exists():
+        rows = json.loads(arguments.json.read_text(encoding="utf-8"))
     for pair in PAIRS:
         if any(row["case"] == pair for row in rows):
             continue
