@@ -224,7 +224,10 @@ def _merged(support: _Support, side: float) -> _Support:
     looks = support.normals @ axes
     main = np.abs(looks).argmax(axis=1)
     face = 2 * main + (np.take_along_axis(looks, main[:, None], axis=1)[:, 0] > 0)
-    group = np.unique(np.column_stack([cell, face]), axis=0, return_inverse=True)[1]
+    group = np.zeros(len(w), dtype=np.int64)
+    for column in (*cell.T, face):  # rows are sorted ten times as slowly as numbers
+        column = column - column.min()
+        group = np.unique(group * (column.max() + 1) + column, return_inverse=True)[1]
     total = np.bincount(group, w)
     both = np.hstack([support.points, support.normals])
     summed = np.stack([np.bincount(group, w * column) for column in both.T], axis=1)

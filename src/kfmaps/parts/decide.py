@@ -36,8 +36,10 @@ def opening(mesh: Mesh) -> float:
     if len(f) == 0:
         return 0.0
     ends = np.sort(np.concatenate([f[:, [0, 1]], f[:, [1, 2]], f[:, [2, 0]]]), axis=1)
-    edges, count = np.unique(ends, axis=0, return_counts=True)
-    edges = edges[count == 1]
+    # One number for each edge: rows are sorted ten times as slowly.
+    found, count = np.unique(ends[:, 0] * n + ends[:, 1], return_counts=True)
+    found = found[count == 1]
+    edges = np.stack([found // n, found % n], axis=1)
     if len(edges) == 0:
         return 0.0
     lengths = np.linalg.norm(mesh.vertices[edges[:, 0]] - mesh.vertices[edges[:, 1]], axis=1)

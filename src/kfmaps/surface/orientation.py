@@ -80,8 +80,9 @@ def _edges(mesh: Mesh) -> tuple[np.ndarray, csr_array]:
     """
     p, q, r = (np.concatenate([np.roll(mesh.faces, -i, axis=1)[:, c] for i in range(3)]) for c in range(3))
     sign = np.where(p < q, 1.0, -1.0) / 12
-    ends = np.stack([np.minimum(p, q), np.maximum(p, q)], axis=1)
-    edges, number = np.unique(ends, axis=0, return_inverse=True)
+    n = len(mesh.vertices)
+    found, number = np.unique(np.minimum(p, q) * n + np.maximum(p, q), return_inverse=True)
+    edges = np.stack([found // n, found % n], axis=1)
     rows, columns = np.tile(number, 3), np.concatenate([p, q, r])
     values = np.concatenate([sign, sign, -2 * sign])
-    return edges, csr_array((values, (rows, columns)), shape=(len(edges), len(mesh.vertices)))
+    return edges, csr_array((values, (rows, columns)), shape=(len(edges), n))
