@@ -8,7 +8,7 @@ known. Pairs are chosen by likeness (``--graph near``), matched by ``kfmaps batc
 (``--consistent``). A part ``--wrong`` of the maps is replaced by random ones before that. ``--plan`` tells the pairs,
 memory and time that a run needs, and runs nothing. ``--zoom`` then compares each map in use, cut to k functions, with
 the map through the latent space after consistent ZoomOut to as many; ``--zoom --run DATA OUT`` does it for a run that
-is there. Errors are in per cent of √area.
+is there. ``--agree`` measures the agreement alone, on made-up maps of as many shapes. Errors are in per cent of √area.
 """
 
 from __future__ import annotations
@@ -40,6 +40,7 @@ from kfmaps.app.files import load_map, read_mesh, read_vertex_numbers, save_map,
 from kfmaps.config import Config, Search
 from kfmaps.fit.shape import prepare
 from kfmaps.functional.points import to_functional, to_points
+from kfmaps.many.agree import FUNCTIONS, Choice, Link, agree, orthogonal
 from kfmaps.many.zoom import ConsistentZoomOut, through_latent
 from kfmaps.surface.coarse import coarse
 from kfmaps.surface.mesh import Mesh
@@ -122,6 +123,29 @@ def measured(count: int, vertices: int, workers: int, wrong: float, full: bool, 
     )
 
 
+def agreement(count: int, wrong: float) -> str:
+    """CPU seconds a shape of :func:`kfmaps.many.agree.agree` on noisy maps of which a part is random, and what it says.
+
+    Each shape is joined with two successors and a shape anywhere: as many pairs as ``--graph near`` makes.
+    """
+    rng = np.random.default_rng(0)
+    frames = [orthogonal(rng.normal(size=(FUNCTIONS, FUNCTIONS))) for _ in range(count)]
+    ends = [(i, (i + step) % count) for i in range(count) for step in (1, 2, int(rng.integers(3, count - 2)))]
+    bad = rng.permutation(len(ends))[: round(wrong * len(ends))]
+    maps = [frames[b] @ frames[a].T + 0.05 * rng.normal(size=(FUNCTIONS, FUNCTIONS)) for a, b in ends]
+    for i in bad:
+        maps[i] = orthogonal(rng.normal(size=(FUNCTIONS, FUNCTIONS)))
+    links = [Link(a, b, (Choice(C),)) for (a, b), C in zip(ends, maps, strict=True)]
+    begin = time.process_time()
+    found = agree(count, links)
+    used = time.process_time() - begin
+    believed = np.array([chances[0] > 0.5 for chances in found.chances])
+    right = np.ones(len(ends), dtype=bool)
+    right[bad] = False
+    told = f"{(~believed & ~right).sum():6d} {(~believed & right).sum():6d}"
+    return f"{count:6d} {len(ends):6d} {used / count:10.3f} {len(bad):6d} {told}"
+
+
 def zoomed(data: Path, out: Path, only: str = "*") -> None:
     """A table of consistent ZoomOut on the maps in use of a run: those of which both shapes are like ``only``."""
     collection = find_collection(data)
@@ -169,13 +193,19 @@ def main() -> None:
     )
     parser.add_argument("--plan", action="store_true")
     parser.add_argument("--zoom", action="store_true")
+    parser.add_argument("--agree", action="store_true")
     parser.add_argument("--run", nargs=2, type=Path, metavar=("DATA", "OUT"))
     parser.add_argument("--only", default="*", help="of such a run, shapes like these, with commas")
     chosen = parser.parse_args()
-    if chosen.run:
-        zoomed(*chosen.run, chosen.only)
-        return
     counts = [int(word) for word in chosen.shapes.split(",")]
+    if chosen.agree:
+        print("CPU seconds a shape to agree alone\nshapes  pairs    seconds  wrong  found  other")
+        for count in counts:
+            print(agreement(count, chosen.wrong), flush=True)
+        return
+    if chosen.run:
+        zoomed(chosen.run[0], chosen.run[1], chosen.only)
+        return
     if chosen.plan:
         for count in counts:
             print(needed(count, 3 * count, chosen.vertices, Config.automatic(), chosen.workers).told())

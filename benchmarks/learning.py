@@ -184,10 +184,12 @@ def run(data: Data, methods: dict[str, Callable[[Task], dict]], count: int, keep
         if len(used) == count:
             break
         missing = [name for name in methods if f"{a} {b}" not in done[name]]
-        if missing and (task := task_of(data, a, b)) is None:
+        task = task_of(data, a, b) if missing else None
+        if missing and task is None:
             continue
         used.append(f"{a} {b}")
         for name in missing:
+            assert task is not None
             row = {"set": data.folder.name, "pair": used[-1], "name": name, **methods[name](task)}
             done[name][used[-1]] = row
             if keep:

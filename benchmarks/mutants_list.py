@@ -466,5 +466,26 @@ MUTANTS = tuple(
         ),
         ("seam = np.flatnonzero((torn & ~single)[face])", "seam = np.flatnonzero(single[face])", "test_bake"),
         ("hits > 1) <= TWICE * np.count_nonzero(hits)", "hits > 1) <= np.count_nonzero(hits)", "test_bake"),
+        # learned kernels in a search, parts of a collection
+        (
+            "if new.score > ranked[0].score + CLEAR:",
+            "if new.score > ranked[0].score:",
+            "test_learned_search -k clearly",
+        ),
+        (
+            "for c in more if all(differs(c, one, on.source) > DISTINCT for one in ranked)]",
+            "for c in more]",
+            "test_learned_search -k clearly",
+        ),
+        (
+            "if wanted is not None and wanted != given:",
+            "if wanted is not None and wanted < given:",
+            "test_learned_search -k landmarks",
+        ),
+        (
+            "members = np.flatnonzero(found.component == part)",
+            "members = np.flatnonzero(found.component <= part)",
+            "test_many_differences -k alone",
+        ),
     )
 )
