@@ -14,7 +14,8 @@ stand the errors by the area that is missing. The last column is the most memory
 
 ``--both`` matches each of the SHREC'16 cuts of an animal to the next but one, neither of which holds all of the other:
 errors are over the target's vertices that both truly have and the map gives a counterpart, the overlap is of areas of
-the target, and "missing" is the part of its area that the source lacks.
+the target, and "missing" is the part of its area that the source lacks: pairs with more than three quarters of it
+missing are left out.
 """
 
 from __future__ import annotations
@@ -48,6 +49,8 @@ SETS = {"cuts": "SHREC16", "holes": "SHREC16", "PFAUST_M": "PFAUST_M", "PFAUST_H
 WIDTHS = (6, 8, 8, 8, 6, 9, 6, 12, 9, 9)
 WRONG = 10.0
 """Mean error × 100 above which no map should be called sure."""
+COMMON_AT_LEAST = 0.25
+"""Of the target's area, for a pair of parts to be matched to each other."""
 
 
 @dataclass(frozen=True)
@@ -142,8 +145,8 @@ def both_jobs(data: Path, half: str) -> list[Job]:
     return [replace(second, kind="both", other=first.part) for first, second in pairs if first.whole == second.whole]
 
 
-def run_both(job: Job) -> dict[str, object]:
-    """Two parts of one whole."""
+def run_both(job: Job) -> dict[str, object] | None:
+    """Two parts of one whole; ``None`` where they hardly have anything in common."""
     folder = job.data / "SHREC16"
     names = job.other, job.part
     whole = unit_area(mesh_of(folder, job.whole))
@@ -154,6 +157,9 @@ def run_both(job: Job) -> dict[str, object]:
     source, target = (
         Mesh(points_of(truth.places, whole), part.faces) for truth, part in zip(truths, parts, strict=True)
     )
+    true, areas = covered(source, border_of(source), target)[0] > COMMON, vertex_areas(target)
+    if areas[true].sum() < COMMON_AT_LEAST * areas.sum():
+        return None
     config = kfmaps.Config.automatic()
     begun = time.process_time()
     with warnings.catch_warnings():
@@ -162,8 +168,7 @@ def run_both(job: Job) -> dict[str, object]:
             parts[0], parts[1], replace(config, threads=1, partial=replace(config.partial, which="both"))
         )
     seconds = time.process_time() - begun
-    true = covered(source, border_of(source), target)[0] > COMMON
-    areas, rows = vertex_areas(target), np.flatnonzero(true & (found.target_to_source >= 0))
+    rows = np.flatnonzero(true & (found.target_to_source >= 0))
     ours = np.asarray(found.overlap_target) > COMMON
     error = float("nan")
     if len(rows):
@@ -220,7 +225,10 @@ def main() -> None:
         )
         for job in every[arguments.first :: arguments.every]:
             more = replace(job, landmarks=arguments.landmarks, turned=arguments.turned)
-            rows.append(run_both(job) if arguments.both else run(more))
+            row = run_both(job) if arguments.both else run(more)
+            if row is None:
+                continue
+            rows.append(row)
             if arguments.json:
                 arguments.json.write_text(json.dumps([*everything, *rows], indent=1), encoding="utf-8")
         if rows:
