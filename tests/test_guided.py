@@ -77,6 +77,20 @@ def test_a_guide_is_scaled_common_and_short():
     assert some.target is found.target
 
 
+def test_some_rows_tell_the_directions_of_all(monkeypatch):
+    rng = np.random.default_rng(5)
+    source, target = (rng.normal(size=(n, 6)) * [3.0, 2.0, 1.5, 0.1, 0.1, 0.1] + 1.0 for n in (900, 700))
+    every = guide(source, target, 3)
+    monkeypatch.setattr("kfmaps.functional.guide.ROWS", 400)
+    some = guide(source, target, 3)
+
+    def distances(found):
+        return ((found.target[:, None] - found.source[None]) ** 2).sum(axis=2)
+
+    assert 0 < np.abs(distances(some) - distances(every)).max() < 0.02 * distances(every).max()
+    assert (some.source**2).sum() + (some.target**2).sum() == pytest.approx(800)
+
+
 def test_noise_does_not_guide():
     rng = np.random.default_rng(0)
     assert guide(1 + 0.01 * rng.normal(size=(50, 3)), 1 + 0.01 * rng.normal(size=(40, 3))) is None

@@ -68,7 +68,7 @@ def shot(
     *,
     bins: int = 10,
     form: Form = "surface",
-    samples: int = 20_000,
+    samples: int = 10_000,
     at: np.ndarray | None = None,
     threads: int | None = None,
     progress: Callable[[float], None] | None = None,

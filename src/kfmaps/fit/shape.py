@@ -23,8 +23,6 @@ from kfmaps.surface.samples import stratified_samples
 
 DESCRIBED = 10_000
 """Vertices for which SHOT is worked out; where there are more they are a hundredth of √area apart."""
-SUPPORT = 10_000
-"""Points of the surface that it counts: 250 in a ball."""
 NORMALS = 0.05
 """Distance in space, at unit area, that counts as much as normals that differ by 1."""
 
@@ -191,9 +189,9 @@ def local_descriptors(
     each weighted by the inverse of its squared distance.
     """
     if len(mesh.vertices) <= DESCRIBED:
-        return shot(mesh, radius, samples=SUPPORT, threads=threads, progress=progress)
+        return shot(mesh, radius, threads=threads, progress=progress)
     chosen = stratified_samples(basis, DESCRIBED, 0).vertices
-    found = shot(mesh, radius, samples=SUPPORT, at=chosen, threads=threads, progress=progress)
+    found = shot(mesh, radius, at=chosen, threads=threads, progress=progress)
     places = np.hstack([mesh.vertices, NORMALS * vertex_normals(mesh)])
     away, near = KDTree(places[chosen]).query(places, k=3, workers=threads or available_cores())
     weights = 1.0 / np.maximum(np.asarray(away) ** 2, 1e-12)

@@ -12,13 +12,15 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from kfmaps._arrays import Array, like, refuse
+from kfmaps._arrays import Array, blocks, like, refuse
 from kfmaps.surface.basis import Basis
 
 DIMENSIONS = 32
 """Principal directions of the descriptors that are kept: SHOT has 352, most of them noise."""
 FLAT = 0.05
 """Spread of SHOT below which its differences are the triangulation's: a sphere has 0.0005, bodies 0.2 to 0.3."""
+ROWS = 30_000
+"""Rows of descriptors that are worked on together. About so many of both shapes tell the principal directions."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,14 +67,19 @@ def guide(source: np.ndarray | None, target: np.ndarray | None, dimensions: int 
         raise refuse("descriptors", "as many on both shapes", got, "compute both with the same settings")
     if max(spread(source), spread(target)) < FLAT:
         return None
-    both = np.vstack([source, target])
-    centred = both - both.mean(axis=0)
-    directions = np.linalg.eigh(centred.T @ centred)[1][:, ::-1][:, :dimensions]
-    reduced = centred @ directions
-    reduced /= np.sqrt(2 * (reduced**2).sum(axis=1).mean())
-    return Guide(reduced[: len(source)], reduced[len(source) :])
+    sides = (source, target)
+    count = len(source) + len(target)
+    mean = (source.sum(axis=0) + target.sum(axis=0)) / count
+    # Of large shapes some rows tell the directions, and no copy is made of all.
+    some = np.vstack([side[:: max(1, count // ROWS)] for side in sides]) - mean
+    directions = np.linalg.eigh(some.T @ some)[1][:, ::-1][:, :dimensions]
+    reduced = [np.vstack([(side[rows] - mean) @ directions for rows in blocks(len(side), ROWS)]) for side in sides]
+    unit = np.sqrt(2 * sum((part**2).sum() for part in reduced) / count)
+    return Guide(reduced[0] / unit, reduced[1] / unit)
 
 
 def spread(descriptors: np.ndarray) -> float:
     """Mean squared distance of the rows from their mean."""
-    return float(((descriptors - descriptors.mean(axis=0)) ** 2).sum(axis=1).mean())
+    mean = descriptors.mean(axis=0)
+    squares = sum(float(((descriptors[rows] - mean) ** 2).sum()) for rows in blocks(len(descriptors), ROWS))
+    return squares / len(descriptors)
