@@ -1,0 +1,101 @@
+"""Shapes that differ much: bent onto each other and matched in turn, before the finish.
+
+Their functions correspond only roughly, so that ZoomOut leaves a limb torn or everything a little off; bending alone
+cannot jump. Together they can: the source is bent onto the target as the map says, stiffly, and where both then lie,
+positions and normals, takes part in the next refinement beside functions and descriptors. That is how Smooth Shells
+(Eisenberger et al. 2020) join functions, coordinates and normals; here an as-rigid-as-possible fit bends the source.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from kfmaps._arrays import NotConverged, to_numpy
+from kfmaps._progress import Done
+from kfmaps.fit.shape import Shape
+from kfmaps.functional.guide import Guide
+from kfmaps.functional.nonrigid import NonRigid
+from kfmaps.functional.refine import ZoomOut
+from kfmaps.search.bends import Copy, copied
+from kfmaps.search.marks import joined
+from kfmaps.surface.basis import Basis
+from kfmaps.surface.mesh import Mesh, vertex_areas, vertex_normals
+from kfmaps.surface.samples import SampledBasis
+
+POINTS = 4000
+"""Vertices of the copies that are bent."""
+ROUNDS = 2
+"""Fits, each followed by a refinement on the copies."""
+FIT = NonRigid(stiffness=5e-3, levels=2, steps=4)
+"""Stiff, so that what is torn is not bent to fit."""
+FROM, STEP = 20, 20
+"""Functions that each refinement starts with, and how many more at each step."""
+WEIGHT = 10.0
+"""Of where both lie beside SHOT."""
+NORMALS = 0.3
+"""Distance at unit area that counts as much as normals that differ by 1."""
+RIDGE = 1e-3
+"""Damping of the least squares that take positions from a copy to all vertices."""
+
+
+@dataclass(frozen=True, eq=False)
+class Alternated:
+    """What :func:`alternated` returns: a functional map ``(k, k)`` and where all vertices lie, as a guide."""
+
+    functional_map: np.ndarray
+    guide: Guide
+
+
+def alternated(
+    C: np.ndarray, source: Shape, target: Shape, refinement: ZoomOut, led: Guide, report: Done | None = None
+) -> Alternated | None:
+    """The map ``C (k_t, k_s)`` between unlike shapes mended; ``led`` guides it on all vertices.
+
+    ``None`` where a shape has no faces to bend.
+    """
+    copies = copied(source, POINTS), copied(target, POINTS)
+    if copies[0] is None or copies[1] is None:
+        return None
+    a, b = copies
+    bases = _sampled(source.basis, a), _sampled(target.basis, b)
+    refine = replace(refinement, start=min(FROM, refinement.stop), step=STEP, samples=None)
+    here = led.at(a.vertices, b.vertices)
+    found = refine(C, *bases, guide=here)
+    bent = None
+    for i in range(ROUNDS):
+        try:
+            bent = FIT(a.mesh, b.mesh, found.target_to_source).vertices
+        except NotConverged:
+            break
+        beside = joined([(1.0, here), (WEIGHT, lying(Mesh(bent, a.mesh.faces), b.mesh))])
+        found = refine(found.functional_map, *bases, guide=beside)
+        if report is not None:
+            report((i + 1) / ROUNDS)
+    if bent is None:
+        return None
+    everywhere = Mesh(spread(bent, bases[0], source.basis), source.mesh.faces)
+    return Alternated(to_numpy(found.functional_map), lying(everywhere, target.mesh))
+
+
+def lying(source: Mesh, target: Mesh) -> Guide:
+    """Positions and normals of two surfaces that lie on each other; two random points differ by 1 on average."""
+    middle = target.vertices.mean(axis=0)
+    size = np.sqrt(2 * ((target.vertices - middle) ** 2).sum(axis=1).mean())
+    sides = (np.hstack([mesh.vertices - middle, NORMALS * vertex_normals(mesh)]) / size for mesh in (source, target))
+    return Guide(*sides)
+
+
+def spread(positions: np.ndarray, samples: SampledBasis, basis: Basis, k: int = 100) -> np.ndarray:
+    """``positions (q, 3)`` at samples as smooth functions on all vertices, (n, 3), by damped least squares."""
+    phi = to_numpy(samples.functions)[:, :k]
+    weighted = (to_numpy(samples.mass)[:, None] * phi).T
+    found = np.linalg.solve(weighted @ phi + RIDGE * np.eye(phi.shape[1]), weighted @ positions)
+    return to_numpy(basis.functions)[:, : phi.shape[1]] @ found
+
+
+def _sampled(basis: Basis, copy: Copy) -> SampledBasis:
+    areas = vertex_areas(copy.mesh)
+    areas = areas * (float(to_numpy(basis.mass).sum()) / areas.sum())
+    return SampledBasis(basis.eigenvalues, to_numpy(basis.functions)[copy.vertices], areas)
