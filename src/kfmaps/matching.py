@@ -25,8 +25,9 @@ from kfmaps.functional.precise import PointMap, to_places
 from kfmaps.functional.refine import ZoomOut
 from kfmaps.parts.answer import Partly, partly, reason
 from kfmaps.parts.decide import suspicion
+from kfmaps.search.alternate import WEIGHT, lying
 from kfmaps.search.choose import Found, choose, closing, mirror_image
-from kfmaps.search.marks import leading
+from kfmaps.search.marks import joined, leading
 from kfmaps.search.quality import Probe
 from kfmaps.surface.eigen.pencil import THREADED
 from kfmaps.surface.mesh import MIRROR, Mesh
@@ -263,6 +264,9 @@ def match(
             shapes[1] = mirror_image(shapes[1])
         tips = found.limbs and found.limbs.guide(shapes[0].mesh, shapes[1].mesh)
         led = leading(shapes[0], shapes[1], found.landmarks, tips)
+        if found.bent is not None:
+            lie = lying(Mesh(found.bent, shapes[0].mesh.faces), shapes[1].mesh)
+            led = joined([(1.0, led), (WEIGHT, lie)])
     else:
         one = fit(shapes[0], shapes[1], config, landmarks=marks, **more)
         clock.seconds.update(one.seconds)

@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from kfmaps._arrays import NotConverged, to_numpy
+from kfmaps._arrays import to_numpy
 from kfmaps._progress import Done
 from kfmaps.fit.shape import Shape
 from kfmaps.functional.guide import Guide
@@ -24,14 +24,14 @@ from kfmaps.surface.basis import Basis
 from kfmaps.surface.mesh import Mesh, vertex_areas, vertex_normals
 from kfmaps.surface.samples import SampledBasis
 
-POINTS = 4000
+POINTS = 6000
 """Vertices of the copies that are bent."""
 ROUNDS = 2
 """Fits, each followed by a refinement on the copies."""
 FIT = NonRigid(stiffness=5e-3, levels=2, steps=4)
 """Stiff, so that what is torn is not bent to fit."""
-FROM, STEP = 20, 20
-"""Functions that each refinement starts with, and how many more at each step."""
+REFINE = ZoomOut(start=20, stop=100, step=20, guidance=36.0)
+"""On the copies; the high functions of shapes that differ much do not correspond."""
 WEIGHT = 10.0
 """Of where both lie beside SHOT."""
 NORMALS = 0.3
@@ -41,42 +41,52 @@ RIDGE = 1e-3
 
 
 @dataclass(frozen=True, eq=False)
+class Grounds:
+    """Copies of both shapes with their functions; made by :func:`grounds`."""
+
+    source: Shape
+    target: Shape
+    copies: tuple[Copy, Copy]
+    bases: tuple[SampledBasis, SampledBasis]
+
+
+@dataclass(frozen=True, eq=False)
 class Alternated:
-    """What :func:`alternated` returns: a functional map ``(k, k)`` and where all vertices lie, as a guide."""
+    """What :func:`alternated` returns: a functional map ``(k, k)`` and the source's vertices, ``(n_s, 3)``, bent."""
 
     functional_map: np.ndarray
-    guide: Guide
+    bent: np.ndarray
 
 
-def alternated(
-    C: np.ndarray, source: Shape, target: Shape, refinement: ZoomOut, led: Guide, report: Done | None = None
-) -> Alternated | None:
+def grounds(source: Shape, target: Shape) -> Grounds | None:
+    """Copies of two shapes to alternate on; ``None`` where one has no faces to bend."""
+    a, b = copied(source, POINTS), copied(target, POINTS)
+    if a is None or b is None:
+        return None
+    return Grounds(source, target, (a, b), (_sampled(source.basis, a), _sampled(target.basis, b)))
+
+
+def alternated(C: np.ndarray, on: Grounds, led: Guide | None, report: Done | None = None) -> Alternated:
     """The map ``C (k_t, k_s)`` between unlike shapes mended; ``led`` guides it on all vertices.
 
-    ``None`` where a shape has no faces to bend.
+    Raises
+    ------
+    NotConverged
+        Where a copy falls apart.
     """
-    copies = copied(source, POINTS), copied(target, POINTS)
-    if copies[0] is None or copies[1] is None:
-        return None
-    a, b = copies
-    bases = _sampled(source.basis, a), _sampled(target.basis, b)
-    refine = replace(refinement, start=min(FROM, refinement.stop), step=STEP, samples=None)
-    here = led.at(a.vertices, b.vertices)
-    found = refine(C, *bases, guide=here)
-    bent = None
+    a, b = on.copies
+    k = min(*(len(basis.eigenvalues) for basis in on.bases), REFINE.stop)
+    refine = replace(REFINE, stop=k, start=min(REFINE.start, k))
+    here = led and led.at(a.vertices, b.vertices)
+    found = refine(C, *on.bases, guide=here)
+    bent = a.mesh.vertices
     for i in range(ROUNDS):
-        try:
-            bent = FIT(a.mesh, b.mesh, found.target_to_source).vertices
-        except NotConverged:
-            break
-        beside = joined([(1.0, here), (WEIGHT, lying(Mesh(bent, a.mesh.faces), b.mesh))])
-        found = refine(found.functional_map, *bases, guide=beside)
+        bent = FIT(a.mesh, b.mesh, found.target_to_source).vertices
+        lie = lying(Mesh(bent, a.mesh.faces), b.mesh)
+        found = refine(found.functional_map, *on.bases, guide=joined([(1.0, here), (WEIGHT, lie)]))
         if report is not None:
             report((i + 1) / ROUNDS)
-    if bent is None:
-        return None
-    everywhere = Mesh(spread(bent, bases[0], source.basis), source.mesh.faces)
-    return Alternated(to_numpy(found.functional_map), lying(everywhere, target.mesh))
+    return Alternated(to_numpy(found.functional_map), spread(bent, on.bases[0], on.source.basis))
 
 
 def lying(source: Mesh, target: Mesh) -> Guide:

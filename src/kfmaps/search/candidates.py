@@ -54,7 +54,9 @@ ZERO = 0.03
 APART = 0.04
 """Mean distance, in units of √area, from which rough maps count as different: nearer than in the end."""
 BEND, USUAL = 5.0, 0.15
-"""Weight of the logarithm of the bending energy over a usual one."""
+"""Weight of the logarithm of the bending energy over a usual one, ..."""
+BEND_UNLIKE = 3.0
+"""... and for maps that were bent and matched in turn, which leaves wrong ones with little more of it."""
 LANDMARK = 2.0
 """What a landmark whose image is simply wrong costs."""
 
@@ -77,6 +79,8 @@ class Candidate:
         How far the image of each landmark is from where it belongs, in units of √area.
     bending : float or None
         See :func:`kfmaps.search.bends.bending`; ``None`` where it is not known.
+    bent : (n_s, 3) float64 or None
+        The source's vertices on the target, roughly, where both were bent and matched in turn.
     """
 
     name: str
@@ -86,6 +90,7 @@ class Candidate:
     guided: bool = True
     missed: np.ndarray = field(default_factory=lambda: np.zeros(0))
     bending: float | None = None
+    bent: np.ndarray | None = None
 
     @property
     def score(self) -> float:
@@ -98,7 +103,8 @@ class Candidate:
     @property
     def evidence(self) -> float:
         """What the two shapes say about the map: its quality and, where that is known, how little they must bend."""
-        bent = 0.0 if self.bending is None else -BEND * math.log(self.bending / USUAL)
+        weight = BEND if self.bent is None else BEND_UNLIKE
+        bent = 0.0 if self.bending is None else -weight * math.log(self.bending / USUAL)
         return self.quality.score + bent
 
 

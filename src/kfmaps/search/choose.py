@@ -14,20 +14,22 @@ from typing import Any
 
 import numpy as np
 
-from kfmaps._arrays import refuse, seed_of
+from kfmaps._arrays import NotConverged, refuse, seed_of
 from kfmaps._progress import Progress
 from kfmaps._threads import parallel
 from kfmaps.config import Config
 from kfmaps.descriptors.shot import mirrored
 from kfmaps.fit.fit import Fit, checked_landmarks
 from kfmaps.fit.shape import Shape, inner
+from kfmaps.functional.guide import guide
 from kfmaps.functional.points import to_points
 from kfmaps.functional.refine import Refinement, ZoomOut
+from kfmaps.search.alternate import alternated, grounds
 from kfmaps.search.arena import Arena, Ground, arena, turned, without
 from kfmaps.search.bends import LONGER, MORE, bending, copied
-from kfmaps.search.candidates import Candidate, again, apart, candidates, differs, judged
+from kfmaps.search.candidates import FINE, Candidate, again, apart, candidates, differs, judged
 from kfmaps.search.learned import learned, plain, speaks
-from kfmaps.search.marks import doubted
+from kfmaps.search.marks import doubted, leading
 from kfmaps.search.pairings import Limbs, limbs
 from kfmaps.search.quality import Probe, probe
 from kfmaps.search.verdict import MUCH, excess, probability, verdict
@@ -49,6 +51,8 @@ BEHIND = 3.0
 """... unless they are so far behind in the score."""
 CLOSE = 1.0
 """Margin below which the first two are looked at again."""
+MENDABLE = 6.0
+"""How far behind a map between unlike shapes may be to be mended: mending has gained up to 10."""
 SETTLED = 3
 """Maps to a mirror image that are worth a refinement of their own."""
 
@@ -84,6 +88,8 @@ class Found:
         How far the shapes bend to follow it; see :func:`kfmaps.search.bends.bending`.
     limbs : Limbs or None
         Tips of limbs that lead the refinement, where the shapes differ so much that they should.
+    bent : (n_s, 3) float64 or None
+        The source's vertices roughly on the target, where the shapes differ so much that these lead it as well.
     """
 
     functional_map: np.ndarray
@@ -99,6 +105,7 @@ class Found:
     quality: float | None = None
     bending: float | None = None
     limbs: Limbs | None = None
+    bent: np.ndarray | None = None
 
 
 def choose(
@@ -182,6 +189,9 @@ def choose(
     if taught and (orientation == "kept" or asked == "reversed"):
         more = learned(source, target, config, on, seed, given)
         ranked = beside(ranked, more, on.whole, source, target, config.threads)
+    if surfaces and ranked[0].quality.score < UNLIKE:
+        image = mirror_image(target) if orientation == "reversed" and asked != "reversed" else target
+        ranked = mended(ranked, on.whole, source, image, pairs[~wrong], config.threads)
     best, others = ranked[0], ranked[1 : 1 + config.search.runners_up]
     margin = max(best.score - ranked[1].score, 0.0) if len(ranked) > 1 else np.inf
     return Found(
@@ -198,6 +208,7 @@ def choose(
         quality=best.quality.score,
         bending=best.bending,
         limbs=limbs(best.points, *probes) if best.quality.score < UNLIKE else None,
+        bent=best.bent,
     )
 
 
@@ -283,6 +294,37 @@ def second_look(
     both = finer[0], finer[1].mirrored() if on.target.mirrored else finer[1]
     energies = parallel(lambda c: bending(c.functional_map, source, target, both, LONGER), order[:2], threads)
     return in_order([replace(c, bending=e) for c, e in zip(order[:2], energies, strict=True)]) + order[2:]
+
+
+def mended(
+    ranked: list[Candidate],
+    on: Ground,
+    source: Shape,
+    target: Shape,
+    landmarks: np.ndarray,
+    threads: int | None = None,
+) -> list[Candidate]:
+    """The best few between unlike shapes bent and matched in turn (:mod:`kfmaps.search.alternate`), and ranked again."""
+    both = grounds(source, target)
+    finer = copied(source, MORE), copied(target, MORE)
+    if both is None or finer[0] is None or finer[1] is None:
+        return ranked
+    copies, shot = (finer[0], finer[1]), guide(source.shot, target.shot)
+
+    def mend(old: Candidate) -> Candidate:
+        tips = limbs(old.points, on.source, on.target)
+        led = leading(source, target, landmarks, tips and tips.guide(source.mesh, target.mesh), shot)
+        try:
+            found = alternated(old.functional_map, both, led)
+        except NotConverged:
+            return old
+        size = min(FINE, len(found.functional_map))
+        new = judged([(old.name, old.guided)], found.functional_map[None, :size, :size], None, on, 1)[0]
+        energy = bending(new.functional_map, source, target, copies, LONGER)
+        return replace(new, bending=energy, bent=found.bent)
+
+    near = [c for c in ranked[:BENT] if c.score > ranked[0].score - MENDABLE]
+    return apart(in_order(parallel(mend, near, threads)) + ranked[len(near) :], on.source, DISTINCT)
 
 
 def distinct(found: list[Candidate], source: Probe) -> list[Candidate]:

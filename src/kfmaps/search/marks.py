@@ -123,9 +123,14 @@ def doubted(distances: np.ndarray) -> np.ndarray:
     return np.zeros(len(distances), dtype=bool) if few else wrong
 
 
-def leading(source: Shape, target: Shape, landmarks: np.ndarray, limbs: Guide | None = None) -> Guide | None:
-    """SHOT, ``landmarks (l, 2)`` and ``limbs`` on all vertices, for the refinement; ``None`` where nothing leads."""
-    local = joined([(1.0, guide(source.shot, target.shot)), (LIMBS, limbs)])
+def leading(
+    source: Shape, target: Shape, landmarks: np.ndarray, limbs: Guide | None = None, shot: Guide | None = None
+) -> Guide | None:
+    """SHOT, ``landmarks (l, 2)`` and ``limbs`` on all vertices, for the refinement; ``None`` where nothing leads.
+
+    ``shot``: its guide, where that is known.
+    """
+    local = joined([(1.0, shot or guide(source.shot, target.shot)), (LIMBS, limbs)])
     if len(landmarks) == 0:
         return local
     functions = [around(s.basis, s.basis, at) for s, at in zip((source, target), landmarks.T, strict=True)]
