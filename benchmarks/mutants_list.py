@@ -20,6 +20,7 @@ class Mutant(NamedTuple):
 KERNEL = "test_kernels"
 FORMULAS = "test_formulas"
 MATCH = "test_formulas_match"
+ALTERNATE = "test_alternate"
 
 MUTANTS = tuple(
     Mutant(*row)
@@ -490,6 +491,21 @@ MUTANTS = tuple(
             "members = np.flatnonzero(found.component == part)",
             "members = np.flatnonzero(found.component <= part)",
             "test_many_differences -k alone",
+        # unlike shapes, bent and matched in turn
+        (
+            "found = refine(found.functional_map, *on.bases, guide=joined([(1.0, here), (WEIGHT, lie)]))",
+            "found = refine(found.functional_map, *on.bases, guide=here)",
+            ALTERNATE,
+        ),
+        (
+            "size = np.sqrt(2 * ((target.vertices - middle) ** 2)",
+            "size = np.sqrt(((target.vertices - middle) ** 2)",
+            ALTERNATE,
+        ),
+        (
+            "found = np.linalg.solve(weighted @ phi + RIDGE",
+            "found = np.linalg.solve(weighted @ phi + 1e3 * RIDGE",
+            ALTERNATE,
         ),
     )
 )

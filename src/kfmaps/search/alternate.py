@@ -90,7 +90,10 @@ def alternated(C: np.ndarray, on: Grounds, led: Guide | None, report: Done | Non
 
 
 def lying(source: Mesh, target: Mesh) -> Guide:
-    """Positions and normals of two surfaces that lie on each other; two random points differ by 1 on average."""
+    """Positions and normals of two surfaces that lie on each other.
+
+    Positions of two random points differ by 1 on average, normals by about as much.
+    """
     middle = target.vertices.mean(axis=0)
     size = np.sqrt(2 * ((target.vertices - middle) ** 2).sum(axis=1).mean())
     sides = (np.hstack([mesh.vertices - middle, NORMALS * vertex_normals(mesh)]) / size for mesh in (source, target))

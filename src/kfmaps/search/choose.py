@@ -304,7 +304,7 @@ def mended(
     landmarks: np.ndarray,
     threads: int | None = None,
 ) -> list[Candidate]:
-    """The best few between unlike shapes bent and matched in turn (:mod:`kfmaps.search.alternate`), and ranked again."""
+    """The best between unlike shapes bent and matched in turn (:mod:`kfmaps.search.alternate`), and ranked again."""
     both = grounds(source, target)
     finer = copied(source, MORE), copied(target, MORE)
     if both is None or finer[0] is None or finer[1] is None:

@@ -1,0 +1,86 @@
+"""Shapes that differ much, bent and matched in turn."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import kfmaps
+from kfmaps import datasets
+from kfmaps.functional.points import nearest, to_functional
+from kfmaps.search import alternate
+from kfmaps.search.alternate import alternated, grounds, lying, spread
+
+
+@pytest.fixture(scope="module")
+def pair():
+    made = datasets.non_isometric(1500, rng=3)
+    config = kfmaps.Config.automatic()
+    shapes = [kfmaps.prepare(mesh, config, name=name) for mesh, name in ((made.source, "a"), (made.target, "b"))]
+    return *shapes, made.truth
+
+
+def points_of(C, source, target):
+    k_t, k_s = C.shape
+    images = source.basis.functions[:, :k_s] @ C.T
+    return nearest(np.ascontiguousarray(target.basis.functions[:, :k_t]), images, threads=1)
+
+
+def error(C, source, target, truth):
+    return kfmaps.geodesic_errors(source.mesh, points_of(C, source, target), truth).mean()
+
+
+def test_a_torn_map_is_mended(pair):
+    """A third of the target is sent elsewhere: what remains pulls it back, which functions alone do not."""
+    source, target, truth = pair
+    torn = truth.copy()
+    high = np.argsort(target.mesh.vertices[:, 0])[-len(torn) // 4 :]
+    torn[high] = np.random.default_rng(0).permutation(torn[high])
+    C = to_functional(torn, source.basis.truncated(40), target.basis.truncated(40))
+    found = alternated(C, grounds(source, target), None)
+    assert error(found.functional_map, source, target, truth) < 0.7 * error(C, source, target, truth)
+    assert found.bent.shape == source.mesh.vertices.shape
+
+
+def test_bent_vertices_lie_where_the_truth_says(pair):
+    source, target, truth = pair
+    C = to_functional(truth, source.basis.truncated(60), target.basis.truncated(60))
+    bent = alternated(C, grounds(source, target), None).bent
+    off = np.linalg.norm(bent[truth] - target.mesh.vertices, axis=1)
+    assert off.mean() < 0.04
+
+
+def test_each_fit_is_followed_by_a_refinement_that_it_takes_part_in(pair, monkeypatch):
+    source, target, truth = pair
+    C = to_functional(truth, source.basis.truncated(40), target.basis.truncated(40))
+    told = []
+    first = alternated(C, grounds(source, target), None, told.append).functional_map
+    assert told == [(i + 1) / alternate.ROUNDS for i in range(alternate.ROUNDS)]
+    monkeypatch.setattr(alternate, "WEIGHT", 0.0)
+    without = alternated(C, grounds(source, target), None).functional_map
+    assert error(first, source, target, truth) < error(without, source, target, truth)
+
+
+def test_positions_are_spread_smoothly(pair):
+    source = pair[0]
+    on = grounds(source, source)
+    again = spread(on.copies[0].mesh.vertices, on.bases[0], source.basis)
+    off = np.linalg.norm(again - source.mesh.vertices, axis=1)
+    assert off.mean() < 0.01
+
+
+def test_what_lies_on_itself_differs_nowhere(pair):
+    mesh = pair[0].mesh
+    guide = lying(mesh, mesh)
+    assert np.array_equal(guide.source, guide.target)
+    a, b = np.random.default_rng(0).integers(len(mesh.vertices), size=(2, 4000))
+    apart = ((guide.source[a] - guide.source[b]) ** 2)[:, :3].sum(axis=1)
+    assert apart.mean() == pytest.approx(1.0, abs=0.1)
+
+
+def test_point_clouds_are_not_bent(pair):
+    source = pair[0]
+    cloud = kfmaps.Mesh(source.mesh.vertices, np.zeros((0, 3), dtype=np.int64))
+    assert grounds(replace(source, mesh=cloud), source) is None
