@@ -81,6 +81,8 @@ class Candidate:
         See :func:`kfmaps.search.bends.bending`; ``None`` where it is not known.
     bent : (n_s, 3) float64 or None
         The source's vertices on the target, roughly, where both were bent and matched in turn.
+    before : float or None
+        The evidence before that: what needed less mending is the likelier.
     """
 
     name: str
@@ -91,6 +93,7 @@ class Candidate:
     missed: np.ndarray = field(default_factory=lambda: np.zeros(0))
     bending: float | None = None
     bent: np.ndarray | None = None
+    before: float | None = None
 
     @property
     def score(self) -> float:
@@ -105,7 +108,8 @@ class Candidate:
         """What the two shapes say about the map: its quality and, where that is known, how little they must bend."""
         weight = BEND if self.bent is None else BEND_UNLIKE
         bent = 0.0 if self.bending is None else -weight * math.log(self.bending / USUAL)
-        return self.quality.score + bent
+        found = self.quality.score + bent
+        return found if self.before is None else (found + self.before) / 2
 
 
 @dataclass(frozen=True, eq=False)

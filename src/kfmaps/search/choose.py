@@ -321,7 +321,7 @@ def mended(
         size = min(FINE, len(found.functional_map))
         new = judged([(old.name, old.guided)], found.functional_map[None, :size, :size], None, on, 1)[0]
         energy = bending(new.functional_map, source, target, copies, LONGER)
-        return replace(new, bending=energy, bent=found.bent)
+        return replace(new, bending=energy, bent=found.bent, before=old.evidence)
 
     near = [c for c in ranked[:BENT] if c.score > ranked[0].score - MENDABLE]
     return apart(in_order(parallel(mend, near, threads)) + ranked[len(near) :], on.source, DISTINCT)
