@@ -11,7 +11,7 @@ import kfmaps
 from kfmaps import datasets
 from kfmaps.functional.points import nearest, to_functional
 from kfmaps.search import alternate
-from kfmaps.search.alternate import alternated, grounds, lying, spread
+from kfmaps.search.alternate import Grounds, alternated, grounds, lying, spread
 
 
 @pytest.fixture(scope="module")
@@ -20,6 +20,12 @@ def pair():
     config = kfmaps.Config.automatic()
     shapes = [kfmaps.prepare(mesh, config, name=name) for mesh, name in ((made.source, "a"), (made.target, "b"))]
     return *shapes, made.truth
+
+
+def both(source, target) -> Grounds:
+    on = grounds(source, target)
+    assert on is not None
+    return on
 
 
 def points_of(C, source, target):
@@ -39,7 +45,7 @@ def test_a_torn_map_is_mended(pair):
     high = np.argsort(target.mesh.vertices[:, 0])[-len(torn) // 4 :]
     torn[high] = np.random.default_rng(0).permutation(torn[high])
     C = to_functional(torn, source.basis.truncated(40), target.basis.truncated(40))
-    found = alternated(C, grounds(source, target), None)
+    found = alternated(C, both(source, target), None)
     assert error(found.functional_map, source, target, truth) < 0.7 * error(C, source, target, truth)
     assert found.bent.shape == source.mesh.vertices.shape
 
@@ -47,7 +53,7 @@ def test_a_torn_map_is_mended(pair):
 def test_bent_vertices_lie_where_the_truth_says(pair):
     source, target, truth = pair
     C = to_functional(truth, source.basis.truncated(60), target.basis.truncated(60))
-    bent = alternated(C, grounds(source, target), None).bent
+    bent = alternated(C, both(source, target), None).bent
     off = np.linalg.norm(bent[truth] - target.mesh.vertices, axis=1)
     assert off.mean() < 0.04
 
@@ -56,16 +62,16 @@ def test_each_fit_is_followed_by_a_refinement_that_it_takes_part_in(pair, monkey
     source, target, truth = pair
     C = to_functional(truth, source.basis.truncated(40), target.basis.truncated(40))
     told = []
-    first = alternated(C, grounds(source, target), None, told.append).functional_map
+    first = alternated(C, both(source, target), None, told.append).functional_map
     assert told == [(i + 1) / alternate.ROUNDS for i in range(alternate.ROUNDS)]
     monkeypatch.setattr(alternate, "WEIGHT", 0.0)
-    without = alternated(C, grounds(source, target), None).functional_map
+    without = alternated(C, both(source, target), None).functional_map
     assert error(first, source, target, truth) < error(without, source, target, truth)
 
 
 def test_positions_are_spread_smoothly(pair):
     source = pair[0]
-    on = grounds(source, source)
+    on = both(source, source)
     again = spread(on.copies[0].mesh.vertices, on.bases[0], source.basis)
     off = np.linalg.norm(again - source.mesh.vertices, axis=1)
     assert off.mean() < 0.01
