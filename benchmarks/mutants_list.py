@@ -491,6 +491,7 @@ MUTANTS = tuple(
             "members = np.flatnonzero(found.component == part)",
             "members = np.flatnonzero(found.component <= part)",
             "test_many_differences -k alone",
+        ),
         # unlike shapes, bent and matched in turn
         (
             "found = refine(found.functional_map, *on.bases, guide=joined([(1.0, here), (WEIGHT, lie)]))",
