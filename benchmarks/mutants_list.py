@@ -313,8 +313,8 @@ MUTANTS = tuple(
         ),
         ("each[i] += tips * against(", "each[i] = -tips * against(", "test_tips -k evidence"),
         (
-            "bent = 0.0 if self.bending is None else -BEND",
-            "bent = 0.0 if self.bending is None else BEND",
+            "bent = 0.0 if self.bending is None else -weight",
+            "bent = 0.0 if self.bending is None else weight",
             "test_tips -k bends_less",
         ),
         (
