@@ -3,14 +3,16 @@
     python benchmarks/learning.py --data DIR default10=10 tuned=tune.toml learned=kernel.toml [--refined] [--pairs 12]
     python benchmarks/learning.py --data DIR --free kernel.toml [--pairs 8]
     python benchmarks/learning.py --data DIR --epoch
+    python benchmarks/learning.py --data DIR --starts [NAMES]
 
 DIR holds FAUST_r, TOSCA_r and SHREC19_r. Pairs are of people 4 to 7 (settings are learned and tuned on people 0 to 3),
 of two poses of one animal, and of SHREC19_r, in an order drawn with a fixed seed. With settings by name (a file, or a
 number: the default settings with so many descriptors) each makes one fit with six landmarks, judged raw and, with
 ``--refined``, after ZoomOut; each is compared with those before it. With ``--free`` a kernel learned without landmarks
-serves a search. ``--epoch`` times one epoch of 30 pairs at k = 50. Errors are mean geodesic distances in per cent of
-√area; intervals are of a bootstrap over pairs. ``--rows FILE`` keeps each pair's numbers, so that a run that was cut
-short goes on; ``--cache DIR`` keeps prepared shapes and distances.
+serves a search. ``--epoch`` times one epoch of 30 pairs at k = 50. ``--starts`` compares what gradients may start from:
+metrics by discriminant analysis on pairs of people 0 and 1, judged on pairs of people 2 and 3. Errors are mean geodesic
+distances in per cent of √area; intervals are of a bootstrap over pairs. ``--rows FILE`` keeps each pair's numbers, so
+that a run that was cut short goes on; ``--cache DIR`` keeps prepared shapes and distances.
 """
 
 from __future__ import annotations
@@ -244,6 +246,65 @@ def epoch(data: Data) -> None:
     print(f"epoch of {len(lessons)} pairs, k = 50, {points} points: {cpu:.1f} CPU s on one thread, {wall:.1f} s")
 
 
+STARTS = {
+    "as kfmaps learn": {},
+    "heat maps of landmarks": {"descriptors.landmark_map": "heat"},
+    "mask power 0.25": {"formulation.mask_power": 0.25},
+    "mask power 1": {"formulation.mask_power": 1.0},
+    "sharpness 2": {"sharpness": 2.0},
+    "sharpness 10": {"sharpness": 10.0},
+    "descriptors 3000": {"weights.descriptors": 3000.0},
+    "Laplacian 1000": {"weights.laplacian": 1000.0},
+    "commutativity 10": {"weights.commutativity": 10.0},
+    "Laplacian kernel": {"kernel": kfmaps.Laplacian()},
+    "34 mixtures": {"rank": {"signature": 8, "landmark": 3, "shot": 8}},
+}
+"""What is changed of the settings that learning with landmarks starts from, and of the metric's rows."""
+
+
+def starts(data: Data, names: list[str]) -> None:
+    """Mean raw error on the pairs of people 2 and 3, before any gradient."""
+    from kfmaps import learn
+    from kfmaps.functional.solvers import CG
+
+    def drawn(people: range, count: int, seed: int) -> list[tuple[str, str]]:
+        every = list(permutations([f"tr_reg_{p:02d}{i}" for p in people for i in range(10)], 2))
+        order = [every[i] for i in np.random.default_rng(seed).permutation(len(every))]
+        kept = data.cache  # where only some shapes are kept, pairs of these
+        there = [p for p in order if kept is None or all((kept / f"FAUST_r-{n}.npz").exists() for n in p)]
+        return (there or order)[:count]
+
+    for name in names or STARTS:
+        changes = dict(STARTS[name])
+        rank = changes.pop("rank", {"signature": 2, "landmark": 1, "shot": 2})
+        config = replace(
+            PLAIN,
+            refinement=None,
+            fit_samples=2500,
+            sharpness=5.0,
+            descriptors=kfmaps.DescriptorConfig(shot=True),
+            weights=kfmaps.Weights(1000.0, 1.0, 300.0),
+            formulation=kfmaps.Formulation(mask="resolvent"),
+        )
+        for path, value in changes.items():
+            part, _, field = path.rpartition(".")
+            config = replace(
+                config, **{part: replace(getattr(config, part), **{field: value})} if part else {field: value}
+            )
+
+        def lesson(a: str, b: str, config: kfmaps.Config = config) -> learn.Lesson:
+            true = data.truth(a), data.truth(b)
+            marks = np.stack([side[FAUST_LINES] for side in true], axis=1)
+            return learn.lesson(data.shape(a), data.shape(b), config, landmarks=marks, truth=true)
+
+        model = learn.Model(
+            config, [lesson(*p) for p in drawn(range(2), 8, 1)], ["metric", "gamma", "terms"], rank=rank
+        )
+        solver, judged = CG(3e-4, 300), [lesson(*p) for p in drawn(range(2, 4), 6, 2)]
+        errors = [100 * learn.point_error(model, one, solver=solver, compression=0.05) for one in judged]
+        print(f"| {name} | {np.mean(errors):.2f} | {', '.join(f'{e:.2f}' for e in errors)} |", flush=True)
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("settings", nargs="*", help="NAME=FILE, or NAME=NUMBER of descriptors")
@@ -253,11 +314,15 @@ def main() -> None:
     parser.add_argument("--refined", action="store_true")
     parser.add_argument("--free", type=Path)
     parser.add_argument("--epoch", action="store_true")
+    parser.add_argument("--starts", nargs="*", metavar="NAME")
     parser.add_argument("--rows", type=Path)
     parser.add_argument("--cache", type=Path)
     chosen = parser.parse_args()
     if chosen.epoch:
         epoch(Data(chosen.data / "FAUST_r", chosen.cache))
+        return
+    if chosen.starts is not None:
+        starts(Data(chosen.data / "FAUST_r", chosen.cache), chosen.starts)
         return
     methods: dict[str, Callable[[Task], dict]] = {}
     for text in chosen.settings:

@@ -6,12 +6,11 @@ import numpy as np
 import pytest
 
 from kfmaps import datasets
-from kfmaps.app.datasets.pairs import largest_piece
 from kfmaps.app.files import load_map
 from kfmaps.app.partial_truth import PartTruth, part_accuracy, true_overlap
 from kfmaps.config import Config, Partial
 from kfmaps.functional.evaluate import place_errors
-from kfmaps.functional.precise import PointMap, points_of
+from kfmaps.functional.precise import PointMap
 from kfmaps.matching import match
 from kfmaps.parts.choose import CLEAR, margin
 from kfmaps.parts.decide import OPEN, opening, suspicion
@@ -210,23 +209,3 @@ def test_only_what_a_detour_explains_is_forgiven():
     sure = consistency(np.array([far]), np.array([far]), np.array([0.45]), (0.02, 0.1))[0]
     assert sure < fits[1]
     assert consistency(np.array([np.inf]), np.array([np.inf]), np.array([0.4]), (0.02, 0.1))[0] == 0
-
-
-def test_two_parts_are_matched_where_both_are(pair, truth):
-    """The target lacks legs and tail, the source an arm."""
-    places = points_of(truth.places, pair.source)
-    source, own = largest_piece(pair.source, pair.source.vertices[:, 0] > np.quantile(pair.source.vertices[:, 0], 0.15))
-    config = replace(AUTO, partial=replace(AUTO.partial, which="both", units="same"))
-    found = match(source, pair.target, config)
-    assert found.overlap_target is not None
-    assert found.overlap_source is not None
-    there = np.zeros(len(pair.source.vertices), dtype=bool)
-    there[own] = True
-    true, ours = there[pair.truth], found.overlap_target > 0.5
-    assert (true & ours).sum() / (true | ours).sum() > 0.8
-    assert (found.target_to_source[~ours] == -1).all()
-    both = true & ours
-    off = np.linalg.norm(source.vertices[found.target_to_source[both]] - places[both], axis=1)
-    assert off.mean() / np.sqrt(surface_area(pair.source)) < 0.05
-    # Below the target's cut nothing of the source is common.
-    assert found.overlap_source[source.vertices[:, 1] < places[:, 1].min() - 0.1].max() < 0.5
