@@ -143,6 +143,8 @@ def judged(job: Job) -> dict:
         "orientation": found.orientation,
         "doubted": found.doubted.tolist(),
         "scores": list(found.scores),
+        "quality": found.quality,
+        "bending": found.bending,
         "seconds": end - start,
         "stages": {**{f"{k} of both": sum(s.seconds[k] for s in shapes) for k in shapes[0].seconds}, **found.seconds},
     }

@@ -95,6 +95,10 @@ class Match:
         Why, in words; empty where nobody asked.
     part_scale : float or None
         √area of the part over that of the whole, as found.
+    quality : float or None
+        Of a search: the score of the map itself, :attr:`kfmaps.search.quality.Quality.score`, 0 at best.
+    bending : float or None
+        Of a search: how far the shapes must bend to follow it, :func:`kfmaps.search.bends.bending`; 0 for a motion.
     overlap_source, overlap_target : (n_s,), (n_t,) float64 or None
         Probability of each vertex to be in the part that both have; ``None`` where both were taken for whole.
     """
@@ -127,6 +131,8 @@ class Match:
     part_scale: float | None = None
     overlap_source: np.ndarray | None = None
     overlap_target: np.ndarray | None = None
+    quality: float | None = None
+    bending: float | None = None
 
     def precise(self) -> PointMap:
         """A point inside a triangle of the source for each target vertex: finer than ``target_to_source``.
@@ -412,6 +418,8 @@ def _ended(
         source_to_target=None if end.source_to_target is None else across.points_back(end.source_to_target),
         map_back=end.map_back,
         bend=last.fit,
+        quality=found.quality,
+        bending=found.bending,
     )
 
 
