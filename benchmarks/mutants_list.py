@@ -508,5 +508,21 @@ MUTANTS = tuple(
             "found = np.linalg.solve(weighted @ phi + 1e3 * RIDGE",
             ALTERNATE,
         ),
+        (
+            "strained = 0.0 if self.strain is None else -STRAIN",
+            "strained = 0.0 if self.strain is None else STRAIN",
+            "test_tips -k likelier",
+        ),
+        ("else (found + self.before) / 2", "else found", "test_tips -k likelier"),
+        (
+            "dense = np.log(np.maximum(local(rigidity(source)",
+            "dense = (np.maximum(local(rigidity(source)",
+            "test_tips -k strain",
+        ),
+        (
+            "turns[i], energy.rest[i] - energy.rest[j])",
+            "turns[j], energy.rest[i] - energy.rest[j])",
+            "test_nonrigid -k shares",
+        ),
     )
 )

@@ -12,7 +12,7 @@ from kfmaps.functional.nonrigid import NonRigid
 from kfmaps.functional.precise import at_vertices, points_of
 from kfmaps.surface.closest import closest_of, places_on
 from kfmaps.surface.mesh import Mesh, unit_area
-from kfmaps.surface.rigidity import bending, nearest_rotations, pull, rigidity, rotations
+from kfmaps.surface.rigidity import bending, local, nearest_rotations, pull, rigidity, rotations
 
 
 def turn(rng: np.random.Generator) -> np.ndarray:
@@ -81,6 +81,19 @@ def test_bending_is_nothing_for_motions_and_has_no_unit() -> None:
     stretched = mesh.vertices * np.array([1.0, 1.0, 1.5])
     large = rigidity(Mesh(7 * mesh.vertices, mesh.faces))
     assert bending(large, 7 * stretched) == pytest.approx(49 * bending(energy, stretched))
+
+
+def test_shares_of_vertices_add_up_to_twice_the_energy() -> None:
+    mesh = datasets.sphere(100, rng=0)
+    energy = rigidity(mesh)
+    x = mesh.vertices * (1.0, 1.5, 0.7)
+    shares = local(energy, x)
+    assert shares.sum() == pytest.approx(2 * bending(energy, x))
+    assert shares.min() > 0
+    turned = mesh.vertices.copy()
+    turned[mesh.vertices[:, 2] > 0.3] += (0.0, 0.0, 0.1)
+    still = np.flatnonzero(mesh.vertices[:, 2] < -0.3)
+    assert local(energy, turned)[still] == pytest.approx(0, abs=1e-12)
 
 
 def test_bending_is_its_definition_and_pull_its_slope() -> None:

@@ -8,11 +8,11 @@ import pytest
 from kfmaps import datasets
 from kfmaps.fit.shape import prepare
 from kfmaps.search.arena import arena
-from kfmaps.search.bends import LEAST, MOST, Copy, bending, copied
-from kfmaps.search.candidates import from_tips, paired_map, rough
+from kfmaps.search.bends import LEAST, MOST, Copy, bending, bent, copied
+from kfmaps.search.candidates import STRAIN, Candidate, from_tips, paired_map, rough
 from kfmaps.search.choose import choose, in_order, mirror_image, ranking
 from kfmaps.search.pairings import FEWEST, Pairing, against, alike, induced, pairings, told
-from kfmaps.search.quality import mirrored_probe, probe
+from kfmaps.search.quality import Quality, mirrored_probe, probe
 from kfmaps.search.tips import APART, tips, turns
 from kfmaps.search.zoom import zoomed
 from kfmaps.surface.mesh import Mesh
@@ -179,6 +179,28 @@ def test_a_shape_bends_least_onto_itself(creature, probes):
     signs = np.diag(np.where(np.arange(k) % 2, -1.0, 1.0))
     assert bending(np.eye(k), shape, shape, both) == LEAST
     assert LEAST < 0.05 < bending(signs, shape, shape, both) <= MOST
+
+
+def test_strain_is_of_all_places_and_not_of_the_worst(creature, probes):
+    shape, one = creature[0], probes[0]
+    both = one.copy, one.copy
+    k = 40
+    signs = np.diag(np.where(np.arange(k) % 2, -1.0, 1.0))
+    kept, torn = (bent(C, shape, shape, both) for C in (np.eye(k), signs))
+    assert kept.strain == pytest.approx(np.log(LEAST), abs=1e-6)
+    assert kept.strain < torn.strain < np.log(MOST)
+    # The mean of logarithms is below the logarithm of the mean.
+    assert torn.strain < np.log(torn.bending)
+
+
+def test_what_is_strained_less_and_was_mended_less_is_the_likelier(on):
+    judgement = Quality(1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0)
+    one = Candidate("a", np.eye(2), np.zeros(3, dtype=int), judgement, bending=0.15)
+    assert replace(one, strain=0.1).evidence == pytest.approx(one.evidence - 0.1 * STRAIN)
+    bad = replace(one, bending=0.3)
+    assert replace(bad, bent=np.zeros((1, 3))).evidence > bad.evidence
+    mended = replace(one, before=one.evidence - 4.0)
+    assert mended.evidence == pytest.approx(one.evidence - 2.0)
 
 
 def test_copies_have_no_loose_points(creature):

@@ -17,7 +17,8 @@ from kfmaps.fit.shape import Shape
 from kfmaps.functional.nonrigid import NonRigid
 from kfmaps.functional.points import nearest
 from kfmaps.surface.coarse import coarse
-from kfmaps.surface.mesh import Mesh, mirrored
+from kfmaps.surface.mesh import Mesh, mirrored, vertex_areas
+from kfmaps.surface.rigidity import local, rigidity
 from kfmaps.surface.samples import stratified_samples
 
 POINTS, MORE = 1200, 3000
@@ -28,6 +29,9 @@ FIT, LONGER = NonRigid(levels=2, steps=2, evenness=0.0), NonRigid(levels=3, step
 """The fits of both."""
 LEAST, MOST = 1e-3, 10.0
 """Energies below which maps are alike, next to none, and above which they are: nothing is left of the shape."""
+
+TINY = 1e-12
+"""Area of a vertex that has none."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,22 +71,45 @@ def copied(shape: Shape, points: int = POINTS) -> Copy | None:
     return Copy(Mesh(mesh.vertices[used], number[mesh.faces]), vertices[used])
 
 
-def bending(C: np.ndarray, source: Shape, target: Shape, copies: tuple[Copy, Copy], fit: NonRigid = FIT) -> float:
-    """As-rigid-as-possible energy per area of each shape on the other as ``C (k_t, k_s)`` says: 0 for a motion.
+@dataclass(frozen=True)
+class Bent:
+    """How far both shapes must bend to follow a map; made by :func:`bent`.
 
-    The geometric mean of both directions; :data:`MOST` where a copy falls apart.
+    Attributes
+    ----------
+    bending : float
+        As-rigid-as-possible energy per area, the geometric mean of both directions: 0 for a motion, :data:`MOST` where
+        a copy falls apart.
+    strain : float
+        Mean logarithm of the local energy per area: what is bent a little everywhere, as limbs that are turned front to
+        back, shows in it; the few places where two bodies differ most, which have most of the energy, hardly.
     """
+
+    bending: float
+    strain: float
+
+
+def bent(C: np.ndarray, source: Shape, target: Shape, copies: tuple[Copy, Copy], fit: NonRigid = FIT) -> Bent:
+    """Each shape bent onto the other as ``C (k_t, k_s)`` says."""
     k_t, k_s = C.shape
     a, b = copies
     images = to_numpy(source.basis.functions)[a.vertices, :k_s] @ C.T
     rows = np.ascontiguousarray(to_numpy(target.basis.functions)[b.vertices, :k_t])
     there = _bent(fit, a.mesh, b.mesh, nearest(rows, images, threads=1))
-    return math.sqrt(there * _bent(fit, b.mesh, a.mesh, nearest(images, rows, threads=1)))
+    back = _bent(fit, b.mesh, a.mesh, nearest(images, rows, threads=1))
+    return Bent(math.sqrt(there.bending * back.bending), (there.strain + back.strain) / 2)
 
 
-def _bent(fit: NonRigid, source: Mesh, target: Mesh, points: np.ndarray) -> float:
+def bending(C: np.ndarray, source: Shape, target: Shape, copies: tuple[Copy, Copy], fit: NonRigid = FIT) -> float:
+    """:attr:`Bent.bending` alone."""
+    return bent(C, source, target, copies, fit).bending
+
+
+def _bent(fit: NonRigid, source: Mesh, target: Mesh, points: np.ndarray) -> Bent:
     try:
         found = fit(source, target, points)
     except NotConverged:
-        return MOST
-    return min(max(float(found.bending), LEAST), MOST)
+        return Bent(MOST, math.log(MOST))
+    areas = np.maximum(vertex_areas(source), TINY)
+    dense = np.log(np.maximum(local(rigidity(source), found.vertices) / areas, LEAST))
+    return Bent(min(max(found.bending, LEAST), MOST), float(np.average(dense, weights=areas)))

@@ -55,6 +55,8 @@ APART = 0.04
 """Mean distance, in units of √area, from which rough maps count as different: nearer than in the end."""
 BEND, USUAL = 5.0, 0.15
 """Weight of the logarithm of the bending energy over a usual one, ..."""
+STRAIN = 6.0
+"""Weight of the strain, where it is known; see :class:`kfmaps.search.bends.Bent`."""
 BEND_UNLIKE = 3.0
 """... and for maps that were bent and matched in turn, which leaves wrong ones with little more of it."""
 LANDMARK = 2.0
@@ -79,6 +81,9 @@ class Candidate:
         How far the image of each landmark is from where it belongs, in units of √area.
     bending : float or None
         See :func:`kfmaps.search.bends.bending`; ``None`` where it is not known.
+    strain : float or None
+        See :class:`kfmaps.search.bends.Bent`, over a usual one; known of the first two of a close call and of what was
+        mended.
     bent : (n_s, 3) float64 or None
         The source's vertices on the target, roughly, where both were bent and matched in turn.
     before : float or None
@@ -92,6 +97,7 @@ class Candidate:
     guided: bool = True
     missed: np.ndarray = field(default_factory=lambda: np.zeros(0))
     bending: float | None = None
+    strain: float | None = None
     bent: np.ndarray | None = None
     before: float | None = None
 
@@ -108,7 +114,8 @@ class Candidate:
         """What the two shapes say about the map: its quality and, where that is known, how little they must bend."""
         weight = BEND if self.bent is None else BEND_UNLIKE
         bent = 0.0 if self.bending is None else -weight * math.log(self.bending / USUAL)
-        found = self.quality.score + bent
+        strained = 0.0 if self.strain is None else -STRAIN * self.strain
+        found = self.quality.score + bent + strained
         return found if self.before is None else (found + self.before) / 2
 
 

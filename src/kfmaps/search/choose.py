@@ -26,7 +26,7 @@ from kfmaps.functional.points import to_points
 from kfmaps.functional.refine import Refinement, ZoomOut
 from kfmaps.search.alternate import alternated, grounds
 from kfmaps.search.arena import Arena, Ground, arena, turned, without
-from kfmaps.search.bends import LONGER, MORE, bending, copied
+from kfmaps.search.bends import LONGER, MORE, bending, bent, copied
 from kfmaps.search.candidates import FINE, Candidate, again, apart, candidates, differs, judged
 from kfmaps.search.learned import learned, plain, speaks
 from kfmaps.search.marks import doubted, leading
@@ -51,6 +51,8 @@ BEHIND = 3.0
 """... unless they are so far behind in the score."""
 CLOSE = 1.0
 """Margin below which the first two are looked at again."""
+FAR_BENT = 0.3
+"""Bending from which they are mended: a curled-up body, which touches itself, has less and is nothing to bend by."""
 MENDABLE = 6.0
 """How far behind a map between unlike shapes may be to be mended: mending has gained up to 10."""
 SETTLED = 3
@@ -189,7 +191,7 @@ def choose(
     if taught and (orientation == "kept" or asked == "reversed"):
         more = learned(source, target, config, on, seed, given)
         ranked = beside(ranked, more, on.whole, source, target, config.threads)
-    if surfaces and ranked[0].quality.score < UNLIKE:
+    if surfaces and ranked[0].quality.score < UNLIKE and (ranked[0].bending or 0.0) > FAR_BENT:
         image = mirror_image(target) if orientation == "reversed" and asked != "reversed" else target
         ranked = mended(ranked, on.whole, source, image, pairs[~wrong], config.threads)
     best, others = ranked[0], ranked[1 : 1 + config.search.runners_up]
@@ -292,8 +294,12 @@ def second_look(
     if finer[0] is None or finer[1] is None:
         return order
     both = finer[0], finer[1].mirrored() if on.target.mirrored else finer[1]
-    energies = parallel(lambda c: bending(c.functional_map, source, target, both, LONGER), order[:2], threads)
-    return in_order([replace(c, bending=e) for c, e in zip(order[:2], energies, strict=True)]) + order[2:]
+    found = parallel(lambda c: bent(c.functional_map, source, target, both, LONGER), order[:2], threads)
+    usual = sum(one.strain for one in found) / 2
+    first = [
+        replace(c, bending=one.bending, strain=one.strain - usual) for c, one in zip(order[:2], found, strict=True)
+    ]
+    return in_order(first) + order[2:]
 
 
 def mended(
@@ -320,11 +326,15 @@ def mended(
             return old
         size = min(FINE, len(found.functional_map))
         new = judged([(old.name, old.guided)], found.functional_map[None, :size, :size], None, on, 1)[0]
-        energy = bending(new.functional_map, source, target, copies, LONGER)
-        return replace(new, bending=energy, bent=found.bent, before=old.evidence)
+        how = bent(new.functional_map, source, target, copies, LONGER)
+        before = replace(old, strain=None).evidence
+        return replace(new, bending=how.bending, strain=how.strain, bent=found.bent, before=before)
 
     near = [c for c in ranked[:BENT] if c.score > ranked[0].score - MENDABLE]
-    return apart(in_order(parallel(mend, near, threads)) + ranked[len(near) :], on.source, DISTINCT)
+    tried = parallel(mend, near, threads)
+    usual = min((c.strain for c in tried if c.strain is not None), default=0.0)
+    tried = [c if c.strain is None else replace(c, strain=c.strain - usual) for c in tried]
+    return apart(in_order(tried) + ranked[len(near) :], on.source, DISTINCT)
 
 
 def distinct(found: list[Candidate], source: Probe) -> list[Candidate]:

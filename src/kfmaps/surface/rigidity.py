@@ -127,3 +127,13 @@ def bending(energy: Rigidity, x: np.ndarray, turns: np.ndarray | None = None) ->
     turns = rotations(energy, x) if turns is None else turns
     sizes = np.sum(x * (energy.laplacian @ x)) + np.sum(energy.rest * (energy.laplacian @ energy.rest))
     return max(float(sizes - 2 * np.sum(x * pull(energy, turns))), 0.0)
+
+
+def local(energy: Rigidity, x: np.ndarray) -> np.ndarray:
+    """The share of each vertex ``(n,)`` in twice the energy of ``x (n, 3)``, with the best rotations."""
+    edges = energy.laplacian.tocoo()
+    off = edges.row != edges.col
+    i, j, w = edges.row[off], edges.col[off], -edges.data[off]
+    turns = rotations(energy, x)
+    turned = np.einsum("eab,eb->ea", turns[i], energy.rest[i] - energy.rest[j])
+    return np.bincount(i, w * ((x[i] - x[j] - turned) ** 2).sum(axis=1), minlength=len(x))
