@@ -193,7 +193,7 @@ def test_strain_is_of_all_places_and_not_of_the_worst(creature, probes):
     assert torn.strain < np.log(torn.bending)
 
 
-def test_what_is_strained_less_and_was_mended_less_is_the_likelier(on):
+def test_what_is_strained_less_and_was_mended_less_is_the_likelier():
     judgement = Quality(1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0)
     one = Candidate("a", np.eye(2), np.zeros(3, dtype=int), judgement, bending=0.15)
     assert replace(one, strain=0.1).evidence == pytest.approx(one.evidence - 0.1 * STRAIN)
