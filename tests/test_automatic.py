@@ -109,6 +109,8 @@ def test_stretch_counts_short_distances_alone():
 def test_quality_is_what_its_definition_says(shape, other):
     """One product in single precision finds what exact searches find; differences keep to their formulas."""
     here, there = thinned(probe(shape, 300), 200), thinned(probe(other, 300), 200)
+    assert here.descriptors is not None
+    assert there.descriptors is not None
     C = np.linalg.qr(np.eye(40) + 0.05 * np.random.default_rng(2).normal(size=(40, 40)))[0]
     found = map_quality(C, here, there)
     images, rows = here.samples.basis.functions[:, :40] @ C.T, there.samples.basis.functions[:, :40]

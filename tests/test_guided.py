@@ -83,6 +83,8 @@ def test_some_rows_tell_the_directions_of_all(monkeypatch):
     every = guide(source, target, 3)
     monkeypatch.setattr("kfmaps.functional.guide.ROWS", 400)
     some = guide(source, target, 3)
+    assert every is not None
+    assert some is not None
 
     def distances(found):
         return ((found.target[:, None] - found.source[None]) ** 2).sum(axis=2)
