@@ -220,7 +220,7 @@ def test_a_verdict_follows_the_score_and_the_margin():
 
 
 def test_a_part_is_not_called_a_match():
-    pair = partial(2500, rng=0)
+    pair = partial(1500, rng=0)
     found = match(pair.source, pair.target, replace(Config.automatic(), threads=2, partial=Partial("none")))
     assert geodesic_errors(pair.source, found.target_to_source, pair.truth).mean() > 0.05
     assert found.verdict != "sure"
@@ -230,7 +230,7 @@ def test_a_part_is_not_called_a_match():
 
 
 def test_left_and_right_of_a_symmetric_body_are_told_apart():
-    pair = symmetric_creature(2500, rng=0)
+    pair = symmetric_creature(1500, rng=0)
     found = match(pair.source, pair.target, replace(Config.automatic(), threads=2))
     assert pair.mirrored is not None
     right = geodesic_errors(pair.source, found.target_to_source, pair.truth).mean()

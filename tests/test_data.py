@@ -21,12 +21,12 @@ def faust(data: Path) -> Path:
 
 def pairs(folder: Path) -> list[tuple[str, str]]:
     lines = (folder / "test_pairs.txt").read_text(encoding="utf-8").splitlines()
-    return [(a, b) for a, b in (line.split() for line in lines[::10])]
+    return [(a, b) for a, b in (line.split() for line in lines[::30])]
 
 
 @pytest.mark.filterwarnings("ignore::kfmaps.KfmapsWarning")
 def test_mean_errors_with_six_landmarks(faust: Path) -> None:
-    """Raw map with 100 and with 10 descriptors, and after ZoomOut: mean geodesic error × 100 over 21 pairs."""
+    """Raw map with 100 and with 10 descriptors, and after ZoomOut: mean geodesic error × 100 over seven pairs."""
     config = kfmaps.Config()
     assert isinstance(config.refinement, kfmaps.ZoomOut)
     assert config.refinement.stop >= 150
@@ -53,7 +53,7 @@ def test_mean_errors_with_six_landmarks(faust: Path) -> None:
             errors[kind].append(100 * kfmaps.geodesic_errors(source.mesh, points[true_t], true_s).mean())
     means = {kind: float(np.mean(values)) for kind, values in errors.items()}
     print(means)
-    assert len(errors["raw"]) == 21
+    assert len(errors["raw"]) == 7
     assert means["raw"] <= 3.1
     assert means["ten"] <= 3.6
     assert means["refined"] <= 1.9
