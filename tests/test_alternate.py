@@ -12,6 +12,9 @@ from kfmaps import datasets
 from kfmaps.functional.points import nearest, to_functional
 from kfmaps.search import alternate
 from kfmaps.search.alternate import Grounds, alternated, grounds, lying, spread
+from kfmaps.search.candidates import STRAIN, Candidate
+from kfmaps.search.choose import mendable
+from kfmaps.search.quality import Quality
 
 
 @pytest.fixture(scope="module")
@@ -90,3 +93,13 @@ def test_point_clouds_are_not_bent(pair):
     source = pair[0]
     cloud = kfmaps.Mesh(source.mesh.vertices, np.zeros((0, 3), dtype=np.int64))
     assert grounds(replace(source, mesh=cloud), source) is None
+
+
+def test_what_is_not_mended_stays_and_stays_once():
+    """Also where a second look has put the second far behind the third."""
+    judgement = Quality(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    one = Candidate("a", np.eye(2), np.zeros(3, dtype=int), judgement, bending=0.15)
+    ranked = [replace(one, name=n, strain=-s / STRAIN) for n, s in zip("abcd", (-1.0, -9.0, -4.0, -4.5), strict=True)]
+    near, rest = mendable(ranked)
+    assert [c.name for c in near] == ["a", "c"]
+    assert [c.name for c in rest] == ["b", "d"]

@@ -330,11 +330,19 @@ def mended(
         before = replace(old, strain=None).evidence
         return replace(new, bending=how.bending, strain=how.strain, bent=found.bent, before=before)
 
-    near = [c for c in ranked[:BENT] if c.score > ranked[0].score - MENDABLE]
+    near, rest = mendable(ranked)
     tried = parallel(mend, near, threads)
     usual = min((c.strain for c in tried if c.strain is not None), default=0.0)
     tried = [c if c.strain is None else replace(c, strain=c.strain - usual) for c in tried]
-    return apart(in_order(tried) + ranked[len(near) :], on.source, DISTINCT)
+    return apart(in_order(tried) + rest, on.source, DISTINCT)
+
+
+def mendable(ranked: list[Candidate]) -> tuple[list[Candidate], list[Candidate]]:
+    """Those that are worth mending, and the others; a second look may have put the second behind the third."""
+    worth = [i < BENT and c.score > ranked[0].score - MENDABLE for i, c in enumerate(ranked)]
+    return [c for c, yes in zip(ranked, worth, strict=True) if yes], [
+        c for c, yes in zip(ranked, worth, strict=True) if not yes
+    ]
 
 
 def distinct(found: list[Candidate], source: Probe) -> list[Candidate]:
