@@ -12,9 +12,10 @@ from kfmaps import datasets
 from kfmaps.functional.points import nearest, to_functional
 from kfmaps.search import alternate
 from kfmaps.search.alternate import Grounds, alternated, grounds, lying, spread
-from kfmaps.search.candidates import STRAIN, Candidate
-from kfmaps.search.choose import mendable
-from kfmaps.search.quality import Quality
+from kfmaps.search.arena import arena
+from kfmaps.search.candidates import STRAIN, Candidate, judged
+from kfmaps.search.choose import mendable, mended
+from kfmaps.search.quality import Quality, probe
 
 
 @pytest.fixture(scope="module")
@@ -93,6 +94,23 @@ def test_point_clouds_are_not_bent(pair):
     source = pair[0]
     cloud = kfmaps.Mesh(source.mesh.vertices, np.zeros((0, 3), dtype=np.int64))
     assert grounds(replace(source, mesh=cloud), source) is None
+
+
+def test_mending_tells_how_far_it_is(pair):
+    """Five to ten seconds on real shapes, in which nobody should wonder."""
+    source, target, truth = pair
+    on = arena(source, target, (probe(source, 200), probe(target, 200))).whole
+    C = np.asarray(to_functional(truth, source.basis.truncated(40), target.basis.truncated(40)))
+    ranked = [replace(c, bending=1.0) for c in judged([("truth", True)], C[None], None, on, 1)]
+    told = []
+    found = mended(ranked, on, source, target, np.zeros((0, 2), dtype=np.int64), 1, lambda *what: told.append(what))
+    assert found[0].bent is not None
+    assert {stage for stage, _ in told} == {"bent and matched in turn"}
+    assert [done for _, done in told] == [
+        0.0,
+        *(0.9 * (i + 1) / alternate.ROUNDS for i in range(alternate.ROUNDS)),
+        1.0,
+    ]
 
 
 def test_what_is_not_mended_stays_and_stays_once():

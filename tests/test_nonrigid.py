@@ -193,3 +193,17 @@ def test_what_cannot_be_bent_is_refused(pair: datasets.Pair) -> None:
     for make in (lambda: NonRigid(stiffness=0.0), lambda: NonRigid(levels=0), lambda: NonRigid(steps=0)):
         with pytest.raises(InvalidInput):
             make()
+
+
+def test_a_component_that_nothing_is_mapped_to_goes_with_what_is_beside_it(pair: datasets.Pair) -> None:
+    """A lost finger of a coarse copy, an eye: it once made the fit fail, and a right map count as the worst."""
+    body = unit_area(pair.source)
+    eye = datasets.sphere(100, rng=0)
+    at = body.vertices[0] + 0.05 * eye.vertices
+    both = Mesh(np.vstack([body.vertices, at]), np.vstack([body.faces, len(body.vertices) + eye.faces]))
+    moved = Mesh(body.vertices + np.array([3.0, 0.0, 0.0]), body.faces)
+    alone = NonRigid()(body, moved, np.arange(len(body.vertices)))
+    found = NonRigid()(both, moved, np.arange(len(body.vertices)))
+    assert np.abs(found.vertices[: len(body.vertices)] - moved.vertices).max() < 0.01
+    assert np.linalg.norm(found.vertices[len(body.vertices) :].mean(axis=0) - moved.vertices[0]) < 0.2
+    assert alone.bending < 1e-3

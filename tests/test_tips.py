@@ -6,7 +6,9 @@ import numpy as np
 import pytest
 
 from kfmaps import datasets
+from kfmaps._arrays import NotConverged
 from kfmaps.fit.shape import prepare
+from kfmaps.functional.nonrigid import NonRigid
 from kfmaps.search.arena import arena
 from kfmaps.search.bends import LEAST, MOST, Copy, bending, bent, copied
 from kfmaps.search.candidates import STRAIN, Candidate, from_tips, paired_map, rough
@@ -260,3 +262,21 @@ def test_a_creature_is_matched_to_a_mirror_image_in_another_pose_unasked():
     assert kept.orientation == "kept"
     assert kept.verdict != "sure"
     assert choose(source, other, SMALL, rng=0).orientation == "kept"
+
+
+def test_that_a_copy_falls_apart_says_nothing_of_the_map(creature, probes, monkeypatch):
+    """The other direction is believed then; only a map of which both fail has the most."""
+    shape, both = creature[0], (probes[0].copy, probes[0].copy)
+    signs = np.diag(np.where(np.arange(40) % 2, -1.0, 1.0))
+    usual, fit = bent(signs, shape, shape, both), NonRigid.__call__
+    failing = [True, False]
+
+    def falls(self, *what):
+        if failing.pop(0):
+            raise NotConverged("apart")
+        return fit(self, *what)
+
+    monkeypatch.setattr(NonRigid, "__call__", falls)
+    assert 0.3 < bent(signs, shape, shape, both).bending / usual.bending < 3.0
+    failing = [True, True]
+    assert bent(signs, shape, shape, both).bending == MOST

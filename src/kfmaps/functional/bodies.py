@@ -6,7 +6,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.sparse import csr_array, diags_array
+from scipy.sparse import coo_array, csr_array, diags_array
+from scipy.sparse.csgraph import connected_components
 from scipy.spatial import KDTree
 
 from kfmaps.functional.pulls import Term, descended
@@ -96,7 +97,9 @@ def unfolded(
     n, energy = len(body.areas), body.energy
     rows = csr_array((np.ones(len(points)), points, np.arange(len(points) + 1)), shape=(len(points), n))
     gathered = rows.T @ np.hstack([weights[:, None] * places, weights[:, None] * normals])
-    smooth = factorise(SMOOTH * energy.laplacian + diags_array(rows.T @ weights), ordered=False)(gathered)
+    share = rows.T @ weights
+    _take_along(body.mesh, share, gathered)
+    smooth = factorise(SMOOTH * energy.laplacian + diags_array(share), ordered=False)(gathered)
     x, wanted = np.ascontiguousarray(smooth[:, :3]), _unit(smooth[:, 3:])
     solve = body.solver(START, 1.0)
     for round in range(UNFOLDINGS):
@@ -110,6 +113,25 @@ def unfolded(
         x = descended(energy, START, solve, terms, x, turns, 8)
         x = descended(energy, START, solve, terms, x, rotations(energy, x), 8)
     return x
+
+
+def _take_along(mesh: Mesh, share: np.ndarray, gathered: np.ndarray) -> None:
+    """Let a component without any place go with the nearest vertex that has one; fills in ``gathered (n, 6)``.
+
+    Nothing would hold it, and with its ``share (n,)`` of 0 the linear system would be singular.
+    """
+    n = len(mesh.vertices)
+    ends = mesh.faces[:, :2].ravel(), mesh.faces[:, 1:].ravel()
+    links = coo_array((np.ones(len(ends[0])), ends), (n, n))
+    label = connected_components(links, directed=False)[1]
+    lost = np.flatnonzero((np.bincount(label, share) == 0)[label])
+    held = np.flatnonzero(share > 0)
+    if len(lost) == 0 or len(held) == 0:
+        return
+    beside = held[KDTree(mesh.vertices[held]).query(mesh.vertices[lost])[1]]
+    moved = gathered[beside, :3] / share[beside, None] - mesh.vertices[beside]
+    gathered[lost] = np.hstack([mesh.vertices[lost] + moved, vertex_normals(mesh)[lost]])
+    share[lost] = 1.0
 
 
 def _unit(rows: np.ndarray) -> np.ndarray:

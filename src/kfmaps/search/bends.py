@@ -78,8 +78,8 @@ class Bent:
     Attributes
     ----------
     bending : float
-        As-rigid-as-possible energy per area, the geometric mean of both directions: 0 for a motion, :data:`MOST` where
-        a copy falls apart.
+        As-rigid-as-possible energy per area, the geometric mean of both directions: 0 for a motion; of one where
+        the other copy falls apart, :data:`MOST` where both do.
     strain : float
         Mean logarithm of the local energy per area: what is bent a little everywhere, as limbs that are turned front to
         back, shows in it; the few places where two bodies differ most, which have most of the energy, hardly.
@@ -97,6 +97,9 @@ def bent(C: np.ndarray, source: Shape, target: Shape, copies: tuple[Copy, Copy],
     rows = np.ascontiguousarray(to_numpy(target.basis.functions)[b.vertices, :k_t])
     there = _bent(fit, a.mesh, b.mesh, nearest(rows, images, threads=1))
     back = _bent(fit, b.mesh, a.mesh, nearest(images, rows, threads=1))
+    if there is None or back is None:
+        # That a copy falls apart says nothing of the map.
+        return there or back or Bent(MOST, math.log(MOST))
     return Bent(math.sqrt(there.bending * back.bending), (there.strain + back.strain) / 2)
 
 
@@ -105,11 +108,11 @@ def bending(C: np.ndarray, source: Shape, target: Shape, copies: tuple[Copy, Cop
     return bent(C, source, target, copies, fit).bending
 
 
-def _bent(fit: NonRigid, source: Mesh, target: Mesh, points: np.ndarray) -> Bent:
+def _bent(fit: NonRigid, source: Mesh, target: Mesh, points: np.ndarray) -> Bent | None:
     try:
         found = fit(source, target, points)
     except NotConverged:
-        return Bent(MOST, math.log(MOST))
+        return None
     areas = np.maximum(vertex_areas(source), TINY)
     dense = np.log(np.maximum(local(rigidity(source), found.vertices) / areas, LEAST))
     return Bent(min(max(found.bending, LEAST), MOST), float(np.average(dense, weights=areas)))

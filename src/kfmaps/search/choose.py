@@ -166,7 +166,7 @@ def choose(
         landmarks=pairs,
         descriptors=descriptors,
         drawn=given,
-        report=lambda done: report("candidates", 0.1 + 0.9 * done),
+        report=lambda done: report("candidates", 0.1 + 0.8 * done),
     )
     ranked = ranking(found, on.whole, source, target, config.threads)
     orientation = "reversed" if config.search.orientation == "reversed" else "kept"
@@ -193,7 +193,7 @@ def choose(
         ranked = beside(ranked, more, on.whole, source, target, config.threads)
     if surfaces and ranked[0].quality.score < UNLIKE and (ranked[0].bending or 0.0) > FAR_BENT:
         image = mirror_image(target) if orientation == "reversed" and asked != "reversed" else target
-        ranked = mended(ranked, on.whole, source, image, pairs[~wrong], config.threads)
+        ranked = mended(ranked, on.whole, source, image, pairs[~wrong], config.threads, report)
     best, others = ranked[0], ranked[1 : 1 + config.search.runners_up]
     margin = max(best.score - ranked[1].score, 0.0) if len(ranked) > 1 else np.inf
     return Found(
@@ -309,6 +309,7 @@ def mended(
     target: Shape,
     landmarks: np.ndarray,
     threads: int | None = None,
+    progress: Progress | None = None,
 ) -> list[Candidate]:
     """The best between unlike shapes bent and matched in turn (:mod:`kfmaps.search.alternate`), and ranked again."""
     both = grounds(source, target)
@@ -317,21 +318,32 @@ def mended(
         return ranked
     copies, shot = (finer[0], finer[1]), guide(source.shot, target.shot)
 
-    def mend(old: Candidate) -> Candidate:
+    near, rest = mendable(ranked)
+    done = np.zeros(len(near))
+
+    def tell(i: int, part: float) -> None:
+        done[i] = part
+        if progress is not None:
+            progress("bent and matched in turn", float(done.mean()))
+
+    def mend(i: int) -> Candidate:
+        old = near[i]
         tips = limbs(old.points, on.source, on.target)
         led = leading(source, target, landmarks, tips and tips.guide(source.mesh, target.mesh), shot)
         try:
-            found = alternated(old.functional_map, both, led)
+            found = alternated(old.functional_map, both, led, lambda part: tell(i, 0.9 * part))
         except NotConverged:
+            tell(i, 1.0)
             return old
         size = min(FINE, len(found.functional_map))
         new = judged([(old.name, old.guided)], found.functional_map[None, :size, :size], None, on, 1)[0]
         how = bent(new.functional_map, source, target, copies, LONGER)
         before = replace(old, strain=None).evidence
+        tell(i, 1.0)
         return replace(new, bending=how.bending, strain=how.strain, bent=found.bent, before=before)
 
-    near, rest = mendable(ranked)
-    tried = parallel(mend, near, threads)
+    tell(0, 0.0)
+    tried = parallel(mend, range(len(near)), threads)
     usual = min((c.strain for c in tried if c.strain is not None), default=0.0)
     tried = [c if c.strain is None else replace(c, strain=c.strain - usual) for c in tried]
     return apart(in_order(tried) + rest, on.source, DISTINCT)
