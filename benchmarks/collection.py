@@ -1,22 +1,29 @@
 """Cost and accuracy of a collection of generated specimens against their number.
 
     python benchmarks/collection.py [--shapes 25,50,100] [--vertices 1000] [--workers 2] [--out DIR] [--wrong 0.2]
+    python benchmarks/collection.py --shapes 1000 --plain --workers 1 --out DIR
     python benchmarks/collection.py --shapes 1000 --vertices 5000 --plan
 
 Every specimen is one body bent, stretched and swollen at random, and triangulated for itself, so that the truth is
 known. Pairs are chosen by likeness (``--graph near``), matched by ``kfmaps batch``'s own machinery, and made to agree
-(``--consistent``). A part ``--wrong`` of the maps is replaced by random ones before that. ``--plan`` tells the pairs,
-memory and time that a run needs, and runs nothing. ``--zoom`` then compares each map in use, cut to k functions, with
-the map through the latent space after consistent ZoomOut to as many; ``--zoom --run DATA OUT`` does it for a run that
-is there. ``--agree`` measures the agreement alone, on made-up maps of as many shapes. Errors are in per cent of √area.
+(``--consistent``). A part ``--wrong`` of the maps is replaced by random ones before that. ``--plain`` makes one fit of
+each pair and a short refinement instead of a search, which is cheap, and wrong more often than a search is. With
+``--out`` the same call goes on where it was cut short. ``--plan`` tells the pairs, memory and time that a run needs,
+and runs nothing. ``--zoom`` then compares each map in use, cut to k functions, with the map through the latent space
+after consistent ZoomOut to as many; ``--zoom --run DATA OUT`` does it for a run that is there. ``--agree`` measures the
+agreement alone, on made-up maps of as many shapes. Errors are in per cent of √area.
 """
 
 from __future__ import annotations
 
 import argparse
+import json
 import resource
+import sys
 import tempfile
 import time
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import replace
 from fnmatch import fnmatch
 from pathlib import Path
@@ -25,20 +32,26 @@ import numpy as np
 from scipy.spatial import KDTree
 
 from kfmaps import datasets
+from kfmaps.app.batch.clock import RunStatus
 from kfmaps.app.batch.collection import match_collection
 from kfmaps.app.batch.exchange import map_in_use
 from kfmaps.app.batch.graphing import graph_pairs
 from kfmaps.app.batch.layout import Pair, find_collection
 from kfmaps.app.batch.need import needed
 from kfmaps.app.batch.plan import make_plan
-from kfmaps.app.batch.results import read_result
+from kfmaps.app.batch.results import Result, read_result
 from kfmaps.app.batch.settings import Settings
 from kfmaps.app.batch.spread import crew
-from kfmaps.app.batch.work import map_path
+from kfmaps.app.batch.summary import BAD
+from kfmaps.app.batch.tasks import PairTask
+from kfmaps.app.batch.truth import true_vertices
+from kfmaps.app.batch.work import loaded, map_path
+from kfmaps.app.evaluation import assessed
 from kfmaps.app.files import load_map, read_mesh, read_vertex_numbers, save_map, write_mesh, write_vertex_numbers
-from kfmaps.config import Config, Search
+from kfmaps.config import BasisConfig, Config, DescriptorConfig, Search
 from kfmaps.fit.shape import prepare
 from kfmaps.functional.points import to_functional, to_points
+from kfmaps.functional.refine import ZoomOut
 from kfmaps.many.agree import FUNCTIONS, Choice, Link, agree, orthogonal
 from kfmaps.many.zoom import ConsistentZoomOut, through_latent
 from kfmaps.surface.coarse import coarse
@@ -49,8 +62,18 @@ from kfmaps.surface.samples import stratified
 FULL = Config.automatic()
 QUICK = replace(FULL, search=Search(candidates=2, signs=3), finish=None)
 """A smaller search: what is measured is the collection, not the search."""
+PLAIN = replace(
+    Config(),
+    basis=BasisConfig(functions=40),
+    descriptors=DescriptorConfig(count=40, eigenfunctions=100, shot=True),
+    refinement=ZoomOut(start=40, stop=100, step=20, guidance=36.0),
+    finish=None,
+)
+"""One fit and no search: what is measured is what a collection costs whatever its pairs cost."""
+EVERY = 200
+"""Pairs after which a line is printed while they are matched."""
 SPECTRAL = replace(FULL, descriptors=replace(FULL.descriptors, shot=False))
-LINES = 500
+LINES = 200
 """Points of the body whose places are known on every specimen."""
 JUDGED = 200
 """Of the true points of a collection, those at which consistent ZoomOut is judged."""
@@ -75,53 +98,112 @@ def specimen(body: Mesh, vertices: int, rng: np.random.Generator) -> tuple[Mesh,
 
 
 def write_specimens(folder: Path, count: int, vertices: int) -> None:
-    """``count`` specimens with their truth, in the layout of the field."""
-    (folder / "corres").mkdir(parents=True)
+    """``count`` specimens with their truth, in the layout of the field; those that are there are left."""
+    (folder / "corres").mkdir(parents=True, exist_ok=True)
     body = datasets.two_poses(max(3 * vertices, 3000)).source
     for i in range(count):
-        mesh, lines = specimen(body, vertices, np.random.default_rng(i))
-        write_mesh(folder / f"s{i:04d}.ply", mesh)
-        write_vertex_numbers(folder / "corres" / f"s{i:04d}.vts", lines)
+        mesh_path, truth_path = folder / f"s{i:04d}.ply", folder / "corres" / f"s{i:04d}.vts"
+        if not truth_path.exists():
+            mesh, lines = specimen(body, vertices, np.random.default_rng(i))
+            write_mesh(mesh_path, mesh, force=True)
+            write_vertex_numbers(truth_path, lines)
 
 
-def cpu() -> float:
-    """CPU seconds of this process and of its workers that have ended."""
+def cpu() -> np.ndarray:
+    """CPU seconds of this process, and of its workers that have ended: (2,)."""
     used = [resource.getrusage(who) for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN)]
-    return sum(u.ru_utime + u.ru_stime for u in used)
+    return np.array([u.ru_utime + u.ru_stime for u in used])
 
 
-def measured(count: int, vertices: int, workers: int, wrong: float, full: bool, folder: Path) -> str:
+@contextmanager
+def spending(path: Path, stage: str) -> Iterator[None]:
+    """Add what the block costs to the ``stage`` in the file at ``path``: CPU seconds here and of workers, seconds."""
+    before, begin = cpu(), time.perf_counter()
+    try:
+        yield
+    finally:
+        spent = read_costs(path)
+        now = [*(cpu() - before).tolist(), time.perf_counter() - begin]
+        spent[stage] = [a + b for a, b in zip(spent.get(stage, [0.0] * len(now)), now, strict=True)]
+        path.write_text(json.dumps(spent), encoding="utf-8")
+
+
+def read_costs(path: Path) -> dict[str, list[float]]:
+    return json.loads(path.read_text(encoding="utf-8")) if path.exists() else {}
+
+
+def watching(total: int):
+    """A callback that prints how far a run is, now and then."""
+    begin = time.perf_counter()
+
+    def told(status: RunStatus, result: Result | None) -> None:
+        if result is not None and status.pairs_done % EVERY == 0:
+            peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1e6
+            seconds = time.perf_counter() - begin
+            print(f"  {status.pairs_done}/{total} pairs, {seconds:.0f} s, {peak:.2f} GB here", file=sys.stderr)
+
+    return told
+
+
+def plant(tasks: tuple[PairTask, ...], wrong: float, note: Path) -> list[tuple[str, str]]:
+    """Replace a part of the maps by random ones, unless the ``note`` says that it is done; which."""
+    rng = np.random.default_rng(0)
+    planted = rng.permutation(len(tasks))[: round(wrong * len(tasks))]
+    if not note.exists():
+        for i in planted:
+            path = map_path(Path(tasks[i].folder), tasks[i].pair.key)
+            found = load_map(path)
+            points = rng.permutation(found.target_to_source)
+            extra = {k: v for k, v in found.extra.items() if k not in ("raw_functional_map", "runners_up")}
+            save_map(path, replace(found, target_to_source=points, extra=extra), force=True)
+        note.write_text("done\n", encoding="utf-8")
+    return [(tasks[i].pair.source, tasks[i].pair.target) for i in planted]
+
+
+def error_in_use(task: PairTask) -> float:
+    """Mean error of the map of a pair that is in use, worked out anew."""
+    points = load_map(map_in_use(Path(task.folder), task.pair.key)).target_to_source
+    source, target = loaded(task.source).mesh, loaded(task.target).mesh
+    truth = true_vertices(task, len(source.vertices), len(target.vertices))
+    assert truth is not None
+    return assessed(source, points, truth).errors.mean
+
+
+def measured(count: int, vertices: int, workers: int, wrong: float, config: Config, folder: Path) -> str:
     """One row of the table."""
     shapes, out = folder / f"shapes{count}", folder / f"out{count}"
     write_specimens(shapes, count, vertices)
-    collection, settings = find_collection(shapes), Settings(FULL if full else QUICK)
-    begin, used = time.perf_counter(), cpu()
-    with crew(workers) as hands:
-        pairs = graph_pairs(collection, settings, out, "near", hands)
-    plan = make_plan(collection, pairs, settings, out)
-    match_collection(plan, workers=workers, worst=0)
-    matched, between = cpu() - used, cpu()
-    rng = np.random.default_rng(0)
-    planted = rng.permutation(len(pairs))[: round(wrong * len(pairs))]
-    for i in planted:
-        path = map_path(plan.folder, pairs[i].key)
-        found = load_map(path)
-        points = rng.permutation(found.target_to_source)
-        extra = {k: v for k, v in found.extra.items() if k not in ("raw_functional_map", "runners_up")}
-        save_map(path, replace(found, target_to_source=points, extra=extra), force=True)
-    outcome = match_collection(make_plan(collection, pairs, settings, out), workers=workers, worst=0, consistent=True)
-    agreed, seconds = cpu() - between, time.perf_counter() - begin
+    collection, settings = find_collection(shapes), Settings(config)
+    costs = folder / f"costs{count}.json"
+    with spending(costs, "match"):
+        with crew(workers) as hands:
+            pairs = graph_pairs(collection, settings, out, "near", hands)
+        plan = make_plan(collection, pairs, settings, out)
+        if plan.todo:
+            match_collection(plan, workers=workers, worst=0, callback=watching(len(pairs)))
+    planted = set(plant(plan.tasks, wrong, out / "planted"))
+    with spending(costs, "agree"):
+        plan = make_plan(collection, pairs, settings, out)
+        outcome = match_collection(plan, workers=workers, worst=0, consistent=True)
     assert outcome.agreed is not None
-    bad = {(pairs[i].source, pairs[i].target) for i in planted}
-    changed = {(r.source, r.target) for r in outcome.results if r.changed}
-    errors = np.array([r.error_mean for r in outcome.results])
-    peak = resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss / 1e6
+    changed = {(r.source, r.target): float(r.error_mean or 0.0) for r in outcome.results if r.changed}
+    keys = [(task.pair.source, task.pair.target) for task in plan.tasks]
+    matched = {(r.source, r.target): float(r.error_mean or 0.0) for r in plan.results}
+    before, now = np.array([matched[key] for key in keys]), []
+    for task, key in zip(plan.tasks, keys, strict=True):
+        left = key in planted and key not in changed
+        now.append(error_in_use(task) if left else changed.get(key, matched[key]))
+    after, random = np.array(now), np.array([key in planted for key in keys])
+    exchanged, bad = np.array([key in changed for key in keys]), random | (before > BAD)
+    spent = read_costs(costs)
+    peaks = [resource.getrusage(w).ru_maxrss / 1e6 for w in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN)]
     disk = sum(p.stat().st_size for p in out.rglob("*") if p.is_file()) / 1e9
+    each = " ".join(f"{spent[stage][who] / count:8.2f}" for stage in ("match", "agree") for who in (1, 0))
     return (
-        f"{count:6d} {len(pairs):6d} {matched / count:10.2f} {agreed / count:10.2f} {seconds:8.0f} {peak:7.2f} "
-        f"{disk:7.2f} "
-        f"{100 * errors.mean():6.2f} {100 * errors.max():6.2f} {len(bad):6d} {len(bad & changed):6d} "
-        f"{len(changed - bad):6d}"
+        f"{count:6d} {len(pairs):6d} {each} {sum(s[2] for s in spent.values()):8.0f} {peaks[1]:6.2f} {peaks[0]:6.2f} "
+        f"{disk:6.2f} {100 * before.mean():6.2f} {(before > BAD).sum():5d} {random.sum():7d} {bad.sum():5d} "
+        f"{(bad & (after <= BAD)).sum():6d} {100 * after.mean():6.2f} {(after > BAD).sum():6d} "
+        f"{(~bad & (after > BAD)).sum():6d} {(random & exchanged).sum():6d} {(~bad & exchanged).sum():6d}"
     )
 
 
@@ -193,6 +275,7 @@ def main() -> None:
     parser.add_argument(
         "--full", action="store_true", help="the recommended search and finish, about three times as long"
     )
+    parser.add_argument("--plain", action="store_true", help="one fit of each pair and a short refinement")
     parser.add_argument("--plan", action="store_true")
     parser.add_argument("--zoom", action="store_true")
     parser.add_argument("--agree", action="store_true")
@@ -212,14 +295,19 @@ def main() -> None:
         for count in counts:
             print(needed(count, 3 * count, chosen.vertices, Config.automatic(), chosen.workers).told())
         return
+    config = FULL if chosen.full else PLAIN if chosen.plain else QUICK
     print(
-        "CPU seconds a shape to match and to agree, seconds in all, GB of memory and disk, errors, planted maps:\n"
-        "shapes  pairs      match      agree  seconds  memory    disk   mean  worst  wrong  found  other"
+        "CPU seconds a shape to match and to agree, by workers and by the process that hands out the work; seconds in"
+        "\nall; GB of a worker, of that process, on disk; mean error and maps above 5 as they were matched; random ones"
+        "\nput in; wrong ones in all, those of them mended; mean error and maps above 5 in the end; right ones harmed;"
+        "\nrandom ones and right ones exchanged"
+        "\nshapes  pairs    match     here    agree     here  seconds worker   here   disk  error above planted wrong "
+        "mended  error  above harmed  found  other"
     )
     with tempfile.TemporaryDirectory() as temporary:
         for count in counts:
             folder = chosen.out or Path(temporary)
-            print(measured(count, chosen.vertices, chosen.workers, chosen.wrong, chosen.full, folder), flush=True)
+            print(measured(count, chosen.vertices, chosen.workers, chosen.wrong, config, folder), flush=True)
             if chosen.zoom:
                 zoomed(folder / f"shapes{count}", folder / f"out{count}")
 

@@ -355,8 +355,8 @@ MUTANTS = tuple(
         ),
         ("return left @ right\n", "return right @ left\n", "test_many -k that_agree_are", "many/agree"),
         (
-            "further = round(cost - float(np.log(",
-            "further = round(cost + float(np.log(",
+            "further = round(cost - math.log(",
+            "further = round(cost + math.log(",
             "test_many -k best_way",
         ),
         ("gain = -signs * (signed @ signs)", "gain = signs * (signed @ signs)", "test_many -k hands"),
@@ -369,10 +369,16 @@ MUTANTS = tuple(
         ("parts = sizes[:kept] ** 2 / whole", "parts = sizes[:kept] / whole", "test_many_differences -k component"),
         ("if made.score > least and misfit < own[number]", "if misfit < own[number]", "test_many -k loose"),
         (
-            "*in_use(ends, known, number)]",
-            "*in_use(ends, known, number)[:0]]",
+            "*in_use(around, ends, known, number)]",
+            "*in_use(around, ends, known, number)[:0]]",
             "test_many -k family",
         ),
+        (
+            "return ways | {at: way for at, way in further.items() if at not in ways}",
+            "return ways | further",
+            "test_batch_carried -k part",
+        ),
+        ("rows = np.flatnonzero(chosen)[there]", "rows = np.flatnonzero(there)", "test_batch_carried -k part"),
         # config
         (
             "self.descriptors.eigenfunctions if spectral else 0, zoom)",

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import csv
 import itertools
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
 
@@ -12,9 +14,10 @@ import pytest
 
 from collecting import CONFIG, LANDMARKS, done, touch, write_collection
 from kfmaps._arrays import InvalidInput
-from kfmaps.app.batch.carried import landmarks_everywhere
+from kfmaps.app.batch.carried import landmarks_everywhere, write_landmarks_csv, write_tps
 from kfmaps.app.batch.layout import Pair, find_collection
 from kfmaps.app.batch.plan import make_plan
+from kfmaps.app.batch.results import result_path
 from kfmaps.app.batch.settings import Settings
 from kfmaps.app.batch.work import map_path
 from kfmaps.app.cli import main
@@ -100,20 +103,74 @@ def test_the_command_writes_csv_and_tps(
     assert "MAP and VALUES" in capsys.readouterr().err
 
 
+@contextmanager
+def without_tip(folder: Path, out: Path, *keys: str) -> Iterator[None]:
+    """The maps of ``keys`` as those of parts: what is around the first landmark on the target has no counterpart."""
+    kept = {key: map_path(out, key).read_bytes() for key in keys}
+    try:
+        for key in keys:
+            found, target = load_map(map_path(out, key)), key.split("-")[1]
+            mesh = read_mesh(folder / f"{target}.off")
+            near = np.linalg.norm(mesh.vertices - mesh.vertices[marks(folder, target)[0]], axis=1)
+            lost = np.where(near <= np.sort(near)[8], -1, found.target_to_source)
+            save_map(map_path(out, key), replace(found, target_to_source=lost), force=True)
+        yield
+    finally:
+        for key, content in kept.items():
+            map_path(out, key).write_bytes(content)
+
+
+def test_what_only_a_part_leads_to_has_the_landmarks_that_it_has(run: tuple[Path, Path], tmp_path: Path) -> None:
+    folder, out = run
+    file = landmark_file(tmp_path / "m.csv", marks(folder))
+    with without_tip(folder, out, "b2-b1"):  # b2 by the part, b3 behind it
+        found, missed = landmarks_everywhere(out, file, "b0")
+        assert not missed
+        assert [one.through for one in found] == [(), (), ("b1",), ("b1", "b2")]
+        for one in found:
+            lost = one.specimen in ("b2", "b3")
+            np.testing.assert_array_equal(one.points.vertices[1:], marks(folder, one.specimen)[1:])
+            assert (one.points.vertices[0] == -1) == lost
+            assert np.isnan(one.points.points[0]).all() == lost
+            assert np.isnan(one.points.confidence[0]) == lost
+            assert (one.points.confidence[1:] > 0).all()
+        write_landmarks_csv(tmp_path / "all.csv", found)
+        write_tps(tmp_path / "all.tps", found)
+    with open(tmp_path / "all.csv", encoding="utf-8", newline="") as table:
+        gone = [row for row in csv.DictReader(table) if row["vertex"] == "-1"]
+    assert [(row["specimen"], row["name"]) for row in gone] == [("b2", "tip"), ("b3", "tip")]
+    assert all(row[c] == "" for row in gone for c in ("x", "y", "z", "weight_1", "confidence"))
+    assert (tmp_path / "all.tps").read_text(encoding="utf-8").count("NA NA NA\n") == 2
+    with without_tip(folder, out, "b0-b1", "b2-b3"):  # forth and back over parts
+        found, _ = landmarks_everywhere(out, file, "b0")
+        assert [int((one.points.vertices >= 0).sum()) for one in found] == [3, 2, 2, 2]
+
+
 def test_maps_of_parts_are_gone_round(run: tuple[Path, Path], tmp_path: Path) -> None:
     folder, out = run
-    path = map_path(out, "b2-b3")
-    whole = path.read_bytes()
-    found = load_map(path)
-    lost = found.target_to_source.copy()
-    lost[:3] = -1
+    file = landmark_file(tmp_path / "m.csv", marks(folder))
+    plan = make_plan(find_collection(folder), [Pair("b0", "b2")], Settings(CONFIG, landmark_lines=LANDMARKS), out)
+    done(plan)
+    found = load_map(map_path(out, "b0-b2"))
+    points = np.empty_like(found.target_to_source)
+    points[read_vertex_numbers(folder / "corres" / "b2.vts")] = read_vertex_numbers(folder / "corres" / "b0.vts")
+    extra = {k: v for k, v in found.extra.items() if not k.startswith("place_")}
+    save_map(map_path(out, "b0-b2"), replace(found, target_to_source=points, extra=extra), force=True)
     try:
-        save_map(path, replace(found, target_to_source=lost), force=True)
-        carried, missed = landmarks_everywhere(out, landmark_file(tmp_path / "m.csv", marks(folder)), "b0")
-        assert missed == ["b3"]
-        assert [one.specimen for one in carried] == ["b0", "b1", "b2"]
+        with without_tip(folder, out, "b0-b2"):
+            carried, _ = landmarks_everywhere(out, file, "b0")
+            through = {one.specimen: one.through for one in carried}
+            assert through == {"b0": (), "b1": (), "b2": ("b1",), "b3": ("b1", "b2")}
+            assert all((one.points.vertices >= 0).all() for one in carried)
+        with without_tip(folder, out, "b0-b2", "b2-b3"):  # by a part to b3 alone
+            carried, _ = landmarks_everywhere(out, file, "b0")
+            assert {one.specimen: one.through for one in carried} == through
+            assert [int((one.points.vertices >= 0).sum()) for one in carried] == [3, 3, 3, 2]
+        carried, _ = landmarks_everywhere(out, file, "b0")
+        assert next(one.through for one in carried if one.specimen == "b3") == ("b2",)
     finally:
-        path.write_bytes(whole)
+        map_path(out, "b0-b2").unlink()
+        result_path(out, "b0-b2").unlink()
 
 
 def test_what_cannot_be_carried(run: tuple[Path, Path], tmp_path: Path) -> None:

@@ -9,7 +9,7 @@ from kfmaps._arrays import InvalidInput
 from kfmaps.many.agree import Choice, Link, agree, orthogonal
 from kfmaps.many.graph import every, medoid, near, signature, star, unlikeness
 from kfmaps.many.judge import Judged, better, choices
-from kfmaps.many.paths import best_way, composed, turned_back
+from kfmaps.many.paths import best_way, composed, roads, turned_back
 from kfmaps.many.repair import repaired
 from kfmaps.many.signs import hands
 from kfmaps.many.zoom import ConsistentZoomOut, through_latent
@@ -185,17 +185,17 @@ def test_links_that_cannot_be() -> None:
 def test_the_best_way_is_the_most_probable() -> None:
     ends = [(0, 3), (0, 1), (1, 3), (0, 2), (3, 2)]
     chances = [0.9, 0.99, 0.99, 0.5, 1.0]
-    way = best_way(4, ends, chances, 0, 3)
+    way = best_way(roads(4, ends), chances, 0, 3)
     assert way is not None
     assert (way.shapes, way.links) == ((0, 1, 3), (1, 2))
     assert way.chance == pytest.approx(0.99**2, rel=1e-3)
-    other = best_way(4, ends, chances, 0, 3, without=1)
+    other = best_way(roads(4, ends), chances, 0, 3, without=1)
     assert other is not None
     assert other.links == (0,)
-    back = best_way(4, ends, chances, 3, 0)
+    back = best_way(roads(4, ends), chances, 3, 0)
     assert back is not None
     assert back.shapes == (3, 1, 0)
-    assert best_way(5, ends, chances, 0, 4) is None
+    assert best_way(roads(5, ends), chances, 0, 4) is None
 
 
 def test_compositions_of_maps_that_agree_are_the_maps() -> None:

@@ -19,7 +19,7 @@ from kfmaps.many.agree import Link
 from kfmaps.many.differences import Common, Latent, common_bases, operators, shape_distances
 from kfmaps.many.graph import every, medoid, near, signature, star, unlikeness
 from kfmaps.many.judge import Judged, choices, judged
-from kfmaps.many.paths import Way, composed, turned_back, ways_from
+from kfmaps.many.paths import Way, composed, roads, turned_back, ways_from
 from kfmaps.many.repair import Change, Round, repaired
 from kfmaps.matching import Match, check_prepared, continued, match
 from kfmaps.search.choose import probed
@@ -91,7 +91,7 @@ class Collection:
         a, b = self._number(source), self._number(target)
         if a == b:
             return np.arange(len(self.shapes[a].mesh.vertices))
-        ways = ways_from(len(self.names), self._ends(), self.chances, a)
+        ways = ways_from(roads(len(self.names), self._ends()), self.chances, a)
         if b not in ways and (source, target) in self.parts:
             return self.maps[self.pairs.index((source, target))]
         if b not in ways:

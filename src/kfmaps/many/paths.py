@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from heapq import heappop, heappush
@@ -37,52 +38,50 @@ class Way:
     chance: float
 
 
+Roads = Sequence[Sequence[tuple[int, int]]]
+"""Of each shape its neighbours, with the number of the pair between."""
+
+
+def roads(count: int, ends: Sequence[tuple[int, int]]) -> Roads:
+    """The neighbours of each of ``count`` shapes by pairs with these ``ends``, made once for many searches."""
+    around: list[list[tuple[int, int]]] = [[] for _ in range(count)]
+    for number, (a, b) in enumerate(ends):
+        around[a].append((b, number))
+        around[b].append((a, number))
+    return around
+
+
 def best_way(
-    count: int,
-    ends: Sequence[tuple[int, int]],
-    chances: Sequence[float],
-    source: int,
-    target: int,
-    without: int | None = None,
+    around: Roads, chances: Sequence[float], source: int, target: int, without: int | None = None
 ) -> Way | None:
     """The path from ``source`` to ``target`` whose maps are most probably all right; ``None`` where there is none.
 
     Parameters
     ----------
-    count : int
-        Shapes.
-    ends, chances : sequences
-        Of each link its two shapes, and the probability that its map is right. Links are gone through both ways. Of
-        equally probable paths the one of the fewest links, then of the lowest numbers.
+    around : Roads
+        Links are gone through both ways.
+    chances : sequence
+        Of each link the probability that its map is right. Of equally probable paths the one of the fewest links is
+        taken, then of the lowest numbers.
     without : int, optional
         A link that is not to be used.
     """
-    return _searched(count, ends, chances, source, target, without).get(target)
+    return _searched(around, chances, source, target, without).get(target)
 
 
-def ways_from(count: int, ends: Sequence[tuple[int, int]], chances: Sequence[float], source: int) -> dict[int, Way]:
+def ways_from(around: Roads, chances: Sequence[float], source: int) -> dict[int, Way]:
     """The best ways from one shape to all that can be reached, itself too; as :func:`best_way` finds them.
 
     A way's first part is the way to where that ends, so that points can be carried along all of them step by step. In
     the order of how probable they are.
     """
-    return _searched(count, ends, chances, source)
+    return _searched(around, chances, source)
 
 
 def _searched(
-    count: int,
-    ends: Sequence[tuple[int, int]],
-    chances: Sequence[float],
-    source: int,
-    target: int | None = None,
-    without: int | None = None,
+    around: Roads, chances: Sequence[float], source: int, target: int | None = None, without: int | None = None
 ) -> dict[int, Way]:
     """Dijkstra's search from ``source``, until ``target`` is found."""
-    around: list[list[tuple[int, int]]] = [[] for _ in range(count)]
-    for number, (a, b) in enumerate(ends):
-        if number != without and chances[number] > LEAST:
-            around[a].append((b, number))
-            around[b].append((a, number))
     queue: list[tuple[float, int, tuple[int, ...], tuple[int, ...]]] = [(0.0, 0, (source,), ())]
     found: dict[int, Way] = {}
     while queue:
@@ -90,13 +89,13 @@ def _searched(
         here = shapes[-1]
         if here in found:
             continue
-        found[here] = Way(shapes, links, float(np.exp(-cost)))
+        found[here] = Way(shapes, links, math.exp(-cost))
         if here == target:
             break
         for other, number in around[here]:
-            if other not in found:
+            if other not in found and number != without and chances[number] > LEAST:
                 # Rounded, so that what is equal but for rounding is equal; each step costs a little by itself.
-                further = round(cost - float(np.log(min(chances[number], 1.0))) + 1e-6, 9)
+                further = round(cost - math.log(min(chances[number], 1.0)) + 1e-6, 9)
                 heappush(queue, (further, length + 1, (*shapes, other), (*links, number)))
     return found
 

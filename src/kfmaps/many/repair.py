@@ -15,7 +15,7 @@ import numpy as np
 
 from kfmaps.many.agree import FAR, FUNCTIONS, SAY, Agreement, Link, agree, misfits_of
 from kfmaps.many.judge import TURNED, Judged, better, choices, same
-from kfmaps.many.paths import Way, best_way
+from kfmaps.many.paths import Roads, Way, best_way, roads
 from kfmaps.many.signs import hands
 
 DOUBT = 0.5
@@ -147,13 +147,14 @@ def repaired(
     known = [list(several) for several in maps]
     ways: list[list[Round]] = [[] for _ in ends]
     tried: set[tuple[int, tuple[Step, ...]]] = set()
+    around = roads(count, ends)
     signs, found = _settled(count, ends, known)
     for _ in range(ROUNDS):
-        asked = []
+        asked, best = [], _best(found, ways)
         for number, chances in enumerate(found.chances):
             if chances[0] >= DOUBT:
                 continue
-            offered = [way_round(count, ends, found, number, ways), *in_use(ends, known, number)]
+            offered = [way_round(around, ends, best, number), *in_use(around, ends, known, number)]
             for way in offered:
                 if way is not None and (number, way.steps) not in tried:
                     tried.add((number, way.steps))
@@ -168,12 +169,12 @@ def repaired(
         for number in range(len(ends))
         if (change := _change(number, known[number], len(maps[number]), ways[number], found, signs, ends)) is not None
     ]
-    changes += _improved(count, ends, known, ways, found, compose, {change.link for change in changes})
+    changes += _improved(around, ends, known, ways, found, compose, {change.link for change in changes})
     return Repaired(found, tuple(sorted(changes, key=lambda change: change.link)), signs)
 
 
 def _improved(
-    count: int,
+    around: Roads,
     ends: Sequence[tuple[int, int]],
     maps: Sequence[Sequence[Judged]],
     ways: Sequence[Sequence[Round]],
@@ -187,12 +188,11 @@ def _improved(
     """
     own = np.array([misfits[0] for misfits in found.misfits])
     usual = float(np.median(own)) if len(own) else 0.0
-    asked = []
+    asked, likely = [], _best(found, ways)
     for number in np.flatnonzero(own > FAR * usual + 1e-9).tolist():
         if number in done or found.chances[number][0] < DOUBT:
             continue
-        best = way_round(count, ends, found, number, ways)
-        offered = [best, *in_use(ends, maps, number)]
+        offered = [way_round(around, ends, likely, number), *in_use(around, ends, maps, number)]
         seen = {way.steps: way for way in offered if way is not None}
         asked += [(number, way) for way in seen.values()]
     better_ones: dict[int, Change] = {}
@@ -229,19 +229,19 @@ def _offer(maps: list[Judged], ways: list[Round], made: Judged, way: Round) -> N
     ways.append(way)
 
 
-def in_use(ends: Sequence[tuple[int, int]], maps: Sequence[Sequence[Judged]], number: int) -> list[Round]:
+def in_use(
+    around: Roads, ends: Sequence[tuple[int, int]], maps: Sequence[Sequence[Judged]], number: int
+) -> list[Round]:
     """Ways of two steps round link ``number`` by the maps in use, those of the best scores; at most :data:`SHORT`.
 
     What most candidates say may be wrong together. These say what the maps say that a search thought best.
     """
     source, target = ends[number]
     near: dict[int, dict[int, int]] = {source: {}, target: {}}
-    for i, (a, b) in enumerate(ends):
-        for here in (source, target):
-            if i != number and here in (a, b):
-                other = b if a == here else a
-                if other not in near[here] or maps[i][0].score > maps[near[here][other]][0].score:
-                    near[here][other] = i
+    for here, others in near.items():
+        for other, i in around[here]:
+            if i != number and (other not in others or maps[i][0].score > maps[others[other]][0].score):
+                others[other] = i
     found = []
     for middle in sorted(near[source].keys() & near[target].keys() - {source, target}):
         first, second = near[source][middle], near[target][middle]
@@ -252,22 +252,27 @@ def in_use(ends: Sequence[tuple[int, int]], maps: Sequence[Sequence[Judged]], nu
     return [way for _, way in found[:SHORT]]
 
 
-def way_round(
-    count: int, ends: Sequence[tuple[int, int]], found: Agreement, number: int, ways: Sequence[Sequence[Round]]
-) -> Round | None:
-    """The best way from the source of link ``number`` to its target through others, each by its best candidate.
+def _best(found: Agreement, ways: Sequence[Sequence[Round]]) -> tuple[list[int], list[float]]:
+    """Of each link its best candidate, and how probable that is as a step of a way.
 
-    Links of which a composition is the best are no part of it: they are ways themselves.
+    Links of which a composition is the best are no part of one: they are ways themselves.
     """
     best = [int(chances[:-1].argmax()) for chances in found.chances]
-    chance = [float(chances[b]) for chances, b in zip(found.chances, best, strict=True)]
-    for i, several in enumerate(ways):
-        if best[i] >= len(found.chances[i]) - 1 - len(several):
-            chance[i] = 0.0
-    way: Way | None = best_way(count, ends, chance, *ends[number], without=number)
+    given = [len(chances) - 1 - len(several) for chances, several in zip(found.chances, ways, strict=True)]
+    each = zip(found.chances, best, given, strict=True)
+    return best, [float(chances[b]) if b < count else 0.0 for chances, b, count in each]
+
+
+def way_round(
+    around: Roads, ends: Sequence[tuple[int, int]], best: tuple[list[int], list[float]], number: int
+) -> Round | None:
+    """The best way from the source of link ``number`` to its target through others, each by its ``best`` candidate."""
+    candidate, chances = best
+    way: Way | None = best_way(around, chances, *ends[number], without=number)
     if way is None or way.chance < SAFE:
         return None
-    steps = tuple(Step(link, best[link], ends[link][0] == at) for link, at in zip(way.links, way.shapes, strict=False))
+    each = zip(way.links, way.shapes, strict=False)
+    steps = tuple(Step(link, candidate[link], ends[link][0] == at) for link, at in each)
     return Round(steps, way.shapes[1:-1], way.chance)
 
 

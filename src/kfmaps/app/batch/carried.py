@@ -17,10 +17,17 @@ from kfmaps.app.batch.layout import Pair
 from kfmaps.app.batch.results import Result, all_results, read_result
 from kfmaps.app.batch.settings import read_settings
 from kfmaps.app.files import MapFile, atomic_output, check_map, check_output, load_map, read_mesh
+from kfmaps.app.files.counterparts import counterparts
 from kfmaps.app.files.export import place_of
-from kfmaps.app.files.named_points import NamedPoints, carried_points, read_named_points
+from kfmaps.app.files.named_points import (
+    NamedPoints,
+    carried_points,
+    chosen_points,
+    read_named_points,
+    spread_points,
+)
 from kfmaps.functional.precise import at_vertices
-from kfmaps.many.paths import ways_from
+from kfmaps.many.paths import Way, roads, ways_from
 from kfmaps.surface.mesh import Mesh
 
 UNKNOWN = 0.5
@@ -57,7 +64,8 @@ def landmarks_everywhere(folder: Path, landmarks: Path, on: str | None = None) -
 
     Each map on the way carries them once: from the specimen with the landmarks along the paths whose maps are most
     probably all right. The confidence of a point is that of the way times, at each step, how well distances around it
-    are kept.
+    are kept. Maps of parts are gone round, but to specimens that nothing else leads to; of the points that have no
+    counterpart there vertex and face are −1, place and confidence NaN, and so they are on all that lies behind.
 
     Parameters
     ----------
@@ -85,40 +93,59 @@ def landmarks_everywhere(folder: Path, landmarks: Path, on: str | None = None) -
     start = _start(names, edges, on)
     number = {name: i for i, name in enumerate(names)}
     ends = [(number[e.pair.source], number[e.pair.target]) for e in edges]
-    chances = [e.chance for e in edges]
     meshes: dict[str, Mesh] = {}
-    while True:
-        ways = ways_from(len(names), ends, chances, number[start])
-        used = dict.fromkeys(link for way in ways.values() for link in way.links)
-        parts = [link for link in used if (load_map(edges[link].path).target_to_source < 0).any()]
-        if not parts:
-            break
-        for link in parts:  # a part has no counterpart for every landmark: round it, where there is another way
-            chances[link] = 0.0
     found: dict[int, Carried] = {}
-    for at, way in ways.items():
+    for at, way in _ways(len(names), ends, edges, number[start]).items():
         if not way.links:
             points = read_named_points(landmarks, _mesh(start, edges, meshes))
             found[at] = Carried(start, replace(points, confidence=np.ones(len(points.names))), ())
             continue
         edge, before = edges[way.links[-1]], found[way.shapes[-2]]
         points = _carried(edge, before.points, ends[way.links[-1]][1] == way.shapes[-2], edges, meshes)
-        found[at] = Carried(names[at], points, tuple(names[i] for i in way.shapes[1:-1]))
+        through = (*before.through, before.specimen) if before.specimen != start else ()
+        found[at] = Carried(names[at], points, through)
     return list(found.values()), [name for name in names if number[name] not in found]
+
+
+def _ways(count: int, ends: Sequence[tuple[int, int]], edges: Sequence[_Edge], start: int) -> dict[int, Way]:
+    """The best ways over whole maps, and over maps of parts to the specimens that nothing else leads to.
+
+    A part has no counterpart for every landmark. Each way's last step begins where another way ends.
+    """
+    around, own = roads(count, ends), [e.chance for e in edges]
+    chances = list(own)
+    while True:
+        ways = ways_from(around, chances, start)
+        used = dict.fromkeys(link for way in ways.values() for link in way.links)
+        parts = [link for link in used if (load_map(edges[link].path).target_to_source < 0).any()]
+        if not parts:
+            break
+        for link in parts:
+            chances[link] = 0.0
+    further = {} if len(ways) == count else ways_from(around, own, start)
+    return ways | {at: way for at, way in further.items() if at not in ways}
 
 
 def _carried(
     edge: _Edge, before: NamedPoints, back: bool, edges: Sequence[_Edge], meshes: dict[str, Mesh]
 ) -> NamedPoints:
-    """Points carried over one map, with what is left of their confidence."""
+    """Points carried over one map, with what is left of their confidence; those lost on the way stay lost."""
     known = load_map(edge.path)
     source, target = (_mesh(name, edges, meshes) for name in (edge.pair.source, edge.pair.target))
-    check_map(known, len(source.vertices), len(target.vertices), str(edge.path))
-    place = place_of(known, source) or at_vertices(known.target_to_source, source)
+    ways = counterparts(known, source, target, str(edge.path)) if (known.target_to_source < 0).any() else None
+    if ways is None:
+        check_map(known, len(source.vertices), len(target.vertices), str(edge.path))
+        place, some = place_of(known, source) or at_vertices(known.target_to_source, source), {}
+    else:
+        place, some = ways.place, {"known": ways.target, "common": ways.source}
     trust = known.extra.get("local_confidence")
     local = np.ones(len(target.vertices)) if trust is None else np.nan_to_num(np.asarray(trust))
-    points = carried_points(before, source, target, place, local, back=back)
-    return replace(points, confidence=before.confidence * points.confidence * edge.chance)
+    there = before.vertices >= 0
+    if not there.any():
+        return before
+    points = carried_points(chosen_points(before, there), source, target, place, local, back=back, **some)
+    rest = points.confidence * before.confidence[there] * edge.chance
+    return spread_points(replace(points, confidence=rest), before.names, there)
 
 
 def _edges(folder: Path) -> list[_Edge]:
@@ -186,7 +213,10 @@ def _named(found: MapFile, side: str, path: Path) -> str:
 
 
 def write_landmarks_csv(path: Path, carried: Sequence[Carried], force: bool = False) -> None:
-    """One row a landmark and specimen: where it is in the specimen's own unit, on which triangle, how sure it is."""
+    """One row a landmark and specimen: where it is in the specimen's own unit, on which triangle, how sure it is.
+
+    Of one without a counterpart vertex and face are −1, and the other cells are empty.
+    """
     check_output(path, force)
     text = io.StringIO(newline="")
     out = csv.writer(text, lineterminator="\n")
@@ -198,6 +228,8 @@ def write_landmarks_csv(path: Path, carried: Sequence[Carried], force: bool = Fa
             place = [repr(x) for x in p.points[i].tolist()]
             weights = [f"{w:.9g}" for w in p.place.weights[i].tolist()]
             known = f"{p.confidence[i]:.4f}"
+            if p.vertices[i] < 0:
+                place, weights, known = [""] * 3, [""] * 3, ""
             row = [name, one.specimen, *place, int(p.vertices[i]), int(p.place.faces[i]), *weights, known]
             out.writerow([*row, " ".join(one.through)])
     with atomic_output(path, force) as temporary:
@@ -205,12 +237,15 @@ def write_landmarks_csv(path: Path, carried: Sequence[Carried], force: bool = Fa
 
 
 def write_tps(path: Path, carried: Sequence[Carried], force: bool = False) -> None:
-    """The landmarks as TPS (Rohlf), which geomorph and MorphoJ read: ``LM3=`` and a row each, then ``ID=``."""
+    """The landmarks as TPS (Rohlf), which geomorph and MorphoJ read: ``LM3=`` and a row each, then ``ID=``.
+
+    One without a counterpart is ``NA NA NA``, geomorph's missing landmark.
+    """
     check_output(path, force)
     lines = []
     for one in carried:
         lines.append(f"LM3={len(one.points.names)}")
-        lines += [" ".join(f"{x:.9g}" for x in row) for row in one.points.points.tolist()]
+        lines += [" ".join("NA" if np.isnan(x) else f"{x:.9g}" for x in row) for row in one.points.points.tolist()]
         lines.append(f"ID={' '.join(one.specimen.split())}")
     with atomic_output(path, force) as temporary:
         temporary.write_text("\n".join(lines) + "\n", encoding="utf-8")

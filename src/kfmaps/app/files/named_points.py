@@ -150,6 +150,31 @@ def carried_points(
     return NamedPoints(given.names, there, points, vertices, trust, found.distances)
 
 
+def chosen_points(given: NamedPoints, chosen: np.ndarray) -> NamedPoints:
+    """Those of the points that are ``chosen (q,)``."""
+    return NamedPoints(
+        tuple(name for name, one in zip(given.names, chosen, strict=True) if one),
+        PointMap(given.place.faces[chosen], given.place.weights[chosen]),
+        given.points[chosen],
+        given.vertices[chosen],
+        given.confidence[chosen],
+        given.apart[chosen],
+    )
+
+
+def spread_points(given: NamedPoints, names: tuple[str, ...], chosen: np.ndarray) -> NamedPoints:
+    """The other way: ``given`` points in the places of those ``chosen``, all others and those at −1 without a place."""
+    there = given.vertices >= 0
+    rows = np.flatnonzero(chosen)[there]
+    faces, vertices = (np.full(len(names), -1, dtype=np.int64) for _ in range(2))
+    weights, points = (np.full((len(names), 3), np.nan) for _ in range(2))
+    confidence, apart = (np.full(len(names), np.nan) for _ in range(2))
+    faces[rows], weights[rows] = given.place.faces[there], given.place.weights[there]
+    points[rows], vertices[rows] = given.points[there], given.vertices[there]
+    confidence[rows], apart[rows] = given.confidence[there], given.apart[there]
+    return NamedPoints(names, PointMap(faces, weights), points, vertices, confidence, apart)
+
+
 def write_named_points(path: str | Path, points: NamedPoints, force: bool = False) -> None:
     """Write points as CSV: name, nearest vertex, x, y, z in the mesh's unit, confidence.
 
