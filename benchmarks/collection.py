@@ -33,7 +33,7 @@ from scipy.spatial import KDTree
 
 from kfmaps import datasets
 from kfmaps.app.batch.clock import RunStatus
-from kfmaps.app.batch.collection import match_collection
+from kfmaps.app.batch.collection import BatchOutcome, match_collection
 from kfmaps.app.batch.exchange import map_in_use
 from kfmaps.app.batch.graphing import graph_pairs
 from kfmaps.app.batch.layout import Pair, find_collection
@@ -169,6 +169,13 @@ def error_in_use(task: PairTask) -> float:
     return assessed(source, points, truth).errors.mean
 
 
+def going_on(outcome: BatchOutcome) -> BatchOutcome:
+    """``outcome`` of a run that was not interrupted."""
+    if outcome.interrupted:
+        raise KeyboardInterrupt("interrupted: the same call goes on")
+    return outcome
+
+
 def measured(count: int, vertices: int, workers: int, wrong: float, config: Config, folder: Path) -> str:
     """One row of the table."""
     shapes, out = folder / f"shapes{count}", folder / f"out{count}"
@@ -180,12 +187,11 @@ def measured(count: int, vertices: int, workers: int, wrong: float, config: Conf
             pairs = graph_pairs(collection, settings, out, "near", hands)
         plan = make_plan(collection, pairs, settings, out)
         if plan.todo:
-            match_collection(plan, workers=workers, worst=0, callback=watching(len(pairs)))
+            going_on(match_collection(plan, workers=workers, worst=0, callback=watching(len(pairs))))
     planted = set(plant(plan.tasks, wrong, out / "planted"))
     with spending(costs, "agree"):
         plan = make_plan(collection, pairs, settings, out)
-        outcome = match_collection(plan, workers=workers, worst=0, consistent=True)
-    assert outcome.agreed is not None
+        outcome = going_on(match_collection(plan, workers=workers, worst=0, consistent=True))
     changed = {(r.source, r.target): float(r.error_mean or 0.0) for r in outcome.results if r.changed}
     keys = [(task.pair.source, task.pair.target) for task in plan.tasks]
     matched = {(r.source, r.target): float(r.error_mean or 0.0) for r in plan.results}

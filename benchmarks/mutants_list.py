@@ -353,12 +353,18 @@ MUTANTS = tuple(
             "say = np.append(odds + (misfits - limit) / spread, 0.0)",
             "test_many -k planted",
         ),
-        ("return left @ right\n", "return right @ left\n", "test_many -k that_agree_are", "many/agree"),
+        ("return left @ right\n", "return right @ left\n", "test_many -k that_agree_are", "many/starts"),
         (
             "further = round(cost - math.log(",
             "further = round(cost + math.log(",
             "test_many -k best_way",
         ),
+        (
+            "turns = [found.latent[links[i].target].T @ maps[i] @ found.latent[links[i].source] for i in across]",
+            "turns = [maps[i] for i in across]",
+            "test_many -k long_cycles",
+        ),
+        ("if low[v] > number[up]:", "if low[v] >= number[up]:", "test_many -k bridges"),
         ("gain = -signs * (signed @ signs)", "gain = signs * (signed @ signs)", "test_many -k hands"),
         (
             "inside = C.T @ (np.asarray(eigenvalues_t)[:, None] * C)",

@@ -7,7 +7,7 @@ import pytest
 
 from kfmaps._arrays import InvalidInput
 from kfmaps.many.agree import Choice, Link, agree, orthogonal
-from kfmaps.many.graph import every, medoid, near, signature, star, unlikeness
+from kfmaps.many.graph import bridges, every, medoid, near, signature, star, unlikeness
 from kfmaps.many.judge import Judged, better, choices
 from kfmaps.many.paths import best_way, composed, roads, turned_back
 from kfmaps.many.repair import repaired
@@ -80,6 +80,23 @@ def test_stars_and_all_pairs() -> None:
         near(np.zeros((3, 3)), 1)
 
 
+@pytest.mark.parametrize("seed", range(5))
+def test_bridges_are_what_the_graph_falls_apart_without(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    pairs = [(int(a), int(b)) for a, b in rng.integers(0, 14, (16, 2)) if a != b]
+
+    def parts(some: list[tuple[int, int]]) -> int:
+        label = np.arange(14)
+        for _ in range(14):
+            for a, b in some:
+                label[[a, b]] = min(label[a], label[b])
+        return len(set(label.tolist()))
+
+    alone = {pair for i, pair in enumerate(pairs) if parts(pairs[:i] + pairs[i + 1 :]) > parts(pairs)}
+    assert bridges(14, pairs) == alone
+    assert bridges(3, [(0, 1), (1, 0), (1, 2)]) == {(1, 2)}
+
+
 def test_signatures_are_those_of_the_shape() -> None:
     rng = np.random.default_rng(0)
     values = np.sort(rng.uniform(1, 400, 40))
@@ -128,6 +145,15 @@ def test_flips_that_agree_with_each_other_are_outvoted() -> None:
         for i, a in enumerate(links)
     ]
     found = agree(9, links, K)
+    assert {i for i, c in enumerate(found.chances) if c[0] < 0.5} == wrong
+
+
+def test_long_cycles_set_no_right_pairs_apart() -> None:
+    """On a ring a wrong pair of the tree parts it in two, and over the border right pairs contradict each other."""
+    count, rng = 90, np.random.default_rng(2)
+    pairs = [(i, (i + step) % count) for i in range(count) for step in (1, 2, 5)]
+    wrong = set(rng.permutation(len(pairs))[: len(pairs) // 5].tolist())
+    found = agree(count, consistent_links(rotations(count, 2), pairs, wrong), K)
     assert {i for i, c in enumerate(found.chances) if c[0] < 0.5} == wrong
 
 

@@ -11,14 +11,16 @@ slowly, so that at first the majority decides.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
-from scipy.sparse import coo_array, csr_array
-from scipy.sparse.csgraph import breadth_first_order, connected_components, minimum_spanning_tree
-from scipy.sparse.linalg import eigsh
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
 
 from kfmaps._arrays import check_count, refuse
+from kfmaps.many.graph import bridges
+from kfmaps.many.starts import SAY, along_tree, orthogonal, spectral
 
 FUNCTIONS = 20
 """Of the maps that are compared: enough to tell flips of limbs, and few enough to fit other bodies."""
@@ -33,10 +35,8 @@ FAR = 4.0
 """Of the typical misfit of the maps that fit, from which one is rather wrong."""
 RECONSIDERED = 5
 """Times that shapes may take what one of their links says instead of the mean of all."""
-DENSE = 1500
-"""Unknowns up to which eigenvectors are worked out densely."""
-SAY = 4.0
-"""What a candidate's own evidence can count at most, as a logarithm of odds."""
+REJOINED = 3
+"""Times that parts of the graph which agree within may be turned against each other as wholes."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -112,39 +112,95 @@ def agree(count: int, links: list[Link], functions: int = FUNCTIONS) -> Agreemen
             raise refuse("maps", f"{functions} functions or more", "fewer, or none", "take larger maps")
     maps = [np.stack([c.map[:functions, :functions] for c in link.choices]) for link in links]
     odds = [np.clip([c.odds for c in link.choices], -SAY, SAY) for link in links]
-    # A spanning tree may begin with a wrong pair, and eigenvectors may live on parts that hang together loosely.
-    starts = [_along_tree(count, links, maps, odds, functions), _spectral(count, links, maps, odds, functions)]
-    ends = [_annealed(start, links, maps, odds) for start in starts]
-    limit = max(end.limit for end in ends)
-    worth = [sum(_worth(m, o, limit) for m, o in zip(end.misfits, odds, strict=True)) for end in ends]
-    best = ends[int(np.argmax(np.round(worth, 6)))]
-    return replace(best, component=_components(count, links))
+    found = _solved(count, links, maps, odds, functions)
+    for _ in range(REJOINED):
+        turned = _rejoined(found, links, maps, odds)
+        if turned is None:
+            break
+        found = turned
+    return replace(found, component=_components(count, links))
+
+
+def _solved(count: int, links: list[Link], maps: list[np.ndarray], odds: list[np.ndarray], functions: int) -> Agreement:
+    """The best of the agreements that are reached from different starts.
+
+    A spanning tree may begin with a wrong pair, and eigenvectors may live on parts that hang together loosely.
+    """
+    ends = [(link.source, link.target) for link in links]
+    starts = [start(count, ends, maps, odds, functions) for start in (along_tree, spectral)]
+    reached = [_annealed(start, links, maps, odds) for start in starts]
+    limit = max(one.limit for one in reached)
+    return reached[int(np.argmax([round(_total(one.misfits, odds, limit), 6) for one in reached]))]
 
 
 def _annealed(latent: np.ndarray, links: list[Link], maps: list[np.ndarray], odds: list[np.ndarray]) -> Agreement:
-    """The agreement that is reached from ``latent (n, k, k)``."""
+    """The agreement that is reached from ``latent (n, k, k)`` as the tolerance falls."""
     limit = SPARE[1]
     chances = [_chances(np.zeros(len(o)), o, limit, 1.0) for o in odds]
     for level in range(LEVELS):
-        misfits = [misfits_of(C, latent[a.source], latent[a.target]) for C, a in zip(maps, links, strict=True)]
+        misfits = _all_misfits(latent, links, maps)
         typical = [float(m[p[:-1].argmax()]) for m, p in zip(misfits, chances, strict=True) if p[-1] < 0.5]
         limit = float(np.clip(FAR * np.median(typical), *SPARE)) if typical else SPARE[1]
         # At first the tolerance is that of any map, at last a third of the limit.
         spread = limit / 3 + (1.0 - limit / 3) * (1 - level / (LEVELS - 1)) ** 2
         chances = [_chances(m, o, limit, spread) for m, o in zip(misfits, odds, strict=True)]
-        mean = [np.tensordot(p[:-1], C, axes=1) for p, C in zip(chances, maps, strict=True)]
-        latent = _settled(latent, links, mean)
+        latent = _settled(latent, links, _means(chances, maps))
+    return _refined(latent, links, maps, odds, limit)
+
+
+def _refined(
+    latent: np.ndarray, links: list[Link], maps: list[np.ndarray], odds: list[np.ndarray], limit: float
+) -> Agreement:
+    """The agreement that is reached from ``latent (n, k, k)`` when only maps within ``limit`` count."""
     for _ in range(RECONSIDERED):
         latent, moved = _reconsidered(latent, links, maps, odds, limit)
-        misfits = [misfits_of(C, latent[a.source], latent[a.target]) for C, a in zip(maps, links, strict=True)]
-        chances = [_chances(m, o, limit, limit / 3) for m, o in zip(misfits, odds, strict=True)]
         if not moved:
             break
-        mean = [np.tensordot(p[:-1], C, axes=1) for p, C in zip(chances, maps, strict=True)]
-        latent = _settled(latent, links, mean)
-    misfits = [misfits_of(C, latent[a.source], latent[a.target]) for C, a in zip(maps, links, strict=True)]
+        misfits = _all_misfits(latent, links, maps)
+        chances = [_chances(m, o, limit, limit / 3) for m, o in zip(misfits, odds, strict=True)]
+        latent = _settled(latent, links, _means(chances, maps))
+    misfits = _all_misfits(latent, links, maps)
     chances = [_chances(m, o, limit, limit / 3) for m, o in zip(misfits, odds, strict=True)]
     return Agreement(latent, tuple(chances), tuple(misfits), limit)
+
+
+def _rejoined(found: Agreement, links: list[Link], maps: list[np.ndarray], odds: list[np.ndarray]) -> Agreement | None:
+    """Parts of the graph that agree within turned against each other, each as one shape; ``None`` if nothing gains.
+
+    One wrong pair of the tree sets all behind it apart, and no shape alone can come back over the border: the pairs
+    with its own side hold it. A part turned as a whole, ``Y_v Z`` for all its shapes, keeps its own pairs as they are.
+    A part is what hangs together by pairs that are believed, without those that are the only way to anywhere.
+    """
+    count, limit = len(found.latent), found.limit
+    believed = [(a.source, a.target) for a, p in zip(links, found.chances, strict=True) if p[-1] < 0.5]
+    single = bridges(count, believed)
+    own = np.array([pair for pair in believed if pair not in single], dtype=np.int64).reshape(-1, 2)
+    joined = coo_array((np.ones(len(own)), (own[:, 0], own[:, 1])), shape=(count, count))
+    parts, part = connected_components(joined, directed=False)
+    across = [i for i, link in enumerate(links) if part[link.source] != part[link.target]]
+    if parts == 1 or not across:
+        return None
+    between = [replace(links[i], source=int(part[links[i].source]), target=int(part[links[i].target])) for i in across]
+    turns = [found.latent[links[i].target].T @ maps[i] @ found.latent[links[i].source] for i in across]
+    whole = _solved(parts, between, turns, [odds[i] for i in across], found.latent.shape[-1])
+    latent, before = found.latent @ whole.latent[part], _total(found.misfits, odds, limit) + 1e-6
+    if _total(_all_misfits(latent, links, maps), odds, limit) <= before:
+        return None
+    turned = _refined(latent, links, maps, odds, limit)
+    return turned if _total(turned.misfits, odds, limit) > before else None
+
+
+def _all_misfits(latent: np.ndarray, links: list[Link], maps: list[np.ndarray]) -> list[np.ndarray]:
+    return [misfits_of(C, latent[a.source], latent[a.target]) for C, a in zip(maps, links, strict=True)]
+
+
+def _means(chances: Sequence[np.ndarray], maps: list[np.ndarray]) -> list[np.ndarray]:
+    """Of each link its candidates' mean, weighted by how probable they are, (k, k)."""
+    return [np.tensordot(p[:-1], C, axes=1) for p, C in zip(chances, maps, strict=True)]
+
+
+def _total(misfits: Sequence[np.ndarray], odds: list[np.ndarray], limit: float) -> float:
+    return sum(_worth(m, o, limit) for m, o in zip(misfits, odds, strict=True))
 
 
 def _reconsidered(
@@ -210,74 +266,7 @@ def _settled(latent: np.ndarray, links: list[Link], mean: list[np.ndarray]) -> n
     return latent
 
 
-def orthogonal(C: np.ndarray) -> np.ndarray:
-    """The orthogonal matrix that is nearest to ``C (k, k)``."""
-    left, _, right = np.linalg.svd(C)
-    return left @ right
-
-
 def _components(count: int, links: list[Link]) -> np.ndarray:
     ends = np.array([(a.source, a.target) for a in links], dtype=np.int64).reshape(-1, 2)
     graph = coo_array((np.ones(len(ends)), (ends[:, 0], ends[:, 1])), shape=(count, count))
     return connected_components(graph, directed=False)[1].astype(np.int64)
-
-
-def _along_tree(
-    count: int, links: list[Link], maps: list[np.ndarray], odds: list[np.ndarray], functions: int
-) -> np.ndarray:
-    """Latent maps along the spanning tree of the pairs whose best candidate has most for it, (n, k, k)."""
-    latent = np.tile(np.eye(functions), (count, 1, 1))
-    weight = np.full((count, count), np.inf)
-    best: dict[tuple[int, int], np.ndarray] = {}
-    for link, C, own in zip(links, maps, odds, strict=True):
-        number = int(np.argmax(own))
-        cost = 1.0 + SAY - float(own[number])
-        a, b = link.source, link.target
-        if cost < weight[a, b]:
-            weight[a, b] = weight[b, a] = cost
-            best[a, b], best[b, a] = C[number], C[number].T
-    tree = minimum_spanning_tree(np.where(np.isfinite(weight), weight, 0.0))
-    seen = np.zeros(count, dtype=bool)
-    for root in range(count):
-        if seen[root]:
-            continue
-        order, before = breadth_first_order(tree, root, directed=False)
-        for v in order:
-            seen[v] = True
-            if v != root:
-                latent[v] = orthogonal(best[before[v], v] @ latent[before[v]])
-    return latent
-
-
-def _spectral(
-    count: int, links: list[Link], maps: list[np.ndarray], odds: list[np.ndarray], functions: int
-) -> np.ndarray:
-    """Latent maps from the leading eigenvectors of all pairs' maps together, each rounded, (n, k, k).
-
-    Of ``D^{-1/2} W D^{-1/2}`` with blocks ``Σ_c p_c C`` and the shapes' degrees ``D``.
-    """
-    blocks: dict[tuple[int, int], np.ndarray] = {}
-    degree = np.zeros(count)
-    for link, C, own in zip(links, maps, odds, strict=True):
-        p = _chances(np.zeros(len(own)), own, 0.0, 1.0)[:-1]
-        mean = np.tensordot(p, C, axes=1)
-        for a, b, one in ((link.target, link.source, mean), (link.source, link.target, mean.T)):
-            blocks[a, b] = blocks.get((a, b), np.zeros_like(one)) + one
-        degree[[link.source, link.target]] += p.sum()
-    root = 1.0 / np.sqrt(np.maximum(degree, 1e-9))
-    size = count * functions
-    whole = csr_array((size, size))
-    if blocks:
-        rows, columns = (np.array(side) for side in zip(*blocks, strict=True))
-        values = np.stack([root[a] * root[b] * C for (a, b), C in blocks.items()])
-        inner = np.arange(functions)
-        at_row = rows[:, None, None] * functions + inner[None, :, None] + 0 * inner[None, None, :]
-        at_column = columns[:, None, None] * functions + 0 * inner[None, :, None] + inner[None, None, :]
-        whole = csr_array((values.ravel(), (at_row.ravel(), at_column.ravel())), shape=(size, size))
-    if size <= DENSE:
-        vectors = np.linalg.eigh(whole.toarray())[1][:, -functions:]
-    else:
-        start = np.random.default_rng(0).normal(size=size)
-        vectors = eigsh(whole, k=functions, which="LA", v0=start, tol=1e-3)[1]  # pyright: ignore[reportArgumentType]
-    parts = vectors.reshape(count, functions, functions)
-    return np.stack([orthogonal(part) for part in parts])

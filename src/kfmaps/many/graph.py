@@ -6,6 +6,8 @@ are the easiest to match, gets further pairs until each shape has a few, and no 
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 import numpy as np
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components, minimum_spanning_tree
@@ -110,35 +112,50 @@ def near(distances: np.ndarray, each: int = 4) -> Pairs:
 
 def _bridge(count: int, pairs: set[tuple[int, int]]) -> tuple[tuple[int, int], np.ndarray] | None:
     """A pair without which the graph falls apart, where another could join its sides, and one side (n,) bool."""
-    neighbours: list[list[int]] = [[] for _ in range(count)]
-    for a, b in pairs:
-        neighbours[a].append(b)
-        neighbours[b].append(a)
-    # Depth first with the lowest number that can be reached past the tree's edge (Tarjan 1974), without recursion.
-    number, low, parent = np.full(count, -1), np.zeros(count, dtype=np.int64), np.full(count, -1)
-    stack, at, seen = [0], np.zeros(count, dtype=np.int64), 0
-    number[0] = 0
-    while stack:
-        v = stack[-1]
-        if at[v] < len(neighbours[v]):
-            w = neighbours[v][at[v]]
-            at[v] += 1
-            if number[w] < 0:
-                seen += 1
-                number[w] = low[w] = seen
-                parent[w] = v
-                stack.append(w)
-            elif w != parent[v]:
-                low[v] = min(low[v], number[w])
+    if count < 3:
+        return None
+    pair = next(iter(sorted(bridges(count, pairs))), None)
+    return None if pair is None else (pair, _reached(count, pairs - {pair}, pair[1]))
+
+
+def bridges(count: int, pairs: Iterable[tuple[int, int]]) -> set[tuple[int, int]]:
+    """Those of the ``pairs`` of ``count`` shapes that lie on no cycle: without one its ends do not hang together.
+
+    Depth first with the lowest number that can be reached past the tree's edge (Tarjan 1974), without recursion. A pair
+    that is there twice is on a cycle of two.
+    """
+    neighbours: list[list[tuple[int, int]]] = [[] for _ in range(count)]
+    every = list(pairs)
+    for link, (a, b) in enumerate(every):
+        neighbours[a].append((b, link))
+        neighbours[b].append((a, link))
+    number, low = [-1] * count, [0] * count
+    found: set[tuple[int, int]] = set()
+    seen = 0
+    for root in range(count):
+        if number[root] >= 0:
             continue
-        stack.pop()
-        if (up := parent[v]) >= 0:
-            low[up] = min(low[up], low[v])
-            if low[v] > number[up]:
-                side = _reached(count, pairs - {(min(v, up), max(v, up))}, v)
-                if count > 2 and not (side.sum() == 1 and (~side).sum() == 1):
-                    return (int(min(v, up)), int(max(v, up))), side
-    return None
+        number[root] = low[root] = seen
+        seen += 1
+        stack = [(root, -1, iter(neighbours[root]))]
+        while stack:
+            v, by, others = stack[-1]
+            for w, link in others:
+                if number[w] < 0:
+                    number[w] = low[w] = seen
+                    seen += 1
+                    stack.append((w, link, iter(neighbours[w])))
+                    break
+                if link != by:
+                    low[v] = min(low[v], number[w])
+            else:
+                stack.pop()
+                if stack:
+                    up = stack[-1][0]
+                    low[up] = min(low[up], low[v])
+                    if low[v] > number[up]:
+                        found.add(every[by])
+    return found
 
 
 def _reached(count: int, pairs: set[tuple[int, int]], start: int) -> np.ndarray:

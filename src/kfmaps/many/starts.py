@@ -1,0 +1,83 @@
+"""Where the search for maps that agree begins: latent maps along a tree of the pairs, and from all pairs together."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from scipy.sparse import csr_array
+from scipy.sparse.csgraph import breadth_first_order, minimum_spanning_tree
+from scipy.sparse.linalg import eigsh
+
+DENSE = 1500
+"""Unknowns up to which eigenvectors are worked out densely."""
+SAY = 4.0
+"""What a candidate's own evidence can count at most, as a logarithm of odds."""
+
+Ends = Sequence[tuple[int, int]]
+
+
+def orthogonal(C: np.ndarray) -> np.ndarray:
+    """The orthogonal matrix that is nearest to ``C (k, k)``."""
+    left, _, right = np.linalg.svd(C)
+    return left @ right
+
+
+def along_tree(
+    count: int, ends: Ends, maps: Sequence[np.ndarray], odds: Sequence[np.ndarray], functions: int
+) -> np.ndarray:
+    """Latent maps along the spanning tree of the pairs whose best candidate has most for it, (n, k, k)."""
+    latent = np.tile(np.eye(functions), (count, 1, 1))
+    weight = np.full((count, count), np.inf)
+    best: dict[tuple[int, int], np.ndarray] = {}
+    for (a, b), C, own in zip(ends, maps, odds, strict=True):
+        number = int(np.argmax(own))
+        cost = 1.0 + SAY - float(own[number])
+        if cost < weight[a, b]:
+            weight[a, b] = weight[b, a] = cost
+            best[a, b], best[b, a] = C[number], C[number].T
+    tree = minimum_spanning_tree(np.where(np.isfinite(weight), weight, 0.0))
+    seen = np.zeros(count, dtype=bool)
+    for root in range(count):
+        if seen[root]:
+            continue
+        order, before = breadth_first_order(tree, root, directed=False)
+        for v in order:
+            seen[v] = True
+            if v != root:
+                latent[v] = orthogonal(best[before[v], v] @ latent[before[v]])
+    return latent
+
+
+def spectral(
+    count: int, ends: Ends, maps: Sequence[np.ndarray], odds: Sequence[np.ndarray], functions: int
+) -> np.ndarray:
+    """Latent maps from the leading eigenvectors of all pairs' maps together, each rounded, (n, k, k).
+
+    Of ``D^{-1/2} W D^{-1/2}`` with blocks ``Σ_c p_c C`` and the shapes' degrees ``D``.
+    """
+    blocks: dict[tuple[int, int], np.ndarray] = {}
+    degree = np.zeros(count)
+    for (a, b), C, own in zip(ends, maps, odds, strict=True):
+        p = np.exp(own) / (1.0 + np.exp(own).sum())
+        mean = np.tensordot(p, C, axes=1)
+        for row, column, one in ((b, a, mean), (a, b, mean.T)):
+            blocks[row, column] = blocks.get((row, column), np.zeros_like(one)) + one
+        degree[[a, b]] += p.sum()
+    root = 1.0 / np.sqrt(np.maximum(degree, 1e-9))
+    size = count * functions
+    whole = csr_array((size, size))
+    if blocks:
+        rows, columns = (np.array(side) for side in zip(*blocks, strict=True))
+        values = np.stack([root[a] * root[b] * C for (a, b), C in blocks.items()])
+        inner = np.arange(functions)
+        at_row = rows[:, None, None] * functions + inner[None, :, None] + 0 * inner[None, None, :]
+        at_column = columns[:, None, None] * functions + 0 * inner[None, :, None] + inner[None, None, :]
+        whole = csr_array((values.ravel(), (at_row.ravel(), at_column.ravel())), shape=(size, size))
+    if size <= DENSE:
+        vectors = np.linalg.eigh(whole.toarray())[1][:, -functions:]
+    else:
+        start = np.random.default_rng(0).normal(size=size)
+        vectors = eigsh(whole, k=functions, which="LA", v0=start, tol=1e-3)[1]  # pyright: ignore[reportArgumentType]
+    parts = vectors.reshape(count, functions, functions)
+    return np.stack([orthogonal(part) for part in parts])
