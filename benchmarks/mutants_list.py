@@ -200,7 +200,7 @@ MUTANTS = tuple(
             "stratified(target.vertices[used], 0 * areas[used] + 1, SAMPLES, rng=0)",
             f"{FORMULAS} -k uneven",
         ),
-        ("np.abs(np.minimum(there, 2 * RADIUS)", "np.abs(np.minimum(there, RADIUS)", "test_confidence -k definition"),
+        ("points[columns]], 2 * RADIUS)", "points[columns]], RADIUS)", "test_confidence -k definition"),
         (
             "method=method) / np.sqrt(surface_area(source))",
             "method=method) / surface_area(source)",

@@ -22,7 +22,7 @@ from kfmaps.kernel.select import farthest
 from kfmaps.surface.basis import laplace_basis
 from kfmaps.surface.geodesics import distance_pairs
 from kfmaps.surface.mesh import Mesh, unit_area
-from kfmaps.surface.samples import SampledBasis, spectral_samples, stratified_samples
+from kfmaps.surface.samples import SampledBasis, spectral_samples, stratified_samples, stratified_vertices
 
 CONFIG = Config(
     basis=BasisConfig(functions=30),
@@ -135,6 +135,23 @@ def test_search_by_cells_misses_few_and_none_by_much(pair):
     assert np.mean(few != exact) > np.mean(found != exact)  # more probes find more
 
 
+def test_a_point_not_far_from_the_nearest_is_where_to_look(pair):
+    source, target, truth = pair
+    C = to_functional(truth, source.basis, target.basis)
+    queries, points = target.basis.functions, source.basis.functions @ C.T
+    exact = nearest(queries, points, exact=True)
+    start = nearest(queries[:, :8], points[:, :8], exact=True)
+    found = nearest(queries, points, exact=False, start=start, threads=2)
+    assert np.mean(start != exact) > 0.1
+    assert np.mean(found != exact) < 0.006
+    # Only the cells around it are searched: a start far away is not made good.
+    far = start[np.random.default_rng(0).permutation(len(start))]
+    lost = nearest(queries, points, exact=False, start=far)
+    assert np.mean(lost != exact) > 0.3
+    everything = nearest_by_cells(queries, points, start=far, around=10_000)
+    assert np.mean(everything != exact) < 1e-3  # but for single precision
+
+
 @pytest.mark.parametrize("threads", [1, 3])
 @pytest.mark.parametrize("size", [5, 64])
 def test_cells_hold_every_point_once(pair, size, threads):
@@ -164,6 +181,13 @@ def test_samples_are_a_quadrature(choose, pair):
     assert np.linalg.norm(b.functions.T @ (b.mass[:, None] * b.functions) - np.eye(15), 2) < 0.1
     again = choose(basis, 400, 0)
     np.testing.assert_array_equal(again.vertices, samples.vertices)
+
+
+def test_vertices_of_strata_are_those_of_the_samples(pair):
+    basis = pair[0].basis
+    for kept in (None, np.array([7, 2999])):
+        expected = stratified_samples(basis, 200, 3, kept).vertices
+        np.testing.assert_array_equal(stratified_vertices(basis, 200, 3, kept), expected)
 
 
 def test_stratified_samples_follow_area_not_vertices(pair):

@@ -10,7 +10,7 @@ from kfmaps._arrays import NotConverged
 from kfmaps.fit.shape import prepare
 from kfmaps.functional.nonrigid import NonRigid
 from kfmaps.search.arena import arena
-from kfmaps.search.bends import LEAST, MOST, Copy, bending, bent, copied
+from kfmaps.search.bends import LEAST, MOST, Copy, bending, bent, copied, ready
 from kfmaps.search.candidates import STRAIN, Candidate, from_tips, paired_map, rough
 from kfmaps.search.choose import choose, in_order, mirror_image, ranking
 from kfmaps.search.pairings import FEWEST, Pairing, against, alike, induced, pairings, told
@@ -176,7 +176,7 @@ def test_each_map_may_have_evidence_of_its_own(on):
 
 def test_a_shape_bends_least_onto_itself(creature, probes):
     shape, one = creature[0], probes[0]
-    both = one.copy, one.copy
+    both = ready(one.copy, one.copy)
     k = 40
     signs = np.diag(np.where(np.arange(k) % 2, -1.0, 1.0))
     assert bending(np.eye(k), shape, shape, both) == LEAST
@@ -185,7 +185,7 @@ def test_a_shape_bends_least_onto_itself(creature, probes):
 
 def test_strain_is_of_all_places_and_not_of_the_worst(creature, probes):
     shape, one = creature[0], probes[0]
-    both = one.copy, one.copy
+    both = ready(one.copy, one.copy)
     k = 40
     signs = np.diag(np.where(np.arange(k) % 2, -1.0, 1.0))
     kept, torn = (bent(C, shape, shape, both) for C in (np.eye(k), signs))

@@ -9,7 +9,7 @@ import numpy as np
 from kfmaps.config import Config
 from kfmaps.fit.shape import Shape
 from kfmaps.fit.stages import Clock
-from kfmaps.functional.confidence import local_confidence
+from kfmaps.functional.confidence import surroundings
 from kfmaps.functional.nonrigid import Registered
 from kfmaps.functional.precise import PointMap, vertices_of
 from kfmaps.surface.mesh import vertex_areas
@@ -117,7 +117,8 @@ def placed(
     at least half as much as it harms.
     """
     with clock("confidence"):
-        trust = local_confidence(source.mesh, target.mesh, points)
+        confidence = surroundings(source.mesh, target.mesh)
+        trust = confidence(points)
     surfaces = bool(len(source.mesh.faces) and len(target.mesh.faces))
     finish = config.finish
     if finish is None or config.refinement is None or not surfaces:
@@ -136,7 +137,7 @@ def placed(
             return _Tried(found, points, trust, told)
         vertices = vertices_of(PointMap(found.faces, found.weights), source.mesh)
         with clock("confidence after the fit"):
-            after = local_confidence(source.mesh, target.mesh, vertices)
+            after = confidence(vertices)
         harmed, healed = (float(areas[change > DROP].sum()) for change in (trust - after, after - trust))
         kept = harmed <= HARMED or healed >= HEALED * harmed
         told = replace(told, after=float(after.mean()), harmed=harmed, healed=healed)

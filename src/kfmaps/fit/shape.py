@@ -19,7 +19,7 @@ from kfmaps.descriptors.shot import shot
 from kfmaps.surface.basis import Basis, laplace_basis
 from kfmaps.surface.inside import Inside, inside
 from kfmaps.surface.mesh import Mesh, check_mesh, surface_area, unit_area, vertex_normals
-from kfmaps.surface.samples import stratified_samples
+from kfmaps.surface.samples import stratified_samples, stratified_vertices
 
 DESCRIBED = 10_000
 """Vertices for which SHOT is worked out; where there are more they are a hundredth of √area apart."""
@@ -190,7 +190,7 @@ def local_descriptors(
     """
     if len(mesh.vertices) <= DESCRIBED:
         return shot(mesh, radius, threads=threads, progress=progress)
-    chosen = stratified_samples(basis, DESCRIBED, 0).vertices
+    chosen = stratified_vertices(basis, DESCRIBED, 0)
     found = shot(mesh, radius, at=chosen, threads=threads, progress=progress)
     places = np.hstack([mesh.vertices, NORMALS * vertex_normals(mesh)])
     away, near = KDTree(places[chosen]).query(places, k=3, workers=threads or available_cores())

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -12,7 +11,7 @@ from scipy.spatial import KDTree
 
 from kfmaps.functional.pulls import Term, descended
 from kfmaps.surface.closest import Places, Rings, closest_of, rings
-from kfmaps.surface.eigen.factor import factorise
+from kfmaps.surface.eigen.factor import Solve, factorise
 from kfmaps.surface.mesh import Mesh, vertex_areas, vertex_normals
 from kfmaps.surface.rigidity import Rigidity, nearest_rotations, rigidity, rotations
 
@@ -67,21 +66,31 @@ class Body:
     areas : (n,) float64
         Of the vertices.
     around : Rings
+    solvers : dict or None
+        What :meth:`solver` has made, to be found again; ``None`` keeps nothing, since the factors of a large mesh are
+        large.
     """
 
     mesh: Mesh
     energy: Rigidity
     areas: np.ndarray
     around: Rings
+    solvers: dict[tuple[float, float], Solve] | None = None
 
-    def solver(self, stiffness: float, data: float) -> Callable[[np.ndarray], np.ndarray]:
+    def solver(self, stiffness: float, data: float) -> Solve:
         """Solves with ``stiffness L + data A``: a preconditioner, factorised once for all steps of a level."""
-        return factorise(stiffness * self.energy.laplacian + diags_array(data * self.areas), ordered=False)
+        kept, key = self.solvers, (stiffness, data)
+        if kept is not None and key in kept:
+            return kept[key]
+        solve = factorise(stiffness * self.energy.laplacian + diags_array(data * self.areas), ordered=False)
+        if kept is not None:
+            kept[key] = solve
+        return solve
 
 
-def body_of(mesh: Mesh) -> Body:
+def body_of(mesh: Mesh, solvers: dict[tuple[float, float], Solve] | None = None) -> Body:
     """``mesh`` at rest."""
-    return Body(mesh, rigidity(mesh), vertex_areas(mesh), rings(mesh.faces, len(mesh.vertices)))
+    return Body(mesh, rigidity(mesh), vertex_areas(mesh), rings(mesh.faces, len(mesh.vertices)), solvers)
 
 
 def unfolded(

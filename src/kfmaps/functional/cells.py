@@ -7,6 +7,9 @@ some 64. Each query names the patches nearest to it, then the nearest cells in t
 matrix products in single precision, of groups of queries that lie together with whatever any of them has named: so
 a query meets some two thousand middles and points, however many there are. Patches larger than the functions' waves
 would not do: beyond those all distances are alike. What is lost is in docs/performance.md.
+
+Where a point is known that is not far from the answer, nothing needs to be named: the cells around that point's are
+searched, which are the same for all queries whose point lies in that cell.
 """
 
 from __future__ import annotations
@@ -27,6 +30,10 @@ NAMED = 8
 """Patches that a query names."""
 PROBES = 16
 """Cells that a query names."""
+HASTY = 4
+"""Cells that a query names whose answer need not be quite the nearest: it misses one in 150, by little."""
+AROUND = 16
+"""Cells around that of a known point that are searched, itself among them."""
 LEADING = 9
 """Leading columns, in falling weight, that say which rows lie together: the lowest functions of a basis."""
 
@@ -38,6 +45,8 @@ def nearest_by_cells(
     size: int = CELL,
     probes: int = PROBES,
     threads: int | None = None,
+    start: np.ndarray | None = None,
+    around: int = AROUND,
 ) -> np.ndarray:
     """Approximately nearest rows of ``points (p, d)`` to those of ``queries (q, d)``: ``(q,)`` int64.
 
@@ -53,6 +62,10 @@ def nearest_by_cells(
         Cells that each query names.
     threads : int, optional
         Python threads; ``None`` takes every core.
+    start : (q,) int, optional
+        For each query a point not far from the nearest: only the cells around it are searched, ...
+    around : int
+        ... so many of them.
     """
     p, q = len(points), len(queries)
     probes = check_count(probes, "probes")
@@ -60,7 +73,28 @@ def nearest_by_cells(
     unit = float((points.max(axis=0) - points.min(axis=0)).max()) or 1.0
     order, edges, patches = _cells(points, check_count(size, "cell size"), middle, unit, threads)
     rows = np.concatenate([_single(points[order[part]], middle, unit) for part in blocks(p, 65536)])
-    centres, wider = _means(rows, edges), _means(rows, edges[patches])
+    centres = _means(rows, edges)
+    if start is not None:
+        rank = np.empty(p, dtype=np.int64)
+        rank[order] = np.arange(p)
+        cell = np.searchsorted(edges, rank[start], side="right") - 1
+        near = _nearest_cells(centres, min(around, len(centres)), threads)
+        members = np.argsort(cell, kind="stable")
+        groups = _pieces(cell[members])
+
+        def settle(part: slice) -> None:
+            for low, high in zip(groups[part.start : part.stop], groups[part.start + 1 : part.stop + 1], strict=True):
+                mine = members[low:high]
+                x = _single(queries[mine], middle, unit)
+                here = x.mean(axis=0)
+                x -= here
+                found = _inside(edges, near[cell[mine[0]]])
+                answer[mine] = order[found[np.argmax(_scores(x, rows[found] - here), axis=1)]]
+
+        answer = np.empty(q, dtype=np.int64)
+        parallel(settle, blocks(len(groups) - 1, 64), threads)
+        return answer
+    wider = _means(rows, edges[patches])
     # Few queries among many points lie far apart: groups of them would name everything.
     members, bounds = _runs(queries, int(np.clip(GROUP * 16 * q / p, 1, GROUP)))
     answer = np.empty(q, dtype=np.int64)
@@ -101,6 +135,25 @@ def _cells(
     piece = np.arange(pieces.sum()) - np.repeat(np.cumsum(pieces) - pieces, pieces)
     edges = np.repeat(np.cumsum(sizes) - sizes, pieces) + np.repeat(sizes, pieces) * piece // np.repeat(pieces, pieces)
     return order, np.append(edges, len(points)), np.append(0, np.cumsum(pieces))
+
+
+def _nearest_cells(centres: np.ndarray, count: int, threads: int | None) -> np.ndarray:
+    """The ``count`` cells nearest to each, itself among them, ascending."""
+
+    def some(part: slice) -> np.ndarray:
+        here = centres[part].mean(axis=0)
+        scores = _scores(centres[part] - here, centres - here)
+        return np.sort(np.argpartition(scores, len(centres) - count, axis=1)[:, -count:], axis=1)
+
+    return np.concatenate(parallel(some, blocks(len(centres), 512), threads))
+
+
+def _pieces(labels: np.ndarray) -> np.ndarray:
+    """Where runs of one label start among ascending ``labels (q,)``, those longer than two groups cut (and the end)."""
+    q = len(labels)
+    starts = np.flatnonzero(np.diff(labels, prepend=-1))
+    within = np.arange(q) - np.repeat(starts, np.diff(np.append(starts, q)))
+    return np.append(np.flatnonzero(within % (2 * GROUP) == 0), q)
 
 
 def _runs(rows: np.ndarray, size: int) -> tuple[np.ndarray, np.ndarray]:

@@ -7,12 +7,15 @@ change is distances. The comparison is in docs/mathematics.md, made by ``benchma
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
+from scipy.sparse import csr_array
 from scipy.sparse.csgraph import dijkstra
 
 from kfmaps._arrays import blocks
 from kfmaps.functional.points import check_point_map
-from kfmaps.surface.inside import inside
+from kfmaps.surface.inside import Inside, inside
 from kfmaps.surface.mesh import Mesh, unit_area, vertex_areas
 from kfmaps.surface.samples import stratified
 from kfmaps.surface.unfolding import surface_graph
@@ -60,35 +63,68 @@ def local_confidence(
     InvalidInput
         When the map does not fit the two shapes, or one of them has no area.
     """
-    points = np.asarray(target_to_source)
-    lost = points < 0
-    points = check_point_map(np.where(points == -1, 0, points), len(source.vertices), len(target.vertices))
+    return surroundings(source, target, samples, sized=sized)(target_to_source)
+
+
+@dataclass(frozen=True, eq=False)
+class Surroundings:
+    """What is the same for all maps between two shapes; made by :func:`surroundings`.
+
+    Attributes
+    ----------
+    part_s, part_t : Inside
+    graph_s : sparse (m_s, m_s)
+        Whose paths are distances on the source, inside.
+    samples : (q,) int64
+        Vertices of the target, inside.
+    near : tuple of (rows, columns, distances)
+        For each :data:`BLOCK` of samples, which of them is how far from which vertex of the target, where it is near.
+    """
+
+    part_s: Inside
+    part_t: Inside
+    graph_s: csr_array
+    samples: np.ndarray
+    near: tuple[tuple[np.ndarray, np.ndarray, np.ndarray], ...]
+
+    def __call__(self, target_to_source: np.ndarray) -> np.ndarray:
+        """:func:`local_confidence` of a map (n_t,)."""
+        part_s, part_t = self.part_s, self.part_t
+        points = np.asarray(target_to_source)
+        lost = points < 0
+        points = check_point_map(np.where(points == -1, 0, points), len(part_s.number), len(part_t.number))
+        points, lost = part_s.number[points][part_t.kept], lost[part_t.kept]
+        n = len(points)
+        change, whole = np.zeros(n), np.zeros(n)
+        for part, near in zip(blocks(len(self.samples), BLOCK), self.near, strict=True):
+            there = dijkstra(self.graph_s, indices=points[self.samples[part]], limit=2 * RADIUS)
+            rows, columns, here = near
+            if lost.any():
+                kept = ~(lost[self.samples[part]][rows] | lost[columns])
+                rows, columns, here = rows[kept], columns[kept], here[kept]
+            moved = np.abs(np.minimum(there[rows, points[columns]], 2 * RADIUS) - here)
+            change += np.bincount(columns, moved, minlength=n)
+            whole += np.bincount(columns, here, minlength=n)
+        # Vertices in one place are surroundings of no size.
+        trust = 1 - np.divide(change, whole, out=np.ones(n), where=whole > 1e-9)
+        return np.where(part_t.loose, 0.0, np.maximum(trust, 0.0)[part_t.number])
+
+
+def surroundings(source: Mesh, target: Mesh, samples: np.ndarray | None = None, *, sized: bool = False) -> Surroundings:
+    """Of two shapes; the parameters and errors are those of :func:`local_confidence`."""
     part_s, part_t = inside(source, specks=True), inside(target, specks=True)
-    if not (part_s.whole and part_t.whole):
-        if samples is not None:
-            samples = np.unique(part_t.number[samples[~part_t.loose[samples]]])
-        within = np.where(lost, -1, part_s.number[points])[part_t.kept]
-        kept = local_confidence(part_s.mesh, part_t.mesh, within, samples, sized=sized)
-        return np.where(part_t.loose, 0.0, kept[part_t.number])
+    if samples is not None and not part_t.whole:
+        samples = np.unique(part_t.number[samples[~part_t.loose[samples]]])
+    source, target = part_s.mesh, part_t.mesh
     if not sized:
         source, target = unit_area(source), unit_area(target)
     if samples is None:
         areas = vertex_areas(target)
         used = np.flatnonzero(areas > 0)
         samples = used[stratified(target.vertices[used], areas[used], SAMPLES, rng=0)]
-    if lost.any():
-        samples = samples[~lost[samples]]
-    graph_s, graph_t = surface_graph(source, 0), surface_graph(target, 0)
-    change, whole = np.zeros(len(points)), np.zeros(len(points))
+    graph_t, near = surface_graph(target, 0), []
     for part in blocks(len(samples), BLOCK):
         here = dijkstra(graph_t, indices=samples[part], limit=RADIUS)
-        there = dijkstra(graph_s, indices=points[samples[part]], limit=2 * RADIUS)
-        near = np.isfinite(here)
-        near[:, lost] = False
-        here[~near] = 0.0
-        moved = np.abs(np.minimum(there, 2 * RADIUS)[:, points] - here)
-        change += np.where(near, moved, 0.0).sum(axis=0)
-        whole += here.sum(axis=0)
-    # Vertices in one place are surroundings of no size.
-    kept = 1 - np.divide(change, whole, out=np.ones(len(points)), where=whole > 1e-9)
-    return np.maximum(kept, 0.0)
+        rows, columns = np.nonzero(np.isfinite(here))
+        near.append((rows, columns, here[rows, columns]))
+    return Surroundings(part_s, part_t, surface_graph(source, 0), samples, tuple(near))

@@ -65,7 +65,7 @@ def guide(source: np.ndarray | None, target: np.ndarray | None, dimensions: int 
     if source.shape[1] != target.shape[1]:
         got = f"{source.shape[1]} and {target.shape[1]}"
         raise refuse("descriptors", "as many on both shapes", got, "compute both with the same settings")
-    if max(spread(source), spread(target)) < FLAT:
+    if not (_varied(source) or _varied(target)):
         return None
     sides = (source, target)
     count = len(source) + len(target)
@@ -76,6 +76,13 @@ def guide(source: np.ndarray | None, target: np.ndarray | None, dimensions: int 
     reduced = [np.vstack([(side[rows] - mean) @ directions for rows in blocks(len(side), ROWS)]) for side in sides]
     unit = np.sqrt(2 * sum((part**2).sum() for part in reduced) / count)
     return Guide(reduced[0] / unit, reduced[1] / unit)
+
+
+def _varied(descriptors: np.ndarray) -> bool:
+    """Whether :func:`spread` is at least :data:`FLAT`, mostly told in one pass."""
+    mean = descriptors.mean(axis=0)
+    about = float(np.einsum("ij,ij->", descriptors, descriptors)) / len(descriptors) - float(mean @ mean)
+    return about > 2 * FLAT or spread(descriptors) >= FLAT
 
 
 def spread(descriptors: np.ndarray) -> float:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from scipy.sparse import csr_array
@@ -89,7 +88,7 @@ def lifted(copy: Copy, mesh: Mesh, bent: np.ndarray, turns: np.ndarray) -> np.nd
 
 
 def bent_copy(
-    fit: Callable[..., Any],
+    fit: Callable[..., np.ndarray],
     source: Mesh,
     target: Mesh,
     target_to_source: np.ndarray,
@@ -98,11 +97,11 @@ def bent_copy(
     held: np.ndarray | None,
 ) -> np.ndarray:
     """The source's vertices ``(n_s, 3)`` after the ``fit`` of coarse copies of both, called as
-    :class:`kfmaps.functional.nonrigid.NonRigid` is."""
+    :meth:`kfmaps.functional.nonrigid.NonRigid.vertices` is."""
     a, b = (copy_of(mesh, POINTS, landmarks[:, side]) for side, mesh in enumerate((source, target)))
     progress(0.1)
     marks = np.stack([a.owner[landmarks[:, 0]], b.owner[landmarks[:, 1]]], axis=1)
-    found = fit(
+    bent = fit(
         a.mesh,
         b.mesh,
         a.owner[target_to_source[b.vertices]],
@@ -110,4 +109,4 @@ def bent_copy(
         landmarks=marks,
         held=None if held is None else held[b.vertices],
     )
-    return lifted(a, source, found.vertices, rotations(rigidity(a.mesh), found.vertices))
+    return lifted(a, source, bent, rotations(rigidity(a.mesh), bent))

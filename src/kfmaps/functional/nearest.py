@@ -11,7 +11,7 @@ from scipy.spatial import KDTree
 
 from kfmaps._arrays import Array, blocks, check, is_numpy, namespace, refuse, to_numpy
 from kfmaps._threads import available_cores, parallel
-from kfmaps.functional.cells import nearest_by_cells
+from kfmaps.functional.cells import PROBES, nearest_by_cells
 
 TREE_DIMENSION = 32
 """Up to here a k-d tree beats the matrix product on large sets; beyond, space is too empty for it."""
@@ -32,6 +32,8 @@ def nearest(
     block: int = 1024,
     threads: int | None = None,
     exact: bool | None = None,
+    start: np.ndarray | None = None,
+    probes: int = PROBES,
 ) -> np.ndarray:
     """For each row of ``queries (q, d)`` the index of the closest row of ``points (p, d)``: ``(q,)`` int64.
 
@@ -50,6 +52,11 @@ def nearest(
         Python threads; ``None`` takes every core.
     exact : bool, optional
         ``True`` never searches by cells; ``False`` does so on NumPy arrays of any size in many dimensions.
+    start : (q,) int, optional
+        Points not far from the answers, ...
+    probes : int
+        ... and cells that each query names: both count in a search by cells alone
+        (:func:`kfmaps.functional.cells.nearest_by_cells`).
 
     Raises
     ------
@@ -65,7 +72,7 @@ def nearest(
         if points.shape[1] <= TREE_DIMENSION and len(points) > LARGE:
             return _by_tree(queries, points, threads)
         if exact is False or (exact is None and len(queries) * len(points) > EXACT_PAIRS):
-            return nearest_by_cells(queries, points, threads=threads)
+            return nearest_by_cells(queries, points, threads=threads, probes=probes, start=start)
     return _exact(queries, points, block, threads)
 
 

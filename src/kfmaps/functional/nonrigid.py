@@ -114,22 +114,66 @@ class NonRigid:
         InvalidInput
             When one of them is a point cloud, or the map does not fit.
         """
+        pair, x, gap = self._bent(source, target, target_to_source, progress, landmarks, held)
+        found = places_on(target.vertices, x, source.faces)
+        energy = bending(pair.body.energy, x) / float(pair.body.areas.sum())
+        return Registered(x, found.faces, found.weights, energy, gap)
+
+    def vertices(
+        self,
+        source: Mesh,
+        target: Mesh,
+        target_to_source: np.ndarray,
+        progress: Callable[[float], None] | None = None,
+        landmarks: np.ndarray | None = None,
+        held: np.ndarray | None = None,
+    ) -> np.ndarray:
+        """:attr:`Registered.vertices` alone, without the search for where the target's vertices lie."""
+        return self._bent(source, target, target_to_source, progress, landmarks, held)[1]
+
+    def _bent(
+        self,
+        source: Mesh,
+        target: Mesh,
+        target_to_source: np.ndarray,
+        progress: Callable[[float], None] | None,
+        landmarks: np.ndarray | None,
+        held: np.ndarray | None,
+    ) -> tuple[Facing, np.ndarray, float]:
+        """Both surfaces, the source's vertices (n_s, 3) on the target, and the gap."""
         for mesh, name in ((source, "source"), (target, "target")):
             if len(mesh.faces) == 0:
                 raise refuse(name, "a surface with faces", "a point cloud", "leave out the non-rigid fit")
         report = progress or (lambda _done: None)
         points = check_point_map(target_to_source, len(source.vertices), len(target.vertices))
         marks = np.zeros((0, 2), dtype=np.int64) if landmarks is None else np.asarray(landmarks)
-        levels, steps, begun = range(self.levels), self.steps, 0.2
         x = None
         if max(len(source.vertices), len(target.vertices)) > LARGE:
+            x = bent_copy(self.vertices, source, target, points, lambda done: report(0.3 * done), marks, held)
+        pair = facing(body_of(source), target)
+        return pair, *self.bent(pair, points, x, report, marks, held)
+
+    def bent(
+        self,
+        pair: Facing,
+        points: np.ndarray,
+        x: np.ndarray | None = None,
+        report: Callable[[float], None] = lambda _done: None,
+        marks: np.ndarray | None = None,
+        held: np.ndarray | None = None,
+    ) -> tuple[np.ndarray, float]:
+        """The source's vertices (n_s, 3) on the target, and the gap; of two surfaces that are ready for it.
+
+        With ``x (n_s, 3)``, where the source lies nearly, only the last level is done.
+        """
+        levels, steps, begun = range(self.levels), self.steps, 0.2
+        if x is not None:
             levels, steps, begun = range(self.levels)[-1:], min(self.steps, LAST), 0.3
-            x = bent_copy(self, source, target, points, lambda done: report(begun * done), marks, held)
-        pair = _pair(source, target)
-        if x is None:
-            x = unfolded(pair.body, points, target.vertices, pair.normals_t, pair.areas_t)
+        else:
+            x = unfolded(pair.body, points, pair.target.vertices, pair.normals_t, pair.areas_t)
             report(begun)
         even = _evened(pair, self.evenness)
+        marks = np.zeros((0, 2), dtype=np.int64) if marks is None else marks
         discs = _discs(pair, marks)
         stays = [] if held is None or not held.any() else [_stays(pair, points, held)]
         gap = 0.0
@@ -144,28 +188,30 @@ class NonRigid:
                 x = descended(pair.body.energy, stiffness, solve, terms, x, even(rotations(pair.body.energy, x)))
                 done = (level - levels[0]) * steps + step + 1
                 report(begun + (1 - begun) * done / (len(levels) * steps))
-        found = places_on(target.vertices, x, source.faces)
-        energy = bending(pair.body.energy, x) / float(pair.body.areas.sum())
-        return Registered(x, found.faces, found.weights, energy, gap)
+        return x, gap
 
 
 @dataclass(frozen=True, eq=False)
-class _Pair:
-    """Two surfaces and what stays the same while one is bent."""
+class Facing:
+    """Two surfaces and what stays the same while the first is bent onto the second; made by :func:`facing`."""
 
     body: Body
     target: Mesh
     areas_t: np.ndarray
-    normals_t: np.ndarray
     look_t: Look
 
+    @property
+    def normals_t(self) -> np.ndarray:
+        """Of the target's vertices, (n_t, 3)."""
+        return self.look_t.normals
 
-def _pair(source: Mesh, target: Mesh) -> _Pair:
-    normals = vertex_normals(target)
-    return _Pair(body_of(source), target, vertex_areas(target), normals, look(target, normals))
+
+def facing(body: Body, target: Mesh, look_t: Look | None = None) -> Facing:
+    """A surface at rest and the one that it is to be bent onto; ``look_t`` where it is there already."""
+    return Facing(body, target, vertex_areas(target), look(target) if look_t is None else look_t)
 
 
-def _evened(pair: _Pair, area: float) -> Callable[[np.ndarray], np.ndarray]:
+def _evened(pair: Facing, area: float) -> Callable[[np.ndarray], np.ndarray]:
     """Averages rotations ``(n_s, 3, 3)`` with those around: one step of implicit diffusion over ``area``."""
     if area == 0:
         return lambda turns: turns
@@ -175,7 +221,7 @@ def _evened(pair: _Pair, area: float) -> Callable[[np.ndarray], np.ndarray]:
     )
 
 
-def _stays(pair: _Pair, points: np.ndarray, held: np.ndarray) -> Term:
+def _stays(pair: Facing, points: np.ndarray, held: np.ndarray) -> Term:
     """The map itself as a term, with weights ``held (n_t,)``."""
     some = np.flatnonzero(held)
     rows = csr_array(
@@ -184,7 +230,7 @@ def _stays(pair: _Pair, points: np.ndarray, held: np.ndarray) -> Term:
     return Term(held[some] * pair.areas_t[some], pair.target.vertices[some], rows)
 
 
-def _discs(pair: _Pair, landmarks: np.ndarray) -> np.ndarray:
+def _discs(pair: Facing, landmarks: np.ndarray) -> np.ndarray:
     """How much of each source vertex belongs to each landmark of ``(l, 2)``: columns (n_s, l) with sum 1."""
     n, count = len(pair.body.areas), len(landmarks)
     if count == 0:
@@ -195,7 +241,7 @@ def _discs(pair: _Pair, landmarks: np.ndarray) -> np.ndarray:
     return pair.body.areas[:, None] * np.asarray(diffuse(points)).reshape(n, count)
 
 
-def _marked(pair: _Pair, landmarks: np.ndarray, discs: np.ndarray, x: np.ndarray, weight: float) -> Term:
+def _marked(pair: Facing, landmarks: np.ndarray, discs: np.ndarray, x: np.ndarray, weight: float) -> Term:
     """Landmarks ``(l, 2)`` as a term: each takes its disc along, those that are far off with less weight."""
     missing = pair.target.vertices[landmarks[:, 1]] - x[landmarks[:, 0]]
     shares = weight * discs / (1 + (missing**2).sum(axis=1) / SLOPPY**2) ** 2
@@ -203,7 +249,7 @@ def _marked(pair: _Pair, landmarks: np.ndarray, discs: np.ndarray, x: np.ndarray
     return Term(held, x + shares @ missing / np.maximum(held, 1e-300)[:, None])
 
 
-def _closest_terms(pair: _Pair, x: np.ndarray) -> tuple[list[Term], float]:
+def _closest_terms(pair: Facing, x: np.ndarray) -> tuple[list[Term], float]:
     """Closest points in both directions as terms, and how far the surfaces are apart (root mean square)."""
     bent = Mesh(x, pair.body.mesh.faces)
     normals = vertex_normals(bent)
@@ -220,7 +266,7 @@ def _closest_terms(pair: _Pair, x: np.ndarray) -> tuple[list[Term], float]:
     return terms, float(np.sqrt(np.mean(squares)))
 
 
-def _rows(pair: _Pair, places: Places) -> Any:
+def _rows(pair: Facing, places: Places) -> Any:
     """Sparse ``(q, n_s)``: what takes the source's vertices to ``places`` on it."""
     q = len(places.faces)
     corners = pair.body.mesh.faces[places.faces].ravel()

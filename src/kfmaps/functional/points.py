@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from kfmaps._arrays import Array, namespace, refuse, take, to_numpy
+from kfmaps.functional.cells import PROBES
 from kfmaps.functional.nearest import nearest
 from kfmaps.surface.basis import Basis
 
@@ -18,6 +19,8 @@ def to_points(
     threads: int | None = None,
     beside: tuple[Array, Array] | None = None,
     exact: bool | None = None,
+    start: np.ndarray | None = None,
+    probes: int = PROBES,
 ) -> np.ndarray:
     """The point map ``target_to_source (n_t,)`` of a functional map ``C (k_t, k_s)``.
 
@@ -26,7 +29,8 @@ def to_points(
     ``beside``: further columns ``(n_s, d)`` and ``(n_t, d)`` to compare, see
     :meth:`kfmaps.functional.guide.Guide.beside`.
     From about 10,000 points on each side the search is by cells, unless ``exact`` says otherwise, see
-    :func:`kfmaps.functional.nearest.nearest`.
+    :func:`kfmaps.functional.nearest.nearest`, and quicker with fewer ``probes`` or a map ``start (n_t,)`` that is
+    nearly right.
     """
     k_t, k_s = C.shape
     source, target = source.truncated(k_s), target.truncated(k_t)
@@ -37,8 +41,10 @@ def to_points(
     # A vertex that no face uses has no area and the values of a neighbour: it is nobody's image.
     used = np.flatnonzero(to_numpy(source.mass) > 0)
     if len(used) == images.shape[0]:
-        return nearest(places, images, threads=threads, exact=exact)
-    return used[nearest(places, take(images, used), threads=threads, exact=exact)]
+        return nearest(places, images, threads=threads, exact=exact, start=start, probes=probes)
+    if start is not None:
+        start = np.minimum(np.searchsorted(used, start), len(used) - 1)
+    return used[nearest(places, take(images, used), threads=threads, exact=exact, start=start, probes=probes)]
 
 
 def to_functional(target_to_source: np.ndarray, source: Basis, target: Basis) -> Array:

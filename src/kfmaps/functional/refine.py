@@ -7,15 +7,17 @@ need not be found again.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
 from kfmaps._arrays import Array, check_count, namespace, refuse, take
 from kfmaps._progress import Done
+from kfmaps.functional.cells import HASTY, PROBES
 from kfmaps.functional.guide import Guide
 from kfmaps.functional.points import to_functional, to_points
 from kfmaps.surface.basis import Basis
-from kfmaps.surface.samples import SampledBasis, Samples, spectral_samples, stratified_samples
+from kfmaps.surface.samples import SampledBasis, Samples, spectral_samples, stratified_samples, stratified_vertices
 
 __all__ = ["ICP", "Refined", "Refinement", "SampledBasis", "Samples", "ZoomOut", "fitted", "spectral_samples"]
 
@@ -152,13 +154,21 @@ class ZoomOut:
             sampled = stratified_samples(target, self.samples, self.seed)
             coarse, few = sampled.basis, guide and guide.at(None, sampled.vertices)
             if source.functions.shape[0] > candidates(self.samples):
-                chosen = stratified_samples(source, candidates(self.samples), self.seed)
-                choice, few = chosen.basis, few and few.at(chosen.vertices, None)
+                rows = stratified_vertices(source, candidates(self.samples), self.seed)
+                choice = SampledBasis(source.eigenvalues, take(source.functions, rows), take(source.mass, rows))
+                few = few and few.at(rows, None)
             points = None
 
-        def matched(C: Array, source: Basis, target: Basis, guide: Guide | None, exact: bool | None) -> np.ndarray:
+        def matched(
+            C: Array,
+            source: Basis,
+            target: Basis,
+            guide: Guide | None,
+            exact: bool | None = None,
+            **search: Any,
+        ) -> np.ndarray:
             beside = None if guide is None else guide.beside(self.guidance, source, target)
-            return to_points(C, source, target, threads, beside, exact)
+            return to_points(C, source, target, threads, beside, exact, **search)
 
         # On samples the next step forgives a point in a thousand that is not quite the nearest.
         exact = (
@@ -169,11 +179,13 @@ class ZoomOut:
             C, points = fitted(found, choice, coarse, larger), None
             if progress is not None:
                 progress((i + 1) / len(sizes))
-        points = matched(C, source, target, guide, None) if points is None else points
+        if points is None:
+            # What few cells miss is found by the search that follows.
+            points = matched(C, source, target, guide, probes=PROBES if coarse is target else HASTY)
         if coarse is not target:
             # Once more with all points, whose functional map owes nothing to the choice of samples.
             C = fitted(points, source, target, self.stop)
-            points = matched(C, source, target, guide, None)
+            points = matched(C, source, target, guide, start=points)
         if progress is not None:
             progress(1.0)
         return Refined(C, points, tuple(sizes))

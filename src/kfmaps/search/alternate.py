@@ -81,7 +81,7 @@ def alternated(C: np.ndarray, on: Grounds, led: Guide | None, report: Done | Non
     found = refine(C, *on.bases, guide=here)
     bent = a.mesh.vertices
     for i in range(ROUNDS):
-        bent = FIT(a.mesh, b.mesh, found.target_to_source).vertices
+        bent = FIT.vertices(a.mesh, b.mesh, found.target_to_source)
         lie = lying(Mesh(bent, a.mesh.faces), b.mesh)
         found = refine(found.functional_map, *on.bases, guide=joined([(1.0, here), (WEIGHT, lie)]))
         if report is not None:

@@ -14,12 +14,14 @@ import numpy as np
 
 from kfmaps._arrays import NotConverged, to_numpy
 from kfmaps.fit.shape import Shape
-from kfmaps.functional.nonrigid import NonRigid
+from kfmaps.functional.bodies import body_of, look
+from kfmaps.functional.nonrigid import Facing, NonRigid, facing
 from kfmaps.functional.points import nearest
 from kfmaps.surface.coarse import coarse
-from kfmaps.surface.mesh import Mesh, mirrored, vertex_areas
-from kfmaps.surface.rigidity import local, rigidity
-from kfmaps.surface.samples import stratified_samples
+from kfmaps.surface.mesh import Mesh, mirrored
+from kfmaps.surface.rigidity import bending as whole_energy
+from kfmaps.surface.rigidity import local
+from kfmaps.surface.samples import stratified_vertices
 
 POINTS, MORE = 1200, 3000
 """Vertices of a coarse copy, and of one for a second look where two maps are close."""
@@ -60,7 +62,7 @@ def copied(shape: Shape, points: int = POINTS) -> Copy | None:
     vertices = np.arange(len(shape.mesh.vertices))
     mesh = shape.mesh
     if len(vertices) > points:
-        vertices = stratified_samples(shape.basis, points, 0).vertices
+        vertices = stratified_vertices(shape.basis, points, 0)
         mesh = coarse(shape.mesh, vertices)
     # Thin parts may lose their faces, and a point that no face uses bends with nothing.
     used = np.unique(mesh.faces)
@@ -89,30 +91,48 @@ class Bent:
     strain: float
 
 
-def bent(C: np.ndarray, source: Shape, target: Shape, copies: tuple[Copy, Copy], fit: NonRigid = FIT) -> Bent:
+@dataclass(frozen=True, eq=False)
+class Ready:
+    """Two copies at rest and looked at, so that what depends on no map is found once; made by :func:`ready`."""
+
+    copies: tuple[Copy, Copy]
+    there: Facing
+    back: Facing
+
+
+def ready(a: Copy, b: Copy) -> Ready:
+    """Copies of two shapes ready to be bent onto each other as several maps say."""
+    bodies = [body_of(copy.mesh, {}) for copy in (a, b)]
+    looks = [look(body.mesh, around=body.around) for body in bodies]
+    return Ready((a, b), facing(bodies[0], b.mesh, looks[1]), facing(bodies[1], a.mesh, looks[0]))
+
+
+def bent(C: np.ndarray, source: Shape, target: Shape, on: Ready, fit: NonRigid = FIT) -> Bent:
     """Each shape bent onto the other as ``C (k_t, k_s)`` says."""
     k_t, k_s = C.shape
-    a, b = copies
+    a, b = on.copies
     images = to_numpy(source.basis.functions)[a.vertices, :k_s] @ C.T
     rows = np.ascontiguousarray(to_numpy(target.basis.functions)[b.vertices, :k_t])
-    there = _bent(fit, a.mesh, b.mesh, nearest(rows, images, threads=1))
-    back = _bent(fit, b.mesh, a.mesh, nearest(images, rows, threads=1))
+    there = _bent(fit, on.there, nearest(rows, images, threads=1))
+    back = _bent(fit, on.back, nearest(images, rows, threads=1))
     if there is None or back is None:
         # That a copy falls apart says nothing of the map.
         return there or back or Bent(MOST, math.log(MOST))
     return Bent(math.sqrt(there.bending * back.bending), (there.strain + back.strain) / 2)
 
 
-def bending(C: np.ndarray, source: Shape, target: Shape, copies: tuple[Copy, Copy], fit: NonRigid = FIT) -> float:
+def bending(C: np.ndarray, source: Shape, target: Shape, on: Ready, fit: NonRigid = FIT) -> float:
     """:attr:`Bent.bending` alone."""
-    return bent(C, source, target, copies, fit).bending
+    return bent(C, source, target, on, fit).bending
 
 
-def _bent(fit: NonRigid, source: Mesh, target: Mesh, points: np.ndarray) -> Bent | None:
+def _bent(fit: NonRigid, pair: Facing, points: np.ndarray) -> Bent | None:
     try:
-        found = fit(source, target, points)
+        x, _ = fit.bent(pair, points)
     except NotConverged:
         return None
-    areas = np.maximum(vertex_areas(source), TINY)
-    dense = np.log(np.maximum(local(rigidity(source), found.vertices) / areas, LEAST))
-    return Bent(min(max(found.bending, LEAST), MOST), float(np.average(dense, weights=areas)))
+    energy, sizes = pair.body.energy, pair.body.areas
+    areas = np.maximum(sizes, TINY)
+    dense = np.log(np.maximum(local(energy, x) / areas, LEAST))
+    whole = whole_energy(energy, x) / float(sizes.sum())
+    return Bent(min(max(whole, LEAST), MOST), float(np.average(dense, weights=areas)))

@@ -21,12 +21,13 @@ from kfmaps.config import Config
 from kfmaps.descriptors.shot import mirrored
 from kfmaps.fit.fit import Fit, checked_landmarks
 from kfmaps.fit.shape import Shape, inner
+from kfmaps.functional.cells import HASTY
 from kfmaps.functional.guide import guide
 from kfmaps.functional.points import to_points
 from kfmaps.functional.refine import Refinement, ZoomOut
 from kfmaps.search.alternate import alternated, grounds
 from kfmaps.search.arena import Arena, Ground, arena, turned, without
-from kfmaps.search.bends import LONGER, MORE, bending, bent, copied
+from kfmaps.search.bends import LONGER, MORE, bending, bent, copied, ready
 from kfmaps.search.candidates import FINE, Candidate, again, apart, candidates, differs, judged
 from kfmaps.search.learned import learned, plain, speaks
 from kfmaps.search.marks import doubted, leading
@@ -203,7 +204,9 @@ def choose(
         confidence=probability(best.quality.score, float(margin), best.bending),
         verdict=verdict(best.quality.score, float(margin), best.bending),
         scores=tuple(float(c.score) for c in (best, *others)),
-        runners_up=tuple(to_points(c.functional_map, source.basis, target.basis, config.threads) for c in others),
+        runners_up=tuple(
+            to_points(c.functional_map, source.basis, target.basis, config.threads, probes=HASTY) for c in others
+        ),
         landmarks=pairs[~wrong],
         doubted=np.flatnonzero(wrong),
         orientation=orientation,
@@ -256,7 +259,7 @@ def ranking(
     copies = on.source.copy, on.target.copy
     if copies[0] is None or copies[1] is None or not ranked:
         return ranked
-    both = copies[0], copies[1]
+    both = ready(*copies)
     near = [c for c in ranked[:BENT] if c.score > ranked[0].score - BEHIND]
     energies = parallel(lambda c: bending(c.functional_map, source, target, both), near, threads)
     tried = [replace(c, bending=energy) for c, energy in zip(near, energies, strict=True)]
@@ -293,7 +296,7 @@ def second_look(
     finer = copied(source, MORE), copied(target, MORE)
     if finer[0] is None or finer[1] is None:
         return order
-    both = finer[0], finer[1].mirrored() if on.target.mirrored else finer[1]
+    both = ready(finer[0], finer[1].mirrored() if on.target.mirrored else finer[1])
     found = parallel(lambda c: bent(c.functional_map, source, target, both, LONGER), order[:2], threads)
     usual = sum(one.strain for one in found) / 2
     first = [
@@ -316,7 +319,7 @@ def mended(
     finer = copied(source, MORE), copied(target, MORE)
     if both is None or finer[0] is None or finer[1] is None:
         return ranked
-    copies, shot = (finer[0], finer[1]), guide(source.shot, target.shot)
+    copies, shot = ready(finer[0], finer[1]), guide(source.shot, target.shot)
 
     near, rest = mendable(ranked)
     done = np.zeros(len(near))

@@ -27,7 +27,7 @@ from kfmaps.surface.basis import Basis, zero_level
 from kfmaps.surface.coarse import coarse
 from kfmaps.surface.mesh import Mesh
 from kfmaps.surface.orientation import orientation_slices
-from kfmaps.surface.samples import stratified_samples
+from kfmaps.surface.samples import stratified_vertices
 from kfmaps.surface.unfolding import surface_graph
 
 POINTS = 1000
@@ -186,7 +186,7 @@ def surface(shape: Shape, wanted: np.ndarray) -> tuple[Mesh, np.ndarray, np.ndar
     """The surface itself or, of a large one, a coarse copy; the basis on it; and where the ``wanted`` vertices are."""
     if len(shape.mesh.vertices) <= SURFACE:
         return shape.mesh, to_numpy(shape.basis.functions), wanted
-    vertices = stratified_samples(shape.basis, SURFACE, 0, np.unique(wanted)).vertices
+    vertices = stratified_vertices(shape.basis, SURFACE, 0, np.unique(wanted))
     mesh = coarse(shape.mesh, vertices)
     return mesh, to_numpy(shape.basis.functions)[vertices], np.searchsorted(vertices, wanted)
 

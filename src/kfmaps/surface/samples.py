@@ -92,9 +92,7 @@ def stratified_samples(
     kept : (l,) int64, optional
         Vertices to be among the samples, beside the others. The samples come in ascending order.
     """
-    check_count(count, "sample count")
-    candidates, embedding = _embedded(basis)
-    chosen = stratified(embedding, to_numpy(basis.mass)[candidates], count, rng)
+    candidates, embedding, chosen = _strata(basis, count, rng)
     if kept is None:
         return _samples(basis, candidates, embedding, chosen)
     samples = _samples(basis, candidates, embedding, np.union1d(chosen, np.flatnonzero(np.isin(candidates, kept))))
@@ -103,6 +101,21 @@ def stratified_samples(
     areas[np.searchsorted(vertices, samples.vertices)] = to_numpy(samples.basis.mass)
     functions = take(basis.functions, vertices)
     return Samples(vertices, SampledBasis(basis.eigenvalues, functions, like(areas, basis.mass)))
+
+
+def stratified_vertices(
+    basis: Basis, count: int, rng: int | np.random.Generator = 0, kept: np.ndarray | None = None
+) -> np.ndarray:
+    """The vertices of :func:`stratified_samples` alone, in a fraction of its time."""
+    candidates, _, chosen = _strata(basis, count, rng)
+    return candidates[chosen] if kept is None else np.union1d(candidates[chosen], kept)
+
+
+def _strata(basis: Basis, count: int, rng: int | np.random.Generator) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Vertices that have an area, their places in the embedding, and which of them are drawn."""
+    check_count(count, "sample count")
+    candidates, embedding = _embedded(basis)
+    return candidates, embedding, stratified(embedding, to_numpy(basis.mass)[candidates], count, rng)
 
 
 def _embedded(basis: Basis) -> tuple[np.ndarray, np.ndarray]:

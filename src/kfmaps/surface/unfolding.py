@@ -117,6 +117,27 @@ def _crossed(
     return one + two, *found
 
 
+def _edges(faces: np.ndarray, n: int) -> tuple[np.ndarray, np.ndarray]:
+    """The lower and the higher end of each edge of ``faces`` on n vertices, once, in ascending order."""
+    a, b = faces.ravel(), faces[:, [1, 2, 0]].ravel()
+    edge = np.unique(np.minimum(a, b) * n + np.maximum(a, b))
+    low, high = np.divmod(edge, max(n, 1))
+    keep = low < high
+    return low[keep], high[keep]
+
+
+def _shortest(rows: np.ndarray, columns: np.ndarray, lengths: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Of several lines between the same two vertices the shortest: lower ends, higher ends and lengths, in order."""
+    low, high = np.minimum(rows, columns), np.maximum(rows, columns)
+    keep = low < high
+    low, high, lengths = low[keep], high[keep], lengths[keep]
+    order = np.lexsort((lengths, high, low))
+    low, high, lengths = low[order], high[order], lengths[order]
+    first = np.ones(len(low), dtype=bool)
+    first[1:] = (low[1:] != low[:-1]) | (high[1:] != high[:-1])
+    return low[first], high[first], lengths[first]
+
+
 def surface_graph(mesh: Mesh, depth: int = 4) -> csr_array:
     """Symmetric graph (n, n) whose shortest paths run along the surface; its weights are lengths.
 
@@ -155,7 +176,7 @@ def surface_graph(mesh: Mesh, depth: int = 4) -> csr_array:
         a, b, lengths = cloud_links(v[places])
         links.append((places[a], places[b], lengths))
     else:
-        a, b = f.ravel(), f[:, [1, 2, 0]].ravel()
+        a, b = _edges(f, n)
         links.append((a, b, np.linalg.norm(v[a] - v[b], axis=1)))
         faces = f[(f != np.roll(f, 1, axis=1)).all(axis=1)]
         start, twins = _neighbours(faces) if depth else (np.zeros(1), np.zeros(0))
@@ -165,15 +186,10 @@ def surface_graph(mesh: Mesh, depth: int = 4) -> csr_array:
                 windows, *found = _crossed(v, faces, start, twins, windows)
                 one_way = found[0] < found[1]  # the other end sees the same line
                 links.append((found[0][one_way], found[1][one_way], found[2][one_way]))
-    rows, columns, lengths = (np.concatenate(part) for part in zip(*links, strict=True))
-    low, high = np.minimum(rows, columns), np.maximum(rows, columns)
-    keep = low < high
-    low, high, lengths = low[keep], high[keep], lengths[keep]
-    order = np.lexsort((lengths, high, low))
-    low, high, lengths = low[order], high[order], lengths[order]
-    first = np.ones(len(low), dtype=bool)  # the shortest of several lines between the same two
-    first[1:] = (low[1:] != low[:-1]) | (high[1:] != high[:-1])
-    low, high = low[first], high[first]
-    lengths = np.maximum(lengths[first], np.finfo(float).tiny)  # a zero would not count as an entry
+    if len(f) == 0 or any(len(part[0]) for part in links[:1] + links[2:]):
+        low, high, lengths = _shortest(*(np.concatenate(part) for part in zip(*links, strict=True)))
+    else:  # each edge is there once
+        low, high, lengths = links[1]
+    lengths = np.maximum(lengths, np.finfo(float).tiny)  # a zero would not count as an entry
     both = (np.concatenate([low, high]), np.concatenate([high, low]))
     return csr_array((np.tile(lengths, 2), both), shape=(n, n))
