@@ -527,8 +527,8 @@ MUTANTS = tuple(
         ),
         ("else (found + self.before) / 2", "else found", "test_tips -k likelier"),
         (
-            "dense = np.log(np.maximum(local(rigidity(source)",
-            "dense = (np.maximum(local(rigidity(source)",
+            "dense = np.log(np.maximum(local(energy, x)",
+            "dense = (np.maximum(local(energy, x)",
             "test_tips -k strain",
         ),
         (
