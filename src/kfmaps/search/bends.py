@@ -29,8 +29,10 @@ FEWEST = 12
 """Faces below which there is nothing to bend."""
 FIT, LONGER = NonRigid(levels=2, steps=2, evenness=0.0), NonRigid(levels=3, steps=3)
 """The fits of both."""
-LEAST, MOST = 1e-3, 10.0
-"""Energies below which maps are alike, next to none, and above which they are: nothing is left of the shape."""
+LEAST, MOST = 1e-2, 10.0
+"""Energies below which maps are alike, as of two meshes of one shape, and above which nothing is left of the shape."""
+STILL = 1e-3
+"""Local energy that counts as none."""
 
 TINY = 1e-12
 """Area of a vertex that has none."""
@@ -133,6 +135,6 @@ def _bent(fit: NonRigid, pair: Facing, points: np.ndarray) -> Bent | None:
         return None
     energy, sizes = pair.body.energy, pair.body.areas
     areas = np.maximum(sizes, TINY)
-    dense = np.log(np.maximum(local(energy, x) / areas, LEAST))
+    dense = np.log(np.maximum(local(energy, x) / areas, STILL))
     whole = whole_energy(energy, x) / float(sizes.sum())
-    return Bent(min(max(whole, LEAST), MOST), float(np.average(dense, weights=areas)))
+    return Bent(min(max(whole, LEAST), MOST), max(float(np.average(dense, weights=areas)), math.log(LEAST)))

@@ -2,7 +2,8 @@
 
 Many rough maps are refined on a few hundred points: diagonal functional maps with every choice of signs of the low
 functions (all symmetries of near-isometric bodies are among them, as in MapTree, Ren et al. 2020), small fits, and
-random symmetries of the best of these. The best that differ are refined further and judged again.
+the best of these composed with random symmetries and with those that the shapes nearly have. The best that differ are
+refined further and judged again.
 """
 
 from __future__ import annotations
@@ -25,6 +26,7 @@ from kfmaps.search.fits import fitted_family, planned, sampled
 from kfmaps.search.marks import FAR, missed
 from kfmaps.search.pairings import Pairing, against, induced, pairings
 from kfmaps.search.quality import Probe, Quality, map_quality
+from kfmaps.search.symmetries import symmetries
 from kfmaps.search.zoom import projector, zoomed
 
 Weights = tuple[float, ...]
@@ -47,6 +49,8 @@ STARTS = (6, 10, 20)
 shapes that are far from isometric; from many it keeps what is right."""
 KICKS = 6
 """Maps that start from a random symmetry of the low functions."""
+TURNED, TURNED_APART = 3, 0.08
+"""Of the best rough maps, those that are composed with symmetries of the shapes, and how far apart they are."""
 FINALISTS = 10
 """Distinct rough maps that are refined further."""
 ZERO = 0.03
@@ -165,6 +169,7 @@ def candidates(
     values = source.basis.eigenvalues
     kicks = [kicked(best.functional_map, values, np.random.default_rng(seed + i)) for i in range(KICKS)]
     again = [Start(f"kicked {i}", C, STARTS[0], WEIGHTS[0], False) for i, C in enumerate(kicks)]
+    again += from_symmetries(found, on.few, functions, config.threads)
     found += rough(again, on.few, functions, config.threads)
     told(0.75)
     order = sorted(found, key=lambda c: c.score, reverse=True)
@@ -236,6 +241,28 @@ def from_tips(functions: int, on: Ground) -> list[Start]:
         )
         for w in _told_apart(FROM_TIPS, on)
         for pairing, C in maps
+    ]
+
+
+def from_symmetries(found: list[Candidate], on: Ground, functions: int, threads: int | None = None) -> list[Start]:
+    """The best of ``found`` composed with near-symmetries of both shapes: what they are easily mistaken for.
+
+    Whatever else a search has missed, the best map is compared with these, so that it is not sure for want of a rival.
+    """
+    order = sorted(found, key=lambda c: c.score, reverse=True)
+    best = apart(order, on.source, TURNED_APART, TURNED)
+    own, theirs = (symmetries(side, functions, threads) for side in (on.source, on.target))
+    turned = []
+    for i, candidate in enumerate(best):
+        C = candidate.functional_map
+        for S, after in [*((S, False) for S in own), *((S, True) for S in theirs)]:
+            k = min(len(C), len(S))
+            turned.append((i, S[:k, :k] @ C[:k, :k] if after else C[:k, :k] @ S[:k, :k]))
+    return [
+        Start(f"turned {i}, from {start}, weight {w[0]:g}", C, start, w, True)
+        for i, C in turned
+        for start in STARTS
+        for w in _told_apart(FROM_FITS, on)
     ]
 
 

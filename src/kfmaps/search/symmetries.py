@@ -1,0 +1,52 @@
+"""Near-symmetries of one shape: what turns a map into another that is easily mistaken for it.
+
+A body is nearly its own mirror image, and what is left then becomes right; with SHOT, which knows orientation, a map
+that is composed with that turns into the one that swaps front and back as well. Of two such maps only a close
+comparison tells which is right, so a search compares them whether or not it has come upon both by itself.
+"""
+
+from __future__ import annotations
+
+from itertools import product
+
+import numpy as np
+
+from kfmaps.search.quality import Probe, map_quality
+from kfmaps.search.zoom import zoomed
+
+SIGNS = 5
+"""Functions after the constant one whose signs are tried."""
+STOP, STEP = 40, 4
+"""Functions at the end of the refinement, and how many more at each step."""
+KEPT = 0.12
+"""Distortion up to which a self-map counts as a near-symmetry: bodies in any pose have 0.04 to 0.08, the next 0.2."""
+MOVED = 0.1
+"""Mean distance, in units of √area, by which it must move points; less is the identity."""
+APART = 0.08
+"""Mean distance between the images of two that count as different."""
+MOST = 2
+
+
+def symmetries(of: Probe, functions: int, threads: int | None = None) -> list[np.ndarray]:
+    """Functional maps ``(k, k)`` of a shape onto itself, other than the identity, that nearly keep distances.
+
+    At most :data:`MOST`, the best first; none of a shape without near-symmetries. ``functions``: as many as k may have.
+    """
+    stop = min(STOP, functions, len(of.samples.vertices))
+    count = min(SIGNS, stop - 1)
+    if count < 1:
+        return []
+    maps = np.stack([np.diag([1.0, *signs]) for signs in product((1.0, -1.0), repeat=count)])
+    basis = of.samples.basis
+    found, points = zoomed(maps, basis, basis, (*range(count + 1, stop, STEP), stop), None, threads)
+    judged = [map_quality(C, of, of, at).distortion for C, at in zip(found, points, strict=True)]
+    kept: list[int] = []
+    for i in np.argsort(judged, kind="stable"):
+        if judged[i] > KEPT or len(kept) == MOST:
+            break
+        images = of.positions[points[i]]
+        others = [of.positions, *(of.positions[points[j]] for j in kept)]
+        off = [float(np.linalg.norm(images - other, axis=1).mean()) for other in others]
+        if off[0] > MOVED and all(one > APART for one in off[1:]):
+            kept.append(int(i))
+    return [found[i] for i in kept]

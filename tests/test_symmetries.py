@@ -1,0 +1,63 @@
+"""Near-symmetries of a shape, and that no map is chosen without a look at what it is mistaken for."""
+
+import numpy as np
+import pytest
+
+from kfmaps import datasets
+from kfmaps.fit.shape import prepare
+from kfmaps.functional.points import to_functional
+from kfmaps.search.arena import arena
+from kfmaps.search.candidates import apart, from_symmetries, judged, rough
+from kfmaps.search.quality import map_quality, probe
+from kfmaps.search.symmetries import KEPT, MOVED, symmetries
+from test_search import SMALL, blob
+
+
+@pytest.fixture(scope="module")
+def pair():
+    made = datasets.symmetric_creature(1500, rng=1)
+    return prepare(made.source, SMALL, name="source"), prepare(made.target, SMALL, name="target"), made.truth
+
+
+@pytest.fixture(scope="module")
+def on(pair):
+    return arena(pair[0], pair[1], (probe(pair[0]), probe(pair[1]))).few
+
+
+def moved(C, of):
+    k = len(C)
+    basis = of.samples.basis.functions[:, :k]
+    points = ((basis @ C.T) ** 2).sum(axis=1)[None, :] - 2 * basis @ (basis @ C.T).T
+    return np.linalg.norm(of.positions[points.argmin(axis=1)] - of.positions, axis=1).mean()
+
+
+def test_a_body_is_nearly_its_own_mirror_image(on):
+    found = symmetries(on.source, 100)
+    assert len(found) >= 1
+    first = map_quality(found[0], on.source, on.source)
+    assert first.orientation < -0.9
+    assert first.distortion < 0.1 < KEPT
+    assert moved(found[0], on.source) > 0.15 > MOVED
+    # Done twice it is the identity.
+    assert moved((found[0] @ found[0])[:15, :15], on.source) < 0.08
+
+
+def test_what_has_no_symmetry_has_none():
+    of = probe(prepare(blob(700), SMALL, name="blob"), 300)
+    assert all(moved(C, of) > MOVED for C in symmetries(of, 100))
+    assert symmetries(of, 1) == []
+
+
+@pytest.mark.parametrize("of_target", [False, True])
+def test_a_map_is_compared_with_what_it_is_mistaken_for(pair, on, of_target):
+    """Of nothing but the mirrored map the true one is found: it could not be sure for want of a rival."""
+    source, target, truth = pair
+    C = np.asarray(to_functional(truth, source.basis.truncated(40), target.basis.truncated(40)))
+    S = symmetries(on.target if of_target else on.source, 40)[0]
+    right = judged([("truth", True)], C[None], None, on)[0]
+    mirrored = judged([("mirrored", True)], (S @ C if of_target else C @ S)[None], None, on)[0]
+    assert len(apart([right, mirrored], on.source, 0.12)) == 2
+    starts = from_symmetries([mirrored], on, 60)
+    assert {start.guided for start in starts} == {True}
+    found = sorted(rough(starts, on, 60), key=lambda c: c.score, reverse=True)
+    assert len(apart([right, found[0]], on.source, 0.08)) == 1
