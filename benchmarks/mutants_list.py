@@ -323,6 +323,19 @@ MUTANTS = tuple(
             "test_automatic -k verdict",
         ),
         ("fits *= _logistic((MUCH - excess(score, bending)) / WIDTH)", "fits *= 1.0", "test_automatic -k verdict"),
+        ("if judged[i] > KEPT or len(kept) == MOST:", "if len(kept) == MOST:", "test_tips -k symmetry"),
+        ("if off[0] > MOVED and all(", "if all(", "test_symmetries -k mirror"),
+        (
+            "S[:k, :k] @ C[:k, :k] if after else C[:k, :k] @ S[:k, :k]",
+            "C[:k, :k] @ C[:k, :k]",
+            "test_symmetries -k mistaken",
+        ),
+        (
+            "gathered[lost] = np.hstack([mesh.vertices[lost] + moved,",
+            "gathered[lost] = np.hstack([moved,",
+            "test_nonrigid -k beside",
+        ),
+        ("return there or back or Bent(", "return Bent(", "test_tips -k apart"),
         ("scale = [np.sqrt(w / present[0][0])", "scale = [(w / present[0][0])", "test_search -k joined"),
         # formulations
         ("damped = stiffness / (1.0 + stiffness)", "damped = 1.0", "test_formulations -k transport"),

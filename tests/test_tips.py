@@ -14,7 +14,8 @@ from kfmaps.search.bends import LEAST, MOST, Copy, bending, bent, copied, ready
 from kfmaps.search.candidates import STRAIN, Candidate, from_tips, paired_map, rough
 from kfmaps.search.choose import choose, in_order, mirror_image, ranking
 from kfmaps.search.pairings import FEWEST, Pairing, against, alike, induced, pairings, told
-from kfmaps.search.quality import Quality, mirrored_probe, probe
+from kfmaps.search.quality import Quality, mirrored_probe, probe, thinned
+from kfmaps.search.symmetries import symmetries
 from kfmaps.search.tips import APART, tips, turns
 from kfmaps.search.zoom import zoomed
 from kfmaps.surface.mesh import Mesh
@@ -181,6 +182,10 @@ def test_a_shape_bends_least_onto_itself(creature, probes):
     signs = np.diag(np.where(np.arange(k) % 2, -1.0, 1.0))
     assert bending(np.eye(k), shape, shape, both) == LEAST
     assert LEAST < 0.05 < bending(signs, shape, shape, both) <= MOST
+
+
+def test_limbs_of_different_lengths_leave_no_symmetry(probes):
+    assert symmetries(thinned(probes[1], 400), 100) == []
 
 
 def test_strain_is_of_all_places_and_not_of_the_worst(creature, probes):

@@ -165,11 +165,11 @@ def candidates(
     told(0.35)
     found = rough(starts, on.few, functions, config.threads)
     told(0.7)
+    again = from_symmetries(found, on.few, functions, config.threads)
     best = max(found, key=lambda c: c.score)
     values = source.basis.eigenvalues
     kicks = [kicked(best.functional_map, values, np.random.default_rng(seed + i)) for i in range(KICKS)]
-    again = [Start(f"kicked {i}", C, STARTS[0], WEIGHTS[0], False) for i, C in enumerate(kicks)]
-    again += from_symmetries(found, on.few, functions, config.threads)
+    again += [Start(f"kicked {i}", C, STARTS[0], WEIGHTS[0], False) for i, C in enumerate(kicks)]
     found += rough(again, on.few, functions, config.threads)
     told(0.75)
     order = sorted(found, key=lambda c: c.score, reverse=True)

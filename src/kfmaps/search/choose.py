@@ -33,7 +33,7 @@ from kfmaps.search.learned import learned, plain, speaks
 from kfmaps.search.marks import doubted, leading
 from kfmaps.search.pairings import Limbs, limbs
 from kfmaps.search.quality import Probe, probe
-from kfmaps.search.verdict import MUCH, excess, probability, verdict
+from kfmaps.search.verdict import excess, probability, verdict
 from kfmaps.surface.mesh import mirrored as mirrored_mesh
 
 DISTINCT = 0.08
@@ -42,6 +42,8 @@ CLEAR = 0.3
 """Margin of the score from which a rival, or a map to the mirror image, comes first."""
 SURELY = 5.0
 """Margin from which a map to the mirror image comes first though none was asked for; bones have 10, other maps none."""
+UNDULY = 0.55
+"""Excess of the bending (:func:`kfmaps.search.verdict.excess`) from which the mirror image is tried."""
 UNLIKE = -8.0
 """Score below which two shapes differ so much that their high functions do not correspond, ..."""
 FEWER = 100
@@ -173,7 +175,7 @@ def choose(
     orientation = "reversed" if config.search.orientation == "reversed" else "kept"
     surfaces = all(p.orientation is not None for p in probes)
     asked = config.search.orientation
-    unduly = ranked[0].bending is not None and excess(ranked[0].quality.score, ranked[0].bending) > MUCH
+    unduly = ranked[0].bending is not None and excess(ranked[0].quality.score, ranked[0].bending) > UNDULY
     if surfaces and (asked == "either" or (asked == "auto" and unduly)):
         other = turned(on.whole)
         images = reversed_best(found, other, config.threads)
@@ -259,7 +261,7 @@ def ranking(
     copies = on.source.copy, on.target.copy
     if copies[0] is None or copies[1] is None or not ranked:
         return ranked
-    both = ready(*copies)
+    both = ready(copies[0], copies[1])
     near = [c for c in ranked[:BENT] if c.score > ranked[0].score - BEHIND]
     energies = parallel(lambda c: bending(c.functional_map, source, target, both), near, threads)
     tried = [replace(c, bending=energy) for c, energy in zip(near, energies, strict=True)]

@@ -16,9 +16,10 @@ TIE = 0.4
 """Margin at which the doubt that a different map casts is down to a third."""
 BENT, PER_SCORE = -3.6, -0.233
 """Logarithm of the bending energy that right maps have, at a score of 0, and its change with the score."""
-MUCH, WIDTH = 0.55, 0.08
-"""By how much that logarithm is exceeded where half of all maps are wrong, and how fast their share grows there. The
-highest of a right map of nearly isometric shapes was 0.38, those of creatures on their mirror images 0.9 and 2.1."""
+MUCH, WIDTH = 0.65, 0.08
+"""By how much that logarithm is exceeded where half of all maps are wrong, and how fast their share grows there: in the
+middle between the highest of a right map of nearly isometric shapes, 0.38, and the lowest of creatures on their mirror
+images, 0.9."""
 SURE = 0.9
 """Probability from which a map is called sure; wrong ones have had up to 0.83."""
 
