@@ -10,15 +10,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.sparse import csr_array
-from scipy.sparse.csgraph import dijkstra
 
 from kfmaps._arrays import blocks
 from kfmaps.functional.points import check_point_map
+from kfmaps.functional.reach import Reach, reach
 from kfmaps.surface.inside import Inside, inside
 from kfmaps.surface.mesh import Mesh, unit_area, vertex_areas
 from kfmaps.surface.samples import stratified
-from kfmaps.surface.unfolding import surface_graph
 
 SAMPLES = 200
 """Vertices of the target to which distances are compared."""
@@ -73,8 +71,8 @@ class Surroundings:
     Attributes
     ----------
     part_s, part_t : Inside
-    graph_s : sparse (m_s, m_s)
-        Whose paths are distances on the source, inside.
+    reach_s : Reach
+        Distances on the source, inside.
     samples : (q,) int64
         Vertices of the target, inside.
     near : tuple of (rows, columns, distances)
@@ -83,7 +81,7 @@ class Surroundings:
 
     part_s: Inside
     part_t: Inside
-    graph_s: csr_array
+    reach_s: Reach
     samples: np.ndarray
     near: tuple[tuple[np.ndarray, np.ndarray, np.ndarray], ...]
 
@@ -97,7 +95,7 @@ class Surroundings:
         n = len(points)
         change, whole = np.zeros(n), np.zeros(n)
         for part, near in zip(blocks(len(self.samples), BLOCK), self.near, strict=True):
-            there = dijkstra(self.graph_s, indices=points[self.samples[part]], limit=2 * RADIUS)
+            there = self.reach_s(points[self.samples[part]], 2 * RADIUS)
             rows, columns, here = near
             if lost.any():
                 kept = ~(lost[self.samples[part]][rows] | lost[columns])
@@ -122,9 +120,9 @@ def surroundings(source: Mesh, target: Mesh, samples: np.ndarray | None = None, 
         areas = vertex_areas(target)
         used = np.flatnonzero(areas > 0)
         samples = used[stratified(target.vertices[used], areas[used], SAMPLES, rng=0)]
-    graph_t, near = surface_graph(target, 0), []
+    reach_t, near = reach(target), []
     for part in blocks(len(samples), BLOCK):
-        here = dijkstra(graph_t, indices=samples[part], limit=RADIUS)
-        rows, columns = np.nonzero(np.isfinite(here))
+        here = reach_t(samples[part], RADIUS)
+        rows, columns = np.nonzero(here <= RADIUS)
         near.append((rows, columns, here[rows, columns]))
-    return Surroundings(part_s, part_t, surface_graph(source, 0), samples, tuple(near))
+    return Surroundings(part_s, part_t, reach(source), samples, tuple(near))
