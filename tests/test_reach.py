@@ -29,7 +29,7 @@ def test_distances_are_nearly_those_of_all_edges(monkeypatch: pytest.MonkeyPatch
     assert np.abs(found - exact)[near].mean() < 0.01
     assert (found[near] < limit).mean() > 0.999
     assert not (found[exact == np.inf] < 0.8 * limit).any()
-    assert found[np.arange(3), sources].max() < 0.02  # about half an edge of the copy
+    assert found[np.arange(3), sources].max() < 0.036  # an edge of the copy
 
 
 def test_a_component_that_is_not_reached_stays_far(monkeypatch: pytest.MonkeyPatch) -> None:

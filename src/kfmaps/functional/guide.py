@@ -20,7 +20,9 @@ DIMENSIONS = 32
 FLAT = 0.05
 """Spread of SHOT below which its differences are the triangulation's: a sphere has 0.0005, bodies 0.2 to 0.3."""
 ROWS = 30_000
-"""Rows of descriptors that are worked on together. About so many of both shapes tell the principal directions."""
+"""Rows of descriptors that are worked on together."""
+TELLING = 10_000
+"""Rows of both shapes that tell the principal directions, about: at most twice as many."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -71,7 +73,7 @@ def guide(source: np.ndarray | None, target: np.ndarray | None, dimensions: int 
     count = len(source) + len(target)
     mean = (source.sum(axis=0) + target.sum(axis=0)) / count
     # Of large shapes some rows tell the directions, and no copy is made of all.
-    some = np.vstack([side[:: max(1, count // ROWS)] for side in sides]) - mean
+    some = np.vstack([side[:: max(1, count // TELLING)] for side in sides]) - mean
     directions = np.linalg.eigh(some.T @ some)[1][:, ::-1][:, :dimensions]
     reduced = [np.vstack([(side[rows] - mean) @ directions for rows in blocks(len(side), ROWS)]) for side in sides]
     unit = np.sqrt(2 * sum((part**2).sum() for part in reduced) / count)

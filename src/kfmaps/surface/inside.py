@@ -114,9 +114,8 @@ def inside(mesh: Mesh, specks: bool = False) -> Inside:
         if specks:
             keep, gone = _no_speck(Mesh(mesh.vertices, faces))
             faces = faces[keep]
-        kept = np.unique(faces)
-        used = np.zeros(n, dtype=bool)
-        used[kept] = True
+        used = np.bincount(faces.ravel(), minlength=n) > 0
+        kept = np.flatnonzero(used)
         used = used[first]
     if len(kept) == n:
         same = mesh if len(faces) == len(mesh.faces) else Mesh(mesh.vertices, faces)

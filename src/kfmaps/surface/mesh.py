@@ -152,7 +152,7 @@ def check_mesh(mesh: Mesh, name: str = "mesh", *, cloud: bool = False) -> Mesh:
     if not areas.sum() > 0:
         raise refuse(name, "a surface with area", "zero area", "check that its faces are not collapsed")
     flat = int((areas <= 1e-14 * areas.max()).sum())
-    loose = n - len(np.unique(mesh.faces))
+    loose = int((np.bincount(mesh.faces.ravel(), minlength=n) == 0).sum())
     for count, what in ((flat, "faces without area"), (loose, "vertices that no face uses")):
         if count:
             warnings.warn(f"{shown(name)}: {count} {what}; they are kept", KfmapsWarning, stacklevel=2)

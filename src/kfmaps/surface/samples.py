@@ -20,7 +20,7 @@ EMBEDDING = 40
 """Functions of the biharmonic embedding, the constant among them."""
 STRATA = 8
 """Coordinates of the embedding that strata are cut by."""
-POOL = 20_000
+POOL = 8_000
 """Vertices that :func:`spectral_samples` chooses from, at most (but four times as many as it is to choose)."""
 
 
@@ -126,7 +126,8 @@ def _embedded(basis: Basis) -> tuple[np.ndarray, np.ndarray]:
     if len(positive) == 0:  # more components than functions, which tell them apart
         return candidates, functions[candidates]
     positive = positive[values[positive] > 1e-6 * values[positive[-1]]]
-    return candidates, functions[candidates][:, positive] / values[positive]
+    places = functions[:, positive] / values[positive]
+    return candidates, places if len(candidates) == len(places) else np.asfortranarray(places[candidates])
 
 
 def stratified(
