@@ -355,7 +355,7 @@ class Config:
         """What we recommend: a search, with SHOT to guide it and the refinement."""
         return cls(
             descriptors=DescriptorConfig(shot=True),
-            refinement=ZoomOut(start=50, stop=200, step=10, samples=3500, guidance=36.0),
+            refinement=ZoomOut(start=50, stop=200, step=20, samples=3500, guidance=36.0),
             search=Search(),
             partial=Partial("auto"),
         )

@@ -21,7 +21,7 @@ from kfmaps.surface.inside import Inside, inside
 from kfmaps.surface.mesh import Mesh, check_mesh, surface_area, unit_area, vertex_normals
 from kfmaps.surface.samples import stratified_samples, stratified_vertices
 
-DESCRIBED = 10_000
+DESCRIBED = 7_000
 """Vertices for which SHOT is worked out; where there are more they are a hundredth of √area apart."""
 NORMALS = 0.05
 """Distance in space, at unit area, that counts as much as normals that differ by 1."""

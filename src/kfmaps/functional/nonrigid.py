@@ -32,7 +32,7 @@ from kfmaps.surface.rigidity import bending, nearest_rotations, rotations
 
 DECLINE = 10**-0.5
 """Stiffness of a level over that of the one before."""
-LAST = 3
+LAST = 2
 """Searches of a large mesh, at the last level: the others are its coarse copy's."""
 HOLD = 6.0
 """Weight of a landmark over the stiffness of a level: softly enough that those 3 % of √area off do no harm."""
