@@ -8,7 +8,6 @@ import numpy as np
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 from scipy.spatial import KDTree
-from trimesh.triangles import closest_point, points_to_barycentric
 
 from kfmaps._arrays import blocks
 from kfmaps.app.datasets.skeleton import Bend, Body
@@ -64,6 +63,8 @@ def locate(points: np.ndarray, mesh: Mesh) -> tuple[np.ndarray, np.ndarray]:
     slots = np.minimum(np.arange(count.max()), count[vertices][:, :, None] - 1)
     faces = (order[first[vertices][:, :, None] + slots] // 3).reshape(len(points), -1)
     triangles = mesh.vertices[mesh.faces[faces]].reshape(-1, 3, 3)
+    from trimesh.triangles import closest_point, points_to_barycentric
+
     places = closest_point(triangles, np.repeat(points, faces.shape[1], axis=0)).reshape(*faces.shape, 3)
     best = np.linalg.norm(places - points[:, None], axis=2).argmin(axis=1)
     rows = np.arange(len(points))

@@ -12,7 +12,6 @@ from pathlib import Path
 from typing import IO, TYPE_CHECKING, Any
 
 import numpy as np
-from scipy.io import savemat
 
 from kfmaps._arrays import InvalidInput, check, refuse
 from kfmaps._memory import in_words
@@ -209,6 +208,8 @@ def save_map(path: str | Path, mapfile: MapFile | Match, force: bool = False) ->
             np.savez_compressed(file, **content)
         else:
             shifted = {k: np.where(v < 0, -1.0, v + 1.0) if k in VERTEX_NUMBERS else v for k, v in content.items()}
+            from scipy.io import savemat
+
             savemat(file, shifted, oned_as="column", do_compression=True)
 
 
