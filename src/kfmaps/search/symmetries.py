@@ -3,6 +3,8 @@
 A body is nearly its own mirror image, and what is left then becomes right; with SHOT, which knows orientation, a map
 that is composed with that turns into the one that swaps front and back as well. Of two such maps only a close
 comparison tells which is right, so a search compares them whether or not it has come upon both by itself.
+
+An intrinsic symmetry takes each simple eigenfunction to itself or to its negative (Ovsjanikov, Sun and Guibas 2008).
 """
 
 from __future__ import annotations
