@@ -81,7 +81,8 @@ def test_some_rows_tell_the_directions_of_all(monkeypatch):
     rng = np.random.default_rng(5)
     source, target = (rng.normal(size=(n, 6)) * [3.0, 2.0, 1.5, 0.1, 0.1, 0.1] + 1.0 for n in (900, 700))
     every = guide(source, target, 3)
-    monkeypatch.setattr("kfmaps.functional.guide.ROWS", 400)
+    for name in ("ROWS", "TELLING"):
+        monkeypatch.setattr(f"kfmaps.functional.guide.{name}", 400)
     some = guide(source, target, 3)
     assert every is not None
     assert some is not None

@@ -13,7 +13,7 @@ import numpy as np
 
 from kfmaps._arrays import Array, check_count, namespace, refuse, take
 from kfmaps._progress import Done
-from kfmaps.functional.cells import HASTY, PROBES
+from kfmaps.functional.cells import HASTY
 from kfmaps.functional.guide import Guide
 from kfmaps.functional.points import to_functional, to_points
 from kfmaps.surface.basis import Basis
@@ -180,8 +180,9 @@ class ZoomOut:
             if progress is not None:
                 progress((i + 1) / len(sizes))
         if points is None:
-            # What few cells miss is found by the search that follows.
-            points = matched(C, source, target, guide, probes=PROBES if coarse is target else HASTY)
+            # What a quick search by cells misses is found by the one that follows.
+            quick = coarse is not target and target.functions.shape[0] * source.functions.shape[0] > PAIRS
+            points = matched(C, source, target, guide, **({"exact": False, "probes": HASTY} if quick else {}))
         if coarse is not target:
             # Once more with all points, whose functional map owes nothing to the choice of samples.
             C = fitted(points, source, target, self.stop)

@@ -24,7 +24,7 @@ from kfmaps.fit.shape import Shape, inner
 from kfmaps.functional.cells import HASTY
 from kfmaps.functional.guide import guide
 from kfmaps.functional.points import to_points
-from kfmaps.functional.refine import Refinement, ZoomOut
+from kfmaps.functional.refine import PAIRS, Refinement, ZoomOut
 from kfmaps.search.alternate import alternated, grounds
 from kfmaps.search.arena import Arena, Ground, arena, turned, without
 from kfmaps.search.bends import LONGER, MORE, bending, bent, copied, ready
@@ -199,6 +199,7 @@ def choose(
         ranked = mended(ranked, on.whole, source, image, pairs[~wrong], config.threads, report)
     best, others = ranked[0], ranked[1 : 1 + config.search.runners_up]
     margin = max(best.score - ranked[1].score, 0.0) if len(ranked) > 1 else np.inf
+    exact = False if len(source.mesh.vertices) * len(target.mesh.vertices) > PAIRS else None
     return Found(
         functional_map=best.functional_map,
         origin=best.name,
@@ -207,7 +208,8 @@ def choose(
         verdict=verdict(best.quality.score, float(margin), best.bending),
         scores=tuple(float(c.score) for c in (best, *others)),
         runners_up=tuple(
-            to_points(c.functional_map, source.basis, target.basis, config.threads, probes=HASTY) for c in others
+            to_points(c.functional_map, source.basis, target.basis, config.threads, exact=exact, probes=HASTY)
+            for c in others
         ),
         landmarks=pairs[~wrong],
         doubted=np.flatnonzero(wrong),
