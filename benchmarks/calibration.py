@@ -1,0 +1,91 @@
+"""Whether the confidence of whole shapes holds for kinds of shapes that it was not fitted to.
+
+    python benchmarks/calibration.py ROWS.json [MORE.json ...]
+
+ROWS.json is what ``benchmarks/automatic.py --json`` writes. The score, the margin and the excess of the bending of each
+map, as in :mod:`kfmaps.search.verdict`, are fitted to whether it is right by logistic regression, once for each kind on
+all others, and applied to that kind. The confidence that the library gives stands beside it.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import math
+from itertools import pairwise
+from pathlib import Path
+
+import numpy as np
+from automatic import RIGHT
+from scipy.optimize import minimize
+
+from kfmaps.search.verdict import SURE, TIE, excess, probability
+
+RIDGE = 0.3
+"""Weight of the squares of the coefficients, of features with unit variance."""
+NEARLY_ISOMETRIC = ("FAUST_r", "SHREC19_r", "TOSCA_r", "own")
+BINS = (0.0, 0.2, 0.5, 0.8, 0.9, 0.95, 1.0)
+
+
+def margin(row: dict) -> float:
+    scores = row["scores"]
+    return scores[0] - scores[1] if len(scores) > 1 else math.inf
+
+
+def features(row: dict) -> list[float]:
+    """Score, the part of the doubt that the margin takes away, and the excess of the bending."""
+    bent = row["bending"]
+    return [
+        row["quality"],
+        -math.exp(-max(margin(row), 0.0) / TIE),
+        0.0 if bent is None else excess(row["quality"], bent),
+    ]
+
+
+def fitted(x: np.ndarray, right: np.ndarray, new: np.ndarray) -> np.ndarray:
+    """Probabilities of ``new (q, f)`` after a logistic regression on ``x (n, f)`` and ``right (n,)`` bool."""
+    middle, scale = x.mean(axis=0), x.std(axis=0) + 1e-9
+    z, sign = (x - middle) / scale, np.where(right, 1.0, -1.0)
+
+    def loss(a: np.ndarray) -> float:
+        return float(np.logaddexp(0.0, -sign * (z @ a[1:] + a[0])).sum() + RIDGE * (a[1:] ** 2).sum())
+
+    a = minimize(loss, np.zeros(x.shape[1] + 1)).x
+    return 1.0 / (1.0 + np.exp(-(((new - middle) / scale) @ a[1:] + a[0])))
+
+
+def table(kinds: np.ndarray, right: np.ndarray, p: np.ndarray) -> None:
+    print("kind                      maps  right   sure  sure and wrong")
+    for kind in (*dict.fromkeys(kinds), "all"):
+        here = (kinds == kind) | (kind == "all")
+        sure = here & (p >= SURE)
+        print(f"{kind:24} {here.sum():5} {(here & right).sum():6} {sure.sum():6} {(sure & ~right).sum():6}")
+    near = np.isin(kinds, NEARLY_ISOMETRIC) & right
+    print(f"of the right maps between nearly isometric shapes {100 * (p[near] >= SURE).mean():.0f} % are sure")
+    for low, high in pairwise(BINS):
+        here = (p >= low) & ((p < high) | (high == 1.0))
+        if here.any():
+            mean, share = p[here].mean(), right[here].mean()
+            print(f"{low:4.2f} to {high:4.2f}: {here.sum():4} maps, mean {mean:.2f}, right {share:.2f}")
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("rows", type=Path, nargs="+")
+    rows = [row for path in parser.parse_args().rows for row in json.loads(path.read_text(encoding="utf-8"))]
+    rows = [row for row in rows if row["quality"] is not None and not row["landmarks"]]
+    kinds = np.array([row["set"] for row in rows])
+    right = np.array([row["error"] < RIGHT for row in rows])
+    x = np.array([features(row) for row in rows])
+    now = np.array([probability(row["quality"], margin(row), row["bending"]) for row in rows])
+    left_out = np.zeros(len(rows))
+    for kind in dict.fromkeys(kinds):
+        here = kinds == kind
+        left_out[here] = fitted(x[~here], right[~here], x[here])
+    for name, p in (("as it is", now), ("fitted to the other kinds", left_out)):
+        print(f"\n{name}")
+        table(kinds, right, p)
+
+
+if __name__ == "__main__":
+    main()
