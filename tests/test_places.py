@@ -9,7 +9,8 @@ import pytest
 from kfmaps import datasets
 from kfmaps.fit.places import GAP, HARMED, Placed, placed
 from kfmaps.fit.stages import Clock
-from kfmaps.functional.nonrigid import NonRigid, Registered, _evened, _pair
+from kfmaps.functional.bodies import body_of
+from kfmaps.functional.nonrigid import NonRigid, Registered, _evened, facing
 from kfmaps.functional.precise import PointMap, at_vertices, points_of
 from kfmaps.surface.mesh import Mesh, unit_area, vertex_areas
 from kfmaps.surface.rigidity import nearest_rotations, rigidity, rotations
@@ -99,7 +100,7 @@ def test_a_gap_speaks_first(pair: datasets.Pair) -> None:
 
 def test_rotations_become_even_and_constant_ones_stay(pair: datasets.Pair) -> None:
     rng = np.random.default_rng(0)
-    two = _pair(unit_area(pair.source), unit_area(pair.target))
+    two = facing(body_of(unit_area(pair.source)), unit_area(pair.target))
     n = len(pair.source.vertices)
     one = np.broadcast_to(nearest_rotations(rng.normal(size=(1, 3, 3))), (n, 3, 3))
     np.testing.assert_allclose(_evened(two, 1e-3)(one), one, atol=1e-8)
