@@ -481,6 +481,9 @@ MUTANTS = tuple(
         ),
         ("+ single[:, None] + unlike[t]", "+ single[:, None]", "test_parts_beams"),
         ("there[states[:, s]], SLACK)", "there[states[:, 0]], SLACK)", "test_parts_beams"),
+        ("whole.distances, alike - paid, part.marks)", "whole.distances, alike, part.marks)", "test_parts_rivals"),
+        ("paid[: part.marks] = 0.0", "paid[: part.marks] = 2.0 * PAID", "test_parts_rivals"),
+        ("if float(np.median(off[each, one.placed.match])) > ELSEWHERE", "if one is not None", "test_parts_rivals"),
         ("mixed if ways.source.all() else without(mixed, ~ways.source, lost)", "mixed", "test_carried_parts"),
         (
             "inverse(place, source, target, None if known.all() else known)",

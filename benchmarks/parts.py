@@ -11,6 +11,7 @@ leaves these out. ``--turned`` turns each part at random and scales it by a fact
 farthest points of the part. Errors are distances on the whole between points inside triangles, in % of its √area, over
 the vertices that the map gives a counterpart; the overlap is intersection over union of areas of the whole. At the end
 stand the errors by the area that is missing. The last column is the most memory that the process has held so far.
+``--json ROWS.json`` keeps one line for each pair, and spares what it has.
 
 ``--both`` matches each of the SHREC'16 cuts of an animal to the next but one, neither of which holds all of the other:
 errors are over the target's vertices that both truly have and the map gives a counterpart, the overlap is of areas of
@@ -99,6 +100,12 @@ def read_job(job: Job) -> tuple[kfmaps.Mesh, kfmaps.Mesh, Path]:
     return whole, mesh_of(folder, job.part), next(path for path in ends if path.exists())
 
 
+def name_of(job: Job) -> str:
+    """What tells one row from another."""
+    more = f" landmarks {job.landmarks}" * (job.landmarks > 0) + " turned" * job.turned
+    return f"{job.kind} {job.other or job.whole} {job.part}{more}"
+
+
 def run(job: Job) -> dict[str, object]:
     whole, part, truth_file = read_job(job)
     truth = read_part_truth(truth_file, whole, part)
@@ -126,7 +133,7 @@ def run(job: Job) -> dict[str, object]:
         found.save(path)
         scored = part_accuracy(whole, part, load_map(path), truth, "target")
     return {
-        "set": job.kind, "whole": job.whole, "part": job.part, "error": 100 * scored.errors.mean,
+        "name": name_of(job), "set": job.kind, "whole": job.whole, "part": job.part, "error": 100 * scored.errors.mean,
         "matched": scored.matched, "overlap": scored.overlap, "missing": scored.missing,
         "verdict": found.verdict, "confidence": found.confidence, "seconds": seconds,
         "taken_for_part": found.overlap_target is not None, "score": found.scores[0], "gib": peak(),
@@ -178,7 +185,7 @@ def run_both(job: Job) -> dict[str, object] | None:
         errors = place_errors(whole, PointMap(on.faces, on.weights), PointMap(places.faces[rows], places.weights[rows]))
         error = 100 * float(errors.mean())
     return {
-        "set": "both", "whole": job.other, "part": job.part, "error": error,
+        "name": name_of(job), "set": "both", "whole": job.other, "part": job.part, "error": error,
         "matched": float(areas[rows].sum() / areas[true].sum()),
         "overlap": float(areas[true & ours].sum() / areas[true | ours].sum()),
         "missing": 1 - float(areas[true].sum() / areas.sum()),
@@ -217,6 +224,10 @@ def main() -> None:
         ("pairs", "mean", "median", "worst", ">10", "IoU %", "sure", "sure, >10", "CPU s", "GiB"), WIDTHS, strict=True
     )
     print(f"{'mean error × 100':24s}" + "".join(f"{word:>{width}s}" for word, width in heads))
+    known: dict[str, dict[str, object]] = {}
+    if arguments.json is not None and arguments.json.exists():
+        lines = arguments.json.read_text(encoding="utf-8").splitlines()
+        known = {row["name"]: row for row in map(json.loads, lines)}
     everything: list[dict[str, object]] = []
     for kind in ["both"] if arguments.both else arguments.sets.split(","):
         rows = []
@@ -225,12 +236,13 @@ def main() -> None:
         )
         for job in every[arguments.first :: arguments.every]:
             more = replace(job, landmarks=arguments.landmarks, turned=arguments.turned)
-            row = run_both(job) if arguments.both else run(more)
+            row = known.get(name_of(more)) or (run_both(job) if arguments.both else run(more))
             if row is None:
                 continue
             rows.append(row)
-            if arguments.json:
-                arguments.json.write_text(json.dumps([*everything, *rows], indent=1), encoding="utf-8")
+            if arguments.json is not None and row["name"] not in known:
+                with arguments.json.open("a", encoding="utf-8") as file:
+                    file.write(json.dumps(row) + "\n")
         if rows:
             print(line(kind, rows), flush=True)
         everything += rows

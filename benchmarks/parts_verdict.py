@@ -4,8 +4,9 @@
 
 All candidates of a search are bent and compared with the truth (straight-line errors × 100, in √area of the whole), for
 the pairs of :data:`PAIRS`, which are all of shapes that settings were chosen on. Of each search a few pools of
-candidates are made, the wrong ones alone among them; what the best of a pool shows is one example, and a pair's
-examples weigh one together. About a minute a pair. ROWS.json keeps the candidates, and spares what it has.
+candidates are made, the wrong ones alone among them; rivals of the best of each pool are looked for as the search does,
+and what the best of all then shows is one example. A pair's examples weigh one together. About a minute a pair.
+ROWS.json keeps the examples, and spares what it has.
 """
 
 from __future__ import annotations
@@ -13,6 +14,8 @@ from __future__ import annotations
 import argparse
 import json
 import warnings
+from collections.abc import Callable
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -26,11 +29,21 @@ from kfmaps.app.datasets.pairs import largest_piece
 from kfmaps.app.partial_truth import read_part_truth
 from kfmaps.config import Partial
 from kfmaps.functional.precise import PointMap, points_of
-from kfmaps.parts.bend import ground
-from kfmaps.parts.choose import AGAIN, BEAMS, CLEAR, distinct, evidence, placed_on, plain_score, score
-from kfmaps.parts.side import side
+from kfmaps.parts.bend import Ground, ground
+from kfmaps.parts.choose import (
+    AGAIN,
+    BEAMS,
+    Candidate,
+    contested,
+    distinct,
+    firmness,
+    laid,
+    margin,
+    plain_score,
+)
+from kfmaps.parts.side import Side, side
 from kfmaps.parts.units import SCALES, TRIALS, grown, searched, tried
-from kfmaps.parts.verdict import LITTLE, SURE
+from kfmaps.parts.verdict import SURE
 from kfmaps.surface.mesh import Mesh, surface_area, unit_area
 
 PAIRS = (
@@ -42,8 +55,7 @@ PAIRS = (
 """Of the benchmarks "set whole part"; generated ones "name seed vertices", cut by a random plane but for "partial"."""
 KINDS = {"cuts": "animals", "holes": "animals", "PFAUST_M": "people", "PFAUST_H": "people"}
 RIGHT, WRONG = 8.0, 10.0
-ELSEWHERE = 6.0
-"""Difference of errors from which two candidates count as different."""
+NONE = np.zeros((0, 2), dtype=np.int64)
 
 
 def generated(name: str, seed: int, vertices: int) -> tuple[Mesh, Mesh, np.ndarray]:
@@ -67,54 +79,69 @@ def measured(job: Job) -> tuple[Mesh, Mesh, np.ndarray]:
     return whole, part, places
 
 
-def candidates(pair: str, data: Path) -> list[dict[str, Any]]:
-    """What each candidate shows, and how wrong it is."""
+@dataclass(frozen=True, eq=False)
+class Search:
+    """A part and a whole as a search sees them, and the truth."""
+
+    part: Side
+    whole: Side
+    on: Ground
+    truth: np.ndarray
+
+    def error(self, one: Candidate) -> float:
+        return 100 * float(np.nanmean(np.linalg.norm(one.bend.places.points - self.truth, axis=1)))
+
+    def contested(self, some: list[Candidate]) -> list[Candidate]:
+        return contested(some, self.part, self.whole, self.on, NONE)
+
+
+def candidates(pair: str, data: Path) -> tuple[Search, list[tuple[str, Candidate]]]:
+    """Everything that a search proposes before it looks for rivals."""
     kind, one, two = pair.split()
     whole, part, places = measured(Job(data, kind, one, two)) if kind in KINDS else generated(kind, int(one), int(two))
     ratio = float(np.sqrt(surface_area(part) / surface_area(whole)))
-    settings, none = Partial(), np.zeros((0, 2), dtype=np.int64)
+    settings = Partial()
     sides = side(unit_area(part), settings.samples), side(unit_area(whole), settings.whole_samples)
+    search = Search(*sides, ground(sides[1].mesh, sides[1].border), places)
     scales = [*SCALES, ratio]
-    first = distinct(tried(*sides, scales, none))[: settings.candidates]
+    first = distinct(tried(*sides, scales, NONE))[: settings.candidates]
     pool = [("relaxation", one) for one in first]
     for trial in TRIALS[1:]:
-        pool += [("again", one) for one in tried(*sides, [one.scale for one in first[:AGAIN]], none, trial)]
-    beams = sorted(searched(*sides, scales, none), key=lambda one: -plain_score(one))[:BEAMS]
+        pool += [("again", one) for one in tried(*sides, [one.scale for one in first[:AGAIN]], NONE, trial)]
+    beams = sorted(searched(*sides, scales, NONE), key=lambda one: -plain_score(one))[:BEAMS]
     pool += [("beam", one) for one in beams]
-    on, rows = ground(sides[1].mesh, sides[1].border), []
-    for origin, begun in pool:
-        full = grown(*sides, begun, none)
-        bent = placed_on(full, *sides, on)
-        seen = evidence(begun, full, bent)
-        off = np.linalg.norm(bent.places.points - places, axis=1)
-        found = {"score": score(seen), "bending": seen.bending, "err": 100 * float(np.nanmean(off))}
-        rows.append({"case": pair, "origin": origin, **found})
-    return rows
+    return search, [(origin, laid(one, grown(*sides, one, NONE), *sides, search.on)) for origin, one in pool]
 
 
-def examples(rows: list[dict[str, Any]]) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-    """Kinds (e,), pairs (e,), what the best of each pool shows (e, 3), and its error (e,)."""
-    pools = (
-        lambda row: row is not None,
-        lambda row: row["err"] > RIGHT,
-        lambda row: row["origin"] == "relaxation",
-        lambda row: row["origin"] == "again",
-        lambda row: row["origin"] == "beam",
-        lambda row: row["origin"] != "beam",
-    )
+POOLS: dict[str, Callable[[str, float], bool]] = {
+    "all": lambda origin, error: True,  # noqa: ARG005
+    "wrong": lambda origin, error: error > RIGHT,  # noqa: ARG005
+    "relaxation": lambda origin, error: origin == "relaxation",  # noqa: ARG005
+    "again": lambda origin, error: origin == "again",  # noqa: ARG005
+    "beam": lambda origin, error: origin == "beam",  # noqa: ARG005
+    "no beam": lambda origin, error: origin != "beam",  # noqa: ARG005
+}
+
+
+def examples(pair: str, data: Path) -> list[dict[str, Any]]:
+    """What the best shows had the search proposed only some pool of candidates, before it looks for rivals."""
+    search, everything = candidates(pair, data)
+    errors = [search.error(one) for _, one in everything]
+    known: dict[frozenset[int], tuple[list[Candidate], float]] = {}
     found = []
-    for case in dict.fromkeys(row["case"] for row in rows):
-        for pool in pools:
-            some = [row for row in rows if row["case"] == case and pool(row)]
-            if len(some) < 2:
-                continue
-            best = max(some, key=lambda row: row["score"])
-            rivals = [row["score"] for row in some if abs(row["err"] - best["err"]) > ELSEWHERE]
-            margin = min(best["score"] - max(rivals), CLEAR) if rivals else CLEAR
-            shown = best["score"], margin, -np.log(best["bending"] + LITTLE)
-            found.append((KINDS.get(case.split()[0], "generated"), case, shown, best["err"]))
-    kinds, cases, shown, errors = (np.array(column) for column in zip(*found, strict=True))
-    return kinds, cases, shown, errors
+    for name, pool in POOLS.items():
+        rows = [i for i, (origin, _) in enumerate(everything) if pool(origin, errors[i])]
+        if len(rows) < 2:
+            continue
+        if frozenset(rows) not in known:
+            last = search.contested([everything[i][1] for i in rows])
+            known[frozenset(rows)] = last, search.error(last[0])
+        last, error = known[frozenset(rows)]
+        first = max(rows, key=lambda i: everything[i][1].score)
+        row = {"case": pair, "pool": name, "score": last[0].score, "bending": last[0].seen.bending}
+        row |= {"margin": margin([(one.score, one.places) for one in last]), "err": error}
+        found.append(row | {"first": errors[first], "all": [(one.score, search.error(one)) for one in last]})
+    return found
 
 
 def fitted(shown: np.ndarray, right: np.ndarray, weights: np.ndarray, ridge: float = 0.05) -> np.ndarray:
@@ -155,10 +182,12 @@ def main() -> None:
             continue
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", kfmaps.KfmapsWarning)
-            rows += candidates(pair, arguments.data)
+            rows += examples(pair, arguments.data)
         if arguments.json is not None:
             arguments.json.write_text(json.dumps(rows, indent=1), encoding="utf-8")
-    kinds, cases, shown, errors = examples(rows)
+    kinds = np.array([KINDS.get(row["case"].split()[0], "generated") for row in rows])
+    cases, errors = (np.array([row[key] for row in rows]) for key in ("case", "err"))
+    shown = np.array([(row["score"], row["margin"], firmness(row["bending"])) for row in rows])
     right = (errors < RIGHT).astype(float)
     weights = np.array([1 / (cases == case).sum() for case in cases])
     print(f"{'':34s}" + "".join(f"{word:>10s}" for word in ("examples", "right", "sure", "sure, >10")))

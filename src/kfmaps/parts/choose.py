@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
+from scipy.spatial import KDTree
 
 from kfmaps._arrays import refuse
 from kfmaps._threads import parallel
 from kfmaps.config import Partial
 from kfmaps.parts.bend import FULL, QUICK, Bent, Ground, bent, ground
+from kfmaps.parts.labels import Placed
 from kfmaps.parts.overlap import Overlap, overlap
+from kfmaps.parts.rivals import ELSEWHERE, rivals
 from kfmaps.parts.side import Side, side
 from kfmaps.parts.units import LARGER, SCALES, TRIALS, Rough, grown, searched, tried
 from kfmaps.surface.closest import places_on
@@ -25,12 +29,17 @@ BEAMS = 4
 """Placings of the beam searches in which all samples are placed, ..."""
 BENT = 2
 """... and those that are bent."""
-CLEAR = 1.0
+RIVALS = 2
+"""Placings elsewhere than the best that are bent, and those that are compared with it."""
+POLISHED = 2
+"""How often these are placed and bent anew."""
+CLEAR = 2.0
 """Margin from which more does not count."""
-ELSEWHERE = 0.1
-"""Median distance between places, in √area of the whole, from which two candidates differ."""
-CONSISTENCY = 4.0
-"""Weight in the score."""
+CONSISTENCY, BENDING = 4.0, 3.0
+"""Weights in the score. Where a half of a body lies on its other half, turned front to back, descriptors and distances
+fit as well as where it belongs; that it bends by half as much again counts alike for stiff shapes and for soft ones."""
+LITTLE = 0.005
+"""Bending that any part shows, by its mesh alone."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -60,9 +69,38 @@ class Evidence:
     spread: float
 
 
+@dataclass(frozen=True, eq=False)
+class Candidate:
+    """A part bent from one placing of its samples.
+
+    Attributes
+    ----------
+    begun, full : Rough
+        As it was proposed, and with all samples placed.
+    bend : Bent
+    places : (q, 3) float64
+        Of the samples, on the whole.
+    seen : Evidence
+    score : float
+    """
+
+    begun: Rough
+    full: Rough
+    bend: Bent
+    places: np.ndarray
+    seen: Evidence
+    score: float
+
+
 def score(found: Evidence) -> float:
     """One number, higher is better."""
-    return CONSISTENCY * found.consistency - found.unlike - 20.0 * found.bending - 50.0 * found.gap - 4.0 * found.folded
+    fits = CONSISTENCY * found.consistency - found.unlike - 50.0 * found.gap - 4.0 * found.folded
+    return fits + BENDING * firmness(found.bending)
+
+
+def firmness(bending: float) -> float:
+    """Minus the logarithm of the ``bending``."""
+    return -math.log(max(bending, 0.0) + LITTLE)
 
 
 @dataclass(frozen=True, eq=False)
@@ -142,23 +180,22 @@ def parted(
     likely = [*plain[: settings.candidates + 1], *beams[:BENT]]
     told(0.5)
     on = ground(whole, sides[1].border)
-    found: list[tuple[float, Evidence, Bent]] = []
+    found: list[Candidate] = []
     for i, (one, placed) in enumerate(likely):
-        bend = placed_on(placed, *sides, on)
-        seen = evidence(one, placed, bend)
-        found.append((score(seen), seen, bend))
-        told(0.5 + 0.25 * (i + 1) / len(likely))
-    found.sort(key=lambda item: -item[0])
+        found.append(laid(one, placed, *sides, on))
+        told(0.5 + 0.15 * (i + 1) / len(likely))
+    found = contested(found, *sides, on, marked, fixed, threads)
     best = found[0]
-    last = finished(best[2], sides[0], on, pairs, fixed, lambda done: told(0.75 + 0.25 * done))
+    told(0.75)
+    last = finished(best.bend, sides[0], on, pairs, fixed, lambda done: told(0.75 + 0.25 * done))
     ends = last.vertices[pairs[:, 0]] - whole.vertices[pairs[:, 1]]
     return Parted(
         last,
         overlap(last, on, sides[0].border),
-        best[1],
-        best[0],
-        tuple(item[0] for item in found[1:]),
-        margin([(item[0], item[2].places.points[sides[0].samples]) for item in found]),
+        best.seen,
+        best.score,
+        tuple(one.score for one in found[1:]),
+        margin([(one.score, one.places) for one in found]),
         np.linalg.norm(ends, axis=1),
     )
 
@@ -166,9 +203,59 @@ def parted(
 def margin(found: Sequence[tuple[float, np.ndarray]]) -> float:
     """Of candidates, best first, given by their scores and places ``(q, 3)``; see :attr:`Parted.margin`."""
     best, places = found[0]
-    apart = [float(np.median(np.linalg.norm(other - places, axis=1))) for _, other in found]
-    rivals = [value for (value, _), off in zip(found, apart, strict=True) if off > ELSEWHERE]
-    return min(best - max(rivals), CLEAR) if rivals else CLEAR
+    others = [value for value, other in found if differ(other, places)]
+    return min(best - max(others), CLEAR) if others else CLEAR
+
+
+def contested(
+    found: Sequence[Candidate],
+    part: Side,
+    whole: Side,
+    on: Ground,
+    marked: np.ndarray,
+    fixed: bool = False,
+    threads: int | None = None,
+) -> list[Candidate]:
+    """Candidates, best first, once the best has been compared with the best placings elsewhere on equal terms.
+
+    Rivals of the best are looked for (:mod:`kfmaps.parts.rivals`). Then it and the best of those that differ are placed
+    and bent anew from where they came to lie, as often each: who was found by chance is as far from its best as any.
+    ``marked (l, 2)``: landmarks, by numbers of samples.
+    """
+    best = max(found, key=lambda one: one.score)
+    elsewhere = rivals(part, whole, best.bend.scale, best.places, marked, fixed, threads)
+    likely = sorted(elsewhere, key=lambda one: -plain_score(one))[:RIVALS]
+    more = [laid(one, grown(part, whole, one, marked, fixed), part, whole, on) for one in likely]
+    chosen: list[Candidate] = []
+    rest: list[Candidate] = []
+    for one in sorted([*found, *more], key=lambda one: -one.score):
+        if all(differ(one.places, other.places) for other in chosen):
+            (chosen if len(chosen) <= RIVALS else rest).append(one)
+    for _ in range(POLISHED):
+        chosen = [polished(one, part, whole, on, marked, fixed) for one in chosen]
+    return sorted([*chosen, *rest], key=lambda one: -one.score)
+
+
+def laid(begun: Rough, full: Rough, part: Side, whole: Side, on: Ground) -> Candidate:
+    """The candidate that a placing makes."""
+    bend = placed_on(full, part, whole, on)
+    seen = evidence(begun, full, bend)
+    return Candidate(begun, full, bend, bend.places.points[part.samples], seen, score(seen))
+
+
+def polished(one: Candidate, part: Side, whole: Side, on: Ground, marked: np.ndarray, fixed: bool = False) -> Candidate:
+    """Placed and bent anew from where it came to lie, at the scale that its edges say."""
+    match = KDTree(whole.mesh.vertices[whole.samples]).query(one.places)[1]
+    match[marked[:, 0]] = marked[:, 1]
+    placed = Placed(match, np.maximum(one.bend.inside[part.samples], 1e-3), one.full.placed.support)
+    scale = one.full.scale if fixed else one.bend.scale * one.bend.longer
+    full = grown(part, whole, replace(one.full, scale=scale, placed=placed), marked, fixed)
+    return laid(one.begun, full, part, whole, on)
+
+
+def differ(one: np.ndarray, other: np.ndarray) -> bool:
+    """Whether the places ``(q, 3)`` of two candidates are elsewhere."""
+    return float(np.median(np.linalg.norm(one - other, axis=1))) > ELSEWHERE
 
 
 def distinct(rough: Sequence[Rough]) -> list[Rough]:

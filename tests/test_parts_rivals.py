@@ -1,0 +1,65 @@
+"""Placings of a part that leave the one it has: on a sheet that half a turn lays on itself there is exactly one."""
+
+import numpy as np
+import pytest
+
+from kfmaps.parts.beams import beamed
+from kfmaps.parts.labels import gauge
+from kfmaps.parts.rivals import ELSEWHERE, apart, rivals
+from kfmaps.parts.side import Side
+from kfmaps.parts.units import TRIALS
+from kfmaps.surface.mesh import Mesh
+
+HALF = 60
+OTHER = np.roll(np.arange(2 * HALF), HALF)
+"""Where half a turn takes each point."""
+NONE = np.zeros((0, 2), dtype=np.int64)
+SCALE = 0.5
+
+
+def sheet(marks=0, told=0.05):
+    """Points of a sheet, as a part in another unit and as a whole; descriptors know a little which is which."""
+    rng = np.random.default_rng(0)
+    points = rng.uniform(-0.5, 0.5, size=(HALF, 3)) * [1.0, 0.6, 0.0]
+    points = np.concatenate([points, -points])
+    between = np.linalg.norm(points[:, None] - points[None], axis=2).astype(np.float32)
+    each, endless = np.arange(2 * HALF), np.full(2 * HALF, np.inf, dtype=np.float32)
+    own = np.eye(2 * HALF, dtype=np.float32)
+    sides = []
+    for scale in (SCALE, 1.0):
+        mesh = Mesh(points / scale, np.zeros((0, 3), dtype=np.int64))
+        known = {radius / scale: own * np.float32(told if scale == 1.0 else 1.0) for radius in TRIALS[0].radii}
+        sides.append(Side(mesh, each, between / np.float32(scale), endless, each < 0, marks, known))
+    return points, *sides
+
+
+def test_the_best_rival_is_the_other_way_that_distances_allow():
+    points, part, whole = sheet()
+    measure = gauge(part.distances, part.edge, SCALE)
+    first = beamed(measure, part.edge, whole.distances, 0.05 * np.eye(2 * HALF, dtype=np.float32))[0]
+    assert (first.match == np.arange(2 * HALF))[first.trust > 0].all()
+    found = rivals(part, whole, SCALE, points, NONE, 1)
+    assert np.median(np.linalg.norm(points[found[0].placed.match] - points[OTHER], axis=1)) < 0.02
+    assert found[0].placed.support > 0.9
+    # And from there the rival is where it was before.
+    back = rivals(part, whole, SCALE, points[OTHER], NONE, 1)
+    assert np.median(np.linalg.norm(points[back[0].placed.match] - points, axis=1)) < 0.02
+
+
+def test_rivals_lie_elsewhere_and_have_the_scale_of_the_placing():
+    points, part, whole = sheet()
+    for one in rivals(part, whole, SCALE, points, NONE, 1):
+        assert one.scale == SCALE
+        assert np.median(np.linalg.norm(points[one.placed.match] - points, axis=1)) > ELSEWHERE
+
+
+def test_a_landmark_allows_no_rival_that_moves_it():
+    points, part, whole = sheet(marks=2)
+    for one in rivals(part, whole, SCALE, points, np.array([[0, 0], [1, 1]]), 1):
+        assert one.placed.match[:2].tolist() == [0, 1]
+        assert one.placed.support < 0.9
+
+
+def test_distances_from_all_samples():
+    points, _, whole = sheet()
+    assert apart(points[:3], whole) == pytest.approx(np.linalg.norm(points[:3, None] - points[None], axis=2))
