@@ -31,8 +31,10 @@ BENT = 2
 """... and those that are bent."""
 RIVALS = 2
 """Placings elsewhere than the best that are bent, and those that are compared with it."""
-POLISHED = 2
-"""How often these are placed and bent anew."""
+POLISHED = (2, 5)
+"""How often these are placed and bent anew, at least, and at most ..."""
+GAIN = 0.2
+"""... while their scores rise by so much."""
 CLEAR = 2.0
 """Margin from which more does not count."""
 CONSISTENCY, BENDING = 4.0, 3.0
@@ -219,7 +221,8 @@ def contested(
     """Candidates, best first, once the best has been compared with the best placings elsewhere on equal terms.
 
     Rivals of the best are looked for (:mod:`kfmaps.parts.rivals`). Then it and the best of those that differ are placed
-    and bent anew from where they came to lie, as often each: who was found by chance is as far from its best as any.
+    and bent anew from where they came to lie, until that makes them no better: a placing that was hit by chance is far
+    from what it can be, and would lose against one that was not.
     ``marked (l, 2)``: landmarks, by numbers of samples.
     """
     best = max(found, key=lambda one: one.score)
@@ -231,9 +234,8 @@ def contested(
     for one in sorted([*found, *more], key=lambda one: -one.score):
         if all(differ(one.places, other.places) for other in chosen):
             (chosen if len(chosen) <= RIVALS else rest).append(one)
-    for _ in range(POLISHED):
-        chosen = [polished(one, part, whole, on, marked, fixed) for one in chosen]
-    return sorted([*chosen, *rest], key=lambda one: -one.score)
+    last = [polished(one, part, whole, on, marked, fixed) for one in chosen]
+    return sorted([*last, *rest], key=lambda one: -one.score)
 
 
 def laid(begun: Rough, full: Rough, part: Side, whole: Side, on: Ground) -> Candidate:
@@ -244,7 +246,18 @@ def laid(begun: Rough, full: Rough, part: Side, whole: Side, on: Ground) -> Cand
 
 
 def polished(one: Candidate, part: Side, whole: Side, on: Ground, marked: np.ndarray, fixed: bool = False) -> Candidate:
-    """Placed and bent anew from where it came to lie, at the scale that its edges say."""
+    """Placed and bent anew from where it came to lie, until that makes it no better."""
+    for done in range(POLISHED[1]):
+        before, one = one.score, settled_in(one, part, whole, on, marked, fixed)
+        if done + 1 >= POLISHED[0] and one.score < before + GAIN:
+            break
+    return one
+
+
+def settled_in(
+    one: Candidate, part: Side, whole: Side, on: Ground, marked: np.ndarray, fixed: bool = False
+) -> Candidate:
+    """Placed and bent once more from where it came to lie, at the scale that its edges say."""
     match = KDTree(whole.mesh.vertices[whole.samples]).query(one.places)[1]
     match[marked[:, 0]] = marked[:, 1]
     placed = Placed(match, np.maximum(one.bend.inside[part.samples], 1e-3), one.full.placed.support)
