@@ -30,17 +30,9 @@ from kfmaps.app.partial_truth import read_part_truth
 from kfmaps.config import Partial
 from kfmaps.functional.precise import PointMap, points_of
 from kfmaps.parts.bend import Ground, ground
-from kfmaps.parts.choose import (
-    AGAIN,
-    BEAMS,
-    Candidate,
-    contested,
-    distinct,
-    firmness,
-    laid,
-    margin,
-    plain_score,
-)
+from kfmaps.parts.candidates import Candidate, firmness, laid, plain_score
+from kfmaps.parts.choose import AGAIN, BEAMS, distinct
+from kfmaps.parts.contest import contested, margin
 from kfmaps.parts.side import Side, side
 from kfmaps.parts.units import SCALES, TRIALS, grown, searched, tried
 from kfmaps.parts.verdict import SURE

@@ -12,7 +12,7 @@ from kfmaps.config import Config, Partial
 from kfmaps.functional.evaluate import place_errors
 from kfmaps.functional.precise import PointMap
 from kfmaps.matching import match
-from kfmaps.parts.choose import CLEAR, margin
+from kfmaps.parts.contest import CLEAR, margin
 from kfmaps.parts.decide import OPEN, opening, suspicion
 from kfmaps.parts.labels import SLACK, consistency, gauge
 from kfmaps.parts.side import border_of, side

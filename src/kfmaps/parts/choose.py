@@ -2,20 +2,18 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
-from scipy.spatial import KDTree
 
 from kfmaps._arrays import refuse
 from kfmaps._threads import parallel
 from kfmaps.config import Partial
-from kfmaps.parts.bend import FULL, QUICK, Bent, Ground, bent, ground
-from kfmaps.parts.labels import Placed
+from kfmaps.parts.bend import FULL, Bent, Ground, bent, ground
+from kfmaps.parts.candidates import Candidate, Evidence, laid, plain_score
+from kfmaps.parts.contest import contested, margin
 from kfmaps.parts.overlap import Overlap, overlap
-from kfmaps.parts.rivals import ELSEWHERE, rivals
 from kfmaps.parts.side import Side, side
 from kfmaps.parts.units import LARGER, SCALES, TRIALS, Rough, grown, searched, tried
 from kfmaps.surface.closest import places_on
@@ -29,80 +27,6 @@ BEAMS = 4
 """Placings of the beam searches in which all samples are placed, ..."""
 BENT = 2
 """... and those that are bent."""
-RIVALS = 2
-"""Placings elsewhere than the best that are bent, and those that are compared with it."""
-POLISHED = (2, 5)
-"""How often these are placed and bent anew, at least, and at most ..."""
-GAIN = 0.2
-"""... while their scores rise by so much."""
-CLEAR = 2.0
-"""Margin from which more does not count."""
-CONSISTENCY, BENDING = 4.0, 3.0
-"""Weights in the score. Where a half of a body lies on its other half, turned front to back, descriptors and distances
-fit as well as where it belongs; that it bends by half as much again counts alike for stiff shapes and for soft ones."""
-LITTLE = 0.005
-"""Bending that any part shows, by its mesh alone."""
-
-
-@dataclass(frozen=True, eq=False)
-class Evidence:
-    """What speaks for one placing without knowing the truth; see :func:`score`.
-
-    Attributes
-    ----------
-    support : float
-        Consistency of the first samples' pairs, 0 to 1, at the scale tried.
-    consistency : float
-        Of all samples with their neighbours, 0 to 1.
-    unlike : float
-        Mean logarithm of the part of the whole's samples that resemble a sample more than its place does: 0 and less.
-    bending, gap, folded : float
-        Of :class:`kfmaps.parts.bend.Bent`.
-    spread : float
-        Part of the samples that have places of their own.
-    """
-
-    support: float
-    consistency: float
-    unlike: float
-    bending: float
-    gap: float
-    folded: float
-    spread: float
-
-
-@dataclass(frozen=True, eq=False)
-class Candidate:
-    """A part bent from one placing of its samples.
-
-    Attributes
-    ----------
-    begun, full : Rough
-        As it was proposed, and with all samples placed.
-    bend : Bent
-    places : (q, 3) float64
-        Of the samples, on the whole.
-    seen : Evidence
-    score : float
-    """
-
-    begun: Rough
-    full: Rough
-    bend: Bent
-    places: np.ndarray
-    seen: Evidence
-    score: float
-
-
-def score(found: Evidence) -> float:
-    """One number, higher is better."""
-    fits = CONSISTENCY * found.consistency - found.unlike - 50.0 * found.gap - 4.0 * found.folded
-    return fits + BENDING * firmness(found.bending)
-
-
-def firmness(bending: float) -> float:
-    """Minus the logarithm of the ``bending``."""
-    return -math.log(max(bending, 0.0) + LITTLE)
 
 
 @dataclass(frozen=True, eq=False)
@@ -202,75 +126,6 @@ def parted(
     )
 
 
-def margin(found: Sequence[tuple[float, np.ndarray]]) -> float:
-    """Of candidates, best first, given by their scores and places ``(q, 3)``; see :attr:`Parted.margin`."""
-    best, places = found[0]
-    others = [value for value, other in found if differ(other, places)]
-    return min(best - max(others), CLEAR) if others else CLEAR
-
-
-def contested(
-    found: Sequence[Candidate],
-    part: Side,
-    whole: Side,
-    on: Ground,
-    marked: np.ndarray,
-    fixed: bool = False,
-    threads: int | None = None,
-) -> list[Candidate]:
-    """Candidates, best first, once the best has been compared with the best placings elsewhere on equal terms.
-
-    Rivals of the best are looked for (:mod:`kfmaps.parts.rivals`). Then it and the best of those that differ are placed
-    and bent anew from where they came to lie, until that makes them no better: a placing that was hit by chance is far
-    from what it can be, and would lose against one that was not.
-    ``marked (l, 2)``: landmarks, by numbers of samples.
-    """
-    best = max(found, key=lambda one: one.score)
-    elsewhere = rivals(part, whole, best.bend.scale, best.places, marked, fixed, threads)
-    likely = sorted(elsewhere, key=lambda one: -plain_score(one))[:RIVALS]
-    more = [laid(one, grown(part, whole, one, marked, fixed), part, whole, on) for one in likely]
-    chosen: list[Candidate] = []
-    rest: list[Candidate] = []
-    for one in sorted([*found, *more], key=lambda one: -one.score):
-        if all(differ(one.places, other.places) for other in chosen):
-            (chosen if len(chosen) <= RIVALS else rest).append(one)
-    last = [polished(one, part, whole, on, marked, fixed) for one in chosen]
-    return sorted([*last, *rest], key=lambda one: -one.score)
-
-
-def laid(begun: Rough, full: Rough, part: Side, whole: Side, on: Ground) -> Candidate:
-    """The candidate that a placing makes."""
-    bend = placed_on(full, part, whole, on)
-    seen = evidence(begun, full, bend)
-    return Candidate(begun, full, bend, bend.places.points[part.samples], seen, score(seen))
-
-
-def polished(one: Candidate, part: Side, whole: Side, on: Ground, marked: np.ndarray, fixed: bool = False) -> Candidate:
-    """Placed and bent anew from where it came to lie, until that makes it no better."""
-    for done in range(POLISHED[1]):
-        before, one = one.score, settled_in(one, part, whole, on, marked, fixed)
-        if done + 1 >= POLISHED[0] and one.score < before + GAIN:
-            break
-    return one
-
-
-def settled_in(
-    one: Candidate, part: Side, whole: Side, on: Ground, marked: np.ndarray, fixed: bool = False
-) -> Candidate:
-    """Placed and bent once more from where it came to lie, at the scale that its edges say."""
-    match = KDTree(whole.mesh.vertices[whole.samples]).query(one.places)[1]
-    match[marked[:, 0]] = marked[:, 1]
-    placed = Placed(match, np.maximum(one.bend.inside[part.samples], 1e-3), one.full.placed.support)
-    scale = one.full.scale if fixed else one.bend.scale * one.bend.longer
-    full = grown(part, whole, replace(one.full, scale=scale, placed=placed), marked, fixed)
-    return laid(one.begun, full, part, whole, on)
-
-
-def differ(one: np.ndarray, other: np.ndarray) -> bool:
-    """Whether the places ``(q, 3)`` of two candidates are elsewhere."""
-    return float(np.median(np.linalg.norm(one - other, axis=1))) > ELSEWHERE
-
-
 def distinct(rough: Sequence[Rough]) -> list[Rough]:
     """The best, then the best of those at scales that differ from it by more than steps between them."""
     kept: list[Rough] = []
@@ -278,13 +133,6 @@ def distinct(rough: Sequence[Rough]) -> list[Rough]:
         if all(max(one.scale / other.scale, other.scale / one.scale) > ALIKE for other in kept):
             kept.append(one)
     return kept
-
-
-def placed_on(full: Rough, part: Side, whole: Side, on: Ground) -> Bent:
-    """The part bent quickly by its placed samples."""
-    at = whole.samples[full.placed.match]
-    trust = np.maximum(full.placed.trust, 0.01)
-    return bent(part.mesh, full.scale, on, part.samples, on.mesh.vertices[at], on.normals[at], trust, QUICK, 3)
 
 
 def finished(
@@ -298,30 +146,3 @@ def finished(
     normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-12)
     scale = bend.scale if fixed else bend.scale * bend.longer
     return bent(part.mesh, scale, on, part.samples, points, normals, trust, FULL, 5, progress)
-
-
-def unlikeness(full: Rough) -> float:
-    """See :attr:`Evidence.unlike`."""
-    match, alike = full.placed.match, full.alike
-    own = alike[np.arange(len(match)), match]
-    better = (alike > own[:, None]).sum(axis=1)
-    return float(np.log((better + 1) / alike.shape[1]).mean())
-
-
-def plain_score(full: Rough) -> float:
-    """What of :func:`score` is known before the part is bent."""
-    return CONSISTENCY * full.placed.support - unlikeness(full)
-
-
-def evidence(rough: Rough, full: Rough, bend: Bent) -> Evidence:
-    """Of one candidate, as it was tried, placed and bent."""
-    match = full.placed.match
-    return Evidence(
-        rough.placed.support,
-        full.placed.support,
-        unlikeness(full),
-        bend.bending,
-        bend.gap,
-        bend.folded,
-        len(np.unique(match)) / len(match),
-    )
