@@ -4,15 +4,16 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from conftest import blob
 
 from kfmaps import datasets
 from kfmaps.app.files import load_map
 from kfmaps.app.partial_truth import PartTruth, part_accuracy, true_overlap
 from kfmaps.config import Config, Partial
+from kfmaps.fit.shape import prepare
 from kfmaps.functional.evaluate import place_errors
 from kfmaps.functional.precise import PointMap
 from kfmaps.matching import match
-from kfmaps.parts.contest import CLEAR, margin
 from kfmaps.parts.decide import OPEN, opening, suspicion
 from kfmaps.parts.labels import SLACK, consistency, gauge
 from kfmaps.parts.side import border_of, side
@@ -156,9 +157,9 @@ def test_the_truth_is_measured_as_a_user_measures_it(pair, turned, found, truth,
 
 
 def test_whole_shapes_are_matched_as_if_nobody_had_thought_of_parts():
-    whole = datasets.two_poses(1500, rng=2)
-    plain = match(whole.source, whole.target, replace(AUTO, partial=Partial("none")))
-    auto = match(whole.source, whole.target, AUTO)
+    source, target = (prepare(blob(700, twist), AUTO) for twist in (0.0, 0.4))
+    plain = match(source, target, replace(AUTO, partial=Partial("none")))
+    auto = match(source, target, AUTO)
     assert auto.overlap_source is None
     assert np.array_equal(auto.target_to_source, plain.target_to_source)
     assert np.array_equal(auto.functional_map, plain.functional_map)
@@ -181,16 +182,6 @@ def test_score_margin_and_little_bending_speak_for_a_place():
     assert part_probability(-1e6, 0.0, 1e6) == pytest.approx(0.0)
     # What the best of the generated shapes that it was fitted to showed, and a half of one taken for the other half.
     assert part_probability(6.99, CLEAR, 0.022) > SURE > part_probability(6.46, 0.72, 0.029)
-
-
-def test_only_candidates_that_differ_are_rivals():
-    rng = np.random.default_rng(0)
-    here = rng.normal(size=(50, 3))
-    near, elsewhere = here + 0.01, here + 1.0
-    assert margin([(7.0, here)]) == CLEAR
-    assert margin([(7.0, here), (6.9, near)]) == CLEAR
-    assert margin([(7.0, here), (6.9, near), (6.6, elsewhere), (2.0, elsewhere)]) == pytest.approx(0.4)
-    assert margin([(7.0, here), (2.0, elsewhere)]) == CLEAR
 
 
 def test_the_default_of_the_command_is_auto():

@@ -1,6 +1,5 @@
 """The best placing of a part against the best that leaves it: a half that was cut lengthwise has two."""
 
-from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -13,7 +12,7 @@ from kfmaps.functional.precise import PointMap, points_of
 from kfmaps.parts import contest
 from kfmaps.parts.bend import ground
 from kfmaps.parts.candidates import laid
-from kfmaps.parts.contest import CLEAR, GAIN, POLISHED, contested, differ, margin, polished
+from kfmaps.parts.contest import CLEAR, GAIN, HOPELESS, POLISHED, contested, differ, margin, polished
 from kfmaps.parts.labels import Placed
 from kfmaps.parts.rivals import ELSEWHERE
 from kfmaps.parts.side import side
@@ -45,9 +44,70 @@ def placed_at(half, places):
     return laid(rough, rough, part, whole, on)
 
 
-def test_half(half):
+@pytest.fixture(scope="module")
+def true(half):
+    """The contest of the true placing alone."""
     part, whole, on, places, _ = half
-    true = placed_at(half, places[part.samples])
-    found = contested([true], part, whole, on, NONE)
-    for one in found: print(one.score, one.bend.scale, np.linalg.norm(one.bend.places.points-places,axis=1).mean(), one.seen)
-    print(margin([(one.score, one.places) for one in found]))
+    return contested([placed_at(half, places[part.samples])], part, whole, on, NONE)
+
+
+def error(half, one):
+    return float(np.linalg.norm(one.bend.places.points - half[3], axis=1).mean())
+
+
+def test_the_rival_of_a_lengthwise_half_is_looked_for(half, true):
+    """Front to back on the other half: nobody proposed it, and the margin before it is the one that counts."""
+    assert len(true) > 1
+    assert error(half, true[0]) < 0.04
+    assert all(error(half, one) > 0.15 for one in true[1:])
+    assert all(differ(true[0].places, one.places) for one in true[1:])
+    assert margin([(one.score, one.places) for one in true]) == pytest.approx(true[0].score - true[1].score)
+
+
+def test_who_begins_on_the_wrong_half_comes_to_the_right_one(half, true):
+    part, whole, on, _, _ = half
+    found = contested([placed_at(half, true[1].places)], part, whole, on, NONE)
+    assert error(half, found[0]) < 0.05
+    assert error(half, found[1]) > 0.15
+
+
+def stub(score, x, gain=0.0):
+    """A candidate at the place ``x``, which gains so much whenever it is placed anew."""
+    places = np.full((5, 3), float(x))
+    bend = SimpleNamespace(scale=1.0, longer=1.0, inside=np.ones(3, dtype=bool))
+    return SimpleNamespace(score=score, places=places, bend=bend, gain=gain, times=0)
+
+
+def again(one, *_rest):
+    return SimpleNamespace(**{**vars(one), "score": one.score + one.gain, "times": one.times + 1})
+
+
+def test_rivals_are_polished_before_they_are_compared(monkeypatch):
+    """The best at first, a copy of it, a rival that was hit by chance, and a third that is left behind."""
+    monkeypatch.setattr(contest, "rivals", lambda *_: [])
+    monkeypatch.setattr(contest, "settled_in", again)
+    found = [stub(9.9, 0.01), stub(10.0, 0.0, 0.05), stub(9.0, 1.0, 0.6), stub(8.0, 2.0), stub(7.0, 3.0, 9.0)]
+    last = contested(found, *[None] * 3, NONE)
+    assert [one.places[0, 0] for one in last] == [1.0, 0.0, 2.0, 3.0]
+    assert [one.times for one in last] == [POLISHED[1], POLISHED[0], POLISHED[0], 0]
+    assert last[0].score == pytest.approx(9.0 + 0.6 * POLISHED[1])
+    last = contested([stub(10.0, 0.0), stub(10.01 - HOPELESS, 1.0), stub(9.99 - HOPELESS, 2.0)], *[None] * 3, NONE)
+    assert [one.times for one in last] == [POLISHED[0], POLISHED[0], 0]
+
+
+def test_polishing_ends_where_nothing_is_gained(monkeypatch):
+    monkeypatch.setattr(contest, "settled_in", again)
+    for gain, times in ((0.99 * GAIN, POLISHED[0]), (1.01 * GAIN, POLISHED[1]), (-1.0, POLISHED[0])):
+        assert polished(stub(1.0, 0.0, gain), *[None] * 3, NONE).times == times
+
+
+def test_only_candidates_that_differ_are_rivals():
+    rng = np.random.default_rng(0)
+    here = rng.normal(size=(50, 3))
+    near, elsewhere = here + 0.01, here + 1.0
+    assert not differ(here, here + 0.99 * ELSEWHERE / np.sqrt(3))
+    assert differ(here, here + 1.01 * ELSEWHERE / np.sqrt(3))
+    assert margin([(7.0, here)]) == CLEAR
+    assert margin([(7.0, here), (6.9, near)]) == CLEAR
+    assert margin([(7.0, here), (6.9, near), (6.6, elsewhere), (2.0, elsewhere)]) == pytest.approx(0.4)
+    assert margin([(7.0, here), (2.0, elsewhere)]) == CLEAR

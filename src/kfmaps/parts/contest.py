@@ -21,6 +21,8 @@ POLISHED = (2, 5)
 """How often these are placed and bent anew, at least, and at most ..."""
 GAIN = 0.2
 """... while their scores rise by so much."""
+HOPELESS = 5.0
+"""Score by which a placing is too far behind to come near by that: the most that has been gained is 2.3."""
 CLEAR = 2.0
 """Margin from which more does not count."""
 
@@ -50,7 +52,8 @@ def contested(
     for one in sorted([*found, *more], key=lambda one: -one.score):
         if all(differ(one.places, other.places) for other in chosen):
             (chosen if len(chosen) <= RIVALS else rest).append(one)
-    last = [polished(one, part, whole, on, marked, fixed) for one in chosen]
+    least = chosen[0].score - HOPELESS
+    last = [polished(one, part, whole, on, marked, fixed) if one.score > least else one for one in chosen]
     return sorted([*last, *rest], key=lambda one: -one.score)
 
 

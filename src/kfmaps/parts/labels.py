@@ -76,12 +76,16 @@ def consistency(
 ) -> np.ndarray:
     """How well distances ``there`` on the whole fit those of the part, 0 to 1; the arrays are broadcast."""
     with np.errstate(invalid="ignore"):
-        shorter = far - there
-        explained = np.minimum(shorter, far - low)
-        off = np.where(shorter < 0, shorter, shorter - (1 - detour) * explained) / (slack[0] + slack[1] * far)
-        fits = np.maximum(1 - off * off, 0)
-    fits[~np.isfinite(fits)] = 0
-    return fits
+        off = far - there
+        # Only what is shorter than on the part can be explained; one array after the other, since this is most of it.
+        explained = np.clip(off, 0, far - low)
+        explained *= 1 - detour
+        off -= explained
+        off /= slack[0] + slack[1] * far
+        off *= off
+        fits = np.subtract(1, off, out=off)
+    # Infinite distances say nothing; what they give is no number, or less than none.
+    return np.fmax(fits, 0, out=fits)
 
 
 @dataclass(frozen=True, eq=False)
