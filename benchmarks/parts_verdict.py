@@ -30,12 +30,12 @@ from kfmaps.app.partial_truth import read_part_truth
 from kfmaps.config import Partial
 from kfmaps.functional.precise import PointMap, points_of
 from kfmaps.parts.bend import Ground, ground
-from kfmaps.parts.candidates import Candidate, firmness, laid, plain_score
+from kfmaps.parts.candidates import Candidate, laid, plain_score
 from kfmaps.parts.choose import AGAIN, BEAMS, distinct
 from kfmaps.parts.contest import contested, margin
 from kfmaps.parts.side import Side, side
 from kfmaps.parts.units import SCALES, TRIALS, grown, searched, tried
-from kfmaps.parts.verdict import SURE
+from kfmaps.parts.verdict import SURE, TIE
 from kfmaps.surface.mesh import Mesh, surface_area, unit_area
 
 PAIRS = (
@@ -137,22 +137,19 @@ def examples(pair: str, data: Path) -> list[dict[str, Any]]:
 
 
 def fitted(shown: np.ndarray, right: np.ndarray, weights: np.ndarray, ridge: float = 0.05) -> np.ndarray:
-    """Weights (3,) and the constant of a logistic regression, ``ridge`` on columns of unit deviation."""
-    middle, spread = shown.mean(axis=0), shown.std(axis=0) + 1e-9
-    columns = np.column_stack([(shown - middle) / spread, np.ones(len(shown))])
+    """Slope and middle of the logistic function of the score, by likelihood; what the margin does is not fitted."""
 
-    def loss(b: np.ndarray) -> tuple[float, np.ndarray]:
-        z = columns @ b
-        slope = columns.T @ (weights * (1 / (1 + np.exp(-z)) - right))
-        held = ridge * np.append(b[:-1], 0.0)
-        return float(weights @ (np.logaddexp(0, z) - right * z) + held[:-1] @ b[:-1] / 2), slope + held
+    def loss(b: np.ndarray) -> float:
+        p = np.clip(chances(b, shown), 1e-9, 1 - 1e-9)
+        return float(-weights @ (right * np.log(p) + (1 - right) * np.log(1 - p)) + ridge * b[0] ** 2)
 
-    b = minimize(loss, np.zeros(shown.shape[1] + 1), jac=True).x
-    return np.append(b[:-1] / spread, b[-1] - (b[:-1] * middle / spread).sum())
+    return minimize(loss, np.array([1.0, 16.0]), method="Nelder-Mead").x
 
 
 def chances(b: np.ndarray, shown: np.ndarray) -> np.ndarray:
-    return 1 / (1 + np.exp(-(shown @ b[:-1] + b[-1])))
+    """Of ``shown (e, 2)``, scores and margins; as :func:`kfmaps.parts.verdict.part_probability`."""
+    fits = 1 / (1 + np.exp(-np.clip(b[0] * (shown[:, 0] - b[1]), -700, 700)))
+    return fits * (1 - 0.5 * np.exp(-shown[:, 1] / TIE))
 
 
 def told(name: str, chance: np.ndarray, error: np.ndarray) -> None:
@@ -179,7 +176,7 @@ def main() -> None:
             arguments.json.write_text(json.dumps(rows, indent=1), encoding="utf-8")
     kinds = np.array([KINDS.get(row["case"].split()[0], "generated") for row in rows])
     cases, errors = (np.array([row[key] for row in rows]) for key in ("case", "err"))
-    shown = np.array([(row["score"], row["margin"], firmness(row["bending"])) for row in rows])
+    shown = np.array([(row["score"], row["margin"]) for row in rows])
     right = (errors < RIGHT).astype(float)
     weights = np.array([1 / (cases == case).sum() for case in cases])
     print(f"{'':34s}" + "".join(f"{word:>10s}" for word in ("examples", "right", "sure", "sure, >10")))
@@ -190,7 +187,7 @@ def main() -> None:
     b = fitted(shown, right, weights)
     chance = chances(b, shown)
     told("all, seen", chance, errors)
-    print("weights of score, margin and firmness, constant:", " ".join(f"{value:.2f}" for value in b))
+    print("slope and middle:", " ".join(f"{value:.2f}" for value in b))
     for low, high in ((0.0, 0.2), (0.2, 0.5), (0.5, 0.8), (0.8, 0.95), (0.95, 1.0)):
         some = (chance >= low) & (chance <= high)
         share = right[some].mean() if some.any() else 0.0

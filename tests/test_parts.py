@@ -4,8 +4,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from conftest import blob
 
+from conftest import blob
 from kfmaps import datasets
 from kfmaps.app.files import load_map
 from kfmaps.app.partial_truth import PartTruth, part_accuracy, true_overlap
@@ -14,10 +14,11 @@ from kfmaps.fit.shape import prepare
 from kfmaps.functional.evaluate import place_errors
 from kfmaps.functional.precise import PointMap
 from kfmaps.matching import match
+from kfmaps.parts.contest import CLEAR
 from kfmaps.parts.decide import OPEN, opening, suspicion
 from kfmaps.parts.labels import SLACK, consistency, gauge
 from kfmaps.parts.side import border_of, side
-from kfmaps.parts.verdict import POOR, SURE, part_probability, part_verdict
+from kfmaps.parts.verdict import MIDDLE, SURE, part_probability, part_verdict
 from kfmaps.surface.mesh import Mesh, surface_area
 from test_search import SMALL
 
@@ -165,23 +166,22 @@ def test_whole_shapes_are_matched_as_if_nobody_had_thought_of_parts():
     assert np.array_equal(auto.functional_map, plain.functional_map)
 
 
-def test_a_verdict_of_a_part_follows_its_probability():
-    assert [part_verdict(p) for p in (SURE, SURE - 1e-9, POOR, POOR - 1e-9)] == [
-        "sure",
-        "ambiguous",
-        "ambiguous",
-        "poor",
-    ]
+def test_score_and_margin_speak_for_a_place():
+    middle = part_probability(MIDDLE + 1, 0.5)
+    assert 0 < part_probability(MIDDLE - 1, 0.5) < middle < part_probability(MIDDLE + 2, 0.5) < 1
+    assert part_probability(MIDDLE + 1, 0.0) < middle < part_probability(MIDDLE + 1, CLEAR)
+    assert part_probability(-1e6, 0.0) == pytest.approx(0.0)
+    # Of two that are equal each is as likely, however good they are.
+    assert part_probability(1e6, 0.0) == part_probability(1e6, -1.0) == 0.5
+    assert part_probability(MIDDLE, 1e6) == pytest.approx(0.5)
 
 
-def test_score_margin_and_little_bending_speak_for_a_place():
-    middle = part_probability(6.5, 0.5, 0.03)
-    assert 0 < part_probability(4.0, 0.5, 0.03) < middle < part_probability(8.0, 0.5, 0.03) < 1
-    assert part_probability(6.5, 0.0, 0.03) < middle < part_probability(6.5, 1.0, 0.03)
-    assert part_probability(6.5, 0.5, 0.1) < middle < part_probability(6.5, 0.5, 0.0)
-    assert part_probability(-1e6, 0.0, 1e6) == pytest.approx(0.0)
-    # What the best of the generated shapes that it was fitted to showed, and a half of one taken for the other half.
-    assert part_probability(6.99, CLEAR, 0.022) > SURE > part_probability(6.46, 0.72, 0.029)
+def test_a_close_rival_makes_a_verdict_ambiguous_and_never_poor():
+    assert part_verdict(MIDDLE + 9, CLEAR) == "sure"
+    assert part_verdict(MIDDLE + 9, 0.0) == "ambiguous"
+    assert part_verdict(MIDDLE - 0.01, CLEAR) == part_verdict(MIDDLE - 0.01, 0.0) == "poor"
+    for score, margin in ((MIDDLE + 1.0, 0.3), (MIDDLE + 5.0, 0.6), (MIDDLE + 1.5, 1.0), (MIDDLE + 0.1, CLEAR)):
+        assert (part_verdict(score, margin) == "sure") == (part_probability(score, margin) >= SURE)
 
 
 def test_the_default_of_the_command_is_auto():

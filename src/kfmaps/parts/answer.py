@@ -122,7 +122,6 @@ def partly(
     trust = local_confidence(here, there, points, sized=True)
     masses = to_numpy(part.basis.mass), to_numpy(whole.basis.mass)
     common = float(masses[0] @ found.overlap.part), float(masses[1] @ found.overlap.whole)
-    confidence = part_probability(found.score, found.margin, found.evidence.bending)
     return Partly(
         which,
         points,
@@ -132,8 +131,8 @@ def partly(
         trust,
         None if forward else found.bent.vertices,
         found.scale,
-        part_verdict(confidence),
-        confidence,
+        part_verdict(found.score, found.margin),
+        part_probability(found.score, found.margin),
         (found.score, *found.others),
         np.flatnonzero(found.wrong > STRAY),
         min(common) > WHOLE,

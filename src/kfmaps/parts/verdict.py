@@ -1,30 +1,35 @@
 """How sure the place of a part is: the probability that it is right, from what a candidate shows without the truth.
 
-"Right" means a mean geodesic error below 0.08 √area of the whole, as for whole shapes. The numbers are a logistic fit
-to candidates of which the truth was known, right ones and wrong; docs/parts.md says of which shapes, and how well it
-does on kinds that it was not fitted to.
+"Right" means a mean geodesic error below 0.08 √area of the whole, as for whole shapes. A logistic function of the score
+says how likely that is of the best candidate; where one that puts the part elsewhere is nearly as good, it is the
+likelier that one, down to one half where both are equal. That other one has been looked for and was given every chance
+(:mod:`kfmaps.parts.contest`). The numbers are fitted to candidates of which the truth was known, right ones and wrong;
+docs/parts.md says of which shapes, and how well it does on kinds that it was not fitted to.
 """
 
 from __future__ import annotations
 
 import math
 
-WEIGHTS = (0.91, 2.37, 1.73)
-"""Of the score, of its margin and of minus the logarithm of the bending, in the logarithm of the odds."""
-CONSTANT = -13.36
-LITTLE = 0.005
-"""Bending that any part shows, by its mesh alone."""
+SLOPE, MIDDLE = 2.0, 16.0
+"""Of the logistic function of the score, and the score at which half of all placings are right."""
+TIE = 0.8
+"""Margin at which the doubt that a rival casts is down to a third."""
 SURE = 0.8
 POOR = 0.5
 
 
-def part_probability(score: float, margin: float, bending: float) -> float:
-    """That a part is placed right; see :class:`kfmaps.parts.choose.Parted` and its evidence."""
-    firm = -math.log(max(bending, 0.0) + LITTLE)
-    odds = CONSTANT + WEIGHTS[0] * score + WEIGHTS[1] * margin + WEIGHTS[2] * firm
-    return 1.0 / (1.0 + math.exp(-min(max(odds, -700.0), 700.0)))
+def part_probability(score: float, margin: float) -> float:
+    """That a part is placed right; see :class:`kfmaps.parts.choose.Parted`."""
+    return _fits(score) * (1.0 - 0.5 * math.exp(-max(margin, 0.0) / TIE))
 
 
-def part_verdict(probability: float) -> str:
-    """ "sure", "ambiguous" or "poor"."""
-    return "sure" if probability >= SURE else "ambiguous" if probability >= POOR else "poor"
+def part_verdict(score: float, margin: float) -> str:
+    """ "sure", "poor" where the part fits nowhere, rivals or not, or "ambiguous"."""
+    if part_probability(score, margin) >= SURE:
+        return "sure"
+    return "poor" if _fits(score) < POOR else "ambiguous"
+
+
+def _fits(score: float) -> float:
+    return 1.0 / (1.0 + math.exp(-min(max(SLOPE * (score - MIDDLE), -700.0), 700.0)))
