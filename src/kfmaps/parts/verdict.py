@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import math
 
-SLOPE, MIDDLE = 2.0, 16.0
+SLOPE, MIDDLE = 2.5, 16.4
 """Of the logistic function of the score, and the score at which half of all placings are right."""
 TIE = 0.8
 """Margin at which the doubt that a rival casts is down to a third."""
