@@ -482,8 +482,27 @@ MUTANTS = tuple(
         ("+ single[:, None] + unlike[t]", "+ single[:, None]", "test_parts_beams"),
         ("there[states[:, s]], SLACK)", "there[states[:, 0]], SLACK)", "test_parts_beams"),
         ("whole.distances, alike - paid, part.marks)", "whole.distances, alike, part.marks)", "test_parts_rivals"),
+        (
+            "return _fits(score) * (1.0 - rival / 2)",
+            "return _fits(score) * (1.0 - rival)",
+            "test_parts",
+            "parts/verdict",
+        ),
+        ('"poor" if _fits(score) < POOR', '"poor" if part_probability(score, margin) < POOR', "test_parts"),
+        (
+            "for other in chosen):\n            (chosen",
+            "for other in chosen[:0]):\n            (chosen",
+            "test_parts_contest",
+        ),
+        ("done + 1 >= POLISHED[0] and one.score", "one.score", "test_parts_contest"),
+        ("if one.score > least else one for one in chosen", "for one in chosen", "test_parts_contest"),
+        (
+            "scale = one.full.scale if fixed else one.bend.scale * one.bend.longer",
+            "scale = 0.9 * one.full.scale",
+            "test_parts_contest",
+        ),
         ("paid[: part.marks] = 0.0", "paid[: part.marks] = 2.0 * PAID", "test_parts_rivals"),
-        ("if float(np.median(off[each, one.placed.match])) > ELSEWHERE", "if one is not None", "test_parts_rivals"),
+        ("if float(np.median(off[each, one.match])) > ELSEWHERE", "if one is not None", "test_parts_rivals"),
         ("mixed if ways.source.all() else without(mixed, ~ways.source, lost)", "mixed", "test_carried_parts"),
         (
             "inverse(place, source, target, None if known.all() else known)",

@@ -35,7 +35,7 @@ from kfmaps.parts.choose import AGAIN, BEAMS, distinct
 from kfmaps.parts.contest import contested, margin
 from kfmaps.parts.side import Side, side
 from kfmaps.parts.units import SCALES, TRIALS, grown, searched, tried
-from kfmaps.parts.verdict import SURE, TIE
+from kfmaps.parts.verdict import CLOSE, SURE
 from kfmaps.surface.mesh import Mesh, surface_area, unit_area
 
 PAIRS = (
@@ -137,19 +137,19 @@ def examples(pair: str, data: Path) -> list[dict[str, Any]]:
 
 
 def fitted(shown: np.ndarray, right: np.ndarray, weights: np.ndarray, ridge: float = 0.05) -> np.ndarray:
-    """Slope and middle of the logistic function of the score, by likelihood; what the margin does is not fitted."""
+    """Middle and width of the logistic function of the score, by likelihood; what the margin does is not fitted."""
 
     def loss(b: np.ndarray) -> float:
         p = np.clip(chances(b, shown), 1e-9, 1 - 1e-9)
-        return float(-weights @ (right * np.log(p) + (1 - right) * np.log(1 - p)) + ridge * b[0] ** 2)
+        return float(-weights @ (right * np.log(p) + (1 - right) * np.log(1 - p)) + ridge / b[1] ** 2)
 
-    return minimize(loss, np.array([1.0, 16.0]), method="Nelder-Mead").x
+    return minimize(loss, np.array([16.0, 1.0]), method="Nelder-Mead").x
 
 
 def chances(b: np.ndarray, shown: np.ndarray) -> np.ndarray:
     """Of ``shown (e, 2)``, scores and margins; as :func:`kfmaps.parts.verdict.part_probability`."""
-    fits = 1 / (1 + np.exp(-np.clip(b[0] * (shown[:, 0] - b[1]), -700, 700)))
-    return fits * (1 - 0.5 * np.exp(-shown[:, 1] / TIE))
+    fits = 1 / (1 + np.exp(-np.clip((shown[:, 0] - b[0]) / b[1], -700, 700)))
+    return fits * (1 - 0.5 * np.exp(-shown[:, 1] / CLOSE))
 
 
 def told(name: str, chance: np.ndarray, error: np.ndarray) -> None:
@@ -187,7 +187,7 @@ def main() -> None:
     b = fitted(shown, right, weights)
     chance = chances(b, shown)
     told("all, seen", chance, errors)
-    print("slope and middle:", " ".join(f"{value:.2f}" for value in b))
+    print("middle and width:", " ".join(f"{value:.2f}" for value in b))
     for low, high in ((0.0, 0.2), (0.2, 0.5), (0.5, 0.8), (0.8, 0.95), (0.95, 1.0)):
         some = (chance >= low) & (chance <= high)
         share = right[some].mean() if some.any() else 0.0

@@ -11,9 +11,9 @@ from __future__ import annotations
 
 import math
 
-SLOPE, MIDDLE = 2.5, 16.4
-"""Of the logistic function of the score, and the score at which half of all placings are right."""
-TIE = 0.8
+MIDDLE, WIDTH = 16.4, 0.4
+"""Score at which half of all placings are right, and how fast their share grows there."""
+CLOSE = 0.8
 """Margin at which the doubt that a rival casts is down to a third."""
 SURE = 0.8
 POOR = 0.5
@@ -21,7 +21,8 @@ POOR = 0.5
 
 def part_probability(score: float, margin: float) -> float:
     """That a part is placed right; see :class:`kfmaps.parts.choose.Parted`."""
-    return _fits(score) * (1.0 - 0.5 * math.exp(-max(margin, 0.0) / TIE))
+    rival = math.exp(-max(margin, 0.0) / CLOSE)
+    return _fits(score) * (1.0 - rival / 2)
 
 
 def part_verdict(score: float, margin: float) -> str:
@@ -32,4 +33,4 @@ def part_verdict(score: float, margin: float) -> str:
 
 
 def _fits(score: float) -> float:
-    return 1.0 / (1.0 + math.exp(-min(max(SLOPE * (score - MIDDLE), -700.0), 700.0)))
+    return 1.0 / (1.0 + math.exp(-min(max((score - MIDDLE) / WIDTH, -700.0), 700.0)))
