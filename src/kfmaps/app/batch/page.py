@@ -142,7 +142,8 @@ def _doubts(lines: Sequence[str]) -> str:
     if not lines:
         return ""
     items = "".join(f"<li>{escape(line)}</li>" for line in lines)
-    return f"<h2>Maps that others contradict, and no better one is known</h2><ul>{items}</ul>"
+    title = "Maps that others contradict, and no better one is known"
+    return f'<h2>{title}</h2><div class="scroll"><ul>{items}</ul></div>'
 
 
 def _gallery(pictures: Mapping[str, bytes], numbers: Summary) -> str:

@@ -18,7 +18,8 @@ dt { color: var(--soft); font-size: .85rem; } dd { margin: 0; font-size: 1.35rem
 .gallery { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(30rem, 100%), 1fr)); gap: 1rem 2rem; }
 figure { margin: 0 0 1rem; } figcaption { color: var(--soft); font-size: .9rem; overflow-wrap: anywhere; }
 img { max-width: 100%; height: auto; background: #fff; border-radius: 6px; }
-.scroll { overflow-x: auto; } table { border-collapse: collapse; font-size: .85rem; width: 100%; }
+.scroll { overflow: auto; max-height: min(80vh, 44rem); } @media print { .scroll { max-height: none; } }
+table { border-collapse: collapse; font-size: .85rem; width: 100%; }
 th, td { padding: .3rem .8rem .3rem 0; text-align: left; border-bottom: 1px solid var(--line); vertical-align: top; }
 th { position: sticky; top: 0; background: var(--paper); white-space: nowrap; }
 td.w { min-width: 14rem; } .n { text-align: right; font-variant-numeric: tabular-nums; }
