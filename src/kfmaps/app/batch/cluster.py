@@ -89,6 +89,8 @@ def local_workers(count: int | None = None) -> Iterator[Workers]:
                     "distributed.scheduler.allowed-failures": DEATHS - 1,
                     # A factorisation may keep a worker from answering for long; it is not dead.
                     "distributed.scheduler.worker-ttl": None,
+                    # Dask's profiler keeps a thousand seconds of what a worker has been at: some 0.15 GB each.
+                    "distributed.worker.profile.enabled": False,
                     "distributed.nanny.pre-spawn-environ": ONE_THREAD,
                 }
             )

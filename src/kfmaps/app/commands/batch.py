@@ -110,7 +110,7 @@ def batch(
         with atomic_output(plan.folder / TOML) as temporary:
             temporary.write_text(settings_text(config), encoding="utf-8")
     if not quiet:
-        console.print(Text(_before(plan, workers)), soft_wrap=True)
+        console.print(Text(_before(plan, workers, consistent)), soft_wrap=True)
     with terminal_callback(console, quiet) as callback, stage_lines(console, quiet) as told:
         outcome = match_collection(
             plan,
@@ -143,7 +143,7 @@ def _lines(text: str | None) -> tuple[int, ...]:
         raise refuse("--truth-landmarks", wanted, repr(text), "count lines from 1") from error
 
 
-def _before(plan: Plan, workers: int | None) -> str:
+def _before(plan: Plan, workers: int | None, consistent: bool) -> str:
     """What there is to do, and for many pairs what that needs."""
     shapes = len({name for task in plan.tasks for name in (task.pair.source, task.pair.target)})
     told = [f"{len(plan.tasks)} pairs of {shapes} shapes"]
@@ -154,7 +154,7 @@ def _before(plan: Plan, workers: int | None) -> str:
         if vertices:
             left = {name for task in plan.todo for name in (task.pair.source, task.pair.target)}
             count = available_cores() if workers is None else workers
-            need = needed(len(left), len(plan.todo), vertices, plan.settings.config, count)
+            need = needed(len(left), len(plan.todo), vertices, plan.settings.config, count, consistent=consistent)
             return f"{', '.join(told)}; {need.told()}"
     return ", ".join(told)
 
