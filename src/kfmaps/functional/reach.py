@@ -68,7 +68,7 @@ class Near:
         starts = np.concatenate([graph.indptr, graph.indptr[-1] + np.cumsum(np.bincount(source, minlength=q))])
         data = np.concatenate([graph.data, np.maximum(lengths, np.finfo(float).tiny)])
         joined = csr_array((data, np.concatenate([graph.indices, corner]), starts), shape=(m + q, m + q))
-        found = dijkstra(joined, indices=m + np.arange(q), limit=limit + SLACK)[:, :m]
+        found = np.asarray(dijkstra(joined, indices=m + np.arange(q), limit=limit + SLACK))[:, :m]
         found[np.isinf(found)] = 10 * limit  # infinite ones would make NaN of what they have no weight in
         return np.asarray(self.weights @ np.ascontiguousarray(found.T)).T
 
