@@ -40,11 +40,11 @@ from kfmaps.surface.mesh import Mesh, surface_area, unit_area
 
 PAIRS = (
     "cuts cat cuts_cat_03", "cuts horse cuts_horse_08", "holes cat holes_cat_02", "PFAUST_M tr_reg_000 part_006",
-    "PFAUST_H tr_reg_000 part_008", "PFAUST_H tr_reg_010 part_016", "cuts cat cuts_cat_06", "cuts horse cuts_horse_04",
-    "partial 0 6000", "two_poses 0 3000", "symmetric_creature 0 3000", "partial 1 3000", "two_poses 1 3000",
-    "two_poses 2 3000", "two_poses 3 3000",
+    "PFAUST_H tr_reg_000 part_008", "PFAUST_H tr_reg_010 part_016", "partial 1 3000", "two_poses 0 3000",
+    "symmetric_creature 0 3000", "two_poses 2 3000",
 )  # fmt: skip
-"""Of the benchmarks "set whole part"; generated ones "name seed vertices", cut by a random plane but for "partial"."""
+"""Of the benchmarks "set whole part"; generated ones "name seed vertices", cut by a random plane but for "partial": the
+planes of the creatures with seed 0 cut lengthwise."""
 KINDS = {"cuts": "animals", "holes": "animals", "PFAUST_M": "people", "PFAUST_H": "people"}
 RIGHT, WRONG = 8.0, 10.0
 NONE = np.zeros((0, 2), dtype=np.int64)

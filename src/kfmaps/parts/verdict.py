@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import math
 
-MIDDLE, WIDTH = 16.4, 0.4
+MIDDLE, WIDTH = 16.2, 0.43
 """Score at which half of all placings are right, and how fast their share grows there."""
 CLOSE = 0.8
 """Margin at which the doubt that a rival casts is down to a third."""
