@@ -263,6 +263,11 @@ def map_quality(C: Array, source: Probe, target: Probe, points: np.ndarray | Non
     )
 
 
+def map_distortion(C: Array, source: Probe, target: Probe, points: np.ndarray | None = None) -> float:
+    """:attr:`Quality.distortion` alone; the parameters are those of :func:`map_quality`."""
+    return _distortion(_images(to_numpy(C), source, target, points), source, target)[0]
+
+
 @dataclass(frozen=True, eq=False)
 class _Images:
     """The nearest sample on the other shape, of all samples and, among the first, of the first."""

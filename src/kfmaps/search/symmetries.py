@@ -13,7 +13,7 @@ from itertools import product
 
 import numpy as np
 
-from kfmaps.search.quality import Probe, map_quality
+from kfmaps.search.quality import Probe, map_distortion
 from kfmaps.search.zoom import zoomed
 
 SIGNS = 5
@@ -41,7 +41,7 @@ def symmetries(of: Probe, functions: int, threads: int | None = None) -> list[np
     maps = np.stack([np.diag([1.0, *signs]) for signs in product((1.0, -1.0), repeat=count)])
     basis = of.samples.basis
     found, points = zoomed(maps, basis, basis, (*range(count + 1, stop, STEP), stop), None, threads)
-    judged = [map_quality(C, of, of, at).distortion for C, at in zip(found, points, strict=True)]
+    judged = [map_distortion(C, of, of, at) for C, at in zip(found, points, strict=True)]
     kept: list[int] = []
     for i in np.argsort(judged, kind="stable"):
         if judged[i] > KEPT or len(kept) == MOST:
