@@ -481,7 +481,7 @@ MUTANTS = tuple(
         ),
         ("+ single[:, None] + unlike[t]", "+ single[:, None]", "test_parts_beams"),
         ("there[states[:, s]], SLACK)", "there[states[:, 0]], SLACK)", "test_parts_beams"),
-        ("whole.distances, alike - paid, part.marks)", "whole.distances, alike, part.marks)", "test_parts_rivals"),
+        ("left = alike - paid", "left = alike", "test_parts_rivals"),
         (
             "return _fits(score) * (1.0 - rival / 2)",
             "return _fits(score) * (1.0 - rival)",

@@ -15,8 +15,10 @@ from kfmaps.parts.rivals import ELSEWHERE, rivals
 from kfmaps.parts.side import Side
 from kfmaps.parts.units import grown
 
+LOOKED = 3
+"""Placings elsewhere than the best that are looked for and bent, ..."""
 RIVALS = 2
-"""Placings elsewhere than the best that are bent, and those that are compared with it."""
+"""... and those of all candidates that are compared with it."""
 POLISHED = (2, 5)
 """How often these are placed and bent anew, at least, and at most ..."""
 GAIN = 0.2
@@ -45,7 +47,7 @@ def contested(
     """
     best = max(found, key=lambda one: one.score)
     elsewhere = rivals(part, whole, best.bend.scale, best.places, marked, fixed, threads)
-    likely = sorted(elsewhere, key=lambda one: -plain_score(one))[:RIVALS]
+    likely = sorted(elsewhere, key=lambda one: -plain_score(one))[:LOOKED]
     more = [laid(one, grown(part, whole, one, marked, fixed), part, whole, on) for one in likely]
     chosen: list[Candidate] = []
     rest: list[Candidate] = []

@@ -2,8 +2,8 @@
 
 How far a placing is ahead of others says nothing if none of these was a serious one. A half of a body that was cut
 lengthwise fits the other half nearly as well, turned front to back, and whichever of the two the search came upon first
-draws the others to it. So once a placing is found, the beam search is asked again, at its scale and a little beside it,
-for the best that leave it: every sample pays for a place near the one that it has.
+draws the others to it. So once a placing is found, relaxation and the beam search are asked again, at its scale and a
+little beside it, for the best that leave it: every sample pays for a place near the one that it has.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ import numpy as np
 
 from kfmaps._threads import parallel
 from kfmaps.parts.beams import beamed
-from kfmaps.parts.labels import gauge, settled
+from kfmaps.parts.labels import gauge, relaxed, settled
 from kfmaps.parts.side import Side
 from kfmaps.parts.units import TRIALS, Rough, likeness
 
@@ -33,7 +33,7 @@ def rivals(
     fixed: bool = False,
     threads: int | None = None,
 ) -> list[Rough]:
-    """Samples placed elsewhere than at ``places (q, 3)`` on the whole, all that the beam searches find.
+    """Samples placed elsewhere than at ``places (q, 3)`` on the whole, all that relaxation and beam searches find.
 
     ``scale``: √area of the part over that of the whole, the placing's own. ``pairs (l, 2)``: samples that are
     landmarks; these stay. ``fixed``: the scale is known.
@@ -46,7 +46,9 @@ def rivals(
     def at(scale: float) -> list[Rough]:
         alike = likeness(part, whole, scale, TRIALS[0].radii, pairs, 1)
         measure = gauge(part.distances, part.edge, scale)
-        begun = beamed(measure, part.edge * np.float32(scale), whole.distances, alike - paid, part.marks)
+        left = alike - paid
+        begun = beamed(measure, part.edge * np.float32(scale), whole.distances, left, part.marks)
+        begun.append(relaxed(measure, whole.distances, left, TRIALS[0], part.marks))
         placed = [settled(measure, whole.distances, alike, one, part.marks) for one in begun]
         elsewhere = [one for one in placed if float(np.median(off[each, one.match])) > ELSEWHERE]
         return [Rough(scale, TRIALS[0], one, alike) for one in elsewhere]
