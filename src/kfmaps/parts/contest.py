@@ -25,7 +25,7 @@ GAIN = 0.2
 """... while their scores rise by so much."""
 HOPELESS = 5.0
 """Score by which a placing is too far behind to come near by that: the most that has been gained is 2.3."""
-CLEAR = 2.0
+CLEAR = 3.0
 """Margin from which more does not count."""
 
 

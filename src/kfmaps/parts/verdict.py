@@ -14,8 +14,8 @@ import math
 MIDDLE, WIDTH = 16.2, 0.43
 """Score at which half of all placings are right, and how fast their share grows there."""
 CLOSE = 1.3
-"""Margin at which the doubt that a rival casts is down to a third. Of halves cut lengthwise wrong ones have been ahead by
-0.9 of the right one, which had come near its place and not into it."""
+"""Margin at which the doubt that a rival casts is down to a third. Placings of halves cut lengthwise have been ahead of
+the right one by 0.9, where that had come near its place and not into it."""
 SURE = 0.8
 POOR = 0.5
 
