@@ -16,6 +16,7 @@ from kfmaps.app.batch.tasks import PairTask
 from kfmaps.app.batch.work import loaded, map_path
 from kfmaps.app.files import MapFile, atomic_output, check_map, load_map
 from kfmaps.fit.border import Border, border
+from kfmaps.fit.shape import Shape
 from kfmaps.functional.points import to_points
 from kfmaps.many.judge import Judged, better, judged
 from kfmaps.many.paths import composed, turned_back
@@ -121,10 +122,10 @@ def _evidence(task: PairTask, found: MapFile) -> list[Judged]:
     maps = candidates(found)
     raw = found.extra.get("raw_functional_map")
     if raw is None:
-        return _judged(task, maps)
+        return _judged(task, shapes, maps)
     source, target = (shape.basis for shape in shapes)
     rough = to_points(np.asarray(raw)[: len(target.eigenvalues), : len(source.eigenvalues)], source, target, 1)
-    first, before, *others = _judged(task, [maps[0], (rough, maps[0][1]), *maps[1:]])
+    first, before, *others = _judged(task, shapes, [maps[0], (rough, maps[0][1]), *maps[1:]])
     return [better(first, before), *others]
 
 
@@ -139,7 +140,8 @@ def composition(way: WayTask) -> tuple[np.ndarray | None, Judged | None, str]:
                 return arrays["points"], kept[0], ""
         with one_blas_thread():
             points = composed([_step(step) for step in way.steps])
-            kept = _judged(way.task, [(points, way.reversed)])
+            shapes = loaded(way.task.source), loaded(way.task.target)
+            kept = _judged(way.task, shapes, [(points, way.reversed)])
         _write(path, inputs, kept, points=points)
         return points, kept[0], ""
     except Exception as error:
@@ -153,8 +155,7 @@ def _step(step: StepTask) -> np.ndarray:
     return points if step.forth else turned_back(points, loaded(step.task.source).basis, len(points))
 
 
-def _judged(task: PairTask, maps: list[tuple[np.ndarray, bool]]) -> list[Judged]:
-    shapes = loaded(task.source), loaded(task.target)
+def _judged(task: PairTask, shapes: tuple[Shape, Shape], maps: list[tuple[np.ndarray, bool]]) -> list[Judged]:
     entries = Path(task.source.entry), Path(task.target.entry)
     probes = kept_probe(shapes[0], entries[0], task.seed), kept_probe(shapes[1], entries[1], task.seed)
     across = border(*shapes)
