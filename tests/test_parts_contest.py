@@ -1,6 +1,7 @@
 """The best placing of a part against the best that leaves it: a half that was cut lengthwise has two."""
 
 from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -20,6 +21,7 @@ from kfmaps.parts.units import TRIALS, Rough, likeness
 from kfmaps.surface.mesh import surface_area, unit_area
 
 NONE = np.zeros((0, 2), dtype=np.int64)
+EMPTY: Any = None
 
 
 @pytest.fixture(scope="module")
@@ -38,7 +40,7 @@ def half():
 def placed_at(half, places):
     """The candidate whose samples begin at ``places (q, 3)``."""
     part, whole, on, _, scale = half
-    match = KDTree(whole.mesh.vertices[whole.samples]).query(places)[1]
+    match = np.asarray(KDTree(whole.mesh.vertices[whole.samples]).query(places)[1])
     alike = likeness(part, whole, scale, TRIALS[0].radii, NONE, 1)
     rough = Rough(scale, TRIALS[0], Placed(match, np.ones(len(match)), 1.0), alike)
     return laid(rough, rough, part, whole, on)
@@ -71,7 +73,7 @@ def test_who_begins_on_the_wrong_half_comes_to_the_right_one(half, true):
     assert error(half, found[1]) > 0.15
 
 
-def stub(score, x, gain=0.0):
+def stub(score, x, gain=0.0) -> Any:
     """A candidate at the place ``x``, which gains so much whenever it is placed anew."""
     places = np.full((5, 3), float(x))
     bend = SimpleNamespace(scale=1.0, longer=1.0, inside=np.ones(3, dtype=bool))
@@ -86,19 +88,22 @@ def test_rivals_are_polished_before_they_are_compared(monkeypatch):
     """The best at first, a copy of it, a rival that was hit by chance, and a third that is left behind."""
     monkeypatch.setattr(contest, "rivals", lambda *_: [])
     monkeypatch.setattr(contest, "settled_in", again)
-    found = [stub(9.9, 0.01), stub(10.0, 0.0, 0.05), stub(9.0, 1.0, 0.6), stub(8.0, 2.0), stub(7.0, 3.0, 9.0)]
-    last = contested(found, *[None] * 3, NONE)
+    found: Any = [stub(9.9, 0.01), stub(10.0, 0.0, 0.05), stub(9.0, 1.0, 0.6), stub(8.0, 2.0), stub(7.0, 3.0, 9.0)]
+    last: Any = contested(found, EMPTY, EMPTY, EMPTY, NONE)
     assert [one.places[0, 0] for one in last] == [1.0, 0.0, 2.0, 3.0]
     assert [one.times for one in last] == [POLISHED[1], POLISHED[0], POLISHED[0], 0]
     assert last[0].score == pytest.approx(9.0 + 0.6 * POLISHED[1])
-    last = contested([stub(10.0, 0.0), stub(10.01 - HOPELESS, 1.0), stub(9.99 - HOPELESS, 2.0)], *[None] * 3, NONE)
+    last = contested(
+        [stub(10.0, 0.0), stub(10.01 - HOPELESS, 1.0), stub(9.99 - HOPELESS, 2.0)], EMPTY, EMPTY, EMPTY, NONE
+    )
     assert [one.times for one in last] == [POLISHED[0], POLISHED[0], 0]
 
 
 def test_polishing_ends_where_nothing_is_gained(monkeypatch):
     monkeypatch.setattr(contest, "settled_in", again)
     for gain, times in ((0.99 * GAIN, POLISHED[0]), (1.01 * GAIN, POLISHED[1]), (-1.0, POLISHED[0])):
-        assert polished(stub(1.0, 0.0, gain), *[None] * 3, NONE).times == times
+        last: Any = polished(stub(1.0, 0.0, gain), EMPTY, EMPTY, EMPTY, NONE)
+        assert last.times == times
 
 
 def test_only_candidates_that_differ_are_rivals():

@@ -5,7 +5,7 @@ import pytest
 
 from kfmaps.parts.beams import beamed
 from kfmaps.parts.labels import gauge
-from kfmaps.parts.rivals import ELSEWHERE, apart, rivals
+from kfmaps.parts.rivals import BESIDE, ELSEWHERE, apart, rivals
 from kfmaps.parts.side import Side
 from kfmaps.parts.units import TRIALS
 from kfmaps.surface.mesh import Mesh
@@ -28,7 +28,11 @@ def sheet(marks=0, told=0.05):
     sides = []
     for scale in (SCALE, 1.0):
         mesh = Mesh(points / scale, np.zeros((0, 3), dtype=np.int64))
-        known = {radius / scale: own * np.float32(told if scale == 1.0 else 1.0) for radius in TRIALS[0].radii}
+        known = {
+            radius / (scale * beside): own * np.float32(told if scale == 1.0 else 1.0)
+            for radius in TRIALS[0].radii
+            for beside in BESIDE
+        }
         sides.append(Side(mesh, each, between / np.float32(scale), endless, each < 0, marks, known))
     return points, *sides
 
@@ -38,24 +42,27 @@ def test_the_best_rival_is_the_other_way_that_distances_allow():
     measure = gauge(part.distances, part.edge, SCALE)
     first = beamed(measure, part.edge, whole.distances, 0.05 * np.eye(2 * HALF, dtype=np.float32))[0]
     assert (first.match == np.arange(2 * HALF))[first.trust > 0].all()
-    found = rivals(part, whole, SCALE, points, NONE, 1)
+    found = rivals(part, whole, SCALE, points, NONE, threads=1)
     assert np.median(np.linalg.norm(points[found[0].placed.match] - points[OTHER], axis=1)) < 0.02
     assert found[0].placed.support > 0.9
+    assert {one.scale for one in found} == {SCALE * beside for beside in BESIDE}
+    fixed = rivals(part, whole, SCALE, points, NONE, True, threads=1)
+    assert {one.scale for one in fixed} == {SCALE}
     # And from there the rival is where it was before.
-    back = rivals(part, whole, SCALE, points[OTHER], NONE, 1)
+    back = rivals(part, whole, SCALE, points[OTHER], NONE, threads=1)
     assert np.median(np.linalg.norm(points[back[0].placed.match] - points, axis=1)) < 0.02
 
 
 def test_rivals_lie_elsewhere_and_have_the_scale_of_the_placing():
     points, part, whole = sheet()
-    for one in rivals(part, whole, SCALE, points, NONE, 1):
-        assert one.scale == SCALE
+    for one in rivals(part, whole, SCALE, points, NONE, threads=1):
+        assert one.scale in [SCALE * beside for beside in BESIDE]
         assert np.median(np.linalg.norm(points[one.placed.match] - points, axis=1)) > ELSEWHERE
 
 
 def test_a_landmark_allows_no_rival_that_moves_it():
     points, part, whole = sheet(marks=2)
-    for one in rivals(part, whole, SCALE, points, np.array([[0, 0], [1, 1]]), 1):
+    for one in rivals(part, whole, SCALE, points, np.array([[0, 0], [1, 1]]), threads=1):
         assert one.placed.match[:2].tolist() == [0, 1]
         assert one.placed.support < 0.9
 

@@ -72,7 +72,7 @@ def settled_in(
     one: Candidate, part: Side, whole: Side, on: Ground, marked: np.ndarray, fixed: bool = False
 ) -> Candidate:
     """Placed and bent once more from where it came to lie, at the scale that its edges say."""
-    match = KDTree(whole.mesh.vertices[whole.samples]).query(one.places)[1]
+    match = np.asarray(KDTree(whole.mesh.vertices[whole.samples]).query(one.places)[1])
     match[marked[:, 0]] = marked[:, 1]
     placed = Placed(match, np.maximum(one.bend.inside[part.samples], 1e-3), one.full.placed.support)
     scale = one.full.scale if fixed else one.bend.scale * one.bend.longer
