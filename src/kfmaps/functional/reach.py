@@ -60,7 +60,7 @@ class Near:
 
     def distances(self, graph: csr_array, vertices: np.ndarray, limit: float) -> np.ndarray:
         """As :class:`Reach`: each source is a further vertex of the copy, joined to the triangles that it lies at."""
-        m, q = graph.shape[0], len(vertices)
+        m, q = len(self.copy.vertices), len(vertices)
         faces, source = self.around.around(self.copy.owner[vertices])
         ends = np.unique(np.repeat(source, 3) * m + self.copy.mesh.faces[faces].ravel())
         source, corner = np.divmod(ends, m)
