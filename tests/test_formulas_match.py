@@ -222,9 +222,9 @@ def test_confidence_follows_from_score_bending_and_margin(shape):
     margin = found.scores[0] - found.scores[1]
     excess = np.log(found.bending) + 3.6 + 0.233 * found.quality
     right = (1 - 0.5 * np.exp(-margin / 0.4)) / (1 + np.exp(-0.92 * (found.quality + 10.5)))
-    right /= 1 + np.exp(12.5 * (excess - 0.55))
+    right /= 1 + np.exp(12.5 * (excess - 0.65))
     assert found.confidence == pytest.approx(right)
-    assert (found.verdict == "sure") == (right >= 0.85)
+    assert (found.verdict == "sure") == (right >= 0.9)
 
 
 def test_a_rival_close_behind_leaves_one_half_and_fades_within_its_margin():
@@ -236,7 +236,7 @@ def test_a_rival_close_behind_leaves_one_half_and_fades_within_its_margin():
     assert probability(-10.5, np.inf) == pytest.approx(0.5)
     for bending in (0.02, 0.2):
         excess = np.log(bending) + 3.6 + 0.233 * -6.0
-        share = 1 / (1 + np.exp(12.5 * (excess - 0.55)))
+        share = 1 / (1 + np.exp(12.5 * (excess - 0.65)))
         assert probability(-6.0, 0.3, bending) == pytest.approx(share * probability(-6.0, 0.3))
 
 
