@@ -5,8 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.sparse import coo_array, csr_array, diags_array
-from scipy.sparse.csgraph import connected_components
+from scipy.sparse import csr_array, diags_array
 from scipy.spatial import KDTree
 
 from kfmaps.functional.pulls import Term, descended
@@ -14,6 +13,7 @@ from kfmaps.surface.closest import Places, Rings, closest_of, rings
 from kfmaps.surface.eigen.factor import Solve, factorise
 from kfmaps.surface.mesh import Mesh, vertex_areas, vertex_normals
 from kfmaps.surface.rigidity import Rigidity, nearest_rotations, rigidity, rotations
+from kfmaps.surface.topology import connected
 
 NORMALS = 0.02
 """Distance in space, at unit area, that counts as much as normals that differ by 1."""
@@ -131,8 +131,7 @@ def _take_along(mesh: Mesh, share: np.ndarray, gathered: np.ndarray) -> None:
     """
     n = len(mesh.vertices)
     ends = mesh.faces[:, :2].ravel(), mesh.faces[:, 1:].ravel()
-    links = coo_array((np.ones(len(ends[0])), ends), (n, n))
-    label = connected_components(links, directed=False)[1]
+    label = connected(n, *ends)[1]
     lost = np.flatnonzero((np.bincount(label, share) == 0)[label])
     held = np.flatnonzero(share > 0)
     if len(lost) == 0 or len(held) == 0:

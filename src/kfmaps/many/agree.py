@@ -15,12 +15,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
 
 from kfmaps._arrays import check_count, refuse
 from kfmaps.many.graph import bridges
 from kfmaps.many.starts import SAY, along_tree, orthogonal, spectral
+from kfmaps.surface.topology import connected
 
 FUNCTIONS = 20
 """Of the maps that are compared: enough to tell flips of limbs, and few enough to fit other bodies."""
@@ -175,8 +174,7 @@ def _rejoined(found: Agreement, links: list[Link], maps: list[np.ndarray], odds:
     believed = [(a.source, a.target) for a, p in zip(links, found.chances, strict=True) if p[-1] < 0.5]
     single = bridges(count, believed)
     own = np.array([pair for pair in believed if pair not in single], dtype=np.int64).reshape(-1, 2)
-    joined = coo_array((np.ones(len(own)), (own[:, 0], own[:, 1])), shape=(count, count))
-    parts, part = connected_components(joined, directed=False)
+    parts, part = connected(count, own[:, 0], own[:, 1])
     across = [i for i, link in enumerate(links) if part[link.source] != part[link.target]]
     if parts == 1 or not across:
         return None
@@ -268,5 +266,4 @@ def _settled(latent: np.ndarray, links: list[Link], mean: list[np.ndarray]) -> n
 
 def _components(count: int, links: list[Link]) -> np.ndarray:
     ends = np.array([(a.source, a.target) for a in links], dtype=np.int64).reshape(-1, 2)
-    graph = coo_array((np.ones(len(ends)), (ends[:, 0], ends[:, 1])), shape=(count, count))
-    return connected_components(graph, directed=False)[1].astype(np.int64)
+    return connected(count, ends[:, 0], ends[:, 1])[1].astype(np.int64)

@@ -14,6 +14,7 @@ from scipy.sparse.csgraph import connected_components, minimum_spanning_tree
 
 from kfmaps._arrays import check, check_count, refuse, to_numpy
 from kfmaps.descriptors.spectral import heat_signature
+from kfmaps.many.paths import roads
 from kfmaps.surface.basis import Basis
 
 VALUES = 30
@@ -124,11 +125,8 @@ def bridges(count: int, pairs: Iterable[tuple[int, int]]) -> set[tuple[int, int]
     Depth first with the lowest number that can be reached past the tree's edge (Tarjan 1974), without recursion. A pair
     that is there twice is on a cycle of two.
     """
-    neighbours: list[list[tuple[int, int]]] = [[] for _ in range(count)]
     every = list(pairs)
-    for link, (a, b) in enumerate(every):
-        neighbours[a].append((b, link))
-        neighbours[b].append((a, link))
+    neighbours = roads(count, every)
     number, low = [-1] * count, [0] * count
     found: set[tuple[int, int]] = set()
     seen = 0

@@ -73,7 +73,7 @@ class Topology:
         return self.nonmanifold_edges == 0 and self.nonmanifold_vertices == 0
 
 
-def _components(count: int, a: np.ndarray, b: np.ndarray) -> tuple[int, np.ndarray]:
+def connected(count: int, a: np.ndarray, b: np.ndarray) -> tuple[int, np.ndarray]:
     """Connected components of the graph with links a[i] - b[i] on ``count`` nodes: how many, and labels."""
     if count == 0:
         return 0, np.zeros(0, dtype=np.int64)
@@ -110,11 +110,11 @@ def topology(mesh: Mesh) -> Topology:
     against = tail[one] == tail[two]
 
     used = np.flatnonzero(np.bincount(tail, minlength=n))
-    _, label = _components(n, tail, head)
+    _, label = connected(n, tail, head)
     components = len(np.unique(label[used]))
 
     # Corners that meet across an edge belong to one fan around their vertex.
-    fans, fan = _components(
+    fans, fan = connected(
         3 * f,
         np.concatenate([one, following[one]]),
         np.concatenate([np.where(against, two, following[two]), np.where(against, following[two], two)]),
@@ -123,12 +123,12 @@ def topology(mesh: Mesh) -> Topology:
     centre[fan] = tail
     nonmanifold_vertices = int((np.bincount(centre, minlength=n) > 1).sum())
     # A boundary edge leads from one open fan to the next.
-    _, loop = _components(fans, fan[rim], fan[following[rim]])
+    _, loop = connected(fans, fan[rim], fan[following[rim]])
     loops = len(np.unique(loop[fan[rim]]))
 
     # Orientable: the double cover by (face, side) falls into twice as many pieces as the faces.
-    pieces, _ = _components(f, one // 3, two // 3)
-    sides, _ = _components(
+    pieces, _ = connected(f, one // 3, two // 3)
+    sides, _ = connected(
         2 * f,
         np.concatenate([one // 3, one // 3 + f]),
         np.concatenate([two // 3 + f * against, two // 3 + f * ~against]),
