@@ -164,6 +164,7 @@ def laplace_basis(
     rng: int | np.random.Generator = 0,
     threads: int | None = None,
     progress: Callable[[float], None] | None = None,
+    tolerance: float = 1e-10,
 ) -> Basis:
     """The first ``k`` eigenfunctions of the Laplacian of a mesh or point cloud.
 
@@ -192,6 +193,9 @@ def laplace_basis(
         Python threads on large meshes; ``None`` takes every available core.
     progress : callable, optional
         Told about how much is done, from 0 to 1.
+    tolerance : float
+        Of the eigensolver; from 1e-6 on it is a looser kind of one, see
+        :func:`~kfmaps.surface.eigen.pencil.smallest_eigenpairs`.
 
     Raises
     ------
@@ -199,7 +203,7 @@ def laplace_basis(
         When the mesh has too few vertices in use, the points of a cloud lie on no surface, or the Laplacian's name is
         unknown.
     NotConverged
-        When an eigenpair's residual is above 1e-10; see :func:`~kfmaps.surface.eigen.pencil.smallest_eigenpairs`.
+        When a residual is above the tolerance; see :func:`~kfmaps.surface.eigen.pencil.smallest_eigenpairs`.
     """
     check_is_mesh(mesh)
     if laplacian not in ("robust", "cotangent"):
@@ -209,7 +213,7 @@ def laplace_basis(
         wanted = f"fewer eigenfunctions than the {len(part.kept)} vertices in use"
         raise refuse("k", wanted, str(k), "ask for fewer, or refine the mesh")
     stiffness, area = _operators(part.mesh, laplacian)
-    pairs = smallest_eigenpairs(stiffness, area, k, rng=rng, threads=threads, progress=progress)
+    pairs = smallest_eigenpairs(stiffness, area, k, tolerance=tolerance, rng=rng, threads=threads, progress=progress)
     if part.whole:
         return Basis(pairs.values, pairs.vectors, area)
     mass = np.zeros(len(mesh.vertices))

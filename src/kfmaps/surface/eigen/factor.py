@@ -63,7 +63,8 @@ def factorise(matrix: Sparse, ordered: bool, each: Map = map) -> Solve:
     Parameters
     ----------
     matrix : (n, n) sparse
-        Symmetric. It is not pivoted: right when it is positive definite, else to be checked by its solutions.
+        Symmetric, float32 or float64, the precision of the factor. It is not pivoted: right when it is positive
+        definite, else to be checked by its solutions.
         Then an ordering of ``A + Aᵀ`` serves, with half the factor that SciPy's default, made for
         unsymmetric matrices, gives.
     ordered : bool
@@ -75,7 +76,7 @@ def factorise(matrix: Sparse, ordered: bool, each: Map = map) -> Solve:
     Returns
     -------
     callable
-        ``(n, b) -> (n, b)`` in column-major order.
+        ``(n, b) -> (n, b)`` float64 in column-major order.
 
     Raises
     ------
@@ -93,9 +94,9 @@ def factorise(matrix: Sparse, ordered: bool, each: Map = map) -> Solve:
         raise NotConverged(f"factorisation: {error}; the mesh has parts without area or stiffness") from error
 
     def solve(block: np.ndarray) -> np.ndarray:
-        right = np.asfortranarray(block)
+        right = np.asfortranarray(block, dtype=matrix.dtype)
         parts = [right[:, start : start + COLUMNS] for start in range(0, right.shape[1], COLUMNS)]
-        result = np.empty_like(right, order="F")
+        result = np.empty(right.shape, order="F")
         for i, part in enumerate(each(factor.solve, parts)):
             result[:, i * COLUMNS : (i + 1) * COLUMNS] = part
         return result

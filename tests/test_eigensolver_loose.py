@@ -1,0 +1,75 @@
+"""Laws of the eigensolver at a loose tolerance: in single precision, and nearly as exact."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+import robust_laplacian
+from scipy.linalg import eigh
+from scipy.sparse import block_diag, csr_array
+
+from conftest import blob, fibonacci_sphere
+from kfmaps.fit import shape as prepared
+from kfmaps.surface.basis import laplace_basis
+from kfmaps.surface.eigen import pencil
+from kfmaps.surface.eigen.pencil import smallest_eigenpairs
+from kfmaps.surface.mesh import Mesh, unit_area
+
+
+def operators(mesh: Mesh) -> tuple[csr_array, np.ndarray]:
+    stiffness, mass = robust_laplacian.mesh_laplacian(mesh.vertices, mesh.faces)
+    return csr_array(stiffness), mass.diagonal()
+
+
+def test_loose_pairs_are_nearly_the_exact_ones() -> None:
+    stiffness, mass = operators(unit_area(blob(1500)))
+    exact, loose = (smallest_eigenpairs(stiffness, mass, 60, tolerance=t, method="block") for t in (1e-10, 1e-2))
+    assert not np.array_equal(loose.values, exact.values)
+    np.testing.assert_allclose(loose.values, exact.values, rtol=1e-4, atol=1e-4)
+    np.testing.assert_allclose(loose.vectors.T @ (mass[:, None] * loose.vectors), np.eye(60), atol=1e-4)
+    cosines = np.linalg.svd(exact.vectors.T @ (mass[:, None] * loose.vectors), compute_uv=False)
+    assert cosines.min() > 0.999
+    assert np.all(np.diff(loose.values) >= 0)
+    assert loose.residuals.max() < 0.05
+
+
+def test_loose_search_misses_no_copies() -> None:
+    stiffness, mass = operators(unit_area(blob(80)))
+    one = eigh(stiffness.toarray(), np.diag(mass), eigvals_only=True)
+    copies = csr_array(block_diag([stiffness] * 20))
+    pairs = smallest_eigenpairs(copies, np.tile(mass, 20), 50, tolerance=1e-2, method="block")
+    np.testing.assert_allclose(pairs.values, np.repeat(one, 20)[:50], rtol=1e-3, atol=1e-3)
+
+
+def test_loose_multiplets_of_a_sphere() -> None:
+    pairs = smallest_eigenpairs(*operators(unit_area(fibonacci_sphere(3000))), 64, tolerance=1e-2, method="block")
+    degree = np.repeat(np.arange(8), 2 * np.arange(8) + 1)
+    np.testing.assert_allclose(pairs.values, degree * (degree + 1) * 4 * np.pi, rtol=0.02, atol=1e-3)
+
+
+def test_what_single_precision_is_too_little_for_is_found_exactly(monkeypatch: pytest.MonkeyPatch) -> None:
+    # Some edges very stiff, as those of needle triangles: what else their ends hang on drowns in rounding.
+    stiffness, mass = operators(unit_area(blob(1500)))
+    ends = np.random.default_rng(0).permutation(1500).reshape(-1, 2)
+    edges = csr_array((np.tile([1.0, -1.0], 750), ends.ravel(), 2 * np.arange(751)), shape=(750, 1500))
+    rough = stiffness + 1e6 * edges.T @ edges
+    loose = smallest_eigenpairs(csr_array(rough), mass, 40, tolerance=1e-2, method="block")
+    exact = smallest_eigenpairs(csr_array(rough), mass, 40, method="block")
+    assert np.array_equal(loose.values, exact.values)
+    monkeypatch.setattr(pencil, "SERVES", np.inf)  # the second look, at the eigenvalues, finds it out as well
+    again = smallest_eigenpairs(csr_array(rough), mass, 40, tolerance=1e-2, method="block")
+    assert np.array_equal(again.values, exact.values)
+
+
+def test_only_large_shapes_are_prepared_loosely(monkeypatch: pytest.MonkeyPatch) -> None:
+    asked: list[float] = []
+
+    def spy(*args: object, **more: object) -> object:
+        asked.append(float(more.get("tolerance", 1e-10)))  # pyright: ignore[reportArgumentType]
+        return laplace_basis(*args, **more)  # pyright: ignore[reportArgumentType]
+
+    monkeypatch.setattr(prepared, "laplace_basis", spy)
+    for limit in (1000, 999):
+        monkeypatch.setattr(prepared, "EXACT", limit)
+        prepared.prepare(blob(1000))
+    assert asked == [1e-10, 1e-2]
