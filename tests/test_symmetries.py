@@ -8,8 +8,9 @@ from kfmaps.fit.shape import prepare
 from kfmaps.functional.points import to_functional
 from kfmaps.search.arena import arena
 from kfmaps.search.candidates import apart, from_symmetries, judged, rough
-from kfmaps.search.quality import map_quality, probe
-from kfmaps.search.symmetries import KEPT, MOVED, symmetries
+from kfmaps.search.choose import probed
+from kfmaps.search.quality import map_quality, mirrored_probe, probe, thinned
+from kfmaps.search.symmetries import KEPT, MOVED, symmetries, turns_of
 from test_search import SMALL
 
 
@@ -22,6 +23,10 @@ def pair():
 @pytest.fixture(scope="module")
 def on(pair):
     return arena(pair[0], pair[1], (probe(pair[0]), probe(pair[1]))).few
+
+
+def kept_seed():
+    return int(np.random.default_rng(0).integers(2**31))
 
 
 def moved(C, of):
@@ -40,6 +45,17 @@ def test_a_body_is_nearly_its_own_mirror_image(on):
     assert moved(found[0], on.source) > 0.15 > MOVED
     # Done twice it is the identity.
     assert moved((found[0] @ found[0])[:15, :15], on.source) < 0.08
+
+
+def test_a_kept_probe_knows_them(pair):
+    kept = probed(pair[0])
+    few = thinned(probe(pair[0], rng=kept_seed()), 400)
+    for C, again in zip(turns_of(thinned(kept, 400), 100), symmetries(few, 100), strict=True):
+        np.testing.assert_array_equal(C, again)
+    assert kept.turns is not None
+    np.testing.assert_array_equal(mirrored_probe(kept).turns, kept.turns)
+    # Those of fewer functions are others.
+    assert [len(C) for C in turns_of(thinned(kept, 400), 30)] == [30] * len(symmetries(few, 30))
 
 
 def test_one_function_has_none(on):

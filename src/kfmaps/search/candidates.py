@@ -26,7 +26,7 @@ from kfmaps.search.fits import fitted_family, planned, sampled
 from kfmaps.search.marks import FAR, missed
 from kfmaps.search.pairings import Pairing, against, induced, pairings
 from kfmaps.search.quality import Probe, Quality, map_quality
-from kfmaps.search.symmetries import symmetries
+from kfmaps.search.symmetries import turns_of
 from kfmaps.search.zoom import projector, zoomed
 
 Weights = tuple[float, ...]
@@ -51,8 +51,10 @@ KICKS = 6
 """Maps that start from a random symmetry of the low functions."""
 TURNED, TURNED_APART = 3, 0.08
 """Of the best rough maps, those that are composed with symmetries of the shapes, and how far apart they are."""
-FINALISTS = 10
-"""Distinct rough maps that are refined further."""
+FINALISTS, FEWER = 10, 6
+"""Distinct rough maps that are refined further, and where one is :func:`clear`."""
+EASY = -7.0
+"""Score of a rough map from which it is."""
 ZERO = 0.03
 """Frequency, the root of an eigenvalue at unit area, below which there is no wave: a sphere's first is 5."""
 APART = 0.04
@@ -159,24 +161,36 @@ def candidates(
     told = report or (lambda _done: None)
     functions = min(len(source.basis.eigenvalues), len(target.basis.eigenvalues))
     marks = np.zeros((0, 2), dtype=np.int64) if landmarks is None else landmarks
-    starts = from_signs(min(config.search.signs, functions - 1), on.few)
-    starts += from_fits(source, target, config, on, marks, descriptors, seed, drawn)
-    starts += from_tips(functions, on.few)
-    told(0.35)
-    found = rough(starts, on.few, functions, config.threads)
+    found = rough(from_signs(min(config.search.signs, functions - 1), on.few), on.few, functions, config.threads)
+    told(0.3)
+    # What the user says of landmarks and points is heard in the fits.
+    easy = len(marks) == 0 and descriptors is None and clear(found)
+    if not easy:
+        starts = from_fits(source, target, config, on, marks, descriptors, seed, drawn) + from_tips(functions, on.few)
+        told(0.5)
+        found += rough(starts, on.few, functions, config.threads)
     told(0.7)
     again = from_symmetries(found, on.few, functions, config.threads)
-    best = max(found, key=lambda c: c.score)
-    values = source.basis.eigenvalues
-    kicks = [kicked(best.functional_map, values, np.random.default_rng(seed + i)) for i in range(KICKS)]
-    again += [Start(f"kicked {i}", C, STARTS[0], WEIGHTS[0], False) for i, C in enumerate(kicks)]
+    if not easy:
+        best = max(found, key=lambda c: c.score)
+        values = source.basis.eigenvalues
+        kicks = [kicked(best.functional_map, values, np.random.default_rng(seed + i)) for i in range(KICKS)]
+        again += [Start(f"kicked {i}", C, STARTS[0], WEIGHTS[0], False) for i, C in enumerate(kicks)]
     found += rough(again, on.few, functions, config.threads)
     told(0.75)
     order = sorted(found, key=lambda c: c.score, reverse=True)
-    chosen = apart(order, on.few.source, APART, FINALISTS)
+    chosen = apart(order, on.few.source, APART, FEWER if easy else FINALISTS)
     refined = fine(chosen, on.few, on.whole, functions, config.threads)
     told(1.0)
     return refined
+
+
+def clear(found: list[Candidate]) -> bool:
+    """Whether diagonal maps alone have led to one so good that fits, tips and kicks have nothing to add.
+
+    Of two people they have; only what such a map is mistaken for is looked for then.
+    """
+    return max((c.score for c in found if c.guided), default=-math.inf) >= EASY
 
 
 def from_signs(count: int, on: Ground) -> list[Start]:
@@ -251,7 +265,7 @@ def from_symmetries(found: list[Candidate], on: Ground, functions: int, threads:
     """
     order = sorted(found, key=lambda c: c.score, reverse=True)
     best = apart(order, on.source, TURNED_APART, TURNED)
-    own, theirs = (symmetries(side, functions, threads) for side in (on.source, on.target))
+    own, theirs = (turns_of(side, functions, threads) for side in (on.source, on.target))
     turned = []
     for i, candidate in enumerate(best):
         C = candidate.functional_map

@@ -24,17 +24,21 @@ from kfmaps.fit.shape import Shape, inner
 from kfmaps.functional.cells import HASTY
 from kfmaps.functional.guide import guide
 from kfmaps.functional.points import to_points
-from kfmaps.functional.refine import PAIRS, Refinement, ZoomOut
+from kfmaps.functional.refine import CANDIDATES, PAIRS, Refinement, ZoomOut
 from kfmaps.search.alternate import alternated, grounds
+from kfmaps.search.arena import POINTS as FEW
 from kfmaps.search.arena import Arena, Ground, arena, turned, without
 from kfmaps.search.bends import LONGER, MORE, bending, bent, copied, ready
 from kfmaps.search.candidates import FINE, Candidate, again, apart, candidates, differs, judged
 from kfmaps.search.learned import learned, plain, speaks
 from kfmaps.search.marks import doubted, leading
 from kfmaps.search.pairings import Limbs, limbs
-from kfmaps.search.quality import Probe, probe
+from kfmaps.search.quality import Probe, probe, thinned
+from kfmaps.search.symmetries import with_turns
 from kfmaps.search.verdict import excess, probability, verdict
+from kfmaps.surface.basis import Basis
 from kfmaps.surface.mesh import mirrored as mirrored_mesh
+from kfmaps.surface.samples import SampledBasis, stratified_vertices
 
 DISTINCT = 0.08
 """Mean distance, in units of √area, from which two maps count as different ones."""
@@ -199,7 +203,6 @@ def choose(
         ranked = mended(ranked, on.whole, source, image, pairs[~wrong], config.threads, report)
     best, others = ranked[0], ranked[1 : 1 + config.search.runners_up]
     margin = max(best.score - ranked[1].score, 0.0) if len(ranked) > 1 else np.inf
-    exact = False if len(source.mesh.vertices) * len(target.mesh.vertices) > PAIRS else None
     return Found(
         functional_map=best.functional_map,
         origin=best.name,
@@ -207,10 +210,7 @@ def choose(
         confidence=probability(best.quality.score, float(margin), best.bending),
         verdict=verdict(best.quality.score, float(margin), best.bending),
         scores=tuple(float(c.score) for c in (best, *others)),
-        runners_up=tuple(
-            to_points(c.functional_map, source.basis, target.basis, config.threads, exact=exact, probes=HASTY)
-            for c in others
-        ),
+        runners_up=passed_over([c.functional_map for c in others], source.basis, target.basis, config.threads),
         landmarks=pairs[~wrong],
         doubted=np.flatnonzero(wrong),
         orientation=orientation,
@@ -221,9 +221,26 @@ def choose(
     )
 
 
+def passed_over(
+    maps: list[np.ndarray], source: Basis, target: Basis, threads: int | None = None
+) -> tuple[np.ndarray, ...]:
+    """Point maps ``(n_t,)`` of functional maps that are not finished.
+
+    Of a large source they name one of :data:`~kfmaps.functional.refine.CANDIDATES` of its vertices, which lie nearer to
+    each other than so few functions can tell: a quarter of the time.
+    """
+    exact = False if len(source.mass) * len(target.mass) > PAIRS else None
+    vertices, few = np.arange(len(source.mass)), source
+    if len(vertices) > CANDIDATES:
+        vertices = stratified_vertices(source, CANDIDATES, 0)
+        few = SampledBasis(source.eigenvalues, source.functions[vertices], source.mass[vertices])
+    return tuple(vertices[to_points(C, few, target, threads, exact=exact, probes=HASTY)] for C in maps)
+
+
 def probed(shape: Shape, rng: int | np.random.Generator | None = 0) -> Probe:
     """What a search with ``rng`` needs to know of one shape, whatever it is matched with."""
-    return probe(inner(shape)[0], rng=_drawn(seed_of(rng)), threads=1)
+    made = probe(inner(shape)[0], rng=_drawn(seed_of(rng)), threads=1)
+    return with_turns(made, thinned(made, FEW))
 
 
 def _drawn(seed: int) -> int:

@@ -73,6 +73,9 @@ class Probe:
         A coarse copy that can be bent; ``None`` for a point cloud.
     mirrored : bool
         Whether it is of the mirror image.
+    turns : (m, k, k) float64 or None
+        Its near-symmetries (:func:`kfmaps.search.symmetries.symmetries`) on its first samples, which are those of the
+        mirror image too; ``None`` where they have not been looked for.
     """
 
     samples: Samples
@@ -85,6 +88,7 @@ class Probe:
     tips: Tips
     copy: Copy | None
     mirrored: bool = False
+    turns: np.ndarray | None = None
 
     @cached_property
     def known(self) -> Known:

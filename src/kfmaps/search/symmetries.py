@@ -9,6 +9,7 @@ An intrinsic symmetry takes each simple eigenfunction to itself or to its negati
 
 from __future__ import annotations
 
+from dataclasses import replace
 from itertools import product
 
 import numpy as np
@@ -29,12 +30,32 @@ APART = 0.08
 MOST = 2
 
 
+def turns_of(of: Probe, functions: int, threads: int | None = None) -> list[np.ndarray]:
+    """:func:`symmetries` of a probe, or those that it has kept."""
+    kept = of.turns
+    return (
+        list(kept) if kept is not None and kept.shape[1] == _size(of, functions) else symmetries(of, functions, threads)
+    )
+
+
+def with_turns(of: Probe, few: Probe) -> Probe:
+    """``of`` with the near-symmetries of its first samples, ``few``, so that they are found once for many matches."""
+    functions = few.samples.basis.functions.shape[1]
+    found, k = symmetries(few, functions, 1), _size(few, functions)
+    return replace(of, turns=np.array(found, dtype=np.float64).reshape(len(found), k, k))
+
+
+def _size(of: Probe, functions: int) -> int:
+    """Functions of the self-maps."""
+    return min(STOP, functions, len(of.samples.vertices))
+
+
 def symmetries(of: Probe, functions: int, threads: int | None = None) -> list[np.ndarray]:
     """Functional maps ``(k, k)`` of a shape onto itself, other than the identity, that nearly keep distances.
 
     At most :data:`MOST`, the best first; none of a shape without near-symmetries. ``functions``: as many as k may have.
     """
-    stop = min(STOP, functions, len(of.samples.vertices))
+    stop = _size(of, functions)
     count = min(SIGNS, stop - 1)
     if count < 1:
         return []

@@ -1,0 +1,91 @@
+"""Where diagonal maps have led to a good one, fits, tips and kicks are left out, but never what it is mistaken for."""
+
+import numpy as np
+import pytest
+
+from kfmaps import datasets
+from kfmaps.fit.shape import prepare
+from kfmaps.functional.points import to_points
+from kfmaps.search import candidates as found_by
+from kfmaps.search import choose as chosen_by
+from kfmaps.search.arena import arena
+from kfmaps.search.candidates import Candidate, candidates, clear
+from kfmaps.search.choose import passed_over
+from kfmaps.search.quality import Quality, probe
+from test_search import SMALL
+
+NONE = np.zeros((0, 2), dtype=np.int64)
+
+
+@pytest.fixture(scope="module")
+def pair():
+    made = datasets.symmetric_creature(1500, rng=1)
+    return prepare(made.source, SMALL, name="source"), prepare(made.target, SMALL, name="target"), made.truth
+
+
+@pytest.fixture(scope="module")
+def on(pair):
+    return arena(pair[0], pair[1], (probe(pair[0]), probe(pair[1])))
+
+
+def names(monkeypatch, pair, on, easy, landmarks=NONE, descriptors=None):
+    """Kinds of rough maps that are tried, and how many are refined further."""
+    tried, finalists = [], []
+
+    def rough(starts, *rest):
+        tried.extend(start.name.split()[0] for start in starts)
+        return original(starts[::5], *rest)
+
+    def fine(few, *_rest):
+        finalists.append(len(few))
+        return few
+
+    original = found_by.rough
+    with monkeypatch.context() as patch:
+        patch.setattr(found_by, "EASY", easy)
+        patch.setattr(found_by, "rough", rough)
+        patch.setattr(found_by, "fine", fine)
+        candidates(pair[0], pair[1], SMALL, on, 0, landmarks=landmarks, descriptors=descriptors)
+    return set(tried), finalists[0]
+
+
+def test_a_clear_map_is_compared_with_near_symmetries_alone(monkeypatch, pair, on):
+    tried, finalists = names(monkeypatch, pair, on, -np.inf)
+    assert tried == {"signs", "turned"}
+    assert finalists <= found_by.FEWER
+    tried, finalists = names(monkeypatch, pair, on, np.inf)
+    assert {"signs", "turned", "kicked"} < tried
+    assert finalists > found_by.FEWER
+
+
+def test_what_the_user_says_is_heard(monkeypatch, pair, on):
+    given = np.random.default_rng(0).normal(size=(len(pair[0].mesh.vertices), 2))
+    there = np.random.default_rng(1).normal(size=(len(pair[1].mesh.vertices), 2))
+    assert "kicked" in names(monkeypatch, pair, on, -np.inf, descriptors=(given, there))[0]
+    marks = np.stack([pair[2][:2], np.arange(2)], axis=1)
+    both = probe(pair[0], landmarks=marks[:, 0]), probe(pair[1], landmarks=marks[:, 1])
+    led = arena(pair[0], pair[1], both, marks)
+    assert "kicked" in names(monkeypatch, pair, led, -np.inf, landmarks=marks)[0]
+
+
+def test_rivals_make_nothing_clear():
+    def of(distortion, guided):
+        quality = Quality(1.0, distortion, 0.0, 0.0, 0.0, 1.0, 0.0)
+        return Candidate("", np.eye(2), np.zeros(1, dtype=np.int64), quality, guided)
+
+    assert not clear([])
+    assert clear([of(1.0, True)])
+    assert not clear([of(1.0, False), of(2.0, True)])  # 2 - 6 · 2 is below
+
+
+def test_maps_passed_over_of_large_shapes_name_few_vertices(monkeypatch, pair):
+    source, target, truth = pair
+    k = 30
+    C = np.linalg.lstsq(target.basis.functions[:, :k], source.basis.functions[truth, :k], rcond=None)[0]
+    whole = to_points(C, source.basis, target.basis)
+    np.testing.assert_array_equal(passed_over([C], source.basis, target.basis)[0], whole)
+    monkeypatch.setattr(chosen_by, "CANDIDATES", 500)
+    few = passed_over([C], source.basis, target.basis)[0]
+    assert len(np.unique(few)) <= 500
+    off = np.linalg.norm(source.mesh.vertices[few] - source.mesh.vertices[whole], axis=1)
+    assert 0 < off.mean() < 2 / np.sqrt(500)
