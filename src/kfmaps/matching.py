@@ -26,7 +26,7 @@ from kfmaps.functional.refine import ZoomOut
 from kfmaps.parts.answer import Partly, partly, reason
 from kfmaps.parts.decide import suspicion
 from kfmaps.search.alternate import WEIGHT, lying
-from kfmaps.search.choose import Found, choose, closing, mirror_image
+from kfmaps.search.choose import Found, choose, closing, loosened, mirror_image
 from kfmaps.search.marks import joined, leading
 from kfmaps.search.quality import Probe
 from kfmaps.surface.eigen.pencil import THREADED
@@ -378,7 +378,7 @@ def _ended(
 ) -> Match:
     """The match of a map that is ``found`` between two ``shapes`` inside their border, the target turned as it says."""
     single = found.origin == ONE_FIT
-    ending = replace(config, refinement=closing(config.refinement, found))
+    ending = replace(config, refinement=closing(config.refinement, found), finish=loosened(config.finish, found))
     end = finished(
         found.functional_map,
         shapes[0],
@@ -391,7 +391,7 @@ def _ended(
         progress=clock.report,
     )
     clock.seconds.update(end.seconds)
-    last = placed(end.target_to_source, shapes[0], shapes[1], config, clock, found.landmarks)
+    last = placed(end.target_to_source, shapes[0], shapes[1], ending, clock, found.landmarks)
     bent = last.bent
     if bent is not None and found.orientation == "reversed":
         bent = bent * MIRROR

@@ -25,6 +25,7 @@ from kfmaps.functional.bodies import Body, Look, body_of, look, unfolded
 from kfmaps.functional.lift import LARGE, bent_copy
 from kfmaps.functional.points import check_point_map
 from kfmaps.functional.pulls import Term, descended
+from kfmaps.functional.stretch import stretching
 from kfmaps.surface.closest import Places, places_on
 from kfmaps.surface.eigen.factor import factorise
 from kfmaps.surface.mesh import Mesh, vertex_areas, vertex_normals
@@ -81,19 +82,24 @@ class NonRigid:
         Searches for closest points at each level.
     evenness : float
         Area over which rotations are averaged, so that limbs are not twisted; 0 leaves each vertex its own.
+    stretch : float
+        Area over which the rest shape may be stretched evenly, for shapes of other proportions; see
+        :mod:`kfmaps.functional.stretch`. 0 keeps its sizes.
     """
 
     stiffness: float = 2e-4
     levels: int = 3
     steps: int = 5
     evenness: float = 1e-3
+    stretch: float = 0.0
 
     def __post_init__(self) -> None:
         check_positive(self.stiffness, "stiffness of the non-rigid fit")
         check_count(self.levels, "levels of the non-rigid fit")
         check_count(self.steps, "steps of the non-rigid fit")
-        if self.evenness != 0:
-            check_positive(self.evenness, "evenness of the non-rigid fit", "give 0 or a number above it")
+        for value, name in ((self.evenness, "evenness"), (self.stretch, "stretch")):
+            if value != 0:
+                check_positive(value, f"{name} of the non-rigid fit", "give 0 or a number above it")
 
     def __call__(
         self,
@@ -173,6 +179,7 @@ class NonRigid:
             x = unfolded(pair.body, points, pair.target.vertices, pair.normals_t, pair.areas_t)
             report(begun)
         even = _evened(pair, self.evenness)
+        stretched = stretching(pair.body.energy, pair.body.areas, self.stretch)
         marks = np.zeros((0, 2), dtype=np.int64) if marks is None else marks
         discs = _discs(pair, marks)
         stays = [] if held is None or not held.any() else [_stays(pair, points, held)]
@@ -185,7 +192,8 @@ class NonRigid:
                 terms += stays
                 if len(marks):
                     terms.append(_marked(pair, marks, discs, x, HOLD * stiffness))
-                x = descended(pair.body.energy, stiffness, solve, terms, x, even(rotations(pair.body.energy, x)))
+                turns = stretched(x, even(rotations(pair.body.energy, x)))
+                x = descended(pair.body.energy, stiffness, solve, terms, x, turns)
                 done = (level - levels[0]) * steps + step + 1
                 report(begun + (1 - begun) * done / (len(levels) * steps))
         return x, gap

@@ -28,8 +28,8 @@ POINTS = 6000
 """Vertices of the copies that are bent."""
 ROUNDS = 2
 """Fits, each followed by a refinement on the copies."""
-FIT = NonRigid(stiffness=5e-3, levels=2, steps=4)
-"""Stiff, so that what is torn is not bent to fit."""
+FIT = NonRigid(stiffness=5e-3, levels=2, steps=4, stretch=0.05)
+"""Stiff, so that what is torn is not bent to fit; but limbs may be longer or thicker."""
 REFINE = ZoomOut(start=20, stop=100, step=20, guidance=36.0)
 """On the copies; the high functions of shapes that differ much do not correspond."""
 WEIGHT = 10.0

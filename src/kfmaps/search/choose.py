@@ -23,6 +23,7 @@ from kfmaps.fit.fit import Fit, checked_landmarks
 from kfmaps.fit.shape import Shape, inner
 from kfmaps.functional.cells import HASTY
 from kfmaps.functional.guide import guide
+from kfmaps.functional.nonrigid import NonRigid
 from kfmaps.functional.points import to_points
 from kfmaps.functional.refine import CANDIDATES, PAIRS, Refinement, ZoomOut
 from kfmaps.search.alternate import alternated, grounds
@@ -52,6 +53,8 @@ UNLIKE = -8.0
 """Score below which two shapes differ so much that their high functions do not correspond, ..."""
 FEWER = 100
 """... and the refinement ends with this many."""
+STRETCH = 0.01
+"""Area over which sizes may change evenly in the non-rigid fit of such shapes."""
 BENT = 3
 """Distinct maps that the source is bent for, ..."""
 BEHIND = 3.0
@@ -258,6 +261,13 @@ def closing(refinement: Refinement | None, found: Found) -> Refinement | None:
         return refinement
     stop = min(refinement.stop, FEWER)
     return replace(refinement, stop=stop, start=min(refinement.start, stop), step=min(refinement.step, 10))
+
+
+def loosened(finish: NonRigid | None, found: Found) -> NonRigid | None:
+    """The non-rigid fit that a found map deserves: of shapes that differ much it lets sizes change."""
+    if finish is None or finish.stretch or found.quality is None or found.quality >= UNLIKE:
+        return finish
+    return replace(finish, stretch=STRETCH)
 
 
 def reversed_best(found: list[Candidate], turned: Ground, threads: int | None = None) -> list[Candidate]:

@@ -75,8 +75,12 @@ def rigidity(mesh: Mesh) -> Rigidity:
 
 def rotations(energy: Rigidity, x: np.ndarray) -> np.ndarray:
     """The best rotation of each vertex, ``(n, 3, 3)``: ``R_i x̄`` is the rest shape turned as ``x (n, 3)`` is."""
-    n = len(x)
-    return nearest_rotations((energy.moments @ x).reshape(3, n, 3).transpose(1, 2, 0))
+    return nearest_rotations(moments_of(energy, x))
+
+
+def moments_of(energy: Rigidity, x: np.ndarray) -> np.ndarray:
+    """``Σ_j w_ij (x_i − x_j)(x̄_i − x̄_j)ᵀ`` of each vertex, ``(n, 3, 3)``."""
+    return (energy.moments @ x).reshape(3, len(x), 3).transpose(1, 2, 0)
 
 
 def nearest_rotations(matrices: np.ndarray) -> np.ndarray:

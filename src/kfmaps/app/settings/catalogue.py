@@ -207,6 +207,7 @@ CATALOGUE: dict[str, tuple[Setting, ...]] = {
         Setting("finish.levels", int, "each a third as stiff as the one before", "at least 1", kinds=("NonRigid",)),
         Setting("finish.steps", int, "searches for closest points at each level", "at least 1", kinds=("NonRigid",)),
         Setting("finish.evenness", float, "area over which rotations are averaged", "at least 0", kinds=("NonRigid",)),
+        Setting("finish.stretch", float, "area over which sizes may change evenly", "at least 0", kinds=("NonRigid",)),
     ),
     "Search": (
         Setting("search.kind", str, "whether several maps are tried", "search, none"),

@@ -1,0 +1,117 @@
+"""A rest shape that is stretched evenly while it is bent."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import kfmaps
+from kfmaps import datasets, matching
+from kfmaps._arrays import InvalidInput
+from kfmaps.functional.nonrigid import NonRigid
+from kfmaps.functional.stretch import LEAST, MOST, stretching
+from kfmaps.search.choose import STRETCH, UNLIKE, Found, loosened
+from kfmaps.surface.mesh import Mesh, unit_area, vertex_areas
+from kfmaps.surface.rigidity import nearest_rotations, rigidity, rotations
+
+EYE = np.eye(3)
+
+
+@pytest.fixture(scope="module")
+def ball():
+    mesh = unit_area(datasets.sphere(400, rng=0))
+    return mesh, rigidity(mesh), vertex_areas(mesh)
+
+
+def test_a_change_of_size_is_found_exactly(ball) -> None:
+    mesh, energy, areas = ball
+    turn = nearest_rotations(np.random.default_rng(0).normal(size=(1, 3, 3)))[0]
+    x = 1.4 * mesh.vertices @ turn.T
+    found = stretching(energy, areas, 0.05)(x, rotations(energy, x))
+    np.testing.assert_allclose(found, np.broadcast_to(1.4 * turn, found.shape), atol=1e-8)
+
+
+def test_longer_in_one_direction_is_found_nearly(ball) -> None:
+    """Damped towards a change alike in all directions, the more the flatter the surroundings are."""
+    mesh, energy, areas = ball
+    longer = np.diag([1.0, 1.0, 1.6])
+    still = np.broadcast_to(EYE, (len(areas), 3, 3))
+    wide, narrow = (stretching(energy, areas, area)(mesh.vertices @ longer, still) for area in (1.0, 0.01))
+    assert np.abs(wide - longer).max() < 0.12
+    assert np.abs(wide - longer).mean() < np.abs(narrow - longer).mean() < np.abs(EYE - longer).mean()
+
+
+def test_one_side_alone_is_hardly_stretched(ball) -> None:
+    """A dent smaller than the area is averaged away, a part as large as that is not."""
+    mesh, energy, areas = ball
+    up = mesh.vertices[:, 2] / mesh.vertices[:, 2].max()
+    still = np.broadcast_to(EYE, (len(areas), 3, 3))
+    top = np.argmax(up)
+
+    def size(where: np.ndarray) -> float:
+        found = stretching(energy, areas, 0.05)(mesh.vertices * (1 + 0.5 * where[:, None]), still)
+        return float(np.trace(found[top]) / 3)
+
+    assert size((up > 0.98).astype(float)) < 1.15
+    assert size((up > -2).astype(float)) == pytest.approx(1.5)
+
+
+def test_it_turns_along_and_keeps_to_its_bounds(ball) -> None:
+    mesh, energy, areas = ball
+    rng = np.random.default_rng(1)
+    x = mesh.vertices * (0.3, 1.0, 6.0) + 0.02 * rng.normal(size=mesh.vertices.shape)
+    turn = nearest_rotations(rng.normal(size=(1, 3, 3)))[0]
+    stretched = stretching(energy, areas, 0.02)
+    found, turned = (stretched(y, rotations(energy, y)) for y in (x, x @ turn.T))
+    np.testing.assert_allclose(turned, turn @ found, atol=1e-6)
+    assert np.linalg.svd(found, compute_uv=False).max() == pytest.approx(MOST)
+    for factor, bound in ((0.1, LEAST), (9.0, MOST)):
+        sized = stretched(factor * mesh.vertices, np.broadcast_to(EYE, found.shape))
+        np.testing.assert_allclose(sized, np.broadcast_to(bound * EYE, found.shape), atol=1e-9)
+
+
+def test_no_area_leaves_rotations(ball) -> None:
+    mesh, energy, areas = ball
+    turns = rotations(energy, mesh.vertices)
+    assert stretching(energy, areas, 0.0)(2 * mesh.vertices, turns) is turns
+
+
+def test_bodies_of_other_proportions_slide_less() -> None:
+    """One half is longer and the other shorter; the fit is stiff, as between unlike shapes."""
+    source = unit_area(datasets.two_poses(1500, rng=1).source)
+    x = source.vertices - source.vertices.mean(axis=0)
+    axis = np.linalg.svd(x, full_matrices=False)[2][0]
+    along = x @ axis
+    other = x + np.where(along > 0, 0.35 * along, -0.25 * along)[:, None] * axis
+    target = unit_area(Mesh(other, source.faces))
+    every = np.arange(len(x))
+    stiff = NonRigid(stiffness=5e-3, levels=2, steps=4)
+    off = [
+        float(np.linalg.norm(fit.vertices(source, target, every) - target.vertices, axis=1).mean())
+        for fit in (stiff, replace(stiff, stretch=0.05))
+    ]
+    assert off[1] < 0.7 * off[0]
+
+
+def test_a_stretch_is_an_area() -> None:
+    with pytest.raises(InvalidInput, match="stretch of the non-rigid fit"):
+        NonRigid(stretch=-0.01)
+
+
+def test_only_unlike_shapes_are_stretched_in_the_end(monkeypatch) -> None:
+    found = Found(np.eye(3), "a", None, "poor", quality=UNLIKE - 1)
+    assert loosened(NonRigid(), found) == NonRigid(stretch=STRETCH)
+    assert loosened(NonRigid(stretch=0.2), found) == NonRigid(stretch=0.2)
+    assert loosened(None, found) is None
+    for like in (UNLIKE, None):
+        assert loosened(NonRigid(), replace(found, quality=like)) == NonRigid()
+    pair = datasets.two_poses(1500, rng=1)
+    config = kfmaps.Config.automatic()
+    shapes = [kfmaps.prepare(mesh, config, name="a") for mesh in (pair.source, pair.target)]
+    seen, usual = [], matching.placed
+    monkeypatch.setattr(matching, "placed", lambda *a: seen.append(a[3].finish.stretch) or usual(*a))
+    for quality in (UNLIKE + 1, UNLIKE - 1):
+        matching.continued(*shapes, pair.truth, config, origin="a", quality=quality)
+    assert seen == [0.0, STRETCH]
