@@ -8,14 +8,17 @@ import numpy as np
 import pytest
 
 import kfmaps
-from kfmaps import datasets
+from kfmaps import datasets, matching
+from kfmaps._arrays import NotConverged
 from kfmaps.functional.points import nearest, to_functional
-from kfmaps.search import alternate
+from kfmaps.matching import LESS_TORN, less_torn
+from kfmaps.search import alternate, choose
 from kfmaps.search.alternate import Grounds, alternated, grounds, lying, spread
 from kfmaps.search.arena import arena
 from kfmaps.search.candidates import STRAIN, Candidate, judged
 from kfmaps.search.choose import mendable, mended
 from kfmaps.search.quality import Quality, probe
+from kfmaps.surface.mesh import vertex_areas
 
 
 @pytest.fixture(scope="module")
@@ -106,11 +109,36 @@ def test_mending_tells_how_far_it_is(pair):
     found = mended(ranked, on, source, target, np.zeros((0, 2), dtype=np.int64), 1, lambda *what: told.append(what))
     assert found[0].bent is not None
     assert {stage for stage, _ in told} == {"bent and matched in turn"}
-    assert [done for _, done in told] == [
-        0.0,
-        *(0.9 * (i + 1) / alternate.ROUNDS for i in range(alternate.ROUNDS)),
-        1.0,
-    ]
+    once = [*(0.9 * (i + 1) / alternate.ROUNDS for i in range(alternate.ROUNDS)), 1.0]
+    # The one candidate, and then another go for it as the winner.
+    assert [done for _, done in told] == pytest.approx([0.0, *(d / 2 for d in once), *((1 + d) / 2 for d in once)])
+
+
+def test_the_winner_has_another_stiffer_go(pair, monkeypatch):
+    """Kept beside the first, which was mended from the same map; none where a copy falls apart."""
+    source, target, truth = pair
+    on = arena(source, target, (probe(source, 200), probe(target, 200))).whole
+    C = np.asarray(to_functional(truth, source.basis.truncated(40), target.basis.truncated(40)))
+    ranked = [replace(c, bending=1.0) for c in judged([("truth", True)], C[None], None, on, 1)]
+    places = {alternate.FIT: 0.0, alternate.STIFFER: 1.0}
+
+    def made(C, _on, _led, _report, fit):
+        if fit not in places:
+            raise NotConverged("it fell apart")
+        return alternate.Alternated(C, np.full_like(source.mesh.vertices, places[fit]))
+
+    def end():
+        found = mended(ranked, on, source, target, np.zeros((0, 2), dtype=np.int64), 1)
+        assert len(found) == 1
+        return found[0]
+
+    monkeypatch.setattr(choose, "alternated", made)
+    first = end()
+    assert (first.bent == 0).all()
+    assert first.again is not None
+    assert (first.again.bent == 1).all()
+    del places[alternate.STIFFER]
+    assert end().again is None
 
 
 def test_what_is_not_mended_stays_and_stays_once():
@@ -121,3 +149,32 @@ def test_what_is_not_mended_stays_and_stays_once():
     near, rest = mendable(ranked)
     assert [c.name for c in near] == ["a", "c"]
     assert [c.name for c in rest] == ["b", "d"]
+
+
+def test_the_less_torn_match_is_taken(pair):
+    """Of two that both have a fit, by a clear share of the area; the one taken tells the seconds of the whole."""
+    source, target, truth = pair
+    one = matching.continued(source, target, truth, origin="a", quality=-9.0)
+    assert one.place is not None
+    n = len(truth)
+
+    def with_torn(share):
+        order = np.cumsum(vertex_areas(target.mesh)) <= share * vertex_areas(target.mesh).sum()
+        return replace(one, local_confidence=np.where(order, 0.4, 0.9), seconds={}, verdict=f"{share}")
+
+    for first, second, taken in ((0.1, 0.05, 0.05), (0.1, 0.1 - LESS_TORN / 2, 0.1), (0.05, 0.1, 0.05)):
+        found = less_torn(with_torn(first), with_torn(second))
+        assert found.verdict == f"{taken}"
+    assert less_torn(replace(one, local_confidence=np.zeros(n)), with_torn(0.1)).seconds is one.seconds
+    assert less_torn(with_torn(0.5), replace(with_torn(0.0), place=None)).verdict == "0.5"
+
+
+def test_a_match_finishes_both_goes(pair, monkeypatch):
+    source, target, truth = pair
+    C = np.asarray(to_functional(truth, source.basis.truncated(40), target.basis.truncated(40)))
+    other = choose.Found(C, "other", None, "poor", quality=-9.0)
+    monkeypatch.setattr(matching, "choose", lambda *_a, **_k: replace(other, origin="one", again=other))
+    monkeypatch.setattr(matching, "less_torn", lambda a, b: replace(b, seconds=a.seconds))
+    found = kfmaps.match(source, target)
+    assert found.origin == "other"
+    assert "another go" in found.seconds

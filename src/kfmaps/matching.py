@@ -30,11 +30,14 @@ from kfmaps.search.choose import Found, choose, closing, loosened, mirror_image
 from kfmaps.search.marks import joined, leading
 from kfmaps.search.quality import Probe
 from kfmaps.surface.eigen.pencil import THREADED
-from kfmaps.surface.mesh import MIRROR, Mesh
+from kfmaps.surface.mesh import MIRROR, Mesh, vertex_areas
 
 ONE_FIT = "one fit"
 CONTINUED = 80
 """Functions of a map that is finished from its points, as many as a search hands on."""
+BADLY, LESS_TORN = 0.5, 0.01
+"""Confidence of a vertex around which distances are kept badly, and by how much smaller a share of the target must be
+so for another go to be preferred."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -268,11 +271,7 @@ def match(
             found = choose(shapes[0], shapes[1], config, landmarks=marks, probes=probes, **more)
         if found.orientation == "reversed" and config.search.orientation != "reversed":
             shapes[1] = mirror_image(shapes[1])
-        tips = found.limbs and found.limbs.guide(shapes[0].mesh, shapes[1].mesh)
-        led = leading(shapes[0], shapes[1], found.landmarks, tips)
-        if found.bent is not None:
-            lie = lying(Mesh(found.bent, shapes[0].mesh.faces), shapes[1].mesh)
-            led = joined([(1.0, led), (WEIGHT, lie)])
+        led = _led(found, shapes)
     else:
         one = fit(shapes[0], shapes[1], config, landmarks=marks, **more)
         clock.seconds.update(one.seconds)
@@ -283,7 +282,36 @@ def match(
         # The adjoint, where a search has found the map: its candidates are refined one way.
         back = found.fit.back if found.origin == ONE_FIT and found.fit is not None else found.functional_map.T
     ended = _ended(found, across, shapes, config, clock, led, back, seed)
+    if found.again is not None:
+        with clock("another go"):
+            told = found.again
+            back = None if back is None else told.functional_map.T
+            ended = less_torn(
+                ended, _ended(told, across, shapes, config, Clock(progress), _led(told, shapes), back, seed)
+            )
     return replace(ended, partial_reason=why) if config.partial.which == "auto" else ended
+
+
+def _led(found: Found, shapes: list[Shape]) -> Guide | None:
+    """What leads the refinement of a map that a search has found."""
+    tips = found.limbs and found.limbs.guide(shapes[0].mesh, shapes[1].mesh)
+    led = leading(shapes[0], shapes[1], found.landmarks, tips)
+    if found.bent is None:
+        return led
+    return joined([(1.0, led), (WEIGHT, lying(Mesh(found.bent, shapes[0].mesh.faces), shapes[1].mesh))])
+
+
+def less_torn(one: Match, other: Match) -> Match:
+    """The ``other`` of two matches of the same shapes where it is clearly less torn, else ``one``; with its seconds.
+
+    Between shapes of other proportions distances nearby change everywhere; after the non-rigid fit they are kept badly
+    only where a limb is torn or has been sent elsewhere. Without that fit nothing can be told.
+    """
+    if one.place is None or other.place is None or one.border is None:
+        return one
+    areas = vertex_areas(one.border.outside[1].mesh)
+    shares = [float(areas[match.local_confidence < BADLY].sum() / areas.sum()) for match in (one, other)]
+    return replace(other, seconds=one.seconds) if shares[1] < shares[0] - LESS_TORN else one
 
 
 def _parted(part: Partly, why: str, across: Border, shapes: list[Shape], config: Config, clock: Clock) -> Match:

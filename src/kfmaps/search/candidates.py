@@ -94,6 +94,8 @@ class Candidate:
         The source's vertices on the target, roughly, where both were bent and matched in turn.
     before : float or None
         The evidence before that: what needed less mending is the likelier.
+    again : Candidate or None
+        The same mended once more, more stiffly; which of the two is better shows in the end.
     """
 
     name: str
@@ -106,6 +108,7 @@ class Candidate:
     strain: float | None = None
     bent: np.ndarray | None = None
     before: float | None = None
+    again: Candidate | None = None
 
     @property
     def score(self) -> float:

@@ -26,7 +26,7 @@ from kfmaps.functional.guide import guide
 from kfmaps.functional.nonrigid import NonRigid
 from kfmaps.functional.points import to_points
 from kfmaps.functional.refine import CANDIDATES, PAIRS, Refinement, ZoomOut
-from kfmaps.search.alternate import alternated, grounds
+from kfmaps.search.alternate import FIT, STIFFER, alternated, grounds
 from kfmaps.search.arena import POINTS as FEW
 from kfmaps.search.arena import Arena, Ground, arena, turned, without
 from kfmaps.search.bends import LONGER, MORE, bending, bent, copied, ready
@@ -102,6 +102,8 @@ class Found:
         Tips of limbs that lead the refinement, where the shapes differ so much that they should.
     bent : (n_s, 3) float64 or None
         The source's vertices roughly on the target, where the shapes differ so much that these lead it as well.
+    again : Found or None
+        The same found another way, between such shapes: the better of the two shows when both are finished.
     """
 
     functional_map: np.ndarray
@@ -118,6 +120,7 @@ class Found:
     bending: float | None = None
     limbs: Limbs | None = None
     bent: np.ndarray | None = None
+    again: Found | None = None
 
 
 def choose(
@@ -205,23 +208,30 @@ def choose(
         image = mirror_image(target) if orientation == "reversed" and asked != "reversed" else target
         ranked = mended(ranked, on.whole, source, image, pairs[~wrong], config.threads, report)
     best, others = ranked[0], ranked[1 : 1 + config.search.runners_up]
-    margin = max(best.score - ranked[1].score, 0.0) if len(ranked) > 1 else np.inf
-    return Found(
-        functional_map=best.functional_map,
-        origin=best.name,
-        fit=None,
-        confidence=probability(best.quality.score, float(margin), best.bending),
-        verdict=verdict(best.quality.score, float(margin), best.bending),
-        scores=tuple(float(c.score) for c in (best, *others)),
-        runners_up=passed_over([c.functional_map for c in others], source.basis, target.basis, config.threads),
-        landmarks=pairs[~wrong],
-        doubted=np.flatnonzero(wrong),
-        orientation=orientation,
-        quality=best.quality.score,
-        bending=best.bending,
-        limbs=limbs(best.points, *probes) if best.quality.score < UNLIKE else None,
-        bent=best.bent,
-    )
+    runners_up = passed_over([c.functional_map for c in others], source.basis, target.basis, config.threads)
+
+    def told(best: Candidate) -> Found:
+        margin = max(best.score - ranked[1].score, 0.0) if len(ranked) > 1 else np.inf
+        score = best.quality.score
+        return Found(
+            functional_map=best.functional_map,
+            origin=best.name,
+            fit=None,
+            confidence=probability(score, float(margin), best.bending),
+            verdict=verdict(score, float(margin), best.bending),
+            scores=tuple(float(c.score) for c in (best, *others)),
+            runners_up=runners_up,
+            landmarks=pairs[~wrong],
+            doubted=np.flatnonzero(wrong),
+            orientation=orientation,
+            quality=score,
+            bending=best.bending,
+            limbs=limbs(best.points, *probes) if score < UNLIKE else None,
+            bent=best.bent,
+            again=None if best.again is None else told(best.again),
+        )
+
+    return told(best)
 
 
 def passed_over(
@@ -353,19 +363,18 @@ def mended(
     copies, shot = ready(finer[0], finer[1]), guide(source.shot, target.shot)
 
     near, rest = mendable(ranked)
-    done = np.zeros(len(near))
+    done = np.zeros(len(near) + 1)
 
     def tell(i: int, part: float) -> None:
         done[i] = part
         if progress is not None:
             progress("bent and matched in turn", float(done.mean()))
 
-    def mend(i: int) -> Candidate:
-        old = near[i]
+    def mend(old: Candidate, i: int, fit: NonRigid = FIT) -> Candidate:
         tips = limbs(old.points, on.source, on.target)
         led = leading(source, target, landmarks, tips and tips.guide(source.mesh, target.mesh), shot)
         try:
-            found = alternated(old.functional_map, both, led, lambda part: tell(i, 0.9 * part))
+            found = alternated(old.functional_map, both, led, lambda part: tell(i, 0.9 * part), fit)
         except NotConverged:
             tell(i, 1.0)
             return old
@@ -377,10 +386,21 @@ def mended(
         return replace(new, bending=how.bending, strain=how.strain, bent=found.bent, before=before)
 
     tell(0, 0.0)
-    tried = parallel(mend, range(len(near)), threads)
+    tried = parallel(lambda i: mend(near[i], i), range(len(near)), threads)
     usual = min((c.strain for c in tried if c.strain is not None), default=0.0)
-    tried = [c if c.strain is None else replace(c, strain=c.strain - usual) for c in tried]
-    return apart(in_order(tried) + rest, on.source, DISTINCT)
+    tried = [_over(c, usual) for c in tried]
+    order = in_order(tried)
+    # Another go, more stiffly, for the one that has won.
+    first = next(i for i, c in enumerate(tried) if c is order[0])
+    other = _over(mend(near[first], len(near), STIFFER), usual)
+    if other.bent is not None and order[0].bent is not None and in_order([other, *order[1:]])[0] is other:
+        order[0] = replace(order[0], again=other)
+    return apart(order + rest, on.source, DISTINCT)
+
+
+def _over(found: Candidate, usual: float) -> Candidate:
+    """With its strain, where it is known, over a usual one."""
+    return found if found.strain is None else replace(found, strain=found.strain - usual)
 
 
 def mendable(ranked: list[Candidate]) -> tuple[list[Candidate], list[Candidate]]:

@@ -1,0 +1,92 @@
+"""Cats with dogs and gorillas with women, with and without what is done for bodies of other proportions.
+
+    python benchmarks/unlike.py --data DIR [--half choice] [--pairs 8] [--seeds 0,1]
+
+Mean errors of whole matches without landmarks: as rigidly as possible throughout; with rest shapes that are stretched
+evenly (:mod:`kfmaps.functional.stretch`) while shapes are bent and matched in turn and in the last fit; and with
+another, stiffer go for the map that has won (:func:`kfmaps.matching.less_torn`). DIR is as for
+benchmarks/automatic.py. The half ``report``, the default, has the pairs of that script, none of two shapes that
+settings were chosen on; ``choice`` has pairs of two such shapes.
+"""
+
+from __future__ import annotations
+
+import argparse
+import time
+from contextlib import ExitStack
+from dataclasses import replace
+from itertools import permutations
+from pathlib import Path
+from unittest.mock import patch
+
+import numpy as np
+from automatic import CHOSEN_ON, Job, loaded, pairs_of
+
+import kfmaps
+from kfmaps import matching
+from kfmaps.search import choose
+
+RIGID = replace(choose.FIT, stretch=0.0)
+NEVER = 2.0
+"""Share of the target by which no map can be less torn."""
+KINDS = {
+    "as rigid as possible": ((choose, "FIT", RIGID), (choose, "STRETCH", 0.0), (matching, "LESS_TORN", NEVER)),
+    "stretched evenly": ((matching, "LESS_TORN", NEVER),),
+    "and another go": (),
+}
+
+
+def chosen_pairs(kind: str, count: int) -> list[tuple[str, str]]:
+    """At most ``count`` pairs of two shapes that settings were chosen on, one of each sort, drawn with a fixed seed."""
+    names = sorted(CHOSEN_ON[kind])
+    sort = {name: name.rstrip("0123456789") for name in names}
+    found = [(a, b) for a, b in permutations(names, 2) if sort[a] != sort[b]]
+    drawn = np.random.default_rng(0).permutation(len(found))[:count]
+    return [found[i] for i in np.sort(drawn)]
+
+
+def matched(job: Job, seeds: list[int]) -> list[list[tuple[float, float]]]:
+    """Mean error × 100 and CPU seconds of each of :data:`KINDS` for each seed."""
+    source, target, true_s, true_t = loaded(job)
+    config = replace(kfmaps.Config.automatic(), threads=1)
+    shapes = [kfmaps.prepare(mesh, config, name=name) for mesh, name in ((source, "source"), (target, "target"))]
+    rows = []
+    for changed in KINDS.values():
+        with ExitStack() as stack:
+            for where, name, value in changed:
+                stack.enter_context(patch.object(where, name, value))
+            row = []
+            for seed in seeds:
+                start = time.process_time()
+                found = kfmaps.match(*shapes, config, rng=seed)
+                spent = time.process_time() - start
+                errors = kfmaps.geodesic_errors(source, found.target_to_source[true_t], true_s)
+                row.append((100 * float(errors.mean()), spent))
+        rows.append(row)
+    return rows
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--data", type=Path, required=True)
+    parser.add_argument("--sets", default="catdog,TOSCA_nonIsometric_r")
+    parser.add_argument("--half", choices=("report", "choice"), default="report")
+    parser.add_argument("--pairs", type=int, default=8)
+    parser.add_argument("--seeds", default="0")
+    args = parser.parse_args()
+    seeds = [int(seed) for seed in args.seeds.split(",")]
+    for kind in args.sets.split(","):
+        pairs = chosen_pairs(kind, args.pairs) if args.half == "choice" else pairs_of(kind, args.data, args.pairs)
+        every = []
+        for a, b in pairs:
+            every.append(matched(Job(args.data, kind, a, b), seeds))
+            print(
+                f"{kind} {a} {b}: " + "; ".join(" ".join(f"{e:.2f}" for e, _ in row) for row in every[-1]), flush=True
+            )
+        for name, errors in zip(KINDS, np.array(every).transpose(1, 0, 2, 3).reshape(len(KINDS), -1, 2), strict=True):
+            mean, worst, spent = errors[:, 0].mean(), errors[:, 0].max(), errors[:, 1].mean()
+            print(f"{kind}, {len(pairs)} pairs, {name:22} mean {mean:5.2f} worst {worst:5.2f} {spent:5.1f} CPU s")
+
+
+if __name__ == "__main__":
+    main()
