@@ -28,6 +28,8 @@ def errors(found: Registered | PointMap, source: Mesh, truth: np.ndarray) -> np.
 class Pretended:
     """A fit that returns the true map, but wrong around ``spot`` as long as nothing holds it there."""
 
+    stretch = 0.0
+
     def __init__(self, pair: datasets.Pair, spot: np.ndarray, gap: float = 0.0, stubborn: bool = False) -> None:
         self.pair, self.spot, self.gap, self.stubborn = pair, spot, gap, stubborn
         self.held: list[np.ndarray | None] = []
@@ -84,10 +86,22 @@ def test_a_fit_that_heals_more_than_it_harms_is_kept(pair: datasets.Pair) -> Non
     other = np.argsort(-np.linalg.norm(target.vertices - target.vertices[0], axis=1))[: len(target.vertices) // 5]
     wrong = pair.truth.copy()
     wrong[other] = np.random.default_rng(1).permutation(wrong[other])
-    last = end(pair, Pretended(pair, spot_of(pair, 0.05), stubborn=True), wrong)
+    finish = Pretended(pair, spot_of(pair, 0.05), stubborn=True)
+    last = end(pair, finish, wrong)
     assert last.fit is not None
     assert last.fit.kept
     assert last.fit.healed > last.fit.harmed > HARMED
+    assert len(finish.held) == 2
+    # A fit that lets sizes change changes distances: what it has changed is not held if it is kept.
+    finish.held, finish.stretch = [], 0.01
+    again = end(pair, finish, wrong)
+    assert again.fit is not None
+    assert again.fit.kept
+    assert not again.fit.held
+    assert len(finish.held) == 1
+    finish.held = []
+    assert not end(pair, finish).fit.kept  # type: ignore[union-attr]
+    assert len(finish.held) == 2
 
 
 def test_a_gap_speaks_first(pair: datasets.Pair) -> None:

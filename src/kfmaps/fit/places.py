@@ -113,8 +113,9 @@ def placed(
 
     A fit that does not bring the source to the target up to :data:`GAP` is left: so are parts. One that harms more of
     the target than :data:`HARMED` (distances to the surroundings are kept clearly worse than before) is made once more
-    with the map held fast there. Of the two the last is kept for which the evidence speaks: that harms little, or heals
-    at least half as much as it harms.
+    with the map held fast there; one that lets sizes change, as between shapes of other proportions, only where it
+    would not be kept. Of the two the last is kept for which the evidence speaks: that harms little, or heals at least
+    half as much as it harms.
     """
     with clock("confidence"):
         confidence = surroundings(source.mesh, target.mesh)
@@ -144,7 +145,8 @@ def placed(
         return _Tried(found, vertices, after, replace(told, kept=kept, why=None if kept else "harm"))
 
     first = best = tried(None)
-    if first.told.after is not None and first.told.harmed > HARMED:
+    # Where sizes may change distances do, rightly: what a fit that is kept has changed there is no reason to hold it.
+    if first.told.after is not None and first.told.harmed > HARMED and not (finish.stretch and first.told.kept):
         held = np.clip(2 * (trust - first.trust) / DROP - 1, 0.0, 1.0)
         second = tried(held)
         best = second if second.told.kept or not first.told.kept else first
