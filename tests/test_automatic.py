@@ -22,6 +22,7 @@ from kfmaps.search.choose import choose, distinct, mirror_image
 from kfmaps.search.fits import planned
 from kfmaps.search.known import known
 from kfmaps.search.quality import _near, map_quality, probe, thinned
+from kfmaps.search.tips import Tips
 from kfmaps.search.verdict import BENT, MIDDLE, MUCH, PER_SCORE, SLOPE, probability, verdict
 from kfmaps.surface.mesh import Mesh
 
@@ -98,10 +99,13 @@ def test_a_torn_map_is_stretched_more_than_a_shaken_one(shape):
     assert broken.stretch > whole.stretch + 0.1
 
 
+NO_TIPS = Tips(np.zeros(0, dtype=np.int64), np.zeros(0), np.zeros((0, 5)), np.zeros((0, 0, 5)), 1.0)
+
+
 def test_stretch_counts_short_distances_alone():
     distances = np.abs(np.subtract.outer(*[np.array([0.0, 0.1, 0.2, 1.0, 1.1])] * 2))
     short = distances <= 0.2
-    of = known(np.ones((5, 1)), np.full(5, 0.2), distances, None, None, np.ones((5, 1)))
+    of = known(np.ones((5, 1)), np.full(5, 0.2), distances, None, None, np.ones((5, 1)), NO_TIPS)
     assert _near(np.where(short, 0.0, 5.0), of) == 0
     assert _near(np.where(short, distances / 2, 0.0), of) == pytest.approx(0.5)
 
@@ -124,6 +128,18 @@ def test_quality_is_what_its_definition_says(shape, other):
     ]
     both = max(spread(here.descriptors) + spread(there.descriptors), 2 * FLAT)
     assert found.descriptors == pytest.approx(np.mean(squares) / both, rel=1e-4)
+    at_ends = []
+    for a, b, at, side in (
+        (there.descriptors, here.descriptors, back, there),
+        (here.descriptors, there.descriptors, forth, here),
+    ):
+        near = (side.tips.distances * side.tips.unit).min(axis=0) < 0.3
+        assert 0 < near.sum() < 200
+        apart = ((a - b[at]) ** 2).sum(axis=1)
+        at_ends.append(np.average(apart[near], weights=side.samples.basis.mass[near]))
+    assert found.ends == pytest.approx(np.mean(at_ends) / both, rel=1e-4)
+    without = [replace(side, tips=side.tips.none()) for side in (here, there)]
+    assert map_quality(C, *without).ends == 0.0
     first_back, first_forth = nearest(rows[:100], images[:100]), nearest(images[:100], rows[:100])
     change = np.abs(here.distances[np.ix_(first_back, first_back)] - there.distances).mean()
     change += np.abs(there.distances[np.ix_(first_forth, first_forth)] - here.distances).mean()

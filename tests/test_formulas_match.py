@@ -213,15 +213,18 @@ def test_heat_around_a_landmark_is_that_of_its_time(shape):
 
 
 def test_confidence_follows_from_score_bending_and_margin(shape):
-    """The probability of docs/automatic.md, and the scores: bending counts against them by five times its logarithm."""
-    config = replace(CONFIG, search=Search(candidates=1, signs=2))
+    """The probability of docs/automatic.md, and the scores: bending counts against them by five times its logarithm.
+
+    Without tips, at which descriptors would count too.
+    """
+    config = replace(CONFIG, search=Search(candidates=1, signs=2, tips=False))
     found = choose(shape, shape, config)
     assert found.quality is not None
     assert found.bending is not None
     assert found.scores[0] == pytest.approx(found.quality - 5 * np.log(found.bending / 0.15))
     margin = found.scores[0] - found.scores[1]
     excess = np.log(found.bending) + 3.6 + 0.233 * found.quality
-    right = (1 - 0.5 * np.exp(-margin / 0.4)) / (1 + np.exp(-0.92 * (found.quality + 10.5)))
+    right = (1 - 0.5 * np.exp(-margin / 0.4)) / (1 + np.exp(-0.92 * (found.quality + 10.0)))
     right /= 1 + np.exp(12.5 * (excess - 0.65))
     assert found.confidence == pytest.approx(right)
     assert (found.verdict == "sure") == (right >= 0.9)
@@ -233,7 +236,7 @@ def test_a_rival_close_behind_leaves_one_half_and_fades_within_its_margin():
         alone = probability(score, np.inf)
         assert probability(score, 0.0) == pytest.approx(alone / 2)
         assert probability(score, 0.4) == pytest.approx(alone * (1 - 0.5 / np.e))
-    assert probability(-10.5, np.inf) == pytest.approx(0.5)
+    assert probability(-10.0, np.inf) == pytest.approx(0.5)
     for bending in (0.02, 0.2):
         excess = np.log(bending) + 3.6 + 0.233 * -6.0
         share = 1 / (1 + np.exp(12.5 * (excess - 0.65)))

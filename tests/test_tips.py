@@ -208,6 +208,9 @@ def test_what_is_strained_less_and_was_mended_less_is_the_likelier():
     assert replace(bad, bent=np.zeros((1, 3))).evidence > bad.evidence
     mended = replace(one, before=one.evidence - 4.0)
     assert mended.evidence == pytest.approx(one.evidence - 2.0)
+    worse = replace(one, quality=replace(judgement, ends=0.25))
+    assert worse.quality.score == one.quality.score
+    assert worse.evidence == pytest.approx(one.evidence - 2.0)
 
 
 def test_copies_have_no_loose_points(creature):

@@ -59,12 +59,12 @@ ZERO = 0.03
 """Frequency, the root of an eigenvalue at unit area, below which there is no wave: a sphere's first is 5."""
 APART = 0.04
 """Mean distance, in units of √area, from which rough maps count as different: nearer than in the end."""
+ENDS = 8.0
+"""Weight of the descriptors at hands, feet, faces and tails, which no pose changes, beside those of the whole."""
 BEND, USUAL = 5.0, 0.15
 """Weight of the logarithm of the bending energy over a usual one, ..."""
 STRAIN = 6.0
 """Weight of the strain, where it is known; see :class:`kfmaps.search.bends.Bent`."""
-BEND_UNLIKE = 3.0
-"""... and for maps that were bent and matched in turn, which leaves wrong ones with little more of it."""
 LANDMARK = 2.0
 """What a landmark whose image is simply wrong costs."""
 
@@ -92,8 +92,6 @@ class Candidate:
         mended.
     bent : (n_s, 3) float64 or None
         The source's vertices on the target, roughly, where both were bent and matched in turn.
-    before : float or None
-        The evidence before that: what needed less mending is the likelier.
     again : Candidate or None
         The same mended once more, more stiffly; which of the two is better shows in the end.
     """
@@ -107,7 +105,6 @@ class Candidate:
     bending: float | None = None
     strain: float | None = None
     bent: np.ndarray | None = None
-    before: float | None = None
     again: Candidate | None = None
 
     @property
@@ -120,12 +117,10 @@ class Candidate:
 
     @property
     def evidence(self) -> float:
-        """What the two shapes say about the map: its quality and, where that is known, how little they must bend."""
-        weight = BEND if self.bent is None else BEND_UNLIKE
-        bent = 0.0 if self.bending is None else -weight * math.log(self.bending / USUAL)
+        """What the shapes say: quality, the ends of limbs and, where it is known, how little they must bend."""
+        bent = 0.0 if self.bending is None else -BEND * math.log(self.bending / USUAL)
         strained = 0.0 if self.strain is None else -STRAIN * self.strain
-        found = self.quality.score + bent + strained
-        return found if self.before is None else (found + self.before) / 2
+        return self.quality.score - ENDS * self.quality.ends + bent + strained
 
 
 @dataclass(frozen=True, eq=False)
@@ -193,7 +188,7 @@ def clear(found: list[Candidate]) -> bool:
 
     Of two people they have; only what such a map is mistaken for is looked for then.
     """
-    return max((c.score for c in found if c.guided), default=-math.inf) >= EASY
+    return max((c.quality.score for c in found if c.guided), default=-math.inf) >= EASY
 
 
 def from_signs(count: int, on: Ground) -> list[Start]:

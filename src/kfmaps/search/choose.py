@@ -61,8 +61,8 @@ BEHIND = 3.0
 """... unless they are so far behind in the score."""
 CLOSE = 1.0
 """Margin below which the first two are looked at again."""
-FAR_BENT = 0.3
-"""Bending from which they are mended: a curled-up body, which touches itself, has less and is nothing to bend by."""
+MENDED = -7.5
+"""Score below which they are bent and matched in turn."""
 MENDABLE = 6.0
 """How far behind a map between unlike shapes may be to be mended: mending has gained up to 10."""
 SETTLED = 3
@@ -204,7 +204,7 @@ def choose(
     if taught and (orientation == "kept" or asked == "reversed"):
         more = learned(source, target, config, on, seed, given)
         ranked = beside(ranked, more, on.whole, source, target, config.threads)
-    if surfaces and ranked[0].quality.score < UNLIKE and (ranked[0].bending or 0.0) > FAR_BENT:
+    if surfaces and ranked[0].quality.score < MENDED:
         image = mirror_image(target) if orientation == "reversed" and asked != "reversed" else target
         ranked = mended(ranked, on.whole, source, image, pairs[~wrong], config.threads, report)
     best, others = ranked[0], ranked[1 : 1 + config.search.runners_up]
@@ -355,7 +355,10 @@ def mended(
     threads: int | None = None,
     progress: Progress | None = None,
 ) -> list[Candidate]:
-    """The best between unlike shapes bent and matched in turn (:mod:`kfmaps.search.alternate`), and ranked again."""
+    """The best between unlike shapes bent and matched in turn (:mod:`kfmaps.search.alternate`), and ranked again.
+
+    Each counts as it is after that or as it was before, whichever is the better.
+    """
     both = grounds(source, target)
     finer = copied(source, MORE), copied(target, MORE)
     if both is None or finer[0] is None or finer[1] is None:
@@ -380,10 +383,14 @@ def mended(
             return old
         size = min(FINE, len(found.functional_map))
         new = judged([(old.name, old.guided)], found.functional_map[None, :size, :size], None, on, 1)[0]
-        how = bent(new.functional_map, source, target, copies, LONGER)
-        before = replace(old, strain=None).evidence
+        before, after = (bent(c.functional_map, source, target, copies, LONGER) for c in (old, new))
         tell(i, 1.0)
-        return replace(new, bending=how.bending, strain=how.strain, bent=found.bent, before=before)
+        # Where a body touches itself the right map may go astray, and is as good as it was before.
+        states = (
+            replace(old, bending=before.bending, strain=before.strain),
+            replace(new, bending=after.bending, strain=after.strain, bent=found.bent),
+        )
+        return max(states, key=lambda c: c.score)
 
     tell(0, 0.0)
     tried = parallel(lambda i: mend(near[i], i), range(len(near)), threads)

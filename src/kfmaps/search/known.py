@@ -8,9 +8,12 @@ import numpy as np
 
 from kfmaps._arrays import Array, to_numpy
 from kfmaps.functional.guide import spread
+from kfmaps.search.tips import Tips
 
 NEAR = 0.2
 """Distance, in units of √area, up to which points are neighbours whose distance a good map keeps."""
+LIMB = 0.3
+"""Distance, in units of √area, from a tip within which points are of hands, feet, faces and tails."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,6 +39,8 @@ class Known:
     functions : (q, k) float32
     areas : (q,) float64
         Of sum 1.
+    ends : (q,) float64
+        Areas of those within :data:`LIMB` of a tip, of sum 1, and of all others 0; ``None`` where there are no tips.
     mean : float
         Of all distances.
     short : (p,) int64
@@ -48,6 +53,7 @@ class Known:
 
     functions: np.ndarray
     areas: np.ndarray
+    ends: np.ndarray | None
     mean: float
     short: np.ndarray
     short_mean: float
@@ -63,6 +69,7 @@ def known(
     orientation: np.ndarray | None,
     descriptors: np.ndarray | None,
     heat: np.ndarray,
+    tips: Tips,
 ) -> Known:
     """Of the arrays of a :class:`kfmaps.search.quality.Probe`."""
     nearest_other = np.partition(distances, 1, axis=1)[:, 1] if len(distances) > 1 else np.ones(1)
@@ -70,6 +77,7 @@ def known(
     return Known(
         np.asarray(to_numpy(functions), dtype=np.float32),
         areas,
+        _ends(areas, tips),
         float(distances.mean()),
         short,
         float(distances.ravel()[short].mean()),
@@ -77,3 +85,10 @@ def known(
         None if descriptors is None else Rows.of(descriptors),
         Rows.of(heat, np.float64),
     )
+
+
+def _ends(areas: np.ndarray, tips: Tips) -> np.ndarray | None:
+    if len(tips.distances) == 0:
+        return None
+    near = np.where(tips.unit * tips.distances.min(axis=0) < LIMB, areas, 0.0)
+    return near / near.sum() if near.any() else None

@@ -95,7 +95,7 @@ class Probe:
         """What judging each of many maps would find again."""
         basis = self.samples.basis
         areas = to_numpy(basis.mass) / float(basis.mass.sum())
-        return known(basis.functions, areas, self.distances, self.orientation, self.descriptors, self.heat)
+        return known(basis.functions, areas, self.distances, self.orientation, self.descriptors, self.heat, self.tips)
 
 
 @dataclass(frozen=True)
@@ -120,6 +120,9 @@ class Quality:
         Part of the area that is the image of something, the smaller of both directions.
     laplacian : float
         ``‖C Λ_s − Λ_t C‖² / ‖C Λ_s‖²``; 1, as of unrelated shapes, for a map that carries constants alone.
+    ends : float
+        ``descriptors`` of points near the tips of limbs alone: hands, feet, faces and tails, which no pose bends. No
+        part of the score; see :attr:`kfmaps.search.candidates.Candidate.evidence`. 0 where there are no tips.
     """
 
     orientation: float
@@ -129,6 +132,7 @@ class Quality:
     heat: float
     coverage: float
     laplacian: float
+    ends: float = 0.0
 
     @property
     def score(self) -> float:
@@ -247,23 +251,22 @@ def map_quality(C: Array, source: Probe, target: Probe, points: np.ndarray | Non
     distortion, stretch = _distortion(found, source, target)
     commutator = C * values_s[None, :] - values_t[:, None] * C
     back, forth, area_s, area_t = found.back, found.forth, known_s.areas, known_t.areas
+    squares_t = _squares(back, known_t.descriptors, known_s.descriptors, FLAT)
+    squares_s = _squares(forth, known_s.descriptors, known_t.descriptors, FLAT)
     covered = [area[np.bincount(at, minlength=len(area)) > 0].sum() for area, at in ((area_s, back), (area_t, forth))]
     return Quality(
         orientation=_orientation(C, source, target),
         distortion=distortion,
         stretch=stretch,
-        descriptors=0.5
-        * (
-            _difference(back, known_t.descriptors, known_s.descriptors, area_t, FLAT)
-            + _difference(forth, known_s.descriptors, known_t.descriptors, area_s, FLAT)
-        ),
+        descriptors=0.5 * (_mean(squares_t, area_t) + _mean(squares_s, area_s)),
         heat=0.5
         * (
-            _difference(back, known_t.heat, known_s.heat, area_t, FLAT_HEAT)
-            + _difference(forth, known_s.heat, known_t.heat, area_s, FLAT_HEAT)
+            _mean(_squares(back, known_t.heat, known_s.heat, FLAT_HEAT), area_t)
+            + _mean(_squares(forth, known_s.heat, known_t.heat, FLAT_HEAT), area_s)
         ),
         coverage=float(min(covered)),
         laplacian=_ratio((commutator**2).sum(), ((C * values_s[None, :]) ** 2).sum(), (values_s**2).sum(), 1.0),
+        ends=0.5 * (_mean(squares_t, known_t.ends) + _mean(squares_s, known_s.ends)),
     )
 
 
@@ -343,10 +346,17 @@ def _near(change: np.ndarray, of: Known) -> float:
     return float(change.ravel()[of.short].mean()) / of.short_mean if of.short_mean > 0 else 0.0
 
 
-def _difference(points: np.ndarray, there: Rows | None, here: Rows | None, area: np.ndarray, flat: float) -> float:
-    """Of the descriptors ``there`` from those ``here`` of the points that they are mapped to."""
+def _squares(points: np.ndarray, there: Rows | None, here: Rows | None, flat: float) -> tuple[np.ndarray, float] | None:
+    """Squared differences of the descriptors ``there`` from those ``here`` of the points that they are mapped to.
+
+    Beside them that of random points.
+    """
     if there is None or here is None:
-        return 0.0
+        return None
     both = np.einsum("ij,ij->i", there.values, here.values.take(points, axis=0))
-    squares = (there.squares + here.squares[points] - 2.0 * both) @ area
-    return float(squares / max(there.spread + here.spread, 2 * flat))
+    return there.squares + here.squares[points] - 2.0 * both, max(there.spread + here.spread, 2 * flat)
+
+
+def _mean(squares: tuple[np.ndarray, float] | None, areas: np.ndarray | None) -> float:
+    """Of squared differences over that of random points, weighted with ``areas`` of sum 1; 0 where one is unknown."""
+    return 0.0 if squares is None or areas is None else float(squares[0] @ areas / squares[1])

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 
-SLOPE, MIDDLE = 0.92, -10.5
+SLOPE, MIDDLE = 0.92, -10.0
 """Of the logistic function of the score, and the score at which half of all maps are right."""
 TIE = 0.4
 """Margin at which the doubt that a different map casts is down to a third."""
