@@ -106,8 +106,7 @@ def test_mending_tells_how_far_it_is(pair):
     C = np.asarray(to_functional(truth, source.basis.truncated(40), target.basis.truncated(40)))
     ranked = [replace(c, bending=1.0) for c in judged([("truth", True)], C[None], None, on, 1)]
     told = []
-    found = mended(ranked, on, source, target, np.zeros((0, 2), dtype=np.int64), 1, lambda *what: told.append(what))
-    assert found[0].bent is not None
+    mended(ranked, on, source, target, np.zeros((0, 2), dtype=np.int64), 1, lambda *what: told.append(what))
     assert {stage for stage, _ in told} == {"bent and matched in turn"}
     once = [*(0.9 * (i + 1) / alternate.ROUNDS for i in range(alternate.ROUNDS)), 1.0]
     # The one candidate, and then another go for it as the winner.
@@ -139,6 +138,24 @@ def test_the_winner_has_another_stiffer_go(pair, monkeypatch):
     assert (first.again.bent == 1).all()
     del places[alternate.STIFFER]
     assert end().again is None
+
+
+def test_what_goes_astray_stays_as_it_was(pair, monkeypatch):
+    """As the right map of a body that touches itself."""
+    source, target, truth = pair
+    on = arena(source, target, (probe(source, 200), probe(target, 200))).whole
+    C = np.asarray(to_functional(truth, source.basis.truncated(40), target.basis.truncated(40)))
+    ranked = [replace(c, bending=1.0) for c in judged([("truth", True)], C[None], None, on, 1)]
+    astray = alternate.Alternated(np.linalg.qr(np.random.default_rng(0).normal(size=C.shape))[0], source.mesh.vertices)
+    monkeypatch.setattr(choose, "alternated", lambda *_rest: astray)
+    found = mended(ranked, on, source, target, np.zeros((0, 2), dtype=np.int64), 1)[0]
+    assert found.functional_map is ranked[0].functional_map
+    assert found.bent is None
+    assert found.again is None
+    # Looked at as closely as what it is compared with.
+    assert found.bending is not None
+    assert found.bending < 0.5
+    assert found.strain is not None
 
 
 def test_what_is_not_mended_stays_and_stays_once():

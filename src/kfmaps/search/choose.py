@@ -387,8 +387,8 @@ def mended(
         tell(i, 1.0)
         # Where a body touches itself the right map may go astray, and is as good as it was before.
         states = (
-            replace(old, bending=before.bending, strain=before.strain),
             replace(new, bending=after.bending, strain=after.strain, bent=found.bent),
+            replace(old, bending=before.bending, strain=before.strain),
         )
         return max(states, key=lambda c: c.score)
 
