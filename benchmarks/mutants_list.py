@@ -313,9 +313,9 @@ MUTANTS = tuple(
         ),
         ("each[i] += tips * against(", "each[i] = -tips * against(", "test_tips -k evidence"),
         (
-            "bent = 0.0 if self.bending is None else -weight",
-            "bent = 0.0 if self.bending is None else weight",
-            "test_tips -k bends_less",
+            "bent = 0.0 if self.bending is None else -BEND",
+            "bent = 0.0 if self.bending is None else BEND",
+            "test_tips -k likelier",
         ),
         (
             "return math.log(bending) - BENT - PER_SCORE * score",
@@ -560,7 +560,18 @@ MUTANTS = tuple(
             "strained = 0.0 if self.strain is None else STRAIN",
             "test_tips -k likelier",
         ),
-        ("else (found + self.before) / 2", "else found", "test_tips -k likelier"),
+        ("- ENDS * self.quality.ends + bent", "+ ENDS * self.quality.ends + bent", "test_tips -k likelier"),
+        (
+            "tips.unit * tips.distances.min(axis=0) < LIMB",
+            "tips.distances.min(axis=0) < LIMB",
+            "test_automatic -k its_definition_says",
+        ),
+        (
+            "ends=0.5 * (_mean(squares_t, known_t.ends)",
+            "ends=0.5 * (_mean(squares_t, known_t.areas)",
+            "test_automatic -k its_definition_says",
+        ),
+        ("return max(states, key=lambda c: c.score)", "return states[0]", "test_alternate -k astray"),
         (
             "dense = np.log(np.maximum(local(energy, x)",
             "dense = (np.maximum(local(energy, x)",
