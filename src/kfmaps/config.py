@@ -354,8 +354,8 @@ class Config:
     def automatic(cls) -> Config:
         """What we recommend: a search, with SHOT to guide it and the refinement."""
         return cls(
-            descriptors=DescriptorConfig(shot=True),
-            refinement=ZoomOut(start=50, stop=200, step=20, samples=3500, guidance=36.0),
+            descriptors=DescriptorConfig(shot=True, eigenfunctions=150),
+            refinement=ZoomOut(start=50, stop=150, step=20, samples=3500, guidance=36.0),
             search=Search(),
             partial=Partial("auto"),
         )
