@@ -138,7 +138,7 @@ def test_quality_is_what_its_definition_says(shape, other):
         apart = ((a - b[at]) ** 2).sum(axis=1)
         at_ends.append(np.average(apart[near], weights=side.samples.basis.mass[near]))
     assert found.ends == pytest.approx(np.mean(at_ends) / both, rel=1e-4)
-    without = [replace(side, tips=side.tips.none()) for side in (here, there)]
+    without = replace(here, tips=here.tips.none()), replace(there, tips=there.tips.none())
     assert map_quality(C, *without).ends == 0.0
     first_back, first_forth = nearest(rows[:100], images[:100]), nearest(images[:100], rows[:100])
     change = np.abs(here.distances[np.ix_(first_back, first_back)] - there.distances).mean()
