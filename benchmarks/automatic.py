@@ -1,12 +1,13 @@
 """Maps on the field's benchmarks, without landmarks or with some: errors, verdicts and times, one setting for all.
 
     python benchmarks/automatic.py --data DIR [--sets FAUST_r,SHREC19_r,...] [--pairs 60] [--workers 2] [--json FILE]
-    python benchmarks/automatic.py --data DIR --landmarks 0,1,2,3,5,10,25 [--wrong 0.2]
+    python benchmarks/automatic.py --data DIR --landmarks 0,1,2,3,5,10,25 [--wrong 0.2] [--pyfm]
     python benchmarks/automatic.py --data DIR --time
 
 DIR holds folders in the layouts of docs/collections.md, and ``cross/cat_dog.txt``; without it only the package's own
 shapes are matched. What the settings were chosen on is left out: pairs of which both shapes are in the half named by
 :data:`CHOSEN_ON`. At the end stand, over all sets, how many maps were called what, and how often that was right.
+With ``--pyfm`` rows of pyFM with the same landmarks stand between, of which it needs one at least (by_pyfm.py).
 """
 
 from __future__ import annotations
@@ -150,6 +151,21 @@ def judged(job: Job) -> dict:
     }
 
 
+def judged_by_pyfm(job: Job) -> dict:
+    """The error of pyFM's map with the same landmarks."""
+    import by_pyfm
+
+    source, target, true_s, true_t = loaded(job)
+    config = replace(kfmaps.Config.automatic(), threads=job.threads)
+    pairs = chosen_landmarks(kfmaps.prepare(source, config), (true_s, true_t), job.landmarks, job.wrong)
+    start = time.process_time()
+    found = by_pyfm.points(source, target, pairs)
+    seconds = time.process_time() - start
+    errors = 100 * kfmaps.geodesic_errors(source, found[true_t], true_s)
+    names = {"set": f"{job.kind}, pyFM", "pair": f"{job.source} {job.target}", "landmarks": job.landmarks}
+    return {**names, "error": float(errors.mean()), "verdict": "", "confidence": None, "seconds": seconds}
+
+
 def report(title: str, rows: list[dict]) -> None:
     errors = np.array([r["error"] for r in rows])
     called = [sum(r["verdict"] == name for r in rows) for name in ("sure", "ambiguous", "poor")]
@@ -179,6 +195,7 @@ def main() -> None:
     parser.add_argument("--pairs", type=int, default=60, help="at most, of each set")
     parser.add_argument("--landmarks", default="0", help="how many, several numbers for a curve")
     parser.add_argument("--wrong", type=float, default=0.0, help="part of the landmarks that are wrong")
+    parser.add_argument("--pyfm", action="store_true", help="pyFM with the same landmarks too")
     parser.add_argument("--workers", type=int, default=2, help="pairs at once, each with one thread")
     parser.add_argument("--time", action="store_true", help="only time five pairs of FAUST_r, one after the other")
     parser.add_argument("--json", type=Path)
@@ -203,6 +220,10 @@ def main() -> None:
             rows = list(pool.map(judged, jobs))
             report(kind + (f", {count} landmarks" if len(counts) > 1 or count else ""), rows)
             everything += rows
+            if arguments.pyfm and count:
+                rows = list(pool.map(judged_by_pyfm, jobs))
+                report(f"{kind}, {count} landmarks, pyFM", rows)
+                everything += rows
     reliability(everything)
     if arguments.json:
         arguments.json.write_text(json.dumps(everything, indent=1), encoding="utf-8")

@@ -87,7 +87,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("rows", type=Path, nargs="+")
     rows = [row for path in parser.parse_args().rows for row in json.loads(path.read_text(encoding="utf-8"))]
-    rows = [row for row in rows if row["quality"] is not None and not row["landmarks"]]
+    rows = [row for row in rows if row.get("quality") is not None and not row["landmarks"]]
     kinds = np.array([row["set"] for row in rows])
     right = np.array([row["error"] < RIGHT for row in rows])
     x = np.array([features(row) for row in rows])
