@@ -1,6 +1,8 @@
 """Time and memory of a whole match as shapes grow: ``python benchmarks/growth.py [--large] [--huge] [--json PATH]``.
 
 With ``--automatic`` the pairs are ``datasets.two_poses`` without landmarks, matched with ``Config.automatic()``.
+``--against SRC`` measures each size in turns with the version of kfmaps in that folder, twice each, since CPU seconds
+of a busy machine mean nothing alone.
 
 Each size is a pair of generated shapes with six landmarks (``shapes.bumpy_pair``), matched with the recommended
 configuration in a process of its own, whose peak memory is shown; "rise" is how far a stage raised it. The exponent
@@ -13,7 +15,11 @@ from __future__ import annotations
 import argparse
 import json
 import multiprocessing
+import os
 import resource
+import subprocess
+import sys
+import tempfile
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -24,6 +30,7 @@ from typing import Any
 import numpy as np
 from shapes import bumpy_pair
 
+import kfmaps
 from kfmaps._threads import one_blas_thread
 from kfmaps.app import datasets
 from kfmaps.config import Config
@@ -118,6 +125,35 @@ def exponents(rows: list[dict[str, Any]]) -> dict[str, float]:
     }
 
 
+def in_turns(n: int, threads: int, automatic: bool, against: Path, turns: int = 2) -> dict[str, list[dict[str, Any]]]:
+    """Rows of one size by the version in the folder ``against`` and by this one, one after the other, and again."""
+    rows: dict[str, list[dict[str, Any]]] = {"before": [], "now": []}
+    here = str(Path(kfmaps.__file__).resolve().parents[1])
+    for _ in range(turns):
+        for name, folder in (("before", str(against)), ("now", here)):
+            with tempfile.TemporaryDirectory() as kept:
+                path = Path(kept) / "rows.json"
+                more = ["--automatic"] if automatic else []
+                task = [sys.executable, __file__, "--sizes", str(n), "--threads", str(threads), "--json", str(path)]
+                subprocess.run([*task, *more], env=os.environ | {"PYTHONPATH": folder}, check=True, capture_output=True)
+                rows[name] += json.loads(path.read_text(encoding="utf-8"))
+    return rows
+
+
+def tell_turns(n: int, rows: dict[str, list[dict[str, Any]]]) -> None:
+    """CPU seconds of each stage in each turn."""
+    print(f"\n{n} vertices, CPU s in turns")
+    for stage in rows["now"][0]["stages"]:
+        spent = {
+            name: "  ".join(f"{row['stages'][stage]['work']:.2f}" if stage in row["stages"] else "-" for row in found)
+            for name, found in rows.items()
+        }
+        print(f"  {stage:26} before {spent['before']}   now {spent['now']}")
+    for name, found in rows.items():
+        errors = "  ".join(str({k: round(v, 3) for k, v in row["errors"].items()}) for row in found)
+        print(f"  {name}: errors {errors}, peak {max(row['peak_gb'] for row in found):.2f} GB", flush=True)
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--large", action="store_true", help="300,000 vertices too (about 6 GB)")
@@ -125,9 +161,14 @@ def main() -> None:
     parser.add_argument("--automatic", action="store_true", help="two poses without landmarks instead")
     parser.add_argument("--sizes", type=int, nargs="+", help="these sizes instead")
     parser.add_argument("--threads", type=int, default=2)
+    parser.add_argument("--against", type=Path, metavar="SRC", help="folder of another version, measured in turns")
     parser.add_argument("--json", type=Path, help="write the rows there too")
     options = parser.parse_args()
     sizes = options.sizes or (*SIZES, *((LARGE,) if options.large else ()), *((HUGE,) if options.huge else ()))
+    if options.against:
+        for n in sizes:
+            tell_turns(n, in_turns(n, options.threads, options.automatic, options.against))
+        return
     rows = []
     context = multiprocessing.get_context("spawn")
     for n in sizes:
