@@ -18,7 +18,7 @@ from kfmaps.search.arena import arena
 from kfmaps.search.candidates import STRAIN, Candidate, judged
 from kfmaps.search.choose import mendable, mended
 from kfmaps.search.quality import Quality, probe
-from kfmaps.surface.mesh import vertex_areas
+from kfmaps.surface.mesh import Mesh, vertex_areas
 
 
 @pytest.fixture(scope="module")
@@ -109,22 +109,24 @@ def test_mending_tells_how_far_it_is(pair):
     mended(ranked, on, source, target, np.zeros((0, 2), dtype=np.int64), 1, lambda *what: told.append(what))
     assert {stage for stage, _ in told} == {"bent and matched in turn"}
     once = [*(0.9 * (i + 1) / alternate.ROUNDS for i in range(alternate.ROUNDS)), 1.0]
-    # The one candidate, and then another go for it as the winner.
-    assert [done for _, done in told] == pytest.approx([0.0, *(d / 2 for d in once), *((1 + d) / 2 for d in once)])
+    # The one candidate, and then two more ways for it as the winner.
+    every = [0.0, *((i + d) / 3 for i in range(3) for d in once)]
+    assert [done for _, done in told] == pytest.approx(every)
 
 
-def test_the_winner_has_another_stiffer_go(pair, monkeypatch):
-    """Kept beside the first, which was mended from the same map; none where a copy falls apart."""
+def test_the_winner_is_mended_in_two_more_ways(pair, monkeypatch):
+    """More stiffly, and with the target bent onto the source; not where a copy falls apart."""
     source, target, truth = pair
     on = arena(source, target, (probe(source, 200), probe(target, 200))).whole
     C = np.asarray(to_functional(truth, source.basis.truncated(40), target.basis.truncated(40)))
     ranked = [replace(c, bending=1.0) for c in judged([("truth", True)], C[None], None, on, 1)]
-    places = {alternate.FIT: 0.0, alternate.STIFFER: 1.0}
+    calls, apart = [], []
 
-    def made(C, _on, _led, _report, fit):
-        if fit not in places:
+    def made(C, on, led, _report, fit):
+        calls.append((on.source is target, led.source.shape[0], np.array_equal(C, ranked[0].functional_map.T), fit))
+        if (on.source is target, fit) in apart:
             raise NotConverged("it fell apart")
-        return alternate.Alternated(C, np.full_like(source.mesh.vertices, places[fit]))
+        return alternate.Alternated(C, on.source.mesh.vertices)
 
     def end():
         found = mended(ranked, on, source, target, np.zeros((0, 2), dtype=np.int64), 1)
@@ -133,11 +135,22 @@ def test_the_winner_has_another_stiffer_go(pair, monkeypatch):
 
     monkeypatch.setattr(choose, "alternated", made)
     first = end()
-    assert (first.bent == 0).all()
-    assert first.again is not None
-    assert (first.again.bent == 1).all()
-    del places[alternate.STIFFER]
-    assert end().again is None
+    n_s, n_t = len(source.mesh.vertices), len(target.mesh.vertices)
+    assert calls == [
+        (False, n_s, False, alternate.FIT),
+        (False, n_s, False, alternate.STIFFER),
+        (True, n_t, True, alternate.FIT),
+    ]
+    assert [c.backwards for c in (first, *first.again)] == [False, False, True]
+    assert [len(c.bent) for c in (first, *first.again)] == [n_s, n_s, n_t]
+    for other in first.again:
+        np.testing.assert_array_equal(other.functional_map, ranked[0].functional_map)
+    apart.append((False, alternate.STIFFER))
+    assert [c.backwards for c in end().again] == [True]
+    apart.append((True, alternate.FIT))
+    assert end().again == ()
+    apart.append((False, alternate.FIT))
+    assert end().bent is None
 
 
 def test_what_goes_astray_stays_as_it_was(pair, monkeypatch):
@@ -190,8 +203,19 @@ def test_a_match_finishes_both_goes(pair, monkeypatch):
     source, target, truth = pair
     C = np.asarray(to_functional(truth, source.basis.truncated(40), target.basis.truncated(40)))
     other = choose.Found(C, "other", None, "poor", quality=-9.0)
-    monkeypatch.setattr(matching, "choose", lambda *_a, **_k: replace(other, origin="one", again=other))
+    monkeypatch.setattr(matching, "choose", lambda *_a, **_k: replace(other, origin="one", again=(other, other)))
     monkeypatch.setattr(matching, "less_torn", lambda a, b: replace(b, seconds=a.seconds))
     found = kfmaps.match(source, target)
     assert found.origin == "other"
     assert "another go" in found.seconds
+
+
+def test_where_the_target_lies_leads_as_well(pair):
+    """Of a map found backwards the target is bent: what lies on each other is the same."""
+    source, target, _ = pair
+    found = choose.Found(np.eye(5), "a", None, "poor", bent=target.mesh.vertices + 1.0, backwards=True)
+    led = matching._led(found, [source, target])
+    alone = matching._led(replace(found, bent=None), [source, target])
+    lie = lying(source.mesh, Mesh(target.mesh.vertices + 1.0, target.mesh.faces))
+    np.testing.assert_allclose(led.source, np.hstack([alone.source, np.sqrt(alternate.WEIGHT) * lie.source]))
+    np.testing.assert_allclose(led.target, np.hstack([alone.target, np.sqrt(alternate.WEIGHT) * lie.target]))

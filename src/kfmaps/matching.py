@@ -35,7 +35,7 @@ from kfmaps.surface.mesh import MIRROR, Mesh, vertex_areas
 ONE_FIT = "one fit"
 CONTINUED = 80
 """Functions of a map that is finished from its points, as many as a search hands on."""
-BADLY, LESS_TORN = 0.5, 0.01
+BADLY, LESS_TORN = 0.5, 0.02
 """Confidence of a vertex around which distances are kept badly, and by how much smaller a share of the target must be
 so for another go to be preferred."""
 
@@ -282,13 +282,11 @@ def match(
         # The adjoint, where a search has found the map: its candidates are refined one way.
         back = found.fit.back if found.origin == ONE_FIT and found.fit is not None else found.functional_map.T
     ended = _ended(found, across, shapes, config, clock, led, back, seed)
-    if found.again is not None:
-        with clock("another go"):
-            told = found.again
+    for told in found.again:
+        with clock("backwards" if told.backwards else "another go"):
             back = None if back is None else told.functional_map.T
-            ended = less_torn(
-                ended, _ended(told, across, shapes, config, Clock(progress), _led(told, shapes), back, seed)
-            )
+            ending = Clock(progress)
+            ended = less_torn(ended, _ended(told, across, shapes, config, ending, _led(told, shapes), back, seed))
     return replace(ended, partial_reason=why) if config.partial.which == "auto" else ended
 
 
@@ -298,7 +296,10 @@ def _led(found: Found, shapes: list[Shape]) -> Guide | None:
     led = leading(shapes[0], shapes[1], found.landmarks, tips)
     if found.bent is None:
         return led
-    return joined([(1.0, led), (WEIGHT, lying(Mesh(found.bent, shapes[0].mesh.faces), shapes[1].mesh))])
+    meshes = [shape.mesh for shape in shapes]
+    moved = 1 if found.backwards else 0
+    meshes[moved] = Mesh(found.bent, meshes[moved].faces)
+    return joined([(1.0, led), (WEIGHT, lying(meshes[0], meshes[1]))])
 
 
 def less_torn(one: Match, other: Match) -> Match:

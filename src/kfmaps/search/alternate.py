@@ -68,6 +68,11 @@ def grounds(source: Shape, target: Shape) -> Grounds | None:
     return Grounds(source, target, (a, b), (_sampled(source.basis, a), _sampled(target.basis, b)))
 
 
+def turned_round(on: Grounds) -> Grounds:
+    """The same copies for maps the other way."""
+    return Grounds(on.target, on.source, on.copies[::-1], on.bases[::-1])
+
+
 def alternated(
     C: np.ndarray, on: Grounds, led: Guide | None, report: Done | None = None, fit: NonRigid = FIT
 ) -> Alternated:

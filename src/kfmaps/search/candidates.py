@@ -93,8 +93,10 @@ class Candidate:
         mended.
     bent : (n_s, 3) float64 or None
         The source's vertices on the target, roughly, where both were bent and matched in turn.
-    again : Candidate or None
-        The same mended once more, more stiffly; which of the two is better shows in the end.
+    backwards : bool
+        Whether it is the target that was bent, and ``bent (n_t, 3)`` are its vertices on the source.
+    again : tuple of Candidate
+        The same mended in other ways; which of them is best shows in the end.
     """
 
     name: str
@@ -106,7 +108,8 @@ class Candidate:
     bending: float | None = None
     strain: float | None = None
     bent: np.ndarray | None = None
-    again: Candidate | None = None
+    backwards: bool = False
+    again: tuple[Candidate, ...] = ()
 
     @property
     def score(self) -> float:

@@ -22,11 +22,11 @@ from kfmaps.descriptors.shot import mirrored
 from kfmaps.fit.fit import Fit, checked_landmarks
 from kfmaps.fit.shape import Shape, inner
 from kfmaps.functional.cells import HASTY
-from kfmaps.functional.guide import guide
+from kfmaps.functional.guide import Guide, guide
 from kfmaps.functional.nonrigid import NonRigid
 from kfmaps.functional.points import to_points
 from kfmaps.functional.refine import CANDIDATES, PAIRS, Refinement, ZoomOut
-from kfmaps.search.alternate import FIT, STIFFER, alternated, grounds
+from kfmaps.search.alternate import FIT, STIFFER, alternated, grounds, turned_round
 from kfmaps.search.arena import POINTS as FEW
 from kfmaps.search.arena import Arena, Ground, arena, turned, without
 from kfmaps.search.bends import LONGER, MORE, bending, bent, copied, ready
@@ -102,8 +102,10 @@ class Found:
         Tips of limbs that lead the refinement, where the shapes differ so much that they should.
     bent : (n_s, 3) float64 or None
         The source's vertices roughly on the target, where the shapes differ so much that these lead it as well.
-    again : Found or None
-        The same found another way, between such shapes: the better of the two shows when both are finished.
+    backwards : bool
+        Whether ``bent`` are the target's vertices on the source instead, (n_t, 3).
+    again : tuple of Found
+        The same found in other ways, between such shapes: the best of them shows when all are finished.
     """
 
     functional_map: np.ndarray
@@ -120,7 +122,8 @@ class Found:
     bending: float | None = None
     limbs: Limbs | None = None
     bent: np.ndarray | None = None
-    again: Found | None = None
+    backwards: bool = False
+    again: tuple[Found, ...] = ()
 
 
 def choose(
@@ -228,7 +231,8 @@ def choose(
             bending=best.bending,
             limbs=limbs(best.points, *probes) if score < UNLIKE else None,
             bent=best.bent,
-            again=None if best.again is None else told(best.again),
+            backwards=best.backwards,
+            again=tuple(told(other) for other in best.again),
         )
 
     return told(best)
@@ -366,42 +370,50 @@ def mended(
     copies, shot = ready(finer[0], finer[1]), guide(source.shot, target.shot)
 
     near, rest = mendable(ranked)
-    done = np.zeros(len(near) + 1)
+    done = np.zeros(len(near) + 2)
 
     def tell(i: int, part: float) -> None:
         done[i] = part
         if progress is not None:
             progress("bent and matched in turn", float(done.mean()))
 
-    def mend(old: Candidate, i: int, fit: NonRigid = FIT) -> Candidate:
+    def mend(old: Candidate, i: int, fit: NonRigid = FIT, backwards: bool = False) -> Candidate:
         tips = limbs(old.points, on.source, on.target)
         led = leading(source, target, landmarks, tips and tips.guide(source.mesh, target.mesh), shot)
+        C, where = old.functional_map, both
+        if backwards:
+            C, where, led = C.T, turned_round(both), led and Guide(led.target, led.source)
         try:
-            found = alternated(old.functional_map, both, led, lambda part: tell(i, 0.9 * part), fit)
+            found = alternated(C, where, led, lambda part: tell(i, 0.9 * part), fit)
         except NotConverged:
             tell(i, 1.0)
             return old
         size = min(FINE, len(found.functional_map))
-        new = judged([(old.name, old.guided)], found.functional_map[None, :size, :size], None, on, 1)[0]
-        before, after = (bent(c.functional_map, source, target, copies, LONGER) for c in (old, new))
+        C = found.functional_map[:size, :size]
+        new = judged([(old.name, old.guided)], (C.T if backwards else C)[None], None, on, 1)[0]
+        after = bent(new.functional_map, source, target, copies, LONGER)
+        new = replace(new, bending=after.bending, strain=after.strain, bent=found.bent, backwards=backwards)
         tell(i, 1.0)
-        # Where a body touches itself the right map may go astray, and is as good as it was before.
-        states = (
-            replace(new, bending=after.bending, strain=after.strain, bent=found.bent),
-            replace(old, bending=before.bending, strain=before.strain),
-        )
-        return max(states, key=lambda c: c.score)
+        return new
+
+    def better(i: int) -> Candidate:
+        """Where a body touches itself the right map may go astray, and is as good as it was before."""
+        old, new = near[i], mend(near[i], i)
+        if new is old:
+            return old
+        before = bent(old.functional_map, source, target, copies, LONGER)
+        return max(new, replace(old, bending=before.bending, strain=before.strain), key=lambda c: c.score)
 
     tell(0, 0.0)
-    tried = parallel(lambda i: mend(near[i], i), range(len(near)), threads)
+    tried = parallel(better, range(len(near)), threads)
     usual = min((c.strain for c in tried if c.strain is not None), default=0.0)
     tried = [_over(c, usual) for c in tried]
     order = in_order(tried)
-    # Another go, more stiffly, for the one that has won.
-    first = next(i for i, c in enumerate(tried) if c is order[0])
-    other = _over(mend(near[first], len(near), STIFFER), usual)
-    if other.bent is not None and order[0].bent is not None and in_order([other, *order[1:]])[0] is other:
-        order[0] = replace(order[0], again=other)
+    # The one that has won is mended in two more ways: more stiffly, and with the target bent onto the source.
+    if order[0].bent is not None:
+        won, i = near[next(i for i, c in enumerate(tried) if c is order[0])], len(near)
+        more = (mend(won, i, STIFFER), mend(won, i + 1, backwards=True))
+        order[0] = replace(order[0], again=tuple(_over(c, usual) for c in more if c.bent is not None))
     return apart(order + rest, on.source, DISTINCT)
 
 
