@@ -142,7 +142,7 @@ def test_the_winner_is_mended_in_two_more_ways(pair, monkeypatch):
         (True, n_t, True, alternate.FIT),
     ]
     assert [c.backwards for c in (first, *first.again)] == [False, False, True]
-    assert [len(c.bent) for c in (first, *first.again)] == [n_s, n_s, n_t]
+    assert [len(np.asarray(c.bent)) for c in (first, *first.again)] == [n_s, n_s, n_t]
     for other in first.again:
         np.testing.assert_array_equal(other.functional_map, ranked[0].functional_map)
     apart.append((False, alternate.STIFFER))
@@ -216,6 +216,8 @@ def test_where_the_target_lies_leads_as_well(pair):
     found = choose.Found(np.eye(5), "a", None, "poor", bent=target.mesh.vertices + 1.0, backwards=True)
     led = matching._led(found, [source, target])
     alone = matching._led(replace(found, bent=None), [source, target])
+    assert led is not None
+    assert alone is not None
     lie = lying(source.mesh, Mesh(target.mesh.vertices + 1.0, target.mesh.faces))
     np.testing.assert_allclose(led.source, np.hstack([alone.source, np.sqrt(alternate.WEIGHT) * lie.source]))
     np.testing.assert_allclose(led.target, np.hstack([alone.target, np.sqrt(alternate.WEIGHT) * lie.target]))

@@ -109,9 +109,9 @@ def test_only_unlike_shapes_are_stretched_in_the_end(monkeypatch) -> None:
         assert loosened(NonRigid(), replace(found, quality=like)) == NonRigid()
     pair = datasets.two_poses(1500, rng=1)
     config = kfmaps.Config.automatic()
-    shapes = [kfmaps.prepare(mesh, config, name="a") for mesh in (pair.source, pair.target)]
+    source, target = (kfmaps.prepare(mesh, config, name="a") for mesh in (pair.source, pair.target))
     seen, usual = [], matching.placed
     monkeypatch.setattr(matching, "placed", lambda *a: seen.append(a[3].finish.stretch) or usual(*a))
     for quality in (UNLIKE + 1, UNLIKE - 1):
-        matching.continued(*shapes, pair.truth, config, origin="a", quality=quality)
+        matching.continued(source, target, pair.truth, config, origin="a", quality=quality)
     assert seen == [0.0, STRETCH]

@@ -70,7 +70,7 @@ def grounds(source: Shape, target: Shape) -> Grounds | None:
 
 def turned_round(on: Grounds) -> Grounds:
     """The same copies for maps the other way."""
-    return Grounds(on.target, on.source, on.copies[::-1], on.bases[::-1])
+    return Grounds(on.target, on.source, (on.copies[1], on.copies[0]), (on.bases[1], on.bases[0]))
 
 
 def alternated(
