@@ -283,6 +283,8 @@ def match(
         back = found.fit.back if found.origin == ONE_FIT and found.fit is not None else found.functional_map.T
     ended = _ended(found, across, shapes, config, clock, led, back, seed)
     for told in found.again:
+        if (torn(ended) or 0.0) <= LESS_TORN:
+            break
         with clock("backwards" if told.backwards else "another go"):
             back = None if back is None else told.functional_map.T
             ending = Clock(progress)
@@ -308,11 +310,21 @@ def less_torn(one: Match, other: Match) -> Match:
     Between shapes of other proportions distances nearby change everywhere; after the non-rigid fit they are kept badly
     only where a limb is torn or has been sent elsewhere. Without that fit nothing can be told.
     """
-    if one.place is None or other.place is None or one.border is None:
+    seen = torn(one), torn(other)
+    if seen[0] is None or seen[1] is None or seen[1] >= seen[0] - LESS_TORN:
         return one
-    areas = vertex_areas(one.border.outside[1].mesh)
-    shares = [float(areas[match.local_confidence < BADLY].sum() / areas.sum()) for match in (one, other)]
-    return replace(other, seconds=one.seconds) if shares[1] < shares[0] - LESS_TORN else one
+    return replace(other, seconds=one.seconds)
+
+
+def torn(match: Match) -> float | None:
+    """The share of the target around which a match with a non-rigid fit keeps distances badly, from 0 to 1.
+
+    ``None`` without that fit, before which distances between shapes of other proportions are kept badly everywhere.
+    """
+    if match.place is None or match.border is None:
+        return None
+    areas = vertex_areas(match.border.outside[1].mesh)
+    return float(areas[match.local_confidence < BADLY].sum() / areas.sum())
 
 
 def _parted(part: Partly, why: str, across: Border, shapes: list[Shape], config: Config, clock: Clock) -> Match:
