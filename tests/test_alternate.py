@@ -109,9 +109,10 @@ def test_mending_tells_how_far_it_is(pair):
     mended(ranked, on, source, target, np.zeros((0, 2), dtype=np.int64), 1, lambda *what: told.append(what))
     assert {stage for stage, _ in told} == {"bent and matched in turn"}
     once = [*(0.9 * (i + 1) / alternate.ROUNDS for i in range(alternate.ROUNDS)), 1.0]
-    # The one candidate, and then two more ways for it as the winner.
-    every = [0.0, *((i + d) / 3 for i in range(3) for d in once)]
-    assert [done for _, done in told] == pytest.approx(every)
+    shares = [done for _, done in told]
+    assert shares[: 2 + alternate.ROUNDS] == pytest.approx([0.0, *(d / 3 for d in once)])
+    assert shares == sorted(shares)
+    assert shares[-1] == 1.0
 
 
 def test_the_winner_is_mended_in_two_more_ways(pair, monkeypatch):
@@ -164,7 +165,7 @@ def test_what_goes_astray_stays_as_it_was(pair, monkeypatch):
     found = mended(ranked, on, source, target, np.zeros((0, 2), dtype=np.int64), 1)[0]
     assert found.functional_map is ranked[0].functional_map
     assert found.bent is None
-    assert found.again is None
+    assert found.again == ()
     # Looked at as closely as what it is compared with.
     assert found.bending is not None
     assert found.bending < 0.5
@@ -199,15 +200,19 @@ def test_the_less_torn_match_is_taken(pair):
     assert less_torn(with_torn(0.5), replace(with_torn(0.0), place=None)).verdict == "0.5"
 
 
-def test_a_match_finishes_both_goes(pair, monkeypatch):
+def test_a_match_finishes_all_ways_unless_it_is_hardly_torn(pair, monkeypatch):
     source, target, truth = pair
     C = np.asarray(to_functional(truth, source.basis.truncated(40), target.basis.truncated(40)))
     other = choose.Found(C, "other", None, "poor", quality=-9.0)
-    monkeypatch.setattr(matching, "choose", lambda *_a, **_k: replace(other, origin="one", again=(other, other)))
+    ways = (other, replace(other, bent=target.mesh.vertices, backwards=True))
+    monkeypatch.setattr(matching, "choose", lambda *_a, **_k: replace(other, origin="one", again=ways))
     monkeypatch.setattr(matching, "less_torn", lambda a, b: replace(b, seconds=a.seconds))
-    found = kfmaps.match(source, target)
-    assert found.origin == "other"
-    assert "another go" in found.seconds
+    config = replace(kfmaps.Config.automatic(), finish=None)
+    for share, ends in ((0.5, "other"), (LESS_TORN, "one"), (None, "one")):
+        monkeypatch.setattr(matching, "torn", lambda _match, share=share: share)
+        found = kfmaps.match(source, target, config)
+        assert found.origin == ends
+        assert ("another go" in found.seconds) == ("backwards" in found.seconds) == (ends == "other")
 
 
 def test_where_the_target_lies_leads_as_well(pair):

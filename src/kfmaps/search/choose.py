@@ -414,6 +414,8 @@ def mended(
         won, i = near[next(i for i, c in enumerate(tried) if c is order[0])], len(near)
         more = (mend(won, i, STIFFER), mend(won, i + 1, backwards=True))
         order[0] = replace(order[0], again=tuple(_over(c, usual) for c in more if c.bent is not None))
+    done[:] = 1.0
+    tell(0, 1.0)
     return apart(order + rest, on.source, DISTINCT)
 
 
