@@ -38,6 +38,8 @@ CONTINUED = 80
 BADLY, LESS_TORN = 0.5, 0.02
 """Confidence of a vertex around which distances are kept badly, and by how much smaller a share of the target must be
 so for another go to be preferred."""
+TORN = 0.04
+"""The share from which other ways are tried at all."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -283,7 +285,7 @@ def match(
         back = found.fit.back if found.origin == ONE_FIT and found.fit is not None else found.functional_map.T
     ended = _ended(found, across, shapes, config, clock, led, back, seed)
     for told in found.again:
-        if (torn(ended) or 0.0) <= LESS_TORN:
+        if (torn(ended) or 0.0) <= TORN:
             break
         with clock("backwards" if told.backwards else "another go"):
             back = None if back is None else told.functional_map.T

@@ -396,25 +396,23 @@ def mended(
         tell(i, 1.0)
         return new
 
-    def better(i: int) -> tuple[Candidate, Candidate]:
+    def better(i: int) -> Candidate:
         """Where a body touches itself the right map may go astray, and is as good as it was before."""
         old, new = near[i], mend(near[i], i)
         if new is old:
-            return old, old
+            return old
         before = bent(old.functional_map, source, target, copies, LONGER)
         states = new, replace(old, bending=before.bending, strain=before.strain)
-        return max(states, key=lambda c: c.score), new
+        return max(states, key=lambda c: c.score)
 
     tell(0, 0.0)
-    found = parallel(better, range(len(near)), threads)
-    usual = min((c.strain for c, _ in found if c.strain is not None), default=0.0)
-    tried = [_over(c, usual) for c, _ in found]
+    tried = parallel(better, range(len(near)), threads)
+    usual = min((c.strain for c in tried if c.strain is not None), default=0.0)
+    tried = [_over(c, usual) for c in tried]
     order = in_order(tried)
-    # The one that has won is mended in two more ways: more stiffly, and with the target bent onto the source.
+    # The one that has won is mended in two more ways: with the target bent onto the source, and more stiffly.
     first = next(i for i, c in enumerate(tried) if c is order[0])
-    more = [mend(near[first], len(near), STIFFER), mend(near[first], len(near) + 1, backwards=True)]
-    if order[0].bent is None:
-        more.append(found[first][1])
+    more = [mend(near[first], len(near), backwards=True), mend(near[first], len(near) + 1, STIFFER)]
     order[0] = replace(order[0], again=tuple(_over(c, usual) for c in more if c.bent is not None))
     done[:] = 1.0
     tell(0, 1.0)
