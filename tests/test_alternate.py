@@ -110,13 +110,11 @@ def test_mending_tells_how_far_it_is(pair):
     assert {stage for stage, _ in told} == {"bent and matched in turn"}
     once = [*(0.9 * (i + 1) / alternate.ROUNDS for i in range(alternate.ROUNDS)), 1.0]
     shares = [done for _, done in told]
-    assert shares[: 2 + alternate.ROUNDS] == pytest.approx([0.0, *(d / 3 for d in once)])
-    assert shares == sorted(shares)
-    assert shares[-1] == 1.0
+    assert shares == pytest.approx([0.0, *once])
 
 
 def test_the_winner_is_mended_in_two_more_ways(pair, monkeypatch):
-    """More stiffly, and with the target bent onto the source; not where a copy falls apart."""
+    """With the target bent onto the source, and more stiffly, once they are asked for; not where a copy falls apart."""
     source, target, truth = pair
     on = arena(source, target, (probe(source, 200), probe(target, 200))).whole
     C = np.asarray(to_functional(truth, source.basis.truncated(40), target.basis.truncated(40)))
@@ -137,22 +135,17 @@ def test_the_winner_is_mended_in_two_more_ways(pair, monkeypatch):
     monkeypatch.setattr(choose, "alternated", made)
     first = end()
     n_s, n_t = len(source.mesh.vertices), len(target.mesh.vertices)
-    assert calls == [
-        (False, n_s, False, alternate.FIT),
-        (True, n_t, True, alternate.FIT),
-        (False, n_s, False, alternate.STIFFER),
-    ]
-    assert [c.backwards for c in (first, *first.again)] == [False, True, False]
-    assert [len(np.asarray(c.bent)) for c in (first, *first.again)] == [n_s, n_t, n_s]
-    for other in first.again:
+    assert calls == [(False, n_s, False, alternate.FIT)]
+    others = [way() for way in first.again]
+    assert calls[1:] == [(True, n_t, True, alternate.FIT), (False, n_s, False, alternate.STIFFER)]
+    assert [c.backwards for c in (first, *others)] == [False, True, False]
+    assert [len(np.asarray(c.bent)) for c in (first, *others)] == [n_s, n_t, n_s]
+    for other in others:
         np.testing.assert_array_equal(other.functional_map, ranked[0].functional_map)
-    apart.append((False, alternate.STIFFER))
-    assert [c.backwards for c in end().again] == [True]
-    apart.append((True, alternate.FIT))
-    assert end().again == ()
+    apart += [(False, alternate.STIFFER), (True, alternate.FIT)]
+    assert [way() for way in first.again] == [None, None]
     apart.append((False, alternate.FIT))
     assert end().bent is None
-    assert end().again == ()
 
 
 def test_what_goes_astray_stays_as_it_was(pair, monkeypatch):
@@ -166,7 +159,7 @@ def test_what_goes_astray_stays_as_it_was(pair, monkeypatch):
     found = mended(ranked, on, source, target, np.zeros((0, 2), dtype=np.int64), 1)[0]
     assert found.functional_map is ranked[0].functional_map
     assert found.bent is None
-    assert [c.backwards for c in found.again] == [True, False]
+    assert [c.backwards for c in (way() for way in found.again) if c] == [True, False]
     # Looked at as closely as what it is compared with.
     assert found.bending is not None
     assert found.bending < 0.5
@@ -205,7 +198,7 @@ def test_a_match_finishes_all_ways_unless_it_is_hardly_torn(pair, monkeypatch):
     source, target, truth = pair
     C = np.asarray(to_functional(truth, source.basis.truncated(40), target.basis.truncated(40)))
     other = choose.Found(C, "other", None, "poor", quality=-9.0)
-    ways = (other, replace(other, bent=target.mesh.vertices, backwards=True))
+    ways = (lambda: replace(other, bent=target.mesh.vertices, backwards=True), lambda: other, lambda: None)
     monkeypatch.setattr(matching, "choose", lambda *_a, **_k: replace(other, origin="one", again=ways))
     monkeypatch.setattr(matching, "less_torn", lambda a, b: replace(b, seconds=a.seconds))
     config = replace(kfmaps.Config.automatic(), finish=None)
@@ -213,7 +206,7 @@ def test_a_match_finishes_all_ways_unless_it_is_hardly_torn(pair, monkeypatch):
         monkeypatch.setattr(matching, "torn", lambda _match, share=share: share)
         found = kfmaps.match(source, target, config)
         assert found.origin == ends
-        assert ("another go" in found.seconds) == ("backwards" in found.seconds) == (ends == "other")
+        assert [f"another way, {i}" in found.seconds for i in (1, 2)] == 2 * [ends == "other"]
 
 
 def test_where_the_target_lies_leads_as_well(pair):

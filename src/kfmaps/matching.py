@@ -284,13 +284,15 @@ def match(
         # The adjoint, where a search has found the map: its candidates are refined one way.
         back = found.fit.back if found.origin == ONE_FIT and found.fit is not None else found.functional_map.T
     ended = _ended(found, across, shapes, config, clock, led, back, seed)
-    for told in found.again:
+    for i, way in enumerate(found.again, 1):
         if (torn(ended) or 0.0) <= TORN:
             break
-        with clock("backwards" if told.backwards else "another go"):
-            back = None if back is None else told.functional_map.T
-            ending = Clock(progress)
-            ended = less_torn(ended, _ended(told, across, shapes, config, ending, _led(told, shapes), back, seed))
+        with clock(f"another way, {i}"):
+            told = way()
+            if told is not None:
+                back = None if back is None else told.functional_map.T
+                ending = Clock(progress)
+                ended = less_torn(ended, _ended(told, across, shapes, config, ending, _led(told, shapes), back, seed))
     return replace(ended, partial_reason=why) if config.partial.which == "auto" else ended
 
 

@@ -95,8 +95,8 @@ class Candidate:
         The source's vertices on the target, roughly, where both were bent and matched in turn.
     backwards : bool
         Whether it is the target that was bent, and ``bent (n_t, 3)`` are its vertices on the source.
-    again : tuple of Candidate
-        The same mended in other ways; which of them is best shows in the end.
+    again : tuple of callables
+        Each returns the same mended in another way, or ``None`` where that fails; which is best shows in the end.
     """
 
     name: str
@@ -109,7 +109,7 @@ class Candidate:
     strain: float | None = None
     bent: np.ndarray | None = None
     backwards: bool = False
-    again: tuple[Candidate, ...] = ()
+    again: tuple[Callable[[], Candidate | None], ...] = ()
 
     @property
     def score(self) -> float:

@@ -9,13 +9,15 @@ well, in which case the answer is "ambiguous".
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
+from functools import partial
 from typing import Any
 
 import numpy as np
 
 from kfmaps._arrays import NotConverged, refuse, seed_of
-from kfmaps._progress import Progress
+from kfmaps._progress import Done, Progress
 from kfmaps._threads import parallel
 from kfmaps.config import Config
 from kfmaps.descriptors.shot import mirrored
@@ -104,8 +106,9 @@ class Found:
         The source's vertices roughly on the target, where the shapes differ so much that these lead it as well.
     backwards : bool
         Whether ``bent`` are the target's vertices on the source instead, (n_t, 3).
-    again : tuple of Found
-        The same found in other ways, between such shapes: the best of them shows when all are finished.
+    again : tuple of callables
+        Each returns the same found in another way, or ``None`` where that fails, between such shapes: which is best
+        shows when it is finished.
     """
 
     functional_map: np.ndarray
@@ -123,7 +126,7 @@ class Found:
     limbs: Limbs | None = None
     bent: np.ndarray | None = None
     backwards: bool = False
-    again: tuple[Found, ...] = ()
+    again: tuple[Callable[[], Found | None], ...] = ()
 
 
 def choose(
@@ -232,8 +235,12 @@ def choose(
             limbs=limbs(best.points, *probes) if score < UNLIKE else None,
             bent=best.bent,
             backwards=best.backwards,
-            again=tuple(told(other) for other in best.again),
+            again=tuple(partial(other, way) for way in best.again),
         )
+
+    def other(way: Callable[[], Candidate | None]) -> Found | None:
+        made = way()
+        return None if made is None else told(made)
 
     return told(best)
 
@@ -370,35 +377,35 @@ def mended(
     copies, shot = ready(finer[0], finer[1]), guide(source.shot, target.shot)
 
     near, rest = mendable(ranked)
-    done = np.zeros(len(near) + 2)
+    done = np.zeros(len(near))
 
     def tell(i: int, part: float) -> None:
         done[i] = part
         if progress is not None:
             progress("bent and matched in turn", float(done.mean()))
 
-    def mend(old: Candidate, i: int, fit: NonRigid = FIT, backwards: bool = False) -> Candidate:
+    def mend(old: Candidate, tell: Done, fit: NonRigid = FIT, backwards: bool = False) -> Candidate:
         tips = limbs(old.points, on.source, on.target)
         led = leading(source, target, landmarks, tips and tips.guide(source.mesh, target.mesh), shot)
         C, where = old.functional_map, both
         if backwards:
             C, where, led = C.T, turned_round(both), led and Guide(led.target, led.source)
         try:
-            found = alternated(C, where, led, lambda part: tell(i, 0.9 * part), fit)
+            found = alternated(C, where, led, lambda part: tell(0.9 * part), fit)
         except NotConverged:
-            tell(i, 1.0)
+            tell(1.0)
             return old
         size = min(FINE, len(found.functional_map))
         C = found.functional_map[:size, :size]
         new = judged([(old.name, old.guided)], (C.T if backwards else C)[None], None, on, 1)[0]
         after = bent(new.functional_map, source, target, copies, LONGER)
         new = replace(new, bending=after.bending, strain=after.strain, bent=found.bent, backwards=backwards)
-        tell(i, 1.0)
+        tell(1.0)
         return new
 
     def better(i: int) -> Candidate:
         """Where a body touches itself the right map may go astray, and is as good as it was before."""
-        old, new = near[i], mend(near[i], i)
+        old, new = near[i], mend(near[i], partial(tell, i))
         if new is old:
             return old
         before = bent(old.functional_map, source, target, copies, LONGER)
@@ -410,12 +417,14 @@ def mended(
     usual = min((c.strain for c in tried if c.strain is not None), default=0.0)
     tried = [_over(c, usual) for c in tried]
     order = in_order(tried)
-    # The one that has won is mended in two more ways: with the target bent onto the source, and more stiffly.
-    first = next(i for i, c in enumerate(tried) if c is order[0])
-    more = [mend(near[first], len(near), backwards=True), mend(near[first], len(near) + 1, STIFFER)]
-    order[0] = replace(order[0], again=tuple(_over(c, usual) for c in more if c.bent is not None))
-    done[:] = 1.0
-    tell(0, 1.0)
+    won = near[next(i for i, c in enumerate(tried) if c is order[0])]
+
+    def way(**how: Any) -> Candidate | None:
+        made = mend(won, lambda _done: None, **how)
+        return None if made is won else _over(made, usual)
+
+    # The one that has won can be mended in two more ways: with the target bent onto the source, and more stiffly.
+    order[0] = replace(order[0], again=(partial(way, backwards=True), partial(way, fit=STIFFER)))
     return apart(order + rest, on.source, DISTINCT)
 
 
