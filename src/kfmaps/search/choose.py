@@ -235,10 +235,10 @@ def choose(
             limbs=limbs(best.points, *probes) if score < UNLIKE else None,
             bent=best.bent,
             backwards=best.backwards,
-            again=tuple(partial(other, way) for way in best.again),
+            again=tuple(partial(another, way) for way in best.again),
         )
 
-    def other(way: Callable[[], Candidate | None]) -> Found | None:
+    def another(way: Callable[[], Candidate | None]) -> Found | None:
         made = way()
         return None if made is None else told(made)
 
