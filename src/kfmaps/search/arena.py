@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -12,6 +12,7 @@ from kfmaps.functional.guide import Guide, guide
 from kfmaps.search.marks import Marks, around, side_by_side
 from kfmaps.search.pairings import Pairing, against
 from kfmaps.search.quality import Probe, mirrored_probe, thinned
+from kfmaps.search.zoom import projector
 
 POINTS = 400
 """Points of the rough refinement; the first of the probe."""
@@ -29,6 +30,8 @@ class Ground:
     landmarks : (q_t, q_s) float32 or None
         The same of the functions around landmarks.
     marks : Marks or None
+    solvers : dict
+        What :meth:`solver` has made, to be found again.
     """
 
     source: Probe
@@ -36,6 +39,13 @@ class Ground:
     shot: np.ndarray | None
     landmarks: np.ndarray | None = None
     marks: Marks | None = None
+    solvers: dict[int, np.ndarray] = field(default_factory=dict)
+
+    def solver(self, k: int) -> np.ndarray:
+        """:func:`kfmaps.search.zoom.projector` of the target, made once for all refinements."""
+        if k not in self.solvers:
+            self.solvers[k] = projector(self.target.samples.basis, k)
+        return self.solvers[k]
 
     def against(
         self, shot: float, landmarks: float = 0.0, tips: float = 0.0, paired: Sequence[Pairing | None] = ()

@@ -27,7 +27,7 @@ from kfmaps.search.marks import FAR, missed
 from kfmaps.search.pairings import Pairing, against, induced, pairings
 from kfmaps.search.quality import Probe, Quality, map_quality
 from kfmaps.search.symmetries import turns_of
-from kfmaps.search.zoom import projector, zoomed
+from kfmaps.search.zoom import zoomed
 
 Weights = tuple[float, ...]
 """Of SHOT, of landmarks and of the tips of limbs."""
@@ -285,7 +285,7 @@ def from_symmetries(found: list[Candidate], on: Ground, functions: int, threads:
 def paired_map(pairing: Pairing, on: Ground, k: int) -> np.ndarray:
     """The functional map (k, k) of the points that the tips of a pairing say are alike."""
     points = against(on.source.tips, on.target.tips, pairing, on.shot).argmin(axis=1)
-    return np.asarray(projector(on.target.samples.basis, k) @ on.source.samples.basis.functions[points, :k], float)
+    return np.asarray(on.solver(k) @ on.source.samples.basis.functions[points, :k], float)
 
 
 def _told_apart(weights: Iterable[Weights], on: Ground) -> list[Weights]:
@@ -354,7 +354,7 @@ def refine(
 ) -> tuple[np.ndarray, np.ndarray]:
     """:func:`kfmaps.search.zoom.zoomed` on a ground; ``paired``: the tips that each map takes to each other."""
     bases = on.source.samples.basis, on.target.samples.basis
-    return zoomed(maps, *bases, sizes, on.against(*weights, paired=paired), threads)
+    return zoomed(maps, *bases, sizes, on.against(*weights, paired=paired), threads, on.solver)
 
 
 def judged(

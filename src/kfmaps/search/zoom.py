@@ -6,7 +6,7 @@ checks: a few hundred points are too few for one map to be worth the trouble of 
 
 from __future__ import annotations
 
-from itertools import pairwise
+from collections.abc import Callable
 
 import numpy as np
 
@@ -27,6 +27,7 @@ def zoomed(
     sizes: tuple[int, ...],
     against: np.ndarray | None = None,
     threads: int | None = None,
+    solvers: Callable[[int], np.ndarray] | None = None,
 ) -> tuple[np.ndarray, np.ndarray]:
     """Refine ``maps (m, k, k)`` through the basis ``sizes``, the first of which is at most k.
 
@@ -42,6 +43,8 @@ def zoomed(
         Half the squared differences of descriptors, up to a constant for each target point, for all maps or for each:
         what speaks against a pair besides the functions; see :func:`kfmaps.search.arena.differences`.
     threads : int, optional
+    solvers : callable, optional
+        :func:`projector` of the target for k functions, where many refinements share them.
 
     Returns
     -------
@@ -51,14 +54,15 @@ def zoomed(
     """
     phi_s = np.asarray(to_numpy(source.functions)[:, : sizes[-1]], dtype=np.float32)
     phi_t = np.asarray(to_numpy(target.functions)[:, : sizes[-1]], dtype=np.float32)
-    solvers = [projector(target, k) for k in sizes[1:]]
+    found_by = solvers or (lambda k: projector(target, k))
+    steps = [(k, found_by(k)) for k in sizes[1:]]
     count = max(1, PAIRS // (len(phi_s) * len(phi_t)))
 
     def through(first: int) -> tuple[np.ndarray, np.ndarray]:
         some = slice(first, first + count)
         says = against[some] if against is not None and against.ndim == 3 else against
         C = np.asarray(maps[some, : sizes[0], : sizes[0]], dtype=np.float32)
-        for (_, larger), solver in zip(pairwise(sizes), solvers, strict=True):
+        for larger, solver in steps:
             C = solver @ phi_s[:, :larger][closest(C, phi_s, phi_t, says)]
         return np.asarray(C, dtype=np.float64), closest(C, phi_s, phi_t, says)
 
