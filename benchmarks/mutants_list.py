@@ -572,6 +572,11 @@ MUTANTS = tuple(
             "test_automatic -k its_definition_says",
         ),
         ("return max(states, key=lambda c: c.score)", "return states[0]", "test_alternate -k astray"),
+        ("turns.transpose(0, 2, 1) @ moments_of(energy, x)", "moments_of(energy, x)", "test_stretch -k exactly"),
+        ("return turns @ (axes * np.clip(", "return (axes * np.clip(", "test_stretch -k exactly"),
+        ("diffuse = factorise(area * energy.laplacian +", "diffuse = factorise(", "test_stretch -k nearly"),
+        ("seen[1] >= seen[0] - LESS_TORN", "seen[1] >= seen[0]", "test_alternate -k less_torn"),
+        ("(C.T if backwards else C)[None]", "C[None]", "test_alternate -k more_ways"),
         (
             "dense = np.log(np.maximum(local(energy, x)",
             "dense = (np.maximum(local(energy, x)",

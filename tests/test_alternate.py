@@ -136,7 +136,7 @@ def test_the_winner_is_mended_in_two_more_ways(pair, monkeypatch):
     first = end()
     n_s, n_t = len(source.mesh.vertices), len(target.mesh.vertices)
     assert calls == [(False, n_s, False, alternate.FIT)]
-    others = [made for way in first.again if (made := way())]
+    others = [one for way in first.again if (one := way())]
     assert calls[1:] == [(True, n_t, True, alternate.FIT), (False, n_s, False, alternate.STIFFER)]
     assert [c.backwards for c in (first, *others)] == [False, True, False]
     assert [len(np.asarray(c.bent)) for c in (first, *others)] == [n_s, n_t, n_s]
