@@ -587,5 +587,24 @@ MUTANTS = tuple(
             "turns[j], energy.rest[i] - energy.rest[j])",
             "test_nonrigid -k shares",
         ),
+        # what is left out, and what is nearly exact
+        ("default=-math.inf) >= EASY", "default=-math.inf) <= EASY", "test_clear -k rivals"),
+        (
+            "easy = len(marks) == 0 and descriptors is None and clear(found)",
+            "easy = clear(found)",
+            "test_clear -k heard",
+        ),
+        ("vertices[to_points(C, few, target", "(0 * vertices)[to_points(C, few, target", "test_clear -k passed_over"),
+        ("thought - values) <= AGREE *", "thought - values) >= -AGREE *", "test_eigensolver_loose -k too_little"),
+        (
+            "thought = 1 / found.values[:k] - SHIFT *",
+            "thought = 1 / found.values[:k] -",
+            "test_eigensolver_loose -k nearly",
+        ),
+        (
+            "of.turns is not None and of.turns.shape[1] == _size(of, functions)",
+            "of.turns is not None",
+            "test_symmetries -k knows_them",
+        ),
     )
 )

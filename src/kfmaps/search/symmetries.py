@@ -32,10 +32,9 @@ MOST = 2
 
 def turns_of(of: Probe, functions: int, threads: int | None = None) -> list[np.ndarray]:
     """:func:`symmetries` of a probe, or those that it has kept."""
-    kept = of.turns
-    return (
-        list(kept) if kept is not None and kept.shape[1] == _size(of, functions) else symmetries(of, functions, threads)
-    )
+    if of.turns is not None and of.turns.shape[1] == _size(of, functions):
+        return list(of.turns)
+    return symmetries(of, functions, threads)
 
 
 def with_turns(of: Probe, few: Probe) -> Probe:
