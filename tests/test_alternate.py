@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -16,7 +18,7 @@ from kfmaps.search import alternate, choose
 from kfmaps.search.alternate import Grounds, alternated, grounds, lying, spread
 from kfmaps.search.arena import arena
 from kfmaps.search.candidates import STRAIN, Candidate, judged
-from kfmaps.search.choose import mendable, mended
+from kfmaps.search.choose import closer, mendable, mended
 from kfmaps.search.quality import Quality, probe
 from kfmaps.surface.mesh import Mesh, vertex_areas
 
@@ -166,14 +168,52 @@ def test_what_goes_astray_stays_as_it_was(pair, monkeypatch):
     assert found.strain is not None
 
 
+def on_a_line(*places: float) -> Any:
+    """A probe of which only positions are asked for: sample i lies at the i-th place."""
+    return SimpleNamespace(positions=np.array([[x, 0.0, 0.0] for x in places]))
+
+
 def test_what_is_not_mended_stays_and_stays_once():
     """Also where a second look has put the second far behind the third."""
     judgement = Quality(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     one = Candidate("a", np.eye(2), np.zeros(3, dtype=int), judgement, bending=0.15)
-    ranked = [replace(one, name=n, strain=-s / STRAIN) for n, s in zip("abcd", (-1.0, -9.0, -4.0, -4.5), strict=True)]
-    near, rest = mendable(ranked)
+    ranked = [
+        replace(one, name=name, strain=-s / STRAIN, points=np.full(3, i))
+        for i, (name, s) in enumerate(zip("abcd", (-1.0, -9.0, -4.0, -4.5), strict=True))
+    ]
+    near, rest = mendable(ranked, on_a_line(0.0, 1.0, 2.0, 3.0))
     assert [c.name for c in near] == ["a", "c"]
     assert [c.name for c in rest] == ["b", "d"]
+
+
+def test_the_first_few_are_mended_and_those_that_differ():
+    """However many hardly differ from the first, a rival is mended too."""
+    judgement = Quality(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    ranked = [Candidate(n, np.eye(2), np.full(3, i), judgement) for i, n in enumerate("abcdefg")]
+    near, rest = mendable(ranked, on_a_line(0.0, 0.05, -0.05, 0.06, 1.0, 1.5, 2.0))
+    assert [c.name for c in near] == ["a", "b", "c", "e", "f"]
+    assert [c.name for c in rest] == ["d", "g"]
+
+
+def test_a_map_that_hardly_differs_comes_first_where_it_bends_less(pair):
+    source, target, truth = pair
+    on = arena(source, target, (probe(source, 200), probe(target, 200))).whole
+    torn = truth.copy()
+    high = np.argsort(target.mesh.vertices[:, 0])[-len(torn) // 6 :]
+    torn[high] = np.random.default_rng(0).permutation(torn[high])
+    bases = source.basis.truncated(40), target.basis.truncated(40)
+    maps = np.stack([np.asarray(to_functional(points, *bases)) for points in (torn, truth)])
+    bad, good = judged([("torn", True), ("truth", True)], maps, None, on, 1)
+    # All else says as much for either, and a little more for the torn one.
+    good = replace(good, quality=replace(bad.quality, distortion=bad.quality.distortion + 0.01))
+    ranked = choose.ranking([bad], on, source, target, 1)
+    found = closer(ranked, [bad, good], on, source, target, 1)
+    assert [c.name for c in found] == ["truth", "torn"]
+    assert found[1] is ranked[0]
+    assert found[0].bending is not None
+    assert ranked[0].bending is not None
+    assert found[0].bending < ranked[0].bending
+    assert closer(ranked, [bad], on, source, target, 1) == ranked
 
 
 def test_the_less_torn_match_is_taken(pair):

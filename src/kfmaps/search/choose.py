@@ -32,7 +32,7 @@ from kfmaps.search.alternate import FIT, STIFFER, alternated, grounds, turned_ro
 from kfmaps.search.arena import POINTS as FEW
 from kfmaps.search.arena import Arena, Ground, arena, turned, without
 from kfmaps.search.bends import LONGER, MORE, bending, bent, copied, ready
-from kfmaps.search.candidates import FINE, Candidate, again, apart, candidates, differs, judged
+from kfmaps.search.candidates import APART, FINE, Candidate, again, apart, candidates, differs, judged
 from kfmaps.search.learned import learned, plain, speaks
 from kfmaps.search.marks import doubted, leading
 from kfmaps.search.pairings import Limbs, limbs
@@ -59,6 +59,10 @@ STRETCH = 0.01
 """Area over which sizes may change evenly in the non-rigid fit of such shapes."""
 BENT = 3
 """Distinct maps that the source is bent for, ..."""
+FIRST = 3
+"""Maps between unlike shapes that are mended, whether or not they differ."""
+CLOSER = 5
+"""Maps that may be closer to each other, rough ones' :data:`~kfmaps.search.candidates.APART`, of unlike shapes."""
 BEHIND = 3.0
 """... unless they are so far behind in the score."""
 CLOSE = 1.0
@@ -205,13 +209,15 @@ def choose(
         wrong = doubted(alone[0].missed)
     if wrong.any():
         rest = without(on.whole, wrong)
-        ranked = ranking(again(found, rest, config.threads), rest, source, target, config.threads)
+        found = again(found, rest, config.threads)
+        ranked = ranking(found, rest, source, target, config.threads)
         on = Arena(without(on.few, wrong), rest)
     if taught and (orientation == "kept" or asked == "reversed"):
         more = learned(source, target, config, on, seed, given)
         ranked = beside(ranked, more, on.whole, source, target, config.threads)
     if surfaces and ranked[0].quality.score < MENDED:
         image = mirror_image(target) if orientation == "reversed" and asked != "reversed" else target
+        ranked = closer(ranked, found, on.whole, source, target, config.threads)
         ranked = mended(ranked, on.whole, source, image, pairs[~wrong], config.threads, report)
     best, others = ranked[0], ranked[1 : 1 + config.search.runners_up]
     runners_up = passed_over([c.functional_map for c in others], source.basis, target.basis, config.threads)
@@ -323,6 +329,30 @@ def ranking(
     return order
 
 
+def closer(
+    ranked: list[Candidate],
+    found: list[Candidate],
+    on: Ground,
+    source: Shape,
+    target: Shape,
+    threads: int | None = None,
+) -> list[Candidate]:
+    """``ranked``, and between them the best of ``found`` that hardly differ from a better one.
+
+    Between unlike shapes a map with one limb wrong is near the right one, and comes before it by chance: which of them
+    is torn shows when both are bent.
+    """
+    copies = on.source.copy, on.target.copy
+    if copies[0] is None or copies[1] is None:
+        return ranked
+    best = apart(in_order(found), on.source, APART, CLOSER)
+    known = [c.functional_map for c in ranked]
+    more = [c for c in best if not any(c.functional_map is C for C in known)]
+    both = ready(copies[0], copies[1])
+    energies = parallel(lambda c: bending(c.functional_map, source, target, both), more, threads)
+    return in_order([*ranked, *(replace(c, bending=e) for c, e in zip(more, energies, strict=True))])
+
+
 def beside(
     ranked: list[Candidate],
     more: list[Candidate],
@@ -376,7 +406,7 @@ def mended(
         return ranked
     copies, shot = ready(finer[0], finer[1]), guide(source.shot, target.shot)
 
-    near, rest = mendable(ranked)
+    near, rest = mendable(ranked, on.source)
     done = np.zeros(len(near))
 
     def tell(i: int, part: float) -> None:
@@ -433,9 +463,13 @@ def _over(found: Candidate, usual: float) -> Candidate:
     return found if found.strain is None else replace(found, strain=found.strain - usual)
 
 
-def mendable(ranked: list[Candidate]) -> tuple[list[Candidate], list[Candidate]]:
-    """Those that are worth mending, and the others; a second look may have put the second behind the third."""
-    worth = [i < BENT and c.score > ranked[0].score - MENDABLE for i, c in enumerate(ranked)]
+def mendable(ranked: list[Candidate], source: Probe) -> tuple[list[Candidate], list[Candidate]]:
+    """Those that are worth mending, and the others; a second look may have put the second behind the third.
+
+    The first few, which may be alike, and the first few that differ.
+    """
+    wanted = [*ranked[:FIRST], *apart(ranked, source, DISTINCT, BENT)]
+    worth = [any(c is w for w in wanted) and c.score > ranked[0].score - MENDABLE for c in ranked]
     return [c for c, yes in zip(ranked, worth, strict=True) if yes], [
         c for c, yes in zip(ranked, worth, strict=True) if not yes
     ]
