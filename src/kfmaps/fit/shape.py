@@ -21,8 +21,8 @@ from kfmaps.surface.inside import Inside, inside
 from kfmaps.surface.mesh import Mesh, check_mesh, surface_area, unit_area, vertex_normals
 from kfmaps.surface.samples import stratified_samples, stratified_vertices
 
-EXACT, NEARLY = 10_000, 1e-2
-"""Vertices up to which eigenfunctions are found to rounding, and the tolerance above: eigenvalues to 1e-6."""
+EXACT, TIGHT, NEARLY = 10_000, 1e-10, 1e-2
+"""Vertices up to which eigenfunctions are found to rounding, and the tolerances there and above: eigenvalues to 1e-6."""
 DESCRIBED = 7_000
 """Vertices for which SHOT is worked out; where there are more they are a hundredth of √area apart."""
 NORMALS = 0.05
@@ -150,7 +150,7 @@ def prepare(
         config.basis.laplacian,
         threads=config.threads,
         progress=lambda done: report(f"eigenfunctions of {name}", done),
-        **({} if len(small.vertices) <= EXACT else {"tolerance": NEARLY}),
+        tolerance=TIGHT if len(small.vertices) <= EXACT else NEARLY,
     )
     seconds["eigenfunctions"] = time.perf_counter() - start
     report(f"eigenfunctions of {name}", 1.0)

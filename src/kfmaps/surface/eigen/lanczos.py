@@ -93,7 +93,7 @@ def _remove(block: np.ndarray, basis: np.ndarray, each: Map) -> float:
     def against(rows: slice) -> np.ndarray:
         return basis[rows].T @ np.asarray(block[rows], dtype=basis.dtype)
 
-    along = np.sum(list(each(against, _slices(len(block)))), axis=0, dtype=np.float64)
+    along = np.asarray(np.sum(list(each(against, _slices(len(block)))), axis=0, dtype=np.float64))
     _subtract(block, basis, along, each)
     return float(np.abs(along).max())
 
