@@ -22,7 +22,7 @@ from kfmaps.surface.mesh import Mesh, check_mesh, surface_area, unit_area, verte
 from kfmaps.surface.samples import stratified_samples, stratified_vertices
 
 EXACT, TIGHT, NEARLY = 10_000, 1e-10, 1e-2
-"""Vertices up to which eigenfunctions are found to rounding, and the tolerances there and above: eigenvalues to 1e-6."""
+"""Vertices up to which eigenfunctions are found to rounding, and the tolerances there and above."""
 DESCRIBED = 7_000
 """Vertices for which SHOT is worked out; where there are more they are a hundredth of √area apart."""
 NORMALS = 0.05
