@@ -54,7 +54,7 @@ TURNED, TURNED_APART = 3, 0.08
 FINALISTS, FEWER = 10, 6
 """Distinct rough maps that are refined further, and where one is :func:`clear`."""
 EASY = -7.0
-"""Score of a rough map, apart from landmarks and the ends of limbs, from which it is: two people have -4 to -10, animals
+"""Score of a rough map, apart from landmarks and the ends of limbs, from which it is: people have -4 to -10, animals
 of different kinds -8.5 and less."""
 ZERO = 0.03
 """Frequency, the root of an eigenvalue at unit area, below which there is no wave: a sphere's first is 5."""
