@@ -190,8 +190,11 @@ def compared(shape: str, vertices: int, landmarks: int, seed: int, *, quiet: boo
         stages("shapes", 1.0)
         pairs = np.stack([pair.truth[rows], rows], axis=1)
         automatic, ours = Config.automatic(), Config()
+        # The same shapes for all: as many functions as the fits with landmarks need, which need more.
+        wanted = max(automatic.eigenfunctions, ours.eigenfunctions)
+        each = replace(automatic, descriptors=replace(automatic.descriptors, eigenfunctions=wanted))
         shapes = [
-            prepare(mesh, automatic, name=side, progress=stages)
+            prepare(mesh, each, name=side, progress=stages)
             for side, mesh in (("source", pair.source), ("target", pair.target))
         ]
         told = f"{landmarks} landmarks from the truth"
