@@ -17,12 +17,13 @@ from kfmaps._threads import available_cores
 from kfmaps.config import Config
 from kfmaps.descriptors.shot import shot
 from kfmaps.surface.basis import Basis, laplace_basis
+from kfmaps.surface.eigen.pencil import EXACT
 from kfmaps.surface.inside import Inside, inside
 from kfmaps.surface.mesh import Mesh, check_mesh, surface_area, unit_area, vertex_normals
 from kfmaps.surface.samples import stratified_samples, stratified_vertices
 
-EXACT, TIGHT, NEARLY = 10_000, 1e-10, 1e-2
-"""Vertices up to which eigenfunctions are found to rounding, and the tolerances there and above."""
+FEW, NEARLY = 10_000, 1e-2
+"""Vertices up to which eigenfunctions are found to rounding, and the tolerance above."""
 DESCRIBED = 7_000
 """Vertices for which SHOT is worked out; where there are more they are a hundredth of √area apart."""
 NORMALS = 0.05
@@ -150,7 +151,7 @@ def prepare(
         config.basis.laplacian,
         threads=config.threads,
         progress=lambda done: report(f"eigenfunctions of {name}", done),
-        tolerance=TIGHT if len(small.vertices) <= EXACT else NEARLY,
+        tolerance=EXACT if len(small.vertices) <= FEW else NEARLY,
     )
     seconds["eigenfunctions"] = time.perf_counter() - start
     report(f"eigenfunctions of {name}", 1.0)

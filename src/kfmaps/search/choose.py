@@ -314,15 +314,12 @@ def ranking(
 ) -> list[Candidate]:
     """The distinct ones of ``found``, best first; the first few are judged by how far the source must bend as well."""
     ranked = distinct(found, on.source)
-    copies = on.source.copy, on.target.copy
-    if copies[0] is None or copies[1] is None or not ranked:
-        return ranked
-    both = ready(copies[0], copies[1])
     near = [c for c in ranked[:BENT] if c.score > ranked[0].score - BEHIND]
-    energies = parallel(lambda c: bending(c.functional_map, source, target, both), near, threads)
-    tried = [replace(c, bending=energy) for c, energy in zip(near, energies, strict=True)]
+    tried = with_bending(near, on, source, target, threads)
+    if not tried:
+        return ranked
     # As bad as the worst, so that none that was not tried comes first.
-    worst = max(energies)
+    worst = max(c.bending for c in tried if c.bending is not None)
     order = in_order([*tried, *(replace(c, bending=worst) for c in ranked[len(near) :])])
     if len(near) > 1 and order[0].score - order[1].score < CLOSE:
         return second_look(order, on, source, target, threads)
@@ -342,15 +339,22 @@ def closer(
     Between unlike shapes a map with one limb wrong is near the right one, and comes before it by chance: which of them
     is torn shows when both are bent.
     """
-    copies = on.source.copy, on.target.copy
-    if copies[0] is None or copies[1] is None:
-        return ranked
     best = apart(in_order(found), on.source, APART, CLOSER)
     known = [c.functional_map for c in ranked]
     more = [c for c in best if not any(c.functional_map is C for C in known)]
+    return in_order([*ranked, *with_bending(more, on, source, target, threads)])
+
+
+def with_bending(
+    found: list[Candidate], on: Ground, source: Shape, target: Shape, threads: int | None = None
+) -> list[Candidate]:
+    """``found`` with how far the coarse copies must bend; none where a shape has no copy to bend."""
+    copies = on.source.copy, on.target.copy
+    if copies[0] is None or copies[1] is None or not found:
+        return []
     both = ready(copies[0], copies[1])
-    energies = parallel(lambda c: bending(c.functional_map, source, target, both), more, threads)
-    return in_order([*ranked, *(replace(c, bending=e) for c, e in zip(more, energies, strict=True))])
+    energies = parallel(lambda c: bending(c.functional_map, source, target, both), found, threads)
+    return [replace(c, bending=energy) for c, energy in zip(found, energies, strict=True)]
 
 
 def beside(

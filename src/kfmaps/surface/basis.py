@@ -12,7 +12,7 @@ from scipy.sparse import coo_array, csc_array
 from kfmaps._arrays import Array, MissingDependency, check_count, refuse, to_numpy
 from kfmaps.surface.cloud import cloud_laplacian
 from kfmaps.surface.eigen.factor import Sparse
-from kfmaps.surface.eigen.pencil import smallest_eigenpairs
+from kfmaps.surface.eigen.pencil import EXACT, smallest_eigenpairs
 from kfmaps.surface.inside import inside
 from kfmaps.surface.mesh import Mesh, check_is_mesh, vertex_areas
 
@@ -164,7 +164,7 @@ def laplace_basis(
     rng: int | np.random.Generator = 0,
     threads: int | None = None,
     progress: Callable[[float], None] | None = None,
-    tolerance: float = 1e-10,
+    tolerance: float = EXACT,
 ) -> Basis:
     """The first ``k`` eigenfunctions of the Laplacian of a mesh or point cloud.
 

@@ -71,7 +71,7 @@ def smallest_eigenpairs(
     mass: np.ndarray,
     k: int,
     *,
-    tolerance: float = 1e-10,
+    tolerance: float = EXACT,
     rng: int | np.random.Generator = 0,
     threads: int | None = None,
     method: str = "auto",
