@@ -271,8 +271,8 @@ MUTANTS = tuple(
         ("SLOPE * (score - MIDDLE)", "SLOPE * (MIDDLE - score)", "test_automatic -k verdict"),
         ("math.exp(-max(margin, 0.0) / TIE)", "math.exp(-max(margin, 0.0) * TIE)", f"{MATCH} -k close_behind"),
         (
-            'score -= 0.5 * np.einsum("mik,mik->mi"',
-            'score -= 0.4 * np.einsum("mik,mik->mi"',
+            'images[:, :, k] = -0.5 * np.einsum("mik,mik->mi"',
+            'images[:, :, k] = -0.4 * np.einsum("mik,mik->mi"',
             "test_search -k many_maps",
         ),
         ("weighted @ phi + RIDGE * np.eye(k), weighted", "weighted @ phi, weighted", "test_search -k many_maps"),
@@ -606,5 +606,9 @@ MUTANTS = tuple(
             "of.turns is not None",
             "test_symmetries -k knows_them",
         ),
+        ("np.argsort(_changed(begun, of), kind", "np.argsort(-_changed(begun, of), kind", "test_symmetries -k early"),
+        ("on.few, weights[:QUICK])", "on.few, weights)", "test_clear -k near_symmetries"),
+        ("STRIDE if easy else FINE_STEP)", "FINE_STEP if easy else STRIDE)", "test_clear -k near_symmetries"),
+        ("left[i, i] += 1.5", "left[i, i] += 1.4", "test_nonrigid -k singular_values"),
     )
 )

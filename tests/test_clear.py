@@ -29,15 +29,16 @@ def on(pair):
 
 
 def names(monkeypatch, pair, on, easy, landmarks=NONE, descriptors=None):
-    """Kinds of rough maps that are tried, and how many are refined further."""
+    """Kinds of rough maps that are tried, weights of the signs, how many are refined further, and in which steps."""
     tried, finalists = [], []
 
     def rough(starts, *rest):
         tried.extend(start.name.split()[0] for start in starts)
+        tried.extend(start.weights[0] for start in starts if start.name.startswith("signs"))
         return original(starts[::5], *rest)
 
-    def fine(few, *_rest):
-        finalists.append(len(few))
+    def fine(few, *rest):
+        finalists.append((len(few), rest[-1]))
         return few
 
     original = found_by.rough
@@ -51,11 +52,13 @@ def names(monkeypatch, pair, on, easy, landmarks=NONE, descriptors=None):
 
 def test_a_clear_map_is_compared_with_near_symmetries_alone(monkeypatch, pair, on):
     tried, finalists = names(monkeypatch, pair, on, -np.inf)
-    assert tried == {"signs", "turned"}
-    assert finalists <= found_by.FEWER
+    assert tried == {"signs", "turned", 0.0, 12.0}
+    assert finalists[0] <= found_by.FEWER
+    assert finalists[1] > found_by.FINE_STEP
     tried, finalists = names(monkeypatch, pair, on, np.inf)
-    assert {"signs", "turned", "kicked"} < tried
-    assert finalists > found_by.FEWER
+    assert {"signs", "turned", "kicked", 0.0, 4.0, 12.0} < tried
+    assert finalists[0] > found_by.FEWER
+    assert finalists[1] == found_by.FINE_STEP
 
 
 def test_what_the_user_says_is_heard(monkeypatch, pair, on):

@@ -6,6 +6,7 @@ import pytest
 from kfmaps import datasets
 from kfmaps.fit.shape import prepare
 from kfmaps.functional.points import to_functional
+from kfmaps.search import symmetries as within
 from kfmaps.search.arena import arena
 from kfmaps.search.candidates import apart, from_symmetries, judged, rough
 from kfmaps.search.choose import probed
@@ -45,6 +46,18 @@ def test_a_body_is_nearly_its_own_mirror_image(on):
     assert moved(found[0], on.source) > 0.15 > MOVED
     # Done twice it is the identity.
     assert moved((found[0] @ found[0])[:15, :15], on.source) < 0.08
+
+
+def test_those_that_change_distances_early_are_none(monkeypatch, on):
+    some = symmetries(on.source, 100)
+    monkeypatch.setattr(within, "LIKELY", 99)
+    for one, other in zip(some, symmetries(on.source, 100), strict=True):
+        np.testing.assert_array_equal(one, other)
+    same, lost = np.eye(10), np.diag([1.0] + [0.0] * 9)
+    changed = within._changed(np.stack([same, lost]), on.source)
+    assert changed[0] == 0.0
+    # All that are taken to one point lose all of their distance.
+    assert changed[1] == pytest.approx(on.source.distances.mean())
 
 
 def test_a_kept_probe_knows_them(pair):

@@ -27,6 +27,8 @@ Form = Literal["surface", "paper"]
 
 _PAIRS = 30_000
 """Pairs of a vertex and a support point in one block: work arrays that fit the cache are nearly twice as fast."""
+_EACH = 8
+"""One vertex of so many is asked how many those are."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -238,7 +240,8 @@ def _merged(support: _Support, side: float) -> _Support:
 def _blocks(vertices: np.ndarray, tree: KDTree, radius: float) -> list[np.ndarray]:
     """Vertex numbers in groups of neighbours with about ``_PAIRS`` support points each."""
     order = KDTree(vertices).indices
-    counts = tree.query_ball_point(vertices[order], radius, return_length=True)
+    # Neighbours have about as many: one of some says it for all.
+    counts = tree.query_ball_point(vertices[order[::_EACH]], radius, return_length=True).repeat(_EACH)[: len(order)]
     block = np.cumsum(counts) // _PAIRS
     return np.split(order, np.flatnonzero(np.diff(block)) + 1)
 

@@ -22,7 +22,7 @@ from kfmaps.surface.inside import Inside, inside
 from kfmaps.surface.mesh import Mesh, check_mesh, surface_area, unit_area, vertex_normals
 from kfmaps.surface.samples import stratified_samples, stratified_vertices
 
-FEW, NEARLY = 10_000, 1e-2
+FEW, NEARLY = 3_000, 1e-2
 """Vertices up to which eigenfunctions are found to rounding, and the tolerance above."""
 DESCRIBED = 7_000
 """Vertices for which SHOT is worked out; where there are more they are a hundredth of √area apart."""

@@ -31,13 +31,17 @@ from kfmaps.search.zoom import zoomed
 
 Weights = tuple[float, ...]
 """Of SHOT, of landmarks and of the tips of limbs."""
-WEIGHTS: tuple[Weights, ...] = ((0.0, 0.0), (4.0, 12.0), (12.0, 12.0))
-"""In the rough refinement: none, so that symmetric maps are found too, some, and much."""
+WEIGHTS: tuple[Weights, ...] = ((0.0, 0.0), (12.0, 12.0), (4.0, 12.0))
+"""In the rough refinement: none, so that symmetric maps are found too, much, and some."""
+QUICK = 2
+"""The first of them, after which a map may be :func:`clear`: then the others are left out."""
 FROM_FITS: tuple[Weights, ...] = ((4.0, 12.0), (12.0, 12.0))
 ROUGH, ROUGH_STEP = 40, 4
 """Functions at the end of the rough refinement, and how many more at each step."""
 FINE, FINE_FROM, FINE_STEP = 80, 20, 5
 """The same of the refinement of the best, on all points of the probe; from fewer functions it loses right maps."""
+STRIDE = 10
+"""The step where one of them is :func:`clear`."""
 FINE_WEIGHTS: tuple[Weights, ...] = ((12.0, 12.0), (12.0, 12.0, 30.0))
 """Without tips of limbs and with them: distances from tips mislead where a hand has grown to a thigh."""
 AGAIN: Weights = (12.0, 12.0)
@@ -163,11 +167,13 @@ def candidates(
     told = report or (lambda _done: None)
     functions = min(len(source.basis.eigenvalues), len(target.basis.eigenvalues))
     marks = np.zeros((0, 2), dtype=np.int64) if landmarks is None else landmarks
-    found = rough(from_signs(min(config.search.signs, functions - 1), on.few), on.few, functions, config.threads)
+    signs, weights = min(config.search.signs, functions - 1), _told_apart(WEIGHTS, on.few)
+    found = rough(from_signs(signs, on.few, weights[:QUICK]), on.few, functions, config.threads)
     told(0.3)
     # What the user says of landmarks and points is heard in the fits.
     easy = len(marks) == 0 and descriptors is None and clear(found)
     if not easy:
+        found += rough(from_signs(signs, on.few, weights[QUICK:]), on.few, functions, config.threads)
         starts = from_fits(source, target, config, on, marks, descriptors, seed, drawn) + from_tips(functions, on.few)
         told(0.5)
         found += rough(starts, on.few, functions, config.threads)
@@ -182,7 +188,7 @@ def candidates(
     told(0.75)
     order = sorted(found, key=lambda c: c.score, reverse=True)
     chosen = apart(order, on.few.source, APART, FEWER if easy else FINALISTS)
-    refined = fine(chosen, on.few, on.whole, functions, config.threads)
+    refined = fine(chosen, on.few, on.whole, functions, config.threads, STRIDE if easy else FINE_STEP)
     told(1.0)
     return refined
 
@@ -195,14 +201,14 @@ def clear(found: list[Candidate]) -> bool:
     return max((c.quality.score for c in found if c.guided), default=-math.inf) >= EASY
 
 
-def from_signs(count: int, on: Ground) -> list[Start]:
-    """Diagonal maps with all choices of signs of ``count`` functions after the constant one."""
+def from_signs(count: int, on: Ground, weights: Iterable[Weights] = WEIGHTS) -> list[Start]:
+    """Diagonal maps with all choices of signs of ``count`` functions after the constant one, with all ``weights``."""
     if count == 0:
         return []
     tries = [np.array([1.0, *signs]) for signs in product((1, -1), repeat=count)]
     return [
-        Start(_signs(signs, weights), np.diag(signs), count + 1, weights, bool(weights[0]) or on.shot is None)
-        for weights in _told_apart(WEIGHTS, on)
+        Start(_signs(signs, w), np.diag(signs), count + 1, w, bool(w[0]) or on.shot is None)
+        for w in _told_apart(weights, on)
         for signs in tries
     ]
 
@@ -311,12 +317,17 @@ def rough(starts: list[Start], on: Ground, functions: int, threads: int | None =
 
 
 def fine(
-    chosen: list[Candidate], few: Ground, on: Ground, functions: int, threads: int | None = None
+    chosen: list[Candidate],
+    few: Ground,
+    on: Ground,
+    functions: int,
+    threads: int | None = None,
+    step: int = FINE_STEP,
 ) -> list[Candidate]:
     """The chosen maps, found on ``few`` points, refined on all: with the descriptors, and rivals without as well."""
     stop = min(FINE, functions)
     size = min(FINE_FROM, stop, *chosen[0].functional_map.shape)
-    sizes = (*range(size, stop, FINE_STEP), stop)
+    sizes = (*range(size, stop, step), stop)
     led, bare = _told_apart(FINE_WEIGHTS, on), WEIGHTS[0]
     found = []
     for weights in dict.fromkeys((bare, *led)):

@@ -15,7 +15,7 @@ from itertools import product
 import numpy as np
 
 from kfmaps.search.quality import Probe, map_distortion
-from kfmaps.search.zoom import zoomed
+from kfmaps.search.zoom import closest, zoomed
 
 SIGNS = 5
 """Functions after the constant one whose signs are tried."""
@@ -28,6 +28,9 @@ MOVED = 0.1
 APART = 0.08
 """Mean distance between the images of two that count as different."""
 MOST = 2
+SOON, LIKELY = 14, 12
+"""Functions at which maps are told apart by distortion, and how many go on: those that become symmetries are among the
+best eight there."""
 
 
 def turns_of(of: Probe, functions: int, threads: int | None = None) -> list[np.ndarray]:
@@ -60,7 +63,10 @@ def symmetries(of: Probe, functions: int, threads: int | None = None) -> list[np
         return []
     maps = np.stack([np.diag([1.0, *signs]) for signs in product((1.0, -1.0), repeat=count)])
     basis = of.samples.basis
-    found, points = zoomed(maps, basis, basis, (*range(count + 1, stop, STEP), stop), None, threads)
+    soon = min(SOON, stop)
+    begun, _ = zoomed(maps, basis, basis, (*range(count + 1, soon, STEP), soon), None, threads)
+    likely = np.sort(np.argsort(_changed(begun, of), kind="stable")[:LIKELY])
+    found, points = zoomed(begun[likely], basis, basis, (*range(soon, stop, STEP), stop), None, threads)
     judged = [map_distortion(C, of, of, at) for C, at in zip(found, points, strict=True)]
     kept: list[int] = []
     for i in np.argsort(judged, kind="stable"):
@@ -72,3 +78,10 @@ def symmetries(of: Probe, functions: int, threads: int | None = None) -> list[np
         if off[0] > MOVED and all(one > APART for one in off[1:]):
             kept.append(int(i))
     return [found[i] for i in kept]
+
+
+def _changed(maps: np.ndarray, of: Probe) -> np.ndarray:
+    """Mean change (m,) of the distances between the first points by each of the self-maps ``maps (m, k, k)``."""
+    first = of.known.functions[: len(of.distances)]
+    images = closest(np.asarray(maps, dtype=np.float32), first, first, None)
+    return np.array([np.abs(of.distances[at[:, None], at] - of.distances).mean() for at in images])

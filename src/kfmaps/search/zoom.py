@@ -73,9 +73,13 @@ def zoomed(
 def closest(C: np.ndarray, phi_s: np.ndarray, phi_t: np.ndarray, against: np.ndarray | None) -> np.ndarray:
     """The nearest image of a source point, (m, q_t), for the maps ``C (m, k, k)``; ``against`` as in :func:`zoomed`."""
     k = C.shape[1]
-    images = phi_s[:, :k] @ C.transpose(0, 2, 1)
-    score = phi_t[:, :k] @ images.transpose(0, 2, 1)
-    score -= 0.5 * np.einsum("mik,mik->mi", images, images)[:, None, :]
+    # One column more holds half the squared length, so that the product is the whole score.
+    images = np.empty((len(C), len(phi_s), k + 1), dtype=np.float32)
+    images[:, :, :k] = phi_s[:, :k] @ C.transpose(0, 2, 1)
+    images[:, :, k] = -0.5 * np.einsum("mik,mik->mi", images[:, :, :k], images[:, :, :k])
+    places = np.ones((len(phi_t), k + 1), dtype=np.float32)
+    places[:, :k] = phi_t[:, :k]
+    score = places @ images.transpose(0, 2, 1)
     if against is not None:
         score -= against
     return score.argmax(axis=2)

@@ -52,7 +52,8 @@ def orientation_slices(mesh: Mesh, basis: Basis, functions: Array, threads: int 
     Ω is antisymmetric on a closed surface, by Stokes' theorem. With a boundary it is not: what is returned is its
     antisymmetric part, ``½ ∫ φᵢ n · (∇w × ∇φⱼ) − φⱼ n · (∇w × ∇φᵢ)``.
     """
-    phi, w = to_numpy(basis.functions), to_numpy(functions)
+    # Row by row, as sparse products want it: else they copy it each time.
+    phi, w = np.ascontiguousarray(to_numpy(basis.functions)), to_numpy(functions)
     n = len(mesh.vertices)
     if len(mesh.faces) == 0:
         raise refuse("mesh", "faces, which say where outside is", "a point cloud", "triangulate it first")

@@ -89,17 +89,20 @@ def nearest_rotations(matrices: np.ndarray) -> np.ndarray:
     In closed form (Markley, Attitude determination using vector observations: a fast optimal matrix algorithm, 1993),
     a tenth of the time of singular value decompositions. These do the few whose rotation is hardly determined.
     """
-    size = np.linalg.norm(matrices, axis=(1, 2), keepdims=True)
-    m = matrices / np.where(size > 0, size, 1.0)
+    # One entry of all matrices lies together: (3, 3, n).
+    m = np.moveaxis(matrices, 0, 2).copy()
+    size = np.sqrt(np.einsum("ijn,ijn->n", m, m))
+    m /= np.where(size > 0, size, 1.0)
     cofactors = np.empty_like(m)
     for i, j, k in ((0, 1, 2), (1, 2, 0), (2, 0, 1)):
         for a, b, c in ((0, 1, 2), (1, 2, 0), (2, 0, 1)):
-            cofactors[:, i, a] = m[:, j, b] * m[:, k, c] - m[:, j, c] * m[:, k, b]
-    det = (m[:, 0] * cofactors[:, 0]).sum(axis=1)
-    squares = 1.0 - 4.0 * np.einsum("nij,nij->n", cofactors, cofactors)
+            np.multiply(m[j, b], m[k, c], out=cofactors[i, a])
+            cofactors[i, a] -= m[j, c] * m[k, b]
+    det = m[0, 0] * cofactors[0, 0] + m[0, 1] * cofactors[0, 1] + m[0, 2] * cofactors[0, 2]
+    squares = 1.0 - 4.0 * np.einsum("ijn,ijn->n", cofactors, cofactors)
     # The sum of the singular values, the last with the sign of the determinant: the largest root of a quartic, which
     # Newton's steps from above approach without going beyond.
-    root = np.full(len(m), np.sqrt(3.0))
+    root = np.full(len(det), np.sqrt(3.0))
     for _ in range(ROOT_STEPS):
         slope = 4.0 * (root * (root * root - 1.0) - 2.0 * det)
         value = ((root * root - 2.0) * root - 8.0 * det) * root + squares
@@ -107,17 +110,30 @@ def nearest_rotations(matrices: np.ndarray) -> np.ndarray:
     half = 0.5 * (root * root - 1.0)
     known = half * root - det
     clear = known > DETERMINED
-    inverse = np.divide(1.0, known, out=np.zeros_like(known), where=clear)[:, None, None]
-    found = (
-        (half + 1.0)[:, None, None] * m + root[:, None, None] * cofactors - m @ (m.transpose(0, 2, 1) @ m)
-    ) * inverse
-    found = found @ (1.5 * np.eye(3) - 0.5 * found.transpose(0, 2, 1) @ found)
+    inverse = np.divide(1.0, known, out=np.zeros_like(known), where=clear)
+    turned = ((half + 1.0) * m + root * cofactors - _times(m, _times(m.transpose(1, 0, 2), m))) * inverse
+    # One step of an iteration for the nearest orthogonal matrix takes away what rounding has left.
+    left = -0.5 * _times(turned.transpose(1, 0, 2), turned)
+    for i in range(3):
+        left[i, i] += 1.5
+    found = np.ascontiguousarray(np.moveaxis(_times(turned, left), 2, 0))
     rest = np.flatnonzero(~clear)
     if len(rest):
         u, _, vh = np.linalg.svd(matrices[rest])
         u[:, :, 2] *= np.where(np.linalg.det(u) * np.linalg.det(vh) < 0, -1.0, 1.0)[:, None]
         found[rest] = u @ vh
     return found
+
+
+def _times(a: np.ndarray, b: np.ndarray) -> np.ndarray:
+    """Products of matrices (3, 3, n), one entry of all of them after the other."""
+    out = np.empty_like(b)
+    for i in range(3):
+        for j in range(3):
+            np.multiply(a[i, 0], b[0, j], out=out[i, j])
+            out[i, j] += a[i, 1] * b[1, j]
+            out[i, j] += a[i, 2] * b[2, j]
+    return out
 
 
 def pull(energy: Rigidity, turns: np.ndarray) -> np.ndarray:
