@@ -609,6 +609,12 @@ MUTANTS = tuple(
         ("np.argsort(_changed(begun, of), kind", "np.argsort(-_changed(begun, of), kind", "test_symmetries -k early"),
         ("on.few, weights[:QUICK])", "on.few, weights)", "test_clear -k near_symmetries"),
         ("STRIDE if easy else FINE_STEP)", "FINE_STEP if easy else STRIDE)", "test_clear -k near_symmetries"),
+        (
+            "rest[np.isinf(rest)] = over[np.isinf(rest)]",
+            "rest[np.isinf(rest)] = 2 * over[np.isinf(rest)]",
+            "test_among -k hardly",
+        ),
+        ("if len(lost):\n            found[lost]", "if False:\n            found[lost]", "test_among -k forgotten"),
         ("left[i, i] += 1.5", "left[i, i] += 1.4", "test_nonrigid -k singular_values"),
     )
 )

@@ -175,7 +175,7 @@ class ZoomOut:
             False if choice.functions.shape[0] * coarse.functions.shape[0] > PAIRS and coarse is not target else None
         )
         for i, larger in enumerate(sizes[1:]):
-            found = matched(C, choice, coarse, few, exact) if points is None else points
+            found = matched(C, choice, coarse, few, exact, probes=HASTY) if points is None else points
             C, points = fitted(found, choice, coarse, larger), None
             if progress is not None:
                 progress((i + 1) / len(sizes))

@@ -23,6 +23,7 @@ from kfmaps.functional.refine import SampledBasis, Samples, spectral_samples
 from kfmaps.search.bends import Copy, copied
 from kfmaps.search.known import Known, Rows, known
 from kfmaps.search.tips import Tips, tips
+from kfmaps.surface.among import distances_among
 from kfmaps.surface.basis import Basis, zero_level
 from kfmaps.surface.coarse import coarse
 from kfmaps.surface.mesh import Mesh
@@ -163,20 +164,23 @@ def probe(
     marked = np.zeros(0, dtype=np.int64) if landmarks is None else landmarks
     first = samples.vertices[:COARSE]
     mesh, functions, rows = surface(shape, np.concatenate([samples.vertices, marked]))
-    wanted = np.concatenate([rows[: len(first)], rows[len(samples.vertices) :]])
     graph = surface_graph(mesh, 1)
-    distances = dijkstra(graph, indices=wanted)[:, rows[: len(samples.vertices)]]
+    close = distances_among(graph, rows[: len(first)])
     # Separate components are as far apart as the farthest points of one.
-    joined = np.isfinite(distances)
-    farthest = distances[joined].max() or float(np.linalg.norm(np.ptp(shape.mesh.vertices[first], axis=0)))
-    distances = np.where(joined, distances, farthest)
+    joined = np.isfinite(close)
+    farthest = close[joined].max() or float(np.linalg.norm(np.ptp(shape.mesh.vertices[first], axis=0)))
+    close = np.where(joined, close, farthest)
+    marks = np.zeros((0, len(samples.vertices)))
+    if len(marked):
+        marks = dijkstra(graph, indices=rows[len(samples.vertices) :])[:, rows[: len(samples.vertices)]]
+        joined = np.isfinite(marks)
+        marks = np.where(joined, marks, max(farthest, marks[joined].max(initial=0.0)))
     orientation = None
     if len(shape.mesh.faces):
         low = Basis(shape.basis.eigenvalues, functions[:, :OPERATORS], shape.basis.mass)
         orientation = orientation_slices(mesh, low, functions[:, : 4 * WAVES], threads)
     local = None if shape.shot is None else shape.shot[samples.vertices]
     heat = np.log(np.maximum(to_numpy(heat_signature(samples.basis, TIMES)), 1e-12))
-    close = distances[: len(first), : len(first)]
     return Probe(
         samples,
         close,
@@ -184,7 +188,7 @@ def probe(
         local,
         heat,
         shape.mesh.vertices[samples.vertices],
-        distances[len(first) :],
+        marks,
         tips(close, areas_of_first(samples.basis, len(first)), mesh, rows[: len(samples.vertices)], graph),
         copied(shape),
     )
