@@ -575,8 +575,11 @@ MUTANTS = tuple(
         ("turns.transpose(0, 2, 1) @ moments_of(energy, x)", "moments_of(energy, x)", "test_stretch -k exactly"),
         ("return turns @ (axes * np.clip(", "return (axes * np.clip(", "test_stretch -k exactly"),
         ("diffuse = factorise(area * energy.laplacian +", "diffuse = factorise(", "test_stretch -k nearly"),
-        ("seen[1] >= seen[0] - LESS_TORN", "seen[1] >= seen[0]", "test_alternate -k less_torn"),
-        ("(C.T if backwards else C)[None]", "C[None]", "test_alternate -k more_ways"),
+        ("match.scores[0] - TEAR * (torn(match) or 0.0)", "match.scores[0]", "test_alternate -k worth_more"),
+        ("(C.T if backwards else C)[None]", "C[None]", "test_alternate -k asked_for"),
+        ("(i == k) != (j == n)", "i == k and j != n", "test_alternate -k heard_once"),
+        ("[pairing for pairing in known if pairing], PAIRED)", "[], PAIRED)", "test_alternate -k begun_with"),
+        ("ranked[:i] + ranked[i + 1 :]) for i in nexts", "ranked[i:]) for i in nexts", "test_alternate -k turn_out"),
         (
             "dense = np.log(np.maximum(local(energy, x)",
             "dense = (np.maximum(local(energy, x)",

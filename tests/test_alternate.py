@@ -13,12 +13,13 @@ import kfmaps
 from kfmaps import datasets, matching
 from kfmaps._arrays import NotConverged
 from kfmaps.functional.points import nearest, to_functional
-from kfmaps.matching import LESS_TORN, TORN, less_torn
+from kfmaps.matching import TEAR, TORN, worthier
 from kfmaps.search import alternate, choose
 from kfmaps.search.alternate import Grounds, alternated, grounds, lying, spread
 from kfmaps.search.arena import arena
-from kfmaps.search.candidates import STRAIN, Candidate, judged
+from kfmaps.search.candidates import STRAIN, Candidate, judged, paired_map
 from kfmaps.search.choose import closer, mendable, mended
+from kfmaps.search.pairings import Pairing, pairings, unheard
 from kfmaps.search.quality import Quality, probe
 from kfmaps.surface.mesh import Mesh, vertex_areas
 
@@ -101,12 +102,13 @@ def test_point_clouds_are_not_bent(pair):
     assert grounds(replace(source, mesh=cloud), source) is None
 
 
-def test_mending_tells_how_far_it_is(pair):
+def test_mending_tells_how_far_it_is(pair, monkeypatch):
     """Five to ten seconds on real shapes, in which nobody should wonder."""
     source, target, truth = pair
     on = arena(source, target, (probe(source, 200), probe(target, 200))).whole
     C = np.asarray(to_functional(truth, source.basis.truncated(40), target.basis.truncated(40)))
     ranked = [replace(c, bending=1.0) for c in judged([("truth", True)], C[None], None, on, 1)]
+    monkeypatch.setattr(choose, "pairings", lambda *_: [])
     told = []
     mended(ranked, on, source, target, np.zeros((0, 2), dtype=np.int64), 1, lambda *what: told.append(what))
     assert {stage for stage, _ in told} == {"bent and matched in turn"}
@@ -115,17 +117,17 @@ def test_mending_tells_how_far_it_is(pair):
     assert shares == pytest.approx([0.0, *once])
 
 
-def test_the_winner_is_mended_in_two_more_ways(pair, monkeypatch):
-    """With the target bent onto the source, and more stiffly, once they are asked for; not where a copy falls apart."""
+def test_the_target_is_bent_and_the_source_where_that_is_asked_for(pair, monkeypatch):
+    """Of the winner alone, and not where a copy falls apart."""
     source, target, truth = pair
     on = arena(source, target, (probe(source, 200), probe(target, 200))).whole
     C = np.asarray(to_functional(truth, source.basis.truncated(40), target.basis.truncated(40)))
     ranked = [replace(c, bending=1.0) for c in judged([("truth", True)], C[None], None, on, 1)]
     calls, apart = [], []
 
-    def made(C, on, led, _report, fit):
-        calls.append((on.source is target, led.source.shape[0], np.array_equal(C, ranked[0].functional_map.T), fit))
-        if (on.source is target, fit) in apart:
+    def made(C, on, led, _report):
+        calls.append((on.source is target, led.source.shape[0], np.array_equal(C, ranked[0].functional_map.T)))
+        if (on.source is target) in apart:
             raise NotConverged("it fell apart")
         return alternate.Alternated(C, on.source.mesh.vertices)
 
@@ -135,19 +137,68 @@ def test_the_winner_is_mended_in_two_more_ways(pair, monkeypatch):
         return found[0]
 
     monkeypatch.setattr(choose, "alternated", made)
+    monkeypatch.setattr(choose, "pairings", lambda *_: [])
     first = end()
     n_s, n_t = len(source.mesh.vertices), len(target.mesh.vertices)
-    assert calls == [(False, n_s, False, alternate.FIT)]
-    others = [one for way in first.again if (one := way())]
-    assert calls[1:] == [(True, n_t, True, alternate.FIT), (False, n_s, False, alternate.STIFFER)]
-    assert [c.backwards for c in (first, *others)] == [False, True, False]
-    assert [len(np.asarray(c.bent)) for c in (first, *others)] == [n_s, n_t, n_s]
-    for other in others:
-        np.testing.assert_array_equal(other.functional_map, ranked[0].functional_map)
-    apart += [(False, alternate.STIFFER), (True, alternate.FIT)]
-    assert [way() for way in first.again] == [None, None]
-    apart.append((False, alternate.FIT))
+    assert calls == [(True, n_t, True)]
+    (way,) = first.again
+    other = way()
+    assert other is not None
+    assert calls[1:] == [(False, n_s, False)]
+    for one, backwards, count in ((first, True, n_t), (other, False, n_s)):
+        assert one.backwards == backwards
+        assert len(np.asarray(one.bent)) == count
+        np.testing.assert_array_equal(one.functional_map, ranked[0].functional_map)
+    apart.append(False)
+    assert way() is None
+    apart.append(True)
     assert end().bent is None
+
+
+def test_likely_pairings_are_begun_with_where_no_map_has_them(pair, monkeypatch):
+    """With their own tips, which what is mended keeps to, and only as long as the copies hold."""
+    source, target, truth = pair
+    on = arena(source, target, (probe(source, 200), probe(target, 200))).whole
+    C = np.asarray(to_functional(truth, source.basis.truncated(40), target.basis.truncated(40)))
+    ranked = [replace(c, bending=1.0) for c in judged([("truth", True)], C[None], None, on, 1)]
+    (best, *others) = pairings(on.source, on.target, on.shot)
+    mirror = next(one for one in others if one.contradicts(best))
+    monkeypatch.setattr(choose, "pairings", lambda *_: [best, mirror])
+    calls, begun = [], []
+
+    def made(C, on, led, _report):
+        calls.append(led.source.shape[1])
+        begun.append(C)
+        if len(calls) == 5:
+            raise NotConverged("it fell apart")
+        return alternate.Alternated(C, on.source.mesh.vertices)
+
+    monkeypatch.setattr(choose, "alternated", made)
+    monkeypatch.setattr(choose, "limbs", lambda *_: None)
+    landmarks = np.zeros((0, 2), dtype=np.int64)
+    names = {c.name for c in mended(ranked, on, source, target, landmarks, 1)}
+    assert len(calls) == 2  # the truth has the best pairing itself
+    assert calls[1] > calls[0]  # tips lead where they are known
+    np.testing.assert_array_equal(begun[1].T, paired_map(mirror, on, len(begun[1])))
+    assert names == {"truth", f"{mirror}"}
+    monkeypatch.setattr(choose, "induced", lambda *_: None)
+    assert f"{mirror}" not in {c.name for c in mended(ranked, on, source, target, landmarks, 1)}
+    assert len(calls) == 5
+
+
+def test_pairings_are_heard_once():
+    def pairing(*pairs):
+        return Pairing(*np.array(pairs).T)
+
+    whole = pairing((0, 0), (1, 1), (2, 2), (3, 3))
+    part, other = pairing((0, 0), (1, 1), (2, 2)), pairing((0, 0), (1, 2), (2, 1))
+    third = pairing((0, 4), (1, 1), (2, 2))
+    assert unheard([part, whole, other, third], [], 3) == [part, other, third]
+    assert unheard([part, whole, other, third], [], 2) == [part, other]
+    assert unheard([part, other, third], [whole], 3) == [other, third]
+    assert unheard([whole], [part], 1) == [whole]
+    assert part.contradicts(third)
+    assert not whole.contradicts(part)
 
 
 def test_what_goes_astray_stays_as_it_was(pair, monkeypatch):
@@ -156,12 +207,13 @@ def test_what_goes_astray_stays_as_it_was(pair, monkeypatch):
     on = arena(source, target, (probe(source, 200), probe(target, 200))).whole
     C = np.asarray(to_functional(truth, source.basis.truncated(40), target.basis.truncated(40)))
     ranked = [replace(c, bending=1.0) for c in judged([("truth", True)], C[None], None, on, 1)]
-    astray = alternate.Alternated(np.linalg.qr(np.random.default_rng(0).normal(size=C.shape))[0], source.mesh.vertices)
+    astray = alternate.Alternated(np.linalg.qr(np.random.default_rng(0).normal(size=C.shape))[0], target.mesh.vertices)
     monkeypatch.setattr(choose, "alternated", lambda *_rest: astray)
+    monkeypatch.setattr(choose, "pairings", lambda *_: [])
     found = mended(ranked, on, source, target, np.zeros((0, 2), dtype=np.int64), 1)[0]
     assert found.functional_map is ranked[0].functional_map
     assert found.bent is None
-    assert [c.backwards for c in (way() for way in found.again) if c] == [True, False]
+    assert [c.backwards for c in (way() for way in found.again) if c] == [False]
     # Looked at as closely as what it is compared with.
     assert found.bending is not None
     assert found.bending < 0.5
@@ -191,8 +243,8 @@ def test_the_first_few_are_mended_and_those_that_differ():
     judgement = Quality(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     ranked = [Candidate(n, np.eye(2), np.full(3, i), judgement) for i, n in enumerate("abcdefg")]
     near, rest = mendable(ranked, on_a_line(0.0, 0.05, -0.05, 0.06, 1.0, 1.5, 2.0))
-    assert [c.name for c in near] == ["a", "b", "c", "e", "f"]
-    assert [c.name for c in rest] == ["d", "g"]
+    assert [c.name for c in near] == ["a", "b", "e", "f"]
+    assert [c.name for c in rest] == ["c", "d", "g"]
 
 
 def test_a_map_that_hardly_differs_comes_first_where_it_bends_less(pair):
@@ -216,37 +268,66 @@ def test_a_map_that_hardly_differs_comes_first_where_it_bends_less(pair):
     assert closer(ranked, [bad], on, source, target, 1) == ranked
 
 
-def test_the_less_torn_match_is_taken(pair):
-    """Of two that both have a fit, by a clear share of the area; the one taken tells the seconds of the whole."""
+def test_the_match_that_is_worth_more_is_taken(pair):
+    """Of two that both have a fit, by score and torn area together; the one taken tells the seconds of the whole."""
     source, target, truth = pair
     one = matching.continued(source, target, truth, origin="a", quality=-9.0)
     assert one.place is not None
-    n = len(truth)
 
-    def with_torn(share):
+    def made(score, share):
         order = np.cumsum(vertex_areas(target.mesh)) <= share * vertex_areas(target.mesh).sum()
-        return replace(one, local_confidence=np.where(order, 0.4, 0.9), seconds={}, verdict=f"{share}")
+        trust = np.where(order, 0.4, 0.9)
+        return replace(one, scores=(score,), local_confidence=trust, seconds={}, verdict=f"{share}")
 
-    for first, second, taken in ((0.1, 0.05, 0.05), (0.1, 0.1 - LESS_TORN / 2, 0.1), (0.05, 0.1, 0.05)):
-        found = less_torn(with_torn(first), with_torn(second))
+    known = replace(made(-9.0, 0.3), seconds=one.seconds)
+    for lost, taken in ((0.1 * TEAR, 0.1), (0.3 * TEAR, 0.3), (-1.0, 0.1)):
+        found = worthier(known, made(-9.0 - lost, 0.1))
         assert found.verdict == f"{taken}"
-    assert less_torn(replace(one, local_confidence=np.zeros(n)), with_torn(0.1)).seconds is one.seconds
-    assert less_torn(with_torn(0.5), replace(with_torn(0.0), place=None)).verdict == "0.5"
+        assert found.seconds is one.seconds
+    assert worthier(known, replace(made(0.0, 0.0), place=None)) is known
 
 
 def test_a_match_finishes_all_ways_unless_it_is_hardly_torn(pair, monkeypatch):
     source, target, truth = pair
     C = np.asarray(to_functional(truth, source.basis.truncated(40), target.basis.truncated(40)))
-    other = choose.Found(C, "other", None, "poor", quality=-9.0)
-    ways = (lambda: replace(other, bent=target.mesh.vertices, backwards=True), lambda: other, lambda: None)
+    other = choose.Found(C, "other", None, "poor", quality=-9.0, scores=(-9.0,))
+    asked = []
+
+    def way(found):
+        return lambda least: asked.append(least) or found
+
+    ways = tuple(way(one) for one in (replace(other, bent=target.mesh.vertices, backwards=True), other, None))
     monkeypatch.setattr(matching, "choose", lambda *_a, **_k: replace(other, origin="one", again=ways))
-    monkeypatch.setattr(matching, "less_torn", lambda a, b: replace(b, seconds=a.seconds))
+    monkeypatch.setattr(matching, "worthier", lambda a, b: replace(b, seconds=a.seconds))
     config = replace(kfmaps.Config.automatic(), finish=None)
     for share, ends in ((0.5, "other"), (TORN, "one"), (None, "one")):
         monkeypatch.setattr(matching, "torn", lambda _match, share=share: share)
         found = kfmaps.match(source, target, config)
         assert found.origin == ends
         assert [f"another way, {i}" in found.seconds for i in (1, 2)] == 2 * [ends == "other"]
+    assert asked == 3 * [-9.0 - 0.5 * TEAR]
+
+
+def test_a_search_tells_what_else_may_turn_out_better(pair, monkeypatch):
+    """The next of the distinct ones and another way of the first, each where its score is above what is known."""
+    source, target, _ = pair
+    judgement = Quality(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    at = np.arange(5)
+    one = Candidate("0", np.eye(5), at, judgement, bending=0.15)
+    ranked = [replace(one, name=str(i), strain=i / STRAIN) for i in range(5)]
+    ranked[0] = replace(ranked[0], again=(lambda: replace(one, name="another"), lambda: None))
+    monkeypatch.setattr(choose, "MENDED", np.inf)
+    monkeypatch.setattr(choose, "mended", lambda *_: ranked)
+    monkeypatch.setattr(choose, "closer", lambda *_: ranked)
+    monkeypatch.setattr(choose, "passed_over", lambda maps, *_: tuple(range(len(maps))))
+    found = choose.choose(source, target, kfmaps.Config.automatic())
+    made = [way(-np.inf) for way in found.again]
+    assert [m and m.origin for m in made] == ["1", "2", "another", None]
+    scores = [m and m.scores[:2] for m in made]
+    best = [c.score for c in ranked]
+    assert found.scores[:2] == (best[0], best[1])
+    assert scores == [(best[1], best[0]), (best[2], best[0]), (one.score, best[1]), None]
+    assert [way(best[1]) and "" for way in found.again] == [None, None, "", None]
 
 
 def test_where_the_target_lies_leads_as_well(pair):

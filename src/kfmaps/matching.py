@@ -35,11 +35,11 @@ from kfmaps.surface.mesh import MIRROR, Mesh, vertex_areas
 ONE_FIT = "one fit"
 CONTINUED = 80
 """Functions of a map that is finished from its points, as many as a search hands on."""
-BADLY, LESS_TORN = 0.5, 0.02
-"""Confidence of a vertex around which distances are kept badly, and by how much smaller a share of the target must be
-so for another go to be preferred."""
+BADLY, TEAR = 0.5, 15.0
+"""Confidence of a vertex around which distances are kept badly, and what the score loses where all of the target is so:
+from 6 to 40 chooses alike."""
 TORN = 0.04
-"""The share from which other ways are tried at all."""
+"""The share from which other maps are tried at all."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -288,11 +288,12 @@ def match(
         if (torn(ended) or 0.0) <= TORN:
             break
         with clock(f"another way, {i}"):
-            told = way()
+            # With a lower score it would not be worth more even if nothing of it were torn.
+            told = way(worth(ended))
             if told is not None:
                 back = None if back is None else told.functional_map.T
                 ending = Clock(progress)
-                ended = less_torn(ended, _ended(told, across, shapes, config, ending, _led(told, shapes), back, seed))
+                ended = worthier(ended, _ended(told, across, shapes, config, ending, _led(told, shapes), back, seed))
     return replace(ended, partial_reason=why) if config.partial.which == "auto" else ended
 
 
@@ -308,16 +309,21 @@ def _led(found: Found, shapes: list[Shape]) -> Guide | None:
     return joined([(1.0, led), (WEIGHT, lying(meshes[0], meshes[1]))])
 
 
-def less_torn(one: Match, other: Match) -> Match:
-    """The ``other`` of two matches of the same shapes where it is clearly less torn, else ``one``; with its seconds.
+def worthier(one: Match, other: Match) -> Match:
+    """The ``other`` of two matches of the same shapes where it is worth more, else ``one``; with its seconds.
 
     Between shapes of other proportions distances nearby change everywhere; after the non-rigid fit they are kept badly
-    only where a limb is torn or has been sent elsewhere. Without that fit nothing can be told.
+    only where a limb is torn or has been sent elsewhere, which no score of the search tells so well. Without that fit
+    nothing can be told.
     """
-    seen = torn(one), torn(other)
-    if seen[0] is None or seen[1] is None or seen[1] >= seen[0] - LESS_TORN:
+    if torn(one) is None or torn(other) is None or worth(other) <= worth(one):
         return one
     return replace(other, seconds=one.seconds)
+
+
+def worth(match: Match) -> float:
+    """The score of a match that a search has found, less :data:`TEAR` times what is torn."""
+    return match.scores[0] - TEAR * (torn(match) or 0.0)
 
 
 def torn(match: Match) -> float | None:

@@ -30,8 +30,6 @@ ROUNDS = 2
 """Fits, each followed by a refinement on the copies."""
 FIT = NonRigid(stiffness=5e-3, levels=2, steps=4, stretch=0.05)
 """Stiff, so that what is torn is not bent to fit; but limbs may be longer or thicker."""
-STIFFER = NonRigid(stiffness=5e-2, levels=4, steps=3, stretch=0.05)
-"""For another go: it puts right a limb that the map has sent elsewhere, and lets slide what was right."""
 REFINE = ZoomOut(start=20, stop=100, step=20, guidance=36.0)
 """On the copies; the high functions of shapes that differ much do not correspond."""
 WEIGHT = 10.0
@@ -73,9 +71,7 @@ def turned_round(on: Grounds) -> Grounds:
     return Grounds(on.target, on.source, (on.copies[1], on.copies[0]), (on.bases[1], on.bases[0]))
 
 
-def alternated(
-    C: np.ndarray, on: Grounds, led: Guide | None, report: Done | None = None, fit: NonRigid = FIT
-) -> Alternated:
+def alternated(C: np.ndarray, on: Grounds, led: Guide | None, report: Done | None = None) -> Alternated:
     """The map ``C (k_t, k_s)`` between unlike shapes mended; ``led`` guides it on all vertices.
 
     Raises
@@ -90,7 +86,7 @@ def alternated(
     found = refine(C, *on.bases, guide=here)
     bent = a.mesh.vertices
     for i in range(ROUNDS):
-        bent = fit.vertices(a.mesh, b.mesh, found.target_to_source)
+        bent = FIT.vertices(a.mesh, b.mesh, found.target_to_source)
         lie = lying(Mesh(bent, a.mesh.faces), b.mesh)
         found = refine(found.functional_map, *on.bases, guide=joined([(1.0, here), (WEIGHT, lie)]))
         if report is not None:

@@ -28,14 +28,25 @@ from kfmaps.functional.guide import Guide, guide
 from kfmaps.functional.nonrigid import NonRigid
 from kfmaps.functional.points import to_points
 from kfmaps.functional.refine import CANDIDATES, PAIRS, Refinement, ZoomOut
-from kfmaps.search.alternate import FIT, STIFFER, alternated, grounds, turned_round
+from kfmaps.search.alternate import alternated, grounds, turned_round
 from kfmaps.search.arena import POINTS as FEW
 from kfmaps.search.arena import Arena, Ground, arena, turned, without
 from kfmaps.search.bends import LONGER, MORE, bending, bent, copied, ready
-from kfmaps.search.candidates import APART, FINE, Candidate, again, apart, candidates, differs, judged
+from kfmaps.search.candidates import (
+    APART,
+    FINE,
+    TIP_FUNCTIONS,
+    Candidate,
+    again,
+    apart,
+    candidates,
+    differs,
+    judged,
+    paired_map,
+)
 from kfmaps.search.learned import learned, plain, speaks
 from kfmaps.search.marks import doubted, leading
-from kfmaps.search.pairings import Limbs, limbs
+from kfmaps.search.pairings import Limbs, induced, limbs, limbs_of, pairings, unheard
 from kfmaps.search.quality import Probe, probe, thinned
 from kfmaps.search.symmetries import with_turns
 from kfmaps.search.verdict import excess, probability, verdict
@@ -59,8 +70,10 @@ STRETCH = 0.01
 """Area over which sizes may change evenly in the non-rigid fit of such shapes."""
 BENT = 3
 """Distinct maps that the source is bent for, ..."""
-FIRST = 3
+FIRST = 2
 """Maps between unlike shapes that are mended, whether or not they differ."""
+PAIRED = 3
+"""Likeliest pairings of the tips of limbs that mending begins with, where no map that is mended has the same."""
 CLOSER = 5
 """Maps that may be closer to each other, rough ones' :data:`~kfmaps.search.candidates.APART`, of unlike shapes."""
 BEHIND = 3.0
@@ -71,6 +84,8 @@ MENDED = -7.5
 """Score below which they are bent and matched in turn."""
 MENDABLE = 6.0
 """How far behind a map between unlike shapes may be to be mended: mending has gained up to 10."""
+NEXT = 2
+"""Distinct ones after the best, mended too, that may turn out to be less torn than it."""
 SETTLED = 3
 """Maps to a mirror image that are worth a refinement of their own."""
 
@@ -111,8 +126,9 @@ class Found:
     backwards : bool
         Whether ``bent`` are the target's vertices on the source instead, (n_t, 3).
     again : tuple of callables
-        Each returns the same found in another way, or ``None`` where that fails, between such shapes: which is best
-        shows when it is finished.
+        Each returns another map between such shapes that may turn out to be the better one when both are finished: the
+        next of the distinct ones, and this one mended in another way. Called with a score, it returns ``None`` where
+        the other does not have more, or falls apart.
     """
 
     functional_map: np.ndarray
@@ -130,7 +146,7 @@ class Found:
     limbs: Limbs | None = None
     bent: np.ndarray | None = None
     backwards: bool = False
-    again: tuple[Callable[[], Found | None], ...] = ()
+    again: tuple[Callable[[float], Found | None], ...] = ()
 
 
 def choose(
@@ -219,11 +235,10 @@ def choose(
         image = mirror_image(target) if orientation == "reversed" and asked != "reversed" else target
         ranked = closer(ranked, found, on.whole, source, target, config.threads)
         ranked = mended(ranked, on.whole, source, image, pairs[~wrong], config.threads, report)
-    best, others = ranked[0], ranked[1 : 1 + config.search.runners_up]
-    runners_up = passed_over([c.functional_map for c in others], source.basis, target.basis, config.threads)
 
-    def told(best: Candidate) -> Found:
-        margin = max(best.score - ranked[1].score, 0.0) if len(ranked) > 1 else np.inf
+    def told(best: Candidate, rest: list[Candidate]) -> Found:
+        others = rest[: config.search.runners_up]
+        margin = max(best.score - rest[0].score, 0.0) if rest else np.inf
         score = best.quality.score
         return Found(
             functional_map=best.functional_map,
@@ -232,7 +247,7 @@ def choose(
             confidence=probability(score, float(margin), best.bending),
             verdict=verdict(score, float(margin), best.bending),
             scores=tuple(float(c.score) for c in (best, *others)),
-            runners_up=runners_up,
+            runners_up=passed_over([c.functional_map for c in others], source.basis, target.basis, config.threads),
             landmarks=pairs[~wrong],
             doubted=np.flatnonzero(wrong),
             orientation=orientation,
@@ -241,14 +256,20 @@ def choose(
             limbs=limbs(best.points, *probes) if score < UNLIKE else None,
             bent=best.bent,
             backwards=best.backwards,
-            again=tuple(partial(another, way) for way in best.again),
         )
 
-    def another(way: Callable[[], Candidate | None]) -> Found | None:
-        made = way()
-        return None if made is None else told(made)
+    def other(one: Candidate, rest: list[Candidate], least: float) -> Found | None:
+        return told(one, rest) if one.score > least else None
 
-    return told(best)
+    def another(way: Callable[[], Candidate | None], least: float) -> Found | None:
+        made = way()
+        return None if made is None else other(made, ranked[1:], least)
+
+    # The next of the distinct ones, mended too, and the first in other ways: which is best shows in the end.
+    ways = [partial(another, way) for way in ranked[0].again]
+    nexts = range(1, min(1 + NEXT, len(ranked)) if ways else 1)
+    others = [partial(other, ranked[i], ranked[:i] + ranked[i + 1 :]) for i in nexts]
+    return replace(told(ranked[0], ranked[1:]), again=(*others, *ways))
 
 
 def passed_over(
@@ -402,7 +423,11 @@ def mended(
 ) -> list[Candidate]:
     """The best between unlike shapes bent and matched in turn (:mod:`kfmaps.search.alternate`), and ranked again.
 
-    Each counts as it is after that or as it was before, whichever is the better.
+    The target is bent onto the source, so that each direction has its say: what follows bends the source onto the
+    target. Each counts as it is after that or, where that has made it worse, as it was before.
+
+    A refinement may send a leg to the tail, and what is mended keeps to the tips that it has paired. So the likeliest
+    pairings of tips (:mod:`kfmaps.search.pairings`) that none of these maps has are begun with as well.
     """
     both = grounds(source, target)
     finer = copied(source, MORE), copied(target, MORE)
@@ -411,24 +436,28 @@ def mended(
     copies, shot = ready(finer[0], finer[1]), guide(source.shot, target.shot)
 
     near, rest = mendable(ranked, on.source)
-    done = np.zeros(len(near))
+    begun = [(one, limbs(one.points, on.source, on.target)) for one in near]
+    known = [induced(one.points, on.source, on.target) for one in near]
+    for one in unheard(pairings(on.source, on.target, on.shot), [pairing for pairing in known if pairing], PAIRED):
+        C = paired_map(one, on, min(TIP_FUNCTIONS, len(near[0].functional_map)))
+        begun.append((judged([(f"{one}", True)], C[None], None, on, 1)[0], limbs_of(one, on.source, on.target)))
+    done = np.zeros(len(begun))
 
     def tell(i: int, part: float) -> None:
         done[i] = part
         if progress is not None:
             progress("bent and matched in turn", float(done.mean()))
 
-    def mend(old: Candidate, tell: Done, fit: NonRigid = FIT, backwards: bool = False) -> Candidate:
-        tips = limbs(old.points, on.source, on.target)
+    def mend(old: Candidate, tips: Limbs | None, tell: Done, backwards: bool = True) -> Candidate | None:
         led = leading(source, target, landmarks, tips and tips.guide(source.mesh, target.mesh), shot)
         C, where = old.functional_map, both
         if backwards:
             C, where, led = C.T, turned_round(both), led and Guide(led.target, led.source)
         try:
-            found = alternated(C, where, led, lambda part: tell(0.9 * part), fit)
+            found = alternated(C, where, led, lambda part: tell(0.9 * part))
         except NotConverged:
             tell(1.0)
-            return old
+            return None
         size = min(FINE, len(found.functional_map))
         C = found.functional_map[:size, :size]
         new = judged([(old.name, old.guided)], (C.T if backwards else C)[None], None, on, 1)[0]
@@ -437,28 +466,30 @@ def mended(
         tell(1.0)
         return new
 
-    def better(i: int) -> Candidate:
+    def better(i: int) -> Candidate | None:
         """Where a body touches itself the right map may go astray, and is as good as it was before."""
-        old, new = near[i], mend(near[i], partial(tell, i))
-        if new is old:
-            return old
+        old, new = begun[i][0], mend(*begun[i], partial(tell, i))
+        if new is None:
+            return old if i < len(near) else None
+        if i >= len(near) or new.quality.score > old.quality.score:
+            return new
         before = bent(old.functional_map, source, target, copies, LONGER)
         states = new, replace(old, bending=before.bending, strain=before.strain)
         return max(states, key=lambda c: c.score)
 
     tell(0, 0.0)
-    tried = parallel(better, range(len(near)), threads)
-    usual = min((c.strain for c in tried if c.strain is not None), default=0.0)
-    tried = [_over(c, usual) for c in tried]
-    order = in_order(tried)
-    won = near[next(i for i, c in enumerate(tried) if c is order[0])]
+    tried = parallel(better, range(len(begun)), threads)
+    usual = min((c.strain for c in tried if c is not None and c.strain is not None), default=0.0)
+    tried = [c and _over(c, usual) for c in tried]
+    order = in_order([c for c in tried if c is not None])
+    won = next(one for one, c in zip(begun, tried, strict=True) if c is order[0])
 
-    def way(**how: Any) -> Candidate | None:
-        made = mend(won, lambda _done: None, **how)
-        return None if made is won else _over(made, usual)
+    def forwards() -> Candidate | None:
+        made = mend(*won, lambda _done: None, backwards=False)
+        return made and _over(made, usual)
 
-    # The one that has won can be mended in two more ways: with the target bent onto the source, and more stiffly.
-    order[0] = replace(order[0], again=(partial(way, backwards=True), partial(way, fit=STIFFER)))
+    # The one that has won can be mended in another way: with the source bent onto the target.
+    order[0] = replace(order[0], again=(forwards,))
     return apart(order + rest, on.source, DISTINCT)
 
 

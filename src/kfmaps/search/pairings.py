@@ -41,8 +41,32 @@ class Pairing:
     source: np.ndarray
     target: np.ndarray
 
+    def pairs(self) -> set[tuple[int, int]]:
+        """Of the tips' numbers."""
+        return set(zip(self.source.tolist(), self.target.tolist(), strict=True))
+
+    def within(self, other: Pairing) -> bool:
+        """Whether ``other`` has all of its pairs."""
+        return self.pairs() <= other.pairs()
+
+    def contradicts(self, other: Pairing) -> bool:
+        """Whether one tip, of either shape, goes to different ones."""
+        return any((i == k) != (j == n) for i, j in self.pairs() for k, n in other.pairs())
+
     def __str__(self) -> str:
         return f"tips {'-'.join(map(str, self.source))} to {'-'.join(map(str, self.target))}"
+
+
+def unheard(likely: list[Pairing], known: list[Pairing], most: int) -> list[Pairing]:
+    """The first ``most`` of ``likely`` that contradict each other, less those all of which is in one of ``known``.
+
+    Two contradict each other where they take one tip, of either shape, to different ones.
+    """
+    first: list[Pairing] = []
+    for one in likely:
+        if len(first) < most and all(one.contradicts(other) for other in first):
+            first.append(one)
+    return [one for one in first if not any(one.within(other) for other in known)]
 
 
 def pairings(source: Probe, target: Probe, shot: np.ndarray | None) -> list[Pairing]:
@@ -133,8 +157,11 @@ class Limbs:
 def limbs(points: np.ndarray, source: Probe, target: Probe) -> Limbs | None:
     """Those that a map ``points (q_t,)`` of samples pairs (:func:`induced`)."""
     found = induced(points, source, target)
-    if found is None:
-        return None
+    return None if found is None else limbs_of(found, source, target)
+
+
+def limbs_of(found: Pairing, source: Probe, target: Probe) -> Limbs:
+    """The tips of a pairing as vertices of both shapes."""
     at = source.tips.points[found.source], target.tips.points[found.target]
     units = source.tips.unit, target.tips.unit
     return Limbs(source.samples.vertices[at[0]], target.samples.vertices[at[1]], units)
