@@ -236,8 +236,10 @@ def choose(
         ranked = closer(ranked, found, on.whole, source, target, config.threads)
         ranked = mended(ranked, on.whole, source, image, pairs[~wrong], config.threads, report)
 
+    most = config.search.runners_up
+
     def told(best: Candidate, rest: list[Candidate]) -> Found:
-        others = rest[: config.search.runners_up]
+        others = rest[:most]
         margin = max(best.score - rest[0].score, 0.0) if rest else np.inf
         score = best.quality.score
         return Found(
@@ -258,17 +260,17 @@ def choose(
             backwards=best.backwards,
         )
 
-    def other(one: Candidate, rest: list[Candidate], least: float) -> Found | None:
+    def above(one: Candidate, rest: list[Candidate], least: float) -> Found | None:
         return told(one, rest) if one.score > least else None
 
     def another(way: Callable[[], Candidate | None], least: float) -> Found | None:
         made = way()
-        return None if made is None else other(made, ranked[1:], least)
+        return None if made is None else above(made, ranked[1:], least)
 
     # The next of the distinct ones, mended too, and the first in other ways: which is best shows in the end.
     ways = [partial(another, way) for way in ranked[0].again]
     nexts = range(1, min(1 + NEXT, len(ranked)) if ways else 1)
-    others = [partial(other, ranked[i], ranked[:i] + ranked[i + 1 :]) for i in nexts]
+    others = [partial(above, ranked[i], ranked[:i] + ranked[i + 1 :]) for i in nexts]
     return replace(told(ranked[0], ranked[1:]), again=(*others, *ways))
 
 
