@@ -63,11 +63,13 @@ def representatives(mesh: Mesh) -> np.ndarray:
     n = len(mesh.vertices)
     if len(mesh.faces) == 0:
         return first_occurrence(mesh.vertices)
-    faces = mesh.faces[(mesh.faces != np.roll(mesh.faces, 1, axis=1)).all(axis=1)]
+    faces = mesh.faces[_proper(mesh.faces)]
     tail, head = faces.ravel(), faces[:, [1, 2, 0]].ravel()
-    low, high = np.minimum(tail, head), np.maximum(tail, head)
-    edges, count = np.unique(low * n + high, return_counts=True)
-    edges = edges[count == 1]
+    edges = np.sort(np.minimum(tail, head) * n + np.maximum(tail, head))
+    if len(edges) % 2 == 0 and (edges[::2] == edges[1::2]).all():  # each is there twice, as of a closed surface
+        return np.arange(n)
+    starts = np.flatnonzero(np.diff(edges, prepend=-1))
+    edges = edges[starts[np.diff(starts, append=len(edges)) == 1]]
     ends = np.stack([edges // n, edges % n], axis=1)
     rim = np.unique(ends)
     place = np.arange(n)
@@ -90,6 +92,12 @@ def representatives(mesh: Mesh) -> np.ndarray:
     return first[group].astype(np.int64)
 
 
+def _proper(faces: np.ndarray) -> np.ndarray:
+    """Which faces name three vertices, (f,) bool."""
+    a, b, c = faces.T
+    return (a != b) & (b != c) & (c != a)
+
+
 def inside(mesh: Mesh, specks: bool = False) -> Inside:
     """``mesh`` with each place once, without faces that name a vertex twice and vertices that no other face uses.
 
@@ -109,7 +117,7 @@ def inside(mesh: Mesh, specks: bool = False) -> Inside:
         used = np.ones(n, dtype=bool)
     else:
         faces = first[mesh.faces]
-        faces = faces[(faces != np.roll(faces, 1, axis=1)).all(axis=1)]
+        faces = faces[_proper(faces)]
         gone = 0
         if specks:
             keep, gone = _no_speck(Mesh(mesh.vertices, faces))

@@ -13,7 +13,7 @@ from scipy.linalg import eigh
 from scipy.sparse import csr_array, diags_array
 from scipy.sparse.linalg import ArpackError, LinearOperator, eigsh
 
-from kfmaps._arrays import NotConverged, check, check_count, check_positive, refuse
+from kfmaps._arrays import NotConverged, blocks, check, check_count, check_positive, refuse
 from kfmaps._threads import available_cores, one_blas_thread
 from kfmaps.surface.eigen.factor import Map, Sparse, factorise, fill_order
 from kfmaps.surface.eigen.lanczos import LOOSE, WIDTH, largest_eigenpairs
@@ -41,6 +41,9 @@ SERVES = 1e-2
 
 AGREE = 1e-3
 """Relative difference of eigenvalues up to which a loose search is trusted."""
+
+TOGETHER = 16
+"""Columns whose residuals are worked out together."""
 
 THREADED = 50_000
 """Rows from which threads pay."""
@@ -246,7 +249,11 @@ class _Pencil:
         return self.root[:, None] * self.solve(self.root[:, None] * block)
 
     def residuals(self, vectors: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Rayleigh quotients and scaled residuals of the columns."""
+        """Rayleigh quotients and scaled residuals of the columns, a few of which at once fit the cache."""
+        found = [self._residuals(vectors[:, part]) for part in blocks(vectors.shape[1], TOGETHER)]
+        return np.concatenate([part[0] for part in found]), np.concatenate([part[1] for part in found])
+
+    def _residuals(self, vectors: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         images, weighted = self.matrix @ vectors, self.mass[:, None] * vectors
         values = (vectors * images).sum(axis=0) / (vectors * weighted).sum(axis=0)
         values = np.maximum(values, 0)
