@@ -272,7 +272,7 @@ def test_the_match_that_is_worth_more_is_taken(pair):
     """Of two that both have a fit, by score and torn area together; the one taken tells the seconds of the whole."""
     source, target, truth = pair
     one = matching.continued(source, target, truth, origin="a", quality=-9.0)
-    assert one.place is not None
+    assert one.bend is not None
 
     def made(score, share):
         order = np.cumsum(vertex_areas(target.mesh)) <= share * vertex_areas(target.mesh).sum()
@@ -284,7 +284,9 @@ def test_the_match_that_is_worth_more_is_taken(pair):
         found = worthier(known, made(-9.0 - lost, 0.1))
         assert found.verdict == f"{taken}"
         assert found.seconds is one.seconds
-    assert worthier(known, replace(made(0.0, 0.0), place=None)) is known
+    refused = replace(made(-9.0, 0.1), place=None)
+    assert worthier(known, refused).verdict == "0.1"
+    assert worthier(known, replace(refused, bend=None)) is known
 
 
 def test_a_match_finishes_all_ways_unless_it_is_hardly_torn(pair, monkeypatch):

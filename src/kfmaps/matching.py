@@ -329,9 +329,10 @@ def worth(match: Match) -> float:
 def torn(match: Match) -> float | None:
     """The share of the target around which a match with a non-rigid fit keeps distances badly, from 0 to 1.
 
-    ``None`` without that fit, before which distances between shapes of other proportions are kept badly everywhere.
+    Where the fit was refused that of the map before it, which is more. ``None`` where none was made, before which
+    distances between shapes of other proportions are kept badly everywhere.
     """
-    if match.place is None or match.border is None:
+    if match.bend is None or match.border is None:
         return None
     areas = vertex_areas(match.border.outside[1].mesh)
     return float(areas[match.local_confidence < BADLY].sum() / areas.sum())
