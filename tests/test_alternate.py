@@ -141,7 +141,7 @@ def test_the_target_is_bent_and_the_source_where_that_is_asked_for(pair, monkeyp
     first = end()
     n_s, n_t = len(source.mesh.vertices), len(target.mesh.vertices)
     assert calls == [(True, n_t, True)]
-    (way,) = first.again
+    (way,) = first.again  # nothing else was mended
     other = way()
     assert other is not None
     assert calls[1:] == [(False, n_s, False)]
@@ -176,7 +176,11 @@ def test_likely_pairings_are_begun_with_where_no_map_has_them(pair, monkeypatch)
     monkeypatch.setattr(choose, "alternated", made)
     monkeypatch.setattr(choose, "limbs", lambda *_: None)
     landmarks = np.zeros((0, 2), dtype=np.int64)
-    names = {c.name for c in mended(ranked, on, source, target, landmarks, 1)}
+    found = mended(ranked, on, source, target, landmarks, 1)
+    names = {c.name for c in found}
+    (first,) = (c for c in found if c.again)
+    other = first.again[0]()
+    assert {first.name, other and other.name} == names
     assert len(calls) == 2  # the truth has the best pairing itself
     assert calls[1] > calls[0]  # tips lead where they are known
     np.testing.assert_array_equal(begun[1].T, paired_map(mirror, on, len(begun[1])))
@@ -311,25 +315,29 @@ def test_a_match_finishes_all_ways_unless_it_is_hardly_torn(pair, monkeypatch):
 
 
 def test_a_search_tells_what_else_may_turn_out_better(pair, monkeypatch):
-    """The next of the distinct ones and another way of the first, each where its score is above what is known."""
+    """Each where its score is above what is known; the runners-up of each differ from it."""
     source, target, _ = pair
     judgement = Quality(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
-    at = np.arange(5)
-    one = Candidate("0", np.eye(5), at, judgement, bending=0.15)
-    ranked = [replace(one, name=str(i), strain=i / STRAIN) for i in range(5)]
-    ranked[0] = replace(ranked[0], again=(lambda: replace(one, name="another"), lambda: None))
+    one = Candidate("0", np.eye(5), np.zeros(2000, dtype=int), judgement, bending=0.15)
+    ranked = [replace(one, name=str(i), points=np.full(2000, i), strain=i / STRAIN) for i in range(5)]
+    twin = replace(one, name="twin", strain=0.5 / STRAIN)
+    ways = (lambda: ranked[2], lambda: twin, lambda: None)
+    ranked[0] = replace(ranked[0], again=ways)
     monkeypatch.setattr(choose, "MENDED", np.inf)
     monkeypatch.setattr(choose, "mended", lambda *_: ranked)
     monkeypatch.setattr(choose, "closer", lambda *_: ranked)
     monkeypatch.setattr(choose, "passed_over", lambda maps, *_: tuple(range(len(maps))))
+    monkeypatch.setattr(choose, "differs", lambda a, b, _: float(a.points[0] != b.points[0]))
     found = choose.choose(source, target, kfmaps.Config.automatic())
     made = [way(-np.inf) for way in found.again]
-    assert [m and m.origin for m in made] == ["1", "2", "another", None]
-    scores = [m and m.scores[:2] for m in made]
     best = [c.score for c in ranked]
-    assert found.scores[:2] == (best[0], best[1])
-    assert scores == [(best[1], best[0]), (best[2], best[0]), (one.score, best[1]), None]
-    assert [way(best[1]) and "" for way in found.again] == [None, None, "", None]
+    assert [m and (m.origin, m.scores[:2]) for m in (found, *made)] == [
+        ("0", (best[0], best[1])),
+        ("2", (best[2], best[0])),
+        ("twin", (twin.score, best[1])),
+        None,
+    ]
+    assert [way(best[1]) and "more" for way in found.again] == [None, "more", None]
 
 
 def test_where_the_target_lies_leads_as_well(pair):

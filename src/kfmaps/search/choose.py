@@ -85,7 +85,9 @@ MENDED = -7.5
 MENDABLE = 6.0
 """How far behind a map between unlike shapes may be to be mended: mending has gained up to 10."""
 NEXT = 2
-"""Distinct ones after the best, mended too, that may turn out to be less torn than it."""
+"""Mended ones after the best that may turn out to be less torn than it, ..."""
+TWIN = 0.03
+"""... and the mean distance up to which two of them count as one: a limb that lies elsewhere makes 0.05."""
 SETTLED = 3
 """Maps to a mirror image that are worth a refinement of their own."""
 
@@ -127,8 +129,8 @@ class Found:
         Whether ``bent`` are the target's vertices on the source instead, (n_t, 3).
     again : tuple of callables
         Each returns another map between such shapes that may turn out to be the better one when both are finished: the
-        next of the distinct ones, and this one mended in another way. Called with a score, it returns ``None`` where
-        the other does not have more, or falls apart.
+        next that have been mended, and this one mended the other way round. Called with a score, it returns ``None``
+        where the other does not have more, or falls apart.
     """
 
     functional_map: np.ndarray
@@ -260,18 +262,13 @@ def choose(
             backwards=best.backwards,
         )
 
-    def above(one: Candidate, rest: list[Candidate], least: float) -> Found | None:
-        return told(one, rest) if one.score > least else None
-
     def another(way: Callable[[], Candidate | None], least: float) -> Found | None:
         made = way()
-        return None if made is None else above(made, ranked[1:], least)
+        if made is None or made.score <= least:
+            return None
+        return told(made, [c for c in ranked if differs(c, made, on.whole.source) > DISTINCT])
 
-    # The next of the distinct ones, mended too, and the first in other ways: which is best shows in the end.
-    ways = [partial(another, way) for way in ranked[0].again]
-    nexts = range(1, min(1 + NEXT, len(ranked)) if ways else 1)
-    others = [partial(above, ranked[i], ranked[:i] + ranked[i + 1 :]) for i in nexts]
-    return replace(told(ranked[0], ranked[1:]), again=(*others, *ways))
+    return replace(told(ranked[0], ranked[1:]), again=tuple(partial(another, way) for way in ranked[0].again))
 
 
 def passed_over(
@@ -490,9 +487,14 @@ def mended(
         made = mend(*won, lambda _done: None, backwards=False)
         return made and _over(made, usual)
 
-    # The one that has won can be mended in another way: with the source bent onto the target.
-    order[0] = replace(order[0], again=(forwards,))
+    # Others that are as likely, and the one that has won mended the other way round: the source bent onto the target.
+    nexts = apart(order, on.source, TWIN, 1 + NEXT)[1:]
+    order[0] = replace(order[0], again=(*(partial(_itself, c) for c in nexts), forwards))
     return apart(order + rest, on.source, DISTINCT)
+
+
+def _itself(found: Candidate) -> Candidate:
+    return found
 
 
 def _over(found: Candidate, usual: float) -> Candidate:
