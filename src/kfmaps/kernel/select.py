@@ -44,8 +44,12 @@ def farthest(X: Array, count: int, rng: Rng = 0, pool: int | None = POOL) -> np.
     following = int(draw.integers(len(X)))
     for i in range(count):
         taken[i] = following
-        np.minimum(nearest, squares - 2 * (X @ X[following]) + squares[following], out=nearest)
-        nearest[taken[: i + 1]] = -np.inf
+        away = X @ X[following]
+        away *= -2
+        away += squares
+        away += squares[following]
+        np.minimum(nearest, away, out=nearest)
+        nearest[following] = -np.inf
         following = int(np.argmax(nearest))
         if nearest[following] <= 1e-14 * squares.max():
             return taken[: i + 1]
