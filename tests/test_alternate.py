@@ -32,6 +32,13 @@ def pair():
     return *shapes, made.truth
 
 
+@pytest.fixture(autouse=True)
+def alike(monkeypatch):
+    """How bent shapes look is tested in test_looks.py, and takes seconds."""
+    monkeypatch.setattr(choose, "looks", lambda on: on)
+    monkeypatch.setattr(choose, "mismatch", lambda *_what: 0.2)
+
+
 def both(source, target) -> Grounds:
     on = grounds(source, target)
     assert on is not None
@@ -222,6 +229,25 @@ def test_what_goes_astray_stays_as_it_was(pair, monkeypatch):
     assert found.bending is not None
     assert found.bending < 0.5
     assert found.strain is not None
+
+
+def test_what_goes_astray_one_way_is_mended_the_other(pair, monkeypatch):
+    source, target, truth = pair
+    on = arena(source, target, (probe(source, 200), probe(target, 200))).whole
+    C = np.asarray(to_functional(truth, source.basis.truncated(40), target.basis.truncated(40)))
+    rough = C + 0.02 * np.random.default_rng(1).normal(size=C.shape)
+    ranked = [replace(c, bending=1.0) for c in judged([("rough", True)], rough[None], None, on, 1)]
+    astray = np.linalg.qr(np.random.default_rng(0).normal(size=C.shape))[0]
+
+    def made(_C, where, *_rest):
+        return alternate.Alternated(astray if where.source is target else C, where.source.mesh.vertices)
+
+    monkeypatch.setattr(choose, "alternated", made)
+    monkeypatch.setattr(choose, "pairings", lambda *_: [])
+    found = mended(ranked, on, source, target, np.zeros((0, 2), dtype=np.int64), 1)[0]
+    np.testing.assert_array_equal(found.functional_map, C)
+    assert not found.backwards
+    assert found.bent is source.mesh.vertices
 
 
 def on_a_line(*places: float) -> Any:

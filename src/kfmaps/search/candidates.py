@@ -70,6 +70,8 @@ BEND, USUAL = 5.0, 0.15
 """Weight of the logarithm of the bending energy over a usual one, ..."""
 STRAIN = 6.0
 """Weight of the strain, where it is known; see :class:`kfmaps.search.bends.Bent`."""
+LOOKS = 60.0
+"""Weight of :func:`kfmaps.search.looks.mismatch`, where it is known; right and wrong maps differ by 0.02 and more."""
 LANDMARK = 2.0
 """What a landmark whose image is simply wrong costs."""
 
@@ -95,6 +97,8 @@ class Candidate:
     strain : float or None
         See :class:`kfmaps.search.bends.Bent`, over a usual one; known of the first two of a close call and of what was
         mended.
+    mismatch : float or None
+        See :func:`kfmaps.search.looks.mismatch`, over a usual one; known of what was mended.
     bent : (n_s, 3) float64 or None
         The source's vertices on the target, roughly, where both were bent and matched in turn.
     backwards : bool
@@ -111,6 +115,7 @@ class Candidate:
     missed: np.ndarray = field(default_factory=lambda: np.zeros(0))
     bending: float | None = None
     strain: float | None = None
+    mismatch: float | None = None
     bent: np.ndarray | None = None
     backwards: bool = False
     again: tuple[Callable[[], Candidate | None], ...] = ()
@@ -125,10 +130,11 @@ class Candidate:
 
     @property
     def evidence(self) -> float:
-        """What the shapes say: quality, the ends of limbs and, where it is known, how little they must bend."""
+        """What the shapes say: quality, the ends of limbs and, where they are known, bending and looks."""
         bent = 0.0 if self.bending is None else -BEND * math.log(self.bending / USUAL)
         strained = 0.0 if self.strain is None else -STRAIN * self.strain
-        return self.quality.score - ENDS * self.quality.ends + bent + strained
+        looks = 0.0 if self.mismatch is None else -LOOKS * self.mismatch
+        return self.quality.score - ENDS * self.quality.ends + bent + strained + looks
 
 
 @dataclass(frozen=True, eq=False)

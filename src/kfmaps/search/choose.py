@@ -31,7 +31,7 @@ from kfmaps.functional.refine import CANDIDATES, PAIRS, Refinement, ZoomOut
 from kfmaps.search.alternate import alternated, grounds, turned_round
 from kfmaps.search.arena import POINTS as FEW
 from kfmaps.search.arena import Arena, Ground, arena, turned, without
-from kfmaps.search.bends import LONGER, MORE, bending, bent, copied, ready
+from kfmaps.search.bends import LONGER, MORE, Ready, bending, bent, copied, ready
 from kfmaps.search.candidates import (
     APART,
     FINE,
@@ -45,6 +45,7 @@ from kfmaps.search.candidates import (
     paired_map,
 )
 from kfmaps.search.learned import learned, plain, speaks
+from kfmaps.search.looks import looks, mismatch
 from kfmaps.search.marks import doubted, leading
 from kfmaps.search.pairings import Limbs, induced, limbs, limbs_of, pairings, unheard
 from kfmaps.search.quality import Probe, probe, thinned
@@ -84,6 +85,8 @@ MENDED = -7.5
 """Score below which they are bent and matched in turn."""
 MENDABLE = 6.0
 """How far behind a map between unlike shapes may be to be mended: mending has gained up to 10."""
+HOPELESS = 5.0
+"""How far behind a mended map comes to nothing however it looks."""
 NEXT = 2
 """Mended ones after the best that may turn out to be less torn than it, ..."""
 TWIN = 0.03
@@ -207,8 +210,19 @@ def choose(
         landmarks=pairs,
         descriptors=descriptors,
         drawn=given,
-        report=lambda done: report("candidates", 0.1 + 0.8 * done),
+        report=lambda done: report("candidates", 0.1 + (0.4 if len(pairs) else 0.8) * done),
     )
+    if len(pairs):
+        found += unled(
+            source,
+            target,
+            plain(config),
+            on,
+            seed,
+            descriptors=descriptors,
+            drawn=given,
+            report=lambda done: report("candidates", 0.5 + 0.4 * done),
+        )
     ranked = ranking(found, on.whole, source, target, config.threads)
     orientation = "reversed" if config.search.orientation == "reversed" else "kept"
     surfaces = all(p.orientation is not None for p in probes)
@@ -269,6 +283,14 @@ def choose(
         return told(made, [c for c in ranked if differs(c, made, on.whole.source) > DISTINCT])
 
     return replace(told(ranked[0], ranked[1:]), again=tuple(partial(another, way) for way in ranked[0].again))
+
+
+def unled(source: Shape, target: Shape, config: Config, on: Arena, seed: int, **more: Any) -> list[Candidate]:
+    """What is found without landmarks, judged with them: whoever gives some loses none of these maps."""
+    alone = Arena(*(replace(ground, landmarks=None, marks=None) for ground in (on.few, on.whole)))
+    found = candidates(source, target, config, alone, seed, **more)
+    maps, points = np.stack([c.functional_map for c in found]), np.stack([c.points for c in found])
+    return judged([(c.name, c.guided) for c in found], maps, points, on.whole, config.threads)
 
 
 def passed_over(
@@ -403,12 +425,32 @@ def second_look(
     if finer[0] is None or finer[1] is None:
         return order
     both = ready(finer[0], finer[1].mirrored() if on.target.mirrored else finer[1])
-    found = parallel(lambda c: bent(c.functional_map, source, target, both, LONGER), order[:2], threads)
-    usual = sum(one.strain for one in found) / 2
-    first = [
-        replace(c, bending=one.bending, strain=one.strain - usual) for c, one in zip(order[:2], found, strict=True)
-    ]
-    return in_order(first) + order[2:]
+    found = parallel(lambda c: seen(c, source, target, both), order[:2], threads)
+    middle = usual(found, np.mean)
+    return in_order([over(c, middle) for c in found]) + order[2:]
+
+
+def seen(found: Candidate, source: Shape, target: Shape, on: Ready) -> Candidate:
+    """With what its map says when the copies are bent with more patience."""
+    one = bent(found.functional_map, source, target, on, LONGER)
+    return replace(found, bending=one.bending, strain=one.strain)
+
+
+def usual(found: list[Candidate], of: Callable[[list[float]], Any]) -> tuple[float, float]:
+    """The strain and the mismatch of bent candidates that others are compared with: both depend on the shapes."""
+    strains = [c.strain for c in found if c.strain is not None]
+    looks = [c.mismatch for c in found if c.mismatch is not None]
+    return float(of(strains)) if strains else 0.0, float(of(looks)) if looks else 0.0
+
+
+def over(found: Candidate, usual: tuple[float, float]) -> Candidate:
+    """With strain and mismatch, where they are known, over the usual ones."""
+    strain, looks = found.strain, found.mismatch
+    return replace(
+        found,
+        strain=None if strain is None else strain - usual[0],
+        mismatch=None if looks is None else looks - usual[1],
+    )
 
 
 def mended(
@@ -423,7 +465,8 @@ def mended(
     """The best between unlike shapes bent and matched in turn (:mod:`kfmaps.search.alternate`), and ranked again.
 
     The target is bent onto the source, so that each direction has its say: what follows bends the source onto the
-    target. Each counts as it is after that or, where that has made it worse, as it was before.
+    target. Each counts as it is after that or, where that has made it worse, as the best of that, of the source bent
+    onto the target, and of what it was before.
 
     A refinement may send a leg to the tail, and what is mended keeps to the tips that it has paired. So the likeliest
     pairings of tips (:mod:`kfmaps.search.pairings`) that none of these maps has are begun with as well.
@@ -433,6 +476,7 @@ def mended(
     if both is None or finer[0] is None or finer[1] is None:
         return ranked
     copies, shot = ready(finer[0], finer[1]), guide(source.shot, target.shot)
+    at_rest = looks(copies)
 
     near, rest = mendable(ranked, on.source)
     begun = [(one, limbs(one.points, on.source, on.target)) for one in near]
@@ -460,32 +504,35 @@ def mended(
         size = min(FINE, len(found.functional_map))
         C = found.functional_map[:size, :size]
         new = judged([(old.name, old.guided)], (C.T if backwards else C)[None], None, on, 1)[0]
-        after = bent(new.functional_map, source, target, copies, LONGER)
-        new = replace(new, bending=after.bending, strain=after.strain, bent=found.bent, backwards=backwards)
+        new = replace(seen(new, source, target, copies), bent=found.bent, backwards=backwards)
         tell(1.0)
         return new
 
     def better(i: int) -> Candidate | None:
-        """Where a body touches itself the right map may go astray, and is as good as it was before."""
+        """Where a body touches itself the right map may go astray; the other way it may not, or is best as it was."""
         old, new = begun[i][0], mend(*begun[i], partial(tell, i))
         if new is None:
             return old if i < len(near) else None
-        if i >= len(near) or new.quality.score > old.quality.score:
+        if i >= len(near) or new.quality.score >= old.quality.score:
             return new
-        before = bent(old.functional_map, source, target, copies, LONGER)
-        states = new, replace(old, bending=before.bending, strain=before.strain)
+        other = mend(*begun[i], lambda _done: None, backwards=False)
+        states = [new, seen(old, source, target, copies), *([] if other is None else [other])]
         return max(states, key=lambda c: c.score)
 
+    def looked_at(found: Candidate) -> Candidate:
+        return replace(found, mismatch=mismatch(found.functional_map, source, target, at_rest))
+
     tell(0, 0.0)
-    tried = parallel(better, range(len(begun)), threads)
-    usual = min((c.strain for c in tried if c is not None and c.strain is not None), default=0.0)
-    tried = [c and _over(c, usual) for c in tried]
-    order = in_order([c for c in tried if c is not None])
-    won = next(one for one, c in zip(begun, tried, strict=True) if c is order[0])
+    made = parallel(better, range(len(begun)), threads)
+    which = [i for i, c in enumerate(made) if c is not None]
+    tried = compared([c for c in made if c is not None], looked_at, threads)
+    least = usual(tried, min)
+    order = in_order([over(c, least) for c in tried])
+    won = begun[which[next(i for i, c in enumerate(tried) if c.functional_map is order[0].functional_map)]]
 
     def forwards() -> Candidate | None:
         made = mend(*won, lambda _done: None, backwards=False)
-        return made and _over(made, usual)
+        return made and over(looked_at(made), least)
 
     # Others that are as likely, and the one that has won mended the other way round: the source bent onto the target.
     nexts = apart(order, on.source, TWIN, 1 + NEXT)[1:]
@@ -497,9 +544,17 @@ def _itself(found: Candidate) -> Candidate:
     return found
 
 
-def _over(found: Candidate, usual: float) -> Candidate:
-    """With its strain, where it is known, over a usual one."""
-    return found if found.strain is None else replace(found, strain=found.strain - usual)
+def compared(
+    found: list[Candidate], looked_at: Callable[[Candidate], Candidate], threads: int | None = None
+) -> list[Candidate]:
+    """The mended ones with how they look, those that are far behind anyway with the worst that is seen."""
+    strain = usual(found, min)[0]
+    scores = [over(c, (strain, 0.0)).score for c in found]
+    near = [score > max(scores) - HOPELESS for score in scores]
+    seen = parallel(looked_at, [c for c, yes in zip(found, near, strict=True) if yes], threads)
+    worst = max((c.mismatch for c in seen if c.mismatch is not None), default=None)
+    rest = iter(seen)
+    return [next(rest) if yes else replace(c, mismatch=worst) for c, yes in zip(found, near, strict=True)]
 
 
 def mendable(ranked: list[Candidate], source: Probe) -> tuple[list[Candidate], list[Candidate]]:

@@ -1,0 +1,185 @@
+"""How shapes look once they are bent onto each other, and what it counts for."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import kfmaps
+from kfmaps import datasets
+from kfmaps._arrays import NotConverged
+from kfmaps.functional.points import nearest, to_functional
+from kfmaps.search import alternate, choose, looks
+from kfmaps.search.arena import arena
+from kfmaps.search.bends import copied, ready
+from kfmaps.search.candidates import LOOKS, STRAIN, judged
+from kfmaps.search.choose import HOPELESS, compared, mended, over, unled, usual
+from kfmaps.search.looks import difference, mismatch, sight
+from kfmaps.search.quality import probe
+from kfmaps.surface.mesh import Mesh
+
+
+@pytest.fixture(scope="module")
+def pair():
+    made = datasets.non_isometric(1500, rng=3)
+    config = kfmaps.Config.automatic()
+    shapes = [kfmaps.prepare(mesh, config, name=name) for mesh, name in ((made.source, "a"), (made.target, "b"))]
+    return *shapes, made.truth
+
+
+@pytest.fixture(scope="module")
+def at_rest(pair):
+    copies = [copied(shape) for shape in pair[:2]]
+    return looks.looks(ready(*copies))
+
+
+def functional(points, source, target):
+    return np.asarray(to_functional(points, source.basis.truncated(40), target.basis.truncated(40)))
+
+
+def test_differences_are_squared_and_from_what_lies_nearest(pair, monkeypatch):
+    mesh = pair[0].mesh
+    monkeypatch.setattr(looks, "shot", lambda _mesh, _radius, at, **_how: np.stack([at, at % 3], axis=1).astype(float))
+    here = sight(mesh)
+    at = np.arange(0, len(mesh.vertices), looks.STEP)
+    np.testing.assert_array_equal(here.descriptors[:, 0], at)
+    assert difference(here, mesh) == 0
+    moved = replace(here, descriptors=here.descriptors + np.array([3.0, 4.0]))
+    assert difference(moved, mesh) == pytest.approx(25.0)
+
+
+def test_a_surface_looks_like_itself_wherever_its_vertices_are(pair):
+    mesh = pair[0].mesh
+    order = np.random.default_rng(0).permutation(len(mesh.vertices))
+    again = Mesh(mesh.vertices[order], np.argsort(order)[mesh.faces])
+    assert difference(sight(mesh), again) == pytest.approx(0, abs=1e-6)
+    assert difference(sight(mesh), Mesh(mesh.vertices * [1.0, 1.0, -1.0], mesh.faces[:, ::-1])) > 0.1
+
+
+def test_the_sides_of_a_thin_part_are_not_taken_for_each_other(pair):
+    """Where two sheets lie close, it is the normals that tell which point lies on which."""
+    mesh = pair[0].mesh
+    inside_out = Mesh(mesh.vertices, mesh.faces[:, ::-1])
+    apart = np.linalg.norm(sight(mesh).places - sight(inside_out).places, axis=1)
+    np.testing.assert_allclose(apart, 2 * looks.NORMALS, rtol=1e-6)
+
+
+def test_what_is_bent_as_a_wrong_map_says_looks_otherwise(pair, at_rest):
+    source, target, truth = pair
+    v = source.mesh.vertices - source.mesh.vertices.mean(axis=0)
+    about = nearest(v, v * [-1.0, -1.0, 1.0], threads=1)
+    right, wrong = functional(truth, source, target), functional(about[truth], source, target)
+    found = [mismatch(C, source, target, at_rest) for C in (right, wrong)]
+    assert found[0] < 0.8 * found[1]
+
+
+def test_both_directions_count_unless_one_falls_apart(pair, at_rest, monkeypatch):
+    source, target, truth = pair
+    C = functional(truth, source, target)
+    told = {True: 0.1, False: 0.3}
+    monkeypatch.setattr(looks, "_mismatch", lambda way, *_rest: told[way is at_rest.on.there])
+    assert mismatch(C, source, target, at_rest) == pytest.approx(0.2)
+    told[False] = None
+    assert mismatch(C, source, target, at_rest) == pytest.approx(0.1)
+    told[True] = None
+    assert mismatch(C, source, target, at_rest) is None
+
+
+def test_a_copy_that_falls_apart_is_not_looked_at(pair, at_rest, monkeypatch):
+    source, target, truth = pair
+
+    class Broken:
+        def bent(self, *_what):
+            raise NotConverged("it fell apart")
+
+    monkeypatch.setattr(looks, "FIT", Broken())
+    assert mismatch(functional(truth, source, target), source, target, at_rest) is None
+
+
+def one_of(pair):
+    source, target, truth = pair
+    on = arena(source, target, (probe(source, 200), probe(target, 200))).whole
+    return on, judged([("truth", True)], functional(truth, source, target)[None], None, on, 1)[0]
+
+
+def test_looks_and_strain_count_over_usual_ones(pair):
+    one = one_of(pair)[1]
+    some = [replace(one, strain=s, mismatch=m) for s, m in ((-1.0, 0.2), (-2.0, 0.26), (None, None))]
+    assert usual(some, min) == (-2.0, 0.2)
+    assert usual(some, np.mean) == pytest.approx((-1.5, 0.23))
+    assert usual(some[2:], min) == (0.0, 0.0)
+    assert over(some[0], (-2.0, 0.2)).evidence == pytest.approx(one.evidence - STRAIN)
+    assert over(some[1], (-2.0, 0.2)).evidence == pytest.approx(one.evidence - LOOKS * 0.06)
+    assert over(some[2], (-2.0, 0.2)).evidence == one.evidence
+
+
+def test_of_mended_maps_the_one_that_looks_right_comes_first(pair, monkeypatch):
+    """Though all else says a little more for the other."""
+    source, target, _ = pair
+    on, good = one_of(pair)
+    good = replace(good, bending=1.0)
+    turned = np.roll(np.arange(len(good.points)), 50)
+    quality = replace(good.quality, distortion=good.quality.distortion - 0.01)
+    bad = replace(good, name="bad", points=turned, quality=quality, functional_map=-good.functional_map)
+
+    def stays(*_what):
+        raise NotConverged("it fell apart")
+
+    monkeypatch.setattr(choose, "looks", lambda on: on)
+    monkeypatch.setattr(choose, "mismatch", lambda *_what: 0.2)
+    monkeypatch.setattr(choose, "alternated", stays)
+    nowhere = np.zeros((0, 2), dtype=np.int64)
+    assert [c.name for c in mended([bad, good], on, source, target, nowhere, 1)] == ["bad", "truth"]
+    made = alternate.Alternated(good.functional_map, source.mesh.vertices)
+    monkeypatch.setattr(choose, "alternated", lambda C, *_what: replace(made, functional_map=C))
+    monkeypatch.setattr(choose, "judged", lambda names, *_w: [bad if names[0][0] == "bad" else good])
+    monkeypatch.setattr(choose, "seen", lambda c, *_what: replace(c, strain=0.0))
+    monkeypatch.setattr(choose, "mismatch", lambda C, *_what: 0.25 if C is bad.functional_map else 0.2)
+    found = mended([bad, good], on, source, target, nowhere, 1)
+    assert [c.name for c in found] == ["truth", "bad"]
+    assert [c.mismatch for c in found] == pytest.approx([0.0, 0.05])
+
+
+def test_what_is_far_behind_is_not_looked_at(pair):
+    """And counts as the worst of those that are."""
+    one = replace(one_of(pair)[1], strain=0.0)
+    behind = [replace(one, strain=s / STRAIN) for s in (0.0, HOPELESS - 1, HOPELESS + 1)]
+    asked = []
+
+    def looked_at(c):
+        asked.append(c.strain)
+        return replace(c, mismatch=0.2 + 0.1 * c.strain)
+
+    found = compared(behind, looked_at, 1)
+    assert asked == [c.strain for c in behind[:2]]
+    assert [c.strain for c in found] == [c.strain for c in behind]
+    worst = 0.2 + 0.1 * (HOPELESS - 1) / STRAIN
+    assert [c.mismatch for c in found] == pytest.approx([0.2, worst, worst])
+
+
+def test_maps_found_without_landmarks_take_part(pair, monkeypatch):
+    """They are the ones of a search that knows of none, and are judged by the landmarks all the same."""
+    source, target, truth = pair
+    marks = np.stack([truth[[5, 700]], [5, 700]], axis=1)
+    probes = [probe(s, 200, landmarks=at) for s, at in zip((source, target), marks.T, strict=True)]
+    on = arena(source, target, (probes[0], probes[1]), marks)
+    asked = []
+
+    def few(*what, **how):
+        asked.append((what[3], how))
+        return judged([("free", True)], np.eye(40)[None], None, what[3].whole, 1)
+
+    monkeypatch.setattr(choose, "candidates", few)
+    found = unled(source, target, kfmaps.Config.automatic(), on, 3, drawn=4)
+    alone, how = asked[0]
+    assert how == {"drawn": 4}
+    assert alone.few.marks is None
+    assert alone.few.landmarks is None
+    assert alone.whole.marks is None
+    assert alone.whole.landmarks is None
+    assert alone.whole.shot is on.whole.shot
+    assert [c.name for c in found] == ["free"]
+    assert found[0].missed.shape == (2,)
+    np.testing.assert_array_equal(found[0].functional_map, np.eye(40))
