@@ -47,7 +47,7 @@ MUTANTS = tuple(
         ("float(np.median(positive))", "float(np.mean(positive))", KERNEL),
         ("spectrum > least * top", "spectrum > 0.1 * least * top", f"{FORMULAS} -k dropped"),
         ("like(1 / np.sqrt(spectrum[keep]), samples)", "like(1 / spectrum[keep], samples)", "test_nystrom"),
-        ("squares - 2 * (X @ X[following])", "squares - (X @ X[following])", "test_nystrom"),
+        ("away *= -2", "away *= -1", "test_nystrom"),
         ("following = int(np.argmax(nearest))", "following = int(np.argmin(nearest))", "test_nystrom"),
         ("column / np.sqrt(column[pivot])", "column / column[pivot]", "test_nystrom"),
         ("_drawn(residual**power, draw)", "_drawn(residual, draw)", "test_nystrom -k proportion"),
@@ -572,10 +572,11 @@ MUTANTS = tuple(
             "test_automatic -k its_definition_says",
         ),
         (
-            "max(new, seen(old, source, target, copies), key=lambda c: c.score)",
-            "max(new, new, key=lambda c: c.score)",
+            "states = [new, seen(old, source, target, copies), *(",
+            "states = [new, *(",
             "test_alternate -k astray",
         ),
+        ("*([] if other is None else [other])]", "]", "test_alternate -k astray"),
         (
             "looks = 0.0 if self.mismatch is None else -LOOKS",
             "looks = 0.0 if self.mismatch is None else LOOKS",
