@@ -209,6 +209,8 @@ def test_pairings_are_heard_once():
     assert unheard([part, other, third], [whole], 3) == [other, third]
     assert unheard([whole], [part], 1) == [whole]
     assert part.contradicts(third)
+    assert part.contradicts(pairing((5, 0)))  # by the target's tip alone
+    assert not part.contradicts(pairing((5, 5)))
     assert not whole.contradicts(part)
 
 
