@@ -47,7 +47,7 @@ MUTANTS = tuple(
         ("float(np.median(positive))", "float(np.mean(positive))", KERNEL),
         ("spectrum > least * top", "spectrum > 0.1 * least * top", f"{FORMULAS} -k dropped"),
         ("like(1 / np.sqrt(spectrum[keep]), samples)", "like(1 / spectrum[keep], samples)", "test_nystrom"),
-        ("away *= -2", "away *= -1", "test_nystrom"),
+        ("away += squares[following]", "away += squares", "test_nystrom"),
         ("following = int(np.argmax(nearest))", "following = int(np.argmin(nearest))", "test_nystrom"),
         ("column / np.sqrt(column[pivot])", "column / column[pivot]", "test_nystrom"),
         ("_drawn(residual**power, draw)", "_drawn(residual, draw)", "test_nystrom -k proportion"),
