@@ -191,7 +191,7 @@ def _rows(match: Match, found: dict[str, Any], accuracy: Accuracy | None) -> lis
 
 
 def _verdict(match: Match) -> str:
-    text = verdict_line(match.verdict)
+    text = verdict_line(match.verdict, match.confidence)
     return text if match.confidence is None else f"{text} (confidence {match.confidence:.2f})"
 
 

@@ -39,7 +39,18 @@ LOUD = {
 """Verdicts that a terminal must not bury in a table, and what to do."""
 
 
-def verdict_line(kind: str) -> str:
-    """A verdict for a terminal, in one line; the name itself where it is not known."""
-    text = VERDICTS.get(kind, kind)
+LIKELY = "More likely right than wrong, but the shapes differ too much to be sure. Look at it before you rely on it."
+"""Of a "poor" map with a confidence of one half and more."""
+
+
+def verdict_text(kind: str, confidence: float | None = None) -> str:
+    """What a verdict means; the name itself where it is not known."""
+    if kind == "poor" and isinstance(confidence, float) and confidence >= 0.5:
+        return LIKELY
+    return VERDICTS.get(kind, kind)
+
+
+def verdict_line(kind: str, confidence: float | None = None) -> str:
+    """A verdict for a terminal, in one line."""
+    text = verdict_text(kind, confidence)
     return f"{kind.upper()}: {text} What to do: {LOUD[kind]}" if kind in LOUD else text

@@ -14,7 +14,7 @@ from kfmaps.app.pictures.colors import position_colors
 from kfmaps.app.view.document import document
 from kfmaps.app.view.fields import alignment, area_distortion, nearest_reached
 from kfmaps.app.view.pack import packed, quantised
-from kfmaps.app.words import VERDICTS
+from kfmaps.app.words import VERDICTS, verdict_text
 from kfmaps.surface.mesh import Mesh, unit_area
 
 
@@ -63,7 +63,7 @@ def verdict_record(summary: Mapping[str, Any]) -> dict[str, Any] | None:
     if not isinstance(kind, str) or kind not in VERDICTS:
         return None
     confidence = summary.get("confidence")
-    return {"kind": kind, "text": VERDICTS[kind], "confidence": confidence}
+    return {"kind": kind, "text": verdict_text(kind, confidence), "confidence": confidence}
 
 
 def views_record(source: Mesh, target: Mesh, target_to_source: np.ndarray | None = None) -> dict[str, Any]:
