@@ -628,7 +628,6 @@ MUTANTS = tuple(
         ),
         ("np.argsort(_changed(begun, of), kind", "np.argsort(-_changed(begun, of), kind", "test_symmetries -k early"),
         ("on.few, weights[:QUICK])", "on.few, weights)", "test_clear -k near_symmetries"),
-        ("STRIDE if easy else FINE_STEP)", "FINE_STEP if easy else STRIDE)", "test_clear -k near_symmetries"),
         (
             "rest[np.isinf(rest)] = over[np.isinf(rest)]",
             "rest[np.isinf(rest)] = 2 * over[np.isinf(rest)]",

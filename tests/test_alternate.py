@@ -19,7 +19,7 @@ from kfmaps.search.alternate import Grounds, alternated, grounds, lying, spread
 from kfmaps.search.arena import arena
 from kfmaps.search.candidates import STRAIN, Candidate, judged, paired_map
 from kfmaps.search.choose import closer, mendable, mended
-from kfmaps.search.pairings import Pairing, pairings, unheard
+from kfmaps.search.pairings import Pairing, completed, induced, limbs_of, pairings, unheard
 from kfmaps.search.quality import Quality, probe
 from kfmaps.surface.mesh import Mesh, vertex_areas
 
@@ -171,7 +171,12 @@ def test_likely_pairings_are_begun_with_where_no_map_has_them(pair, monkeypatch)
     (best, *others) = pairings(on.source, on.target, on.shot)
     mirror = next(one for one in others if one.contradicts(best))
     monkeypatch.setattr(choose, "pairings", lambda *_: [best, mirror])
-    calls, begun = [], []
+    monkeypatch.setattr(choose, "completed", lambda one, _likely: one)
+    calls, begun, asked = [], [], []
+
+    def tips_of(pairing, *rest):
+        asked.append(f"{pairing}")
+        return limbs_of(pairing, *rest)
 
     def made(C, on, led, _report):
         calls.append(led.source.shape[1])
@@ -181,7 +186,7 @@ def test_likely_pairings_are_begun_with_where_no_map_has_them(pair, monkeypatch)
         return alternate.Alternated(C, on.source.mesh.vertices)
 
     monkeypatch.setattr(choose, "alternated", made)
-    monkeypatch.setattr(choose, "limbs", lambda *_: None)
+    monkeypatch.setattr(choose, "limbs_of", tips_of)
     landmarks = np.zeros((0, 2), dtype=np.int64)
     found = mended(ranked, on, source, target, landmarks, 1)
     names = {c.name for c in found}
@@ -189,7 +194,7 @@ def test_likely_pairings_are_begun_with_where_no_map_has_them(pair, monkeypatch)
     other = first.again[0]()
     assert {first.name, other and other.name} == names
     assert len(calls) == 2  # the truth has the best pairing itself
-    assert calls[1] > calls[0]  # tips lead where they are known
+    assert asked == [f"{induced(ranked[0].points, on.source, on.target)}", f"{mirror}"]
     np.testing.assert_array_equal(begun[1].T, paired_map(mirror, on, len(begun[1])))
     assert names == {"truth", f"{mirror}"}
     monkeypatch.setattr(choose, "induced", lambda *_: None)
@@ -204,8 +209,12 @@ def test_pairings_are_heard_once():
     whole = pairing((0, 0), (1, 1), (2, 2), (3, 3))
     part, other = pairing((0, 0), (1, 1), (2, 2)), pairing((0, 0), (1, 2), (2, 1))
     third = pairing((0, 4), (1, 1), (2, 2))
-    assert unheard([part, whole, other, third], [], 3) == [part, other, third]
-    assert unheard([part, whole, other, third], [], 2) == [part, other]
+    # Of the first the whole is begun with, though a part of it is likelier: there is less to differ.
+    assert unheard([part, whole, other, third], [], 3) == [whole, other, third]
+    assert unheard([part, whole, other, third], [], 2) == [whole, other]
+    assert unheard([part, other], [], 2) == [part, other]
+    assert completed(part, [other, third]) is part
+    assert completed(whole, [part, whole]) is whole
     assert unheard([part, other, third], [whole], 3) == [other, third]
     assert unheard([whole], [part], 1) == [whole]
     assert part.contradicts(third)

@@ -40,8 +40,6 @@ ROUGH, ROUGH_STEP = 40, 4
 """Functions at the end of the rough refinement, and how many more at each step."""
 FINE, FINE_FROM, FINE_STEP = 80, 20, 5
 """The same of the refinement of the best, on all points of the probe; from fewer functions it loses right maps."""
-STRIDE = 10
-"""The step where one of them is :func:`clear`."""
 FINE_WEIGHTS: tuple[Weights, ...] = ((12.0, 12.0), (12.0, 12.0, 30.0))
 """Without tips of limbs and with them: distances from tips mislead where a hand has grown to a thigh."""
 AGAIN: Weights = (12.0, 12.0)
@@ -194,7 +192,7 @@ def candidates(
     told(0.75)
     order = sorted(found, key=lambda c: c.score, reverse=True)
     chosen = apart(order, on.few.source, APART, FEWER if easy else FINALISTS)
-    refined = fine(chosen, on.few, on.whole, functions, config.threads, STRIDE if easy else FINE_STEP)
+    refined = fine(chosen, on.few, on.whole, functions, config.threads)
     told(1.0)
     return refined
 
@@ -323,17 +321,12 @@ def rough(starts: list[Start], on: Ground, functions: int, threads: int | None =
 
 
 def fine(
-    chosen: list[Candidate],
-    few: Ground,
-    on: Ground,
-    functions: int,
-    threads: int | None = None,
-    step: int = FINE_STEP,
+    chosen: list[Candidate], few: Ground, on: Ground, functions: int, threads: int | None = None
 ) -> list[Candidate]:
     """The chosen maps, found on ``few`` points, refined on all: with the descriptors, and rivals without as well."""
     stop = min(FINE, functions)
     size = min(FINE_FROM, stop, *chosen[0].functional_map.shape)
-    sizes = (*range(size, stop, step), stop)
+    sizes = (*range(size, stop, FINE_STEP), stop)
     led, bare = _told_apart(FINE_WEIGHTS, on), WEIGHTS[0]
     found = []
     for weights in dict.fromkeys((bare, *led)):

@@ -47,7 +47,7 @@ from kfmaps.search.candidates import (
 from kfmaps.search.learned import learned, plain, speaks
 from kfmaps.search.looks import looks, mismatch
 from kfmaps.search.marks import doubted, leading
-from kfmaps.search.pairings import Limbs, induced, limbs, limbs_of, pairings, unheard
+from kfmaps.search.pairings import Limbs, completed, induced, limbs, limbs_of, pairings, unheard
 from kfmaps.search.quality import Probe, probe, thinned
 from kfmaps.search.symmetries import with_turns
 from kfmaps.search.verdict import excess, probability, verdict
@@ -62,7 +62,10 @@ CLEAR = 0.3
 SURELY = 5.0
 """Margin from which a map to the mirror image comes first though none was asked for; bones have 10, other maps none."""
 UNDULY = 0.55
-"""Excess of the bending (:func:`kfmaps.search.verdict.excess`) from which the mirror image is tried."""
+"""Excess of the bending (:func:`kfmaps.search.verdict.excess`) from which a mirror image is tried."""
+ALIKE = 0.005
+"""Maps that are no farther than that from the best are bent too: of two legs that touch, it is as far from one to the
+other."""
 UNLIKE = -8.0
 """Score below which two shapes differ so much that their high functions do not correspond, ..."""
 FEWER = 100
@@ -79,8 +82,9 @@ CLOSER = 5
 """Maps that may be closer to each other, rough ones' :data:`~kfmaps.search.candidates.APART`, of unlike shapes."""
 BEHIND = 3.0
 """... unless they are so far behind in the score."""
-CLOSE = 1.0
-"""Margin below which the first two are looked at again."""
+LOOKED, CLOSE = 2.5, 1.0
+"""Margins below which it counts how the first two look when they are bent, and below which they are bent again and
+those that hardly differ are bent at all."""
 MENDED = -7.5
 """Score below which they are bent and matched in turn."""
 MENDABLE = 6.0
@@ -224,11 +228,15 @@ def choose(
             report=lambda done: report("candidates", 0.5 + 0.4 * done),
         )
     ranked = ranking(found, on.whole, source, target, config.threads)
+    if ranked[0].bending is not None:
+        behind = np.inf if bends_unduly(ranked[0]) else CLOSE
+        near = [c for c in found if differs(c, ranked[0], on.whole.source) <= DISTINCT]
+        near = closer(ranked, near, on.whole, source, target, config.threads, ALIKE, behind)
+        ranked = apart(near, on.whole.source, DISTINCT)
     orientation = "reversed" if config.search.orientation == "reversed" else "kept"
     surfaces = all(p.orientation is not None for p in probes)
     asked = config.search.orientation
-    unduly = ranked[0].bending is not None and excess(ranked[0].quality.score, ranked[0].bending) > UNDULY
-    if surfaces and (asked == "either" or (asked == "auto" and unduly)):
+    if surfaces and (asked == "either" or (asked == "auto" and bends_unduly(ranked[0]))):
         other = turned(on.whole)
         images = reversed_best(found, other, config.threads)
         turned_best = ranking(images, other, source, target, config.threads)
@@ -351,6 +359,11 @@ def reversed_best(found: list[Candidate], turned: Ground, threads: int | None = 
     return sorted(images, key=lambda c: c.score, reverse=True)
 
 
+def bends_unduly(found: Candidate) -> bool:
+    """Whether it bends the shapes much more than right maps do: something is wrong that its score does not see."""
+    return found.bending is not None and excess(found.quality.score, found.bending) > UNDULY
+
+
 def ranking(
     found: list[Candidate], on: Ground, source: Shape, target: Shape, threads: int | None = None
 ) -> list[Candidate]:
@@ -363,7 +376,7 @@ def ranking(
     # As bad as the worst, so that none that was not tried comes first.
     worst = max(c.bending for c in tried if c.bending is not None)
     order = in_order([*tried, *(replace(c, bending=worst) for c in ranked[len(near) :])])
-    if len(near) > 1 and order[0].score - order[1].score < CLOSE:
+    if len(near) > 1 and order[0].score - order[1].score < LOOKED:
         return second_look(order, on, source, target, threads)
     return order
 
@@ -375,15 +388,17 @@ def closer(
     source: Shape,
     target: Shape,
     threads: int | None = None,
+    distance: float = APART,
+    behind: float = np.inf,
 ) -> list[Candidate]:
-    """``ranked``, and between them the best of ``found`` that hardly differ from a better one.
+    """``ranked``, and between them the best of ``found`` that hardly differ from a better one: by ``distance``.
 
-    Between unlike shapes a map with one limb wrong is near the right one, and comes before it by chance: which of them
-    is torn shows when both are bent.
+    A map with one limb wrong is near the right one, and may come before it by chance: which of them is torn shows when
+    both are bent. None that is farther ``behind`` before that.
     """
-    best = apart(in_order(found), on.source, APART, CLOSER)
+    best = apart(in_order(found), on.source, distance, CLOSER)
     known = [c.functional_map for c in ranked]
-    more = [c for c in best if not any(c.functional_map is C for C in known)]
+    more = [c for c in best if c.score > best[0].score - behind and not any(c.functional_map is C for C in known)]
     return in_order([*ranked, *with_bending(more, on, source, target, threads)])
 
 
@@ -420,12 +435,22 @@ def beside(
 def second_look(
     order: list[Candidate], on: Ground, source: Shape, target: Shape, threads: int | None = None
 ) -> list[Candidate]:
-    """The first two bent again, with more points and more patience."""
+    """The first two with how they look when bent; where they are close, bent with more points and patience too.
+
+    A map that swaps front and back may come first by a margin that leaves no doubt to the score.
+    """
     finer = copied(source, MORE), copied(target, MORE)
     if finer[0] is None or finer[1] is None:
         return order
     both = ready(finer[0], finer[1].mirrored() if on.target.mirrored else finer[1])
-    found = parallel(lambda c: seen(c, source, target, both), order[:2], threads)
+    at_rest = looks(both)
+    close = order[0].score - order[1].score < CLOSE
+
+    def look(found: Candidate) -> Candidate:
+        found = seen(found, source, target, both) if close else found
+        return replace(found, mismatch=mismatch(found.functional_map, source, target, at_rest))
+
+    found = parallel(look, order[:2], threads)
     middle = usual(found, np.mean)
     return in_order([over(c, middle) for c in found]) + order[2:]
 
@@ -433,7 +458,7 @@ def second_look(
 def seen(found: Candidate, source: Shape, target: Shape, on: Ready) -> Candidate:
     """With what its map says when the copies are bent with more patience."""
     one = bent(found.functional_map, source, target, on, LONGER)
-    return replace(found, bending=one.bending, strain=one.strain)
+    return replace(found, bending=one.bending, strain=one.strain, mismatch=None)
 
 
 def usual(found: list[Candidate], of: Callable[[list[float]], Any]) -> tuple[float, float]:
@@ -479,9 +504,11 @@ def mended(
     at_rest = looks(copies)
 
     near, rest = mendable(ranked, on.source)
-    begun = [(one, limbs(one.points, on.source, on.target)) for one in near]
+    likely = pairings(on.source, on.target, on.shot)
     known = [induced(one.points, on.source, on.target) for one in near]
-    for one in unheard(pairings(on.source, on.target, on.shot), [pairing for pairing in known if pairing], PAIRED):
+    known = [one and completed(one, likely) for one in known]
+    begun = [(c, one and limbs_of(one, on.source, on.target)) for c, one in zip(near, known, strict=True)]
+    for one in unheard(likely, [pairing for pairing in known if pairing], PAIRED):
         C = paired_map(one, on, min(TIP_FUNCTIONS, len(near[0].functional_map)))
         begun.append((judged([(f"{one}", True)], C[None], None, on, 1)[0], limbs_of(one, on.source, on.target)))
     done = np.zeros(len(begun))
@@ -548,6 +575,7 @@ def compared(
     found: list[Candidate], looked_at: Callable[[Candidate], Candidate], threads: int | None = None
 ) -> list[Candidate]:
     """The mended ones with how they look, those that are far behind anyway with the worst that is seen."""
+    found = [replace(c, mismatch=None) for c in found]
     strain = usual(found, min)[0]
     scores = [over(c, (strain, 0.0)).score for c in found]
     near = [score > max(scores) - HOPELESS for score in scores]

@@ -66,7 +66,16 @@ def unheard(likely: list[Pairing], known: list[Pairing], most: int) -> list[Pair
     for one in likely:
         if len(first) < most and all(one.contradicts(other) for other in first):
             first.append(one)
-    return [one for one in first if not any(one.within(other) for other in known)]
+    whole = [completed(one, likely) for one in first]
+    return [one for one in whole if not any(one.within(other) for other in known)]
+
+
+def completed(pairing: Pairing, likely: list[Pairing]) -> Pairing:
+    """The first of ``likely`` with all pairs of ``pairing`` and more, else itself.
+
+    With one tip left out there is always less to differ: of a right pairing of all tips the parts come first.
+    """
+    return next((one for one in likely if pairing.within(one) and len(one.source) > len(pairing.source)), pairing)
 
 
 def pairings(source: Probe, target: Probe, shot: np.ndarray | None) -> list[Pairing]:
