@@ -17,10 +17,11 @@ from kfmaps.matching import TEAR, TORN, worthier
 from kfmaps.search import alternate, choose
 from kfmaps.search.alternate import Grounds, alternated, grounds, lying, spread
 from kfmaps.search.arena import arena
-from kfmaps.search.candidates import STRAIN, Candidate, judged, paired_map
+from kfmaps.search.candidates import STRAIN, Candidate, differs, judged, paired_map
 from kfmaps.search.choose import closer, mendable, mended
 from kfmaps.search.pairings import Pairing, completed, induced, limbs_of, pairings, unheard
 from kfmaps.search.quality import Quality, probe
+from kfmaps.search.verdict import BENT, PER_SCORE
 from kfmaps.surface.mesh import Mesh, vertex_areas
 
 
@@ -307,6 +308,36 @@ def test_a_map_that_hardly_differs_comes_first_where_it_bends_less(pair):
     assert ranked[0].bending is not None
     assert found[0].bending < ranked[0].bending
     assert closer(ranked, [bad], on, source, target, 1) == ranked
+    # Not where it is too far behind before that.
+    far = replace(good, quality=replace(good.quality, distortion=good.quality.distortion + 0.2))
+    assert {c.name for c in closer(ranked, [bad, far], on, source, target, 1)} == {"truth", "torn"}
+    assert closer(ranked, [bad, far], on, source, target, 1, behind=1.0) == ranked
+
+
+def test_a_map_bends_unduly_or_not():
+    one = Candidate("a", np.eye(2), np.zeros(3, dtype=int), Quality(0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0))
+    usual = np.exp(BENT + PER_SCORE * one.quality.score)
+    assert choose.bends_unduly(replace(one, bending=usual * np.exp(choose.UNDULY + 0.01)))
+    assert not choose.bends_unduly(replace(one, bending=usual * np.exp(choose.UNDULY - 0.01)))
+    assert not choose.bends_unduly(one)
+
+
+def test_of_maps_that_are_alike_the_one_that_bends_less_is_found(pair, monkeypatch):
+    """And none of them is taken for a rival of the other."""
+    source, target, truth = pair
+    on = arena(source, target, (probe(source, 200), probe(target, 200)))
+    C = np.asarray(to_functional(truth, source.basis.truncated(40), target.basis.truncated(40)))
+    best = judged([("best", True)], C[None], None, on.whole, 1)[0]
+    few = np.where(np.arange(len(best.points)) < 10, best.points[::-1], best.points)
+    worse = replace(best.quality, distortion=best.quality.distortion + 0.05)
+    alike = replace(best, name="alike", points=few, quality=worse, functional_map=C.copy())
+    assert choose.ALIKE < differs(best, alike, on.whole.source) < choose.DISTINCT
+    bends = {"best": 0.12, "alike": 0.06}
+    monkeypatch.setattr(choose, "candidates", lambda *_what, **_how: [best, alike])
+    monkeypatch.setattr(choose, "with_bending", lambda some, *_: [replace(c, bending=bends[c.name]) for c in some])
+    found = choose.choose(source, target, replace(kfmaps.Config.automatic(), threads=1))
+    assert found.origin == "alike"
+    assert len(found.scores) == 1
 
 
 def test_the_match_that_is_worth_more_is_taken(pair):

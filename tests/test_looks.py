@@ -15,7 +15,7 @@ from kfmaps.search import alternate, choose, looks
 from kfmaps.search.arena import arena
 from kfmaps.search.bends import copied, ready
 from kfmaps.search.candidates import LOOKS, STRAIN, judged
-from kfmaps.search.choose import HOPELESS, compared, mended, over, unled, usual
+from kfmaps.search.choose import HOPELESS, LOOKED, compared, mended, over, second_look, unled, usual
 from kfmaps.search.looks import difference, mismatch, sight
 from kfmaps.search.quality import probe
 from kfmaps.surface.mesh import Mesh
@@ -140,6 +140,40 @@ def test_of_mended_maps_the_one_that_looks_right_comes_first(pair, monkeypatch):
     found = mended([bad, good], on, source, target, nowhere, 1)
     assert [c.name for c in found] == ["truth", "bad"]
     assert [c.mismatch for c in found] == pytest.approx([0.0, 0.05])
+
+
+@pytest.mark.parametrize(("margin", "again"), [(2.0, False), (0.5, True)])
+def test_of_two_that_are_close_looks_decide(pair, monkeypatch, margin, again):
+    """And where they are closer still, both are bent again; farther back nobody is looked at."""
+    source, target, _ = pair
+    on, good = one_of(pair)
+    quality = replace(good.quality, distortion=good.quality.distortion - margin / 6)
+    good = replace(good, bending=0.15)
+    bad = replace(good, name="bad", quality=quality, functional_map=-good.functional_map)
+    rest = replace(good, name="rest", quality=replace(quality, distortion=quality.distortion + 9))
+    bent = []
+    monkeypatch.setattr(choose, "seen", lambda c, *_what: bent.append(c.name) or replace(c, strain=0.0))
+    monkeypatch.setattr(choose, "looks", lambda on: on)
+    monkeypatch.setattr(choose, "mismatch", lambda C, *_what: 0.25 if C is bad.functional_map else 0.2)
+    found = second_look([bad, good, rest], on, source, target, 1)
+    assert [c.name for c in found] == ["truth", "bad", "rest"]
+    assert [c.mismatch for c in found[:2]] == pytest.approx([-0.025, 0.025])
+    assert found[0].score - found[1].score == pytest.approx(0.05 * LOOKS - margin)
+    assert found[2] is rest
+    assert bent == (["bad", "truth"] if again else [])
+
+
+def test_looks_are_asked_for_where_two_are_close(pair, monkeypatch):
+    source, target, _ = pair
+    on, one = one_of(pair)
+    asked = []
+    monkeypatch.setattr(choose, "second_look", lambda order, *_rest: asked.append(len(order)) or order)
+    monkeypatch.setattr(choose, "with_bending", lambda near, *_rest: [replace(c, bending=0.15) for c in near])
+    for margin, wanted in ((LOOKED + 0.2, 0), (LOOKED - 0.2, 1)):
+        quality = replace(one.quality, distortion=one.quality.distortion + margin / 6)
+        other = replace(one, name="other", quality=quality, points=np.roll(one.points, 50))
+        choose.ranking([one, other], on, source, target, 1)
+        assert len(asked) == wanted
 
 
 def test_what_is_far_behind_is_not_looked_at(pair):
