@@ -31,8 +31,10 @@ def pair():
 
 @pytest.fixture(scope="module")
 def at_rest(pair):
-    copies = [copied(shape) for shape in pair[:2]]
-    return looks.looks(ready(*copies))
+    source, target = (copied(shape) for shape in pair[:2])
+    assert source is not None
+    assert target is not None
+    return looks.looks(ready(source, target))
 
 
 def functional(points, source, target):
@@ -71,14 +73,16 @@ def test_what_is_bent_as_a_wrong_map_says_looks_otherwise(pair, at_rest):
     v = source.mesh.vertices - source.mesh.vertices.mean(axis=0)
     about = nearest(v, v * [-1.0, -1.0, 1.0], threads=1)
     right, wrong = functional(truth, source, target), functional(about[truth], source, target)
-    found = [mismatch(C, source, target, at_rest) for C in (right, wrong)]
-    assert found[0] < 0.8 * found[1]
+    good, bad = (mismatch(C, source, target, at_rest) for C in (right, wrong))
+    assert good is not None
+    assert bad is not None
+    assert good < 0.8 * bad
 
 
 def test_both_directions_count_unless_one_falls_apart(pair, at_rest, monkeypatch):
     source, target, truth = pair
     C = functional(truth, source, target)
-    told = {True: 0.1, False: 0.3}
+    told: dict[bool, float | None] = {True: 0.1, False: 0.3}
     monkeypatch.setattr(looks, "_mismatch", lambda way, *_rest: told[way is at_rest.on.there])
     assert mismatch(C, source, target, at_rest) == pytest.approx(0.2)
     told[False] = None

@@ -49,7 +49,7 @@ def difference(seen: Sight, other: Mesh) -> float:
 
     Each point is compared with the vertex that lies nearest; the points of a copy are spread evenly and count alike.
     """
-    near = KDTree(_places(other)).query(seen.places)[1]
+    near = np.asarray(KDTree(_places(other)).query(seen.places)[1])
     return float(((seen.descriptors - _descriptors(other, near)) ** 2).sum(axis=1).mean())
 
 
