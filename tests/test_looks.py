@@ -161,7 +161,7 @@ def test_of_two_that_are_close_looks_decide(pair, monkeypatch, margin, again):
     monkeypatch.setattr(choose, "mismatch", lambda C, *_what: 0.25 if C is bad.functional_map else 0.2)
     found = second_look([bad, good, rest], on, source, target, 1)
     assert [c.name for c in found] == ["truth", "bad", "rest"]
-    assert [c.mismatch for c in found[:2]] == pytest.approx([-0.025, 0.025])
+    assert [c.mismatch for c in found[:2]] == pytest.approx([0.0, 0.05])
     assert found[0].score - found[1].score == pytest.approx(0.05 * LOOKS - margin)
     assert found[2] is rest
     assert bent == (["bad", "truth"] if again else [])

@@ -228,15 +228,17 @@ def choose(
             report=lambda done: report("candidates", 0.5 + 0.4 * done),
         )
     ranked = ranking(found, on.whole, source, target, config.threads)
+    # Asked before a map is sought that bends less: on a left and a right bone it may bend a little less than unduly.
+    unduly = bends_unduly(ranked[0])
     if ranked[0].bending is not None:
-        behind = np.inf if bends_unduly(ranked[0]) else CLOSE
+        behind = np.inf if unduly else CLOSE
         near = [c for c in found if differs(c, ranked[0], on.whole.source) <= DISTINCT]
         near = closer(ranked, near, on.whole, source, target, config.threads, ALIKE, behind)
         ranked = apart(near, on.whole.source, DISTINCT)
     orientation = "reversed" if config.search.orientation == "reversed" else "kept"
     surfaces = all(p.orientation is not None for p in probes)
     asked = config.search.orientation
-    if surfaces and (asked == "either" or (asked == "auto" and bends_unduly(ranked[0]))):
+    if surfaces and (asked == "either" or (asked == "auto" and unduly)):
         other = turned(on.whole)
         images = reversed_best(found, other, config.threads)
         turned_best = ranking(images, other, source, target, config.threads)
@@ -451,7 +453,8 @@ def second_look(
         return replace(found, mismatch=mismatch(found.functional_map, source, target, at_rest))
 
     found = parallel(look, order[:2], threads)
-    middle = usual(found, np.mean)
+    # Nothing is added for looks: the best is compared with maps that nobody has looked at.
+    middle = usual(found, np.mean)[0], usual(found, min)[1]
     return in_order([over(c, middle) for c in found]) + order[2:]
 
 
