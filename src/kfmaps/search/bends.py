@@ -109,14 +109,18 @@ def ready(a: Copy, b: Copy) -> Ready:
     return Ready((a, b), facing(bodies[0], b.mesh, looks[1]), facing(bodies[1], a.mesh, looks[0]))
 
 
-def bent(C: np.ndarray, source: Shape, target: Shape, on: Ready, fit: NonRigid = FIT) -> Bent:
-    """Each shape bent onto the other as ``C (k_t, k_s)`` says."""
+def ways(C: np.ndarray, source: Shape, target: Shape, on: Ready) -> tuple[tuple[Facing, np.ndarray], ...]:
+    """Each copy and the other, with the point of the first for each of the second that ``C (k_t, k_s)`` says."""
     k_t, k_s = C.shape
     a, b = on.copies
     images = to_numpy(source.basis.functions)[a.vertices, :k_s] @ C.T
     rows = np.ascontiguousarray(to_numpy(target.basis.functions)[b.vertices, :k_t])
-    there = _bent(fit, on.there, nearest(rows, images, threads=1))
-    back = _bent(fit, on.back, nearest(images, rows, threads=1))
+    return (on.there, nearest(rows, images, threads=1)), (on.back, nearest(images, rows, threads=1))
+
+
+def bent(C: np.ndarray, source: Shape, target: Shape, on: Ready, fit: NonRigid = FIT) -> Bent:
+    """Each shape bent onto the other as ``C (k_t, k_s)`` says."""
+    there, back = (_bent(fit, *way) for way in ways(C, source, target, on))
     if there is None or back is None:
         # That a copy falls apart says nothing of the map.
         return there or back or Bent(MOST, math.log(MOST))

@@ -96,7 +96,8 @@ class Candidate:
         See :class:`kfmaps.search.bends.Bent`, over a usual one; known of the first two of a close call and of what was
         mended.
     mismatch : float or None
-        See :func:`kfmaps.search.looks.mismatch`, over a usual one; known of what was mended.
+        See :func:`kfmaps.search.looks.mismatch`, over the least; known of the first two where they are close
+        and of what was mended.
     bent : (n_s, 3) float64 or None
         The source's vertices on the target, roughly, where both were bent and matched in turn.
     backwards : bool

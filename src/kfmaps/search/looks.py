@@ -12,22 +12,18 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.spatial import KDTree
 
-from kfmaps._arrays import NotConverged, to_numpy
+from kfmaps._arrays import NotConverged
 from kfmaps.descriptors.shot import shot
 from kfmaps.fit.shape import Shape
 from kfmaps.functional.nonrigid import Facing
-from kfmaps.functional.points import nearest
-from kfmaps.search.alternate import FIT
-from kfmaps.search.bends import Ready
+from kfmaps.search.alternate import FIT, NORMALS
+from kfmaps.search.bends import Ready, ways
 from kfmaps.surface.mesh import Mesh, vertex_normals
 
 RADIUS, SUPPORT = 0.2, 5000
 """Of SHOT, in √area: a foot or a head and what it sits on; and from how many points of the surface."""
 STEP = 6
 """Of the copy at rest every so many vertices are looked at."""
-NORMALS = 0.3
-"""Distance at unit area that counts as much as normals that differ by 1, where points that lie on each other are
-sought."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,15 +75,8 @@ def mismatch(C: np.ndarray, source: Shape, target: Shape, of: Looks) -> float | 
 
     Of one where the other falls apart, ``None`` where both do.
     """
-    k_t, k_s = C.shape
-    a, b = of.on.copies
-    images = to_numpy(source.basis.functions)[a.vertices, :k_s] @ C.T
-    rows = np.ascontiguousarray(to_numpy(target.basis.functions)[b.vertices, :k_t])
-    ways = (
-        (of.on.there, nearest(rows, images, threads=1), of.seen[1]),
-        (of.on.back, nearest(images, rows, threads=1), of.seen[0]),
-    )
-    found = [_mismatch(*way) for way in ways]
+    there, back = ways(C, source, target, of.on)
+    found = [_mismatch(*there, of.seen[1]), _mismatch(*back, of.seen[0])]
     known = [value for value in found if value is not None]
     return sum(known) / len(known) if known else None
 
