@@ -4,7 +4,7 @@
 
 Mean errors of whole matches without landmarks: as rigidly as possible throughout; with rest shapes that are stretched
 evenly (:mod:`kfmaps.functional.stretch`) while shapes are bent and matched in turn and in the last fit; with maps that
-begin with the likeliest pairings of the tips of limbs beside (:func:`kfmaps.search.choose.mended`); and with torn area
+begin with the likeliest pairings of the tips of limbs beside (:func:`kfmaps.search.mending.mended`); and with torn area
 counted where others may be less torn (:func:`kfmaps.matching.worthier`), which is all that there is. DIR is as for
 benchmarks/automatic.py. The half ``report``, the default, has the pairs of that script, none of two shapes that
 settings were chosen on; ``choice`` has pairs of two such shapes. Three pairs of either set take about eight minutes.
@@ -25,12 +25,12 @@ from automatic import CHOSEN_ON, Job, loaded, pairs_of
 
 import kfmaps
 from kfmaps import matching
-from kfmaps.search import alternate, choose
+from kfmaps.search import alternate, choose, mending
 
 RIGID = replace(alternate.FIT, stretch=0.0)
 ONCE = (matching, "TORN", 2.0)
 """More than all of the target is never torn."""
-UNPAIRED = (choose, "PAIRED", 0)
+UNPAIRED = (mending, "PAIRED", 0)
 KINDS = {
     "as rigid as possible": ((alternate, "FIT", RIGID), (choose, "STRETCH", 0.0), UNPAIRED, ONCE),
     "stretched evenly": (UNPAIRED, ONCE),

@@ -14,13 +14,14 @@ from kfmaps import datasets, matching
 from kfmaps._arrays import NotConverged
 from kfmaps.functional.points import nearest, to_functional
 from kfmaps.matching import TEAR, TORN, worthier
-from kfmaps.search import alternate, choose
+from kfmaps.search import alternate, choose, mending, ranking
 from kfmaps.search.alternate import Grounds, alternated, grounds, lying, spread
 from kfmaps.search.arena import arena
 from kfmaps.search.candidates import STRAIN, Candidate, differs, judged, paired_map
-from kfmaps.search.choose import closer, mendable, mended
+from kfmaps.search.mending import mendable, mended
 from kfmaps.search.pairings import Pairing, completed, induced, limbs_of, pairings, unheard
 from kfmaps.search.quality import Quality, probe
+from kfmaps.search.ranking import closer
 from kfmaps.search.verdict import BENT, PER_SCORE
 from kfmaps.surface.mesh import Mesh, vertex_areas
 
@@ -36,8 +37,9 @@ def pair():
 @pytest.fixture(autouse=True)
 def alike(monkeypatch):
     """How bent shapes look is tested in test_looks.py, and takes seconds."""
-    monkeypatch.setattr(choose, "looks", lambda on: on)
-    monkeypatch.setattr(choose, "mismatch", lambda *_what: 0.2)
+    for module in (ranking, mending):
+        monkeypatch.setattr(module, "looks", lambda on: on)
+        monkeypatch.setattr(module, "mismatch", lambda *_what: 0.2)
 
 
 def both(source, target) -> Grounds:
@@ -116,7 +118,7 @@ def test_mending_tells_how_far_it_is(pair, monkeypatch):
     on = arena(source, target, (probe(source, 200), probe(target, 200))).whole
     C = np.asarray(to_functional(truth, source.basis.truncated(40), target.basis.truncated(40)))
     ranked = [replace(c, bending=1.0) for c in judged([("truth", True)], C[None], None, on, 1)]
-    monkeypatch.setattr(choose, "pairings", lambda *_: [])
+    monkeypatch.setattr(mending, "pairings", lambda *_: [])
     told = []
     mended(ranked, on, source, target, np.zeros((0, 2), dtype=np.int64), 1, lambda *what: told.append(what))
     assert {stage for stage, _ in told} == {"bent and matched in turn"}
@@ -144,8 +146,8 @@ def test_the_target_is_bent_and_the_source_where_that_is_asked_for(pair, monkeyp
         assert len(found) == 1
         return found[0]
 
-    monkeypatch.setattr(choose, "alternated", made)
-    monkeypatch.setattr(choose, "pairings", lambda *_: [])
+    monkeypatch.setattr(mending, "alternated", made)
+    monkeypatch.setattr(mending, "pairings", lambda *_: [])
     first = end()
     n_s, n_t = len(source.mesh.vertices), len(target.mesh.vertices)
     assert calls == [(True, n_t, True)]
@@ -171,8 +173,8 @@ def test_likely_pairings_are_begun_with_where_no_map_has_them(pair, monkeypatch)
     ranked = [replace(c, bending=1.0) for c in judged([("truth", True)], C[None], None, on, 1)]
     (best, *others) = pairings(on.source, on.target, on.shot)
     mirror = next(one for one in others if one.contradicts(best))
-    monkeypatch.setattr(choose, "pairings", lambda *_: [best, mirror])
-    monkeypatch.setattr(choose, "completed", lambda one, _likely: one)
+    monkeypatch.setattr(mending, "pairings", lambda *_: [best, mirror])
+    monkeypatch.setattr(mending, "completed", lambda one, _likely: one)
     calls, begun, asked = [], [], []
 
     def tips_of(pairing, *rest):
@@ -186,8 +188,8 @@ def test_likely_pairings_are_begun_with_where_no_map_has_them(pair, monkeypatch)
             raise NotConverged("it fell apart")
         return alternate.Alternated(C, on.source.mesh.vertices)
 
-    monkeypatch.setattr(choose, "alternated", made)
-    monkeypatch.setattr(choose, "limbs_of", tips_of)
+    monkeypatch.setattr(mending, "alternated", made)
+    monkeypatch.setattr(mending, "limbs_of", tips_of)
     landmarks = np.zeros((0, 2), dtype=np.int64)
     found = mended(ranked, on, source, target, landmarks, 1)
     names = {c.name for c in found}
@@ -198,7 +200,7 @@ def test_likely_pairings_are_begun_with_where_no_map_has_them(pair, monkeypatch)
     assert asked == [f"{induced(ranked[0].points, on.source, on.target)}", f"{mirror}"]
     np.testing.assert_array_equal(begun[1].T, paired_map(mirror, on, len(begun[1])))
     assert names == {"truth", f"{mirror}"}
-    monkeypatch.setattr(choose, "induced", lambda *_: None)
+    monkeypatch.setattr(mending, "induced", lambda *_: None)
     assert f"{mirror}" not in {c.name for c in mended(ranked, on, source, target, landmarks, 1)}
     assert len(calls) == 5
 
@@ -231,8 +233,8 @@ def test_what_goes_astray_stays_as_it_was(pair, monkeypatch):
     C = np.asarray(to_functional(truth, source.basis.truncated(40), target.basis.truncated(40)))
     ranked = [replace(c, bending=1.0) for c in judged([("truth", True)], C[None], None, on, 1)]
     astray = alternate.Alternated(np.linalg.qr(np.random.default_rng(0).normal(size=C.shape))[0], target.mesh.vertices)
-    monkeypatch.setattr(choose, "alternated", lambda *_rest: astray)
-    monkeypatch.setattr(choose, "pairings", lambda *_: [])
+    monkeypatch.setattr(mending, "alternated", lambda *_rest: astray)
+    monkeypatch.setattr(mending, "pairings", lambda *_: [])
     found = mended(ranked, on, source, target, np.zeros((0, 2), dtype=np.int64), 1)[0]
     assert found.functional_map is ranked[0].functional_map
     assert found.bent is None
@@ -254,8 +256,8 @@ def test_what_goes_astray_one_way_is_mended_the_other(pair, monkeypatch):
     def made(_C, where, *_rest):
         return alternate.Alternated(astray if where.source is target else C, where.source.mesh.vertices)
 
-    monkeypatch.setattr(choose, "alternated", made)
-    monkeypatch.setattr(choose, "pairings", lambda *_: [])
+    monkeypatch.setattr(mending, "alternated", made)
+    monkeypatch.setattr(mending, "pairings", lambda *_: [])
     found = mended(ranked, on, source, target, np.zeros((0, 2), dtype=np.int64), 1)[0]
     np.testing.assert_array_equal(found.functional_map, C)
     assert not found.backwards
@@ -300,7 +302,7 @@ def test_a_map_that_hardly_differs_comes_first_where_it_bends_less(pair):
     bad, good = judged([("torn", True), ("truth", True)], maps, None, on, 1)
     # All else says as much for either, and a little more for the torn one.
     good = replace(good, quality=replace(bad.quality, distortion=bad.quality.distortion + 0.01))
-    ranked = choose.ranking([bad], on, source, target, 1)
+    ranked = ranking.ranking([bad], on, source, target, 1)
     found = closer(ranked, [bad, good], on, source, target, 1)
     assert [c.name for c in found] == ["truth", "torn"]
     assert found[1] is ranked[0]
@@ -331,10 +333,10 @@ def test_of_maps_that_are_alike_the_one_that_bends_less_is_found(pair, monkeypat
     few = np.where(np.arange(len(best.points)) < 10, best.points[::-1], best.points)
     worse = replace(best.quality, distortion=best.quality.distortion + 0.05)
     alike = replace(best, name="alike", points=few, quality=worse, functional_map=C.copy())
-    assert choose.ALIKE < differs(best, alike, on.whole.source) < choose.DISTINCT
+    assert choose.ALIKE < differs(best, alike, on.whole.source) < ranking.DISTINCT
     bends = {"best": 0.12, "alike": 0.06}
     monkeypatch.setattr(choose, "candidates", lambda *_what, **_how: [best, alike])
-    monkeypatch.setattr(choose, "with_bending", lambda some, *_: [replace(c, bending=bends[c.name]) for c in some])
+    monkeypatch.setattr(ranking, "with_bending", lambda some, *_: [replace(c, bending=bends[c.name]) for c in some])
     found = choose.choose(source, target, replace(kfmaps.Config.automatic(), threads=1))
     assert found.origin == "alike"
     assert len(found.scores) == 1

@@ -18,10 +18,11 @@ from kfmaps.functional.refine import ZoomOut
 from kfmaps.matching import match
 from kfmaps.search.arena import arena
 from kfmaps.search.candidates import Candidate, candidates, kicked
-from kfmaps.search.choose import choose, distinct, mirror_image
+from kfmaps.search.choose import choose, mirror_image
 from kfmaps.search.fits import planned
 from kfmaps.search.known import known
 from kfmaps.search.quality import _near, map_quality, probe, thinned
+from kfmaps.search.ranking import distinct
 from kfmaps.search.tips import Tips
 from kfmaps.search.verdict import BENT, MIDDLE, MUCH, PER_SCORE, SLOPE, probability, verdict
 from kfmaps.surface.mesh import Mesh

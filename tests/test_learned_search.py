@@ -17,9 +17,10 @@ from kfmaps.kernel.lifted import Metric, landmarks
 from kfmaps.matching import match
 from kfmaps.search.arena import arena
 from kfmaps.search.candidates import Candidate
-from kfmaps.search.choose import BEHIND, CLEAR, beside, choose, probed
+from kfmaps.search.choose import choose, probed
 from kfmaps.search.learned import by_metric, learned, plain, seen
 from kfmaps.search.quality import Quality
+from kfmaps.search.ranking import BEHIND, CLEAR, beside
 
 COUNT = 12 + 352
 CONFIG = Config(

@@ -11,13 +11,15 @@ import kfmaps
 from kfmaps import datasets
 from kfmaps._arrays import NotConverged
 from kfmaps.functional.points import nearest, to_functional
-from kfmaps.search import alternate, choose, looks
+from kfmaps.search import alternate, choose, looks, mending, ranking
 from kfmaps.search.arena import arena
 from kfmaps.search.bends import copied, ready
 from kfmaps.search.candidates import LOOKS, STRAIN, judged
-from kfmaps.search.choose import HOPELESS, LOOKED, compared, mended, over, second_look, unled, usual
+from kfmaps.search.choose import unled
 from kfmaps.search.looks import difference, mismatch, sight
+from kfmaps.search.mending import HOPELESS, compared, mended
 from kfmaps.search.quality import probe
+from kfmaps.search.ranking import LOOKED, over, second_look, usual
 from kfmaps.surface.mesh import Mesh
 
 
@@ -131,16 +133,16 @@ def test_of_mended_maps_the_one_that_looks_right_comes_first(pair, monkeypatch):
     def stays(*_what):
         raise NotConverged("it fell apart")
 
-    monkeypatch.setattr(choose, "looks", lambda on: on)
-    monkeypatch.setattr(choose, "mismatch", lambda *_what: 0.2)
-    monkeypatch.setattr(choose, "alternated", stays)
+    monkeypatch.setattr(mending, "looks", lambda on: on)
+    monkeypatch.setattr(mending, "mismatch", lambda *_what: 0.2)
+    monkeypatch.setattr(mending, "alternated", stays)
     nowhere = np.zeros((0, 2), dtype=np.int64)
     assert [c.name for c in mended([bad, good], on, source, target, nowhere, 1)] == ["bad", "truth"]
     made = alternate.Alternated(good.functional_map, source.mesh.vertices)
-    monkeypatch.setattr(choose, "alternated", lambda C, *_what: replace(made, functional_map=C))
-    monkeypatch.setattr(choose, "judged", lambda names, *_w: [bad if names[0][0] == "bad" else good])
-    monkeypatch.setattr(choose, "seen", lambda c, *_what: replace(c, strain=0.0))
-    monkeypatch.setattr(choose, "mismatch", lambda C, *_what: 0.25 if C is bad.functional_map else 0.2)
+    monkeypatch.setattr(mending, "alternated", lambda C, *_what: replace(made, functional_map=C))
+    monkeypatch.setattr(mending, "judged", lambda names, *_w: [bad if names[0][0] == "bad" else good])
+    monkeypatch.setattr(mending, "seen", lambda c, *_what: replace(c, strain=0.0))
+    monkeypatch.setattr(mending, "mismatch", lambda C, *_what: 0.25 if C is bad.functional_map else 0.2)
     found = mended([bad, good], on, source, target, nowhere, 1)
     assert [c.name for c in found] == ["truth", "bad"]
     assert [c.mismatch for c in found] == pytest.approx([0.0, 0.05])
@@ -156,9 +158,9 @@ def test_of_two_that_are_close_looks_decide(pair, monkeypatch, margin, again):
     bad = replace(good, name="bad", quality=quality, functional_map=-good.functional_map)
     rest = replace(good, name="rest", quality=replace(quality, distortion=quality.distortion + 9))
     bent = []
-    monkeypatch.setattr(choose, "seen", lambda c, *_what: bent.append(c.name) or replace(c, strain=0.0))
-    monkeypatch.setattr(choose, "looks", lambda on: on)
-    monkeypatch.setattr(choose, "mismatch", lambda C, *_what: 0.25 if C is bad.functional_map else 0.2)
+    monkeypatch.setattr(ranking, "seen", lambda c, *_what: bent.append(c.name) or replace(c, strain=0.0))
+    monkeypatch.setattr(ranking, "looks", lambda on: on)
+    monkeypatch.setattr(ranking, "mismatch", lambda C, *_what: 0.25 if C is bad.functional_map else 0.2)
     found = second_look([bad, good, rest], on, source, target, 1)
     assert [c.name for c in found] == ["truth", "bad", "rest"]
     assert [c.mismatch for c in found[:2]] == pytest.approx([0.0, 0.05])
@@ -171,12 +173,12 @@ def test_looks_are_asked_for_where_two_are_close(pair, monkeypatch):
     source, target, _ = pair
     on, one = one_of(pair)
     asked = []
-    monkeypatch.setattr(choose, "second_look", lambda order, *_rest: asked.append(len(order)) or order)
-    monkeypatch.setattr(choose, "with_bending", lambda near, *_rest: [replace(c, bending=0.15) for c in near])
+    monkeypatch.setattr(ranking, "second_look", lambda order, *_rest: asked.append(len(order)) or order)
+    monkeypatch.setattr(ranking, "with_bending", lambda near, *_rest: [replace(c, bending=0.15) for c in near])
     for margin, wanted in ((LOOKED + 0.2, 0), (LOOKED - 0.2, 1)):
         quality = replace(one.quality, distortion=one.quality.distortion + margin / 6)
         other = replace(one, name="other", quality=quality, points=np.roll(one.points, 50))
-        choose.ranking([one, other], on, source, target, 1)
+        ranking.ranking([one, other], on, source, target, 1)
         assert len(asked) == wanted
 
 

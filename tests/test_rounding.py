@@ -22,8 +22,8 @@ from kfmaps.kernel.kernels import Gaussian, Laplacian, resolved
 from kfmaps.matching import match
 from kfmaps.search.arena import ground
 from kfmaps.search.candidates import judged, kicked
-from kfmaps.search.choose import distinct
 from kfmaps.search.quality import map_quality, probe, thinned
+from kfmaps.search.ranking import distinct
 from kfmaps.surface.basis import Basis, zero_level
 from kfmaps.surface.mesh import Mesh
 from kfmaps.surface.samples import spectral_samples, stratified_samples

@@ -12,9 +12,10 @@ from kfmaps.functional.nonrigid import NonRigid
 from kfmaps.search.arena import arena
 from kfmaps.search.bends import LEAST, MOST, Copy, bending, bent, copied, ready
 from kfmaps.search.candidates import STRAIN, Candidate, from_tips, paired_map, rough
-from kfmaps.search.choose import choose, in_order, mirror_image, ranking
+from kfmaps.search.choose import choose, mirror_image
 from kfmaps.search.pairings import FEWEST, Pairing, against, alike, induced, pairings, told
 from kfmaps.search.quality import Quality, mirrored_probe, probe, thinned
+from kfmaps.search.ranking import in_order, ranking
 from kfmaps.search.symmetries import symmetries
 from kfmaps.search.tips import APART, tips, turns
 from kfmaps.search.zoom import zoomed

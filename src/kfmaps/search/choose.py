@@ -16,49 +16,32 @@ from typing import Any
 
 import numpy as np
 
-from kfmaps._arrays import NotConverged, refuse, seed_of
-from kfmaps._progress import Done, Progress
+from kfmaps._arrays import refuse, seed_of
+from kfmaps._progress import Progress
 from kfmaps._threads import parallel
 from kfmaps.config import Config
 from kfmaps.descriptors.shot import mirrored
 from kfmaps.fit.fit import Fit, checked_landmarks
 from kfmaps.fit.shape import Shape, inner
 from kfmaps.functional.cells import HASTY
-from kfmaps.functional.guide import Guide, guide
 from kfmaps.functional.nonrigid import NonRigid
 from kfmaps.functional.points import to_points
 from kfmaps.functional.refine import CANDIDATES, PAIRS, Refinement, ZoomOut
-from kfmaps.search.alternate import alternated, grounds, turned_round
 from kfmaps.search.arena import POINTS as FEW
 from kfmaps.search.arena import Arena, Ground, arena, turned, without
-from kfmaps.search.bends import LONGER, MORE, Ready, bending, bent, copied, ready
-from kfmaps.search.candidates import (
-    APART,
-    FINE,
-    TIP_FUNCTIONS,
-    Candidate,
-    again,
-    apart,
-    candidates,
-    differs,
-    judged,
-    paired_map,
-)
+from kfmaps.search.candidates import Candidate, again, apart, candidates, differs, judged
 from kfmaps.search.learned import learned, plain, speaks
-from kfmaps.search.looks import looks, mismatch
-from kfmaps.search.marks import doubted, leading
-from kfmaps.search.pairings import Limbs, completed, induced, limbs, limbs_of, pairings, unheard
+from kfmaps.search.marks import doubted
+from kfmaps.search.mending import mended
+from kfmaps.search.pairings import Limbs, limbs
 from kfmaps.search.quality import Probe, probe, thinned
+from kfmaps.search.ranking import CLEAR, CLOSE, DISTINCT, beside, closer, ranking
 from kfmaps.search.symmetries import with_turns
 from kfmaps.search.verdict import excess, probability, verdict
 from kfmaps.surface.basis import Basis
 from kfmaps.surface.mesh import mirrored as mirrored_mesh
 from kfmaps.surface.samples import SampledBasis, stratified_vertices
 
-DISTINCT = 0.08
-"""Mean distance, in units of √area, from which two maps count as different ones."""
-CLEAR = 0.3
-"""Margin of the score from which a rival, or a map to the mirror image, comes first."""
 SURELY = 5.0
 """Margin from which a map to the mirror image comes first though none was asked for; bones have 10, other maps none."""
 UNDULY = 0.55
@@ -72,29 +55,8 @@ FEWER = 100
 """... and the refinement ends with this many."""
 STRETCH = 0.01
 """Area over which sizes may change evenly in the non-rigid fit of such shapes."""
-BENT = 3
-"""Distinct maps that the source is bent for, ..."""
-FIRST = 2
-"""Maps between unlike shapes that are mended, whether or not they differ."""
-PAIRED = 3
-"""Likeliest pairings of the tips of limbs that mending begins with, where no map that is mended has the same."""
-CLOSER = 5
-"""Maps that may be closer to each other, rough ones' :data:`~kfmaps.search.candidates.APART`, of unlike shapes."""
-BEHIND = 3.0
-"""... unless they are so far behind in the score."""
-LOOKED, CLOSE = 2.5, 1.0
-"""Margins below which it counts how the first two look when they are bent, and below which they are bent again and
-those that hardly differ are bent at all."""
 MENDED = -7.5
 """Score below which they are bent and matched in turn."""
-MENDABLE = 6.0
-"""How far behind a map between unlike shapes may be to be mended: mending has gained up to 10."""
-HOPELESS = 5.0
-"""How far behind a mended map comes to nothing however it looks."""
-NEXT = 2
-"""Mended ones after the best that may turn out to be less torn than it, ..."""
-TWIN = 0.03
-"""... and the mean distance up to which two of them count as one: a limb that lies elsewhere makes 0.05."""
 SETTLED = 3
 """Maps to a mirror image that are worth a refinement of their own."""
 
@@ -364,257 +326,6 @@ def reversed_best(found: list[Candidate], turned: Ground, threads: int | None = 
 def bends_unduly(found: Candidate) -> bool:
     """Whether it bends the shapes much more than right maps do: something is wrong that its score does not see."""
     return found.bending is not None and excess(found.quality.score, found.bending) > UNDULY
-
-
-def ranking(
-    found: list[Candidate], on: Ground, source: Shape, target: Shape, threads: int | None = None
-) -> list[Candidate]:
-    """The distinct ones of ``found``, best first; the first few are judged by how far the source must bend as well."""
-    ranked = distinct(found, on.source)
-    near = [c for c in ranked[:BENT] if c.score > ranked[0].score - BEHIND]
-    tried = with_bending(near, on, source, target, threads)
-    if not tried:
-        return ranked
-    # As bad as the worst, so that none that was not tried comes first.
-    worst = max(c.bending for c in tried if c.bending is not None)
-    order = in_order([*tried, *(replace(c, bending=worst) for c in ranked[len(near) :])])
-    if len(near) > 1 and order[0].score - order[1].score < LOOKED:
-        return second_look(order, on, source, target, threads)
-    return order
-
-
-def closer(
-    ranked: list[Candidate],
-    found: list[Candidate],
-    on: Ground,
-    source: Shape,
-    target: Shape,
-    threads: int | None = None,
-    distance: float = APART,
-    behind: float = np.inf,
-) -> list[Candidate]:
-    """``ranked``, and between them the best of ``found`` that hardly differ from a better one: by ``distance``.
-
-    A map with one limb wrong is near the right one, and may come before it by chance: which of them is torn shows when
-    both are bent. None that is farther ``behind`` before that.
-    """
-    best = apart(in_order(found), on.source, distance, CLOSER)
-    known = [c.functional_map for c in ranked]
-    more = [c for c in best if c.score > best[0].score - behind and not any(c.functional_map is C for C in known)]
-    return in_order([*ranked, *with_bending(more, on, source, target, threads)])
-
-
-def with_bending(
-    found: list[Candidate], on: Ground, source: Shape, target: Shape, threads: int | None = None
-) -> list[Candidate]:
-    """``found`` with how far the coarse copies must bend; none where a shape has no copy to bend."""
-    copies = on.source.copy, on.target.copy
-    if copies[0] is None or copies[1] is None or not found:
-        return []
-    both = ready(copies[0], copies[1])
-    energies = parallel(lambda c: bending(c.functional_map, source, target, both), found, threads)
-    return [replace(c, bending=energy) for c, energy in zip(found, energies, strict=True)]
-
-
-def beside(
-    ranked: list[Candidate],
-    more: list[Candidate],
-    on: Ground,
-    source: Shape,
-    target: Shape,
-    threads: int | None = None,
-) -> list[Candidate]:
-    """``ranked``, and the best of ``more`` that is none of them: first where it is clearly better, else a rival."""
-    others = [c for c in more if all(differs(c, one, on.source) > DISTINCT for one in ranked)]
-    if not others or max(c.quality.score for c in others) < ranked[0].quality.score - BEHIND:
-        return ranked
-    new = ranking(others, on, source, target, threads)[0]
-    if new.score > ranked[0].score + CLEAR:
-        return [new, *ranked]
-    return [ranked[0], *sorted([*ranked[1:], new], key=lambda c: c.score, reverse=True)]
-
-
-def second_look(
-    order: list[Candidate], on: Ground, source: Shape, target: Shape, threads: int | None = None
-) -> list[Candidate]:
-    """The first two with how they look when bent; where they are close, bent with more points and patience too.
-
-    A map that swaps front and back may come first by a margin that leaves no doubt to the score.
-    """
-    finer = copied(source, MORE), copied(target, MORE)
-    if finer[0] is None or finer[1] is None:
-        return order
-    both = ready(finer[0], finer[1].mirrored() if on.target.mirrored else finer[1])
-    at_rest = looks(both)
-    close = order[0].score - order[1].score < CLOSE
-
-    def look(found: Candidate) -> Candidate:
-        found = seen(found, source, target, both) if close else found
-        return replace(found, mismatch=mismatch(found.functional_map, source, target, at_rest))
-
-    found = parallel(look, order[:2], threads)
-    # Nothing is added for looks: the best is compared with maps that nobody has looked at.
-    middle = usual(found, np.mean)[0], usual(found, min)[1]
-    return in_order([over(c, middle) for c in found]) + order[2:]
-
-
-def seen(found: Candidate, source: Shape, target: Shape, on: Ready) -> Candidate:
-    """With what its map says when the copies are bent with more patience."""
-    one = bent(found.functional_map, source, target, on, LONGER)
-    return replace(found, bending=one.bending, strain=one.strain, mismatch=None)
-
-
-def usual(found: list[Candidate], of: Callable[[list[float]], Any]) -> tuple[float, float]:
-    """The strain and the mismatch of bent candidates that others are compared with: both depend on the shapes."""
-    strains = [c.strain for c in found if c.strain is not None]
-    looks = [c.mismatch for c in found if c.mismatch is not None]
-    return float(of(strains)) if strains else 0.0, float(of(looks)) if looks else 0.0
-
-
-def over(found: Candidate, usual: tuple[float, float]) -> Candidate:
-    """With strain and mismatch, where they are known, over the usual ones."""
-    strain, looks = found.strain, found.mismatch
-    return replace(
-        found,
-        strain=None if strain is None else strain - usual[0],
-        mismatch=None if looks is None else looks - usual[1],
-    )
-
-
-def mended(
-    ranked: list[Candidate],
-    on: Ground,
-    source: Shape,
-    target: Shape,
-    landmarks: np.ndarray,
-    threads: int | None = None,
-    progress: Progress | None = None,
-) -> list[Candidate]:
-    """The best between unlike shapes bent and matched in turn (:mod:`kfmaps.search.alternate`), and ranked again.
-
-    The target is bent onto the source, so that each direction has its say: what follows bends the source onto the
-    target. Each counts as it is after that or, where that has made it worse, as the best of that, of the source bent
-    onto the target, and of what it was before.
-
-    A refinement may send a leg to the tail, and what is mended keeps to the tips that it has paired. So the likeliest
-    pairings of tips (:mod:`kfmaps.search.pairings`) that none of these maps has are begun with as well.
-    """
-    both = grounds(source, target)
-    finer = copied(source, MORE), copied(target, MORE)
-    if both is None or finer[0] is None or finer[1] is None:
-        return ranked
-    copies, shot = ready(finer[0], finer[1]), guide(source.shot, target.shot)
-    at_rest = looks(copies)
-
-    near, rest = mendable(ranked, on.source)
-    likely = pairings(on.source, on.target, on.shot)
-    known = [induced(one.points, on.source, on.target) for one in near]
-    known = [one and completed(one, likely) for one in known]
-    begun = [(c, one and limbs_of(one, on.source, on.target)) for c, one in zip(near, known, strict=True)]
-    for one in unheard(likely, [pairing for pairing in known if pairing], PAIRED):
-        C = paired_map(one, on, min(TIP_FUNCTIONS, len(near[0].functional_map)))
-        begun.append((judged([(f"{one}", True)], C[None], None, on, 1)[0], limbs_of(one, on.source, on.target)))
-    done = np.zeros(len(begun))
-
-    def tell(i: int, part: float) -> None:
-        done[i] = part
-        if progress is not None:
-            progress("bent and matched in turn", float(done.mean()))
-
-    def mend(old: Candidate, tips: Limbs | None, tell: Done, backwards: bool = True) -> Candidate | None:
-        led = leading(source, target, landmarks, tips and tips.guide(source.mesh, target.mesh), shot)
-        C, where = old.functional_map, both
-        if backwards:
-            C, where, led = C.T, turned_round(both), led and Guide(led.target, led.source)
-        try:
-            found = alternated(C, where, led, lambda part: tell(0.9 * part))
-        except NotConverged:
-            tell(1.0)
-            return None
-        size = min(FINE, len(found.functional_map))
-        C = found.functional_map[:size, :size]
-        new = judged([(old.name, old.guided)], (C.T if backwards else C)[None], None, on, 1)[0]
-        new = replace(seen(new, source, target, copies), bent=found.bent, backwards=backwards)
-        tell(1.0)
-        return new
-
-    def better(i: int) -> Candidate | None:
-        """Where a body touches itself the right map may go astray; the other way it may not, or is best as it was."""
-        old, new = begun[i][0], mend(*begun[i], partial(tell, i))
-        if new is None:
-            return old if i < len(near) else None
-        if i >= len(near) or new.quality.score >= old.quality.score:
-            return new
-        other = mend(*begun[i], lambda _done: None, backwards=False)
-        states = [new, seen(old, source, target, copies), *([] if other is None else [other])]
-        return max(states, key=lambda c: c.score)
-
-    def looked_at(found: Candidate) -> Candidate:
-        return replace(found, mismatch=mismatch(found.functional_map, source, target, at_rest))
-
-    tell(0, 0.0)
-    made = parallel(better, range(len(begun)), threads)
-    which = [i for i, c in enumerate(made) if c is not None]
-    tried = compared([c for c in made if c is not None], looked_at, threads)
-    least = usual(tried, min)
-    order = in_order([over(c, least) for c in tried])
-    won = begun[which[next(i for i, c in enumerate(tried) if c.functional_map is order[0].functional_map)]]
-
-    def forwards() -> Candidate | None:
-        made = mend(*won, lambda _done: None, backwards=False)
-        return made and over(looked_at(made), least)
-
-    # Others that are as likely, and the one that has won mended the other way round: the source bent onto the target.
-    nexts = apart(order, on.source, TWIN, 1 + NEXT)[1:]
-    order[0] = replace(order[0], again=(*(partial(_itself, c) for c in nexts), forwards))
-    return apart(order + rest, on.source, DISTINCT)
-
-
-def _itself(found: Candidate) -> Candidate:
-    return found
-
-
-def compared(
-    found: list[Candidate], looked_at: Callable[[Candidate], Candidate], threads: int | None = None
-) -> list[Candidate]:
-    """The mended ones with how they look, those that are far behind anyway with the worst that is seen."""
-    found = [replace(c, mismatch=None) for c in found]
-    strain = usual(found, min)[0]
-    scores = [over(c, (strain, 0.0)).score for c in found]
-    near = [score > max(scores) - HOPELESS for score in scores]
-    seen = parallel(looked_at, [c for c, yes in zip(found, near, strict=True) if yes], threads)
-    worst = max((c.mismatch for c in seen if c.mismatch is not None), default=None)
-    rest = iter(seen)
-    return [next(rest) if yes else replace(c, mismatch=worst) for c, yes in zip(found, near, strict=True)]
-
-
-def mendable(ranked: list[Candidate], source: Probe) -> tuple[list[Candidate], list[Candidate]]:
-    """Those that are worth mending, and the others; a second look may have put the second behind the third.
-
-    The first few, which may be alike, and the first few that differ.
-    """
-    wanted = [*ranked[:FIRST], *apart(ranked, source, DISTINCT, BENT)]
-    worth = [any(c is w for w in wanted) and c.score > ranked[0].score - MENDABLE for c in ranked]
-    return [c for c, yes in zip(ranked, worth, strict=True) if yes], [
-        c for c, yes in zip(ranked, worth, strict=True) if not yes
-    ]
-
-
-def distinct(found: list[Candidate], source: Probe) -> list[Candidate]:
-    """The best of ``found``, then the best of those that differ from it, and so on."""
-    return apart(in_order(found), source, DISTINCT)
-
-
-def in_order(found: list[Candidate]) -> list[Candidate]:
-    """Best first.
-
-    A rival, which no descriptors speak for, comes first only when it is clearly better than every other candidate.
-    """
-    order = sorted(found, key=lambda c: c.score, reverse=True)
-    best = next((c for c in order if c.guided), None)
-    if best is not None and best.score > order[0].score - CLEAR:
-        order.insert(0, order.pop(next(i for i, c in enumerate(order) if c is best)))
-    return order
 
 
 def mirror_image(shape: Shape) -> Shape:

@@ -3,7 +3,7 @@
 A search goes as it would without: its fits, its judgement and its refinement know nothing of what was learned. Where
 the kernel was learned without landmarks, maps are made with it as well: small fits, and refinements in which points
 are compared in its metric instead of by principal components of SHOT. The best of these takes the place of what the
-search has found only where it is another map and clearly better (:func:`kfmaps.search.choose.beside`); so what was
+search has found only where it is another map and clearly better (:func:`kfmaps.search.ranking.beside`); so what was
 learned on other bodies than those at hand changes no digit of a map that is right.
 """
 
