@@ -322,7 +322,7 @@ MUTANTS = tuple(
             "return math.log(bending) - BENT",
             "test_automatic -k verdict",
         ),
-        ("fits *= _logistic((MUCH - excess(score, bending)) / WIDTH)", "fits *= 1.0", "test_automatic -k verdict"),
+        ("fits *= float(expit((MUCH - excess(score, bending)) / WIDTH))", "fits *= 1.0", "test_automatic -k verdict"),
         ("if judged[i] > KEPT or len(kept) == MOST:", "if len(kept) == MOST:", "test_tips -k symmetry"),
         ("if off[0] > MOVED and all(", "if all(", "test_symmetries -k mirror"),
         (
@@ -572,7 +572,7 @@ MUTANTS = tuple(
             "test_automatic -k its_definition_says",
         ),
         (
-            "states = [new, seen(old, source, target, copies), *(",
+            "states = [new, seen(old, source, target, finer.on), *(",
             "states = [new, *(",
             "test_alternate -k astray",
         ),

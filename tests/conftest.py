@@ -14,6 +14,7 @@ import numpy as np
 import pytest
 from scipy.spatial import ConvexHull
 
+import kfmaps
 from kfmaps.surface.basis import Basis, laplace_basis
 from kfmaps.surface.mesh import Mesh, unit_area
 
@@ -64,6 +65,15 @@ def small_mesh() -> Mesh:
 @pytest.fixture(scope="session")
 def small_basis(small_mesh: Mesh) -> Basis:
     return laplace_basis(small_mesh, 40)
+
+
+@pytest.fixture(scope="session")
+def creatures() -> tuple[Any, Any, np.ndarray]:
+    """Two that differ much, prepared for an automatic match, and the source vertex of each target vertex."""
+    made = kfmaps.datasets.non_isometric(1500, rng=3)
+    config = kfmaps.Config.automatic()
+    shapes = [kfmaps.prepare(mesh, config, name=name) for mesh, name in ((made.source, "a"), (made.target, "b"))]
+    return shapes[0], shapes[1], made.truth
 
 
 @pytest.fixture

@@ -10,42 +10,37 @@ import numpy as np
 import pytest
 
 import kfmaps
-from kfmaps import datasets, matching
+from kfmaps import matching
 from kfmaps._arrays import NotConverged
 from kfmaps.functional.points import nearest, to_functional
 from kfmaps.matching import TEAR, TORN, worthier
-from kfmaps.search import alternate, choose, mending, ranking
+from kfmaps.search import alternate, choose, copies, mending, ranking
 from kfmaps.search.alternate import Grounds, alternated, grounds, lying, spread
-from kfmaps.search.arena import arena
+from kfmaps.search.arena import arena, turned
+from kfmaps.search.bends import MORE, copied
 from kfmaps.search.candidates import STRAIN, Candidate, differs, judged, paired_map
+from kfmaps.search.copies import Copies
 from kfmaps.search.mending import mendable, mended
 from kfmaps.search.pairings import Pairing, completed, induced, limbs_of, pairings, unheard
 from kfmaps.search.quality import Quality, probe
 from kfmaps.search.ranking import closer
 from kfmaps.search.verdict import BENT, PER_SCORE
-from kfmaps.surface.mesh import Mesh, vertex_areas
-
-
-@pytest.fixture(scope="module")
-def pair():
-    made = datasets.non_isometric(1500, rng=3)
-    config = kfmaps.Config.automatic()
-    shapes = [kfmaps.prepare(mesh, config, name=name) for mesh, name in ((made.source, "a"), (made.target, "b"))]
-    return *shapes, made.truth
+from kfmaps.surface.mesh import MIRROR, Mesh, vertex_areas
 
 
 @pytest.fixture(autouse=True)
 def alike(monkeypatch):
     """How bent shapes look is tested in test_looks.py, and takes seconds."""
+    monkeypatch.setattr(copies, "looks", lambda on: SimpleNamespace(on=on))
     for module in (ranking, mending):
-        monkeypatch.setattr(module, "looks", lambda on: on)
         monkeypatch.setattr(module, "mismatch", lambda *_what: 0.2)
 
 
 def both(source, target) -> Grounds:
-    on = grounds(source, target)
-    assert on is not None
-    return on
+    a, b = copied(source, MORE), copied(target, MORE)
+    assert a is not None
+    assert b is not None
+    return grounds(source, target, (a, b))
 
 
 def points_of(C, source, target):
@@ -58,9 +53,9 @@ def error(C, source, target, truth):
     return kfmaps.geodesic_errors(source.mesh, points_of(C, source, target), truth).mean()
 
 
-def test_a_torn_map_is_mended(pair):
+def test_a_torn_map_is_mended(creatures):
     """A third of the target is sent elsewhere: what remains pulls it back, which functions alone do not."""
-    source, target, truth = pair
+    source, target, truth = creatures
     torn = truth.copy()
     high = np.argsort(target.mesh.vertices[:, 0])[-len(torn) // 4 :]
     torn[high] = np.random.default_rng(0).permutation(torn[high])
@@ -70,16 +65,16 @@ def test_a_torn_map_is_mended(pair):
     assert found.bent.shape == source.mesh.vertices.shape
 
 
-def test_bent_vertices_lie_where_the_truth_says(pair):
-    source, target, truth = pair
+def test_bent_vertices_lie_where_the_truth_says(creatures):
+    source, target, truth = creatures
     C = to_functional(truth, source.basis.truncated(60), target.basis.truncated(60))
     bent = alternated(C, both(source, target), None).bent
     off = np.linalg.norm(bent[truth] - target.mesh.vertices, axis=1)
     assert off.mean() < 0.04
 
 
-def test_each_fit_is_followed_by_a_refinement_that_it_takes_part_in(pair, monkeypatch):
-    source, target, truth = pair
+def test_each_fit_is_followed_by_a_refinement_that_it_takes_part_in(creatures, monkeypatch):
+    source, target, truth = creatures
     C = to_functional(truth, source.basis.truncated(40), target.basis.truncated(40))
     told = []
     first = alternated(C, both(source, target), None, told.append).functional_map
@@ -89,16 +84,16 @@ def test_each_fit_is_followed_by_a_refinement_that_it_takes_part_in(pair, monkey
     assert error(first, source, target, truth) < error(without, source, target, truth)
 
 
-def test_positions_are_spread_smoothly(pair):
-    source = pair[0]
+def test_positions_are_spread_smoothly(creatures):
+    source = creatures[0]
     on = both(source, source)
     again = spread(on.copies[0].mesh.vertices, on.bases[0], source.basis)
     off = np.linalg.norm(again - source.mesh.vertices, axis=1)
     assert off.mean() < 0.01
 
 
-def test_what_lies_on_itself_differs_nowhere(pair):
-    mesh = pair[0].mesh
+def test_what_lies_on_itself_differs_nowhere(creatures):
+    mesh = creatures[0].mesh
     guide = lying(mesh, mesh)
     assert np.array_equal(guide.source, guide.target)
     a, b = np.random.default_rng(0).integers(len(mesh.vertices), size=(2, 4000))
@@ -106,30 +101,54 @@ def test_what_lies_on_itself_differs_nowhere(pair):
     assert apart.mean() == pytest.approx(1.0, abs=0.1)
 
 
-def test_point_clouds_are_not_bent(pair):
-    source = pair[0]
+def test_point_clouds_are_not_bent(creatures):
+    source = creatures[0]
     cloud = kfmaps.Mesh(source.mesh.vertices, np.zeros((0, 3), dtype=np.int64))
-    assert grounds(replace(source, mesh=cloud), source) is None
+    on = arena(source, source, (probe(source, 200), probe(source, 200))).whole
+    for shapes in ((replace(source, mesh=cloud), source), (source, replace(source, mesh=cloud))):
+        assert Copies.of(*shapes, on).finer is None
+    for coarse in ((None, on.target.copy), (on.source.copy, None)):
+        assert Copies(source, source, coarse).few is None
 
 
-def test_mending_tells_how_far_it_is(pair, monkeypatch):
+def test_copies_are_made_once_and_of_the_image_that_is_meant(creatures):
+    source, target, _ = creatures
+    on = arena(source, target, (probe(source, 200), probe(target, 200))).whole
+    kept, image = Copies.of(source, target, on), Copies.of(source, target, turned(on))
+    assert kept.few is not None
+    assert kept.few is kept.few
+    assert kept.finer is not None
+    assert kept.finer is kept.finer
+    assert kept.image is target
+    assert image.few is not None
+    assert image.finer is not None
+    for one, other in ((kept.few, image.few), (kept.finer.on, image.finer.on)):
+        (a, b), (c, d) = one.copies, other.copies
+        np.testing.assert_array_equal(c.mesh.vertices, a.mesh.vertices)
+        np.testing.assert_array_equal(d.mesh.vertices, b.mesh.vertices * MIRROR)
+    np.testing.assert_array_equal(image.image.mesh.vertices, target.mesh.vertices * MIRROR)
+
+
+def test_mending_tells_how_far_it_is(creatures, monkeypatch):
     """Five to ten seconds on real shapes, in which nobody should wonder."""
-    source, target, truth = pair
+    source, target, truth = creatures
     on = arena(source, target, (probe(source, 200), probe(target, 200))).whole
     C = np.asarray(to_functional(truth, source.basis.truncated(40), target.basis.truncated(40)))
     ranked = [replace(c, bending=1.0) for c in judged([("truth", True)], C[None], None, on, 1)]
     monkeypatch.setattr(mending, "pairings", lambda *_: [])
     told = []
-    mended(ranked, on, source, target, np.zeros((0, 2), dtype=np.int64), 1, lambda *what: told.append(what))
+    mended(
+        ranked, on, Copies.of(source, target, on), np.zeros((0, 2), dtype=np.int64), 1, lambda *what: told.append(what)
+    )
     assert {stage for stage, _ in told} == {"bent and matched in turn"}
     once = [*(0.9 * (i + 1) / alternate.ROUNDS for i in range(alternate.ROUNDS)), 1.0]
     shares = [done for _, done in told]
     assert shares == pytest.approx([0.0, *once])
 
 
-def test_the_target_is_bent_and_the_source_where_that_is_asked_for(pair, monkeypatch):
+def test_the_target_is_bent_and_the_source_where_that_is_asked_for(creatures, monkeypatch):
     """Of the winner alone, and not where a copy falls apart."""
-    source, target, truth = pair
+    source, target, truth = creatures
     on = arena(source, target, (probe(source, 200), probe(target, 200))).whole
     C = np.asarray(to_functional(truth, source.basis.truncated(40), target.basis.truncated(40)))
     ranked = [replace(c, bending=1.0) for c in judged([("truth", True)], C[None], None, on, 1)]
@@ -142,7 +161,7 @@ def test_the_target_is_bent_and_the_source_where_that_is_asked_for(pair, monkeyp
         return alternate.Alternated(C, on.source.mesh.vertices)
 
     def end():
-        found = mended(ranked, on, source, target, np.zeros((0, 2), dtype=np.int64), 1)
+        found = mended(ranked, on, Copies.of(source, target, on), np.zeros((0, 2), dtype=np.int64), 1)
         assert len(found) == 1
         return found[0]
 
@@ -165,9 +184,9 @@ def test_the_target_is_bent_and_the_source_where_that_is_asked_for(pair, monkeyp
     assert end().bent is None
 
 
-def test_likely_pairings_are_begun_with_where_no_map_has_them(pair, monkeypatch):
+def test_likely_pairings_are_begun_with_where_no_map_has_them(creatures, monkeypatch):
     """With their own tips, which what is mended keeps to, and only as long as the copies hold."""
-    source, target, truth = pair
+    source, target, truth = creatures
     on = arena(source, target, (probe(source, 200), probe(target, 200))).whole
     C = np.asarray(to_functional(truth, source.basis.truncated(40), target.basis.truncated(40)))
     ranked = [replace(c, bending=1.0) for c in judged([("truth", True)], C[None], None, on, 1)]
@@ -191,7 +210,7 @@ def test_likely_pairings_are_begun_with_where_no_map_has_them(pair, monkeypatch)
     monkeypatch.setattr(mending, "alternated", made)
     monkeypatch.setattr(mending, "limbs_of", tips_of)
     landmarks = np.zeros((0, 2), dtype=np.int64)
-    found = mended(ranked, on, source, target, landmarks, 1)
+    found = mended(ranked, on, Copies.of(source, target, on), landmarks, 1)
     names = {c.name for c in found}
     (first,) = (c for c in found if c.again)
     other = first.again[0]()
@@ -201,7 +220,7 @@ def test_likely_pairings_are_begun_with_where_no_map_has_them(pair, monkeypatch)
     np.testing.assert_array_equal(begun[1].T, paired_map(mirror, on, len(begun[1])))
     assert names == {"truth", f"{mirror}"}
     monkeypatch.setattr(mending, "induced", lambda *_: None)
-    assert f"{mirror}" not in {c.name for c in mended(ranked, on, source, target, landmarks, 1)}
+    assert f"{mirror}" not in {c.name for c in mended(ranked, on, Copies.of(source, target, on), landmarks, 1)}
     assert len(calls) == 5
 
 
@@ -226,16 +245,16 @@ def test_pairings_are_heard_once():
     assert not whole.contradicts(part)
 
 
-def test_what_goes_astray_stays_as_it_was(pair, monkeypatch):
+def test_what_goes_astray_stays_as_it_was(creatures, monkeypatch):
     """As the right map of a body that touches itself."""
-    source, target, truth = pair
+    source, target, truth = creatures
     on = arena(source, target, (probe(source, 200), probe(target, 200))).whole
     C = np.asarray(to_functional(truth, source.basis.truncated(40), target.basis.truncated(40)))
     ranked = [replace(c, bending=1.0) for c in judged([("truth", True)], C[None], None, on, 1)]
     astray = alternate.Alternated(np.linalg.qr(np.random.default_rng(0).normal(size=C.shape))[0], target.mesh.vertices)
     monkeypatch.setattr(mending, "alternated", lambda *_rest: astray)
     monkeypatch.setattr(mending, "pairings", lambda *_: [])
-    found = mended(ranked, on, source, target, np.zeros((0, 2), dtype=np.int64), 1)[0]
+    found = mended(ranked, on, Copies.of(source, target, on), np.zeros((0, 2), dtype=np.int64), 1)[0]
     assert found.functional_map is ranked[0].functional_map
     assert found.bent is None
     assert [c.backwards for c in (way() for way in found.again) if c] == [False]
@@ -245,8 +264,8 @@ def test_what_goes_astray_stays_as_it_was(pair, monkeypatch):
     assert found.strain is not None
 
 
-def test_what_goes_astray_one_way_is_mended_the_other(pair, monkeypatch):
-    source, target, truth = pair
+def test_what_goes_astray_one_way_is_mended_the_other(creatures, monkeypatch):
+    source, target, truth = creatures
     on = arena(source, target, (probe(source, 200), probe(target, 200))).whole
     C = np.asarray(to_functional(truth, source.basis.truncated(40), target.basis.truncated(40)))
     rough = C + 0.02 * np.random.default_rng(1).normal(size=C.shape)
@@ -258,7 +277,7 @@ def test_what_goes_astray_one_way_is_mended_the_other(pair, monkeypatch):
 
     monkeypatch.setattr(mending, "alternated", made)
     monkeypatch.setattr(mending, "pairings", lambda *_: [])
-    found = mended(ranked, on, source, target, np.zeros((0, 2), dtype=np.int64), 1)[0]
+    found = mended(ranked, on, Copies.of(source, target, on), np.zeros((0, 2), dtype=np.int64), 1)[0]
     np.testing.assert_array_equal(found.functional_map, C)
     assert not found.backwards
     assert found.bent is source.mesh.vertices
@@ -291,8 +310,8 @@ def test_the_first_few_are_mended_and_those_that_differ():
     assert [c.name for c in rest] == ["c", "d", "g"]
 
 
-def test_a_map_that_hardly_differs_comes_first_where_it_bends_less(pair):
-    source, target, truth = pair
+def test_a_map_that_hardly_differs_comes_first_where_it_bends_less(creatures):
+    source, target, truth = creatures
     on = arena(source, target, (probe(source, 200), probe(target, 200))).whole
     torn = truth.copy()
     high = np.argsort(target.mesh.vertices[:, 0])[-len(torn) // 6 :]
@@ -302,18 +321,19 @@ def test_a_map_that_hardly_differs_comes_first_where_it_bends_less(pair):
     bad, good = judged([("torn", True), ("truth", True)], maps, None, on, 1)
     # All else says as much for either, and a little more for the torn one.
     good = replace(good, quality=replace(bad.quality, distortion=bad.quality.distortion + 0.01))
-    ranked = ranking.ranking([bad], on, source, target, 1)
-    found = closer(ranked, [bad, good], on, source, target, 1)
+    of = Copies.of(source, target, on)
+    ranked = ranking.ranking([bad], on, of, 1)
+    found = closer(ranked, [bad, good], on, of, 1)
     assert [c.name for c in found] == ["truth", "torn"]
     assert found[1] is ranked[0]
     assert found[0].bending is not None
     assert ranked[0].bending is not None
     assert found[0].bending < ranked[0].bending
-    assert closer(ranked, [bad], on, source, target, 1) == ranked
+    assert closer(ranked, [bad], on, of, 1) == ranked
     # Not where it is too far behind before that.
     far = replace(good, quality=replace(good.quality, distortion=good.quality.distortion + 0.2))
-    assert {c.name for c in closer(ranked, [bad, far], on, source, target, 1)} == {"truth", "torn"}
-    assert closer(ranked, [bad, far], on, source, target, 1, behind=1.0) == ranked
+    assert {c.name for c in closer(ranked, [bad, far], on, of, 1)} == {"truth", "torn"}
+    assert closer(ranked, [bad, far], on, of, 1, behind=1.0) == ranked
 
 
 def test_a_map_bends_unduly_or_not():
@@ -324,9 +344,9 @@ def test_a_map_bends_unduly_or_not():
     assert not choose.bends_unduly(one)
 
 
-def test_of_maps_that_are_alike_the_one_that_bends_less_is_found(pair, monkeypatch):
+def test_of_maps_that_are_alike_the_one_that_bends_less_is_found(creatures, monkeypatch):
     """And none of them is taken for a rival of the other."""
-    source, target, truth = pair
+    source, target, truth = creatures
     on = arena(source, target, (probe(source, 200), probe(target, 200)))
     C = np.asarray(to_functional(truth, source.basis.truncated(40), target.basis.truncated(40)))
     best = judged([("best", True)], C[None], None, on.whole, 1)[0]
@@ -342,9 +362,9 @@ def test_of_maps_that_are_alike_the_one_that_bends_less_is_found(pair, monkeypat
     assert len(found.scores) == 1
 
 
-def test_the_match_that_is_worth_more_is_taken(pair):
+def test_the_match_that_is_worth_more_is_taken(creatures):
     """Of two that both have a fit, by score and torn area together; the one taken tells the seconds of the whole."""
-    source, target, truth = pair
+    source, target, truth = creatures
     one = matching.continued(source, target, truth, origin="a", quality=-9.0)
     assert one.bend is not None
 
@@ -363,8 +383,8 @@ def test_the_match_that_is_worth_more_is_taken(pair):
     assert worthier(known, replace(refused, bend=None)) is known
 
 
-def test_a_match_finishes_all_ways_unless_it_is_hardly_torn(pair, monkeypatch):
-    source, target, truth = pair
+def test_a_match_finishes_all_ways_unless_it_is_hardly_torn(creatures, monkeypatch):
+    source, target, truth = creatures
     C = np.asarray(to_functional(truth, source.basis.truncated(40), target.basis.truncated(40)))
     other = choose.Found(C, "other", None, "poor", quality=-9.0, scores=(-9.0,))
     asked = []
@@ -384,9 +404,9 @@ def test_a_match_finishes_all_ways_unless_it_is_hardly_torn(pair, monkeypatch):
     assert asked == 3 * [-9.0 - 0.5 * TEAR]
 
 
-def test_a_search_tells_what_else_may_turn_out_better(pair, monkeypatch):
+def test_a_search_tells_what_else_may_turn_out_better(creatures, monkeypatch):
     """Each where its score is above what is known; the runners-up of each differ from it."""
-    source, target, _ = pair
+    source, target, _ = creatures
     judgement = Quality(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     one = Candidate("0", np.eye(5), np.zeros(2000, dtype=int), judgement, bending=0.15)
     ranked = [replace(one, name=str(i), points=np.full(2000, i), strain=i / STRAIN) for i in range(5)]
@@ -410,9 +430,9 @@ def test_a_search_tells_what_else_may_turn_out_better(pair, monkeypatch):
     assert [way(best[1]) and "more" for way in found.again] == [None, "more", None]
 
 
-def test_where_the_target_lies_leads_as_well(pair):
+def test_where_the_target_lies_leads_as_well(creatures):
     """Of a map found backwards the target is bent: what lies on each other is the same."""
-    source, target, _ = pair
+    source, target, _ = creatures
     found = choose.Found(np.eye(5), "a", None, "poor", bent=target.mesh.vertices + 1.0, backwards=True)
     led = matching._led(found, [source, target])
     alone = matching._led(replace(found, bent=None), [source, target])

@@ -10,7 +10,7 @@ from kfmaps._arrays import InvalidInput
 from kfmaps.app.datasets import partial, symmetric_creature
 from kfmaps.config import BasisConfig, Config, NystromConfig, Partial, Search
 from kfmaps.descriptors.shot import shot
-from kfmaps.fit.shape import prepare
+from kfmaps.fit.shape import mirror_image, prepare
 from kfmaps.functional.evaluate import geodesic_errors
 from kfmaps.functional.guide import FLAT, spread
 from kfmaps.functional.points import nearest
@@ -18,7 +18,7 @@ from kfmaps.functional.refine import ZoomOut
 from kfmaps.matching import match
 from kfmaps.search.arena import arena
 from kfmaps.search.candidates import Candidate, candidates, kicked
-from kfmaps.search.choose import choose, mirror_image
+from kfmaps.search.choose import choose
 from kfmaps.search.fits import planned
 from kfmaps.search.known import known
 from kfmaps.search.quality import _near, map_quality, probe, thinned

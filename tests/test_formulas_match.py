@@ -14,13 +14,13 @@ from kfmaps.config import BasisConfig, Config, DescriptorConfig, NystromConfig, 
 from kfmaps.descriptors.spectral import heat_map, heat_signature
 from kfmaps.fit.features import Descriptors, Features, joint_samples, pair_descriptors
 from kfmaps.fit.problem import orientation_pair, principal, problem
-from kfmaps.fit.shape import Shape, prepare
+from kfmaps.fit.shape import Shape, mirror_image, prepare
 from kfmaps.functional.points import to_points
 from kfmaps.functional.refine import ZoomOut
 from kfmaps.functional.terms import slice_term, value
 from kfmaps.kernel.kernels import Gaussian, squared_distances
 from kfmaps.search.candidates import Candidate
-from kfmaps.search.choose import choose, mirror_image
+from kfmaps.search.choose import choose
 from kfmaps.search.marks import TIMES, around
 from kfmaps.search.quality import Quality, map_quality, probe
 from kfmaps.search.verdict import probability

@@ -18,6 +18,7 @@ from kfmaps.matching import match
 from kfmaps.search.arena import arena
 from kfmaps.search.candidates import Candidate
 from kfmaps.search.choose import choose, probed
+from kfmaps.search.copies import Copies
 from kfmaps.search.learned import by_metric, learned, plain, seen
 from kfmaps.search.quality import Quality
 from kfmaps.search.ranking import BEHIND, CLEAR, beside
@@ -109,16 +110,16 @@ def test_only_what_is_clearly_better_comes_first(creature):
     on = arena(source, target, (probed(source), probed(target)), NONE).whole
     on = replace(on, source=replace(on.source, copy=None), target=replace(on.target, copy=None))
     far = int(np.linalg.norm(on.source.positions - on.source.positions[0], axis=1).argmax())
-    usual = [candidate("own", 1.0, 0, on)]
+    usual, copies = [candidate("own", 1.0, 0, on)], Copies.of(source, target, on)
 
     def first(score, place):
-        return [c.name for c in beside(usual, [candidate("new", score, place, on)], on, source, target)]
+        return [c.name for c in beside(usual, [candidate("new", score, place, on)], on, copies)]
 
     assert first(1.0 + 0.9 * CLEAR, far) == ["own", "new"]
     assert first(1.0 + 1.1 * CLEAR, far) == ["new", "own"]
     assert first(9.0, 0) == ["own"]  # the same map
     assert first(1.0 - 1.1 * BEHIND, far) == ["own"]
-    assert beside(usual, [], on, source, target) is usual
+    assert beside(usual, [], on, copies) is usual
 
 
 def test_a_kernel_knows_its_landmarks(creature):

@@ -3,19 +3,20 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 import kfmaps
-from kfmaps import datasets
 from kfmaps._arrays import NotConverged
 from kfmaps.functional.points import nearest, to_functional
-from kfmaps.search import alternate, choose, looks, mending, ranking
+from kfmaps.search import alternate, choose, copies, looks, mending, ranking
 from kfmaps.search.arena import arena
 from kfmaps.search.bends import copied, ready
 from kfmaps.search.candidates import LOOKS, STRAIN, judged
 from kfmaps.search.choose import unled
+from kfmaps.search.copies import Copies
 from kfmaps.search.looks import difference, mismatch, sight
 from kfmaps.search.mending import HOPELESS, compared, mended
 from kfmaps.search.quality import probe
@@ -24,16 +25,8 @@ from kfmaps.surface.mesh import Mesh
 
 
 @pytest.fixture(scope="module")
-def pair():
-    made = datasets.non_isometric(1500, rng=3)
-    config = kfmaps.Config.automatic()
-    shapes = [kfmaps.prepare(mesh, config, name=name) for mesh, name in ((made.source, "a"), (made.target, "b"))]
-    return *shapes, made.truth
-
-
-@pytest.fixture(scope="module")
-def at_rest(pair):
-    source, target = (copied(shape) for shape in pair[:2])
+def at_rest(creatures):
+    source, target = (copied(shape) for shape in creatures[:2])
     assert source is not None
     assert target is not None
     return looks.looks(ready(source, target))
@@ -43,8 +36,8 @@ def functional(points, source, target):
     return np.asarray(to_functional(points, source.basis.truncated(40), target.basis.truncated(40)))
 
 
-def test_differences_are_squared_and_from_what_lies_nearest(pair, monkeypatch):
-    mesh = pair[0].mesh
+def test_differences_are_squared_and_from_what_lies_nearest(creatures, monkeypatch):
+    mesh = creatures[0].mesh
     monkeypatch.setattr(looks, "shot", lambda _mesh, _radius, at, **_how: np.stack([at, at % 3], axis=1).astype(float))
     here = sight(mesh)
     at = np.arange(0, len(mesh.vertices), looks.STEP)
@@ -54,24 +47,24 @@ def test_differences_are_squared_and_from_what_lies_nearest(pair, monkeypatch):
     assert difference(moved, mesh) == pytest.approx(25.0)
 
 
-def test_a_surface_looks_like_itself_wherever_its_vertices_are(pair):
-    mesh = pair[0].mesh
+def test_a_surface_looks_like_itself_wherever_its_vertices_are(creatures):
+    mesh = creatures[0].mesh
     order = np.random.default_rng(0).permutation(len(mesh.vertices))
     again = Mesh(mesh.vertices[order], np.argsort(order)[mesh.faces])
     assert difference(sight(mesh), again) == pytest.approx(0, abs=1e-6)
     assert difference(sight(mesh), Mesh(mesh.vertices * [1.0, 1.0, -1.0], mesh.faces[:, ::-1])) > 0.1
 
 
-def test_the_sides_of_a_thin_part_are_not_taken_for_each_other(pair):
+def test_the_sides_of_a_thin_part_are_not_taken_for_each_other(creatures):
     """Where two sheets lie close, it is the normals that tell which point lies on which."""
-    mesh = pair[0].mesh
+    mesh = creatures[0].mesh
     inside_out = Mesh(mesh.vertices, mesh.faces[:, ::-1])
     apart = np.linalg.norm(sight(mesh).places - sight(inside_out).places, axis=1)
-    np.testing.assert_allclose(apart, 2 * looks.NORMALS, rtol=1e-6)
+    np.testing.assert_allclose(apart, 2 * alternate.NORMALS, rtol=1e-6)
 
 
-def test_what_is_bent_as_a_wrong_map_says_looks_otherwise(pair, at_rest):
-    source, target, truth = pair
+def test_what_is_bent_as_a_wrong_map_says_looks_otherwise(creatures, at_rest):
+    source, target, truth = creatures
     v = source.mesh.vertices - source.mesh.vertices.mean(axis=0)
     about = nearest(v, v * [-1.0, -1.0, 1.0], threads=1)
     right, wrong = functional(truth, source, target), functional(about[truth], source, target)
@@ -81,8 +74,8 @@ def test_what_is_bent_as_a_wrong_map_says_looks_otherwise(pair, at_rest):
     assert good < 0.8 * bad
 
 
-def test_both_directions_count_unless_one_falls_apart(pair, at_rest, monkeypatch):
-    source, target, truth = pair
+def test_both_directions_count_unless_one_falls_apart(creatures, at_rest, monkeypatch):
+    source, target, truth = creatures
     C = functional(truth, source, target)
     told: dict[bool, float | None] = {True: 0.1, False: 0.3}
     monkeypatch.setattr(looks, "_mismatch", lambda way, *_rest: told[way is at_rest.on.there])
@@ -93,8 +86,8 @@ def test_both_directions_count_unless_one_falls_apart(pair, at_rest, monkeypatch
     assert mismatch(C, source, target, at_rest) is None
 
 
-def test_a_copy_that_falls_apart_is_not_looked_at(pair, at_rest, monkeypatch):
-    source, target, truth = pair
+def test_a_copy_that_falls_apart_is_not_looked_at(creatures, at_rest, monkeypatch):
+    source, target, truth = creatures
 
     class Broken:
         def bent(self, *_what):
@@ -104,14 +97,14 @@ def test_a_copy_that_falls_apart_is_not_looked_at(pair, at_rest, monkeypatch):
     assert mismatch(functional(truth, source, target), source, target, at_rest) is None
 
 
-def one_of(pair):
-    source, target, truth = pair
+def one_of(creatures):
+    source, target, truth = creatures
     on = arena(source, target, (probe(source, 200), probe(target, 200))).whole
     return on, judged([("truth", True)], functional(truth, source, target)[None], None, on, 1)[0]
 
 
-def test_looks_and_strain_count_over_usual_ones(pair):
-    one = one_of(pair)[1]
+def test_looks_and_strain_count_over_usual_ones(creatures):
+    one = one_of(creatures)[1]
     some = [replace(one, strain=s, mismatch=m) for s, m in ((-1.0, 0.2), (-2.0, 0.26), (None, None))]
     assert usual(some, min) == (-2.0, 0.2)
     assert usual(some, np.mean) == pytest.approx((-1.5, 0.23))
@@ -121,10 +114,10 @@ def test_looks_and_strain_count_over_usual_ones(pair):
     assert over(some[2], (-2.0, 0.2)).evidence == one.evidence
 
 
-def test_of_mended_maps_the_one_that_looks_right_comes_first(pair, monkeypatch):
+def test_of_mended_maps_the_one_that_looks_right_comes_first(creatures, monkeypatch):
     """Though all else says a little more for the other."""
-    source, target, _ = pair
-    on, good = one_of(pair)
+    source, target, _ = creatures
+    on, good = one_of(creatures)
     good = replace(good, bending=1.0)
     turned = np.roll(np.arange(len(good.points)), 50)
     quality = replace(good.quality, distortion=good.quality.distortion - 0.01)
@@ -133,35 +126,35 @@ def test_of_mended_maps_the_one_that_looks_right_comes_first(pair, monkeypatch):
     def stays(*_what):
         raise NotConverged("it fell apart")
 
-    monkeypatch.setattr(mending, "looks", lambda on: on)
+    monkeypatch.setattr(copies, "looks", lambda on: SimpleNamespace(on=on))
     monkeypatch.setattr(mending, "mismatch", lambda *_what: 0.2)
     monkeypatch.setattr(mending, "alternated", stays)
     nowhere = np.zeros((0, 2), dtype=np.int64)
-    assert [c.name for c in mended([bad, good], on, source, target, nowhere, 1)] == ["bad", "truth"]
+    assert [c.name for c in mended([bad, good], on, Copies.of(source, target, on), nowhere, 1)] == ["bad", "truth"]
     made = alternate.Alternated(good.functional_map, source.mesh.vertices)
     monkeypatch.setattr(mending, "alternated", lambda C, *_what: replace(made, functional_map=C))
     monkeypatch.setattr(mending, "judged", lambda names, *_w: [bad if names[0][0] == "bad" else good])
     monkeypatch.setattr(mending, "seen", lambda c, *_what: replace(c, strain=0.0))
     monkeypatch.setattr(mending, "mismatch", lambda C, *_what: 0.25 if C is bad.functional_map else 0.2)
-    found = mended([bad, good], on, source, target, nowhere, 1)
+    found = mended([bad, good], on, Copies.of(source, target, on), nowhere, 1)
     assert [c.name for c in found] == ["truth", "bad"]
     assert [c.mismatch for c in found] == pytest.approx([0.0, 0.05])
 
 
 @pytest.mark.parametrize(("margin", "again"), [(2.0, False), (0.5, True)])
-def test_of_two_that_are_close_looks_decide(pair, monkeypatch, margin, again):
+def test_of_two_that_are_close_looks_decide(creatures, monkeypatch, margin, again):
     """And where they are closer still, both are bent again; farther back nobody is looked at."""
-    source, target, _ = pair
-    on, good = one_of(pair)
+    source, target, _ = creatures
+    on, good = one_of(creatures)
     quality = replace(good.quality, distortion=good.quality.distortion - margin / 6)
     good = replace(good, bending=0.15)
     bad = replace(good, name="bad", quality=quality, functional_map=-good.functional_map)
     rest = replace(good, name="rest", quality=replace(quality, distortion=quality.distortion + 9))
     bent = []
     monkeypatch.setattr(ranking, "seen", lambda c, *_what: bent.append(c.name) or replace(c, strain=0.0))
-    monkeypatch.setattr(ranking, "looks", lambda on: on)
+    monkeypatch.setattr(copies, "looks", lambda on: SimpleNamespace(on=on))
     monkeypatch.setattr(ranking, "mismatch", lambda C, *_what: 0.25 if C is bad.functional_map else 0.2)
-    found = second_look([bad, good, rest], on, source, target, 1)
+    found = second_look([bad, good, rest], Copies.of(source, target, on), 1)
     assert [c.name for c in found] == ["truth", "bad", "rest"]
     assert [c.mismatch for c in found[:2]] == pytest.approx([0.0, 0.05])
     assert found[0].score - found[1].score == pytest.approx(0.05 * LOOKS - margin)
@@ -169,22 +162,22 @@ def test_of_two_that_are_close_looks_decide(pair, monkeypatch, margin, again):
     assert bent == (["bad", "truth"] if again else [])
 
 
-def test_looks_are_asked_for_where_two_are_close(pair, monkeypatch):
-    source, target, _ = pair
-    on, one = one_of(pair)
+def test_looks_are_asked_for_where_two_are_close(creatures, monkeypatch):
+    source, target, _ = creatures
+    on, one = one_of(creatures)
     asked = []
     monkeypatch.setattr(ranking, "second_look", lambda order, *_rest: asked.append(len(order)) or order)
     monkeypatch.setattr(ranking, "with_bending", lambda near, *_rest: [replace(c, bending=0.15) for c in near])
     for margin, wanted in ((LOOKED + 0.2, 0), (LOOKED - 0.2, 1)):
         quality = replace(one.quality, distortion=one.quality.distortion + margin / 6)
         other = replace(one, name="other", quality=quality, points=np.roll(one.points, 50))
-        ranking.ranking([one, other], on, source, target, 1)
+        ranking.ranking([one, other], on, Copies.of(source, target, on), 1)
         assert len(asked) == wanted
 
 
-def test_what_is_far_behind_is_not_looked_at(pair):
+def test_what_is_far_behind_is_not_looked_at(creatures):
     """And counts as the worst of those that are."""
-    one = replace(one_of(pair)[1], strain=0.0)
+    one = replace(one_of(creatures)[1], strain=0.0)
     behind = [replace(one, strain=s / STRAIN) for s in (0.0, HOPELESS - 1, HOPELESS + 1)]
     asked = []
 
@@ -199,9 +192,9 @@ def test_what_is_far_behind_is_not_looked_at(pair):
     assert [c.mismatch for c in found] == pytest.approx([0.2, worst, worst])
 
 
-def test_maps_found_without_landmarks_take_part(pair, monkeypatch):
+def test_maps_found_without_landmarks_take_part(creatures, monkeypatch):
     """They are the ones of a search that knows of none, and are judged by the landmarks all the same."""
-    source, target, truth = pair
+    source, target, truth = creatures
     marks = np.stack([truth[[5, 700]], [5, 700]], axis=1)
     probes = [probe(s, 200, landmarks=at) for s, at in zip((source, target), marks.T, strict=True)]
     on = arena(source, target, (probes[0], probes[1]), marks)

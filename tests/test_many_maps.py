@@ -10,11 +10,11 @@ import pytest
 from collecting import CONFIG, bent
 from kfmaps._arrays import InvalidInput
 from kfmaps.config import Search
-from kfmaps.fit.shape import Shape, prepare
+from kfmaps.fit.shape import Shape, mirror_image, prepare
 from kfmaps.many.judge import judged
 from kfmaps.many.paths import composed, turned_back
 from kfmaps.matching import continued
-from kfmaps.search.choose import mirror_image, probed
+from kfmaps.search.choose import probed
 
 N = 400
 LOCAL = replace(CONFIG, search=Search(), descriptors=replace(CONFIG.descriptors, shot=True), threads=1)

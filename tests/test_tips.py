@@ -7,12 +7,13 @@ import pytest
 
 from kfmaps import datasets
 from kfmaps._arrays import NotConverged
-from kfmaps.fit.shape import prepare
+from kfmaps.fit.shape import mirror_image, prepare
 from kfmaps.functional.nonrigid import NonRigid
 from kfmaps.search.arena import arena
 from kfmaps.search.bends import LEAST, MOST, Copy, bending, bent, copied, ready
 from kfmaps.search.candidates import STRAIN, Candidate, from_tips, paired_map, rough
-from kfmaps.search.choose import choose, mirror_image
+from kfmaps.search.choose import choose
+from kfmaps.search.copies import Copies
 from kfmaps.search.pairings import FEWEST, Pairing, against, alike, induced, pairings, told
 from kfmaps.search.quality import Quality, mirrored_probe, probe, thinned
 from kfmaps.search.ranking import in_order, ranking
@@ -229,7 +230,7 @@ def test_copies_have_no_loose_points(creature):
 
 def test_what_bends_less_comes_first_and_what_was_not_tried_never(creature, on):
     found = rough(from_tips(40, on.few), on.few, 40)
-    ranked = ranking(found, on.whole, *creature[:2])
+    ranked = ranking(found, on.whole, Copies.of(*creature[:2], on.whole))
     scores = [c.score for c in ranked]
     assert scores == sorted(scores, reverse=True)
     equal = [replace(ranked[0], bending=b) for b in (0.3, 0.1, 0.2)]

@@ -16,7 +16,7 @@ from kfmaps.fit.demand import check_demand
 from kfmaps.fit.finish import finished
 from kfmaps.fit.fit import Fit, checked_landmarks, fit
 from kfmaps.fit.places import Bend, placed
-from kfmaps.fit.shape import Shape, prepare
+from kfmaps.fit.shape import Shape, mirror_image, prepare
 from kfmaps.fit.stages import Clock
 from kfmaps.functional.extended import carried
 from kfmaps.functional.guide import Guide, guide
@@ -26,7 +26,7 @@ from kfmaps.functional.refine import ZoomOut
 from kfmaps.parts.answer import Partly, partly, reason
 from kfmaps.parts.decide import suspicion
 from kfmaps.search.alternate import WEIGHT, lying
-from kfmaps.search.choose import Found, choose, closing, loosened, mirror_image
+from kfmaps.search.choose import Found, choose, closing, loosened
 from kfmaps.search.marks import joined, leading
 from kfmaps.search.quality import Probe
 from kfmaps.surface.eigen.pencil import THREADED

@@ -15,11 +15,12 @@ from kfmaps._arrays import KfmapsWarning, refuse, take
 from kfmaps._progress import Progress
 from kfmaps._threads import available_cores
 from kfmaps.config import Config
-from kfmaps.descriptors.shot import shot
+from kfmaps.descriptors.shot import mirrored, shot
 from kfmaps.surface.basis import Basis, laplace_basis
 from kfmaps.surface.eigen.pencil import EXACT
 from kfmaps.surface.inside import Inside, inside
 from kfmaps.surface.mesh import Mesh, check_mesh, surface_area, unit_area, vertex_normals
+from kfmaps.surface.mesh import mirrored as mirrored_mesh
 from kfmaps.surface.samples import stratified_samples, stratified_vertices
 
 FEW, NEARLY = 3_000, 1e-2
@@ -205,6 +206,19 @@ def local_descriptors(
     length = np.sqrt(np.einsum("ij,ij->i", result, result))[:, None]
     np.divide(result, length, out=result, where=length > 0)
     return result
+
+
+def mirror_image(shape: Shape) -> Shape:
+    """The mirror image of a prepared shape, with the same vertices, functions and areas.
+
+    Raises
+    ------
+    InvalidInput
+        For a point cloud, which has no orientation.
+    """
+    if len(shape.mesh.faces) == 0:
+        raise refuse(shape.name, "a surface, which can be mirrored", "a point cloud", "leave orientation at 'kept'")
+    return replace(shape, mesh=mirrored_mesh(shape.mesh), shot=None if shape.shot is None else mirrored(shape.shot))
 
 
 def _placed(mesh: Mesh, part: Inside, small: Mesh) -> Mesh:

@@ -11,6 +11,8 @@ from __future__ import annotations
 
 import math
 
+from scipy.special import expit
+
 MIDDLE, WIDTH = 16.2, 0.43
 """Score at which half of all placings are right, and how fast their share grows there."""
 CLOSE = 1.3
@@ -34,4 +36,4 @@ def part_verdict(score: float, margin: float) -> str:
 
 
 def _fits(score: float) -> float:
-    return 1.0 / (1.0 + math.exp(-min(max((score - MIDDLE) / WIDTH, -700.0), 700.0)))
+    return float(expit((score - MIDDLE) / WIDTH))

@@ -18,14 +18,12 @@ from kfmaps.fit.shape import Shape
 from kfmaps.functional.guide import Guide
 from kfmaps.functional.nonrigid import NonRigid
 from kfmaps.functional.refine import ZoomOut
-from kfmaps.search.bends import Copy, copied
+from kfmaps.search.bends import Copy
 from kfmaps.search.marks import joined
 from kfmaps.surface.basis import Basis
 from kfmaps.surface.mesh import Mesh, vertex_areas, vertex_normals
 from kfmaps.surface.samples import SampledBasis
 
-POINTS = 3000
-"""Vertices of the copies that are bent."""
 ROUNDS = 2
 """Fits, each followed by a refinement on the copies."""
 FIT = NonRigid(stiffness=5e-3, levels=2, steps=4, stretch=0.05)
@@ -58,12 +56,9 @@ class Alternated:
     bent: np.ndarray
 
 
-def grounds(source: Shape, target: Shape) -> Grounds | None:
-    """Copies of two shapes to alternate on; ``None`` where one has no faces to bend."""
-    a, b = copied(source, POINTS), copied(target, POINTS)
-    if a is None or b is None:
-        return None
-    return Grounds(source, target, (a, b), (_sampled(source.basis, a), _sampled(target.basis, b)))
+def grounds(source: Shape, target: Shape, copies: tuple[Copy, Copy]) -> Grounds:
+    """The copies of two shapes to alternate on."""
+    return Grounds(source, target, copies, (_sampled(source.basis, copies[0]), _sampled(target.basis, copies[1])))
 
 
 def turned_round(on: Grounds) -> Grounds:
@@ -101,8 +96,12 @@ def lying(source: Mesh, target: Mesh) -> Guide:
     """
     middle = target.vertices.mean(axis=0)
     size = np.sqrt(2 * ((target.vertices - middle) ** 2).sum(axis=1).mean())
-    sides = (np.hstack([mesh.vertices - middle, NORMALS * vertex_normals(mesh)]) / size for mesh in (source, target))
-    return Guide(*sides)
+    return Guide(*((places(mesh) - np.append(middle, np.zeros(3))) / size for mesh in (source, target)))
+
+
+def places(mesh: Mesh) -> np.ndarray:
+    """Positions and normals of its vertices, (n, 6), in units of length."""
+    return np.hstack([mesh.vertices, NORMALS * vertex_normals(mesh)])
 
 
 def spread(positions: np.ndarray, samples: SampledBasis, basis: Basis, k: int = 100) -> np.ndarray:

@@ -20,7 +20,6 @@ from kfmaps._arrays import refuse, seed_of
 from kfmaps._progress import Progress
 from kfmaps._threads import parallel
 from kfmaps.config import Config
-from kfmaps.descriptors.shot import mirrored
 from kfmaps.fit.fit import Fit, checked_landmarks
 from kfmaps.fit.shape import Shape, inner
 from kfmaps.functional.cells import HASTY
@@ -30,6 +29,7 @@ from kfmaps.functional.refine import CANDIDATES, PAIRS, Refinement, ZoomOut
 from kfmaps.search.arena import POINTS as FEW
 from kfmaps.search.arena import Arena, Ground, arena, turned, without
 from kfmaps.search.candidates import Candidate, again, apart, candidates, differs, judged
+from kfmaps.search.copies import Copies
 from kfmaps.search.learned import learned, plain, speaks
 from kfmaps.search.marks import doubted
 from kfmaps.search.mending import mended
@@ -39,7 +39,6 @@ from kfmaps.search.ranking import CLEAR, CLOSE, DISTINCT, beside, closer, rankin
 from kfmaps.search.symmetries import with_turns
 from kfmaps.search.verdict import excess, probability, verdict
 from kfmaps.surface.basis import Basis
-from kfmaps.surface.mesh import mirrored as mirrored_mesh
 from kfmaps.surface.samples import SampledBasis, stratified_vertices
 
 SURELY = 5.0
@@ -189,23 +188,24 @@ def choose(
             drawn=given,
             report=lambda done: report("candidates", 0.5 + 0.4 * done),
         )
-    ranked = ranking(found, on.whole, source, target, config.threads)
+    copies = Copies.of(source, target, on.whole)
+    ranked = ranking(found, on.whole, copies, config.threads)
     # Asked before a map is sought that bends less: on a left and a right bone it may bend a little less than unduly.
     unduly = bends_unduly(ranked[0])
     if ranked[0].bending is not None:
         behind = np.inf if unduly else CLOSE
         near = [c for c in found if differs(c, ranked[0], on.whole.source) <= DISTINCT]
-        near = closer(ranked, near, on.whole, source, target, config.threads, ALIKE, behind)
+        near = closer(ranked, near, on.whole, copies, config.threads, ALIKE, behind)
         ranked = apart(near, on.whole.source, DISTINCT)
     orientation = "reversed" if config.search.orientation == "reversed" else "kept"
     surfaces = all(p.orientation is not None for p in probes)
     asked = config.search.orientation
     if surfaces and (asked == "either" or (asked == "auto" and unduly)):
         other = turned(on.whole)
-        images = reversed_best(found, other, config.threads)
-        turned_best = ranking(images, other, source, target, config.threads)
+        images, there = reversed_best(found, other, config.threads), Copies.of(source, target, other)
+        turned_best = ranking(images, other, there, config.threads)
         if turned_best and turned_best[0].score > ranked[0].score + (CLEAR if asked == "either" else SURELY):
-            orientation, found, ranked, on = "reversed", images, turned_best, replace(on, whole=other)
+            orientation, found, ranked, copies, on = "reversed", images, turned_best, there, replace(on, whole=other)
     wrong = np.zeros(len(pairs), dtype=bool)
     if len(pairs):
         # Landmarks are judged by the best map as it is when they have no say.
@@ -214,15 +214,14 @@ def choose(
     if wrong.any():
         rest = without(on.whole, wrong)
         found = again(found, rest, config.threads)
-        ranked = ranking(found, rest, source, target, config.threads)
+        ranked = ranking(found, rest, copies, config.threads)
         on = Arena(without(on.few, wrong), rest)
     if taught and (orientation == "kept" or asked == "reversed"):
         more = learned(source, target, config, on, seed, given)
-        ranked = beside(ranked, more, on.whole, source, target, config.threads)
+        ranked = beside(ranked, more, on.whole, copies, config.threads)
     if surfaces and ranked[0].quality.score < MENDED:
-        image = mirror_image(target) if orientation == "reversed" and asked != "reversed" else target
-        ranked = closer(ranked, found, on.whole, source, target, config.threads)
-        ranked = mended(ranked, on.whole, source, image, pairs[~wrong], config.threads, report)
+        ranked = closer(ranked, found, on.whole, copies, config.threads)
+        ranked = mended(ranked, on.whole, copies, pairs[~wrong], config.threads, report)
 
     most = config.search.runners_up
 
@@ -326,16 +325,3 @@ def reversed_best(found: list[Candidate], turned: Ground, threads: int | None = 
 def bends_unduly(found: Candidate) -> bool:
     """Whether it bends the shapes much more than right maps do: something is wrong that its score does not see."""
     return found.bending is not None and excess(found.quality.score, found.bending) > UNDULY
-
-
-def mirror_image(shape: Shape) -> Shape:
-    """The mirror image of a prepared shape, with the same vertices, functions and areas.
-
-    Raises
-    ------
-    InvalidInput
-        For a point cloud, which has no orientation.
-    """
-    if len(shape.mesh.faces) == 0:
-        raise refuse(shape.name, "a surface, which can be mirrored", "a point cloud", "leave orientation at 'kept'")
-    return replace(shape, mesh=mirrored_mesh(shape.mesh), shot=None if shape.shot is None else mirrored(shape.shot))

@@ -16,9 +16,9 @@ from kfmaps._arrays import NotConverged
 from kfmaps.descriptors.shot import shot
 from kfmaps.fit.shape import Shape
 from kfmaps.functional.nonrigid import Facing
-from kfmaps.search.alternate import FIT, NORMALS
+from kfmaps.search.alternate import FIT, places
 from kfmaps.search.bends import Ready, ways
-from kfmaps.surface.mesh import Mesh, vertex_normals
+from kfmaps.surface.mesh import Mesh
 
 RADIUS, SUPPORT = 0.2, 5000
 """Of SHOT, in √area: a foot or a head and what it sits on; and from how many points of the surface."""
@@ -37,7 +37,7 @@ class Sight:
 def sight(mesh: Mesh) -> Sight:
     """Of every few vertices of a ``mesh`` of unit area."""
     at = np.arange(0, len(mesh.vertices), STEP)
-    return Sight(_places(mesh)[at], _descriptors(mesh, at))
+    return Sight(places(mesh)[at], _descriptors(mesh, at))
 
 
 def difference(seen: Sight, other: Mesh) -> float:
@@ -45,12 +45,8 @@ def difference(seen: Sight, other: Mesh) -> float:
 
     Each point is compared with the vertex that lies nearest; the points of a copy are spread evenly and count alike.
     """
-    near = np.asarray(KDTree(_places(other)).query(seen.places)[1])
+    near = np.asarray(KDTree(places(other)).query(seen.places)[1])
     return float(((seen.descriptors - _descriptors(other, near)) ** 2).sum(axis=1).mean())
-
-
-def _places(mesh: Mesh) -> np.ndarray:
-    return np.hstack([mesh.vertices, NORMALS * vertex_normals(mesh)])
 
 
 def _descriptors(mesh: Mesh, at: np.ndarray) -> np.ndarray:

@@ -15,13 +15,12 @@ import numpy as np
 from kfmaps._arrays import NotConverged
 from kfmaps._progress import Done, Progress
 from kfmaps._threads import parallel
-from kfmaps.fit.shape import Shape
 from kfmaps.functional.guide import Guide, guide
 from kfmaps.search.alternate import alternated, grounds, turned_round
 from kfmaps.search.arena import Ground
-from kfmaps.search.bends import MORE, copied, ready
 from kfmaps.search.candidates import FINE, TIP_FUNCTIONS, Candidate, apart, judged, paired_map
-from kfmaps.search.looks import looks, mismatch
+from kfmaps.search.copies import Copies
+from kfmaps.search.looks import mismatch
 from kfmaps.search.marks import leading
 from kfmaps.search.pairings import Limbs, completed, induced, limbs_of, pairings, unheard
 from kfmaps.search.quality import Probe
@@ -44,8 +43,7 @@ TWIN = 0.03
 def mended(
     ranked: list[Candidate],
     on: Ground,
-    source: Shape,
-    target: Shape,
+    copies: Copies,
     landmarks: np.ndarray,
     threads: int | None = None,
     progress: Progress | None = None,
@@ -59,12 +57,11 @@ def mended(
     A refinement may send a leg to the tail, and what is mended keeps to the tips that it has paired. So the likeliest
     pairings of tips (:mod:`kfmaps.search.pairings`) that none of these maps has are begun with as well.
     """
-    both = grounds(source, target)
-    finer = copied(source, MORE), copied(target, MORE)
-    if both is None or finer[0] is None or finer[1] is None:
+    finer = copies.finer
+    if finer is None:
         return ranked
-    copies, shot = ready(finer[0], finer[1]), guide(source.shot, target.shot)
-    at_rest = looks(copies)
+    source, target = copies.source, copies.image
+    both, shot = grounds(source, target, finer.on.copies), guide(source.shot, target.shot)
 
     near, rest = mendable(ranked, on.source)
     likely = pairings(on.source, on.target, on.shot)
@@ -94,7 +91,7 @@ def mended(
         size = min(FINE, len(found.functional_map))
         C = found.functional_map[:size, :size]
         new = judged([(old.name, old.guided)], (C.T if backwards else C)[None], None, on, 1)[0]
-        new = replace(seen(new, source, target, copies), bent=found.bent, backwards=backwards)
+        new = replace(seen(new, source, target, finer.on), bent=found.bent, backwards=backwards)
         tell(1.0)
         return new
 
@@ -106,11 +103,11 @@ def mended(
         if i >= len(near) or new.quality.score >= old.quality.score:
             return new
         other = mend(*begun[i], lambda _done: None, backwards=False)
-        states = [new, seen(old, source, target, copies), *([] if other is None else [other])]
+        states = [new, seen(old, source, target, finer.on), *([] if other is None else [other])]
         return max(states, key=lambda c: c.score)
 
     def looked_at(found: Candidate) -> Candidate:
-        return replace(found, mismatch=mismatch(found.functional_map, source, target, at_rest))
+        return replace(found, mismatch=mismatch(found.functional_map, source, target, finer))
 
     tell(0, 0.0)
     made = parallel(better, range(len(begun)), threads)

@@ -15,9 +15,10 @@ import numpy as np
 from kfmaps._threads import parallel
 from kfmaps.fit.shape import Shape
 from kfmaps.search.arena import Ground
-from kfmaps.search.bends import LONGER, MORE, Ready, bending, bent, copied, ready
+from kfmaps.search.bends import LONGER, Ready, bending, bent
 from kfmaps.search.candidates import APART, Candidate, apart, differs
-from kfmaps.search.looks import looks, mismatch
+from kfmaps.search.copies import Copies
+from kfmaps.search.looks import mismatch
 from kfmaps.search.quality import Probe
 
 DISTINCT = 0.08
@@ -35,20 +36,18 @@ LOOKED, CLOSE = 2.5, 1.0
 those that hardly differ are bent at all."""
 
 
-def ranking(
-    found: list[Candidate], on: Ground, source: Shape, target: Shape, threads: int | None = None
-) -> list[Candidate]:
+def ranking(found: list[Candidate], on: Ground, copies: Copies, threads: int | None = None) -> list[Candidate]:
     """The distinct ones of ``found``, best first; the first few are judged by how far the source must bend as well."""
     ranked = distinct(found, on.source)
     near = [c for c in ranked[:BENT] if c.score > ranked[0].score - BEHIND]
-    tried = with_bending(near, on, source, target, threads)
+    tried = with_bending(near, copies, threads)
     if not tried:
         return ranked
     # As bad as the worst, so that none that was not tried comes first.
     worst = max(c.bending for c in tried if c.bending is not None)
     order = in_order([*tried, *(replace(c, bending=worst) for c in ranked[len(near) :])])
     if len(near) > 1 and order[0].score - order[1].score < LOOKED:
-        return second_look(order, on, source, target, threads)
+        return second_look(order, copies, threads)
     return order
 
 
@@ -56,8 +55,7 @@ def closer(
     ranked: list[Candidate],
     found: list[Candidate],
     on: Ground,
-    source: Shape,
-    target: Shape,
+    copies: Copies,
     threads: int | None = None,
     distance: float = APART,
     behind: float = np.inf,
@@ -70,17 +68,14 @@ def closer(
     best = apart(in_order(found), on.source, distance, CLOSER)
     known = [c.functional_map for c in ranked]
     more = [c for c in best if c.score > best[0].score - behind and not any(c.functional_map is C for C in known)]
-    return in_order([*ranked, *with_bending(more, on, source, target, threads)])
+    return in_order([*ranked, *with_bending(more, copies, threads)])
 
 
-def with_bending(
-    found: list[Candidate], on: Ground, source: Shape, target: Shape, threads: int | None = None
-) -> list[Candidate]:
+def with_bending(found: list[Candidate], copies: Copies, threads: int | None = None) -> list[Candidate]:
     """``found`` with how far the coarse copies must bend; none where a shape has no copy to bend."""
-    copies = on.source.copy, on.target.copy
-    if copies[0] is None or copies[1] is None or not found:
+    if not found or copies.few is None:
         return []
-    both = ready(copies[0], copies[1])
+    source, target, both = copies.source, copies.target, copies.few
     energies = parallel(lambda c: bending(c.functional_map, source, target, both), found, threads)
     return [replace(c, bending=energy) for c, energy in zip(found, energies, strict=True)]
 
@@ -89,37 +84,32 @@ def beside(
     ranked: list[Candidate],
     more: list[Candidate],
     on: Ground,
-    source: Shape,
-    target: Shape,
+    copies: Copies,
     threads: int | None = None,
 ) -> list[Candidate]:
     """``ranked``, and the best of ``more`` that is none of them: first where it is clearly better, else a rival."""
     others = [c for c in more if all(differs(c, one, on.source) > DISTINCT for one in ranked)]
     if not others or max(c.quality.score for c in others) < ranked[0].quality.score - BEHIND:
         return ranked
-    new = ranking(others, on, source, target, threads)[0]
+    new = ranking(others, on, copies, threads)[0]
     if new.score > ranked[0].score + CLEAR:
         return [new, *ranked]
     return [ranked[0], *sorted([*ranked[1:], new], key=lambda c: c.score, reverse=True)]
 
 
-def second_look(
-    order: list[Candidate], on: Ground, source: Shape, target: Shape, threads: int | None = None
-) -> list[Candidate]:
+def second_look(order: list[Candidate], copies: Copies, threads: int | None = None) -> list[Candidate]:
     """The first two with how they look when bent; where they are close, bent with more points and patience too.
 
     A map that swaps front and back may come first by a margin that leaves no doubt to the score.
     """
-    finer = copied(source, MORE), copied(target, MORE)
-    if finer[0] is None or finer[1] is None:
+    source, target, finer = copies.source, copies.target, copies.finer
+    if finer is None:
         return order
-    both = ready(finer[0], finer[1].mirrored() if on.target.mirrored else finer[1])
-    at_rest = looks(both)
     close = order[0].score - order[1].score < CLOSE
 
     def look(found: Candidate) -> Candidate:
-        found = seen(found, source, target, both) if close else found
-        return replace(found, mismatch=mismatch(found.functional_map, source, target, at_rest))
+        found = seen(found, source, target, finer.on) if close else found
+        return replace(found, mismatch=mismatch(found.functional_map, source, target, finer))
 
     found = parallel(look, order[:2], threads)
     # Nothing is added for looks: the best is compared with maps that nobody has looked at.

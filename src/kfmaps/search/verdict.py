@@ -10,6 +10,8 @@ from __future__ import annotations
 
 import math
 
+from scipy.special import expit
+
 SLOPE, MIDDLE = 0.92, -10.0
 """Of the logistic function of the score, and the score at which half of all maps are right."""
 TIE = 0.4
@@ -29,19 +31,15 @@ def probability(score: float, margin: float, bending: float | None = None) -> fl
 
     ``bending``: see :func:`kfmaps.search.bends.bending`; ``None`` where nothing can be bent.
     """
-    fits = _logistic(SLOPE * (score - MIDDLE))
+    fits = float(expit(SLOPE * (score - MIDDLE)))
     if bending is not None:
-        fits *= _logistic((MUCH - excess(score, bending)) / WIDTH)
+        fits *= float(expit((MUCH - excess(score, bending)) / WIDTH))
     return fits * (1.0 - 0.5 * math.exp(-max(margin, 0.0) / TIE))
 
 
 def excess(score: float, bending: float) -> float:
     """By how much the logarithm of the bending energy exceeds that of right maps of such a ``score``."""
     return math.log(bending) - BENT - PER_SCORE * score
-
-
-def _logistic(x: float) -> float:
-    return 1.0 / (1.0 + math.exp(-min(max(x, -700.0), 700.0)))
 
 
 def verdict(score: float, margin: float, bending: float | None = None) -> str:
