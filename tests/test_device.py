@@ -1,4 +1,4 @@
-"""Everything from the basis on through PyTorch, here on the CPU: the same answers as NumPy."""
+"""Everything from the basis on through PyTorch, on the CPU and on a GPU where there is one: NumPy's answers."""
 
 from dataclasses import replace
 
@@ -15,6 +15,8 @@ from kfmaps.matching import match
 from kfmaps.surface.mesh import unit_area
 
 torch = pytest.importorskip("torch")
+
+DEVICES = ["torch", *(["cuda"] if torch.cuda.is_available() else [])]
 
 CONFIG = Config(
     basis=BasisConfig(functions=30),
@@ -44,13 +46,13 @@ def pair():
     return source, target
 
 
+@pytest.mark.parametrize("where", DEVICES)
 @pytest.mark.parametrize("name", VARIANTS)
-def test_pytorch_agrees_with_numpy(name, pair):
+def test_pytorch_agrees_with_numpy(name, where, pair):
     config = VARIANTS[name]
     landmarks = [[0, 0], [300, 270], [700, 620]]
     ours, theirs = (
-        match(pair[0], pair[1], replace(config, device=device), landmarks=landmarks, rng=0)
-        for device in ("cpu", "torch")
+        match(pair[0], pair[1], replace(config, device=device), landmarks=landmarks, rng=0) for device in ("cpu", where)
     )
     scale = np.abs(ours.raw_functional_map).max()
     np.testing.assert_allclose(theirs.raw_functional_map, ours.raw_functional_map, atol=1e-8 * scale, rtol=0)
