@@ -230,7 +230,7 @@ def test_copies_have_no_loose_points(creature):
 
 def test_what_bends_less_comes_first_and_what_was_not_tried_never(creature, on):
     found = rough(from_tips(40, on.few), on.few, 40)
-    ranked = ranking(found, on.whole, Copies.of(*creature[:2], on.whole))
+    ranked = ranking(found, on.whole, Copies.of(creature[0], creature[1], on.whole))
     scores = [c.score for c in ranked]
     assert scores == sorted(scores, reverse=True)
     equal = [replace(ranked[0], bending=b) for b in (0.3, 0.1, 0.2)]
