@@ -4,24 +4,38 @@ from __future__ import annotations
 
 from dataclasses import replace
 from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
 
 import kfmaps
 from kfmaps._arrays import NotConverged
+from kfmaps.app.datasets.creature import SYMMETRIC, WAVE
+from kfmaps.app.datasets.pairs import Pair, posed_pair
+from kfmaps.app.datasets.skeleton import Bend, Body
 from kfmaps.functional.points import nearest, to_functional
 from kfmaps.search import alternate, choose, copies, looks, mending, ranking
 from kfmaps.search.arena import arena
 from kfmaps.search.bends import copied, ready
-from kfmaps.search.candidates import LOOKS, STRAIN, judged
+from kfmaps.search.candidates import LOOKS, STRAIN, differs, judged
 from kfmaps.search.choose import unled
 from kfmaps.search.copies import Copies
 from kfmaps.search.looks import difference, mismatch, sight
 from kfmaps.search.mending import HOPELESS, compared, mended
 from kfmaps.search.quality import probe
-from kfmaps.search.ranking import LOOKED, over, second_look, usual
-from kfmaps.surface.mesh import Mesh
+from kfmaps.search.ranking import DISTINCT, LOOKED, over, second_look, usual
+from kfmaps.surface.mesh import Mesh, unit_area
+
+
+@pytest.fixture(scope="module")
+def knees() -> Pair:
+    """A creature that is the same on both sides, its feet nearly touching, and at rest."""
+    inwards = {
+        f"{side} leg": Bend(((0, 0, turn), (0, 0, 0), (0, 0, 0))) for side, turn in (("left", -12), ("right", 12))
+    }
+    draw = np.random.default_rng(0)
+    return posed_pair("knees", Body(SYMMETRIC), {**WAVE, **inwards}, {}, (1500, 1200), draw, mirror=True)
 
 
 @pytest.fixture(scope="module")
@@ -32,8 +46,8 @@ def at_rest(creatures):
     return looks.looks(ready(source, target))
 
 
-def functional(points, source, target):
-    return np.asarray(to_functional(points, source.basis.truncated(40), target.basis.truncated(40)))
+def functional(points, source, target, k=40):
+    return np.asarray(to_functional(points, source.basis.truncated(k), target.basis.truncated(k)))
 
 
 def test_differences_are_squared_and_from_what_lies_nearest(creatures, monkeypatch):
@@ -139,6 +153,36 @@ def test_of_mended_maps_the_one_that_looks_right_comes_first(creatures, monkeypa
     found = mended([bad, good], on, Copies.of(source, target, on), nowhere, 1)
     assert [c.name for c in found] == ["truth", "bad"]
     assert [c.mismatch for c in found] == pytest.approx([0.0, 0.05])
+
+
+def exchanged(knees, height):
+    """The true map, but left for right below a ``height``; the creature is two high."""
+    assert knees.mirrored is not None
+    return np.where(knees.target.vertices[:, 1] < height, knees.mirrored, knees.truth)
+
+
+def test_feet_that_touch_are_exchanged_by_another_map(knees):
+    """Their images hardly move in space, and yet such a map is neither the same nor one that differs."""
+    on: Any = SimpleNamespace(positions=unit_area(knees.source).vertices)
+    right: Any = SimpleNamespace(points=knees.truth)
+    wrong: Any = SimpleNamespace(points=exchanged(knees, 0.1))
+    assert choose.ALIKE < differs(right, wrong, on) < DISTINCT
+
+
+def test_looks_decide_where_they_are_asked_for_but_bring_nothing_back(knees):
+    """What they say against a map that exchanges all below the waist is more than the margin below which they are asked
+    for, and less than what is hopeless."""
+    plain = replace(kfmaps.Config.automatic(), descriptors=replace(kfmaps.Config.automatic().descriptors, shot=False))
+    source, target = (kfmaps.prepare(mesh, plain, name="a") for mesh in (knees.source, knees.target))
+    a, b = copied(source), copied(target)
+    assert a is not None
+    assert b is not None
+    on = looks.looks(ready(a, b))
+    maps = (functional(points, source, target, 60) for points in (knees.truth, exchanged(knees, 0.7)))
+    good, bad = (mismatch(C, source, target, on) for C in maps)
+    assert good is not None
+    assert bad is not None
+    assert LOOKED < LOOKS * (bad - good) < HOPELESS
 
 
 @pytest.mark.parametrize(("margin", "again"), [(2.0, False), (0.5, True)])
