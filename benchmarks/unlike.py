@@ -4,10 +4,11 @@
 
 Mean errors of whole matches without landmarks: as rigidly as possible throughout; with rest shapes that are stretched
 evenly (:mod:`kfmaps.functional.stretch`) while shapes are bent and matched in turn and in the last fit; with maps that
-begin with the likeliest pairings of the tips of limbs beside (:func:`kfmaps.search.mending.mended`); and with torn area
-counted where others may be less torn (:func:`kfmaps.matching.worthier`), which is all that there is. DIR is as for
-benchmarks/automatic.py. The half ``report``, the default, has the pairs of that script, none of two shapes that
-settings were chosen on; ``choice`` has pairs of two such shapes. Three pairs of either set take about eight minutes.
+begin with the likeliest pairings of the tips of limbs beside (:func:`kfmaps.search.mending.mended`); with torn area
+counted where others may be less torn (:func:`kfmaps.matching.worthier`); and with parts that touch told apart in the
+end (:mod:`kfmaps.functional.landing`), which is all that there is. DIR is as for benchmarks/automatic.py. The half
+``report``, the default, has the pairs of that script, none of two shapes that settings were chosen on; ``choice`` has
+pairs of two such shapes. Three pairs of either set take about ten minutes.
 """
 
 from __future__ import annotations
@@ -25,17 +26,25 @@ from automatic import CHOSEN_ON, Job, loaded, pairs_of
 
 import kfmaps
 from kfmaps import matching
+from kfmaps.functional import nonrigid
 from kfmaps.search import alternate, choose, mending
+from kfmaps.surface.closest import places_on
 
 RIGID = replace(alternate.FIT, stretch=0.0)
 ONCE = (matching, "TORN", 2.0)
 """More than all of the target is never torn."""
 UNPAIRED = (mending, "PAIRED", 0)
+CLOSEST = (
+    nonrigid,
+    "landed",
+    lambda _points, body, x, target, _normals: places_on(target.vertices, x, body.mesh.faces),
+)
 KINDS = {
-    "as rigid as possible": ((alternate, "FIT", RIGID), (choose, "STRETCH", 0.0), UNPAIRED, ONCE),
-    "stretched evenly": (UNPAIRED, ONCE),
-    "and pairings of tips": (ONCE,),
-    "and torn area": (),
+    "as rigid as possible": ((alternate, "FIT", RIGID), (choose, "STRETCH", 0.0), UNPAIRED, ONCE, CLOSEST),
+    "stretched evenly": (UNPAIRED, ONCE, CLOSEST),
+    "and pairings of tips": (ONCE, CLOSEST),
+    "and torn area": (CLOSEST,),
+    "and parts that touch": (),
 }
 
 

@@ -6,7 +6,8 @@ by a non-rigid ICP (Amberg et al. 2007) that begins with the map: closest points
 normals, and distances mostly along the normal, so that points may slide to where they bend the source least.
 Neighbouring rotations are kept alike (Levi and Gotsman 2015): their differences are less at the true correspondence
 than at a map whose limbs are twisted, where bending alone hardly tells the two apart. Landmarks hold softly. Then each
-target vertex takes the closest point on the bent source, inside a triangle.
+target vertex takes the closest point on the bent source, inside a triangle; where parts of a body touch, of the right
+one (:mod:`kfmaps.functional.landing`).
 
 It comes last: a refinement after it would go back to where it was.
 """
@@ -22,11 +23,12 @@ from scipy.sparse import csr_array, diags_array
 
 from kfmaps._arrays import check_count, check_positive, refuse
 from kfmaps.functional.bodies import Body, Look, body_of, look, unfolded
+from kfmaps.functional.landing import landed
 from kfmaps.functional.lift import LARGE, bent_copy
 from kfmaps.functional.points import check_point_map
 from kfmaps.functional.pulls import Term, descended
 from kfmaps.functional.stretch import stretching
-from kfmaps.surface.closest import Places, places_on
+from kfmaps.surface.closest import Places
 from kfmaps.surface.eigen.factor import factorise
 from kfmaps.surface.mesh import Mesh, vertex_areas, vertex_normals
 from kfmaps.surface.rigidity import bending, nearest_rotations, rotations
@@ -52,9 +54,9 @@ class Registered:
     vertices : (n_s, 3) float64
         The source's, where they lie on the target.
     faces : (n_t,) int64
-        The source face that is closest to each target vertex, ...
+        The source face that each target vertex lies on, ...
     weights : (n_t, 3) float64
-        ... and the barycentric coordinates of the closest point in it.
+        ... and the barycentric coordinates of its place there (:func:`kfmaps.functional.landing.landed`).
     bending : float
         As-rigid-as-possible energy per area (:func:`kfmaps.surface.rigidity.bending`): 0 for a motion.
     gap : float
@@ -121,7 +123,7 @@ class NonRigid:
             When one of them is a point cloud, or the map does not fit.
         """
         pair, x, gap = self._bent(source, target, target_to_source, progress, landmarks, held)
-        found = places_on(target.vertices, x, source.faces)
+        found = landed(target_to_source, pair.body, x, target, pair.normals_t)
         energy = bending(pair.body.energy, x) / float(pair.body.areas.sum())
         return Registered(x, found.faces, found.weights, energy, gap)
 

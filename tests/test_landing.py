@@ -1,0 +1,109 @@
+"""Places on a bent source where a body touches itself."""
+
+import numpy as np
+import pytest
+
+from kfmaps import datasets
+from kfmaps.functional.bodies import body_of
+from kfmaps.functional.landing import APART, landed
+from kfmaps.functional.nonrigid import NonRigid
+from kfmaps.surface.closest import closest_of, places_on
+from kfmaps.surface.mesh import Mesh, unit_area, vertex_normals
+
+
+def sheet(height: float, size: int = 9, up: bool = True) -> Mesh:
+    """A square of side 1 with normals up or down."""
+    x, y = np.meshgrid(*2 * [np.linspace(0, 1, size)], indexing="ij")
+    corner = (np.arange(size - 1)[:, None] * size + np.arange(size - 1)).ravel()
+    faces = np.vstack(
+        [
+            np.stack([corner, corner + size, corner + size + 1], axis=1),
+            np.stack([corner, corner + size + 1, corner + 1], axis=1),
+        ]
+    )
+    vertices = np.stack([x.ravel(), y.ravel(), np.full(size**2, height)], axis=1)
+    return Mesh(vertices, faces if up else faces[:, ::-1])
+
+
+def both(one: Mesh, other: Mesh) -> Mesh:
+    return Mesh(np.vstack([one.vertices, other.vertices]), np.vstack([one.faces, other.faces + len(one.vertices)]))
+
+
+def test_the_normal_tells_sides_apart_that_nearly_touch() -> None:
+    """Two sheets face each other 0.004 apart, and the target's has gone 0.003 too far: halfway through and beyond."""
+    source = both(sheet(0.0), sheet(0.004, up=False))
+    target = sheet(0.003)
+    n = len(target.vertices)
+    nowhere = np.zeros(n, dtype=np.int64)
+    found = landed(nowhere, body_of(source), source.vertices, target, vertex_normals(target))
+    assert (places_on(target.vertices, source.vertices, source.faces).faces >= len(target.faces)).all()
+    assert (found.faces < len(target.faces)).all()
+    np.testing.assert_allclose(found.distances, 0.003)
+    np.testing.assert_allclose(found.points, target.vertices * (1, 1, 0), atol=1e-12)
+
+
+@pytest.mark.parametrize("mine", [0, 1])
+def test_the_map_tells_parts_apart_that_lie_on_each_other(mine: int) -> None:
+    """Far apart at rest, 0.002 and of like normals when bent; the map may be off by half of the way at rest."""
+    one = sheet(0.0)
+    n = len(one.vertices)
+    rest = both(one, Mesh(one.vertices + np.array([3.0, 0, 0]), one.faces))
+    x = both(one, sheet(0.002)).vertices
+    target = sheet(0.0005 if mine else 0.0015)  # nearer to the other one
+    off = (np.arange(n) // 9 + 4) % 9 * 9 + np.arange(n) % 9  # along the sheet
+    body, normals = body_of(rest), vertex_normals(target)
+    found = landed(mine * n + off, body, x, target, normals)
+    wrong = places_on(target.vertices, x, rest.faces).faces // len(one.faces) != mine
+    assert wrong.all()
+    assert (found.faces // len(one.faces) == mine).all()
+    np.testing.assert_allclose(found.distances, 0.0015)
+    # A part that the map has elsewhere altogether is not fetched from afar: what the fit has found back stays so.
+    far = x + np.repeat([[0, 0, 0], [0, 0, 3 * 1.1 * APART]], n, axis=0)
+    there = landed(np.full(n, n), body, far, target, normals)
+    assert (there.faces < len(one.faces)).all()
+
+
+def test_long_thin_triangles_keep_the_closest_place() -> None:
+    """Their nearest vertex is seldom one of the closest face: what is sought by vertices alone would be far off."""
+    mesh = datasets.sphere(100, rng=0)
+    source = Mesh(mesh.vertices * (1.0, 1.0, 12.0), mesh.faces)
+    normals = vertex_normals(source)[source.faces].mean(axis=1)
+    normals /= np.linalg.norm(normals, axis=1, keepdims=True)
+    points = source.vertices[source.faces].mean(axis=1) + 1e-3 * normals
+    target = Mesh(points, np.array([[0, 1, 2]]))
+    body = body_of(source)
+    near = np.linalg.norm(points[:, None] - source.vertices, axis=2).argmin(axis=1)
+    ring = closest_of(points, source.vertices, source.faces, *body.around.around(near))
+    closest = places_on(points, source.vertices, source.faces)
+    assert (ring.distances > 10 * closest.distances).mean() > 0.1
+    found = landed(near, body, source.vertices, target, normals)
+    assert (found.distances < closest.distances + 1e-2).all()
+    corners = source.vertices[source.faces[found.faces]]
+    np.testing.assert_allclose(np.einsum("ti,tij->tj", found.weights, corners), found.points, atol=1e-12)
+    np.testing.assert_allclose(np.linalg.norm(found.points - points, axis=1), found.distances, atol=1e-12)
+
+
+def hairpin(gap: float) -> Mesh:
+    """A rod bent round a half circle, its arms ``gap`` apart; below 0 they overlap."""
+    ball = datasets.sphere(1500, rng=2)
+    along = 2 * np.arcsin(np.clip(ball.vertices[:, 0], -1, 1)) / (np.pi / 2)
+    across = ball.vertices[:, 1:] / np.maximum(np.linalg.norm(ball.vertices[:, 1:], axis=1, keepdims=True), 1e-9)
+    y, z = (0.2 * np.sqrt(np.clip(1 - (along / 2) ** 8, 0, 1))[:, None] * across).T
+    radius = gap / 2 + 0.2
+    half = np.pi * radius / 2
+    angle, arm = np.clip(along / half, -1, 1) * np.pi / 2, np.maximum(np.abs(along) - half, 0)
+    vertices = np.stack([(radius + y) * np.sin(angle), (radius + y) * np.cos(angle) - arm, z], axis=1)
+    return unit_area(Mesh(vertices, ball.faces))
+
+
+def test_arms_that_sink_into_each_other_keep_their_points() -> None:
+    """An open hairpin bent onto a closed one, begun with the true map: no vertex lands on the other arm."""
+    rest, closed = hairpin(0.4), hairpin(-0.02)
+    found = NonRigid(levels=2, steps=3)(rest, closed, np.arange(len(rest.vertices)))
+    plain = places_on(closed.vertices, found.vertices, rest.faces)
+    away, before = (
+        np.linalg.norm(np.einsum("ti,tij->tj", w, rest.vertices[rest.faces[f]]) - rest.vertices, axis=1)
+        for f, w in ((found.faces, found.weights), (plain.faces, plain.weights))
+    )
+    assert (before > 0.12).sum() >= 3
+    assert (away > 0.12).sum() == 0
