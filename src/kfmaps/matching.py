@@ -26,8 +26,8 @@ from kfmaps.functional.refine import ZoomOut
 from kfmaps.parts.answer import Partly, partly, reason
 from kfmaps.parts.decide import suspicion
 from kfmaps.search.alternate import WEIGHT, lying
-from kfmaps.search.choose import Found, choose, closing, loosened
-from kfmaps.search.marks import joined, leading
+from kfmaps.search.choose import Found, alike, choose, closing, loosened
+from kfmaps.search.marks import LEAD, LESS, joined, leading
 from kfmaps.search.quality import Probe
 from kfmaps.surface.eigen.pencil import THREADED
 from kfmaps.surface.mesh import MIRROR, Mesh, vertex_areas
@@ -300,7 +300,7 @@ def match(
 def _led(found: Found, shapes: list[Shape]) -> Guide | None:
     """What leads the refinement of a map that a search has found."""
     tips = found.limbs and found.limbs.guide(shapes[0].mesh, shapes[1].mesh)
-    led = leading(shapes[0], shapes[1], found.landmarks, tips)
+    led = leading(shapes[0], shapes[1], found.landmarks, tips, lead=LEAD if alike(found) else LESS)
     if found.bent is None:
         return led
     meshes = [shape.mesh for shape in shapes]

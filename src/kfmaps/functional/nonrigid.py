@@ -37,12 +37,14 @@ DECLINE = 10**-0.5
 """Stiffness of a level over that of the one before."""
 LAST = 2
 """Searches of a large mesh, at the last level: the others are its coarse copy's."""
-HOLD = 6.0
+HOLD = 15.0
 """Weight of a landmark over the stiffness of a level: softly enough that those 3 % of √area off do no harm."""
 DISC = 1e-3
 """Area around a landmark that goes with it."""
-SLOPPY = 0.03
+SLOPPY = 0.06
 """Distance from a landmark, in √area, from which its pull fades: a click that is off does no harm."""
+FIRMLY, LOOSELY = 30.0, 0.1
+"""Both for shapes of other proportions, whose maps are farther off than a click."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -184,6 +186,7 @@ class NonRigid:
         stretched = stretching(pair.body.energy, pair.body.areas, self.stretch)
         marks = np.zeros((0, 2), dtype=np.int64) if marks is None else marks
         discs = _discs(pair, marks)
+        hold, fading = (FIRMLY, LOOSELY) if self.stretch else (HOLD, SLOPPY)
         stays = [] if held is None or not held.any() else [_stays(pair, points, held)]
         gap = 0.0
         for level in levels:
@@ -193,7 +196,7 @@ class NonRigid:
                 terms, gap = _closest_terms(pair, x)
                 terms += stays
                 if len(marks):
-                    terms.append(_marked(pair, marks, discs, x, HOLD * stiffness))
+                    terms.append(_marked(pair, marks, discs, x, hold * stiffness, fading))
                 turns = stretched(x, even(rotations(pair.body.energy, x)))
                 x = descended(pair.body.energy, stiffness, solve, terms, x, turns)
                 done = (level - levels[0]) * steps + step + 1
@@ -251,10 +254,12 @@ def _discs(pair: Facing, landmarks: np.ndarray) -> np.ndarray:
     return pair.body.areas[:, None] * np.asarray(diffuse(points)).reshape(n, count)
 
 
-def _marked(pair: Facing, landmarks: np.ndarray, discs: np.ndarray, x: np.ndarray, weight: float) -> Term:
-    """Landmarks ``(l, 2)`` as a term: each takes its disc along, those that are far off with less weight."""
+def _marked(
+    pair: Facing, landmarks: np.ndarray, discs: np.ndarray, x: np.ndarray, weight: float, fading: float
+) -> Term:
+    """Landmarks ``(l, 2)`` as a term: each takes its disc along, those farther off than ``fading`` with less weight."""
     missing = pair.target.vertices[landmarks[:, 1]] - x[landmarks[:, 0]]
-    shares = weight * discs / (1 + (missing**2).sum(axis=1) / SLOPPY**2) ** 2
+    shares = weight * discs / (1 + (missing**2).sum(axis=1) / fading**2) ** 2
     held = shares.sum(axis=1)
     return Term(held, x + shares @ missing / np.maximum(held, 1e-300)[:, None])
 

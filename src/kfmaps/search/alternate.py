@@ -11,6 +11,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
+from scipy.spatial import KDTree
 
 from kfmaps._arrays import to_numpy
 from kfmaps._progress import Done
@@ -40,12 +41,13 @@ RIDGE = 1e-3
 
 @dataclass(frozen=True, eq=False)
 class Grounds:
-    """Copies of both shapes with their functions; made by :func:`grounds`."""
+    """Copies of both shapes with their functions, and their landmarks ``(l, 2)``; made by :func:`grounds`."""
 
     source: Shape
     target: Shape
     copies: tuple[Copy, Copy]
     bases: tuple[SampledBasis, SampledBasis]
+    landmarks: np.ndarray
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,14 +58,21 @@ class Alternated:
     bent: np.ndarray
 
 
-def grounds(source: Shape, target: Shape, copies: tuple[Copy, Copy]) -> Grounds:
-    """The copies of two shapes to alternate on."""
-    return Grounds(source, target, copies, (_sampled(source.basis, copies[0]), _sampled(target.basis, copies[1])))
+def grounds(source: Shape, target: Shape, copies: tuple[Copy, Copy], landmarks: np.ndarray | None = None) -> Grounds:
+    """The copies of two shapes to alternate on, with the vertices there that are nearest to ``landmarks (l, 2)``."""
+    marks = np.zeros((0, 2), dtype=np.int64) if landmarks is None else landmarks
+    near = [
+        KDTree(shape.mesh.vertices[copy.vertices]).query(shape.mesh.vertices[at])[1]
+        for shape, copy, at in zip((source, target), copies, marks.T, strict=True)
+    ]
+    bases = _sampled(source.basis, copies[0]), _sampled(target.basis, copies[1])
+    return Grounds(source, target, copies, bases, np.stack(near, axis=1))
 
 
 def turned_round(on: Grounds) -> Grounds:
     """The same copies for maps the other way."""
-    return Grounds(on.target, on.source, (on.copies[1], on.copies[0]), (on.bases[1], on.bases[0]))
+    a, b = on.copies
+    return Grounds(on.target, on.source, (b, a), (on.bases[1], on.bases[0]), on.landmarks[:, ::-1])
 
 
 def alternated(C: np.ndarray, on: Grounds, led: Guide | None, report: Done | None = None) -> Alternated:
@@ -81,7 +90,7 @@ def alternated(C: np.ndarray, on: Grounds, led: Guide | None, report: Done | Non
     found = refine(C, *on.bases, guide=here)
     bent = a.mesh.vertices
     for i in range(ROUNDS):
-        bent = FIT.vertices(a.mesh, b.mesh, found.target_to_source)
+        bent = FIT.vertices(a.mesh, b.mesh, found.target_to_source, landmarks=on.landmarks)
         lie = lying(Mesh(bent, a.mesh.faces), b.mesh)
         found = refine(found.functional_map, *on.bases, guide=joined([(1.0, here), (WEIGHT, lie)]))
         if report is not None:

@@ -16,7 +16,7 @@ from typing import Any
 
 import numpy as np
 
-from kfmaps._arrays import refuse, seed_of
+from kfmaps._arrays import refuse, seed_of, to_numpy
 from kfmaps._progress import Progress
 from kfmaps._threads import parallel
 from kfmaps.config import Config
@@ -31,7 +31,7 @@ from kfmaps.search.arena import Arena, Ground, arena, turned, without
 from kfmaps.search.candidates import Candidate, again, apart, candidates, differs, judged
 from kfmaps.search.copies import Copies
 from kfmaps.search.learned import learned, plain, speaks
-from kfmaps.search.marks import doubted
+from kfmaps.search.marks import backing, doubted
 from kfmaps.search.mending import mended
 from kfmaps.search.pairings import Limbs, limbs
 from kfmaps.search.quality import Probe, probe, thinned
@@ -208,9 +208,7 @@ def choose(
             orientation, found, ranked, copies, on = "reversed", images, turned_best, there, replace(on, whole=other)
     wrong = np.zeros(len(pairs), dtype=bool)
     if len(pairs):
-        # Landmarks are judged by the best map as it is when they have no say.
-        alone = again(ranked[:1], replace(on.whole, landmarks=None), config.threads)
-        wrong = doubted(alone[0].missed)
+        wrong = doubted(alone(ranked[0], on.whole, config.threads).missed)
     if wrong.any():
         rest = without(on.whole, wrong)
         found = again(found, rest, config.threads)
@@ -227,14 +225,14 @@ def choose(
 
     def told(best: Candidate, rest: list[Candidate]) -> Found:
         others = rest[:most]
-        margin = max(best.score - rest[0].score, 0.0) if rest else np.inf
-        score = best.quality.score
+        margin = float(max(best.score - rest[0].score, 0.0) if rest else np.inf)
+        score, backed = best.quality.score, backed_by(best, on.whole, config.threads)
         return Found(
             functional_map=best.functional_map,
             origin=best.name,
             fit=None,
-            confidence=probability(score, float(margin), best.bending),
-            verdict=verdict(score, float(margin), best.bending),
+            confidence=probability(score, margin, best.bending, backed),
+            verdict=verdict(score, margin, best.bending, backed),
             scores=tuple(float(c.score) for c in (best, *others)),
             runners_up=passed_over([c.functional_map for c in others], source.basis, target.basis, config.threads),
             landmarks=pairs[~wrong],
@@ -254,6 +252,18 @@ def choose(
         return told(made, [c for c in ranked if differs(c, made, on.whole.source) > DISTINCT])
 
     return replace(told(ranked[0], ranked[1:]), again=tuple(partial(another, way) for way in ranked[0].again))
+
+
+def alone(found: Candidate, on: Ground, threads: int | None = None) -> Candidate:
+    """The map as it is when landmarks have no say: how it misses them then tells of both."""
+    return again([found], replace(on, landmarks=None), threads)[0]
+
+
+def backed_by(best: Candidate, on: Ground, threads: int | None = None) -> float:
+    """:func:`kfmaps.search.marks.backing` of the map by the landmarks, 0 without any."""
+    if on.marks is None:
+        return 0.0
+    return backing(alone(best, on, threads).missed, on.marks, to_numpy(on.source.samples.basis.mass))
 
 
 def unled(source: Shape, target: Shape, config: Config, on: Arena, seed: int, **more: Any) -> list[Candidate]:
@@ -291,13 +301,18 @@ def _drawn(seed: int) -> int:
     return int(np.random.default_rng(seed).integers(2**31))
 
 
+def alike(found: Found) -> bool:
+    """Whether the shapes are so much alike that their high functions correspond; taken for granted without a search."""
+    return found.quality is None or found.quality >= UNLIKE
+
+
 def closing(refinement: Refinement | None, found: Found) -> Refinement | None:
     """The refinement that a found map deserves: of shapes that differ much it ends with :data:`FEWER` functions.
 
     Found on a gorilla and a woman, 5.2 instead of 8.5, and on cats and dogs, 10.5 instead of 10.9 on average, where
     people of other bodies lose nothing.
     """
-    if not isinstance(refinement, ZoomOut) or found.quality is None or found.quality >= UNLIKE:
+    if not isinstance(refinement, ZoomOut) or alike(found):
         return refinement
     stop = min(refinement.stop, FEWER)
     return replace(refinement, stop=stop, start=min(refinement.start, stop), step=min(refinement.step, 10))
@@ -305,7 +320,7 @@ def closing(refinement: Refinement | None, found: Found) -> Refinement | None:
 
 def loosened(finish: NonRigid | None, found: Found) -> NonRigid | None:
     """The non-rigid fit that a found map deserves: of shapes that differ much it lets sizes change."""
-    if finish is None or finish.stretch or found.quality is None or found.quality >= UNLIKE:
+    if finish is None or finish.stretch or alike(found):
         return finish
     return replace(finish, stretch=STRETCH)
 

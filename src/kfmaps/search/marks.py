@@ -9,6 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.special import expit
 
 from kfmaps._arrays import to_numpy
 from kfmaps.fit.shape import Shape
@@ -22,12 +23,18 @@ FAR = 0.3
 """Distance, in units of √area, from which an image is simply wrong."""
 MISSED = 0.3
 """Distance of a landmark's image from which the landmark is doubted, ..."""
-LEAD = 1.0
-"""Weight of landmarks beside that of SHOT in the refinement on all vertices."""
+LEAD, LESS = 1.0, 0.3
+"""Weight of landmarks beside that of SHOT in the refinement on all vertices, and between shapes that differ much, where
+heat spreads otherwise from a landmark."""
 LIMBS = 0.8
 """The same of the tips of limbs."""
 KEPT = 0.6
 """... if at least this part of all landmarks is nearer than :data:`MISSED`."""
+NEAR = 0.2
+"""Distance along the surface, in √area, up to which a landmark tells of a map, ..."""
+WELL, WIDTH = 0.055, 0.004
+"""... and the mean distance of images from where they belong up to which they speak for it, and how fast that ends:
+a map is right below 0.08, and its landmarks are a sample of its errors."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -123,15 +130,34 @@ def doubted(distances: np.ndarray) -> np.ndarray:
     return np.zeros(len(distances), dtype=bool) if few else wrong
 
 
+def backing(distances: np.ndarray, found: Marks, areas: np.ndarray) -> float:
+    """How far landmarks back a map that misses them by ``distances (l,)``, from 0 to 1.
+
+    The squared share of the source, whose samples have ``areas (q_s,)``, that lies within :data:`NEAR` of one, where
+    all together are missed by so little that the map is right there. Few landmarks, or many in one place, tell little;
+    one that is simply missed speaks against all.
+    """
+    if len(distances) == 0 or distances.max() > MISSED:
+        return 0.0
+    told = (found.distances < NEAR).any(axis=0)
+    share = float(areas[told].sum() / areas.sum())
+    return share**2 * float(expit((WELL - float(distances.mean())) / WIDTH))
+
+
 def leading(
-    source: Shape, target: Shape, landmarks: np.ndarray, limbs: Guide | None = None, shot: Guide | None = None
+    source: Shape,
+    target: Shape,
+    landmarks: np.ndarray,
+    limbs: Guide | None = None,
+    shot: Guide | None = None,
+    lead: float = LEAD,
 ) -> Guide | None:
     """SHOT, ``landmarks (l, 2)`` and ``limbs`` on all vertices, for the refinement; ``None`` where nothing leads.
 
-    ``shot``: its guide, where that is known.
+    ``shot``: its guide, where that is known; ``lead``: the weight of the landmarks beside it.
     """
     local = joined([(1.0, shot or guide(source.shot, target.shot)), (LIMBS, limbs)])
     if len(landmarks) == 0:
         return local
     functions = [around(s.basis, s.basis, at) for s, at in zip((source, target), landmarks.T, strict=True)]
-    return joined([(1.0, local), (LEAD, side_by_side(*functions))])
+    return joined([(1.0, local), (lead, side_by_side(*functions))])

@@ -21,7 +21,7 @@ from kfmaps.search.arena import Ground
 from kfmaps.search.candidates import FINE, TIP_FUNCTIONS, Candidate, apart, judged, paired_map
 from kfmaps.search.copies import Copies
 from kfmaps.search.looks import mismatch
-from kfmaps.search.marks import leading
+from kfmaps.search.marks import LESS, leading
 from kfmaps.search.pairings import Limbs, completed, induced, limbs_of, pairings, unheard
 from kfmaps.search.quality import Probe
 from kfmaps.search.ranking import BENT, DISTINCT, in_order, over, seen, usual
@@ -61,7 +61,8 @@ def mended(
     if finer is None:
         return ranked
     source, target = copies.source, copies.image
-    both, shot = grounds(source, target, finer.on.copies), guide(source.shot, target.shot)
+    both = grounds(source, target, finer.on.copies, landmarks)
+    shot = guide(source.shot, target.shot)
 
     near, rest = mendable(ranked, on.source)
     likely = pairings(on.source, on.target, on.shot)
@@ -79,7 +80,7 @@ def mended(
             progress("bent and matched in turn", float(done.mean()))
 
     def mend(old: Candidate, tips: Limbs | None, tell: Done, backwards: bool = True) -> Candidate | None:
-        led = leading(source, target, landmarks, tips and tips.guide(source.mesh, target.mesh), shot)
+        led = leading(source, target, landmarks, tips and tips.guide(source.mesh, target.mesh), shot, LESS)
         C, where = old.functional_map, both
         if backwards:
             C, where, led = C.T, turned_round(both), led and Guide(led.target, led.source)

@@ -3,7 +3,8 @@
 "Right" means a mean geodesic error below 0.08 √area. A logistic function of the score says how likely that is of the
 best map of a search; where a different map is nearly as good, it is the likelier the other one, down to one half
 where both are equal; and where the source must bend much more than for other right maps of that score, something that
-the score does not see is wrong: a left bone on a right one. The numbers and what they rest on are in docs/automatic.md.
+the score does not see is wrong: a left bone on a right one. Landmarks that the map keeps without being led by them take
+away what doubt there is, as far as they reach. The numbers and what they rest on are in docs/automatic.md.
 """
 
 from __future__ import annotations
@@ -26,15 +27,17 @@ SURE = 0.9
 """Probability from which a map is called sure; wrong ones have had up to 0.83."""
 
 
-def probability(score: float, margin: float, bending: float | None = None) -> float:
+def probability(score: float, margin: float, bending: float | None = None, backing: float = 0.0) -> float:
     """That a map of this ``score`` is right, when the best different one is ``margin`` behind.
 
-    ``bending``: see :func:`kfmaps.search.bends.bending`; ``None`` where nothing can be bent.
+    ``bending``: see :func:`kfmaps.search.bends.bending`; ``None`` where nothing can be bent. ``backing``: how far
+    landmarks speak for it, from 0 to 1 (:func:`kfmaps.search.marks.backing`).
     """
     fits = float(expit(SLOPE * (score - MIDDLE)))
     if bending is not None:
         fits *= float(expit((MUCH - excess(score, bending)) / WIDTH))
-    return fits * (1.0 - 0.5 * math.exp(-max(margin, 0.0) / TIE))
+    alone = fits * (1.0 - 0.5 * math.exp(-max(margin, 0.0) / TIE))
+    return alone + (1.0 - alone) * backing
 
 
 def excess(score: float, bending: float) -> float:
@@ -42,8 +45,8 @@ def excess(score: float, bending: float) -> float:
     return math.log(bending) - BENT - PER_SCORE * score
 
 
-def verdict(score: float, margin: float, bending: float | None = None) -> str:
+def verdict(score: float, margin: float, bending: float | None = None, backing: float = 0.0) -> str:
     """ "sure", "poor" where the map would not be sure without any rival, or "ambiguous"."""
-    if probability(score, margin, bending) >= SURE:
+    if probability(score, margin, bending, backing) >= SURE:
         return "sure"
-    return "poor" if probability(score, math.inf, bending) < SURE else "ambiguous"
+    return "poor" if probability(score, math.inf, bending, backing) < SURE else "ambiguous"
