@@ -20,6 +20,8 @@ from kfmaps.search.arena import arena, turned
 from kfmaps.search.bends import MORE, copied
 from kfmaps.search.candidates import STRAIN, Candidate, differs, judged, paired_map
 from kfmaps.search.copies import Copies
+from kfmaps.search.girth import WEIGHT as THICK
+from kfmaps.search.girth import girth
 from kfmaps.search.mending import mendable, mended
 from kfmaps.search.pairings import Pairing, completed, induced, limbs_of, pairings, unheard
 from kfmaps.search.quality import Quality, probe
@@ -439,5 +441,33 @@ def test_where_the_target_lies_leads_as_well(creatures):
     assert led is not None
     assert alone is not None
     lie = lying(source.mesh, Mesh(target.mesh.vertices + 1.0, target.mesh.faces))
-    np.testing.assert_allclose(led.source, np.hstack([alone.source, np.sqrt(alternate.WEIGHT) * lie.source]))
-    np.testing.assert_allclose(led.target, np.hstack([alone.target, np.sqrt(alternate.WEIGHT) * lie.target]))
+    thick = girth(source, target)
+    weights = np.sqrt([alternate.WEIGHT, THICK])
+    np.testing.assert_allclose(
+        led.source, np.hstack([alone.source, weights[0] * lie.source, weights[1] * thick.source])
+    )
+    np.testing.assert_allclose(
+        led.target, np.hstack([alone.target, weights[0] * lie.target, weights[1] * thick.target])
+    )
+
+
+def test_girth_leads_what_is_mended(creatures, monkeypatch):
+    """Turned round with the rest, where the target is bent."""
+    source, target, truth = creatures
+    on = arena(source, target, (probe(source, 200), probe(target, 200))).whole
+    C = np.asarray(to_functional(truth, source.basis.truncated(40), target.basis.truncated(40)))
+    ranked = [replace(c, bending=1.0) for c in judged([("truth", True)], C[None], None, on, 1)]
+    seen = []
+
+    def stop(_C, where, led, *_more):
+        seen.append((where.source is source, led))
+        raise NotConverged("enough")
+
+    monkeypatch.setattr(mending, "pairings", lambda *_: [])
+    monkeypatch.setattr(mending, "alternated", stop)
+    mended(ranked, on, Copies.of(source, target, on), np.zeros((0, 2), dtype=np.int64), 1)
+    forwards, led = seen[0]
+    assert not forwards
+    thick = girth(source, target)
+    np.testing.assert_allclose(led.source[:, -3:], np.sqrt(THICK) * thick.target)
+    np.testing.assert_allclose(led.target[:, -3:], np.sqrt(THICK) * thick.source)

@@ -27,6 +27,8 @@ from kfmaps.parts.answer import Partly, partly, reason
 from kfmaps.parts.decide import suspicion
 from kfmaps.search.alternate import WEIGHT, lying
 from kfmaps.search.choose import Found, alike, choose, closing, loosened
+from kfmaps.search.girth import WEIGHT as THICK
+from kfmaps.search.girth import girth
 from kfmaps.search.marks import LEAD, LESS, joined, leading
 from kfmaps.search.quality import Probe
 from kfmaps.surface.eigen.pencil import THREADED
@@ -306,7 +308,7 @@ def _led(found: Found, shapes: list[Shape]) -> Guide | None:
     meshes = [shape.mesh for shape in shapes]
     moved = 1 if found.backwards else 0
     meshes[moved] = Mesh(found.bent, meshes[moved].faces)
-    return joined([(1.0, led), (WEIGHT, lying(meshes[0], meshes[1]))])
+    return joined([(1.0, led), (WEIGHT, lying(meshes[0], meshes[1])), (THICK, girth(shapes[0], shapes[1]))])
 
 
 def worthier(one: Match, other: Match) -> Match:
