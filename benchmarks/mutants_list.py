@@ -423,8 +423,8 @@ MUTANTS = tuple(
             "test_places",
         ),
         (
-            "(1 + (missing**2).sum(axis=1) / SLOPPY**2) ** 2",
-            "(1 + 0 * (missing**2).sum(axis=1) / SLOPPY**2) ** 2",
+            "(1 + (missing**2).sum(axis=1) / fading**2) ** 2",
+            "(1 + 0 * (missing**2).sum(axis=1) / fading**2) ** 2",
             "test_places",
         ),
         ("even(rotations(pair.body.energy, x))", "rotations(pair.body.energy, x)", "test_places test_nonrigid"),
