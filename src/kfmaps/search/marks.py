@@ -135,13 +135,13 @@ def backing(distances: np.ndarray, found: Marks, areas: np.ndarray) -> float:
 
     The squared share of the source, whose samples have ``areas (q_s,)``, that lies within :data:`NEAR` of one, where
     all together are missed by so little that the map is right there. Few landmarks, or many in one place, tell little;
-    one that is simply missed speaks against all.
+    one that is simply missed counts as :data:`MISSED`.
     """
-    if len(distances) == 0 or distances.max() > MISSED:
+    if len(distances) == 0:
         return 0.0
     told = (found.distances < NEAR).any(axis=0)
     share = float(areas[told].sum() / areas.sum())
-    return share**2 * float(expit((WELL - float(distances.mean())) / WIDTH))
+    return share**2 * float(expit((WELL - float(np.minimum(distances, MISSED).mean())) / WIDTH))
 
 
 def leading(
