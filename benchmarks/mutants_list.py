@@ -661,6 +661,56 @@ MUTANTS = tuple(
             "test_among -k hardly",
         ),
         ("if len(lost):\n            found[lost]", "if False:\n            found[lost]", "test_among -k forgotten"),
+        # landmarks between shapes of other proportions, and what they say of a map
+        ("or distances.max() > MISSED", "or distances.min() > MISSED", "test_marks -k where_they_are_missed"),
+        ("return share**2 * float(", "return share * float(", "test_marks -k far_as_they_reach"),
+        (
+            "share = float(areas[told].sum() / areas.sum())",
+            "share = float(told.mean())",
+            "test_marks -k far_as_they_reach",
+        ),
+        ("(WELL - float(distances.mean()))", "(WELL - float(distances.max()))", "test_marks -k where_they_are_missed"),
+        ("< NEAR).any(axis=0)", "< 2 * NEAR).any(axis=0)", "test_marks -k far_as_they_reach"),
+        ("(lead, side_by_side(*functions))", "(LEAD, side_by_side(*functions))", "test_marks -k by_their_weight"),
+        ("return alone + (1.0 - alone) * backing", "return max(alone, backing)", "test_marks -k takes_away"),
+        (
+            "probability(score, math.inf, bending, backing)",
+            "probability(score, math.inf, bending)",
+            "test_marks -k takes",
+        ),
+        ("replace(on, landmarks=None), threads)[0]", "on, threads)[0]", "test_marks -k not_led"),
+        (
+            "confidence=probability(score, margin, best.bending, backed)",
+            "confidence=probability(score, margin, best.bending)",
+            "test_marks -k search_says",
+        ),
+        (
+            "verdict=verdict(score, margin, best.bending, backed)",
+            "verdict=verdict(score, margin, best.bending)",
+            "test_marks -k search_says",
+        ),
+        ("found.quality >= UNLIKE", "found.quality > UNLIKE", "test_marks -k differ_much"),
+        ("LEAD if alike(found) else LESS", "LESS if alike(found) else LEAD", "test_marks -k differ_much"),
+        ("target.mesh), shot, LESS)", "target.mesh), shot)", "test_marks -k mended"),
+        (
+            "grounds(source, target, finer.on.copies, landmarks)",
+            "grounds(source, target, finer.on.copies)",
+            "test_marks -k mended",
+        ),
+        (
+            "query(shape.mesh.vertices[at])[1]",
+            "query(source.mesh.vertices[at])[1]",
+            "test_marks -k nearest_to_them",
+        ),
+        ("on.landmarks[:, ::-1]", "on.landmarks", "test_marks -k nearest_to_them"),
+        ("target_to_source, landmarks=on.landmarks)", "target_to_source)", "test_marks -k between_refinements"),
+        ("if self.stretch else (HOLD, SLOPPY)", "if False else (HOLD, SLOPPY)", "test_marks -k far_off"),
+        (
+            "(missing**2).sum(axis=1) / fading**2) ** 2",
+            "(missing**2).sum(axis=1) / fading**2)",
+            "test_marks -k from_afar",
+        ),
+        ("x, hold * stiffness, fading)", "x, hold, fading)", "test_marks -k far_off"),
         ("left[i, i] += 1.5", "left[i, i] += 1.4", "test_nonrigid -k singular_values"),
     )
 )

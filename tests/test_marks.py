@@ -1,0 +1,308 @@
+"""What landmarks do between shapes of other proportions, and how far they back a map."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+
+import kfmaps
+from conftest import blob
+from kfmaps import matching
+from kfmaps.fit.shape import mirror_image
+from kfmaps.functional import nonrigid
+from kfmaps.functional.nonrigid import FIRMLY, HOLD, LOOSELY, SLOPPY, NonRigid, facing
+from kfmaps.functional.points import to_functional
+from kfmaps.search import choose, copies, mending, verdict
+from kfmaps.search.alternate import Alternated, alternated, grounds, turned_round
+from kfmaps.search.arena import arena
+from kfmaps.search.bends import copied
+from kfmaps.search.candidates import judged
+from kfmaps.search.choose import UNLIKE, Found, alike, alone, backed_by
+from kfmaps.search.copies import Copies
+from kfmaps.search.marks import LEAD, LESS, MISSED, NEAR, WELL, WIDTH, Marks, backing, leading
+from kfmaps.search.quality import probe
+from kfmaps.search.verdict import MIDDLE, SURE, TIE, probability
+from kfmaps.surface.mesh import MIRROR, unit_area
+from kfmaps.surface.samples import stratified_vertices
+
+NAMES = [("a", True)]
+"""Of a single map, which SHOT has led."""
+
+
+def on_a_line(*places: float) -> tuple[Marks, np.ndarray]:
+    """Landmarks at these places of a source of length 1 with a hundred samples, and their areas: a third in front."""
+    samples = (np.arange(100) + 0.5) / 100
+    nothing: Any = np.zeros((len(places), 0, 0))
+    return Marks(nothing, np.abs(np.array(places)[:, None] - samples), nothing, nothing), np.where(samples < 0.5, 1, 2)
+
+
+def spread_out(creatures: Any, count: int) -> np.ndarray:
+    """True landmarks all over the target."""
+    rows = stratified_vertices(creatures[1].basis, count, 0)
+    return np.stack([creatures[2][rows], rows], axis=1)
+
+
+def functional(points: np.ndarray, creatures: Any, k: int) -> np.ndarray:
+    source, target, _ = creatures
+    return np.asarray(to_functional(points, source.basis.truncated(k), target.basis.truncated(k)))
+
+
+@pytest.fixture(scope="module")
+def slid(creatures: Any) -> np.ndarray:
+    """A map of few functions whose points are 0.11 off on average."""
+    source, _, truth = creatures
+    places = source.mesh.vertices[truth]
+    moved = places + 0.15 * np.sin(4 * places[:, [1, 2, 0]])
+    points = np.linalg.norm(moved[:, None] - source.mesh.vertices, axis=2).argmin(axis=1)
+    return functional(points, creatures, 20)
+
+
+def given(creatures: Any, count: int) -> Any:
+    """The ground on which maps between the creatures are judged with so many landmarks."""
+    source, target, _ = creatures
+    at = spread_out(creatures, count)
+    judges = probe(source, 300, landmarks=at[:, 0]), probe(target, 300, landmarks=at[:, 1])
+    return arena(source, target, judges, at).whole
+
+
+def test_landmarks_back_a_map_as_far_as_they_reach() -> None:
+    far = 1 - NEAR - 1e-3
+    there, areas = on_a_line(NEAR, 0.5, far)
+    kept = np.zeros(3)
+    most = 1 / (1 + np.exp(-WELL / WIDTH))
+    assert backing(kept, there, areas) == pytest.approx(most)
+    # The squared share of the area, not of the samples nor of the landmarks.
+    for place, samples in ((NEAR, np.arange(0, 40)), (far, np.arange(60, 100))):
+        share = areas[samples].sum() / areas.sum()
+        assert backing(kept[:1], *on_a_line(place)) == pytest.approx(most * share**2)
+    many = backing(np.zeros(50), *on_a_line(*[NEAR] * 50))
+    assert many == pytest.approx(backing(kept[:1], *on_a_line(NEAR)))
+    shares = [backing(kept[:i], *on_a_line(*(NEAR, 0.5, far)[:i])) for i in range(4)]
+    assert shares[0] == 0.0
+    assert (np.diff(shares) > 0.05).all()
+
+
+def test_what_landmarks_say_ends_where_they_are_missed() -> None:
+    """Together, when the mean is no longer that of a right map; and when a single one is simply wrong."""
+    there, areas = on_a_line(0.2, 0.5, 0.8)
+    assert backing(np.full(3, WELL), there, areas) == pytest.approx(0.5)
+    assert backing(np.full(3, WELL + WIDTH), there, areas) == pytest.approx(1 / (1 + np.e))
+    assert backing(np.array([0.0, 0.0, 3 * WELL]), there, areas) == pytest.approx(0.5)
+    offs = [backing(np.full(3, off), there, areas) for off in np.linspace(0, MISSED, 20)]
+    assert offs == sorted(offs, reverse=True)
+    places = np.linspace(0, 1, 100)
+    off = np.zeros(100)
+    off[7] = 0.99 * MISSED
+    assert backing(off, *on_a_line(*places)) > 0.99
+    off[7] = 1.01 * MISSED
+    assert backing(off, *on_a_line(*places)) == 0.0
+
+
+def test_backing_takes_away_doubt() -> None:
+    bad, good = MIDDLE - 1, MIDDLE + 6
+    for score, margin, bending in ((bad, 0.5, None), (good, 0.0, 0.01), (good, np.inf, 10.0), (-1e5, 0.0, None)):
+        before = probability(score, margin, bending)
+        assert probability(score, margin, bending, 0.0) == before
+        assert probability(score, margin, bending, 1.0) == pytest.approx(1.0)
+        assert probability(score, margin, bending, 0.25) == pytest.approx(1 - 0.75 * (1 - before))
+    assert verdict.verdict(bad, np.inf) == "poor"
+    assert verdict.verdict(bad, 1.0, None, 0.5) == "poor"
+    assert verdict.verdict(bad, 1.0, None, 0.95) == "sure"
+    assert verdict.verdict(good, 0.0) == verdict.verdict(good, 0.0, None, 0.5) == "ambiguous"
+    assert verdict.verdict(good, 0.0, None, 0.85) == "sure"
+    # What would be sure without its rival is ambiguous, also where it is the landmarks that make it so.
+    alone = probability(bad, np.inf)
+    enough = 1 - 0.9 * (1 - SURE) / (1 - alone)
+    assert probability(bad, 0.1 * TIE, None, enough) < SURE
+    assert verdict.verdict(bad, 0.1 * TIE, None, enough) == "ambiguous"
+
+
+def test_a_map_is_backed_by_landmarks_that_have_not_led_it(creatures, slid) -> None:
+    on = given(creatures, 10)
+    maps = (functional(creatures[2], creatures, 40), slid)
+    right, wrong = (judged(NAMES, C[None], None, on, 1)[0] for C in maps)
+    areas = np.asarray(on.source.samples.basis.mass)
+    assert on.marks is not None
+    assert backed_by(right, on, 1) == backing(alone(right, on, 1).missed, on.marks, areas) > 0.3
+    # With landmarks in it the refinement would keep to them.
+    led = choose.again([wrong], on, 1)[0]
+    assert backing(led.missed, on.marks, areas) > 0.3
+    assert backed_by(wrong, on, 1) < 1e-3
+    assert backed_by(right, replace(on, landmarks=None, marks=None), 1) == 0.0
+
+
+def test_a_search_says_that_landmarks_back_its_map(creatures, monkeypatch) -> None:
+    """As if its score were poor."""
+    source, target, truth = creatures
+    C = functional(truth, creatures, 40)
+    monkeypatch.setattr(choose, "candidates", lambda *a, **_m: judged(NAMES, C[None], None, a[3].whole, 1))
+    monkeypatch.setattr(choose, "unled", lambda *_a, **_m: [])
+    monkeypatch.setattr(choose, "MENDED", -np.inf)
+    monkeypatch.setattr(verdict, "MIDDLE", 0.0)
+    config = replace(kfmaps.Config.automatic(), threads=1)
+    without, backed = (choose.choose(source, target, config, landmarks=at) for at in (None, spread_out(creatures, 40)))
+    assert (without.verdict, backed.verdict) == ("poor", "sure")
+    assert without.confidence is not None
+    assert without.confidence < 0.1
+    assert backed.confidence is not None
+    assert backed.confidence > SURE
+
+
+def test_copies_know_the_landmarks_nearest_to_them(creatures) -> None:
+    """Also those of a mirror image, and the other way round."""
+    source, target, _ = creatures
+    at = spread_out(creatures, 30)
+    a, b = copied(source, 500), copied(target, 400)
+    assert a is not None
+    assert b is not None
+    on = grounds(source, target, (a, b), at)
+    for side, (shape, copy) in enumerate(((source, a), (target, b))):
+        off = np.linalg.norm(copy.mesh.vertices - shape.mesh.vertices[at[:, side]][:, None], axis=2)
+        chosen = off[np.arange(30), on.landmarks[:, side]]
+        np.testing.assert_array_equal(chosen, off.min(axis=1))
+        assert 0 < chosen.max() < 0.1
+    image = grounds(source, mirror_image(target), (a, b.mirrored()), at)
+    np.testing.assert_array_equal(image.landmarks, on.landmarks)
+    there = image.copies[1].mesh.vertices[image.landmarks[:, 1]]
+    assert np.linalg.norm(there - target.mesh.vertices[at[:, 1]] * MIRROR, axis=1).max() < 0.1
+    back = turned_round(on)
+    again = grounds(target, source, (b, a), at[:, ::-1])
+    np.testing.assert_array_equal(back.landmarks, again.landmarks)
+    assert back.landmarks[0].tolist() == on.landmarks[0].tolist()[::-1]
+    assert grounds(source, target, (a, b)).landmarks.shape == (0, 2)
+
+
+def test_the_fits_between_refinements_keep_to_landmarks(creatures, slid) -> None:
+    source, target, truth = creatures
+    a, b = copied(source, 500), copied(target, 500)
+    assert a is not None
+    assert b is not None
+    on = grounds(source, target, (a, b))
+    rows = stratified_vertices(target.basis, 1200, 0)
+    rows = rows[np.isin(rows, b.vertices) & np.isin(truth[rows], a.vertices)][:12]
+    at = np.stack([truth[rows], rows], axis=1)
+    led = replace(on, landmarks=grounds(source, target, (a, b), at).landmarks)
+    off = []
+    for where in (on, led):
+        bent = alternated(slid, where, None).bent
+        off.append(np.linalg.norm(bent[truth] - target.mesh.vertices, axis=1))
+    assert off[1][rows].mean() < 0.6 * off[0][rows].mean()
+    assert off[1].mean() < off[0].mean()
+
+
+def followed(off: float, fit: NonRigid) -> float:
+    """How far a body follows a single landmark that asks one of its vertices to move by ``off``, from 0 to 1."""
+    body = unit_area(blob(250))
+    from_there = np.linalg.norm(body.vertices - body.vertices[3], axis=1)
+    to = np.abs(from_there - off).argmin()
+    bent = fit.vertices(body, body, np.arange(250), landmarks=np.array([[3, to]]))
+    return 1 - float(np.linalg.norm(bent[3] - body.vertices[to]) / from_there[to])
+
+
+def test_what_may_be_stretched_follows_landmarks_that_are_far_off(monkeypatch) -> None:
+    """Over an area as large as all of it nothing else is stretched: what differs is how landmarks hold."""
+    plain = NonRigid(stiffness=5e-3, levels=1, steps=4)
+    loose = replace(plain, stretch=100.0)
+    near, far = 0.08, 0.15
+    ways = {(fit.stretch, off): followed(off, fit) for fit in (plain, loose) for off in (near, far)}
+    assert 1 - ways[100.0, near] < 0.7 * (1 - ways[0.0, near])
+    assert ways[100.0, far] > 0.9
+    assert ways[0.0, far] < 0.5
+    monkeypatch.setattr(nonrigid, "FIRMLY", HOLD)
+    assert 1 - followed(near, loose) > 1.3 * (1 - ways[100.0, near])
+    monkeypatch.setattr(nonrigid, "LOOSELY", SLOPPY)
+    assert followed(far, loose) < 0.5
+
+
+def test_a_landmark_pulls_by_its_weight_and_less_from_afar() -> None:
+    """Discs have area 1 each; at the distance from which a pull fades a quarter of it is left."""
+    body = unit_area(blob(250))
+    pair = facing(nonrigid.body_of(body), body)
+    at = np.array([[3, 3], [200, 200]])
+    discs = nonrigid._discs(pair, at)
+    np.testing.assert_allclose(discs.sum(axis=0), 1.0)
+    for fading in (SLOPPY, LOOSELY):
+        for off, left in ((0.0, 1.0), (fading, 0.25), (3 * fading, 0.01)):
+            x = body.vertices + np.array([0.0, 0.0, off])
+            term = nonrigid._marked(pair, at, discs, x, FIRMLY, fading)
+            np.testing.assert_allclose(term.weights.sum(), 2 * FIRMLY * left)
+            np.testing.assert_allclose(term.places - x, np.broadcast_to((0, 0, -off), x.shape), atol=1e-9)
+
+
+@pytest.mark.parametrize("lead", [LEAD, LESS])
+def test_landmarks_lead_by_their_weight(creatures, lead) -> None:
+    source, target, _ = creatures
+    at = spread_out(creatures, 3)
+    plain, led = (leading(source, target, some, None, None, lead) for some in (at[:0], at))
+    whole = leading(source, target, at)
+    assert plain is not None
+    assert led is not None
+    assert whole is not None
+    k = plain.source.shape[1]
+    for side in ("source", "target"):
+        own, most = getattr(led, side), getattr(whole, side)
+        np.testing.assert_allclose(own[:, :k], getattr(plain, side))
+        np.testing.assert_allclose(own[:, k:], np.sqrt(lead / LEAD) * most[:, k:])
+        if lead == LEAD:
+            both = np.vstack([led.source[:, k:], led.target[:, k:]])
+            assert 2 * ((both - both.mean(axis=0)) ** 2).sum(axis=1).mean() == pytest.approx(LEAD)
+
+
+def test_landmarks_lead_less_where_shapes_differ_much(creatures, monkeypatch) -> None:
+    source, target, _ = creatures
+    asked = []
+    monkeypatch.setattr(matching, "leading", lambda *_a, lead, **_m: asked.append(lead))
+    found = Found(np.eye(3), "a", None, "poor")
+    for quality in (None, UNLIKE, UNLIKE - 1):
+        assert alike(replace(found, quality=quality)) == (quality != UNLIKE - 1)
+        assert matching._led(replace(found, quality=quality), [source, target]) is None
+    assert asked == [LEAD, LEAD, LESS]
+
+
+def test_what_is_mended_keeps_to_landmarks(creatures, monkeypatch) -> None:
+    """Each way round, with those that are not doubted."""
+    source, target, truth = creatures
+    monkeypatch.setattr(copies, "looks", lambda on: SimpleNamespace(on=on))
+    monkeypatch.setattr(mending, "mismatch", lambda *_what: 0.2)
+    monkeypatch.setattr(mending, "pairings", lambda *_: [])
+    on = arena(source, target, (probe(source, 200), probe(target, 200))).whole
+    C = functional(truth, creatures, 40)
+    ranked = [replace(c, bending=1.0) for c in judged(NAMES, C[None], None, on, 1)]
+    at = spread_out(creatures, 4)
+    begun, leads, usual = [], [], mending.leading
+
+    def lead(*what: Any) -> Any:
+        leads.append((what[2], what[5]))
+        return usual(*what)
+
+    def made(C: np.ndarray, where: Any, *_rest: Any) -> Alternated:
+        begun.append([c.vertices[i] for c, i in zip(where.copies, where.landmarks.T, strict=True)])
+        return Alternated(C, where.source.mesh.vertices)
+
+    monkeypatch.setattr(mending, "leading", lead)
+    monkeypatch.setattr(mending, "alternated", made)
+    found = mending.mended(ranked, on, Copies.of(source, target, on), at, 1)[0]
+    found.again[0]()
+    (t, s), (s_again, t_again) = begun
+    for there, here in ((s, t), (s_again, t_again)):
+        np.testing.assert_array_equal(np.stack([there, here], axis=1), at)
+    assert [weight for _, weight in leads] == [LESS, LESS]
+    assert all(np.array_equal(told, at) for told, _ in leads)
+
+
+def test_ten_landmarks_make_a_match_no_worse(creatures, slid, monkeypatch) -> None:
+    """Between bodies of other proportions, from the map of a search that is far off."""
+    source, target, truth = creatures
+    at = spread_out(creatures, 10)
+    errors = []
+    for some in (at[:0], at):
+        found = Found(slid, "a", None, "poor", landmarks=some, quality=UNLIKE - 1)
+        monkeypatch.setattr(matching, "choose", lambda *_a, found=found, **_m: found)
+        points = kfmaps.match(source, target, landmarks=at).target_to_source
+        errors.append(kfmaps.geodesic_errors(source.mesh, points, truth))
+    assert errors[1].mean() <= errors[0].mean() < 0.03
+    assert errors[1][at[:, 1]].mean() < 0.005
