@@ -37,11 +37,11 @@ DECLINE = 10**-0.5
 """Stiffness of a level over that of the one before."""
 LAST = 2
 """Searches of a large mesh, at the last level: the others are its coarse copy's."""
-HOLD = 15.0
-"""Weight of a landmark over the stiffness of a level: softly enough that those 3 % of √area off do no harm."""
+HOLD = 10.0
+"""Weight of a landmark over the stiffness of a level: softly enough that those 2 % of √area off do no harm."""
 DISC = 1e-3
 """Area around a landmark that goes with it."""
-SLOPPY = 0.06
+SLOPPY = 0.045
 """Distance from a landmark, in √area, from which its pull fades: a click that is off does no harm."""
 FIRMLY, LOOSELY = 30.0, 0.1
 """Both for shapes of other proportions, whose maps are farther off than a click."""
