@@ -40,7 +40,7 @@ CLOSEST = (
     "landed",
     lambda _points, body, x, target, _normals: places_on(target.vertices, x, body.mesh.faces),
 )
-EVEN = ((mending, "THICK", 0.0), (matching, "THICK", 0.0))
+EVEN = ((matching, "_slid", lambda found, _shapes: found), (matching, "THICK", 0.0))
 KINDS = {
     "as rigid as possible": ((alternate, "FIT", RIGID), (choose, "STRETCH", 0.0), UNPAIRED, ONCE, CLOSEST, *EVEN),
     "stretched evenly": (UNPAIRED, ONCE, CLOSEST, *EVEN),

@@ -389,13 +389,15 @@ def test_a_match_finishes_all_ways_unless_it_is_hardly_torn(creatures, monkeypat
     source, target, truth = creatures
     C = np.asarray(to_functional(truth, source.basis.truncated(40), target.basis.truncated(40)))
     other = choose.Found(C, "other", None, "poor", quality=-9.0, scores=(-9.0,))
-    asked = []
+    asked, slid = [], []
 
     def way(found):
         return lambda least: asked.append(least) or found
 
-    ways = tuple(way(one) for one in (replace(other, bent=target.mesh.vertices, backwards=True), other, None))
-    monkeypatch.setattr(matching, "choose", lambda *_a, **_k: replace(other, origin="one", again=ways))
+    mended_one = replace(other, bent=target.mesh.vertices, backwards=True)
+    ways = tuple(way(one) for one in (mended_one, other, None))
+    monkeypatch.setattr(matching, "choose", lambda *_a, **_k: replace(mended_one, origin="one", again=ways))
+    monkeypatch.setattr(matching, "slid_back", lambda found, *_: slid.append(found.origin) or found)
     monkeypatch.setattr(matching, "worthier", lambda a, b: replace(b, seconds=a.seconds))
     config = replace(kfmaps.Config.automatic(), finish=None)
     for share, ends in ((0.5, "other"), (TORN, "one"), (None, "one")):
@@ -404,6 +406,7 @@ def test_a_match_finishes_all_ways_unless_it_is_hardly_torn(creatures, monkeypat
         assert found.origin == ends
         assert [f"another way, {i}" in found.seconds for i in (1, 2)] == 2 * [ends == "other"]
     assert asked == 3 * [-9.0 - 0.5 * TEAR]
+    assert slid == ["one", "other", "other", "one", "one"]
 
 
 def test_a_search_tells_what_else_may_turn_out_better(creatures, monkeypatch):
@@ -449,25 +452,3 @@ def test_where_the_target_lies_leads_as_well(creatures):
     np.testing.assert_allclose(
         led.target, np.hstack([alone.target, weights[0] * lie.target, weights[1] * thick.target])
     )
-
-
-def test_girth_leads_what_is_mended(creatures, monkeypatch):
-    """Turned round with the rest, where the target is bent."""
-    source, target, truth = creatures
-    on = arena(source, target, (probe(source, 200), probe(target, 200))).whole
-    C = np.asarray(to_functional(truth, source.basis.truncated(40), target.basis.truncated(40)))
-    ranked = [replace(c, bending=1.0) for c in judged([("truth", True)], C[None], None, on, 1)]
-    seen = []
-
-    def stop(_C, where, led, *_more):
-        seen.append((where.source is source, led))
-        raise NotConverged("enough")
-
-    monkeypatch.setattr(mending, "pairings", lambda *_: [])
-    monkeypatch.setattr(mending, "alternated", stop)
-    mended(ranked, on, Copies.of(source, target, on), np.zeros((0, 2), dtype=np.int64), 1)
-    forwards, led = seen[0]
-    assert not forwards
-    thick = girth(source, target)
-    np.testing.assert_allclose(led.source[:, -3:], np.sqrt(THICK) * thick.target)
-    np.testing.assert_allclose(led.target[:, -3:], np.sqrt(THICK) * thick.source)

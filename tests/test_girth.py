@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from types import SimpleNamespace
 from typing import Any
 
@@ -9,8 +10,13 @@ import numpy as np
 import pytest
 
 import kfmaps
+from kfmaps._arrays import NotConverged
 from kfmaps.fit.shape import Shape
-from kfmaps.search.girth import FLAT, TIMES, _staying, girth
+from kfmaps.functional.guide import Guide
+from kfmaps.search import girth as of
+from kfmaps.search.alternate import Alternated, Grounds
+from kfmaps.search.choose import Found
+from kfmaps.search.girth import FLAT, TIMES, WEIGHT, _staying, girth, slid_back
 from kfmaps.surface.basis import laplace_basis
 from kfmaps.surface.mesh import Mesh, unit_area
 
@@ -67,3 +73,42 @@ def test_corresponding_points_are_alike_in_another_pose() -> None:
     a, b = (of_unit_area(mesh) for mesh in (pair.source, pair.target))
     guide = girth(a, b)
     assert ((guide.source[pair.truth] - guide.target) ** 2).sum(axis=1).mean() < 0.02
+
+
+@pytest.mark.parametrize("backwards", [False, True])
+def test_what_was_mended_is_mended_once_more(
+    creatures: tuple[Shape, Shape, np.ndarray], monkeypatch: pytest.MonkeyPatch, backwards: bool
+) -> None:
+    """The same body is bent; girth stands beside what leads."""
+    source, target, _ = creatures
+    rng = np.random.default_rng(0)
+    C = rng.normal(size=(50, 50))
+    led = Guide(*(np.ones((len(shape.mesh.vertices), 2)) for shape in (source, target)))
+    found = Found(C, "a", None, "poor", bent=np.zeros((1, 3)), backwards=backwards, landmarks=np.array([[5, 7]]))
+    thick, seen = girth(source, target), []
+
+    def made(C: np.ndarray, on: Grounds, led: Guide) -> Alternated:
+        seen.append((C, on.source is source, led))
+        return Alternated(2 * C, on.source.mesh.vertices)
+
+    monkeypatch.setattr(of, "alternated", made)
+    again = slid_back(found, source, target, led)
+    ((given, forwards, leads),) = seen
+    assert forwards != backwards
+    np.testing.assert_array_equal(given, C.T if backwards else C)
+    np.testing.assert_array_equal(again.functional_map, 2 * C)
+    assert again.bent is (target if backwards else source).mesh.vertices
+    sides = (leads.target, leads.source) if backwards else (leads.source, leads.target)
+    for side, mine, ones in zip(sides, (thick.source, thick.target), (led.source, led.target), strict=True):
+        np.testing.assert_allclose(side, np.hstack([ones, np.sqrt(WEIGHT) * mine]))
+    assert slid_back(replace(found, bent=None), source, target, led).functional_map is C
+
+
+def test_what_falls_apart_stays(creatures: tuple[Shape, Shape, np.ndarray], monkeypatch: pytest.MonkeyPatch) -> None:
+    def apart(*_what: Any) -> Alternated:
+        raise NotConverged("it fell apart")
+
+    monkeypatch.setattr(of, "alternated", apart)
+    landmarks = np.zeros((0, 2), dtype=np.int64)
+    found = Found(np.eye(9), "a", None, "poor", bent=np.zeros((1, 3)), landmarks=landmarks)
+    assert slid_back(found, creatures[0], creatures[1], None) is found

@@ -20,10 +20,8 @@ from kfmaps.search.alternate import alternated, grounds, turned_round
 from kfmaps.search.arena import Ground
 from kfmaps.search.candidates import FINE, TIP_FUNCTIONS, Candidate, apart, judged, paired_map
 from kfmaps.search.copies import Copies
-from kfmaps.search.girth import WEIGHT as THICK
-from kfmaps.search.girth import girth
 from kfmaps.search.looks import mismatch
-from kfmaps.search.marks import LESS, joined, leading
+from kfmaps.search.marks import LESS, leading
 from kfmaps.search.pairings import Limbs, completed, induced, limbs_of, pairings, unheard
 from kfmaps.search.quality import Probe
 from kfmaps.search.ranking import BENT, DISTINCT, in_order, over, seen, usual
@@ -64,7 +62,7 @@ def mended(
         return ranked
     source, target = copies.source, copies.image
     both = grounds(source, target, finer.on.copies, landmarks)
-    shot, thick = guide(source.shot, target.shot), girth(source, target)
+    shot = guide(source.shot, target.shot)
 
     near, rest = mendable(ranked, on.source)
     likely = pairings(on.source, on.target, on.shot)
@@ -83,7 +81,6 @@ def mended(
 
     def mend(old: Candidate, tips: Limbs | None, tell: Done, backwards: bool = True) -> Candidate | None:
         led = leading(source, target, landmarks, tips and tips.guide(source.mesh, target.mesh), shot, LESS)
-        led = joined([(1.0, led), (THICK, thick)])
         C, where = old.functional_map, both
         if backwards:
             C, where, led = C.T, turned_round(both), led and Guide(led.target, led.source)
