@@ -31,7 +31,7 @@ from kfmaps.search.arena import Arena, Ground, arena, turned, without
 from kfmaps.search.candidates import Candidate, again, apart, candidates, differs, judged
 from kfmaps.search.copies import Copies
 from kfmaps.search.learned import learned, plain, speaks
-from kfmaps.search.marks import backing, doubted
+from kfmaps.search.marks import MISSED, Marks, backing, doubted, missed
 from kfmaps.search.mending import mended
 from kfmaps.search.pairings import Limbs, limbs
 from kfmaps.search.quality import Probe, probe, thinned
@@ -206,7 +206,7 @@ def choose(
         turned_best = ranking(images, other, there, config.threads)
         if turned_best and turned_best[0].score > ranked[0].score + (CLEAR if asked == "either" else SURELY):
             orientation, found, ranked, copies, on = "reversed", images, turned_best, there, replace(on, whole=other)
-    wrong = np.zeros(len(pairs), dtype=bool)
+    wrong, given_marks = np.zeros(len(pairs), dtype=bool), on.whole.marks
     if len(pairs):
         wrong = doubted(alone(ranked[0], on.whole, config.threads).missed)
     if wrong.any():
@@ -227,6 +227,7 @@ def choose(
         others = rest[:most]
         margin = float(max(best.score - rest[0].score, 0.0) if rest else np.inf)
         score, backed = best.quality.score, backed_by(best, on.whole, config.threads)
+        still = wrong & still_missed(best, on.whole, given_marks)
         return Found(
             functional_map=best.functional_map,
             origin=best.name,
@@ -235,8 +236,8 @@ def choose(
             verdict=verdict(score, margin, best.bending, backed),
             scores=tuple(float(c.score) for c in (best, *others)),
             runners_up=passed_over([c.functional_map for c in others], source.basis, target.basis, config.threads),
-            landmarks=pairs[~wrong],
-            doubted=np.flatnonzero(wrong),
+            landmarks=pairs[~still],
+            doubted=np.flatnonzero(still),
             orientation=orientation,
             quality=score,
             bending=best.bending,
@@ -257,6 +258,15 @@ def choose(
 def alone(found: Candidate, on: Ground, threads: int | None = None) -> Candidate:
     """The map as it is when landmarks have no say: how it misses them then tells of both."""
     return again([found], replace(on, landmarks=None), threads)[0]
+
+
+def still_missed(best: Candidate, on: Ground, marks: Marks | None) -> np.ndarray:
+    """Which of all landmarks given ``(l,)`` the map misses: one that a rough map of unlike shapes has missed, on a tail
+    say, may be right by what it has been mended to, in which it had no say.
+    """
+    if marks is None:
+        return np.zeros(0, dtype=bool)
+    return missed(best.functional_map, on.source.samples.basis.functions, marks) > MISSED
 
 
 def backed_by(best: Candidate, on: Ground, threads: int | None = None) -> float:
