@@ -668,6 +668,7 @@ MUTANTS = tuple(
         ("if len(lost):\n            found[lost]", "if False:\n            found[lost]", "test_among -k forgotten"),
         # landmarks between shapes of other proportions, and what they say of a map
         ("np.minimum(distances, MISSED).mean()", "distances.mean()", "test_marks -k where_they_are_missed"),
+        ("still = wrong & still_missed(", "still = wrong | still_missed(", "test_marks -k doubted_no_longer"),
         ("return share**2 * float(", "return share * float(", "test_marks -k far_as_they_reach"),
         (
             "share = float(areas[told].sum() / areas.sum())",

@@ -150,6 +150,21 @@ def test_a_search_says_that_landmarks_back_its_map(creatures, monkeypatch) -> No
     assert backed.confidence > SURE
 
 
+def test_a_landmark_that_the_map_keeps_is_doubted_no_longer(creatures, monkeypatch) -> None:
+    """A rough map has missed two; the map that comes of it keeps the first, and has the second elsewhere indeed."""
+    source, target, truth = creatures
+    C = functional(truth, creatures, 40)
+    monkeypatch.setattr(choose, "candidates", lambda *a, **_m: judged(NAMES, C[None], None, a[3].whole, 1))
+    monkeypatch.setattr(choose, "unled", lambda *_a, **_m: [])
+    monkeypatch.setattr(choose, "MENDED", -np.inf)
+    monkeypatch.setattr(choose, "doubted", lambda missed: np.isin(missed, [missed.min(), missed.max()]))
+    at = spread_out(creatures, 10)
+    at[1, 0] = np.linalg.norm(source.mesh.vertices - source.mesh.vertices[at[1, 0]], axis=1).argmax()
+    found = choose.choose(source, target, replace(kfmaps.Config.automatic(), threads=1), landmarks=at)
+    assert found.doubted.tolist() == [1]
+    np.testing.assert_array_equal(found.landmarks, np.delete(at, 1, axis=0))
+
+
 def test_copies_know_the_landmarks_nearest_to_them(creatures) -> None:
     """Also those of a mirror image, and the other way round."""
     source, target, _ = creatures
