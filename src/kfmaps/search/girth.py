@@ -1,10 +1,11 @@
 """How thick two bodies are at each point: what slides a map back between shapes of other proportions.
 
-A map may slide along a trunk or the root of a limb and keep functions, SHOT and the energy of bending as they were: of
-cats, dogs, gorillas and women all of these are no worse, mostly better, at maps that have slid 3 to 5 % of √area than
-at the true ones. What differs is how much heat stays where it was put, the heat kernel signature of Sun, Ovsjanikov and
-Guibas (2009): at times in which it fills a limb, but not the trunk, much in a thin part, and little in a thick one.
-There is no bend in it, and little of what the surface is like near the point.
+A map may slide along a trunk or the root of a limb and functions, SHOT and the energy of bending do not mind: between
+cats and dogs, gorillas and women SHOT is as like, or more so, at maps that have slid by 3 to 5 % of √area as at true
+ones, and fits that begin with the truth slide as far. What differs, of cats and dogs at least, is how much heat stays
+where it was put, the heat kernel signature of Sun, Ovsjanikov and Guibas (2009): at times in which it fills a limb, but
+not the trunk, much in a thin part, and little in a thick one. There is no bend in it, and little of what the surface is
+like near the point.
 
 It makes wrong maps better as well as right ones, so it has no say in which is right: the one that has been chosen is
 bent and matched in turn (:mod:`kfmaps.search.alternate`) once more.
