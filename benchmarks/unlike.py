@@ -5,11 +5,10 @@
 Mean errors of whole matches without landmarks: as rigidly as possible throughout; with rest shapes that are stretched
 evenly (:mod:`kfmaps.functional.stretch`) while shapes are bent and matched in turn and in the last fit; with maps that
 begin with the likeliest pairings of the tips of limbs beside (:func:`kfmaps.search.mending.mended`); with torn area
-counted where others may be less torn (:func:`kfmaps.matching.worthier`); with parts that touch told apart in the end
-(:mod:`kfmaps.functional.landing`); and with how thick bodies are (:mod:`kfmaps.search.girth`), which is all that there
-is. DIR is as for benchmarks/automatic.py. The half ``report``, the default, has the pairs of that script, none of two
-shapes that settings were chosen on; ``choice`` has pairs of two such shapes. Three pairs of either set take about
-twelve minutes.
+counted where others may be less torn (:func:`kfmaps.matching.worthier`); and with parts that touch told apart in the
+end (:mod:`kfmaps.functional.landing`), which is all that there is. DIR is as for benchmarks/automatic.py. The half
+``report``, the default, has the pairs of that script, none of two shapes that settings were chosen on; ``choice`` has
+pairs of two such shapes. Three pairs of either set take about ten minutes.
 """
 
 from __future__ import annotations
@@ -40,14 +39,12 @@ CLOSEST = (
     "landed",
     lambda _points, body, x, target, _normals: places_on(target.vertices, x, body.mesh.faces),
 )
-EVEN = ((matching, "_slid", lambda found, _shapes: found), (matching, "THICK", 0.0))
 KINDS = {
-    "as rigid as possible": ((alternate, "FIT", RIGID), (choose, "STRETCH", 0.0), UNPAIRED, ONCE, CLOSEST, *EVEN),
-    "stretched evenly": (UNPAIRED, ONCE, CLOSEST, *EVEN),
-    "and pairings of tips": (ONCE, CLOSEST, *EVEN),
-    "and torn area": (CLOSEST, *EVEN),
-    "and parts that touch": EVEN,
-    "and girth": (),
+    "as rigid as possible": ((alternate, "FIT", RIGID), (choose, "STRETCH", 0.0), UNPAIRED, ONCE, CLOSEST),
+    "stretched evenly": (UNPAIRED, ONCE, CLOSEST),
+    "and pairings of tips": (ONCE, CLOSEST),
+    "and torn area": (CLOSEST,),
+    "and parts that touch": (),
 }
 
 

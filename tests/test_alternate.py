@@ -20,8 +20,6 @@ from kfmaps.search.arena import arena, turned
 from kfmaps.search.bends import MORE, copied
 from kfmaps.search.candidates import STRAIN, Candidate, differs, judged, paired_map
 from kfmaps.search.copies import Copies
-from kfmaps.search.girth import WEIGHT as THICK
-from kfmaps.search.girth import girth
 from kfmaps.search.mending import mendable, mended
 from kfmaps.search.pairings import Pairing, completed, induced, limbs_of, pairings, unheard
 from kfmaps.search.quality import Quality, probe
@@ -389,15 +387,13 @@ def test_a_match_finishes_all_ways_unless_it_is_hardly_torn(creatures, monkeypat
     source, target, truth = creatures
     C = np.asarray(to_functional(truth, source.basis.truncated(40), target.basis.truncated(40)))
     other = choose.Found(C, "other", None, "poor", quality=-9.0, scores=(-9.0,))
-    asked, slid = [], []
+    asked = []
 
     def way(found):
         return lambda least: asked.append(least) or found
 
-    mended_one = replace(other, bent=target.mesh.vertices, backwards=True)
-    ways = tuple(way(one) for one in (mended_one, other, None))
-    monkeypatch.setattr(matching, "choose", lambda *_a, **_k: replace(mended_one, origin="one", again=ways))
-    monkeypatch.setattr(matching, "slid_back", lambda found, *_: slid.append(found.origin) or found)
+    ways = tuple(way(one) for one in (replace(other, bent=target.mesh.vertices, backwards=True), other, None))
+    monkeypatch.setattr(matching, "choose", lambda *_a, **_k: replace(other, origin="one", again=ways))
     monkeypatch.setattr(matching, "worthier", lambda a, b: replace(b, seconds=a.seconds))
     config = replace(kfmaps.Config.automatic(), finish=None)
     for share, ends in ((0.5, "other"), (TORN, "one"), (None, "one")):
@@ -406,7 +402,6 @@ def test_a_match_finishes_all_ways_unless_it_is_hardly_torn(creatures, monkeypat
         assert found.origin == ends
         assert [f"another way, {i}" in found.seconds for i in (1, 2)] == 2 * [ends == "other"]
     assert asked == 3 * [-9.0 - 0.5 * TEAR]
-    assert slid == ["one", "other", "other", "one", "one"]
 
 
 def test_a_search_tells_what_else_may_turn_out_better(creatures, monkeypatch):
@@ -444,11 +439,5 @@ def test_where_the_target_lies_leads_as_well(creatures):
     assert led is not None
     assert alone is not None
     lie = lying(source.mesh, Mesh(target.mesh.vertices + 1.0, target.mesh.faces))
-    thick = girth(source, target)
-    weights = np.sqrt([alternate.WEIGHT, THICK])
-    np.testing.assert_allclose(
-        led.source, np.hstack([alone.source, weights[0] * lie.source, weights[1] * thick.source])
-    )
-    np.testing.assert_allclose(
-        led.target, np.hstack([alone.target, weights[0] * lie.target, weights[1] * thick.target])
-    )
+    np.testing.assert_allclose(led.source, np.hstack([alone.source, np.sqrt(alternate.WEIGHT) * lie.source]))
+    np.testing.assert_allclose(led.target, np.hstack([alone.target, np.sqrt(alternate.WEIGHT) * lie.target]))

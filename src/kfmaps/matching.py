@@ -27,8 +27,6 @@ from kfmaps.parts.answer import Partly, partly, reason
 from kfmaps.parts.decide import suspicion
 from kfmaps.search.alternate import WEIGHT, lying
 from kfmaps.search.choose import Found, alike, choose, closing, loosened
-from kfmaps.search.girth import WEIGHT as THICK
-from kfmaps.search.girth import girth, slid_back
 from kfmaps.search.marks import LEAD, LESS, joined, leading
 from kfmaps.search.quality import Probe
 from kfmaps.surface.eigen.pencil import THREADED
@@ -275,9 +273,6 @@ def match(
             found = choose(shapes[0], shapes[1], config, landmarks=marks, probes=probes, **more)
         if found.orientation == "reversed" and config.search.orientation != "reversed":
             shapes[1] = mirror_image(shapes[1])
-        if found.bent is not None:
-            with clock("bent and matched once more"):
-                found = _slid(found, shapes)
         led = _led(found, shapes)
     else:
         one = fit(shapes[0], shapes[1], config, landmarks=marks, **more)
@@ -296,16 +291,10 @@ def match(
             # With a lower score it would not be worth more even if nothing of it were torn.
             told = way(worth(ended))
             if told is not None:
-                told = _slid(told, shapes)
                 back = None if back is None else told.functional_map.T
                 ending = Clock(progress)
                 ended = worthier(ended, _ended(told, across, shapes, config, ending, _led(told, shapes), back, seed))
     return replace(ended, partial_reason=why) if config.partial.which == "auto" else ended
-
-
-def _slid(found: Found, shapes: list[Shape]) -> Found:
-    """Slid back along trunks and limbs, where it was bent and matched in turn."""
-    return slid_back(found, shapes[0], shapes[1], _led(replace(found, bent=None), shapes))
 
 
 def _led(found: Found, shapes: list[Shape]) -> Guide | None:
@@ -317,7 +306,7 @@ def _led(found: Found, shapes: list[Shape]) -> Guide | None:
     meshes = [shape.mesh for shape in shapes]
     moved = 1 if found.backwards else 0
     meshes[moved] = Mesh(found.bent, meshes[moved].faces)
-    return joined([(1.0, led), (WEIGHT, lying(meshes[0], meshes[1])), (THICK, girth(shapes[0], shapes[1]))])
+    return joined([(1.0, led), (WEIGHT, lying(meshes[0], meshes[1]))])
 
 
 def worthier(one: Match, other: Match) -> Match:
