@@ -206,7 +206,7 @@ def choose(
         turned_best = ranking(images, other, there, config.threads)
         if turned_best and turned_best[0].score > ranked[0].score + (CLEAR if asked == "either" else SURELY):
             orientation, found, ranked, copies, on = "reversed", images, turned_best, there, replace(on, whole=other)
-    wrong, given_marks = np.zeros(len(pairs), dtype=bool), on.whole.marks
+    wrong, all_marks = np.zeros(len(pairs), dtype=bool), on.whole.marks
     if len(pairs):
         wrong = doubted(alone(ranked[0], on.whole, config.threads).missed)
     if wrong.any():
@@ -227,7 +227,7 @@ def choose(
         others = rest[:most]
         margin = float(max(best.score - rest[0].score, 0.0) if rest else np.inf)
         score, backed = best.quality.score, backed_by(best, on.whole, config.threads)
-        still = wrong & still_missed(best, on.whole, given_marks)
+        still = wrong & still_missed(best, on.whole, all_marks)
         return Found(
             functional_map=best.functional_map,
             origin=best.name,
@@ -278,8 +278,8 @@ def backed_by(best: Candidate, on: Ground, threads: int | None = None) -> float:
 
 def unled(source: Shape, target: Shape, config: Config, on: Arena, seed: int, **more: Any) -> list[Candidate]:
     """What is found without landmarks, judged with them: whoever gives some loses none of these maps."""
-    alone = Arena(*(replace(ground, landmarks=None, marks=None) for ground in (on.few, on.whole)))
-    found = candidates(source, target, config, alone, seed, **more)
+    bare = Arena(*(replace(ground, landmarks=None, marks=None) for ground in (on.few, on.whole)))
+    found = candidates(source, target, config, bare, seed, **more)
     maps, points = np.stack([c.functional_map for c in found]), np.stack([c.points for c in found])
     return judged([(c.name, c.guided) for c in found], maps, points, on.whole, config.threads)
 
