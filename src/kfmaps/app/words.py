@@ -34,7 +34,7 @@ VERDICTS = {
 """What the verdict of a match means, wherever it is told; the confidence is the probability of being right."""
 LOUD = {
     "ambiguous": "give landmarks (kfmaps landmarks), or look at the other maps (kfmaps view)",
-    "poor": "landmarks may help (kfmaps landmarks)",
+    "poor": "landmarks, or more of them, may help (kfmaps landmarks)",
 }
 """Verdicts that a terminal must not bury in a table, and what to do."""
 
