@@ -51,6 +51,14 @@ def functional(points: np.ndarray, creatures: Any, k: int) -> np.ndarray:
     return np.asarray(to_functional(points, source.basis.truncated(k), target.basis.truncated(k)))
 
 
+def only_the_truth(creatures: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A search finds the true map alone, and mends nothing."""
+    C = functional(creatures[2], creatures, 40)
+    monkeypatch.setattr(choose, "candidates", lambda *a, **_m: judged(NAMES, C[None], None, a[3].whole, 1))
+    monkeypatch.setattr(choose, "unled", lambda *_a, **_m: [])
+    monkeypatch.setattr(choose, "MENDED", -np.inf)
+
+
 @pytest.fixture(scope="module")
 def slid(creatures: Any) -> np.ndarray:
     """A map of few functions whose points are 0.11 off on average."""
@@ -135,11 +143,8 @@ def test_a_map_is_backed_by_landmarks_that_have_not_led_it(creatures, slid) -> N
 
 def test_a_search_says_that_landmarks_back_its_map(creatures, monkeypatch) -> None:
     """As if its score were poor."""
-    source, target, truth = creatures
-    C = functional(truth, creatures, 40)
-    monkeypatch.setattr(choose, "candidates", lambda *a, **_m: judged(NAMES, C[None], None, a[3].whole, 1))
-    monkeypatch.setattr(choose, "unled", lambda *_a, **_m: [])
-    monkeypatch.setattr(choose, "MENDED", -np.inf)
+    source, target, _ = creatures
+    only_the_truth(creatures, monkeypatch)
     monkeypatch.setattr(verdict, "MIDDLE", 0.0)
     config = replace(kfmaps.Config.automatic(), threads=1)
     without, backed = (choose.choose(source, target, config, landmarks=at) for at in (None, spread_out(creatures, 40)))
@@ -152,11 +157,8 @@ def test_a_search_says_that_landmarks_back_its_map(creatures, monkeypatch) -> No
 
 def test_a_landmark_that_the_map_keeps_is_doubted_no_longer(creatures, monkeypatch) -> None:
     """A rough map has missed two; the map that comes of it keeps the first, and has the second elsewhere indeed."""
-    source, target, truth = creatures
-    C = functional(truth, creatures, 40)
-    monkeypatch.setattr(choose, "candidates", lambda *a, **_m: judged(NAMES, C[None], None, a[3].whole, 1))
-    monkeypatch.setattr(choose, "unled", lambda *_a, **_m: [])
-    monkeypatch.setattr(choose, "MENDED", -np.inf)
+    source, target, _ = creatures
+    only_the_truth(creatures, monkeypatch)
     monkeypatch.setattr(choose, "doubted", lambda missed: np.isin(missed, [missed.min(), missed.max()]))
     at = spread_out(creatures, 10)
     at[1, 0] = np.linalg.norm(source.mesh.vertices - source.mesh.vertices[at[1, 0]], axis=1).argmax()

@@ -261,8 +261,10 @@ def alone(found: Candidate, on: Ground, threads: int | None = None) -> Candidate
 
 
 def still_missed(best: Candidate, on: Ground, marks: Marks | None) -> np.ndarray:
-    """Which of all landmarks given ``(l,)`` the map misses: one that a rough map of unlike shapes has missed, on a tail
-    say, may be right by what it has been mended to, in which it had no say.
+    """Which of all landmarks given the map misses, (l,).
+
+    One that a rough map of unlike shapes has missed, on a tail say, may be right by what that has been mended to, in
+    which it had no say.
     """
     if marks is None:
         return np.zeros(0, dtype=bool)
