@@ -25,12 +25,12 @@ from shapes import bumpy_pair
 from kfmaps._arrays import Array, is_numpy, namespace, to_numpy
 from kfmaps._threads import one_blas_thread
 from kfmaps.config import Config
-from kfmaps.fit.features import kernel_features, pair_descriptors
-from kfmaps.fit.problem import CONDENSATION
-from kfmaps.fit.shape import prepare
-from kfmaps.functional.energy import hadamard_term, slice_term
-from kfmaps.functional.slices import compressed, condensed, packed_slices, unpacked_slices
-from kfmaps.kernel.kernels import Linear
+from kfmaps.fmap.energy import hadamard_term, slice_term
+from kfmaps.fmap.multiplication_operators import compressed, condensed, packed_slices, unpacked_slices
+from kfmaps.kernels.kernels import Linear
+from kfmaps.matching.assemble import CONDENSATION
+from kfmaps.matching.features import kernel_features, pair_descriptors
+from kfmaps.shape import prepare
 
 
 def seconds(call: Callable[[], Array], device: str, repeats: int) -> float:

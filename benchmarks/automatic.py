@@ -25,7 +25,7 @@ import numpy as np
 
 import kfmaps
 from kfmaps import datasets
-from kfmaps.kernel.select import farthest
+from kfmaps.kernels.landmark_selection import farthest
 
 CHOSEN_ON = {
     "FAUST_r": {f"tr_reg_{i:03d}" for i in range(40)},

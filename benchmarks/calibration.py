@@ -3,7 +3,8 @@
     python benchmarks/calibration.py ROWS.json [MORE.json ...]
 
 ROWS.json is what ``benchmarks/automatic.py --json`` writes. The score, the margin and the excess of the bending of each
-map, as in :mod:`kfmaps.search.verdict`, are fitted to whether it is right by logistic regression, once for each kind on
+map, as in :mod:`kfmaps.matching.calibration`, are fitted to whether it is right by logistic regression, once for
+each kind on
 all others, and applied to that kind. Few maps are near the border, so that the coefficients are uncertain: beside the
 most likely ones stands what 95 % of all likely ones agree to (Laplace's approximation; MacKay 1992, "The Evidence
 Framework Applied to Classification Networks"). The confidence that the library gives stands beside both.
@@ -21,7 +22,7 @@ import numpy as np
 from automatic import RIGHT
 from scipy.optimize import minimize
 
-from kfmaps.search.verdict import SURE, TIE, excess, probability
+from kfmaps.matching.calibration import SURE, TIE, excess, probability
 
 RIDGE = 0.3
 """Weight of the squares of the coefficients, of features with unit variance."""

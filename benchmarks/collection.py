@@ -32,32 +32,32 @@ import numpy as np
 from scipy.spatial import KDTree
 
 from kfmaps import datasets
-from kfmaps.app.batch.clock import RunStatus
-from kfmaps.app.batch.collection import BatchOutcome, match_collection
-from kfmaps.app.batch.exchange import map_in_use
-from kfmaps.app.batch.graphing import graph_pairs
-from kfmaps.app.batch.layout import Pair, find_collection
-from kfmaps.app.batch.need import needed
-from kfmaps.app.batch.plan import make_plan
-from kfmaps.app.batch.results import Result, read_result
-from kfmaps.app.batch.settings import Settings
-from kfmaps.app.batch.spread import crew
-from kfmaps.app.batch.summary import BAD
-from kfmaps.app.batch.tasks import PairTask
-from kfmaps.app.batch.truth import true_vertices
-from kfmaps.app.batch.work import loaded, map_path
-from kfmaps.app.evaluation import assessed
-from kfmaps.app.files import load_map, read_mesh, read_vertex_numbers, save_map, write_mesh, write_vertex_numbers
+from kfmaps.batch.clock import RunStatus
+from kfmaps.batch.collection import BatchOutcome, match_collection
+from kfmaps.batch.exchange import map_in_use
+from kfmaps.batch.graphing import graph_pairs
+from kfmaps.batch.layout import Pair, find_collection
+from kfmaps.batch.need import needed
+from kfmaps.batch.plan import make_plan
+from kfmaps.batch.results import Result, read_result
+from kfmaps.batch.settings import Settings
+from kfmaps.batch.spread import crew
+from kfmaps.batch.summary import BAD
+from kfmaps.batch.tasks import PairTask
+from kfmaps.batch.truth import true_vertices
+from kfmaps.batch.work import loaded, map_path
+from kfmaps.cli.evaluation import assessed
+from kfmaps.collection.synchronization import FUNCTIONS, Choice, Link, agree, orthogonal
+from kfmaps.collection.zoomout import ConsistentZoomOut, through_latent
 from kfmaps.config import BasisConfig, Config, DescriptorConfig, Search
-from kfmaps.fit.shape import prepare
-from kfmaps.functional.points import to_functional, to_points
-from kfmaps.functional.refine import ZoomOut
-from kfmaps.many.agree import FUNCTIONS, Choice, Link, agree, orthogonal
-from kfmaps.many.zoom import ConsistentZoomOut, through_latent
-from kfmaps.surface.coarse import coarse
-from kfmaps.surface.geodesics import geodesic_distances
-from kfmaps.surface.mesh import Mesh
-from kfmaps.surface.samples import stratified
+from kfmaps.fmap.convert import to_functional, to_points
+from kfmaps.fmap.refine import ZoomOut
+from kfmaps.geometry.coarsen import coarse
+from kfmaps.geometry.geodesics import geodesic_distances
+from kfmaps.geometry.mesh import Mesh
+from kfmaps.geometry.sampling import stratified
+from kfmaps.io import load_map, read_mesh, read_vertex_numbers, save_map, write_mesh, write_vertex_numbers
+from kfmaps.shape import prepare
 
 FULL = Config.automatic()
 QUICK = replace(FULL, search=Search(candidates=2, signs=3), finish=None)
@@ -214,7 +214,8 @@ def measured(count: int, vertices: int, workers: int, wrong: float, config: Conf
 
 
 def agreement(count: int, wrong: float) -> str:
-    """CPU seconds a shape of :func:`kfmaps.many.agree.agree` on noisy maps of which a part is random, and what it says.
+    """CPU seconds a shape of :func:`kfmaps.collection.synchronization.agree` on noisy maps of which a part is
+    random, and what it says.
 
     Each shape is joined with two successors and a shape anywhere: as many pairs as ``--graph near`` makes.
     """

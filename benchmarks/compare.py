@@ -23,16 +23,16 @@ from shapes import Pair, bumpy_pair, read_pairs
 
 from kfmaps._threads import one_blas_thread
 from kfmaps.config import Config, DescriptorConfig
-from kfmaps.fit.features import pair_descriptors
-from kfmaps.fit.fit import checked_landmarks
-from kfmaps.fit.problem import problem
-from kfmaps.fit.shape import Shape, prepare
-from kfmaps.functional.evaluate import geodesic_errors
-from kfmaps.functional.points import to_points
-from kfmaps.functional.preconditioners import sylvester
-from kfmaps.functional.refine import ZoomOut
-from kfmaps.functional.solvers import CG, solve
-from kfmaps.matching import match
+from kfmaps.fmap.convert import to_points
+from kfmaps.fmap.evaluate import geodesic_errors
+from kfmaps.fmap.preconditioners import sylvester
+from kfmaps.fmap.refine import ZoomOut
+from kfmaps.fmap.solvers import CG, solve
+from kfmaps.matching.assemble import problem
+from kfmaps.matching.features import pair_descriptors
+from kfmaps.matching.fit import checked_landmarks
+from kfmaps.matching.match import match
+from kfmaps.shape import Shape, prepare
 
 K, STOP, STEP = 100, 150, 5
 ZOOM = ZoomOut(start=K, stop=STOP, step=STEP)

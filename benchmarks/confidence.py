@@ -17,7 +17,7 @@ import numpy as np
 from scipy.stats import rankdata
 
 import kfmaps
-from kfmaps.functional.points import nearest
+from kfmaps.fmap.convert import nearest
 
 PAIRS = ((41, 57), (52, 68), (63, 44), (75, 59), (48, 71), (66, 73), (54, 42), (79, 61))
 LANDMARKS = np.array([200, 1120, 2040])

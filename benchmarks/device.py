@@ -18,7 +18,7 @@ from typing import Any
 import numpy as np
 
 from kfmaps import Config, Shape, datasets, match, prepare
-from kfmaps.matching import Match
+from kfmaps.matching.match import Match
 
 WAYS = {"one fit": Config(), "automatic": Config.automatic()}
 

@@ -14,14 +14,14 @@ import argparse
 import numpy as np
 
 from kfmaps import datasets
-from kfmaps.app.datasets.creature import CREATURE, DANCE
-from kfmaps.app.datasets.skeleton import Body
-from kfmaps.app.datasets.surface import closed_mesh
-from kfmaps.functional.nonrigid import NonRigid, Registered
-from kfmaps.functional.precise import PointMap, points_of
-from kfmaps.matching import match
-from kfmaps.surface.mesh import Mesh, surface_area, unit_area, vertex_areas
-from kfmaps.surface.rigidity import bending, rigidity
+from kfmaps.datasets.creature import CREATURE, DANCE
+from kfmaps.datasets.skeleton import Body
+from kfmaps.datasets.surface import closed_mesh
+from kfmaps.fmap.precise import PointMap, points_of
+from kfmaps.geometry.arap import bending, rigidity
+from kfmaps.geometry.mesh import Mesh, surface_area, unit_area, vertex_areas
+from kfmaps.matching.match import match
+from kfmaps.registration.nonrigid_icp import NonRigid, Registered
 
 VERTICES = 4000
 LIMBS = [limb.name for limb in CREATURE]

@@ -1,7 +1,8 @@
 """The eigenproblem against SciPy's default: ``python benchmarks/eigenproblem.py [--large] [--json PATH]``.
 
 For each size the first ``k`` eigenpairs of one bumpy sphere's Laplacian, by SciPy's ``eigsh`` with its default
-shift-invert and by :func:`kfmaps.surface.eigen.pencil.smallest_eigenpairs` with each ordering, all on one BLAS thread.
+shift-invert and by :func:`kfmaps.geometry.eigen.eigensolver.smallest_eigenpairs` with each ordering, all on one BLAS
+thread.
 Ratios are SciPy's time over ours, measured in this run; ``work`` is CPU seconds. GB is the peak memory of a process
 of its own for each row, some 0.15 of it Python and the libraries.
 """
@@ -25,7 +26,7 @@ from scipy.sparse.linalg import eigsh
 from shapes import bumpy_sphere
 
 from kfmaps._threads import available_cores, one_blas_thread
-from kfmaps.surface.eigen.pencil import smallest_eigenpairs
+from kfmaps.geometry.eigen.eigensolver import smallest_eigenpairs
 
 SIZES, LARGE = (5_000, 20_000, 100_000), (300_000, 500_000)
 

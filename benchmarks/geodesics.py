@@ -20,9 +20,9 @@ from scipy.sparse.csgraph import dijkstra
 from shapes import bumpy_sphere
 
 from kfmaps._threads import one_blas_thread
-from kfmaps.app.files import read_mesh
-from kfmaps.surface.mesh import Mesh
-from kfmaps.surface.unfolding import surface_graph
+from kfmaps.geometry.geodesic_graph import surface_graph
+from kfmaps.geometry.mesh import Mesh
+from kfmaps.io import read_mesh
 
 REFERENCE = 24
 

@@ -31,15 +31,15 @@ import numpy as np
 from shapes import bumpy_pair
 
 import kfmaps
+from kfmaps import datasets
 from kfmaps._threads import one_blas_thread
-from kfmaps.app import datasets
 from kfmaps.config import Config
-from kfmaps.fit.finish import finished
-from kfmaps.fit.fit import fit
-from kfmaps.fit.shape import prepare
-from kfmaps.matching import match
-from kfmaps.surface.geodesics import distance_pairs
-from kfmaps.surface.mesh import Mesh, unit_area
+from kfmaps.geometry.geodesics import distance_pairs
+from kfmaps.geometry.mesh import Mesh, unit_area
+from kfmaps.matching.fit import fit
+from kfmaps.matching.match import match
+from kfmaps.matching.postprocess import finished
+from kfmaps.shape import prepare
 
 SIZES, LARGE, HUGE = (5_000, 20_000, 80_000), 300_000, 1_000_000
 

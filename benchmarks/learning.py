@@ -31,14 +31,14 @@ from pathlib import Path
 import numpy as np
 
 import kfmaps
-from kfmaps.app.batch.cache import load_shape, save_shape
-from kfmaps.app.experiments.statistics import difference
-from kfmaps.app.files import read_vertex_numbers
-from kfmaps.app.settings.merge import read_settings
-from kfmaps.fit.finish import finished
-from kfmaps.fit.fit import fit
-from kfmaps.functional.points import nearest
-from kfmaps.surface.geodesics import geodesic_distances
+from kfmaps.batch.cache import load_shape, save_shape
+from kfmaps.experiments.statistics import difference
+from kfmaps.fmap.convert import nearest
+from kfmaps.geometry.geodesics import geodesic_distances
+from kfmaps.io import read_vertex_numbers
+from kfmaps.matching.fit import fit
+from kfmaps.matching.postprocess import finished
+from kfmaps.settings.merge import read_settings
 
 SETS = ("FAUST_r", "TOSCA_r", "SHREC19_r")
 REPORTED = tuple(f"tr_reg_{i:03d}" for i in range(40, 80))
@@ -265,7 +265,7 @@ STARTS = {
 def starts(data: Data, names: list[str]) -> None:
     """Mean raw error on the pairs of people 2 and 3, before any gradient."""
     from kfmaps import learn
-    from kfmaps.functional.solvers import CG
+    from kfmaps.fmap.solvers import CG
 
     def drawn(people: range, count: int, seed: int) -> list[tuple[str, str]]:
         every = list(permutations([f"tr_reg_{p:02d}{i}" for p in people for i in range(10)], 2))

@@ -1,7 +1,7 @@
 """What a search says that has missed the right map: ``python benchmarks/missed.py --data DIR [--pairs 8]``.
 
 Of all rough maps of a search those near the truth are taken out before the near-symmetries of the shapes and random
-ones are tried (:func:`kfmaps.search.candidates.from_symmetries`). Then the search ends as usual, once with the
+ones are tried (:func:`kfmaps.matching.candidates.from_symmetries`). Then the search ends as usual, once with the
 near-symmetries and once without. A map that is "sure" and wrong was sure for want of a rival. DIR is as for
 benchmarks/automatic.py, and so are the pairs: none of two shapes that settings were chosen on.
 """
@@ -18,10 +18,10 @@ import numpy as np
 from automatic import RIGHT, Job, loaded, pairs_of
 
 import kfmaps
-from kfmaps.functional.points import nearest
-from kfmaps.search import candidates as search
-from kfmaps.search.choose import choose
-from kfmaps.surface.geodesics import geodesic_distances
+from kfmaps.fmap.convert import nearest
+from kfmaps.geometry.geodesics import geodesic_distances
+from kfmaps.matching import candidates as search
+from kfmaps.matching.search import choose
 
 NEAR = 12.0
 """Mean error × 100 below which a rough map is taken out."""

@@ -31,15 +31,16 @@ PACKAGE = ROOT / "src" / "kfmaps"
 TIMEOUT = 300
 """Seconds that one mutant's tests may take: an endless loop has been noticed too."""
 ROOMS = {
-    "kernel": "test_kernels test_nystrom test_formulas",
-    "surface": "test_formulas test_geodesics test_spectrum test_orientation test_eigensolver test_maps test_topology "
+    "kernels": "test_kernels test_nystrom test_formulas",
+    "geometry": "test_formulas test_geodesics test_spectrum test_orientation test_eigensolver test_maps test_topology "
     "test_scale test_clouds test_inside test_precise test_nonrigid",
     "descriptors": "test_formulas test_shot test_formulas_match",
-    "functional": "test_formulas test_energy test_maps test_solvers test_preconditioners test_guided test_confidence "
+    "fmap": "test_formulas test_energy test_maps test_solvers test_preconditioners test_guided test_confidence "
     "test_formulations test_rounding test_precise",
-    "fit": "test_formulas_match test_pipeline test_rounding test_scale test_formulations_fit",
-    "search": "test_formulas_match test_rounding test_search test_automatic",
-    "many": "test_many test_many_differences test_many_maps",
+    "registration": "test_nonrigid test_lift test_landing test_alternate test_looks test_stretch test_places",
+    "matching": "test_pipeline test_scale test_formulations_fit test_parts "
+    "test_formulas_match test_rounding test_search test_automatic",
+    "collection": "test_many test_many_differences test_many_maps",
     "config": "test_pipeline test_settings",
 }
 """Where random mutants are drawn, and the tests that should notice, the quickest first."""

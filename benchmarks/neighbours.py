@@ -19,13 +19,13 @@ from shapes import Pair, bumpy_pair, read_pairs
 
 from kfmaps._threads import one_blas_thread
 from kfmaps.config import Config
-from kfmaps.fit.finish import finished
-from kfmaps.fit.fit import fit
-from kfmaps.fit.shape import prepare
-from kfmaps.functional.cells import nearest_by_cells
-from kfmaps.functional.nearest import nearest
-from kfmaps.surface.geodesics import distance_pairs
-from kfmaps.surface.mesh import Mesh, unit_area
+from kfmaps.fmap.approximate_nearest import nearest_by_cells
+from kfmaps.fmap.nearest import nearest
+from kfmaps.geometry.geodesics import distance_pairs
+from kfmaps.geometry.mesh import Mesh, unit_area
+from kfmaps.matching.fit import fit
+from kfmaps.matching.postprocess import finished
+from kfmaps.shape import prepare
 
 
 def quartered(mesh: Mesh) -> Mesh:

@@ -34,16 +34,16 @@ from pathlib import Path
 import numpy as np
 
 import kfmaps
-from kfmaps.app.files import load_map
-from kfmaps.app.partial_truth import PartTruth, part_accuracy, read_part_truth
-from kfmaps.functional.evaluate import place_errors
-from kfmaps.functional.precise import PointMap, points_of
-from kfmaps.parts.answer import COMMON
-from kfmaps.parts.overlap import covered
-from kfmaps.parts.side import border_of
-from kfmaps.surface.closest import places_on
-from kfmaps.surface.geodesics import farthest_geodesic
-from kfmaps.surface.mesh import Mesh, unit_area, vertex_areas
+from kfmaps.cli.partial_truth import PartTruth, part_accuracy, read_part_truth
+from kfmaps.fmap.evaluate import place_errors
+from kfmaps.fmap.precise import PointMap, points_of
+from kfmaps.geometry.closest_points import places_on
+from kfmaps.geometry.geodesics import farthest_geodesic
+from kfmaps.geometry.mesh import Mesh, unit_area, vertex_areas
+from kfmaps.io import load_map
+from kfmaps.matching.partial.match_partial import COMMON
+from kfmaps.matching.partial.overlap import covered
+from kfmaps.matching.partial.samples import border_of
 
 CHOSEN_ON = {"cat", "horse", *(f"tr_reg_{i:03d}" for i in range(20))}
 SETS = {"cuts": "SHREC16", "holes": "SHREC16", "PFAUST_M": "PFAUST_M", "PFAUST_H": "PFAUST_H"}

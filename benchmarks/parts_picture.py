@@ -17,13 +17,13 @@ from matplotlib.figure import Figure
 
 import kfmaps
 from kfmaps import datasets
-from kfmaps.app.files import load_map, save_map
-from kfmaps.app.files.counterparts import counterparts
-from kfmaps.app.pictures import automatic_view, position_colors, save_figure
-from kfmaps.app.pictures.camera import following_view
-from kfmaps.app.pictures.matches import carried_colors
-from kfmaps.app.pictures.surfaces import draw_surface
-from kfmaps.functional.precise import vertices_of
+from kfmaps.fmap.precise import vertices_of
+from kfmaps.io import load_map, save_map
+from kfmaps.io.counterparts import counterparts
+from kfmaps.viz import automatic_view, position_colors, save_figure
+from kfmaps.viz.camera import following_view
+from kfmaps.viz.matches import carried_colors
+from kfmaps.viz.surfaces import draw_surface
 
 
 def main() -> None:

@@ -25,18 +25,18 @@ from scipy.optimize import minimize
 
 import kfmaps
 from kfmaps import datasets
-from kfmaps.app.datasets.pairs import largest_piece
-from kfmaps.app.partial_truth import read_part_truth
+from kfmaps.cli.partial_truth import read_part_truth
 from kfmaps.config import Partial
-from kfmaps.functional.precise import PointMap, points_of
-from kfmaps.parts.bend import Ground, ground
-from kfmaps.parts.candidates import Candidate, laid, plain_score
-from kfmaps.parts.choose import AGAIN, BEAMS, distinct
-from kfmaps.parts.contest import contested, margin
-from kfmaps.parts.side import Side, side
-from kfmaps.parts.units import SCALES, TRIALS, grown, searched, tried
-from kfmaps.parts.verdict import CLOSE, SURE
-from kfmaps.surface.mesh import Mesh, surface_area, unit_area
+from kfmaps.datasets.pairs import largest_piece
+from kfmaps.fmap.precise import PointMap, points_of
+from kfmaps.geometry.mesh import Mesh, surface_area, unit_area
+from kfmaps.matching.partial.calibration import CLOSE, SURE
+from kfmaps.matching.partial.candidates import Candidate, laid, plain_score
+from kfmaps.matching.partial.compare_alternatives import contested, margin
+from kfmaps.matching.partial.place_part import AGAIN, BEAMS, distinct
+from kfmaps.matching.partial.registration import Ground, ground
+from kfmaps.matching.partial.samples import Side, side
+from kfmaps.matching.partial.scale_search import SCALES, TRIALS, grown, searched, tried
 
 PAIRS = (
     "cuts cat cuts_cat_03", "cuts horse cuts_horse_08", "holes cat holes_cat_02", "PFAUST_M tr_reg_000 part_006",
@@ -147,7 +147,7 @@ def fitted(shown: np.ndarray, right: np.ndarray, weights: np.ndarray, ridge: flo
 
 
 def chances(b: np.ndarray, shown: np.ndarray) -> np.ndarray:
-    """Of ``shown (e, 2)``, scores and margins; as :func:`kfmaps.parts.verdict.part_probability`."""
+    """Of ``shown (e, 2)``, scores and margins; as :func:`kfmaps.matching.partial.calibration.part_probability`."""
     fits = 1 / (1 + np.exp(-np.clip((shown[:, 0] - b[0]) / b[1], -700, 700)))
     return fits * (1 - 0.5 * np.exp(-shown[:, 1] / CLOSE))
 

@@ -30,13 +30,13 @@ from automatic import mesh_file, read
 
 import kfmaps
 from kfmaps import datasets
-from kfmaps.fit.places import placed
-from kfmaps.fit.stages import Clock
-from kfmaps.functional.evaluate import place_errors, smoothness
-from kfmaps.functional.nonrigid import NonRigid
-from kfmaps.functional.precise import PointMap, nearest_places, points_of
-from kfmaps.surface.closest import places_on
-from kfmaps.surface.mesh import Mesh, unit_area
+from kfmaps._stage_timer import Clock
+from kfmaps.fmap.evaluate import place_errors, smoothness
+from kfmaps.fmap.precise import PointMap, nearest_places, points_of
+from kfmaps.geometry.closest_points import places_on
+from kfmaps.geometry.mesh import Mesh, unit_area
+from kfmaps.registration.accept import placed
+from kfmaps.registration.nonrigid_icp import NonRigid
 
 NUMBERS = [(20 + i, 30 + (3 * i) % 10) for i in range(10)] + [(30 + i, 20 + (7 * i + 4) % 10) for i in range(10)]
 """Pairs of registrations of the people 2 and 3."""

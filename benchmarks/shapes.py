@@ -8,8 +8,8 @@ from pathlib import Path
 import numpy as np
 from scipy.spatial import ConvexHull, KDTree
 
-from kfmaps.app.files.meshes import read_mesh
-from kfmaps.surface.mesh import Mesh, unit_area
+from kfmaps.geometry.mesh import Mesh, unit_area
+from kfmaps.io.meshes import read_mesh
 
 
 def bumpy_sphere(n: int, rng: int | np.random.Generator = 0) -> Mesh:

@@ -21,9 +21,9 @@ from shapes import bumpy_pair, bumpy_sphere
 
 from kfmaps._threads import one_blas_thread
 from kfmaps.config import Config
-from kfmaps.functional.cells import nearest_by_cells
-from kfmaps.matching import match
-from kfmaps.surface.eigen.pencil import smallest_eigenpairs
+from kfmaps.fmap.approximate_nearest import nearest_by_cells
+from kfmaps.geometry.eigen.eigensolver import smallest_eigenpairs
+from kfmaps.matching.match import match
 
 K = 200
 

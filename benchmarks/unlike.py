@@ -3,10 +3,14 @@
     python benchmarks/unlike.py --data DIR [--half choice] [--pairs 3] [--seeds 0,1]
 
 Mean errors of whole matches without landmarks: as rigidly as possible throughout; with rest shapes that are stretched
-evenly (:mod:`kfmaps.functional.stretch`) while shapes are bent and matched in turn and in the last fit; with maps that
-begin with the likeliest pairings of the tips of limbs beside (:func:`kfmaps.search.mending.mended`); with torn area
-counted where others may be less torn (:func:`kfmaps.matching.worthier`); and with parts that touch told apart in the
-end (:mod:`kfmaps.functional.landing`), which is all that there is. DIR is as for benchmarks/automatic.py. The half
+evenly (:mod:`kfmaps.registration.local_scaling`) while shapes are bent and matched in turn and in the last fit; with
+maps that
+begin with the likeliest pairings of the tips of limbs beside (:func:`kfmaps.matching.registration_refine.mended`);
+with torn area
+counted where others may be less torn (:func:`kfmaps.matching.match.worthier`); and with parts that touch told apart
+in the
+end (:mod:`kfmaps.registration.contact_projection`), which is all that there is. DIR is as for
+benchmarks/automatic.py. The half
 ``report``, the default, has the pairs of that script, none of two shapes that settings were chosen on; ``choice`` has
 pairs of two such shapes. Three pairs of either set take about ten minutes.
 """
@@ -25,10 +29,12 @@ import numpy as np
 from automatic import CHOSEN_ON, Job, loaded, pairs_of
 
 import kfmaps
-from kfmaps import matching
-from kfmaps.functional import nonrigid
-from kfmaps.search import alternate, choose, mending
-from kfmaps.surface.closest import places_on
+from kfmaps.geometry.closest_points import places_on
+from kfmaps.matching import match as matching
+from kfmaps.matching import registration_refine as mending
+from kfmaps.matching import search as choose
+from kfmaps.registration import alternating_registration as alternate
+from kfmaps.registration import nonrigid_icp as nonrigid
 
 RIGID = replace(alternate.FIT, stretch=0.0)
 ONCE = (matching, "TORN", 2.0)

@@ -7,8 +7,8 @@ both. What comes back is a vertex of the source for each vertex of the target.
 """
 
 import kfmaps
-from kfmaps.app.pictures import match_figure
-from kfmaps.kernel.select import farthest
+from kfmaps.kernels.landmark_selection import farthest
+from kfmaps.viz import match_figure
 
 pair = kfmaps.datasets.two_poses(vertices=2000)
 print(f"source: {len(pair.source.vertices)} vertices, target: {len(pair.target.vertices)} vertices")

@@ -12,7 +12,7 @@ from dataclasses import replace
 import matplotlib.pyplot as plt
 
 import kfmaps
-from kfmaps.kernel.select import farthest
+from kfmaps.kernels.landmark_selection import farthest
 
 pair = kfmaps.datasets.non_isometric(vertices=2000)
 marked = farthest(pair.target.vertices, 6)

@@ -14,8 +14,8 @@ from sklearn.gaussian_process.kernels import RationalQuadratic
 from sklearn.metrics.pairwise import rbf_kernel
 
 import kfmaps
-from kfmaps.app.pictures import match_figure
-from kfmaps.kernel.select import farthest
+from kfmaps.kernels.landmark_selection import farthest
+from kfmaps.viz import match_figure
 
 pair = kfmaps.datasets.two_poses(vertices=2000)
 marked = farthest(pair.target.vertices, 4)

@@ -12,9 +12,9 @@ from dataclasses import replace
 import numpy as np
 
 import kfmaps
-from kfmaps.app.pictures import match_figure
-from kfmaps.kernel.select import farthest
-from kfmaps.surface.mesh import surface_area
+from kfmaps.geometry.mesh import surface_area
+from kfmaps.kernels.landmark_selection import farthest
+from kfmaps.viz import match_figure
 
 pair = kfmaps.datasets.two_poses(vertices=2000)
 marked = farthest(pair.target.vertices, 4)

@@ -13,7 +13,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 import kfmaps
-from kfmaps.app.pictures import draw_surface, position_colors, true_views
+from kfmaps.viz import draw_surface, position_colors, true_views
 
 pair = kfmaps.datasets.symmetric_creature(vertices=2000)
 

@@ -9,9 +9,9 @@ without any point map: a product with a small matrix.
 import numpy as np
 
 import kfmaps
-from kfmaps.app.files import transfer
-from kfmaps.app.pictures import Panel, grid_figure, match_figure
-from kfmaps.kernel.select import farthest
+from kfmaps.io import transfer
+from kfmaps.kernels.landmark_selection import farthest
+from kfmaps.viz import Panel, grid_figure, match_figure
 
 pair = kfmaps.datasets.two_poses(vertices=2000)
 marked = farthest(pair.target.vertices, 6)

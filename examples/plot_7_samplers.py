@@ -11,10 +11,10 @@ import numpy as np
 
 import kfmaps
 from kfmaps.descriptors.spectral import normalised, wave_energies, wave_signature
-from kfmaps.kernel.nystrom import nystrom
-from kfmaps.kernel.select import farthest, pivoted_cholesky, uniform
-from kfmaps.surface.geodesics import farthest_geodesic
-from kfmaps.surface.mesh import unit_area
+from kfmaps.geometry.geodesics import farthest_geodesic
+from kfmaps.geometry.mesh import unit_area
+from kfmaps.kernels.landmark_selection import farthest, pivoted_cholesky, uniform
+from kfmaps.kernels.nystrom import nystrom
 
 pair = kfmaps.datasets.two_poses(vertices=1500)
 meshes = [unit_area(mesh) for mesh in (pair.source, pair.target)]

@@ -11,8 +11,8 @@ from dataclasses import replace
 import numpy as np
 
 import kfmaps
-from kfmaps.app.pictures import Curve, curves_figure
-from kfmaps.kernel.select import farthest
+from kfmaps.kernels.landmark_selection import farthest
+from kfmaps.viz import Curve, curves_figure
 
 pair = kfmaps.datasets.two_poses(vertices=2000)
 marked = farthest(pair.target.vertices, 6)

@@ -8,7 +8,7 @@ Learning needs PyTorch (``pip install 'kfmaps[learn]'``); what was learned does 
 """
 
 import kfmaps
-from kfmaps.kernel.select import farthest
+from kfmaps.kernels.landmark_selection import farthest
 
 # Learning begins as this configuration, with ten descriptors and a map of 40 by 40.
 config = kfmaps.Config(

@@ -11,10 +11,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 import kfmaps
-from kfmaps.fit.fit import fit_points
-from kfmaps.fit.problem import problem
-from kfmaps.functional.objective import How, Objective, minimised
-from kfmaps.functional.terms import Elementwise
+from kfmaps.fmap.minimize import How, Objective, minimised
+from kfmaps.fmap.terms import Elementwise
+from kfmaps.matching.assemble import problem
+from kfmaps.matching.fit import fit_points
 
 
 @dataclass(frozen=True, eq=False)

@@ -5,7 +5,7 @@ The same as ``kfmaps reproduce figure2``, with the same options: ``python experi
 
 import sys
 
-from kfmaps.app.cli import main
+from kfmaps.cli.main import main
 
 if __name__ == "__main__":
     sys.exit(main(["reproduce", "figure2", *sys.argv[1:]]))

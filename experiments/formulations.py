@@ -5,7 +5,7 @@ The same as ``kfmaps reproduce formulations``, with the same options: ``python e
 
 import sys
 
-from kfmaps.app.cli import main
+from kfmaps.cli.main import main
 
 if __name__ == "__main__":
     sys.exit(main(["reproduce", "formulations", *sys.argv[1:]]))

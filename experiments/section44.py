@@ -5,7 +5,7 @@ The same as ``kfmaps reproduce section44``, with the same options: ``python expe
 
 import sys
 
-from kfmaps.app.cli import main
+from kfmaps.cli.main import main
 
 if __name__ == "__main__":
     sys.exit(main(["reproduce", "section44", *sys.argv[1:]]))

@@ -5,7 +5,7 @@ The same as ``kfmaps tune``, with the same options: ``python experiments/tune.py
 
 import sys
 
-from kfmaps.app.cli import main
+from kfmaps.cli.main import main
 
 if __name__ == "__main__":
     sys.exit(main(["tune", *sys.argv[1:]]))

@@ -15,16 +15,16 @@ from pathlib import Path
 import numpy as np
 
 from conftest import blob
-from kfmaps.app.batch.collection import match_collection
-from kfmaps.app.batch.layout import Pair, choose_pairs, find_collection
-from kfmaps.app.batch.plan import Plan, make_plan
-from kfmaps.app.batch.results import Result
-from kfmaps.app.batch.settings import Settings
-from kfmaps.app.batch.work import match_pair, prepare_shape
-from kfmaps.app.files import write_mesh, write_vertex_numbers
+from kfmaps.batch.collection import match_collection
+from kfmaps.batch.layout import Pair, choose_pairs, find_collection
+from kfmaps.batch.plan import Plan, make_plan
+from kfmaps.batch.results import Result
+from kfmaps.batch.settings import Settings
+from kfmaps.batch.work import match_pair, prepare_shape
 from kfmaps.config import BasisConfig, Config, DescriptorConfig, NystromConfig
-from kfmaps.functional.refine import ZoomOut
-from kfmaps.surface.mesh import Mesh
+from kfmaps.fmap.refine import ZoomOut
+from kfmaps.geometry.mesh import Mesh
+from kfmaps.io import write_mesh, write_vertex_numbers
 
 LANDMARKS = (1, 50, 120, 170)
 """Lines of the truth, counted from 1."""

@@ -13,8 +13,8 @@ from pathlib import Path
 import numpy as np
 
 from conftest import blob
-from kfmaps.app.cli import main
-from kfmaps.app.files import write_landmarks, write_mesh
+from kfmaps.cli.main import main
+from kfmaps.io import write_landmarks, write_mesh
 
 SMALL = (
     *("--basis", "20", "--descriptors", "30", "--samples", "60", "--set", "descriptors.eigenfunctions=40"),
@@ -54,7 +54,7 @@ def start(*words: object, folder: Path, **more: object) -> subprocess.Popen[str]
     """The command in a process of its own, which Ctrl-C reaches even where a shell runs this in the background."""
     code = (
         "import signal, sys; signal.signal(signal.SIGINT, signal.default_int_handler)\n"
-        "from kfmaps.app.cli import main; sys.exit(main())"
+        "from kfmaps.cli.main import main; sys.exit(main())"
     )
     pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE} | more
     arguments = [sys.executable, "-c", code, *map(str, words)]

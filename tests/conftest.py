@@ -15,8 +15,8 @@ import pytest
 from scipy.spatial import ConvexHull
 
 import kfmaps
-from kfmaps.surface.basis import Basis, laplace_basis
-from kfmaps.surface.mesh import Mesh, unit_area
+from kfmaps.geometry.basis import Basis, laplace_basis
+from kfmaps.geometry.mesh import Mesh, unit_area
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:

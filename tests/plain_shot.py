@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from kfmaps.descriptors.shot import Form
-from kfmaps.surface.mesh import Mesh, face_areas, surface_area, vertex_normals
+from kfmaps.geometry.mesh import Mesh, face_areas, surface_area, vertex_normals
 
 
 def plain_support(mesh: Mesh, form: str, samples: int) -> list[tuple[np.ndarray, np.ndarray, float]]:

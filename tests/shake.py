@@ -22,17 +22,17 @@ import numpy as np
 
 import kfmaps
 from kfmaps._arrays import like, to_numpy
-from kfmaps.surface.basis import Basis
-from kfmaps.surface.eigen.pencil import Eigenpairs, smallest_eigenpairs
+from kfmaps.geometry.basis import Basis
+from kfmaps.geometry.eigen.eigensolver import Eigenpairs, smallest_eigenpairs
 
 EQUAL = 1e-9
 """Relative difference, and part of the scale of the smallest, below which eigenvalues count as equal."""
-ROOMS = ("kernel", "surface", "descriptors", "functional", "fit", "search")
+ROOMS = ("kernels", "geometry", "descriptors", "fmap", "registration", "matching")
 PRODUCTS = {
-    "kernel.kernels": ("gram",),
+    "kernels.kernels": ("gram",),
     "descriptors.spectral": ("heat_signature", "wave_signature", "heat_map", "wave_map"),
     "descriptors.shot": ("shot",),
-    "functional.slices": ("packed_slices",),
+    "fmap.multiplication_operators": ("packed_slices",),
 }
 """Functions whose results are products, each entry of which moves."""
 
@@ -67,14 +67,14 @@ def install(seed: int) -> None:
         return shaken(exact(stiffness, mass, *arguments, **settings), mass, seed)
 
     # Where it is used, not where it is defined and tested.
-    vars(importlib.import_module("kfmaps.surface.basis"))["smallest_eigenpairs"] = solver
+    vars(importlib.import_module("kfmaps.geometry.basis"))["smallest_eigenpairs"] = solver
     for module, names in PRODUCTS.items():
         for name in names:
             original = getattr(importlib.import_module(f"kfmaps.{module}"), name)
             _everywhere(original, _moved(original, seed))
     for name in ("project", "lift"):
         setattr(Basis, name, _moved(getattr(Basis, name), seed))
-    mesh = importlib.import_module("kfmaps.surface.mesh")
+    mesh = importlib.import_module("kfmaps.geometry.mesh")
     scaled = mesh.unit_area
 
     @wraps(scaled)

@@ -10,22 +10,26 @@ import numpy as np
 import pytest
 
 import kfmaps
-from kfmaps import matching
 from kfmaps._arrays import NotConverged
-from kfmaps.functional.points import nearest, to_functional
-from kfmaps.matching import TEAR, TORN, worthier
-from kfmaps.search import alternate, choose, copies, mending, ranking
-from kfmaps.search.alternate import Grounds, alternated, grounds, lying, spread
-from kfmaps.search.arena import arena, turned
-from kfmaps.search.bends import MORE, copied
-from kfmaps.search.candidates import STRAIN, Candidate, differs, judged, paired_map
-from kfmaps.search.copies import Copies
-from kfmaps.search.mending import mendable, mended
-from kfmaps.search.pairings import Pairing, completed, induced, limbs_of, pairings, unheard
-from kfmaps.search.quality import Quality, probe
-from kfmaps.search.ranking import closer
-from kfmaps.search.verdict import BENT, PER_SCORE
-from kfmaps.surface.mesh import MIRROR, Mesh, vertex_areas
+from kfmaps.fmap.convert import nearest, to_functional
+from kfmaps.geometry.mesh import MIRROR, Mesh, vertex_areas
+from kfmaps.matching import match as matching
+from kfmaps.matching import proxy_cache as copies
+from kfmaps.matching import ranking
+from kfmaps.matching import registration_refine as mending
+from kfmaps.matching import search as choose
+from kfmaps.matching.calibration import BENT, PER_SCORE
+from kfmaps.matching.candidates import STRAIN, Candidate, differs, judged, paired_map
+from kfmaps.matching.extremity_matching import Pairing, completed, induced, limbs_of, pairings, unheard
+from kfmaps.matching.match import TEAR, TORN, worthier
+from kfmaps.matching.proxy_cache import Copies
+from kfmaps.matching.quality import Quality, probe
+from kfmaps.matching.ranking import closer
+from kfmaps.matching.registration_refine import mendable, mended
+from kfmaps.matching.sample_pair import arena, turned
+from kfmaps.registration import alternating_registration as alternate
+from kfmaps.registration.alternating_registration import Grounds, alternated, grounds, lying, spread
+from kfmaps.registration.deformation_energy import MORE, copied
 
 
 @pytest.fixture(autouse=True)

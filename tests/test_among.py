@@ -5,11 +5,11 @@ import pytest
 from scipy.sparse.csgraph import dijkstra
 
 from conftest import blob
-from kfmaps.surface import among
-from kfmaps.surface.among import NEARBY, WHOLE, distances_among
-from kfmaps.surface.geodesics import farthest_geodesic
-from kfmaps.surface.mesh import Mesh, unit_area
-from kfmaps.surface.unfolding import surface_graph
+from kfmaps.geometry import among
+from kfmaps.geometry.among import NEARBY, WHOLE, distances_among
+from kfmaps.geometry.geodesic_graph import surface_graph
+from kfmaps.geometry.geodesics import farthest_geodesic
+from kfmaps.geometry.mesh import Mesh, unit_area
 
 MESH = unit_area(blob(1500))
 

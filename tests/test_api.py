@@ -15,9 +15,9 @@ import kfmaps
 from collecting import CONFIG
 from conftest import blob
 from kfmaps import InvalidInput, KfmapsWarning, Mesh
-from kfmaps.app.files import MapFile, write_landmarks
-from kfmaps.app.inputs import as_map, as_mesh
-from kfmaps.surface.mesh import surface_area
+from kfmaps.geometry.mesh import surface_area
+from kfmaps.io import MapFile, write_landmarks
+from kfmaps.io.inputs import as_map, as_mesh
 
 MESH = blob(200)
 V, F = MESH.vertices, MESH.faces

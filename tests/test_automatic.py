@@ -7,25 +7,25 @@ import pytest
 
 from conftest import blob, fibonacci_sphere
 from kfmaps._arrays import InvalidInput
-from kfmaps.app.datasets import partial, symmetric_creature
 from kfmaps.config import BasisConfig, Config, NystromConfig, Partial, Search
+from kfmaps.datasets import partial, symmetric_creature
 from kfmaps.descriptors.shot import shot
-from kfmaps.fit.shape import mirror_image, prepare
-from kfmaps.functional.evaluate import geodesic_errors
-from kfmaps.functional.guide import FLAT, spread
-from kfmaps.functional.points import nearest
-from kfmaps.functional.refine import ZoomOut
-from kfmaps.matching import match
-from kfmaps.search.arena import arena
-from kfmaps.search.candidates import Candidate, candidates, kicked
-from kfmaps.search.choose import choose
-from kfmaps.search.fits import planned
-from kfmaps.search.known import known
-from kfmaps.search.quality import _near, map_quality, probe, thinned
-from kfmaps.search.ranking import distinct
-from kfmaps.search.tips import Tips
-from kfmaps.search.verdict import BENT, MIDDLE, MUCH, PER_SCORE, SLOPE, probability, verdict
-from kfmaps.surface.mesh import Mesh
+from kfmaps.fmap.convert import nearest
+from kfmaps.fmap.descriptor_guidance import FLAT, spread
+from kfmaps.fmap.evaluate import geodesic_errors
+from kfmaps.fmap.refine import ZoomOut
+from kfmaps.geometry.mesh import Mesh
+from kfmaps.matching.calibration import BENT, MIDDLE, MUCH, PER_SCORE, SLOPE, probability, verdict
+from kfmaps.matching.candidates import Candidate, candidates, kicked
+from kfmaps.matching.extremities import Tips
+from kfmaps.matching.kernel_inits import planned
+from kfmaps.matching.match import match
+from kfmaps.matching.quality import _near, map_quality, probe, thinned
+from kfmaps.matching.ranking import distinct
+from kfmaps.matching.sample_cache import known
+from kfmaps.matching.sample_pair import arena
+from kfmaps.matching.search import choose
+from kfmaps.shape import mirror_image, prepare
 
 SMALL = replace(
     Config.automatic(),

@@ -15,15 +15,15 @@ from PIL import Image
 
 from conftest import fibonacci_sphere
 from kfmaps._arrays import InvalidInput, KfmapsWarning
-from kfmaps.app.files import MeshFile, grid_picture, read_mesh_file, write_textured
-from kfmaps.app.files.bake import bakeable, baked, pixels_of, png_of, sampled, texels_of
-from kfmaps.app.files.export import carried_uv
-from kfmaps.app.files.glb import format_glb
-from kfmaps.app.files.gltf import parse_gltf
-from kfmaps.app.files.record import Picture
-from kfmaps.functional.precise import PointMap, at_vertices
-from kfmaps.surface.closest import places_on
-from kfmaps.surface.mesh import Mesh
+from kfmaps.fmap.precise import PointMap, at_vertices
+from kfmaps.geometry.closest_points import places_on
+from kfmaps.geometry.mesh import Mesh
+from kfmaps.io import MeshFile, grid_picture, read_mesh_file, write_textured
+from kfmaps.io.bake import bakeable, baked, pixels_of, png_of, sampled, texels_of
+from kfmaps.io.export import carried_uv
+from kfmaps.io.glb import format_glb
+from kfmaps.io.gltf import parse_gltf
+from kfmaps.io.record import Picture
 from test_files_export import globe
 
 

@@ -14,23 +14,23 @@ from threadpoolctl import threadpool_info, threadpool_limits
 from collecting import CONFIG, LANDMARKS, bent, done, plan_of, touch, write_collection
 from conftest import blob
 from kfmaps._arrays import InvalidInput
-from kfmaps.app.batch import work
-from kfmaps.app.batch.cache import file_digest, load_shape, save_shape, shape_key
-from kfmaps.app.batch.kept import kept_probe, load_probe, probe_path
-from kfmaps.app.batch.layout import Pair, find_collection
-from kfmaps.app.batch.plan import make_plan
-from kfmaps.app.batch.settings import Settings
-from kfmaps.app.batch.summary import summarised
-from kfmaps.app.batch.work import attempts, map_path, match_pair, prepare_shape
-from kfmaps.app.evaluation import Truth, assessed
-from kfmaps.app.files import load_map, read_mesh, read_vertex_numbers, write_mesh, write_vertex_numbers
+from kfmaps.batch import work
+from kfmaps.batch.cache import file_digest, load_shape, save_shape, shape_key
+from kfmaps.batch.kept import kept_probe, load_probe, probe_path
+from kfmaps.batch.layout import Pair, find_collection
+from kfmaps.batch.plan import make_plan
+from kfmaps.batch.settings import Settings
+from kfmaps.batch.summary import summarised
+from kfmaps.batch.work import attempts, map_path, match_pair, prepare_shape
+from kfmaps.cli.evaluation import Truth, assessed
 from kfmaps.config import NystromConfig, Search
-from kfmaps.fit.shape import prepare
-from kfmaps.functional.evaluate import geodesic_errors
-from kfmaps.kernel.kernels import Linear
-from kfmaps.matching import match
-from kfmaps.search.choose import probed
-from kfmaps.surface.mesh import Mesh
+from kfmaps.fmap.evaluate import geodesic_errors
+from kfmaps.geometry.mesh import Mesh
+from kfmaps.io import load_map, read_mesh, read_vertex_numbers, write_mesh, write_vertex_numbers
+from kfmaps.kernels.kernels import Linear
+from kfmaps.matching.match import match
+from kfmaps.matching.search import probed
+from kfmaps.shape import prepare
 
 
 def test_prepared_shapes_come_back_as_they_were(tmp_path: Path) -> None:
@@ -196,7 +196,7 @@ def test_a_defect_is_recorded_with_its_type(folder: Path, tmp_path: Path, monkey
     def broken(*_: object, **__: object) -> None:
         raise ZeroDivisionError("oh")
 
-    monkeypatch.setattr("kfmaps.app.batch.work.match", broken)
+    monkeypatch.setattr("kfmaps.batch.work.match", broken)
     result = match_pair(plan.todo[0], *prepared)
     assert (result.status, result.reason) == ("failed", "ZeroDivisionError: oh")
     assert not map_path(tmp_path, plan.todo[0].pair.key).exists()

@@ -14,14 +14,14 @@ import pytest
 
 from collecting import CONFIG, LANDMARKS, done, touch, write_collection
 from kfmaps._arrays import InvalidInput
-from kfmaps.app.batch.carried import landmarks_everywhere, write_landmarks_csv, write_tps
-from kfmaps.app.batch.layout import Pair, find_collection
-from kfmaps.app.batch.plan import make_plan
-from kfmaps.app.batch.results import result_path
-from kfmaps.app.batch.settings import Settings
-from kfmaps.app.batch.work import map_path
-from kfmaps.app.cli import main
-from kfmaps.app.files import load_map, read_mesh, read_vertex_numbers, save_map
+from kfmaps.batch.carried import landmarks_everywhere, write_landmarks_csv, write_tps
+from kfmaps.batch.layout import Pair, find_collection
+from kfmaps.batch.plan import make_plan
+from kfmaps.batch.results import result_path
+from kfmaps.batch.settings import Settings
+from kfmaps.batch.work import map_path
+from kfmaps.cli.main import main
+from kfmaps.io import load_map, read_mesh, read_vertex_numbers, save_map
 
 NAMES = ("tip", "base", 'a "quoted", one')
 LINES = np.array([20, 90, 150])

@@ -10,10 +10,10 @@ import numpy as np
 import pytest
 
 from collecting import LANDMARKS, touch, write_collection
-from kfmaps.app.batch.need import needed
-from kfmaps.app.cli import main
-from kfmaps.app.files import load_map, read_vertex_numbers, write_landmarks
+from kfmaps.batch.need import needed
+from kfmaps.cli.main import main
 from kfmaps.config import Config
+from kfmaps.io import load_map, read_vertex_numbers, write_landmarks
 
 SIZES = ("--basis", "20", "--descriptors", "20", "--set", "descriptors.eigenfunctions=40", "--samples", "60")
 ZOOM = ("--zoom-start", "10", "--zoom-stop", "40", "--zoom-step", "5")

@@ -18,19 +18,19 @@ import pytest
 
 from collecting import AGREED, LANDMARKS, agreed_plan, done, write_collection
 from kfmaps._arrays import InvalidInput
-from kfmaps.app.batch.collection import match_collection, write_outputs
-from kfmaps.app.batch.consistent import make_consistent
-from kfmaps.app.batch.evidence import FOLDER
-from kfmaps.app.batch.exchange import exchanged_map, exchanged_result, map_in_use
-from kfmaps.app.batch.graphing import graph_pairs
-from kfmaps.app.batch.layout import find_collection
-from kfmaps.app.batch.plan import Plan, make_plan
-from kfmaps.app.batch.results import Result, read_result
-from kfmaps.app.batch.settings import Settings
-from kfmaps.app.batch.spread import Crew
-from kfmaps.app.batch.work import map_path
-from kfmaps.app.files import load_map, save_map
-from kfmaps.app.files.atomic import UNFINISHED
+from kfmaps.batch.collection import match_collection, write_outputs
+from kfmaps.batch.consistent import make_consistent
+from kfmaps.batch.evidence import FOLDER
+from kfmaps.batch.exchange import exchanged_map, exchanged_result, map_in_use
+from kfmaps.batch.graphing import graph_pairs
+from kfmaps.batch.layout import find_collection
+from kfmaps.batch.plan import Plan, make_plan
+from kfmaps.batch.results import Result, read_result
+from kfmaps.batch.settings import Settings
+from kfmaps.batch.spread import Crew
+from kfmaps.batch.work import map_path
+from kfmaps.io import load_map, save_map
+from kfmaps.io.atomic import UNFINISHED
 from test_batch_run import until
 
 MADE = Settings(AGREED, landmark_lines=LANDMARKS)

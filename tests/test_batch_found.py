@@ -11,13 +11,13 @@ import pytest
 
 from collecting import CONFIG, touch
 from kfmaps._arrays import InvalidInput
-from kfmaps.app.batch.clock import remaining_seconds
-from kfmaps.app.batch.layout import Pair, choose_pairs, find_collection, natural
-from kfmaps.app.batch.plan import recommended
-from kfmaps.app.batch.settings import Settings, claim
-from kfmaps.app.words import in_words
+from kfmaps.batch.clock import remaining_seconds
+from kfmaps.batch.layout import Pair, choose_pairs, find_collection, natural
+from kfmaps.batch.plan import recommended
+from kfmaps.batch.settings import Settings, claim
+from kfmaps.cli.words import in_words
 from kfmaps.config import Config
-from kfmaps.kernel.kernels import Linear
+from kfmaps.kernels.kernels import Linear
 
 
 @pytest.mark.parametrize("sub", ["", "off", "shapes"])
@@ -198,7 +198,7 @@ def test_long_names_have_files_all_the_same(tmp_path: Path) -> None:
 
 
 def test_numbers_beside_a_gltf_belong_to_it(tmp_path: Path) -> None:
-    from kfmaps.app.batch.cache import file_digest
+    from kfmaps.batch.cache import file_digest
 
     touch(tmp_path / "a.gltf", '{"asset": {"version": "2.0"}, "buffers": [{"byteLength": 3, "uri": "a%20b.bin"}]}')
     seen = set()
@@ -212,8 +212,8 @@ def test_numbers_beside_a_gltf_belong_to_it(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("deep", ["[" * 100_000, '{"a":' * 100_000])
 def test_deep_results_and_settings(tmp_path: Path, deep: str) -> None:
-    from kfmaps.app.batch.results import read_result
-    from kfmaps.app.batch.settings import read_settings
+    from kfmaps.batch.results import read_result
+    from kfmaps.batch.settings import read_settings
 
     assert read_result(touch(tmp_path / "r.json", deep)) is None
     touch(tmp_path / "settings.json", deep)

@@ -23,16 +23,16 @@ import threadpoolctl
 
 from collecting import CONFIG, Deadly, done, plan_of, write_collection
 from kfmaps._arrays import InvalidInput, MissingDependency
-from kfmaps.app.batch.clock import RunStatus
-from kfmaps.app.batch.cluster import Workers, local_workers, running_workers
-from kfmaps.app.batch.collection import _tidied, match_collection
-from kfmaps.app.batch.layout import Pair, find_collection
-from kfmaps.app.batch.plan import Plan, make_plan
-from kfmaps.app.batch.results import Result, result_path
-from kfmaps.app.batch.run import _Run, check_workers, run_plan
-from kfmaps.app.batch.settings import Settings
-from kfmaps.app.batch.work import attempts, begin, map_path, prepare_shape
-from kfmaps.app.files import load_map
+from kfmaps.batch.clock import RunStatus
+from kfmaps.batch.cluster import Workers, local_workers, running_workers
+from kfmaps.batch.collection import _tidied, match_collection
+from kfmaps.batch.layout import Pair, find_collection
+from kfmaps.batch.plan import Plan, make_plan
+from kfmaps.batch.results import Result, result_path
+from kfmaps.batch.run import _Run, check_workers, run_plan
+from kfmaps.batch.settings import Settings
+from kfmaps.batch.work import attempts, begin, map_path, prepare_shape
+from kfmaps.io import load_map
 
 
 def until(condition: Callable[[], Any], seconds: float = 20.0) -> Any:
@@ -363,7 +363,7 @@ def test_workers_that_are_lost_on_the_way(tmp_path: Path, monkeypatch: pytest.Mo
     nobody: Any = Nobody()
     with pytest.raises(InvalidInput, match="workers: wanted processes that answer, got some that ended"):
         check_workers(plan, Workers(nobody, 2, ""))
-    monkeypatch.setattr("kfmaps.app.batch.run.PATIENCE", 0.1)
+    monkeypatch.setattr("kfmaps.batch.run.PATIENCE", 0.1)
     with pytest.raises(InvalidInput, match="workers: wanted processes that stay alive, got none for"):
         _Run(plan, Workers(nobody, 2, ""), nobody).next()
 

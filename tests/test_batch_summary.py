@@ -13,9 +13,9 @@ import numpy as np
 import pytest
 
 from collecting import done, plan_of, write_collection
-from kfmaps.app.batch.collection import COLUMNS, PAGE, TABLE, match_collection, write_outputs
-from kfmaps.app.batch.page import summary_page
-from kfmaps.app.batch.results import (
+from kfmaps.batch.collection import COLUMNS, PAGE, TABLE, match_collection, write_outputs
+from kfmaps.batch.page import summary_page
+from kfmaps.batch.results import (
     Result,
     all_results,
     read_result,
@@ -24,7 +24,7 @@ from kfmaps.app.batch.results import (
     write_parquet,
     write_result,
 )
-from kfmaps.app.batch.summary import fitting_limit, summarised, worst_first
+from kfmaps.batch.summary import fitting_limit, summarised, worst_first
 
 
 @pytest.fixture(scope="module")

@@ -6,11 +6,11 @@ from scipy.spatial import Delaunay
 
 from kfmaps import datasets
 from kfmaps._arrays import InvalidInput
-from kfmaps.functional.evaluate import geodesic_errors, place_errors, smoothness
-from kfmaps.functional.precise import PointMap, at_vertices, points_of
-from kfmaps.surface.between import distance_places
-from kfmaps.surface.geodesics import distance_pairs
-from kfmaps.surface.mesh import Mesh, surface_area
+from kfmaps.fmap.evaluate import geodesic_errors, place_errors, smoothness
+from kfmaps.fmap.precise import PointMap, at_vertices, points_of
+from kfmaps.geometry.between import distance_places
+from kfmaps.geometry.geodesics import distance_pairs
+from kfmaps.geometry.mesh import Mesh, surface_area
 
 
 def plane(rng: np.random.Generator, n: int = 600) -> Mesh:

@@ -13,12 +13,12 @@ from PIL import Image
 from scipy.spatial import KDTree
 
 from chromium import NASTY, Browser, Keys, chromium, needs_browser
-from kfmaps.app.datasets import Pair, two_poses
-from kfmaps.app.files import MapFile
-from kfmaps.app.view.page import result_page
-from kfmaps.app.view.results import map_page
-from kfmaps.functional.confidence import local_confidence
-from kfmaps.surface.mesh import Mesh
+from kfmaps.datasets import Pair, two_poses
+from kfmaps.fmap.confidence import local_confidence
+from kfmaps.geometry.mesh import Mesh
+from kfmaps.io import MapFile
+from kfmaps.viz.page import result_page
+from kfmaps.viz.result_pages import map_page
 
 pytestmark = needs_browser
 

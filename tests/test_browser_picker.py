@@ -12,11 +12,11 @@ import pytest
 
 from chromium import NASTY, Browser, Keys, chromium, needs_browser
 from kfmaps._arrays import InvalidInput
-from kfmaps.app.datasets import Pair, two_poses
-from kfmaps.app.files import MapFile, load_map, read_landmark_names, read_landmarks
-from kfmaps.app.view.picker import Picker, picker_server
-from kfmaps.app.view.runs import Progress
-from kfmaps.surface.mesh import Mesh, surface_area
+from kfmaps.datasets import Pair, two_poses
+from kfmaps.geometry.mesh import Mesh, surface_area
+from kfmaps.io import MapFile, load_map, read_landmark_names, read_landmarks
+from kfmaps.viz.picker import Picker, picker_server
+from kfmaps.viz.runs import Progress
 
 pytestmark = needs_browser
 

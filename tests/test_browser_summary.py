@@ -9,8 +9,8 @@ from pathlib import Path
 import pytest
 
 from chromium import NASTY, Browser, chromium, needs_browser
-from kfmaps.app.batch.page import summary_page
-from kfmaps.app.batch.results import Result
+from kfmaps.batch.page import summary_page
+from kfmaps.batch.results import Result
 
 pytestmark = needs_browser
 COLUMN = (

@@ -10,13 +10,13 @@ import pytest
 import kfmaps
 from commandline import run
 from kfmaps import datasets
-from kfmaps.app.files import MapFile, MeshFile, load_map, read_mesh_file, read_values, save_map, write_mesh
-from kfmaps.app.files.export import carried_uv, projected_uv
-from kfmaps.app.files.glb import format_glb
-from kfmaps.app.files.gltf import parse_gltf
-from kfmaps.app.files.named import sha256
-from kfmaps.functional.precise import PointMap, inverse, points_of
-from kfmaps.surface.mesh import Mesh, surface_area, unit_area
+from kfmaps.fmap.precise import PointMap, inverse, points_of
+from kfmaps.geometry.mesh import Mesh, surface_area, unit_area
+from kfmaps.io import MapFile, MeshFile, load_map, read_mesh_file, read_values, save_map, write_mesh
+from kfmaps.io.export import carried_uv, projected_uv
+from kfmaps.io.glb import format_glb
+from kfmaps.io.gltf import parse_gltf
+from kfmaps.io.named import sha256
 
 
 @pytest.fixture(scope="module")

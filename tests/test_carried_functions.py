@@ -9,9 +9,9 @@ import pytest
 from commandline import run
 from kfmaps import datasets
 from kfmaps._arrays import InvalidInput
-from kfmaps.app.files import MapFile, save_map, write_mesh
-from kfmaps.app.files.functions import carried_functions
-from kfmaps.surface.mesh import Mesh
+from kfmaps.geometry.mesh import Mesh
+from kfmaps.io import MapFile, save_map, write_mesh
+from kfmaps.io.functions import carried_functions
 
 
 @pytest.fixture(scope="module")

@@ -9,13 +9,13 @@ import pytest
 
 from commandline import run
 from kfmaps import datasets
-from kfmaps.app.batch.page import summary_page
-from kfmaps.app.batch.results import Result
-from kfmaps.app.files import MapFile, load_map, save_map, write_mesh
-from kfmaps.app.files.counterparts import counterparts
-from kfmaps.app.partial_truth import PartTruth, true_overlap
-from kfmaps.functional.precise import PointMap, inverse, points_of, vertices_of
-from kfmaps.surface.mesh import surface_area
+from kfmaps.batch.page import summary_page
+from kfmaps.batch.results import Result
+from kfmaps.cli.partial_truth import PartTruth, true_overlap
+from kfmaps.fmap.precise import PointMap, inverse, points_of, vertices_of
+from kfmaps.geometry.mesh import surface_area
+from kfmaps.io import MapFile, load_map, save_map, write_mesh
+from kfmaps.io.counterparts import counterparts
 
 NEAR = 0.02
 """In √area of the whole: the meshes of part and whole have nothing to do with each other."""

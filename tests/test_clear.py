@@ -4,14 +4,14 @@ import numpy as np
 import pytest
 
 from kfmaps import datasets
-from kfmaps.fit.shape import prepare
-from kfmaps.functional.points import to_points
-from kfmaps.search import candidates as found_by
-from kfmaps.search import choose as chosen_by
-from kfmaps.search.arena import arena
-from kfmaps.search.candidates import Candidate, candidates, clear
-from kfmaps.search.choose import passed_over
-from kfmaps.search.quality import Quality, probe
+from kfmaps.fmap.convert import to_points
+from kfmaps.matching import candidates as found_by
+from kfmaps.matching import search as chosen_by
+from kfmaps.matching.candidates import Candidate, candidates, clear
+from kfmaps.matching.quality import Quality, probe
+from kfmaps.matching.sample_pair import arena
+from kfmaps.matching.search import passed_over
+from kfmaps.shape import prepare
 from test_search import SMALL
 
 NONE = np.zeros((0, 2), dtype=np.int64)

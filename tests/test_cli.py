@@ -17,8 +17,8 @@ import typer
 import kfmaps
 from commandline import run, shapes, start
 from kfmaps._arrays import InvalidInput, KfmapsWarning, MissingDependency, NotConverged
-from kfmaps.app import cli
-from kfmaps.app.cli import COMMANDS
+from kfmaps.cli import main as cli
+from kfmaps.cli.main import COMMANDS
 
 HEAVY = ("numpy", "scipy", "matplotlib", "torch", "trimesh", "robust_laplacian", "potpourri3d", "distributed")
 
@@ -29,7 +29,7 @@ def stubbed(monkeypatch: pytest.MonkeyPatch, raised: BaseException) -> None:
     def info() -> None:
         raise raised
 
-    module = importlib.import_module("kfmaps.app.commands.info")
+    module = importlib.import_module("kfmaps.cli.commands.info")
     monkeypatch.setattr(module, "info", info)
 
 
@@ -55,7 +55,7 @@ def test_help_of_each(name: str) -> None:
     """What the list says of a command without importing it is what the command says of itself."""
     help = run(name, "--help")
     assert help.status == 0
-    module = importlib.import_module(f"kfmaps.app.commands.{name}")
+    module = importlib.import_module(f"kfmaps.cli.commands.{name}")
     own = module.app.info.help if hasattr(module, "app") else getattr(module, name).__doc__
     assert COMMANDS[name] == own.partition("\n")[0]
     assert " ".join(COMMANDS[name].split()[:4]) in " ".join(help.stdout.split())
@@ -74,7 +74,7 @@ def test_options_that_have_gone_say_what_they_are_now() -> None:
 
 
 def test_list_imports_nothing_heavy() -> None:
-    code = "import sys; from kfmaps.app.cli import main; main(['--help']); print(*sys.modules, file=sys.stderr)"
+    code = "import sys; from kfmaps.cli.main import main; main(['--help']); print(*sys.modules, file=sys.stderr)"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     loaded = {name.partition(".")[0] for name in done.stderr.split()}
     assert "typer" in loaded
@@ -84,7 +84,7 @@ def test_list_imports_nothing_heavy() -> None:
 
 def test_help_of_match_imports_nothing_heavy() -> None:
     code = (
-        "import sys; from kfmaps.app.cli import main; main(['match', '--help']); print(*sys.modules, file=sys.stderr)"
+        "import sys; from kfmaps.cli.main import main; main(['match', '--help']); print(*sys.modules, file=sys.stderr)"
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert {name.partition(".")[0] for name in done.stderr.split()} & set(HEAVY) <= {"numpy"}
@@ -145,7 +145,7 @@ def test_warnings_are_one_line_each_and_not_repeated(monkeypatch: pytest.MonkeyP
         for text in ("odd\nthing", "odd\nthing", "another"):
             warnings.warn(text, KfmapsWarning, stacklevel=1)
 
-    monkeypatch.setattr(importlib.import_module("kfmaps.app.commands.info"), "info", info)
+    monkeypatch.setattr(importlib.import_module("kfmaps.cli.commands.info"), "info", info)
     ran = run("info")
     assert ran.stderr == "kfmaps: warning: odd thing\nkfmaps: warning: another\n"
     assert ran.status == 0

@@ -9,9 +9,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-import kfmaps.fit.shape
+import kfmaps.shape
 from commandline import SMALL, run, shapes
-from kfmaps.app.files import mapfile
+from kfmaps.io import mapfile
 
 
 @pytest.fixture
@@ -24,7 +24,7 @@ def no_work(monkeypatch: pytest.MonkeyPatch) -> None:
     def prepare(*_: object, **__: object) -> None:
         raise AssertionError("the work was begun")
 
-    monkeypatch.setattr(kfmaps.fit.shape, "prepare", prepare)
+    monkeypatch.setattr(kfmaps.shape, "prepare", prepare)
 
 
 def complaint(made: types.SimpleNamespace, *words: object) -> str:

@@ -10,9 +10,9 @@ import pytest
 from matplotlib.image import imread
 
 from commandline import run
-from kfmaps.app.commands.demo import SHAPES
-from kfmaps.app.files import read_landmarks, read_mesh, read_vertex_numbers
+from kfmaps.cli.commands.demo import SHAPES
 from kfmaps.config import Config, Search
+from kfmaps.io import read_landmarks, read_mesh, read_vertex_numbers
 
 
 @pytest.fixture(scope="module")

@@ -13,10 +13,10 @@ from matplotlib.image import imread
 
 from commandline import run, shapes
 from conftest import fibonacci_sphere
-from kfmaps.app.evaluation import THRESHOLDS, Truth, assessed
-from kfmaps.app.files import MapFile, save_map, write_mesh
-from kfmaps.surface.geodesics import geodesic_distances
-from kfmaps.surface.mesh import surface_area, vertex_areas
+from kfmaps.cli.evaluation import THRESHOLDS, Truth, assessed
+from kfmaps.geometry.geodesics import geodesic_distances
+from kfmaps.geometry.mesh import surface_area, vertex_areas
+from kfmaps.io import MapFile, save_map, write_mesh
 
 
 @pytest.fixture(scope="module")

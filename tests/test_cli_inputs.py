@@ -13,9 +13,9 @@ import kfmaps
 from commandline import SMALL, run, shapes
 from kfmaps._arrays import InvalidInput
 from kfmaps._memory import check_memory, in_words, installed_memory
-from kfmaps.app.files import write_vertex_numbers
 from kfmaps.config import Config, DescriptorConfig, NystromConfig
-from kfmaps.fit.demand import check_demand
+from kfmaps.io import write_vertex_numbers
+from kfmaps.matching.memory import check_demand
 
 
 @pytest.fixture

@@ -11,10 +11,10 @@ import pytest
 
 import kfmaps
 from commandline import SMALL, Ran, run, shapes
-from kfmaps.app.files import load_map, write_mesh
 from kfmaps.config import as_dict, from_dict
-from kfmaps.functional.confidence import local_confidence
-from kfmaps.surface.mesh import Mesh
+from kfmaps.fmap.confidence import local_confidence
+from kfmaps.geometry.mesh import Mesh
+from kfmaps.io import load_map, write_mesh
 
 
 @pytest.fixture(scope="module")
@@ -209,7 +209,7 @@ def test_config_is_not_overwritten(tmp_path: Path) -> None:
 
 
 def test_view_opens_the_page(made: types.SimpleNamespace, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    import kfmaps.app.view.results as results
+    import kfmaps.viz.result_pages as results
 
     opened: list[str] = []
 

@@ -19,8 +19,8 @@ from rich.text import Text
 from commandline import SMALL, Ran, run, shapes
 from conftest import blob
 from kfmaps._arrays import InvalidInput, refuse, shown
-from kfmaps.app.files import MapFile, Values, atomic_output, check_output, save_map, write_mesh, write_values
-from kfmaps.app.terminal import Terminal
+from kfmaps.cli.terminal import Terminal
+from kfmaps.io import MapFile, Values, atomic_output, check_output, save_map, write_mesh, write_values
 
 EVIL = "\x1b[31m\x1b]0;title\x07\r\x08\x9b2J\u202egnp\n\x7f"
 """Colours, a window's title, a bell, back over the line, a screen cleared, right to left, a line, delete."""
@@ -101,7 +101,7 @@ def interrupted_while_importing(module: str, folder: Path) -> subprocess.Complet
     return subprocess.run([sys.executable, "-c", code], cwd=folder, capture_output=True, text=True, timeout=120)
 
 
-@pytest.mark.parametrize("module", ["numpy", "kfmaps.app.commands.info"])
+@pytest.mark.parametrize("module", ["numpy", "kfmaps.cli.commands.info"])
 def test_interrupted_while_importing(module: str, tmp_path: Path) -> None:
     done = interrupted_while_importing(module, tmp_path)
     assert done.returncode in (-signal.SIGINT, 128 + signal.SIGINT)
@@ -118,12 +118,12 @@ def test_ended_from_outside_leaves_nothing(tmp_path: Path) -> None:
     """``kill``: what is half written is taken away."""
     code = (
         "import os, signal, sys, typer\n"
-        "import kfmaps.app.cli\n"
-        "from kfmaps.app.files import atomic_output\n"
+        "import kfmaps.cli.main\n"
+        "from kfmaps.io import atomic_output\n"
         "def main():\n"
         "    with atomic_output('a.txt') as temporary:\n"
         "        os.kill(os.getpid(), signal.SIGTERM)\n"
-        "kfmaps.app.cli.main = main\n"
+        "kfmaps.cli.main.main = main\n"
         "from kfmaps.__main__ import main; sys.exit(main())"
     )
     done = subprocess.run([sys.executable, "-c", code], cwd=tmp_path, capture_output=True, text=True, timeout=120)

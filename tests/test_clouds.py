@@ -13,17 +13,17 @@ from scipy.spatial.distance import cdist
 from conftest import blob
 from kfmaps._arrays import InvalidInput, KfmapsWarning
 from kfmaps.config import BasisConfig, Config
-from kfmaps.fit.shape import prepare
-from kfmaps.functional.confidence import local_confidence
-from kfmaps.functional.evaluate import coverage, geodesic_errors
-from kfmaps.functional.points import to_functional
-from kfmaps.functional.refine import ZoomOut
-from kfmaps.search.quality import map_quality, probe
-from kfmaps.surface.basis import laplace_basis
-from kfmaps.surface.cloud import NEIGHBOURS, cloud_links
-from kfmaps.surface.geodesics import geodesic_distances
-from kfmaps.surface.mesh import Mesh, surface_area, unit_area, vertex_areas
-from kfmaps.surface.unfolding import surface_graph
+from kfmaps.fmap.confidence import local_confidence
+from kfmaps.fmap.convert import to_functional
+from kfmaps.fmap.evaluate import coverage, geodesic_errors
+from kfmaps.fmap.refine import ZoomOut
+from kfmaps.geometry.basis import laplace_basis
+from kfmaps.geometry.geodesic_graph import surface_graph
+from kfmaps.geometry.geodesics import geodesic_distances
+from kfmaps.geometry.mesh import Mesh, surface_area, unit_area, vertex_areas
+from kfmaps.geometry.point_cloud import NEIGHBOURS, cloud_links
+from kfmaps.matching.quality import map_quality, probe
+from kfmaps.shape import prepare
 
 NO_FACES = np.zeros((0, 3), dtype=np.int64)
 SMALL = replace(Config(), basis=BasisConfig(functions=30), refinement=ZoomOut(10, 40, 10))

@@ -1,4 +1,4 @@
-"""``kfmaps.collection``: shapes in, maps that agree out."""
+"""``kfmaps.match_collection``: shapes in, maps that agree out."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ import pytest
 import kfmaps
 from collecting import CONFIG, bent
 from kfmaps._arrays import InvalidInput
-from kfmaps.fit.shape import Shape, prepare
+from kfmaps.shape import Shape, prepare
 
 N = 300
 LOCAL = replace(CONFIG, search=kfmaps.Search(candidates=1, signs=2), threads=1)
@@ -31,7 +31,7 @@ def test_given_maps_are_kept_but_for_the_wrong_one(shapes: dict[str, Shape]) -> 
     maps = true_maps(shapes)
     maps["s0", "s2"] = np.random.default_rng(0).permutation(N)
     told: list[str] = []
-    found = kfmaps.collection(shapes, maps, config=LOCAL, progress=lambda what, *_: told.append(what))
+    found = kfmaps.match_collection(shapes, maps, config=LOCAL, progress=lambda what, *_: told.append(what))
     assert list(found.changes) == [("s0", "s2")]
     assert found.changes["s0", "s2"].startswith("composition through s")
     at = found.pairs.index(("s0", "s2"))
@@ -51,11 +51,11 @@ def test_given_maps_are_kept_but_for_the_wrong_one(shapes: dict[str, Shape]) -> 
 
 def test_any_two_shapes_have_a_map(shapes: dict[str, Shape]) -> None:
     chain = {("s0", "s1"): np.arange(N), ("s2", "s1"): np.arange(N), ("s2", "s3"): np.arange(N)}
-    found = kfmaps.collection(shapes, chain, config=LOCAL)
+    found = kfmaps.match_collection(shapes, chain, config=LOCAL)
     np.testing.assert_array_equal(found.map("s3", "s0"), np.arange(N))
     np.testing.assert_array_equal(found.map("s0", "s0"), np.arange(N))
     np.testing.assert_array_equal(found.map("s1", "s2"), np.arange(N))
-    apart = kfmaps.collection(shapes, {("s0", "s1"): np.arange(N)}, config=LOCAL)
+    apart = kfmaps.match_collection(shapes, {("s0", "s1"): np.arange(N)}, config=LOCAL)
     assert apart.latent is None
     with pytest.raises(InvalidInput, match="shapes that maps join"):
         apart.map("s0", "s3")
@@ -67,7 +67,7 @@ def test_any_two_shapes_have_a_map(shapes: dict[str, Shape]) -> None:
 
 def test_without_maps_pairs_are_matched(shapes: dict[str, Shape]) -> None:
     few = [shapes["s0"], shapes["s1"], shapes["s2"]]
-    found = kfmaps.collection(few, config=LOCAL)
+    found = kfmaps.match_collection(few, config=LOCAL)
     assert found.names == ("0", "1", "2")
     assert set(found.pairs) == {("0", "1"), ("0", "2"), ("1", "2")}
     assert all(m is not None for m in found.matches)
@@ -76,23 +76,23 @@ def test_without_maps_pairs_are_matched(shapes: dict[str, Shape]) -> None:
 
 def test_what_makes_no_collection(shapes: dict[str, Shape]) -> None:
     with pytest.raises(InvalidInput, match="shapes"):
-        kfmaps.collection({"s0": shapes["s0"]}, config=LOCAL)
+        kfmaps.match_collection({"s0": shapes["s0"]}, config=LOCAL)
     with pytest.raises(InvalidInput, match="near, star or all"):
-        kfmaps.collection(shapes, graph="ring", config=LOCAL)
+        kfmaps.match_collection(shapes, graph="ring", config=LOCAL)
     with pytest.raises(InvalidInput, match="nobody"):
-        kfmaps.collection(shapes, {("s0", "nobody"): np.arange(N)}, config=LOCAL)
+        kfmaps.match_collection(shapes, {("s0", "nobody"): np.arange(N)}, config=LOCAL)
     with pytest.raises(InvalidInput, match="s0 → s1"):
-        kfmaps.collection(shapes, {("s0", "s1"): np.arange(N) + 1}, config=LOCAL)
+        kfmaps.match_collection(shapes, {("s0", "s1"): np.arange(N) + 1}, config=LOCAL)
     with pytest.raises(InvalidInput, match="at least one"):
-        kfmaps.collection(shapes, {}, config=LOCAL)
+        kfmaps.match_collection(shapes, {}, config=LOCAL)
 
 
 def test_maps_of_parts_stay_apart(shapes: dict[str, Shape]) -> None:
     """They change nothing for the others, lead nowhere else, and are there as they were given."""
     maps = true_maps({name: shapes[name] for name in ("s0", "s1", "s2")})
-    usual = kfmaps.collection({name: shapes[name] for name in ("s0", "s1", "s2")}, maps, config=LOCAL)
+    usual = kfmaps.match_collection({name: shapes[name] for name in ("s0", "s1", "s2")}, maps, config=LOCAL)
     part = np.where(np.arange(N) % 3 == 0, -1, np.arange(N))
-    found = kfmaps.collection(shapes, {**maps, ("s0", "s3"): part}, config=LOCAL)
+    found = kfmaps.match_collection(shapes, {**maps, ("s0", "s3"): part}, config=LOCAL)
     assert found.parts == (("s0", "s3"),)
     assert found.pairs == (*usual.pairs, ("s0", "s3"))
     assert found.chances[:-1] == pytest.approx(usual.chances)
@@ -103,6 +103,6 @@ def test_maps_of_parts_stay_apart(shapes: dict[str, Shape]) -> None:
     assert found.latent is None
     np.testing.assert_allclose(found.distances()[:3, :3], usual.distances(), atol=1e-9)
     assert np.isnan(found.distances()[:3, 3]).all()
-    only = kfmaps.collection(shapes, {("s0", "s3"): part}, config=LOCAL)
+    only = kfmaps.match_collection(shapes, {("s0", "s3"): part}, config=LOCAL)
     assert only.parts == only.pairs == (("s0", "s3"),)
     assert only.changes == {}

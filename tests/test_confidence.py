@@ -9,10 +9,10 @@ from scipy.spatial.transform import Rotation
 
 from conftest import blob
 from kfmaps._arrays import InvalidInput
-from kfmaps.app.datasets import two_poses
-from kfmaps.functional.confidence import RADIUS, local_confidence
-from kfmaps.surface.mesh import Mesh, unit_area
-from kfmaps.surface.unfolding import surface_graph
+from kfmaps.datasets import two_poses
+from kfmaps.fmap.confidence import RADIUS, local_confidence
+from kfmaps.geometry.geodesic_graph import surface_graph
+from kfmaps.geometry.mesh import Mesh, unit_area
 
 
 def moved(mesh: Mesh) -> Mesh:

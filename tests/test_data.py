@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import kfmaps
-from kfmaps.app.files import read_vertex_numbers
+from kfmaps.io import read_vertex_numbers
 
 pytestmark = [pytest.mark.data, pytest.mark.slow, pytest.mark.timeout(1500)]
 

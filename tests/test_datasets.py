@@ -6,13 +6,13 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components, dijkstra
 from scipy.spatial import KDTree
 
+from kfmaps import datasets
 from kfmaps._arrays import InvalidInput
-from kfmaps.app import datasets
-from kfmaps.app.datasets.creature import CREATURE, SYMMETRIC
-from kfmaps.app.datasets.pairs import Pair, largest_piece, locate
-from kfmaps.app.datasets.skeleton import Body
-from kfmaps.app.datasets.surface import closed_mesh
-from kfmaps.surface.mesh import Mesh, face_areas, surface_area, vertex_normals
+from kfmaps.datasets.creature import CREATURE, SYMMETRIC
+from kfmaps.datasets.pairs import Pair, largest_piece, locate
+from kfmaps.datasets.skeleton import Body
+from kfmaps.datasets.surface import closed_mesh
+from kfmaps.geometry.mesh import Mesh, face_areas, surface_area, vertex_normals
 
 PAIRS = ("two_poses", "non_isometric", "partial", "symmetric_creature")
 

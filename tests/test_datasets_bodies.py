@@ -3,13 +3,13 @@
 import numpy as np
 import pytest
 
+from kfmaps import datasets
 from kfmaps._arrays import NotConverged
-from kfmaps.app import datasets
-from kfmaps.app.datasets import pairs, skeleton, surface
-from kfmaps.app.datasets.creature import CREATURE, WAVE
-from kfmaps.app.datasets.skeleton import Bend, Body
-from kfmaps.app.datasets.surface import closed_mesh
-from kfmaps.surface.mesh import face_normals, surface_area, vertex_normals
+from kfmaps.datasets import pairs, skeleton, surface
+from kfmaps.datasets.creature import CREATURE, WAVE
+from kfmaps.datasets.skeleton import Bend, Body
+from kfmaps.datasets.surface import closed_mesh
+from kfmaps.geometry.mesh import face_normals, surface_area, vertex_normals
 
 
 def test_field_is_negative_inside_and_its_gradient_is_its_derivative() -> None:

@@ -7,12 +7,12 @@ import pytest
 
 from conftest import blob
 from kfmaps.config import BasisConfig, Config, DescriptorConfig, NystromConfig, Weights
-from kfmaps.fit.shape import prepare
-from kfmaps.functional.refine import ICP, ZoomOut
-from kfmaps.functional.solvers import CG
-from kfmaps.kernel.kernels import Laplacian, Linear
-from kfmaps.matching import match
-from kfmaps.surface.mesh import unit_area
+from kfmaps.fmap.refine import ICP, ZoomOut
+from kfmaps.fmap.solvers import CG
+from kfmaps.geometry.mesh import unit_area
+from kfmaps.kernels.kernels import Laplacian, Linear
+from kfmaps.matching.match import match
+from kfmaps.shape import prepare
 
 torch = pytest.importorskip("torch")
 
@@ -68,7 +68,7 @@ def test_pytorch_agrees_with_numpy(name, where, pair):
 def test_the_work_is_done_on_the_device(pair, monkeypatch):
     """The solver, the largest part, sees tensors."""
     seen = []
-    from kfmaps.functional import objective as pipeline
+    from kfmaps.fmap import minimize as pipeline
 
     original = pipeline.solve
 

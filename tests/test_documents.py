@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 
 import kfmaps
-from kfmaps.app.cli import COMMANDS
-from kfmaps.app.settings.catalogue import FLAGS
+from kfmaps.cli.main import COMMANDS
+from kfmaps.settings.catalogue import FLAGS
 
 ROOT = Path(__file__).parents[1]
 DOCUMENTS = [

@@ -12,11 +12,11 @@ from scipy.sparse.linalg import eigsh
 from conftest import blob, fibonacci_sphere
 from kfmaps._arrays import InvalidInput, MissingDependency, NotConverged
 from kfmaps._threads import one_blas_thread
-from kfmaps.surface.eigen import factor as _factor
-from kfmaps.surface.eigen import lanczos as _lanczos
-from kfmaps.surface.eigen import pencil as eigensolver
-from kfmaps.surface.eigen.pencil import smallest_eigenpairs
-from kfmaps.surface.mesh import Mesh, unit_area
+from kfmaps.geometry.eigen import eigensolver as eigensolver
+from kfmaps.geometry.eigen import factorization as _factor
+from kfmaps.geometry.eigen import lanczos as _lanczos
+from kfmaps.geometry.eigen.eigensolver import smallest_eigenpairs
+from kfmaps.geometry.mesh import Mesh, unit_area
 
 
 def operators(mesh: Mesh) -> tuple[csr_array, np.ndarray]:

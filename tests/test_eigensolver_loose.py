@@ -9,11 +9,11 @@ from scipy.linalg import eigh
 from scipy.sparse import block_diag, csr_array
 
 from conftest import blob, fibonacci_sphere
-from kfmaps.fit import shape as prepared
-from kfmaps.surface.basis import laplace_basis
-from kfmaps.surface.eigen import pencil
-from kfmaps.surface.eigen.pencil import smallest_eigenpairs
-from kfmaps.surface.mesh import Mesh, unit_area
+from kfmaps import shape as prepared
+from kfmaps.geometry.basis import laplace_basis
+from kfmaps.geometry.eigen import eigensolver as pencil
+from kfmaps.geometry.eigen.eigensolver import smallest_eigenpairs
+from kfmaps.geometry.mesh import Mesh, unit_area
 
 
 def operators(mesh: Mesh) -> tuple[csr_array, np.ndarray]:

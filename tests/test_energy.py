@@ -5,7 +5,7 @@ import pytest
 
 from conftest import random_basis
 from kfmaps._arrays import InvalidInput, inner, to_numpy
-from kfmaps.functional.energy import (
+from kfmaps.fmap.energy import (
     Energy,
     adjoint_term,
     descriptor_term,
@@ -16,10 +16,10 @@ from kfmaps.functional.energy import (
     slice_term,
     value,
 )
-from kfmaps.functional.slices import compressed, packed_slices, unpacked_slices
-from kfmaps.functional.solvers import dense
-from kfmaps.kernel.kernels import Gaussian, Linear, Polynomial
-from kfmaps.kernel.nystrom import nystrom
+from kfmaps.fmap.multiplication_operators import compressed, packed_slices, unpacked_slices
+from kfmaps.fmap.solvers import dense
+from kfmaps.kernels.kernels import Gaussian, Linear, Polynomial
+from kfmaps.kernels.nystrom import nystrom
 
 N_S, N_T, K_S, K_T, D = 30, 25, 6, 5, 4
 

@@ -9,8 +9,9 @@ import numpy as np
 import pytest
 
 from kfmaps._arrays import InvalidInput
-from kfmaps.app.cli import main
-from kfmaps.app.experiments import (
+from kfmaps.cli.main import main
+from kfmaps.config import BasisConfig, Config, NystromConfig
+from kfmaps.experiments import (
     figure2,
     figure3,
     figure4,
@@ -22,24 +23,23 @@ from kfmaps.app.experiments import (
     pairs,
     section44,
 )
-from kfmaps.app.experiments.collections import Collection, ShapePair, collections, person
-from kfmaps.app.experiments.kernel_matrix import best_errors, gaussian_matrix, nystrom_error
-from kfmaps.app.experiments.methods import no17, obcs12, paper, recommended
-from kfmaps.app.experiments.outputs import Outcome
-from kfmaps.app.experiments.pairs import Row, fingerprint, fitted, run_pairs
-from kfmaps.app.experiments.reproduce import FIGURES, named
-from kfmaps.app.experiments.section44 import conditioning
-from kfmaps.app.experiments.setting import Setting
-from kfmaps.app.experiments.statistics import difference, paired_bootstrap, ratio, resamples
-from kfmaps.app.experiments.store import Job, append_store, read_store, run_jobs
-from kfmaps.app.experiments.tune import Grid, grid_search
-from kfmaps.app.pictures import surfaces
-from kfmaps.app.settings.merge import preset, read_settings
-from kfmaps.config import BasisConfig, Config, NystromConfig
-from kfmaps.functional.evaluate import geodesic_errors
-from kfmaps.functional.refine import ZoomOut
-from kfmaps.kernel.kernels import Gaussian
-from kfmaps.surface.basis import Basis
+from kfmaps.experiments.collections import Collection, ShapePair, collections, person
+from kfmaps.experiments.kernel_matrix import best_errors, gaussian_matrix, nystrom_error
+from kfmaps.experiments.methods import no17, obcs12, paper, recommended
+from kfmaps.experiments.outputs import Outcome
+from kfmaps.experiments.pairs import Row, fingerprint, fitted, run_pairs
+from kfmaps.experiments.reproduce import FIGURES, named
+from kfmaps.experiments.section44 import conditioning
+from kfmaps.experiments.setting import Setting
+from kfmaps.experiments.statistics import difference, paired_bootstrap, ratio, resamples
+from kfmaps.experiments.store import Job, append_store, read_store, run_jobs
+from kfmaps.experiments.tune import Grid, grid_search
+from kfmaps.fmap.evaluate import geodesic_errors
+from kfmaps.fmap.refine import ZoomOut
+from kfmaps.geometry.basis import Basis
+from kfmaps.kernels.kernels import Gaussian
+from kfmaps.settings.merge import preset, read_settings
+from kfmaps.viz import surfaces
 
 SMALL = Collection("generated", vertices=1500)
 PAIR = ShapePair("poses-2-source", "poses-2-target")

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from kfmaps._arrays import InvalidInput
-from kfmaps.app.files import atomic_output, check_output
+from kfmaps.io import atomic_output, check_output
 
 
 def test_written_under_another_name_then_renamed(tmp_path: Path) -> None:
@@ -46,7 +46,7 @@ def test_a_killed_process_leaves_no_half_file(tmp_path: Path) -> None:
     """Even without the chance to tidy up, nothing has the name that was asked for."""
     code = (
         "import os, sys\n"
-        "from kfmaps.app.files import atomic_output\n"
+        "from kfmaps.io import atomic_output\n"
         "with atomic_output(sys.argv[1]) as temporary:\n"
         "    temporary.write_text('half')\n"
         "    os._exit(9)\n"

@@ -9,8 +9,8 @@ import pytest
 
 from conftest import blob, fibonacci_sphere
 from kfmaps._arrays import InvalidInput
-from kfmaps.app.files import read_mesh, write_mesh
-from kfmaps.app.files.off import format_off
+from kfmaps.io import read_mesh, write_mesh
+from kfmaps.io.off import format_off
 
 MESH = fibonacci_sphere(20)
 OFF = format_off(MESH)

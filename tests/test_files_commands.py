@@ -12,12 +12,12 @@ from typer.testing import CliRunner, Result
 
 from conftest import blob, fibonacci_sphere
 from kfmaps._arrays import InvalidInput
-from kfmaps.app.commands.export import export
-from kfmaps.app.commands.info import info
-from kfmaps.app.commands.transfer import transfer
-from kfmaps.app.files import MapFile, load_map, read_mesh_file, read_values, save_map, write_mesh
-from kfmaps.app.pictures import position_colors
-from kfmaps.surface.mesh import Mesh, surface_area
+from kfmaps.cli.commands.export import export
+from kfmaps.cli.commands.info import info
+from kfmaps.cli.commands.transfer import transfer
+from kfmaps.geometry.mesh import Mesh, surface_area
+from kfmaps.io import MapFile, load_map, read_mesh_file, read_values, save_map, write_mesh
+from kfmaps.viz import position_colors
 
 APP = typer.Typer()
 for command in (info, transfer, export):

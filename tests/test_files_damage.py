@@ -13,12 +13,12 @@ from hypothesis import strategies as st
 
 from conftest import fibonacci_sphere
 from kfmaps._arrays import InvalidInput, KfmapsWarning
-from kfmaps.app.files import read_mesh
-from kfmaps.app.files.meshes import READERS
-from kfmaps.app.files.obj import format_obj
-from kfmaps.app.files.off import format_off
-from kfmaps.app.files.ply import format_ply
-from kfmaps.surface.mesh import Mesh
+from kfmaps.geometry.mesh import Mesh
+from kfmaps.io import read_mesh
+from kfmaps.io.meshes import READERS
+from kfmaps.io.obj import format_obj
+from kfmaps.io.off import format_off
+from kfmaps.io.ply import format_ply
 
 MESH = fibonacci_sphere(20)
 HEADER = "ply\nformat {}\nelement vertex {}\nproperty double x\nproperty double y\nproperty double z\n"

@@ -10,7 +10,8 @@ from matplotlib.image import imread, imsave
 
 from conftest import blob, fibonacci_sphere
 from kfmaps._arrays import InvalidInput
-from kfmaps.app.files import (
+from kfmaps.geometry.mesh import Mesh
+from kfmaps.io import (
     MeshFile,
     grid_picture,
     projected_uv,
@@ -18,8 +19,7 @@ from kfmaps.app.files import (
     write_colored,
     write_textured,
 )
-from kfmaps.app.files.export import carried_uv_faces
-from kfmaps.surface.mesh import Mesh
+from kfmaps.io.export import carried_uv_faces
 
 
 def globe(n: int = 120) -> MeshFile:

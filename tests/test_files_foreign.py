@@ -18,10 +18,10 @@ from trimesh.visual import TextureVisuals
 
 from conftest import fibonacci_sphere
 from kfmaps._arrays import InvalidInput, KfmapsWarning
-from kfmaps.app.files import read_mesh, read_mesh_file
-from kfmaps.app.files.gltf import buffer_files
-from kfmaps.surface.mesh import Mesh, face_normals
-from kfmaps.surface.topology import topology
+from kfmaps.geometry.mesh import Mesh, face_normals
+from kfmaps.geometry.topology import topology
+from kfmaps.io import read_mesh, read_mesh_file
+from kfmaps.io.gltf import buffer_files
 
 MESH = fibonacci_sphere(30)
 SINGLE = MESH.vertices.astype(np.float32).astype(np.float64)  # both formats keep 32 bits

@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 
 from kfmaps._arrays import InvalidInput
-from kfmaps.app.files import load_map, read_landmarks, read_mesh, read_values, read_vertex_numbers
+from kfmaps.io import load_map, read_landmarks, read_mesh, read_values, read_vertex_numbers
 
 pytestmark = pytest.mark.timeout(120)
 

@@ -16,7 +16,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from kfmaps._arrays import InvalidInput
-from kfmaps.app.files import MapFile, check_map, load_map, save_map
+from kfmaps.io import MapFile, check_map, load_map, save_map
 
 
 def example(seed: int = 0, n_t: int = 50) -> MapFile:
@@ -310,7 +310,7 @@ def test_sizes_are_looked_at_before_memory_is_taken(
     tmp_path: Path, suffix: str, packed: Any, sizes: tuple[int, int], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Kilobytes of file that unpack to much more than a map has: refused with a small part of it unpacked."""
-    monkeypatch.setattr("kfmaps.app.files.mapfile.LARGEST", 1 << 20)
+    monkeypatch.setattr("kfmaps.io.mapfile.LARGEST", 1 << 20)
     content = packed(*sizes)
     assert len(content) < 1 << 17
     tracemalloc.start()

@@ -12,8 +12,8 @@ import pytest
 import scipy.io
 
 from kfmaps._arrays import InvalidInput
-from kfmaps.app.files import load_map
-from kfmaps.app.files.matfile import read_mat
+from kfmaps.io import load_map
+from kfmaps.io.matfile import read_mat
 
 MATLAB = {
     "double": np.array([[1.5, 2], [3, 4]]),

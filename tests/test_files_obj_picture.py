@@ -5,12 +5,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from kfmaps.app.files import read_mesh_file
-from kfmaps.app.files.bake import png_of
-from kfmaps.app.files.export import write_morph, write_textured
-from kfmaps.app.files.mtl import materials
-from kfmaps.app.files.record import MeshFile, Picture
-from kfmaps.surface.mesh import Mesh
+from kfmaps.geometry.mesh import Mesh
+from kfmaps.io import read_mesh_file
+from kfmaps.io.bake import png_of
+from kfmaps.io.export import write_morph, write_textured
+from kfmaps.io.mtl import materials
+from kfmaps.io.record import MeshFile, Picture
 
 pytestmark = pytest.mark.filterwarnings("ignore:.*boundary loop")
 

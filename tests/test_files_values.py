@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import array_shapes, arrays
 
 from kfmaps._arrays import InvalidInput
-from kfmaps.app.files import (
+from kfmaps.io import (
     MapFile,
     Values,
     read_landmarks,

@@ -20,25 +20,25 @@ from kfmaps.descriptors.spectral import (
     wave_map,
     wave_signature,
 )
-from kfmaps.functional import nearest as nearest_module
-from kfmaps.functional.cells import nearest_by_cells
-from kfmaps.functional.confidence import local_confidence
-from kfmaps.functional.guide import guide
-from kfmaps.functional.losses import LOSSES, Loss
-from kfmaps.functional.nearest import nearest
-from kfmaps.functional.points import to_points
-from kfmaps.functional.refine import SampledBasis, ZoomOut, fitted
-from kfmaps.functional.slices import compressed, condensed
-from kfmaps.functional.solvers import CG, solve
-from kfmaps.functional.terms import laplacian_term
-from kfmaps.kernel.kernels import Gaussian, Laplacian, resolved, squared_distances
-from kfmaps.kernel.nystrom import nystrom
-from kfmaps.kernel.select import farthest
-from kfmaps.surface import geodesics
-from kfmaps.surface.basis import Basis
-from kfmaps.surface.geodesics import distance_pairs, geodesic_distances
-from kfmaps.surface.mesh import Mesh, face_areas, surface_area, unit_area, vertex_areas
-from kfmaps.surface.samples import _embedded, spectral_samples
+from kfmaps.fmap import nearest as nearest_module
+from kfmaps.fmap.approximate_nearest import nearest_by_cells
+from kfmaps.fmap.confidence import local_confidence
+from kfmaps.fmap.convert import to_points
+from kfmaps.fmap.descriptor_guidance import guide
+from kfmaps.fmap.losses import LOSSES, Loss
+from kfmaps.fmap.multiplication_operators import compressed, condensed
+from kfmaps.fmap.nearest import nearest
+from kfmaps.fmap.refine import SampledBasis, ZoomOut, fitted
+from kfmaps.fmap.solvers import CG, solve
+from kfmaps.fmap.terms import laplacian_term
+from kfmaps.geometry import geodesics
+from kfmaps.geometry.basis import Basis
+from kfmaps.geometry.geodesics import distance_pairs, geodesic_distances
+from kfmaps.geometry.mesh import Mesh, face_areas, surface_area, unit_area, vertex_areas
+from kfmaps.geometry.sampling import _embedded, spectral_samples
+from kfmaps.kernels.kernels import Gaussian, Laplacian, resolved, squared_distances
+from kfmaps.kernels.landmark_selection import farthest
+from kfmaps.kernels.nystrom import nystrom
 
 
 def with_values(values: list[float]) -> Basis:

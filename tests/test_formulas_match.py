@@ -12,18 +12,18 @@ from conftest import blob
 from kfmaps._arrays import inner
 from kfmaps.config import BasisConfig, Config, DescriptorConfig, NystromConfig, Search
 from kfmaps.descriptors.spectral import heat_map, heat_signature
-from kfmaps.fit.features import Descriptors, Features, joint_samples, pair_descriptors
-from kfmaps.fit.problem import orientation_pair, principal, problem
-from kfmaps.fit.shape import Shape, mirror_image, prepare
-from kfmaps.functional.points import to_points
-from kfmaps.functional.refine import ZoomOut
-from kfmaps.functional.terms import slice_term, value
-from kfmaps.kernel.kernels import Gaussian, squared_distances
-from kfmaps.search.candidates import Candidate
-from kfmaps.search.choose import choose
-from kfmaps.search.marks import TIMES, around
-from kfmaps.search.quality import Quality, map_quality, probe
-from kfmaps.search.verdict import probability
+from kfmaps.fmap.convert import to_points
+from kfmaps.fmap.refine import ZoomOut
+from kfmaps.fmap.terms import slice_term, value
+from kfmaps.kernels.kernels import Gaussian, squared_distances
+from kfmaps.matching.assemble import orientation_pair, principal, problem
+from kfmaps.matching.calibration import probability
+from kfmaps.matching.candidates import Candidate
+from kfmaps.matching.features import Descriptors, Features, joint_samples, pair_descriptors
+from kfmaps.matching.landmark_evidence import TIMES, around
+from kfmaps.matching.quality import Quality, map_quality, probe
+from kfmaps.matching.search import choose
+from kfmaps.shape import Shape, mirror_image, prepare
 
 K = 20
 CONFIG = Config(

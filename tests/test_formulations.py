@@ -10,16 +10,16 @@ import pytest
 
 from conftest import random_basis
 from kfmaps._arrays import InvalidInput, inner, to_numpy
-from kfmaps.functional.constraints import nearest_orthogonal, orthogonal, tangent
-from kfmaps.functional.coupled import coupled
-from kfmaps.functional.energy import Energy, descriptor_term, laplacian_term, slice_term, value
-from kfmaps.functional.extended import carried
-from kfmaps.functional.losses import LOSSES, Loss, RobustData, sparse
-from kfmaps.functional.objective import Coupling, How, Objective, coupled_pair, minimised, quadratic
-from kfmaps.functional.slices import packed_slices, unpacked_slices
-from kfmaps.functional.solvers import CG, Direct, solve
-from kfmaps.functional.spatial import costs, spatial, transport
-from kfmaps.functional.terms import inverse_term
+from kfmaps.fmap.constraints import nearest_orthogonal, orthogonal, tangent
+from kfmaps.fmap.coupled import coupled
+from kfmaps.fmap.energy import Energy, descriptor_term, laplacian_term, slice_term, value
+from kfmaps.fmap.losses import LOSSES, Loss, RobustData, sparse
+from kfmaps.fmap.minimize import Coupling, How, Objective, coupled_pair, minimised, quadratic
+from kfmaps.fmap.multiplication_operators import packed_slices, unpacked_slices
+from kfmaps.fmap.optimal_transport import costs, spatial, transport
+from kfmaps.fmap.solvers import CG, Direct, solve
+from kfmaps.fmap.terms import inverse_term
+from kfmaps.fmap.transfer import carried
 
 N, R = 60, 9
 SIZES = [(6, 6), (7, 5), (5, 7)]

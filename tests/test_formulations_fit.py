@@ -9,17 +9,17 @@ import pytest
 import kfmaps
 from conftest import blob
 from kfmaps._arrays import InvalidInput
-from kfmaps.app.files import load_map, save_map
 from kfmaps.config import BasisConfig, Config, DescriptorConfig, Formulation, NystromConfig, Search, Weights
-from kfmaps.fit.fit import fit
-from kfmaps.fit.shape import prepare
-from kfmaps.functional.evaluate import geodesic_errors
-from kfmaps.functional.points import nearest
-from kfmaps.functional.refine import ICP, ZoomOut
-from kfmaps.functional.solvers import CG, Direct
-from kfmaps.kernel.kernels import Gaussian, Linear, Polynomial
-from kfmaps.matching import match
-from kfmaps.surface.mesh import Mesh
+from kfmaps.fmap.convert import nearest
+from kfmaps.fmap.evaluate import geodesic_errors
+from kfmaps.fmap.refine import ICP, ZoomOut
+from kfmaps.fmap.solvers import CG, Direct
+from kfmaps.geometry.mesh import Mesh
+from kfmaps.io import load_map, save_map
+from kfmaps.kernels.kernels import Gaussian, Linear, Polynomial
+from kfmaps.matching.fit import fit
+from kfmaps.matching.match import match
+from kfmaps.shape import prepare
 
 SMALL = Config(
     basis=BasisConfig(functions=12),

@@ -9,9 +9,9 @@ from scipy.spatial import Delaunay
 
 from conftest import blob, fibonacci_sphere
 from kfmaps._arrays import InvalidInput
-from kfmaps.surface.geodesics import SEARCHES, distance_pairs, farthest_geodesic, geodesic_distances
-from kfmaps.surface.mesh import Mesh
-from kfmaps.surface.unfolding import surface_graph
+from kfmaps.geometry.geodesic_graph import surface_graph
+from kfmaps.geometry.geodesics import SEARCHES, distance_pairs, farthest_geodesic, geodesic_distances
+from kfmaps.geometry.mesh import Mesh
 
 METHODS = ("unfolded", "dijkstra", "heat")
 SEARCHED = METHODS[:2]

@@ -7,12 +7,12 @@ import pytest
 
 from conftest import blob
 from kfmaps._arrays import InvalidInput
-from kfmaps.functional.guide import guide
-from kfmaps.functional.points import nearest
-from kfmaps.functional.refine import ZoomOut
-from kfmaps.surface.basis import laplace_basis
-from kfmaps.surface.mesh import unit_area
-from kfmaps.surface.samples import spectral_samples
+from kfmaps.fmap.convert import nearest
+from kfmaps.fmap.descriptor_guidance import guide
+from kfmaps.fmap.refine import ZoomOut
+from kfmaps.geometry.basis import laplace_basis
+from kfmaps.geometry.mesh import unit_area
+from kfmaps.geometry.sampling import spectral_samples
 
 
 @pytest.fixture(scope="module")
@@ -82,7 +82,7 @@ def test_some_rows_tell_the_directions_of_all(monkeypatch):
     source, target = (rng.normal(size=(n, 6)) * [3.0, 2.0, 1.5, 0.1, 0.1, 0.1] + 1.0 for n in (900, 700))
     every = guide(source, target, 3)
     for name in ("ROWS", "TELLING"):
-        monkeypatch.setattr(f"kfmaps.functional.guide.{name}", 400)
+        monkeypatch.setattr(f"kfmaps.fmap.descriptor_guidance.{name}", 400)
     some = guide(source, target, 3)
     assert every is not None
     assert some is not None

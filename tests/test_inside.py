@@ -12,17 +12,17 @@ from conftest import blob
 from kfmaps._arrays import InvalidInput, KfmapsWarning
 from kfmaps.config import BasisConfig, Config, DescriptorConfig, NystromConfig
 from kfmaps.descriptors.shot import shot
-from kfmaps.fit.shape import inner, prepare
-from kfmaps.functional.confidence import local_confidence
-from kfmaps.functional.evaluate import coverage, geodesic_errors
-from kfmaps.functional.refine import ZoomOut
-from kfmaps.matching import match
-from kfmaps.surface.basis import laplace_basis
-from kfmaps.surface.geodesics import METHODS, distance_pairs, geodesic_distances
-from kfmaps.surface.inside import SPECK, inside, representatives
-from kfmaps.surface.mesh import Mesh, surface_area
-from kfmaps.surface.topology import topology
-from kfmaps.surface.unfolding import surface_graph
+from kfmaps.fmap.confidence import local_confidence
+from kfmaps.fmap.evaluate import coverage, geodesic_errors
+from kfmaps.fmap.refine import ZoomOut
+from kfmaps.geometry.basis import laplace_basis
+from kfmaps.geometry.clean import SPECK, inside, representatives
+from kfmaps.geometry.geodesic_graph import surface_graph
+from kfmaps.geometry.geodesics import METHODS, distance_pairs, geodesic_distances
+from kfmaps.geometry.mesh import Mesh, surface_area
+from kfmaps.geometry.topology import topology
+from kfmaps.matching.match import match
+from kfmaps.shape import inner, prepare
 
 SMALL = Config(
     basis=BasisConfig(functions=20),

@@ -7,7 +7,7 @@ import pytest
 from sklearn.metrics.pairwise import laplacian_kernel, rbf_kernel
 
 from kfmaps._arrays import InvalidInput, to_numpy
-from kfmaps.kernel.kernels import (
+from kfmaps.kernels.kernels import (
     Gaussian,
     Laplacian,
     Linear,
@@ -20,7 +20,7 @@ from kfmaps.kernel.kernels import (
     resolved,
     squared_distances,
 )
-from kfmaps.kernel.lifted import Metric, Network, Scaled, width
+from kfmaps.kernels.transformed import Metric, Network, Scaled, width
 
 KERNELS = [
     Linear(),

@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 
 from kfmaps import datasets
-from kfmaps.functional.bodies import body_of
-from kfmaps.functional.landing import APART, landed
-from kfmaps.functional.nonrigid import NonRigid
-from kfmaps.surface.closest import closest_of, places_on
-from kfmaps.surface.mesh import Mesh, unit_area, vertex_normals
+from kfmaps.geometry.closest_points import closest_of, places_on
+from kfmaps.geometry.mesh import Mesh, unit_area, vertex_normals
+from kfmaps.registration.contact_projection import APART, landed
+from kfmaps.registration.deformable import body_of
+from kfmaps.registration.nonrigid_icp import NonRigid
 
 
 def sheet(height: float, size: int = 9, up: bool = True) -> Mesh:

@@ -19,12 +19,12 @@ import numpy as np
 import pytest
 
 from kfmaps._arrays import InvalidInput
-from kfmaps.app.datasets import sphere
-from kfmaps.app.files import MapFile, load_map, read_landmark_names, read_landmarks, write_landmarks, write_mesh
-from kfmaps.app.view.picker import Picker, PickerServer, check_pairs, picker_server
-from kfmaps.app.view.runs import Progress, Runs
-from kfmaps.app.view.server import LOOPBACK, LocalServer, page_reply
-from kfmaps.surface.mesh import Mesh
+from kfmaps.datasets import sphere
+from kfmaps.geometry.mesh import Mesh
+from kfmaps.io import MapFile, load_map, read_landmark_names, read_landmarks, write_landmarks, write_mesh
+from kfmaps.viz.picker import Picker, PickerServer, check_pairs, picker_server
+from kfmaps.viz.runs import Progress, Runs
+from kfmaps.viz.server import LOOPBACK, LocalServer, page_reply
 
 SOURCE, TARGET = sphere(200, rng=0), sphere(160, rng=1)
 PAIRS = [[3, 5], [199, 159]]
@@ -383,7 +383,7 @@ def test_command_serves_until_it_is_interrupted(tmp_path: Path) -> None:
     write_mesh(tmp_path / "b.off", TARGET)
     write_landmarks(tmp_path / "old.txt", np.array(PAIRS))
     script = """
-from kfmaps.app.cli import main
+from kfmaps.cli.main import main
 main(["landmarks", "a.off", "b.off", "--landmarks", "old.txt", "--no-browser"])
 """
     with subprocess.Popen(
@@ -452,7 +452,7 @@ def test_who_sends_a_byte_now_and_then_is_not_kept(
     serve: Serve, opening: bytes, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """A request has so many seconds in all, however the bytes of it are spread."""
-    monkeypatch.setattr("kfmaps.app.view.server.SECONDS_TO_SPEAK", 0.5)
+    monkeypatch.setattr("kfmaps.viz.server.SECONDS_TO_SPEAK", 0.5)
     client = serve()
     with socket.create_connection((LOOPBACK, client.port), timeout=10) as connection:
         connection.sendall(opening.replace(b"{path}", client.path.encode()))
@@ -471,7 +471,7 @@ def test_who_sends_a_byte_now_and_then_is_not_kept(
 
 
 def test_a_body_that_never_ends_is_answered(serve: Serve, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("kfmaps.app.view.server.SECONDS_TO_SPEAK", 0.5)
+    monkeypatch.setattr("kfmaps.viz.server.SECONDS_TO_SPEAK", 0.5)
     client = serve()
     head = f"POST {client.path}save HTTP/1.1\r\nHost: {LOOPBACK}:{client.port}\r\nContent-Type: application/json\r\n"
     with socket.create_connection((LOOPBACK, client.port), timeout=10) as connection:

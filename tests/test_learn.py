@@ -11,18 +11,19 @@ from scipy.spatial import KDTree
 from commandline import run
 from conftest import blob, fibonacci_sphere
 from kfmaps._arrays import InvalidInput, MissingDependency, NotConverged
-from kfmaps.app.files import write_mesh
-from kfmaps.app.settings.merge import read_settings
-from kfmaps.app.settings.toml import settings_text
 from kfmaps.config import BasisConfig, Config, DescriptorConfig, Formulation, NystromConfig, Search, Weights
-from kfmaps.fit.shape import prepare
-from kfmaps.kernel.kernels import Gaussian, Laplacian, Linear, Polynomial, gram, resolved
-from kfmaps.kernel.lifted import Metric
-from kfmaps.matching import match
+from kfmaps.io import write_mesh
+from kfmaps.kernels.kernels import Gaussian, Laplacian, Linear, Polynomial, gram, resolved
+from kfmaps.kernels.transformed import Metric
+from kfmaps.matching.match import match
+from kfmaps.settings.merge import read_settings
+from kfmaps.settings.toml import settings_text
+from kfmaps.shape import prepare
 
 torch = pytest.importorskip("torch")
 
-from kfmaps.app.learn import (  # noqa: E402
+from kfmaps.fmap.solvers import CG  # noqa: E402
+from kfmaps.learn import (  # noqa: E402
     LOSSES,
     Model,
     Training,
@@ -35,8 +36,7 @@ from kfmaps.app.learn import (  # noqa: E402
     point_error,
     save,
 )
-from kfmaps.app.learn.model import columns  # noqa: E402
-from kfmaps.functional.solvers import CG  # noqa: E402
+from kfmaps.learn.model import columns  # noqa: E402
 
 CONFIG = Config(
     basis=BasisConfig(functions=12),

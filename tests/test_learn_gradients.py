@@ -7,7 +7,7 @@ import pytest
 
 from conftest import random_basis
 from kfmaps._arrays import NotConverged, inner
-from kfmaps.functional.energy import (
+from kfmaps.fmap.energy import (
     Energy,
     descriptor_term,
     hadamard_term,
@@ -15,17 +15,17 @@ from kfmaps.functional.energy import (
     laplacian_term,
     slice_term,
 )
-from kfmaps.functional.solvers import CG, Direct, solve
-from kfmaps.functional.terms import Elementwise
-from kfmaps.kernel.kernels import Gaussian, Laplacian, Linear, Polynomial, Product, Sum, Tanh
-from kfmaps.kernel.lifted import Metric, Scaled
+from kfmaps.fmap.solvers import CG, Direct, solve
+from kfmaps.fmap.terms import Elementwise
+from kfmaps.kernels.kernels import Gaussian, Laplacian, Linear, Polynomial, Product, Sum, Tanh
+from kfmaps.kernels.transformed import Metric, Scaled
 
 torch = pytest.importorskip("torch")
 
-from kfmaps.app.learn import losses  # noqa: E402
-from kfmaps.app.learn.energies import features, operators, pair_energy  # noqa: E402
-from kfmaps.app.learn.implicit import minimiser  # noqa: E402
-from kfmaps.app.learn.model import opened  # noqa: E402
+from kfmaps.learn import losses  # noqa: E402
+from kfmaps.learn.energies import features, operators, pair_energy  # noqa: E402
+from kfmaps.learn.implicit import minimiser  # noqa: E402
+from kfmaps.learn.model import opened  # noqa: E402
 
 N_S, N_T, K_S, K_T, D = 10, 9, 4, 3, 2
 EXACT = CG(rtol=1e-13, max_steps=500)

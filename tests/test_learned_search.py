@@ -6,22 +6,22 @@ import numpy as np
 import pytest
 from scipy.linalg import eigh
 
+from kfmaps import datasets
 from kfmaps._arrays import InvalidInput
-from kfmaps.app import datasets
 from kfmaps.config import BasisConfig, Config, DescriptorConfig, Formulation, Search, Weights
-from kfmaps.fit.features import pair_descriptors
-from kfmaps.fit.fit import fit
-from kfmaps.fit.shape import prepare
-from kfmaps.kernel.kernels import Gaussian
-from kfmaps.kernel.lifted import Metric, landmarks
-from kfmaps.matching import match
-from kfmaps.search.arena import arena
-from kfmaps.search.candidates import Candidate
-from kfmaps.search.choose import choose, probed
-from kfmaps.search.copies import Copies
-from kfmaps.search.learned import by_metric, learned, plain, seen
-from kfmaps.search.quality import Quality
-from kfmaps.search.ranking import BEHIND, CLEAR, beside
+from kfmaps.kernels.kernels import Gaussian
+from kfmaps.kernels.transformed import Metric, landmarks
+from kfmaps.matching.candidates import Candidate
+from kfmaps.matching.features import pair_descriptors
+from kfmaps.matching.fit import fit
+from kfmaps.matching.learned_kernel import by_metric, learned, plain, seen
+from kfmaps.matching.match import match
+from kfmaps.matching.proxy_cache import Copies
+from kfmaps.matching.quality import Quality
+from kfmaps.matching.ranking import BEHIND, CLEAR, beside
+from kfmaps.matching.sample_pair import arena
+from kfmaps.matching.search import choose, probed
+from kfmaps.shape import prepare
 
 COUNT = 12 + 352
 CONFIG = Config(

@@ -5,12 +5,13 @@ import pytest
 from scipy.sparse.csgraph import dijkstra
 
 from kfmaps import datasets
-from kfmaps.functional import lift, nonrigid
-from kfmaps.functional.lift import copy_of, lifted
-from kfmaps.functional.nonrigid import NonRigid
-from kfmaps.surface.mesh import Mesh, unit_area
-from kfmaps.surface.rigidity import nearest_rotations, rigidity, rotations
-from kfmaps.surface.unfolding import surface_graph
+from kfmaps.geometry import coarse_proxy as lift
+from kfmaps.geometry.arap import nearest_rotations, rigidity, rotations
+from kfmaps.geometry.coarse_proxy import copy_of, lifted
+from kfmaps.geometry.geodesic_graph import surface_graph
+from kfmaps.geometry.mesh import Mesh, unit_area
+from kfmaps.registration import nonrigid_icp as nonrigid
+from kfmaps.registration.nonrigid_icp import NonRigid
 
 
 @pytest.fixture(scope="module")

@@ -11,21 +11,26 @@ import pytest
 
 import kfmaps
 from kfmaps._arrays import NotConverged
-from kfmaps.app.datasets.creature import SYMMETRIC, WAVE
-from kfmaps.app.datasets.pairs import Pair, posed_pair
-from kfmaps.app.datasets.skeleton import Bend, Body
-from kfmaps.functional.points import nearest, to_functional
-from kfmaps.search import alternate, choose, copies, looks, mending, ranking
-from kfmaps.search.arena import arena
-from kfmaps.search.bends import copied, ready
-from kfmaps.search.candidates import LOOKS, STRAIN, differs, judged
-from kfmaps.search.choose import unled
-from kfmaps.search.copies import Copies
-from kfmaps.search.looks import difference, mismatch, sight
-from kfmaps.search.mending import HOPELESS, compared, mended
-from kfmaps.search.quality import probe
-from kfmaps.search.ranking import DISTINCT, LOOKED, over, second_look, usual
-from kfmaps.surface.mesh import Mesh, unit_area
+from kfmaps.datasets.creature import SYMMETRIC, WAVE
+from kfmaps.datasets.pairs import Pair, posed_pair
+from kfmaps.datasets.skeleton import Bend, Body
+from kfmaps.fmap.convert import nearest, to_functional
+from kfmaps.geometry.mesh import Mesh, unit_area
+from kfmaps.matching import proxy_cache as copies
+from kfmaps.matching import ranking
+from kfmaps.matching import registration_refine as mending
+from kfmaps.matching import search as choose
+from kfmaps.matching.candidates import LOOKS, STRAIN, differs, judged
+from kfmaps.matching.proxy_cache import Copies
+from kfmaps.matching.quality import probe
+from kfmaps.matching.ranking import DISTINCT, LOOKED, over, second_look, usual
+from kfmaps.matching.registration_refine import HOPELESS, compared, mended
+from kfmaps.matching.sample_pair import arena
+from kfmaps.matching.search import unled
+from kfmaps.registration import alternating_registration as alternate
+from kfmaps.registration import registered_shot as looks
+from kfmaps.registration.deformation_energy import copied, ready
+from kfmaps.registration.registered_shot import difference, mismatch, sight
 
 
 @pytest.fixture(scope="module")

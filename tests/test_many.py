@@ -6,14 +6,14 @@ import numpy as np
 import pytest
 
 from kfmaps._arrays import InvalidInput
-from kfmaps.many.agree import Choice, Link, agree, orthogonal
-from kfmaps.many.graph import bridges, every, medoid, near, signature, star, unlikeness
-from kfmaps.many.judge import Judged, better, choices
-from kfmaps.many.paths import best_way, composed, roads, turned_back
-from kfmaps.many.repair import repaired
-from kfmaps.many.signs import hands
-from kfmaps.many.zoom import ConsistentZoomOut, through_latent
-from kfmaps.surface.basis import Basis
+from kfmaps.collection.chirality import hands
+from kfmaps.collection.pair_graph import bridges, every, medoid, near, signature, star, unlikeness
+from kfmaps.collection.paths import best_way, composed, roads, turned_back
+from kfmaps.collection.repair import repaired
+from kfmaps.collection.scored_map import Judged, better, choices
+from kfmaps.collection.synchronization import Choice, Link, agree, orthogonal
+from kfmaps.collection.zoomout import ConsistentZoomOut, through_latent
+from kfmaps.geometry.basis import Basis
 
 K = 8
 

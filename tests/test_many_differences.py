@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 
 from kfmaps._arrays import InvalidInput
-from kfmaps.many.agree import Choice, Link, agree, orthogonal
-from kfmaps.many.differences import (
+from kfmaps.collection.differences import (
     area_difference,
     common_bases,
     components,
@@ -19,8 +18,9 @@ from kfmaps.many.differences import (
     truncated,
     variation,
 )
-from kfmaps.many.graph import every
-from kfmaps.surface.basis import Basis
+from kfmaps.collection.pair_graph import every
+from kfmaps.collection.synchronization import Choice, Link, agree, orthogonal
+from kfmaps.geometry.basis import Basis
 
 K = 8
 VALUES = np.array([0.0, 3, 4, 9, 11, 14, 20, 26])

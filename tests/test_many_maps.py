@@ -9,12 +9,12 @@ import pytest
 
 from collecting import CONFIG, bent
 from kfmaps._arrays import InvalidInput
+from kfmaps.collection.paths import composed, turned_back
+from kfmaps.collection.scored_map import judged
 from kfmaps.config import Search
-from kfmaps.fit.shape import Shape, mirror_image, prepare
-from kfmaps.many.judge import judged
-from kfmaps.many.paths import composed, turned_back
-from kfmaps.matching import continued
-from kfmaps.search.choose import probed
+from kfmaps.matching.match import continued
+from kfmaps.matching.search import probed
+from kfmaps.shape import Shape, mirror_image, prepare
 
 N = 400
 LOCAL = replace(CONFIG, search=Search(), descriptors=replace(CONFIG.descriptors, shot=True), threads=1)

@@ -5,12 +5,12 @@ import pytest
 
 from conftest import blob, random_basis
 from kfmaps._arrays import InvalidInput, to_numpy
-from kfmaps.functional.evaluate import coverage, error_curve, evaluation, geodesic_errors, truth_from_pairs
-from kfmaps.functional.nearest import LARGE
-from kfmaps.functional.points import nearest, to_functional, to_points
-from kfmaps.functional.refine import ICP, ZoomOut, spectral_samples
-from kfmaps.surface.basis import Basis, laplace_basis
-from kfmaps.surface.mesh import unit_area
+from kfmaps.fmap.convert import nearest, to_functional, to_points
+from kfmaps.fmap.evaluate import coverage, error_curve, evaluation, geodesic_errors, truth_from_pairs
+from kfmaps.fmap.nearest import LARGE
+from kfmaps.fmap.refine import ICP, ZoomOut, spectral_samples
+from kfmaps.geometry.basis import Basis, laplace_basis
+from kfmaps.geometry.mesh import unit_area
 
 
 def test_nearest_is_nearest(asarray, rng):

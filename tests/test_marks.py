@@ -11,23 +11,26 @@ import pytest
 
 import kfmaps
 from conftest import blob
-from kfmaps import matching
-from kfmaps.fit.shape import mirror_image
-from kfmaps.functional import nonrigid
-from kfmaps.functional.nonrigid import FIRMLY, HOLD, LOOSELY, SLOPPY, NonRigid, facing
-from kfmaps.functional.points import to_functional
-from kfmaps.search import choose, copies, mending, verdict
-from kfmaps.search.alternate import Alternated, alternated, grounds, turned_round
-from kfmaps.search.arena import arena
-from kfmaps.search.bends import copied
-from kfmaps.search.candidates import judged
-from kfmaps.search.choose import UNLIKE, Found, alike, alone, backed_by
-from kfmaps.search.copies import Copies
-from kfmaps.search.marks import LEAD, LESS, MISSED, NEAR, WELL, WIDTH, Marks, backing, leading
-from kfmaps.search.quality import probe
-from kfmaps.search.verdict import MIDDLE, SURE, TIE, probability
-from kfmaps.surface.mesh import MIRROR, unit_area
-from kfmaps.surface.samples import stratified_vertices
+from kfmaps.fmap.convert import to_functional
+from kfmaps.geometry.mesh import MIRROR, unit_area
+from kfmaps.geometry.sampling import stratified_vertices
+from kfmaps.matching import calibration as verdict
+from kfmaps.matching import match as matching
+from kfmaps.matching import proxy_cache as copies
+from kfmaps.matching import registration_refine as mending
+from kfmaps.matching import search as choose
+from kfmaps.matching.calibration import MIDDLE, SURE, TIE, probability
+from kfmaps.matching.candidates import judged
+from kfmaps.matching.landmark_evidence import LEAD, LESS, MISSED, NEAR, WELL, WIDTH, Marks, backing, leading
+from kfmaps.matching.proxy_cache import Copies
+from kfmaps.matching.quality import probe
+from kfmaps.matching.sample_pair import arena
+from kfmaps.matching.search import UNLIKE, Found, alike, alone, backed_by
+from kfmaps.registration import nonrigid_icp as nonrigid
+from kfmaps.registration.alternating_registration import Alternated, alternated, grounds, turned_round
+from kfmaps.registration.deformation_energy import copied
+from kfmaps.registration.nonrigid_icp import FIRMLY, HOLD, LOOSELY, SLOPPY, NonRigid, facing
+from kfmaps.shape import mirror_image
 
 NAMES = [("a", True)]
 """Of a single map, which SHOT has led."""

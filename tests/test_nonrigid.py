@@ -8,11 +8,11 @@ import pytest
 import kfmaps
 from kfmaps import datasets
 from kfmaps._arrays import InvalidInput
-from kfmaps.functional.nonrigid import NonRigid
-from kfmaps.functional.precise import at_vertices, points_of
-from kfmaps.surface.closest import closest_of, places_on
-from kfmaps.surface.mesh import Mesh, unit_area
-from kfmaps.surface.rigidity import bending, local, nearest_rotations, pull, rigidity, rotations
+from kfmaps.fmap.precise import at_vertices, points_of
+from kfmaps.geometry.arap import bending, local, nearest_rotations, pull, rigidity, rotations
+from kfmaps.geometry.closest_points import closest_of, places_on
+from kfmaps.geometry.mesh import Mesh, unit_area
+from kfmaps.registration.nonrigid_icp import NonRigid
 
 
 def turn(rng: np.random.Generator) -> np.ndarray:

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from kfmaps._arrays import InvalidInput, KfmapsWarning, to_numpy
-from kfmaps.kernel.kernels import Gaussian, Linear, Tanh, gram
-from kfmaps.kernel.nystrom import nystrom
-from kfmaps.kernel.select import farthest, pivoted_cholesky, uniform
+from kfmaps.kernels.kernels import Gaussian, Linear, Tanh, gram
+from kfmaps.kernels.landmark_selection import farthest, pivoted_cholesky, uniform
+from kfmaps.kernels.nystrom import nystrom
 
 
 def samplers(X, count, rng=0):

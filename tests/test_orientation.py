@@ -8,9 +8,9 @@ from scipy.spatial.transform import Rotation
 
 from conftest import blob, fibonacci_sphere, random_basis
 from kfmaps._arrays import InvalidInput
-from kfmaps.surface.basis import Basis, laplace_basis
-from kfmaps.surface.mesh import Mesh, unit_area
-from kfmaps.surface.orientation import orientation_slices
+from kfmaps.geometry.basis import Basis, laplace_basis
+from kfmaps.geometry.mesh import Mesh, unit_area
+from kfmaps.geometry.orientation_operators import orientation_slices
 
 
 def square(m: int) -> Mesh:

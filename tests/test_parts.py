@@ -7,20 +7,20 @@ import pytest
 
 from conftest import blob
 from kfmaps import datasets
-from kfmaps.app.files import load_map
-from kfmaps.app.partial_truth import PartTruth, part_accuracy, true_overlap
+from kfmaps.cli.partial_truth import PartTruth, part_accuracy, true_overlap
 from kfmaps.config import Config, Partial
-from kfmaps.fit.shape import prepare
-from kfmaps.functional.evaluate import place_errors
-from kfmaps.functional.precise import PointMap
-from kfmaps.matching import match
-from kfmaps.parts.contest import CLEAR
-from kfmaps.parts.decide import OPEN, opening, suspicion
-from kfmaps.parts.labels import SLACK, consistency, gauge
-from kfmaps.parts.side import border_of, side
-from kfmaps.parts.units import SCALES
-from kfmaps.parts.verdict import MIDDLE, SURE, part_probability, part_verdict
-from kfmaps.surface.mesh import Mesh, surface_area
+from kfmaps.fmap.evaluate import place_errors
+from kfmaps.fmap.precise import PointMap
+from kfmaps.geometry.mesh import Mesh, surface_area
+from kfmaps.io import load_map
+from kfmaps.matching.match import match
+from kfmaps.matching.partial.calibration import MIDDLE, SURE, part_probability, part_verdict
+from kfmaps.matching.partial.compare_alternatives import CLEAR
+from kfmaps.matching.partial.detect import OPEN, opening, suspicion
+from kfmaps.matching.partial.relaxation_labeling import SLACK, consistency, gauge
+from kfmaps.matching.partial.samples import border_of, side
+from kfmaps.matching.partial.scale_search import SCALES
+from kfmaps.shape import prepare
 from test_search import SMALL
 
 AUTO = replace(SMALL, partial=Partial("auto", samples=100, whole_samples=300))
@@ -43,7 +43,7 @@ def turned(pair):
 def found(pair, turned):
     """With every third scale alone, none of them the right one: each takes as long as the others."""
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("kfmaps.parts.choose.SCALES", SCALES[1::3])
+        patch.setattr("kfmaps.matching.partial.place_part.SCALES", SCALES[1::3])
         return match(pair.source, turned, AUTO)
 
 
@@ -150,7 +150,7 @@ def test_constants_go_to_constants_on_a_part(found):
 
 
 def test_the_truth_is_measured_as_a_user_measures_it(pair, turned, found, truth, tmp_path):
-    from kfmaps.app.files import save_map
+    from kfmaps.io import save_map
 
     save_map(tmp_path / "map.npz", found)
     seen = part_accuracy(pair.source, turned, load_map(tmp_path / "map.npz"), truth, "target")

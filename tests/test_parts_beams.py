@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from kfmaps.parts.beams import ANCHORS, APART, beamed, differing, spread
-from kfmaps.parts.labels import gauge
+from kfmaps.matching.partial.beam_search import ANCHORS, APART, beamed, differing, spread
+from kfmaps.matching.partial.relaxation_labeling import gauge
 
 
 @pytest.fixture(scope="module")

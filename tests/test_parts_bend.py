@@ -3,12 +3,12 @@
 import numpy as np
 import pytest
 
-from kfmaps.functional.bodies import body_of
-from kfmaps.parts.bend import OUTSIDE, bent, ground, judged, within
-from kfmaps.parts.overlap import WIDTH, covered, overlap
-from kfmaps.parts.side import border_of, scaled
-from kfmaps.surface.closest import places_on
-from kfmaps.surface.mesh import Mesh, surface_area, unit_area, vertex_normals
+from kfmaps.geometry.closest_points import places_on
+from kfmaps.geometry.mesh import Mesh, surface_area, unit_area, vertex_normals
+from kfmaps.matching.partial.overlap import WIDTH, covered, overlap
+from kfmaps.matching.partial.registration import OUTSIDE, bent, ground, judged, within
+from kfmaps.matching.partial.samples import border_of, scaled
+from kfmaps.registration.deformable import body_of
 
 TURN = np.linalg.qr(np.random.default_rng(3).normal(size=(3, 3)))[0]
 TURN *= np.sign(np.linalg.det(TURN))

@@ -8,17 +8,26 @@ import pytest
 from scipy.spatial import KDTree
 
 from kfmaps import datasets
-from kfmaps.app.datasets.pairs import largest_piece
-from kfmaps.functional.precise import PointMap, points_of
-from kfmaps.parts import contest
-from kfmaps.parts.bend import ground
-from kfmaps.parts.candidates import laid
-from kfmaps.parts.contest import CLEAR, GAIN, HOPELESS, POLISHED, contested, differ, margin, polished
-from kfmaps.parts.labels import Placed
-from kfmaps.parts.rivals import ELSEWHERE
-from kfmaps.parts.side import side
-from kfmaps.parts.units import TRIALS, Rough, likeness
-from kfmaps.surface.mesh import surface_area, unit_area
+from kfmaps.datasets.pairs import largest_piece
+from kfmaps.fmap.precise import PointMap, points_of
+from kfmaps.geometry.mesh import surface_area, unit_area
+from kfmaps.matching.partial import compare_alternatives as contest
+from kfmaps.matching.partial.alternatives import ELSEWHERE
+from kfmaps.matching.partial.candidates import laid
+from kfmaps.matching.partial.compare_alternatives import (
+    CLEAR,
+    GAIN,
+    HOPELESS,
+    POLISHED,
+    contested,
+    differ,
+    margin,
+    polished,
+)
+from kfmaps.matching.partial.registration import ground
+from kfmaps.matching.partial.relaxation_labeling import Placed
+from kfmaps.matching.partial.samples import side
+from kfmaps.matching.partial.scale_search import TRIALS, Rough, likeness
 
 NONE = np.zeros((0, 2), dtype=np.int64)
 EMPTY: Any = None

@@ -3,12 +3,12 @@
 import numpy as np
 import pytest
 
-from kfmaps.parts.beams import beamed
-from kfmaps.parts.labels import gauge
-from kfmaps.parts.rivals import BESIDE, ELSEWHERE, apart, rivals
-from kfmaps.parts.side import Side
-from kfmaps.parts.units import TRIALS
-from kfmaps.surface.mesh import Mesh
+from kfmaps.geometry.mesh import Mesh
+from kfmaps.matching.partial.alternatives import BESIDE, ELSEWHERE, apart, rivals
+from kfmaps.matching.partial.beam_search import beamed
+from kfmaps.matching.partial.relaxation_labeling import gauge
+from kfmaps.matching.partial.samples import Side
+from kfmaps.matching.partial.scale_search import TRIALS
 
 HALF = 60
 OTHER = np.roll(np.arange(2 * HALF), HALF)

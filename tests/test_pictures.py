@@ -7,11 +7,11 @@ import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
+from kfmaps import viz as pictures
 from kfmaps._arrays import InvalidInput
-from kfmaps.app import pictures
-from kfmaps.app.pictures import surfaces
-from kfmaps.app.pictures.colors import oklab_to_rgb
-from kfmaps.surface.mesh import Mesh
+from kfmaps.geometry.mesh import Mesh
+from kfmaps.viz import surfaces
+from kfmaps.viz.colors import oklab_to_rgb
 
 RED, BLUE = np.array([0.9, 0.1, 0.1]), np.array([0.1, 0.2, 0.9])
 FRONT = pictures.view((0, 0, 1))

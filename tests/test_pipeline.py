@@ -18,17 +18,17 @@ from kfmaps.config import (
     as_dict,
     from_dict,
 )
-from kfmaps.fit.features import pair_descriptors
-from kfmaps.fit.fit import checked_landmarks
-from kfmaps.fit.problem import problem
-from kfmaps.fit.shape import prepare
-from kfmaps.functional.energy import Energy
-from kfmaps.functional.refine import ICP, ZoomOut
-from kfmaps.functional.solvers import CG, Direct, dense
-from kfmaps.kernel.kernels import Gaussian, Linear, Polynomial, Product, Sum, Tanh
-from kfmaps.matching import match
-from kfmaps.surface.basis import Basis
-from kfmaps.surface.mesh import Mesh
+from kfmaps.fmap.energy import Energy
+from kfmaps.fmap.refine import ICP, ZoomOut
+from kfmaps.fmap.solvers import CG, Direct, dense
+from kfmaps.geometry.basis import Basis
+from kfmaps.geometry.mesh import Mesh
+from kfmaps.kernels.kernels import Gaussian, Linear, Polynomial, Product, Sum, Tanh
+from kfmaps.matching.assemble import problem
+from kfmaps.matching.features import pair_descriptors
+from kfmaps.matching.fit import checked_landmarks
+from kfmaps.matching.match import match
+from kfmaps.shape import prepare
 
 SMALL = Config(
     basis=BasisConfig(functions=20),
@@ -56,7 +56,7 @@ def other():
 @pytest.fixture(scope="module")
 def marks(shape, other):
     """Corresponding vertices of the two meshings of one shape."""
-    from kfmaps.functional.points import nearest
+    from kfmaps.fmap.convert import nearest
 
     target = np.array([5, 90, 200, 300, 350])
     return np.stack([nearest(other.mesh.vertices[target], shape.mesh.vertices), target], axis=1)

@@ -7,13 +7,13 @@ import numpy as np
 import pytest
 
 from kfmaps import datasets
-from kfmaps.fit.places import GAP, HARMED, Placed, placed
-from kfmaps.fit.stages import Clock
-from kfmaps.functional.bodies import body_of
-from kfmaps.functional.nonrigid import NonRigid, Registered, _evened, facing
-from kfmaps.functional.precise import PointMap, at_vertices, points_of
-from kfmaps.surface.mesh import Mesh, unit_area, vertex_areas
-from kfmaps.surface.rigidity import nearest_rotations, rigidity, rotations
+from kfmaps._stage_timer import Clock
+from kfmaps.fmap.precise import PointMap, at_vertices, points_of
+from kfmaps.geometry.arap import nearest_rotations, rigidity, rotations
+from kfmaps.geometry.mesh import Mesh, unit_area, vertex_areas
+from kfmaps.registration.accept import GAP, HARMED, Placed, placed
+from kfmaps.registration.deformable import body_of
+from kfmaps.registration.nonrigid_icp import NonRigid, Registered, _evened, facing
 
 
 @pytest.fixture(scope="module")

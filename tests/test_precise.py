@@ -8,7 +8,7 @@ import pytest
 import kfmaps
 from kfmaps import datasets
 from kfmaps._arrays import InvalidInput
-from kfmaps.functional.precise import (
+from kfmaps.fmap.precise import (
     PointMap,
     at_vertices,
     check_places,
@@ -17,9 +17,9 @@ from kfmaps.functional.precise import (
     points_of,
     vertices_of,
 )
-from kfmaps.surface.closest import closest_weights
-from kfmaps.surface.inside import inside, outer_faces
-from kfmaps.surface.mesh import Mesh
+from kfmaps.geometry.clean import inside, outer_faces
+from kfmaps.geometry.closest_points import closest_weights
+from kfmaps.geometry.mesh import Mesh
 
 
 def brute(queries: np.ndarray, points: np.ndarray, faces: np.ndarray) -> np.ndarray:

@@ -5,10 +5,10 @@ import pytest
 
 from conftest import random_basis
 from kfmaps._arrays import to_numpy
-from kfmaps.functional.energy import Energy, descriptor_term, hadamard_term, laplacian_term, slice_term
-from kfmaps.functional.preconditioners import jacobi, sylvester
-from kfmaps.functional.solvers import CG, dense, solve
-from kfmaps.kernel.kernels import Gaussian
+from kfmaps.fmap.energy import Energy, descriptor_term, hadamard_term, laplacian_term, slice_term
+from kfmaps.fmap.preconditioners import jacobi, sylvester
+from kfmaps.fmap.solvers import CG, dense, solve
+from kfmaps.kernels.kernels import Gaussian
 
 K_T, K_S, R = 5, 6, 4
 

@@ -12,8 +12,8 @@ import pytest
 
 from collecting import CONFIG
 from conftest import blob
-from kfmaps.app.progress import Lines, Notebook, Stages, bars_html, seconds_left, standing
-from kfmaps.fit.shape import prepare
+from kfmaps.cli.progress import Lines, Notebook, Stages, bars_html, seconds_left, standing
+from kfmaps.shape import prepare
 
 
 def test_what_is_left_follows_from_what_is_done() -> None:

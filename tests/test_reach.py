@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 from conftest import blob
-from kfmaps.app.datasets import two_poses
-from kfmaps.functional import reach as module
-from kfmaps.functional.confidence import local_confidence
-from kfmaps.functional.reach import reach
-from kfmaps.surface.mesh import Mesh, unit_area
+from kfmaps.datasets import two_poses
+from kfmaps.fmap import approximate_geodesics as module
+from kfmaps.fmap.approximate_geodesics import reach
+from kfmaps.fmap.confidence import local_confidence
+from kfmaps.geometry.mesh import Mesh, unit_area
 
 
 def coarser(monkeypatch: pytest.MonkeyPatch, points: int) -> None:

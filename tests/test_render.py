@@ -16,8 +16,10 @@ from typer.testing import CliRunner
 from collecting import done, plan_of, write_collection
 from conftest import blob
 from kfmaps._arrays import InvalidInput
-from kfmaps.app.commands.render import app
-from kfmaps.app.pictures import (
+from kfmaps.cli.commands.render import app
+from kfmaps.fmap.evaluate import geodesic_errors
+from kfmaps.geometry.mesh import Mesh
+from kfmaps.viz import (
     Curve,
     Panel,
     curves_figure,
@@ -29,10 +31,8 @@ from kfmaps.app.pictures import (
     save_figure,
     true_views,
 )
-from kfmaps.app.pictures.camera import LIKENESS, best_turn
-from kfmaps.app.pictures.grids import LABEL
-from kfmaps.functional.evaluate import geodesic_errors
-from kfmaps.surface.mesh import Mesh
+from kfmaps.viz.camera import LIKENESS, best_turn
+from kfmaps.viz.grids import LABEL
 
 THRESHOLDS = np.linspace(0, 0.25, 11)
 

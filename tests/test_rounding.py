@@ -10,23 +10,23 @@ import pytest
 from conftest import blob, random_basis
 from kfmaps.config import BasisConfig, Config, Search
 from kfmaps.descriptors.spectral import heat_signature, heat_times, normalised, wave_energies, wave_signature
-from kfmaps.fit.features import Features
-from kfmaps.fit.problem import orientation_pair, principal
-from kfmaps.fit.shape import Shape, prepare
-from kfmaps.functional.confidence import local_confidence
-from kfmaps.functional.refine import ICP, ZoomOut, fitted
-from kfmaps.functional.slices import compressed, condensed, packed_slices, unpacked_slices
-from kfmaps.functional.solvers import CG, solve
-from kfmaps.functional.terms import laplacian_term, slice_term, value
-from kfmaps.kernel.kernels import Gaussian, Laplacian, resolved
-from kfmaps.matching import match
-from kfmaps.search.arena import ground
-from kfmaps.search.candidates import judged, kicked
-from kfmaps.search.quality import map_quality, probe, thinned
-from kfmaps.search.ranking import distinct
-from kfmaps.surface.basis import Basis, zero_level
-from kfmaps.surface.mesh import Mesh
-from kfmaps.surface.samples import spectral_samples, stratified_samples
+from kfmaps.fmap.confidence import local_confidence
+from kfmaps.fmap.multiplication_operators import compressed, condensed, packed_slices, unpacked_slices
+from kfmaps.fmap.refine import ICP, ZoomOut, fitted
+from kfmaps.fmap.solvers import CG, solve
+from kfmaps.fmap.terms import laplacian_term, slice_term, value
+from kfmaps.geometry.basis import Basis, zero_level
+from kfmaps.geometry.mesh import Mesh
+from kfmaps.geometry.sampling import spectral_samples, stratified_samples
+from kfmaps.kernels.kernels import Gaussian, Laplacian, resolved
+from kfmaps.matching.assemble import orientation_pair, principal
+from kfmaps.matching.candidates import judged, kicked
+from kfmaps.matching.features import Features
+from kfmaps.matching.match import match
+from kfmaps.matching.quality import map_quality, probe, thinned
+from kfmaps.matching.ranking import distinct
+from kfmaps.matching.sample_pair import ground
+from kfmaps.shape import Shape, prepare
 
 FIRST = (0.0, 1e-15, -1e-17)
 """How the eigenvalue of the constant may come out."""

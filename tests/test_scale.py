@@ -5,24 +5,24 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-import kfmaps.fit.shape as fit_shape
+import kfmaps.shape as fit_shape
 from conftest import blob, fibonacci_sphere, random_basis
 from kfmaps._arrays import InvalidInput, inner
 from kfmaps.config import BasisConfig, Config, DescriptorConfig, NystromConfig, Weights
-from kfmaps.fit.finish import finished
-from kfmaps.fit.fit import fit, fit_points
-from kfmaps.fit.shape import local_descriptors, prepare, reduced
-from kfmaps.functional.cells import nearest_by_cells
-from kfmaps.functional.nearest import nearest
-from kfmaps.functional.points import to_functional, to_points
-from kfmaps.functional.refine import ZoomOut
-from kfmaps.functional.slices import condensed, packed_slices
-from kfmaps.functional.solvers import CG
-from kfmaps.kernel.select import farthest
-from kfmaps.surface.basis import laplace_basis
-from kfmaps.surface.geodesics import distance_pairs
-from kfmaps.surface.mesh import Mesh, unit_area
-from kfmaps.surface.samples import SampledBasis, spectral_samples, stratified_samples, stratified_vertices
+from kfmaps.fmap.approximate_nearest import nearest_by_cells
+from kfmaps.fmap.convert import to_functional, to_points
+from kfmaps.fmap.multiplication_operators import condensed, packed_slices
+from kfmaps.fmap.nearest import nearest
+from kfmaps.fmap.refine import ZoomOut
+from kfmaps.fmap.solvers import CG
+from kfmaps.geometry.basis import laplace_basis
+from kfmaps.geometry.geodesics import distance_pairs
+from kfmaps.geometry.mesh import Mesh, unit_area
+from kfmaps.geometry.sampling import SampledBasis, spectral_samples, stratified_samples, stratified_vertices
+from kfmaps.kernels.landmark_selection import farthest
+from kfmaps.matching.fit import fit, fit_points
+from kfmaps.matching.postprocess import finished
+from kfmaps.shape import local_descriptors, prepare, reduced
 
 CONFIG = Config(
     basis=BasisConfig(functions=30),
@@ -253,9 +253,9 @@ def test_zoomout_chooses_from_some_of_a_large_source(pair, monkeypatch):
     source, target, truth = pair
     start = to_functional(truth, source.basis.truncated(10), target.basis.truncated(10))
     zoom = ZoomOut(10, 50, 10, samples=300)
-    monkeypatch.setattr("kfmaps.functional.refine.EACH", 100)
+    monkeypatch.setattr("kfmaps.fmap.refine.EACH", 100)
     every = zoom(start, source.basis, target.basis)
-    monkeypatch.setattr("kfmaps.functional.refine.CANDIDATES", 1000)
+    monkeypatch.setattr("kfmaps.fmap.refine.CANDIDATES", 1000)
     some = zoom(start, source.basis, target.basis)
     errors = [distance_pairs(source.mesh, m.target_to_source, truth).mean() for m in (every, some)]
     assert (every.target_to_source != some.target_to_source).any()

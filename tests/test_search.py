@@ -7,25 +7,26 @@ import pytest
 
 from conftest import blob
 from kfmaps.config import BasisConfig, Config, NystromConfig, Search
-from kfmaps.fit.fit import fit
-from kfmaps.fit.shape import prepare, reduced
-from kfmaps.functional.guide import guide
-from kfmaps.functional.points import nearest
-from kfmaps.functional.refine import ZoomOut
-from kfmaps.functional.solvers import CG
-from kfmaps.matching import match
-from kfmaps.search import candidates, fits
-from kfmaps.search.arena import arena, differences, ground, without
-from kfmaps.search.candidates import LANDMARK, again, fine, judged
-from kfmaps.search.choose import Found, choose, closing
-from kfmaps.search.fits import Fit, fitted_family, sampled
-from kfmaps.search.marks import around, doubted, joined, missed, side_by_side
-from kfmaps.search.quality import probe, surface
-from kfmaps.search.zoom import zoomed
-from kfmaps.surface.coarse import coarse
-from kfmaps.surface.geodesics import geodesic_distances
-from kfmaps.surface.mesh import Mesh, face_areas, unit_area, vertex_normals
-from kfmaps.surface.samples import spectral_samples
+from kfmaps.fmap.convert import nearest
+from kfmaps.fmap.descriptor_guidance import guide, joined
+from kfmaps.fmap.refine import ZoomOut
+from kfmaps.fmap.solvers import CG
+from kfmaps.geometry.coarsen import coarse
+from kfmaps.geometry.geodesics import geodesic_distances
+from kfmaps.geometry.mesh import Mesh, face_areas, unit_area, vertex_normals
+from kfmaps.geometry.sampling import spectral_samples
+from kfmaps.matching import candidates
+from kfmaps.matching import kernel_inits as fits
+from kfmaps.matching.batched_zoomout import zoomed
+from kfmaps.matching.candidates import LANDMARK, again, fine, judged
+from kfmaps.matching.fit import fit
+from kfmaps.matching.kernel_inits import Fit, fitted_family, sampled
+from kfmaps.matching.landmark_evidence import around, doubted, missed, side_by_side
+from kfmaps.matching.match import match
+from kfmaps.matching.quality import probe, surface
+from kfmaps.matching.sample_pair import arena, differences, ground, without
+from kfmaps.matching.search import Found, choose, closing
+from kfmaps.shape import prepare, reduced
 
 SMALL = replace(
     Config.automatic(),
@@ -212,7 +213,7 @@ def test_a_coarse_surface_has_the_distances_and_the_sides_of_the_fine_one():
 def test_a_large_shape_is_judged_on_a_coarse_copy(monkeypatch):
     shape = prepare(blob(1500), SMALL)
     whole = probe(shape, 200, landmarks=np.array([7]))
-    monkeypatch.setattr("kfmaps.search.quality.SURFACE", 900)
+    monkeypatch.setattr("kfmaps.matching.quality.SURFACE", 900)
     assert len(surface(shape, np.arange(10))[0].vertices) < 950
     less = probe(shape, 200, landmarks=np.array([7]))
     np.testing.assert_array_equal(less.samples.vertices, whole.samples.vertices)

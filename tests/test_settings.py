@@ -13,17 +13,17 @@ from hypothesis import strategies as st
 from typer.testing import CliRunner
 
 from kfmaps._arrays import InvalidInput
-from kfmaps.app.settings.catalogue import FLAGS, PRESETS, SETTINGS
-from kfmaps.app.settings.document import updated
-from kfmaps.app.settings.merge import preset, read_settings, with_assignments, with_flags
-from kfmaps.app.settings.options import Chosen, with_settings
-from kfmaps.app.settings.toml import settings_text
 from kfmaps.config import RECORDS, Config, Formulation, NystromConfig, Search, Weights, as_dict
-from kfmaps.functional.nonrigid import NonRigid
-from kfmaps.functional.refine import ICP, ZoomOut
-from kfmaps.functional.solvers import CG, Direct
-from kfmaps.kernel.kernels import Gaussian, Laplacian, Linear, Polynomial, Product, Sum, Tanh
-from kfmaps.kernel.lifted import KERNELS, Metric, Network, Scaled
+from kfmaps.fmap.refine import ICP, ZoomOut
+from kfmaps.fmap.solvers import CG, Direct
+from kfmaps.kernels.kernels import Gaussian, Laplacian, Linear, Polynomial, Product, Sum, Tanh
+from kfmaps.kernels.transformed import KERNELS, Metric, Network, Scaled
+from kfmaps.registration.nonrigid_icp import NonRigid
+from kfmaps.settings.catalogue import FLAGS, PRESETS, SETTINGS
+from kfmaps.settings.document import updated
+from kfmaps.settings.merge import preset, read_settings, with_assignments, with_flags
+from kfmaps.settings.options import Chosen, with_settings
+from kfmaps.settings.toml import settings_text
 
 FAR = Config.paper()
 """A base that differs from the recommended settings in most things."""
@@ -133,7 +133,7 @@ def paths(record: type) -> set[str]:
 
 
 def test_the_catalogue_knows_every_setting() -> None:
-    """A new field must be added to app/settings/catalogue.py, and one that is gone taken out."""
+    """A new field must be added to settings/catalogue.py, and one that is gone taken out."""
     sections = {"basis", "descriptors", "nystrom", "weights", "formulation", "partial"}
     unions = {
         "kernel": KERNELS,
@@ -371,7 +371,7 @@ def test_missing_file(tmp_path: Path) -> None:
 
 
 def test_document_is_current() -> None:
-    """Run ``python -m kfmaps.app.settings.document docs/settings.md`` after changing a setting."""
+    """Run ``python -m kfmaps.settings.document docs/settings.md`` after changing a setting."""
     text = (Path(__file__).parents[1] / "docs" / "settings.md").read_text(encoding="utf-8")
     assert updated(text) == text
     for setting in SETTINGS:

@@ -11,7 +11,7 @@ import kfmaps.descriptors.shot as module
 from conftest import blob
 from kfmaps._arrays import InvalidInput
 from kfmaps.descriptors.shot import Form, mirrored, shot
-from kfmaps.surface.mesh import Mesh, face_areas, unit_area, vertex_normals
+from kfmaps.geometry.mesh import Mesh, face_areas, unit_area, vertex_normals
 from plain_shot import plain_shot
 
 FORMS: list[Form] = ["surface", "paper"]

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from kfmaps._arrays import InvalidInput, to_numpy
-from kfmaps.functional.solvers import CG, Direct, dense, solve
+from kfmaps.fmap.solvers import CG, Direct, dense, solve
 
 
 def system(rng, shape=(4, 5), rank=None):

@@ -11,9 +11,9 @@ import pytest
 
 from conftest import blob, fibonacci_sphere
 from kfmaps._arrays import InvalidInput, MissingDependency, to_numpy
-from kfmaps.surface.basis import Basis, cotangent_laplacian, laplace_basis
-from kfmaps.surface.eigen.pencil import smallest_eigenpairs
-from kfmaps.surface.mesh import Mesh, surface_area, unit_area, vertex_areas
+from kfmaps.geometry.basis import Basis, cotangent_laplacian, laplace_basis
+from kfmaps.geometry.eigen.eigensolver import smallest_eigenpairs
+from kfmaps.geometry.mesh import Mesh, surface_area, unit_area, vertex_areas
 
 LAPLACIANS = ("robust", "cotangent")
 

@@ -8,13 +8,14 @@ import numpy as np
 import pytest
 
 import kfmaps
-from kfmaps import datasets, matching
+from kfmaps import datasets
 from kfmaps._arrays import InvalidInput
-from kfmaps.functional.nonrigid import NonRigid
-from kfmaps.functional.stretch import LEAST, MOST, stretching
-from kfmaps.search.choose import STRETCH, UNLIKE, Found, loosened
-from kfmaps.surface.mesh import Mesh, unit_area, vertex_areas
-from kfmaps.surface.rigidity import nearest_rotations, rigidity, rotations
+from kfmaps.geometry.arap import nearest_rotations, rigidity, rotations
+from kfmaps.geometry.mesh import Mesh, unit_area, vertex_areas
+from kfmaps.matching import match as matching
+from kfmaps.matching.search import STRETCH, UNLIKE, Found, loosened
+from kfmaps.registration.local_scaling import LEAST, MOST, stretching
+from kfmaps.registration.nonrigid_icp import NonRigid
 
 EYE = np.eye(3)
 

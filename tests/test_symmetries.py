@@ -4,14 +4,14 @@ import numpy as np
 import pytest
 
 from kfmaps import datasets
-from kfmaps.fit.shape import prepare
-from kfmaps.functional.points import to_functional
-from kfmaps.search import symmetries as within
-from kfmaps.search.arena import arena
-from kfmaps.search.candidates import apart, from_symmetries, judged, rough
-from kfmaps.search.choose import probed
-from kfmaps.search.quality import map_quality, mirrored_probe, probe, thinned
-from kfmaps.search.symmetries import KEPT, MOVED, symmetries, turns_of
+from kfmaps.fmap.convert import to_functional
+from kfmaps.matching import self_maps as within
+from kfmaps.matching.candidates import apart, from_symmetries, judged, rough
+from kfmaps.matching.quality import map_quality, mirrored_probe, probe, thinned
+from kfmaps.matching.sample_pair import arena
+from kfmaps.matching.search import probed
+from kfmaps.matching.self_maps import KEPT, MOVED, symmetries, turns_of
+from kfmaps.shape import prepare
 from test_search import SMALL
 
 

@@ -17,9 +17,9 @@ import pytest
 
 import kfmaps
 from commandline import run
-from kfmaps import matching
-from kfmaps.app.view.server import LocalServer
 from kfmaps.config import Config
+from kfmaps.matching import match as matching
+from kfmaps.viz.server import LocalServer
 
 ROOT = Path(__file__).parents[1]
 PAGES = sorted((ROOT / "docs" / "tasks").glob("*.md"))

@@ -7,20 +7,20 @@ import pytest
 
 from kfmaps import datasets
 from kfmaps._arrays import NotConverged
-from kfmaps.fit.shape import mirror_image, prepare
-from kfmaps.functional.nonrigid import NonRigid
-from kfmaps.search.arena import arena
-from kfmaps.search.bends import LEAST, MOST, Copy, bending, bent, copied, ready
-from kfmaps.search.candidates import STRAIN, Candidate, from_tips, paired_map, rough
-from kfmaps.search.choose import choose
-from kfmaps.search.copies import Copies
-from kfmaps.search.pairings import FEWEST, Pairing, against, alike, induced, pairings, told
-from kfmaps.search.quality import Quality, mirrored_probe, probe, thinned
-from kfmaps.search.ranking import in_order, ranking
-from kfmaps.search.symmetries import symmetries
-from kfmaps.search.tips import APART, tips, turns
-from kfmaps.search.zoom import zoomed
-from kfmaps.surface.mesh import Mesh
+from kfmaps.geometry.mesh import Mesh
+from kfmaps.matching.batched_zoomout import zoomed
+from kfmaps.matching.candidates import STRAIN, Candidate, from_tips, paired_map, rough
+from kfmaps.matching.extremities import APART, tips, turns
+from kfmaps.matching.extremity_matching import FEWEST, Pairing, against, alike, induced, pairings, told
+from kfmaps.matching.proxy_cache import Copies
+from kfmaps.matching.quality import Quality, mirrored_probe, probe, thinned
+from kfmaps.matching.ranking import in_order, ranking
+from kfmaps.matching.sample_pair import arena
+from kfmaps.matching.search import choose
+from kfmaps.matching.self_maps import symmetries
+from kfmaps.registration.deformation_energy import LEAST, MOST, Copy, bending, bent, copied, ready
+from kfmaps.registration.nonrigid_icp import NonRigid
+from kfmaps.shape import mirror_image, prepare
 from test_search import SMALL
 
 

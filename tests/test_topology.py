@@ -9,8 +9,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from conftest import blob, fibonacci_sphere
-from kfmaps.surface.mesh import Mesh
-from kfmaps.surface.topology import first_occurrence, topology
+from kfmaps.geometry.mesh import Mesh
+from kfmaps.geometry.topology import first_occurrence, topology
 
 
 def sheet(rows: int, columns: int, wrap: tuple[bool, bool] = (False, False), flip: bool = False) -> Mesh:

@@ -10,10 +10,10 @@ import pytest
 
 from collecting import CONFIG
 from conftest import blob
-from kfmaps.app.cli import main
-from kfmaps.app.files import write_mesh
-from kfmaps.app.view.tryout import Tryout
+from kfmaps.cli.main import main
 from kfmaps.config import Config
+from kfmaps.io import write_mesh
+from kfmaps.viz.tryout import Tryout
 
 MARKS = np.array([[3, 3], [50, 50], [120, 120], [9, 9]])
 

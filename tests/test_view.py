@@ -16,20 +16,20 @@ from scipy.sparse.csgraph import dijkstra
 from scipy.spatial.transform import Rotation
 
 from kfmaps._arrays import InvalidInput
-from kfmaps.app.commands.view import view
-from kfmaps.app.datasets import sphere
-from kfmaps.app.files import MapFile, save_map, write_mesh, write_vertex_numbers
-from kfmaps.app.view.document import asset
-from kfmaps.app.view.fields import alignment, area_distortion, nearest_reached
-from kfmaps.app.view.pack import json_block, packed, plain, quantised
-from kfmaps.app.view.page import result_page
-from kfmaps.app.view.results import errors_against, map_page, match_summary, mesh_path, signatures
+from kfmaps.cli.commands.view import view
 from kfmaps.config import Config
-from kfmaps.fit.fit import Fit
-from kfmaps.functional.confidence import local_confidence
-from kfmaps.functional.solvers import Solution
-from kfmaps.matching import Match
-from kfmaps.surface.mesh import Mesh, unit_area, vertex_areas
+from kfmaps.datasets import sphere
+from kfmaps.fmap.confidence import local_confidence
+from kfmaps.fmap.solvers import Solution
+from kfmaps.geometry.mesh import Mesh, unit_area, vertex_areas
+from kfmaps.io import MapFile, save_map, write_mesh, write_vertex_numbers
+from kfmaps.matching.fit import Fit
+from kfmaps.matching.match import Match
+from kfmaps.viz.document import asset
+from kfmaps.viz.fields import alignment, area_distortion, nearest_reached
+from kfmaps.viz.pack import json_block, packed, plain, quantised
+from kfmaps.viz.page import result_page
+from kfmaps.viz.result_pages import errors_against, map_page, match_summary, mesh_path, signatures
 
 WEB = Path(__file__).parents[1] / "web"
 NO_FACES = np.zeros((0, 3), int)
@@ -410,5 +410,5 @@ def test_bundle_is_built_from_the_sources() -> None:
 
 
 def test_static_files_are_in_the_package() -> None:
-    names = {f.name for f in files("kfmaps.app.view").joinpath("static").iterdir()}
+    names = {f.name for f in files("kfmaps.viz").joinpath("static").iterdir()}
     assert {"page.html", "result.html", "picker.html", "viewer.js", "viewer.css", "viewer.LICENSE.txt"} <= names

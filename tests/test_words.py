@@ -1,7 +1,7 @@
 """Verdicts as people read them."""
 
-from kfmaps.app.view.page import verdict_record
-from kfmaps.app.words import LIKELY, LOUD, VERDICTS, verdict_line
+from kfmaps.cli.words import LIKELY, LOUD, VERDICTS, verdict_line
+from kfmaps.viz.page import verdict_record
 
 
 def test_a_map_that_is_likely_right_is_not_said_to_fit_badly():

@@ -4,7 +4,7 @@ import { readFile, writeFile } from "node:fs/promises";
 import { fileURLToPath } from "node:url";
 
 const here = (path) => fileURLToPath(new URL(path, import.meta.url));
-const out = here("../src/kfmaps/app/view/static/");
+const out = here("../src/kfmaps/viz/static/");
 
 async function bundle(entry, extra) {
   const result = await build({

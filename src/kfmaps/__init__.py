@@ -30,9 +30,8 @@ def __getattr__(name: str) -> Any:
     home = _HOMES.get(name)
     if home is None:
         raise AttributeError(f"module 'kfmaps' has no attribute {name!r}")
-    module = importlib.import_module(home)
-    # In a package's own folder a name may be a module that nothing has imported yet.
-    value = getattr(module, name) if hasattr(module, name) else importlib.import_module(f"{home}.{name}")
+    packages = home == __name__
+    value = importlib.import_module(f"{home}.{name}") if packages else getattr(importlib.import_module(home), name)
     globals()[name] = value
     return value
 

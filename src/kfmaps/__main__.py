@@ -12,7 +12,7 @@ def main() -> int:
     try:
         if ours:
             signal.signal(signal.SIGINT, signal.SIG_DFL)
-        from kfmaps.app.cli import main as command
+        from kfmaps.cli.main import main as command
 
         if ours:
             signal.signal(signal.SIGINT, signal.default_int_handler)

@@ -8,14 +8,14 @@ from typing import Any, Literal, get_args
 from kfmaps import _records
 from kfmaps._arrays import check_count, check_positive, refuse
 from kfmaps.descriptors.spectral import NORMALISATIONS, Normalisation
-from kfmaps.functional.losses import LOSSES, LossName
-from kfmaps.functional.nonrigid import NonRigid
-from kfmaps.functional.objective import CONSTRAINTS, Constraint, Preconditioner
-from kfmaps.functional.refine import Refinement, ZoomOut
-from kfmaps.functional.solvers import CG, Solver
-from kfmaps.functional.terms import MASKS, Mask
-from kfmaps.kernel.kernels import Gaussian, KernelLike, Linear, describe
-from kfmaps.kernel.lifted import KERNELS
+from kfmaps.fmap.losses import LOSSES, LossName
+from kfmaps.fmap.minimize import CONSTRAINTS, Constraint, Preconditioner
+from kfmaps.fmap.refine import Refinement, ZoomOut
+from kfmaps.fmap.solvers import CG, Solver
+from kfmaps.fmap.terms import MASKS, Mask
+from kfmaps.kernels.kernels import Gaussian, KernelLike, Linear, describe
+from kfmaps.kernels.transformed import KERNELS
+from kfmaps.registration.nonrigid_icp import NonRigid
 
 Sampling = Literal["descriptor", "geodesic", "uniform", "cholesky", "random-cholesky", "squared-cholesky"]
 SAMPLINGS: tuple[str, ...] = get_args(Sampling)
@@ -133,35 +133,35 @@ class Formulation:
     Attributes
     ----------
     constraint : "none" or "orthogonal"
-        Orthogonal maps keep areas (:mod:`kfmaps.functional.constraints`).
+        Orthogonal maps keep areas (:mod:`kfmaps.fmap.constraints`).
     directions : "one" or "both"
-        Both maps at once, tied to each other (:func:`kfmaps.functional.objective.coupled_pair`).
+        Both maps at once, tied to each other (:func:`kfmaps.fmap.minimize.coupled_pair`).
     inverse, adjoint : float
         Weights of that tie: each map the other's inverse, each the other's adjoint. As those of ``sparsity`` and
         ``spatial`` they are in units of the mean diagonal of the energy's operator.
     loss : "squared", "huber", "l21" or "geman"
-        Of the data (:mod:`kfmaps.functional.losses`).
+        Of the data (:mod:`kfmaps.fmap.losses`).
     loss_per : "landmark", "descriptor" or "feature"
         Whose residuals the loss is of. Landmarks and descriptors are weighed before the kernel
-        (:mod:`kfmaps.fit.robust`), features, which are the kernel's, after.
+        (:mod:`kfmaps.matching.robust_weights`), features, which are the kernel's, after.
     loss_width : float
         Scale of the loss, in medians of the residuals of least squares.
     sparsity : float
         Weight of the entries' absolute values, growing away from the diagonal; 0 for none.
     mask : "squared" or "resolvent"
-        How Laplacian commutativity weighs entries (:func:`kfmaps.functional.energy.laplacian_term`).
+        How Laplacian commutativity weighs entries (:func:`kfmaps.fmap.energy.laplacian_term`).
     mask_power : float
         Power of the Laplacian in the resolvent.
     bases : "own" or "coupled"
         Whether Laplacian commutativity and sparsity are asked for in coupled bases
-        (:mod:`kfmaps.functional.coupled`), which the map without them speaks for.
+        (:mod:`kfmaps.fmap.coupled`), which the map without them speaks for.
     coupling : float
         Weight of that map against diagonal Laplacians in the choice of the bases.
     rounds : int
         At most, of reweighting and of both directions in turn.
     spatial : float
         Weight of agreement with the soft point map that moves the whole area of both shapes
-        (:mod:`kfmaps.functional.spatial`); 0 for none.
+        (:mod:`kfmaps.fmap.optimal_transport`); 0 for none.
     spatial_blur : float
         How soft that map is, in units of the cost of a nearest point.
     """
@@ -211,7 +211,7 @@ class Formulation:
 
 @dataclass(frozen=True)
 class Search:
-    """How to find the map among many; see :mod:`kfmaps.search.choose`.
+    """How to find the map among many; see :mod:`kfmaps.matching.search`.
 
     ``candidates``: how many small fits are tried, each refined from three starts; ``signs``: how many low functions
     after the constant one have both their signs tried, 2^signs diagonal maps; ``tips``: whether the tips of limbs are
@@ -244,7 +244,7 @@ Units = Literal["unknown", "same"]
 
 @dataclass(frozen=True)
 class Partial:
-    """What of the shapes may be missing; see :mod:`kfmaps.parts`.
+    """What of the shapes may be missing; see :mod:`kfmaps.matching.partial`.
 
     Attributes
     ----------
@@ -282,19 +282,20 @@ class Config:
     exact : bool
         The whole kernel in row blocks (equations 8 and 10 to 12) instead of its Nyström features; slow.
     sharpness : float
-        For a kernel without explicit γ, see :func:`kfmaps.kernel.kernels.resolved`.
+        For a kernel without explicit γ, see :func:`kfmaps.kernels.kernels.resolved`.
     formulation : Formulation
         What is asked of the map beside least squares.
     compression : float
-        Part of the slices' squared norm that may be left out, see :func:`kfmaps.functional.slices.compressed`.
+        Part of the slices' squared norm that may be left out, see
+        :func:`kfmaps.fmap.multiplication_operators.compressed`.
     preconditioner : "sylvester", "jacobi" or "none"
-        See :mod:`kfmaps.functional.preconditioners`.
+        See :mod:`kfmaps.fmap.preconditioners`.
     fit_samples : int or None
         Points of each shape that the fit is made from when there are more; the point map and the end of the
         refinement always use all. ``None`` takes all.
     refinement : ZoomOut, ICP or None
     finish : NonRigid or None
-        The fit that makes a refined map finer than the source's vertices, see :mod:`kfmaps.functional.nonrigid`.
+        The fit that makes a refined map finer than the source's vertices, see :mod:`kfmaps.registration.nonrigid_icp`.
         Without a refinement there is none.
     search : Search or None
         ``None`` makes one fit, which without landmarks cannot tell left from right.

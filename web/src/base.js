@@ -39,7 +39,7 @@ export function rotationOf(r) {
 
 /**
  * Where the views begin: a good side of the source, and the same side of the body on the target, as the shapes
- * themselves say (`views` as kfmaps.app.view.page.views_record makes it); `aligned()` is a rotation of the target onto the
+ * themselves say (`views` as kfmaps.viz.page.views_record makes it); `aligned()` is a rotation of the target onto the
  * source to be taken instead, or null. Returns what turns the views back.
  */
 export function viewTools(stage, views, aligned = () => null) {

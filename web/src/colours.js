@@ -4,7 +4,7 @@ const hex = (text) => text.split(" ").map((c) => [0, 2, 4].map((i) => parseInt(c
 
 /** Least to greatest: viridis. */
 const SEQUENTIAL = hex("440154 482878 3e4a89 31688e 26828e 1f9e89 35b779 6ece58 b5de2b fde725");
-/** White through red to dark, for errors; the same as kfmaps.app.pictures.ERROR_MAP. */
+/** White through red to dark, for errors; the same as kfmaps.viz.ERROR_MAP. */
 const ERROR = hex("ffffff fde0c5 f7a17a e0503f a5142f 560723");
 /** Blue through near-white to red, for signed numbers. */
 const DIVERGING = hex("053061 2166ac 4393c3 92c5de d1e5f0 f7f7f7 fddbc7 f4a582 d6604d b2182b 67001f");

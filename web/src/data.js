@@ -1,4 +1,4 @@
-// Reads the page's data: JSON with arrays as base64 of little-endian integers (kfmaps.app.view.pack).
+// Reads the page's data: JSON with arrays as base64 of little-endian integers (kfmaps.viz.pack).
 
 const TYPES = { uint8: Uint8Array, uint16: Uint16Array, uint32: Uint32Array };
 

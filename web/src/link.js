@@ -4,7 +4,7 @@ import { numbers, reals } from "./data.js";
 const GREY = 160;
 
 export class Link {
-  /** `record` as kfmaps.app.view.page.map_record makes it. */
+  /** `record` as kfmaps.viz.page.map_record makes it. */
   constructor(record, sourceCount) {
     this.label = record.label;
     this.sourceCount = sourceCount;

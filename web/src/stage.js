@@ -5,7 +5,7 @@ import { Marker } from "./markers.js";
 const FIELD = 28; // degrees of view, small: little perspective
 const UP = { x: [0, 0, Math.SQRT1_2, Math.SQRT1_2], y: [0, 0, 0, 1], z: [-Math.SQRT1_2, 0, 0, Math.SQRT1_2] };
 
-/** The first sight: a little from aside and from above, so that depth shows (as kfmaps.app.pictures has it). */
+/** The first sight: a little from aside and from above, so that depth shows (as kfmaps.viz has it). */
 const ASIDE = new Quaternion()
   .setFromAxisAngle(new Vector3(1, 0, 0), (10 * Math.PI) / 180)
   .multiply(new Quaternion().setFromAxisAngle(new Vector3(0, 1, 0), (-20 * Math.PI) / 180));

@@ -17,8 +17,8 @@ from scipy.spatial import KDTree
 
 from kfmaps._arrays import check, check_count, check_positive, refuse
 from kfmaps._threads import parallel
-from kfmaps.surface.inside import inside
-from kfmaps.surface.mesh import Mesh, face_areas, unit_area, vertex_normals
+from kfmaps.geometry.clean import inside
+from kfmaps.geometry.mesh import Mesh, face_areas, unit_area, vertex_normals
 
 AZIMUTHS, ELEVATIONS, SHELLS = 8, 2, 2
 VOLUMES = AZIMUTHS * ELEVATIONS * SHELLS
@@ -86,7 +86,7 @@ def shot(
     ----------
     mesh : Mesh
         With faces, oriented consistently. Open edges in one place are connected
-        (:func:`kfmaps.surface.inside.inside`); a vertex that no face uses has the descriptor of the nearest one.
+        (:func:`kfmaps.geometry.clean.inside`); a vertex that no face uses has the descriptor of the nearest one.
     radius : float, optional
         Radius of the ball as a fraction of √area, so that units do not matter; 0.09 when not given.
     bins : int

@@ -1,6 +1,7 @@
 """Heat and wave kernel signatures, landmark maps, and normalisations that treat both shapes alike.
 
-All are spectral, so they ask for a :class:`~kfmaps.surface.basis.Basis` alone. Eigenvalues are those of a shape of unit
+All are spectral, so they ask for a :class:`~kfmaps.geometry.basis.Basis` alone. Eigenvalues are those of a shape of
+unit
 area, where Weyl's law puts the j-th near 4πj whatever the shape: times and energies are chosen from that law and
 from the *upper* part of the spectrum, never from the first nonzero eigenvalue, which a floating speck or a thin
 bridge can make as small as it likes.
@@ -14,7 +15,7 @@ from typing import Literal
 import numpy as np
 
 from kfmaps._arrays import Array, check, check_count, check_positive, like, namespace, refuse, take, to_numpy
-from kfmaps.surface.basis import Basis
+from kfmaps.geometry.basis import Basis
 
 Normalisation = Literal["none", "norm", "max", "row", "variance"]
 NORMALISATIONS: tuple[Normalisation, ...] = ("none", "norm", "max", "row", "variance")

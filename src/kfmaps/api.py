@@ -1,0 +1,391 @@
+"""The library's face: files, arrays and other libraries' objects go in, a match that draws and saves itself comes out.
+
+:mod:`kfmaps.matching.match` computes with meshes alone; what a :class:`Match` here does beside holding data is short
+for
+functions of this floor, so the core knows neither files nor pictures.
+"""
+
+from __future__ import annotations
+
+import base64
+import io
+from collections.abc import Callable
+from contextlib import nullcontext
+from dataclasses import dataclass, fields, replace
+from html import escape
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from kfmaps._arrays import check, refuse
+from kfmaps.cli.evaluation import Truth, check_truth
+from kfmaps.cli.progress import Stages
+from kfmaps.config import Config
+from kfmaps.fmap.precise import PointMap, inverse, vertices_of
+from kfmaps.geometry.mesh import Mesh
+from kfmaps.io import MapFile, atomic_output, check_map, load_map, save_map
+from kfmaps.io import transfer as carried
+from kfmaps.io.inputs import as_landmarks, as_map, as_mesh, is_file
+from kfmaps.matching import match as matching
+from kfmaps.shape import Shape
+from kfmaps.shape import prepare as prepared
+from kfmaps.viz.fields import nearest_reached
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+Reporter = Callable[[str, float], None]
+
+PICTURED = 60_000
+"""Vertices of both shapes together above which a notebook is shown words alone."""
+DPI = 72
+"""Of the picture in a notebook."""
+
+
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
+class Match(matching.Match):
+    # The fields of the record that it extends are described there.
+    __doc__ = f"""{str(matching.Match.__doc__).rstrip()}
+    source, target : Mesh
+        The two shapes as they were handed in; those of a :class:`Shape` have unit area.
+    """
+
+    source: Mesh
+    target: Mesh
+
+    def __repr__(self) -> str:
+        sure = "" if self.confidence is None else f", confidence {self.confidence:.2f}"
+        n_t, n_s = len(self.target.vertices), len(self.source.vertices)
+        k_t, k_s = self.functional_map.shape
+        return f"Match({n_t:,} target to {n_s:,} source vertices: {self.verdict}{sure}; C {k_t} × {k_s})"
+
+    def _repr_html_(self) -> str:
+        """What a notebook shows: the picture of :meth:`plot`, and the line of ``repr``."""
+        words = f"<code>{escape(repr(self))}</code>"
+        if len(self.source.vertices) + len(self.target.vertices) > PICTURED:
+            return words
+        buffer = io.BytesIO()
+        self.plot().savefig(buffer, format="png", dpi=DPI)
+        data = base64.b64encode(buffer.getvalue()).decode("ascii")
+        return f'<img alt="{escape(repr(self), quote=True)}" src="data:image/png;base64,{data}"><br>{words}'
+
+    def plot(self, **options: Any) -> Figure:
+        """The picture of the map: short for :func:`kfmaps.render`, which has the options."""
+        return render(self, **options)
+
+    def view(self, **options: Any) -> Path:
+        """The page of the map: short for :func:`kfmaps.view`, which has the options."""
+        return view(self, **options)
+
+    def save(self, path: str | Path, *, force: bool = False) -> None:
+        """Write the map (.npz, .mat, .txt, .vts): short for :func:`kfmaps.save_map`."""
+        save_map(path, _with_size(self), force)
+
+    def transfer(self, values: Any, products: int | None = None) -> np.ndarray:
+        """Carry ``values (n_s, ...)`` to the target's vertices, (n_t, ...): short for :func:`kfmaps.transfer`.
+
+        With ``products`` the values are functions, which the functional map carries instead of the points, and with it
+        products of that many of its first functions (:func:`kfmaps.fmap.transfer.carried`).
+        """
+        return transfer(values, self) if products is None else matching.Match.transfer(self, values, products)
+
+    def inverse(self) -> np.ndarray:
+        """A target vertex for each source vertex, (n_s,) int64.
+
+        Where the match has points inside triangles, the corner that is nearest to :meth:`precise_inverse`. Else one
+        that lands on it or, where none does, on the nearest source vertex (along the edges) that any lands on; of
+        several the one nearest to the middle of them all. Of a one-to-one map it is the inverse. −1 outside the part
+        that both shapes have.
+        """
+        known = np.flatnonzero(self.target_to_source >= 0)
+        points, n_s = self.target_to_source[known], len(self.source.vertices)
+        places = self.target.vertices[known]
+        if len(known) == 0:
+            return np.full(n_s, -1, dtype=np.int64)
+        if self.place is not None and self.overlap_source is None:
+            return vertices_of(self.precise_inverse(), self.target)
+        count = np.bincount(points, minlength=n_s)
+        middle = np.stack([np.bincount(points, axis, minlength=n_s) for axis in places.T], axis=1)
+        middle /= np.maximum(count, 1)[:, None]
+        off = ((places - middle[points]) ** 2).sum(axis=1)
+        order = np.lexsort((off, points))
+        first = np.searchsorted(points[order], np.arange(n_s))
+        central = order[np.minimum(first, len(points) - 1)]
+        found = known[central[nearest_reached(self.source, points)]].astype(np.int64)
+        return found if self.overlap_source is None else np.where(self.overlap_source > 0.5, found, -1)
+
+    def precise_inverse(self) -> PointMap:
+        """A point inside a triangle of the target for each source vertex: the inverse of :meth:`precise`.
+
+        Of a match of parts it means something in the part alone that both shapes have (``overlap_source``).
+
+        Raises
+        ------
+        InvalidInput
+            When one of the shapes is a point cloud.
+        """
+        known = self.target_to_source >= 0
+        return inverse(self.precise(), self.source, self.target, None if known.all() else known)
+
+
+def match(
+    source: Any,
+    target: Any,
+    config: Config | None = None,
+    *,
+    landmarks: Any = None,
+    descriptors: tuple[Any, Any] | None = None,
+    rng: int | np.random.Generator | None = 0,
+    progress: bool | Reporter | None = None,
+) -> Match:
+    """Find for each vertex of ``target`` the corresponding vertex of ``source``.
+
+    Many candidate maps are made and compared (:mod:`kfmaps.matching.search`), and the answer says how sure it is.
+    Landmarks, as many or few as there are, steer the candidates and help to choose between them; those that are
+    contradicted by a map that keeps to most of the others are named and left out. With ``config.search`` of ``None``
+    one fit is made, in which landmarks settle which way round a symmetric shape goes.
+
+    Parameters
+    ----------
+    source, target : Mesh, Shape, path, (vertices, faces), or an object
+        A file, a pair of arrays (n, 3) and (f, 3), one array (n, 3) for a point cloud, or a mesh of trimesh, PyVista,
+        meshio or Open3D. A :class:`Shape` from :func:`prepare` saves the work that depends on one shape alone; it must
+        come from the same settings of the basis, SHOT and the numbers of functions.
+    config : Config, optional
+        ``Config.automatic()`` when not given; ``Config()``, one fit, with descriptors of the user's own.
+    landmarks : (l, 2) whole numbers, or a path, optional
+        Pairs "source vertex, target vertex", 0-based.
+    descriptors : pair of arrays (n_s, d), (n_t, d), optional
+        Of the user's own, used beside those that the configuration names.
+    rng : seed or Generator
+        The same seed gives the same answer.
+    progress : bool or callable, optional
+        ``True`` shows bars (on a terminal and in notebooks; elsewhere lines); a callable is told ``(stage, done)`` with
+        ``done`` from 0 to 1.
+
+    Raises
+    ------
+    InvalidInput
+        When a shape, the landmarks or the descriptors cannot be used; the message says what to do.
+    NotConverged
+        When the eigensolver misses its tolerance.
+    """
+    _check_config(config)
+    shapes = [
+        shape if isinstance(shape, Shape) else as_mesh(shape, name)
+        for shape, name in ((source, "source"), (target, "target"))
+    ]
+    meshes = [shape.mesh if isinstance(shape, Shape) else shape for shape in shapes]
+    marks = as_landmarks(landmarks)
+    with _telling(progress) as report:
+        found = matching.match(
+            shapes[0], shapes[1], config, landmarks=marks, descriptors=descriptors, rng=rng, progress=report
+        )
+    known = {field.name: getattr(found, field.name) for field in fields(found)}
+    return Match(**known, source=meshes[0], target=meshes[1])
+
+
+def prepare(
+    shape: Any, config: Config | None = None, *, name: str | None = None, progress: bool | Reporter | None = None
+) -> Shape:
+    """Do the work that depends on one shape alone, so that matching it with many others reuses it.
+
+    Parameters
+    ----------
+    shape : Mesh, path, (vertices, faces), or an object
+        As :func:`match` takes them; in any unit.
+    config : Config, optional
+        Its basis, descriptor and refinement settings count here.
+    name : str, optional
+        How messages call it; by default the file's name.
+    progress : bool or callable, optional
+        As in :func:`match`.
+
+    Raises
+    ------
+    InvalidInput
+        When the shape cannot be worked with, or has fewer vertices than eigenfunctions are needed.
+    NotConverged
+        When the eigensolver misses its tolerance.
+    """
+    _check_config(config)
+    name = name or (Path(shape).name if is_file(shape) else "shape")
+    with _telling(progress) as report:
+        return prepared(as_mesh(shape, name), config, name=name, progress=report)
+
+
+def transfer(values: Any, found: Any, lost: Any = None) -> np.ndarray:
+    """Carry values from the vertices of the source to those of the target.
+
+    Parameters
+    ----------
+    values : (n_s, ...) array
+        Functions, labels, colours: anything with a row per source vertex.
+    found : Match, MapFile, path, or (n_t,) whole numbers
+        The map.
+    lost : optional
+        What target vertices without a counterpart get; by default NaN, for whole numbers −1, for texts the empty one.
+
+    Returns
+    -------
+    (n_t, ...) array
+        Of the same dtype: row j is ``values[target_to_source[j]]``.
+
+    Raises
+    ------
+    InvalidInput
+        When the map names a vertex that has no value, or the source has another number of vertices.
+    """
+    return carried(values, _with_size(found), lost=lost)
+
+
+def render(
+    found: Any,
+    source: Any = None,
+    target: Any = None,
+    *,
+    output: str | Path | None = None,
+    truth: tuple[Any, Any] | None = None,
+    force: bool = False,
+    **options: Any,
+) -> Figure:
+    """The picture of a map: the source, the target in the source's colours, and the error where the truth is given.
+
+    Parameters
+    ----------
+    found : Match, MapFile, path, or (n_t,) whole numbers
+    source, target : as :func:`match` takes them, optional
+        By default those of the match, or those that the map's file names.
+    output : path, optional
+        Written there as well: .png, .svg or .pdf.
+    truth : ((q,), (q,)) whole numbers, optional
+        Corresponding vertices of source and target.
+    force : bool
+        Whether an existing file is replaced.
+    **options
+        Of :func:`kfmaps.viz.match_figure`: ``title``, ``colors``, ``view``, ``limit``, ...
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+
+    Raises
+    ------
+    InvalidInput
+        When the shapes are not known, or the map or the truth does not fit them.
+    """
+    from kfmaps.viz import match_figure, painted_errors, picture_format, save_figure, true_views
+
+    shapes = _shapes(found, source, target)
+    points = check_map(as_map(found), len(shapes[0].vertices), len(shapes[1].vertices), lost=True)
+    if truth is not None:
+        known = _truth(truth, shapes)
+        options.setdefault("errors", painted_errors(*shapes, points, known.source, known.target))
+        seen = true_views(*shapes, known.source, known.target, options.get("view"))
+        options = {"view": seen[0], "target_view": seen[1], **options}
+    figure = match_figure(*shapes, points, **options)
+    if output is not None:
+        kind = picture_format(output)
+        with atomic_output(output, force) as temporary:
+            save_figure(figure, temporary, kind)
+    return figure
+
+
+def view(
+    found: Any,
+    source: Any = None,
+    target: Any = None,
+    *,
+    output: str | Path | None = None,
+    truth: tuple[Any, Any] | None = None,
+    names: tuple[str, str] = ("source", "target"),
+    descriptors: bool = True,
+    up: str | None = None,
+    force: bool = False,
+) -> Path:
+    """Show a map in the browser, or write the page.
+
+    Parameters
+    ----------
+    found, source, target, truth, force
+        As in :func:`render`.
+    output : path, optional
+        Write the page there and open nothing.
+    names : (str, str)
+        What the page calls the shapes.
+    descriptors : bool
+        Whether to work out descriptors to show, which takes an eigensolve of each shape.
+    up : {"x", "y", "z"}, optional
+        The vertical axis; by default a good side is found.
+
+    Returns
+    -------
+    Path
+        The page: one file that needs no network.
+    """
+    from kfmaps.viz.result_pages import map_page, match_page, open_page
+
+    shapes = _shapes(found, source, target)
+    known = None if truth is None else _truth(truth, shapes)
+    given = {
+        "truth": None if known is None else (known.source, known.target),
+        "descriptors": descriptors,
+        "up": up,
+    }
+    if isinstance(found, matching.Match):
+        html = match_page(found, *shapes, names, **given)
+    else:
+        html = map_page(as_map(found), *shapes, names, **given)
+    if output is None:
+        return open_page(html)[0]
+    with atomic_output(output, force) as temporary:
+        temporary.write_text(html, encoding="utf-8")
+    return Path(output)
+
+
+def _with_size(found: Any) -> MapFile:
+    """A map that says how many vertices its source has, where that is known."""
+    known = as_map(found)
+    if not isinstance(found, Match):
+        return known
+    return replace(known, extra={**known.extra, "n_s": np.int64(len(found.source.vertices))})
+
+
+def _check_config(config: Any) -> None:
+    if config is not None and not isinstance(config, Config):
+        raise refuse("config", "a Config", type(config).__name__, "give kfmaps.Config() or Config.paper(), say")
+
+
+def _telling(progress: bool | Reporter | None) -> Any:
+    """What the stages are told to while the context lasts."""
+    if progress is True:
+        return Stages()
+    return nullcontext(progress or None)
+
+
+def _truth(truth: tuple[Any, Any], shapes: tuple[Mesh, Mesh]) -> Truth:
+    both = [check(np.asarray(part), "truth", shape=(None,), remedy="give vertex numbers") for part in truth]
+    if len(both) != 2 or len(both[0]) != len(both[1]) or len(both[0]) == 0:
+        got = " and ".join(str(len(part)) for part in both)
+        raise refuse("truth", "two lists of equal length", got, "give corresponding vertices")
+    return check_truth(Truth(both[0], both[1]), shapes[0], len(shapes[1].vertices))
+
+
+def _shapes(found: Any, source: Any, target: Any) -> tuple[Mesh, Mesh]:
+    """The two shapes of a map: as given, else the match's own, else those that the map's file names."""
+    from kfmaps.viz.result_pages import map_mesh
+
+    named = load_map(found) if is_file(found) else found
+    beside = Path(found) if is_file(found) else Path()
+    meshes = []
+    for given, side in ((source, "source"), (target, "target")):
+        if given is not None:
+            meshes.append(as_mesh(given, side))
+        elif isinstance(named, Match):
+            meshes.append(getattr(named, side))
+        elif isinstance(named, MapFile):
+            meshes.append(map_mesh(None, named, side, beside))
+        else:
+            raise refuse(side, "the shape", "a map alone", f"give {side}=")
+    return meshes[0], meshes[1]

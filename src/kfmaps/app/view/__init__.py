@@ -1,1 +1,0 @@
-"""Web pages: the view of a result and the landmark picker."""

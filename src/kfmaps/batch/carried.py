@@ -1,0 +1,251 @@
+"""Landmarks of one specimen on all specimens of a run, along the best ways over its maps."""
+
+from __future__ import annotations
+
+import csv
+import io
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+
+from kfmaps._arrays import refuse
+from kfmaps.batch.evidence import FOLDER as CONSISTENT
+from kfmaps.batch.exchange import exchanged_result, map_in_use
+from kfmaps.batch.layout import Pair
+from kfmaps.batch.results import Result, all_results, read_result
+from kfmaps.batch.settings import read_settings
+from kfmaps.collection.paths import Way, roads, ways_from
+from kfmaps.fmap.precise import at_vertices
+from kfmaps.geometry.mesh import Mesh
+from kfmaps.io import MapFile, atomic_output, check_map, check_output, load_map, read_mesh
+from kfmaps.io.counterparts import counterparts
+from kfmaps.io.export import place_of
+from kfmaps.io.named_points import (
+    NamedPoints,
+    carried_points,
+    chosen_points,
+    read_named_points,
+    spread_points,
+)
+
+UNKNOWN = 0.5
+"""Probability of a map of which nothing is known."""
+PAIRS = "pairs.csv"
+
+
+@dataclass(frozen=True, eq=False)
+class Carried:
+    """The landmarks on one specimen.
+
+    Attributes
+    ----------
+    specimen : str
+    points : NamedPoints
+    through : tuple of str
+        The specimens between it and that with the landmarks.
+    """
+
+    specimen: str
+    points: NamedPoints
+    through: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class _Edge:
+    pair: Pair
+    path: Path
+    chance: float
+
+
+def landmarks_everywhere(folder: Path, landmarks: Path, on: str | None = None) -> tuple[list[Carried], list[str]]:
+    """The points of a CSV file (:func:`~kfmaps.io.named_points.read_named_points`) on every specimen of a run.
+
+    Each map on the way carries them once: from the specimen with the landmarks along the paths whose maps are most
+    probably all right. The confidence of a point is that of the way times, at each step, how well distances around it
+    are kept. Maps of parts are gone round, but to specimens that nothing else leads to; of the points that have no
+    counterpart there vertex and face are −1, place and confidence NaN, and so they are on all that lies behind.
+
+    Parameters
+    ----------
+    folder : Path
+        Output of ``kfmaps batch``; maps that were exchanged are used in the place of the old.
+    on : str, optional
+        The specimen that the landmarks are on; where all maps start from one, that.
+
+    Returns
+    -------
+    list of Carried
+        The specimen with the landmarks first, then in the order of how sure the ways are.
+    list of str
+        Specimens that no map leads to.
+
+    Raises
+    ------
+    InvalidInput
+        When there are no maps, or they and their meshes do not fit each other any more.
+    """
+    edges = _edges(folder)
+    names = sorted({name for e in edges for name in (e.pair.source, e.pair.target)})
+    if not names:
+        raise refuse(f"collection {folder}", "maps of kfmaps batch", "none", "see why its pairs failed")
+    start = _start(names, edges, on)
+    number = {name: i for i, name in enumerate(names)}
+    ends = [(number[e.pair.source], number[e.pair.target]) for e in edges]
+    meshes: dict[str, Mesh] = {}
+    found: dict[int, Carried] = {}
+    for at, way in _ways(len(names), ends, edges, number[start]).items():
+        if not way.links:
+            points = read_named_points(landmarks, _mesh(start, edges, meshes))
+            found[at] = Carried(start, replace(points, confidence=np.ones(len(points.names))), ())
+            continue
+        edge, before = edges[way.links[-1]], found[way.shapes[-2]]
+        points = _carried(edge, before.points, ends[way.links[-1]][1] == way.shapes[-2], edges, meshes)
+        through = (*before.through, before.specimen) if before.specimen != start else ()
+        found[at] = Carried(names[at], points, through)
+    return list(found.values()), [name for name in names if number[name] not in found]
+
+
+def _ways(count: int, ends: Sequence[tuple[int, int]], edges: Sequence[_Edge], start: int) -> dict[int, Way]:
+    """The best ways over whole maps, and over maps of parts to the specimens that nothing else leads to.
+
+    A part has no counterpart for every landmark. Each way's last step begins where another way ends.
+    """
+    around, own = roads(count, ends), [e.chance for e in edges]
+    chances = list(own)
+    while True:
+        ways = ways_from(around, chances, start)
+        used = dict.fromkeys(link for way in ways.values() for link in way.links)
+        parts = [link for link in used if (load_map(edges[link].path).target_to_source < 0).any()]
+        if not parts:
+            break
+        for link in parts:
+            chances[link] = 0.0
+    further = {} if len(ways) == count else ways_from(around, own, start)
+    return ways | {at: way for at, way in further.items() if at not in ways}
+
+
+def _carried(
+    edge: _Edge, before: NamedPoints, back: bool, edges: Sequence[_Edge], meshes: dict[str, Mesh]
+) -> NamedPoints:
+    """Points carried over one map, with what is left of their confidence; those lost on the way stay lost."""
+    known = load_map(edge.path)
+    source, target = (_mesh(name, edges, meshes) for name in (edge.pair.source, edge.pair.target))
+    ways = counterparts(known, source, target, str(edge.path)) if (known.target_to_source < 0).any() else None
+    if ways is None:
+        check_map(known, len(source.vertices), len(target.vertices), str(edge.path))
+        place, some = place_of(known, source) or at_vertices(known.target_to_source, source), {}
+    else:
+        place, some = ways.place, {"known": ways.target, "common": ways.source}
+    trust = known.extra.get("local_confidence")
+    local = np.ones(len(target.vertices)) if trust is None else np.nan_to_num(np.asarray(trust))
+    there = before.vertices >= 0
+    if not there.any():
+        return before
+    points = carried_points(chosen_points(before, there), source, target, place, local, back=back, **some)
+    rest = points.confidence * before.confidence[there] * edge.chance
+    return spread_points(replace(points, confidence=rest), before.names, there)
+
+
+def _edges(folder: Path) -> list[_Edge]:
+    """The maps of a run with their probabilities."""
+    settings = read_settings(folder)
+    agreed = _agreed(folder)
+    edges = []
+    for result in all_results(folder, str(settings["digest"])):
+        pair = Pair(result.source, result.target)
+        path = map_in_use(folder, pair.key)
+        if result.status != "done" or not path.exists():
+            continue
+        other = read_result(exchanged_result(folder, pair.key))
+        used = other if other is not None and other.status == "done" else result
+        edges.append(_Edge(pair, path, _chance(used, agreed.get((pair.source, pair.target)))))
+    return edges
+
+
+def _chance(result: Result, agreed: float | None) -> float:
+    """What is known of a map, best first: agreement with others, the search's confidence, distances kept."""
+    for value in (result.agreement, agreed, result.confidence, result.local_confidence):
+        if value is not None:
+            return float(np.clip(value, 1e-3, 1.0))
+    return UNKNOWN
+
+
+def _agreed(folder: Path) -> dict[tuple[str, str], float]:
+    try:
+        with open(folder / CONSISTENT / PAIRS, encoding="utf-8", newline="") as file:
+            return {(row["source"], row["target"]): float(row["probability"]) for row in csv.DictReader(file)}
+    except (OSError, ValueError, KeyError):
+        return {}
+
+
+def _start(names: Sequence[str], edges: Sequence[_Edge], on: str | None) -> str:
+    if on is not None:
+        for name in (on, Path(on).stem):
+            if name in names:
+                return name
+        raise refuse("--on", f"a specimen ({', '.join(names[:5])}, ...)", repr(on), "check the spelling")
+    sources = {e.pair.source for e in edges}
+    if len(sources) == 1:
+        return sources.pop()
+    raise refuse("--on", "the specimen that the landmarks are on", "none", f"name one of {', '.join(names[:5])}, ...")
+
+
+def _mesh(name: str, edges: Sequence[_Edge], known: dict[str, Mesh]) -> Mesh:
+    """The mesh of a specimen, from where its maps say that it lies."""
+    if name not in known:
+        edge = next(e for e in edges if name in (e.pair.source, e.pair.target))
+        side = "source" if edge.pair.source == name else "target"
+        path = _named(load_map(edge.path), side, edge.path)
+        mesh = read_mesh(path)
+        if len(mesh.faces) == 0:
+            raise refuse(str(path), "a surface with faces", "a point cloud", "landmarks are carried between surfaces")
+        known[name] = mesh
+    return known[name]
+
+
+def _named(found: MapFile, side: str, path: Path) -> str:
+    named = found.extra.get(side)
+    if not isinstance(named, str) or not Path(named).exists():
+        raise refuse(str(path), f"its {side} where it says", str(named), "put the mesh back, or match again")
+    return named
+
+
+def write_landmarks_csv(path: Path, carried: Sequence[Carried], force: bool = False) -> None:
+    """One row a landmark and specimen: where it is in the specimen's own unit, on which triangle, how sure it is.
+
+    Of one without a counterpart vertex and face are −1, and the other cells are empty.
+    """
+    check_output(path, force)
+    text = io.StringIO(newline="")
+    out = csv.writer(text, lineterminator="\n")
+    titles = ["name", "specimen", "x", "y", "z", "vertex", "face", "weight_1", "weight_2", "weight_3"]
+    out.writerow([*titles, "confidence", "through"])
+    for one in carried:
+        p = one.points
+        for i, name in enumerate(p.names):
+            place = [repr(x) for x in p.points[i].tolist()]
+            weights = [f"{w:.9g}" for w in p.place.weights[i].tolist()]
+            known = f"{p.confidence[i]:.4f}"
+            if p.vertices[i] < 0:
+                place, weights, known = [""] * 3, [""] * 3, ""
+            row = [name, one.specimen, *place, int(p.vertices[i]), int(p.place.faces[i]), *weights, known]
+            out.writerow([*row, " ".join(one.through)])
+    with atomic_output(path, force) as temporary:
+        temporary.write_text(text.getvalue(), encoding="utf-8", newline="")
+
+
+def write_tps(path: Path, carried: Sequence[Carried], force: bool = False) -> None:
+    """The landmarks as TPS (Rohlf), which geomorph and MorphoJ read: ``LM3=`` and a row each, then ``ID=``.
+
+    One without a counterpart is ``NA NA NA``, geomorph's missing landmark.
+    """
+    check_output(path, force)
+    lines = []
+    for one in carried:
+        lines.append(f"LM3={len(one.points.names)}")
+        lines += [" ".join("NA" if np.isnan(x) else f"{x:.9g}" for x in row) for row in one.points.points.tolist()]
+        lines.append(f"ID={' '.join(one.specimen.split())}")
+    with atomic_output(path, force) as temporary:
+        temporary.write_text("\n".join(lines) + "\n", encoding="utf-8")

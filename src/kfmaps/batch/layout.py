@@ -1,0 +1,229 @@
+"""Finding shapes, true correspondences, landmarks and pairs in a folder."""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import re
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from kfmaps._arrays import refuse
+from kfmaps.io.meshes import READERS
+from kfmaps.io.text import read_text
+
+SHAPE_FOLDERS = ("shapes", "off", "meshes", "ply", "obj")
+"""Where the field keeps its shapes when they are not in the top folder; the first that has any counts."""
+TRUTH_FOLDERS = ("corres", "groundtruth")
+LANDMARK_FOLDER = "landmarks"
+PAIRS_FILE = "test_pairs.txt"
+
+
+LONGEST_KEY = 200
+"""Bytes of a key; file systems take names of 255."""
+
+
+@dataclass(frozen=True, order=True)
+class Pair:
+    """Names of a source and a target."""
+
+    source: str
+    target: str
+
+    @property
+    def key(self) -> str:
+        """Name of the pair's files: ``A-B``, or ``A--B`` where a name itself has a hyphen.
+
+        Of names too long for one file of both, it has how they begin and a digest of the whole.
+        """
+        joint = "--" if "-" in self.source + self.target else "-"
+        whole = f"{self.source}{joint}{self.target}"
+        if len(os.fsencode(whole)) <= LONGEST_KEY:
+            return whole
+        digest = hashlib.sha256(os.fsencode(f"{self.source}\0{self.target}")).hexdigest()[:16]
+        start = LONGEST_KEY // 2 - 10
+        names = (os.fsencode(name)[:start].decode("utf-8", "ignore") for name in (self.source, self.target))
+        return f"{joint.join(names)}{joint}{digest}"
+
+
+@dataclass(frozen=True)
+class ShapeFolder:
+    """What a folder holds.
+
+    Attributes
+    ----------
+    folder : Path
+    shapes : mapping of name to path
+        In natural order: 2 before 10.
+    truth : mapping of name to path
+        Vertex lists; line k of one shape's corresponds to line k of another's.
+    mirrored : mapping of name to path
+        The lists with left and right swapped.
+    maps : mapping of Pair to path
+        Truth of one pair: line i is the target's vertex for the source's vertex i, counted from 1 (SHREC'19).
+    landmarks : mapping of name to path
+        Vertex lists; line k of one shape's corresponds to line k of another's.
+    pairs : Path or None
+        The folder's own list of pairs.
+    """
+
+    folder: Path
+    shapes: Mapping[str, Path]
+    truth: Mapping[str, Path] = field(default_factory=dict)
+    mirrored: Mapping[str, Path] = field(default_factory=dict)
+    maps: Mapping[Pair, Path] = field(default_factory=dict)
+    landmarks: Mapping[str, Path] = field(default_factory=dict)
+    pairs: Path | None = None
+
+
+def natural(name: str) -> list[tuple[int, int, str]]:
+    """A sorting key under which numbers inside names count as numbers."""
+    parts = re.findall(r"\d+|\D+", name)
+    return [(0, int(part), part) if part.isdecimal() else (1, 0, part) for part in parts]
+
+
+def find_collection(folder: str | Path) -> ShapeFolder:
+    """Look through a folder laid out as the field does.
+
+    Shapes lie in the folder itself or, when it has none, in ``shapes/``, ``off/``, ``meshes/``, ``ply/`` or
+    ``obj/``. Truth lies in ``corres/`` (or ``groundtruth/``) as ``NAME.vts`` and ``NAME.sym.vts``, or per pair as
+    ``A_B.map``; landmarks in ``landmarks/NAME.txt`` (counted from 0) or ``NAME.vts`` (counted from 1); pairs in
+    ``test_pairs.txt``.
+
+    Raises
+    ------
+    InvalidInput
+        When there is no folder, no shape in it, or two files for one name.
+    """
+    folder = Path(folder)
+    if not folder.is_dir():
+        raise refuse(f"collection {folder}", "a folder of meshes", "no folder", "check the path")
+    shapes = _shapes(folder)
+    for name in SHAPE_FOLDERS:
+        shapes = shapes or _shapes(folder / name)
+    if not shapes:
+        places = ", ".join(f"{name}/" for name in SHAPE_FOLDERS)
+        wanted = f"meshes ({' '.join(READERS)}) in it or in {places}"
+        raise refuse(f"collection {folder}", wanted, "none", "check the path")
+    found = [p for name in TRUTH_FOLDERS for p in _files(folder / name)]
+    lists = {p.name[:-4]: p for p in found if p.suffix == ".vts" and not p.name.endswith(".sym.vts")}
+    mirrored = {p.name[:-8]: p for p in found if p.name.endswith(".sym.vts")}
+    pairs = folder / PAIRS_FILE
+    return ShapeFolder(
+        folder,
+        shapes,
+        truth={name: lists[name] for name in shapes if name in lists},
+        mirrored={name: mirrored[name] for name in shapes if name in mirrored},
+        maps=_pair_truth([p for p in found if p.suffix == ".map"], shapes),
+        landmarks={p.stem: p for p in _files(folder / LANDMARK_FOLDER) if p.stem in shapes and _is_list(p)},
+        pairs=pairs if pairs.is_file() else None,
+    )
+
+
+def _files(folder: Path) -> list[Path]:
+    if not folder.is_dir():
+        return []
+    return sorted(p for p in folder.iterdir() if p.is_file() and not p.name.startswith("."))
+
+
+def _is_list(path: Path) -> bool:
+    return path.suffix in (".txt", ".vts")
+
+
+def _shapes(folder: Path) -> dict[str, Path]:
+    shapes: dict[str, Path] = {}
+    for path in _files(folder):
+        if path.suffix.lower() not in READERS:
+            continue
+        if path.stem in shapes:
+            got = f"{shapes[path.stem].name} and {path.name}"
+            raise refuse(f"shape {path.stem}", "one file for each name", got, "keep one of them")
+        shapes[path.stem] = path
+    return {name: shapes[name] for name in sorted(shapes, key=natural)}
+
+
+def _pair_truth(paths: Iterable[Path], shapes: Mapping[str, Path]) -> dict[Pair, Path]:
+    """``A_B.map`` by pair; the names may hold underscores themselves."""
+    maps = {}
+    for path in paths:
+        parts = path.stem.split("_")
+        for cut in range(1, len(parts)):
+            pair = Pair("_".join(parts[:cut]), "_".join(parts[cut:]))
+            if pair.source in shapes and pair.target in shapes:
+                maps[pair] = path
+    return {pair: maps[pair] for pair in sorted(maps, key=lambda p: (natural(p.source), natural(p.target)))}
+
+
+def choose_pairs(
+    collection: ShapeFolder, *, file: str | Path | None = None, every: bool = False, star: str | None = None
+) -> list[Pair]:
+    """The pairs to match, each once and in order.
+
+    Parameters
+    ----------
+    file : path, optional
+        Two names a line, "source target"; ``#`` starts a comment. Names may carry the mesh's extension.
+    every : bool
+        Every shape to every other one, both ways.
+    star : str, optional
+        This shape as the source of all others.
+
+    With none of them, the folder's ``test_pairs.txt`` counts, or else the pairs that have a truth of their own.
+
+    Raises
+    ------
+    InvalidInput
+        On more than one choice, none at all, a shape that is not there, and two pairs whose files would be named
+        alike.
+    """
+    if (file is not None) + every + (star is not None) > 1:
+        raise refuse("pairs", "one of --pairs, --all and --star", "several", "leave the others out")
+    names = list(collection.shapes)
+    if every:
+        pairs = [Pair(a, b) for a in names for b in names if a != b]
+    elif star is not None:
+        centre = _known(star, collection, "--star")
+        pairs = [Pair(centre, name) for name in names if name != centre]
+    elif file is not None or collection.pairs is not None:
+        pairs = read_pairs(file or collection.pairs or "", collection)
+    elif collection.maps:
+        pairs = list(collection.maps)
+    else:
+        got = f"no {PAIRS_FILE} in {collection.folder}"
+        raise refuse("pairs", "a list of pairs", got, "give --pairs FILE, --all or --star SHAPE")
+    pairs = list(dict.fromkeys(pairs))
+    if not pairs:
+        raise refuse("pairs", "two shapes or more", f"{len(names)}", "add shapes")
+    keys: dict[str, Pair] = {}
+    for pair in pairs:
+        other = keys.setdefault(pair.key.casefold(), pair)  # some file systems do not tell a from A
+        if other != pair:
+            got = f"{other.key} for two of them"
+            raise refuse("pairs", "names that tell pairs apart", got, "rename one of the shapes")
+    return pairs
+
+
+def _known(name: str, collection: ShapeFolder, where: str) -> str:
+    """The shape's name, given with or without extension."""
+    for known in (name, Path(name).stem):
+        if known in collection.shapes:
+            return known
+    shown = ", ".join(list(collection.shapes)[:5])
+    raise refuse(where, f"a shape of {collection.folder} ({shown}, ...)", repr(name), "check the spelling")
+
+
+def read_pairs(path: str | Path, collection: ShapeFolder) -> list[Pair]:
+    """Read a list of pairs; see :func:`choose_pairs`."""
+    pairs = []
+    for number, line in enumerate(read_text(path).splitlines(), 1):
+        words = line.split("#", 1)[0].replace(",", " ").split()
+        if not words:
+            continue
+        where = f"{path}, line {number}"
+        if len(words) != 2:
+            raise refuse(where, "two names, source and target", f"{len(words)}", "write one pair a line")
+        pairs.append(Pair(*(_known(word, collection, where) for word in words)))
+    if not pairs:
+        raise refuse(f"pairs {path}", "two names a line", "no pairs", "check the file")
+    return pairs

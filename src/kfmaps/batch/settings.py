@@ -1,0 +1,125 @@
+"""What a run over a collection is defined by; one output folder holds results of one such definition."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import kfmaps
+from kfmaps._arrays import check_count, refuse
+from kfmaps.config import Config, as_dict
+from kfmaps.io import atomic_output
+
+FILE = "settings.json"
+
+
+@dataclass(frozen=True)
+class Settings:
+    """Everything besides the shapes that results depend on.
+
+    Attributes
+    ----------
+    config : Config
+    seed : int
+        Given to every pair, as ``match`` does with its ``rng``.
+    landmark_lines : tuple of int
+        Lines, counted from 1, of the true correspondences that serve as landmarks.
+    landmark_files : bool
+        Whether landmarks are taken from the folder when it has them.
+    identity : bool
+        Whether the truth is "vertex i is vertex i".
+    """
+
+    config: Config
+    seed: int = 0
+    landmark_lines: tuple[int, ...] = ()
+    landmark_files: bool = True
+    identity: bool = False
+
+    def __post_init__(self) -> None:
+        check_count(self.seed, "seed", low=0)
+        for line in self.landmark_lines:
+            check_count(line, "--truth-landmarks")
+        if len(set(self.landmark_lines)) < len(self.landmark_lines):
+            raise refuse("--truth-landmarks", "each line once", "one twice", "leave it out")
+
+    def as_dict(self) -> dict[str, Any]:
+        """As plain values, without the number of threads, which changes no result."""
+        config = as_dict(self.config)
+        del config["threads"]
+        return {
+            "version": kfmaps.__version__,
+            "seed": self.seed,
+            "landmark_lines": list(self.landmark_lines),
+            "landmark_files": self.landmark_files,
+            "identity": self.identity,
+            "config": config,
+        }
+
+    @property
+    def digest(self) -> str:
+        """16 hexadecimal digits that stand for these settings."""
+        return digest_of(self.as_dict())
+
+
+def digest_of(values: Any, digits: int = 16) -> str:
+    """Hexadecimal SHA-256 of plain values, cut to ``digits``."""
+    text = json.dumps(values, sort_keys=True, separators=(",", ":"))
+    return hashlib.sha256(text.encode()).hexdigest()[:digits]
+
+
+def flattened(values: Any, name: str = "") -> dict[str, Any]:
+    """Nested mappings as one, with dotted names."""
+    if not isinstance(values, Mapping):
+        return {name: values}
+    flat: dict[str, Any] = {}
+    for key, value in values.items():
+        flat |= flattened(value, f"{name}.{key}" if name else str(key))
+    return flat
+
+
+def claim(folder: Path, settings: Settings) -> None:
+    """Make ``folder`` the place of results with ``settings``, or find that it already is.
+
+    Raises
+    ------
+    InvalidInput
+        When it holds results of other settings, naming the differences.
+    """
+    path = folder / FILE
+    now = settings.as_dict()
+    if not path.exists():
+        content = json.dumps({"digest": settings.digest, **now}, indent=2) + "\n"
+        with atomic_output(path) as temporary:
+            temporary.write_text(content, encoding="utf-8")
+        return
+    then = read_settings(folder)
+    if digest_of({k: v for k, v in then.items() if k != "digest"}) == settings.digest:
+        return
+    before, after = flattened(then), flattened(now)
+    changed = [
+        f"{name} {before.get(name, 'unset')!r}, now {after.get(name, 'unset')!r}"
+        for name in sorted((before.keys() | after.keys()) - {"digest"})
+        if before.get(name) != after.get(name)
+    ]
+    shown = "; ".join(changed[:4]) + (f"; and {len(changed) - 4} more" if len(changed) > 4 else "")
+    remedy = "use the same settings, or another output folder"
+    raise refuse(f"output {folder}", "the settings it was begun with", f"others ({shown})", remedy)
+
+
+def read_settings(folder: Path) -> dict[str, Any]:
+    """The settings of an output folder, as plain values with their ``digest``."""
+    path = folder / FILE
+    try:
+        values = json.loads(path.read_text(encoding="utf-8"))
+    except FileNotFoundError as error:
+        raise refuse(f"{folder}", "an output folder of kfmaps batch", f"no {FILE} in it", "check the path") from error
+    except (OSError, ValueError, RecursionError) as error:
+        raise refuse(f"{path}", "the settings of a run", str(error), "remove it to begin anew") from error
+    if not isinstance(values, dict) or "digest" not in values:
+        raise refuse(f"{path}", "the settings of a run", "other content", "remove it to begin anew")
+    return values

@@ -1,0 +1,119 @@
+"""``kfmaps export``: a map in other programs' formats."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import numpy as np
+import typer
+
+from kfmaps._arrays import refuse
+from kfmaps.io import (
+    MapFile,
+    MeshFile,
+    Values,
+    check_map,
+    check_output,
+    load_map,
+    read_mesh_file,
+    save_map,
+    write_colored,
+    write_textured,
+    write_values,
+)
+from kfmaps.io.export import place_of, write_morph
+from kfmaps.io.named import warn_of_change
+from kfmaps.viz import position_colors
+from kfmaps.viz.result_pages import mesh_path
+
+SHAPES = (".obj", ".ply", ".off", ".glb")
+MAPS = (".txt", ".vts", ".mat", ".npz")
+MATRICES = (".txt", ".csv", ".npy")
+
+
+def export(
+    map: Annotated[Path, typer.Argument(help="A map (.npz, .txt, .vts, .mat).", metavar="MAP", show_default=False)],
+    output: Annotated[
+        Path,
+        typer.Option(
+            "-o",
+            "--output",
+            help="OBJ (texture, MTL and picture), GLB (texture inside), PLY, OFF (colours), .txt, .vts, .mat, .npz.",
+            show_default=False,
+        ),
+    ],
+    source: Annotated[
+        Path | None, typer.Option(help="The source mesh; default: the one the map names.", show_default=False)
+    ] = None,
+    target: Annotated[Path | None, typer.Option(help="The same for the target.", show_default=False)] = None,
+    picture: Annotated[
+        Path | None,
+        typer.Option(help="The source's texture (PNG, JPEG); default: its own, or a grid.", show_default=False),
+    ] = None,
+    functional: Annotated[
+        bool, typer.Option("--functional", help="Write the functional map C alone (.txt, .csv, .npy).")
+    ] = False,
+    confidence: Annotated[
+        bool, typer.Option("--confidence", help="Write the confidence of each target vertex (.txt, .csv, .npy).")
+    ] = False,
+    morph: Annotated[
+        bool, typer.Option("--morph", help="Write the source in the target's shape (GLB: as a morph target).")
+    ] = False,
+    force: Annotated[bool, typer.Option("--force", help="Replace existing files.")] = False,
+) -> None:
+    """Write the target with the source's texture or colours, or the map in another format."""
+    suffix = output.suffix.lower()
+    if morph and suffix not in SHAPES:
+        raise refuse("--morph", f"an output {' '.join(SHAPES)}", suffix or "no extension", "rename it")
+    if functional and confidence:
+        raise refuse("export", "--functional or --confidence", "both", "run the command twice")
+    formats = MATRICES if functional or confidence else SHAPES + MAPS
+    if suffix not in formats:
+        got = suffix or "no extension"
+        raise refuse(f"output {output}", f"one of {' '.join(formats)}", got, "choose one of these")
+    check_output(output, force, (map, source, target, picture))
+    found = load_map(map)
+    whole = suffix in SHAPES
+    shape_s, shape_t = (
+        _shape(given, found, side, map) if whole or given is not None else None
+        for given, side in ((source, "source"), (target, "target"))
+    )
+    _check(found, shape_s, shape_t)
+    if functional:
+        if found.functional_map is None:
+            raise refuse(str(map), "a functional map", "a point map alone", "give the .npz file of a match")
+        write_values(output, Values(found.functional_map), force)
+    elif confidence:
+        values = found.extra.get("local_confidence")
+        if values is None:
+            raise refuse(str(map), "confidence per vertex", "none", "give the .npz or .mat file of a match")
+        write_values(output, Values(np.asarray(values)), force)
+    elif suffix in MAPS:
+        save_map(output, found, force)
+    elif shape_s is None or shape_t is None:
+        raise refuse("export", "--source and --target for a shape", "not both", "name the two meshes")
+    elif morph:
+        bent = found.extra.get("bent")
+        if bent is None:
+            raise refuse(str(map), "a non-rigid fit for --morph", "none", "give the .npz file of a match that kept it")
+        write_morph(output, shape_s, shape_t.mesh, np.asarray(bent), force)
+    elif suffix in (".obj", ".glb"):
+        write_textured(output, shape_s, shape_t, found, picture=picture, force=force)
+    else:
+        colors = position_colors(shape_s.mesh) if shape_s.colors is None else shape_s.colors
+        place = place_of(found, shape_s.mesh)
+        write_colored(output, colors, shape_t.mesh, found, place=place, faces_s=shape_s.mesh.faces, force=force)
+
+
+def _shape(given: Path | None, found: MapFile, side: str, map: Path) -> MeshFile:
+    """The shape ``side``, by default the file that the map names."""
+    path = mesh_path(given, found, side, map)
+    warn_of_change(found, side, path)
+    return read_mesh_file(path)
+
+
+def _check(found: MapFile, source: MeshFile | None, target: MeshFile | None) -> None:
+    n_s = None if source is None else len(source.mesh.vertices)
+    n_t = None if target is None else len(target.mesh.vertices)
+    check_map(found, n_s, n_t, lost=True)

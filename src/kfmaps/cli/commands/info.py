@@ -1,0 +1,132 @@
+"""``kfmaps info``: what is in mesh files."""
+
+from __future__ import annotations
+
+import json as jsonlib
+import warnings
+from dataclasses import asdict
+from pathlib import Path
+from typing import Annotated, Any
+
+import numpy as np
+import typer
+from rich.table import Table
+from rich.text import Text
+
+from kfmaps._arrays import InvalidInput, KfmapsWarning, shown
+from kfmaps.cli.terminal import Terminal
+from kfmaps.geometry.mesh import surface_area
+from kfmaps.geometry.topology import topology
+from kfmaps.io import MeshFile, read_mesh_file
+
+_DEFECTS = (
+    "boundary_edges",
+    "nonmanifold_edges",
+    "nonmanifold_vertices",
+    "inconsistent_edges",
+    "degenerate_faces",
+    "unreferenced_vertices",
+    "duplicated_vertices",
+)
+
+
+def description(path: str | Path, content: MeshFile) -> dict[str, Any]:
+    """What ``kfmaps info --json`` prints: sizes, extent, topology (None for a point cloud), colours."""
+    mesh = content.mesh
+    surface = len(mesh.faces) > 0
+    counts = topology(mesh)
+    return {
+        "file": str(path),
+        "vertices": len(mesh.vertices),
+        "faces": len(mesh.faces),
+        "extent": np.ptp(mesh.vertices, axis=0).tolist(),
+        "area": surface_area(mesh) if surface else None,
+        "colors": content.colors is not None,
+        "texture_coordinates": content.uv is not None,
+        "topology": {**asdict(counts), "closed": counts.closed, "manifold": counts.manifold} if surface else None,
+    }
+
+
+def _rows(facts: dict[str, Any]) -> list[tuple[str, str]]:
+    """Names and values of the table."""
+    counts = facts["topology"]
+    extra = [k.replace("_", " ") for k in ("colors", "texture_coordinates") if facts[k]]
+    rows = [
+        ("vertices", f"{facts['vertices']:,}"),
+        ("faces", f"{facts['faces']:,}" if counts else "none (a point cloud)"),
+        ("extent", " × ".join(f"{side:.6g}" for side in facts["extent"])),
+        ("also in the file", ", ".join(extra) or "nothing"),
+    ]
+    if counts is None:
+        return rows
+    return [
+        *rows[:2],
+        ("area", f"{facts['area']:.6g}"),
+        *rows[2:],
+        ("components", f"{counts['components']:,}"),
+        ("boundary loops", f"{counts['boundary_loops']:,}" if counts["boundary_loops"] else "none (closed)"),
+        ("genus", "not defined (no orientable manifold)" if counts["genus"] is None else str(counts["genus"])),
+        ("Euler characteristic", str(counts["euler_characteristic"])),
+        ("defects", "\n".join(_defects(counts)) or "none"),
+    ]
+
+
+def info(
+    meshes: Annotated[list[Path], typer.Argument(help="Meshes or point clouds.", metavar="MESH", show_default=False)],
+    json: Annotated[bool, typer.Option("--json", help="Print it for machines, one line for each file.")] = False,
+) -> None:
+    """Show what is in files: vertices, faces, components, area, genus, defects."""
+    if len(meshes) == 1:
+        facts = _facts(meshes[0])
+        if json:
+            print(jsonlib.dumps(facts))
+        else:
+            table = Table(title=Text(shown(str(meshes[0]))), show_header=False)
+            for name, value in _rows(facts):
+                table.add_row(name, Text(value))
+            Terminal().print(table)
+        return
+    refused, known = [], []
+    for path in meshes:
+        try:
+            known.append(_facts(path))
+        except InvalidInput as error:
+            refused.append(str(error))
+    if json:
+        for facts in known:
+            print(jsonlib.dumps(facts))
+    elif known:
+        Terminal().print(_overview(known))
+    if refused:  # the others have been shown
+        more = "" if len(refused) == 1 else f"; and {len(refused) - 1} more of the files cannot be read"
+        raise InvalidInput(refused[0] + more)
+
+
+def _facts(path: Path) -> dict[str, Any]:
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", KfmapsWarning)  # the table says it all
+        return description(path, read_mesh_file(path))
+
+
+def _overview(known: list[dict[str, Any]]) -> Table:
+    """A row for each file."""
+    table = Table()
+    for name in ("file", "vertices", "faces", "area", "components", "genus", "defects"):
+        table.add_column(name, justify="left" if name in ("file", "defects") else "right", overflow="fold")
+    for facts in known:
+        sizes = f"{facts['vertices']:,}", f"{facts['faces']:,}"
+        counts = facts["topology"]
+        if counts is None:
+            table.add_row(Text(shown(facts["file"])), *sizes, "", "", "", "a point cloud")
+            continue
+        genus = "" if counts["genus"] is None else str(counts["genus"])
+        holes = [f"{counts['boundary_loops']:,} boundary loops"] if counts["boundary_loops"] else []
+        odd = "\n".join([*holes, *_defects(counts)]) or "none"
+        table.add_row(
+            Text(shown(facts["file"])), *sizes, f"{facts['area']:.6g}", f"{counts['components']:,}", genus, odd
+        )
+    return table
+
+
+def _defects(counts: dict[str, Any]) -> list[str]:
+    return [f"{counts[k]:,} {k.replace('_', ' ')}" for k in _DEFECTS if counts[k]]

@@ -1,0 +1,85 @@
+"""``kfmaps landmarks``: pairs of points picked by hand on a local web page."""
+
+from __future__ import annotations
+
+import warnings
+from pathlib import Path
+from typing import Annotated
+
+import numpy as np
+import typer
+
+from kfmaps._arrays import KfmapsWarning
+from kfmaps.config import Config
+from kfmaps.io import check_output, read_landmark_names, read_landmarks, read_mesh
+from kfmaps.io.mapfile import check_format
+from kfmaps.matching.match import default_config
+from kfmaps.settings.options import Chosen, with_settings
+from kfmaps.viz.page import check_up
+from kfmaps.viz.picker import Picker, check_pairs, picker_server
+from kfmaps.viz.result_pages import open_address
+from kfmaps.viz.tryout import Tryout
+
+
+@with_settings
+def landmarks(
+    source: Annotated[Path, typer.Argument(help="The source mesh.", show_default=False)],
+    target: Annotated[Path, typer.Argument(help="The target mesh.", show_default=False)],
+    settings: Chosen,
+    output: Annotated[
+        Path | None,
+        typer.Option(
+            "-o",
+            "--output",
+            help="Where the page saves them; default: landmarks.txt, or the file of --landmarks.",
+            show_default=False,
+        ),
+    ] = None,
+    landmarks: Annotated[
+        Path | None, typer.Option("--landmarks", help="Pairs to begin with.", show_default=False)
+    ] = None,
+    map_output: Annotated[
+        Path, typer.Option("--map", help="Where the page saves the map of a run: .npz, .mat, .txt or .vts.")
+    ] = Path("map.npz"),
+    up: Annotated[
+        str | None,
+        typer.Option(help="The axis that points upwards: x, y or z; default: found.", show_default=False),
+    ] = None,
+    port: Annotated[int, typer.Option(help="Of this machine; 0 takes a free one.", min=0, max=65535)] = 0,
+    browser: Annotated[bool, typer.Option("--browser/--no-browser", help="Open the page.")] = True,
+    force: Annotated[bool, typer.Option("--force", help="Save over an existing file without asking.")] = False,
+) -> None:
+    """Pick landmarks on a local page: click a point on one shape, then its match on the other.
+
+    The settings are those of the matches that are run from the page.
+    """
+    check_up(up)
+    output = output or landmarks or Path("landmarks.txt")
+    check_format(map_output)
+    for path in (output, map_output):
+        # The page asks before it replaces a file, that of the landmarks it began with too; the shapes it never does.
+        check_output(path, True, (source, target) if path is output else (source, target, landmarks, output))
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", KfmapsWarning)  # what is odd about them says kfmaps match, once
+        shapes = read_mesh(source), read_mesh(target)
+    pairs = check_pairs([] if landmarks is None else read_landmarks(landmarks).tolist(), *shapes)
+    labels = [] if landmarks is None else read_landmark_names(landmarks)
+    names = (source.stem, target.stem)
+
+    def chosen(_: np.ndarray) -> Config:
+        return settings.config(default_config())
+
+    chosen(pairs)  # what is wrong with the settings is said before the page opens
+    matcher = Tryout(*shapes, names, (source, target), chosen)
+    picker = Picker(*shapes, names, output, force, pairs, labels, matcher, map_output, up)
+    serving = picker_server(picker, port)
+    typer.echo(serving.server.address)
+    typer.echo("Only this machine can reach it, and only with that address. Ctrl-C ends.")
+    if browser and not open_address(serving.server.address):
+        typer.echo("No browser was found; open the address yourself.")
+    try:
+        serving.server.serve_forever(poll_interval=0.2)
+    except KeyboardInterrupt:
+        typer.echo("Ended.")
+    finally:
+        serving.close()

@@ -1,0 +1,221 @@
+"""``kfmaps match``: find the map between two surfaces."""
+
+from __future__ import annotations
+
+import json as jsonlib
+import warnings
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from kfmaps._arrays import KfmapsWarning, refuse
+from kfmaps.settings.options import Chosen, with_settings
+
+if TYPE_CHECKING:
+    import numpy as np
+
+    from kfmaps.cli.summary import MatchRun
+    from kfmaps.config import Config
+    from kfmaps.geometry.mesh import Mesh
+
+SIDES = ("source", "target")
+TRUTH = "True vertices of both, line k of one file to line k of the other (.vts counts from 1): prints errors."
+
+
+@with_settings
+def match(
+    source: Annotated[Path, typer.Argument(help="A mesh or point cloud.", metavar="SOURCE", show_default=False)],
+    target: Annotated[Path, typer.Argument(help="A mesh or point cloud.", metavar="TARGET", show_default=False)],
+    settings: Chosen,
+    landmarks: Annotated[
+        Path | None,
+        typer.Option(help='Pairs of vertices, "source target" a line, counted from 0.', show_default=False),
+    ] = None,
+    one_based: Annotated[
+        bool, typer.Option("--one-based", help="The landmarks file counts from 1, as .vts does.")
+    ] = False,
+    output: Annotated[
+        Path, typer.Option("-o", "--output", help="The map: .npz or .mat (everything), .txt or .vts (vertices).")
+    ] = Path("map.npz"),
+    force: Annotated[bool, typer.Option("--force", help="Replace an existing file.")] = False,
+    json: Annotated[bool, typer.Option("--json", help="Print the summary for machines.")] = False,
+    quiet: Annotated[bool, typer.Option("-q", "--quiet", help="Print no progress, summary or warnings.")] = False,
+    raw: Annotated[bool, typer.Option("--raw", help="Do not refine the map: the same as --refine none.")] = False,
+    view: Annotated[bool, typer.Option("--view", help="Show the result in the browser.")] = False,
+    seed: Annotated[int, typer.Option(help="For the choice of samples; the same seed, the same map.", min=0)] = 0,
+    descriptors_source: Annotated[
+        Path | None,
+        typer.Option(help="Your own descriptors, a row per vertex (.npy, .csv, .txt).", show_default=False),
+    ] = None,
+    descriptors_target: Annotated[
+        Path | None, typer.Option(help="The same for the target.", show_default=False)
+    ] = None,
+    truth: Annotated[
+        tuple[Path, Path] | None, typer.Option(help=TRUTH, metavar="SOURCE TARGET", show_default=False)
+    ] = None,
+) -> None:
+    """Find for each vertex of the target the corresponding vertex of the source, and write the map."""
+    # What can be refused without work is refused first, so that no minutes are lost.
+    from kfmaps.io import check_output
+    from kfmaps.io.mapfile import check_format
+
+    check_format(output)
+    reads = (source, target, landmarks, descriptors_source, descriptors_target, *(truth or ()))
+    check_output(output, force, reads)
+    if quiet:
+        warnings.simplefilter("ignore", KfmapsWarning)
+
+    from kfmaps.cli.evaluation import check_truth, read_truth
+    from kfmaps.cli.summary import map_file, summary, table
+    from kfmaps.io import read_landmarks, save_map
+    from kfmaps.matching.match import default_config
+    from kfmaps.matching.memory import check_demand
+    from kfmaps.settings.device import check_device
+
+    own_descriptors = descriptors_source is not None or descriptors_target is not None
+    config = settings.config(default_config(() if own_descriptors else None))
+    config = _unrefined(config, settings) if raw else config
+    check_device(config.device)
+    known = read_truth(truth)
+    pairs = None if landmarks is None else read_landmarks(landmarks, one_based=one_based or None)
+    meshes = _read(source, config), _read(target, config)
+    if pairs is not None:
+        _check_landmarks(pairs, meshes, (source, target))
+    n_s, n_t = (len(mesh.vertices) for mesh in meshes)
+    check_demand(config, n_s, n_t, 0 if pairs is None else len(pairs))
+    own = _own_descriptors((descriptors_source, descriptors_target), meshes)
+    if known is not None:
+        check_truth(known, meshes[0], len(meshes[1].vertices))
+
+    outcome = run(meshes, (source, target), config, pairs, own, seed, quiet=quiet or json, truth=known)
+    save_map(output, map_file(outcome), force)
+    if json:
+        typer.echo(jsonlib.dumps({**summary(outcome), "output": str(output)}))
+    elif not quiet:
+        from kfmaps.cli.terminal import Terminal
+
+        Terminal().print(table(outcome, output))
+    if view:
+        _show(outcome, known)
+
+
+def run(
+    meshes: tuple[Mesh, Mesh],
+    paths: tuple[Path, Path],
+    config: Config,
+    landmarks: np.ndarray | None = None,
+    descriptors: tuple[np.ndarray, np.ndarray] | None = None,
+    seed: int = 0,
+    *,
+    quiet: bool = False,
+    truth: Any = None,
+) -> MatchRun:
+    """Match two meshes and tell the stages; with ``truth`` the answer is set beside it."""
+    import numpy as np
+
+    from kfmaps._threads import one_blas_thread
+    from kfmaps.cli.evaluation import assessed
+    from kfmaps.cli.progress import Stages
+    from kfmaps.cli.summary import MatchRun
+    from kfmaps.matching.match import match as matched
+    from kfmaps.matching.match import prepare_both
+
+    seconds: dict[str, float] = {}
+    with one_blas_thread(), Stages(quiet) as stages:
+        names = (str(paths[0]), str(paths[1]))
+        shapes = prepare_both(meshes[0], meshes[1], config, names, _renamed(stages, names))
+        for side, shape in zip(SIDES, shapes, strict=True):
+            seconds |= {f"{stage} of {side}": t for stage, t in shape.seconds.items()}
+        found = matched(
+            shapes[0], shapes[1], config, landmarks=landmarks, descriptors=descriptors, rng=seed, progress=stages
+        )
+        accuracy = None
+        if truth is not None:
+            stages("evaluation", 0.0)
+            accuracy = assessed(meshes[0], found.target_to_source, truth)
+            stages("evaluation", 1.0)
+    pairs = np.zeros((0, 2), dtype=np.int64) if landmarks is None else landmarks
+    return MatchRun(found, meshes, paths, pairs, seed, {**seconds, **found.seconds}, accuracy)
+
+
+def _read(path: Path, config: Config) -> Mesh:
+    """A mesh with enough vertices for ``config``.
+
+    A file without faces is a point cloud only when its name says so; else something was lost.
+    """
+    from kfmaps.io import read_mesh
+
+    mesh = read_mesh(path, cloud=path.suffix.lower() == ".xyz")
+    if len(mesh.vertices) <= config.eigenfunctions:
+        wanted = f"more than {config.eigenfunctions} vertices, one for each eigenfunction"
+        remedy = "lower the basis, descriptor and refinement sizes (see docs/settings.md), or refine the mesh"
+        raise refuse(str(path), wanted, str(len(mesh.vertices)), remedy)
+    return mesh
+
+
+def _renamed(stages: Callable[[str, float], None], names: tuple[str, str]) -> Callable[[str, float], None]:
+    """Say "source" and "target" where a stage would name a file, whose path may be long."""
+    short = {f" of {name}": f" of {side}" for name, side in zip(reversed(names), reversed(SIDES), strict=True)}
+
+    def told(stage: str, done: float) -> None:
+        suffix = next((name for name in short if stage.endswith(name)), "")
+        stages(stage.removesuffix(suffix) + short.get(suffix, ""), done)
+
+    return told
+
+
+def _unrefined(config: Config, settings: Chosen) -> Config:
+    asked = settings.flags.get("--refine")
+    if asked is not None and asked.lower() != "none":
+        raise refuse("--raw", "no refinement", f"--refine {asked} beside it", "leave one of the two out")
+    return replace(config, refinement=None)
+
+
+def _check_landmarks(pairs: np.ndarray, meshes: tuple[Mesh, Mesh], paths: tuple[Path, Path]) -> None:
+    from kfmaps.descriptors.spectral import check_landmarks
+
+    for i, (mesh, path) in enumerate(zip(meshes, paths, strict=True)):
+        check_landmarks(pairs[:, i], len(mesh.vertices), f"landmarks on {path}")
+
+
+def _own_descriptors(
+    files: tuple[Path | None, Path | None], meshes: tuple[Mesh, Mesh]
+) -> tuple[np.ndarray, np.ndarray] | None:
+    """The user's descriptors (n_s, d) and (n_t, d), checked."""
+    import numpy as np
+
+    from kfmaps._arrays import check
+    from kfmaps.io import read_values
+
+    first, second = files
+    if first is None and second is None:
+        return None
+    if first is None or second is None:
+        missing = "--descriptors-source" if first is None else "--descriptors-target"
+        raise refuse(missing, "descriptors of both shapes", "those of one", "give both files")
+    found = []
+    for file, mesh in zip((first, second), meshes, strict=True):
+        values = read_values(file).array
+        if values.dtype.kind not in "biuf":
+            raise refuse(f"descriptors {file}", "numbers", f"{values.dtype}", "give one row of numbers per vertex")
+        values = values.astype(np.float64)
+        values = values[:, None] if values.ndim == 1 else values
+        check(values, f"descriptors {file}", shape=(len(mesh.vertices), None), remedy="give one row per vertex")
+        found.append(values)
+    if found[0].shape[1] != found[1].shape[1]:
+        got = f"{found[0].shape[1]} and {found[1].shape[1]}"
+        raise refuse("descriptors", "as many columns on both shapes", got, "compute both alike")
+    return found[0], found[1]
+
+
+def _show(outcome: MatchRun, truth: Any) -> None:
+    from kfmaps.viz.result_pages import match_page, open_page
+
+    names = (outcome.paths[0].stem, outcome.paths[1].stem)
+    known = None if truth is None else (truth.source, truth.target)
+    path, opened = open_page(match_page(outcome.match, *outcome.meshes, names, truth=known))
+    if not opened:
+        typer.echo(f"no browser was found; open {path.as_uri()}", err=True)

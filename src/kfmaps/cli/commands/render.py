@@ -1,0 +1,198 @@
+"""``kfmaps render``: figures for papers, drawn without a display."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from kfmaps._arrays import check_positive, refuse
+from kfmaps.batch.layout import Pair
+from kfmaps.batch.results import Result, all_results
+from kfmaps.batch.settings import read_settings
+from kfmaps.batch.summary import error_curve_of, summarised
+from kfmaps.batch.work import map_path
+from kfmaps.cli.evaluation import known_truth
+from kfmaps.cli.words import UNIT, percent
+from kfmaps.io import atomic_output, check_map, check_output, load_map
+from kfmaps.viz import (
+    Panel,
+    View,
+    curves_figure,
+    grid_figure,
+    match_figure,
+    painted_errors,
+    picture_format,
+    save_figure,
+    true_views,
+    view,
+)
+from kfmaps.viz.result_pages import map_mesh
+
+app = typer.Typer(help="Figures for papers (PNG, SVG, PDF), drawn without a display.", no_args_is_help=True)
+
+Output = Annotated[Path, typer.Option("-o", "--output", help="The figure: .png, .svg or .pdf.", show_default=False)]
+Force = Annotated[bool, typer.Option("--force", help="Replace an existing file.")]
+Dpi = Annotated[float, typer.Option(help="Dots per inch, of the surfaces in SVG and PDF too.", min=20, max=2400)]
+Title = Annotated[str | None, typer.Option(help="Written above.", show_default=False)]
+From = Annotated[
+    tuple[float, float, float] | None,
+    typer.Option("--from", help="Look at the source from this direction.", metavar="X Y Z", show_default=False),
+]
+Up = Annotated[
+    tuple[float, float, float] | None,
+    typer.Option(help="What is up in the picture; with --from.", metavar="X Y Z", show_default=False),
+]
+
+
+@app.command("pair")
+def render_pair(
+    map: Annotated[Path, typer.Argument(help="A map (.npz, .txt, .vts, .mat).", show_default=False)],
+    output: Output,
+    source: Annotated[
+        Path | None, typer.Option(help="The source mesh; default: the one the map names.", show_default=False)
+    ] = None,
+    target: Annotated[
+        Path | None, typer.Option(help="The target mesh; default: the one the map names.", show_default=False)
+    ] = None,
+    truth: Annotated[
+        tuple[Path, Path] | None,
+        typer.Option(
+            help="True vertices of source and target, line k of one file to line k of the other (.vts counts from 1): "
+            "shows the error too.",
+            metavar="SOURCE TARGET",
+            show_default=False,
+        ),
+    ] = None,
+    limit: Annotated[
+        float | None, typer.Option(help=f"Error at which its colours end, in {UNIT}.", show_default=False)
+    ] = None,
+    title: Title = None,
+    towards: From = None,
+    up: Up = None,
+    dpi: Dpi = 300,
+    force: Force = False,
+) -> None:
+    """One map: the source, the target in the source's colours, and the error when the truth is given."""
+    _check(output, force, (map, source, target, *(truth or ())))
+    found = load_map(map)
+    source_mesh, target_mesh = (map_mesh(g, found, s, map) for g, s in ((source, "source"), (target, "target")))
+    points = check_map(found, len(source_mesh.vertices), len(target_mesh.vertices), lost=True)
+    errors, seen, seen_target = None, _view(towards, up), None
+    known = known_truth(truth, False, source_mesh, len(target_mesh.vertices))
+    if known is not None:
+        errors = painted_errors(source_mesh, target_mesh, points, known.source, known.target)
+        seen, seen_target = true_views(source_mesh, target_mesh, known.source, known.target, seen)
+    figure = match_figure(
+        source_mesh,
+        target_mesh,
+        points,
+        errors=errors,
+        limit=None if limit is None else check_positive(limit, "--limit") / 100,
+        title=_plain(title),
+        view=seen,
+        target_view=seen_target,
+    )
+    with atomic_output(output, force) as temporary:
+        save_figure(figure, temporary, dpi=dpi)
+
+
+@app.command("grid")
+def render_grid(
+    folder: Annotated[Path, typer.Argument(help="Output folder of kfmaps batch.", show_default=False)],
+    source: Annotated[str, typer.Option(help="The shape whose colours are carried to all.", show_default=False)],
+    output: Output,
+    targets: Annotated[
+        str | None, typer.Option(help="Names with commas between; default: all it was matched to.", show_default=False)
+    ] = None,
+    columns: Annotated[int | None, typer.Option(help="Default: a balanced figure.", show_default=False)] = None,
+    errors: Annotated[bool, typer.Option(help=f"Mean error ({UNIT}) beside each name, where known.")] = True,
+    title: Title = None,
+    towards: From = None,
+    up: Up = None,
+    dpi: Dpi = 300,
+    force: Force = False,
+) -> None:
+    """A collection: one source, and its colours on every target that it was matched to."""
+    _check(output, force)
+    done = [r for r in _results(folder) if r.status == "done" and r.source == source]
+    if not done:
+        known = ", ".join(sorted({r.source for r in _results(folder)})[:6]) or "none"
+        raise refuse("--source", f"a shape that was matched as a source ({known})", repr(source), "choose one of them")
+    if targets is not None:
+        wanted = [name.strip() for name in targets.split(",") if name.strip()]
+        by_name = {r.target: r for r in done}
+        missing = [name for name in wanted if name not in by_name]
+        if missing or not wanted:
+            got = repr(missing[0]) if missing else "none"
+            raise refuse("--targets", f"shapes that {source} was matched to", got, "check the spelling")
+        done = [by_name[name] for name in wanted]
+    centre, panels = None, []
+    for result in done:
+        path = map_path(folder, Pair(result.source, result.target).key)
+        found = load_map(path)
+        if centre is None:
+            centre = map_mesh(None, found, "source", path)
+        mesh = map_mesh(None, found, "target", path)
+        points = check_map(found, len(centre.vertices), len(mesh.vertices), str(path), lost=True)
+        told = errors and result.error_mean is not None
+        panels.append(
+            Panel(f"{result.target}  {percent(result.error_mean, 1)} %" if told else result.target, mesh, points)
+        )
+    assert centre is not None
+    figure = grid_figure(centre, panels, label=source, columns=columns, title=title, view=_view(towards, up))
+    with atomic_output(output, force) as temporary:
+        save_figure(figure, temporary, dpi=dpi)
+
+
+@app.command("curves")
+def render_curves(
+    folders: Annotated[list[Path], typer.Argument(help="Output folders of kfmaps batch.", show_default=False)],
+    output: Output,
+    labels: Annotated[
+        str | None, typer.Option(help="Names with commas between; default: the folders'.", show_default=False)
+    ] = None,
+    title: Title = None,
+    dpi: Dpi = 300,
+    force: Force = False,
+) -> None:
+    """Error curves of whole runs, each the mean of its pairs, in one figure."""
+    _check(output, force)
+    names = [folder.resolve().name for folder in folders] if labels is None else [n.strip() for n in labels.split(",")]
+    if len(names) != len(folders):
+        raise refuse("--labels", f"{len(folders)} names", f"{len(names)}", "give one for each folder")
+    curves = []
+    for folder, name in zip(folders, names, strict=True):
+        results = _results(folder)
+        mean = summarised(results).error_mean
+        curve = error_curve_of(results, f"{name}, mean {percent(mean or 0)} %")
+        if curve is None:
+            raise refuse(f"{folder}", "pairs whose truth is known", "none", "run batch on shapes with truth")
+        curves.append(curve)
+    with atomic_output(output, force) as temporary:
+        save_figure(curves_figure(curves, title=title), temporary, dpi=dpi)
+
+
+def _check(output: Path, force: bool, reads: Iterable[Path | None] = ()) -> None:
+    """Whether the figure can be written, before anything is read."""
+    picture_format(output)
+    check_output(output, force, reads)
+
+
+def _results(folder: Path) -> list[Result]:
+    return all_results(folder, read_settings(folder)["digest"])
+
+
+def _plain(title: str | None) -> str | None:
+    """A title in which a dollar sign is a dollar sign."""
+    return None if title is None else title.replace("$", r"\$")
+
+
+def _view(towards: tuple[float, float, float] | None, up: tuple[float, float, float] | None) -> View | None:
+    if towards is None:
+        if up is not None:
+            raise refuse("--up", "--from beside it", "--up alone", "give both")
+        return None
+    return view(towards, (0, 1, 0) if up is None else up)

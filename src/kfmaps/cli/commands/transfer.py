@@ -1,0 +1,187 @@
+"""``kfmaps transfer``: carry per-vertex values or named points over a map."""
+
+from __future__ import annotations
+
+import warnings
+from pathlib import Path
+from typing import Annotated
+
+import numpy as np
+import typer
+
+from kfmaps._arrays import KfmapsWarning, refuse
+from kfmaps.geometry.mesh import Mesh
+from kfmaps.io import MapFile, Values, check_output, load_map, read_mesh, read_values, write_values
+from kfmaps.io import transfer as carried
+from kfmaps.io.counterparts import Counterparts, counterparts
+from kfmaps.io.export import place_of
+from kfmaps.io.named import warn_of_change
+from kfmaps.io.named_points import carried_points, read_named_points, write_named_points
+from kfmaps.io.values import without
+from kfmaps.viz.result_pages import mesh_path
+
+
+def transfer(
+    output: Annotated[
+        Path,
+        typer.Option("-o", "--output", help="A row for each target vertex (.npy, .csv, .txt).", show_default=False),
+    ],
+    map: Annotated[
+        Path | None, typer.Argument(help="A map (.npz, .txt, .vts, .mat).", metavar="MAP", show_default=False)
+    ] = None,
+    values: Annotated[
+        Path | None,
+        typer.Argument(help="A row for each source vertex (.npy, .csv, .txt).", metavar="VALUES", show_default=False),
+    ] = None,
+    collection: Annotated[
+        Path | None,
+        typer.Option(help="Instead of MAP: the output folder of kfmaps batch.", metavar="OUT", show_default=False),
+    ] = None,
+    landmarks: Annotated[
+        Path | None,
+        typer.Option(
+            help='Of one specimen, to all of --collection: "name, vertex" or "name, x, y, z" a row (.csv).',
+            show_default=False,
+        ),
+    ] = None,
+    on: Annotated[
+        str | None, typer.Option(help="The specimen that --landmarks are on.", metavar="SHAPE", show_default=False)
+    ] = None,
+    tps: Annotated[
+        Path | None, typer.Option(help="Write all landmarks as TPS too (geomorph, MorphoJ).", show_default=False)
+    ] = None,
+    points: Annotated[
+        bool,
+        typer.Option("--points", help='VALUES are points: "name, vertex" or "name, x, y, z" a row (.csv).'),
+    ] = False,
+    products: Annotated[
+        int | None,
+        typer.Option(
+            min=2,
+            metavar="NUMBER",
+            show_default=False,
+            help="Carry VALUES by the functional map, with products of so many eigenfunctions, not by points; 20 say.",
+        ),
+    ] = None,
+    back: Annotated[bool, typer.Option("--back", help="From the target to the source.")] = False,
+    source: Annotated[
+        Path | None, typer.Option(help="The source mesh; default: the one the map names.", show_default=False)
+    ] = None,
+    target: Annotated[Path | None, typer.Option(help="The same for the target.", show_default=False)] = None,
+    lost: Annotated[
+        float | None,
+        typer.Option(help="For vertices without counterpart; default: NaN, -1 of whole numbers.", show_default=False),
+    ] = None,
+    force: Annotated[bool, typer.Option("--force", help="Replace an existing file.")] = False,
+) -> None:
+    """Carry functions, labels or named points over a map, or landmarks to all shapes of a collection."""
+    if collection is not None or landmarks is not None:
+        _everywhere(collection, landmarks, on, output, tps, force, (map, values, source, target))
+        return
+    if map is None or values is None:
+        raise refuse("transfer", "MAP and VALUES, or --collection and --landmarks", "neither", "give two of them")
+    check_output(output, force, (map, values, source, target))
+    if products is not None and (points or back):
+        with_it = "--points" if points else "--back"
+        raise refuse("--products", "values of the source", with_it, "leave one of them out")
+    found = load_map(map)
+    if points:
+        _points(found, map, values, output, back, (source, target), force)
+        return
+    given = read_values(values)
+    gone: float | int | None = lost
+    if lost is not None and given.array.dtype.kind in "iu" and lost == int(lost):
+        gone = int(lost)
+    if back:
+        write_values(output, Values(_back(found, map, given.array, (source, target), gone), given.columns), force)
+        return
+    if products is not None:
+        from kfmaps.io.functions import carried_functions
+
+        sides = _shape(found, "source", source, map), _shape(found, "target", target, map)
+        write_values(output, Values(carried_functions(given.array, found, *sides, products), given.columns), force)
+        return
+    faces = None
+    if found.place is not None and given.array.dtype.kind == "f":
+        shape = _shape(found, "source", source, map)
+        place_of(found, shape)
+        faces = shape.faces
+    write_values(output, Values(carried(given.array, found, faces, gone), given.columns), force)
+
+
+def _everywhere(
+    collection: Path | None,
+    landmarks: Path | None,
+    on: str | None,
+    output: Path,
+    tps: Path | None,
+    force: bool,
+    others: tuple[Path | None, ...],
+) -> None:
+    """Landmarks of one specimen on all of a collection."""
+    from kfmaps.batch.carried import landmarks_everywhere, write_landmarks_csv, write_tps
+
+    if collection is None or landmarks is None:
+        missing = "--landmarks" if landmarks is None else "--collection"
+        raise refuse("transfer", "--collection and --landmarks together", f"no {missing}", "give both")
+    if any(one is not None for one in others):
+        raise refuse("transfer", "--collection and --landmarks alone", "a map or mesh beside them", "leave it out")
+    if output.suffix.lower() != ".csv":
+        raise refuse(f"output {output}", "the extension .csv", output.suffix or "none", "rename it")
+    for path in (output, *([] if tps is None else [tps])):
+        check_output(path, force, (landmarks,))
+    found, missed = landmarks_everywhere(collection, landmarks, on)
+    write_landmarks_csv(output, found, force)
+    if tps is not None:
+        write_tps(tps, found, force)
+    if missed:
+        text = f"no map leads to {', '.join(missed[:5])}{' and others' if len(missed) > 5 else ''}"
+        warnings.warn(f"{text}; they have no landmarks", KfmapsWarning, stacklevel=2)
+
+
+def _shape(found: MapFile, side: str, given: Path | None, map: Path) -> Mesh:
+    path = mesh_path(given, found, side, map)
+    warn_of_change(found, side, path)
+    return read_mesh(path)
+
+
+def _both(found: MapFile, map: Path, given: tuple[Path | None, Path | None]) -> tuple[Mesh, Mesh, Counterparts]:
+    """Both shapes and what of each has a counterpart, at vertices where the map has no points inside triangles."""
+    source, target = (_shape(found, side, path, map) for side, path in zip(("source", "target"), given, strict=True))
+    for mesh, side in ((source, "source"), (target, "target")):
+        if len(mesh.faces) == 0:
+            raise refuse(side, "a surface with faces", "a point cloud", "carry values instead, not back")
+    return source, target, counterparts(found, source, target, str(map))
+
+
+def _points(
+    found: MapFile,
+    map: Path,
+    values: Path,
+    output: Path,
+    back: bool,
+    given: tuple[Path | None, Path | None],
+    force: bool,
+) -> None:
+    source, target, ways = _both(found, map, given)
+    trust = found.extra.get("local_confidence")
+    confidence = None if trust is None else np.asarray(trust)
+    named = read_named_points(values, target if back else source)
+    some = {} if ways.complete else {"known": ways.target, "common": ways.source}
+    write_named_points(output, carried_points(named, source, target, ways.place, confidence, back=back, **some), force)
+
+
+def _back(
+    found: MapFile, map: Path, values: np.ndarray, given: tuple[Path | None, Path | None], lost: float | int | None
+) -> np.ndarray:
+    """Values of the target on the source: each source vertex takes those of its own place on the target."""
+    _, target, ways = _both(found, map, given)
+    if values.ndim == 0 or len(values) != len(target.vertices):
+        got = f"{len(values)}" if values.ndim else "a single value"
+        raise refuse("values", f"{len(target.vertices)} rows, one per target vertex", got, "are they the target's?")
+    there = ways.back
+    if values.dtype.kind == "f":
+        mixed = np.einsum("ti,ti...->t...", there.weights, values[target.faces[there.faces]])
+    else:
+        mixed = values[target.faces[there.faces, there.weights.argmax(axis=1)]]
+    return mixed if ways.source.all() else without(mixed, ~ways.source, lost)

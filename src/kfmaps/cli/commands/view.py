@@ -1,0 +1,61 @@
+"""``kfmaps view``: a map as a web page."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from kfmaps.cli.evaluation import known_truth
+from kfmaps.cli.terminal import say
+from kfmaps.io import atomic_output, check_output, load_map
+from kfmaps.viz.page import check_up
+from kfmaps.viz.result_pages import map_mesh, map_page, mesh_path, open_page
+
+
+def view(
+    map: Annotated[Path, typer.Argument(help="A map (.npz, .txt, .vts, .mat).", show_default=False)],
+    source: Annotated[
+        Path | None, typer.Option(help="The source mesh; default: the one the map names.", show_default=False)
+    ] = None,
+    target: Annotated[
+        Path | None, typer.Option(help="The target mesh; default: the one the map names.", show_default=False)
+    ] = None,
+    output: Annotated[
+        Path | None,
+        typer.Option("-o", "--output", help="Write this HTML file; do not open it.", show_default=False),
+    ] = None,
+    truth: Annotated[
+        tuple[Path, Path] | None,
+        typer.Option(
+            help="True vertices of source and target, line k of one file to line k of the other (.vts counts from 1).",
+            metavar="SOURCE TARGET",
+            show_default=False,
+        ),
+    ] = None,
+    identity: Annotated[bool, typer.Option("--identity", help="Truth: vertex i is vertex i.")] = False,
+    descriptors: Annotated[bool, typer.Option(help="Work out descriptors to show.")] = True,
+    up: Annotated[
+        str | None,
+        typer.Option(help="The axis that points upwards: x, y or z; default: found.", show_default=False),
+    ] = None,
+    force: Annotated[bool, typer.Option("--force", help="Replace an existing file.")] = False,
+) -> None:
+    """Show a map in the browser, or write it as one page that needs no network."""
+    check_up(up)
+    if output is not None:
+        check_output(output, force, (map, source, target, *(truth or ())))
+    found = load_map(map)
+    paths = [mesh_path(given, found, side, map) for given, side in ((source, "source"), (target, "target"))]
+    meshes = [map_mesh(path, found, side, map) for path, side in zip(paths, ("source", "target"), strict=True)]
+    names = (paths[0].stem, paths[1].stem)
+    known = known_truth(truth, identity, meshes[0], len(meshes[1].vertices))
+    pairs = None if known is None else (known.source, known.target)
+    html = map_page(found, meshes[0], meshes[1], names, truth=pairs, descriptors=descriptors, up=up)
+    if output is not None:
+        with atomic_output(output, force) as temporary:
+            temporary.write_text(html, encoding="utf-8")
+        return
+    path, opened = open_page(html)
+    say(str(path) if opened else f"no browser was found; open {path.as_uri()}")

@@ -1,0 +1,220 @@
+"""The command ``kfmaps``: gathers what is in ``kfmaps.cli.commands`` and says what went wrong in one line.
+
+Only the command that is asked for is imported, so that ``kfmaps --help`` is quick.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import errno
+import importlib
+import io
+import os
+import sys
+import warnings
+from collections.abc import Callable, Sequence
+from typing import Annotated, Any
+
+import typer
+
+import kfmaps
+from kfmaps._arrays import InvalidInput, KfmapsWarning, MissingDependency, NotConverged, shown
+
+COMMANDS = {
+    "match": "Find for each vertex of the target the corresponding vertex of the source, and write the map.",
+    "demo": "Make two poses of a shape, match them, print the error beside that without a kernel, draw a picture.",
+    "evaluate": "Print the geodesic error of a map, by the Princeton protocol, in per cent of √area.",
+    "info": "Show what is in files: vertices, faces, components, area, genus, defects.",
+    "config": "Print the settings that match would use, as TOML that --config reads.",
+    "transfer": "Carry functions, labels or named points over a map, or landmarks to all shapes of a collection.",
+    "export": "Write the target with the source's texture or colours, or the map in another format.",
+    "view": "Show a map in the browser, or write it as one page that needs no network.",
+    "landmarks": "Pick landmarks on a local page: click a point on one shape, then its match on the other.",
+    "batch": "Match many pairs in parallel: a table, every map and a summary page.",
+    "render": "Figures for papers (PNG, SVG, PDF), drawn without a display.",
+    "reproduce": "Repeat experiments of the paper: a table, a picture and conclusions for each.",
+    "tune": "Try settings on training pairs and write the best for ``kfmaps match --config``.",
+    "learn": "Learn a kernel from pairs of shapes, and write settings for kfmaps match --config.",
+}
+"""Modules of ``kfmaps.cli.commands``, each with a function of its own name or a ``typer.Typer`` called ``app``; with
+the first line of its documentation, said here too so that ``--help`` imports no command."""
+
+USAGE_ERROR: type[Exception] = next(kind for kind in typer.BadParameter.__mro__ if kind.__name__ == "ClickException")
+"""What Typer raises about unknown options and missing arguments; it has no public name in all versions."""
+
+RENAMED = {
+    "--truth-source": "--truth SOURCE TARGET",
+    "--truth-target": "--truth SOURCE TARGET",
+    "--rank": "--samples",
+}
+"""Options that have gone, and what does the same."""
+
+FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO, errno.EBADF)
+"""What the system says when a stream takes no more."""
+
+FAILURE, INTERRUPTED, UNREAD = 2, 130, 1
+"""Exit statuses: bad input, Ctrl-C, output that nobody reads."""
+
+
+def application(only: str | None = None) -> typer.Typer:
+    """The whole command; with ``only`` the others are there in name, for the list that ``--help`` shows."""
+    app = typer.Typer(
+        name="kfmaps",
+        add_completion=True,
+        pretty_exceptions_enable=False,
+        rich_markup_mode="rich",
+        context_settings={"help_option_names": ["-h", "--help"]},
+    )
+    app.callback()(_general)
+    for name in COMMANDS:
+        if only is not None and name != only:
+            app.command(name)(_named(name))
+            continue
+        module = importlib.import_module(f"kfmaps.cli.commands.{name}")
+        if hasattr(module, "app"):
+            app.add_typer(module.app, name=name)
+        else:
+            app.command(name)(getattr(module, name))
+    return app
+
+
+def _version(asked: bool) -> None:
+    if asked:
+        typer.echo(f"kfmaps {kfmaps.__version__}")
+        raise typer.Exit
+
+
+def _general(
+    version: Annotated[
+        bool, typer.Option("--version", help="Print the version and exit.", is_eager=True, callback=_version)
+    ] = False,
+) -> None:
+    """Which point of one 3D surface corresponds to which point of another, by kernel functional maps."""
+
+
+def _named(name: str) -> Callable[[], None]:
+    """Something that has the help of a command and not its code."""
+
+    def command() -> None:
+        raise AssertionError(f"{name} was not loaded")
+
+    command.__doc__ = COMMANDS[name]
+    return command
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the command; the exit status. 0: done, 2: bad input, 130: interrupted, 1: the reader went away."""
+    words = list(sys.argv[1:] if arguments is None else arguments) or ["--help"]
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", RuntimeWarning)  # NumPy's; what matters is checked and told in our words
+        warnings.simplefilter("default", KfmapsWarning)
+        warnings.showwarning = _teller(warnings.showwarning)
+        try:
+            _open_streams()
+            status = _run(words)
+            return _flushed(status)
+        except KeyboardInterrupt:
+            return INTERRUPTED
+        except BrokenPipeError:
+            _let_go_of_output()
+            return UNREAD
+        except (InvalidInput, MissingDependency, NotConverged) as error:
+            return _failed(str(error))
+        except MemoryError as error:
+            return _failed(f"not enough memory; use smaller meshes or fewer samples ({error or 'no details'})")
+        except OSError as error:
+            if error.filename is None and error.errno in FULL:
+                return _unwritable(error)
+            place = f"{error.filename}: " if error.filename else ""
+            return _failed(f"{place}{error.strerror or error}; check the path, its rights and the space left")
+
+
+def _open_streams() -> None:
+    """Open the standard streams that whoever started this has closed, on nothing.
+
+    Else the next file that is opened would take the number of one of them, and be written to by mistake.
+    """
+    for number, name in enumerate(("stdin", "stdout", "stderr")):
+        if getattr(sys, name) is None:
+            try:
+                os.fstat(number)  # another file has the number already
+            except OSError:
+                nothing = os.open(os.devnull, os.O_RDWR)
+                if nothing != number:
+                    os.dup2(nothing, number)
+                    os.close(nothing)
+            setattr(sys, name, open(os.devnull, "r+" if name == "stdin" else "w", encoding="utf-8"))  # noqa: SIM115
+
+
+def _flushed(status: int) -> int:
+    """``status`` once all that was printed is out, or that of a failure."""
+    try:
+        sys.stdout.flush()
+    except BrokenPipeError:
+        raise
+    except OSError as error:
+        return _unwritable(error)
+    return status
+
+
+def _unwritable(error: OSError) -> int:
+    """Say that what was printed could not be written; files say their names themselves."""
+    _let_go_of_output()
+    return _failed(f"standard output: {error.strerror or error}; check the space left where it goes")
+
+
+def _let_go_of_output() -> None:
+    """Send what is still buffered to nowhere: it would raise again when Python flushes at its end."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+
+
+def _run(words: Sequence[str]) -> int:
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):
+            stream.reconfigure(errors="backslashreplace")  # file names may hold bytes that are no text
+    completing = "_KFMAPS_COMPLETE" in os.environ
+    asked = next((word for word in words if not word.startswith("-")), "")
+    command = typer.main.get_command(application(None if completing else asked))
+    try:
+        status = command.main(args=list(words), prog_name="kfmaps", standalone_mode=False)
+    except USAGE_ERROR as error:
+        message = error.format_message()  # pyright: ignore[reportAttributeAccessIssue]
+        now = RENAMED.get(getattr(error, "option_name", ""))
+        message = f"there is no {error.option_name}, it is {now}" if now else message  # pyright: ignore
+        path = getattr(getattr(error, "ctx", None), "command_path", "kfmaps")
+        # Without a message it was a group without a command, and the help has been printed.
+        return _failed(f"{message.rstrip('.')}; see {path} --help") if message else FAILURE
+    except typer.Abort:
+        return INTERRUPTED
+    except SystemExit as leaving:
+        return leaving.code if isinstance(leaving.code, int) else 0
+    return status if isinstance(status, int) else 0
+
+
+def _teller(otherwise: Callable[..., None]) -> Callable[..., None]:
+    """A ``warnings.showwarning`` that tells the package's own warnings in one line each, and none twice."""
+    told: set[str] = set()
+
+    def tell(message: Any, category: type[Warning], *where: Any, **more: Any) -> None:
+        if not issubclass(category, KfmapsWarning):
+            otherwise(message, category, *where, **more)
+        elif str(message) not in told:
+            told.add(str(message))
+            _say(f"warning: {message}")
+
+    return tell
+
+
+def _failed(text: str) -> int:
+    _say(f"error: {text}")
+    return FAILURE
+
+
+def _say(text: str) -> None:
+    """One line on standard error, whatever the text holds; where nobody reads it any more, none."""
+    with contextlib.suppress(OSError):
+        print("kfmaps:", shown(" ".join(text.split())), file=sys.stderr)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,183 @@
+"""Maps of parts set beside the truth: errors between points inside triangles, and how well the common part is found."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Literal
+
+import numpy as np
+from scipy.spatial import KDTree
+
+from kfmaps._arrays import refuse
+from kfmaps.cli.evaluation import numbers_of
+from kfmaps.fmap.evaluate import Evaluation, evaluation, place_errors
+from kfmaps.fmap.precise import PointMap, at_vertices, check_places, points_of
+from kfmaps.geometry.closest_points import places_on
+from kfmaps.geometry.mesh import Mesh, unit_area, vertex_areas
+from kfmaps.io import MapFile, read_landmarks
+from kfmaps.io.export import place_of
+from kfmaps.io.text import clean_text, parse_rows, read_bytes, table
+from kfmaps.matching.partial.match_partial import COMMON
+from kfmaps.matching.partial.overlap import covered
+from kfmaps.matching.partial.samples import border_of
+
+Side = Literal["source", "target"]
+
+NEIGHBOURS = 1.5
+"""Mean edges of the whole from a listed vertex within which others count as common too, where the truth is a list."""
+
+
+@dataclass(frozen=True, eq=False)
+class PartTruth:
+    """Where vertices of a part belong on the whole.
+
+    Attributes
+    ----------
+    vertices : (q,) int64
+        Of the part.
+    places : PointMap
+        On the whole, of each of them.
+    dense : bool
+        Whether they are all of the part's vertices, in order.
+    """
+
+    vertices: np.ndarray
+    places: PointMap
+    dense: bool
+
+
+def read_part_truth(path: Path, whole: Mesh, part: Mesh) -> PartTruth:
+    """The truth of a part, in the two forms that benchmarks have.
+
+    ``.baryc_gt``: a line for each vertex of the part, the triangle of the whole, counted from 1, and three barycentric
+    weights. Any other file: lines "vertex of the whole, vertex of the part", counted from 0 (``.vts`` from 1).
+
+    Raises
+    ------
+    InvalidInput
+        When the file is neither, or does not belong to the shapes.
+    """
+    name = str(path)
+    if path.suffix.lower() == ".baryc_gt":
+        rows = parse_rows(clean_text(read_bytes(path), name), name)
+        found = table(rows, 4, name, "a triangle and three weights a line").astype(np.float64)
+        if len(found) != len(part.vertices):
+            wanted = f"{len(part.vertices)} lines, one per vertex of the part"
+            raise refuse(name, wanted, str(len(found)), "check which shape is the part")
+        weights = np.maximum(found[:, 1:], 0.0)
+        total = weights.sum(axis=1, keepdims=True)
+        if (total < 0.5).any() or (total > 1.5).any() or (found[:, 0] != np.rint(found[:, 0])).any():
+            raise refuse(name, "a triangle and three weights of sum 1 a line", "others", "check the file")
+        places = PointMap(found[:, 0].astype(np.int64) - 1, weights / total)
+        return PartTruth(np.arange(len(found)), check_places(places, whole), True)
+    pairs = read_landmarks(path)
+    for column, mesh, side in ((pairs[:, 0], whole, "whole"), (pairs[:, 1], part, "part")):
+        if len(column) and column.max() >= len(mesh.vertices):
+            wanted = f"vertices of the {side} from 0 to {len(mesh.vertices) - 1}"
+            raise refuse(name, wanted, str(int(column.max())), "the whole's stand first, counted from 0")
+    return PartTruth(pairs[:, 1], at_vertices(pairs[:, 0], whole), False)
+
+
+@dataclass(frozen=True, eq=False)
+class PartAccuracy:
+    """How good a map between a part and a whole is.
+
+    Attributes
+    ----------
+    errors : Evaluation
+        In units of √area of the whole.
+    matched : float
+        Part of the points with a known truth (of the true common area, where the source is the part) that the map gives
+        a counterpart; the others are in no mean.
+    overlap : float or None
+        Intersection over union, by area of the whole, of the common part found and the true one.
+    missing : float
+        Part of the whole's area that the part lacks.
+    """
+
+    errors: Evaluation
+    matched: float
+    overlap: float | None
+    missing: float
+
+    def as_dict(self) -> dict[str, Any]:
+        """Plain numbers for JSON."""
+        known = {"matched": self.matched, "overlap": self.overlap, "missing": self.missing}
+        finite = {name: value for name, value in known.items() if value is None or math.isfinite(value)}
+        return {**numbers_of(self.errors), "points": len(self.errors.errors), **finite}
+
+
+def part_accuracy(source: Mesh, target: Mesh, found: MapFile, truth: PartTruth, part: Side) -> PartAccuracy:
+    """Compare a map with the truth of its ``part``, "source" or "target".
+
+    Of a target that is a part the errors are distances on the source between where its vertices go and belong; of a
+    source that is a part, distances on the target between its vertices and where what is mapped to them belongs.
+
+    Raises
+    ------
+    InvalidInput
+        When the map gives none of the points a counterpart.
+    """
+    points = found.target_to_source
+    place = place_of(found, source) or at_vertices(np.maximum(points, 0), source)
+    if part == "target":
+        known = points[truth.vertices] >= 0
+        rows = truth.vertices[known]
+        said = PointMap(place.faces[rows], place.weights[rows])
+        true = PointMap(truth.places.faces[known], truth.places.weights[known])
+        whole = source
+    else:
+        known, said, true = _carried_on(source, target, points, place, truth)
+        whole = target
+    if not known.any():
+        raise refuse("map", "a counterpart for some of the truth's points", "none", "nothing can be compared")
+    errors = evaluation(place_errors(whole, said, true))
+    true_common = true_overlap(whole, source if part == "source" else target, truth)
+    areas = vertex_areas(whole)
+    ours = common_vertices(found, part)
+    share = None
+    if ours is not None:
+        share = float(areas[ours & true_common].sum() / max(areas[ours | true_common].sum(), 1e-300))
+    matched = float(known.mean())
+    if part == "source":
+        matched = float(areas[(points >= 0) & true_common].sum() / max(areas[true_common].sum(), 1e-300))
+    missing = 1 - float(areas[true_common].sum() / areas.sum())
+    return PartAccuracy(errors, matched, share, missing)
+
+
+def common_vertices(found: MapFile, part: Side) -> np.ndarray | None:
+    """The whole's vertices that the map says to be common; ``None`` where the file does not tell."""
+    if part == "source":
+        return found.target_to_source >= 0
+    values = found.extra.get("overlap_source")
+    return None if values is None else np.asarray(values) > COMMON
+
+
+def _carried_on(
+    source: Mesh, target: Mesh, points: np.ndarray, place: PointMap, truth: PartTruth
+) -> tuple[np.ndarray, PointMap, PointMap]:
+    """Which target vertices can be compared, they, and where what is mapped to them belongs."""
+    there = np.full((len(source.vertices), 3), np.nan)
+    there[truth.vertices] = points_of(truth.places, target)
+    # A corner without weight has no say, nor has what nobody knows of it.
+    corners = np.where(place.weights[:, :, None] > 0, there[source.faces[place.faces]], 0.0)
+    ends = np.einsum("ti,tij->tj", place.weights, corners)
+    told = np.isfinite(ends).all(axis=1)
+    known = (points >= 0) & told
+    rows = np.flatnonzero(known)
+    on = places_on(ends[rows], target.vertices, target.faces)
+    return known[told], at_vertices(rows, target), PointMap(on.faces, on.weights)
+
+
+def true_overlap(whole: Mesh, part: Mesh, truth: PartTruth) -> np.ndarray:
+    """Which vertices of the whole (n,) are common by the truth."""
+    if truth.dense:
+        unit = unit_area(whole)
+        bent = Mesh(points_of(truth.places, unit), part.faces)
+        return covered(bent, border_of(part), unit)[0] > COMMON
+    listed = np.unique(whole.faces[truth.places.faces][truth.places.weights > 0.5])
+    ends = whole.vertices[whole.faces]
+    edge = float(np.linalg.norm(ends - np.roll(ends, 1, axis=1), axis=2).mean())
+    return KDTree(whole.vertices[listed]).query(whole.vertices)[0] < NEIGHBOURS * edge

@@ -1,0 +1,201 @@
+"""What a long computation is doing: bars on a terminal and in a notebook, now and then a line elsewhere."""
+
+from __future__ import annotations
+
+import sys
+import threading
+import time
+from html import escape as html_escape
+from types import TracebackType
+from typing import Any, Protocol
+
+from rich.console import Console
+from rich.markup import escape
+from rich.progress import BarColumn, Progress, TaskID, TextColumn, TimeElapsedColumn, TimeRemainingColumn
+
+from kfmaps._arrays import shown
+from kfmaps.cli.terminal import Terminal
+from kfmaps.cli.words import in_words
+
+SECONDS_BETWEEN_LINES = 5.0
+"""A stage that is begun again and again, as when many maps are tried, is told at most this often."""
+SECONDS_OF_SILENCE = 15.0
+"""Where there is no terminal, a stage that goes on for longer is told of this often."""
+SECONDS_BETWEEN_PICTURES = 0.2
+"""A notebook's bars are drawn anew no more often."""
+
+
+def seconds_left(done: float, elapsed: float, before: float | None = None) -> float | None:
+    """What a stage will still take: by how much of it is done, else by what such a stage took ``before``.
+
+    ``None`` while neither tells.
+    """
+    if done >= 0.02:
+        return elapsed * (1 - done) / done
+    return None if before is None or before <= elapsed else before - elapsed
+
+
+def standing(name: str, done: float, elapsed: float, before: float | None = None) -> str:
+    """How a stage stands, in one line."""
+    part = f"{100 * done:.0f} % done, " if done > 0 else ""
+    left = seconds_left(done, elapsed, before)
+    rest = "" if left is None else f", about {in_words(left)} left"
+    return f"{name}: {part}{in_words(elapsed)} so far{rest}"
+
+
+class Way(Protocol):
+    """One way of telling."""
+
+    def tell(self, name: str, done: float) -> None: ...
+    def close(self) -> None: ...
+
+
+class Bars:
+    """A bar for each stage on a terminal."""
+
+    def __init__(self, console: Console) -> None:
+        columns = (TextColumn("{task.description:<34}"), BarColumn(), TimeElapsedColumn(), TimeRemainingColumn())
+        self._bars = Progress(*columns, console=console)
+        self._tasks: dict[str, TaskID] = {}
+        self._bars.start()
+
+    def tell(self, name: str, done: float) -> None:
+        if name not in self._tasks:
+            self._tasks[name] = self._bars.add_task(escape(shown(name)), total=1.0)
+        elif done <= 0:
+            self._bars.reset(self._tasks[name])
+        self._bars.update(self._tasks[name], completed=done)
+
+    def close(self) -> None:
+        self._bars.stop()
+
+
+class Lines:
+    """A line when a stage ends, and now and then one while it goes on.
+
+    A thread tells of a stage that says nothing of itself; a stage "... of target" is taken to last as long as
+    "... of source" did.
+    """
+
+    def __init__(self, silence: float = SECONDS_OF_SILENCE) -> None:
+        self._silence = silence
+        self._lock = threading.Lock()
+        self._begun: dict[str, float] = {}
+        self._done: dict[str, float] = {}
+        self._took: dict[str, float] = {}
+        self._told: dict[str, float] = {}
+        self._last = time.monotonic()
+        self._ended = threading.Event()
+        self._watch = threading.Thread(target=self._go_on, daemon=True)
+        self._watch.start()
+
+    def tell(self, name: str, done: float) -> None:
+        now = time.monotonic()
+        with self._lock:
+            if done <= 0 or name not in self._begun:
+                self._begun[name] = now
+            self._done[name] = done
+            if done < 1:
+                return
+            elapsed = now - self._begun[name]
+            self._took[_kind(name)] = elapsed
+            if now - self._told.get(name, -SECONDS_BETWEEN_LINES) >= SECONDS_BETWEEN_LINES:
+                self._told[name] = now
+                self._say(f"{name}: {elapsed:.2f} s")
+
+    def close(self) -> None:
+        self._ended.set()
+        self._watch.join()
+
+    def _say(self, line: str) -> None:
+        self._last = time.monotonic()
+        print(shown(line), file=sys.stderr, flush=True)
+
+    def _go_on(self) -> None:
+        while not self._ended.wait(self._silence / 10):
+            with self._lock:
+                now = time.monotonic()
+                under_way = [name for name, done in self._done.items() if done < 1]
+                if not under_way or now - self._last < self._silence:
+                    continue
+                name = under_way[-1]
+                self._say(standing(name, self._done[name], now - self._begun[name], self._took.get(_kind(name))))
+
+
+def _kind(name: str) -> str:
+    """A stage without the shape that it belongs to."""
+    return name.rpartition(" of ")[0] or name
+
+
+class Notebook:
+    """Bars in a notebook's cell: plain HTML, so that nothing beside IPython is needed."""
+
+    def __init__(self) -> None:
+        from IPython.display import HTML, display  # pyright: ignore[reportMissingImports]
+
+        self._html = HTML
+        self._begun: dict[str, float] = {}
+        self._stages: dict[str, tuple[float, float]] = {}
+        self._drawn = 0.0
+        self._place: Any = display(HTML(""), display_id=True)
+
+    def tell(self, name: str, done: float) -> None:
+        now = time.monotonic()
+        if done <= 0 or name not in self._begun:
+            self._begun[name] = now
+        self._stages[name] = (done, now - self._begun[name])
+        if done >= 1 or now - self._drawn >= SECONDS_BETWEEN_PICTURES:
+            self._draw()
+
+    def close(self) -> None:
+        self._draw()
+
+    def _draw(self) -> None:
+        self._drawn = time.monotonic()
+        if self._place is not None:
+            self._place.update(self._html(bars_html(self._stages)))
+
+
+def bars_html(stages: dict[str, tuple[float, float]]) -> str:
+    """A table of bars: for each stage how much of it is done, from 0 to 1, and its seconds."""
+    rows = []
+    for name, (done, elapsed) in stages.items():
+        left = seconds_left(done, elapsed) if done < 1 else None
+        rest = "" if left is None else f", about {in_words(left)} left"
+        bar = f'<progress max="1" value="{done:.3f}"></progress>'
+        rows.append(f"<tr><td>{html_escape(name)}</td><td>{bar}</td><td>{in_words(elapsed)}{rest}</td></tr>")
+    return f"<table>{''.join(rows)}</table>"
+
+
+class Stages:
+    """``stages(name, done)`` for a computation that reports its stages, ``done`` from 0 to 1.
+
+    Parameters
+    ----------
+    quiet : bool
+        Say nothing.
+    """
+
+    def __init__(self, quiet: bool = False) -> None:
+        self._quiet = quiet
+        self._way: Way | None = None
+
+    def __enter__(self) -> Stages:
+        console = Terminal(file=sys.stderr)
+        if self._quiet:
+            self._way = None
+        elif console.is_jupyter:
+            self._way = Notebook()
+        else:
+            self._way = Bars(console) if console.is_terminal else Lines()
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        if self._way is not None:
+            self._way.close()
+
+    def __call__(self, name: str, done: float) -> None:
+        if self._way is not None:
+            self._way.tell(name, min(max(done, 0.0), 1.0))

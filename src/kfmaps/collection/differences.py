@@ -1,0 +1,268 @@
+"""What differs between the shapes of a collection: operators in one common basis, distances, principal components.
+
+Maps ``Y_v`` from a common latent space to each shape's functions turn every shape's inner products of functions into
+matrices on the latent space: ``D_v = Y_vᵀ Y_v`` of functions themselves, which knows areas, and ``E_v = Y_vᵀ Λ_v Y_v``
+of their gradients, which knows conformal structure (Rustamov et al., Map-based exploration of intrinsic shape
+differences and variability, 2013). The latent basis is made canonical, so that numbers mean the same from run to run:
+its functions are those of the mean of the gradients' matrices, ordered by their mean eigenvalues (Huang, Achlioptas,
+Guibas and Ovsjanikov, Limit shapes, 2019, after Wang, Huang and Guibas 2014).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from scipy.linalg import eigh
+
+from kfmaps._arrays import check, check_count, refuse, to_numpy
+from kfmaps.collection.synchronization import Agreement, Link
+from kfmaps.geometry.basis import Basis
+
+RIGHT = 0.5
+"""Probability from which a candidate takes part in the common basis."""
+SETTLING = 30
+"""Iterations of the latent maps."""
+
+
+@dataclass(frozen=True, eq=False)
+class Latent:
+    """A common basis of a collection.
+
+    Attributes
+    ----------
+    maps : (n, k, m) float64
+        Of each shape: the coefficients of each latent function in the shape's first ``k`` functions.
+    values : (m,) float64
+        Mean eigenvalue of each latent function over the collection, ascending, at unit area.
+    """
+
+    maps: np.ndarray
+    values: np.ndarray
+
+    @property
+    def areas(self) -> np.ndarray:
+        """``Y_vᵀ Y_v`` of each shape, (n, m, m); its mean over the shapes is the identity."""
+        return np.swapaxes(self.maps, 1, 2) @ self.maps
+
+
+def latent_basis(
+    found: Agreement,
+    links: Sequence[Link],
+    chosen: Sequence[int | None],
+    eigenvalues: np.ndarray,
+    size: int | None = None,
+) -> Latent:
+    """A canonical latent basis for shapes whose maps agree.
+
+    Orthogonal maps know no areas. From them on each shape's map becomes the mean of what its neighbours' say, again
+    and again, and keeps its own stretch: subspace iteration for the least of ``Σ ‖C Y_s − Y_t‖²`` under the condition
+    that the mean of ``Y_vᵀ Y_v`` is the identity. In the end that of ``Y_vᵀ Λ_v Y_v`` is made diagonal.
+
+    Parameters
+    ----------
+    found : Agreement
+    links : sequence of Link
+    chosen : sequence of int or None
+        Of each link the candidate that is right; ``None`` where none is known.
+    eigenvalues : (n, k)
+        Of each shape at unit area, at least as many as the agreement has functions.
+    size : int, optional
+        Latent functions; all by default.
+
+    Raises
+    ------
+    InvalidInput
+        When shapes are not joined by pairs.
+    """
+    count, k = found.latent.shape[:2]
+    if len(np.unique(found.component)) > 1:
+        got = f"{len(np.unique(found.component))} parts that no pair joins"
+        raise refuse("collection", "shapes that hang together", got, "add pairs, or look at each part by itself")
+    values = check(np.asarray(eigenvalues), "eigenvalues", shape=(count, None), finite=True)[:, :k]
+    size = k if size is None else check_count(size, "latent functions", 1, k)
+    around: list[list[tuple[int, np.ndarray]]] = [[] for _ in range(count)]
+    for link, choice in zip(links, chosen, strict=True):
+        if choice is not None:
+            C = link.choices[choice].map[:k, :k]
+            around[link.target].append((link.source, C))
+            # Back by the inverse, as far as it is safe: the transpose would turn a stretch round.
+            around[link.source].append((link.target, np.linalg.pinv(C, rcond=0.2)))
+    maps = _normalised(found.latent)
+    for _ in range(SETTLING):
+        said = [np.mean([C @ maps[u] for u, C in near], axis=0) if near else maps[v] for v, near in enumerate(around)]
+        maps = _normalised((maps + np.stack(said)) / 2)
+    areas = (np.swapaxes(maps, 1, 2) @ maps).mean(axis=0)
+    gradients = (np.swapaxes(maps, 1, 2) @ (values[:, :, None] * maps)).mean(axis=0)
+    means, functions = eigh(gradients, areas + 1e-9 * np.trace(areas) / k * np.eye(k))
+    maps = (maps @ functions)[:, :, :size]
+    return Latent(maps * _signs(maps), np.maximum(means[:size], 0.0))
+
+
+@dataclass(frozen=True, eq=False)
+class Common:
+    """Shapes that pairs join, by number, ``members (m,)``, and their common basis, of ``m`` maps."""
+
+    members: np.ndarray
+    latent: Latent
+
+
+def common_bases(found: Agreement, links: Sequence[Link], eigenvalues: np.ndarray, size: int) -> tuple[Common, ...]:
+    """:func:`latent_basis` of each part of the collection that pairs join, by the candidates that are probably right.
+
+    Parts of three shapes or more, the largest first; at most ``size`` functions. ``links`` may lack the last candidates
+    of those that ``found`` is of, such as compositions.
+    """
+    k = found.latent.shape[1]
+    best = [int(chances[:-1].argmax()) for chances in found.chances]
+    chosen = [
+        b if b < len(link.choices) and chances[b] >= RIGHT else None
+        for b, chances, link in zip(best, found.chances, links, strict=True)
+    ]
+    numbers, counts = np.unique(found.component, return_counts=True)
+    bases = []
+    for part in numbers[np.argsort(-counts, kind="stable")]:
+        members = np.flatnonzero(found.component == part)
+        if len(members) < 3:
+            continue
+        place = {int(v): i for i, v in enumerate(members)}
+        inside = [i for i, link in enumerate(links) if link.source in place]
+        own = [replace(links[i], source=place[links[i].source], target=place[links[i].target]) for i in inside]
+        alone = Agreement(
+            found.latent[members],
+            tuple(found.chances[i] for i in inside),
+            tuple(found.misfits[i] for i in inside),
+            found.limit,
+            np.zeros(len(members), dtype=np.int64),
+        )
+        values = np.asarray(eigenvalues)[members]
+        bases.append(Common(members, latent_basis(alone, own, [chosen[i] for i in inside], values, min(size, k))))
+    return tuple(bases)
+
+
+def _normalised(maps: np.ndarray) -> np.ndarray:
+    """Such that the mean of ``Y_vᵀ Y_v`` is the identity."""
+    areas = (np.swapaxes(maps, 1, 2) @ maps).mean(axis=0)
+    values, functions = np.linalg.eigh(areas)
+    return maps @ (functions / np.sqrt(np.maximum(values, 1e-9 * values[-1]))) @ functions.T
+
+
+def _signs(maps: np.ndarray) -> np.ndarray:
+    """Such that each latent function is mostly positive in the shapes' own functions."""
+    sums = (maps**3).sum(axis=(0, 1))
+    return np.where(sums < 0, -1.0, 1.0)
+
+
+def area_difference(C: np.ndarray) -> np.ndarray:
+    """``CᵀC (k_s, k_s)``: inner products on the target of functions carried there, as a matrix on the source's.
+
+    The identity where areas are kept. Both bases are orthonormal.
+    """
+    return C.T @ C
+
+
+def conformal_difference(C: np.ndarray, eigenvalues_s: np.ndarray, eigenvalues_t: np.ndarray) -> np.ndarray:
+    """``Λ_s⁺ Cᵀ Λ_t C (k_s - 1, k_s - 1)``: the same for inner products of gradients, without the constant function.
+
+    The identity where angles are kept.
+    """
+    values = np.asarray(eigenvalues_s)[1:]
+    inside = C.T @ (np.asarray(eigenvalues_t)[:, None] * C)
+    return inside[1:, 1:] / np.maximum(values, 1e-9 * values.max())[:, None]
+
+
+def operators(latent: Latent, eigenvalues: np.ndarray, kind: str = "area") -> np.ndarray:
+    """The symmetric matrix of each shape on the latent space, (n, m, m), the identity on average.
+
+    Parameters
+    ----------
+    eigenvalues : (n, k)
+        Of each shape, at least as many as the latent maps have rows.
+    kind : "area" or "conformal"
+        ``Y_vᵀ Y_v``, or ``Λ^{-1/2} Y_vᵀ Λ_v Y_v Λ^{-1/2}`` with the latent basis' own values and without the constant.
+    """
+    if kind == "area":
+        return latent.areas
+    if kind != "conformal":
+        raise refuse("kind", "'area' or 'conformal'", repr(kind), "choose one of them")
+    maps = latent.maps[:, :, 1:]
+    inside = np.swapaxes(maps, 1, 2) @ (np.asarray(eigenvalues)[:, : maps.shape[1], None] * maps)
+    roots = np.sqrt(np.maximum(latent.values[1:], 1e-9))
+    return inside / (roots[:, None] * roots[None, :])
+
+
+def shape_distances(matrices: np.ndarray) -> np.ndarray:
+    """Frobenius distances between the shapes' ``matrices (n, m, m)``, per function: (n, n)."""
+    rows = matrices.reshape(len(matrices), -1)
+    squares = (rows**2).sum(axis=1)
+    found = np.sqrt(np.maximum(squares[:, None] + squares[None, :] - 2 * rows @ rows.T, 0.0) / matrices.shape[1])
+    np.fill_diagonal(found, 0.0)
+    return (found + found.T) / 2
+
+
+@dataclass(frozen=True, eq=False)
+class Components:
+    """Principal components of a collection.
+
+    Attributes
+    ----------
+    scores : (n, c) float64
+        Where each shape lies along each component; mean 0.
+    parts : (c,) float64
+        Part of the variance that each explains, descending.
+    directions : (c, m, m) float64
+        The matrices that they stand for, of length 1.
+    mean : (m, m) float64
+    """
+
+    scores: np.ndarray
+    parts: np.ndarray
+    directions: np.ndarray
+    mean: np.ndarray
+
+
+def components(matrices: np.ndarray, count: int = 5) -> Components:
+    """Principal components of the shapes' ``matrices (n, m, m)``: at most ``count``, and fewer than shapes.
+
+    ``mean + Σ scores · directions`` is the best approximation of that many components. Each direction's largest entry
+    is positive, so that signs mean the same from run to run.
+    """
+    check(matrices, "matrices", shape=(None, None, None), finite=True)
+    n, m = matrices.shape[:2]
+    check_count(count, "components")
+    mean = matrices.mean(axis=0)
+    rows = (matrices - mean).reshape(n, -1)
+    left, sizes, right = np.linalg.svd(rows, full_matrices=False)
+    kept = min(count, n - 1, len(sizes))
+    whole = (sizes**2).sum()
+    flip = np.sign(right[np.arange(kept), np.abs(right[:kept]).argmax(axis=1)])
+    flip = np.where(flip == 0, 1.0, flip)
+    parts = sizes[:kept] ** 2 / whole if whole > 0 else np.zeros(kept)
+    scores = left[:, :kept] * sizes[:kept] * flip
+    return Components(scores, parts, (right[:kept] * flip[:, None]).reshape(kept, m, m), mean)
+
+
+def density(matrices: np.ndarray, latent: Latent, number: int, basis: Basis) -> np.ndarray:
+    """How large each shape is at each vertex of shape ``number``, beside the mean: (n, vertices), a ratio, smooth.
+
+    ``ψᵀ D_v ψ / ψᵀ D̄ ψ`` with ``ψ`` the latent coordinates of the vertex' delta function. With
+    :func:`operators` of the kind "area" it is the density of area, at the resolution of the latent functions.
+    """
+    own = latent.maps[number]
+    functions = to_numpy(basis.functions)[:, : len(own)]
+    first = own.shape[1] - matrices.shape[1]
+    at = (functions @ np.linalg.pinv(own, rcond=0.05).T)[:, first:]
+    whole = np.einsum("xi,ij,xj->x", at, matrices.mean(axis=0), at)
+    each = np.stack([((at @ D) * at).sum(axis=1) for D in matrices])
+    return each / np.maximum(whole, 1e-9 * whole.max())
+
+
+def variation(matrices: np.ndarray, latent: Latent, number: int, basis: Basis) -> np.ndarray:
+    """Where on shape ``number`` specimens differ: the standard deviation over them of :func:`density`, (vertices,)."""
+    return density(matrices, latent, number, basis).std(axis=0)
+
+
+def truncated(latent: Latent, size: int) -> Latent:
+    """The first ``size`` latent functions."""
+    return replace(latent, maps=latent.maps[:, :, :size], values=latent.values[:size])

@@ -1,0 +1,164 @@
+"""Which pairs of a collection to match, when not all: a connected graph with cycles, a few pairs for each shape.
+
+A pair that lies on no cycle cannot be checked by others. So a spanning tree of the shapes that are most alike, which
+are the easiest to match, gets further pairs until each shape has a few, and no pair is the only way to anywhere.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+import numpy as np
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components, minimum_spanning_tree
+
+from kfmaps._arrays import check, check_count, refuse, to_numpy
+from kfmaps.collection.paths import roads
+from kfmaps.descriptors.spectral import heat_signature
+from kfmaps.geometry.basis import Basis
+
+VALUES = 30
+"""Eigenvalues that shapes are compared by."""
+TIMES = np.geomspace(0.005, 0.3, 8)
+"""Diffusion times at unit area whose heat kernel signatures are compared."""
+QUANTILES = np.linspace(0.05, 0.95, 7)
+
+Pairs = tuple[tuple[int, int], ...]
+
+
+def signature(basis: Basis) -> np.ndarray:
+    """Numbers that alike shapes have alike, (d,): logarithms of eigenvalues, and how the heat kernel is spread.
+
+    Free of units where ``basis`` is that of unit area, of pose nearly, and of the triangulation. Mirror images have the
+    same. Differences are of the order of 0.1 to 1.
+    """
+    values = to_numpy(basis.eigenvalues)[1 : VALUES + 1]
+    # By Weyl's law the i-th is about 4 π i at unit area.
+    growth = np.log(np.maximum(values, 1e-3) / (4 * np.pi * np.arange(1, len(values) + 1)))
+    growth = np.concatenate([growth, np.full(VALUES - len(growth), growth[-1] if len(growth) else 0.0)])
+    heat = np.log(np.maximum(to_numpy(heat_signature(basis, TIMES)), 1e-12))
+    return np.concatenate([growth, np.quantile(heat, QUANTILES, axis=0).ravel()])
+
+
+def unlikeness(signatures: np.ndarray) -> np.ndarray:
+    """Distances between the rows of ``signatures (n, d)``: (n, n), symmetric, 0 on the diagonal."""
+    check(signatures, "signatures", shape=(None, None), finite=True)
+    squares = (signatures**2).sum(axis=1)
+    gram = signatures @ signatures.T
+    found = np.sqrt(np.maximum(squares[:, None] + squares[None, :] - 2 * gram, 0.0) / signatures.shape[1])
+    np.fill_diagonal(found, 0.0)
+    return (found + found.T) / 2
+
+
+def star(count: int, centre: int) -> Pairs:
+    """``centre`` as the source of all others: the fewest pairs, none of which others can check."""
+    check_count(count, "shapes", low=2)
+    return tuple((centre, other) for other in range(count) if other != centre)
+
+
+def every(count: int) -> Pairs:
+    """All pairs, one way."""
+    check_count(count, "shapes", low=2)
+    return tuple((a, b) for a in range(count) for b in range(a + 1, count))
+
+
+def medoid(distances: np.ndarray) -> int:
+    """The shape that is least far from the others, by ``distances (n, n)``."""
+    return int(distances.sum(axis=1).argmin())
+
+
+def near(distances: np.ndarray, each: int = 4) -> Pairs:
+    """The minimal spanning tree, and nearest neighbours until each shape has ``each`` pairs and lies on cycles.
+
+    Parameters
+    ----------
+    distances : (n, n)
+        How unlike shapes are, see :func:`unlikeness`; symmetric.
+    each : int
+        Pairs that every shape is to have at least, from 2 on; in all there are about ``0.7 · each · n``, at most
+        ``each · n``, fewer only where there are not so many shapes.
+
+    Returns
+    -------
+    tuple of (int, int)
+        Each once, the smaller number first, in order. Without any one of them the graph is still connected (but with
+        two shapes).
+    """
+    count = len(distances)
+    check(distances, "distances", shape=(count, count), finite=True)
+    check_count(count, "shapes", low=2)
+    if each < 2:
+        raise refuse("pairs of each shape", "2 or more, so that there are cycles", str(each), "or choose a star")
+    # Zero is no edge to SciPy: equal shapes are as near as can be all the same.
+    apart = distances + 1e-9 * (1.0 + distances.max())
+    tree = coo_array(minimum_spanning_tree(np.triu(apart, 1)))
+    first = {(int(min(a, b)), int(max(a, b))) for a, b in zip(tree.row, tree.col, strict=True)}
+    chosen = set(first)
+    degree = np.bincount(np.array(sorted(first)).ravel(), minlength=count)
+    order = np.argsort(apart + np.diag(np.full(count, np.inf)), axis=1, kind="stable")[:, : count - 1]
+    for one, others in enumerate(order):
+        pairs = [(int(min(one, other)), int(max(one, other))) for other in others]
+        fresh = [pair for pair in pairs if pair not in first]
+        chosen |= set(fresh[: max(each - int(degree[one]), 0)])
+    while (bridge := _bridge(count, chosen)) is not None:
+        pair, side = bridge
+        between = np.where(side[:, None] & ~side[None, :], apart, np.inf)
+        between[pair], between[pair[::-1]] = np.inf, np.inf
+        if not np.isfinite(between).any():
+            break
+        a, b = np.unravel_index(int(between.argmin()), between.shape)
+        chosen.add((int(min(a, b)), int(max(a, b))))
+    return tuple(sorted(chosen))
+
+
+def _bridge(count: int, pairs: set[tuple[int, int]]) -> tuple[tuple[int, int], np.ndarray] | None:
+    """A pair without which the graph falls apart, where another could join its sides, and one side (n,) bool."""
+    if count < 3:
+        return None
+    pair = next(iter(sorted(bridges(count, pairs))), None)
+    return None if pair is None else (pair, _reached(count, pairs - {pair}, pair[1]))
+
+
+def bridges(count: int, pairs: Iterable[tuple[int, int]]) -> set[tuple[int, int]]:
+    """Those of the ``pairs`` of ``count`` shapes that lie on no cycle: without one its ends do not hang together.
+
+    Depth first with the lowest number that can be reached past the tree's edge (Tarjan 1974), without recursion. A pair
+    that is there twice is on a cycle of two.
+    """
+    every = list(pairs)
+    neighbours = roads(count, every)
+    number, low = [-1] * count, [0] * count
+    found: set[tuple[int, int]] = set()
+    seen = 0
+    for root in range(count):
+        if number[root] >= 0:
+            continue
+        number[root] = low[root] = seen
+        seen += 1
+        stack = [(root, -1, iter(neighbours[root]))]
+        while stack:
+            v, by, others = stack[-1]
+            for w, link in others:
+                if number[w] < 0:
+                    number[w] = low[w] = seen
+                    seen += 1
+                    stack.append((w, link, iter(neighbours[w])))
+                    break
+                if link != by:
+                    low[v] = min(low[v], number[w])
+            else:
+                stack.pop()
+                if stack:
+                    up = stack[-1][0]
+                    low[up] = min(low[up], low[v])
+                    if low[v] > number[up]:
+                        found.add(every[by])
+    return found
+
+
+def _reached(count: int, pairs: set[tuple[int, int]], start: int) -> np.ndarray:
+    """Which shapes (n,) hang together with ``start``."""
+    ends = np.array(sorted(pairs), dtype=np.int64).reshape(-1, 2)
+    graph = coo_array((np.ones(len(ends)), (ends[:, 0], ends[:, 1])), shape=(count, count))
+    label = connected_components(graph, directed=False)[1]
+    return label == label[start]

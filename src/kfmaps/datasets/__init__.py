@@ -1,0 +1,184 @@
+"""Shapes made by code alone, with their true correspondences: for demonstrations, tests and experiments.
+
+Everything is random only through ``rng``: the same seed gives the same meshes. Lengths are in units of
+about half the creature's height.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from kfmaps._arrays import check_count, refuse
+from kfmaps.datasets.creature import CREATURE, DANCE, PROPORTIONS, SYMMETRIC, WAVE, grown
+from kfmaps.datasets.pairs import Pair, largest_piece, posed_pair
+from kfmaps.datasets.skeleton import Body, Limb
+from kfmaps.datasets.surface import closed_mesh
+from kfmaps.geometry.mesh import Mesh
+
+__all__ = [
+    "Pair",
+    "non_isometric",
+    "partial",
+    "sphere",
+    "symmetric_creature",
+    "torus",
+    "two_poses",
+    "vase",
+]
+
+LARGEST = 300_000
+"""Vertices of the largest mesh."""
+
+Seed = int | np.random.Generator
+
+
+def _counts(vertices: int) -> tuple[int, int]:
+    """The source has as many as asked for, the target a fifth fewer."""
+    check_count(vertices, "vertices", low=1500, high=LARGEST)
+    return vertices, round(0.8 * vertices)
+
+
+def two_poses(vertices: int = 6000, rng: Seed = 0) -> Pair:
+    """A creature in two poses, meshed independently; no side of it is like the other.
+
+    The poses bend it along its limbs, which changes lengths little: of the edges of one mesh, carried to
+    the other pose, four in five keep their length within 10 %; on average they keep it within 1 %. The
+    largest changes are at shoulders and hips.
+
+    Parameters
+    ----------
+    vertices : int
+        Of the source, from 1500 to 300000; the target has four fifths of them.
+    rng : int or numpy.random.Generator
+
+    Returns
+    -------
+    Pair
+
+    Raises
+    ------
+    InvalidInput
+        When ``vertices`` is out of range.
+    """
+    rng = np.random.default_rng(rng)
+    return posed_pair("two poses", Body(CREATURE), WAVE, DANCE, _counts(vertices), rng)
+
+
+def non_isometric(vertices: int = 6000, rng: Seed = 0) -> Pair:
+    """The creature of :func:`two_poses`, and a relative with a fat belly, long legs and a short tail.
+
+    Lengths differ by up to a half between the two, the area by a third. Parameters, result and errors as in
+    :func:`two_poses`.
+    """
+    rng = np.random.default_rng(rng)
+    unbent, bent = grown({}, PROPORTIONS), grown(DANCE, PROPORTIONS)
+    counts = _counts(vertices)
+    return posed_pair("non-isometric", Body(CREATURE), WAVE, bent, counts, rng, unbent_t=unbent)
+
+
+def partial(vertices: int = 6000, rng: Seed = 0, kept: float = 0.6) -> Pair:
+    """The creature of :func:`two_poses`, and a part of it in the other pose, cut off obliquely.
+
+    Parameters
+    ----------
+    vertices : int
+        Of the source, from 1500 to 300000; the whole that the target is cut from has four fifths of them.
+    rng : int or numpy.random.Generator
+    kept : float
+        About how much of the target to keep, from 0.2 to 0.95. What the cut leaves apart from the largest
+        piece goes too.
+
+    Returns
+    -------
+    Pair
+        Its target is one manifold piece with a boundary.
+
+    Raises
+    ------
+    InvalidInput
+        When ``vertices`` or ``kept`` is out of range.
+    """
+    if not 0.2 <= kept <= 0.95:
+        raise refuse("kept", "a number from 0.2 to 0.95", repr(kept), "choose one in that range")
+    whole = two_poses(vertices, rng)
+    height = whole.target.vertices @ [0.35, 1.0, 0.2]
+    target, old = largest_piece(whole.target, height >= np.quantile(height, 1 - kept))
+    return replace(
+        whole,
+        name="partial",
+        target=target,
+        truth=whole.truth[old],
+        truth_faces=whole.truth_faces[old],
+        truth_weights=whole.truth_weights[old],
+    )
+
+
+def symmetric_creature(vertices: int = 6000, rng: Seed = 0) -> Pair:
+    """Two poses of a creature whose right side is the mirror image of its left.
+
+    Lengths alone cannot tell the direct truth from ``mirrored``; only orientation can. The poses are not
+    symmetric. Parameters, result and errors as in :func:`two_poses`.
+    """
+    rng = np.random.default_rng(rng)
+    counts = _counts(vertices)
+    return posed_pair("symmetric creature", Body(SYMMETRIC), WAVE, DANCE, counts, rng, mirror=True)
+
+
+def _revolved(body: Body, vertices: int, rng: Seed) -> Mesh:
+    """The surface of revolution about the y axis of a body lying in the half-plane z = 0, x >= 0."""
+
+    def field(points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        radius = np.maximum(np.hypot(points[:, 0], points[:, 2]), 1e-12)
+        values, flat = body(np.stack([radius, points[:, 1], np.zeros_like(radius)], axis=1))
+        across = flat[:, 0] / radius
+        return values, np.stack([across * points[:, 0], flat[:, 1], across * points[:, 2]], axis=1)
+
+    low, high = body.box()
+    box = np.array([[-high[0], low[1], -high[0]], [high[0], high[1], high[0]]])
+    return Mesh(*closed_mesh(field, box, vertices, np.random.default_rng(rng)))
+
+
+def vase(vertices: int = 5000, rng: Seed = 0) -> Mesh:
+    """A hollow vase, a surface of revolution about the y axis, with ``vertices`` (3000 to 300000) vertices.
+
+    Turning it changes nothing, so no map between two of them is the right one.
+    """
+    check_count(vertices, "vertices", low=3000, high=LARGEST)
+    profile = ((0, 0), (0.30, 0.02), (0.52, 0.30), (0.55, 0.58), (0.36, 0.95), (0.28, 1.2), (0.42, 1.45))
+    wall = Limb("wall", None, tuple((x, y, 0) for x, y in profile), (0.07,) * len(profile))
+    return _revolved(Body((wall,), segments=60), vertices, rng)
+
+
+def sphere(vertices: int = 2000, rng: Seed = 0) -> Mesh:
+    """The unit sphere with ``vertices`` (100 to 300000) evenly spread random vertices."""
+    check_count(vertices, "vertices", low=100, high=LARGEST)
+
+    def field(points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        radius = np.linalg.norm(points, axis=1)
+        return radius - 1, points / np.maximum(radius, 1e-12)[:, None]
+
+    box = 1.1 * np.array([[-1.0, -1, -1], [1, 1, 1]])
+    # Tetrahedra between points on one sphere take time that grows as the square of their number.
+    return Mesh(*closed_mesh(field, box, vertices, np.random.default_rng(rng), scattered=4000))
+
+
+def torus(vertices: int = 2000, rng: Seed = 0, tube: float = 0.4) -> Mesh:
+    """The torus (genus 1) of radius 1 about the y axis, with ``vertices`` (400 to 300000) vertices.
+
+    Its tube's radius is ``tube``, from 0.2 to 0.8.
+    """
+    check_count(vertices, "vertices", low=400, high=LARGEST)
+    if not 0.2 <= tube <= 0.8:
+        raise refuse("tube", "a number from 0.2 to 0.8", repr(tube), "choose one in that range")
+
+    def field(points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        radius = np.maximum(np.hypot(points[:, 0], points[:, 2]), 1e-12)
+        outwards = (points * [1, 0, 1]) / radius[:, None]
+        away = points - outwards
+        length = np.linalg.norm(away, axis=1)
+        return length - tube, away / np.maximum(length, 1e-12)[:, None]
+
+    reach = np.array([1 + tube, tube, 1 + tube]) + 0.1
+    return Mesh(*closed_mesh(field, np.array([-reach, reach]), vertices, np.random.default_rng(rng), genus=1))

@@ -1,0 +1,153 @@
+"""A pair of meshes with their true correspondence, made from one reference surface."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
+from scipy.spatial import KDTree
+
+from kfmaps._arrays import blocks
+from kfmaps.datasets.skeleton import Bend, Body
+from kfmaps.datasets.surface import closed_mesh
+from kfmaps.geometry.mesh import Mesh, face_areas
+
+BLOCK = 50_000
+"""Points worked on together, which bounds the memory."""
+
+
+@dataclass(frozen=True, eq=False)
+class Pair:
+    """Two meshes of one shape and which point of the source each target vertex truly is.
+
+    Attributes
+    ----------
+    name : str
+    source, target : Mesh
+        Meshed independently: no vertex of one is meant to be a vertex of the other.
+    truth : (n_t,) int64
+        For each target vertex the source vertex nearest to its exact place on the source.
+    truth_faces : (n_t,) int64
+        The source face that the exact place lies on, ...
+    truth_weights : (n_t, 3) float64
+        ... and its barycentric coordinates there: not negative, sum 1.
+    mirrored : (n_t,) int64 or None
+        On a shape that is its own mirror image, the other truth: the one that swaps left and right.
+    """
+
+    name: str
+    source: Mesh
+    target: Mesh
+    truth: np.ndarray
+    truth_faces: np.ndarray
+    truth_weights: np.ndarray
+    mirrored: np.ndarray | None = None
+
+
+def locate(points: np.ndarray, mesh: Mesh) -> tuple[np.ndarray, np.ndarray]:
+    """The face (n,) and barycentric coordinates (n, 3) of the place on ``mesh`` nearest to each point.
+
+    Looks at the faces around the three nearest vertices, which is enough for points that lie as close to
+    the surface as those of another mesh of it.
+    """
+    if len(points) > BLOCK:
+        parts = [locate(points[part], mesh) for part in blocks(len(points), BLOCK)]
+        return np.concatenate([face for face, _ in parts]), np.concatenate([weights for _, weights in parts])
+    corners = mesh.faces.ravel()
+    order = np.argsort(corners, kind="stable")
+    count = np.bincount(corners, minlength=len(mesh.vertices))
+    first = np.cumsum(count) - count
+    vertices = np.asarray(KDTree(mesh.vertices).query(points, k=3)[1])
+    slots = np.minimum(np.arange(count.max()), count[vertices][:, :, None] - 1)
+    faces = (order[first[vertices][:, :, None] + slots] // 3).reshape(len(points), -1)
+    triangles = mesh.vertices[mesh.faces[faces]].reshape(-1, 3, 3)
+    from trimesh.triangles import closest_point, points_to_barycentric
+
+    places = closest_point(triangles, np.repeat(points, faces.shape[1], axis=0)).reshape(*faces.shape, 3)
+    best = np.linalg.norm(places - points[:, None], axis=2).argmin(axis=1)
+    rows = np.arange(len(points))
+    face, place = faces[rows, best], places[rows, best]
+    weights = np.clip(points_to_barycentric(mesh.vertices[mesh.faces[face]], place), 0, None)
+    return face, weights / weights.sum(axis=1, keepdims=True)
+
+
+def nearest_vertex(reference: np.ndarray, posed: np.ndarray, points: np.ndarray, exact: np.ndarray) -> np.ndarray:
+    """For each of ``points`` the vertex whose ``posed`` place is nearest to ``exact``.
+
+    Only the six that are nearest on the ``reference`` are asked, where limbs that touch in the pose are
+    apart.
+    """
+    near = np.asarray(KDTree(reference).query(points, k=6)[1])
+    best = np.linalg.norm(posed[near] - exact[:, None], axis=2).argmin(axis=1)
+    return near[np.arange(len(points)), best].astype(np.int64)
+
+
+def posed_pair(
+    name: str,
+    body: Body,
+    pose_s: dict[str, Bend],
+    pose_t: dict[str, Bend],
+    counts: tuple[int, int],
+    rng: np.random.Generator,
+    *,
+    unbent_t: dict[str, Bend] | None = None,
+    mirror: bool = False,
+) -> Pair:
+    """One body in two poses, each meshed for itself.
+
+    Parameters
+    ----------
+    counts : (int, int)
+        Vertices of the source and of the target.
+    unbent_t : dict, optional
+        The target's proportions without its turns, when they differ from the source's.
+    mirror : bool
+        Whether the body is its own mirror image in the plane x = 0.
+    """
+    box = body.box()
+    points_s, faces_s = closed_mesh(body, box, counts[0], rng)
+    warp = None if unbent_t is None else lambda x: body.bent(x, unbent_t)
+    points_t, faces_t = closed_mesh(body, box, counts[1], rng, warp=warp)
+    source = Mesh(body.bent(points_s, pose_s), faces_s)
+    target = Mesh(body.bent(points_t, pose_t), faces_t)
+
+    def truth(points: np.ndarray) -> np.ndarray:
+        return nearest_vertex(points_s, source.vertices, points, body.bent(points, pose_s))
+
+    truth_faces, truth_weights = locate(points_t, Mesh(points_s, faces_s))
+    mirrored = truth(points_t * [-1, 1, 1]) if mirror else None
+    return Pair(name, source, target, truth(points_t), truth_faces, truth_weights, mirrored)
+
+
+def pieces(faces: np.ndarray) -> np.ndarray:
+    """For each face the number of the piece it belongs to; pieces hang together over edges, (f,)."""
+    edges = np.sort(np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]), axis=1)
+    _, edge = np.unique(edges, axis=0, return_inverse=True)
+    edge = edge.reshape(3, -1)
+    total = len(faces) + edge.max() + 1
+    rows = np.tile(np.arange(len(faces)), 3)
+    links = coo_array((np.ones(rows.size), (rows, len(faces) + edge.ravel())), shape=(total, total))
+    return connected_components(links, directed=False)[1][: len(faces)]
+
+
+def largest_piece(mesh: Mesh, keep: np.ndarray) -> tuple[Mesh, np.ndarray]:
+    """The largest connected part whose vertices are all in ``keep`` (n,) bool, and its vertices' old numbers.
+
+    Where two corners of the rim would touch in one vertex, the faces around it go too, so that the part
+    is a manifold with boundary.
+    """
+    faces = mesh.faces[keep[mesh.faces].all(axis=1)]
+    while True:
+        piece = pieces(faces)
+        faces = faces[piece == np.bincount(piece, face_areas(Mesh(mesh.vertices, faces))).argmax()]
+        forth = np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]])
+        code, back = forth @ [len(keep), 1], forth @ [1, len(keep)]
+        rim = np.bincount(forth[~np.isin(code, back), 0], minlength=len(keep))
+        touching = rim > 1
+        if not touching.any():
+            break
+        faces = faces[~touching[faces].any(axis=1)]
+    old, new = np.unique(faces, return_inverse=True)
+    return Mesh(mesh.vertices[old], new.reshape(-1, 3)), old

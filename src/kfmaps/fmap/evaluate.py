@@ -1,0 +1,187 @@
+"""How far a point map is from the truth, by the Princeton protocol (Kim, Lipman and Funkhouser 2011)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from kfmaps._arrays import check, refuse
+from kfmaps.fmap.convert import check_point_map
+from kfmaps.fmap.precise import PointMap, at_vertices, check_places, points_of
+from kfmaps.geometry.between import distance_places
+from kfmaps.geometry.clean import inside
+from kfmaps.geometry.geodesics import distance_pairs
+from kfmaps.geometry.mesh import Mesh, check_is_mesh, face_areas, surface_area, vertex_areas, vertex_normals
+
+
+@dataclass(frozen=True, eq=False)
+class Evaluation:
+    """Summary of the errors of one map, all in units of √area of the source.
+
+    Attributes
+    ----------
+    errors : (q,) float64
+    mean, median, worst : float
+    auc : float
+        Area under the error curve from 0 to ``auc_limit``, divided by it: 1 is perfect.
+    auc_limit : float
+    exact : float
+        Fraction of points with no error at all.
+    """
+
+    errors: np.ndarray
+    mean: float
+    median: float
+    worst: float
+    auc: float
+    auc_limit: float
+    exact: float
+
+
+def geodesic_errors(
+    source: Mesh,
+    predicted: np.ndarray,
+    true: np.ndarray,
+    method: str = "unfolded",
+) -> np.ndarray:
+    """Geodesic distance on ``source`` from each ``predicted`` to its ``true`` vertex, (q,), divided by √area.
+
+    Distances are worked out for one block of vertices at a time: no n × n matrix is held. Points on different
+    components are at infinite distance. On a point cloud distances run along its neighbours, and the area is
+    estimated.
+
+    Raises
+    ------
+    InvalidInput
+        When the two lists differ in length or name vertices that the source does not have.
+    """
+    check_is_mesh(source, "source")
+    predicted, true = np.asarray(predicted), np.asarray(true)
+    if predicted.shape != true.shape:
+        got = f"{predicted.shape} and {true.shape}"
+        raise refuse("predicted and true vertices", "lists of equal length", got, "evaluate the same points")
+    n = len(source.vertices)
+    predicted = check_point_map(predicted, n, len(predicted))
+    true = check_point_map(true, n, len(true))
+    return distance_pairs(source, true, predicted, method=method) / np.sqrt(surface_area(source))
+
+
+def place_errors(source: Mesh, predicted: PointMap | np.ndarray, true: PointMap | np.ndarray) -> np.ndarray:
+    """Geodesic distance on ``source`` from each ``predicted`` to its ``true`` point, (q,), divided by √area.
+
+    Points lie inside triangles (:class:`kfmaps.fmap.precise.PointMap`, not snapped) or are vertices (whole
+    numbers).
+
+    Raises
+    ------
+    InvalidInput
+        When the two differ in length or do not fit the source.
+    """
+    ends = []
+    for name, given in (("predicted", predicted), ("true", true)):
+        if not isinstance(given, PointMap):
+            given = at_vertices(check_point_map(np.asarray(given), len(source.vertices), len(given)), source)
+        ends.append(check_places(given, source))
+        if len(ends[0].faces) != len(given.faces):
+            got = f"{len(ends[0].faces)} and {len(given.faces)}"
+            raise refuse(f"{name} points", "lists of equal length", got, "evaluate the same points")
+    distances = distance_places(source, ends[0].faces, ends[0].weights, ends[1].faces, ends[1].weights)
+    return distances / np.sqrt(surface_area(source))
+
+
+@dataclass(frozen=True)
+class Smoothness:
+    """How smooth and how nearly one-to-one a map is.
+
+    Attributes
+    ----------
+    coverage : float
+        Part of the source's area with an image nearby: that of the vertices of which a face has one.
+    flipped : float
+        Part of the target's area whose triangles come out turned over.
+    stretched : float
+        Part of the target's edges that come out more than twice as long, or less than half.
+    """
+
+    coverage: float
+    flipped: float
+    stretched: float
+
+
+def smoothness(source: Mesh, target: Mesh, places: PointMap | np.ndarray) -> Smoothness:
+    """Whether the map tears, folds or leaves parts out; ``places`` a point or a vertex for each target vertex.
+
+    Lengths are compared at equal areas of the shapes, in space.
+    """
+    if not isinstance(places, PointMap):
+        places = at_vertices(check_point_map(np.asarray(places), len(source.vertices), len(target.vertices)), source)
+    places = check_places(places, source, len(target.vertices))
+    images, faces = points_of(places, source), target.faces
+    hit = np.unique(source.faces[places.faces][places.weights > 0])
+    areas = vertex_areas(source)
+    normals = vertex_normals(source)
+    there = np.einsum("ti,tij->tj", places.weights, normals[source.faces[places.faces]])
+    turned = np.cross(images[faces[:, 1]] - images[faces[:, 0]], images[faces[:, 2]] - images[faces[:, 0]])
+    over = np.einsum("fi,fi->f", turned, there[faces].sum(axis=1)) < 0
+    sizes = face_areas(target)
+    ends = np.unique(np.sort(np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]), axis=1), axis=0)
+    before = np.linalg.norm(target.vertices[ends[:, 0]] - target.vertices[ends[:, 1]], axis=1)
+    after = np.linalg.norm(images[ends[:, 0]] - images[ends[:, 1]], axis=1)
+    scale = np.sqrt(surface_area(source) / surface_area(target))
+    long = (after > 2 * scale * before) | (after < 0.5 * scale * before)
+    return Smoothness(float(areas[hit].sum() / areas.sum()), float(sizes[over].sum() / sizes.sum()), float(long.mean()))
+
+
+def evaluation(errors: np.ndarray, auc_limit: float = 0.25) -> Evaluation:
+    """Mean, median, worst, and area under the curve of ``errors (q,)``; the curve ends at ``auc_limit``."""
+    errors = np.asarray(errors, dtype=float)
+    check(errors, "errors", shape=(None,), finite=False)
+    if errors.size == 0:
+        raise refuse("errors", "at least one", "none", "give the errors of some points")
+    # The exact integral of the empirical curve: each error e contributes max(0, limit - e).
+    auc = float(np.clip(auc_limit - errors, 0, None).mean() / auc_limit)
+    return Evaluation(
+        errors,
+        float(errors.mean()),
+        float(np.median(errors)),
+        float(errors.max()),
+        auc,
+        auc_limit,
+        float((errors == 0).mean()),
+    )
+
+
+def error_curve(errors: np.ndarray, thresholds: np.ndarray) -> np.ndarray:
+    """Fraction of ``errors (q,)`` at or below each of ``thresholds (t,)``: (t,), from 0 to 1."""
+    ordered = np.sort(np.asarray(errors, dtype=float))
+    return np.searchsorted(ordered, np.asarray(thresholds, dtype=float), side="right") / len(ordered)
+
+
+def coverage(target_to_source: np.ndarray, source: Mesh) -> float:
+    """Fraction of the source's area whose vertices are the image of some target vertex.
+
+    Those without counterpart, −1, reach none.
+    Connected vertices in one place count as one; those that belong to no face count for nothing.
+    """
+    check_is_mesh(source, "source")
+    part = inside(source)
+    areas = vertex_areas(part.mesh)
+    points = np.asarray(target_to_source)
+    points = points[points != -1]
+    points = check_point_map(points, len(source.vertices), len(points))
+    hit = np.unique(part.number[points[~part.loose[points]]])
+    return float(areas[hit].sum() / areas.sum())
+
+
+def truth_from_pairs(truth_s: np.ndarray, truth_t: np.ndarray, target_to_source: np.ndarray) -> np.ndarray:
+    """Where the map sends the target's end of each true pair: ``target_to_source[truth_t]``, checked.
+
+    ``truth_s`` and ``truth_t``, (q,), are corresponding vertices, line k of one file to line k of the other.
+    """
+    if len(truth_s) != len(truth_t):
+        got = f"{len(truth_s)} and {len(truth_t)}"
+        raise refuse("truth of source and target", "files of equal length", got, "take both from one data set")
+    points = np.asarray(target_to_source)
+    check_point_map(np.asarray(truth_t), len(points), len(truth_t))
+    return points[truth_t]

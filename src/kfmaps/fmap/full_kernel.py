@@ -1,0 +1,127 @@
+"""The terms of a whole kernel, without Nyström features: equations (8) and (10) to (12) in row blocks."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from kfmaps._arrays import Array, blocks, namespace, number
+from kfmaps.fmap.terms import Preservation, rotated, same_count
+from kfmaps.geometry.basis import Basis
+from kfmaps.kernels.kernels import KernelLike, gram
+
+
+def kernel_descriptor_term(
+    kernel: KernelLike,
+    source: Basis,
+    descriptors_s: Array,
+    target: Basis,
+    descriptors_t: Array,
+    block: int = 1024,
+) -> Preservation:
+    """The same for a whole kernel (equation 8), in row blocks: no (n_s, n_t) matrix is ever held."""
+    same_count(descriptors_s, descriptors_t)
+    sides = ((source, descriptors_s), (target, descriptors_t))
+    weighted = [basis.functions * basis.mass[:, None] for basis, _ in sides]
+
+    def sandwich(i: int, j: int) -> Array:
+        rows = sides[i][1]
+        return sum(
+            weighted[i][part, :].T @ (gram(kernel, rows[part, :], sides[j][1]) @ weighted[j])
+            for part in blocks(rows.shape[0], block)
+        )
+
+    trace = number(namespace(descriptors_t).linalg.trace(sandwich(1, 1)))
+    return Preservation(sandwich(0, 0), sandwich(1, 0), 0.5 * trace)
+
+
+@dataclass(frozen=True, eq=False)
+class HadamardCommutativity:
+    """The commutativity term of a whole kernel (equations 10 to 12); made by :func:`hadamard_term`."""
+
+    kernel: KernelLike
+    weighted_s: Array  # A Φ
+    weighted_t: Array
+    functions_s: Array
+    functions_t: Array
+    descriptors_s: Array
+    descriptors_t: Array
+    gram_s: Array
+    gram_t: Array
+    block: int
+
+    def apply(self, C: Array) -> Array:
+        mixed = namespace(C).zeros_like(C)
+        carried = C @ self.functions_s.T
+        for rows in blocks(self.functions_t.shape[0], self.block):
+            product = (self.functions_t[rows, :] @ carried) * self._cross(rows)
+            mixed = mixed + self.weighted_t[rows, :].T @ (product @ self.weighted_s)
+        return C @ self.gram_s + self.gram_t @ C - 2 * mixed
+
+    def rhs(self) -> Array:
+        xp = namespace(self.gram_t)
+        shape = (self.gram_t.shape[0], self.gram_s.shape[0])
+        return xp.zeros(shape, dtype=self.gram_t.dtype, device=self.gram_t.device)
+
+    def diagonal(self) -> Array:
+        xp = namespace(self.gram_t)
+        own = xp.linalg.diagonal(self.gram_t)[:, None] + xp.linalg.diagonal(self.gram_s)[None, :]
+        return own - 2 * self._coupling(self.weighted_t * self.functions_t, self.weighted_s * self.functions_s)
+
+    def constant(self) -> float:
+        return 0.0
+
+    def sides(self) -> tuple[Array, Array]:
+        return self.gram_t, self.gram_s
+
+    def rotated_diagonal(self, U_t: Array, U_s: Array) -> Array:
+        own = rotated(self.gram_t, U_t)[:, None] + rotated(self.gram_s, U_s)[None, :]
+        squares_t = (self.weighted_t @ U_t) * (self.functions_t @ U_t)
+        return own - 2 * self._coupling(squares_t, (self.weighted_s @ U_s) * (self.functions_s @ U_s))
+
+    def _coupling(self, squares_t: Array, squares_s: Array) -> Array:
+        cross = self.rhs()
+        for rows in blocks(squares_t.shape[0], self.block):
+            cross = cross + squares_t[rows, :].T @ (self._cross(rows) @ squares_s)
+        return cross
+
+    def _cross(self, rows: slice) -> Array:
+        return gram(self.kernel, self.descriptors_t[rows, :], self.descriptors_s)
+
+
+def hadamard_term(
+    kernel: KernelLike,
+    source: Basis,
+    descriptors_s: Array,
+    target: Basis,
+    descriptors_t: Array,
+    block: int = 512,
+) -> HadamardCommutativity:
+    """Commutativity for the exact kernel of the descriptors ``(n_s, d)`` and ``(n_t, d)``.
+
+    Every application costs ``n_s n_t`` kernel values and as many multiply-adds for each column of ``C``, in blocks
+    of ``block`` rows: the oracle for :func:`slice_term`, and what to use when no approximation will do.
+    """
+    same_count(descriptors_s, descriptors_t)
+    sides = ((source, descriptors_s), (target, descriptors_t))
+    weighted = [basis.functions * basis.mass[:, None] for basis, _ in sides]
+
+    def squares(i: int) -> Array:
+        basis, rows = sides[i]
+        total = 0.0
+        for part in blocks(rows.shape[0], block):
+            product = (basis.functions[part, :] @ basis.functions.T) * gram(kernel, rows[part, :], rows)
+            total = total + weighted[i][part, :].T @ (product @ weighted[i])
+        return total
+
+    return HadamardCommutativity(
+        kernel,
+        weighted[0],
+        weighted[1],
+        source.functions,
+        target.functions,
+        descriptors_s,
+        descriptors_t,
+        squares(0),
+        squares(1),
+        block,
+    )

@@ -1,0 +1,196 @@
+"""What is not quadratic: robust losses of the data and sparsity, each by reweighted least squares.
+
+A *penalty* knows its value and a quadratic term that lies above it and touches it where the map is
+(:class:`Penalty`). Minimising the energy with that term in the penalty's place lowers the true objective, whatever
+else it is made of; :func:`kfmaps.fmap.minimize.minimised` does so until it falls no more. So a penalty goes
+together with every term, kernel, constraint and solver.
+
+With ``e_g`` the squared residual of a group of data (a landmark, a descriptor, a feature) and a scale ``δ``:
+
+============  ===========================  ====================  ===============================
+loss          ρ(e), halved and summed      weight ρ'(e)          source
+============  ===========================  ====================  ===============================
+"squared"     e                            1
+"huber"       e, or 2δ√e − δ² above δ²     1, or δ/√e            Huber 1964
+"l21"         2δ√(e + (δ/1000)²)           δ/√(e + (δ/1000)²)    Kovnatsky et al. 2015 (L2,1)
+"geman"       δ²e / (δ² + e)               (δ² / (δ² + e))²      Geman and McClure 1987
+============  ===========================  ====================  ===============================
+
+All are concave in ``e``, which is what makes the reweighted term lie above them.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Literal, Protocol
+
+import numpy as np
+
+from kfmaps._arrays import Array, check_positive, like, namespace, refuse, to_numpy
+from kfmaps.fmap.energy import Energy
+from kfmaps.fmap.terms import Elementwise, Preservation, Term, slice_term
+
+LossName = Literal["squared", "huber", "l21", "geman"]
+LOSSES: tuple[LossName, ...] = ("squared", "huber", "l21", "geman")
+
+
+class Penalty(Protocol):
+    """A function of C that lies below a quadratic one which touches it; all arrays have shape (k_t, k_s)."""
+
+    def value(self, C: Array) -> float:
+        """At least zero."""
+        ...
+
+    def majorizer(self, C: Array) -> Term:
+        """A term that, up to a constant, is never below ``value(X)`` and equals it at ``X = C``."""
+        ...
+
+
+@dataclass(frozen=True)
+class Loss:
+    """A robust loss of group residuals and its scale ``delta``, in the unit of ``√e``; see the module's table.
+
+    Raises
+    ------
+    InvalidInput
+        On an unknown name, or a scale that is not above zero.
+    """
+
+    name: LossName = "huber"
+    delta: float = 1.0
+
+    def __post_init__(self) -> None:
+        if self.name not in LOSSES:
+            raise refuse("loss", "one of " + ", ".join(LOSSES), repr(self.name), "choose one of them")
+        check_positive(self.delta, "loss delta")
+
+    def value(self, e: np.ndarray) -> np.ndarray:
+        """ρ of the squared residuals ``e (g,)``."""
+        d = self.delta
+        if self.name == "squared":
+            return e
+        if self.name == "huber":
+            return np.where(e <= d * d, e, 2 * d * np.sqrt(e) - d * d)
+        if self.name == "l21":
+            return 2 * d * np.sqrt(e + (1e-3 * d) ** 2)
+        return d * d * e / (d * d + e)
+
+    def weight(self, e: np.ndarray) -> np.ndarray:
+        """ρ' of the squared residuals ``e (g,)``."""
+        d = self.delta
+        if self.name == "squared":
+            return np.ones_like(e)
+        if self.name == "huber":
+            return d / np.sqrt(np.maximum(e, d * d))
+        if self.name == "l21":
+            return d / np.sqrt(e + (1e-3 * d) ** 2)
+        return (d * d / (d * d + e)) ** 2
+
+
+@dataclass(frozen=True, eq=False)
+class RobustData:
+    """``½ Σ_g s_g ρ(e_g / s_g)``, ``e_g = Σ_{i in g} ‖C p_i − q_i‖² + ν ‖C X_i − Y_i C‖²``: data by groups.
+
+    Attributes
+    ----------
+    coefficients_s, coefficients_t : (k_s, r), (k_t, r)
+        ``p_i`` and ``q_i``, a column for each descriptor or feature.
+    groups : (r,) int64
+        The group of each column; a group below zero keeps the squared loss.
+    loss : Loss
+    slices_s, slices_t : (r, k_s, k_s), (r, k_t, k_t) or None
+        Symmetric, ``X_i`` and ``Y_i``.
+    commutativity : float
+        ``ν``.
+    sizes : (g,) float64 or None
+        ``s_g``, for a loss of relative residuals; ``None`` is 1 for all.
+    """
+
+    coefficients_s: Array
+    coefficients_t: Array
+    groups: np.ndarray
+    loss: Loss
+    slices_s: Array | None = None
+    slices_t: Array | None = None
+    commutativity: float = 0.0
+    sizes: np.ndarray | None = None
+
+    def residuals(self, C: Array) -> np.ndarray:
+        """Squared residuals ``e / s`` of the groups ``0, 1, …``, (g,)."""
+        return self._relative(self._grouped(self._columns(C)))
+
+    def scaled(self, C: Array, width: float) -> RobustData:
+        """The same with ``delta`` at ``width`` times the median residual of the groups at ``C``."""
+        e = self.residuals(C)
+        delta = width * float(np.sqrt(np.median(e))) if len(e) else 1.0
+        return replace(self, loss=Loss(self.loss.name, max(delta, 1e-150)))
+
+    def weights(self, C: Array) -> np.ndarray:
+        """The weight of each column at ``C``, (r,), from 0 to 1 but for "l21"."""
+        weights = np.append(self.loss.weight(self.residuals(C)), 1.0)
+        return weights[np.where(self.groups < 0, len(weights) - 1, self.groups)]
+
+    def value(self, C: Array) -> float:
+        e = self._columns(C)
+        losses = self.loss.value(self._relative(self._grouped(e)))
+        losses = losses if self.sizes is None else self.sizes * losses
+        return 0.5 * float(losses.sum() + e[self.groups < 0].sum())
+
+    def majorizer(self, C: Array) -> Term:
+        w = like(self.weights(C), self.coefficients_s)
+        P_s, P_t = self.coefficients_s, self.coefficients_t
+        weighted = P_s * w[None, :]
+        total = 0.5 * float(namespace(P_t).sum(P_t * P_t * w[None, :]))
+        data: Term = Preservation(weighted @ P_s.T, P_t @ weighted.T, total)
+        if self.slices_s is None or self.slices_t is None or not self.commutativity:
+            return data
+        root = namespace(w).sqrt(w)[:, None, None]
+        terms = {"data": data, "slices": slice_term(root * self.slices_s, root * self.slices_t)}
+        return Energy(terms, {"data": 1.0, "slices": self.commutativity})
+
+    def _relative(self, e: np.ndarray) -> np.ndarray:
+        return e if self.sizes is None else e / self.sizes
+
+    def _columns(self, C: Array) -> np.ndarray:
+        xp = namespace(C)
+        residual = C @ self.coefficients_s - self.coefficients_t
+        e = xp.sum(residual * residual, axis=0)
+        if self.slices_s is not None and self.commutativity:
+            difference = C @ self.slices_s - self.slices_t @ C
+            e = e + self.commutativity * xp.sum(difference * difference, axis=(1, 2))
+        return to_numpy(e)
+
+    def _grouped(self, columns: np.ndarray) -> np.ndarray:
+        inside = self.groups >= 0
+        return np.bincount(self.groups[inside], columns[inside]) if inside.any() else np.zeros(0)
+
+
+@dataclass(frozen=True, eq=False)
+class Sparse:
+    """``Σ weights √(C² + ε²)``: the L1 norm, smoothed at zero; made by :func:`sparse`.
+
+    Of the functional map, whose entries are of the order of 1, or below it off the diagonal.
+    """
+
+    weights: Array  # (k_t, k_s)
+    smoothing: float = 1e-3
+
+    def value(self, C: Array) -> float:
+        xp = namespace(C)
+        return float(xp.sum(self.weights * xp.sqrt(C * C + self.smoothing**2)))
+
+    def majorizer(self, C: Array) -> Term:
+        xp = namespace(C)
+        return Elementwise(self.weights / xp.sqrt(C * C + self.smoothing**2))
+
+
+def sparse(example: Array, smoothing: float = 1e-3) -> Sparse:
+    """Sparsity of maps of the shape of ``example (k_t, k_s)``, with weights that grow from the diagonal.
+
+    From 0 on the line between the two corners to 1 in the others, the distance in parts of the size (Pokrass et al.,
+    Sparse modeling of intrinsic correspondences, 2013, whose weights grow likewise).
+    """
+    k_t, k_s = example.shape
+    check_positive(smoothing, "smoothing")
+    rows, columns = np.arange(k_t) / max(k_t - 1, 1), np.arange(k_s) / max(k_s - 1, 1)
+    return Sparse(like(np.abs(rows[:, None] - columns[None, :]), example), smoothing)

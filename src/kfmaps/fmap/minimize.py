@@ -1,0 +1,174 @@
+"""What a fit minimises: a quadratic energy, penalties that are not quadratic, and maybe a constraint on C.
+
+Without penalties and constraint it is the linear system that it always was, solved once. A penalty
+(:mod:`kfmaps.fmap.losses`) is replaced by its quadratic majorizer, again and again; a constraint
+(:mod:`kfmaps.fmap.constraints`) takes the place of the linear solve. Both maps of a pair at once are minimised in
+turn (:func:`coupled_pair`). Every step starts where the last one ended and lowers the same objective, so it never
+rises, whatever is combined.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
+from typing import Literal
+
+import numpy as np
+
+from kfmaps._arrays import Array
+from kfmaps.fmap.constraints import orthogonal
+from kfmaps.fmap.energy import Energy, adjoint_term, inverse_term, value
+from kfmaps.fmap.losses import Penalty
+from kfmaps.fmap.preconditioners import jacobi, sylvester
+from kfmaps.fmap.solvers import Solution, Solver, solve
+from kfmaps.fmap.terms import Term
+
+Constraint = Literal["none", "orthogonal"]
+CONSTRAINTS: tuple[Constraint, ...] = ("none", "orthogonal")
+Preconditioner = Literal["none", "jacobi", "sylvester"]
+PRECONDITIONERS: tuple[Preconditioner, ...] = ("none", "jacobi", "sylvester")
+
+Told = Callable[[int, float], None]
+
+
+@dataclass(frozen=True, eq=False)
+class Objective:
+    """``energy(C) + Σ weight · penalty(C)`` over all maps, or over orthonormal ones.
+
+    Attributes
+    ----------
+    energy : Energy
+    penalties : mapping of name to (weight, Penalty)
+    constraint : "none" or "orthogonal"
+    """
+
+    energy: Energy
+    penalties: Mapping[str, tuple[float, Penalty]] = field(default_factory=dict)
+    constraint: Constraint = "none"
+
+    def value(self, C: Array) -> float:
+        """The objective at ``C``, whether or not that meets the constraint."""
+        return value(self.energy, C) + sum(weight * p.value(C) for weight, p in self.penalties.values())
+
+    def breakdown(self, C: Array) -> dict[str, float]:
+        """Weighted value of each term and penalty at ``C``; they add up to :meth:`value`."""
+        parts = {name: weight * p.value(C) for name, (weight, p) in self.penalties.items()}
+        return {**self.energy.breakdown(C), **parts}
+
+    def majorizer(self, C: Array) -> Energy:
+        """The energy with each penalty's majorizer at ``C``; the energy itself without any."""
+        if not self.penalties:
+            return self.energy
+        return self.energy.joined({name: (weight, p.majorizer(C)) for name, (weight, p) in self.penalties.items()})
+
+
+@dataclass(frozen=True)
+class How:
+    """How an objective is minimised.
+
+    ``solver`` and ``preconditioner`` are of each quadratic step; there are at most ``rounds`` of them, and none after
+    one that lowered the objective by less than ``settled`` of itself.
+    """
+
+    solver: Solver
+    preconditioner: Preconditioner = "sylvester"
+    rounds: int = 20
+    settled: float = 1e-4
+
+
+def minimised(objective: Objective, how: How, start: Array | None = None, progress: Told | None = None) -> Solution:
+    """The minimiser of ``objective`` that is reached from ``start``.
+
+    Without a start it is the minimiser of the energy with the penalties' majorizers at zero, that is, about where
+    the energy alone is least; constrained, its nearest orthonormal map. ``residuals`` are of the last round.
+    """
+    if start is None and (objective.penalties or objective.constraint != "none"):
+        zero = 0.0 * objective.energy.rhs()
+        start = quadratic(Objective(objective.majorizer(zero)), how, None, progress).value
+    solution = quadratic(replace(objective, energy=objective.majorizer(start), penalties={}), how, start, progress)
+    if not objective.penalties:
+        return solution
+    last = objective.value(solution.value)
+    steps = solution.steps
+    for _ in range(how.rounds - 1):
+        energy = objective.majorizer(solution.value)
+        solution = quadratic(replace(objective, energy=energy, penalties={}), how, solution.value, progress)
+        steps += solution.steps
+        now = objective.value(solution.value)
+        if last - now <= how.settled * abs(last):
+            break
+        last = now
+    return replace(solution, steps=steps)
+
+
+def quadratic(objective: Objective, how: How, start: Array | None, progress: Told | None = None) -> Solution:
+    """The minimiser of an objective without penalties: one linear solve, or one descent along the manifold."""
+    energy = objective.energy
+    inverse = None
+    if how.preconditioner == "jacobi":
+        inverse = jacobi(energy.diagonal())
+    elif how.preconditioner == "sylvester":
+        inverse = sylvester(energy)
+    if objective.constraint == "orthogonal":
+        assert start is not None
+        return orthogonal(energy, how.solver, start, inverse, progress)
+    return solve(energy.apply, energy.rhs(), how.solver, start, inverse, progress)
+
+
+@dataclass(frozen=True)
+class Coupling:
+    """How strongly the two maps ``C`` and ``D`` of a pair are tied; see :func:`coupled_pair`."""
+
+    inverse: float = 1.0
+    adjoint: float = 0.0
+
+
+@dataclass(frozen=True, eq=False)
+class PairSolution:
+    """``forth`` (k_t, k_s), ``back`` (k_s, k_t) and the objective of both together before the first round and after
+    each."""
+
+    forth: Solution
+    back: Solution
+    history: np.ndarray
+
+
+def coupled_pair(
+    forth: Objective,
+    back: Objective,
+    coupling: Coupling,
+    how: How,
+    start: tuple[Array | None, Array | None] = (None, None),
+    progress: Told | None = None,
+) -> PairSolution:
+    """Both directions at once: the sum of both objectives and, of the maps ``C`` forth and ``D`` back,
+
+    ``½ inverse (‖C D − I‖² + ‖D C − I‖²) + ½ adjoint ‖D − Cᵀ‖²``
+
+    (Eynard et al., Coupled functional maps, 2016; Huang and Ovsjanikov, Adjoint map representation, 2017). It is
+    quadratic in each map; they are minimised in turn, from the uncoupled ones, until the sum hardly falls.
+    """
+    one = minimised(forth, how, start[0], progress)
+    other = minimised(back, how, start[1], progress)
+    tied = {name: w for name, w in (("inverse", coupling.inverse), ("adjoint", coupling.adjoint)) if w > 0}
+
+    def with_other(objective: Objective, there: Array) -> Objective:
+        make: dict[str, Callable[[Array], Term]] = {"inverse": inverse_term, "adjoint": adjoint_term}
+        terms = {name: (weight, make[name](there)) for name, weight in tied.items()}
+        return replace(objective, energy=objective.energy.joined(terms))
+
+    def total() -> float:
+        # The coupling is the same seen from either side, so it is counted with the map forth.
+        return with_other(forth, other.value).value(one.value) + back.value(other.value)
+
+    history = [total()]
+    single = replace(how, rounds=1)
+    for _ in range(how.rounds if tied else 0):
+        found = minimised(with_other(forth, other.value), single, one.value, progress)
+        one = replace(found, steps=one.steps + found.steps)
+        found = minimised(with_other(back, one.value), single, other.value, progress)
+        other = replace(found, steps=other.steps + found.steps)
+        history.append(total())
+        if history[-2] - history[-1] <= how.settled * abs(history[-2]):
+            break
+    return PairSolution(one, other, np.asarray(history))

@@ -1,0 +1,123 @@
+"""Multiplication operators of descriptors in a basis, built fast and compressed exactly.
+
+``Xⁱ = Φᵀ A diag(wᵢ) Φ`` is the operator that multiplies a function by the feature ``wᵢ`` (Nogneng and
+Ovsjanikov 2017). Being symmetric it is kept packed, ``(r, k(k+1)/2)``, until an energy term needs it.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from kfmaps._arrays import Array, blocks, check, is_numpy, like, namespace, refuse, take, to_numpy
+from kfmaps._threads import available_cores, parallel
+from kfmaps.geometry.basis import Basis
+
+
+def condensed(source: Basis, features_s: Array, target: Basis, features_t: Array, rtol: float) -> tuple[Array, Array]:
+    """Rotate the features ``(n_s, r)``, ``(n_t, r)`` of both shapes jointly and drop those that matter least.
+
+    The commutativity energy is the same in every rotation of the features, as long as both shapes share it. The
+    squared norm of a feature's slice is at most ``Σ_p a_p h_p w_p²`` with the areas ``a`` and ``h_p = Σⱼ φⱼ(p)²``,
+    since it is a projection of multiplication by ``w``. In the eigenbasis of the Gram matrix with these weights the
+    features that are dropped have slices whose summed squared norm is at most ``rtol`` of the sum of all bounds,
+    which was 1.03 times the slices' own. So far fewer slices need to be formed at all.
+    """
+    _check_rtol(rtol)
+    xp = namespace(features_s, features_t)
+    gram = None
+    for basis, features in ((source, features_s), (target, features_t)):
+        weights = basis.mass * xp.sum(basis.functions * basis.functions, axis=1)
+        scaled = xp.sqrt(weights)[:, None] * features
+        own = scaled.T @ scaled
+        gram = own if gram is None else gram + own
+    rotation = _strongest(gram, rtol)
+    return features_s @ rotation, features_t @ rotation
+
+
+def packed_slices(basis: Basis, features: Array, block: int = 512, threads: int | None = None) -> Array:
+    """Packed upper triangles ``(r, k(k+1)/2)`` of the operators of ``features (n, r)``.
+
+    Off-diagonal entries are multiplied by √2, so that inner products of rows are Frobenius inner products of
+    the operators. One matrix product per block of vertices; no n × k² array.
+    """
+    n, k = basis.functions.shape
+    check(features, "features", shape=(n, None), remedy="give one row per vertex")
+    xp = namespace(features)
+    rows, columns = np.triu_indices(k)
+    scale = like(np.where(rows == columns, 1.0, np.sqrt(2.0)), features)
+    weighted = features * basis.mass[:, None]
+    fill = _fill_products if is_numpy(features, basis.functions) else _new_products
+
+    def share(parts: list[slice]) -> Array:
+        total, products = None, None
+        for part in parts:
+            phi = xp.asarray(basis.functions[part, :].T, copy=True)  # rows of points side by side in memory
+            products = fill(phi, products)
+            term = products @ weighted[part, :]
+            total = term if total is None else total + term
+        return total
+
+    parts = blocks(n, block)
+    count = min(threads or available_cores(), len(parts)) if is_numpy(features) else 1
+    shares = [parts[i::count] for i in range(count)]
+    total = None
+    for part in parallel(share, shares, count):
+        total = part if total is None else total + part
+    return (total * scale[:, None]).T
+
+
+def _new_products(phi: Array, _: Array | None) -> Array:
+    """All products ``(k(k+1)/2, m)`` of two rows of ``phi (k, m)``."""
+    return namespace(phi).concat([phi[i : i + 1, :] * phi[i:, :] for i in range(phi.shape[0])])
+
+
+def _fill_products(phi: np.ndarray, old: np.ndarray | None) -> np.ndarray:
+    """The same, into the memory of the ``old`` ones where they have the size: fresh memory costs as much as they do."""
+    k, m = phi.shape
+    products = old if old is not None and old.shape[1] == m else np.empty((k * (k + 1) // 2, m))
+    start = 0
+    for i in range(k):
+        np.multiply(phi[i], phi[i:], out=products[start : start + k - i])
+        start += k - i
+    return products
+
+
+def unpacked_slices(packed: Array) -> Array:
+    """The operators ``(r, k, k)`` of packed rows ``(r, k(k+1)/2)``."""
+    xp = namespace(packed)
+    k = int(np.sqrt(2 * packed.shape[1] + 0.25) - 0.5)
+    if k * (k + 1) // 2 != packed.shape[1]:
+        raise refuse("packed slices", "k(k+1)/2 columns", str(packed.shape[1]), "make them with packed_slices")
+    rows, columns = np.triu_indices(k)
+    position = np.empty((k, k), dtype=np.int64)
+    position[rows, columns] = position[columns, rows] = np.arange(len(rows))
+    scale = np.where(np.eye(k, dtype=bool), 1.0, np.sqrt(0.5)).ravel()
+    flat = take(packed, position.ravel(), axis=1) * like(scale, packed)[None, :]
+    return xp.reshape(flat, (packed.shape[0], k, k))
+
+
+def compressed(packed_s: Array, packed_t: Array, rtol: float) -> tuple[Array, Array]:
+    """Rotate the slices of both shapes jointly and drop those that carry next to nothing.
+
+    The commutativity energy is the same in every rotation of the features, as long as both shapes share it. The
+    rotation of the joint singular value decomposition puts as much as possible into few slices; those beyond hold
+    at most ``rtol`` of the summed squared norm of all slices of both shapes, which is a bound on what leaving them
+    out can change in the operator. With ``rtol=0`` only null slices go.
+    """
+    _check_rtol(rtol)
+    kept = _strongest(packed_s @ packed_s.T + packed_t @ packed_t.T, rtol)
+    return kept.T @ packed_s, kept.T @ packed_t
+
+
+def _check_rtol(rtol: float) -> None:
+    if not 0 <= rtol < 1:
+        raise refuse("compression rtol", "a number from 0 to below 1", repr(rtol), "1e-6 is usual")
+
+
+def _strongest(gram: Array, rtol: float) -> Array:
+    """Eigenvectors of ``gram``, strongest first, without those that hold at most ``rtol`` of its trace together."""
+    energy, rotation = namespace(gram).linalg.eigh(gram)
+    share = to_numpy(energy).clip(min=0.0)
+    lost = np.cumsum(share)
+    keep = np.flatnonzero((lost > rtol * lost[-1]) & (share > 1e-15 * share[-1]))[::-1]
+    return take(rotation, keep, axis=1)

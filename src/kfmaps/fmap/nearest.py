@@ -1,0 +1,181 @@
+"""Nearest neighbours in the high dimension of functional maps: exact, or by cells where there are very many.
+
+The exact search is one matrix product and costs queries × points × dimensions;
+:mod:`kfmaps.fmap.approximate_nearest` is for
+large sets.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.spatial import KDTree
+
+from kfmaps._arrays import Array, blocks, check, is_numpy, namespace, refuse, to_numpy
+from kfmaps._threads import available_cores, parallel
+from kfmaps.fmap.approximate_nearest import PROBES, nearest_by_cells
+
+TREE_DIMENSION = 32
+"""Up to here a k-d tree beats the matrix product on large sets; beyond, space is too empty for it."""
+
+LARGE = 20_000
+"""Points beyond which a k-d tree is built."""
+
+TIE = 1e-12
+"""Relative difference below which two distances from the tree are compared anew."""
+
+EXACT_PAIRS = 10_000**2
+"""Queries times points up to which the search is exact when nothing else is asked for."""
+
+
+def nearest(
+    queries: Array,
+    points: Array,
+    block: int = 1024,
+    threads: int | None = None,
+    exact: bool | None = None,
+    start: np.ndarray | None = None,
+    probes: int = PROBES,
+) -> np.ndarray:
+    """For each row of ``queries (q, d)`` the index of the closest row of ``points (p, d)``: ``(q,)`` int64.
+
+    Exact in the arrays' precision, of equally close points the first, as long as the pairs are at most
+    :data:`EXACT_PAIRS` or the arrays are not NumPy's. Blocks of matrix products over Python threads on NumPy, in
+    float32 with a check in float64; one block after another elsewhere; a k-d tree, exact too, on large sets in few
+    dimensions.
+
+    Parameters
+    ----------
+    queries : (q, d)
+    points : (p, d)
+    block : int
+        Rows of one matrix product.
+    threads : int, optional
+        Python threads; ``None`` takes every core.
+    exact : bool, optional
+        ``True`` never searches by cells; ``False`` does so on NumPy arrays of any size in many dimensions.
+    start : (q,) int, optional
+        Points not far from the answers, ...
+    probes : int
+        ... and cells that each query names: both count in a search by cells alone
+        (:func:`kfmaps.fmap.approximate_nearest.nearest_by_cells`).
+
+    Raises
+    ------
+    InvalidInput
+        When there are no points, the dimensions differ, or a number is not finite.
+    """
+    check(points, "points", shape=(None, None), finite=True)
+    check(queries, "queries", shape=(None, points.shape[1]), finite=True, remedy="give both the same dimension")
+    if points.shape[0] == 0:
+        raise refuse("points", "at least one", "none", "give some")
+    if is_numpy(queries):
+        queries, points = _in_range(queries, points)
+        if points.shape[1] <= TREE_DIMENSION and len(points) > LARGE:
+            return _by_tree(queries, points, threads)
+        if exact is False or (exact is None and len(queries) * len(points) > EXACT_PAIRS):
+            return nearest_by_cells(queries, points, threads=threads, probes=probes, start=start)
+    return _exact(queries, points, block, threads)
+
+
+def _in_range(queries: np.ndarray, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Both times one power of two where squares of their numbers would not be numbers any more."""
+    ends = [(float(x.min(initial=0.0)), float(x.max(initial=0.0))) for x in (points, queries)]
+    size = max(max(-low, high) for low, high in ends)
+    if size == 0 or 2.0**-300 < size < 2.0**300:
+        return queries, points
+    shift = -int(np.frexp(size)[1])
+    return np.ldexp(queries, shift), np.ldexp(points, shift)
+
+
+def _by_tree(queries: np.ndarray, points: np.ndarray, threads: int | None) -> np.ndarray:
+    """The exact search by a k-d tree; what it finds as close as the closest is compared anew, for the first of it."""
+    tree, workers = KDTree(points), threads or available_cores()
+    distance, found = map(np.asarray, tree.query(queries, k=2, workers=workers))
+    answer = found[:, 0].astype(np.int64)
+    ties = np.flatnonzero(distance[:, 1] <= distance[:, 0] * (1 + TIE))
+    if len(ties) == 0:
+        return answer
+    # Each place once, so that points given over and over do not all come back for every query.
+    first = np.sort(np.unique(points, axis=0, return_index=True)[1])
+    tree = KDTree(points[first])
+    for part in blocks(len(ties), 256):
+        rows = ties[part]
+        within = tree.query_ball_point(queries[rows], distance[rows, 0] * (1 + TIE), workers=workers)
+        for i, several in zip(rows, within, strict=True):
+            columns = first[np.sort(np.asarray(several, dtype=np.int64))]
+            gap = points[columns] - queries[i]
+            answer[i] = columns[np.argmin(np.einsum("ij,ij->i", gap, gap))]
+    return answer
+
+
+def _exact(queries: Array, points: Array, block: int, threads: int | None) -> np.ndarray:
+    if is_numpy(queries, points) and queries.dtype == points.dtype == np.float64:
+        return _screened(queries, points, block, threads)
+    xp = namespace(queries, points)
+    centre = xp.mean(points, axis=0, keepdims=True)
+    points = points - centre
+    half = 0.5 * xp.sum(points * points, axis=1)[None, :]
+    transposed = points.T
+    found = [
+        to_numpy(xp.argmin(half - (queries[rows, :] - centre) @ transposed, axis=1))
+        for rows in blocks(queries.shape[0], max(16, min(block, 8_000_000 // points.shape[0])))
+    ]
+    return np.concatenate(found).astype(np.int64) if found else np.zeros(0, dtype=np.int64)
+
+
+def _screened(queries: np.ndarray, points: np.ndarray, block: int, threads: int | None) -> np.ndarray:
+    """The exact search in float64, most of it done in float32 at twice the speed.
+
+    A product in float32 finds the best point and how far the second best is behind. Where that is more than the
+    errors of both can be (``γ = (d + 4) u`` times the sizes of the factors, Higham 2002, section 3.1), the best is the
+    best in exact arithmetic too; elsewhere, for a few per cent of the queries, all points within reach of the
+    errors are compared in float64.
+    """
+    centre = points.mean(axis=0)
+    points = points - centre
+    squares = np.einsum("ij,ij->i", points, points)
+    size = max(float(np.sqrt(squares.max())), float(np.abs(queries - centre).max(initial=0.0))) or 1.0
+    # A column more holds half the squared length, so that the product is the whole score.
+    single = _single(points, size, -0.5 * squares / size**2).T
+    error = 1.01 * (points.shape[1] + 4) * 2.0**-24
+
+    def best(rows: slice) -> np.ndarray:
+        x = queries[rows] - centre
+        score = _single(x, size, 1.0) @ single
+        each = np.arange(len(x))
+        found = np.argmax(score, axis=1)
+        top = score[each, found].astype(np.float64)
+        score[each, found] = -np.inf
+        lengths = np.sqrt(np.einsum("ij,ij->i", x, x)) / size
+        # No point that is closer than the one found is longer than this, which bounds its error.
+        reach = lengths + np.sqrt(np.maximum(lengths**2 - 2 * top, 0.0) + 2 * error * (lengths + 0.5))
+        lowest = top - 2 * error * (lengths + 0.5 * reach) * reach
+        doubt = np.flatnonzero(~(score.max(axis=1) < lowest))
+        if len(doubt):
+            score[doubt, found[doubt]] = top[doubt]
+            found[doubt] = _settled(x[doubt], points, score[doubt] >= lowest[doubt, None])
+        return found
+
+    # The scores of one block are to stay in the cache; but products of few rows are slow.
+    rows = max(600_000 // len(points), min(64, 16_000_000 // len(points)), 16)
+    parts = blocks(len(queries), min(block, rows))
+    found = parallel(best, parts, threads)
+    return np.concatenate(found).astype(np.int64) if found else np.zeros(0, dtype=np.int64)
+
+
+def _single(rows: np.ndarray, size: float, last: np.ndarray | float) -> np.ndarray:
+    """``rows (n, d)`` over ``size`` and the column ``last`` as float32, ``(n, d + 1)``."""
+    result = np.empty((rows.shape[0], rows.shape[1] + 1), dtype=np.float32)
+    np.divide(rows, size, out=result[:, :-1], casting="same_kind")
+    result[:, -1] = last
+    return result
+
+
+def _settled(x: np.ndarray, points: np.ndarray, possible: np.ndarray) -> np.ndarray:
+    """For each of ``x (m, d)`` the closest of the ``points (p, d)`` that are ``possible (m, p)``; first of equals."""
+    answer = np.empty(len(x), dtype=np.int64)
+    for i, row in enumerate(x):
+        columns = np.flatnonzero(possible[i])
+        gap = points[columns] - row
+        answer[i] = columns[np.argmin(np.einsum("ij,ij->i", gap, gap))]
+    return answer

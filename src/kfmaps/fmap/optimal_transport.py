@@ -1,0 +1,150 @@
+"""Maps of all area to all area: a functional map drawn to the soft point map that moves every bit of both shapes.
+
+A small functional map is a low-rank description of a point map, and nothing in it says that the whole of both surfaces
+is reached. Written in the basis of points instead of eigenfunctions the same map is sparse, and what it should be is
+plain: a plan that moves the area of the source to that of the target, from each point all of it and to each point no
+more than its own (Gasparetto, Cosmo, Rodolà, Bronstein and Torsello, Spatial maps, 2017; their algorithm is another).
+Both are had at once by
+
+    value(C) = min over Π ≥ 0 of  ½ Σ_ij Π_ij ‖φ_t(i) − C φ_s(j)‖² + ε KL(Π | a_t a_sᵀ)
+                                  + ρ KL(Π 1 | a_t) + ρ KL(Πᵀ 1 | a_s),
+
+unbalanced optimal transport between the target's points and the images of the source's (Chizat et al. 2018), found by
+scaling rows and columns in turn (Sinkhorn 1967). For a fixed Π it is quadratic in C; as a minimum of such functions
+it lies below each and touches that of its own Π: a penalty (:class:`kfmaps.fmap.losses.Penalty`), which goes
+together with every term, kernel, constraint and solver.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from kfmaps._arrays import Array, check_positive, namespace, to_numpy
+from kfmaps.fmap.terms import Preservation, Term
+from kfmaps.geometry.basis import Basis
+from kfmaps.geometry.sampling import stratified_samples
+
+POINTS = 500
+"""Points of each shape that the plan is made between."""
+STIFFNESS = 10.0
+"""``ρ / ε``: how dear it is to move less or more than a point's area, against a blurred plan."""
+SCALINGS = 300
+"""Of rows and columns, at most."""
+LARGE, TINY = 50.0, 1e-300
+"""A change of a logarithmic scaling that is put into the potentials at once, and what keeps logarithms finite."""
+SETTLED = 1e-7
+"""Change of a logarithmic scaling, in units of ε, below which no more follow."""
+
+
+@dataclass(frozen=True, eq=False)
+class Spatial:
+    """The penalty above, between some points of both shapes; made by :func:`spatial`.
+
+    Attributes
+    ----------
+    functions_s, functions_t : (m_s, k_s), (m_t, k_t)
+    mass_s, mass_t : (m_s,), (m_t,)
+        Areas that the points stand for, of sum 1.
+    blur : float
+        ``ε``, in the unit of the squared distances.
+    """
+
+    functions_s: Array
+    functions_t: Array
+    mass_s: Array
+    mass_t: Array
+    blur: float
+    _last: dict = field(default_factory=dict, repr=False)
+
+    def plan(self, C: Array) -> Array:
+        """``Π (m_t, m_s)``: how much area of each source point goes to each target point."""
+        return self._solved(C)[0]
+
+    def value(self, C: Array) -> float:
+        return self._solved(C)[1]
+
+    def majorizer(self, C: Array) -> Term:
+        plan = self.plan(C)
+        xp = namespace(plan)
+        arriving, leaving = xp.sum(plan, axis=1), xp.sum(plan, axis=0)
+        cross = self.functions_t.T @ (plan @ self.functions_s)
+        gram = self.functions_s.T @ (leaving[:, None] * self.functions_s)
+        total = 0.5 * float(xp.sum(arriving[:, None] * self.functions_t * self.functions_t))
+        return Preservation(gram, cross, total)
+
+    def _solved(self, C: Array) -> tuple[Array, float]:
+        """The plan at ``C`` and the value; those of the last map are kept, since both are asked for in turn."""
+        if self._last.get("map") is not C:
+            cost = costs(C, self.functions_s, self.functions_t)
+            self._last.update(map=C, found=transport(cost, self.mass_t, self.mass_s, self.blur))
+        return self._last["found"]
+
+
+def spatial(C: Array, source: Basis, target: Basis, blur: float = 0.3) -> Spatial:
+    """The penalty for maps near to ``C (k_t, k_s)``.
+
+    Parameters
+    ----------
+    source, target : Basis
+        Of at least that many functions.
+    blur : float
+        ``ε`` in units of the median cost of the nearest point at ``C``.
+    """
+    check_positive(blur, "blur")
+    few = [stratified_samples(b.truncated(k), POINTS).basis for b, k in ((source, C.shape[1]), (target, C.shape[0]))]
+    xp = namespace(C)
+    mass_s, mass_t = (b.mass / xp.sum(b.mass) for b in few)
+    nearest = to_numpy(xp.min(costs(C, few[0].functions, few[1].functions), axis=1))
+    unit = max(float(np.median(nearest)), 1e-12)
+    return Spatial(few[0].functions, few[1].functions, mass_s, mass_t, blur * unit)
+
+
+def costs(C: Array, functions_s: Array, functions_t: Array) -> Array:
+    """``½‖φ_t(i) − C φ_s(j)‖²``, (m_t, m_s)."""
+    xp = namespace(C)
+    images = functions_s @ C.T
+    squares = xp.sum(functions_t**2, axis=1)[:, None] + xp.sum(images**2, axis=1)[None, :]
+    cost = 0.5 * squares - functions_t @ images.T
+    return xp.where(cost > 0, cost, xp.zeros_like(cost))
+
+
+def transport(cost: Array, a: Array, b: Array, blur: float, stiffness: float = STIFFNESS) -> tuple[Array, float]:
+    """Unbalanced optimal transport for ``cost (m, n)`` between masses ``a (m,)`` and ``b (n,)``, and its value.
+
+    Potentials ``f``, ``g`` of rows and columns are improved in turn; what the scalings have gathered is put into them
+    from time to time, so that nothing under- or overflows.
+    """
+    xp = namespace(cost)
+    damped = stiffness / (1.0 + stiffness)  # ρ / (ρ + ε)
+    scaled = -cost / blur
+    f = -damped * _log_sum(scaled + xp.log(b)[None, :], 1)
+    g = -damped * _log_sum(scaled + (xp.log(a) + f)[:, None], 0)
+    kernel = xp.exp(scaled + f[:, None] + g[None, :])
+    up, vp = xp.zeros_like(a), xp.zeros_like(b)  # what is to be added to the potentials
+    for step in range(SCALINGS):
+        # The new f is −damped · log(K (b eᵍ)), of which the kernel holds eᶠ and eᵍ already.
+        moved = -damped * xp.log(kernel @ (b * xp.exp(vp)) + TINY) - (1.0 - damped) * f
+        change = float(xp.max(xp.abs(moved - up)))
+        up = moved
+        vp = -damped * xp.log(kernel.T @ (a * xp.exp(up)) + TINY) - (1.0 - damped) * g
+        if change < SETTLED:
+            break
+        if step % 20 == 19 or change > LARGE:
+            f, g = f + up, g + vp
+            kernel = xp.exp(scaled + f[:, None] + g[None, :])
+            up, vp = xp.zeros_like(a), xp.zeros_like(b)
+    f, g = f + up, g + vp
+    plan = a[:, None] * xp.exp(scaled + f[:, None] + g[None, :]) * b[None, :]
+    # The value by duality, exact where rows and columns have settled.
+    one = stiffness * (xp.sum(a * (1.0 - xp.exp(-f / stiffness))) + xp.sum(b * (1.0 - xp.exp(-g / stiffness))))
+    dual = float(one) + float(xp.sum(a)) * float(xp.sum(b)) - float(xp.sum(plan))
+    return plan, blur * dual
+
+
+def _log_sum(values: Array, axis: int) -> Array:
+    """``log Σ exp`` along an axis."""
+    xp = namespace(values)
+    top = xp.max(values, axis=axis, keepdims=True)
+    return xp.log(xp.sum(xp.exp(values - top), axis=axis)) + (top[:, 0] if axis else top[0, :])

@@ -1,0 +1,254 @@
+"""Points inside triangles: a map finer than the source's vertices.
+
+The exact nearest point of the source's *surface* in the spectral embedding, where vertices are rows of functions and
+triangles are flat between them (Ezuz and Ben-Chen, Deblurring and denoising of maps between shapes, 2017).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.sparse import csr_array
+
+from kfmaps._arrays import Array, check, namespace, refuse, to_numpy
+from kfmaps._threads import parallel
+from kfmaps.fmap.nearest import EXACT_PAIRS, nearest
+from kfmaps.geometry.basis import Basis
+from kfmaps.geometry.closest_points import Rings, closest_weights, places_on, rings
+from kfmaps.geometry.mesh import Mesh
+
+BLOCK = 256
+"""Queries compared with all vertices at once."""
+EDGES = ((0, 1), (0, 2), (1, 2))
+
+
+@dataclass(frozen=True, eq=False)
+class PointMap:
+    """A point on the source's surface for each target vertex.
+
+    Attributes
+    ----------
+    faces : (n_t,) int64
+        The source face that it lies on, ...
+    weights : (n_t, 3) float64
+        ... and its barycentric coordinates there: not negative, sum 1.
+    """
+
+    faces: np.ndarray
+    weights: np.ndarray
+
+
+def check_places(places: PointMap, source: Mesh, n_t: int | None = None) -> PointMap:
+    """``places`` when they lie on faces of ``source``, one for each of ``n_t`` target vertices where that is given.
+
+    Raises
+    ------
+    InvalidInput
+        On faces that do not exist, weights that are negative or do not sum to 1, and other lengths.
+    """
+    faces, weights = np.asarray(places.faces), np.asarray(places.weights, dtype=np.float64)
+    remedy = "check that the map belongs to these two meshes, in this order"
+    check(faces, "faces of the map", shape=(n_t,), remedy=remedy)
+    check(weights, "weights of the map", shape=(len(faces), 3), remedy=remedy)
+    if faces.dtype.kind not in "iu" or (len(faces) and (faces.min() < 0 or faces.max() >= len(source.faces))):
+        got = f"{faces.dtype} {faces.min()} to {faces.max()}" if len(faces) else str(faces.dtype)
+        raise refuse("faces of the map", f"faces from 0 to {len(source.faces) - 1}", got, remedy)
+    if len(weights) and (weights.min() < 0 or np.abs(weights.sum(axis=1) - 1).max() > 1e-6):
+        got = f"{weights.min():g} and more, sums off by up to {np.abs(weights.sum(axis=1) - 1).max():g}"
+        raise refuse("weights of the map", "numbers of at least 0 with sum 1", got, "divide each row by its sum")
+    return PointMap(faces.astype(np.int64), weights)
+
+
+def corners_of(places: PointMap, faces_s: np.ndarray) -> np.ndarray:
+    """The source vertices around each point, (n_t, 3)."""
+    return faces_s[places.faces]
+
+
+def matrix_of(places: PointMap, faces_s: np.ndarray, n_s: int) -> csr_array:
+    """Sparse ``(n_t, n_s)`` that takes functions on the source's vertices to the target's, linear in each face."""
+    n = len(places.faces)
+    return csr_array((places.weights.ravel(), faces_s[places.faces].ravel(), 3 * np.arange(n + 1)), shape=(n, n_s))
+
+
+def points_of(places: PointMap, source: Mesh) -> np.ndarray:
+    """Where the points lie in space, (n_t, 3), in the source's unit."""
+    return np.einsum("ti,tij->tj", places.weights, source.vertices[source.faces[places.faces]])
+
+
+def vertices_of(places: PointMap, source: Mesh) -> np.ndarray:
+    """The corner that is nearest to each point, ``target_to_source (n_t,)``."""
+    corners = source.faces[places.faces]
+    away = np.linalg.norm(source.vertices[corners] - points_of(places, source)[:, None], axis=2)
+    return corners[np.arange(len(corners)), away.argmin(axis=1)].astype(np.int64)
+
+
+def at_vertices(target_to_source: np.ndarray, source: Mesh) -> PointMap:
+    """A map of vertices as a map of points: each in a corner of some face that has it.
+
+    Raises
+    ------
+    InvalidInput
+        When a vertex that no face uses is named.
+    """
+    face, corner = np.full(len(source.vertices), -1), np.zeros(len(source.vertices), dtype=np.int64)
+    face[source.faces.ravel()] = np.repeat(np.arange(len(source.faces)), 3)
+    corner[source.faces.ravel()] = np.tile(np.arange(3), len(source.faces))
+    chosen = face[target_to_source]
+    if len(chosen) and chosen.min() < 0:
+        bare = int(target_to_source[chosen.argmin()])
+        raise refuse("target_to_source", "vertices of faces", f"vertex {bare}, which no face uses", "remove it")
+    return PointMap(chosen, np.eye(3)[corner[target_to_source]])
+
+
+def to_places(
+    C: Array,
+    source: Basis,
+    target: Basis,
+    faces_s: np.ndarray,
+    threads: int | None = None,
+    beside: tuple[Array, Array] | None = None,
+) -> PointMap:
+    """The closest points of the source's surface in the embedding of ``C (k_t, k_s)``, for all target vertices.
+
+    As :func:`kfmaps.fmap.convert.to_points`, with triangles between the rows of ``Φ_s Cᵀ``.
+    """
+    k_t, k_s = C.shape
+    source, target = source.truncated(k_s), target.truncated(k_t)
+    images, places = source.functions @ C.T, target.functions
+    if beside is not None:
+        xp = namespace(images)
+        images, places = xp.concat([images, beside[0]], axis=1), xp.concat([places, beside[1]], axis=1)
+    queries, points = (np.asarray(to_numpy(x), dtype=np.float64) for x in (places, images))
+    return nearest_places(queries, points, faces_s, threads)
+
+
+def nearest_places(
+    queries: np.ndarray, points: np.ndarray, faces: np.ndarray, threads: int | None = None, exact: bool | None = None
+) -> PointMap:
+    """For each of ``queries (q, d)`` the closest point of the triangles ``faces (f, 3)`` between ``points (p, d)``.
+
+    For a point ``x = Σ w_i v_i`` of a triangle ``|q − x|² = Σ w_i |q − v_i|² − Σ_{i<j} w_i w_j |v_i − v_j|²``. The last
+    sum is at most the squared radius of the smallest ball around the triangle. So a triangle can only beat the
+    closest vertex when one of its corners is no farther, in squared distance, than that vertex and this radius
+    together, and only these few are looked at. All inner products follow from squared distances; those of the
+    triangles that float32 leaves in doubt are found again in float64.
+
+    Exact as long as queries times points are at most ``EXACT_PAIRS``. Beyond (or with ``exact=False``) the nearest
+    vertices are sought by cells, and only triangles of their neighbours are looked at.
+    """
+    check(queries, "queries", shape=(None, points.shape[1]))
+    check(points, "points", shape=(None, None))
+    around = rings(faces, len(points))
+    lengths = np.stack([((points[faces[:, j]] - points[faces[:, i]]) ** 2).sum(axis=1) for i, j in EDGES], axis=1)
+    if exact is False or (exact is None and len(queries) * len(points) > EXACT_PAIRS):
+        return _among_neighbours(queries, points, faces, lengths, around, threads)
+    middle = points.mean(axis=0)
+    y = (points - middle).astype(np.float32)
+    squares = np.einsum("ij,ij->i", y, y)
+    reach = np.zeros(len(points), dtype=np.float32)
+    np.maximum.at(reach, faces.ravel(), np.repeat(_ball(lengths), 3).astype(np.float32))
+    reach[np.diff(around.start) == 0] = -np.inf
+    # What float32 may be off by: (d + 4) u times the sizes of the factors (Higham 2002, section 3.1).
+    noise = 4 * (points.shape[1] + 4) * 2.0**-24
+
+    def search(rows: slice) -> tuple[np.ndarray, np.ndarray]:
+        x = (queries[rows] - middle).astype(np.float32)
+        own = np.einsum("ij,ij->i", x, x)
+        away = x @ y.T
+        away *= -2
+        away += squares
+        away += own[:, None]
+        used = np.where(reach >= 0, away, np.inf) if np.isinf(reach).any() else away
+        slack = noise * (own + squares.max())
+        bound = used.min(axis=1) + slack
+        away -= reach
+        query, vertex = np.nonzero(away < bound[:, None])
+        candidates, entry = around.around(vertex)
+        return candidates, rows.start + query[entry]
+
+    parts = parallel(search, [slice(a, min(a + BLOCK, len(queries))) for a in range(0, len(queries), BLOCK)], threads)
+    best = [_settled(queries, points, faces, lengths, *part) for part in parts]
+    return PointMap(np.concatenate([b[0] for b in best]), np.concatenate([b[1] for b in best]))
+
+
+def _ball(lengths: np.ndarray) -> np.ndarray:
+    """Squared radius of the smallest ball around triangles with squared edge ``lengths (f, 3)``."""
+    a, b, c = np.sort(lengths, axis=1).T
+    # 16 area² by Heron; acute triangles have their circumscribed circle, others half of the longest edge.
+    area = 2 * (a * b + b * c + c * a) - (a * a + b * b + c * c)
+    acute = (a + b > c) & (area > 0)
+    return np.where(acute, np.divide(a * b * c, area, out=np.zeros_like(area), where=acute), c / 4)
+
+
+def _settled(
+    queries: np.ndarray,
+    points: np.ndarray,
+    faces: np.ndarray,
+    lengths: np.ndarray,
+    candidates: np.ndarray,
+    owner: np.ndarray,
+) -> tuple[np.ndarray, np.ndarray]:
+    """The closest place of each query among its ``candidates (m,)``; ``owner (m,)`` ascends. Faces and weights."""
+    # Each face once for a query, though several of its corners named it.
+    keys = np.unique(owner * np.int64(len(faces)) + candidates)
+    owner, candidates = keys // len(faces), keys % len(faces)
+    corners = faces[candidates]
+    pairs, entry = np.unique(owner[:, None] * np.int64(len(points)) + corners, return_inverse=True)
+    q, v = pairs // len(points), pairs % len(points)
+    away = np.empty(len(pairs))
+    for part in range(0, len(pairs), 50_000):
+        rows = slice(part, part + 50_000)
+        gap = queries[q[rows]] - points[v[rows]]
+        away[rows] = np.einsum("ij,ij->i", gap, gap)
+    a, b, c = away[entry.reshape(-1, 3)].T
+    ab, ac, bc = lengths[candidates].T
+    s, t, gain = closest_weights(ab, (ab + ac - bc) / 2, ac, (a + ab - b) / 2, (a + ac - c) / 2)
+    first = np.flatnonzero(np.diff(owner, prepend=-1))
+    least = np.minimum.reduceat(a - gain, first)
+    hits = np.flatnonzero(a - gain == np.repeat(least, np.diff(np.append(first, len(owner)))))
+    hits = hits[np.flatnonzero(np.diff(owner[hits], prepend=-1))]
+    weights = np.clip(np.stack([1 - s[hits] - t[hits], s[hits], t[hits]], axis=1), 0, 1)
+    return candidates[hits], weights / weights.sum(axis=1, keepdims=True)
+
+
+def _among_neighbours(
+    queries: np.ndarray,
+    points: np.ndarray,
+    faces: np.ndarray,
+    lengths: np.ndarray,
+    around: Rings,
+    threads: int | None,
+) -> PointMap:
+    """Around the nearest vertex: the faces of that vertex, then of the corners of the best, until nothing is better."""
+    used = np.flatnonzero(np.diff(around.start))
+    vertex = used[nearest(queries, points[used], threads=threads)]
+    best, weights = np.zeros(len(queries), dtype=np.int64), np.zeros((len(queries), 3))
+    for part in range(0, len(queries), 4096):
+        rows = np.arange(part, min(part + 4096, len(queries)))
+        ring, owner = around.around(vertex[rows])
+        further, entry = around.around(faces[ring].ravel())
+        owner = np.repeat(owner, 3)[entry]
+        order = np.argsort(owner, kind="stable")
+        best[rows], weights[rows] = _settled(queries, points, faces, lengths, further[order], rows[owner[order]])
+    return PointMap(best, weights)
+
+
+def inverse(places: PointMap, source: Mesh, target: Mesh, known: np.ndarray | None = None) -> PointMap:
+    """The map the other way: a point on the target for each source vertex.
+
+    The target's faces lie, flat between the images of their corners, on or near the source; each source vertex takes
+    the closest place on them. Where the map is one-to-one that is its inverse; parts that nothing is mapped to get
+    the nearest that something is. With ``known (n_t,)`` only faces whose corners all are known count.
+
+    Raises
+    ------
+    InvalidInput
+        When the map does not fit the two shapes, or no face is known.
+    """
+    places = check_places(places, source, len(target.vertices))
+    rows = np.arange(len(target.faces)) if known is None else np.flatnonzero(known[target.faces].all(axis=1))
+    if len(rows) == 0:
+        raise refuse("map", "a face of the target with a counterpart", "none", "carry values of the source instead")
+    found = places_on(source.vertices, points_of(places, source), target.faces[rows])
+    return PointMap(rows[found.faces], found.weights)

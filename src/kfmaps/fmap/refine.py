@@ -1,0 +1,217 @@
+"""Refinements: frozen settings, callable as ``(C, source, target) -> Refined``.
+
+``points``, where given, is the point map of ``C`` itself (:func:`kfmaps.fmap.convert.to_points`), which then
+need not be found again.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from kfmaps._arrays import Array, check_count, namespace, refuse, take
+from kfmaps._progress import Done
+from kfmaps.fmap.approximate_nearest import HASTY
+from kfmaps.fmap.convert import to_functional, to_points
+from kfmaps.fmap.descriptor_guidance import Guide
+from kfmaps.geometry.basis import Basis
+from kfmaps.geometry.sampling import SampledBasis, Samples, spectral_samples, stratified_samples, stratified_vertices
+
+__all__ = ["ICP", "Refined", "Refinement", "SampledBasis", "Samples", "ZoomOut", "fitted", "spectral_samples"]
+
+CANDIDATES, EACH = 8_000, 2
+"""Points of the source that ZoomOut's steps on samples choose from, spread evenly, at most: so many in all, and so many
+for each sample. The last step has them all."""
+PAIRS = 2_000_000
+"""Pairs of points above which steps on samples search by cells."""
+
+
+@dataclass(frozen=True, eq=False)
+class Refined:
+    """What a refinement returns.
+
+    Attributes
+    ----------
+    functional_map : (k_t, k_s)
+    target_to_source : (n_t,) int64
+    history : tuple of int
+        Basis size at each step (ZoomOut), or the number of points that changed (ICP).
+    """
+
+    functional_map: Array
+    target_to_source: np.ndarray
+    history: tuple[int, ...]
+
+
+@dataclass(frozen=True)
+class ICP:
+    """Match, fit, take the nearest orthogonal matrix; ``steps`` times (Ovsjanikov et al. 2012).
+
+    Needs a square map; stops early when no point changes. Of a point map that reaches too few vertices to say
+    where every function goes, the matrix is a partial isometry.
+    """
+
+    steps: int = 5
+
+    def __post_init__(self) -> None:
+        check_count(self.steps, "ICP steps")
+
+    def __call__(
+        self,
+        C: Array,
+        source: Basis,
+        target: Basis,
+        progress: Done | None = None,
+        threads: int | None = None,
+        points: np.ndarray | None = None,
+    ) -> Refined:
+        k_t, k_s = C.shape
+        if k_t != k_s:
+            raise refuse("ICP", "a square functional map", f"{k_t} by {k_s}", "use equal basis sizes, or ZoomOut")
+        xp = namespace(C)
+        source, target = source.truncated(k_s), target.truncated(k_t)
+        points = to_points(C, source, target, threads) if points is None else points
+        changes: list[int] = []
+        for step in range(self.steps):
+            u, sizes, vh = xp.linalg.svd(to_functional(points, source, target), full_matrices=False)
+            # Directions that the points say nothing of would be turned at random, by rounding.
+            C = (u * xp.astype(sizes > 1e-12 * sizes[0], C.dtype)[None, :]) @ vh
+            moved = to_points(C, source, target, threads)
+            changes.append(int(np.count_nonzero(moved != points)))
+            points = moved
+            if progress is not None:
+                progress((step + 1) / self.steps)
+            if changes[-1] == 0:
+                break
+        return Refined(C, points, tuple(changes))
+
+
+@dataclass(frozen=True)
+class ZoomOut:
+    """Point map and functional map in turn while the basis grows (Melzi et al. 2019).
+
+    Parameters
+    ----------
+    start : int
+        First size; a larger map is truncated to it, a smaller one starts at its own size.
+    stop : int
+        Last size; both bases need as many functions.
+    step : int
+        Growth per step.
+    samples : int or None
+        Points of the target that the steps before the last work on: the functional map is then fitted to them by
+        damped least squares, each weighted by the area that is closest to it, and of a source with more than
+        :data:`EACH` times as many points, or :data:`CANDIDATES`, that many are there to be chosen. ``None`` takes all
+        points. The last step always does.
+    seed : int
+        For the choice of samples; that of a match (``rng``) is added to it.
+    guidance : float
+        Weight of the descriptors that guide the search for the nearest point, where :meth:`__call__` is given any:
+        mean squared difference of two random points, which in k functions is about 2 k. 0 is ZoomOut as published.
+    """
+
+    start: int = 20
+    stop: int = 150
+    step: int = 5
+    samples: int | None = None
+    seed: int = 0
+    guidance: float = 0.0
+
+    def __post_init__(self) -> None:
+        check_count(self.start, "ZoomOut start", low=2)
+        check_count(self.stop, "ZoomOut stop", low=self.start)
+        check_count(self.step, "ZoomOut step")
+        if self.samples is not None:
+            check_count(self.samples, "ZoomOut samples", low=2)
+        if not 0 <= self.guidance < float("inf"):
+            raise refuse("ZoomOut guidance", "a finite number of at least zero", repr(self.guidance), "36 is usual")
+
+    def __call__(
+        self,
+        C: Array,
+        source: Basis,
+        target: Basis,
+        progress: Done | None = None,
+        threads: int | None = None,
+        points: np.ndarray | None = None,
+        guide: Guide | None = None,
+    ) -> Refined:
+        available = min(source.functions.shape[1], target.functions.shape[1])
+        if self.stop > available:
+            remedy = "compute more eigenfunctions or lower stop"
+            raise refuse("ZoomOut stop", f"at most the {available} eigenfunctions at hand", str(self.stop), remedy)
+        first = min(self.start, *C.shape)
+        guide = guide if self.guidance else None
+        if tuple(C.shape) != (first, first) or guide is not None:
+            points = None
+        C = C[:first, :first]
+        sizes = [*range(first, self.stop, self.step), self.stop]
+        coarse, choice = target, source
+        few = guide
+        if self.samples is not None and self.samples < target.functions.shape[0]:
+            sampled = stratified_samples(target, self.samples, self.seed)
+            coarse, few = sampled.basis, guide and guide.at(None, sampled.vertices)
+            if source.functions.shape[0] > candidates(self.samples):
+                rows = stratified_vertices(source, candidates(self.samples), self.seed)
+                choice = SampledBasis(source.eigenvalues, take(source.functions, rows), take(source.mass, rows))
+                few = few and few.at(rows, None)
+            points = None
+
+        def matched(
+            C: Array,
+            source: Basis,
+            target: Basis,
+            guide: Guide | None,
+            exact: bool | None = None,
+            **search: Any,
+        ) -> np.ndarray:
+            beside = None if guide is None else guide.beside(self.guidance, source, target)
+            return to_points(C, source, target, threads, beside, exact, **search)
+
+        # On samples the next step forgives a point in a thousand that is not quite the nearest.
+        exact = (
+            False if choice.functions.shape[0] * coarse.functions.shape[0] > PAIRS and coarse is not target else None
+        )
+        for i, larger in enumerate(sizes[1:]):
+            found = matched(C, choice, coarse, few, exact, probes=HASTY) if points is None else points
+            C, points = fitted(found, choice, coarse, larger), None
+            if progress is not None:
+                progress((i + 1) / len(sizes))
+        if points is None:
+            # What a quick search by cells misses is found by the one that follows.
+            quick = coarse is not target and target.functions.shape[0] * source.functions.shape[0] > PAIRS
+            points = matched(C, source, target, guide, **({"exact": False, "probes": HASTY} if quick else {}))
+        if coarse is not target:
+            # Once more with all points, whose functional map owes nothing to the choice of samples.
+            C = fitted(points, source, target, self.stop)
+            points = matched(C, source, target, guide, start=points)
+        if progress is not None:
+            progress(1.0)
+        return Refined(C, points, tuple(sizes))
+
+
+def candidates(samples: int) -> int:
+    """Points of the source that steps on so many ``samples`` choose from."""
+    return min(CANDIDATES, EACH * samples)
+
+
+def fitted(points: np.ndarray, source: Basis, target: Basis, k: int, ridge: float = 0.1) -> Array:
+    """The functional map ``(k, k)`` of a point map, on all points of ``target`` or on samples of it.
+
+    On all points the basis is orthonormal and the map is the projection ``Φ_tᵀ A_t Φ_s[points]``. Samples are not
+    quite, so the map is theirs by least squares. Undamped that follows the noise of the points when they are few
+    for k; plain projection leaves the error of the quadrature: ``ridge`` stands between, and is undone in the size.
+    """
+    if not isinstance(target, SampledBasis):
+        return to_functional(points, source.truncated(k), target.truncated(k))
+    xp = namespace(target.functions)
+    phi = target.functions[:, :k]
+    weighted = (target.mass[:, None] * phi).T
+    identity = xp.eye(k, dtype=phi.dtype, device=phi.device)
+    pulled = take(source.functions[:, :k], points)
+    return (1 + ridge) * xp.linalg.solve(weighted @ phi + ridge * identity, weighted @ pulled)
+
+
+Refinement = ICP | ZoomOut

@@ -1,0 +1,279 @@
+"""The quadratic terms that an energy is made of; what each stands for is in :mod:`kfmaps.fmap.energy`."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal, Protocol
+
+from kfmaps._arrays import Array, check, check_positive, inner, namespace, refuse
+from kfmaps.geometry.basis import Basis, zero_level
+
+Mask = Literal["squared", "resolvent"]
+MASKS: tuple[Mask, ...] = ("squared", "resolvent")
+
+
+class Term(Protocol):
+    """A quadratic term; all arrays have shape (k_t, k_s)."""
+
+    def apply(self, C: Array) -> Array:
+        """``A(C)``: linear, self-adjoint, positive semi-definite."""
+        ...
+
+    def rhs(self) -> Array:
+        """``B``."""
+        ...
+
+    def diagonal(self) -> Array:
+        """The exact diagonal of ``A``."""
+        ...
+
+    def constant(self) -> float:
+        """``c``, with which the value is half the squared residual and never negative."""
+        ...
+
+    def sides(self) -> tuple[Array, Array]:
+        """``S_t`` (k_t, k_t) and ``S_s`` (k_s, k_s) of the part ``S_t C + C S_s`` of ``A``; zeros for none."""
+        ...
+
+    def rotated_diagonal(self, U_t: Array, U_s: Array) -> Array:
+        """The exact diagonal of ``C ↦ U_tᵀ A(U_t C U_sᵀ) U_s`` for orthogonal ``U_t``, ``U_s``."""
+        ...
+
+
+def value(term: Term, C: Array) -> float:
+    """Half the squared residual of ``term`` at ``C``."""
+    return 0.5 * inner(C, term.apply(C)) - inner(term.rhs(), C) + term.constant()
+
+
+@dataclass(frozen=True, eq=False)
+class Preservation:
+    """``½‖C P_s − P_t‖²`` through Gram matrices; made by :func:`descriptor_term` or :func:`kernel_descriptor_term`."""
+
+    gram_s: Array
+    cross: Array
+    total: float
+
+    def apply(self, C: Array) -> Array:
+        return C @ self.gram_s
+
+    def rhs(self) -> Array:
+        return self.cross
+
+    def diagonal(self) -> Array:
+        xp = namespace(self.cross)
+        return xp.broadcast_to(xp.linalg.diagonal(self.gram_s)[None, :], self.cross.shape)
+
+    def constant(self) -> float:
+        return self.total
+
+    def sides(self) -> tuple[Array, Array]:
+        return zeros(self.cross.shape[0], self.gram_s), self.gram_s
+
+    def rotated_diagonal(self, U_t: Array, U_s: Array) -> Array:
+        xp = namespace(self.cross)
+        return xp.broadcast_to(rotated(self.gram_s, U_s)[None, :], (U_t.shape[1], U_s.shape[1]))
+
+
+def descriptor_term(source: Basis, features_s: Array, target: Basis, features_t: Array) -> Preservation:
+    """Preservation of the features ``(n_s, r)`` and ``(n_t, r)``."""
+    same_count(features_s, features_t)
+    coefficients_s, coefficients_t = source.project(features_s), target.project(features_t)
+    return Preservation(
+        coefficients_s @ coefficients_s.T,
+        coefficients_t @ coefficients_s.T,
+        0.5 * inner(coefficients_t, coefficients_t),
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class SliceCommutativity:
+    """``½ Σᵢ ‖C X_sⁱ − X_tⁱ C‖²`` with the slices at hand; made by :func:`slice_term`.
+
+    ``parity`` is +1 for symmetric slices (multiplication by a function), −1 for antisymmetric ones (the
+    orientation operators). The slices lie in two layouts that turn one application into two matrix products.
+    """
+
+    left: Array  # (k_t · r, k_t): the target's slices, row a of slice i at a·r + i
+    right: Array  # (r · k_s, k_s): the source's slices, one below the other
+    gram_s: Array
+    gram_t: Array
+    cross_diagonal: Array
+    parity: int
+
+    @property
+    def count(self) -> int:
+        """Number of slices, r."""
+        return int(self.right.shape[0] // self.right.shape[1])
+
+    def apply(self, C: Array) -> Array:
+        xp = namespace(C)
+        k_t, k_s = C.shape
+        carried = xp.reshape(self.left @ C, (k_t, self.count * k_s))
+        return C @ self.gram_s + self.gram_t @ C - (2 * self.parity) * (carried @ self.right)
+
+    def rhs(self) -> Array:
+        return namespace(self.gram_t).zeros_like(self.cross_diagonal)
+
+    def diagonal(self) -> Array:
+        xp = namespace(self.gram_t)
+        own = xp.linalg.diagonal(self.gram_t)[:, None] + xp.linalg.diagonal(self.gram_s)[None, :]
+        return own - 2 * self.cross_diagonal  # zero where the slices are antisymmetric
+
+    def constant(self) -> float:
+        return 0.0
+
+    def sides(self) -> tuple[Array, Array]:
+        return self.gram_t, self.gram_s
+
+    def rotated_diagonal(self, U_t: Array, U_s: Array) -> Array:
+        xp = namespace(self.gram_t)
+        k_t, k_s = self.gram_t.shape[0], self.gram_s.shape[0]
+        of_s = xp.sum(xp.reshape(self.right @ U_s, (self.count, k_s, k_s)) * U_s[None, :, :], axis=1)
+        of_t = xp.sum(xp.reshape(self.left @ U_t, (k_t, self.count, k_t)) * U_t[:, None, :], axis=0)
+        own = rotated(self.gram_t, U_t)[:, None] + rotated(self.gram_s, U_s)[None, :]
+        return own - 2 * (of_t.T @ of_s)  # zero where the slices are antisymmetric, in every basis
+
+
+def slice_term(slices_s: Array, slices_t: Array, parity: int = 1) -> SliceCommutativity:
+    """Commutativity with the operators ``slices_s (r, k_s, k_s)`` and ``slices_t (r, k_t, k_t)``.
+
+    Raises
+    ------
+    InvalidInput
+        Unless both have the same number of square slices and ``parity`` is 1 or −1.
+    """
+    xp = namespace(slices_s, slices_t)
+    r, k_s, _ = slices_s.shape
+    k_t = slices_t.shape[1]
+    check(slices_s, "slices_s", shape=(r, k_s, k_s))
+    check(slices_t, "slices_t", shape=(r, k_t, k_t), remedy="give as many slices on both shapes")
+    if parity not in (1, -1):
+        raise refuse("parity", "1 (symmetric slices) or -1 (antisymmetric)", repr(parity), "choose one")
+    right = xp.reshape(slices_s, (r * k_s, k_s))
+    left = xp.reshape(xp.permute_dims(slices_t, (1, 0, 2)), (k_t * r, k_t))
+    # Xᵀ = parity X, so that Σ X Xᵀ = parity Σ X X is a Gram matrix of the stacked rows.
+    flat_t = xp.reshape(slices_t, (r * k_t, k_t))
+    cross = xp.linalg.diagonal(slices_t).T @ xp.linalg.diagonal(slices_s)
+    return SliceCommutativity(left, right, right.T @ right, flat_t.T @ flat_t, cross, parity)
+
+
+@dataclass(frozen=True, eq=False)
+class Elementwise:
+    """``½ Σ weightsₐᵦ Cₐᵦ²`` with ``weights (k_t, k_s) >= 0``; made by :func:`laplacian_term`."""
+
+    weights: Array
+
+    def apply(self, C: Array) -> Array:
+        return self.weights * C
+
+    def rhs(self) -> Array:
+        return namespace(self.weights).zeros_like(self.weights)
+
+    def diagonal(self) -> Array:
+        return self.weights
+
+    def constant(self) -> float:
+        return 0.0
+
+    def sides(self) -> tuple[Array, Array]:
+        k_t, k_s = self.weights.shape
+        return zeros(k_t, self.weights), zeros(k_s, self.weights)
+
+    def rotated_diagonal(self, U_t: Array, U_s: Array) -> Array:
+        return (U_t * U_t).T @ self.weights @ (U_s * U_s)
+
+
+def laplacian_term(
+    source: Basis, target: Basis, scale: float | None = None, mask: Mask = "squared", power: float = 0.5
+) -> Elementwise:
+    """Commutativity with the Laplacian: weights ``((λ_s,b − λ_t,a) / scale)²``.
+
+    ``scale=None`` takes the larger of the two last eigenvalues, so that the weights lie in [0, 1] and α means
+    the same at every basis size; ``scale=1`` is the paper's term as written.
+
+    With ``mask="resolvent"`` it is commutativity with the resolvent ``(Δ^γ − i)⁻¹`` of the scaled Laplacian's power
+    ``γ``, a bounded operator: weights ``|1 / (λ_t,a^γ − i) − 1 / (λ_s,b^γ − i)|²``, again in [0, 1] (Ren, Panine,
+    Wonka and Ovsjanikov, Structured regularization of functional map computations, 2019).
+    """
+    xp = namespace(source.eigenvalues)
+    if mask not in MASKS:
+        raise refuse("mask", "one of " + ", ".join(MASKS), repr(mask), "choose one of them")
+    if scale is None:
+        scale = max(float(xp.max(source.eigenvalues)), float(xp.max(target.eigenvalues)), zero_level(source))
+    if mask == "squared":
+        difference = (source.eigenvalues[None, :] - target.eigenvalues[:, None]) / scale
+        return Elementwise(difference * difference)
+    check_positive(power, "resolvent power", "0.5 is usual")
+    parts = []
+    for basis in (source, target):
+        root = xp.where(basis.eigenvalues > 0, basis.eigenvalues, xp.zeros_like(basis.eigenvalues)) / scale
+        root = root**power
+        parts.append((root / (root * root + 1), 1 / (root * root + 1)))  # real and imaginary part of 1 / (λ^γ − i)
+    real, imaginary = (t[:, None] - s[None, :] for s, t in zip(*parts, strict=True))
+    return Elementwise(real * real + imaginary * imaginary)
+
+
+@dataclass(frozen=True, eq=False)
+class TwoSided:
+    """``½⟨C, gram_t C + C gram_s⟩ − ⟨cross, C⟩ + total``; made by :func:`inverse_term` and :func:`adjoint_term`."""
+
+    gram_t: Array
+    gram_s: Array
+    cross: Array
+    total: float
+
+    def apply(self, C: Array) -> Array:
+        return self.gram_t @ C + C @ self.gram_s
+
+    def rhs(self) -> Array:
+        return self.cross
+
+    def diagonal(self) -> Array:
+        xp = namespace(self.cross)
+        return xp.linalg.diagonal(self.gram_t)[:, None] + xp.linalg.diagonal(self.gram_s)[None, :]
+
+    def constant(self) -> float:
+        return self.total
+
+    def sides(self) -> tuple[Array, Array]:
+        return self.gram_t, self.gram_s
+
+    def rotated_diagonal(self, U_t: Array, U_s: Array) -> Array:
+        return rotated(self.gram_t, U_t)[:, None] + rotated(self.gram_s, U_s)[None, :]
+
+
+def inverse_term(back: Array) -> TwoSided:
+    """``½‖C back − I‖² + ½‖back C − I‖²`` for a map ``back (k_s, k_t)`` the other way (Eynard et al. 2016)."""
+    k_s, k_t = back.shape
+    return TwoSided(back.T @ back, back @ back.T, 2.0 * back.T, 0.5 * (k_s + k_t))
+
+
+def adjoint_term(back: Array, ratio: float = 1.0) -> TwoSided:
+    """``½‖C − ratio backᵀ‖²``: ``back`` is the adjoint of ``C`` in the areas (Huang and Ovsjanikov 2017).
+
+    In bases that are orthonormal in the area the adjoint is the transpose, and the map back of one that keeps areas
+    up to a constant factor ``ratio`` is its adjoint divided by it; shapes of unit area have 1.
+    """
+    xp = namespace(back)
+    k_s, k_t = back.shape
+    one = xp.eye(k_s, dtype=back.dtype, device=back.device)
+    return TwoSided(zeros(k_t, back), one, ratio * back.T, 0.5 * ratio**2 * inner(back, back))
+
+
+def zeros(k: int, like: Array) -> Array:
+    return namespace(like).zeros((k, k), dtype=like.dtype, device=like.device)
+
+
+def rotated(gram: Array, U: Array) -> Array:
+    """The diagonal of ``Uᵀ gram U``."""
+    return namespace(gram).sum(U * (gram @ U), axis=0)
+
+
+def same_count(a: Array, b: Array) -> None:
+    if a.shape[1] != b.shape[1]:
+        raise refuse(
+            "descriptors",
+            "the same number on both shapes",
+            f"{a.shape[1]} and {b.shape[1]}",
+            "make them alike",
+        )

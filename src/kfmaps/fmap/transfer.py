@@ -1,0 +1,85 @@
+"""Functions carried beyond the basis, through products of basis functions.
+
+A functional map of k functions carries only what lies in their span. The map of a point map carries products to
+products: ``T(fg) = T(f) T(g)``. So a function is written in the basis *and* in products of basis functions, by least
+squares, and the image is made of the images of the basis functions and of their products (Nogneng, Melzi, Rodolà,
+Castellani, Bronstein and Ovsjanikov, Improved functional mappings via product preservation, 2018). No larger map is
+needed: it is a closed form in C.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from kfmaps._arrays import Array, check, check_count, check_positive, namespace, refuse, take
+from kfmaps.geometry.basis import Basis
+
+
+def carried(
+    values: Array,
+    C: Array,
+    source: Basis,
+    target: Basis,
+    products: int | None = 20,
+    ridge: float = 0.1,
+) -> Array:
+    """The images ``(n_t, d)`` on the target of functions ``values (n_s, d)`` on the source.
+
+    Parameters
+    ----------
+    values : (n_s, d) or (n_s,)
+    C : (k_t, k_s)
+    source, target : Basis
+        Of at least that many functions.
+    products : int or None
+        How many of the first functions are multiplied with each other; none gives ``Φ_t C Φ_sᵀ A_s f``, what the
+        functional map alone carries. The constant, with which a product is nothing new, is left out.
+    ridge : float
+        Damping of the products' coefficients against unit norm of each product: they are far from independent, and
+        their images are not exact.
+
+    Returns
+    -------
+    (n_t, d) or (n_t,)
+
+    Raises
+    ------
+    InvalidInput
+        When shapes do not fit, or more functions are to be multiplied than ``C`` carries.
+    """
+    xp = namespace(C)
+    k_t, k_s = C.shape
+    single = len(values.shape) == 1
+    values = values[:, None] if single else values
+    source, target = source.truncated(k_s), target.truncated(k_t)
+    check(values, "values", shape=(source.functions.shape[0], None), remedy="give one row per source vertex")
+    coefficients = source.project(values)
+    images = target.functions @ C
+    found = images @ coefficients
+    if products is not None:
+        check_count(products, "products", low=2)
+        check_positive(ridge, "ridge")
+        if products > k_s:
+            raise refuse("products", f"at most the {k_s} functions that the map carries", str(products), "lower it")
+        on_s, on_t = pairs(source.functions, products), pairs(images, products)
+        # Of unit norm on the source, and the same divisor for the image.
+        weights = source.mass[:, None]
+        norms = xp.sqrt(xp.sum(weights * on_s * on_s, axis=0))
+        norms = xp.where(norms > 0, norms, xp.ones_like(norms))[None, :]
+        on_s, on_t = on_s / norms, on_t / norms
+        # The basis takes all it can; the products explain what is left. Both at once, the basis undamped, is the
+        # same problem with the products' parts in the basis taken out.
+        inside = source.project(on_s)
+        rest = on_s - source.lift(inside)
+        left = values - source.lift(coefficients)
+        gram = rest.T @ (weights * rest)
+        eye = xp.eye(gram.shape[0], dtype=gram.dtype, device=gram.device)
+        share = xp.linalg.solve(gram + ridge * eye, rest.T @ (weights * left))
+        found = found + on_t @ share - images @ (inside @ share)
+    return found[:, 0] if single else found
+
+
+def pairs(functions: Array, count: int) -> Array:
+    """Products ``(n, m)`` of two of the columns 1 to ``count`` of ``functions``, the first (the constant) left out."""
+    first, second = np.triu_indices(count - 1)
+    return take(functions, first + 1, axis=1) * take(functions, second + 1, axis=1)

@@ -1,0 +1,159 @@
+"""As-rigid-as-possible energy of a mesh that is bent (Sorkine and Alexa 2007).
+
+With ``x̄`` the rest positions, ``x`` the bent ones, ``w`` cotangent weights and one rotation ``R_i`` a vertex,
+``E(x, R) = ½ Σ_i Σ_j w_ij |(x_i − x_j) − R_i (x̄_i − x̄_j)|²``. For fixed rotations it is quadratic in ``x`` with the
+Laplacian as its matrix; for fixed ``x`` each best rotation is a polar decomposition. It has no unit: a mesh of any size
+that is bent alike has the same energy.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from scipy.sparse import coo_array, csr_array, diags_array
+
+from kfmaps.geometry.mesh import Mesh
+
+LEAST = 0.05
+"""Weight that every edge has at least: obtuse triangles make negative ones, with which the energy has no bottom."""
+SHARPEST = 20.0
+"""Cotangent of the sharpest corner that counts, so that no sliver outweighs all else."""
+DETERMINED = 0.02
+"""Product of the sums of two singular values each, of a matrix of norm 1, above which its rotation is well determined:
+errors of rounding grow with the inverse square; a rotation has 1.5, a round one of rank two 0.7."""
+ROOT_STEPS = 12
+"""Newton's steps for the sum of singular values: as many as the hardest above that need."""
+
+
+@dataclass(frozen=True, eq=False)
+class Rigidity:
+    """What the energy needs of the rest shape; made by :func:`rigidity`.
+
+    Attributes
+    ----------
+    laplacian : (n, n) sparse
+        Positive semi-definite, of the weights.
+    moments : (3 n, n) sparse
+        ``(moments @ x)`` stacks, for each axis ``a`` of the rest shape, ``Σ_j w_ij (x̄_i − x̄_j)_a (x_i − x_j)``.
+    rest : (n, 3) float64
+    """
+
+    laplacian: Any
+    moments: Any
+    rest: np.ndarray
+
+
+def rigidity(mesh: Mesh) -> Rigidity:
+    """The energy of bending ``mesh``; the constants do not depend on its unit."""
+    v, f = mesh.vertices, mesh.faces
+    n = len(v)
+    tails, heads, values = [], [], []
+    for i in range(3):
+        a, b, c = f[:, i], f[:, (i + 1) % 3], f[:, (i + 2) % 3]
+        u, w = v[b] - v[a], v[c] - v[a]
+        area = np.linalg.norm(np.cross(u, w), axis=1)
+        dot = np.einsum("ij,ij->i", u, w)
+        cot = np.divide(dot, area, out=np.zeros_like(dot), where=area > 0)
+        tails, heads = [*tails, b], [*heads, c]
+        values.append(0.5 * np.clip(cot, -1.0, SHARPEST))
+    half: Any = coo_array((np.concatenate(values), (np.concatenate(tails), np.concatenate(heads))), shape=(n, n))
+    weights: Any = csr_array(half + half.T)
+    weights.data = np.maximum(weights.data, LEAST)
+    weights.setdiag(0)
+    weights.eliminate_zeros()
+    edges = weights.tocoo()
+    i, j, w = edges.row, edges.col, edges.data
+    moved = w[:, None] * (v[i] - v[j])
+    rows = np.concatenate([a * n + i for a in range(3)] * 2)
+    columns = np.concatenate([i, i, i, j, j, j])
+    entries = np.concatenate([moved.T.ravel(), -moved.T.ravel()])
+    moments = csr_array((entries, (rows, columns)), shape=(3 * n, n))
+    return Rigidity((diags_array(weights.sum(axis=1)) - weights).tocsr(), moments, v)
+
+
+def rotations(energy: Rigidity, x: np.ndarray) -> np.ndarray:
+    """The best rotation of each vertex, ``(n, 3, 3)``: ``R_i x̄`` is the rest shape turned as ``x (n, 3)`` is."""
+    return nearest_rotations(moments_of(energy, x))
+
+
+def moments_of(energy: Rigidity, x: np.ndarray) -> np.ndarray:
+    """``Σ_j w_ij (x_i − x_j)(x̄_i − x̄_j)ᵀ`` of each vertex, ``(n, 3, 3)``."""
+    return (energy.moments @ x).reshape(3, len(x), 3).transpose(1, 2, 0)
+
+
+def nearest_rotations(matrices: np.ndarray) -> np.ndarray:
+    """The rotation closest to each of ``matrices (n, 3, 3)``; never a reflection.
+
+    In closed form (Markley, Attitude determination using vector observations: a fast optimal matrix algorithm, 1993),
+    a tenth of the time of singular value decompositions. These do the few whose rotation is hardly determined.
+    """
+    # One entry of all matrices lies together: (3, 3, n).
+    m = np.moveaxis(matrices, 0, 2).copy()
+    size = np.sqrt(np.einsum("ijn,ijn->n", m, m))
+    m /= np.where(size > 0, size, 1.0)
+    cofactors = np.empty_like(m)
+    for i, j, k in ((0, 1, 2), (1, 2, 0), (2, 0, 1)):
+        for a, b, c in ((0, 1, 2), (1, 2, 0), (2, 0, 1)):
+            np.multiply(m[j, b], m[k, c], out=cofactors[i, a])
+            cofactors[i, a] -= m[j, c] * m[k, b]
+    det = m[0, 0] * cofactors[0, 0] + m[0, 1] * cofactors[0, 1] + m[0, 2] * cofactors[0, 2]
+    squares = 1.0 - 4.0 * np.einsum("ijn,ijn->n", cofactors, cofactors)
+    # The sum of the singular values, the last with the sign of the determinant: the largest root of a quartic, which
+    # Newton's steps from above approach without going beyond.
+    root = np.full(len(det), np.sqrt(3.0))
+    for _ in range(ROOT_STEPS):
+        slope = 4.0 * (root * (root * root - 1.0) - 2.0 * det)
+        value = ((root * root - 2.0) * root - 8.0 * det) * root + squares
+        root = root - np.divide(value, slope, out=np.zeros_like(root), where=slope > 0)
+    half = 0.5 * (root * root - 1.0)
+    known = half * root - det
+    clear = known > DETERMINED
+    inverse = np.divide(1.0, known, out=np.zeros_like(known), where=clear)
+    turned = ((half + 1.0) * m + root * cofactors - _times(m, _times(m.transpose(1, 0, 2), m))) * inverse
+    # One step of an iteration for the nearest orthogonal matrix takes away what rounding has left.
+    left = -0.5 * _times(turned.transpose(1, 0, 2), turned)
+    for i in range(3):
+        left[i, i] += 1.5
+    found = np.ascontiguousarray(np.moveaxis(_times(turned, left), 2, 0))
+    rest = np.flatnonzero(~clear)
+    if len(rest):
+        u, _, vh = np.linalg.svd(matrices[rest])
+        u[:, :, 2] *= np.where(np.linalg.det(u) * np.linalg.det(vh) < 0, -1.0, 1.0)[:, None]
+        found[rest] = u @ vh
+    return found
+
+
+def _times(a: np.ndarray, b: np.ndarray) -> np.ndarray:
+    """Products of matrices (3, 3, n), one entry of all of them after the other."""
+    out = np.empty_like(b)
+    for i in range(3):
+        for j in range(3):
+            np.multiply(a[i, 0], b[0, j], out=out[i, j])
+            out[i, j] += a[i, 1] * b[1, j]
+            out[i, j] += a[i, 2] * b[2, j]
+    return out
+
+
+def pull(energy: Rigidity, turns: np.ndarray) -> np.ndarray:
+    """``b (n, 3)`` such that ``laplacian @ x = b`` at the least energy for the rotations ``turns (n, 3, 3)``."""
+    n = len(turns)
+    return 0.5 * (energy.moments.T @ turns.transpose(2, 0, 1).reshape(3 * n, 3))
+
+
+def bending(energy: Rigidity, x: np.ndarray, turns: np.ndarray | None = None) -> float:
+    """The energy of ``x (n, 3)``, at least 0; with the best rotations unless ``turns`` are given."""
+    turns = rotations(energy, x) if turns is None else turns
+    sizes = np.sum(x * (energy.laplacian @ x)) + np.sum(energy.rest * (energy.laplacian @ energy.rest))
+    return max(float(sizes - 2 * np.sum(x * pull(energy, turns))), 0.0)
+
+
+def local(energy: Rigidity, x: np.ndarray) -> np.ndarray:
+    """The share of each vertex ``(n,)`` in twice the energy of ``x (n, 3)``, with the best rotations."""
+    edges = energy.laplacian.tocoo()
+    off = edges.row != edges.col
+    i, j, w = edges.row[off], edges.col[off], -edges.data[off]
+    turns = rotations(energy, x)
+    turned = np.einsum("eab,eb->ea", turns[i], energy.rest[i] - energy.rest[j])
+    return np.bincount(i, w * ((x[i] - x[j] - turned) ** 2).sum(axis=1), minlength=len(x))

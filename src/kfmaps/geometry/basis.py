@@ -1,0 +1,221 @@
+"""The Laplace-Beltrami basis of a shape: the functions that every map is written in."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+import robust_laplacian
+from scipy.sparse import coo_array, csc_array
+
+from kfmaps._arrays import Array, MissingDependency, check_count, refuse, to_numpy
+from kfmaps.geometry.clean import inside
+from kfmaps.geometry.eigen.eigensolver import EXACT, smallest_eigenpairs
+from kfmaps.geometry.eigen.factorization import Sparse
+from kfmaps.geometry.mesh import Mesh, check_is_mesh, vertex_areas
+from kfmaps.geometry.point_cloud import cloud_laplacian
+
+THIN = 1e-6
+"""Angle below which a face counts as one with longer edges, and how much longer they are."""
+
+
+@dataclass(frozen=True, eq=False)
+class Basis:
+    """The first eigenfunctions of a shape's Laplacian, orthonormal in its area.
+
+    The arrays may be of any array-API library; all three share library, dtype and device.
+
+    Attributes
+    ----------
+    eigenvalues : (k,)
+        Ascending, none below zero, in inverse squared units of the shape.
+    functions : (n, k)
+        One eigenfunction a column: ``functionsᵀ diag(mass) functions = I``.
+    mass : (n,)
+        Area around each vertex (lumped). Zero at a vertex that no face uses, and at all but the first of vertices that
+        share a place.
+    """
+
+    eigenvalues: Array
+    functions: Array
+    mass: Array
+
+    def project(self, f: Array) -> Array:
+        """Coefficients (k, d) of the functions ``f`` (n, d): ``Φᵀ A f``."""
+        return self.functions.T @ (self.mass[:, None] * f)
+
+    def lift(self, c: Array) -> Array:
+        """Functions (n, d) that have the coefficients ``c`` (k, d): ``Φ c``."""
+        return self.functions @ c
+
+    def truncated(self, k: int) -> Basis:
+        """The basis of the first ``k`` functions, of the same kind.
+
+        Raises
+        ------
+        InvalidInput
+            When there are fewer.
+        """
+        check_count(k, "k", 1, self.functions.shape[1])
+        return replace(self, eigenvalues=self.eigenvalues[:k], functions=self.functions[:, :k])
+
+    def to(self, device: str) -> Basis:
+        """The basis as PyTorch tensors on ``device``, or as NumPy arrays for ``"cpu"`` and ``"numpy"``.
+
+        It stays of its kind. ``"torch"`` is PyTorch on the CPU.
+
+        Raises
+        ------
+        MissingDependency
+            When ``device`` is another one and PyTorch is not installed.
+        InvalidInput
+            When PyTorch does not have the device.
+        """
+        arrays = [to_numpy(a) for a in (self.eigenvalues, self.functions, self.mass)]
+        if device in ("cpu", "numpy"):
+            return type(self)(*arrays)
+        try:
+            import torch
+        except ImportError as error:
+            raise MissingDependency(
+                f"device {device!r} needs PyTorch; install it with: pip install 'kfmaps[gpu]'"
+            ) from error
+        try:
+            where = "cpu" if device == "torch" else device
+            return type(self)(*(torch.asarray(a, device=where) for a in arrays))
+        except (RuntimeError, AssertionError, TypeError) as error:
+            reason = str(error).splitlines()[0]
+            raise refuse("device", "one that PyTorch can use", f"{device!r} ({reason})", "use cpu") from error
+
+
+def zero_level(basis: Basis) -> float:
+    """Below this an eigenvalue is zero, that of a component's constant: one machine gives 0, another 1e-12.
+
+    A millionth of ``4π / area``, Weyl's estimate of the distance between eigenvalues.
+    """
+    return 4e-6 * np.pi / float(to_numpy(basis.mass).sum())
+
+
+def cotangent_laplacian(mesh: Mesh) -> csc_array:
+    """Weak cotangent Laplacian (n, n), symmetric and positive semi-definite; rows sum to zero.
+
+    The entry of an edge is minus half the sum of the cotangents of the angles opposite it (Pinkall and Polthier,
+    Computing discrete minimal surfaces, 1993). Of a face with an angle below 1e-6, or so close to π, the edges count as
+    longer by 1e-6 of the longest (Sharp and Crane's mollification, for those faces alone), so that faces without area
+    give large numbers rather than infinite ones, and never negative energies; those with two equal corners are left
+    out.
+    """
+    n = len(mesh.vertices)
+    faces = mesh.faces[_proper(mesh.faces)]
+    halves, thin = [], np.zeros(len(faces), dtype=bool)
+    for corner in range(3):
+        tip, i, j = (faces[:, (corner + step) % 3] for step in range(3))
+        a, b = mesh.vertices[i] - mesh.vertices[tip], mesh.vertices[j] - mesh.vertices[tip]
+        dot = (a * b).sum(axis=1)
+        sine = np.linalg.norm(np.cross(a, b), axis=1)
+        wide = sine > THIN * np.linalg.norm(a, axis=1) * np.linalg.norm(b, axis=1)
+        halves.append(np.divide(dot, sine, out=np.zeros_like(dot), where=wide) / 2)
+        thin |= ~wide
+    if thin.any():
+        for half, mended in zip(halves, _mollified(mesh.vertices[faces[thin]]), strict=True):
+            half[thin] = mended
+    entries, rows, columns = [], [], []
+    for corner, half in enumerate(halves):
+        _, i, j = (faces[:, (corner + step) % 3] for step in range(3))
+        entries += [-half, -half, half, half]
+        rows += [i, j, i, j]
+        columns += [j, i, i, j]
+    places = (np.concatenate(rows), np.concatenate(columns))
+    return coo_array((np.concatenate(entries), places), shape=(n, n)).tocsc()
+
+
+def _mollified(corners: np.ndarray) -> np.ndarray:
+    """Half the cotangents at the ``corners`` (f, 3, 3) of faces, their edges made longer, (3, f)."""
+    opposite = np.linalg.norm(np.roll(corners, -1, axis=1) - np.roll(corners, 1, axis=1), axis=2)
+    longest = opposite.max(axis=1, keepdims=True)
+    order = -np.sort(-(opposite + THIN * longest), axis=1).T  # Kahan's area of a triangle needs a ≥ b ≥ c
+    a, b, c = order
+    area = 0.25 * np.sqrt(np.maximum((a + (b + c)) * (c - (a - b)) * (c + (a - b)) * (a + (b - c)), 0))
+    squares = (opposite + THIN * longest).T ** 2
+    above = np.roll(squares, 1, axis=0) + np.roll(squares, -1, axis=0) - squares
+    return np.divide(above, 8 * area, out=np.zeros_like(above), where=area > 0)
+
+
+def _proper(faces: np.ndarray) -> np.ndarray:
+    """Which faces have three different corners, (f,)."""
+    return (faces != np.roll(faces, 1, axis=1)).all(axis=1)
+
+
+def _operators(mesh: Mesh, laplacian: str) -> tuple[Sparse, np.ndarray]:
+    """Weak Laplacian (n, n) and lumped mass (n,) of a mesh or cloud without unused vertices and copies."""
+    if len(mesh.faces) == 0:
+        return cloud_laplacian(mesh.vertices)
+    if laplacian == "cotangent":
+        return cotangent_laplacian(mesh), vertex_areas(mesh)
+    stiffness, mass = robust_laplacian.mesh_laplacian(mesh.vertices, mesh.faces)
+    return stiffness, mass.diagonal()
+
+
+def laplace_basis(
+    mesh: Mesh,
+    k: int,
+    laplacian: str = "robust",
+    rng: int | np.random.Generator = 0,
+    threads: int | None = None,
+    progress: Callable[[float], None] | None = None,
+    tolerance: float = EXACT,
+) -> Basis:
+    """The first ``k`` eigenfunctions of the Laplacian of a mesh or point cloud.
+
+    Any triangles will do: boundaries (with natural, Neumann conditions), several components (one eigenvalue
+    zero for each), faces without area, edges with more than two faces. Open edges that lie in one place are connected
+    (:func:`kfmaps.geometry.clean.representatives`), and points of a cloud in one place count as one: the first has the
+    mass, the others its functions. A vertex that no face uses takes part in nothing: its mass is zero, and its
+    functions are those of the used vertex nearest in space.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        In any unit ``u``; shapes to be matched should have unit area (:func:`~kfmaps.geometry.mesh.unit_area`). The
+        eigenvalues come in ``1/u²``, the mass in ``u²``, the functions in ``1/u``. Without faces it is a cloud,
+        whose areas are estimated (:func:`kfmaps.geometry.point_cloud.cloud_laplacian`).
+    k : int
+        From 1 to one less than the number of vertices in use.
+    laplacian : {"robust", "cotangent"}
+        ``"robust"``: the intrinsic Delaunay Laplacian of the tufted cover, whose weights are never negative,
+        on triangles however bad (Sharp and Crane, A Laplacian for nonmanifold triangle meshes, 2020).
+        ``"cotangent"``: :func:`cotangent_laplacian` with barycentric areas. Clouds always take the robust one.
+    rng : int or numpy.random.Generator
+        Start vectors of the eigensolver. The same input gives the same basis; each function's entry of largest
+        magnitude is positive, but signs, and bases of repeated eigenvalues, mean nothing.
+    threads : int, optional
+        Python threads on large meshes; ``None`` takes every available core.
+    progress : callable, optional
+        Told about how much is done, from 0 to 1.
+    tolerance : float
+        Of the eigensolver; from 1e-6 on it is a looser kind of one, see
+        :func:`~kfmaps.geometry.eigen.eigensolver.smallest_eigenpairs`.
+
+    Raises
+    ------
+    InvalidInput
+        When the mesh has too few vertices in use, the points of a cloud lie on no surface, or the Laplacian's name is
+        unknown.
+    NotConverged
+        When a residual is above the tolerance; see :func:`~kfmaps.geometry.eigen.eigensolver.smallest_eigenpairs`.
+    """
+    check_is_mesh(mesh)
+    if laplacian not in ("robust", "cotangent"):
+        raise refuse("laplacian", "'robust' or 'cotangent'", repr(laplacian), "choose one of them")
+    part = inside(mesh)
+    if len(part.kept) <= check_count(k, "k"):
+        wanted = f"fewer eigenfunctions than the {len(part.kept)} vertices in use"
+        raise refuse("k", wanted, str(k), "ask for fewer, or refine the mesh")
+    stiffness, area = _operators(part.mesh, laplacian)
+    pairs = smallest_eigenpairs(stiffness, area, k, tolerance=tolerance, rng=rng, threads=threads, progress=progress)
+    if part.whole:
+        return Basis(pairs.values, pairs.vectors, area)
+    mass = np.zeros(len(mesh.vertices))
+    mass[part.kept] = area
+    return Basis(pairs.values, pairs.vectors[part.number], mass)

@@ -1,0 +1,202 @@
+"""Distances along a surface between points inside its triangles."""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.sparse import coo_array, csr_array
+from scipy.sparse.csgraph import connected_components, dijkstra
+
+from kfmaps._arrays import check, refuse
+from kfmaps.geometry.clean import representatives
+from kfmaps.geometry.geodesic_graph import _cross, _crossed, _neighbours, _Windows, surface_graph
+from kfmaps.geometry.mesh import Mesh
+
+LOOKS = 4
+"""Edges that a straight line from a point to a vertex may cross."""
+DIRECT = 16
+"""Edges that a straight line from one point to the other may cross: farther ones go over vertices, at 0.3 % more."""
+BLOCK = 64
+"""Points searched from together, which bounds the memory."""
+
+
+def distance_places(
+    mesh: Mesh, faces_a: np.ndarray, weights_a: np.ndarray, faces_b: np.ndarray, weights_b: np.ndarray
+) -> np.ndarray:
+    """Distance along the surface from point ``a[i]`` to point ``b[i]``, (q,), in the mesh's own unit.
+
+    The shorter of the straight line from one to the other over up to :data:`DIRECT` unfolded edges, which is exact, and
+    the shortest path over vertices (:func:`kfmaps.geometry.geodesic_graph.surface_graph`) that both see in straight
+    lines.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        A surface.
+    faces_a, faces_b : (q,) int
+        The faces that the points lie in, ...
+    weights_a, weights_b : (q, 3) float64
+        ... and their barycentric coordinates there.
+
+    Returns
+    -------
+    (q,) float64
+        Infinite on different components.
+
+    Raises
+    ------
+    InvalidInput
+        On lists of different length and faces that do not exist.
+    """
+    q, n = len(faces_a), len(mesh.vertices)
+    first = representatives(mesh)
+    faces = first[mesh.faces]
+    sides = []
+    for name, chosen, weights in (("a", faces_a, weights_a), ("b", faces_b, weights_b)):
+        chosen = np.asarray(chosen)
+        check(np.asarray(weights), f"weights of {name}", shape=(q, 3), remedy="give three per point")
+        if chosen.shape != (q,) or (q and (chosen.min() < 0 or chosen.max() >= len(faces))):
+            got = f"shape {chosen.shape}" if chosen.shape != (q,) else f"{chosen.min()} to {chosen.max()}"
+            raise refuse(f"faces of {name}", f"{q} numbers from 0 to {len(faces) - 1}", got, "check the mesh")
+        weights = np.clip(np.asarray(weights, dtype=np.float64), 0, None)
+        sides.append((chosen.astype(np.int64), weights / weights.sum(axis=1, keepdims=True)))
+    if q == 0:
+        return np.zeros(0)
+    # Faces that name a vertex twice are lines: crossing them leads nowhere.
+    whole = np.flatnonzero((faces != np.roll(faces, 1, axis=1)).all(axis=1))
+    start, twins = _neighbours(faces[whole])
+    number = np.full(len(faces), -1)
+    number[whole] = np.arange(len(whole))
+    inner = faces[whole]
+    places = [np.einsum("qi,qij->qj", w, mesh.vertices[faces[f]]) for f, w in sides]
+    straight = np.where(sides[0][0] == sides[1][0], np.linalg.norm(places[0] - places[1], axis=1), np.inf)
+    links = []
+    for side, ((chosen, _), points) in enumerate(zip(sides, places, strict=True)):
+        corners = faces[chosen]
+        away = np.linalg.norm(mesh.vertices[corners] - points[:, None], axis=2)
+        here = n + side * q + np.arange(q)
+        links.append((np.repeat(here, 3), corners.ravel(), away.ravel()))
+        inside_ = np.flatnonzero(number[chosen] >= 0)
+        windows = _views(mesh.vertices, inner, number[chosen[inside_]], points[inside_], inside_)
+        for depth in range(LOOKS if side else DIRECT):
+            if side == 0:
+                _met(straight, mesh.vertices, inner, start, twins, windows, number[sides[1][0]], sides[1][1])
+            windows, *seen = _crossed(mesh.vertices, inner, start, twins, windows)
+            if depth < LOOKS:
+                links.append((n + side * q + seen[0], seen[1], seen[2]))
+            if side == 0:
+                near = np.minimum(_nearest(windows), np.inf)
+                windows = windows[near < 1.5 * _limit(straight, places)[windows.source]]
+    graph = _joined(surface_graph(mesh), links, n + 2 * q)
+    return np.minimum(straight, _over_vertices(graph, n, q, np.linalg.norm(places[0] - places[1], axis=1)))
+
+
+def _limit(straight: np.ndarray, places: list[np.ndarray]) -> np.ndarray:
+    """How far the direct line can be of use: what is found, or what is likely."""
+    apart = np.linalg.norm(places[0] - places[1], axis=1)
+    return np.where(np.isfinite(straight), straight, 2 * apart + 1e-12 * apart.max(initial=1.0))
+
+
+def _nearest(w: _Windows) -> np.ndarray:
+    """Distance of the windows' edges from their source, at the origin."""
+    edge = w.left_at - w.right_at
+    length = np.maximum((edge**2).sum(axis=1), np.finfo(float).tiny)
+    along = np.clip(-(w.right_at * edge).sum(axis=1) / length, 0, 1)
+    return np.linalg.norm(w.right_at + along[:, None] * edge, axis=1)
+
+
+def _views(
+    vertices: np.ndarray, faces: np.ndarray, chosen: np.ndarray, points: np.ndarray, label: np.ndarray
+) -> _Windows:
+    """What ``points (m, 3)`` in the faces ``chosen (m,)`` see through the three edges; sources are ``label (m,)``."""
+    corners = faces[chosen]
+    a = vertices[corners[:, 1]] - vertices[corners[:, 0]]
+    normal = np.cross(a, vertices[corners[:, 2]] - vertices[corners[:, 0]])
+    one = _unit(a)
+    two = np.cross(_unit(normal), one)
+    gap = vertices[corners] - points[:, None]
+    flat = np.stack([np.einsum("mij,mj->mi", gap, one), np.einsum("mij,mj->mi", gap, two)], axis=2)
+    rows = [[], [], [], [], [], []]
+    for i in range(3):
+        r, s = (i + 1) % 3, (i + 2) % 3
+        for row, part in zip(
+            rows, (label, 3 * chosen + i, corners[:, r], corners[:, s], flat[:, r], flat[:, s]), strict=True
+        ):
+            row.append(part)
+    source, edge, right, left, right_at, left_at = (np.concatenate(row) for row in rows)
+    seen = _cross(right_at, left_at) > 0
+    return _Windows(source, edge, right, left, right_at, left_at, right_at, left_at)[seen]
+
+
+def _unit(rows: np.ndarray) -> np.ndarray:
+    return rows / np.maximum(np.linalg.norm(rows, axis=1, keepdims=True), np.finfo(float).tiny)
+
+
+def _met(
+    best: np.ndarray,
+    vertices: np.ndarray,
+    faces: np.ndarray,
+    start: np.ndarray,
+    twins: np.ndarray,
+    windows: _Windows,
+    there: np.ndarray,
+    weights: np.ndarray,
+) -> None:
+    """Lower ``best (q,)`` where the face behind a window is ``there (q,)`` and its point, ``weights``, is in sight."""
+    count = start[windows.edge + 1] - start[windows.edge]
+    index = np.repeat(np.arange(len(count)), count)
+    within = np.arange(len(index)) - np.repeat(np.cumsum(count) - count, count)
+    corner = twins[start[windows.edge[index]] + within]
+    hit = np.flatnonzero(corner // 3 == there[windows.source[index]])
+    if len(hit) == 0:
+        return
+    w, corner = windows[index[hit]], corner[hit]
+    face = faces[corner // 3]
+    apex = face[np.arange(len(face)), corner % 3]
+    edge = w.left_at - w.right_at
+    length = np.maximum(np.linalg.norm(edge, axis=1), np.finfo(float).tiny)
+    along_edge = edge / length[:, None]
+    to_right = np.linalg.norm(vertices[apex] - vertices[w.right], axis=1)
+    to_left = np.linalg.norm(vertices[apex] - vertices[w.left], axis=1)
+    along = (to_right**2 - to_left**2 + length**2) / (2 * length)
+    beyond = np.sqrt(np.maximum(to_right**2 - along**2, 0))
+    outward = np.stack([along_edge[:, 1], -along_edge[:, 0]], axis=1)
+    at = w.right_at + along[:, None] * along_edge + beyond[:, None] * outward
+    share = weights[w.source]
+    place = np.zeros_like(at)
+    for which, where in ((w.right, w.right_at), (w.left, w.left_at), (apex, at)):
+        place += (share * (face == which[:, None])).sum(axis=1)[:, None] * where
+    slack = 1e-12 * (place**2).sum(axis=1)
+    seen = (_cross(w.low, place) >= -slack) & (_cross(place, w.high) >= -slack)
+    np.minimum.at(best, w.source[seen], np.linalg.norm(place[seen], axis=1))
+
+
+def _joined(graph: csr_array, links: list[tuple[np.ndarray, np.ndarray, np.ndarray]], size: int) -> csr_array:
+    """``graph`` with further nodes and the shortest of the ``links`` between two."""
+    edges = coo_array(graph)
+    rows, columns, lengths = (np.concatenate(parts) for parts in zip(*links, strict=True))
+    order = np.lexsort((lengths, columns, rows))
+    rows, columns, lengths = rows[order], columns[order], lengths[order]
+    keep = np.ones(len(rows), dtype=bool)
+    keep[1:] = (rows[1:] != rows[:-1]) | (columns[1:] != columns[:-1])
+    rows, columns, lengths = rows[keep], columns[keep], np.maximum(lengths[keep], np.finfo(float).tiny)
+    ends = np.concatenate([edges.row, rows, columns]), np.concatenate([edges.col, columns, rows])
+    return csr_array((np.concatenate([edges.data, lengths, lengths]), ends), shape=(size, size))
+
+
+def _over_vertices(graph: csr_array, n: int, q: int, apart: np.ndarray) -> np.ndarray:
+    """Shortest paths from node ``n + i`` to ``n + q + i``, (q,), each searched only as far as it needs."""
+    _, component = connected_components(graph, directed=False)
+    result = np.full(q, np.inf)
+    left = np.flatnonzero(component[n : n + q] == component[n + q : n + 2 * q])
+    edge = graph.data[: graph.indptr[n]].mean() if graph.indptr[n] else 0.0
+    reach = 1.3 * apart + edge
+    for attempt in range(4):
+        left = left[np.argsort(reach[left], kind="stable")]
+        for part in range(0, len(left), BLOCK):
+            rows = left[part : part + BLOCK]
+            limit = reach[rows].max() if attempt < 3 else np.inf
+            found = dijkstra(graph, indices=n + rows, limit=limit)
+            result[rows] = found[np.arange(len(rows)), n + q + rows]
+        left = left[np.isinf(result[left])]
+        reach = 2.5 * reach
+    return result

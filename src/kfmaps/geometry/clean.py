@@ -1,0 +1,160 @@
+"""What the work is done on: each place of a surface once, and nothing that belongs to no surface.
+
+Files cut surfaces along the seams of a texture, or leave every triangle on its own (flat shading, STL); they keep
+vertices that no face uses, and specks that float beside the surface. Inside, open edges that lie in one place are
+connected and the rest is left out; outside, every vertex keeps its number.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
+from scipy.spatial import KDTree
+
+from kfmaps.geometry.mesh import Mesh, face_areas
+from kfmaps.geometry.places import first_occurrence
+
+SPECK = 0.005
+"""Area of a component, over that of the largest, below which it is a speck: what one of 200 samples stands for."""
+
+
+@dataclass(frozen=True, eq=False)
+class Inside:
+    """A mesh of ``m`` vertices that stands for one of ``n``; made by :func:`inside`.
+
+    Attributes
+    ----------
+    mesh : Mesh
+        Its faces name three vertices each. The very mesh that was given when there is nothing to leave out.
+    kept : (m,) int64
+        Their numbers outside, ascending. Of vertices in one place the first is kept.
+    number : (n,) int64
+        The vertex inside that each one outside counts as.
+    loose : (n,) bool
+        Which vertices outside belong to no surface: they count as the vertex nearest in space.
+    joined : int
+        How many vertices outside count as one with an earlier one.
+    specks : int
+        Components left out.
+    """
+
+    mesh: Mesh
+    kept: np.ndarray
+    number: np.ndarray
+    loose: np.ndarray
+    joined: int = 0
+    specks: int = 0
+
+    @property
+    def whole(self) -> bool:
+        """Whether all vertices are there, each for itself."""
+        return len(self.kept) == len(self.number)
+
+
+def representatives(mesh: Mesh) -> np.ndarray:
+    """For each vertex the first of those that it is connected with by lying in one place, (n,) int64.
+
+    Of a mesh these are the ends of open edges, those of one face only, that lie on other open edges: surfaces that
+    merely touch in a point stay apart. Of a point cloud they are all points in one place.
+    """
+    n = len(mesh.vertices)
+    if len(mesh.faces) == 0:
+        return first_occurrence(mesh.vertices)
+    faces = mesh.faces[_proper(mesh.faces)]
+    tail, head = faces.ravel(), faces[:, [1, 2, 0]].ravel()
+    edges = np.sort(np.minimum(tail, head) * n + np.maximum(tail, head))
+    if len(edges) % 2 == 0 and (edges[::2] == edges[1::2]).all():  # each is there twice, as of a closed surface
+        return np.arange(n)
+    starts = np.flatnonzero(np.diff(edges, prepend=-1))
+    edges = edges[starts[np.diff(starts, append=len(edges)) == 1]]
+    ends = np.stack([edges // n, edges % n], axis=1)
+    rim = np.unique(ends)
+    place = np.arange(n)
+    place[rim] = rim[first_occurrence(mesh.vertices[rim])]
+    at = place[ends]
+    flipped = at[:, 0] > at[:, 1]
+    ends[flipped], at[flipped] = ends[flipped][:, ::-1], at[flipped][:, ::-1]
+    long = at[:, 0] != at[:, 1]
+    ends, at = ends[long], at[long]
+    order = np.lexsort((at[:, 1], at[:, 0]))
+    ends, at = ends[order], at[order]
+    same = (at[1:] == at[:-1]).all(axis=1)
+    result = np.arange(n)
+    if not same.any():
+        return result
+    a, b = ends[:-1][same].ravel(), ends[1:][same].ravel()
+    graph = coo_array((np.ones(len(a), dtype=bool), (a, b)), shape=(n, n))
+    _, group = connected_components(graph, directed=False)
+    first = np.unique(group, return_index=True)[1]
+    return first[group].astype(np.int64)
+
+
+def _proper(faces: np.ndarray) -> np.ndarray:
+    """Which faces name three vertices, (f,) bool."""
+    a, b, c = faces.T
+    return (a != b) & (b != c) & (c != a)
+
+
+def inside(mesh: Mesh, specks: bool = False) -> Inside:
+    """``mesh`` with each place once, without faces that name a vertex twice and vertices that no other face uses.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        Its face numbers within range.
+    specks : bool
+        Whether to leave out components whose area is less than :data:`SPECK` of the largest one's.
+    """
+    n = len(mesh.vertices)
+    first = representatives(mesh)
+    numbers = np.arange(n)
+    joined = int((first != numbers).sum())
+    if len(mesh.faces) == 0:
+        kept, gone, faces = np.unique(first), 0, mesh.faces
+        used = np.ones(n, dtype=bool)
+    else:
+        faces = first[mesh.faces]
+        faces = faces[_proper(faces)]
+        gone = 0
+        if specks:
+            keep, gone = _no_speck(Mesh(mesh.vertices, faces))
+            faces = faces[keep]
+        used = np.bincount(faces.ravel(), minlength=n) > 0
+        kept = np.flatnonzero(used)
+        used = used[first]
+    if len(kept) == n:
+        same = mesh if len(faces) == len(mesh.faces) else Mesh(mesh.vertices, faces)
+        return Inside(same, numbers, numbers, np.zeros(n, dtype=bool))
+    number = np.full(n, -1)
+    number[kept] = np.arange(len(kept))
+    faces = number[faces]
+    number = number[first]
+    if not used.all() and len(kept):
+        number[~used] = KDTree(mesh.vertices[kept]).query(mesh.vertices[~used])[1]
+    return Inside(Mesh(mesh.vertices[kept], faces), kept, number, ~used, joined, gone)
+
+
+def outer_faces(mesh: Mesh, part: Inside) -> np.ndarray:
+    """The face of ``mesh`` that each face inside is, (g,) int64; ``part`` is its inside, corners in the same order."""
+    if part.mesh.faces is mesh.faces:
+        return np.arange(len(mesh.faces))
+    within = part.number[mesh.faces]
+    within[part.loose[mesh.faces].any(axis=1)] = -1
+    # Equal rows get equal numbers; of faces that are there twice any will do.
+    label = np.unique(np.concatenate([within, part.mesh.faces]), axis=0, return_inverse=True)[1].reshape(-1)
+    order = np.argsort(label[: len(within)], kind="stable")
+    return order[np.searchsorted(label[: len(within)], label[len(within) :], sorter=order)]
+
+
+def _no_speck(mesh: Mesh) -> tuple[np.ndarray, int]:
+    """Which faces lie on no speck, (f,) bool, and how many specks there are."""
+    n, faces = len(mesh.vertices), mesh.faces
+    graph = coo_array((np.ones(3 * len(faces), dtype=bool), (faces.ravel(), np.roll(faces, 1, axis=1).ravel())), (n, n))
+    count, label = connected_components(graph, directed=False)
+    piece = label[faces[:, 0]]
+    areas = np.bincount(piece, face_areas(mesh), minlength=count)
+    speck = areas < SPECK * areas.max(initial=0.0)
+    return ~speck[piece], int(speck[np.unique(piece)].sum())

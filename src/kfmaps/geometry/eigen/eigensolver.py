@@ -1,0 +1,333 @@
+"""The smallest eigenpairs of a sparse symmetric pencil ``L x = λ A x`` with a diagonal mass ``A``."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import ExitStack
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from scipy.linalg import eigh
+from scipy.sparse import csr_array, diags_array
+from scipy.sparse.linalg import ArpackError, LinearOperator, eigsh
+
+from kfmaps._arrays import NotConverged, blocks, check, check_count, check_positive, refuse
+from kfmaps._threads import available_cores, one_blas_thread
+from kfmaps.geometry.eigen.factorization import Map, Sparse, factorise, fill_order
+from kfmaps.geometry.eigen.lanczos import LOOSE, WIDTH, largest_eigenpairs
+
+METHODS = ("auto", "block", "arpack", "dense")
+
+MASS_FLOOR = 1e-10
+"""Least mass of a vertex, as a part of the mean: one without mass takes the value that its neighbours give it
+(harmonic), and this much mass moves no eigenvalue by more than this part."""
+
+MENDED = 2
+"""Steps of subspace iteration for pairs that miss the tolerance: specks and caps make the Lanczos basis lose digits."""
+
+SOLVES = 1.25
+"""Blocks that are solved for, with the search for missed pairs, over those of a Krylov basis of ``3k + 60`` vectors."""
+
+EXACT = 1e-10
+"""Tolerance that is fallen back to where a loose one cannot be trusted."""
+
+SHIFT = 10.0
+"""Shift of a loose search, in units of the usual one."""
+
+SERVES = 1e-2
+"""What a solution in single precision may leave of the right-hand side; 3e-6 is usual at 80,000 rows."""
+
+AGREE = 1e-3
+"""Relative difference of eigenvalues up to which a loose search is trusted."""
+
+TOGETHER = 16
+"""Columns whose residuals are worked out together."""
+
+THREADED = 50_000
+"""Rows from which threads pay."""
+
+
+@dataclass(frozen=True, eq=False)
+class Eigenpairs:
+    """What :func:`smallest_eigenpairs` found.
+
+    Attributes
+    ----------
+    values : (k,) float64
+        Ascending, none below zero.
+    vectors : (n, k) float64
+        Columns orthonormal in the mass, each with its entry of largest magnitude positive.
+    residuals : (k,) float64
+        ``‖Lx − λAx‖ / ((λ + σ) ‖Ax‖)`` of each pair, with ``σ = 4π / sum(mass)``, the scale of the smallest
+        eigenvalues, so that those that are zero count too.
+    """
+
+    values: np.ndarray
+    vectors: np.ndarray
+    residuals: np.ndarray
+
+
+def smallest_eigenpairs(
+    stiffness: Sparse,
+    mass: np.ndarray,
+    k: int,
+    *,
+    tolerance: float = EXACT,
+    rng: int | np.random.Generator = 0,
+    threads: int | None = None,
+    method: str = "auto",
+    ordering: str = "auto",
+    progress: Callable[[float], None] | None = None,
+) -> Eigenpairs:
+    """The ``k`` smallest eigenpairs of ``stiffness x = λ mass x``, by Lanczos on ``(stiffness + σ mass)⁻¹``.
+
+    Every pair is checked against the tolerance before it is returned, and the block method looks for
+    eigenvalues that it may have missed (repeated ones of identical components, clusters of spheres).
+    The same input gives the same answer, whatever the number of threads.
+
+    Parameters
+    ----------
+    stiffness : (n, n) sparse
+        Symmetric, positive semi-definite, for example a weak Laplacian. It may have a null space of any
+        dimension (one per component), but no row that is zero together with its mass.
+    mass : (n,)
+        Diagonal of the mass, none below zero, some above.
+    k : int
+        From 1 to ``n``.
+    tolerance : float
+        Bound on the residuals of :class:`Eigenpairs`, on top of what rounding ``stiffness @ x`` costs: that
+        matters on meshes with needle triangles, and from about a million vertices. From 1e-6 on it bounds what the
+        iteration itself is off, ``‖(L + σA)⁻¹Ax − νx‖ / ν`` in the norm of the mass, and works in single precision,
+        in half of the time and memory: at 1e-2 eigenvalues differ by 1e-7 and the span of the functions by 3e-3 at
+        most, as an angle; where that does not serve the pairs are found to 1e-10.
+    rng : int or numpy.random.Generator
+        Draws the start vectors.
+    threads : int, optional
+        Python threads for solves and tall products, from 50,000 rows; ``None`` takes every available core.
+        BLAS is held to one.
+    method : {"auto", "block", "arpack", "dense"}
+        ``"block"``: own block Lanczos with full reorthogonalisation. ``"arpack"``: SciPy's ``eigsh`` on the
+        same factorisation. ``"dense"``: the whole spectrum, for a few hundred rows. ``"auto"``: dense
+        where the Krylov basis would not fit (``n ≤ max(400, 4k + 200)``), else block.
+    ordering : {"auto", "metis", "mmd"}
+        Ordering of the factorisation; METIS is faster on large meshes and comes with ``kfmaps[fast]``.
+    progress : callable, optional
+        Told about how much is done, from 0 to 1, as the blocks of the basis grow.
+
+    Raises
+    ------
+    InvalidInput
+        On arrays that do not fit together, NaN, a negative mass, a row without stiffness and mass, or ``k`` out
+        of range.
+    NotConverged
+        When a residual stays above the tolerance or the shifted matrix is singular.
+    """
+    n = stiffness.shape[0]
+    matrix = csr_array(stiffness)
+    mass = np.asarray(mass, dtype=np.float64)
+    if stiffness.shape != (n, n) or mass.shape != (n,):
+        got = f"stiffness {tuple(stiffness.shape)}, mass {mass.shape}"
+        raise refuse("pencil", "stiffness (n, n) and mass (n,)", got, "check how they were made")
+    check(matrix.data, "stiffness")
+    check(mass, "mass")
+    check_count(k, "k", 1, n)
+    check_positive(tolerance, "tolerance")
+    if method not in METHODS:
+        raise refuse("method", f"one of {', '.join(METHODS)}", repr(method), "choose one of them")
+    if mass.min() < 0 or not mass.sum() > 0:
+        raise refuse("mass", "none below zero, some above", f"least {mass.min():g}", "check the areas")
+    idle = int(((mass == 0) & (matrix.diagonal() == 0)).sum())
+    if idle:
+        raise refuse("pencil", "a mass or a stiffness in every row", f"{idle} rows with neither", "leave them out")
+    small = n <= max(400, 4 * k + 200)
+    if method == "auto" or (method != "dense" and small):
+        method = "dense" if small else "block"
+    floored = np.maximum(mass, MASS_FLOOR * mass.mean())
+    with ExitStack() as stack:
+        stack.enter_context(one_blas_thread())
+        each = map
+        if (workers := threads or available_cores()) > 1 and n >= THREADED:
+            each = stack.enter_context(ThreadPoolExecutor(workers)).map
+        order = fill_order(matrix, ordering)
+        if order is not None:
+            matrix, floored = matrix[order][:, order], floored[order]
+        if method == "block" and tolerance >= LOOSE:
+            rough = _nearly(matrix, floored, k, tolerance, np.random.default_rng(rng), order, each, progress)
+            if rough is not None:
+                return _signed(rough, order)
+            tolerance = EXACT
+        pencil = _Pencil(matrix, floored, order is not None, each)
+        if progress is not None:
+            pencil.solve = _counted(pencil.solve, (3 * k + 60) * SOLVES / WIDTH, progress)
+        vectors = _vectors(pencil, k, method, tolerance, np.random.default_rng(rng))
+        found = pencil.residuals(vectors)
+        for _ in range(MENDED):
+            if not len(_missed(pencil, vectors, *found, tolerance)):
+                break
+            vectors = _improved(pencil, pencil.root[:, None] * vectors)
+            found = pencil.residuals(vectors)
+        return _signed(_checked(pencil, vectors, *found, tolerance), order)
+
+
+def _nearly(
+    matrix: Sparse,
+    mass: np.ndarray,
+    k: int,
+    tolerance: float,
+    rng: np.random.Generator,
+    order: np.ndarray | None,
+    each: Map,
+    progress: Callable[[float], None] | None,
+) -> Eigenpairs | None:
+    """The pairs to a loose ``tolerance``, factor and basis in single precision; ``None`` where that does not serve.
+
+    A larger shift than is needed else: what rounding does to the Krylov basis grows by the ratio of the operator's
+    largest eigenvalue to the smallest wanted one. A matrix that single precision is too little for, as one with needle
+    triangles, gives an operator with other eigenvalues than the quotients, in double precision, of its vectors.
+    """
+    try:
+        pencil = _Pencil(matrix, mass, order is not None, each, SHIFT, np.float32)
+        block = pencil.root[:, None] * rng.normal(size=(len(mass), 4))
+        found = pencil.solve(block)
+        left = matrix @ found + (SHIFT * pencil.unit * mass)[:, None] * found - block
+        if not np.linalg.norm(left) <= SERVES * np.linalg.norm(block):
+            return None
+        if progress is not None:
+            pencil.solve = _counted(pencil.solve, (2.4 * k + 60) * SOLVES / WIDTH, progress)
+        found = largest_eigenpairs(pencil.inverse, len(mass), k, tolerance=tolerance, rng=rng, each=each)
+    except NotConverged:
+        return None
+    vectors = found.vectors[:, :k] / pencil.root[:, None]
+    values, residuals = pencil.residuals(vectors)
+    thought = 1 / found.values[:k] - SHIFT * pencil.unit
+    if not (np.abs(thought - values) <= AGREE * (values + pencil.unit)).all():
+        return None
+    if found.stages > 1:
+        vectors = _improved(pencil, found.vectors[:, :k])
+        values, residuals = pencil.residuals(vectors)
+    by_size = np.argsort(values, kind="stable")
+    return Eigenpairs(values[by_size], vectors[:, by_size], residuals[by_size])
+
+
+def _counted(
+    solve: Callable[[np.ndarray], np.ndarray], expected: float, progress: Callable[[float], None]
+) -> Callable[[np.ndarray], np.ndarray]:
+    """``solve``, which tells how many of about ``expected`` blocks have been solved for."""
+    done = 0
+
+    def counted(block: np.ndarray) -> np.ndarray:
+        nonlocal done
+        found = solve(block)
+        done += 1
+        progress(min(done / expected, 0.99))
+        return found
+
+    return counted
+
+
+class _Pencil:
+    """``(L, A)`` and the factor of ``L + σA``, with ``σ`` so many times as large as the unit."""
+
+    def __init__(
+        self,
+        matrix: Sparse,
+        mass: np.ndarray,
+        ordered: bool,
+        each: Map,
+        shift: float = 1.0,
+        precision: type = np.float64,
+    ) -> None:
+        self.matrix, self.mass, self.root, self.each = matrix, mass, np.sqrt(mass), each
+        self.unit = 4 * np.pi / mass.sum()
+        shifted = matrix + shift * self.unit * diags_array(mass)
+        self.solve = factorise(shifted.astype(precision, copy=False), ordered, each)
+
+    def inverse(self, block: np.ndarray) -> np.ndarray:
+        """``√A (L + σA)⁻¹ √A`` times the block."""
+        return self.root[:, None] * self.solve(self.root[:, None] * block)
+
+    def residuals(self, vectors: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Rayleigh quotients and scaled residuals of the columns, a few of which at once fit the cache."""
+        found = [self._residuals(vectors[:, part]) for part in blocks(vectors.shape[1], TOGETHER)]
+        return np.concatenate([part[0] for part in found]), np.concatenate([part[1] for part in found])
+
+    def _residuals(self, vectors: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        images, weighted = self.matrix @ vectors, self.mass[:, None] * vectors
+        values = (vectors * images).sum(axis=0) / (vectors * weighted).sum(axis=0)
+        values = np.maximum(values, 0)
+        images -= weighted * values
+        return values, np.linalg.norm(images, axis=0) / ((values + self.unit) * np.linalg.norm(weighted, axis=0))
+
+
+def _vectors(pencil: _Pencil, k: int, method: str, tolerance: float, rng: np.random.Generator) -> np.ndarray:
+    """Eigenvectors (n, k), orthonormal in the mass, in no strict order."""
+    n = len(pencil.mass)
+    if method == "dense":
+        inverse = pencil.inverse(np.eye(n))
+        _, vectors = eigh((inverse + inverse.T) / 2, subset_by_index=(n - k, n - 1))
+        return _improved(pencil, vectors)
+    if method == "arpack":
+        make: Any = LinearOperator  # SciPy's stubs do not know that the class builds its own subclass
+        one = make((n, n), matvec=lambda x: pencil.inverse(x.reshape(n, 1))[:, 0], dtype=np.float64)
+        try:
+            _, vectors = eigsh(one, k=k, which="LA", v0=rng.normal(size=n), tol=0)
+        except ArpackError as error:
+            raise NotConverged(f"ARPACK: {error}") from error
+        return _improved(pencil, vectors)
+    found = largest_eigenpairs(pencil.inverse, n, k, tolerance=tolerance / 2, rng=rng, each=pencil.each)
+    if found.stages == 1:
+        return found.vectors[:, :k] / pencil.root[:, None]
+    # Pairs of different stages are decoupled only to the tolerance of the largest: mend that.
+    return _improved(pencil, found.vectors[:, :k])
+
+
+def _improved(pencil: _Pencil, vectors: np.ndarray) -> np.ndarray:
+    """One step of subspace iteration with Rayleigh-Ritz; takes scaled vectors, returns true ones."""
+    weighted = pencil.root[:, None] * vectors
+    images = np.hstack([pencil.solve(weighted[:, s : s + 8]) for s in range(0, vectors.shape[1], 8)])
+    scaled = pencil.root[:, None] * images
+    size = np.linalg.norm(scaled, axis=0)
+    scaled, images, vectors = scaled / size, images / size, vectors / size
+    energy = scaled.T @ vectors  # L + σA maps the images back to the vectors
+    _, rotation = eigh((energy + energy.T) / 2, scaled.T @ scaled)
+    return images @ rotation
+
+
+def _missed(
+    pencil: _Pencil, vectors: np.ndarray, values: np.ndarray, residuals: np.ndarray, tolerance: float
+) -> np.ndarray:
+    """Which of the pairs have ``residuals`` above the tolerance and what rounding costs."""
+    bad = np.flatnonzero(~(residuals <= tolerance))
+    if len(bad):
+        spread = np.linalg.norm(abs(pencil.matrix) @ abs(vectors[:, bad]), axis=0)
+        rounding = 8 * np.finfo(float).eps * spread
+        scale = (values[bad] + pencil.unit) * np.linalg.norm(pencil.mass[:, None] * vectors[:, bad], axis=0)
+        bad = bad[~(residuals[bad] <= tolerance + rounding / scale)]
+    return bad
+
+
+def _checked(
+    pencil: _Pencil, vectors: np.ndarray, values: np.ndarray, residuals: np.ndarray, tolerance: float
+) -> Eigenpairs:
+    """Sorted and checked pairs: the ``values`` are Rayleigh quotients."""
+    bad = _missed(pencil, vectors, values, residuals, tolerance)
+    if len(bad):
+        raise NotConverged(
+            f"eigenpairs: {len(bad)} of {len(values)} have residuals above {tolerance:.0e}, the largest "
+            f"{residuals[bad].max():.1e}; look for parts without area, or for coordinates of very different size"
+        )
+    order = np.argsort(values, kind="stable")
+    return Eigenpairs(values[order], vectors[:, order], residuals[order])
+
+
+def _signed(pairs: Eigenpairs, order: np.ndarray | None) -> Eigenpairs:
+    """The pairs in the caller's order of rows, with definite signs."""
+    vectors = pairs.vectors
+    if order is not None:
+        vectors = np.empty_like(pairs.vectors)
+        vectors[order] = pairs.vectors
+    largest = np.abs(vectors).argmax(axis=0)
+    vectors *= np.where(vectors[largest, np.arange(len(pairs.values))] < 0, -1.0, 1.0)
+    return Eigenpairs(pairs.values, vectors, pairs.residuals)

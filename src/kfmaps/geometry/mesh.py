@@ -1,0 +1,160 @@
+"""A mesh is its vertices and faces; everything about it is a function of those two arrays."""
+
+from __future__ import annotations
+
+import warnings
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from kfmaps._arrays import KfmapsWarning, check, refuse, shown
+from kfmaps.geometry.point_cloud import cloud_areas
+
+
+@dataclass(frozen=True, eq=False)
+class Mesh:
+    """A triangle mesh, or a point cloud when it has no faces.
+
+    Attributes
+    ----------
+    vertices : (n, 3) float64
+        Positions, in any unit.
+    faces : (f, 3) int64
+        0-based vertex numbers, counter-clockwise seen from outside; by default none, ``(0, 3)``: a point cloud.
+    """
+
+    vertices: np.ndarray
+    faces: np.ndarray = field(default_factory=lambda: np.zeros((0, 3), dtype=np.int64))
+
+    def __post_init__(self) -> None:
+        vertices = np.ascontiguousarray(self.vertices, dtype=np.float64)
+        faces = np.asarray(() if self.faces is None else self.faces)
+        if faces.size == 0:
+            faces = np.zeros((0, 3), dtype=np.int64)
+        faces = np.ascontiguousarray(faces, dtype=np.int64)
+        check(vertices, "vertices", shape=(None, 3), finite=False, remedy="give one row x, y, z per vertex")
+        check(faces, "faces", shape=(None, 3), remedy="give three vertex numbers per face")
+        object.__setattr__(self, "vertices", vertices)
+        object.__setattr__(self, "faces", faces)
+
+
+def check_is_mesh(mesh: object, name: str = "mesh") -> None:
+    """Raise :class:`InvalidInput` when ``mesh`` is no :class:`Mesh`, as a path or another library's object."""
+    if not isinstance(mesh, Mesh):
+        raise refuse(name, "a Mesh", type(mesh).__name__, "use kfmaps.read_mesh, or kfmaps.Mesh(vertices, faces)")
+
+
+def _face_vectors(mesh: Mesh) -> np.ndarray:
+    """Cross products of two edges of each face: normals as long as twice the area, (f, 3)."""
+    a, b, c = (mesh.vertices[mesh.faces[:, i]] for i in range(3))
+    return np.cross(b - a, c - a)
+
+
+def _unit_rows(vectors: np.ndarray) -> np.ndarray:
+    length = np.linalg.norm(vectors, axis=1, keepdims=True)
+    return np.divide(vectors, length, out=np.zeros_like(vectors), where=length > 0)
+
+
+def face_areas(mesh: Mesh) -> np.ndarray:
+    """Area of each face, (f,), in squared units of the vertices."""
+    return 0.5 * np.linalg.norm(_face_vectors(mesh), axis=1)
+
+
+def face_normals(mesh: Mesh) -> np.ndarray:
+    """Unit normal of each face, (f, 3); zero for a face without area."""
+    return _unit_rows(_face_vectors(mesh))
+
+
+def surface_area(mesh: Mesh) -> float:
+    """Sum of the face areas; of a point cloud that of the areas its points stand for, an estimate."""
+    if len(mesh.faces) == 0 and len(mesh.vertices):
+        return float(cloud_areas(mesh.vertices).sum())
+    return float(face_areas(mesh).sum())
+
+
+def vertex_areas(mesh: Mesh) -> np.ndarray:
+    """A third of the area of the faces around each vertex, (n,) (barycentric lumped mass).
+
+    Of a point cloud an estimate of the area that each point stands for
+    (:func:`kfmaps.geometry.point_cloud.cloud_areas`).
+    """
+    if len(mesh.faces) == 0 and len(mesh.vertices):
+        return cloud_areas(mesh.vertices)
+    thirds = np.repeat(face_areas(mesh) / 3, 3)
+    return np.bincount(mesh.faces.ravel(), weights=thirds, minlength=len(mesh.vertices))
+
+
+def vertex_normals(mesh: Mesh) -> np.ndarray:
+    """Unit area-weighted normal of each vertex, (n, 3); zero where no face meets the vertex."""
+    vectors = _face_vectors(mesh)
+    corners = mesh.faces.ravel()
+    summed = [np.bincount(corners, np.repeat(v, 3), minlength=len(mesh.vertices)) for v in vectors.T]
+    return _unit_rows(np.stack(summed, axis=1))
+
+
+MIRROR = np.array([-1.0, 1.0, 1.0])
+"""What takes positions to those of the mirror image."""
+
+
+def mirrored(mesh: Mesh) -> Mesh:
+    """The mirror image, with the same vertices and its outside outside."""
+    return Mesh(mesh.vertices * MIRROR, mesh.faces[:, ::-1])
+
+
+def unit_area(mesh: Mesh) -> Mesh:
+    """The mesh centred on its vertices' mean and scaled so that its area is 1.
+
+    The area of a point cloud is estimated (:func:`surface_area`).
+
+    Raises
+    ------
+    InvalidInput
+        When it has no area.
+    """
+    centred = mesh.vertices - mesh.vertices.mean(axis=0)
+    area = surface_area(mesh)
+    if not area > 0:
+        raise refuse("mesh", "a surface with area", "zero area", "check that its faces are not collapsed")
+    return Mesh(centred / np.sqrt(area), mesh.faces)
+
+
+def check_mesh(mesh: Mesh, name: str = "mesh", *, cloud: bool = False) -> Mesh:
+    """Return ``mesh`` when it can be worked with, whatever read it.
+
+    Warns (:class:`KfmapsWarning`) about unreferenced vertices and faces without area, which do no harm.
+
+    Parameters
+    ----------
+    mesh : Mesh
+    name : str
+        How messages call it; usually the file's name.
+    cloud : bool
+        Whether a mesh without faces is welcome as a point cloud.
+
+    Raises
+    ------
+    InvalidInput
+        On no vertices, NaN or infinite coordinates, no faces (unless ``cloud``), a vertex number out of
+        range, or zero area.
+    """
+    n = len(mesh.vertices)
+    if n == 0:
+        raise refuse(name, "vertices", "none", "check that the file is complete")
+    check(mesh.vertices, f"{name}: vertices", remedy="repair or re-export the file")
+    if len(mesh.faces) == 0:
+        if cloud:
+            return mesh
+        raise refuse(name, "a surface with faces", "no faces", "save a point cloud as .xyz, or triangulate it")
+    low, high = int(mesh.faces.min()), int(mesh.faces.max())
+    if low < 0 or high >= n:
+        bad = low if low < 0 else high
+        raise refuse(f"{name}: faces", f"vertex numbers from 0 to {n - 1}", str(bad), "repair the file")
+    areas = face_areas(mesh)
+    if not areas.sum() > 0:
+        raise refuse(name, "a surface with area", "zero area", "check that its faces are not collapsed")
+    flat = int((areas <= 1e-14 * areas.max()).sum())
+    loose = int((np.bincount(mesh.faces.ravel(), minlength=n) == 0).sum())
+    for count, what in ((flat, "faces without area"), (loose, "vertices that no face uses")):
+        if count:
+            warnings.warn(f"{shown(name)}: {count} {what}; they are kept", KfmapsWarning, stacklevel=2)
+    return mesh

@@ -1,0 +1,89 @@
+"""Orientation operators: antisymmetric matrices of functions, which change sign under a mirror.
+
+Ren, Poulenard, Wonka and Ovsjanikov, "Continuous and orientation-preserving correspondences via functional maps",
+ACM Transactions on Graphics 37(6), 2018.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.sparse import csr_array
+
+from kfmaps._arrays import Array, check, like, refuse, to_numpy
+from kfmaps._threads import parallel
+from kfmaps.geometry.basis import Basis
+from kfmaps.geometry.mesh import Mesh
+
+
+def orientation_slices(mesh: Mesh, basis: Basis, functions: Array, threads: int | None = None) -> Array:
+    """Matrices of the operators ``Ω_w[g] = n · (∇w × ∇g)`` in a basis, one for each function w.
+
+    Entry (i, j) of slice s is ``∫ φᵢ n · (∇wₛ × ∇φⱼ)``, w and φ linear on each face and the integral exact. It
+    depends on the positions of the vertices through the basis alone: gradients and area cancel.
+
+    A functional map C that keeps orientation and carries wₛ to w'ₛ has ``C Ω_w = Ω_w' C``; one that reverses it
+    has ``C Ω_w = −Ω_w' C``.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        With faces, oriented consistently. Only the faces are used.
+    basis : Basis
+        Of the mesh, k functions.
+    functions : (n, r)
+        One function a column, values at the vertices. The slices are linear in them: for functions with
+        coefficients c (k, r) in the basis, when r > k, combine ``orientation_slices(mesh, basis,
+        basis.functions)`` by c.
+    threads : int, optional
+        Python threads; every available core when not given.
+
+    Returns
+    -------
+    (r, k, k)
+        Antisymmetric, of the library, dtype and device of ``basis.functions``. In units of w divided by an area.
+
+    Raises
+    ------
+    InvalidInput
+        If the mesh has no faces, or the arrays do not fit it.
+
+    Notes
+    -----
+    Ω is antisymmetric on a closed surface, by Stokes' theorem. With a boundary it is not: what is returned is its
+    antisymmetric part, ``½ ∫ φᵢ n · (∇w × ∇φⱼ) − φⱼ n · (∇w × ∇φᵢ)``.
+    """
+    # Row by row, as sparse products want it: else they copy it each time.
+    phi, w = np.ascontiguousarray(to_numpy(basis.functions)), to_numpy(functions)
+    n = len(mesh.vertices)
+    if len(mesh.faces) == 0:
+        raise refuse("mesh", "faces, which say where outside is", "a point cloud", "triangulate it first")
+    check(phi, "basis functions", shape=(n, None), remedy="hand in the basis of this mesh")
+    check(w, "functions", shape=(n, None), remedy="give one row per vertex and one column per function")
+    edges, weights = _edges(mesh)
+    starts = np.searchsorted(edges[:, 0], np.arange(n + 1))
+    result = np.empty((w.shape[1], phi.shape[1], phi.shape[1]))
+
+    def fill(s: int) -> None:
+        coupled = csr_array((weights @ w[:, s], edges[:, 1], starts), shape=(n, n))
+        half = phi.T @ (coupled @ phi)
+        result[s] = half - half.T
+
+    parallel(fill, range(w.shape[1]), threads)
+    return like(result, basis.functions)
+
+
+def _edges(mesh: Mesh) -> tuple[np.ndarray, csr_array]:
+    """Edges (e, 2), in ascending order, and a matrix (e, n) that takes w to their weights.
+
+    On a face (p, q, r), ``½ ∫ h dw∧dg − g dw∧dh`` is the sum over its edges, here p → q, of
+    ``(w_p + w_q − 2 w_r) / 12 · (h_p g_q − h_q g_p)``. An edge has the sum of its faces' weights, those of faces
+    that run through it backwards with the opposite sign.
+    """
+    p, q, r = (np.concatenate([np.roll(mesh.faces, -i, axis=1)[:, c] for i in range(3)]) for c in range(3))
+    sign = np.where(p < q, 1.0, -1.0) / 12
+    n = len(mesh.vertices)
+    found, number = np.unique(np.minimum(p, q) * n + np.maximum(p, q), return_inverse=True)
+    edges = np.stack([found // n, found % n], axis=1)
+    rows, columns = np.tile(number, 3), np.concatenate([p, q, r])
+    values = np.concatenate([sign, sign, -2 * sign])
+    return edges, csr_array((values, (rows, columns)), shape=(len(edges), n))

@@ -1,0 +1,151 @@
+"""Some points of a shape that stand for all, each with the area closest to it: a quadrature for functions.
+
+Both choices work in the biharmonic embedding, which follows the surface and needs no mesh. Measured on a shape of
+80,000 vertices by ``‖ΦᵀA_qΦ − I‖₂`` for 100 functions, 10,000 samples: random ones 0.12, farthest points of a random
+pool 0.019 (0.6 s), stratified ones 0.012 (0.1 s).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.spatial import KDTree
+
+from kfmaps._arrays import check_count, like, take, to_numpy
+from kfmaps.geometry.basis import Basis, zero_level
+from kfmaps.kernels.landmark_selection import farthest
+
+EMBEDDING = 40
+"""Functions of the biharmonic embedding, the constant among them."""
+STRATA = 8
+"""Coordinates of the embedding that strata are cut by."""
+POOL = 8_000
+"""Vertices that :func:`spectral_samples` chooses from, at most (but four times as many as it is to choose)."""
+
+
+CROWDED = 0.15
+"""Part of the area that half of the samples stand for, below which they crowd: on bodies it is 0.24 and more."""
+
+
+@dataclass(frozen=True, eq=False)
+class SampledBasis(Basis):
+    """A basis on some points of a shape, on which its functions are not quite orthonormal.
+
+    ``mass`` is the area that is closest to each point.
+    """
+
+
+@dataclass(frozen=True, eq=False)
+class Samples:
+    """Some vertices of a shape, ``(q,)``, and its basis on them."""
+
+    vertices: np.ndarray
+    basis: SampledBasis
+
+
+def spectral_samples(basis: Basis, count: int, rng: int | np.random.Generator = 0) -> Samples:
+    """Farthest points of a shape in its biharmonic embedding (Lipman et al. 2010), with the area closest to each.
+
+    Needs no mesh, and spreads evenly over the surface whatever its triangulation. At most the vertices there
+    are; vertices that no face uses are passed over. Of a large shape they are the farthest of :data:`POOL`
+    stratified ones, so that their cost hardly grows with the mesh.
+
+    The embedding stretches bridges, the thinner the more. Where the samples would crowd there (:data:`CROWDED`), they
+    are the farthest of twice as many stratified ones, which a bridge has no more of than its area is worth.
+    """
+    check_count(count, "sample count")
+    candidates, embedding = _embedded(basis)
+    pool = np.arange(len(candidates))
+    if len(pool) > max(POOL, 4 * count):
+        pool = stratified(embedding, to_numpy(basis.mass)[candidates], max(POOL, 4 * count), rng)
+    chosen = pool[farthest(embedding[pool], min(count, len(pool)), rng, None)]
+    samples = _samples(basis, candidates, embedding, chosen)
+    if not _crowded(samples, count):
+        return samples
+    pool = stratified(embedding, to_numpy(basis.mass)[candidates], 2 * count, rng)
+    spread = pool[farthest(embedding[pool], min(count, len(pool)), rng, None)]
+    # Where places coincide in the embedding, as those of one of many components do, fewer of them may be left.
+    return samples if len(spread) < len(chosen) else _samples(basis, candidates, embedding, spread)
+
+
+def _crowded(samples: Samples, count: int) -> bool:
+    """Whether the half of the samples with the smallest areas has next to none of the area."""
+    areas = np.sort(to_numpy(samples.basis.mass))
+    return len(areas) == count and float(areas[: count // 2].sum()) < CROWDED * float(areas.sum())
+
+
+def stratified_samples(
+    basis: Basis, count: int, rng: int | np.random.Generator = 0, kept: np.ndarray | None = None
+) -> Samples:
+    """One random point from each of ``count`` compact regions of equal area, with the area closest to each.
+
+    Needs no mesh and takes time ``n log n`` whatever the count: made for thousands of samples. A vertex that
+    would be drawn twice counts once.
+
+    Parameters
+    ----------
+    basis : Basis
+        Of a shape with n vertices.
+    count : int
+    rng : seed or Generator
+    kept : (l,) int64, optional
+        Vertices to be among the samples, beside the others. The samples come in ascending order.
+    """
+    candidates, embedding, chosen = _strata(basis, count, rng)
+    if kept is None:
+        return _samples(basis, candidates, embedding, chosen)
+    samples = _samples(basis, candidates, embedding, np.union1d(chosen, np.flatnonzero(np.isin(candidates, kept))))
+    vertices = np.union1d(samples.vertices, kept)  # kept vertices that no face uses have no area
+    areas = np.zeros(len(vertices))
+    areas[np.searchsorted(vertices, samples.vertices)] = to_numpy(samples.basis.mass)
+    functions = take(basis.functions, vertices)
+    return Samples(vertices, SampledBasis(basis.eigenvalues, functions, like(areas, basis.mass)))
+
+
+def stratified_vertices(
+    basis: Basis, count: int, rng: int | np.random.Generator = 0, kept: np.ndarray | None = None
+) -> np.ndarray:
+    """The vertices of :func:`stratified_samples` alone, in a fraction of its time."""
+    candidates, _, chosen = _strata(basis, count, rng)
+    return candidates[chosen] if kept is None else np.union1d(candidates[chosen], kept)
+
+
+def _strata(basis: Basis, count: int, rng: int | np.random.Generator) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Vertices that have an area, their places in the embedding, and which of them are drawn."""
+    check_count(count, "sample count")
+    candidates, embedding = _embedded(basis)
+    return candidates, embedding, stratified(embedding, to_numpy(basis.mass)[candidates], count, rng)
+
+
+def _embedded(basis: Basis) -> tuple[np.ndarray, np.ndarray]:
+    """Vertices that have an area, and their places in the biharmonic embedding."""
+    candidates = np.flatnonzero(to_numpy(basis.mass) > 0)
+    values, functions = to_numpy(basis.eigenvalues), to_numpy(basis.functions)
+    positive = np.flatnonzero(values > zero_level(basis))[: EMBEDDING - 1]
+    if len(positive) == 0:  # more components than functions, which tell them apart
+        return candidates, functions[candidates]
+    positive = positive[values[positive] > 1e-6 * values[positive[-1]]]
+    places = functions[:, positive] / values[positive]
+    return candidates, places if len(candidates) == len(places) else np.asfortranarray(places[candidates])
+
+
+def stratified(
+    embedding: np.ndarray, mass: np.ndarray, count: int, rng: int | np.random.Generator | None
+) -> np.ndarray:
+    """Systematic sampling by area along the leaves of a k-d tree, which follow each other in space.
+
+    ``embedding (n, d)`` are places, of which the first eight coordinates count, ``mass (n,)`` their areas. Returns
+    numbers of rows in ascending order, ``count`` or, where one is drawn twice, fewer.
+    """
+    order = KDTree(embedding[:, :STRATA]).indices
+    reached = np.cumsum(mass[order])
+    drawn = (np.arange(count) + np.random.default_rng(rng).random(count)) / count
+    return np.unique(order[np.searchsorted(reached / reached[-1], drawn).clip(max=len(order) - 1)])
+
+
+def _samples(basis: Basis, candidates: np.ndarray, embedding: np.ndarray, chosen: np.ndarray) -> Samples:
+    closest = KDTree(embedding[chosen]).query(embedding)[1]
+    areas = np.bincount(closest, to_numpy(basis.mass)[candidates], minlength=len(chosen))
+    vertices = candidates[chosen]
+    return Samples(vertices, SampledBasis(basis.eigenvalues, take(basis.functions, vertices), like(areas, basis.mass)))

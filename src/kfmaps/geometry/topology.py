@@ -1,0 +1,154 @@
+"""What kind of surface a mesh is, and what is wrong with it: counts from its faces alone."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
+
+from kfmaps.geometry.clean import representatives
+from kfmaps.geometry.mesh import Mesh, face_areas
+from kfmaps.geometry.places import first_occurrence
+
+
+@dataclass(frozen=True)
+class Topology:
+    """Counts that describe a triangle mesh. Faces that name a vertex twice enter only ``degenerate_faces``.
+
+    Open edges that lie in one place count as connected (:func:`kfmaps.geometry.clean.representatives`): a mesh cut
+    along seams, or into single triangles, is the surface that it looks like.
+
+    Attributes
+    ----------
+    components : int
+        Connected pieces of surface, joined where they share a vertex.
+    boundary_edges, boundary_loops : int
+        Edges of one face only, and the closed curves that they form. Where edges are non-manifold, an
+        open chain between two of them counts as a loop.
+    euler_characteristic : int
+        Vertices - edges + faces; vertices that no face uses do not count.
+    orientable : bool
+        Whether all faces can be turned to agree with their neighbours.
+    genus : int or None
+        Handles, summed over the components, each boundary loop filled by a disc:
+        ``(2 components - loops - euler_characteristic) / 2``. None unless the surface is an orientable
+        manifold.
+    nonmanifold_edges : int
+        Edges of three faces or more.
+    nonmanifold_vertices : int
+        Vertices whose faces form several fans instead of one.
+    inconsistent_edges : int
+        Edges along which two neighbours are oriented against each other.
+    degenerate_faces : int
+        Faces that name a vertex twice or have no area (1e-14 of the largest, or less).
+    unreferenced_vertices : int
+        Vertices that no face uses.
+    duplicated_vertices : int
+        Vertices in exactly the place of an earlier one.
+    """
+
+    components: int
+    boundary_edges: int
+    boundary_loops: int
+    euler_characteristic: int
+    orientable: bool
+    genus: int | None
+    nonmanifold_edges: int
+    nonmanifold_vertices: int
+    inconsistent_edges: int
+    degenerate_faces: int
+    unreferenced_vertices: int
+    duplicated_vertices: int
+
+    @property
+    def closed(self) -> bool:
+        """Whether every edge has exactly two faces."""
+        return self.boundary_edges == 0 and self.nonmanifold_edges == 0
+
+    @property
+    def manifold(self) -> bool:
+        """Whether every vertex has one fan of faces around it, closed or open."""
+        return self.nonmanifold_edges == 0 and self.nonmanifold_vertices == 0
+
+
+def connected(count: int, a: np.ndarray, b: np.ndarray) -> tuple[int, np.ndarray]:
+    """Connected components of the graph with links a[i] - b[i] on ``count`` nodes: how many, and labels."""
+    if count == 0:
+        return 0, np.zeros(0, dtype=np.int64)
+    graph = coo_array((np.ones(len(a), dtype=bool), (a, b)), shape=(count, count))
+    number, labels = connected_components(graph, directed=False)
+    return int(number), labels
+
+
+def topology(mesh: Mesh) -> Topology:
+    """Count components, boundaries, handles and defects of ``mesh``.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        Its face numbers within range (see :func:`kfmaps.geometry.mesh.check_mesh`). A point cloud has no components.
+    """
+    n = len(mesh.vertices)
+    corners = representatives(mesh)[mesh.faces]
+    repeated = (corners == np.roll(corners, 1, axis=1)).any(axis=1)
+    areas = face_areas(mesh)
+    flat = areas <= 1e-14 * areas.max(initial=0.0)
+    faces = corners[~repeated]
+    f = len(faces)
+
+    # Half-edge 3 face + i goes from corner i to corner i + 1; it has the same number as its tail's corner.
+    tail = faces.ravel()
+    following = np.arange(3 * f).reshape(f, 3)[:, [1, 2, 0]].ravel()
+    head = tail[following]
+    key = np.minimum(tail, head) * n + np.maximum(tail, head)
+    order = np.argsort(key, kind="stable")
+    _, start, sharing = np.unique(key[order], return_index=True, return_counts=True)
+    rim = order[start[sharing == 1]]
+    one, two = order[start[sharing == 2]], order[start[sharing == 2] + 1]
+    against = tail[one] == tail[two]
+
+    used = np.flatnonzero(np.bincount(tail, minlength=n))
+    _, label = connected(n, tail, head)
+    components = len(np.unique(label[used]))
+
+    # Corners that meet across an edge belong to one fan around their vertex.
+    fans, fan = connected(
+        3 * f,
+        np.concatenate([one, following[one]]),
+        np.concatenate([np.where(against, two, following[two]), np.where(against, following[two], two)]),
+    )
+    centre = np.zeros(fans, dtype=np.int64)
+    centre[fan] = tail
+    nonmanifold_vertices = int((np.bincount(centre, minlength=n) > 1).sum())
+    # A boundary edge leads from one open fan to the next.
+    _, loop = connected(fans, fan[rim], fan[following[rim]])
+    loops = len(np.unique(loop[fan[rim]]))
+
+    # Orientable: the double cover by (face, side) falls into twice as many pieces as the faces.
+    pieces, _ = connected(f, one // 3, two // 3)
+    sides, _ = connected(
+        2 * f,
+        np.concatenate([one // 3, one // 3 + f]),
+        np.concatenate([two // 3 + f * against, two // 3 + f * ~against]),
+    )
+    orientable = sides == 2 * pieces
+
+    characteristic = len(used) - len(start) + f
+    nonmanifold_edges = int((sharing > 2).sum())
+    manifold = f > 0 and nonmanifold_edges == 0 and nonmanifold_vertices == 0
+    return Topology(
+        components=components,
+        boundary_edges=len(rim),
+        boundary_loops=loops,
+        euler_characteristic=characteristic,
+        orientable=orientable,
+        genus=(2 * components - loops - characteristic) // 2 if manifold and orientable else None,
+        nonmanifold_edges=nonmanifold_edges,
+        nonmanifold_vertices=nonmanifold_vertices,
+        inconsistent_edges=int(against.sum()),
+        degenerate_faces=int((repeated | flat).sum()),
+        unreferenced_vertices=int((np.bincount(mesh.faces.ravel(), minlength=n) == 0).sum()),
+        duplicated_vertices=int((first_occurrence(mesh.vertices) != np.arange(n)).sum()),
+    )

@@ -1,0 +1,50 @@
+"""Files: meshes, landmarks, maps, per-vertex values and exports, each read strictly and written whole."""
+
+from kfmaps.io.atomic import atomic_output, check_output, remove_unfinished
+from kfmaps.io.export import (
+    grid_picture,
+    projected_uv,
+    write_colored,
+    write_textured,
+)
+from kfmaps.io.mapfile import MapFile, check_map, load_map, match_map, save_map
+from kfmaps.io.meshes import read_mesh, read_mesh_file, write_mesh
+from kfmaps.io.numbers import (
+    read_landmark_names,
+    read_landmarks,
+    read_vertex_numbers,
+    write_landmarks,
+    write_vertex_numbers,
+)
+from kfmaps.io.record import MeshFile
+from kfmaps.io.text import read_text
+from kfmaps.io.values import Values, read_values, transfer, write_values
+
+__all__ = [
+    "MapFile",
+    "MeshFile",
+    "Values",
+    "atomic_output",
+    "check_map",
+    "check_output",
+    "grid_picture",
+    "load_map",
+    "match_map",
+    "projected_uv",
+    "read_landmark_names",
+    "read_landmarks",
+    "read_mesh",
+    "read_mesh_file",
+    "read_text",
+    "read_values",
+    "read_vertex_numbers",
+    "remove_unfinished",
+    "save_map",
+    "transfer",
+    "write_colored",
+    "write_landmarks",
+    "write_mesh",
+    "write_textured",
+    "write_values",
+    "write_vertex_numbers",
+]

@@ -1,0 +1,72 @@
+"""Which vertices of either shape have a counterpart in a map file, and where: what maps of parts are read with."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from kfmaps.fmap.precise import PointMap, at_vertices, inverse, points_of
+from kfmaps.geometry.mesh import Mesh
+from kfmaps.io.export import place_of
+from kfmaps.io.mapfile import MapFile, check_map
+from kfmaps.matching.partial.match_partial import COMMON
+
+
+@dataclass(frozen=True, eq=False)
+class Counterparts:
+    """A map of points in both directions as far as there are any.
+
+    Attributes
+    ----------
+    place : PointMap
+        On the source, for each target vertex; means nothing where there is no counterpart.
+    back : PointMap
+        On the target, for each source vertex; the nearest that something is mapped to where there is no counterpart.
+    target : (n_t,) bool
+        Which vertices have one.
+    source : (n_s,) bool
+    """
+
+    place: PointMap
+    back: PointMap
+    target: np.ndarray
+    source: np.ndarray
+
+    @property
+    def complete(self) -> bool:
+        """Whether all have one."""
+        return bool(self.target.all() and self.source.all())
+
+
+def counterparts(found: MapFile, source: Mesh, target: Mesh, name: str = "map") -> Counterparts:
+    """Of a map file between two surfaces.
+
+    A source vertex has a counterpart where ``overlap_source`` of the file says so. Of a file that does not tell it has
+    one within half an edge of what the target's faces are mapped to; of one without −1 every vertex has.
+
+    Raises
+    ------
+    InvalidInput
+        When the map does not fit the shapes, or gives no face of the target a counterpart.
+    """
+    points = check_map(found, len(source.vertices), len(target.vertices), name, lost=True)
+    known = points >= 0
+    place = place_of(found, source) or at_vertices(np.where(known, points, points.max()), source)
+    back = inverse(place, source, target, None if known.all() else known)
+    return Counterparts(place, back, known, _reached(found, source, target, place, back, known))
+
+
+def _reached(
+    found: MapFile, source: Mesh, target: Mesh, place: PointMap, back: PointMap, known: np.ndarray
+) -> np.ndarray:
+    overlap: Any = found.extra.get("overlap_source")
+    if overlap is not None and np.shape(overlap) == (len(source.vertices),):
+        return np.asarray(overlap) > COMMON
+    if known.all():
+        return np.ones(len(source.vertices), dtype=bool)
+    corners = points_of(place, source)[target.faces[back.faces]]
+    near = np.einsum("ti,tij->tj", back.weights, corners)
+    half = 0.5 * np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).mean(axis=1)
+    return np.linalg.norm(near - source.vertices, axis=1) <= half

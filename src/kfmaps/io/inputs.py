@@ -1,0 +1,134 @@
+"""What a shape, a map or landmarks may be handed in as, from Python: files, arrays, and other libraries' objects.
+
+Nothing is imported for it: an object is known by what it has.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from kfmaps._arrays import InvalidInput, refuse
+from kfmaps.geometry.mesh import Mesh
+from kfmaps.io import MapFile, load_map, match_map, read_landmarks, read_mesh
+from kfmaps.io.record import fan
+from kfmaps.matching.match import Match
+
+SHAPES = "a Mesh, a file, (vertices, faces), or a mesh of trimesh, PyVista, meshio or Open3D"
+POLYGONS = ("triangle", "quad", "polygon")
+"""Kinds of meshio's cells that are faces."""
+
+
+def is_file(value: Any) -> bool:
+    """Whether ``value`` names a file."""
+    return isinstance(value, str | os.PathLike)
+
+
+def as_mesh(shape: Any, name: str = "shape") -> Mesh:
+    """``shape`` as a mesh, or as a point cloud where it has no faces; vertices keep their order and number.
+
+    Parameters
+    ----------
+    shape : Mesh, path, pair of arrays (n, 3) and (f, 3), array (n, 3), or object
+        An object has ``vertices`` and ``faces`` (trimesh) or ``triangles`` (Open3D), or ``points`` with ``faces``
+        (PyVista) or ``cells`` (meshio). Polygons become fans of triangles.
+    name : str
+        How messages call it.
+
+    Raises
+    ------
+    InvalidInput
+        On anything else, and as :func:`kfmaps.read_mesh`.
+    """
+    if isinstance(shape, Mesh):
+        return shape
+    if is_file(shape):
+        return read_mesh(shape)
+    try:
+        found = _parts(shape)
+        if found is not None:
+            vertices, faces = found
+            return Mesh(np.array(vertices, dtype=np.float64), faces)
+    except InvalidInput as error:
+        raise InvalidInput(f"{name}: {error}") from error
+    except (TypeError, ValueError) as error:
+        raise refuse(name, SHAPES, f"{type(shape).__name__} ({error})", "check its arrays") from error
+    raise refuse(name, SHAPES, type(shape).__name__, "give kfmaps.Mesh(vertices, faces)")
+
+
+def _parts(shape: Any) -> tuple[Any, np.ndarray] | None:
+    """Vertices and triangles of what is no Mesh and no file; ``None`` where it has none that are known."""
+    if isinstance(shape, np.ndarray):
+        return (shape, _triangles(())) if shape.ndim == 2 else None
+    if isinstance(shape, tuple | list):
+        return (shape[0], _triangles(shape[1])) if len(shape) == 2 else None
+    if hasattr(shape, "vertices"):
+        faces = getattr(shape, "faces", None)
+        return shape.vertices, _triangles(getattr(shape, "triangles", ()) if faces is None else faces)
+    if hasattr(shape, "points"):
+        if hasattr(shape, "cells_dict"):
+            return shape.points, _meshio(shape.cells)
+        return shape.points, _triangles(getattr(shape, "faces", ()))
+    return None
+
+
+def _triangles(faces: Any) -> np.ndarray:
+    """Faces (f, c) of ``c`` corners each, or a flat list "count, corner, corner, ..." again and again, as triangles."""
+    if faces is None or len(faces) == 0:
+        return np.zeros((0, 3), dtype=np.int64)
+    array = np.asarray(faces)
+    if array.dtype.kind not in "iu":
+        raise refuse("faces", "whole numbers", f"dtype {array.dtype}", "give vertex numbers")
+    if array.ndim == 2 and array.shape[1] >= 3:
+        corners = array.shape[1]
+        return array.ravel()[fan(np.full(len(array), corners))].astype(np.int64)
+    if array.ndim != 1:
+        raise refuse("faces", "three vertex numbers per face", f"shape {array.shape}", "give an array (f, 3)")
+    sizes, at = [], 0
+    while at < len(array):
+        sizes.append(int(array[at]))
+        at += sizes[-1] + 1
+        if sizes[-1] < 3:
+            raise refuse("faces", "faces of three corners or more", f"one of {sizes[-1]}", "leave it out")
+    if at != len(array):
+        raise refuse("faces", "a list of counts and corners", "one that is cut short", "check how it was made")
+    counts = np.array(sizes)
+    own = np.ones(len(array), dtype=bool)
+    own[np.cumsum(counts + 1) - (counts + 1)] = False
+    return array[own][fan(counts)].astype(np.int64)
+
+
+def _meshio(cells: Any) -> np.ndarray:
+    """The triangles of meshio's blocks of cells; points and lines are left out, solids refused."""
+    blocks = cells.items() if isinstance(cells, Mapping) else [(block.type, block.data) for block in cells]
+    parts = []
+    for kind, data in blocks:
+        if kind in POLYGONS:
+            parts.append(_triangles(np.asarray(data)))
+        elif kind not in ("vertex", "line"):
+            raise refuse("cells", "triangles or polygons", f"'{kind}'", "extract the surface first")
+    return np.concatenate(parts) if parts else np.zeros((0, 3), dtype=np.int64)
+
+
+def as_landmarks(landmarks: Any) -> Any:
+    """Landmarks from a file where ``landmarks`` names one, else as they are."""
+    return read_landmarks(landmarks) if is_file(landmarks) else landmarks
+
+
+def as_map(found: Any) -> MapFile:
+    """A match, a file's map, a path or a list of vertices as a :class:`~kfmaps.io.MapFile`."""
+    if isinstance(found, MapFile):
+        return found
+    if isinstance(found, Match):
+        return match_map(found)
+    if is_file(found):
+        return load_map(Path(found))
+    try:
+        return MapFile(np.asarray(found))
+    except (TypeError, ValueError) as error:
+        wanted = "a Match, the file of a map, or a source vertex for each target vertex"
+        raise refuse("map", wanted, type(found).__name__, "give what kfmaps.match returned") from error

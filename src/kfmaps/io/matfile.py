@@ -1,0 +1,134 @@
+"""MATLAB's .mat files, version 5 (what ``save`` writes unless told ``-v7.3``), read strictly."""
+
+from __future__ import annotations
+
+import zlib
+
+import numpy as np
+
+from kfmaps._arrays import refuse
+from kfmaps._memory import in_words
+from kfmaps.io.text import REPAIR
+
+_MATRIX, _COMPRESSED = 14, 15
+_NUMBERS = {1: "i1", 2: "u1", 3: "i2", 4: "u2", 5: "i4", 6: "u4", 7: "f4", 9: "f8", 12: "i8", 13: "u8"}
+_ENCODINGS = {2: "latin-1", 4: "utf-16", 16: "utf-8", 17: "utf-16", 18: "utf-32"}
+_CHAR, _NUMERIC, _COMPLEX = 4, range(6, 16), 0x0800
+
+
+def read_mat(data: bytes, name: str, most: int = 1 << 31) -> dict[str, np.ndarray | str]:
+    """The real arrays and texts of a .mat file by name; cells, structures and other kinds are left out.
+
+    Parameters
+    ----------
+    data : bytes
+    name : str
+        How messages call it.
+    most : int
+        Bytes that the file may unpack to, every number counted as eight.
+
+    SciPy writes these files for us but does not read them: on a damaged file its reader can end the
+    process. Format: MathWorks, "MAT-File Format", version 5.
+
+    Raises
+    ------
+    InvalidInput
+        On another version, on a file that is cut short or damaged, and before it unpacks to more than ``most``.
+    """
+    if data[:10] == b"MATLAB 7.3" or data[1:4] == b"HDF":
+        raise refuse(name, "a .mat file of version 5 to 7", "version 7.3", "save it with the option -v7")
+    order = {b"IM": "<", b"MI": ">"}.get(data[126:128])
+    if order is None:
+        raise refuse(name, "a .mat file", "something else", "check the extension")
+    content: dict[str, np.ndarray | str] = {}
+    at, taken = 128, 0.0
+    while at < len(data):
+        kind, body, at = _element(data, at, order, name, top=True)
+        if kind == _COMPRESSED:
+            body = _unpacked(body, order, name, most - taken, most)
+            taken += len(body)
+            kind, body, _ = _element(body, 0, order, name)
+        if kind != _MATRIX:
+            raise _damaged(name)
+        found = _variable(body, order, name)
+        if found is not None:
+            content[found[0]] = found[1]
+            taken += 8 * np.size(found[1]) if isinstance(found[1], np.ndarray) else 4 * len(found[1])
+            if taken > most:
+                raise _large(name, taken, most)
+    return content
+
+
+def _unpacked(body: bytes, order: str, name: str, left: float, most: int) -> bytes:
+    """A compressed element, of which not more is unpacked than it says of itself, nor more than ``left`` bytes."""
+    stream = zlib.decompressobj()
+    try:
+        head = stream.decompress(body, 8)
+        if len(head) < 8:
+            raise _damaged(name)
+        kind, size = (int(x) for x in np.frombuffer(head, order + "u4", 2))
+        size = 0 if kind >> 16 else size  # a small element is all in its head
+        if size > left:
+            raise _large(name, most - left + size, most)
+        rest = stream.decompress(stream.unconsumed_tail, size) if size else b""
+        stream.decompress(stream.unconsumed_tail, 8)
+    except zlib.error as error:
+        raise _damaged(name) from error
+    if not stream.eof:
+        raise _damaged(name)
+    return head + rest
+
+
+def _large(name: str, got: float, most: int) -> Exception:
+    wanted = f"a map of at most {in_words(most)} unpacked"
+    return refuse(name, wanted, in_words(got), "a map takes a few numbers for each vertex: check the file")
+
+
+def _damaged(name: str) -> Exception:
+    return refuse(name, "a complete .mat file", "one that is cut short or damaged", REPAIR)
+
+
+def _element(data: bytes, at: int, order: str, name: str, top: bool = False) -> tuple[int, bytes, int]:
+    """Type and bytes of the element at ``at``, and where the next one begins."""
+    if at + 8 > len(data):
+        raise _damaged(name)
+    kind, size = (int(x) for x in np.frombuffer(data, order + "u4", 2, at))
+    if kind >> 16:  # a small element: type, size and up to four bytes together
+        kind, size = kind & 0xFFFF, kind >> 16
+        start, following = at + 4, at + 8
+    else:
+        start = at + 8
+        # inside a matrix elements begin at multiples of 8
+        following = start + (size if top else -(-size // 8) * 8)
+    if start + size > len(data) or (following == at + 8 and size > 4 and start == at + 4):
+        raise _damaged(name)
+    return kind, data[start : start + size], following
+
+
+def _variable(body: bytes, order: str, name: str) -> tuple[str, np.ndarray | str] | None:
+    """Name and value of a matrix element; None for kinds that are left out."""
+    _, flags, at = _element(body, 0, order, name)
+    if len(flags) != 8:
+        raise _damaged(name)
+    flag = int(np.frombuffer(flags, order + "u4", 1)[0])
+    kind = flag & 0xFF
+    if (kind != _CHAR and kind not in _NUMERIC) or flag & _COMPLEX:
+        return None
+    code, raw_shape, at = _element(body, at, order, name)
+    _, title, at = _element(body, at, order, name)
+    if code != 5 or len(raw_shape) % 4 or len(raw_shape) < 8 or not title.isascii():
+        raise _damaged(name)
+    shape = np.frombuffer(raw_shape, order + "i4").tolist()
+    code, raw, _ = _element(body, at, order, name)
+    if kind == _CHAR:
+        encoding = _ENCODINGS.get(code, "")
+        if encoding in ("utf-16", "utf-32"):
+            encoding += "-le" if order == "<" else "-be"
+        try:
+            return title.decode("ascii"), raw.decode(encoding)
+        except (LookupError, UnicodeDecodeError) as error:
+            raise _damaged(name) from error
+    item = np.dtype(order + _NUMBERS[code]) if code in _NUMBERS else None
+    if item is None or min(shape) < 0 or np.prod(shape, dtype=float) * item.itemsize != len(raw):
+        raise _damaged(name)
+    return title.decode("ascii"), np.frombuffer(raw, item).reshape(shape, order="F").astype(item.newbyteorder("="))

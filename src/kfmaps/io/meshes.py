@@ -1,0 +1,134 @@
+"""Meshes and point clouds from files and to files."""
+
+from __future__ import annotations
+
+import warnings
+from pathlib import Path
+
+import numpy as np
+
+from kfmaps._arrays import KfmapsWarning, check, refuse, shown
+from kfmaps.geometry.clean import inside
+from kfmaps.geometry.mesh import Mesh, check_is_mesh, check_mesh
+from kfmaps.geometry.topology import topology
+from kfmaps.io.atomic import atomic_output, check_output
+from kfmaps.io.glb import format_glb
+from kfmaps.io.gltf import parse_gltf
+from kfmaps.io.obj import format_obj, parse_obj
+from kfmaps.io.off import format_off, parse_off
+from kfmaps.io.ply import format_ply, parse_ply
+from kfmaps.io.record import MeshFile, checked_colors
+from kfmaps.io.stl import parse_stl
+from kfmaps.io.text import read_bytes
+from kfmaps.io.xyz import parse_xyz
+
+READERS = {
+    ".off": parse_off,
+    ".obj": parse_obj,
+    ".ply": parse_ply,
+    ".stl": parse_stl,
+    ".glb": parse_gltf,
+    ".gltf": parse_gltf,
+    ".xyz": parse_xyz,
+}
+WRITERS = {".off": format_off, ".obj": format_obj, ".ply": format_ply, ".glb": format_glb}
+
+LARGEST = 1e70
+"""Coordinates beyond this overflow in areas and are refused; no unit makes them meaningful."""
+
+
+def read_mesh(path: str | Path, *, cloud: bool = True) -> Mesh:
+    """Read a mesh or point cloud.
+
+    Formats are OFF (COFF, NOFF, STOFF), OBJ, PLY (text, binary), STL, glTF, GLB, and ``.xyz`` for point
+    clouds, told apart by the extension. Vertices keep their order and number and nothing is merged, except
+    in STL, which has no shared vertices (see :func:`kfmaps.io.stl.parse_stl`). Polygons become fans
+    of triangles.
+
+    Parameters
+    ----------
+    path : str or Path
+    cloud : bool
+        Whether a file without faces is welcome as a point cloud.
+
+    Raises
+    ------
+    InvalidInput
+        On a file that is missing, empty, cut short, of an unknown extension or not what its extension says;
+        on NaN, infinite or absurdly large (beyond 1e70) coordinates; and as :func:`check_mesh`.
+
+    Warns
+    -----
+    KfmapsWarning
+        About several components, boundaries, non-manifold edges, inconsistent orientation, duplicated or
+        unreferenced vertices, and faces without area. All of them are kept.
+    """
+    return read_mesh_file(path, cloud=cloud).mesh
+
+
+def read_mesh_file(path: str | Path, *, cloud: bool = True) -> MeshFile:
+    """As :func:`read_mesh`, with the colours and texture coordinates that the file has."""
+    path, name = Path(path), str(path)
+    reader = READERS.get(path.suffix.lower())
+    if reader is None:
+        known = " ".join(READERS)
+        raise refuse(name, f"one of {known}", f"{path.suffix or 'no extension'}", "convert or rename the file")
+    with np.errstate(all="ignore"):  # wild numbers are refused below
+        found = reader(read_bytes(path), name)
+    places = found.mesh.vertices
+    for what, values in (("vertices", places), ("colors", found.colors), ("texture", found.uv)):
+        if values is not None:
+            check(values, f"{name}: {what}", remedy="repair or re-export the file")
+    size = np.abs(places).max(initial=0.0)
+    if size > LARGEST:
+        raise refuse(f"{name}: vertices", f"coordinates up to {LARGEST:g}", f"{size:g}", "repair the file")
+    check_mesh(found.mesh, name, cloud=cloud)
+    _warn_of_oddities(found.mesh, name)
+    return found
+
+
+def _warn_of_oddities(mesh: Mesh, name: str) -> None:
+    """One warning that names everything unusual about the surface."""
+    if len(mesh.faces) == 0:
+        return
+    counts = topology(mesh)
+    apart = counts.duplicated_vertices - inside(mesh).joined  # who connects seams tells of them
+    odd = [
+        (counts.components if counts.components > 1 else 0, "component", "components"),
+        (counts.boundary_loops, "boundary loop", "boundary loops"),
+        (counts.nonmanifold_edges, "non-manifold edge", "non-manifold edges"),
+        (counts.nonmanifold_vertices, "non-manifold vertex", "non-manifold vertices"),
+        (counts.inconsistent_edges, "inconsistently oriented edge", "inconsistently oriented edges"),
+        (apart, "duplicated vertex", "duplicated vertices"),
+    ]
+    told = ", ".join(f"{count} {one if count == 1 else many}" for count, one, many in odd if count)
+    if told:
+        warnings.warn(f"{shown(name)}: {told}; all is kept as it is", KfmapsWarning, stacklevel=4)
+
+
+def write_mesh(path: str | Path, mesh: Mesh, *, colors: np.ndarray | None = None, force: bool = False) -> None:
+    """Write OFF (COFF with colours), OBJ or binary PLY, told apart by the extension; every digit is kept.
+
+    Parameters
+    ----------
+    path : str or Path
+    mesh : Mesh
+    colors : (n, 3) or (n, 4) array, optional
+        Fractions from 0 to 1, or whole numbers from 0 to 255 (an integer dtype); alpha is left out.
+    force : bool
+        Whether an existing file may be replaced.
+
+    Raises
+    ------
+    InvalidInput
+        On an unknown extension, colours that do not fit, and as :func:`atomic_output`.
+    """
+    check_is_mesh(mesh)
+    writer = WRITERS.get(Path(path).suffix.lower())
+    if writer is None:
+        got = Path(path).suffix or "no extension"
+        raise refuse(f"output {path}", f"one of {' '.join(WRITERS)}", got, "choose one of these")
+    check_output(path, force)
+    content = writer(mesh, None if colors is None else checked_colors(colors, len(mesh.vertices)))
+    with atomic_output(path, force) as temporary:
+        temporary.write_bytes(content)

@@ -1,0 +1,197 @@
+"""Named points, such as landmarks of a study, read from CSV and carried over a map in either direction."""
+
+from __future__ import annotations
+
+import csv
+import io
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from kfmaps._arrays import refuse
+from kfmaps.fmap.precise import PointMap, at_vertices, points_of, vertices_of
+from kfmaps.geometry.closest_points import places_on
+from kfmaps.geometry.mesh import Mesh, surface_area
+from kfmaps.io.atomic import atomic_output, check_output
+from kfmaps.io.text import REPAIR, read_bytes
+
+
+@dataclass(frozen=True, eq=False)
+class NamedPoints:
+    """Points on a surface.
+
+    Attributes
+    ----------
+    names : tuple of str
+    place : PointMap
+        Where they lie.
+    points : (q, 3) float64
+        The same in space, in the mesh's unit.
+    vertices : (q,) int64
+        The nearest vertices; −1 of a point without counterpart, whose place in space is NaN.
+    confidence : (q,) float64
+        From 0 to 1, NaN where nothing is known.
+    apart : (q,) float64
+        How far the point that it was given as lies from the surface, in the mesh's unit.
+    """
+
+    names: tuple[str, ...]
+    place: PointMap
+    points: np.ndarray
+    vertices: np.ndarray
+    confidence: np.ndarray
+    apart: np.ndarray
+
+
+def read_named_points(path: str | Path, mesh: Mesh) -> NamedPoints:
+    """Points of ``mesh`` from a CSV file: a row "name, vertex" (0-based) or "name, x, y, z" (in the mesh's unit) each.
+
+    The name may be left out; then it is the row's number, from 1. A first row of titles is skipped. Points in space go
+    to the closest place on the surface.
+
+    Raises
+    ------
+    InvalidInput
+        On rows of another kind, names that are there twice, vertices that do not exist, and an empty file.
+    """
+    name = str(path)
+    try:
+        text = read_bytes(Path(path)).decode("utf-8-sig")
+        rows = [[cell.strip() for cell in row] for row in csv.reader(io.StringIO(text, newline=""), strict=True) if row]
+    except (UnicodeDecodeError, csv.Error) as error:
+        raise refuse(name, "comma-separated values in UTF-8", str(error), REPAIR) from error
+    if rows and not _number(rows[0][-1]):
+        rows = rows[1:]
+    if not rows:
+        raise refuse(name, "a point a row", "none", 'write "name, vertex" or "name, x, y, z"')
+    width = len(rows[0])
+    if width not in (1, 2, 3, 4) or any(len(row) != width for row in rows):
+        got = f"rows of {', '.join(map(str, sorted({len(row) for row in rows})))} cells"
+        raise refuse(name, 'rows "name, vertex" or "name, x, y, z"', got, REPAIR)
+    named = width in (2, 4)
+    names = tuple(row[0] for row in rows) if named else tuple(str(i + 1) for i in range(len(rows)))
+    if len(set(names)) < len(names):
+        again = next(one for i, one in enumerate(names) if one in names[:i])
+        raise refuse(name, "each name once", f"{again!r} twice", "rename one")
+    cells = [row[1:] if named else row for row in rows]
+    bad = next((cell for row in cells for cell in row if not _number(cell)), None)
+    if bad is not None:
+        raise refuse(name, "numbers after the name", repr(bad), REPAIR)
+    values = np.array(cells, dtype=np.float64)
+    if not np.isfinite(values).all():
+        raise refuse(name, "finite numbers", "NaN or infinite ones", REPAIR)
+    known = np.full(len(names), np.nan)
+    if values.shape[1] == 1:
+        n = len(mesh.vertices)
+        vertices = values[:, 0].astype(np.int64)
+        if (vertices != values[:, 0]).any() or vertices.min() < 0 or vertices.max() >= n:
+            raise refuse(name, f"vertices from 0 to {n - 1}", f"{values.min():g} to {values.max():g}", "count from 0")
+        place = at_vertices(vertices, mesh)
+        return NamedPoints(names, place, mesh.vertices[vertices], vertices, known, np.zeros(len(names)))
+    found = places_on(values, mesh.vertices, mesh.faces)
+    place = PointMap(found.faces, found.weights)
+    return NamedPoints(names, place, found.points, vertices_of(place, mesh), known, found.distances)
+
+
+def _number(cell: str) -> bool:
+    try:
+        float(cell)
+    except ValueError:
+        return False
+    return True
+
+
+def carried_points(
+    given: NamedPoints,
+    source: Mesh,
+    target: Mesh,
+    place: PointMap,
+    confidence: np.ndarray | None = None,
+    *,
+    back: bool = False,
+    known: np.ndarray | None = None,
+    common: np.ndarray | None = None,
+) -> NamedPoints:
+    """``given`` points of the source on the target, or (``back``) of the target on the source.
+
+    ``place`` is a point of the source for each target vertex. Back is one look-up: between the corners of the face that
+    a point lies in. Forth the source's points are sought among the images of the target's faces, flat between those
+    of their corners: the closest place on that surface, in the source's space. The confidence is that of the target's
+    vertices around the point.
+
+    Of a map of parts ``known (n_t,)`` and ``common (n_s,)`` say which vertices have a counterpart. A point has none
+    where most of its face has none: its vertex is −1, its place and confidence are NaN.
+    """
+    images = points_of(place, source)
+    if back:
+        at = np.einsum("qi,qij->qj", given.place.weights, images[target.faces[given.place.faces]])
+        found = places_on(at, source.vertices, source.faces)
+        there, mesh, on_target = PointMap(found.faces, found.weights), source, given.place
+        # Where a face is torn apart the mean of its corners lies on no surface: then the nearest corner's image.
+        torn = found.distances > 0.02 * np.sqrt(surface_area(source))
+        if known is not None:
+            torn |= ~known[target.faces[given.place.faces]].all(axis=1)
+        torn = np.flatnonzero(torn)
+        there.faces[torn], there.weights[torn] = place.faces[given.vertices[torn]], place.weights[given.vertices[torn]]
+    else:
+        rows = np.arange(len(target.faces)) if known is None else np.flatnonzero(known[target.faces].all(axis=1))
+        found = places_on(given.points, images, target.faces[rows])
+        there = on_target = PointMap(rows[found.faces], found.weights)
+        mesh = target
+    trust = np.full(len(given.names), np.nan)
+    if confidence is not None:
+        trust = np.einsum("qi,qi->q", on_target.weights, confidence[target.faces[on_target.faces]])
+    points, vertices = points_of(there, mesh), vertices_of(there, mesh)
+    own, on = (known, target) if back else (common, source)
+    if own is not None:
+        lost = np.einsum("qi,qi->q", given.place.weights, own[on.faces[given.place.faces]]) < 0.5
+        points[lost], vertices[lost], trust[lost] = np.nan, -1, np.nan
+    return NamedPoints(given.names, there, points, vertices, trust, found.distances)
+
+
+def chosen_points(given: NamedPoints, chosen: np.ndarray) -> NamedPoints:
+    """Those of the points that are ``chosen (q,)``."""
+    return NamedPoints(
+        tuple(name for name, one in zip(given.names, chosen, strict=True) if one),
+        PointMap(given.place.faces[chosen], given.place.weights[chosen]),
+        given.points[chosen],
+        given.vertices[chosen],
+        given.confidence[chosen],
+        given.apart[chosen],
+    )
+
+
+def spread_points(given: NamedPoints, names: tuple[str, ...], chosen: np.ndarray) -> NamedPoints:
+    """The other way: ``given`` points in the places of those ``chosen``, all others and those at −1 without a place."""
+    there = given.vertices >= 0
+    rows = np.flatnonzero(chosen)[there]
+    faces, vertices = (np.full(len(names), -1, dtype=np.int64) for _ in range(2))
+    weights, points = (np.full((len(names), 3), np.nan) for _ in range(2))
+    confidence, apart = (np.full(len(names), np.nan) for _ in range(2))
+    faces[rows], weights[rows] = given.place.faces[there], given.place.weights[there]
+    points[rows], vertices[rows] = given.points[there], given.vertices[there]
+    confidence[rows], apart[rows] = given.confidence[there], given.apart[there]
+    return NamedPoints(names, PointMap(faces, weights), points, vertices, confidence, apart)
+
+
+def write_named_points(path: str | Path, points: NamedPoints, force: bool = False) -> None:
+    """Write points as CSV: name, nearest vertex, x, y, z in the mesh's unit, confidence.
+
+    Raises
+    ------
+    InvalidInput
+        On another extension than .csv, and as :func:`atomic_output`.
+    """
+    if Path(path).suffix.lower() != ".csv":
+        raise refuse(f"output {path}", "the extension .csv", Path(path).suffix or "none", "rename it")
+    check_output(path, force)
+    text = io.StringIO(newline="")
+    out = csv.writer(text, lineterminator="\n")
+    out.writerow(["name", "vertex", "x", "y", "z", "confidence"])
+    for i, name in enumerate(points.names):
+        known = points.confidence[i]
+        place = [repr(x) for x in points.points[i].tolist()]
+        out.writerow([name, int(points.vertices[i]), *place, "" if np.isnan(known) else f"{known:.3f}"])
+    with atomic_output(path, force) as temporary:
+        temporary.write_text(text.getvalue(), encoding="utf-8", newline="")

@@ -1,0 +1,135 @@
+"""Small text files of vertex numbers: landmarks and correspondence lists."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+
+from kfmaps._arrays import check, refuse
+from kfmaps.io.atomic import atomic_output
+from kfmaps.io.text import clean_text, parse_rows, read_bytes, table, whole
+
+
+def _read_numbers(path: str | Path, columns: int, one_based: bool, wanted: str, lost: bool = False) -> np.ndarray:
+    """The whole numbers of a text file, (rows, columns) int64, made 0-based; a −1 stays where ``lost`` allows it."""
+    name = str(path)
+    rows = parse_rows(clean_text(read_bytes(path), name), name)
+    if len(rows) == 0:
+        raise refuse(name, wanted, "no numbers", "check that it is the right file")
+    numbers = whole(table(rows, columns, name, wanted), name)
+    low = int(one_based)
+    gone = (numbers == -1) & lost
+    small = np.flatnonzero(((numbers < low) & ~gone).any(axis=1))
+    if len(small):
+        got = " ".join(map(str, numbers[small[0]]))
+        habit = "are they counted from 0?" if one_based else "are they counted from 1?"
+        remedy = f"check the numbers; {habit}" if low and numbers.min() == 0 else "check the numbers"
+        raise refuse(f"{name}, line {rows.lines[small[0]]}", f"vertex numbers from {low} on", got, remedy)
+    return np.where(gone, -1, numbers - low)
+
+
+FROM_ZERO = b"# source target, counted from 0"
+
+
+def _counts_from_one(path: str | Path) -> bool:
+    """Whether a file's format counts vertices from 1: that of the remeshed benchmarks does."""
+    return Path(path).suffix.lower() == ".vts"
+
+
+def read_landmarks(path: str | Path, *, one_based: bool | None = None) -> np.ndarray:
+    """Read landmark pairs: two whole numbers a line, "source target"; ``#`` starts a comment.
+
+    Parameters
+    ----------
+    path : str or Path
+    one_based : bool, optional
+        Whether the file counts vertices from 1; by default only a ``.vts`` file does, unless its first line says
+        that it counts from 0.
+
+    Returns
+    -------
+    (l, 2) int64
+        0-based, in the order of the file.
+
+    Raises
+    ------
+    InvalidInput
+        On a file that is missing, empty, or has a line of anything else.
+    """
+    if one_based is None:
+        one_based = _counts_from_one(path) and not read_bytes(path).startswith(FROM_ZERO)
+    return _read_numbers(path, 2, one_based, "two whole numbers a line, source and target")
+
+
+def read_landmark_names(path: str | Path) -> list[str]:
+    """The name of each pair of a landmarks file, in its order: what stands behind ``#`` on the pair's line."""
+    data = read_bytes(path).decode("utf-8", "replace")
+    lines = (line.partition("#") for line in data.splitlines())
+    return [_printable(comment) for pair, _, comment in lines if pair.strip()]
+
+
+def _printable(text: str) -> str:
+    return " ".join("".join(letter if letter.isprintable() else " " for letter in text).split())
+
+
+def write_landmarks(
+    path: str | Path,
+    pairs: np.ndarray,
+    *,
+    names: Sequence[str] = (),
+    one_based: bool | None = None,
+    force: bool = False,
+) -> None:
+    """Write 0-based ``pairs`` (l, 2) so that :func:`read_landmarks` reads them back; ``.vts`` counts from 1.
+
+    ``names``, one for each pair, stand behind ``#`` on the pairs' lines; :func:`read_landmark_names` reads them.
+    """
+    one_based = _counts_from_one(path) if one_based is None else one_based
+    pairs = check(np.asarray(pairs), "landmarks", shape=(None, 2), remedy="give one row source, target each")
+    if len(names) not in (0, len(pairs)):
+        raise refuse("names", f"{len(pairs)}, one for each pair", str(len(names)), "give one for each, or none")
+    lines = [f"# source target, counted from {int(one_based)}"]
+    named = [_printable(name) for name in names] or [""] * len(pairs)
+    for (s, t), name in zip((pairs.astype(np.int64) + int(one_based)).tolist(), named, strict=True):
+        lines.append(f"{s} {t}  # {name}" if name else f"{s} {t}")
+    with atomic_output(path, force) as temporary:
+        temporary.write_text("\n".join(lines) + "\n", encoding="utf-8")
+
+
+def read_vertex_numbers(path: str | Path, one_based: bool | None = None, *, lost: bool = False) -> np.ndarray:
+    """Read a list of vertex numbers, one a line; ``#`` starts a comment.
+
+    Parameters
+    ----------
+    path : str or Path
+    one_based : bool, optional
+        Whether the file counts vertices from 1; by default only a ``.vts`` file does.
+    lost : bool
+        Whether −1 may stand for no vertex.
+
+    Returns
+    -------
+    (m,) int64
+        0-based, −1 for no vertex.
+
+    Raises
+    ------
+    InvalidInput
+        On a file that is missing, empty, or has a line of anything else.
+    """
+    one_based = _counts_from_one(path) if one_based is None else one_based
+    return _read_numbers(path, 1, one_based, "one whole number a line", lost)[:, 0]
+
+
+def write_vertex_numbers(
+    path: str | Path, numbers: np.ndarray, one_based: bool | None = None, *, force: bool = False
+) -> None:
+    """Write 0-based ``numbers`` (m,) so that :func:`read_vertex_numbers` reads them back; −1 stays."""
+    one_based = _counts_from_one(path) if one_based is None else one_based
+    numbers = check(np.asarray(numbers), "vertex numbers", shape=(None,), remedy="give a list")
+    with atomic_output(path, force) as temporary:
+        numbers = numbers.astype(np.int64)
+        lines = map(str, np.where(numbers == -1, -1, numbers + int(one_based)).tolist())
+        temporary.write_text("\n".join(lines) + "\n", encoding="ascii")

@@ -1,0 +1,193 @@
+"""Wavefront OBJ: vertices with colours, texture coordinates and polygons; of materials the picture alone."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from kfmaps._arrays import refuse
+from kfmaps.geometry.mesh import Mesh
+from kfmaps.io.mtl import obj_picture
+from kfmaps.io.record import MeshFile, fan, unit_colors
+from kfmaps.io.text import REPAIR, Rows, clean_text, parse_rows, quoted, table, whole, words
+
+_SKIPPED = frozenset(
+    b"vn vp p l o g s mg usemtl mtllib usemap maplib bevel c_interp d_interp lod shadow_obj trace_obj ctech "
+    b"stech cstype deg bmat step curv curv2 surf parm trim hole scrv sp end con call csh".split()
+)
+"""Words of the format that say nothing about a polygon mesh."""
+
+_OTHER, _V, _VT, _VN, _F = range(5)
+
+
+@dataclass(frozen=True, eq=False)
+class _Lines:
+    """A text, ``letters`` (uint8), its first words blanked, and the ``kind`` and ``length`` of each line.
+
+    ``said`` are the lines about materials: number, word, rest.
+    """
+
+    letters: np.ndarray
+    kind: np.ndarray
+    length: np.ndarray
+    said: list[tuple[int, str, str]]
+
+    def of(self, kind: int) -> tuple[bytes, np.ndarray]:
+        """The text of the lines of one kind, and their numbers in the file."""
+        chosen = self.kind == kind
+        return self.letters[np.repeat(chosen, self.length)].tobytes(), np.flatnonzero(chosen) + 1
+
+
+def parse_obj(data: bytes, name: str) -> MeshFile:
+    """Read the ``v``, ``vt`` and ``f`` lines.
+
+    A vertex is ``v x y z``, perhaps with a weight of 1, or ``v x y z red green blue``; vertices have colours
+    only when all of them do. A corner of a face is ``v``, ``v/vt``, ``v//vn`` or ``v/vt/vn``, counted from
+    1, or backwards from the last one read when negative. Texture coordinates are kept when every corner
+    has them, and then the picture of its materials (:func:`kfmaps.io.mtl.obj_picture`).
+
+    Raises
+    ------
+    InvalidInput
+        On words that are none of the format, numbers missing or out of range, faces of fewer than three
+        corners, and weights other than 1.
+    """
+    text = clean_text(data, name).replace(b"\\\n", b"  ")  # after a backslash the line goes on
+    lines = _split(text, name)
+    places, colors = _vertices(_numbers(lines, _V, name, "v x y z"), name)
+    uv = table(_numbers(lines, _VT, name, "vt u v"), (2, 3), name, "vt u v")[:, :2].copy()
+    sizes, at, numbers = _corners(lines, name)
+    triangles = fan(sizes)
+
+    def absolute(column: int, kind: int, total: int) -> np.ndarray:
+        before = np.repeat(np.cumsum(lines.kind == kind)[at - 1], sizes)
+        return _absolute(numbers[:, column], before, total, np.repeat(at, sizes), name)[triangles]
+
+    mesh = Mesh(places, absolute(0, _V, len(places)))
+    if len(numbers) == 0 or (numbers[:, 1] == 0).any():
+        return MeshFile(mesh, colors)
+    return MeshFile(mesh, colors, uv, absolute(1, _VT, len(uv)), obj_picture(lines.said, at, name))
+
+
+def _split(text: bytes, name: str) -> _Lines:
+    """Sort the lines by their first words, which are blanked."""
+    text += b"\n\n"  # so that two letters follow each word
+    letters = np.frombuffer(text, dtype=np.uint8).copy()
+    at, line = words(letters)
+    leads = np.append(True, line[1:] != line[:-1])[: len(at)]
+    at, line = at[leads], line[leads]
+    ends = np.flatnonzero(letters == 10) + 1
+
+    one, two, three = (letters[at + i] for i in range(3))
+    short, pair = two <= 32, (two > 32) & (three <= 32)
+    found = np.full(len(at), _OTHER, dtype=np.int8)
+    found[short & (one == ord("v"))] = _V
+    found[short & (one == ord("f"))] = _F
+    found[pair & (one == ord("v")) & (two == ord("t"))] = _VT
+    found[pair & (one == ord("v")) & (two == ord("n"))] = _VN
+    said = []
+    for i in np.flatnonzero(found == _OTHER):
+        word, *rest = text[at[i] : ends[line[i]]].split(None, 1)
+        if word in (b"mtllib", b"usemtl"):
+            said.append((int(line[i]) + 1, word.decode(), b"".join(rest).strip().decode("utf-8", "replace")))
+        if word not in _SKIPPED:
+            raise refuse(f"{name}, line {line[i] + 1}", "a word of the OBJ format", quoted(word), REPAIR)
+    letters[at[found > _OTHER]] = 32
+    letters[at[found == _VT] + 1] = 32
+    kind = np.zeros(len(ends), dtype=np.int8)
+    kind[line] = found
+    return _Lines(letters, kind, np.diff(ends, prepend=0), said)
+
+
+def _numbers(lines: _Lines, kind: int, name: str, wanted: str) -> Rows:
+    """The numbers of the lines of one kind, none of them without."""
+    body, at = lines.of(kind)
+    rows = parse_rows(body, name, at)
+    if len(rows) < len(at):
+        bare = np.setdiff1d(at, rows.lines)[0]
+        raise refuse(f"{name}, line {bare}", wanted, "no numbers", REPAIR)
+    return rows
+
+
+def _vertices(rows: Rows, name: str) -> tuple[np.ndarray, np.ndarray | None]:
+    """Positions (n, 3), and colours (n, 3) when every vertex has them."""
+    odd = np.flatnonzero(~np.isin(rows.counts, (3, 4, 6, 7)))
+    if len(odd):
+        got = f"{rows.counts[odd[0]]} numbers"
+        raise refuse(f"{name}, line {rows.lines[odd[0]]}", "v x y z, or v x y z r g b", got, REPAIR)
+    weight = rows.values[rows.starts[rows.counts == 4] + 3]
+    if (weight != 1).any():
+        got = f"{weight[weight != 1][0]:g}"
+        raise refuse(f"{name}: weight of a vertex", "1, as polygons have", got, "divide x, y and z by it")
+    places = rows.values[rows.starts[:, None] + np.arange(3)]
+    if rows.counts.min(initial=7) < 6 or len(rows) == 0:
+        return places, None
+    return places, unit_colors(rows.values[rows.starts[:, None] + np.arange(3, 6)])
+
+
+def _corners(lines: _Lines, name: str) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Corners of each face, the line of each face, and (corners, 2) vertex and texture numbers (0: none)."""
+    body, numbers = lines.of(_F)
+    at, line = words(body)
+    sizes = np.bincount(line, minlength=len(numbers))[: len(numbers)]
+    if (sizes < 3).any():
+        i = np.flatnonzero(sizes < 3)[0]
+        raise refuse(f"{name}, line {numbers[i]}", "a face with three corners or more", str(sizes[i]), REPAIR)
+    slash = np.flatnonzero(np.frombuffer(body, dtype=np.uint8) == ord("/"))
+    slashes = np.bincount(np.searchsorted(at, slash, side="right") - 1, minlength=len(at))
+    rows = parse_rows(body.replace(b"//", b"/0/").replace(b"/", b" "), name, numbers)
+    # A word with s slashes gives s + 1 numbers, or fewer when one is missing, never more.
+    if slashes.max(initial=0) > 2 or len(rows.values) != len(at) + len(slash):
+        raise refuse(f"{name}: faces", "corners like 1, 1/2, 1//3 or 1/2/3", "others", REPAIR)
+    values = whole(rows.values, f"{name}: faces", "whole vertex numbers")
+    first = np.cumsum(slashes + 1) - (slashes + 1)
+    second = np.where(slashes > 0, values[np.minimum(first + 1, len(values) - 1)], 0)
+    return sizes, numbers, np.stack([values[first], second], axis=1)
+
+
+def _absolute(numbers: np.ndarray, before: np.ndarray, total: int, at: np.ndarray, name: str) -> np.ndarray:
+    """0-based numbers of what is counted from 1, or backwards from the ``before`` ones already read."""
+    result = np.where(numbers > 0, numbers - 1, before + numbers)
+    bad = (numbers == 0) | (result < 0) | (result >= total)
+    if bad.any():
+        i = np.flatnonzero(bad)[0]
+        wanted = f"numbers from 1 to {total}, or negative ones counted back from the last"
+        raise refuse(f"{name}, line {at[i]}", wanted, str(numbers[i]), REPAIR)
+    return result
+
+
+def format_obj(
+    mesh: Mesh,
+    colors: np.ndarray | None = None,
+    *,
+    uv: np.ndarray | None = None,
+    uv_faces: np.ndarray | None = None,
+    material: tuple[str, str] | None = None,
+) -> bytes:
+    """``mesh`` as OBJ; every digit of the coordinates is kept.
+
+    Parameters
+    ----------
+    mesh : Mesh
+    colors : (n, 3) float64, optional
+        Fractions from 0 to 1, written after the coordinates as many programs read them.
+    uv : (m, 2) float64, optional
+        Texture coordinates, with ``uv_faces`` (f, 3).
+    material : (file, name), optional
+        The MTL file and the material in it that the faces use.
+    """
+    lines = [f"mtllib {material[0]}"] if material else []
+    values = mesh.vertices if colors is None else np.hstack([mesh.vertices, colors])
+    lines += ["v " + " ".join(map(repr, row)) for row in values.tolist()]
+    if uv is not None:
+        lines += [f"vt {u!r} {v!r}" for u, v in uv.tolist()]
+    if material:
+        lines.append(f"usemtl {material[1]}")
+    faces = (mesh.faces + 1).tolist()
+    if uv is None or uv_faces is None:
+        lines += [f"f {a} {b} {c}" for a, b, c in faces]
+    else:
+        pairs = zip(faces, (uv_faces + 1).tolist(), strict=True)
+        lines += [f"f {a}/{i} {b}/{j} {c}/{k}" for (a, b, c), (i, j, k) in pairs]
+    return ("\n".join(lines) + "\n").encode()

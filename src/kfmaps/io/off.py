@@ -1,0 +1,85 @@
+"""OFF, the Object File Format of Geomview, with its colours, normals and texture coordinates."""
+
+from __future__ import annotations
+
+import re
+
+import numpy as np
+
+from kfmaps._arrays import refuse
+from kfmaps.geometry.mesh import Mesh
+from kfmaps.io.record import MeshFile, bytes_of, fan, gathered, unit_colors
+from kfmaps.io.text import REPAIR, Rows, clean_text, parse_rows, quoted, table, whole
+
+_HEADER = re.compile(rb"\s*(ST)?(C?N?|NC)(4?n?)OFF(?![A-Za-z])[ \t]*(BINARY)?", re.ASCII)
+
+
+def parse_off(data: bytes, name: str) -> MeshFile:
+    """Read OFF, COFF, NOFF, STOFF and their combinations.
+
+    The counts may stand on the line of the word OFF. Each vertex has its line: x y z, then a normal (N),
+    red green blue and perhaps alpha (C), texture coordinates (ST). Each face has its line: the number of
+    its corners, the 0-based corners, and perhaps a colour, which is left out. Normals are left out too.
+
+    Raises
+    ------
+    InvalidInput
+        On anything else, binary and four-dimensional OFF, and counts that do not fit the lines.
+    """
+    text = clean_text(data, name)
+    header = _HEADER.match(text)
+    if header is None:
+        raise refuse(name, "the word OFF first", quoted(text.lstrip()[:16]), "check the extension")
+    textured, kinds, dimensions, binary = header.groups()
+    if dimensions or binary:
+        what = "binary" if binary else "another dimension"
+        raise refuse(name, "text OFF with x, y and z", what, "export it as plain OFF")
+    rows = parse_rows(re.sub(rb"\S", b" ", text[: header.end()]) + text[header.end() :], name)
+    if len(rows) == 0 or rows.counts[0] not in (2, 3):
+        raise refuse(name, "the numbers of vertices, faces and edges after OFF", "none", REPAIR)
+    n, f = (int(c) for c in whole(rows.values[:2], f"{name}: counts"))
+    have = len(rows) - 1
+    if n < 0 or f < 0 or have != n + f:
+        what = "the file is cut short or its counts are wrong: export it again"
+        raise refuse(name, f"lines for {n} vertices and {f} faces", f"{have} lines", what)
+
+    plain = 3 + 3 * (b"N" in kinds) + 2 * bool(textured)
+    widths = (plain + 4, plain + 3) if b"C" in kinds else (plain,)
+    wanted = f"{' or '.join(map(str, widths))} numbers a vertex"
+    columns = table(rows.part(1, 1 + n), widths, name, wanted)
+    colors = uv = None
+    if b"C" in kinds and n:
+        at = plain - 2 * bool(textured)
+        colors = unit_colors(columns[:, at : at + columns.shape[1] - plain])
+    faces = _faces(rows.part(1 + n, 1 + n + f), name)
+    if textured:
+        uv = columns[:, -2:].copy()
+    return MeshFile(Mesh(columns[:, :3], faces), colors, uv, faces if textured else None)
+
+
+def _faces(rows: Rows, name: str) -> np.ndarray:
+    """The triangles of the face lines, (t, 3)."""
+    if len(rows) == 0:
+        return np.zeros((0, 3), dtype=np.int64)
+    sizes = whole(rows.values[rows.starts], f"{name}: corners of a face")
+    for bad, wanted in (
+        (sizes < 3, "faces with three corners or more"),
+        (sizes >= rows.counts, "as many corners as the line says"),
+    ):
+        if bad.any():
+            i = np.flatnonzero(bad)[0]
+            got = f"{sizes[i]}" if sizes[i] < 3 else f"{rows.counts[i] - 1} of {sizes[i]}"
+            raise refuse(f"{name}, line {rows.lines[i]}", wanted, got, REPAIR)
+    corners = rows.values[gathered(rows.starts + 1, sizes)]
+    return whole(corners, f"{name}: faces", "whole vertex numbers")[fan(sizes)]
+
+
+def format_off(mesh: Mesh, colors: np.ndarray | None = None) -> bytes:
+    """``mesh`` as OFF, or as COFF with 0-255 ``colors`` (n, 3); every digit of the coordinates is kept."""
+    lines = [f"{x!r} {y!r} {z!r}" for x, y, z in mesh.vertices.tolist()]
+    if colors is not None:
+        tints = (f" {r} {g} {b} 255" for r, g, b in bytes_of(colors).tolist())
+        lines = [line + tint for line, tint in zip(lines, tints, strict=True)]
+    lines += [f"3 {a} {b} {c}" for a, b, c in mesh.faces.tolist()]
+    head = f"{'OFF' if colors is None else 'COFF'}\n{len(mesh.vertices)} {len(mesh.faces)} 0\n"
+    return (head + "\n".join(lines) + "\n").encode("ascii")

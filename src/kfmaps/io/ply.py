@@ -1,0 +1,170 @@
+"""PLY, the Stanford polygon format, as text and binary in either byte order."""
+
+from __future__ import annotations
+
+import re
+
+import numpy as np
+
+from kfmaps._arrays import refuse
+from kfmaps.geometry.mesh import Mesh
+from kfmaps.io.ply_data import CUT, Column, Element, Property, binary_columns, text_columns
+from kfmaps.io.record import MeshFile, bytes_of, fan, unit_colors
+from kfmaps.io.text import REPAIR, clean_text, parse_rows, quoted, whole
+
+_TYPES = {
+    "char": "i1", "uchar": "u1", "short": "i2", "ushort": "u2", "int": "i4", "uint": "u4",
+    "float": "f4", "double": "f8", "int8": "i1", "uint8": "u1", "int16": "i2", "uint16": "u2",
+    "int32": "i4", "uint32": "u4", "float32": "f4", "float64": "f8",
+}  # fmt: skip
+_ORDERS = {"ascii": "", "binary_little_endian": "<", "binary_big_endian": ">"}
+_COLORS = (("red", "green", "blue"), ("diffuse_red", "diffuse_green", "diffuse_blue"), ("r", "g", "b"))
+_UV = (("s", "t"), ("u", "v"), ("texture_u", "texture_v"))
+
+
+def parse_ply(data: bytes, name: str) -> MeshFile:
+    """Read PLY with its properties in any order.
+
+    Used are x, y and z of the element vertex, its colours and texture coordinates, and the list
+    vertex_indices (or vertex_index) of the element face. All else is left out, but must fit the header.
+
+    Raises
+    ------
+    InvalidInput
+        On a header that is not PLY's, a body that does not fit it to the byte, triangle strips, and faces
+        of fewer than three corners.
+    """
+    order, elements, start = _header(data, name)
+    found: dict[str, dict[str, Column]] = {}
+    if order == "":
+        rows = parse_rows(clean_text(data[start:], name), name)
+        have, first = len(rows), 0
+        if have != sum(e.rows for e in elements):
+            shown = [f"{e.rows} lines of {e.name}" for e in elements[:4]]
+            wanted = " and ".join(shown + [f"{len(elements) - 4} elements more"] * (len(elements) > 4))
+            raise refuse(name, wanted, f"{have} lines", CUT)
+        for element in elements:
+            part = rows.part(first, first + element.rows)
+            found[element.name] = text_columns(element, part, name)
+            first += element.rows
+    else:
+        for element in elements:
+            found[element.name], start = binary_columns(element, data, start, name)
+        if data[start:].strip():
+            what = "a header that counts all of it; it was perhaps copied as text"
+            raise refuse(name, what, f"{len(data) - start} bytes more", REPAIR)
+    return _mesh_file(found, name)
+
+
+def _header(data: bytes, name: str) -> tuple[str, list[Element], int]:
+    """Byte order ('' for text), elements, and where the body begins."""
+    opening = re.match(rb"ply[ \t]*(\r?\n|\r)", data)
+    if opening is None:
+        raise refuse(name, "the word ply first", quoted(data[:16]), "check the extension")
+    order: str | None = None
+    elements: dict[str, tuple[int, dict[str, Property]]] = {}
+    properties: dict[str, Property] = {}
+    at, i = opening.end(), 1
+    while (end := data.find(opening.group(1)[-1:], at)) >= 0:
+        # Some programs end lines with \r\n in one part of the header and with \n in another.
+        line, at, i = data[at:end].removesuffix(b"\r"), end + 1, i + 1
+        words = line.decode("latin-1").split()
+        where = f"{name}, line {i}"
+        match words:
+            case ["end_header"]:
+                return _checked_header(order, elements, at, name)
+            case [] | ["comment" | "obj_info", *_]:
+                pass
+            case ["format", kind, "1.0"] if kind in _ORDERS and order is None:
+                order = _ORDERS[kind]
+            case ["element", kind, count] if re.fullmatch("[0-9]{1,15}", count):
+                if kind in elements:
+                    raise refuse(where, "each element once", f"{kind} again", REPAIR)
+                properties = {}
+                elements[kind] = (int(count), properties)
+            case ["property", *rest] if elements and order is not None:
+                item = _property(rest, order, where)
+                if item.name in properties:
+                    raise refuse(where, "each property once", f"{item.name} again", REPAIR)
+                properties[item.name] = item
+            case _:
+                raise refuse(where, "a line of a PLY header", quoted(line), REPAIR)
+    raise refuse(name, "a header that ends in end_header", "none", "the file is cut short: export it again")
+
+
+def _checked_header(
+    order: str | None, elements: dict[str, tuple[int, dict[str, Property]]], end: int, name: str
+) -> tuple[str, list[Element], int]:
+    """What :func:`_header` returns, when it is all there."""
+    bare = [kind for kind, (_, properties) in elements.items() if not properties]
+    if order is None or bare:
+        got = "none" if order is None else f"none for {bare[0]}"
+        raise refuse(f"{name}: header", "a format, and properties of each element", got, REPAIR)
+    return order, [Element(kind, count, tuple(p.values())) for kind, (count, p) in elements.items()], end
+
+
+def _property(words: list[str], order: str, where: str) -> Property:
+    match words:
+        case [kind, title] if kind in _TYPES:
+            return Property(title, np.dtype(order + _TYPES[kind]))
+        case ["list", count, kind, title] if kind in _TYPES and _TYPES.get(count, "f")[0] != "f":
+            return Property(title, np.dtype(order + _TYPES[kind]), np.dtype(order + _TYPES[count]))
+    raise refuse(where, "a type of PLY and a name", quoted(" ".join(words).encode()), REPAIR)
+
+
+def _mesh_file(found: dict[str, dict[str, Column]], name: str) -> MeshFile:
+    """Pick what a mesh needs from the elements."""
+    vertex = {k: c for k, c in found.get("vertex", {}).items() if c.sizes is None}
+    if not {"x", "y", "z"} <= vertex.keys():
+        raise refuse(name, "an element vertex with numbers x, y and z", ", ".join(list(vertex)[:8]) or "none", REPAIR)
+
+    def stacked(names: tuple[str, ...]) -> np.ndarray:
+        return np.stack([vertex[k].values for k in names], axis=1).astype(np.float64)
+
+    faces = np.zeros((0, 3), dtype=np.int64)
+    face = found.get("face", {})
+    column = face.get("vertex_indices", face.get("vertex_index"))
+    if column is not None and column.sizes is not None:
+        if (column.sizes < 3).any():
+            i = np.flatnonzero(column.sizes < 3)[0]
+            got = f"{column.sizes[i]} in face {i}"
+            raise refuse(name, "faces with three corners or more", got, REPAIR)
+        corners = whole(column.values.astype(np.float64), f"{name}: faces", "whole vertex numbers")
+        faces = corners[fan(column.sizes)]
+    elif face or "tristrips" in found:
+        raise refuse(name, "the list vertex_indices of the element face", "another", "export plain faces")
+    color_names = next((c for c in _COLORS if vertex.keys() >= set(c)), None)
+    uv_names = next((c for c in _UV if vertex.keys() >= set(c)), None)
+    uv = stacked(uv_names) if uv_names and len(faces) else None
+    colors = _colors(vertex, color_names) if color_names else None
+    return MeshFile(Mesh(stacked(("x", "y", "z")), faces), colors, uv, None if uv is None else faces)
+
+
+def _colors(vertex: dict[str, Column], names: tuple[str, ...]) -> np.ndarray:
+    """Colours from 0 to 1: bytes and 16-bit numbers by their range, text and fractions by their size."""
+    values = [vertex[k].values for k in names]
+    columns = np.stack(values, axis=1)
+    if columns.dtype.kind == "u":
+        return columns / np.iinfo(columns.dtype).max
+    return unit_colors(columns.astype(np.float64))
+
+
+def format_ply(mesh: Mesh, colors: np.ndarray | None = None) -> bytes:
+    """``mesh`` as binary PLY, coordinates in double precision, ``colors`` (n, 3) as bytes."""
+    layout = [("x", "<f8"), ("y", "<f8"), ("z", "<f8")]
+    header = ["ply", "format binary_little_endian 1.0", f"element vertex {len(mesh.vertices)}"]
+    header += [f"property double {axis}" for axis in "xyz"]
+    if colors is not None:
+        layout += [("red", "u1"), ("green", "u1"), ("blue", "u1")]
+        header += [f"property uchar {tint}" for tint in ("red", "green", "blue")]
+    header += [f"element face {len(mesh.faces)}", "property list uchar int vertex_indices", "end_header", ""]
+    vertices = np.zeros(len(mesh.vertices), dtype=layout)
+    for axis, values in zip("xyz", mesh.vertices.T, strict=True):
+        vertices[axis] = values
+    if colors is not None:
+        for tint, values in zip(("red", "green", "blue"), bytes_of(colors).T, strict=True):
+            vertices[tint] = values
+    faces = np.zeros(len(mesh.faces), dtype=[("size", "u1"), ("corners", "<i4", (3,))])
+    faces["size"] = 3
+    faces["corners"] = mesh.faces
+    return "\n".join(header).encode("ascii") + vertices.tobytes() + faces.tobytes()

@@ -1,0 +1,125 @@
+"""What a mesh file holds, and polygons cut into triangles."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from kfmaps._arrays import check, refuse
+from kfmaps.geometry.mesh import Mesh
+
+
+@dataclass(frozen=True)
+class Picture:
+    """A picture as it lies in a file.
+
+    Attributes
+    ----------
+    data : bytes
+    kind : "image/png" or "image/jpeg"
+    """
+
+    data: bytes
+    kind: str
+
+    @property
+    def suffix(self) -> str:
+        """The extension of a file of this kind."""
+        return ".png" if self.kind == "image/png" else ".jpg"
+
+
+_MARKS = {b"\x89PNG\r\n\x1a\n": "image/png", b"\xff\xd8\xff": "image/jpeg"}
+"""How the files of each kind begin."""
+
+
+def picture_in(data: bytes) -> Picture | None:
+    """The picture that ``data`` is, told by its first bytes; ``None`` when it is neither PNG nor JPEG."""
+    return next((Picture(data, kind) for mark, kind in _MARKS.items() if data.startswith(mark)), None)
+
+
+@dataclass(frozen=True, eq=False)
+class MeshFile:
+    """A mesh with what else its file says about the vertices.
+
+    Attributes
+    ----------
+    mesh : Mesh
+        Vertices in the order and number of the file; polygons cut into triangles.
+    colors : (n, 3) float64 or None
+        Red, green and blue from 0 to 1, one per vertex.
+    uv : (m, 2) float64 or None
+        Texture coordinates; (0, 0) is the lower left corner of the picture.
+    uv_faces : (f, 3) int64 or None
+        For each corner of each face the row of ``uv``. At a seam one vertex has several.
+    picture : Picture or None
+        The one texture of the whole shape, of files that hold it (GLB, glTF) or name it (OBJ).
+    """
+
+    mesh: Mesh
+    colors: np.ndarray | None = None
+    uv: np.ndarray | None = None
+    uv_faces: np.ndarray | None = None
+    picture: Picture | None = None
+
+
+def fan(sizes: np.ndarray) -> np.ndarray:
+    """The triangles that polygons fall into, each polygon a fan around its first corner.
+
+    Parameters
+    ----------
+    sizes : (p,) int64
+        How many corners each polygon has, at least 3.
+
+    Returns
+    -------
+    (t, 3) int64
+        Positions in the list of all corners, one polygon after another, in the order of the polygons.
+    """
+    first = np.cumsum(sizes) - sizes
+    triangles = sizes - 2
+    start = np.repeat(first, triangles)
+    step = np.arange(len(start)) - np.repeat(np.cumsum(triangles) - triangles, triangles)
+    return np.stack([start, start + step + 1, start + step + 2], axis=1)
+
+
+def gathered(starts: np.ndarray, sizes: np.ndarray) -> np.ndarray:
+    """The positions starts[i], ..., starts[i] + sizes[i] - 1 for every i, one run after another."""
+    first = np.cumsum(sizes) - sizes
+    return np.repeat(starts - first, sizes) + np.arange(int(sizes.sum()))
+
+
+def unit_colors(colors: np.ndarray) -> np.ndarray:
+    """Colours as files give them, as fractions: divided by 255 when any number is above 1, alpha left out."""
+    return np.clip(colors[:, :3] / (255.0 if colors.max(initial=0.0) > 1 else 1.0), 0.0, 1.0)
+
+
+def checked_colors(colors: np.ndarray, n: int) -> np.ndarray:
+    """``colors`` as (n, 3) float64 from 0 to 1.
+
+    Parameters
+    ----------
+    colors : (n, 3) or (n, 4) array
+        Fractions from 0 to 1, or whole numbers from 0 to 255 when the dtype is an integer one. A fourth
+        column (alpha) is left out.
+
+    Raises
+    ------
+    InvalidInput
+        On another shape, NaN, or values out of range.
+    """
+    colors = np.asarray(colors)
+    wanted, remedy = f"({n}, 3) numbers", "give red, green and blue for each vertex"
+    if colors.shape not in ((n, 3), (n, 4)):
+        raise refuse("colors", wanted, f"shape {colors.shape}", remedy)
+    high = 255 if np.issubdtype(colors.dtype, np.integer) else 1
+    fractions = check(colors[:, :3].astype(np.float64), "colors", remedy=remedy) / high
+    if len(fractions) and not (fractions.min() >= 0 and fractions.max() <= 1):
+        got = f"{colors.min()} to {colors.max()}"
+        raise refuse("colors", f"numbers from 0 to {high}", got, "scale them")
+    return fractions
+
+
+def bytes_of(colors: np.ndarray) -> np.ndarray:
+    """Fractions from 0 to 1 as the nearest whole numbers from 0 to 255."""
+    return np.rint(colors * 255).astype(np.uint8)

@@ -1,0 +1,257 @@
+"""Kernels: inner products of lifted descriptors, ``k(X (n, d), Y (m, d)) -> (n, m)``.
+
+Every kernel is a small frozen record. Any callable with that signature is a kernel too (scikit-learn's
+pairwise kernels, a function of your own): :func:`gram` calls it and checks what comes back.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import Any, Protocol, runtime_checkable
+
+import numpy as np
+
+from kfmaps._arrays import Array, check_count, check_positive, is_numpy, like, namespace, refuse, to_numpy
+
+
+@runtime_checkable
+class Kernel(Protocol):
+    """A kernel that also knows its diagonal without forming the matrix."""
+
+    def __call__(self, X: Array, Y: Array, /) -> Array:
+        """``(n, m)`` values for rows of ``X (n, d)`` against rows of ``Y (m, d)``."""
+        ...
+
+    def diagonal(self, X: Array, /) -> Array:
+        """``(n,)`` values ``k(x, x)``."""
+        ...
+
+
+@runtime_checkable
+class Adaptable(Protocol):
+    """A kernel that holds another and knows what that one sees, see :mod:`kfmaps.kernels.transformed`."""
+
+    def resolved(self, samples: Array, sharpness: float) -> Kernel:
+        """The same with every automatic γ made a number."""
+        ...
+
+
+KernelLike = Kernel | Callable[[Any, Any], Any]
+
+
+def squared_distances(X: Array, Y: Array) -> Array:
+    """``(n, m)`` squared Euclidean distances between rows, never negative."""
+    xp = namespace(X, Y)
+    # Distances do not see a common shift, rounding does: centring keeps small distances between far points.
+    centre = xp.mean(Y, axis=0, keepdims=True)
+    X, Y = X - centre, Y - centre
+    squares = xp.sum(X * X, axis=1)[:, None] + xp.sum(Y * Y, axis=1)[None, :] - 2 * (X @ Y.T)
+    return xp.clip(squares, min=0.0)
+
+
+def distances(X: Array, Y: Array) -> Array:
+    """``(n, m)`` Euclidean distances between rows."""
+    xp = namespace(X, Y)
+    squares = squared_distances(X, Y)
+    # What rounding leaves between equal rows is none. It is set to 1e-150, not to 0, where the root has no derivative.
+    return xp.sqrt(xp.where(squares > 1e-15 * xp.max(squares), squares, 1e-300 * xp.ones_like(squares)))
+
+
+def _ones(X: Array) -> Array:
+    xp = namespace(X)
+    return xp.ones(X.shape[0], dtype=X.dtype, device=X.device)
+
+
+@dataclass(frozen=True)
+class Linear:
+    """``x·y``: no lifting. With it the method is that of Nogneng and Ovsjanikov (2017)."""
+
+    def __call__(self, X: Array, Y: Array, /) -> Array:
+        return X @ Y.T
+
+    def diagonal(self, X: Array, /) -> Array:
+        return namespace(X).sum(X * X, axis=1)
+
+
+@dataclass(frozen=True)
+class Polynomial:
+    """``(x·y + offset)^degree``: all products of up to ``degree`` descriptors; ``offset >= 0``."""
+
+    degree: int = 2
+    offset: float = 1.0
+
+    def __post_init__(self) -> None:
+        check_count(self.degree, "Polynomial degree")
+        if not (np.isfinite(self.offset) and self.offset >= 0):
+            raise refuse("Polynomial offset", "a number of at least zero", repr(self.offset), "use 0 or 1")
+
+    def __call__(self, X: Array, Y: Array, /) -> Array:
+        return (X @ Y.T + self.offset) ** self.degree
+
+    def diagonal(self, X: Array, /) -> Array:
+        return (namespace(X).sum(X * X, axis=1) + self.offset) ** self.degree
+
+
+@dataclass(frozen=True)
+class Gaussian:
+    """``exp(-γ ‖x − y‖²)``; ``gamma=None`` is chosen from the descriptors by :func:`resolved`."""
+
+    gamma: float | None = None
+
+    def __post_init__(self) -> None:
+        if self.gamma is not None:
+            check_positive(self.gamma, "Gaussian gamma", "give a number above zero, or None for automatic")
+
+    def __call__(self, X: Array, Y: Array, /) -> Array:
+        return namespace(X, Y).exp(-_known(self) * squared_distances(X, Y))
+
+    def diagonal(self, X: Array, /) -> Array:
+        return _ones(X)
+
+
+@dataclass(frozen=True)
+class Laplacian:
+    """``exp(-γ ‖x − y‖)``, a sharper peak and longer tail than the Gaussian; ``gamma=None`` is automatic."""
+
+    gamma: float | None = None
+
+    def __post_init__(self) -> None:
+        if self.gamma is not None:
+            check_positive(self.gamma, "Laplacian gamma", "give a number above zero, or None for automatic")
+
+    def __call__(self, X: Array, Y: Array, /) -> Array:
+        return namespace(X, Y).exp(-_known(self) * distances(X, Y))
+
+    def diagonal(self, X: Array, /) -> Array:
+        return _ones(X)
+
+
+@dataclass(frozen=True)
+class Tanh:
+    """``tanh(scale·x·y + offset)``, the nonlinearity of neural networks.
+
+    Not positive definite in general: the Nyström features keep its positive part and say so.
+    """
+
+    scale: float = 1.0
+    offset: float = 0.0
+
+    def __post_init__(self) -> None:
+        check_positive(self.scale, "Tanh scale")
+
+    def __call__(self, X: Array, Y: Array, /) -> Array:
+        return namespace(X, Y).tanh(self.scale * (X @ Y.T) + self.offset)
+
+    def diagonal(self, X: Array, /) -> Array:
+        xp = namespace(X)
+        return xp.tanh(self.scale * xp.sum(X * X, axis=1) + self.offset)
+
+
+@dataclass(frozen=True)
+class Sum:
+    """``a(x, y) + b(x, y)``: the lifted vectors side by side."""
+
+    a: KernelLike
+    b: KernelLike
+
+    def __call__(self, X: Array, Y: Array, /) -> Array:
+        return gram(self.a, X, Y) + gram(self.b, X, Y)
+
+    def diagonal(self, X: Array, /) -> Array:
+        return gram_diagonal(self.a, X) + gram_diagonal(self.b, X)
+
+
+@dataclass(frozen=True)
+class Product:
+    """``a(x, y) · b(x, y)``: all products of one lifted entry of each."""
+
+    a: KernelLike
+    b: KernelLike
+
+    def __call__(self, X: Array, Y: Array, /) -> Array:
+        return gram(self.a, X, Y) * gram(self.b, X, Y)
+
+    def diagonal(self, X: Array, /) -> Array:
+        return gram_diagonal(self.a, X) * gram_diagonal(self.b, X)
+
+
+KERNELS = (Linear, Polynomial, Gaussian, Laplacian, Tanh, Sum, Product)
+"""Those that a settings file can name."""
+
+
+def gram(kernel: KernelLike, X: Array, Y: Array) -> Array:
+    """Kernel matrix ``(n, m)`` between rows of ``X (n, d)`` and ``Y (m, d)``, checked.
+
+    A callable that knows only NumPy works on any array library: it is handed NumPy arrays when it is not
+    one of the package's own records.
+
+    Raises
+    ------
+    InvalidInput
+        When the kernel returns another shape, or NaN or infinite values.
+    """
+    with np.errstate(over="ignore", invalid="ignore"):  # what overflows is refused below, in words
+        if isinstance(kernel, Kernel) or is_numpy(X):
+            values = kernel(X, Y)
+        else:
+            values = like(np.asarray(kernel(to_numpy(X), to_numpy(Y))), X)
+    wanted = (X.shape[0], Y.shape[0])
+    name = f"kernel {describe(kernel)}"
+    shape = tuple(getattr(values, "shape", ()))
+    if shape != wanted:
+        raise refuse(name, f"shape {wanted}", f"shape {shape}", "return one value for each pair of rows")
+    xp = namespace(values)
+    # One reduction instead of an elementwise mask: NaN and infinity both survive a sum.
+    if not bool(xp.isfinite(xp.sum(values))):
+        remedy = "make it finite for these descriptors (a large degree or γ overflows)"
+        raise refuse(name, "finite values", "NaN or infinite ones", remedy)
+    return values
+
+
+def gram_diagonal(kernel: KernelLike, X: Array) -> Array:
+    """``(n,)`` values ``k(x, x)``, asked for row by row when the kernel has no ``diagonal``."""
+    if isinstance(kernel, Kernel):
+        return kernel.diagonal(X)
+    xp = namespace(X)
+    return xp.concat([xp.reshape(gram(kernel, X[i : i + 1, :], X[i : i + 1, :]), (1,)) for i in range(X.shape[0])])
+
+
+def describe(kernel: KernelLike) -> str:
+    """The kernel's name for messages and tables."""
+    if isinstance(kernel, Kernel):
+        return repr(kernel)
+    return getattr(kernel, "__name__", type(kernel).__name__)
+
+
+def resolved(kernel: KernelLike, samples: Array, sharpness: float = 1.0) -> KernelLike:
+    """The kernel with every automatic γ made a number.
+
+    The rule looks only at descriptors: for the Gaussian ``γ = sharpness / median ‖x − y‖²`` and for the
+    Laplacian kernel ``γ = √sharpness / median ‖x − y‖``, over all pairs of different ``samples (q, d)``. So
+    ``sharpness`` is a number without unit that survives any scaling of the descriptors.
+    """
+    if isinstance(kernel, Sum | Product):
+        return replace(kernel, a=resolved(kernel.a, samples, sharpness), b=resolved(kernel.b, samples, sharpness))
+    if isinstance(kernel, Adaptable):
+        return kernel.resolved(samples, sharpness)
+    if not isinstance(kernel, Gaussian | Laplacian) or kernel.gamma is not None:
+        return kernel
+    squares = to_numpy(squared_distances(samples, samples))
+    # Between equal rows there is rounding, of the size of the rows.
+    largest = float((to_numpy(samples) ** 2).sum(axis=1).max())
+    positive = squares[squares > max(1e-12 * squares.max(), 1e-24 * largest)]
+    typical = float(np.median(positive)) if positive.size else 1.0
+    gamma = sharpness / typical
+    return replace(kernel, gamma=gamma if isinstance(kernel, Gaussian) else float(np.sqrt(gamma)))
+
+
+def _known(kernel: Gaussian | Laplacian) -> float:
+    if kernel.gamma is None:
+        raise refuse(
+            f"{type(kernel).__name__} gamma",
+            "a number",
+            "None (automatic)",
+            "call resolved(kernel, samples) first",
+        )
+    return kernel.gamma

@@ -1,0 +1,92 @@
+"""Which rows of the descriptors the Nyström approximation is built from.
+
+All return ``(count,)`` indices without repetition, fewer when the data run out of distinct rows.
+Farthest points by geodesic distance are in :mod:`kfmaps.geometry.geodesics`.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from kfmaps._arrays import Array, check_count, check_positive, to_numpy
+from kfmaps.kernels.kernels import KernelLike, gram, gram_diagonal
+
+Rng = int | np.random.Generator | None
+
+
+def uniform(n: int, count: int, rng: Rng = 0) -> np.ndarray:
+    """``count`` of ``n`` rows, all subsets equally likely."""
+    check_count(count, "sample count", high=n)
+    return np.random.default_rng(rng).choice(n, size=count, replace=False)
+
+
+POOL = 50_000
+"""Rows that farthest points are chosen from, at most: a random choice of them where there are more."""
+
+
+def farthest(X: Array, count: int, rng: Rng = 0, pool: int | None = POOL) -> np.ndarray:
+    """Farthest points in descriptor space (Gonzalez 1985; descriptor FPS of the paper, section 7.1).
+
+    Starts at a random row of ``X (n, d)``, then takes the row farthest from all taken; stops early when
+    every row equals a taken one. Of more than ``pool`` rows (but at least ``4 count``) that many are drawn
+    first, so that the cost does not grow with n; ``None`` never does so.
+    """
+    X = to_numpy(X)
+    check_count(count, "sample count", high=len(X))
+    draw = np.random.default_rng(rng)
+    if pool is not None and len(X) > max(pool, 4 * count):
+        drawn = draw.choice(len(X), size=max(pool, 4 * count), replace=False)
+        return drawn[farthest(X[drawn], count, draw, None)]
+    X = X - X.mean(axis=0)
+    squares = np.einsum("ij,ij->i", X, X)
+    taken = np.empty(count, dtype=np.int64)
+    nearest = np.full(len(X), np.inf)
+    following = int(draw.integers(len(X)))
+    for i in range(count):
+        taken[i] = following
+        away = X @ X[following]
+        away *= -2
+        away += squares
+        away += squares[following]
+        np.minimum(nearest, away, out=nearest)
+        nearest[following] = -np.inf
+        following = int(np.argmax(nearest))
+        if nearest[following] <= 1e-14 * squares.max():
+            return taken[: i + 1]
+    return taken
+
+
+def pivoted_cholesky(
+    kernel: KernelLike, X: Array, count: int, *, randomised: bool = False, power: float = 1.0, rng: Rng = 0
+) -> np.ndarray:
+    """Pivots of a partial Cholesky factorisation of the kernel matrix of ``X (n, d)``.
+
+    Greedy (largest residual diagonal; Fine and Scheinberg 2001) or, ``randomised``, drawn in proportion to
+    a ``power`` of it: 1 reduces the expected trace of the residual (RPCholesky; Chen, Epperly, Tropp and Webber 2023),
+    2 its expected squared Frobenius norm (Steinerberger 2024). Memory ``n × count``. Stops early when the residual is
+    spent. For a kernel that is not positive definite the negative part of the residual is passed over.
+    """
+    check_count(count, "sample count", high=X.shape[0])
+    check_positive(power, "power")
+    draw = np.random.default_rng(rng)
+    residual = to_numpy(gram_diagonal(kernel, X)).astype(float).clip(min=0.0)
+    spent = 1e-14 * residual.max()
+    factor = np.zeros((X.shape[0], count))
+    taken: list[int] = []
+    for i in range(count):
+        pivot = _drawn(residual**power, draw) if randomised else int(np.argmax(residual))
+        taken.append(pivot)
+        column = to_numpy(gram(kernel, X, X[pivot : pivot + 1, :]))[:, 0] - factor[:, :i] @ factor[pivot, :i]
+        if not column[pivot] > 0:
+            taken.pop()
+            break
+        factor[:, i] = column / np.sqrt(column[pivot])
+        residual = (residual - factor[:, i] ** 2).clip(min=0.0)
+        residual[taken] = 0.0
+        if residual.max() <= spent:
+            break
+    return np.asarray(taken, dtype=np.int64)
+
+
+def _drawn(weights: np.ndarray, draw: np.random.Generator) -> int:
+    return int(draw.choice(len(weights), p=weights / weights.sum()))

@@ -1,0 +1,178 @@
+"""Kernels of descriptors that were transformed first: what learning finds, as records of plain numbers.
+
+Each holds another kernel and hands it transformed rows. They nest: ``Metric(Network(Gaussian(1.0), …), …)`` weights the
+descriptors, puts the network's outputs beside them and takes the Gaussian kernel of the whole.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+
+from kfmaps._arrays import Array, check_count, check_positive, like, namespace, refuse, take
+from kfmaps.kernels import kernels
+from kfmaps.kernels.kernels import Gaussian, KernelLike, describe, gram, gram_diagonal, resolved
+
+
+@dataclass(frozen=True)
+class Metric:
+    """``kernel(M x, M y)``: distances and products in the metric ``MᵀM``.
+
+    Attributes
+    ----------
+    kernel : Kernel
+    matrix : tuple of d numbers, or tuple of r tuples of d numbers
+        A weight for each descriptor ("automatic relevance determination", MacKay 1994), or the rows of ``M (r, d)``.
+    landmarks : int or None
+        Of how many landmarks these descriptors are, where that matters: as many descriptors of other landmarks are
+        other descriptors. Checked by :func:`kfmaps.matching.features.resolved_kernel`.
+    """
+
+    kernel: KernelLike = field(default_factory=Gaussian)
+    matrix: tuple[float, ...] | tuple[tuple[float, ...], ...] = ()
+    landmarks: int | None = None
+
+    def __post_init__(self) -> None:
+        if self.landmarks is not None:
+            check_count(self.landmarks, "Metric landmarks", low=0)
+        values = _matrix(self.matrix, "Metric matrix")
+        plain = values.tolist()
+        object.__setattr__(self, "matrix", tuple(tuple(row) if values.ndim == 2 else row for row in plain))
+
+    def __call__(self, X: Array, Y: Array, /) -> Array:
+        return gram(self.kernel, self.transformed(X), self.transformed(Y))
+
+    def diagonal(self, X: Array, /) -> Array:
+        return gram_diagonal(self.kernel, self.transformed(X))
+
+    def transformed(self, X: Array) -> Array:
+        """``(n, r)`` rows ``M x`` of descriptors ``X (n, d)``."""
+        M = like(self.matrix, X)
+        if X.shape[1] != M.shape[-1]:
+            remedy = "match with as many descriptors and landmarks as it was learned with"
+            raise refuse("descriptors", f"{M.shape[-1]}, as the metric has", str(X.shape[1]), remedy)
+        return X * M[None, :] if M.ndim == 1 else X @ M.T
+
+    def resolved(self, samples: Array, sharpness: float) -> Metric:
+        """The same with every automatic γ of the inner kernel made a number."""
+        return replace(self, kernel=resolved(self.kernel, self.transformed(samples), sharpness))
+
+    def __repr__(self) -> str:
+        size = " × ".join(str(n) for n in np.shape(self.matrix))
+        return f"Metric({describe(self.kernel)}, {size})"
+
+
+@dataclass(frozen=True)
+class Network:
+    """``kernel`` of the rows ``(x, f(x))``: descriptors, and beside them what a small network makes of them.
+
+    Attributes
+    ----------
+    kernel : Kernel
+    layers : tuple of matrices (out, in + 1)
+        The last column is the bias; between layers stands tanh, after the last nothing.
+    columns : tuple of int
+        The descriptors that the network sees; none means all.
+    """
+
+    kernel: KernelLike = field(default_factory=Gaussian)
+    layers: tuple[tuple[tuple[float, ...], ...], ...] = ()
+    columns: tuple[int, ...] = ()
+
+    def __post_init__(self) -> None:
+        plain = tuple(tuple(tuple(row) for row in _matrix(m, "Network layer", 2).tolist()) for m in self.layers)
+        if not plain:
+            raise refuse("Network layers", "at least one matrix", "none", "give one")
+        for inner, outer in pairwise(plain):
+            if len(outer[0]) != len(inner) + 1:
+                got = f"{len(outer[0])} columns after {len(inner)} rows"
+                raise refuse("Network layers", "a column for each row before it, and one for the bias", got, "add it")
+        object.__setattr__(self, "layers", plain)
+        object.__setattr__(self, "columns", tuple(int(c) for c in self.columns))
+
+    def __call__(self, X: Array, Y: Array, /) -> Array:
+        return gram(self.kernel, self.transformed(X), self.transformed(Y))
+
+    def diagonal(self, X: Array, /) -> Array:
+        return gram_diagonal(self.kernel, self.transformed(X))
+
+    def transformed(self, X: Array) -> Array:
+        """``(n, d + out)`` rows ``(x, f(x))`` of descriptors ``X (n, d)``."""
+        seen = take(X, np.asarray(self.columns), axis=1) if self.columns else X
+        if len(self.layers[0][0]) != seen.shape[1] + 1:
+            got = f"{seen.shape[1]}"
+            raise refuse("descriptors", f"{len(self.layers[0][0]) - 1}, as the network has", got, "as it was learned")
+        return namespace(X).concat([X, forward(tuple(like(m, X) for m in self.layers), seen)], axis=1)
+
+    def resolved(self, samples: Array, sharpness: float) -> Network:
+        """The same with every automatic γ of the inner kernel made a number."""
+        return replace(self, kernel=resolved(self.kernel, self.transformed(samples), sharpness))
+
+    def __repr__(self) -> str:
+        sizes = " → ".join(str(n) for n in [len(self.layers[0][0]) - 1, *(len(m) for m in self.layers)])
+        return f"Network({describe(self.kernel)}, {sizes})"
+
+
+@dataclass(frozen=True)
+class Scaled:
+    """``factor · kernel(x, y)``: a share of a :class:`~kfmaps.kernels.kernels.Sum`."""
+
+    kernel: KernelLike = field(default_factory=Gaussian)
+    factor: float = 1.0
+
+    def __post_init__(self) -> None:
+        check_positive(self.factor, "Scaled factor")
+
+    def __call__(self, X: Array, Y: Array, /) -> Array:
+        return self.factor * gram(self.kernel, X, Y)
+
+    def diagonal(self, X: Array, /) -> Array:
+        return self.factor * gram_diagonal(self.kernel, X)
+
+    def resolved(self, samples: Array, sharpness: float) -> Scaled:
+        """The same with every automatic γ of the inner kernel made a number."""
+        return replace(self, kernel=resolved(self.kernel, samples, sharpness))
+
+
+KERNELS: tuple[type, ...] = (*kernels.KERNELS, Metric, Network, Scaled)
+"""Every kernel that a settings file can name."""
+
+
+def width(kernel: KernelLike) -> int | None:
+    """How many descriptors ``kernel`` takes; ``None`` when it takes any number."""
+    if isinstance(kernel, Metric):
+        return int(np.shape(kernel.matrix)[-1])
+    if isinstance(kernel, Network) and not kernel.columns:
+        return len(kernel.layers[0][0]) - 1
+    inside = [getattr(kernel, name) for name in ("kernel", "a", "b") if hasattr(kernel, name)]
+    return next((found for found in map(width, inside) if found is not None), None)
+
+
+def landmarks(kernel: KernelLike) -> int | None:
+    """Of how many landmarks the descriptors of ``kernel`` are; ``None`` when it does not say."""
+    own = getattr(kernel, "landmarks", None)
+    inside = [getattr(kernel, name) for name in ("kernel", "a", "b") if hasattr(kernel, name)]
+    return own if own is not None else next((found for found in map(landmarks, inside) if found is not None), None)
+
+
+def forward(layers: tuple[Array, ...], X: Array) -> Array:
+    """``(n, out)`` outputs of a network for rows ``X (n, in)``; its ``layers`` as in :class:`Network`."""
+    xp = namespace(X)
+    for i, matrix in enumerate(layers):
+        X = (xp.tanh(X) if i else X) @ matrix[:, :-1].T + matrix[:, -1][None, :]
+    return X
+
+
+def _matrix(values: Any, name: str, ndim: int | None = None) -> np.ndarray:
+    """``values`` as a finite array of one or two dimensions."""
+    wanted = "a list of numbers, or lists of equally many" if ndim is None else "lists of equally many numbers"
+    try:
+        array = np.asarray(values, dtype=np.float64)
+    except (TypeError, ValueError) as error:
+        raise refuse(name, wanted, f"{type(values).__name__}: {error}", "see docs/learning.md") from error
+    if array.ndim not in ((1, 2) if ndim is None else (ndim,)) or array.size == 0 or not np.isfinite(array).all():
+        raise refuse(name, f"finite numbers, {wanted}", f"shape {array.shape}", "see docs/learning.md")
+    return array

@@ -1,0 +1,183 @@
+"""The energies of a pair of shapes, made from its descriptors as a configuration says."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from kfmaps._arrays import Array, inner, like, refuse, to_numpy
+from kfmaps.config import Config
+from kfmaps.fmap.energy import (
+    Energy,
+    Term,
+    descriptor_term,
+    hadamard_term,
+    kernel_descriptor_term,
+    laplacian_term,
+    slice_term,
+)
+from kfmaps.fmap.multiplication_operators import compressed, condensed, packed_slices, unpacked_slices
+from kfmaps.geometry.basis import Basis
+from kfmaps.geometry.orientation_operators import orientation_slices
+from kfmaps.kernels.kernels import KernelLike
+from kfmaps.matching.features import Descriptors, Features, kernel_features, resolved_kernel
+from kfmaps.shape import Shape
+
+CONDENSATION = 0.5
+"""Part of ``compression`` that is spent on the features, before slices are formed of them."""
+ORIENTATION_FEATURES = 40
+"""Features whose orientation operators are formed: the strongest of the joint singular value decomposition."""
+
+
+@dataclass(frozen=True, eq=False)
+class Problem:
+    """What two shapes tell a map between them, in either direction; made by :func:`problem`.
+
+    Attributes
+    ----------
+    config : Config
+    bases : pair of Basis
+        As large as the map, on the device of the work.
+    kernel : kernel
+        With every γ a number.
+    descriptors : Descriptors
+    features : Features or None
+        ``None`` with the exact kernel.
+    multiplications, orientations : pair of arrays (r, k, k), or None
+        Slices of the operators that the map should commute with, on source and target.
+    """
+
+    config: Config
+    bases: tuple[Basis, Basis]
+    kernel: KernelLike
+    descriptors: Descriptors
+    features: Features | None = None
+    multiplications: tuple[Array, Array] | None = None
+    orientations: tuple[Array, Array] | None = None
+
+    @property
+    def rank(self) -> int:
+        """Features of the kernel; of an exact one all points."""
+        sides = (self.descriptors.source, self.descriptors.target)
+        return sum(D.shape[0] for D in sides) if self.features is None else int(self.features.source.shape[1])
+
+    @property
+    def slices(self) -> int:
+        """Multiplication slices left after compression."""
+        return 0 if self.multiplications is None else int(self.multiplications[0].shape[0])
+
+    @cached_property
+    def energy(self) -> Energy:
+        """The energy of the map from source to target."""
+        return self._energy(0, 1)
+
+    @cached_property
+    def reverse(self) -> Energy:
+        """The energy of the map from target to source."""
+        return self._energy(1, 0)
+
+    def _energy(self, s: int, t: int) -> Energy:
+        weights, small = self.config.weights, self.bases
+        masked = self.config.formulation
+        terms: dict[str, Term] = {
+            "laplacian": laplacian_term(small[s], small[t], mask=masked.mask, power=masked.mask_power)
+        }
+        if self.features is None:
+            D = (self.descriptors.source, self.descriptors.target)
+            arguments = (self.kernel, small[s], D[s], small[t], D[t])
+            if weights.descriptors:
+                terms["descriptors"] = kernel_descriptor_term(*arguments)
+            if weights.commutativity:
+                terms["commutativity"] = hadamard_term(*arguments)
+        elif weights.descriptors:
+            F = (self.features.source, self.features.target)
+            terms["descriptors"] = descriptor_term(small[s], F[s], small[t], F[t])
+        if self.multiplications is not None:
+            terms["commutativity"] = slice_term(self.multiplications[s], self.multiplications[t])
+        if self.orientations is not None:
+            terms["orientation"] = slice_term(self.orientations[s], self.orientations[t], parity=-1)
+        return Energy(terms, {name: getattr(weights, name) for name in terms})
+
+
+def problem(
+    source: Shape,
+    target: Shape,
+    bases: tuple[Basis, Basis],
+    descriptors: Descriptors,
+    config: Config,
+    rng: np.random.Generator,
+    whole: tuple[Shape, Shape] | None = None,
+) -> Problem:
+    """What ``config`` asks a map to keep: kernel, features and slices, from which energies are made.
+
+    ``bases`` are of at least the map's size and on the device of ``descriptors``. Where ``source`` and ``target`` are
+    samples of shapes (:func:`kfmaps.shape.reduced`), ``whole`` are those shapes: orientation needs their faces.
+    """
+    small = (bases[0].truncated(config.basis.functions), bases[1].truncated(config.basis.functions))
+    weights = config.weights
+    if config.exact:
+        if weights.orientation:
+            raise refuse("orientation weight", "0 with the exact kernel", str(weights.orientation), "use features")
+        return Problem(config, small, resolved_kernel(descriptors, config, rng), descriptors)
+    features = kernel_features(source, target, descriptors, config, rng)
+    multiplications, orientations, size = None, None, 0.0
+    if weights.commutativity:
+        formed = (features.source, features.target)
+        if config.compression:
+            share = CONDENSATION * config.compression
+            formed = condensed(small[0], formed[0], small[1], formed[1], share)
+        packed_s, packed_t = (packed_slices(b, F, threads=config.threads) for b, F in zip(small, formed, strict=True))
+        if config.compression:
+            packed_s, packed_t = compressed(packed_s, packed_t, config.compression)
+        size = inner(packed_s, packed_s) + inner(packed_t, packed_t)
+        multiplications = (unpacked_slices(packed_s), unpacked_slices(packed_t))
+    if weights.orientation:
+        strongest = principal(small, features, ORIENTATION_FEATURES)
+        size = size or 2.0 * small[0].functions.shape[1]
+        shapes = (source, target)
+        k = config.basis.functions
+        orientations = orientation_pair(shapes, whole or shapes, bases, strongest, k, size, config.threads)
+    return Problem(config, small, features.kernel, descriptors, features, multiplications, orientations)
+
+
+def orientation_pair(
+    shapes: tuple[Shape, Shape],
+    whole: tuple[Shape, Shape],
+    bases: tuple[Basis, Basis],
+    features: Features,
+    k: int,
+    size: float,
+    threads: int | None = None,
+) -> tuple[Array, Array]:
+    """Slices of ``Ω_w[g] = n · (∇w × ∇g)`` for each of ``features``, ``k`` × ``k``, of both shapes (Ren et al. 2018).
+
+    The operators change sign under a mirror, so maps that commute with them keep orientation. Their summed squared
+    norm is scaled to ``size``, that of the multiplication operators, so that the weights of both terms compare.
+    Features on samples are continued to the ``whole`` shapes by what of them lies in the basis.
+    """
+    slices = []
+    for shape, all_of_it, basis, F in zip(shapes, whole, bases, (features.source, features.target), strict=True):
+        if all_of_it is not shape:
+            F, basis = all_of_it.basis.lift(to_numpy(basis.project(F))), all_of_it.basis
+        slices.append(like(orientation_slices(all_of_it.mesh, basis.truncated(k), F, threads), features.source))
+    total = sum(inner(X, X) for X in slices)
+    scale = (size / total) ** 0.5 if total else 0.0
+    return slices[0] * scale, slices[1] * scale
+
+
+def principal(bases: tuple[Basis, Basis], features: Features, count: int) -> Features:
+    """The ``count`` strongest directions of the features of both shapes, their common mean left out."""
+    F = [to_numpy(features.source), to_numpy(features.target)]
+    mass = [to_numpy(b.mass) for b in bases]
+    whole = sum(float(m @ (f * f).sum(axis=1)) for m, f in zip(mass, F, strict=True))
+    mean = sum(m @ f / m.sum() for m, f in zip(mass, F, strict=True)) / 2
+    F = [f - mean for f in F]
+    gram = sum((f * m[:, None]).T @ f for m, f in zip(mass, F, strict=True))
+    energies, rotation = np.linalg.eigh(gram)
+    # What is left of constants without their mean is rounding: it tells no side from the other.
+    told = energies > 1e-24 * whole
+    rotation = rotation[:, told][:, ::-1][:, :count]
+    strongest = [like(f @ rotation, features.source) for f in F]
+    return Features(strongest[0], strongest[1], features.kernel)

@@ -1,0 +1,119 @@
+"""Tips of limbs: what two bodies have in common, whatever their proportions and poses.
+
+Hands, feet, heads and tails are where the mean geodesic distance to the rest of the surface is locally largest
+(Hilaga et al. 2001). They are few and found on any body, and distances to them, together with the sense in which two of
+these grow around a point, tell all of its points apart, also its left from its right and its front from its back.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from itertools import combinations
+
+import numpy as np
+from scipy.sparse import csr_array
+from scipy.sparse.csgraph import dijkstra
+
+from kfmaps.geometry.geodesic_graph import surface_graph
+from kfmaps.geometry.mesh import Mesh
+
+APART = 0.3
+"""Distance, in units of √area, within which only the farthest point is a tip: fingers are part of a hand."""
+MOST = 7
+"""Tips of a shape that are kept, the farthest; five of a human, six or seven of animals."""
+SMOOTHING = 6
+"""Rounds of averaging over neighbours of the sense of rotation, which is constant on each triangle at first."""
+
+
+@dataclass(frozen=True, eq=False)
+class Tips:
+    """The tips of one shape; made by :func:`tips`.
+
+    Attributes
+    ----------
+    points : (m,) int64
+        Which samples of the probe are tips, the farthest first.
+    reach : (m,) float64
+        Mean distance of each from all of the surface, over that of all points.
+    distances : (m, q) float64
+        From each tip to each sample, over the mean distance of all points from each other.
+    turn : (m, m, q) float64
+        ``n · (∇dᵢ × ∇dⱼ)`` of the distances from tips i and j at each sample, averaged nearby, from −1 to 1: the sine
+        of the angle from one direction to the other. It changes sign in a mirror. 0 for point clouds.
+    """
+
+    points: np.ndarray
+    reach: np.ndarray
+    distances: np.ndarray
+    turn: np.ndarray
+    unit: float
+
+    def thinned(self, count: int) -> Tips:
+        """At the first samples."""
+        return replace(self, distances=self.distances[:, :count], turn=self.turn[:, :, :count])
+
+    def none(self) -> Tips:
+        """As of a shape without any."""
+        return Tips(self.points[:0], self.reach[:0], self.distances[:0], self.turn[:0, :0], self.unit)
+
+    def mirrored(self) -> Tips:
+        """Of the mirror image."""
+        return replace(self, turn=-self.turn)
+
+
+def tips(distances: np.ndarray, mass: np.ndarray, mesh: Mesh, rows: np.ndarray, graph: csr_array | None = None) -> Tips:
+    """The tips of a shape.
+
+    Parameters
+    ----------
+    distances : (c, c) float64
+        Geodesic distances between its first samples.
+    mass : (c,) float64
+        The areas that these stand for.
+    mesh : Mesh
+        The surface, or a coarse copy.
+    rows : (q,) int64
+        The vertex of ``mesh`` of each sample, the first c of them those of ``distances``.
+    graph : sparse (n, n), optional
+        The surface graph of ``mesh`` of depth 1, where it is there already.
+    """
+    far = distances @ (mass / mass.sum())
+    mean = float(far @ (mass / mass.sum())) or 1.0
+    farthest = [i for i, near in enumerate(distances < APART) if far[i] >= far[near].max(initial=0.0)]
+    points = np.array(sorted(farthest, key=lambda i: -far[i])[:MOST], dtype=np.int64)
+    found = everywhere(mesh, rows[points], mean, graph)
+    return Tips(points, far[points] / mean, found.distances[:, rows], found.turn[:, :, rows], mean)
+
+
+def everywhere(mesh: Mesh, vertices: np.ndarray, unit: float, graph: csr_array | None = None) -> Tips:
+    """What the tips at ``vertices (m,)`` tell of all n vertices, with distances in ``unit``; ``graph`` as in tips."""
+    found = dijkstra(surface_graph(mesh, 1) if graph is None else graph, indices=vertices)
+    joined = np.isfinite(found)
+    found = np.where(joined, found, found[joined].max(initial=0.0))
+    return Tips(vertices, found.mean(axis=1) / unit, found / unit, turns(mesh, found), unit)
+
+
+def turns(mesh: Mesh, functions: np.ndarray) -> np.ndarray:
+    """``n · (∇fᵢ × ∇fⱼ)`` at the vertices, (m, m, n), of ``functions (m, n)``, averaged over a few edges."""
+    m, n = functions.shape
+    found = np.zeros((m, m, n))
+    faces = mesh.faces
+    if len(faces) == 0 or m < 2:
+        return found
+    along = [functions[:, faces[:, c]] - functions[:, faces[:, 0]] for c in (1, 2)]
+    pairs = list(combinations(range(m), 2))
+    # The integral over a triangle needs no area: (∇f × ∇g) · n A = (df₁ dg₂ − df₂ dg₁) / 2.
+    whole = np.stack([(along[0][i] * along[1][j] - along[1][i] * along[0][j]) / 2 for i, j in pairs], axis=1)
+    a, b = (mesh.vertices[faces[:, c]] - mesh.vertices[faces[:, 0]] for c in (1, 2))
+    area = np.linalg.norm(np.cross(a, b), axis=1) / 2
+    corner = csr_array((np.ones(faces.size), (faces.T.ravel(), np.tile(np.arange(len(faces)), 3))), (n, len(faces)))
+    both = corner @ np.column_stack([whole, area])
+    # Twice the corners of a face around each of its corners, once for those at its other ends: an average.
+    around = csr_array(corner @ corner.T)
+    around = csr_array(around / around.sum(axis=1).mean())
+    for _ in range(SMOOTHING):
+        both = around @ both
+    values = both[:, :-1] / np.maximum(both[:, -1:], 1e-12 * max(float(both[:, -1].max()), 1e-300))
+    for column, (i, j) in enumerate(pairs):
+        found[i, j], found[j, i] = values[:, column], -values[:, column]
+    return found

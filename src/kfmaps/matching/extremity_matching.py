@@ -1,0 +1,184 @@
+"""Which tip of one shape is which of another, and the rough map that follows.
+
+All ways to pair the tips are tried, and those kept whose tips lie alike; then, for each, the distances to the tips and
+the sense in which they grow are compared at all points, which tells a limb from another and left from right.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import combinations, permutations
+
+import numpy as np
+
+from kfmaps.fmap.descriptor_guidance import Guide
+from kfmaps.geometry.mesh import Mesh
+from kfmaps.matching.extremities import Tips, everywhere
+from kfmaps.matching.quality import Probe
+
+FEWEST = 3
+"""Tips without which nothing is told apart."""
+LEFT_OUT = 0.15
+"""Cost of leaving one of the tips out, as its part of all: an ear of a dog has no partner on a cat."""
+SPARE = 5
+"""Tips from which one may be left out."""
+TRIED = 200
+"""Pairings whose points are compared, ..."""
+THIN = 150
+"""... at so many of the samples, ..."""
+KEPT = 32
+"""... and those that are refined."""
+NEAR = 0.5
+"""Distance, over the mean one of all points, up to which a tip whose image is nearest to another goes to that one."""
+SHOT = 0.02
+"""Weight of SHOT beside distances from tips, where those are the same."""
+
+
+@dataclass(frozen=True, eq=False)
+class Pairing:
+    """Tips ``source (m,)`` of one shape and, in the same order, ``target (m,)`` of the other."""
+
+    source: np.ndarray
+    target: np.ndarray
+
+    def pairs(self) -> set[tuple[int, int]]:
+        """Of the tips' numbers."""
+        return set(zip(self.source.tolist(), self.target.tolist(), strict=True))
+
+    def within(self, other: Pairing) -> bool:
+        """Whether ``other`` has all of its pairs."""
+        return self.pairs() <= other.pairs()
+
+    def contradicts(self, other: Pairing) -> bool:
+        """Whether one tip, of either shape, goes to different ones."""
+        return any((i == k) != (j == n) for i, j in self.pairs() for k, n in other.pairs())
+
+    def __str__(self) -> str:
+        return f"tips {'-'.join(map(str, self.source))} to {'-'.join(map(str, self.target))}"
+
+
+def unheard(likely: list[Pairing], known: list[Pairing], most: int) -> list[Pairing]:
+    """The first ``most`` of ``likely`` that contradict each other, less those all of which is in one of ``known``.
+
+    Two contradict each other where they take one tip, of either shape, to different ones.
+    """
+    first: list[Pairing] = []
+    for one in likely:
+        if len(first) < most and all(one.contradicts(other) for other in first):
+            first.append(one)
+    whole = [completed(one, likely) for one in first]
+    return [one for one in whole if not any(one.within(other) for other in known)]
+
+
+def completed(pairing: Pairing, likely: list[Pairing]) -> Pairing:
+    """The first of ``likely`` with all pairs of ``pairing`` and more, else itself.
+
+    With one tip left out there is always less to differ: of a right pairing of all tips the parts come first.
+    """
+    return next((one for one in likely if pairing.within(one) and len(one.source) > len(pairing.source)), pairing)
+
+
+def pairings(source: Probe, target: Probe, shot: np.ndarray | None) -> list[Pairing]:
+    """The likeliest, best first; none where a shape has hardly any tips.
+
+    ``shot (q_t, q_s)``: half the squared differences of descriptors, see
+    :func:`kfmaps.matching.sample_pair.differences`.
+    """
+    a, b = source.tips, target.tips
+    if min(len(a.points), len(b.points)) < FEWEST:
+        return []
+    tried = alike(source, target)[:TRIED]
+    thin = a.thinned(THIN), b.thinned(THIN)
+    less = None if shot is None else shot[:THIN, :THIN]
+    left = [float(against(*thin, pairing, less).min(axis=1).mean()) for pairing in tried]
+    return [tried[i] for i in np.argsort(left, kind="stable")[:KEPT]]
+
+
+def alike(source: Probe, target: Probe) -> list[Pairing]:
+    """All pairings of as many tips as both shapes have, or of one less, in the order of how alike the tips lie.
+
+    Their distances from each other and from the rest are compared, and the heat kernel signature, which knows a tail
+    from a leg.
+    """
+    a, b = source.tips, target.tips
+    between_s, between_t = a.distances[:, a.points], b.distances[:, b.points]
+    apart = np.abs(a.reach[:, None] - b.reach[None, :])
+    heat_s, heat_t = source.heat[a.points], target.heat[b.points]
+    apart = apart + np.sqrt(((heat_s[:, None] - heat_t[None, :]) ** 2).mean(axis=2))
+    both = min(len(a.points), len(b.points))
+    costs, found = [], []
+    for size in (both, both - 1) if both >= SPARE else (both,):
+        images = np.array(list(permutations(range(len(b.points)), size)))
+        for chosen in combinations(range(len(a.points)), size):
+            ours = between_s[np.ix_(chosen, chosen)]
+            theirs = between_t[images[:, :, None], images[:, None, :]]
+            cost = np.abs(theirs - ours).sum(axis=(1, 2)) / (size * (size - 1))
+            cost = cost + apart[np.array(chosen), images].mean(axis=1) + LEFT_OUT * (both - size) / both
+            best = np.argsort(cost, kind="stable")[:TRIED]
+            costs.append(cost[best])
+            found += [Pairing(np.array(chosen), images[i]) for i in best]
+    order = np.argsort(np.concatenate(costs), kind="stable")
+    return [found[i] for i in order]
+
+
+def against(a: Tips, b: Tips, pairing: Pairing, shot: np.ndarray | None = None) -> np.ndarray:
+    """What speaks against each pair of samples ``(q_t, q_s)``: squared differences of all that tips tell."""
+    there, here = told(b, pairing.target), told(a, pairing.source)
+    cost = -2 * there @ here.T
+    cost += (there**2).sum(axis=1)[:, None]
+    cost += (here**2).sum(axis=1)
+    if shot is not None:
+        cost += SHOT * shot
+    return cost
+
+
+def induced(points: np.ndarray, source: Probe, target: Probe) -> Pairing | None:
+    """The tips that a map ``points (q_t,)`` takes to each other, nearly; ``None`` where they are fewer than three."""
+    a, b = source.tips, target.tips
+    if min(len(a.points), len(b.points)) < FEWEST:
+        return None
+    # From each tip of the source to the image of each of the target.
+    off = a.distances[:, points[b.points]]
+    nearest_s, nearest_t = off.argmin(axis=0), off.argmin(axis=1)
+    theirs = np.flatnonzero((off.min(axis=0) < NEAR) & (nearest_t[nearest_s] == np.arange(len(b.points))))
+    return Pairing(nearest_s[theirs], theirs) if len(theirs) >= FEWEST else None
+
+
+@dataclass(frozen=True, eq=False)
+class Limbs:
+    """Paired tips as vertices ``source (m,)`` and ``target (m,)`` of both shapes, and the unit of distances of each."""
+
+    source: np.ndarray
+    target: np.ndarray
+    units: tuple[float, float]
+
+    def guide(self, source: Mesh, target: Mesh) -> Guide:
+        """What the tips tell of all vertices, for the refinement: half its squared differences are :func:`against`."""
+        everything = np.arange(len(self.source))
+        sides = ((source, self.source), (target, self.target))
+        return Guide(
+            *(
+                np.sqrt(2.0) * told(everywhere(mesh, at, unit), everything)
+                for (mesh, at), unit in zip(sides, self.units, strict=True)
+            )
+        )
+
+
+def limbs(points: np.ndarray, source: Probe, target: Probe) -> Limbs | None:
+    """Those that a map ``points (q_t,)`` of samples pairs (:func:`induced`)."""
+    found = induced(points, source, target)
+    return None if found is None else limbs_of(found, source, target)
+
+
+def limbs_of(found: Pairing, source: Probe, target: Probe) -> Limbs:
+    """The tips of a pairing as vertices of both shapes."""
+    at = source.tips.points[found.source], target.tips.points[found.target]
+    units = source.tips.unit, target.tips.unit
+    return Limbs(source.samples.vertices[at[0]], target.samples.vertices[at[1]], units)
+
+
+def told(found: Tips, chosen: np.ndarray) -> np.ndarray:
+    """What the ``chosen`` tips tell of each sample: distances and turns, each of them one on average."""
+    upper = np.triu_indices(len(chosen), 1)
+    turn = found.turn[np.ix_(chosen, chosen)][upper]
+    return np.vstack([found.distances[chosen] / np.sqrt(len(chosen)), turn / np.sqrt(max(len(turn), 1))]).T

@@ -1,0 +1,238 @@
+"""The descriptors of a pair of shapes, and the features of the kernel on them."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from kfmaps._arrays import Array, check, like, namespace, refuse, take, to_numpy
+from kfmaps.config import Config, DescriptorConfig, NystromConfig
+from kfmaps.descriptors.spectral import (
+    heat_map,
+    heat_signature,
+    heat_times,
+    normalised,
+    wave_energies,
+    wave_map,
+    wave_signature,
+)
+from kfmaps.geometry.basis import Basis
+from kfmaps.geometry.geodesics import farthest_geodesic
+from kfmaps.kernels.kernels import KernelLike, Linear, resolved
+from kfmaps.kernels.landmark_selection import farthest, pivoted_cholesky, uniform
+from kfmaps.kernels.nystrom import nystrom
+from kfmaps.kernels.transformed import landmarks as taught
+from kfmaps.shape import Shape
+
+EVERY = 200
+"""Energies of the signature and of each landmark in the layout "every-nth"."""
+
+
+@dataclass(frozen=True, eq=False)
+class Descriptors:
+    """Normalised descriptors ``source (n_s, d)`` and ``target (n_t, d)``, and whose ``landmark (d,)`` each is.
+
+    Landmarks are counted from 0; a descriptor of none has −1.
+    """
+
+    source: Array
+    target: Array
+    landmark: np.ndarray
+
+
+@dataclass(frozen=True, eq=False)
+class Features:
+    """Features ``source (n_s, r)``, ``target (n_t, r)`` of ``kernel``, every γ of it a number."""
+
+    source: Array
+    target: Array
+    kernel: KernelLike
+
+
+def pair_descriptors(
+    source: Shape,
+    target: Shape,
+    bases: tuple[Basis, Basis],
+    config: DescriptorConfig,
+    landmarks: np.ndarray,
+    given: tuple[Any, Any] | None,
+) -> Descriptors:
+    """Descriptors of both shapes as ``config`` asks.
+
+    Parameters
+    ----------
+    source, target : Shape
+    bases : pair of Basis
+        On the device where the work is done.
+    landmarks : (l, 2) int64
+        Pairs "source, target"; l may be 0.
+    given : pair of arrays (n_s, d), (n_t, d), optional
+        Descriptors of the user's own, beside the computed ones.
+    """
+    size = min(config.eigenfunctions, *(b.functions.shape[1] for b in bases))
+    small = (bases[0].truncated(size), bases[1].truncated(size))
+    sides = [spectral_descriptors(i, small, config, landmarks[:, i]) for i in (0, 1)]
+    whose = landmark_of_each(config, len(landmarks))
+    if given is not None:
+        for i, shape in enumerate((source, target)):
+            name = f"descriptors of {shape.name}"
+            values = np.asarray(to_numpy(given[i]), dtype=np.float64)
+            check(values, name, shape=(len(shape.mesh.vertices), None), remedy="give one row per vertex")
+            sides[i].append(like(values, bases[i].functions))
+    masses = [b.mass for b in bases]
+    blocks = []
+    if sides[0] and sides[1]:
+        xp = namespace(bases[0].functions)
+        D_s, D_t = (xp.concat(side, axis=1) for side in sides)
+        blocks.append(normalised(D_s, D_t, config.normalisation, *masses))
+    if config.shot:
+        local = []
+        for shape, basis in zip((source, target), bases, strict=True):
+            if shape.shot is None:
+                raise refuse(shape.name, "a shape prepared with SHOT", "one without", "prepare it with this config")
+            local.append(like(shape.shot, basis.functions))
+        D_s, D_t = normalised(local[0], local[1], "variance", *masses)
+        weight = math.sqrt(config.shot_weight)
+        blocks.append((D_s * weight, D_t * weight))
+    if not blocks:
+        remedy = "turn on a signature, SHOT or landmarks, or give descriptors"
+        raise refuse("descriptors", "at least one", "none", remedy)
+    xp = namespace(blocks[0][0])
+    D_s, D_t = (xp.concat([b[i] for b in blocks], axis=1) for i in (0, 1))
+    others = np.full(D_s.shape[1] - len(whose), -1)
+    return Descriptors(D_s, D_t, np.concatenate([whose, others]))
+
+
+def spectral_descriptors(
+    side: int, bases: tuple[Basis, ...], config: DescriptorConfig, landmarks: np.ndarray
+) -> list[Array]:
+    """Signature and landmark maps of shape ``side`` (0 or 1); energies are common to both ``bases``."""
+    marks = len(landmarks) if config.landmark_map != "none" else 0
+    with_signature = config.signature != "none"
+    if marks == 0 and not with_signature:
+        return []
+    if config.layout == "every-nth":
+        return [_every_nth(side, bases, config, landmarks)]
+    on_signature, per_landmark = _shares(config, marks)
+    parts = []
+    if on_signature:
+        parts.append(_family(config.signature, bases[side], bases, None, on_signature))
+    if per_landmark and marks:
+        parts.append(_family(config.landmark_map, bases[side], bases, landmarks, per_landmark))
+    return parts
+
+
+def _shares(config: DescriptorConfig, marks: int) -> tuple[int, int]:
+    """How many descriptors go to the signature and to each of ``marks`` landmarks."""
+    if config.signature == "none":
+        return 0, max(1, config.count // marks)
+    if marks == 0:
+        return config.count, 0
+    per_landmark = max(1, int((1 - config.signature_share) * config.count) // marks)
+    return max(config.count - per_landmark * marks, 0), per_landmark
+
+
+def landmark_of_each(config: DescriptorConfig, landmarks: int) -> np.ndarray:
+    """The landmark that each of the spectral descriptors is of, counted from 0, (d,); −1 for the signature."""
+    marks = landmarks if config.landmark_map != "none" else 0
+    if marks == 0 and config.signature == "none":
+        return np.zeros(0, dtype=np.int64)
+    if config.layout == "every-nth":
+        signature = 0 if config.signature == "none" else EVERY
+        return (_chosen(signature + EVERY * marks, config.count) - signature) // EVERY
+    on_signature, per_landmark = _shares(config, marks)
+    return np.concatenate([np.full(on_signature, -1), np.repeat(np.arange(marks), per_landmark)])
+
+
+def _chosen(total: int, count: int) -> np.ndarray:
+    """Every n-th of ``total``, ``count`` at most."""
+    return np.arange(0, total, max(1, total // count))[:count]
+
+
+def _family(kind: str, basis: Basis, bases: tuple[Basis, ...], landmarks: np.ndarray | None, count: int) -> Array:
+    if kind == "heat":
+        times = heat_times(count, *bases)
+        return heat_signature(basis, times) if landmarks is None else heat_map(basis, landmarks, times)
+    energies, sigma = wave_energies(count, *bases)
+    if landmarks is None:
+        return wave_signature(basis, energies, sigma)
+    return wave_map(basis, landmarks, energies, sigma)
+
+
+def _every_nth(side: int, bases: tuple[Basis, ...], config: DescriptorConfig, landmarks: np.ndarray) -> Array:
+    whole = replace(config, layout="even", signature_share=1.0)
+    parts = (
+        []
+        if config.signature == "none"
+        else spectral_descriptors(side, bases, replace(whole, count=EVERY), landmarks[:0])
+    )
+    if len(landmarks) and config.landmark_map != "none":
+        parts.append(_family(config.landmark_map, bases[side], bases, landmarks, EVERY))
+    everything = namespace(*parts).concat(parts, axis=1)
+    return take(everything, _chosen(everything.shape[1], config.count), axis=1)
+
+
+def resolved_kernel(descriptors: Descriptors, config: Config, rng: np.random.Generator) -> KernelLike:
+    """The kernel of ``config`` with automatic γ chosen from farthest points of both shapes' descriptors.
+
+    Raises
+    ------
+    InvalidInput
+        When the kernel was learned with another number of landmarks.
+    """
+    wanted, given = taught(config.kernel), int(np.max(descriptors.landmark, initial=-1)) + 1
+    if wanted is not None and wanted != given:
+        remedy = "give as many, or learn a kernel with as many (kfmaps learn --truth-landmarks, or without)"
+        raise refuse("landmarks", f"{wanted}, as the kernel was learned with", str(given), remedy)
+    rows = [_farthest_rows(D, 100, rng) for D in (descriptors.source, descriptors.target)]
+    return resolved(config.kernel, namespace(rows[0]).concat(rows), config.sharpness)
+
+
+def kernel_features(
+    source: Shape, target: Shape, descriptors: Descriptors, config: Config, rng: np.random.Generator
+) -> Features:
+    """Nyström features of the joint kernel, or the descriptors themselves when it is linear."""
+    if isinstance(config.kernel, Linear):
+        return Features(descriptors.source, descriptors.target, config.kernel)
+    kernel = resolved_kernel(descriptors, config, rng)
+    samples = joint_samples(source, target, descriptors, kernel, config.nystrom, rng)
+    factor = nystrom(kernel, samples, config.nystrom.rtol)
+    return Features(factor.features(descriptors.source), factor.features(descriptors.target), kernel)
+
+
+def joint_samples(
+    source: Shape,
+    target: Shape,
+    descriptors: Descriptors,
+    kernel: KernelLike,
+    config: NystromConfig,
+    rng: np.random.Generator,
+) -> Array:
+    """Descriptors ``(q, d)`` of the samples of both shapes, half from each except for Cholesky's pivots."""
+    D_s, D_t = descriptors.source, descriptors.target
+    xp = namespace(D_s, D_t)
+    if config.sampling.endswith("cholesky"):
+        both = xp.concat([D_s, D_t])
+        count = min(config.samples, both.shape[0])
+        power = 2.0 if config.sampling == "squared-cholesky" else 1.0
+        rows = pivoted_cholesky(kernel, both, count, randomised=config.sampling != "cholesky", power=power, rng=rng)
+        return take(both, rows)
+    taken = []
+    for shape, D in ((source, D_s), (target, D_t)):
+        count = min(config.samples // 2, D.shape[0])
+        if config.sampling == "descriptor":
+            rows = farthest(D, count, rng)
+        elif config.sampling == "geodesic":
+            rows = farthest_geodesic(shape.mesh, count, rng)
+        else:
+            rows = uniform(D.shape[0], count, rng)
+        taken.append(take(D, rows))
+    return xp.concat(taken)
+
+
+def _farthest_rows(D: Array, count: int, rng: np.random.Generator) -> Array:
+    rows = farthest(D, min(count, D.shape[0]), rng)
+    return take(D, rows)

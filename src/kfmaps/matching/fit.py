@@ -1,0 +1,208 @@
+"""One fit: descriptors, kernel features, energy, the minimiser.
+
+What comes after it, points and their refinement, is in :mod:`kfmaps.matching.postprocess`.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from kfmaps._arrays import check, refuse, seed_of, to_numpy
+from kfmaps._progress import Progress
+from kfmaps._stage_timer import Clock
+from kfmaps._threads import one_blas_thread
+from kfmaps.config import Config
+from kfmaps.descriptors.spectral import check_landmarks
+from kfmaps.fmap.solvers import Solution
+from kfmaps.geometry.basis import Basis
+from kfmaps.kernels.kernels import describe
+from kfmaps.matching.assemble import problem
+from kfmaps.matching.features import Descriptors, pair_descriptors
+from kfmaps.matching.robust_weights import believed
+from kfmaps.matching.solve import solved
+from kfmaps.shape import Reduced, Shape, reduced
+
+
+@dataclass(frozen=True, eq=False)
+class Fit:
+    """What :func:`fit` returns: a functional map and how it was found.
+
+    Attributes
+    ----------
+    functional_map : (k, k) float64
+        The minimiser; carries coefficients of functions from source to target.
+    solution : Solution
+        Status, steps and residuals of the solver.
+    energies : dict of str to float
+        Weighted value of each term at the minimiser.
+    rank : int
+        Features of the kernel that were kept.
+    slices : int
+        Slices left after compression.
+    kernel : str
+        With every γ a number.
+    config : Config
+        Of this fit; a search makes fits of other sizes than that of the match.
+    seconds : dict of str to float
+        Per stage.
+    back : (k, k) float64 or None
+        The map from target to source, where both directions were fitted.
+    weights : (g,) float64 or None
+        How far each landmark or descriptor was believed, 0 to 1, under a robust loss of them.
+    """
+
+    functional_map: np.ndarray
+    solution: Solution
+    energies: dict[str, float]
+    rank: int
+    slices: int
+    kernel: str
+    config: Config
+    seconds: dict[str, float]
+    back: np.ndarray | None = None
+    weights: np.ndarray | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class Points:
+    """The points of two shapes that a fit is made from, and what is known there.
+
+    Attributes
+    ----------
+    shapes : pair of Shape
+        All points, or samples that stand for them.
+    bases : pair of Basis
+        Theirs, on the device where the work is done.
+    descriptors : Descriptors
+    weights : (g,) float64 or None
+        By which the descriptors of each landmark, or each descriptor, are scaled under a robust loss.
+    """
+
+    shapes: tuple[Shape, Shape]
+    bases: tuple[Basis, Basis]
+    descriptors: Descriptors
+    weights: np.ndarray | None = None
+
+
+def checked_landmarks(landmarks: Any, source: Shape, target: Shape) -> np.ndarray:
+    """``landmarks`` as ``(l, 2)`` int64 "source, target"; ``None`` is none.
+
+    Raises
+    ------
+    InvalidInput
+        Unless they are pairs of vertices that exist, none repeated on either shape.
+    """
+    if landmarks is None:
+        return np.zeros((0, 2), dtype=np.int64)
+    pairs = np.asarray(landmarks)
+    if pairs.size == 0:
+        return np.zeros((0, 2), dtype=np.int64)
+    if pairs.ndim != 2 or pairs.shape[1] != 2:
+        remedy = "give one pair a row: source vertex, target vertex"
+        raise refuse("landmarks", "shape (number, 2)", f"shape {pairs.shape}", remedy)
+    columns = [
+        check_landmarks(pairs[:, i], len(shape.mesh.vertices), f"landmarks on {shape.name}")
+        for i, shape in enumerate((source, target))
+    ]
+    return np.stack(columns, axis=1)
+
+
+def fit(
+    source: Shape,
+    target: Shape,
+    config: Config | None = None,
+    *,
+    landmarks: Any = None,
+    descriptors: tuple[Any, Any] | None = None,
+    rng: int | np.random.Generator | None = 0,
+    start: Any = None,
+    progress: Progress | None = None,
+) -> Fit:
+    """Fit a functional map to two prepared shapes as ``config`` says.
+
+    Parameters
+    ----------
+    source, target : Shape
+        From :func:`kfmaps.prepare`, with the same basis settings.
+    config : Config, optional
+    landmarks : (l, 2) whole numbers, optional
+        Pairs "source vertex, target vertex", 0-based.
+    descriptors : pair of arrays (n_s, d), (n_t, d), optional
+        Of the user's own, used beside those that the configuration names.
+    rng : seed or Generator
+        For the choice of points that the fit is made from, and of samples for the kernel.
+    start : (k, k) array, optional
+        Functional map that conjugate gradients start from, zero otherwise: that of settings near to these spares
+        steps in a search over settings.
+    progress : callable, optional
+        ``progress(stage, done)`` with done from 0 to 1.
+
+    Warns
+    -----
+    KfmapsWarning
+        When the solver broke down, so that the map is not the minimiser.
+    """
+    config = config or Config()
+    clock = Clock(progress)
+    seed = seed_of(rng)
+    pairs = checked_landmarks(landmarks, source, target)
+    with one_blas_thread():
+        with clock("descriptors"):
+            points = fit_points(source, target, config, pairs, descriptors, seed)
+        with clock("energy"):
+            task = problem(
+                *points.shapes, points.bases, points.descriptors, config, np.random.default_rng(seed), (source, target)
+            )
+        with clock("solve"):
+            found = solved(task, config, clock.report, start)
+    return Fit(
+        functional_map=to_numpy(found.solution.value),
+        solution=found.solution,
+        energies=found.energies,
+        rank=task.rank,
+        slices=task.slices,
+        kernel=describe(task.kernel),
+        config=config,
+        seconds=clock.seconds,
+        back=None if found.back is None else to_numpy(found.back),
+        weights=points.weights,
+    )
+
+
+def fit_points(
+    source: Shape,
+    target: Shape,
+    config: Config,
+    landmarks: np.ndarray,
+    descriptors: tuple[Any, Any] | None = None,
+    rng: int | np.random.Generator = 0,
+) -> Points:
+    """The points that ``config.fit_samples`` leaves of both shapes, with the ``landmarks (l, 2)``, and descriptors."""
+    shapes = (source, target)
+    parts = [reduced(s, config.fit_samples, landmarks[:, i], rng) for i, s in enumerate(shapes)]
+    bases = [part.shape.basis for part in parts]
+    if config.device != "cpu":
+        bases = [basis.to(config.device) for basis in bases]
+    marks = np.stack([part.landmarks for part in parts], axis=1)
+    if descriptors is not None:
+        descriptors = _on_samples(descriptors, parts, shapes)
+    small, on = (parts[0].shape, parts[1].shape), (bases[0], bases[1])
+    used = pair_descriptors(*small, on, config.descriptors, marks, descriptors)
+    if not config.formulation.weighs_data:
+        return Points(small, on, used)
+    weighed = believed(used, on, config)
+    return Points(small, on, weighed.descriptors, weighed.weights)
+
+
+def _on_samples(given: tuple[Any, Any], parts: list[Reduced], shapes: tuple[Shape, Shape]) -> tuple[Any, Any]:
+    """The rows of descriptors of the user's own that belong to the samples."""
+    rows = []
+    for values, part, shape in zip(given, parts, shapes, strict=True):
+        values = to_numpy(values) if hasattr(values, "shape") else np.asarray(values)
+        n = len(shape.mesh.vertices)
+        check(values, f"descriptors of {shape.name}", shape=(n, None), remedy="give one row per vertex")
+        rows.append(values[part.vertices])
+    return rows[0], rows[1]

@@ -1,0 +1,150 @@
+"""Landmarks as evidence: they steer candidates, rank them, and are themselves judged by the best.
+
+A landmark may be wrong, so none is obeyed blindly: what each can cost a map is bounded, and those that the best map
+contradicts while it keeps to most of the others are named and left out of the rest.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.special import expit
+
+from kfmaps._arrays import to_numpy
+from kfmaps.fmap.convert import nearest
+from kfmaps.fmap.descriptor_guidance import DIMENSIONS, Guide, guide, joined
+from kfmaps.geometry.basis import Basis
+from kfmaps.shape import Shape
+
+TIMES = (0.004, 0.02, 0.1)
+"""Diffusion times at unit area of the functions around a landmark: a hand, a limb, half of a body."""
+FAR = 0.3
+"""Distance, in units of √area, from which an image is simply wrong."""
+MISSED = 0.3
+"""Distance of a landmark's image from which the landmark is doubted, ..."""
+LEAD, LESS = 1.0, 0.3
+"""Weight of landmarks beside that of SHOT in the refinement on all vertices, and between shapes that differ much, where
+heat spreads otherwise from a landmark."""
+LIMBS = 0.8
+"""The same of the tips of limbs."""
+KEPT = 0.6
+"""... if at least this part of all landmarks is nearer than :data:`MISSED`."""
+NEAR = 0.2
+"""Distance along the surface, in √area, up to which a landmark tells of a map, ..."""
+WELL, WIDTH = 0.055, 0.004
+"""... and the mean distance of images from where they belong up to which they speak for it, and how fast that ends:
+a map is right below 0.08, and its landmarks are a sample of its errors."""
+
+
+@dataclass(frozen=True, eq=False)
+class Marks:
+    """What landmarks say at the samples of both shapes; made by :func:`marks`.
+
+    Attributes
+    ----------
+    target : (l, k) float64
+        Rows of the target's basis at its landmarks.
+    distances : (l, q_s) float64
+        From each of the source's landmarks to its samples along the surface, in units of √area.
+    functions_s, functions_t : (l, q_s, t), (l, q_t, t) float64
+        Functions around each landmark at the samples, see :func:`around`.
+    """
+
+    target: np.ndarray
+    distances: np.ndarray
+    functions_s: np.ndarray
+    functions_t: np.ndarray
+
+    def thinned(self, q_s: int, q_t: int) -> Marks:
+        """Of the first samples."""
+        return Marks(
+            self.target,
+            self.distances[:, :q_s],
+            self.functions_s[:, :q_s],
+            self.functions_t[:, :q_t],
+        )
+
+    def without(self, doubted: np.ndarray) -> Marks:
+        """Of the other landmarks; ``doubted (l,)`` bool."""
+        kept = ~doubted
+        return Marks(*(getattr(self, name)[kept] for name in self.__dataclass_fields__))
+
+
+def around(points: Basis, basis: Basis, landmarks: np.ndarray) -> np.ndarray:
+    """Correlation of heat from each landmark with heat from each of ``points``, (l, q, t), from about 0 to 1.
+
+    ``h_t(p, x) / √(h_t(p, p) h_t(x, x))`` for the heat kernel h at :data:`TIMES`: 1 at the landmark, nearly free of
+    pose and of how thick the body is there. ``points`` are some of the points of ``basis``, whose vertices ``landmarks
+    (l,)`` are.
+    """
+    values, phi = to_numpy(basis.eigenvalues), to_numpy(points.functions)
+    here = to_numpy(basis.functions)[landmarks]
+    found = []
+    for time in TIMES:
+        decay = np.exp(-values * time)
+        own, theirs = (here**2) @ decay, (phi**2) @ decay
+        found.append(((here * decay) @ phi.T) / np.sqrt(np.maximum(np.outer(own, theirs), 1e-300)))
+    return np.stack(found, axis=2)
+
+
+def side_by_side(functions_s: np.ndarray, functions_t: np.ndarray) -> Guide:
+    """A guide of the functions ``(l, q, t)`` around landmarks; two random points differ by 1 on average."""
+    flat = [np.moveaxis(f, 0, 1).reshape(f.shape[1], -1) for f in (functions_s, functions_t)]
+    both = np.vstack(flat)
+    centred = both - both.mean(axis=0)
+    if centred.shape[1] > DIMENSIONS:
+        centred = centred @ np.linalg.eigh(centred.T @ centred)[1][:, ::-1][:, :DIMENSIONS]
+    centred = centred / np.sqrt(max(2 * (centred**2).sum(axis=1).mean(), 1e-12))
+    return Guide(centred[: len(flat[0])], centred[len(flat[0]) :])
+
+
+def missed(C: np.ndarray, functions_s: np.ndarray, found: Marks) -> np.ndarray:
+    """How far the image of each target landmark is from the source's, (l,), in units of √area.
+
+    ``functions_s (q_s, k)``: the source's basis at its samples. The other direction says less: the ends of limbs,
+    whose functions a map damps, have no image of their own there.
+    """
+    k_t, k_s = C.shape
+    back = nearest(found.target[:, :k_t], functions_s[:, :k_s] @ C.T, threads=1)
+    return found.distances[np.arange(len(back)), back]
+
+
+def doubted(distances: np.ndarray) -> np.ndarray:
+    """Which landmarks ``(l,)`` are contradicted by a map that keeps to most of them; none of fewer than three."""
+    wrong = distances > MISSED
+    few = len(distances) < 3 or (~wrong).mean() < KEPT
+    return np.zeros(len(distances), dtype=bool) if few else wrong
+
+
+def backing(distances: np.ndarray, found: Marks, areas: np.ndarray) -> float:
+    """How far landmarks back a map that misses them by ``distances (l,)``, from 0 to 1.
+
+    The squared share of the source, whose samples have ``areas (q_s,)``, that lies within :data:`NEAR` of one, where
+    all together are missed by so little that the map is right there. Few landmarks, or many in one place, tell little;
+    one that is simply missed counts as :data:`MISSED`.
+    """
+    if len(distances) == 0:
+        return 0.0
+    told = (found.distances < NEAR).any(axis=0)
+    share = float(areas[told].sum() / areas.sum())
+    return share**2 * float(expit((WELL - float(np.minimum(distances, MISSED).mean())) / WIDTH))
+
+
+def leading(
+    source: Shape,
+    target: Shape,
+    landmarks: np.ndarray,
+    limbs: Guide | None = None,
+    shot: Guide | None = None,
+    lead: float = LEAD,
+) -> Guide | None:
+    """SHOT, ``landmarks (l, 2)`` and ``limbs`` on all vertices, for the refinement; ``None`` where nothing leads.
+
+    ``shot``: its guide, where that is known; ``lead``: the weight of the landmarks beside it.
+    """
+    local = joined([(1.0, shot or guide(source.shot, target.shot)), (LIMBS, limbs)])
+    if len(landmarks) == 0:
+        return local
+    functions = [around(s.basis, s.basis, at) for s, at in zip((source, target), landmarks.T, strict=True)]
+    return joined([(1.0, local), (lead, side_by_side(*functions))])

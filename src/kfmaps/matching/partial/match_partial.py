@@ -1,0 +1,164 @@
+"""A placed part as the answer of a match: points, functions and probabilities on both shapes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from kfmaps._arrays import refuse, take, to_numpy
+from kfmaps._progress import Progress
+from kfmaps.config import Config
+from kfmaps.fmap.confidence import local_confidence
+from kfmaps.fmap.precise import PointMap, vertices_of
+from kfmaps.matching.partial.calibration import part_probability, part_verdict
+from kfmaps.matching.partial.place_part import parted
+from kfmaps.matching.partial.samples import scaled
+from kfmaps.shape import Shape
+
+COMMON = 0.5
+"""Probability from which a vertex has a counterpart."""
+WHOLE = 0.95
+"""Part of the area of both shapes from which, when it is common, neither is a part."""
+STRAY = 0.1
+"""Distance from where a landmark was said to be, in √area of the whole, from which it is doubted."""
+
+
+@dataclass(frozen=True, eq=False)
+class Partly:
+    """A match of shapes of which one is a part of the other, inside their border.
+
+    Attributes
+    ----------
+    part : "source", "target" or "both"
+    target_to_source : (n_t,) int64
+        −1 where a vertex has no counterpart.
+    place : PointMap
+        For each target vertex; where it has no counterpart that is the nearest point that could be one.
+    overlap_source, overlap_target : (n_s,), (n_t,) float64
+        Probability to be in the common part.
+    functional_map : (k_t, k_s) float64
+        Of the map on the common part; as many functions of the part as have the whole's frequencies.
+    trust : (n_t,) float64
+        See :func:`kfmaps.fmap.confidence.local_confidence`.
+    bent : (n_s, 3) float64 or None
+        The source's vertices on the target at unit area, where the source is what was bent.
+    scale : float
+        √area of the part over that of the whole.
+    verdict : str
+    confidence : float
+        Probability that the map is right.
+    scores : tuple of float
+        Of the candidates, best first.
+    doubted : (l,) int64
+        Numbers of landmarks that the map contradicts.
+    """
+
+    part: str
+    target_to_source: np.ndarray
+    place: PointMap
+    overlap_source: np.ndarray
+    overlap_target: np.ndarray
+    functional_map: np.ndarray
+    trust: np.ndarray
+    bent: np.ndarray | None
+    scale: float
+    verdict: str
+    confidence: float
+    scores: tuple[float, ...]
+    doubted: np.ndarray
+    whole: bool
+
+    @property
+    def shares(self) -> tuple[float, float]:
+        """Means of the overlaps, for words."""
+        return float(self.overlap_source.mean()), float(self.overlap_target.mean())
+
+
+def partly(
+    source: Shape,
+    target: Shape,
+    config: Config,
+    which: Literal["source", "target", "both"],
+    *,
+    landmarks: np.ndarray | None = None,
+    rng: int = 0,
+    progress: Progress | None = None,
+) -> Partly:
+    """Match two prepared shapes of which one is a part; ``landmarks (l, 2)`` are pairs "source, target".
+
+    With "both" each may have what the other lacks; what is bent is the one with the smaller area, or the target where
+    their units cannot be compared.
+
+    Raises
+    ------
+    InvalidInput
+        On point clouds, and where units are said to be the same but are not known.
+    """
+    for shape in (source, target):
+        if len(shape.mesh.faces) == 0:
+            raise refuse(shape.name, "a surface with triangles", "a point cloud", "match it as a whole: partial 'none'")
+    ratio = None if source.extent is None or target.extent is None else target.extent / source.extent
+    forward = which == "target" or (which == "both" and (ratio is None or ratio <= 1))
+    part, whole = (target, source) if forward else (source, target)
+    pairs = None if landmarks is None else np.asarray(landmarks)[:, ::-1] if forward else np.asarray(landmarks)
+    found = parted(
+        part.mesh,
+        whole.mesh,
+        config.partial,
+        ratio=ratio if forward or ratio is None else 1 / ratio,
+        landmarks=pairs,
+        loose=which == "both",
+        rng=rng,
+        threads=config.threads,
+        progress=None if progress is None else lambda done: progress("parts", done),
+    )
+    place = found.overlap.on_whole if forward else found.overlap.on_part
+    overlaps = (found.overlap.whole, found.overlap.part) if forward else (found.overlap.part, found.overlap.whole)
+    points = np.where(overlaps[1] > COMMON, vertices_of(place, (whole if forward else part).mesh), -1)
+    at_scale = scaled(part.mesh, found.scale)
+    here, there = (whole.mesh, at_scale) if forward else (at_scale, whole.mesh)
+    trust = local_confidence(here, there, points, sized=True)
+    masses = to_numpy(part.basis.mass), to_numpy(whole.basis.mass)
+    common = float(masses[0] @ found.overlap.part), float(masses[1] @ found.overlap.whole)
+    return Partly(
+        which,
+        points,
+        place,
+        *overlaps,
+        slanted(points, source, target, found.scale if forward else 1 / found.scale),
+        trust,
+        None if forward else found.bent.vertices,
+        found.scale,
+        part_verdict(found.score, found.margin),
+        part_probability(found.score, found.margin),
+        (found.score, *found.others),
+        np.flatnonzero(found.wrong > STRAY),
+        min(common) > WHOLE,
+    )
+
+
+def slanted(points: np.ndarray, source: Shape, target: Shape, ratio: float) -> np.ndarray:
+    """The functional map ``(k_t, k_s)`` of ``points (n_t,)``, −1 where there is none, of functions of like frequency.
+
+    ``ratio``: √area of the target over that of the source. The part's eigenvalues below the whole's last are about as
+    many as its share of the area (Weyl), which slants the map's diagonal (Rodolà et al. 2017).
+    """
+    values_s = to_numpy(source.basis.eigenvalues)
+    values_t = to_numpy(target.basis.eigenvalues) / ratio**2
+    last = min(values_s[-1], values_t[-1])
+    k_s, k_t = (max(int((values <= last).sum()), 1) for values in (values_s, values_t))
+    known = points >= 0
+    pulled = to_numpy(take(source.basis.functions[:, :k_s], np.maximum(points, 0))) * known[:, None]
+    # Functions of unit norm on shapes of unit area, each in its own unit: constants go to constants on the part.
+    weighted = to_numpy(target.basis.functions)[:, :k_t] * to_numpy(target.basis.mass)[:, None]
+    return weighted.T @ pulled
+
+
+def reason(found: Partly, asked: str) -> str:
+    """One line for people: what was taken for a part, and why."""
+    if found.part == "both":
+        shares = found.shares
+        return f"common: {shares[0]:.0%} of the source's vertices, {shares[1]:.0%} of the target's; {asked}"
+    return f"the {found.part} is a part, {found.scale**2:.0%} of the other's area; {asked}"

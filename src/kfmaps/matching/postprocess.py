@@ -1,0 +1,140 @@
+"""From a functional map to the answer: its point map and the refinement."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import partial
+from typing import Any
+
+import numpy as np
+
+from kfmaps._arrays import like, to_numpy
+from kfmaps._progress import Progress
+from kfmaps._stage_timer import Clock
+from kfmaps._threads import one_blas_thread
+from kfmaps.config import Config
+from kfmaps.fmap.bidirectional_zoomout import zoomed_both
+from kfmaps.fmap.convert import to_points
+from kfmaps.fmap.descriptor_guidance import Guide, guide
+from kfmaps.fmap.refine import ICP, ZoomOut
+from kfmaps.geometry.basis import Basis
+from kfmaps.shape import Shape
+
+
+@dataclass(frozen=True, eq=False)
+class Finished:
+    """What :func:`finished` returns.
+
+    Attributes
+    ----------
+    target_to_source : (n_t,) int64
+        A source vertex for each target vertex.
+    functional_map : (k_t, k_s) float64
+        Of that map.
+    raw_target_to_source : (n_t,) int64 or None
+        The point map before the refinement, where it was asked for or there is none.
+    seconds : dict of str to float
+    source_to_target : (n_s,) int64 or None
+        A target vertex for each source vertex, where a map back was given.
+    map_back : (k_s, k_t) float64 or None
+        Its functional map.
+    """
+
+    target_to_source: np.ndarray
+    functional_map: np.ndarray
+    raw_target_to_source: np.ndarray | None
+    seconds: dict[str, float]
+    source_to_target: np.ndarray | None = None
+    map_back: np.ndarray | None = None
+
+
+def finished(
+    C: Any,
+    source: Shape,
+    target: Shape,
+    config: Config,
+    *,
+    raw: bool = True,
+    led: Guide | None = None,
+    back: Any = None,
+    rng: int = 0,
+    progress: Progress | None = None,
+) -> Finished:
+    """The points of ``C (k_t, k_s)`` on all vertices, refined as ``config.refinement`` says.
+
+    ``raw`` asks for the point map before the refinement too. What guides a refinement that wants guidance is ``led``
+    or, without it, SHOT, where both shapes have it. ``rng`` is added to the seed of ZoomOut's samples. With a
+    map ``back (k_s, k_t)`` both are finished: ZoomOut refines them together
+    (:mod:`kfmaps.fmap.bidirectional_zoomout`), ICP
+    each by itself.
+    """
+    if isinstance(config.refinement, ZoomOut):
+        config = replace(config, refinement=replace(config.refinement, seed=config.refinement.seed + rng))
+    clock = Clock(progress)
+    bases = (source.basis, target.basis)
+    if config.device != "cpu":
+        bases = (bases[0].to(config.device), bases[1].to(config.device))
+    C, points = like(C, bases[0].functions), None
+    with one_blas_thread():
+        if raw or config.refinement is None:
+            with clock("point map"):
+                points = to_points(C, *bases, threads=config.threads)
+        if config.refinement is None:
+            assert points is not None
+            found = Finished(points, to_numpy(C), points, clock.seconds)
+            if back is None:
+                return found
+            back = like(back, bases[0].functions)
+            return replace(
+                found,
+                source_to_target=to_points(back, bases[1], bases[0], threads=config.threads),
+                map_back=to_numpy(back),
+            )
+        refine = config.refinement
+        if back is not None:
+            return _finished_both(C, like(back, C), (source, target), bases, config, points, clock, led)
+        if isinstance(refine, ZoomOut) and refine.guidance:
+            refine = partial(refine, guide=led or guide(source.shot, target.shot))
+        with clock("refinement"):
+            refined = refine(
+                C,
+                *bases,
+                progress=lambda done: clock.report("refinement", done),
+                threads=config.threads,
+                points=points,
+            )
+    return Finished(refined.target_to_source, to_numpy(refined.functional_map), points, clock.seconds)
+
+
+def _finished_both(
+    C: Any,
+    back: Any,
+    shapes: tuple[Shape, Shape],
+    bases: tuple[Basis, Basis],
+    config: Config,
+    points: np.ndarray | None,
+    clock: Clock,
+    led: Guide | None,
+) -> Finished:
+    """Both maps refined; see :func:`finished`."""
+    refine = config.refinement
+
+    def told(done: float) -> None:
+        clock.report("refinement", done)
+
+    with clock("refinement"):
+        if isinstance(refine, ZoomOut):
+            guiding = led or guide(shapes[0].shot, shapes[1].shot) if refine.guidance else None
+            forth, other = zoomed_both(refine, C, back, *bases, told, config.threads, guiding)
+        else:
+            assert isinstance(refine, ICP)
+            forth = refine(C, *bases, progress=told, threads=config.threads, points=points)
+            other = refine(back, bases[1], bases[0], threads=config.threads)
+    return Finished(
+        forth.target_to_source,
+        to_numpy(forth.functional_map),
+        points,
+        clock.seconds,
+        other.target_to_source,
+        to_numpy(other.functional_map),
+    )

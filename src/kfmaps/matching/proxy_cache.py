@@ -1,0 +1,52 @@
+"""The copies of two shapes that are bent onto each other as many maps say: what depends on no map is made once."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+from kfmaps.matching.sample_pair import Ground
+from kfmaps.registration.deformation_energy import MORE, Copy, Ready, copied, ready
+from kfmaps.registration.registered_shot import Looks, looks
+from kfmaps.shape import Shape, mirror_image
+
+
+@dataclass(frozen=True, eq=False)
+class Copies:
+    """Of two shapes, each made when it is first asked for; ``None`` where a shape has no faces to bend.
+
+    Attributes
+    ----------
+    source, target : Shape
+    coarse : pair of Copy or None
+        Of few points, as the probes have them.
+    mirrored : bool
+        Whether they are of the target's mirror image.
+    """
+
+    source: Shape
+    target: Shape
+    coarse: tuple[Copy | None, Copy | None]
+    mirrored: bool = False
+
+    @classmethod
+    def of(cls, source: Shape, target: Shape, on: Ground) -> Copies:
+        """Of the shapes as they are ``on`` a ground."""
+        return cls(source, target, (on.source.copy, on.target.copy), on.target.mirrored)
+
+    @cached_property
+    def image(self) -> Shape:
+        """The target, or its mirror image where that is meant."""
+        return mirror_image(self.target) if self.mirrored else self.target
+
+    @cached_property
+    def few(self) -> Ready | None:
+        """The coarse ones."""
+        a, b = self.coarse
+        return None if a is None or b is None else ready(a, b)
+
+    @cached_property
+    def finer(self) -> Looks | None:
+        """With :data:`~kfmaps.registration.deformation_energy.MORE` points, and how they look."""
+        a, b = copied(self.source, MORE), copied(self.target, MORE)
+        return None if a is None or b is None else looks(ready(a, b.mirrored() if self.mirrored else b))

@@ -1,0 +1,366 @@
+"""How good a map is, judged without the truth.
+
+Several measures, none of which is enough alone: a mirrored map of a symmetric body distorts nothing, a map that
+swaps front and back *and* left and right even keeps orientation, and a map that collapses everything to one point
+is smooth. :func:`map_quality` works them out on a few hundred points of each shape; :attr:`Quality.score` weighs them.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+from scipy.sparse.csgraph import dijkstra
+
+from kfmaps._arrays import Array, like, to_numpy
+from kfmaps.descriptors.shot import mirrored
+from kfmaps.descriptors.spectral import heat_signature
+from kfmaps.fmap.convert import nearest
+from kfmaps.fmap.descriptor_guidance import FLAT
+from kfmaps.fmap.refine import SampledBasis, Samples, spectral_samples
+from kfmaps.geometry.among import distances_among
+from kfmaps.geometry.basis import Basis, zero_level
+from kfmaps.geometry.coarsen import coarse
+from kfmaps.geometry.geodesic_graph import surface_graph
+from kfmaps.geometry.mesh import Mesh
+from kfmaps.geometry.orientation_operators import orientation_slices
+from kfmaps.geometry.sampling import stratified_vertices
+from kfmaps.matching.extremities import Tips, tips
+from kfmaps.matching.sample_cache import Known, Rows, known
+from kfmaps.registration.deformation_energy import Copy, copied
+from kfmaps.shape import Shape
+
+POINTS = 1000
+"""Sample points on each shape."""
+COARSE = 300
+"""The first of them, between which geodesic distances are compared."""
+SURFACE = 6000
+"""Vertices from which distances and orientation are worked out on a coarse copy with that many."""
+LOW = 20
+"""Functions in which orientation is compared."""
+OPERATORS = 50
+"""Functions of the orientation operators that a probe keeps, also for fits."""
+TIMES = np.geomspace(0.005, 0.3, 8)
+"""Diffusion times at unit area: from a fiftieth of the surface reached to most of it."""
+FLAT_HEAT = 0.02
+"""Spread of the logarithm of the heat kernel signature below which it is noise: a sphere has 0.0003, bodies 1."""
+WAVES = 10
+"""Functions whose orientation operators are compared."""
+
+
+@dataclass(frozen=True, eq=False)
+class Probe:
+    """What judging maps needs of one shape; made by :func:`probe`.
+
+    Attributes
+    ----------
+    samples : Samples
+        Farthest points; the first ``c`` of them are farthest points too.
+    distances : (c, c) float64
+        Geodesic distances between the first points.
+    orientation : (w, k, k) float64 or None
+        Orientation operators of the first functions, in the first functions; ``None`` for a point cloud.
+    descriptors : (q, d) float64 or None
+        SHOT at the samples.
+    heat : (q, t) float64
+        Logarithm of the heat kernel signature at the samples, for fixed times.
+    positions : (q, 3) float64
+    marks : (l, q) float64
+        Geodesic distances from landmarks to the samples.
+    tips : Tips
+        The tips of its limbs.
+    copy : Copy or None
+        A coarse copy that can be bent; ``None`` for a point cloud.
+    mirrored : bool
+        Whether it is of the mirror image.
+    turns : (m, k, k) float64 or None
+        Its near-symmetries (:func:`kfmaps.matching.self_maps.symmetries`) on its first samples, which are those of the
+        mirror image too; ``None`` where they have not been looked for.
+    """
+
+    samples: Samples
+    distances: np.ndarray
+    orientation: np.ndarray | None
+    descriptors: np.ndarray | None
+    heat: np.ndarray
+    positions: np.ndarray
+    marks: np.ndarray
+    tips: Tips
+    copy: Copy | None
+    mirrored: bool = False
+    turns: np.ndarray | None = None
+
+    @cached_property
+    def known(self) -> Known:
+        """What judging each of many maps would find again."""
+        basis = self.samples.basis
+        areas = to_numpy(basis.mass) / float(basis.mass.sum())
+        return known(basis.functions, areas, self.distances, self.orientation, self.descriptors, self.heat, self.tips)
+
+
+@dataclass(frozen=True)
+class Quality:
+    """Measures of one map; see :func:`map_quality`.
+
+    Attributes
+    ----------
+    orientation : float
+        From 1, kept everywhere, to -1, reversed everywhere: correlation of the source's orientation operators,
+        carried over, with those of the target (Ren et al. 2018). 0 for point clouds.
+    distortion : float
+        Mean absolute change of geodesic distances, divided by the mean distance. 0 for an isometry.
+    stretch : float
+        The same for points closer than 0.2 √area on the shape that is mapped, so that tears count, wherever they are.
+    descriptors : float
+        Mean squared difference of SHOT between matched points, divided by that of random ones, from 0 to about 1;
+        mean of both directions. Less where the shapes have hardly any features.
+    heat : float
+        The same for the logarithm of the heat kernel signature, which knows thick from thin.
+    coverage : float
+        Part of the area that is the image of something, the smaller of both directions.
+    laplacian : float
+        ``‖C Λ_s − Λ_t C‖² / ‖C Λ_s‖²``; 1, as of unrelated shapes, for a map that carries constants alone.
+    ends : float
+        ``descriptors`` of points near the tips of limbs alone: hands, feet, faces and tails, which no pose bends. No
+        part of the score; see :attr:`kfmaps.matching.candidates.Candidate.evidence`. 0 where there are no tips.
+    """
+
+    orientation: float
+    distortion: float
+    stretch: float
+    descriptors: float
+    heat: float
+    coverage: float
+    laplacian: float
+    ends: float = 0.0
+
+    @property
+    def score(self) -> float:
+        """One number, higher is better; differences below 0.1 mean little. Weights: see docs/automatic.md."""
+        return (
+            self.orientation
+            - 6.0 * self.distortion
+            - 10.0 * self.stretch
+            - 12.0 * self.descriptors
+            - 2.0 * self.heat
+            + self.coverage
+            - 2.0 * self.laplacian
+        )
+
+
+def probe(
+    shape: Shape,
+    count: int = POINTS,
+    rng: int | np.random.Generator = 0,
+    threads: int | None = None,
+    landmarks: np.ndarray | None = None,
+) -> Probe:
+    """Sample ``count`` points of ``shape`` and work out what :func:`map_quality` compares.
+
+    ``landmarks (l,)``: vertices whose distances to the samples are wanted too.
+    """
+    samples = spectral_samples(shape.basis, count, rng)
+    marked = np.zeros(0, dtype=np.int64) if landmarks is None else landmarks
+    first = samples.vertices[:COARSE]
+    mesh, functions, rows = surface(shape, np.concatenate([samples.vertices, marked]))
+    graph = surface_graph(mesh, 1)
+    close = distances_among(graph, rows[: len(first)])
+    # Separate components are as far apart as the farthest points of one.
+    joined = np.isfinite(close)
+    farthest = close[joined].max() or float(np.linalg.norm(np.ptp(shape.mesh.vertices[first], axis=0)))
+    close = np.where(joined, close, farthest)
+    marks = np.zeros((0, len(samples.vertices)))
+    if len(marked):
+        marks = dijkstra(graph, indices=rows[len(samples.vertices) :])[:, rows[: len(samples.vertices)]]
+        joined = np.isfinite(marks)
+        marks = np.where(joined, marks, max(farthest, marks[joined].max(initial=0.0)))
+    orientation = None
+    if len(shape.mesh.faces):
+        low = Basis(shape.basis.eigenvalues, functions[:, :OPERATORS], shape.basis.mass)
+        orientation = orientation_slices(mesh, low, functions[:, : 4 * WAVES], threads)
+    local = None if shape.shot is None else shape.shot[samples.vertices]
+    heat = np.log(np.maximum(to_numpy(heat_signature(samples.basis, TIMES)), 1e-12))
+    return Probe(
+        samples,
+        close,
+        orientation,
+        local,
+        heat,
+        shape.mesh.vertices[samples.vertices],
+        marks,
+        tips(close, areas_of_first(samples.basis, len(first)), mesh, rows[: len(samples.vertices)], graph),
+        copied(shape),
+    )
+
+
+def surface(shape: Shape, wanted: np.ndarray) -> tuple[Mesh, np.ndarray, np.ndarray]:
+    """The surface itself or, of a large one, a coarse copy; the basis on it; and where the ``wanted`` vertices are."""
+    if len(shape.mesh.vertices) <= SURFACE:
+        return shape.mesh, to_numpy(shape.basis.functions), wanted
+    vertices = stratified_vertices(shape.basis, SURFACE, 0, np.unique(wanted))
+    mesh = coarse(shape.mesh, vertices)
+    return mesh, to_numpy(shape.basis.functions)[vertices], np.searchsorted(vertices, wanted)
+
+
+def thinned(probe: Probe, count: int) -> Probe:
+    """The first ``count`` samples of ``probe``, which are farthest points too, with the areas of the others."""
+    basis = probe.samples.basis
+    if count >= len(probe.samples.vertices):
+        return probe
+    areas = areas_of_first(basis, count)
+    few = SampledBasis(basis.eigenvalues, basis.functions[:count], like(areas, basis.mass))
+    return replace(
+        probe,
+        samples=Samples(probe.samples.vertices[:count], few),
+        distances=probe.distances[: count // 2, : count // 2],
+        descriptors=None if probe.descriptors is None else probe.descriptors[:count],
+        heat=probe.heat[:count],
+        positions=probe.positions[:count],
+        marks=probe.marks[:, :count],
+        tips=probe.tips.thinned(count),
+    )
+
+
+def areas_of_first(basis: SampledBasis, count: int) -> np.ndarray:
+    """The areas (count,) that the first samples stand for when the others are given to the nearest of them."""
+    functions, values = to_numpy(basis.functions)[:, 1 : LOW + 1], to_numpy(basis.eigenvalues)[1 : LOW + 1]
+    embedding = functions / np.maximum(values, max(1e-6 * values[-1], zero_level(basis)))
+    closest = nearest(embedding, embedding[:count], threads=1)
+    return np.bincount(closest, to_numpy(basis.mass), minlength=count)
+
+
+def mirrored_probe(probe: Probe) -> Probe:
+    """The probe of the mirror image of the shape, with the same vertices."""
+    return replace(
+        probe,
+        descriptors=None if probe.descriptors is None else mirrored(probe.descriptors),
+        orientation=None if probe.orientation is None else -probe.orientation,
+        tips=probe.tips.mirrored(),
+        copy=None if probe.copy is None else probe.copy.mirrored(),
+        mirrored=not probe.mirrored,
+    )
+
+
+def map_quality(C: Array, source: Probe, target: Probe, points: np.ndarray | None = None) -> Quality:
+    """Judge the functional map ``C (k, k)``, refined on the samples of both probes, without knowing the truth.
+
+    ``points``: the source sample of each target sample ``(q_t,)`` by ``C``, where they are known.
+    """
+    C = to_numpy(C)
+    k_t, k_s = C.shape
+    known_s, known_t = source.known, target.known
+    found = _images(C, source, target, points)
+    values_s, values_t = (to_numpy(p.samples.basis.eigenvalues)[:k] for p, k in ((source, k_s), (target, k_t)))
+    distortion, stretch = _distortion(found, source, target)
+    commutator = C * values_s[None, :] - values_t[:, None] * C
+    back, forth, area_s, area_t = found.back, found.forth, known_s.areas, known_t.areas
+    squares_t = _squares(back, known_t.descriptors, known_s.descriptors, FLAT)
+    squares_s = _squares(forth, known_s.descriptors, known_t.descriptors, FLAT)
+    covered = [area[np.bincount(at, minlength=len(area)) > 0].sum() for area, at in ((area_s, back), (area_t, forth))]
+    return Quality(
+        orientation=_orientation(C, source, target),
+        distortion=distortion,
+        stretch=stretch,
+        descriptors=0.5 * (_mean(squares_t, area_t) + _mean(squares_s, area_s)),
+        heat=0.5
+        * (
+            _mean(_squares(back, known_t.heat, known_s.heat, FLAT_HEAT), area_t)
+            + _mean(_squares(forth, known_s.heat, known_t.heat, FLAT_HEAT), area_s)
+        ),
+        coverage=float(min(covered)),
+        laplacian=_ratio((commutator**2).sum(), ((C * values_s[None, :]) ** 2).sum(), (values_s**2).sum(), 1.0),
+        ends=0.5 * (_mean(squares_t, known_t.ends) + _mean(squares_s, known_s.ends)),
+    )
+
+
+def map_distortion(C: Array, source: Probe, target: Probe, points: np.ndarray | None = None) -> float:
+    """:attr:`Quality.distortion` alone; the parameters are those of :func:`map_quality`."""
+    return _distortion(_images(to_numpy(C), source, target, points), source, target)[0]
+
+
+@dataclass(frozen=True, eq=False)
+class _Images:
+    """The nearest sample on the other shape, of all samples and, among the first, of the first."""
+
+    back: np.ndarray
+    forth: np.ndarray
+    first_back: np.ndarray
+    first_forth: np.ndarray
+
+
+def _images(C: np.ndarray, source: Probe, target: Probe, points: np.ndarray | None) -> _Images:
+    """Nearest neighbours in both directions, from one product in single precision."""
+    k_t, k_s = C.shape
+    carried = source.known.functions[:, :k_s] @ np.asarray(C.T, dtype=np.float32)
+    there = target.known.functions[:, :k_t]
+    half_s, half_t = (0.5 * np.einsum("ij,ij->i", x, x) for x in (carried, there))
+    score = carried @ there.T
+    c_s, c_t = len(source.distances), len(target.distances)
+    all_of_them = (c_s, c_t) == score.shape
+    first = None if all_of_them else score[:c_s, :c_t].copy()
+    back = (score.T - half_s).argmax(axis=1) if points is None else points
+    score -= half_t
+    forth = score.argmax(axis=1)
+    if first is None:
+        return _Images(back, forth, back, forth)
+    first_back = (first.T - half_s[:c_s]).argmax(axis=1)
+    first -= half_t[:c_t]
+    return _Images(back, forth, first_back, first.argmax(axis=1))
+
+
+def _ratio(part: float, whole: float, scale: float, otherwise: float) -> float:
+    """``part / whole``, but ``otherwise`` where ``whole`` is rounding beside its usual size, ``scale``.
+
+    What is zero in exact arithmetic comes out as zero on one machine and as 1e-16 on another.
+    """
+    return float(part / whole) if whole > 1e-12 * scale else otherwise
+
+
+def _orientation(C: np.ndarray, source: Probe, target: Probe) -> float:
+    if source.orientation is None or target.orientation is None:
+        return 0.0
+    low = min(LOW, source.orientation.shape[1], target.orientation.shape[1], *C.shape)
+    waves = min(WAVES + 1, C.shape[1], len(source.orientation))
+    rows = min(len(target.orientation), C.shape[0])
+    square = C[:low, :low]
+    ours = square @ source.orientation[1:waves, :low, :low] @ square.T
+    theirs = np.tensordot(C[:rows, 1:waves].T, target.orientation[:rows, :low, :low], axes=1)
+    size = np.sqrt((ours**2).sum() * (theirs**2).sum())
+    # Of a map that carries next to nothing but constants both are rounding, and so would their correlation be.
+    usual = np.linalg.norm(C) ** 3 * source.known.orientation * target.known.orientation
+    return _ratio((ours * theirs).sum(), size, float(usual), 0.0)
+
+
+def _distortion(found: _Images, source: Probe, target: Probe) -> tuple[float, float]:
+    """Mean change of all distances and of the short ones, both divided by their mean."""
+    near, far = [], 0.0
+    for here, there, at in ((target, source, found.first_back), (source, target, found.first_forth)):
+        change = there.distances[at[:, None], at]
+        change -= here.distances
+        np.abs(change, out=change)
+        far += float(change.mean())
+        near.append(_near(change, here.known))
+    mean = source.known.mean + target.known.mean
+    return far / mean if mean > 0 else 0.0, float(np.mean(near))
+
+
+def _near(change: np.ndarray, of: Known) -> float:
+    """Mean of ``change`` where distances are short, over the mean of these."""
+    return float(change.ravel()[of.short].mean()) / of.short_mean if of.short_mean > 0 else 0.0
+
+
+def _squares(points: np.ndarray, there: Rows | None, here: Rows | None, flat: float) -> tuple[np.ndarray, float] | None:
+    """Squared differences of the descriptors ``there`` from those ``here`` of the points that they are mapped to.
+
+    Beside them that of random points.
+    """
+    if there is None or here is None:
+        return None
+    both = np.einsum("ij,ij->i", there.values, here.values.take(points, axis=0))
+    return there.squares + here.squares[points] - 2.0 * both, max(there.spread + here.spread, 2 * flat)
+
+
+def _mean(squares: tuple[np.ndarray, float] | None, areas: np.ndarray | None) -> float:
+    """Of squared differences over that of random points, weighted with ``areas`` of sum 1; 0 where one is unknown."""
+    return 0.0 if squares is None or areas is None else float(squares[0] @ areas / squares[1])

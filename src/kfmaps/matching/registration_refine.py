@@ -1,0 +1,160 @@
+"""The candidates between shapes that differ much: bent and matched in turn, and compared once more.
+
+:mod:`kfmaps.registration.alternating_registration` mends one map; here it is decided which are worth it, with what
+each begins, what of it
+counts, and which comes first then.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from functools import partial
+
+import numpy as np
+
+from kfmaps._arrays import NotConverged
+from kfmaps._progress import Done, Progress
+from kfmaps._threads import parallel
+from kfmaps.fmap.descriptor_guidance import Guide, guide
+from kfmaps.matching.candidates import FINE, TIP_FUNCTIONS, Candidate, apart, judged, paired_map
+from kfmaps.matching.extremity_matching import Limbs, completed, induced, limbs_of, pairings, unheard
+from kfmaps.matching.landmark_evidence import LESS, leading
+from kfmaps.matching.proxy_cache import Copies
+from kfmaps.matching.quality import Probe
+from kfmaps.matching.ranking import BENT, DISTINCT, in_order, over, seen, usual
+from kfmaps.matching.sample_pair import Ground
+from kfmaps.registration.alternating_registration import alternated, grounds, turned_round
+from kfmaps.registration.registered_shot import mismatch
+
+FIRST = 2
+"""Maps that are mended, whether or not they differ."""
+PAIRED = 3
+"""Likeliest pairings of the tips of limbs that mending begins with, where no map that is mended has the same."""
+MENDABLE = 6.0
+"""How far behind a map may be to be mended: mending has gained up to 10."""
+HOPELESS = 5.0
+"""How far behind a mended map comes to nothing however it looks."""
+NEXT = 2
+"""Mended ones after the best that may turn out to be less torn than it, ..."""
+TWIN = 0.03
+"""... and the mean distance up to which two of them count as one: a limb that lies elsewhere makes 0.05."""
+
+
+def mended(
+    ranked: list[Candidate],
+    on: Ground,
+    copies: Copies,
+    landmarks: np.ndarray,
+    threads: int | None = None,
+    progress: Progress | None = None,
+) -> list[Candidate]:
+    """The best between unlike shapes bent and matched in turn (:mod:`kfmaps.registration.alternating_registration`),
+    and ranked again.
+
+    The target is bent onto the source, so that each direction has its say: what follows bends the source onto the
+    target. Each counts as it is after that or, where that has made it worse, as the best of that, of the source bent
+    onto the target, and of what it was before.
+
+    A refinement may send a leg to the tail, and what is mended keeps to the tips that it has paired. So the likeliest
+    pairings of tips (:mod:`kfmaps.matching.extremity_matching`) that none of these maps has are begun with as well.
+    """
+    finer = copies.finer
+    if finer is None:
+        return ranked
+    source, target = copies.source, copies.image
+    both = grounds(source, target, finer.on.copies, landmarks)
+    shot = guide(source.shot, target.shot)
+
+    near, rest = mendable(ranked, on.source)
+    likely = pairings(on.source, on.target, on.shot)
+    known = [induced(one.points, on.source, on.target) for one in near]
+    known = [one and completed(one, likely) for one in known]
+    begun = [(c, one and limbs_of(one, on.source, on.target)) for c, one in zip(near, known, strict=True)]
+    for one in unheard(likely, [pairing for pairing in known if pairing], PAIRED):
+        C = paired_map(one, on, min(TIP_FUNCTIONS, len(near[0].functional_map)))
+        begun.append((judged([(f"{one}", True)], C[None], None, on, 1)[0], limbs_of(one, on.source, on.target)))
+    done = np.zeros(len(begun))
+
+    def tell(i: int, part: float) -> None:
+        done[i] = part
+        if progress is not None:
+            progress("bent and matched in turn", float(done.mean()))
+
+    def mend(old: Candidate, tips: Limbs | None, tell: Done, backwards: bool = True) -> Candidate | None:
+        led = leading(source, target, landmarks, tips and tips.guide(source.mesh, target.mesh), shot, LESS)
+        C, where = old.functional_map, both
+        if backwards:
+            C, where, led = C.T, turned_round(both), led and Guide(led.target, led.source)
+        try:
+            found = alternated(C, where, led, lambda part: tell(0.9 * part))
+        except NotConverged:
+            tell(1.0)
+            return None
+        size = min(FINE, len(found.functional_map))
+        C = found.functional_map[:size, :size]
+        new = judged([(old.name, old.guided)], (C.T if backwards else C)[None], None, on, 1)[0]
+        new = replace(seen(new, source, target, finer.on), bent=found.bent, backwards=backwards)
+        tell(1.0)
+        return new
+
+    def better(i: int) -> Candidate | None:
+        """Where a body touches itself the right map may go astray; the other way it may not, or is best as it was."""
+        old, new = begun[i][0], mend(*begun[i], partial(tell, i))
+        if new is None:
+            return old if i < len(near) else None
+        if i >= len(near) or new.quality.score >= old.quality.score:
+            return new
+        other = mend(*begun[i], lambda _done: None, backwards=False)
+        states = [new, seen(old, source, target, finer.on), *([] if other is None else [other])]
+        return max(states, key=lambda c: c.score)
+
+    def looked_at(found: Candidate) -> Candidate:
+        return replace(found, mismatch=mismatch(found.functional_map, source, target, finer))
+
+    tell(0, 0.0)
+    made = parallel(better, range(len(begun)), threads)
+    which = [i for i, c in enumerate(made) if c is not None]
+    tried = compared([c for c in made if c is not None], looked_at, threads)
+    least = usual(tried, min)
+    order = in_order([over(c, least) for c in tried])
+    won = begun[which[next(i for i, c in enumerate(tried) if c.functional_map is order[0].functional_map)]]
+
+    def forwards() -> Candidate | None:
+        made = mend(*won, lambda _done: None, backwards=False)
+        return made and over(looked_at(made), least)
+
+    # Others that are as likely, and the one that has won mended the other way round: the source bent onto the target.
+    nexts = apart(order, on.source, TWIN, 1 + NEXT)[1:]
+    order[0] = replace(order[0], again=(*(partial(_itself, c) for c in nexts), forwards))
+    return apart(order + rest, on.source, DISTINCT)
+
+
+def _itself(found: Candidate) -> Candidate:
+    return found
+
+
+def compared(
+    found: list[Candidate], looked_at: Callable[[Candidate], Candidate], threads: int | None = None
+) -> list[Candidate]:
+    """The mended ones with how they look, those that are far behind anyway with the worst that is seen."""
+    found = [replace(c, mismatch=None) for c in found]
+    strain = usual(found, min)[0]
+    scores = [over(c, (strain, 0.0)).score for c in found]
+    near = [score > max(scores) - HOPELESS for score in scores]
+    seen = parallel(looked_at, [c for c, yes in zip(found, near, strict=True) if yes], threads)
+    worst = max((c.mismatch for c in seen if c.mismatch is not None), default=None)
+    rest = iter(seen)
+    return [next(rest) if yes else replace(c, mismatch=worst) for c, yes in zip(found, near, strict=True)]
+
+
+def mendable(ranked: list[Candidate], source: Probe) -> tuple[list[Candidate], list[Candidate]]:
+    """Those that are worth mending, and the others; a second look may have put the second behind the third.
+
+    The first few, which may be alike, and the first few that differ.
+    """
+    wanted = [*ranked[:FIRST], *apart(ranked, source, DISTINCT, BENT)]
+    worth = [any(c is w for w in wanted) and c.score > ranked[0].score - MENDABLE for c in ranked]
+    return [c for c, yes in zip(ranked, worth, strict=True) if yes], [
+        c for c, yes in zip(ranked, worth, strict=True) if not yes
+    ]

@@ -1,0 +1,94 @@
+"""What is the same for all maps that are judged on one probe: worked out once, and in single precision."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from kfmaps._arrays import Array, to_numpy
+from kfmaps.fmap.descriptor_guidance import spread
+from kfmaps.matching.extremities import Tips
+
+NEAR = 0.2
+"""Distance, in units of √area, up to which points are neighbours whose distance a good map keeps."""
+LIMB = 0.3
+"""Distance, in units of √area, from a tip within which points are of hands, feet, faces and tails."""
+
+
+@dataclass(frozen=True, eq=False)
+class Rows:
+    """Descriptors ``(q, d)``, their squared lengths ``(q,)`` and :func:`spread`."""
+
+    values: np.ndarray
+    squares: np.ndarray
+    spread: float
+
+    @classmethod
+    def of(cls, descriptors: np.ndarray, precision: type = np.float32) -> Rows:
+        values = np.asarray(descriptors, dtype=precision)
+        return cls(values, np.einsum("ij,ij->i", values, values), spread(descriptors))
+
+
+@dataclass(frozen=True, eq=False)
+class Known:
+    """Of one probe: what all maps are judged with; made by :func:`known`.
+
+    Attributes
+    ----------
+    functions : (q, k) float32
+    areas : (q,) float64
+        Of sum 1.
+    ends : (q,) float64
+        Areas of those within :data:`LIMB` of a tip, of sum 1, and of all others 0; ``None`` where there are no tips.
+    mean : float
+        Of all distances.
+    short : (p,) int64
+        Which of the flattened distances are short: those up to :data:`NEAR`; with few points, to the nearest.
+    short_mean : float
+    orientation : float
+        Norm of the operators; 0 where there are none.
+    descriptors, heat : Rows
+    """
+
+    functions: np.ndarray
+    areas: np.ndarray
+    ends: np.ndarray | None
+    mean: float
+    short: np.ndarray
+    short_mean: float
+    orientation: float
+    descriptors: Rows | None
+    heat: Rows
+
+
+def known(
+    functions: Array,
+    areas: np.ndarray,
+    distances: np.ndarray,
+    orientation: np.ndarray | None,
+    descriptors: np.ndarray | None,
+    heat: np.ndarray,
+    tips: Tips,
+) -> Known:
+    """Of the arrays of a :class:`kfmaps.matching.quality.Probe`."""
+    nearest_other = np.partition(distances, 1, axis=1)[:, 1] if len(distances) > 1 else np.ones(1)
+    short = np.flatnonzero(distances <= max(NEAR, float(nearest_other.max())))
+    return Known(
+        np.asarray(to_numpy(functions), dtype=np.float32),
+        areas,
+        _ends(areas, tips),
+        float(distances.mean()),
+        short,
+        float(distances.ravel()[short].mean()),
+        0.0 if orientation is None else float(np.linalg.norm(orientation)),
+        None if descriptors is None else Rows.of(descriptors),
+        Rows.of(heat, np.float64),
+    )
+
+
+def _ends(areas: np.ndarray, tips: Tips) -> np.ndarray | None:
+    if len(tips.distances) == 0:
+        return None
+    near = np.where(tips.unit * tips.distances.min(axis=0) < LIMB, areas, 0.0)
+    return near / near.sum() if near.any() else None

@@ -1,0 +1,87 @@
+"""Near-symmetries of one shape: what turns a map into another that is easily mistaken for it.
+
+A body is nearly its own mirror image, and what is left then becomes right; with SHOT, which knows orientation, a map
+that is composed with that turns into the one that swaps front and back as well. Of two such maps only a close
+comparison tells which is right, so a search compares them whether or not it has come upon both by itself.
+
+An intrinsic symmetry takes each simple eigenfunction to itself or to its negative (Ovsjanikov, Sun and Guibas 2008).
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from itertools import product
+
+import numpy as np
+
+from kfmaps.matching.batched_zoomout import closest, zoomed
+from kfmaps.matching.quality import Probe, map_distortion
+
+SIGNS = 5
+"""Functions after the constant one whose signs are tried."""
+STOP, STEP = 40, 4
+"""Functions at the end of the refinement, and how many more at each step."""
+KEPT = 0.12
+"""Distortion up to which a self-map counts as a near-symmetry: bodies in any pose have 0.04 to 0.08, the next 0.2."""
+MOVED = 0.1
+"""Mean distance, in units of √area, by which it must move points; less is the identity."""
+APART = 0.08
+"""Mean distance between the images of two that count as different."""
+MOST = 2
+SOON, LIKELY = 14, 12
+"""Functions at which maps are told apart by distortion, and how many go on: those that become symmetries are among the
+best eight there."""
+
+
+def turns_of(of: Probe, functions: int, threads: int | None = None) -> list[np.ndarray]:
+    """:func:`symmetries` of a probe, or those that it has kept."""
+    if of.turns is not None and of.turns.shape[1] == _size(of, functions):
+        return list(of.turns)
+    return symmetries(of, functions, threads)
+
+
+def with_turns(of: Probe, few: Probe) -> Probe:
+    """``of`` with the near-symmetries of its first samples, ``few``, so that they are found once for many matches."""
+    functions = few.samples.basis.functions.shape[1]
+    found, k = symmetries(few, functions, 1), _size(few, functions)
+    return replace(of, turns=np.array(found, dtype=np.float64).reshape(len(found), k, k))
+
+
+def _size(of: Probe, functions: int) -> int:
+    """Functions of the self-maps."""
+    return min(STOP, functions, len(of.samples.vertices))
+
+
+def symmetries(of: Probe, functions: int, threads: int | None = None) -> list[np.ndarray]:
+    """Functional maps ``(k, k)`` of a shape onto itself, other than the identity, that nearly keep distances.
+
+    At most :data:`MOST`, the best first; none of a shape without near-symmetries. ``functions``: as many as k may have.
+    """
+    stop = _size(of, functions)
+    count = min(SIGNS, stop - 1)
+    if count < 1:
+        return []
+    maps = np.stack([np.diag([1.0, *signs]) for signs in product((1.0, -1.0), repeat=count)])
+    basis = of.samples.basis
+    soon = min(SOON, stop)
+    begun, _ = zoomed(maps, basis, basis, (*range(count + 1, soon, STEP), soon), None, threads)
+    likely = np.sort(np.argsort(_changed(begun, of), kind="stable")[:LIKELY])
+    found, points = zoomed(begun[likely], basis, basis, (*range(soon, stop, STEP), stop), None, threads)
+    judged = [map_distortion(C, of, of, at) for C, at in zip(found, points, strict=True)]
+    kept: list[int] = []
+    for i in np.argsort(judged, kind="stable"):
+        if judged[i] > KEPT or len(kept) == MOST:
+            break
+        images = of.positions[points[i]]
+        others = [of.positions, *(of.positions[points[j]] for j in kept)]
+        off = [float(np.linalg.norm(images - other, axis=1).mean()) for other in others]
+        if off[0] > MOVED and all(one > APART for one in off[1:]):
+            kept.append(int(i))
+    return [found[i] for i in kept]
+
+
+def _changed(maps: np.ndarray, of: Probe) -> np.ndarray:
+    """Mean change (m,) of the distances between the first points by each of the self-maps ``maps (m, k, k)``."""
+    first = of.known.functions[: len(of.distances)]
+    images = closest(np.asarray(maps, dtype=np.float32), first, first, None)
+    return np.array([np.abs(of.distances[at[:, None], at] - of.distances).mean() for at in images])

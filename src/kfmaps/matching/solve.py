@@ -1,0 +1,127 @@
+"""Minimising what a problem asks, as the configuration's formulation says."""
+
+from __future__ import annotations
+
+import warnings
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from kfmaps._arrays import Array, KfmapsWarning, check, like, to_numpy
+from kfmaps._progress import Progress
+from kfmaps.config import Config
+from kfmaps.fmap.coupled import Coupled, coupled, seen, seen_penalty
+from kfmaps.fmap.energy import Energy, laplacian_term
+from kfmaps.fmap.losses import Loss, Penalty, RobustData, sparse
+from kfmaps.fmap.minimize import Coupling, How, Objective, Told, coupled_pair, minimised
+from kfmaps.fmap.optimal_transport import spatial
+from kfmaps.fmap.solvers import CG, Solution
+from kfmaps.matching.assemble import Problem
+
+
+@dataclass(frozen=True, eq=False)
+class Minimised:
+    """The solution from source to target, the map ``back (k_s, k_t)`` where both were asked for, and the energies."""
+
+    solution: Solution
+    back: Array | None
+    energies: dict[str, float]
+
+
+def solved(task: Problem, config: Config, report: Progress, start: Any = None) -> Minimised:
+    """:func:`minimiser` from ``start`` where one is given, which is checked; told as the stage "solve".
+
+    Warns
+    -----
+    KfmapsWarning
+        When the solver broke down, so that the map is not the minimiser.
+    """
+    if start is not None:
+        right = task.energy.rhs()
+        start = np.asarray(to_numpy(start) if hasattr(start, "shape") else start, dtype=np.float64)
+        check(start, "start", shape=tuple(right.shape), remedy="give a functional map of the size of the basis")
+        start = like(start, right)
+    limit = config.solver.max_steps if isinstance(config.solver, CG) else None
+
+    def told(step: int, relative: float) -> None:
+        if limit is not None and isinstance(config.solver, CG):
+            # Whichever criterion is nearer to being met.
+            by_size = np.log(max(relative, 1e-300)) / np.log(max(config.solver.rtol, 1e-16))
+            report("solve", float(np.clip(max(step / limit, by_size), 0.0, 1.0)))
+
+    found = minimiser(task, config, start, told)
+    if found.solution.status == "breakdown" and config.formulation.constraint == "none":
+        text = (
+            f"the solver broke down after {found.solution.steps} steps: the energy is not positive definite or a "
+            "number is not finite, and the map is not its minimiser. Raise weights.laplacian, or look at kernel and "
+            "descriptors"
+        )
+        warnings.warn(text, KfmapsWarning, stacklevel=3)
+    return found
+
+
+def minimiser(task: Problem, config: Config, start: Array | None = None, told: Told | None = None) -> Minimised:
+    """What minimises what ``task`` and ``config.formulation`` ask, reached from ``start``."""
+    asked = config.formulation
+    how = How(config.solver, config.preconditioner, asked.rounds)
+    if asked.weighs_features or asked.bases == "coupled" or asked.spatial:
+        start = minimised(Objective(task.energy), how, start, told).value
+    rotation = _rotation(task, start, config) if asked.bases == "coupled" and start is not None else None
+    forth = objective(task, config, start, rotation)
+    if asked.directions == "one":
+        solution = minimised(forth, how, start, told)
+        return Minimised(solution, None, forth.breakdown(solution.value))
+    turned = None if rotation is None else Coupled(rotation.U_t, rotation.U_s, rotation.history)
+    back = objective(task, config, None if start is None else start.T, turned, reverse=True)
+    size = typical(task.energy)
+    tied = Coupling(asked.inverse * size, asked.adjoint * size)
+    pair = coupled_pair(forth, back, tied, how, (start, None), told)
+    return Minimised(pair.forth, pair.back.value, forth.breakdown(pair.forth.value))
+
+
+def objective(
+    task: Problem, config: Config, plain: Array | None, rotation: Coupled | None, reverse: bool = False
+) -> Objective:
+    """What one direction minimises; ``plain`` is the least-squares map, where the formulation needs it."""
+    asked = config.formulation
+    energy = task.reverse if reverse else task.energy
+    bases = task.bases[::-1] if reverse else task.bases
+    penalties: dict[str, tuple[float, Penalty]] = {}
+    if asked.weighs_features:
+        assert task.features is not None
+        assert plain is not None
+        F = (task.features.source, task.features.target)
+        P = [basis.project(f) for basis, f in zip(bases, F[::-1] if reverse else F, strict=True)]
+        # Features of a kernel differ in size by orders of magnitude: the loss is of their relative residuals.
+        sizes = to_numpy(P[0] * P[0]).sum(axis=0) + to_numpy(P[1] * P[1]).sum(axis=0)
+        data = RobustData(P[0], P[1], np.arange(len(sizes)), Loss(asked.loss), sizes=np.maximum(sizes, 1e-300))
+        data = data.scaled(plain, asked.loss_width)
+        energy = energy.without("descriptors")
+        penalties["descriptors"] = (config.weights.descriptors, data)
+    if asked.sparsity:
+        penalties["sparsity"] = (asked.sparsity * typical(energy), sparse(energy.rhs()))
+    if asked.spatial:
+        assert plain is not None
+        moving = spatial(plain, bases[0], bases[1], asked.spatial_blur)
+        penalties["spatial"] = (asked.spatial * typical(energy), moving)
+    if rotation is not None:
+        U = (rotation.U_t, rotation.U_s)
+        term = laplacian_term(*rotation.rotated(*bases), mask=asked.mask, power=asked.mask_power)
+        energy = Energy({**energy.terms, "laplacian": seen(term, *U)}, energy.weights)
+        if "sparsity" in penalties:
+            weight, penalty = penalties["sparsity"]
+            penalties["sparsity"] = (weight, seen_penalty(penalty, *U))
+    return Objective(energy, penalties, asked.constraint)
+
+
+def _rotation(task: Problem, plain: Array, config: Config) -> Coupled:
+    """Coupled bases that the least-squares map speaks for."""
+    values = [basis.eigenvalues for basis in task.bases]
+    return coupled(values[0], values[1], plain, config.formulation.coupling, start=plain)
+
+
+def typical(energy: Energy) -> float:
+    """Mean of the operator's diagonal: what weights of further terms are measured in, so that they have no unit."""
+    diagonal = energy.diagonal()
+    return float(np.mean(to_numpy(diagonal)))

@@ -1,0 +1,1 @@
+"""Non-rigid registration: bend one surface onto another."""

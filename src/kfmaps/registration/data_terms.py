@@ -1,0 +1,80 @@
+"""Quadratic energies that pull a mesh to places while it is bent, and steps down their sum."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from kfmaps.geometry.arap import Rigidity, pull
+
+SLIDING = 0.03
+"""Weight of squared distances along the surface, against 1 along its normal."""
+INNER = 3
+"""Steps of conjugate gradients for each set of closest points."""
+
+
+@dataclass(frozen=True, eq=False)
+class Term:
+    """``Σ_q weights_q ‖P_q((rows x)_q − places_q)‖²``, ``P`` shortened to :data:`SLIDING` across ``normals``.
+
+    ``rows`` is sparse ``(q, n_s)``, ``None`` for the vertices themselves; without normals ``P`` is the identity.
+    """
+
+    weights: np.ndarray
+    places: np.ndarray
+    rows: Any = None
+    normals: np.ndarray | None = None
+
+    def at(self, x: np.ndarray) -> np.ndarray:
+        """The matrix of the term on ``x (n_s, 3)``."""
+        inside = self._shortened(x if self.rows is None else self.rows @ x)
+        return inside if self.rows is None else self.rows.T @ inside
+
+    def right(self) -> np.ndarray:
+        """The right-hand side, (n_s, 3)."""
+        inside = self._shortened(self.places)
+        return inside if self.rows is None else self.rows.T @ inside
+
+    def _shortened(self, z: np.ndarray) -> np.ndarray:
+        if self.normals is None:
+            return self.weights[:, None] * z
+        along = np.einsum("qi,qi->q", self.normals, z)
+        return self.weights[:, None] * (SLIDING * z + ((1 - SLIDING) * along)[:, None] * self.normals)
+
+
+def descended(
+    energy: Rigidity,
+    stiffness: float,
+    solve: Callable[[np.ndarray], np.ndarray],
+    terms: list[Term],
+    x: np.ndarray,
+    turns: np.ndarray,
+    steps: int = INNER,
+) -> np.ndarray:
+    """``x`` after a few steps of conjugate gradients on the quadratic energy for fixed rotations and terms.
+
+    Every step lowers that energy, so that none needs to be exact.
+    """
+
+    def apply(z: np.ndarray) -> np.ndarray:
+        return stiffness * (energy.laplacian @ z) + sum(term.at(z) for term in terms)
+
+    residual = stiffness * pull(energy, turns) + sum(term.right() for term in terms) - apply(x)
+    direction = towards = solve(residual)
+    size = float(np.sum(residual * towards))
+    for step in range(steps):
+        if not size > 0:
+            break
+        image = apply(direction)
+        length = size / float(np.sum(direction * image))
+        x = x + length * direction
+        if step == steps - 1:
+            break
+        residual = residual - length * image
+        towards = solve(residual)
+        before, size = size, float(np.sum(residual * towards))
+        direction = towards + size / before * direction
+    return x

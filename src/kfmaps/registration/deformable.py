@@ -1,0 +1,146 @@
+"""A surface that is bent, and one on which closest points are sought: what whole shapes and parts are bent with."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.sparse import csr_array, diags_array
+from scipy.spatial import KDTree
+
+from kfmaps.geometry.arap import Rigidity, nearest_rotations, rigidity, rotations
+from kfmaps.geometry.closest_points import Places, Rings, closest_of, rings
+from kfmaps.geometry.eigen.factorization import Solve, factorise
+from kfmaps.geometry.mesh import Mesh, vertex_areas, vertex_normals
+from kfmaps.geometry.topology import connected
+from kfmaps.registration.data_terms import Term, descended
+
+NORMALS = 0.02
+"""Distance in space, at unit area, that counts as much as normals that differ by 1."""
+AGREEMENT = 0.3
+"""Cosine between two normals from which a pair of closest points counts; fully at 1."""
+START = 1e-3
+"""Stiffness of the first shape, which follows the map."""
+DIFFUSION = 2.5e-3
+"""Area over which rotations of the first shape are averaged, halved in each of ..."""
+UNFOLDINGS = 3
+"""... so many rounds."""
+SMOOTH = 1e-4
+"""Area over which the map's images are averaged before anything is known of rotations."""
+
+
+@dataclass(frozen=True, eq=False)
+class Look:
+    """A surface in which closest points with like normals are sought."""
+
+    vertices: np.ndarray
+    faces: np.ndarray
+    normals: np.ndarray
+    around: Rings
+    tree: KDTree
+
+    def __call__(self, points: np.ndarray, normals: np.ndarray) -> tuple[Places, np.ndarray, np.ndarray]:
+        """Places of ``points (q, 3)`` with ``normals``, the normals there, and how well they agree, 0 to 1."""
+        near = self.tree.query(np.hstack([points, NORMALS * normals]))[1]
+        found = closest_of(points, self.vertices, self.faces, *self.around.around(near))
+        there = _unit(np.einsum("qi,qij->qj", found.weights, self.normals[self.faces[found.faces]]))
+        cosine = np.einsum("qi,qi->q", there, normals)
+        return found, there, np.clip((cosine - AGREEMENT) / (1 - AGREEMENT), 0.0, 1.0)
+
+
+def look(mesh: Mesh, normals: np.ndarray | None = None, around: Rings | None = None) -> Look:
+    """A :class:`Look` at ``mesh``, whose ``normals (n, 3)`` and rings are worked out where they are not given."""
+    normals = vertex_normals(mesh) if normals is None else normals
+    around = rings(mesh.faces, len(mesh.vertices)) if around is None else around
+    return Look(mesh.vertices, mesh.faces, normals, around, KDTree(np.hstack([mesh.vertices, NORMALS * normals])))
+
+
+@dataclass(frozen=True, eq=False)
+class Body:
+    """A surface at rest, and what stays the same while it is bent; made by :func:`body_of`.
+
+    Attributes
+    ----------
+    mesh : Mesh
+    energy : Rigidity
+    areas : (n,) float64
+        Of the vertices.
+    around : Rings
+    solvers : dict or None
+        What :meth:`solver` has made, to be found again; ``None`` keeps nothing, since the factors of a large mesh are
+        large.
+    """
+
+    mesh: Mesh
+    energy: Rigidity
+    areas: np.ndarray
+    around: Rings
+    solvers: dict[tuple[float, float], Solve] | None = None
+
+    def solver(self, stiffness: float, data: float) -> Solve:
+        """Solves with ``stiffness L + data A``: a preconditioner, factorised once for all steps of a level."""
+        kept, key = self.solvers, (stiffness, data)
+        if kept is not None and key in kept:
+            return kept[key]
+        solve = factorise(stiffness * self.energy.laplacian + diags_array(data * self.areas), ordered=False)
+        if kept is not None:
+            kept[key] = solve
+        return solve
+
+
+def body_of(mesh: Mesh, solvers: dict[tuple[float, float], Solve] | None = None) -> Body:
+    """``mesh`` at rest."""
+    return Body(mesh, rigidity(mesh), vertex_areas(mesh), rings(mesh.faces, len(mesh.vertices)), solvers)
+
+
+def unfolded(
+    body: Body, points: np.ndarray, places: np.ndarray, normals: np.ndarray, weights: np.ndarray
+) -> np.ndarray:
+    """The first shape, ``(n, 3)``: where the places say, but where these fold it, as the surroundings do.
+
+    Each of the vertices ``points (q,)`` goes to the mean, by ``weights (q,)``, of those of ``places (q, 3)`` that are
+    its own, and the vertices between them smoothly. Where the normals of that shape disagree with ``normals (q, 3)``
+    the placing is folded or twisted: there vertices have no say, and rotations are carried over from the surroundings
+    by diffusion.
+    """
+    n, energy = len(body.areas), body.energy
+    rows = csr_array((np.ones(len(points)), points, np.arange(len(points) + 1)), shape=(len(points), n))
+    gathered = rows.T @ np.hstack([weights[:, None] * places, weights[:, None] * normals])
+    share = rows.T @ weights
+    _take_along(body.mesh, share, gathered)
+    smooth = factorise(SMOOTH * energy.laplacian + diags_array(share), ordered=False)(gathered)
+    x, wanted = np.ascontiguousarray(smooth[:, :3]), _unit(smooth[:, 3:])
+    solve = body.solver(START, 1.0)
+    for round in range(UNFOLDINGS):
+        agreement = np.einsum("ij,ij->i", vertex_normals(Mesh(x, body.mesh.faces)), wanted)
+        trust = np.clip(agreement, 0.0, 1.0)
+        held = body.areas * (trust + 1e-3)
+        turns = rotations(energy, x).reshape(n, 9)
+        diffusion = factorise(DIFFUSION * 0.5**round * energy.laplacian + diags_array(held), ordered=False)
+        turns = nearest_rotations(diffusion(held[:, None] * turns).reshape(n, 3, 3))
+        terms = [Term(weights * trust[points], places, rows)]
+        x = descended(energy, START, solve, terms, x, turns, 8)
+        x = descended(energy, START, solve, terms, x, rotations(energy, x), 8)
+    return x
+
+
+def _take_along(mesh: Mesh, share: np.ndarray, gathered: np.ndarray) -> None:
+    """Let a component without any place go with the nearest vertex that has one; fills in ``gathered (n, 6)``.
+
+    Nothing would hold it, and with its ``share (n,)`` of 0 the linear system would be singular.
+    """
+    n = len(mesh.vertices)
+    ends = mesh.faces[:, :2].ravel(), mesh.faces[:, 1:].ravel()
+    label = connected(n, *ends)[1]
+    lost = np.flatnonzero((np.bincount(label, share) == 0)[label])
+    held = np.flatnonzero(share > 0)
+    if len(lost) == 0 or len(held) == 0:
+        return
+    beside = held[KDTree(mesh.vertices[held]).query(mesh.vertices[lost])[1]]
+    moved = gathered[beside, :3] / share[beside, None] - mesh.vertices[beside]
+    gathered[lost] = np.hstack([mesh.vertices[lost] + moved, vertex_normals(mesh)[lost]])
+    share[lost] = 1.0
+
+
+def _unit(rows: np.ndarray) -> np.ndarray:
+    return rows / np.maximum(np.linalg.norm(rows, axis=1, keepdims=True), 1e-12)

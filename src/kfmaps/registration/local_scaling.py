@@ -1,0 +1,56 @@
+"""A rest shape that may be stretched evenly while it is bent: for bodies of other proportions.
+
+As-rigid-as-possible energies punish every change of size, so that between a cat and a dog, or a woman and a gorilla,
+the least of them is not where the two correspond: limbs that are longer or thicker slide. Registrations with affine
+transformations (Amberg et al., Optimal step nonrigid ICP algorithms for surface registration, 2007) or similarities
+(Yoshiyasu et al., As-conformal-as-possible surface registration, 2014) let each vertex change, as long as its
+neighbours change alike. Here the rotations stay those of each vertex, and its rest shape is stretched, in its own axes,
+by the average of how its surroundings are stretched: a limb may become longer or thicker as a whole at no cost, but not
+one side of it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+from scipy.sparse import diags_array
+
+from kfmaps.geometry.arap import Rigidity, moments_of
+from kfmaps.geometry.eigen.factorization import factorise
+
+ROUND = 0.05
+"""Damping towards a change of size alike in all directions: flat surroundings say nothing of the third."""
+LEAST, MOST = 0.4, 2.5
+"""The smallest and largest factor."""
+TINY = 1e-300
+
+
+def stretching(energy: Rigidity, areas: np.ndarray, area: float) -> Callable[[np.ndarray, np.ndarray], np.ndarray]:
+    """A function that puts the stretch of the surroundings, of about ``area``, into rotations.
+
+    It takes the bent shape ``x (n, 3)`` and the rotations ``(n, 3, 3)`` of its vertices, and returns ``R_i S_i``, with
+    ``S_i`` symmetric, from :data:`LEAST` to :data:`MOST` in every direction: the linear map that takes the
+    surroundings' rest shape to their bent one in the sense of least squares, each vertex turned back by its rotation.
+    With no ``area`` it returns the rotations. ``areas (n,)`` are those of the vertices.
+    """
+    if area == 0:
+        return lambda _x, turns: turns
+    n = len(areas)
+    diffuse = factorise(area * energy.laplacian + diags_array(areas), ordered=False)
+
+    def averaged(matrices: np.ndarray) -> np.ndarray:
+        return np.asarray(diffuse(np.ascontiguousarray(matrices.reshape(n, 9)))).reshape(n, 3, 3)
+
+    rest = averaged(moments_of(energy, energy.rest))
+    size = np.maximum(np.trace(rest, axis1=1, axis2=2), TINY)
+    inverse = np.linalg.inv(rest + (ROUND * size)[:, None, None] * np.eye(3))
+
+    def stretched(x: np.ndarray, turns: np.ndarray) -> np.ndarray:
+        moved = averaged(turns.transpose(0, 2, 1) @ moments_of(energy, x))
+        scale = np.clip(np.trace(moved, axis1=1, axis2=2) / size, LEAST, MOST)
+        found = (moved + (ROUND * size * scale)[:, None, None] * np.eye(3)) @ inverse
+        values, axes = np.linalg.eigh(0.5 * (found + found.transpose(0, 2, 1)))
+        return turns @ (axes * np.clip(values, LEAST, MOST)[:, None, :] @ axes.transpose(0, 2, 1))
+
+    return stretched

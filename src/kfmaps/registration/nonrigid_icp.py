@@ -1,0 +1,288 @@
+"""The source bent onto the target, as the last step of a match: where points slide along the surface it finds back.
+
+A refined functional map is right up to a smooth sliding of points, which its basis hardly sees, and here and there a
+limb is twisted or folded. So the source's mesh is bent onto the target as rigidly as possible (Sorkine and Alexa 2007)
+by a non-rigid ICP (Amberg et al. 2007) that begins with the map: closest points in both directions, compared with
+normals, and distances mostly along the normal, so that points may slide to where they bend the source least.
+Neighbouring rotations are kept alike (Levi and Gotsman 2015): their differences are less at the true correspondence
+than at a map whose limbs are twisted, where bending alone hardly tells the two apart. Landmarks hold softly. Then each
+target vertex takes the closest point on the bent source, inside a triangle; where parts of a body touch, of the right
+one (:mod:`kfmaps.registration.contact_projection`).
+
+It comes last: a refinement after it would go back to where it was.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from scipy.sparse import csr_array, diags_array
+
+from kfmaps._arrays import check_count, check_positive, refuse
+from kfmaps.fmap.convert import check_point_map
+from kfmaps.geometry.arap import bending, nearest_rotations, rotations
+from kfmaps.geometry.closest_points import Places
+from kfmaps.geometry.coarse_proxy import LARGE, bent_copy
+from kfmaps.geometry.eigen.factorization import factorise
+from kfmaps.geometry.mesh import Mesh, vertex_areas, vertex_normals
+from kfmaps.registration.contact_projection import landed
+from kfmaps.registration.data_terms import Term, descended
+from kfmaps.registration.deformable import Body, Look, body_of, look, unfolded
+from kfmaps.registration.local_scaling import stretching
+
+DECLINE = 10**-0.5
+"""Stiffness of a level over that of the one before."""
+LAST = 2
+"""Searches of a large mesh, at the last level: the others are its coarse copy's."""
+HOLD = 10.0
+"""Weight of a landmark over the stiffness of a level: softly enough that those 2 % of √area off do no harm."""
+DISC = 1e-3
+"""Area around a landmark that goes with it."""
+SLOPPY = 0.045
+"""Distance from a landmark, in √area, from which its pull fades: a click that is off does no harm."""
+FIRMLY, LOOSELY = 30.0, 0.1
+"""Both for shapes of other proportions, whose maps are farther off than a click."""
+
+
+@dataclass(frozen=True, eq=False)
+class Registered:
+    """A source bent onto a target, both at unit area.
+
+    Attributes
+    ----------
+    vertices : (n_s, 3) float64
+        The source's, where they lie on the target.
+    faces : (n_t,) int64
+        The source face that each target vertex lies on, ...
+    weights : (n_t, 3) float64
+        ... and the barycentric coordinates of its place there (:func:`kfmaps.registration.contact_projection.landed`).
+    bending : float
+        As-rigid-as-possible energy per area (:func:`kfmaps.geometry.arap.bending`): 0 for a motion.
+    gap : float
+        Root of the mean squared distance of the two surfaces, in both directions, in units of √area.
+    """
+
+    vertices: np.ndarray
+    faces: np.ndarray
+    weights: np.ndarray
+    bending: float
+    gap: float
+
+
+@dataclass(frozen=True)
+class NonRigid:
+    """Settings of the non-rigid fit; callable as ``(source, target, target_to_source) -> Registered``.
+
+    Parameters
+    ----------
+    stiffness : float
+        Of the first level, in units of the area: details smaller than its root follow the target.
+    levels : int
+        Each has a third (``10^-½``) of the stiffness of the one before.
+    steps : int
+        Searches for closest points at each level.
+    evenness : float
+        Area over which rotations are averaged, so that limbs are not twisted; 0 leaves each vertex its own.
+    stretch : float
+        Area over which the rest shape may be stretched evenly, for shapes of other proportions; see
+        :mod:`kfmaps.registration.local_scaling`. 0 keeps its sizes.
+    """
+
+    stiffness: float = 2e-4
+    levels: int = 3
+    steps: int = 5
+    evenness: float = 1e-3
+    stretch: float = 0.0
+
+    def __post_init__(self) -> None:
+        check_positive(self.stiffness, "stiffness of the non-rigid fit")
+        check_count(self.levels, "levels of the non-rigid fit")
+        check_count(self.steps, "steps of the non-rigid fit")
+        for value, name in ((self.evenness, "evenness"), (self.stretch, "stretch")):
+            if value != 0:
+                check_positive(value, f"{name} of the non-rigid fit", "give 0 or a number above it")
+
+    def __call__(
+        self,
+        source: Mesh,
+        target: Mesh,
+        target_to_source: np.ndarray,
+        progress: Callable[[float], None] | None = None,
+        landmarks: np.ndarray | None = None,
+        held: np.ndarray | None = None,
+    ) -> Registered:
+        """Bend ``source`` onto ``target``, beginning with the map ``target_to_source (n_t,)``.
+
+        ``landmarks (l, 2)``, pairs "source vertex, target vertex", are pulled together softly; so is each target
+        vertex with its image in the map, where ``held (n_t,)``, from 0 to 1, says that it shall stay.
+
+        Raises
+        ------
+        InvalidInput
+            When one of them is a point cloud, or the map does not fit.
+        """
+        pair, x, gap = self._bent(source, target, target_to_source, progress, landmarks, held)
+        found = landed(target_to_source, pair.body, x, target, pair.normals_t)
+        energy = bending(pair.body.energy, x) / float(pair.body.areas.sum())
+        return Registered(x, found.faces, found.weights, energy, gap)
+
+    def vertices(
+        self,
+        source: Mesh,
+        target: Mesh,
+        target_to_source: np.ndarray,
+        progress: Callable[[float], None] | None = None,
+        landmarks: np.ndarray | None = None,
+        held: np.ndarray | None = None,
+    ) -> np.ndarray:
+        """:attr:`Registered.vertices` alone, without the search for where the target's vertices lie."""
+        return self._bent(source, target, target_to_source, progress, landmarks, held)[1]
+
+    def _bent(
+        self,
+        source: Mesh,
+        target: Mesh,
+        target_to_source: np.ndarray,
+        progress: Callable[[float], None] | None,
+        landmarks: np.ndarray | None,
+        held: np.ndarray | None,
+    ) -> tuple[Facing, np.ndarray, float]:
+        """Both surfaces, the source's vertices (n_s, 3) on the target, and the gap."""
+        for mesh, name in ((source, "source"), (target, "target")):
+            if len(mesh.faces) == 0:
+                raise refuse(name, "a surface with faces", "a point cloud", "leave out the non-rigid fit")
+        report = progress or (lambda _done: None)
+        points = check_point_map(target_to_source, len(source.vertices), len(target.vertices))
+        marks = np.zeros((0, 2), dtype=np.int64) if landmarks is None else np.asarray(landmarks)
+        x = None
+        if max(len(source.vertices), len(target.vertices)) > LARGE:
+            x = bent_copy(self.vertices, source, target, points, lambda done: report(0.3 * done), marks, held)
+        pair = facing(body_of(source), target)
+        return pair, *self.bent(pair, points, x, report, marks, held)
+
+    def bent(
+        self,
+        pair: Facing,
+        points: np.ndarray,
+        x: np.ndarray | None = None,
+        report: Callable[[float], None] = lambda _done: None,
+        marks: np.ndarray | None = None,
+        held: np.ndarray | None = None,
+    ) -> tuple[np.ndarray, float]:
+        """The source's vertices (n_s, 3) on the target, and the gap; of two surfaces that are ready for it.
+
+        With ``x (n_s, 3)``, where the source lies nearly, only the last level is done.
+        """
+        levels, steps, begun = range(self.levels), self.steps, 0.2
+        if x is not None:
+            levels, steps, begun = range(self.levels)[-1:], min(self.steps, LAST), 0.3
+        else:
+            x = unfolded(pair.body, points, pair.target.vertices, pair.normals_t, pair.areas_t)
+            report(begun)
+        even = _evened(pair, self.evenness)
+        stretched = stretching(pair.body.energy, pair.body.areas, self.stretch)
+        marks = np.zeros((0, 2), dtype=np.int64) if marks is None else marks
+        discs = _discs(pair, marks)
+        hold, fading = (FIRMLY, LOOSELY) if self.stretch else (HOLD, SLOPPY)
+        stays = [] if held is None or not held.any() else [_stays(pair, points, held)]
+        gap = 0.0
+        for level in levels:
+            stiffness = self.stiffness * DECLINE**level
+            solve = pair.body.solver(stiffness, 2.0)
+            for step in range(steps):
+                terms, gap = _closest_terms(pair, x)
+                terms += stays
+                if len(marks):
+                    terms.append(_marked(pair, marks, discs, x, hold * stiffness, fading))
+                turns = stretched(x, even(rotations(pair.body.energy, x)))
+                x = descended(pair.body.energy, stiffness, solve, terms, x, turns)
+                done = (level - levels[0]) * steps + step + 1
+                report(begun + (1 - begun) * done / (len(levels) * steps))
+        return x, gap
+
+
+@dataclass(frozen=True, eq=False)
+class Facing:
+    """Two surfaces and what stays the same while the first is bent onto the second; made by :func:`facing`."""
+
+    body: Body
+    target: Mesh
+    areas_t: np.ndarray
+    look_t: Look
+
+    @property
+    def normals_t(self) -> np.ndarray:
+        """Of the target's vertices, (n_t, 3)."""
+        return self.look_t.normals
+
+
+def facing(body: Body, target: Mesh, look_t: Look | None = None) -> Facing:
+    """A surface at rest and the one that it is to be bent onto; ``look_t`` where it is there already."""
+    return Facing(body, target, vertex_areas(target), look(target) if look_t is None else look_t)
+
+
+def _evened(pair: Facing, area: float) -> Callable[[np.ndarray], np.ndarray]:
+    """Averages rotations ``(n_s, 3, 3)`` with those around: one step of implicit diffusion over ``area``."""
+    if area == 0:
+        return lambda turns: turns
+    diffuse = factorise(area * pair.body.energy.laplacian + diags_array(pair.body.areas), ordered=False)
+    return lambda turns: nearest_rotations(
+        diffuse(pair.body.areas[:, None] * turns.reshape(len(turns), 9)).reshape(turns.shape)
+    )
+
+
+def _stays(pair: Facing, points: np.ndarray, held: np.ndarray) -> Term:
+    """The map itself as a term, with weights ``held (n_t,)``."""
+    some = np.flatnonzero(held)
+    rows = csr_array(
+        (np.ones(len(some)), points[some], np.arange(len(some) + 1)), shape=(len(some), len(pair.body.areas))
+    )
+    return Term(held[some] * pair.areas_t[some], pair.target.vertices[some], rows)
+
+
+def _discs(pair: Facing, landmarks: np.ndarray) -> np.ndarray:
+    """How much of each source vertex belongs to each landmark of ``(l, 2)``: columns (n_s, l) with sum 1."""
+    n, count = len(pair.body.areas), len(landmarks)
+    if count == 0:
+        return np.zeros((n, 0))
+    points = np.zeros((n, count))
+    points[landmarks[:, 0], np.arange(count)] = 1.0
+    diffuse = factorise(DISC * pair.body.energy.laplacian + diags_array(pair.body.areas), ordered=False)
+    return pair.body.areas[:, None] * np.asarray(diffuse(points)).reshape(n, count)
+
+
+def _marked(
+    pair: Facing, landmarks: np.ndarray, discs: np.ndarray, x: np.ndarray, weight: float, fading: float
+) -> Term:
+    """Landmarks ``(l, 2)`` as a term: each takes its disc along, those farther off than ``fading`` with less weight."""
+    missing = pair.target.vertices[landmarks[:, 1]] - x[landmarks[:, 0]]
+    shares = weight * discs / (1 + (missing**2).sum(axis=1) / fading**2) ** 2
+    held = shares.sum(axis=1)
+    return Term(held, x + shares @ missing / np.maximum(held, 1e-300)[:, None])
+
+
+def _closest_terms(pair: Facing, x: np.ndarray) -> tuple[list[Term], float]:
+    """Closest points in both directions as terms, and how far the surfaces are apart (root mean square)."""
+    bent = Mesh(x, pair.body.mesh.faces)
+    normals = vertex_normals(bent)
+    forth, there, agree_s = pair.look_t(x, normals)
+    back, _, agree_t = look(bent, normals, pair.body.around)(pair.target.vertices, pair.normals_t)
+    terms = [
+        Term(pair.body.areas * agree_s, forth.points, None, there),
+        Term(pair.areas_t * agree_t, pair.target.vertices, _rows(pair, back), pair.normals_t),
+    ]
+    squares = [
+        np.average(places.distances**2, weights=areas)
+        for places, areas in ((forth, pair.body.areas), (back, pair.areas_t))
+    ]
+    return terms, float(np.sqrt(np.mean(squares)))
+
+
+def _rows(pair: Facing, places: Places) -> Any:
+    """Sparse ``(q, n_s)``: what takes the source's vertices to ``places`` on it."""
+    q = len(places.faces)
+    corners = pair.body.mesh.faces[places.faces].ravel()
+    return csr_array((places.weights.ravel(), corners, 3 * np.arange(q + 1)), shape=(q, len(pair.body.mesh.vertices)))

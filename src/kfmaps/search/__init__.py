@@ -1,1 +1,0 @@
-"""Many maps, judged without the truth."""

@@ -1,0 +1,242 @@
+"""What is worked out once per shape, whatever it is matched with."""
+
+from __future__ import annotations
+
+import time
+import warnings
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+from scipy.sparse import csr_array
+from scipy.spatial import KDTree
+
+from kfmaps._arrays import KfmapsWarning, refuse, take
+from kfmaps._progress import Progress
+from kfmaps._threads import available_cores
+from kfmaps.config import Config
+from kfmaps.descriptors.shot import mirrored, shot
+from kfmaps.geometry.basis import Basis, laplace_basis
+from kfmaps.geometry.clean import Inside, inside
+from kfmaps.geometry.eigen.eigensolver import EXACT
+from kfmaps.geometry.mesh import Mesh, check_mesh, surface_area, unit_area, vertex_normals
+from kfmaps.geometry.mesh import mirrored as mirrored_mesh
+from kfmaps.geometry.sampling import stratified_samples, stratified_vertices
+
+FEW, NEARLY = 3_000, 1e-2
+"""Vertices up to which eigenfunctions are found to rounding, and the tolerance above."""
+DESCRIBED = 7_000
+"""Vertices for which SHOT is worked out; where there are more they are a hundredth of √area apart."""
+NORMALS = 0.05
+"""Distance in space, at unit area, that counts as much as normals that differ by 1."""
+
+
+@dataclass(frozen=True, eq=False)
+class Shape:
+    """A surface ready to be matched; made by :func:`prepare`.
+
+    Attributes
+    ----------
+    mesh : Mesh
+        Scaled to unit area, vertices in the order given.
+    basis : Basis
+        Of as many functions as the configuration needs in all. Vertices that lie on no surface, and all but the first
+        in one place, have no area and the functions of the vertex that they count as (:func:`inner`).
+    shot : (n, 352) float64 or None
+        The SHOT descriptor when the configuration asks for it; a point cloud has none.
+    name : str
+    seconds : dict of str to float
+        Time each stage took.
+    laplacian : str
+        Which one the functions are of.
+    shot_radius : float or None
+        Of ``shot``, in units of √area.
+    extent : float or None
+        √area before it was scaled, where that is known.
+    """
+
+    mesh: Mesh
+    basis: Basis
+    shot: np.ndarray | None
+    name: str
+    seconds: dict[str, float]
+    laplacian: str = "robust"
+    shot_radius: float | None = None
+    extent: float | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class Reduced:
+    """Some points of a shape that stand for all; made by :func:`reduced`.
+
+    Attributes
+    ----------
+    shape : Shape
+        A point cloud with the areas and functions of the surface that it was taken from.
+    vertices : (q,) int64
+        Which they are.
+    landmarks : (l,) int64
+        Where the landmarks are among them.
+    """
+
+    shape: Shape
+    vertices: np.ndarray
+    landmarks: np.ndarray
+
+
+def reduced(shape: Shape, count: int | None, landmarks: np.ndarray, rng: int | np.random.Generator = 0) -> Reduced:
+    """``shape`` on about ``count`` stratified points and the ``landmarks (l,)``; itself when it has no more.
+
+    ``None`` takes all points.
+    """
+    n = len(shape.mesh.vertices)
+    if count is None or n <= count:
+        return Reduced(shape, np.arange(n), landmarks)
+    samples = stratified_samples(shape.basis, count, rng, landmarks)
+    rows = samples.vertices
+    cloud = Mesh(shape.mesh.vertices[rows], np.zeros((0, 3), dtype=np.int64))
+    local = None if shape.shot is None else shape.shot[rows]
+    part = replace(shape, mesh=cloud, basis=samples.basis, shot=local)
+    return Reduced(part, rows, np.searchsorted(rows, landmarks))
+
+
+def inner(shape: Shape) -> tuple[Shape, Inside]:
+    """``shape`` with each place once, without unused vertices and specks, and how its vertices are numbered.
+
+    A match works on that; a shape that has nothing of the kind is returned as it is.
+    """
+    part = inside(shape.mesh, specks=True)
+    if part.whole:
+        return shape, part
+    kept, basis = part.kept, shape.basis
+    local = None if shape.shot is None else shape.shot[kept]
+    few = Basis(basis.eigenvalues, take(basis.functions, kept), take(basis.mass, kept))
+    return replace(shape, mesh=part.mesh, basis=few, shot=local), part
+
+
+def prepare(
+    mesh: Mesh, config: Config | None = None, *, name: str = "shape", progress: Progress | None = None
+) -> Shape:
+    """Do the work that depends on one shape alone, so that matching it with many others reuses it.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        In any unit; a mesh without faces is a point cloud. Open edges that lie in one place are connected, specks
+        and vertices that no face uses are left out (:func:`kfmaps.geometry.clean.inside`), with a warning.
+    config : Config, optional
+        Its basis, descriptor and refinement settings count here.
+
+    Raises
+    ------
+    InvalidInput
+        When the mesh cannot be worked with, or has fewer vertices than eigenfunctions are needed.
+    NotConverged
+        When the eigensolver misses its tolerance.
+    """
+    config = config or Config()
+    report = progress or (lambda _stage, _done: None)
+    part = inside(check_mesh(mesh, name, cloud=True), specks=True)
+    small = unit_area(part.mesh)
+    wanted = config.eigenfunctions
+    if len(small.vertices) <= wanted:
+        remedy = "lower the basis, descriptor and refinement sizes, or refine the mesh"
+        raise refuse(name, f"more than {wanted} vertices, one for each eigenfunction", str(len(small.vertices)), remedy)
+    _tell(part, name)
+    seconds = {}
+    start = time.perf_counter()
+    report(f"eigenfunctions of {name}", 0.0)
+    basis = laplace_basis(
+        small,
+        wanted,
+        config.basis.laplacian,
+        threads=config.threads,
+        progress=lambda done: report(f"eigenfunctions of {name}", done),
+        tolerance=EXACT if len(small.vertices) <= FEW else NEARLY,
+    )
+    seconds["eigenfunctions"] = time.perf_counter() - start
+    report(f"eigenfunctions of {name}", 1.0)
+    local = None
+    if config.descriptors.shot and len(mesh.faces):
+        start = time.perf_counter()
+        report(f"SHOT of {name}", 0.0)
+        local = local_descriptors(
+            small,
+            basis,
+            config.descriptors.shot_radius,
+            config.threads,
+            lambda done: report(f"SHOT of {name}", min(done, 0.99)),
+        )
+        seconds["SHOT"] = time.perf_counter() - start
+        report(f"SHOT of {name}", 1.0)
+    radius = None if local is None else config.descriptors.shot_radius
+    size = float(np.sqrt(surface_area(part.mesh))) if len(mesh.faces) else None
+    shape = Shape(Mesh(small.vertices, mesh.faces), basis, local, name, seconds, config.basis.laplacian, radius, size)
+    if part.whole:
+        return shape
+    mass = np.zeros(len(mesh.vertices))
+    mass[part.kept] = basis.mass
+    whole = Basis(basis.eigenvalues, basis.functions[part.number], mass)
+    local = None if local is None else local[part.number]
+    return replace(shape, mesh=_placed(mesh, part, small), basis=whole, shot=local)
+
+
+def local_descriptors(
+    mesh: Mesh,
+    basis: Basis,
+    radius: float,
+    threads: int | None = None,
+    progress: Callable[[float], None] | None = None,
+) -> np.ndarray:
+    """SHOT of all vertices of a mesh of unit area, (n, 352); of more than :data:`DESCRIBED` from as many.
+
+    It changes little within a tenth of its radius: the others take the mean of the nearest three with like normals,
+    each weighted by the inverse of its squared distance.
+    """
+    if len(mesh.vertices) <= DESCRIBED:
+        return shot(mesh, radius, threads=threads, progress=progress)
+    chosen = stratified_vertices(basis, DESCRIBED, 0)
+    found = shot(mesh, radius, at=chosen, threads=threads, progress=progress)
+    places = np.hstack([mesh.vertices, NORMALS * vertex_normals(mesh)])
+    away, near = KDTree(places[chosen]).query(places, k=3, workers=threads or available_cores())
+    weights = 1.0 / np.maximum(np.asarray(away) ** 2, 1e-12)
+    weights /= weights.sum(axis=1, keepdims=True)
+    spread = csr_array((weights.ravel(), np.asarray(near).ravel(), 3 * np.arange(len(places) + 1)))
+    result = np.asarray(spread @ found)
+    length = np.sqrt(np.einsum("ij,ij->i", result, result))[:, None]
+    np.divide(result, length, out=result, where=length > 0)
+    return result
+
+
+def mirror_image(shape: Shape) -> Shape:
+    """The mirror image of a prepared shape, with the same vertices, functions and areas.
+
+    Raises
+    ------
+    InvalidInput
+        For a point cloud, which has no orientation.
+    """
+    if len(shape.mesh.faces) == 0:
+        raise refuse(shape.name, "a surface, which can be mirrored", "a point cloud", "leave orientation at 'kept'")
+    return replace(shape, mesh=mirrored_mesh(shape.mesh), shot=None if shape.shot is None else mirrored(shape.shot))
+
+
+def _placed(mesh: Mesh, part: Inside, small: Mesh) -> Mesh:
+    """All of ``mesh`` moved and scaled as ``part`` of it was to become ``small``."""
+    centre = part.mesh.vertices.mean(axis=0)
+    before, after = part.mesh.vertices - centre, small.vertices
+    far = np.unravel_index(np.abs(before).argmax(), before.shape)
+    vertices = (mesh.vertices - centre) * (after[far] / before[far])
+    vertices[part.kept] = after
+    joined = ~part.loose
+    vertices[joined] = after[part.number[joined]]
+    return Mesh(vertices, mesh.faces)
+
+
+def _tell(part: Inside, name: str) -> None:
+    """One warning of what is connected or left out."""
+    what = "points in one place count as one" if len(part.mesh.faces) == 0 else "vertices on seams are connected"
+    told = [f"{part.joined} {what}"] * bool(part.joined)
+    told += [f"{part.specks} specks are left out"] * bool(part.specks)
+    if told:
+        warnings.warn(f"{name}: {', '.join(told)} inside; the numbering is kept", KfmapsWarning, stacklevel=3)

@@ -1,0 +1,31 @@
+"""Pictures of surfaces and maps with matplotlib alone: no display and no graphics system is needed."""
+
+from kfmaps.viz.camera import View, automatic_view, following_view, view
+from kfmaps.viz.colors import ERROR_MAP, error_colors, error_limit, position_colors
+from kfmaps.viz.curves import Curve, curves_figure, mean_curve
+from kfmaps.viz.errors import painted_errors, true_views
+from kfmaps.viz.grids import Panel, grid_figure
+from kfmaps.viz.matches import match_figure, picture_format, save_figure
+from kfmaps.viz.surfaces import draw_surface
+
+__all__ = [
+    "ERROR_MAP",
+    "Curve",
+    "Panel",
+    "View",
+    "automatic_view",
+    "curves_figure",
+    "draw_surface",
+    "error_colors",
+    "error_limit",
+    "following_view",
+    "grid_figure",
+    "match_figure",
+    "mean_curve",
+    "painted_errors",
+    "picture_format",
+    "position_colors",
+    "save_figure",
+    "true_views",
+    "view",
+]

@@ -1,0 +1,190 @@
+"""Where to look from: orthographic views, chosen by the shape or given."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+from scipy.spatial import KDTree
+from scipy.spatial.transform import Rotation
+
+from kfmaps._arrays import check, refuse
+from kfmaps.geometry.mesh import Mesh
+
+BROADER = 1.15
+"""How much more of a shape a view that is not along one of the file's axes must show to be preferred."""
+STEADIER = 1.4
+"""How much better than on y a shape must stand on z for z to be up."""
+YAW, PITCH = 20.0, 10.0
+"""Degrees by which the automatic view is turned aside and lifted, so that depth shows."""
+SAME_VIEW = 45.0
+"""Degrees that a target may be turned against the source and still be seen from the same side."""
+
+LIKENESS = 0.6
+"""Correlation between the turned source and the target above which a turn is believed; poses of one shape have 0.75."""
+CLEARLY = 0.75
+"""Part of the misfit of shapes as they lie that a turned one may have. Of 182 ordered pairs of scanned people in 14
+poses who all face one way, 3 % fit that much better when one is turned half round."""
+SAMPLES = 800
+"""Points of each shape that this is measured on."""
+
+
+@dataclass(frozen=True, eq=False)
+class View:
+    """An orthographic camera.
+
+    Attributes
+    ----------
+    towards : (3,) float64
+        Unit vector from the surface to the camera.
+    up : (3,) float64
+        Unit vector that points up in the picture, perpendicular to ``towards``.
+    """
+
+    towards: np.ndarray
+    up: np.ndarray
+
+    def axes(self) -> np.ndarray:
+        """Rows right, up, towards (3, 3): ``points @ axes.T`` is picture coordinates and closeness."""
+        return np.stack([np.cross(self.up, self.towards), self.up, self.towards])
+
+
+def view(towards: ArrayLike, up: ArrayLike = (0, 1, 0)) -> View:
+    """The view from the direction ``towards`` (3,) with ``up`` (3,) upwards; their lengths do not matter.
+
+    Raises
+    ------
+    InvalidInput
+        When one is zero or not finite, or both lie on one line.
+    """
+    a = check(np.asarray(towards, dtype=np.float64), "towards", shape=(3,), remedy="give x, y, z")
+    b = check(np.asarray(up, dtype=np.float64), "up", shape=(3,), remedy="give x, y, z")
+    across = np.cross(b, a)
+    if not np.linalg.norm(across) > 1e-6 * np.linalg.norm(a) * np.linalg.norm(b):
+        raise refuse("view", "two directions apart from each other", f"{a} and {b}", "turn one of them")
+    b = np.cross(a, across)
+    return View(a / np.linalg.norm(a), b / np.linalg.norm(b))
+
+
+def _stance(points: np.ndarray, up: np.ndarray) -> float:
+    """How much a shape seems to stand on feet: lowest points far apart, and its middle high above them."""
+    height = points @ up
+    rise = height - height.min()
+    low = points[rise <= 0.05 * rise.max()]
+    apart = np.linalg.norm(np.ptp(low, axis=0)) / np.linalg.norm(np.ptp(points, axis=0))
+    return float(apart * rise.mean() / max(rise.max(), 1e-300))
+
+
+def _silhouette(points: np.ndarray, towards: np.ndarray) -> int:
+    """How much of the picture centred ``points`` cover when seen from ``towards``, in small squares."""
+    across = np.linalg.svd(towards[None])[2][1:]
+    # Not smaller than the distance between neighbouring points.
+    square = np.sqrt((points**2).sum(axis=1).mean()) * max(1 / 15, 5 / np.sqrt(len(points)))
+    cells = np.floor(points @ across.T / max(square, 1e-300)).astype(np.int64)
+    return len(np.unique(cells, axis=0))
+
+
+def broad_side(mesh: Mesh) -> View:
+    """The view straight onto the broad side of a shape.
+
+    The camera looks from the end of the file's axis z, x or y that shows most, or along the direction of
+    least variance where that shows much more still, as on a shape that lies askew. Up is the file's y, or
+    its z where the camera looks along y or where the shape seems to stand on it.
+    """
+    points = mesh.vertices - mesh.vertices.mean(axis=0)
+    x, y, z = np.eye(3)
+    shown = np.array([_silhouette(points, axis) for axis in (z, x, y)])
+    # Between nearly equal ones the first, so that two poses of a shape are seen alike.
+    towards = (z, x, y)[int(np.argmax(shown >= 0.95 * shown.max()))]
+    thinnest = np.linalg.eigh(points.T @ points)[1][:, 0]
+    if _silhouette(points, thinnest) > BROADER * shown.max():
+        towards = thinnest * np.sign(thinnest[np.abs(thinnest).argmax()])
+    if abs(towards[1]) > 0.8:
+        up = z
+    elif abs(towards[2]) > 0.8:
+        up = y
+    else:
+        up = z if _stance(points, z) > STEADIER * _stance(points, y) else y
+    return view(towards, up)
+
+
+def automatic_view(mesh: Mesh) -> View:
+    """The view onto the :func:`broad_side` of a shape, a little from aside and from above."""
+    frame = broad_side(mesh).axes()
+    yaw, pitch = np.deg2rad([YAW, PITCH])
+    aside = np.cos(yaw) * frame[2] + np.sin(yaw) * frame[0]
+    return view(np.cos(pitch) * aside + np.sin(pitch) * frame[1], frame[1])
+
+
+def following_view(source_view: View, source: Mesh, target: Mesh, target_to_source: np.ndarray | None = None) -> View:
+    """The view that shows the target from the side of the body from which ``source_view`` shows the source.
+
+    It is the same view, unless the shapes lie in different directions (:func:`turn_between`): then the camera turns
+    with them. A map that takes back for front is thereby seen to do so.
+    """
+    turn = turn_between(source, target, target_to_source)
+    return source_view if turn is None else View(turn @ source_view.towards, turn @ source_view.up)
+
+
+def carried_view(source_view: View, source: np.ndarray, target: np.ndarray) -> View:
+    """The same from corresponding places (q, 3) that are known to be true, so that they alone decide.
+
+    It is the same view, unless the rotation that best carries the source onto the target turns by more than 45 degrees.
+    """
+    turn, alike = best_turn(source - source.mean(axis=0), target - target.mean(axis=0))
+    if alike < LIKENESS or np.rad2deg(Rotation.from_matrix(turn).magnitude()) <= SAME_VIEW:
+        return source_view
+    return View(turn @ source_view.towards, turn @ source_view.up)
+
+
+def best_turn(source: np.ndarray, target: np.ndarray) -> tuple[np.ndarray, float]:
+    """The rotation (3, 3) that best carries centred ``source`` (q, 3) onto ``target`` (Kabsch 1976), and how well.
+
+    How well is the correlation between both, from -1 to 1.
+    """
+    u, fit, vt = np.linalg.svd(target.T @ source)
+    proper = np.array([1, 1, np.sign(np.linalg.det(u @ vt)) or 1.0])
+    size = np.linalg.norm(source) * np.linalg.norm(target)
+    return u @ np.diag(proper) @ vt, float(fit @ proper / max(size, 1e-300))
+
+
+def turn_between(source: Mesh, target: Mesh, target_to_source: np.ndarray | None = None) -> np.ndarray | None:
+    """The rotation (3, 3) from how the source lies to how the target lies; ``None`` where they lie alike.
+
+    The map proposes one, and the same with the shape turned half round each of its axes, for the map may have taken
+    back for front; without a map that can be believed the principal axes propose some. Which is right the shapes
+    decide: turned rightly, points of one lie close to points of the other. Some other turn must fit much better than
+    none to be believed, since poses differ too.
+    """
+    a, b = _standard(source.vertices), _standard(target.vertices)
+    axes = np.linalg.eigh(a.T @ a)[1]
+    halves = [np.eye(3), *(Rotation.from_rotvec(np.pi * axis).as_matrix() for axis in axes.T)]
+    first, alike = np.eye(3), 0.0
+    if target_to_source is not None:
+        known = np.asarray(target_to_source) >= 0
+        if known.all():
+            first, alike = best_turn(a[target_to_source], b)
+        elif known.any():
+            ends = a[np.asarray(target_to_source)[known]], b[known]
+            first, alike = best_turn(*(x - x.mean(axis=0) for x in ends))
+    if alike < LIKENESS:
+        other = np.linalg.eigh(b.T @ b)[1]
+        first = other @ np.diag([1, 1, np.sign(np.linalg.det(other @ axes.T))]) @ axes.T
+    turns = [first @ half for half in halves]
+    some_a, some_b = (points[:: max(1, len(points) // SAMPLES)] for points in (a, b))
+    misfits = [_misfit(some_a @ turn.T, some_b) for turn in turns]
+    best = int(np.argmin(misfits))
+    small = np.rad2deg(Rotation.from_matrix(turns[best]).magnitude()) <= SAME_VIEW
+    return turns[best] if misfits[best] < CLEARLY * _misfit(some_a, some_b) and not small else None
+
+
+def _standard(points: np.ndarray) -> np.ndarray:
+    """Centred, at one size."""
+    points = points - points.mean(axis=0)
+    return points / max(float(np.sqrt((points**2).sum(axis=1).mean())), 1e-300)
+
+
+def _misfit(a: np.ndarray, b: np.ndarray) -> float:
+    """Mean squared distance between the points of either cloud and the nearest of the other."""
+    return float((KDTree(b).query(a)[0] ** 2).mean() + (KDTree(a).query(b)[0] ** 2).mean())

@@ -1,0 +1,105 @@
+"""Error curves: the fraction of points that lie within an error of the truth."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.ticker import PercentFormatter
+
+from kfmaps._arrays import check, refuse
+from kfmaps.cli.words import UNIT
+from kfmaps.viz.colors import percent_ticks
+
+# Okabe and Ito (2008): told apart without colour vision; the dashes do it in grey too.
+COLORS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#000000", "#56B4E9")
+DASHES = ("solid", "dashed", "dashdot", "dotted")
+TEXT = "#333333"
+
+
+@dataclass(frozen=True, eq=False)
+class Curve:
+    """One line of an error figure.
+
+    Attributes
+    ----------
+    label : str
+        Any text.
+    thresholds : (t,) float64
+        Errors in units of √area, ascending.
+    fractions : (t,) float64
+        Of points with an error at or below each threshold, from 0 to 1.
+    low, high : (t,) float64 or None
+        A band around it, such as between pairs.
+    """
+
+    label: str
+    thresholds: np.ndarray
+    fractions: np.ndarray
+    low: np.ndarray | None = None
+    high: np.ndarray | None = None
+
+
+def mean_curve(label: str, thresholds: np.ndarray, curves: np.ndarray) -> Curve:
+    """The mean of the ``curves`` (m, t) of single pairs, with a band that holds the middle 80 % of them."""
+    curves = check(np.asarray(curves, dtype=np.float64), "curves", shape=(None, len(thresholds)))
+    if len(curves) == 0:
+        raise refuse("curves", "at least one pair", "none", "evaluate a pair whose truth is known")
+    low, high = np.percentile(curves, [10, 90], axis=0)
+    band = (low, high) if len(curves) > 1 else (None, None)
+    return Curve(label, np.asarray(thresholds, dtype=np.float64), curves.mean(axis=0), *band)
+
+
+def curves_figure(curves: Sequence[Curve], *, title: str | None = None, size: tuple[float, float] = (5, 3.9)) -> Figure:
+    """Error curves in one set of axes, each with its band.
+
+    Parameters
+    ----------
+    curves : sequence of Curve
+    title : str, optional
+    size : (float, float)
+        Width and height in inches.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        To be written with :func:`~kfmaps.viz.save_figure`.
+
+    Raises
+    ------
+    InvalidInput
+        When there is no curve.
+    """
+    if not curves:
+        raise refuse("curves", "at least one", "none", "give a run whose truth is known")
+    figure = Figure(figsize=size, facecolor="white", layout="constrained")
+    ax = figure.subplots()
+    for i, curve in enumerate(curves):
+        color, dash = COLORS[i % len(COLORS)], DASHES[i % len(DASHES)]
+        if curve.low is not None and curve.high is not None:
+            ax.fill_between(curve.thresholds, curve.low, curve.high, color=color, alpha=0.15, linewidth=0)
+        ax.plot(curve.thresholds, curve.fractions, color=color, linestyle=dash, linewidth=1.8, label=curve.label)
+    _axes(ax, max(float(curve.thresholds[-1]) for curve in curves))
+    # Below the axes, where it covers neither curve nor band.
+    legend = figure.legend(loc="outside lower center", frameon=False, fontsize=9, labelcolor=TEXT)
+    for text in legend.get_texts():
+        text.set_parse_math(False)  # a name is a name, not a formula
+    if title:
+        ax.set_title(title, fontsize=11, parse_math=False)
+    return figure
+
+
+def _axes(ax: Axes, end: float) -> None:
+    ax.set_xlim(0, end)
+    ax.set_ylim(0, 1.005)
+    ax.yaxis.set_major_formatter(PercentFormatter(1.0))
+    ax.xaxis.set_major_formatter(percent_ticks())
+    ax.set_xlabel(f"geodesic error ({UNIT})", fontsize=10, color=TEXT)
+    ax.set_ylabel("points within that error", fontsize=10, color=TEXT)
+    ax.spines[["top", "right"]].set_visible(False)
+    ax.grid(True, color="#e4e4e4", linewidth=0.6)
+    ax.set_axisbelow(True)
+    ax.tick_params(colors=TEXT, labelsize=9)

@@ -1,0 +1,73 @@
+"""What the pages show of a map beside the map itself: change of area, links back, an alignment."""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import dijkstra
+from scipy.spatial import KDTree
+
+from kfmaps.geometry.mesh import Mesh, face_areas
+
+
+def area_distortion(source: Mesh, target: Mesh, target_to_source: np.ndarray) -> np.ndarray:
+    """Base-2 logarithm of how the map changes area around each target vertex, (n_t,), within [-4, 4].
+
+    The area on the source of the images of the faces around a vertex over the area of those faces on the
+    target, both shapes scaled to unit area. 0 keeps area, 1 doubles it, -1 halves it; faces collapsed to
+    nothing are held at -4. NaN where no face with area meets the vertex, around vertices without a counterpart (−1),
+    and everywhere on point clouds.
+    """
+    n = len(target.vertices)
+    if len(target.faces) == 0 or len(source.faces) == 0:
+        return np.full(n, np.nan)
+    lost = np.asarray(target_to_source) < 0
+    image = face_areas(Mesh(source.vertices[target_to_source], target.faces)) / face_areas(source).sum()
+    own = face_areas(target) / face_areas(target).sum()
+    corners = target.faces.ravel()
+    here = np.bincount(corners, np.repeat(own, 3), minlength=n)
+    there = np.bincount(corners, np.repeat(image, 3), minlength=n)
+    ratio = np.divide(there, here, out=np.full(n, np.nan), where=here > 0)
+    ratio[np.unique(target.faces[lost[target.faces].any(axis=1)])] = np.nan
+    return np.log2(np.clip(ratio, 2.0**-4, 2.0**4))
+
+
+def nearest_reached(source: Mesh, target_to_source: np.ndarray) -> np.ndarray:
+    """For each source vertex the nearest one that some target vertex lands on, (n_s,); itself if one does.
+
+    Nearest along the edges, so that a point of an arm is not linked to the leg beside it; straight through
+    space for point clouds and for parts that no target vertex reaches.
+    """
+    n = len(source.vertices)
+    reached = np.unique(target_to_source)
+    reached = reached[reached >= 0]
+    if len(reached) == 0:
+        return np.arange(n)
+    nearest = np.full(n, -1, dtype=np.int64)
+    if len(source.faces):
+        ends = source.faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)
+        ends = np.unique(np.sort(ends, axis=1), axis=0)
+        ends = ends[ends[:, 0] != ends[:, 1]]
+        length = np.linalg.norm(source.vertices[ends[:, 0]] - source.vertices[ends[:, 1]], axis=1)
+        # A sparse graph reads 0 as "no edge": coincident vertices get the least length instead.
+        graph = coo_array((np.maximum(length, 1e-300), (ends[:, 0], ends[:, 1])), shape=(n, n)).tocsr()
+        result = dijkstra(graph, directed=False, indices=reached, min_only=True, return_predecessors=True)
+        found = np.isfinite(result[0])
+        nearest[found] = result[2][found]
+    nearest[reached] = reached
+    lost = nearest < 0
+    if lost.any():
+        nearest[lost] = reached[KDTree(source.vertices[reached]).query(source.vertices[lost])[1]]
+    return nearest
+
+
+def alignment(source: Mesh, target: Mesh, target_to_source: np.ndarray) -> np.ndarray:
+    """The rotation, (3, 3), that turns the target's vertices best onto their matches (Kabsch 1976)."""
+    known = np.asarray(target_to_source) >= 0
+    if not known.any():
+        return np.eye(3)
+    there = source.vertices[np.asarray(target_to_source)[known]]
+    here = target.vertices[known] - target.vertices[known].mean(axis=0)
+    u, _, vt = np.linalg.svd(here.T @ (there - there.mean(axis=0)))
+    flip = np.diag([1.0, 1.0, np.sign(np.linalg.det(u @ vt)) or 1.0])
+    return (u @ flip @ vt).T

@@ -1,0 +1,125 @@
+"""Many shapes in a grid: one source, and its colours on every target."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from kfmaps._arrays import check_count, refuse
+from kfmaps.geometry.mesh import Mesh, surface_area
+from kfmaps.viz.camera import View, automatic_view, following_view
+from kfmaps.viz.colors import position_colors
+from kfmaps.viz.matches import carried_colors
+from kfmaps.viz.surfaces import draw_surface
+
+TEXT = "#333333"
+LABEL, TITLE = 0.3, 0.45
+"""Height of a line of labels and of the title, in inches."""
+
+
+@dataclass(frozen=True, eq=False)
+class Panel:
+    """One target of a grid.
+
+    Attributes
+    ----------
+    label : str
+        Any text.
+    mesh : Mesh
+    target_to_source : (n_t,) int64
+        A source vertex for each of its vertices.
+    """
+
+    label: str
+    mesh: Mesh
+    target_to_source: np.ndarray
+
+
+def grid_figure(
+    source: Mesh,
+    panels: Sequence[Panel],
+    *,
+    label: str = "source",
+    columns: int | None = None,
+    colors: np.ndarray | None = None,
+    view: View | None = None,
+    panel: float = 1.9,
+    title: str | None = None,
+) -> Figure:
+    """The source first, its label in bold, then every target in the source's colours.
+
+    Parameters
+    ----------
+    source : Mesh
+    panels : sequence of Panel
+    label : str
+        Under the source.
+    columns : int, optional
+        By default so that the figure is about half as wide again as it is high.
+    colors : (n_s, 3), optional
+        sRGB in [0, 1] on the source; by default :func:`~kfmaps.viz.position_colors`.
+    view : View, optional
+        Of the source; by default :func:`~kfmaps.viz.automatic_view`. Targets are seen from the same side.
+    panel : float
+        Width of a panel in inches.
+    title : str, optional
+
+    Raises
+    ------
+    InvalidInput
+        When there is no target, or a map leaves the source or has not one entry per vertex of its target.
+    """
+    if not panels:
+        raise refuse("grid", "at least one target", "none", "choose a source that was matched")
+    colors = position_colors(source) if colors is None else np.asarray(colors)
+    view = view or automatic_view(source)
+    for item in panels:
+        n_t, points = len(item.mesh.vertices), np.asarray(item.target_to_source)
+        if points.shape != (n_t,) or points.min() < -1 or points.max() >= len(source.vertices):
+            wanted = f"{n_t} source vertices below {len(source.vertices)}"
+            got = f"{points.shape} up to {points.max(initial=0)}"
+            raise refuse(f"map to {item.label}", wanted, got, "check which mesh is which")
+    cells = [(label, source, colors, view)]
+    for item in panels:
+        seen = following_view(view, source, item.mesh, item.target_to_source)
+        cells.append((item.label, item.mesh, carried_colors(colors, np.asarray(item.target_to_source)), seen))
+
+    # All shapes at one scale, that of equal areas, in panels that hold the largest.
+    half = np.max([_half(mesh, seen) / _scale(mesh) for _, mesh, _, seen in cells], axis=0) * 1.03
+    tall = 0.88 * panel * float(np.clip(half[1] / half[0], 0.4, 2.5)) + LABEL
+    if columns is None:
+        rows = max(1, round(len(cells) / max(1.0, np.sqrt(1.5 * len(cells) * tall / panel))))
+        columns = -(-len(cells) // rows)
+    columns = min(check_count(columns, "columns"), len(cells))
+    rows = -(-len(cells) // columns)
+    width, height = columns * panel, rows * tall + (TITLE if title else 0)
+    figure = Figure(figsize=(width, height), facecolor="white")
+    for i, (text, mesh, painted, seen) in enumerate(cells):
+        left, bottom = i % columns * panel / width, (rows - 1 - i // columns) * tall / height
+        place = (left + 0.06 * panel / width, bottom + LABEL / height, 0.88 * panel / width, (tall - LABEL) / height)
+        ax = figure.add_axes(place)
+        draw_surface(ax, mesh, painted, seen)
+        middle, reach = np.mean([ax.get_xlim(), ax.get_ylim()], axis=1), half * _scale(mesh)
+        ax.set_xlim(middle[0] - reach[0], middle[0] + reach[0])
+        ax.set_ylim(middle[1] - reach[1], middle[1] + reach[1])
+        centre = left + 0.5 * panel / width
+        written = figure.text(centre, bottom + 0.08 / height, text, ha="center", va="bottom", fontsize=8)
+        written.set_parse_math(False)  # a name is a name, not a formula
+        written.set_color(TEXT if i else "black")
+        written.set_fontweight("normal" if i else "bold")
+    if title:
+        figure.text(0.5, 1 - 0.12 / height, title, ha="center", va="top", fontsize=12, parse_math=False)
+    return figure
+
+
+def _half(mesh: Mesh, seen: View) -> np.ndarray:
+    """Half the width and height (2,) of a shape in its view."""
+    return np.ptp(mesh.vertices @ seen.axes().T, axis=0)[:2] / 2
+
+
+def _scale(mesh: Mesh) -> float:
+    """The length that is alike on all shapes: √area, or of a point cloud the longest side of its box."""
+    return float(np.sqrt(surface_area(mesh)) if len(mesh.faces) else np.ptp(mesh.vertices, axis=0).max())

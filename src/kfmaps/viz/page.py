@@ -1,0 +1,201 @@
+"""The web page of one result: what it shows, gathered into one self-contained file."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from kfmaps._arrays import check, check_count, refuse
+from kfmaps.cli.words import VERDICTS, verdict_text
+from kfmaps.geometry.mesh import Mesh, unit_area
+from kfmaps.io import check_map, projected_uv
+from kfmaps.viz.camera import broad_side, turn_between
+from kfmaps.viz.colors import position_colors
+from kfmaps.viz.document import document
+from kfmaps.viz.fields import alignment, area_distortion, nearest_reached
+from kfmaps.viz.pack import packed, quantised
+
+
+def shape_record(mesh: Mesh, name: str) -> dict[str, Any]:
+    """A mesh as the page reads it: name, positions (centred, unit area), faces."""
+    placed = unit_area(mesh).vertices
+    placed = placed - (placed.min(axis=0) + placed.max(axis=0)) / 2
+    return {"name": name, "positions": quantised(placed), "faces": packed(mesh.faces)}
+
+
+def source_record(mesh: Mesh, name: str, common: np.ndarray | None = None) -> dict[str, Any]:
+    """As :func:`shape_record`, with the colours and texture coordinates that a map carries over.
+
+    Grey where the vertices are not ``common`` (n_s,) to both shapes.
+    """
+    painted = position_colors(mesh) if common is None else np.where(common[:, None], position_colors(mesh), LOST)
+    colours = np.rint(255 * painted).astype(np.uint8)
+    return {
+        **shape_record(mesh, name),
+        "colours": packed(colours),
+        "plane": quantised(projected_uv(mesh.vertices)),
+    }
+
+
+def map_record(source: Mesh, target: Mesh, target_to_source: np.ndarray, label: str) -> dict[str, Any]:
+    """A point map as the page reads it: the map, its links back from the source, its distortion of area.
+
+    A vertex without counterpart has the number after the source's last.
+    """
+    lost = target_to_source < 0
+    return {
+        "label": label,
+        "points": packed(np.where(lost, len(source.vertices), target_to_source)),
+        "nearest": packed(nearest_reached(source, target_to_source)),
+        "distortion": quantised(area_distortion(source, target, target_to_source)),
+    }
+
+
+LOST = 160 / 255
+"""Grey of vertices without a counterpart, as in the page's script."""
+
+
+def verdict_record(summary: Mapping[str, Any]) -> dict[str, Any] | None:
+    """The verdict that ``summary`` names, in words; ``None`` where it names none."""
+    kind = summary.get("verdict")
+    if not isinstance(kind, str) or kind not in VERDICTS:
+        return None
+    confidence = summary.get("confidence")
+    return {"kind": kind, "text": verdict_text(kind, confidence), "confidence": confidence}
+
+
+def views_record(source: Mesh, target: Mesh, target_to_source: np.ndarray | None = None) -> dict[str, Any]:
+    """Where to look from: the source's camera axes, and the rotation from how the source lies to how the target lies.
+
+    The rotation is the shapes' own (:func:`~kfmaps.viz.camera.turn_between`), so that both are seen from
+    the same side of the body whatever the map says.
+    """
+    turn = turn_between(source, target, target_to_source)
+    return {"frame": broad_side(source).axes().ravel(), "turn": (np.eye(3) if turn is None else turn).ravel()}
+
+
+def check_up(up: str | None) -> str | None:
+    """``up`` when it is an axis, or ``None``: found from the shape.
+
+    Raises
+    ------
+    InvalidInput
+        On anything else.
+    """
+    if up not in (None, "x", "y", "z"):
+        raise refuse("up", "x, y or z", repr(up), "name the axis that points upwards")
+    return up
+
+
+def _fields(maps: int, n_t: int, **given: Any) -> dict[str, Any]:
+    """Numbers at target vertices, of the best map alone or of every map."""
+    fields = {}
+    for name, values in given.items():
+        if values is None:
+            continue
+        rows = np.atleast_2d(np.asarray(values, dtype=np.float64))
+        check(rows, name, shape=(None, n_t), finite=False, remedy="give one number per target vertex")
+        if len(rows) not in (1, maps):
+            raise refuse(name, f"one row, or one for each of {maps} maps", f"{len(rows)}", "leave some out")
+        fields[name] = [quantised(row) for row in rows]
+    return fields
+
+
+def _descriptors(descriptors: Any, source: Mesh, target: Mesh, most: int) -> list[dict[str, Any]]:
+    """Up to ``most`` columns, spread over all of them, each on one scale for both shapes."""
+    if descriptors is None:
+        return []
+    pair = [np.asarray(d, dtype=np.float64) for d in descriptors]
+    for array, mesh, name in zip(pair, (source, target), ("source", "target"), strict=True):
+        shape = (len(mesh.vertices), None)
+        check(array, f"descriptors of the {name}", shape=shape, remedy="give one row per vertex")
+    if pair[0].shape[1] != pair[1].shape[1]:
+        wanted = "as many columns on both shapes"
+        raise refuse("descriptors", wanted, f"{pair[0].shape[1]} and {pair[1].shape[1]}", "compute both alike")
+    count = pair[0].shape[1]
+    chosen = np.unique(np.linspace(0, count - 1, min(count, most)).round().astype(int)) if count else []
+    return [{"number": int(j), "source": quantised(pair[0][:, j]), "target": quantised(pair[1][:, j])} for j in chosen]
+
+
+def result_page(
+    source: Mesh,
+    target: Mesh,
+    target_to_source: np.ndarray,
+    *,
+    functional_map: np.ndarray | None = None,
+    errors: np.ndarray | None = None,
+    confidence: np.ndarray | None = None,
+    runners_up: Sequence[np.ndarray] | np.ndarray = (),
+    descriptors: tuple[np.ndarray, np.ndarray] | None = None,
+    most_descriptors: int = 12,
+    summary: Mapping[str, Any] | None = None,
+    names: tuple[str, str] = ("source", "target"),
+    up: str | None = None,
+    common: np.ndarray | None = None,
+) -> str:
+    """One HTML file that shows a map: it needs no network, no server and nothing beside it.
+
+    Parameters
+    ----------
+    source, target : Mesh
+        Surfaces, or point clouds.
+    target_to_source : (n_t,) int
+        A source vertex for each target vertex; −1 where there is none, which is grey.
+    functional_map : (k_t, k_s), optional
+        Shown as a picture.
+    errors : (n_t,) or (1 + c, n_t), optional
+        Distance on the source from each image to the truth, in units of √area; one row for the map, or one
+        more for each runner-up. NaN where the truth is not known.
+    confidence : (n_t,) or (1 + c, n_t), optional
+        From 0 to 1, higher is surer, as :func:`kfmaps.fmap.confidence.local_confidence` has it; rows as
+        for ``errors``.
+    runners_up : (c, n_t) int
+        Other maps, to be switched to.
+    descriptors : ((n_s, d), (n_t, d)), optional
+        Up to ``most_descriptors`` of the d columns are put in the page.
+    summary : mapping, optional
+        Anything JSON can hold. The page knows ``settings``, ``energies`` and ``times`` (mappings, seconds),
+        ``residuals`` (a list, drawn as a curve) and lists all else as it is.
+    names : (str, str)
+        Any text, shown as text.
+    up : {"x", "y", "z"}, optional
+        The shapes' vertical axis; by default a good side is found. It can be changed in the page.
+    common : (n_s,) bool, optional
+        Of a part and a whole, which source vertices are on both; the others are grey.
+
+    Returns
+    -------
+    str
+        The page, to be written as UTF-8.
+
+    Raises
+    ------
+    InvalidInput
+        On arrays that do not fit the two shapes.
+    """
+    check_up(up)
+    check_count(most_descriptors, "most_descriptors", low=0)
+    sizes = len(source.vertices), len(target.vertices)
+    points = [check_map(target_to_source, *sizes, lost=True)]
+    points += [check_map(m, *sizes, f"runner-up {i}") for i, m in enumerate(runners_up, 1)]
+    labels = ["Best"] + [f"Runner-up {i}" for i in range(1, len(points))]
+    matrix = None
+    if functional_map is not None:
+        matrix = check(np.asarray(functional_map, dtype=np.float64), "functional_map", shape=(None, None))
+    data = {
+        "kind": "result",
+        "up": up or "auto",
+        "views": views_record(source, target, points[0]),
+        "verdict": verdict_record(summary or {}),
+        "source": source_record(source, names[0], common),
+        "target": shape_record(target, names[1]),
+        "rotation": alignment(source, target, points[0]).ravel(),
+        "maps": [map_record(source, target, m, label) for m, label in zip(points, labels, strict=True)],
+        **_fields(len(points), len(target.vertices), errors=errors, confidence=confidence),
+        "descriptors": _descriptors(descriptors, source, target, most_descriptors),
+        "matrix": None if matrix is None else quantised(matrix),
+        "summary": summary or {},
+    }
+    return document("result.html", title=f"{names[0]} → {names[1]}", data=data)

@@ -1,0 +1,61 @@
+"""Matching again and again with other landmarks: what depends on one shape alone is done once."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+from kfmaps.config import Config
+from kfmaps.geometry.mesh import Mesh
+from kfmaps.io import MapFile, match_map
+from kfmaps.matching.match import default_config, match
+from kfmaps.shape import Shape, prepare
+from kfmaps.viz.runs import Progress
+
+
+class Tryout:
+    """``tryout(landmarks, progress)``: the map of the two shapes with these landmarks, ready to be saved.
+
+    Parameters
+    ----------
+    source, target : Mesh
+    names : (str, str)
+        How messages call them.
+    paths : (Path, Path)
+        Their files, which the saved map names.
+    settings : callable
+        The configuration for some landmarks (l, 2); by default what :func:`kfmaps.matching.match.match` takes. It may
+        differ between none and some, not between some and others.
+    """
+
+    def __init__(
+        self,
+        source: Mesh,
+        target: Mesh,
+        names: tuple[str, str],
+        paths: tuple[Path, Path],
+        settings: Callable[[np.ndarray], Config] = lambda _: default_config(),
+    ) -> None:
+        self._meshes = (source, target)
+        self._names = names
+        self._paths = paths
+        self._settings = settings
+        self._shapes: dict[bool, tuple[Shape, Shape]] = {}
+
+    def __call__(self, landmarks: np.ndarray, progress: Progress) -> MapFile:
+        some = len(landmarks) > 0
+        config = self._settings(landmarks)
+        if some not in self._shapes:
+            first, second = (
+                prepare(mesh, config, name=name, progress=progress)
+                for mesh, name in zip(self._meshes, self._names, strict=True)
+            )
+            self._shapes[some] = (first, second)
+        pairs = landmarks if some else None
+        found = match_map(match(*self._shapes[some], config, landmarks=pairs, progress=progress))
+        known = {"source": str(self._paths[0].absolute()), "target": str(self._paths[1].absolute())}
+        extra = {**found.extra, **known, "n_s": np.int64(len(self._meshes[0].vertices))}
+        return replace(found, extra={**extra, "landmarks": landmarks} if some else extra)
