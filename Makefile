@@ -11,7 +11,7 @@ export OMP_NUM_THREADS ?= 1
 CORE := automatic clouds confidence device eigensolver energy formulas formulas_match formulations geodesics guided inside \
 	kernels many many_differences many_maps maps nystrom orientation pipeline preconditioners rounding scale search shot solvers spectrum topology
 
-.PHONY: demo test shake lint docs web clean
+.PHONY: demo test shake lint docs experiments web clean
 
 demo: $(VENV)/.base
 	$(BIN)/kfmaps demo --output demo.png --force
@@ -37,6 +37,10 @@ web:
 docs: $(VENV)/.docs
 	$(BIN)/sphinx-build -W --keep-going -j auto -b html docs docs/_build/html
 	@echo "open docs/_build/html/index.html"
+
+# The paper's figures and tables, to experiments-output: make experiments ARGS="figure6 --data DIR --pairs 20"
+experiments: $(VENV)/.base
+	$(BIN)/python experiments/run.py $(ARGS)
 
 $(VENV)/bin/python:
 	$(PYTHON) -m venv $(VENV)

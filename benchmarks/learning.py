@@ -29,10 +29,10 @@ from itertools import permutations
 from pathlib import Path
 
 import numpy as np
+from scipy.stats import bootstrap
 
 import kfmaps
 from kfmaps.batch.cache import load_shape, save_shape
-from kfmaps.experiments.statistics import difference
 from kfmaps.fmap.convert import nearest
 from kfmaps.geometry.geodesics import geodesic_distances
 from kfmaps.io import read_vertex_numbers
@@ -211,7 +211,8 @@ def told(kind: str, stage: str, rows: dict[str, dict]) -> None:
     cells = [f"{name} {values[name].mean():.2f}" for name in names]
     for i, base in enumerate(names):
         for name in names[i + 1 :]:
-            mean, gap = values[base].mean(), difference(values[name], values[base])
+            mean, gaps = values[base].mean(), values[name] - values[base]
+            gap = bootstrap((gaps,), np.mean, n_resamples=10_000, method="percentile", rng=0).confidence_interval
             worst = (values[name] / values[base]).max()
             cells.append(
                 f"{name}/{base} {100 * (values[name].mean() / mean - 1):+.0f} % "

@@ -1,11 +1,125 @@
-"""Grid search over settings on training pairs (section 7.2).
+"""Grid search over settings on training pairs (section 7.2 of the paper).
 
-The same as ``kfmaps tune``, with the same options: ``python experiments/tune.py --data DIR``.
+    python experiments/tune.py --data DIR -o OUT --vary sharpness=0.1,0.3,1 --vary weights.laplacian=0.1,1,10
+
+Writes ``tune.csv``, the mean error of every combination, and ``tune.toml``, the best settings, which ``kfmaps match
+--config`` reads. ``kfmaps config`` prints the names of the settings. A run that was stopped continues from ``OUT``.
 """
 
-import sys
+from __future__ import annotations
 
-from kfmaps.cli.main import main
+import argparse
+import sys
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from itertools import product
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from data_sets import Collection, ShapePair
+from kfmaps._arrays import InvalidInput, refuse
+from kfmaps.cli.words import UNIT
+from kfmaps.config import Config
+from kfmaps.io import read_text
+from kfmaps.settings.merge import preset, read_settings, with_assignments
+from kfmaps.settings.toml import settings_text
+from options import Setting, by_method
+from outputs import output_folder, write_table
+
+DEFAULT = ("sharpness=0.1,0.3,1.0", "weights.laplacian=0.1,1.0,10.0")
+
+
+def candidates(base: Config, axes: Sequence[str]) -> dict[str, Config]:
+    """Return ``base`` with every combination of the values of ``axes``, texts "NAME=VALUE,VALUE"."""
+    values = []
+    for axis in axes:
+        name, _, listed = axis.partition("=")
+        values.append([f"{name}={value}" for value in listed.split(",")])
+    return {", ".join(chosen): with_assignments(base, chosen) for chosen in product(*values)}
+
+
+@dataclass(frozen=True)
+class Tuned:
+    """The best settings of a grid search, their name and mean error, and a table of all settings, best first."""
+
+    best: Config
+    name: str
+    error: float
+    table: tuple[dict[str, Any], ...]
+
+
+def grid_search(
+    setting: Setting,
+    grid: dict[str, Config],
+    pairs: Sequence[tuple[Collection, Sequence[ShapePair]]],
+    refined: bool = False,
+) -> Tuned:
+    """Return the settings of ``grid`` with the lowest mean over data sets of the mean error of their ``pairs``.
+
+    ``refined``: judge the refined map instead of the raw one.
+    """
+    fits = grid if refined else {name: replace(config, refinement=None) for name, config in grid.items()}
+    errors: dict[str, list[float]] = {name: [] for name in grid}
+    for collection, some in pairs:
+        for name, rows in by_method(setting.rows(collection, some, fits)).items():
+            errors[name].append(float(np.mean([row.refined if refined else row.mean for row in rows])))
+    order = sorted(grid, key=lambda name: np.mean(errors[name]))
+    table = [
+        {
+            "settings": name,
+            f"mean error ({UNIT})": 100 * float(np.mean(errors[name])),
+            **{c.name: 100 * value for (c, _), value in zip(pairs, errors[name], strict=True)},
+            "pairs": sum(len(some) for _, some in pairs),
+        }
+        for name in order
+    ]
+    return Tuned(grid[order[0]], order[0], float(np.mean(errors[order[0]])), tuple(table))
+
+
+def training_pairs(collection: Collection, count: int, seed: int, listed: Path | None) -> list[ShapePair]:
+    """Return the pairs of the file ``listed`` that the data set has, or ``count`` drawn training pairs."""
+    if listed is None:
+        return collection.training(count, seed)
+    known = set(collection.shapes())
+    lines = [line.split() for line in read_text(listed).splitlines() if line.strip()]
+    return [ShapePair(*words) for words in lines if len(words) == 2 and known.issuperset(words)]
+
+
+def main(arguments: Sequence[str]) -> None:
+    """Run the grid search that ``arguments`` describe."""
+    parser = argparse.ArgumentParser(description=(__doc__ or "").partition("\n")[0])
+    parser.add_argument("--data", type=Path, help="folder of FAUST, FAUST_r or both; default: generated shapes")
+    parser.add_argument("-o", "--output", type=Path, default=Path("experiments-output"), help="folder for the results")
+    parser.add_argument("--base", default="default", help="settings to vary: a settings file or a preset")
+    parser.add_argument("--vary", action="append", metavar="NAME=VALUES", help="a setting and values, with commas")
+    parser.add_argument("--pairs", type=int, default=4, help="training pairs of each data set (4)")
+    parser.add_argument("--pairs-from", type=Path, help='training pairs instead: a file of lines "source target"')
+    parser.add_argument("--refined", action="store_true", help="judge the refined map instead of the raw one")
+    parser.add_argument("--workers", type=int, help="processes; default: one for each core")
+    parser.add_argument("--vertices", type=int, default=2500, help="vertices of a generated shape (2500)")
+    parser.add_argument("--seed", type=int, default=0, help="seed of the draw of pairs (0)")
+    options = parser.parse_args(arguments)
+    try:
+        base = options.base
+        start = read_settings(base, preset("default")) if Path(base).suffix == ".toml" else preset(base)
+        grid = candidates(start, options.vary or DEFAULT)
+        folder = output_folder(options.output)
+        setting = Setting(options.data, folder, options.pairs, options.workers, options.vertices, seed=options.seed)
+        pairs = [(c, training_pairs(c, options.pairs, options.seed, options.pairs_from)) for c in setting.collections()]
+        pairs = [(collection, some) for collection, some in pairs if some]
+        if not pairs:
+            raise refuse(f"--pairs-from {options.pairs_from}", "pairs of shapes in the data", "none", "check the names")
+        found = grid_search(setting, grid, pairs, options.refined)
+    except InvalidInput as error:
+        parser.error(str(error))
+    write_table(folder / "tune.csv", found.table)
+    (folder / "tune.toml").write_text(settings_text(found.best), encoding="utf-8")
+    for row in found.table[:10]:
+        print(*(f"{v:.3f}" if isinstance(v, float) else v for v in row.values()), sep="  ")
+    print(f"best: {found.name}; {folder / 'tune.csv'}, {folder / 'tune.toml'}")
+
 
 if __name__ == "__main__":
-    sys.exit(main(["tune", *sys.argv[1:]]))
+    main(sys.argv[1:])

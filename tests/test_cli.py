@@ -70,7 +70,7 @@ def test_options_that_have_gone_say_what_they_are_now() -> None:
     assert (
         "there is no --truth-target, it is --truth SOURCE TARGET" in run("match", "a", "b", "--truth-target", "c").error
     )
-    assert "there is no --rank, it is --samples" in run("tune", "--rank", "3").error
+    assert "there is no --rank, it is --samples" in run("match", "a", "b", "--rank", "3").error
 
 
 def test_list_imports_nothing_heavy() -> None:

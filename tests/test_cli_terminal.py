@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import io
-import os
 import resource
 import signal
 import subprocess
@@ -209,8 +208,6 @@ def test_devices(tmp_path: Path, place: str) -> None:
         ("render", "pair", "m.txt", "-o"),
         ("demo", "-o"),
         ("batch", ".", "--all", "-o"),
-        ("tune", "-o"),
-        ("reproduce", "figure2", "-o"),
     ],
 )
 def test_no_command_writes_to_a_device(words: tuple[str, ...], tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -228,7 +225,7 @@ def test_no_command_writes_to_a_device(words: tuple[str, ...], tmp_path: Path, m
     }
     link = Path(f"link{suffix.get(words[0], '')}")
     link.symlink_to("/dev/null")
-    force = () if words[0] in ("batch", "tune", "reproduce") else ("--force",)
+    force = () if words[0] == "batch" else ("--force",)
     assert run(*words, link, *force).error
     assert link.is_symlink()
     assert Path("/dev/null").is_char_device()
@@ -237,29 +234,3 @@ def test_no_command_writes_to_a_device(words: tuple[str, ...], tmp_path: Path, m
 @pytest.mark.skipif(not Path("/dev/zero").exists(), reason="no devices here")
 def test_settings_from_a_device_that_never_ends() -> None:
     assert "a device" in run("config", "--config", "/dev/zero").error
-
-
-@pytest.mark.parametrize(
-    ("words", "told"),
-    [
-        (("--samples", "nan"), "--samples: wanted finite numbers, got nan"),
-        (("--samples", "inf"), "--samples: wanted finite numbers, got inf"),
-        (("--samples", "100.5"), "--samples: wanted whole numbers from 2 on, got 100.5"),
-        (("--samples", "1"), "--samples: wanted whole numbers from 2 on, got 1"),
-        (("--descriptors", "-5"), "--descriptors: wanted whole numbers from 1 on, got -5"),
-        (("--descriptors", "10,1e999"), "--descriptors: wanted finite numbers"),
-        (("--gamma", "nan"), "--gamma: wanted finite numbers"),
-        (("--alpha", "-inf"), "--alpha: wanted finite numbers"),
-        (("--sharpness", "a"), "--sharpness: wanted numbers with commas"),
-        (("--alpha", "-1"), "weight of laplacian"),
-        (("--gamma", "-1"), "gamma"),
-        (("--pairs-from", "/dev/zero"), "a device or pipe"),
-        (("--pairs-from", "none"), "nothing there"),
-        (("--pairs-from", "binary"), "binary: wanted UTF-8 text"),
-    ],
-)
-def test_tune(words: tuple[str, ...], told: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.chdir(tmp_path)
-    Path("binary").write_bytes(b"\xff\xfe\0\x81")
-    assert told in run("tune", *words, "-o", tmp_path / "out").error
-    assert os.listdir(tmp_path) == ["binary"] or not list((tmp_path / "out").iterdir())

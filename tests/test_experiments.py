@@ -8,38 +8,37 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+import figure2
+import figure3
+import figure4
+import figure5
+import figure6
+import figure7
+import formulation_pairs
+import formulations
+import pair_errors
+import run
+import section44
+import tune
+from data_sets import Collection, ShapePair, collections, person
+from intervals import difference, ratio
+from kernel_matrix import best_errors, gaussian_matrix, nystrom_error
 from kfmaps._arrays import InvalidInput
-from kfmaps.cli.main import main
 from kfmaps.config import BasisConfig, Config, NystromConfig
-from kfmaps.experiments import (
-    figure2,
-    figure3,
-    figure4,
-    figure5,
-    figure6,
-    figure7,
-    formulation_pairs,
-    formulations,
-    pairs,
-    section44,
-)
-from kfmaps.experiments.collections import Collection, ShapePair, collections, person
-from kfmaps.experiments.kernel_matrix import best_errors, gaussian_matrix, nystrom_error
-from kfmaps.experiments.methods import no17, obcs12, paper, recommended
-from kfmaps.experiments.outputs import Outcome
-from kfmaps.experiments.pairs import Row, fingerprint, fitted, run_pairs
-from kfmaps.experiments.reproduce import FIGURES, named
-from kfmaps.experiments.section44 import conditioning
-from kfmaps.experiments.setting import Setting
-from kfmaps.experiments.statistics import difference, paired_bootstrap, ratio, resamples
-from kfmaps.experiments.store import Job, append_store, read_store, run_jobs
-from kfmaps.experiments.tune import Grid, grid_search
 from kfmaps.fmap.evaluate import geodesic_errors
 from kfmaps.fmap.refine import ZoomOut
 from kfmaps.geometry.basis import Basis
 from kfmaps.kernels.kernels import Gaussian
 from kfmaps.settings.merge import preset, read_settings
+from kfmaps.settings.toml import settings_text
 from kfmaps.viz import surfaces
+from methods import no17, obcs12, paper, recommended
+from options import Setting
+from outputs import Outcome
+from pair_errors import Row, fingerprint, fitted, run_pairs
+from run import FIGURES
+from section44 import conditioning
+from store import Job, append_store, read_store, run_jobs
 
 SMALL = Collection("generated", vertices=1500)
 PAIR = ShapePair("poses-2-source", "poses-2-target")
@@ -110,10 +109,8 @@ def test_killed_run_goes_on_and_redoes_nothing(tmp_path: Path) -> None:
     with pytest.raises(KeyboardInterrupt):
         run_jobs(square_jobs(first), store, workers=1)
     assert first.done == [0, 1, 2]
-    told: list[tuple[int, int]] = []
-    found = run_jobs(square_jobs(second), store, workers=1, report=lambda *now: told.append(now))
+    found = run_jobs(square_jobs(second), store, workers=1)
     assert second.done == [3, 4]
-    assert told == [(0, 2), (1, 2), (2, 2)]
     assert found == {f"{i}": i for i in range(5)} | {f"{i} squared": i**2 for i in range(5)}
     assert run_jobs(square_jobs(third), store, workers=1) == found
     assert third.done == []
@@ -130,34 +127,22 @@ def test_processes_give_the_same(tmp_path: Path) -> None:
 # Statistics
 
 
-def test_bootstrap_against_all_resamples() -> None:
-    # Two pairs with differences 0 and 4: their resamples' means are 0, 2, 2, 4.
-    found = difference(np.array([5.0, 9.0]), np.array([5.0, 5.0]))
-    assert (found.value, found.low, found.high) == (2.0, 0.0, 4.0)
-    means = np.array([0.0, 4.0])[resamples(2)].mean(axis=1)
-    share = [(means == m).mean() for m in (0.0, 2.0, 4.0)]
-    np.testing.assert_allclose(share, [0.25, 0.5, 0.25], atol=0.02)
-
-
-def test_bootstrap_is_paired() -> None:
+def test_interval_is_paired() -> None:
     a = np.random.default_rng(0).normal(size=50)
     same = difference(a + 1, a)
     np.testing.assert_allclose([same.value, same.low, same.high], 1.0)
     twice = ratio(2 * np.exp(a), np.exp(a))
     np.testing.assert_allclose([twice.value, twice.low, twice.high], 2.0)
-
-
-def test_bootstrap_by_explicit_loops() -> None:
-    a, b = np.array([1.0, 4.0, 2.0, 8.0]), np.array([2.0, 2.0, 3.0, 5.0])
-    found = paired_bootstrap(a, b, lambda x, y: x - y, draws=500, rng=3)
-    rows = np.random.default_rng(3).integers(4, size=(500, 4))
-    values = sorted(sum(a[i] - b[i] for i in row) / 4 for row in rows)
-    # Linear interpolation between order statistics, 0-based position (draws - 1) q.
-    low = values[12] + (499 * 0.025 - 12) * (values[13] - values[12])
-    assert found.low == pytest.approx(low)
-    assert found.value == pytest.approx(0.75)
     with pytest.raises(InvalidInput, match="same pairs"):
-        difference(a, b[:2])
+        difference(a, a[:2])
+
+
+def test_interval_of_two_pairs_spans_all_resamples() -> None:
+    # Differences 0 and 4: the means of their resamples are 0, 2, 2, 4.
+    found = difference(np.array([5.0, 9.0]), np.array([5.0, 5.0]))
+    assert (found.value, found.low, found.high) == (2.0, 0.0, 4.0)
+    alone = difference(np.array([5.0]), np.array([2.0]))
+    assert (alone.value, alone.low, alone.high) == (3.0, 3.0, 3.0)
 
 
 # Data sets
@@ -216,7 +201,7 @@ def test_rows_are_the_errors_of_the_fit(tmp_path: Path) -> None:
     errors = geodesic_errors(SMALL.mesh(PAIR.source), points[truth.target], truth.source)
     assert row.mean == pytest.approx(errors.mean(), rel=1e-5)
     assert row.refined == row.mean
-    at = int(np.flatnonzero(np.isclose(pairs.THRESHOLDS, 0.05))[0])
+    at = int(np.flatnonzero(np.isclose(pair_errors.THRESHOLDS, 0.05))[0])
     assert row.curve[at] == pytest.approx((errors <= 0.05).mean(), abs=1e-3)
     assert (row.method, row.source, row.status) == ("NO17", PAIR.source, "converged")
 
@@ -228,7 +213,7 @@ def test_pairs_resume_and_notice_other_settings(tmp_path: Path, monkeypatch: pyt
     size = store.stat().st_size
     # Other threads are not other settings; another name is not other work.
     renamed = {"c": replace(methods["a"], threads=3), "b": methods["b"]}
-    monkeypatch.setattr(pairs, "measure", lambda *_: pytest.fail("redone"))
+    monkeypatch.setattr(pair_errors, "measure", lambda *_: pytest.fail("redone"))
     again = run_pairs(SMALL, [PAIR], renamed, store, workers=1)
     assert [replace(row, method="") for row in again] == [replace(row, method="") for row in first]
     assert store.stat().st_size == size
@@ -450,23 +435,19 @@ def test_experiment_writes_its_files(name: str, tiny: Setting) -> None:
 
 
 def test_grid_names_every_combination() -> None:
-    grid = Grid(gamma=(1.0, 2.0), sharpness=(0.5,), alpha=(0.1, 1.0), rank=(20,), descriptors=(10, 50))
-    found = grid.candidates(Config())
-    assert len(found) == 3 * 2 * 1 * 2
-    chosen = found["gamma 2.0, alpha 0.1, rank 20, descriptors 50"]
+    found = tune.candidates(Config(), ["kernel.gamma=1.0,2.0", "weights.laplacian=0.1", "descriptors.count=10,50"])
+    assert len(found) == 4
+    chosen = found["kernel.gamma=2.0, weights.laplacian=0.1, descriptors.count=10"]
     assert chosen.kernel == Gaussian(2.0)
-    assert (chosen.weights.laplacian, chosen.nystrom.samples, chosen.descriptors.count) == (0.1, 20, 50)
-    automatic = found["sharpness 0.5, alpha 1.0, rank 20, descriptors 10"]
-    assert (automatic.kernel, automatic.sharpness) == (Gaussian(None), 0.5)
-    assert list(Grid().candidates(Config()).values()) == [Config()]
-    with pytest.raises(InvalidInput, match="Gaussian or Laplacian"):
-        grid.candidates(Config.no17())
+    assert (chosen.weights.laplacian, chosen.descriptors.count) == (0.1, 10)
+    with pytest.raises(InvalidInput, match="gamma"):
+        tune.candidates(Config.no17(), ["kernel.gamma=1"])
 
 
 def test_grid_search_takes_the_lowest_error(tmp_path: Path) -> None:
     setting = Setting(None, tmp_path, workers=1, vertices=1500)
-    base = small(recommended(20))
-    found = grid_search(setting, base, Grid(sharpness=(0.3,), alpha=(1.0, 1e9)), [(SMALL, [PAIR])], False)
+    grid = tune.candidates(small(recommended(20)), ["weights.laplacian=1,1e9"])
+    found = tune.grid_search(setting, grid, [(SMALL, [PAIR])])
     errors = [line["mean error (% of √area)"] for line in found.table]
     assert errors == sorted(errors)
     assert found.error == pytest.approx(errors[0] / 100)
@@ -474,18 +455,10 @@ def test_grid_search_takes_the_lowest_error(tmp_path: Path) -> None:
     assert found.best.weights.laplacian == 1.0
 
 
-# Commands
+# Command lines
 
 
-def test_names_of_figures() -> None:
-    assert named("all") == list(FIGURES)
-    assert named("6") == named("figure6") == ["figure6"]
-    assert named("4.4") == ["section44"]
-    with pytest.raises(InvalidInput, match="figure2"):
-        named("figure8")
-
-
-def test_reproduce_command(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+def test_run_writes_and_prints(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]):
     out = tmp_path / "out"
     asked: list[Setting] = []
 
@@ -495,37 +468,29 @@ def test_reproduce_command(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, caps
         return Outcome("figure2", (path,), (), path, ("a conclusion",))
 
     monkeypatch.setitem(FIGURES, "figure2", figure)
-    words = ["reproduce", "2", "-o", str(out), "--vertices", "1500", "--workers", "3", "--pairs", "7", "--seed", "5"]
-    assert main(words) == 0
+    words = ["figure2", "-o", str(out), "--vertices", "1500", "--workers", "3", "--pairs", "7", "--seed", "5"]
+    run.main(words)
     (setting,) = asked
     assert (setting.folder, setting.vertices, setting.workers, setting.pairs, setting.seed) == (out, 1500, 3, 7, 5)
-    told = capsys.readouterr().out
-    assert "package generates" in told
-    assert "figure2.csv" in told
-    assert "a conclusion" in told
-    assert main(["reproduce", "figure9", "-o", str(out)]) == 2
-    assert main(["reproduce", "2", "--data", str(tmp_path), "-o", str(out)]) == 2
+    printed = capsys.readouterr().out
+    assert all(text in printed for text in ("generated shapes", "figure2.csv", "a conclusion"))
+    for wrong in (["figure9"], ["figure2", "--data", str(tmp_path)]):
+        with pytest.raises(SystemExit):
+            run.main([*wrong, "-o", str(out)])
 
 
-def test_tune_command_writes_settings_that_match_reads(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_tune_writes_settings_that_match_reads(tmp_path: Path) -> None:
     settings = tmp_path / "start.toml"
-    settings.write_text(
-        "threads = 1\n[basis]\nfunctions = 20\n[descriptors]\neigenfunctions = 40\n"
-        '[nystrom]\nsamples = 30\n[refinement]\nkind = "ICP"\nsteps = 2\n',
-        encoding="utf-8",
-    )
+    settings.write_text(settings_text(small(Config())), encoding="utf-8")
     listed = tmp_path / "pairs.txt"
     listed.write_text(f"{PAIR.source} {PAIR.target}\n", encoding="utf-8")
     out = tmp_path / "out"
-    words = ["tune", "--base", str(settings), "--alpha", "1,1e9", "--pairs-from", str(listed), "-o", str(out)]
-    assert main([*words, "--vertices", "1500", "--workers", "1"]) == 0
+    words = ["--base", str(settings), "--vary", "weights.laplacian=1,1e9", "--pairs-from", str(listed), "-o", str(out)]
+    tune.main([*words, "--vertices", "1500", "--workers", "1"])
     best = read_settings(out / "tune.toml", preset("default"))
-    assert best.weights.laplacian == 1.0
-    assert best.basis.functions == 20
-    assert best.refinement == read_settings(settings, preset("default")).refinement
-    table = rows_of(out / "tune.csv")
-    assert [r["settings"] for r in table] == ["alpha 1.0", "alpha 1000000000.0"]
-    assert "alpha 1.0" in capsys.readouterr().out
-    assert main(["tune", "--alpha", "one", "-o", str(out)]) == 2
+    assert best == small(Config())
+    assert [r["settings"] for r in rows_of(out / "tune.csv")] == ["weights.laplacian=1", "weights.laplacian=1e9"]
+    with pytest.raises(SystemExit):
+        tune.main(["--vary", "weights.laplacian=one", "-o", str(out)])
     store = [json.loads(line) for line in (out / "pairs.jsonl").read_text(encoding="utf-8").splitlines()]
     assert len(store) == 2

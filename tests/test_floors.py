@@ -29,7 +29,6 @@ FLOORS = {
     "io": 11,
     "viz": 12,
     "cli": 12,
-    "experiments": 12,
     "learn": 12,
     "batch": 12,
     "collection.api": 12,

@@ -32,8 +32,6 @@ COMMANDS = {
     "landmarks": "Pick landmarks on a local page: click a point on one shape, then its match on the other.",
     "batch": "Match many pairs in parallel: a table, every map and a summary page.",
     "render": "Figures for papers (PNG, SVG, PDF), drawn without a display.",
-    "reproduce": "Repeat experiments of the paper: a table, a picture and conclusions for each.",
-    "tune": "Try settings on training pairs and write the best for ``kfmaps match --config``.",
     "learn": "Learn a kernel from pairs of shapes, and write settings for kfmaps match --config.",
 }
 """Modules of ``kfmaps.cli.commands``, each with a function of its own name or a ``typer.Typer`` called ``app``; with

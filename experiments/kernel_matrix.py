@@ -6,14 +6,14 @@ import numpy as np
 import scipy.linalg
 
 from kfmaps.descriptors.spectral import wave_energies, wave_signature
-from kfmaps.experiments.pairs import prepared
-from kfmaps.experiments.setting import Setting
 from kfmaps.geometry.geodesics import farthest_geodesic
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.kernels.kernels import Gaussian, gram
 from kfmaps.kernels.landmark_selection import farthest, pivoted_cholesky, uniform
 from kfmaps.kernels.nystrom import nystrom
 from kfmaps.shape import Shape
+from options import Setting
+from pair_errors import prepared
 
 GAMMAS = (0.01, 0.1, 1.0, 10.0)
 """Of the paper's section 7.1."""

@@ -14,9 +14,9 @@ from typing import Any
 
 import numpy as np
 
+from formulation_shapes import Known, Shapes
 from kfmaps._arrays import KfmapsWarning, to_numpy
 from kfmaps.config import BasisConfig, Config, DescriptorConfig, Formulation, NystromConfig, Weights
-from kfmaps.experiments.formulation_shapes import Known, Shapes
 from kfmaps.fmap.bidirectional_zoomout import zoomed_both
 from kfmaps.fmap.convert import to_points
 from kfmaps.fmap.refine import ZoomOut

@@ -11,8 +11,8 @@ from pathlib import Path
 
 import numpy as np
 
+from data_sets import Collection, ShapePair, person
 from kfmaps.config import Config, DescriptorConfig
-from kfmaps.experiments.collections import Collection, ShapePair, person
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.io import read_mesh, read_vertex_numbers
 from kfmaps.shape import Shape, prepare

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from data_sets import Collection, ShapePair, collections
 from kfmaps.config import Config
-from kfmaps.experiments.collections import Collection, ShapePair, collections
-from kfmaps.experiments.pairs import Row, run_pairs
-from kfmaps.experiments.store import Job, Report, run_jobs
+from pair_errors import Row, run_pairs
+from store import Job, run_jobs
 
 STORE = "pairs.jsonl"
 PIECES = "pieces.jsonl"
@@ -36,8 +36,6 @@ class Setting:
         Of the generated source of figure 7: 2828 · 2262 is about 2529².
     seed : int
         For the draw of pairs and of samples.
-    report : callable, optional
-        Told about finished jobs.
     """
 
     data: Path | None
@@ -47,7 +45,6 @@ class Setting:
     vertices: int = 2500
     timing_vertices: int = 2828
     seed: int = 0
-    report: Report | None = None
 
     def collections(self) -> list[Collection]:
         """The data sets to run on."""
@@ -56,15 +53,11 @@ class Setting:
     def rows(self, collection: Collection, pairs: Sequence[ShapePair], methods: Mapping[str, Config]) -> list[Row]:
         """A row for each pair and method, see :func:`run_pairs`; kept in the output folder."""
         store = self.folder / STORE
-        return run_pairs(collection, pairs, methods, store, workers=self.workers, report=self.report)
+        return run_pairs(collection, pairs, methods, store, workers=self.workers)
 
     def run(self, jobs: Sequence[Job]) -> dict[str, Any]:
         """Values of jobs that are not pairs, see :func:`run_jobs`; kept in the output folder."""
-        return run_jobs(jobs, self.folder / PIECES, workers=self.workers, report=self.report)
-
-    def quiet(self) -> Setting:
-        """The same for a worker process, which reports to no one."""
-        return replace(self, report=None)
+        return run_jobs(jobs, self.folder / PIECES, workers=self.workers)
 
     def specimen_key(self) -> str:
         """What the specimen depends on, for keys of the store."""

@@ -15,12 +15,11 @@ from multiprocessing import get_context
 from pathlib import Path
 from typing import Any
 
+from rich.console import Console
+from rich.progress import track
 from threadpoolctl import threadpool_limits
 
 from kfmaps._threads import available_cores
-
-Report = Callable[[int, int], None]
-"""Called with the number of finished and of all jobs."""
 
 
 @dataclass(frozen=True)
@@ -66,9 +65,7 @@ def append_store(store: Path, entries: Mapping[str, Any]) -> None:
         os.close(handle)
 
 
-def run_jobs(
-    jobs: Sequence[Job], store: Path, *, workers: int | None = None, report: Report | None = None
-) -> dict[str, Any]:
+def run_jobs(jobs: Sequence[Job], store: Path, *, workers: int | None = None) -> dict[str, Any]:
     """The value of every key of ``jobs``; a job all of whose keys ``store`` already holds is not run.
 
     Parameters
@@ -78,17 +75,14 @@ def run_jobs(
         In an existing folder.
     workers : int, optional
         Processes, each with BLAS at one thread; ``None`` takes every core. With 1 no process is started.
-    report : callable, optional
     """
     known = read_store(store)
     missing = [job for job in jobs if any(key not in known for key in job.keys)]
-    report = report or (lambda _done, _all: None)
-    report(0, len(missing))
-    for done, (job, values) in enumerate(_finished(missing, workers or available_cores()), start=1):
+    done = _finished(missing, workers or available_cores())
+    for job, values in track(done, "measuring", len(missing), console=Console(stderr=True), transient=True):
         entries = dict(zip(job.keys, values, strict=True))
         append_store(store, entries)
         known.update(entries)
-        report(done, len(missing))
     return {key: known[key] for job in jobs for key in job.keys}
 
 

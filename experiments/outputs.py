@@ -10,8 +10,8 @@ from typing import Any
 
 from matplotlib.figure import Figure
 
+from data_sets import Collection
 from kfmaps._arrays import refuse
-from kfmaps.experiments.collections import Collection
 from kfmaps.io import atomic_output
 from kfmaps.viz import save_figure
 

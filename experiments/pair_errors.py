@@ -13,16 +13,16 @@ from typing import Any
 
 import numpy as np
 
+from data_sets import Collection, ShapePair
 from kfmaps._arrays import KfmapsWarning
 from kfmaps.config import Config, as_dict
-from kfmaps.experiments.collections import Collection, ShapePair
-from kfmaps.experiments.store import Job, Report, run_jobs
 from kfmaps.fmap.evaluate import error_curve
 from kfmaps.geometry.geodesics import geodesic_distances
 from kfmaps.geometry.mesh import surface_area
 from kfmaps.matching.fit import Fit, fit
 from kfmaps.matching.postprocess import finished
 from kfmaps.shape import Shape, prepare
+from store import Job, run_jobs
 
 THRESHOLDS = np.linspace(0, 0.25, 101)
 """Errors at which curves are kept, in units of √area."""
@@ -71,7 +71,6 @@ def run_pairs(
     store: Path,
     *,
     workers: int | None = None,
-    report: Report | None = None,
 ) -> list[Row]:
     """A row for each of ``pairs`` and ``methods``, methods of one pair together; see :func:`run_jobs`."""
     names = list(methods)
@@ -82,7 +81,7 @@ def run_pairs(
             some = names[i : i + TOGETHER]
             keys = tuple(_key(collection, pair, methods[name]) for name in some)
             jobs.append(Job(keys, measure, (collection, pair, tuple(methods[name] for name in some))))
-    values = run_jobs(jobs, store, workers=workers, report=report)
+    values = run_jobs(jobs, store, workers=workers)
     return [
         _row(collection, pair, name, values[_key(collection, pair, methods[name])]) for pair in pairs for name in names
     ]
