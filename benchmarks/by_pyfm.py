@@ -6,11 +6,14 @@ in compare.py. Needs pyFM: ``pip install 'kfmaps[bench]'``.
 
 from __future__ import annotations
 
+from importlib import import_module
+
 import numpy as np
-from pyFM.functional import FunctionalMapping
-from pyFM.mesh import TriMesh
 
 import kfmaps
+
+FunctionalMapping = import_module("pyFM.functional").FunctionalMapping
+TriMesh = import_module("pyFM.mesh").TriMesh
 
 K, STOP, STEP = 100, 150, 5
 

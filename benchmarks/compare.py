@@ -13,12 +13,11 @@ import json
 import time
 from collections.abc import Callable
 from dataclasses import asdict, dataclass, replace
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from pyFM.functional import FunctionalMapping
-from pyFM.mesh import TriMesh
 from shapes import Pair, bumpy_pair, read_pairs
 
 from kfmaps._threads import one_blas_thread
@@ -33,6 +32,9 @@ from kfmaps.matching.features import pair_descriptors
 from kfmaps.matching.fit import checked_landmarks
 from kfmaps.matching.match import match
 from kfmaps.shape import Shape, prepare
+
+FunctionalMapping = import_module("pyFM.functional").FunctionalMapping
+TriMesh = import_module("pyFM.mesh").TriMesh
 
 K, STOP, STEP = 100, 150, 5
 ZOOM = ZoomOut(start=K, stop=STOP, step=STEP)
@@ -62,7 +64,7 @@ def config(threads: int, rtol: float = 1e-6, refinement: ZoomOut | None = None) 
     return replace(Config(threads=threads, refinement=refinement), solver=CG(rtol, 2000))
 
 
-def pyfm_model(pair: Pair, spectrum: tuple[Shape, Shape] | None = None) -> FunctionalMapping:
+def pyfm_model(pair: Pair, spectrum: tuple[Shape, Shape] | None = None) -> Any:
     """A model of pyFM; with the eigenfunctions of ``spectrum`` where they are given."""
     meshes = [TriMesh(m.vertices, m.faces, area_normalize=True) for m in (pair.source, pair.target)]
     for i, mesh in enumerate(meshes):

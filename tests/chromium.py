@@ -58,12 +58,17 @@ class Browser:
         return self.driver.execute_script(script, *arguments)
 
     def until(self, holds: Callable[[], Any]) -> Any:
-        for _ in range(400):
+        for _ in range(2400):
             found = holds()
             if found:
                 return found
             time.sleep(0.025)
-        raise AssertionError("waited ten seconds in vain")
+        raise AssertionError("waited a minute in vain")
+
+    def painted(self) -> None:
+        """Return once all that was asked of the page so far is drawn: the second frame from now begins after it."""
+        script = "const done = arguments[0]; requestAnimationFrame(() => requestAnimationFrame(() => done(0)))"
+        self.driver.execute_async_script(script)
 
     def element(self, name: str) -> Any:
         return self.driver.find_element("css selector", name)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from dataclasses import fields, is_dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -125,11 +124,8 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 def test_a_pair_equals_a_single_match(folder: Path, tmp_path: Path) -> None:
     config = replace(CONFIG, nystrom=NystromConfig(samples=30, sampling="uniform"), refinement=None)
-    start = time.perf_counter()
     results = done(plan_of(folder, tmp_path, config, seed=3))
-    elapsed = time.perf_counter() - start
     assert [r.status for r in results] == ["done"] * 6
-    assert sum(r.seconds["total"] for r in results) < elapsed
     assert all(sum(r.seconds.values()) <= 2 * r.seconds["total"] for r in results)
     for result in results[:2]:
         source, target = (read_mesh(folder / f"{name}.off") for name in (result.source, result.target))

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-import time
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -127,7 +126,7 @@ def test_colours_and_texture_are_carried_by_the_map(browser: Browser, pair: Pair
             browser.element("#aligned").click()  # both lie alike, so the pictures differ by the map alone
         for mode in ("colours", "texture"):
             browser.mode(mode)
-            time.sleep(0.3)
+            browser.painted()
             boxes = [browser.element(f"#view-{side}") for side in ("source", "target")]
             first, second = (browser.picture(box)[60:, 10:-10] for box in boxes)
             width = min(first.shape[1], second.shape[1])
@@ -232,7 +231,7 @@ def test_difference_is_between_the_best_map_and_the_runner_up(page: Browser, pai
     (tmp_path / "half.html").write_text(html, encoding="utf-8")
     page.open((tmp_path / "half.html").as_uri())
     page.mode("difference")
-    time.sleep(0.3)
+    page.painted()
     assert "√area" in page.text("legend-text")
     view = page.picture(page.element("#view-target"))
     coloured = np.ptp(view, axis=2) > 60
@@ -265,7 +264,7 @@ def test_confidence_is_of_the_map_that_is_shown(browser: Browser, pair: Pair, tm
             begin = f"target {vertex} → source {points[vertex]}, confidence "
             told = browser.until(lambda begin=begin: re.fullmatch(begin + "([0-9.e-]+)", browser.text("readout")))
             assert float(told[1]) == pytest.approx(sure[vertex], abs=1e-3)
-        time.sleep(0.3)
+        browser.painted()
         view = browser.picture(browser.element("#view-target"))
         # viridis: what is unsure is violet, what is sure is green to yellow
         violet = (view[..., 2] - view[..., 1] > 30) & (view[..., 2] - view[..., 0] > 20)
@@ -330,9 +329,9 @@ def test_turntable_turns_until_it_is_switched_off(page: Browser) -> None:
     assert page.element("#spin").get_attribute("aria-pressed") == "true"
     page.until(lambda: page.place("target", 3) != places[0])
     page.element("#spin").click()
-    time.sleep(0.1)
+    page.painted()
     still = page.place("target", 3)
-    time.sleep(0.2)
+    page.painted()
     assert page.place("target", 3) == still
     page.element("#reset").click()
     assert page.place("target", 3) == places[0]

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import threading
-import time
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -32,12 +31,17 @@ def pair() -> Pair:
     return two_poses(1500)
 
 
+GOING = threading.Event()
+"""Not set while a test wants to see a run that is under way."""
+GOING.set()
+
+
 def a_matcher(landmarks: np.ndarray, progress: Progress) -> MapFile:
     """Sends every target vertex to the first landmark's source vertex."""
     if len(landmarks) > 2:
         raise InvalidInput("too many <b>landmarks</b>")
     progress("solve", 0.5)
-    time.sleep(0.6)
+    assert GOING.wait(60)
     return MapFile(np.full(1200, landmarks[0, 0]))
 
 
@@ -146,9 +150,13 @@ def test_existing_file_is_replaced_after_asking(picker: Browser, tmp_path: Path)
 def test_match_shows_progress_its_map_and_its_errors(picker: Browser, pair: Pair) -> None:
     add(picker, 3, 5)
     add(picker, 8, 6)
-    picker.element("#match").click()
-    picker.until(lambda: picker.text("stage-name").startswith("solve"))
-    assert picker.element("#cancel").is_displayed()
+    GOING.clear()
+    try:
+        picker.element("#match").click()
+        picker.until(lambda: picker.text("stage-name").startswith("solve"))
+        assert picker.element("#cancel").is_displayed()
+    finally:
+        GOING.set()
     picker.until(lambda: picker.element("#map-choice").is_displayed())
     assert picker.run("return document.querySelector('[name=mode]:checked').value") == "colours"
     picker.point("target", picker.visible("target", np.arange(200), 1)[0])
@@ -158,7 +166,7 @@ def test_match_shows_progress_its_map_and_its_errors(picker: Browser, pair: Pair
     assert off == [0, pytest.approx(apart, rel=0.06)]  # shown with two digits
     picker.mode("confidence")  # of a map that sends everything to one point: none
     assert "confidence" in picker.text("legend-text")
-    time.sleep(0.3)
+    picker.painted()
     view = picker.picture(picker.element("#view-target"))
     violet = (view[..., 2] - view[..., 1] > 30) & (view[..., 2] - view[..., 0] > 15)
     assert violet.mean() > 0.02
@@ -179,7 +187,7 @@ def test_change_is_white_where_nothing_moved_and_red_where_it_did(picker: Browse
         picker.until(lambda: picker.element("#match").is_enabled())
         picker.element("[aria-label='Delete pair 1']").click()
         picker.mode("change")
-        time.sleep(0.2)
+        picker.painted()
         coloured.append((np.ptp(picker.picture(picker.element("#view-target")), axis=2) > 40).mean())
     assert coloured[0] < 0.001  # no run before the first
     assert coloured[1] < 0.001

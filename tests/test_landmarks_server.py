@@ -54,7 +54,7 @@ class Client:
         headers: dict[str, str] | None = None,
         host: str | None = None,
     ) -> Answer:
-        connection = http.client.HTTPConnection(LOOPBACK, self.port, timeout=10)
+        connection = http.client.HTTPConnection(LOOPBACK, self.port, timeout=60)
         try:
             connection.putrequest(method, path, skip_host=True)
             connection.putheader("Host", host or f"{LOOPBACK}:{self.port}")
@@ -77,7 +77,7 @@ class Client:
 
     def settled(self) -> dict[str, Any]:
         """The status of the run once it is no longer running."""
-        for _ in range(500):
+        for _ in range(6000):
             status = self.get("progress").json
             if status["state"] != "running":
                 return status
@@ -291,7 +291,7 @@ def test_match_reports_progress_and_gives_its_map(serve: Serve) -> None:
     def matcher(landmarks: np.ndarray, progress: Progress) -> MapFile:
         seen.append(landmarks.tolist())
         progress("solve", 0.25)
-        assert going.wait(10)
+        assert going.wait(60)
         return MapFile(np.arange(160))
 
     client = serve(matcher=matcher)
@@ -393,16 +393,16 @@ main(["landmarks", "a.off", "b.off", "--landmarks", "old.txt", "--no-browser"])
             assert running.stdout is not None
             address = running.stdout.readline().strip()
             assert address.startswith(f"http://{LOOPBACK}:"), running.communicate()
-            with urlopen(address, timeout=10) as page:
+            with urlopen(address, timeout=60) as page:
                 assert f'"pairs":{json.dumps(PAIRS, separators=(",", ":"))}' in page.read().decode()
             running.send_signal(signal.SIGINT)
-            said, complaints = running.communicate(timeout=20)
+            said, complaints = running.communicate(timeout=60)
         finally:
             running.kill()
     assert (running.returncode, complaints) == (0, "")
     assert said.endswith("Ended.\n")
     with pytest.raises(OSError):
-        urlopen(address, timeout=10)
+        urlopen(address, timeout=60)
     assert read_landmarks(tmp_path / "old.txt").tolist() == PAIRS
 
 
@@ -454,27 +454,28 @@ def test_who_sends_a_byte_now_and_then_is_not_kept(
     """A request has so many seconds in all, however the bytes of it are spread."""
     monkeypatch.setattr("kfmaps.viz.server.SECONDS_TO_SPEAK", 0.5)
     client = serve()
-    with socket.create_connection((LOOPBACK, client.port), timeout=10) as connection:
+    with socket.create_connection((LOOPBACK, client.port), timeout=60) as connection:
         connection.sendall(opening.replace(b"{path}", client.path.encode()))
-        begun = time.monotonic()
         connection.settimeout(0.05)
-        while time.monotonic() - begun < 8:
+        closed = False
+        for _ in range(1000):  # bytes: the request is never complete
             try:
                 connection.sendall(b"x")
-                if connection.recv(4096) == b"":
-                    break
+                closed = connection.recv(4096) == b""
             except TimeoutError:
                 continue
             except OSError:
+                closed = True
+            if closed:
                 break
-        assert time.monotonic() - begun < 5
+        assert closed
 
 
 def test_a_body_that_never_ends_is_answered(serve: Serve, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("kfmaps.viz.server.SECONDS_TO_SPEAK", 0.5)
     client = serve()
     head = f"POST {client.path}save HTTP/1.1\r\nHost: {LOOPBACK}:{client.port}\r\nContent-Type: application/json\r\n"
-    with socket.create_connection((LOOPBACK, client.port), timeout=10) as connection:
+    with socket.create_connection((LOOPBACK, client.port), timeout=60) as connection:
         connection.sendall(f"{head}Content-Length: 900\r\n\r\n[".encode())
         assert b" 408 " in connection.recv(4096)
 
@@ -505,7 +506,7 @@ def test_a_refusal_is_heard_before_the_body_is_read(serve: Serve) -> None:
     """The connection is not closed on what was sent and not looked at, which would take the answer with it."""
     client = serve()
     head = f"POST /elsewhere/save HTTP/1.1\r\nHost: {LOOPBACK}:{client.port}\r\nContent-Length: 500000\r\n\r\n"
-    with socket.create_connection((LOOPBACK, client.port), timeout=10) as connection:
+    with socket.create_connection((LOOPBACK, client.port), timeout=60) as connection:
         connection.sendall(head.encode() + b"x" * 1000)
         for _ in range(3):
             time.sleep(0.1)  # the refusal is on its way by now
