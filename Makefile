@@ -11,7 +11,7 @@ export OMP_NUM_THREADS ?= 1
 CORE := automatic clouds confidence device eigensolver energy formulas formulas_match formulations geodesics guided inside \
 	kernels many many_differences many_maps maps nystrom orientation pipeline preconditioners rounding scale search shot solvers spectrum topology
 
-.PHONY: demo test shake lint docs experiments web clean
+.PHONY: demo test shake lint mutants docs experiments dist web clean
 
 demo: $(VENV)/.base
 	$(BIN)/kfmaps demo --output demo.png --force
@@ -29,6 +29,20 @@ lint: $(VENV)/.dev
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 	$(BIN)/pyright
+
+# Formulas broken on purpose, one at a time: the list and 30 drawn blindly. Fails when the tests miss one. Takes hours.
+mutants: $(VENV)/.dev
+	$(BIN)/python benchmarks/mutants.py
+
+# A wheel and a source archive, each tried in an environment of its own.
+dist: $(VENV)/.dev
+	rm -rf dist
+	$(BIN)/python -m build
+	for archive in dist/*.whl dist/*.tar.gz; do \
+	    rm -rf build/dist && $(PYTHON) -m venv build/dist && \
+	    build/dist/bin/python -m pip install --quiet --constraint constraints.txt $$archive && \
+	    (cd build/dist && bin/kfmaps demo --output demo.png --force) || exit 1; \
+	done
 
 # The bundle of the result page; only needed after a change under web/ (Node 20 or newer).
 web:
