@@ -65,7 +65,11 @@ def main() -> None:
 def measure(options: argparse.Namespace) -> list[dict[str, Any]]:
     k, device = options.k, options.device
     pair = bumpy_pair(options.vertices)
-    config = replace(Config(refinement=None), nystrom=replace(Config().nystrom, samples=options.rank))
+    config = replace(
+        Config.single_fit(),
+        refinement=None,
+        nystrom=replace(Config.single_fit().nystrom, samples=options.rank),
+    )
     config = replace(config, basis=replace(config.basis, functions=k))
     source, target = (prepare(mesh, config) for mesh in (pair.source, pair.target))
     bases = (source.basis.to(device), target.basis.to(device))

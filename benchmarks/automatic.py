@@ -127,7 +127,7 @@ def chosen_landmarks(source: kfmaps.Shape, true: tuple[np.ndarray, np.ndarray], 
 
 def judged(job: Job) -> dict:
     source, target, true_s, true_t = loaded(job)
-    config = replace(kfmaps.Config.automatic(), threads=job.threads)
+    config = replace(kfmaps.Config(), threads=job.threads)
     start = time.process_time() if job.threads == 1 else time.perf_counter()
     shapes = [kfmaps.prepare(mesh, config, name=name) for mesh, name in ((source, "source"), (target, "target"))]
     pairs = chosen_landmarks(shapes[0], (true_s, true_t), job.landmarks, job.wrong) if job.landmarks else None
@@ -156,7 +156,7 @@ def judged_by_pyfm(job: Job) -> dict:
     import by_pyfm
 
     source, target, true_s, true_t = loaded(job)
-    config = replace(kfmaps.Config.automatic(), threads=job.threads)
+    config = replace(kfmaps.Config(), threads=job.threads)
     pairs = chosen_landmarks(kfmaps.prepare(source, config), (true_s, true_t), job.landmarks, job.wrong)
     start = time.process_time()
     found = by_pyfm.points(source, target, pairs)

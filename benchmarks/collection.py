@@ -59,11 +59,11 @@ from kfmaps.geometry.sampling import stratified
 from kfmaps.io import load_map, read_mesh, read_vertex_numbers, save_map, write_mesh, write_vertex_numbers
 from kfmaps.shape import prepare
 
-FULL = Config.automatic()
+FULL = Config()
 QUICK = replace(FULL, search=Search(candidates=2, signs=3), finish=None)
 """A smaller search: what is measured is the collection, not the search."""
 PLAIN = replace(
-    Config(),
+    Config.single_fit(),
     basis=BasisConfig(functions=40),
     descriptors=DescriptorConfig(count=40, eigenfunctions=100, shot=True),
     refinement=ZoomOut(start=40, stop=100, step=20, guidance=36.0),
@@ -300,7 +300,7 @@ def main() -> None:
         return
     if chosen.plan:
         for count in counts:
-            print(needed(count, 3 * count, chosen.vertices, Config.automatic(), chosen.workers).told())
+            print(needed(count, 3 * count, chosen.vertices, Config(), chosen.workers).told())
         return
     config = FULL if chosen.full else PLAIN if chosen.plain else QUICK
     print(

@@ -54,7 +54,7 @@ def main() -> None:
     parser.add_argument("--data", type=Path, required=True)
     folder = parser.parse_args().data
     warnings.simplefilter("ignore", kfmaps.KfmapsWarning)
-    refined = replace(kfmaps.Config(), threads=1)
+    refined = replace(kfmaps.Config.single_fit(), threads=1)
     chances: dict[tuple[str, str], list[list[float]]] = {}
     for numbers in PAIRS:
         names = [f"tr_reg_{i:03d}" for i in numbers]

@@ -20,7 +20,7 @@ import numpy as np
 from kfmaps import Config, Shape, datasets, match, prepare
 from kfmaps.matching.match import Match
 
-WAYS = {"one fit": Config(), "automatic": Config.automatic()}
+WAYS = {"one fit": Config.single_fit(), "automatic": Config()}
 
 
 def main() -> None:

@@ -1,6 +1,6 @@
 """Time and memory of a whole match as shapes grow: ``python benchmarks/growth.py [--large] [--huge] [--json PATH]``.
 
-With ``--automatic`` the pairs are ``datasets.two_poses`` without landmarks, matched with ``Config.automatic()``.
+With ``--automatic`` the pairs are ``datasets.two_poses`` without landmarks, matched with ``Config()``.
 ``--against SRC`` measures each size in turns with the version of kfmaps in that folder, twice each, since CPU seconds
 of a busy machine mean nothing alone.
 
@@ -75,7 +75,7 @@ def measure(n: int, threads: int) -> dict[str, Any]:
     """All stages at one size."""
     pair = bumpy_pair(n)
     stages = Stages()
-    config = Config(threads=threads)
+    config = replace(Config.single_fit(), threads=threads)
     with one_blas_thread(), stages.whole():
         source = prepare(pair.source, config, name="source", progress=stages.report)
         target = prepare(pair.target, config, name="target", progress=stages.report)
@@ -89,7 +89,7 @@ def measure_automatic(n: int, threads: int) -> dict[str, Any]:
     """The same of two poses without landmarks."""
     pair = datasets.two_poses(n, rng=0)
     stages = Stages()
-    config = replace(Config.automatic(), threads=threads)
+    config = replace(Config(), threads=threads)
     with one_blas_thread(), stages.whole():
         source = prepare(pair.source, config, name="source", progress=stages.report)
         target = prepare(pair.target, config, name="target", progress=stages.report)

@@ -46,8 +46,8 @@ LEARNED_ON = tuple(f"tr_reg_{i:03d}" for i in range(40))
 FAUST_LINES = np.array([201, 1121, 2041, 2961, 3881, 4801]) - 1
 JUDGED = 300
 """True correspondences of a pair at which errors are measured."""
-PLAIN = replace(kfmaps.Config(), finish=None, threads=1)
-SEARCH = replace(kfmaps.Config.automatic(), threads=1)
+PLAIN = replace(kfmaps.Config.single_fit(), finish=None, threads=1)
+SEARCH = replace(kfmaps.Config(), threads=1)
 
 
 @dataclass(frozen=True, eq=False)
@@ -150,7 +150,7 @@ def one_fit(config: kfmaps.Config, refined: bool) -> Callable[[Task], dict]:
         C = fit(task.source, task.target, config, landmarks=task.landmarks).functional_map
         found: dict = {"raw": task.raw_error(C)}
         if refined:
-            whole = replace(PLAIN, refinement=kfmaps.Config().refinement)
+            whole = replace(PLAIN, refinement=kfmaps.Config.single_fit().refinement)
             points = finished(C, task.source, task.target, whole, raw=False).target_to_source
             found["refined"] = task.error(points[task.judged])
         return found
@@ -225,7 +225,11 @@ def epoch(data: Data) -> None:
     """CPU seconds of one epoch, forward and backward."""
     from kfmaps import learn
 
-    config = replace(PLAIN, basis=kfmaps.BasisConfig(functions=50), descriptors=kfmaps.DescriptorConfig(count=10))
+    config = replace(
+        PLAIN,
+        basis=kfmaps.BasisConfig(functions=50),
+        descriptors=kfmaps.DescriptorConfig(count=10, shot=False, eigenfunctions=200),
+    )
     names = [name for name in LEARNED_ON if data.cache is None or (data.cache / f"FAUST_r-{name}.npz").exists()][:12]
     pool = list(permutations(names, 2))
     pairs = [pool[i] for i in np.random.default_rng(0).permutation(len(pool))[:30]]
@@ -283,7 +287,7 @@ def starts(data: Data, names: list[str]) -> None:
             refinement=None,
             fit_samples=2500,
             sharpness=5.0,
-            descriptors=kfmaps.DescriptorConfig(shot=True),
+            descriptors=kfmaps.DescriptorConfig(shot=True, eigenfunctions=200),
             weights=kfmaps.Weights(1000.0, 1.0, 300.0),
             formulation=kfmaps.Formulation(mask="resolvent"),
         )

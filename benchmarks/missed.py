@@ -46,7 +46,7 @@ def judge(job: Job, source: kfmaps.Shape, target: kfmaps.Shape) -> Callable[[np.
 
 def searched(job: Job) -> list[tuple[str, float]]:
     """Verdict and error of the search's end without and with near-symmetries, the right rough maps taken out."""
-    config = replace(kfmaps.Config.automatic(), threads=1)
+    config = replace(kfmaps.Config(), threads=1)
     source, target = (kfmaps.prepare(mesh, config, name=name) for mesh, name in zip(loaded(job), "st", strict=False))
     error, usual = judge(job, source, target), search.from_symmetries
     ends = []

@@ -12,6 +12,7 @@ from __future__ import annotations
 import argparse
 import json
 import time
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -52,7 +53,7 @@ def scanned(folder: Path, count: int) -> list[Pair]:
 
 
 def measure(pair: Pair) -> list[dict[str, float | str]]:
-    config = Config(threads=1)
+    config = replace(Config.single_fit(), threads=1)
     source, target = prepare(pair.source, config), prepare(pair.target, config)
     found = fit(source, target, config, landmarks=pair.landmarks)
     end = finished(found.functional_map, source, target, config, raw=False)

@@ -126,7 +126,7 @@ def run(job: Job) -> dict[str, object]:
     begun = time.process_time()
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", kfmaps.KfmapsWarning)
-        found = kfmaps.match(whole, given, replace(kfmaps.Config.automatic(), threads=1), landmarks=marks)
+        found = kfmaps.match(whole, given, replace(kfmaps.Config(), threads=1), landmarks=marks)
     seconds = time.process_time() - begun
     with tempfile.TemporaryDirectory() as where:
         path = Path(where) / "map.npz"
@@ -167,7 +167,7 @@ def run_both(job: Job) -> dict[str, object] | None:
     true, areas = covered(source, border_of(source), target)[0] > COMMON, vertex_areas(target)
     if areas[true].sum() < COMMON_AT_LEAST * areas.sum():
         return None
-    config = kfmaps.Config.automatic()
+    config = kfmaps.Config()
     begun = time.process_time()
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", kfmaps.KfmapsWarning)

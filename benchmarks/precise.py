@@ -130,7 +130,7 @@ def jobs(data: Path | None, kind: str, count: int):
 
 
 def row(name, source, target, truth, where, marks) -> dict:
-    config = replace(kfmaps.Config.automatic(), threads=1)
+    config = replace(kfmaps.Config(), threads=1)
     found = kfmaps.match(source, target, replace(config, finish=None), landmarks=marks)
     assert found.border is not None
     across, clock = found.border, Clock()

@@ -34,7 +34,7 @@ def tasks(large: int) -> dict[str, Callable[[int], Any]]:
     stiffness, area = robust_laplacian.mesh_laplacian(sphere.vertices, sphere.faces)
     functions = smallest_eigenpairs(stiffness, area.diagonal(), K).vectors
     moved = functions + 0.3 * np.random.default_rng(0).normal(size=(1, K))
-    with_landmarks, without = Config(), Config.automatic()
+    with_landmarks, without = Config.single_fit(), Config()
 
     def matched(config: Config, threads: int, landmarks: np.ndarray | None) -> Any:
         return match(pair.source, pair.target, replace(config, threads=threads), landmarks=landmarks)

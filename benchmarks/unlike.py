@@ -66,7 +66,7 @@ def chosen_pairs(kind: str, count: int) -> list[tuple[str, str]]:
 def matched(job: Job, seeds: list[int]) -> list[list[tuple[float, float]]]:
     """Mean error × 100 and CPU seconds of each of :data:`KINDS` for each seed."""
     source, target, true_s, true_t = loaded(job)
-    config = replace(kfmaps.Config.automatic(), threads=1)
+    config = replace(kfmaps.Config(), threads=1)
     a, b = (kfmaps.prepare(mesh, config, name=name) for mesh, name in ((source, "source"), (target, "target")))
     rows = []
     for changed in KINDS.values():

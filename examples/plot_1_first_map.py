@@ -6,6 +6,8 @@ Two meshes of one creature in two poses, made independently of each other, and s
 both. What comes back is a vertex of the source for each vertex of the target.
 """
 
+from dataclasses import replace
+
 import kfmaps
 from kfmaps.kernels.landmark_selection import farthest
 from kfmaps.viz import match_figure
@@ -25,9 +27,10 @@ print(landmarks)
 # The settings below are smaller than the recommended ones, as these meshes are. On meshes of 5,000 vertices and more
 # leave ``config`` out.
 
-config = kfmaps.Config(
+config = replace(
+    kfmaps.Config.single_fit(),
     basis=kfmaps.BasisConfig(functions=60),
-    descriptors=kfmaps.DescriptorConfig(eigenfunctions=100),
+    descriptors=kfmaps.DescriptorConfig(eigenfunctions=100, shot=False),
     nystrom=kfmaps.NystromConfig(samples=200),
     refinement=kfmaps.ZoomOut(start=30, stop=100, step=5),
 )

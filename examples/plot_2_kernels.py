@@ -18,9 +18,10 @@ pair = kfmaps.datasets.non_isometric(vertices=2000)
 marked = farthest(pair.target.vertices, 6)
 landmarks = [(int(pair.truth[v]), int(v)) for v in marked]
 
-base = kfmaps.Config(
+base = replace(
+    kfmaps.Config.single_fit(),
     basis=kfmaps.BasisConfig(functions=60),
-    descriptors=kfmaps.DescriptorConfig(count=10, eigenfunctions=100),
+    descriptors=kfmaps.DescriptorConfig(count=10, eigenfunctions=100, shot=False),
     nystrom=kfmaps.NystromConfig(samples=200),
     refinement=None,
 )

@@ -20,9 +20,10 @@ from kfmaps.viz import match_figure
 pair = kfmaps.datasets.two_poses(vertices=2000)
 marked = farthest(pair.target.vertices, 4)
 landmarks = [(int(pair.truth[v]), int(v)) for v in marked]
-base = kfmaps.Config(
+base = replace(
+    kfmaps.Config.single_fit(),
     basis=kfmaps.BasisConfig(functions=50),
-    descriptors=kfmaps.DescriptorConfig(count=20, eigenfunctions=80),
+    descriptors=kfmaps.DescriptorConfig(count=20, eigenfunctions=80, shot=False),
     nystrom=kfmaps.NystromConfig(samples=150),
     refinement=None,
 )

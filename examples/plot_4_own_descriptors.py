@@ -38,9 +38,10 @@ print("shapes:", D_s.shape, D_t.shape)
 # Used alone: no signature, no map of landmarks. No ``landmarks`` are passed either; the descriptors hold what they
 # say.
 
-alone = kfmaps.Config(
+alone = replace(
+    kfmaps.Config.single_fit(),
     basis=kfmaps.BasisConfig(functions=50),
-    descriptors=kfmaps.DescriptorConfig(signature="none", landmark_map="none", eigenfunctions=80),
+    descriptors=kfmaps.DescriptorConfig(signature="none", landmark_map="none", eigenfunctions=80, shot=False),
     nystrom=kfmaps.NystromConfig(samples=200),
     refinement=kfmaps.ZoomOut(start=30, stop=100, step=5),
 )
@@ -52,7 +53,7 @@ figure = match_figure(pair.source, pair.target, result.target_to_source, errors=
 # %%
 # Used beside the wave kernel signature.
 
-both = replace(alone, descriptors=kfmaps.DescriptorConfig(count=50, eigenfunctions=80))
+both = replace(alone, descriptors=kfmaps.DescriptorConfig(count=50, eigenfunctions=80, shot=False))
 beside = kfmaps.match(source, target, both, descriptors=(D_s, D_t))
 errors_beside = kfmaps.geodesic_errors(pair.source, beside.target_to_source, pair.truth)
 

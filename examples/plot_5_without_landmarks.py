@@ -18,10 +18,10 @@ from kfmaps.viz import draw_surface, position_colors, true_views
 pair = kfmaps.datasets.symmetric_creature(vertices=2000)
 
 # %%
-# ``Config.automatic()`` is what :func:`kfmaps.match` uses by itself when there are no landmarks. Only its sizes are
+# ``Config()`` is what :func:`kfmaps.match` uses by itself when there are no landmarks. Only its sizes are
 # reduced here.
 
-recommended = kfmaps.Config.automatic()
+recommended = kfmaps.Config()
 config = replace(
     recommended,
     basis=kfmaps.BasisConfig(functions=60),

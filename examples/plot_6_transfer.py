@@ -6,6 +6,8 @@ A point map carries anything that lives on vertices, by looking it up. A functio
 without any point map: a product with a small matrix.
 """
 
+from dataclasses import replace
+
 import numpy as np
 
 import kfmaps
@@ -16,9 +18,10 @@ from kfmaps.viz import Panel, grid_figure, match_figure
 pair = kfmaps.datasets.two_poses(vertices=2000)
 marked = farthest(pair.target.vertices, 6)
 landmarks = np.stack([pair.truth[marked], marked], axis=1)
-config = kfmaps.Config(
+config = replace(
+    kfmaps.Config.single_fit(),
     basis=kfmaps.BasisConfig(functions=60),
-    descriptors=kfmaps.DescriptorConfig(eigenfunctions=100),
+    descriptors=kfmaps.DescriptorConfig(eigenfunctions=100, shot=False),
     nystrom=kfmaps.NystromConfig(samples=200),
     refinement=kfmaps.ZoomOut(start=30, stop=100, step=5),
 )

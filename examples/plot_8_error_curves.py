@@ -30,7 +30,7 @@ def smaller(config):
 
 
 methods = {
-    "kernel, recommended": smaller(kfmaps.Config()),
+    "kernel, recommended": smaller(kfmaps.Config.single_fit()),
     "Nogneng and Ovsjanikov 2017": smaller(kfmaps.Config.no17()),
     "Ovsjanikov et al. 2012": smaller(kfmaps.Config.obcs12()),
 }

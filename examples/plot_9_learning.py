@@ -7,13 +7,16 @@ Here these numbers are learned from two pairs of shapes whose true correspondenc
 Learning needs PyTorch (``pip install 'kfmaps[learn]'``); what was learned does not.
 """
 
+from dataclasses import replace
+
 import kfmaps
 from kfmaps.kernels.landmark_selection import farthest
 
 # Learning begins as this configuration, with ten descriptors and a map of 40 by 40.
-config = kfmaps.Config(
+config = replace(
+    kfmaps.Config.single_fit(),
     basis=kfmaps.BasisConfig(functions=40),
-    descriptors=kfmaps.DescriptorConfig(count=10, eigenfunctions=60),
+    descriptors=kfmaps.DescriptorConfig(count=10, eigenfunctions=60, shot=False),
     nystrom=kfmaps.NystromConfig(samples=100),
     refinement=None,
 )

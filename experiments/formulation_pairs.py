@@ -34,9 +34,10 @@ from kfmaps.shape import Shape
 FUNCTIONS = 50
 POINTS = 1500
 ZOOM = ZoomOut(30, 100, 10)
-CONFIG = Config(
+CONFIG = replace(
+    Config.single_fit(),
     basis=BasisConfig(functions=FUNCTIONS),
-    descriptors=DescriptorConfig(eigenfunctions=ZOOM.stop),
+    descriptors=DescriptorConfig(eigenfunctions=ZOOM.stop, shot=False),
     nystrom=NystromConfig(samples=200),
     solver=CG(rtol=1e-4, max_steps=500),
     fit_samples=POINTS,

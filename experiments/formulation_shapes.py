@@ -5,7 +5,7 @@ People 0 to 3 of FAUST_r serve to choose settings, people 4 to 7 and the animals
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from pathlib import Path
 
@@ -97,7 +97,9 @@ class Shapes:
 
 @lru_cache(maxsize=128)
 def _prepared(shapes: Shapes, name: str, size: int) -> Shape:
-    config = Config(descriptors=DescriptorConfig(eigenfunctions=size), refinement=None, threads=1)
+    config = replace(
+        Config.single_fit(), descriptors=DescriptorConfig(eigenfunctions=size, shot=False), refinement=None, threads=1
+    )
     return prepare(shapes.mesh(name), config, name=name)
 
 

@@ -80,4 +80,4 @@ def linear(config: Config) -> Config:
 
 def recommended(count: int) -> Config:
     """What the package recommends with landmarks, without refinement."""
-    return replace(with_count(Config(), count), refinement=None)
+    return replace(with_count(Config.single_fit(), count), refinement=None)

@@ -156,7 +156,7 @@ def fitted(collection: Collection, pair: ShapePair, config: Config, landmarks: n
 @lru_cache(maxsize=64)
 def prepared(collection: Collection, name: str, size: int, laplacian: Any = "robust") -> Shape:
     """The shape of that name with ``size`` eigenfunctions; kept in memory, since many pairs share it."""
-    base = Config()
+    base = Config.single_fit()
     config = replace(
         base,
         basis=replace(base.basis, laplacian=laplacian),

@@ -92,7 +92,7 @@ def main(arguments: Sequence[str]) -> None:
     parser = argparse.ArgumentParser(description=(__doc__ or "").partition("\n")[0])
     parser.add_argument("--data", type=Path, help="folder of FAUST, FAUST_r or both; default: generated shapes")
     parser.add_argument("-o", "--output", type=Path, default=Path("experiments-output"), help="folder for the results")
-    parser.add_argument("--base", default="default", help="settings to vary: a settings file or a preset")
+    parser.add_argument("--base", default="single-fit", help="settings to vary: a settings file or a preset")
     parser.add_argument("--vary", action="append", metavar="NAME=VALUES", help="a setting and values, with commas")
     parser.add_argument("--pairs", type=int, default=4, help="training pairs of each data set (4)")
     parser.add_argument("--pairs-from", type=Path, help='training pairs instead: a file of lines "source target"')
@@ -103,7 +103,7 @@ def main(arguments: Sequence[str]) -> None:
     options = parser.parse_args(arguments)
     try:
         base = options.base
-        start = read_settings(base, preset("default")) if Path(base).suffix == ".toml" else preset(base)
+        start = read_settings(base) if Path(base).suffix == ".toml" else preset(base)
         grid = candidates(start, options.vary or DEFAULT)
         folder = output_folder(options.output)
         setting = Setting(options.data, folder, options.pairs, options.workers, options.vertices, seed=options.seed)

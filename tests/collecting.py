@@ -29,9 +29,10 @@ from kfmaps.io import write_mesh, write_vertex_numbers
 LANDMARKS = (1, 50, 120, 170)
 """Lines of the truth, counted from 1."""
 
-CONFIG = Config(
+CONFIG = replace(
+    Config.single_fit(),
     basis=BasisConfig(functions=20),
-    descriptors=DescriptorConfig(count=20, eigenfunctions=40),
+    descriptors=DescriptorConfig(count=20, eigenfunctions=40, shot=False),
     nystrom=NystromConfig(samples=60),
     refinement=ZoomOut(start=10, stop=40, step=5),
 )

@@ -71,7 +71,7 @@ def small_basis(small_mesh: Mesh) -> Basis:
 def creatures() -> tuple[Any, Any, np.ndarray]:
     """Two that differ much, prepared for an automatic match, and the source vertex of each target vertex."""
     made = kfmaps.datasets.non_isometric(1500, rng=3)
-    config = kfmaps.Config.automatic()
+    config = kfmaps.Config()
     shapes = [kfmaps.prepare(mesh, config, name=name) for mesh, name in ((made.source, "a"), (made.target, "b"))]
     return shapes[0], shapes[1], made.truth
 

@@ -361,7 +361,7 @@ def test_of_maps_that_are_alike_the_one_that_bends_less_is_found(creatures, monk
     bends = {"best": 0.12, "alike": 0.06}
     monkeypatch.setattr(choose, "candidates", lambda *_what, **_how: [best, alike])
     monkeypatch.setattr(ranking, "with_bending", lambda some, *_: [replace(c, bending=bends[c.name]) for c in some])
-    found = choose.choose(source, target, replace(kfmaps.Config.automatic(), threads=1))
+    found = choose.choose(source, target, replace(kfmaps.Config(), threads=1))
     assert found.origin == "alike"
     assert len(found.scores) == 1
 
@@ -399,7 +399,7 @@ def test_a_match_finishes_all_ways_unless_it_is_hardly_torn(creatures, monkeypat
     ways = tuple(way(one) for one in (replace(other, bent=target.mesh.vertices, backwards=True), other, None))
     monkeypatch.setattr(matching, "choose", lambda *_a, **_k: replace(other, origin="one", again=ways))
     monkeypatch.setattr(matching, "worthier", lambda a, b: replace(b, seconds=a.seconds))
-    config = replace(kfmaps.Config.automatic(), finish=None)
+    config = replace(kfmaps.Config(), finish=None)
     for share, ends in ((0.5, "other"), (TORN, "one"), (None, "one")):
         monkeypatch.setattr(matching, "torn", lambda _match, share=share: share)
         found = kfmaps.match(source, target, config)
@@ -422,7 +422,7 @@ def test_a_search_tells_what_else_may_turn_out_better(creatures, monkeypatch):
     monkeypatch.setattr(choose, "closer", lambda *_: ranked)
     monkeypatch.setattr(choose, "passed_over", lambda maps, *_: tuple(range(len(maps))))
     monkeypatch.setattr(choose, "differs", lambda a, b, _: float(a.points[0] != b.points[0]))
-    found = choose.choose(source, target, kfmaps.Config.automatic())
+    found = choose.choose(source, target, kfmaps.Config())
     made = [way(-np.inf) for way in found.again]
     best = [c.score for c in ranked]
     assert [m and (m.origin, m.scores[:2]) for m in (found, *made)] == [

@@ -28,9 +28,9 @@ from kfmaps.matching.search import choose
 from kfmaps.shape import mirror_image, prepare
 
 SMALL = replace(
-    Config.automatic(),
+    Config(),
     basis=BasisConfig(functions=40),
-    descriptors=replace(Config.automatic().descriptors, eigenfunctions=90, shot_radius=0.15),
+    descriptors=replace(Config().descriptors, eigenfunctions=90, shot_radius=0.15),
     nystrom=NystromConfig(samples=100),
     refinement=ZoomOut(50, 90, 10),
     search=Search(candidates=2, signs=3),
@@ -238,7 +238,7 @@ def test_a_verdict_follows_the_score_and_the_margin():
 
 def test_a_part_is_not_called_a_match():
     pair = partial(1500, rng=0)
-    found = match(pair.source, pair.target, replace(Config.automatic(), threads=2, partial=Partial("none")))
+    found = match(pair.source, pair.target, replace(Config(), threads=2, partial=Partial("none")))
     assert geodesic_errors(pair.source, found.target_to_source, pair.truth).mean() > 0.05
     assert found.verdict != "sure"
     assert found.scores[0] < MIDDLE
@@ -248,7 +248,7 @@ def test_a_part_is_not_called_a_match():
 
 def test_left_and_right_of_a_symmetric_body_are_told_apart():
     pair = symmetric_creature(1500, rng=0)
-    found = match(pair.source, pair.target, replace(Config.automatic(), threads=2))
+    found = match(pair.source, pair.target, replace(Config(), threads=2))
     assert pair.mirrored is not None
     right = geodesic_errors(pair.source, found.target_to_source, pair.truth).mean()
     flipped = geodesic_errors(pair.source, found.target_to_source, pair.mirrored).mean()
@@ -332,5 +332,5 @@ def test_few_eigenfunctions_are_enough():
 
 
 def test_no_search_without_settings(shape):
-    with pytest.raises(InvalidInput, match=r"Config\.automatic"):
+    with pytest.raises(InvalidInput, match=r"a search"):
         choose(shape, shape, replace(SMALL, search=None))

@@ -150,10 +150,10 @@ def test_recommended_as_match_would(tmp_path: Path) -> None:
         touch(tmp_path / "landmarks" / f"{name}.txt", "1\n")
     found = find_collection(tmp_path)
     some, every = [Pair("a", "b")], choose_pairs(found, every=True)
-    assert recommended(found, some, False, True) == Config()
-    assert recommended(found, every, True, True) == Config()
+    assert recommended(found, some, False, True) == Config.single_fit()
+    assert recommended(found, every, True, True) == Config.single_fit()
     for pairs, files in ((every, True), (some, False)):
-        assert recommended(found, pairs, False, files) == Config.automatic()
+        assert recommended(found, pairs, False, files) == Config()
 
 
 def test_remaining_time_of_even_work_is_exact() -> None:

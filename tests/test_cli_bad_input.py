@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-import kfmaps.shape
+import kfmaps.matching.match
 from commandline import SMALL, run, shapes
 from kfmaps.io import mapfile
 
@@ -24,7 +24,7 @@ def no_work(monkeypatch: pytest.MonkeyPatch) -> None:
     def prepare(*_: object, **__: object) -> None:
         raise AssertionError("the work was begun")
 
-    monkeypatch.setattr(kfmaps.shape, "prepare", prepare)
+    monkeypatch.setattr(kfmaps.matching.match, "prepare", prepare)
 
 
 def complaint(made: types.SimpleNamespace, *words: object) -> str:
@@ -124,7 +124,16 @@ def test_descriptors_of_one_side(made: types.SimpleNamespace) -> None:
 
 def test_kernel_that_overflows(made: types.SimpleNamespace) -> None:
     line = complaint(
-        made, "--landmarks", made.landmarks, "--preset", "default", "-q", "--kernel", "polynomial", "--degree", "4000"
+        made,
+        "--landmarks",
+        made.landmarks,
+        "--preset",
+        "single-fit",
+        "-q",
+        "--kernel",
+        "polynomial",
+        "--degree",
+        "4000",
     )
     assert "Polynomial" in line
     assert "finite values" in line
@@ -182,7 +191,7 @@ def test_force_replaces(made: types.SimpleNamespace) -> None:
         "--landmarks",
         made.landmarks,
         "--preset",
-        "default",
+        "single-fit",
         *SMALL,
         "-q",
         "-o",
@@ -203,7 +212,17 @@ def test_no_half_file(raised: BaseException, made: types.SimpleNamespace, monkey
     monkeypatch.setattr(np, "savez_compressed", half)
     (made.folder / "m.npz").write_text("precious")
     before = sorted(made.folder.iterdir())
-    words = ("--landmarks", made.landmarks, "--preset", "default", *SMALL, "-q", "--force", "-o", made.folder / "m.npz")
+    words = (
+        "--landmarks",
+        made.landmarks,
+        "--preset",
+        "single-fit",
+        *SMALL,
+        "-q",
+        "--force",
+        "-o",
+        made.folder / "m.npz",
+    )
     ran = run("match", made.source, made.target, *words)
     assert ran.status == (130 if isinstance(raised, KeyboardInterrupt) else 2)
     assert sorted(made.folder.iterdir()) == before

@@ -18,9 +18,9 @@ from kfmaps.io import read_landmarks, read_mesh, read_vertex_numbers
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("demo")
-    few = replace(Config.automatic(), search=Search(candidates=2))
+    few = replace(Config(), search=Search(candidates=2))
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(Config, "automatic", lambda: few)
+        patch.setattr("kfmaps.matching.match.default_config", lambda: few)
         ran = run("demo", "--vertices", "1500", "-o", folder / "demo.png", "--json", "--seed", "1")
     assert ran.status == 0, ran.stderr
     (folder / "told.json").write_text(ran.stdout)

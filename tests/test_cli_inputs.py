@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import types
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -78,20 +79,27 @@ def test_numbers_out_of_proportion(made: types.SimpleNamespace, words: tuple[str
 
 def test_demand(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("kfmaps._memory.installed_memory", lambda: 16 << 30)
-    for config in (Config(), Config.automatic(), Config.paper(), Config.no17()):
+    for config in (Config.single_fit(), Config(), Config.paper(), Config.no17()):
         check_demand(config, 80_000, 80_000, 50)
     with pytest.raises(InvalidInput, match=r"got 80 GB for 500,000 descriptors of 20,000 points"):
-        check_demand(Config(descriptors=DescriptorConfig(count=500_000)), 80_000, 80_000)
-    check_demand(Config(nystrom=NystromConfig(samples=10**9)), 1000, 1000)  # there are only 2,000 points
+        check_demand(
+            replace(Config.single_fit(), descriptors=DescriptorConfig(count=500_000, shot=False)),
+            80_000,
+            80_000,
+        )
+    check_demand(
+        replace(Config.single_fit(), nystrom=NystromConfig(samples=10**9)), 1000, 1000
+    )  # there are only 2,000 points
     with pytest.raises(InvalidInput, match=r"got 230 GB for 160,000 Nyström samples of 20,000 points"):
-        check_demand(Config(nystrom=NystromConfig(samples=10**9)), 80_000, 80_000)
+        check_demand(replace(Config.single_fit(), nystrom=NystromConfig(samples=10**9)), 80_000, 80_000)
 
 
 def test_demand_of_a_match_from_python() -> None:
     sphere = kfmaps.datasets.sphere(100)
-    config = Config(
+    config = replace(
+        Config.single_fit(),
         basis=kfmaps.BasisConfig(functions=5),
-        descriptors=DescriptorConfig(count=10**10, eigenfunctions=10),
+        descriptors=DescriptorConfig(count=10**10, eigenfunctions=10, shot=False),
         refinement=None,
     )
     with pytest.raises(InvalidInput, match="for 10,000,000,000 descriptors"):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import types
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -23,7 +24,7 @@ def made(tmp_path_factory: pytest.TempPathFactory) -> types.SimpleNamespace:
 
 
 def match(made: types.SimpleNamespace, *words: object, landmarks: bool = True) -> Ran:
-    given = ("--landmarks", made.landmarks, "--preset", "default") if landmarks else ()
+    given = ("--landmarks", made.landmarks, "--preset", "single-fit") if landmarks else ()
     return run("match", made.source, made.target, *given, *SMALL, *words)
 
 
@@ -190,7 +191,7 @@ def test_same_seed_same_map(made: types.SimpleNamespace, tmp_path: Path) -> None
 
 
 def test_settings_file_of_a_run_repeats_it(made: types.SimpleNamespace, tmp_path: Path) -> None:
-    words = ("--preset", "default", *SMALL, "--kernel", "laplacian")
+    words = ("--preset", "single-fit", *SMALL, "--kernel", "laplacian")
     assert run("config", *words, "-o", tmp_path / "s.toml").status == 0
     match(made, "--kernel", "laplacian", "-q", "-o", tmp_path / "a.npz")
     given = ("--landmarks", made.landmarks, "--config", tmp_path / "s.toml")
@@ -227,9 +228,10 @@ def test_view_opens_the_page(made: types.SimpleNamespace, tmp_path: Path, monkey
 
 def test_a_match_from_python_can_be_saved(made: types.SimpleNamespace, tmp_path: Path) -> None:
     """The record that ``kfmaps.match`` returns goes into a file as it is."""
-    config = kfmaps.Config(
+    config = replace(
+        kfmaps.Config.single_fit(),
         basis=kfmaps.BasisConfig(20),
-        descriptors=kfmaps.DescriptorConfig(30, eigenfunctions=40),
+        descriptors=kfmaps.DescriptorConfig(30, eigenfunctions=40, shot=False),
         refinement=kfmaps.ICP(2),
     )
     pairs = kfmaps.read_landmarks(made.landmarks)

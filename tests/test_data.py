@@ -27,7 +27,7 @@ def pairs(folder: Path) -> list[tuple[str, str]]:
 @pytest.mark.filterwarnings("ignore::kfmaps.KfmapsWarning")
 def test_mean_errors_with_six_landmarks(faust: Path) -> None:
     """Raw map with 100 and with 10 descriptors, and after ZoomOut: mean geodesic error × 100 over seven pairs."""
-    config = kfmaps.Config()
+    config = kfmaps.Config.single_fit()
     assert isinstance(config.refinement, kfmaps.ZoomOut)
     assert config.refinement.stop >= 150
     ten = replace(config, refinement=None, descriptors=replace(config.descriptors, count=10))

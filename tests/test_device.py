@@ -18,9 +18,10 @@ torch = pytest.importorskip("torch")
 
 DEVICES = ["torch", *(["cuda"] if torch.cuda.is_available() else [])]
 
-CONFIG = Config(
+CONFIG = replace(
+    Config.single_fit(),
     basis=BasisConfig(functions=30),
-    descriptors=DescriptorConfig(count=40, eigenfunctions=60),
+    descriptors=DescriptorConfig(count=40, eigenfunctions=60, shot=False),
     nystrom=NystromConfig(samples=80, rtol=1e-8),
     solver=CG(1e-10, 2000),
     refinement=ZoomOut(20, 60, 10, samples=200),

@@ -29,7 +29,7 @@ from kfmaps.fmap.evaluate import geodesic_errors
 from kfmaps.fmap.refine import ZoomOut
 from kfmaps.geometry.basis import Basis
 from kfmaps.kernels.kernels import Gaussian
-from kfmaps.settings.merge import preset, read_settings
+from kfmaps.settings.merge import read_settings
 from kfmaps.settings.toml import settings_text
 from kfmaps.viz import surfaces
 from methods import no17, obcs12, paper, recommended
@@ -435,7 +435,9 @@ def test_experiment_writes_its_files(name: str, tiny: Setting) -> None:
 
 
 def test_grid_names_every_combination() -> None:
-    found = tune.candidates(Config(), ["kernel.gamma=1.0,2.0", "weights.laplacian=0.1", "descriptors.count=10,50"])
+    found = tune.candidates(
+        Config.single_fit(), ["kernel.gamma=1.0,2.0", "weights.laplacian=0.1", "descriptors.count=10,50"]
+    )
     assert len(found) == 4
     chosen = found["kernel.gamma=2.0, weights.laplacian=0.1, descriptors.count=10"]
     assert chosen.kernel == Gaussian(2.0)
@@ -481,14 +483,14 @@ def test_run_writes_and_prints(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, 
 
 def test_tune_writes_settings_that_match_reads(tmp_path: Path) -> None:
     settings = tmp_path / "start.toml"
-    settings.write_text(settings_text(small(Config())), encoding="utf-8")
+    settings.write_text(settings_text(small(Config.single_fit())), encoding="utf-8")
     listed = tmp_path / "pairs.txt"
     listed.write_text(f"{PAIR.source} {PAIR.target}\n", encoding="utf-8")
     out = tmp_path / "out"
     words = ["--base", str(settings), "--vary", "weights.laplacian=1,1e9", "--pairs-from", str(listed), "-o", str(out)]
     tune.main([*words, "--vertices", "1500", "--workers", "1"])
-    best = read_settings(out / "tune.toml", preset("default"))
-    assert best == small(Config())
+    best = read_settings(out / "tune.toml")
+    assert best == small(Config.single_fit())
     assert [r["settings"] for r in rows_of(out / "tune.csv")] == ["weights.laplacian=1", "weights.laplacian=1e9"]
     with pytest.raises(SystemExit):
         tune.main(["--vary", "weights.laplacian=one", "-o", str(out)])

@@ -26,7 +26,8 @@ from kfmaps.matching.search import choose
 from kfmaps.shape import Shape, mirror_image, prepare
 
 K = 20
-CONFIG = Config(
+CONFIG = replace(
+    Config.single_fit(),
     basis=BasisConfig(functions=K),
     descriptors=DescriptorConfig(count=12, eigenfunctions=60, shot=True, shot_radius=0.15),
     refinement=None,

@@ -21,9 +21,10 @@ from kfmaps.matching.fit import fit
 from kfmaps.matching.match import match
 from kfmaps.shape import prepare
 
-SMALL = Config(
+SMALL = replace(
+    Config.single_fit(),
     basis=BasisConfig(functions=12),
-    descriptors=DescriptorConfig(count=12, eigenfunctions=30),
+    descriptors=DescriptorConfig(count=12, eigenfunctions=30, shot=False),
     nystrom=NystromConfig(samples=40),
     solver=CG(rtol=1e-6, max_steps=500),
     refinement=None,
@@ -234,7 +235,7 @@ def test_every_layout_knows_its_landmarks(shape, other, marks):
 
 
 def test_a_search_fits_in_any_formulation(shape, other):
-    config = Config.automatic()
+    config = Config()
     config = replace(
         config,
         basis=BasisConfig(functions=12),
@@ -277,4 +278,4 @@ def test_settings_that_contradict_each_other_are_refused():
         with pytest.raises(InvalidInput, match=wanted):
             Formulation(**more)
     with pytest.raises(InvalidInput, match="loss per feature"):
-        Config(weights=Weights(descriptors=0.0), formulation=FORMULATIONS["robust features"])
+        replace(Config.single_fit(), weights=Weights(descriptors=0.0), formulation=FORMULATIONS["robust features"])

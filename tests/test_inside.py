@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import warnings
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -24,9 +25,10 @@ from kfmaps.geometry.topology import topology
 from kfmaps.matching.match import match
 from kfmaps.shape import inner, prepare
 
-SMALL = Config(
+SMALL = replace(
+    Config.single_fit(),
     basis=BasisConfig(functions=20),
-    descriptors=DescriptorConfig(count=40, eigenfunctions=40),
+    descriptors=DescriptorConfig(count=40, eigenfunctions=40, shot=False),
     nystrom=NystromConfig(samples=60),
     refinement=ZoomOut(start=10, stop=40, step=10),
 )

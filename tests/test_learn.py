@@ -38,9 +38,10 @@ from kfmaps.learn import (  # noqa: E402
 )
 from kfmaps.learn.model import columns  # noqa: E402
 
-CONFIG = Config(
+CONFIG = replace(
+    Config.single_fit(),
     basis=BasisConfig(functions=12),
-    descriptors=DescriptorConfig(count=10, eigenfunctions=30),
+    descriptors=DescriptorConfig(count=10, eigenfunctions=30, shot=False),
     nystrom=NystromConfig(samples=60),
     compression=0.0,
     refinement=None,
@@ -200,12 +201,12 @@ def test_the_rate_falls_to_zero(lessons):
 
 
 def test_columns_of_every_kind():
-    config = DescriptorConfig(count=20, shot=True)
+    config = DescriptorConfig(count=20)
     found = columns(config, 3, 20 + 352)
     assert found.kinds == ("signature", "landmark", "landmark", "landmark", "shot")
     assert found.blocks[-1] == tuple(range(20, 372))
     assert columns(replace(config, signature="none"), 0, 352).kinds == ("shot",)
-    assert columns(DescriptorConfig(count=20, layout="every-nth"), 3, 20).kinds == ("signature",)
+    assert columns(DescriptorConfig(count=20, layout="every-nth", shot=False), 3, 20).kinds == ("signature",)
 
 
 def test_it_learns_stops_and_resumes_alike(lessons, tmp_path):
@@ -239,7 +240,8 @@ def test_it_learns_stops_and_resumes_alike(lessons, tmp_path):
 
 def test_without_landmarks():
     """A kernel learned from descriptors alone serves the search, whose small fits have other descriptors."""
-    config = Config(
+    config = replace(
+        Config.single_fit(),
         basis=BasisConfig(functions=20),
         descriptors=DescriptorConfig(count=10, eigenfunctions=30, shot=True, shot_radius=0.3),
         nystrom=NystromConfig(samples=40),
@@ -342,7 +344,7 @@ class Harmful:
 def test_a_file_never_runs_anything(tmp_path, capsys):
     file = tmp_path / "kernel.pt"
     torch.save({"format": 1, "settings": Harmful()}, file)
-    for read in (load, lambda path: read_settings(path, Config())):
+    for read in (load, lambda path: read_settings(path, Config.single_fit())):
         with pytest.raises(InvalidInput, match="wanted a file that kfmaps learn wrote"):
             read(file)
     assert "executed" not in capsys.readouterr().out
@@ -385,12 +387,12 @@ def test_command(folder, monkeypatch):
     assert run(*words, "--epochs", "2", "--resume", "-q").status == 0
     assert len(load(folder / "kernel.pt")[0].history) == 3
     assert "another rate" in run(*words, "--resume", "--rate", "0.01").stderr
-    config = read_settings(folder / "kernel.pt", Config())
+    config = read_settings(folder / "kernel.pt", Config.single_fit())
     monkeypatch.setitem(sys.modules, "torch", None)
-    assert read_settings(out, Config()) == config  # without PyTorch
+    assert read_settings(out, Config.single_fit()) == config  # without PyTorch
     assert isinstance(config.kernel, Metric)
     with pytest.raises(MissingDependency, match=r"kfmaps\[learn\]"):
-        read_settings(folder / "kernel.pt", Config())
+        read_settings(folder / "kernel.pt", Config.single_fit())
 
 
 def test_command_without_truth(folder):
@@ -400,9 +402,9 @@ def test_command_without_truth(folder):
     small = ("--basis", "8", "--set", "descriptors.eigenfunctions=20", "--pairs", "1", "--held-out-pairs", "1")
     ran = run("learn", *words, *small, "--held-out", "none", "--epochs", "1", "--no-shot", "--learn", "gamma")
     assert ran.status == 0, ran.stderr
-    learned = read_settings(folder / "kernel.pt", Config())
+    learned = read_settings(folder / "kernel.pt", Config.single_fit())
     assert isinstance(learned.kernel, Gaussian)
-    assert learned.fit_samples == Config().fit_samples  # fewer points are for learning alone
+    assert learned.fit_samples == Config.single_fit().fit_samples  # fewer points are for learning alone
 
 
 def test_command_refuses(folder):

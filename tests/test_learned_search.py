@@ -24,7 +24,8 @@ from kfmaps.matching.search import choose, probed
 from kfmaps.shape import prepare
 
 COUNT = 12 + 352
-CONFIG = Config(
+CONFIG = replace(
+    Config.single_fit(),
     basis=BasisConfig(functions=30),
     descriptors=DescriptorConfig(count=12, eigenfunctions=40, shot=True, shot_radius=0.12),
     search=Search(candidates=1, signs=2, tips=False),
@@ -60,7 +61,7 @@ def test_a_metric_that_knows_nothing_changes_no_digit(creature):
 def test_what_was_learned_stays_out_of_the_searchs_own_fits():
     config = taught(np.eye(COUNT)[:2].tolist())
     own = plain(config)
-    assert own == replace(CONFIG, kernel=Config().kernel)
+    assert own == replace(CONFIG, kernel=Config.single_fit().kernel)
     assert plain(CONFIG) is CONFIG
     mine = replace(CONFIG, kernel=Gaussian(3.0), weights=Weights(5.0, 1.0, 1.0))
     assert plain(mine) is mine  # a user's own settings, which nothing was learned for

@@ -190,7 +190,7 @@ def test_looks_decide_where_they_are_asked_for_but_bring_nothing_back(knees):
     """What they say against a map that exchanges all below the waist is more than the margin below which they are asked
     for, and less than what is hopeless. Exchanged feet alone are worth asking for; and to wait for what is farther
     behind they would have to speak against a map that is wrong everywhere."""
-    plain = replace(kfmaps.Config.automatic(), descriptors=replace(kfmaps.Config.automatic().descriptors, shot=False))
+    plain = replace(kfmaps.Config(), descriptors=replace(kfmaps.Config().descriptors, shot=False))
     source, target = (kfmaps.prepare(mesh, plain, name="a") for mesh in (knees.source, knees.target))
     a, b = copied(source), copied(target)
     assert a is not None
@@ -269,7 +269,7 @@ def test_maps_found_without_landmarks_take_part(creatures, monkeypatch):
         return judged([("free", True)], np.eye(40)[None], None, what[3].whole, 1)
 
     monkeypatch.setattr(choose, "candidates", few)
-    found = unled(source, target, kfmaps.Config.automatic(), on, 3, drawn=4)
+    found = unled(source, target, kfmaps.Config(), on, 3, drawn=4)
     alone, how = asked[0]
     assert how == {"drawn": 4}
     assert alone.few.marks is None

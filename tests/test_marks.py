@@ -149,7 +149,7 @@ def test_a_search_says_that_landmarks_back_its_map(creatures, monkeypatch) -> No
     source, target, _ = creatures
     only_the_truth(creatures, monkeypatch)
     monkeypatch.setattr(verdict, "MIDDLE", 0.0)
-    config = replace(kfmaps.Config.automatic(), threads=1)
+    config = replace(kfmaps.Config(), threads=1)
     without, backed = (choose.choose(source, target, config, landmarks=at) for at in (None, spread_out(creatures, 40)))
     assert (without.verdict, backed.verdict) == ("poor", "sure")
     assert without.confidence is not None
@@ -165,7 +165,7 @@ def test_a_landmark_that_the_map_keeps_is_doubted_no_longer(creatures, monkeypat
     monkeypatch.setattr(choose, "doubted", lambda missed: np.isin(missed, [missed.min(), missed.max()]))
     at = spread_out(creatures, 10)
     at[1, 0] = np.linalg.norm(source.mesh.vertices - source.mesh.vertices[at[1, 0]], axis=1).argmax()
-    found = choose.choose(source, target, replace(kfmaps.Config.automatic(), threads=1), landmarks=at)
+    found = choose.choose(source, target, replace(kfmaps.Config(), threads=1), landmarks=at)
     assert found.doubted.tolist() == [1]
     np.testing.assert_array_equal(found.landmarks, np.delete(at, 1, axis=0))
 

@@ -143,7 +143,7 @@ def test_sliding_and_a_folded_limb_are_mended(pair: datasets.Pair) -> None:
 
 def test_a_match_has_points_in_triangles(pair: datasets.Pair) -> None:
     """Closer to the truth than its vertices; ``target_to_source`` is the nearest corner."""
-    config = replace(kfmaps.Config(), threads=1)
+    config = replace(kfmaps.Config.single_fit(), threads=1)
     marks = np.stack([pair.truth[::300], np.arange(len(pair.truth))[::300]], axis=1)
     found = kfmaps.match(pair.source, pair.target, config, landmarks=marks)
     place = found.precise()
@@ -174,7 +174,7 @@ def test_a_match_has_points_in_triangles(pair: datasets.Pair) -> None:
 def test_a_whole_body_is_not_bent_onto_something_else(pair: datasets.Pair) -> None:
     """A sphere's shape is no pose of a body: the map stays as it was, its points found in the embedding."""
     other = datasets.sphere(900, rng=0)
-    config = replace(kfmaps.Config(), threads=1)
+    config = replace(kfmaps.Config.single_fit(), threads=1)
     found = kfmaps.match(pair.source, other, config)
     assert found.bent is None
     assert found.bend is not None

@@ -189,7 +189,7 @@ def test_a_close_rival_makes_a_verdict_ambiguous_and_never_poor():
 
 
 def test_the_default_of_the_command_is_auto():
-    assert Config.automatic().partial.which == "auto"
+    assert Config().partial.which == "auto"
 
 
 def test_only_what_a_detour_explains_is_forgiven():

@@ -30,9 +30,10 @@ from kfmaps.matching.fit import checked_landmarks
 from kfmaps.matching.match import match
 from kfmaps.shape import prepare
 
-SMALL = Config(
+SMALL = replace(
+    Config.single_fit(),
     basis=BasisConfig(functions=20),
-    descriptors=DescriptorConfig(count=12, eigenfunctions=40),
+    descriptors=DescriptorConfig(count=12, eigenfunctions=40, shot=False),
     nystrom=NystromConfig(samples=60),
     compression=0.0,
     solver=CG(rtol=1e-8, max_steps=2000),
@@ -142,7 +143,7 @@ def test_all_points_as_samples_equal_the_exact_kernel(rng):
         RAW,
         basis=BasisConfig(functions=6),
         kernel=Gaussian(2.0),
-        descriptors=DescriptorConfig(count=4, eigenfunctions=12),
+        descriptors=DescriptorConfig(count=4, eigenfunctions=12, shot=False),
         nystrom=NystromConfig(samples=200, sampling="uniform", rtol=1e-15),
     )
     a, b = (prepare(blob(100, twist), config) for twist in (0.0, 0.3))
@@ -194,7 +195,7 @@ def test_tanh_warns_that_it_is_not_positive_definite(shape, other, marks):
 
 
 def test_descriptors_of_the_users_own(shape, other):
-    config = replace(RAW, descriptors=DescriptorConfig(signature="none", landmark_map="none"))
+    config = replace(RAW, descriptors=DescriptorConfig(signature="none", landmark_map="none", shot=False))
     found = match(shape, other, config, descriptors=(shape.mesh.vertices, other.mesh.vertices))
     moved = shape.mesh.vertices[found.target_to_source] - other.mesh.vertices
     assert np.linalg.norm(moved, axis=1).mean() < 0.06
@@ -259,7 +260,11 @@ def test_bad_descriptors_and_kernels_are_refused(shape, other, marks):
         with pytest.raises(InvalidInput):
             match(shape, other, RAW, landmarks=marks, descriptors=given)
     with pytest.raises(InvalidInput, match="at least one"):
-        match(shape, other, replace(RAW, descriptors=DescriptorConfig(signature="none", landmark_map="none")))
+        match(
+            shape,
+            other,
+            replace(RAW, descriptors=DescriptorConfig(signature="none", landmark_map="none", shot=False)),
+        )
     for kernel in (lambda X, Y: np.ones((len(X), len(Y) + 1)), lambda X, Y: np.full((len(X), len(Y)), np.nan)):
         with pytest.raises(InvalidInput, match="kernel"):
             match(shape, other, replace(RAW, kernel=kernel), landmarks=marks)
@@ -300,12 +305,14 @@ def test_meshes_that_cannot_be_matched_are_refused():
 @pytest.mark.parametrize(
     "config",
     [
+        Config.single_fit(),
         Config(),
-        Config.automatic(),
         Config.paper(),
         Config.no17(),
-        replace(Config(), refinement=ICP(3), solver=Direct(), kernel=Sum(Linear(), Gaussian(2.0)), threads=2),
-        replace(Config(), refinement=None, kernel=Tanh()),
+        replace(
+            Config.single_fit(), refinement=ICP(3), solver=Direct(), kernel=Sum(Linear(), Gaussian(2.0)), threads=2
+        ),
+        replace(Config.single_fit(), refinement=None, kernel=Tanh()),
     ],
 )
 def test_configuration_survives_the_round_trip(config):

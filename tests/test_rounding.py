@@ -32,9 +32,9 @@ FIRST = (0.0, 1e-15, -1e-17)
 """How the eigenvalue of the constant may come out."""
 K = 30
 SMALL = replace(
-    Config.automatic(),
+    Config(),
     basis=BasisConfig(functions=30),
-    descriptors=replace(Config.automatic().descriptors, eigenfunctions=60, shot_radius=0.15),
+    descriptors=replace(Config().descriptors, eigenfunctions=60, shot_radius=0.15),
     refinement=None,
     search=Search(candidates=1, signs=2),
     threads=1,

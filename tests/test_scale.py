@@ -24,9 +24,10 @@ from kfmaps.matching.fit import fit, fit_points
 from kfmaps.matching.postprocess import finished
 from kfmaps.shape import local_descriptors, prepare, reduced
 
-CONFIG = Config(
+CONFIG = replace(
+    Config.single_fit(),
     basis=BasisConfig(functions=30),
-    descriptors=DescriptorConfig(count=40, eigenfunctions=60),
+    descriptors=DescriptorConfig(count=40, eigenfunctions=60, shot=False),
     nystrom=NystromConfig(samples=80),
     refinement=None,
     threads=1,

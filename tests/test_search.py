@@ -29,9 +29,9 @@ from kfmaps.matching.search import Found, choose, closing
 from kfmaps.shape import prepare, reduced
 
 SMALL = replace(
-    Config.automatic(),
+    Config(),
     basis=BasisConfig(functions=40),
-    descriptors=replace(Config.automatic().descriptors, eigenfunctions=90, shot_radius=0.15),
+    descriptors=replace(Config().descriptors, eigenfunctions=90, shot_radius=0.15),
     nystrom=NystromConfig(samples=100),
     refinement=ZoomOut(50, 90, 10, guidance=36.0),
     search=Search(candidates=2, signs=3),

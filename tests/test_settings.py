@@ -161,7 +161,7 @@ INSIDE = ("a", "b", "kernel", "matrix", "landmarks", "layers", "columns")
 def test_assignment_reaches_every_setting(path: str) -> None:
     """A value unlike the one before is found where it was put."""
     setting = next(s for s in SETTINGS if s.path == path)
-    base = Config.automatic()
+    base = Config()
     words = {
         "kernel.kind": "tanh",
         "solver.kind": "direct",
@@ -236,7 +236,7 @@ def test_every_digit_is_kept(number: float, whole: int) -> None:
 
 
 def test_written_settings_say_what_they_mean() -> None:
-    text = settings_text(Config())
+    text = settings_text(Config.single_fit())
     for setting in SETTINGS:
         if setting.section in ("basis", "descriptors", "nystrom", "weights"):
             assert setting.meaning in text
@@ -275,8 +275,8 @@ def test_later_wins(tmp_path: Path) -> None:
 def test_presets() -> None:
     assert chosen("--paper") == chosen("--preset", "paper") == Config.paper()
     assert chosen("--preset", "obcs12") == Config.obcs12()
+    assert chosen("--preset", "single-fit") == Config.single_fit()
     assert chosen("--preset", "default") == Config()
-    assert chosen("--preset", "automatic") == Config.automatic()
     assert chosen("--paper", "--preset", "paper") == Config.paper()
 
 

@@ -109,7 +109,7 @@ def test_only_unlike_shapes_are_stretched_in_the_end(monkeypatch) -> None:
     for like in (UNLIKE, None):
         assert loosened(NonRigid(), replace(found, quality=like)) == NonRigid()
     pair = datasets.two_poses(1500, rng=1)
-    config = kfmaps.Config.automatic()
+    config = kfmaps.Config()
     source, target = (kfmaps.prepare(mesh, config, name="a") for mesh in (pair.source, pair.target))
     seen, usual = [], matching.placed
     monkeypatch.setattr(matching, "placed", lambda *a: seen.append(a[3].finish.stretch) or usual(*a))

@@ -38,9 +38,9 @@ def made(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def answer(made: Path) -> matching.Match:
     """A map between the two shapes, quickly made: what is tried is the lines, not the map."""
     config = replace(
-        Config(),
+        Config.single_fit(),
         basis=kfmaps.BasisConfig(20),
-        descriptors=kfmaps.DescriptorConfig(20, eigenfunctions=40),
+        descriptors=kfmaps.DescriptorConfig(20, eigenfunctions=40, shot=False),
         refinement=None,
     )
     pair = [kfmaps.read_mesh(made / name) for name in ("a.ply", "b.ply")]

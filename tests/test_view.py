@@ -290,7 +290,7 @@ def a_match() -> Match:
         eigenvalues_s=np.arange(2.0),
         eigenvalues_t=np.arange(2.0),
         verdict="landmarks",
-        config=Config(),
+        config=Config.single_fit(),
         seconds={"solve": 0.5},
         origin="one fit",
         raw_functional_map=np.eye(2),
@@ -302,7 +302,7 @@ def a_match() -> Match:
             rank=7,
             slices=3,
             kernel="Gaussian(500)",
-            config=Config(),
+            config=Config.single_fit(),
             seconds={"solve": 0.5},
         ),
         local_confidence=np.ones(4),
@@ -315,7 +315,7 @@ def test_summary_of_a_match_is_json() -> None:
     assert summary["residuals"] == [1, 0.5, 0.0625]
     assert summary["times"] == {"solve": 0.5}
     assert summary["energies"] == {"laplacian": 1.5}
-    assert summary["settings"]["nystrom"]["samples"] == Config().nystrom.samples
+    assert summary["settings"]["nystrom"]["samples"] == Config.single_fit().nystrom.samples
     assert "confidence" not in summary
     assert match_summary(replace(a_match(), confidence=0.25))["confidence"] == 0.25
     assert "energies" not in match_summary(replace(a_match(), fit=None))

@@ -153,7 +153,7 @@ def match(
         meshio or Open3D. A :class:`Shape` from :func:`prepare` saves the work that depends on one shape alone; it must
         come from the same settings of the basis, SHOT and the numbers of functions.
     config : Config, optional
-        ``Config.automatic()`` when not given; ``Config()``, one fit, with descriptors of the user's own.
+        ``Config()`` when not given; ``Config.single_fit()``, one fit, with descriptors of the user's own.
     landmarks : (l, 2) whole numbers, or a path, optional
         Pairs "source vertex, target vertex", 0-based.
     descriptors : pair of arrays (n_s, d), (n_t, d), optional

@@ -69,9 +69,9 @@ class DescriptorConfig:
     signature: Literal["wave", "heat", "none"] = "wave"
     landmark_map: Literal["wave", "heat", "none"] = "wave"
     signature_share: float = 0.3
-    eigenfunctions: int = 200
+    eigenfunctions: int = 150
     layout: Literal["even", "every-nth"] = "even"
-    shot: bool = False
+    shot: bool = True
     shot_radius: float = 0.09
     shot_weight: float = 1.0
     normalisation: Normalisation = "variance"
@@ -259,7 +259,7 @@ class Partial:
         Scales of the part that are followed up.
     """
 
-    which: Which = "none"
+    which: Which = "auto"
     units: Units = "unknown"
     samples: int = 300
     whole_samples: int = 1000
@@ -275,7 +275,7 @@ class Partial:
 
 @dataclass(frozen=True)
 class Config:
-    """A whole match. ``Config()`` makes one fit; :meth:`automatic`, a search, is what we recommend.
+    """Settings of a match. ``Config()`` is what :func:`kfmaps.match` uses; :meth:`single_fit` makes no search.
 
     Attributes
     ----------
@@ -319,9 +319,11 @@ class Config:
     solver: Solver = field(default_factory=lambda: CG(rtol=1e-6, max_steps=1000))
     preconditioner: Preconditioner = "sylvester"
     fit_samples: int | None = 10_000
-    refinement: Refinement | None = field(default_factory=lambda: ZoomOut(start=50, stop=200, step=10, samples=5000))
+    refinement: Refinement | None = field(
+        default_factory=lambda: ZoomOut(start=50, stop=150, step=20, samples=3500, guidance=36.0)
+    )
     finish: NonRigid | None = field(default_factory=NonRigid)
-    search: Search | None = None
+    search: Search | None = field(default_factory=Search)
     partial: Partial = field(default_factory=Partial)
     device: str = "cpu"
     threads: int | None = None
@@ -352,13 +354,13 @@ class Config:
         return max(self.basis.functions, self.descriptors.eigenfunctions if spectral else 0, zoom)
 
     @classmethod
-    def automatic(cls) -> Config:
-        """What we recommend: a search, with SHOT to guide it and the refinement."""
+    def single_fit(cls) -> Config:
+        """One fit of whole shapes without a search, which without landmarks cannot tell left from right."""
         return cls(
-            descriptors=DescriptorConfig(shot=True, eigenfunctions=150),
-            refinement=ZoomOut(start=50, stop=150, step=20, samples=3500, guidance=36.0),
-            search=Search(),
-            partial=Partial("auto"),
+            descriptors=DescriptorConfig(shot=False, eigenfunctions=200),
+            refinement=ZoomOut(start=50, stop=200, step=10, samples=5000),
+            search=None,
+            partial=Partial("none"),
         )
 
     @classmethod
@@ -370,8 +372,10 @@ class Config:
         errors come out, but the γ = 500 of figure 6 is then far too sharp: the paper does not give the scale that it
         belongs to. So γ is found as there, by a grid search, on the first two people of FAUST (docs/experiments.md).
         """
-        return cls(
-            descriptors=DescriptorConfig(normalisation="max"),
+        single = cls.single_fit()
+        return replace(
+            single,
+            descriptors=replace(single.descriptors, normalisation="max"),
             kernel=Gaussian(0.1),
             weights=Weights(descriptors=1.0, commutativity=1.0, laplacian=1.0),
             compression=0.0,

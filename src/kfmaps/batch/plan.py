@@ -44,10 +44,10 @@ class Plan:
 
 
 def recommended(collection: ShapeFolder, pairs: Sequence[Pair], landmark_lines: bool, landmark_files: bool) -> Config:
-    """``Config()``, one fit, when every pair has landmarks: a collection is many pairs; else ``Config.automatic()``."""
+    """``Config.single_fit()`` when every pair has landmarks, since a collection has many pairs; else ``Config()``."""
     named = {name for pair in pairs for name in (pair.source, pair.target)}
     known = landmark_lines or (landmark_files and named <= collection.landmarks.keys())
-    return Config() if known else Config.automatic()
+    return Config.single_fit() if known else Config()
 
 
 def make_plan(

@@ -165,7 +165,7 @@ def match_collection(
         Which pairs are matched: each shape with those that are most like it, the one in the middle with all others, or
         all, one way.
     config : Config, optional
-        ``Config.automatic()`` when not given.
+        ``Config()`` when not given.
     rng : int
         Seed.
     progress : callable, optional
@@ -176,7 +176,7 @@ def match_collection(
     InvalidInput
         When a shape or map cannot be used, or there are fewer than two shapes.
     """
-    config = config or Config.automatic()
+    config = config or Config()
     told = progress or (lambda _what, _done, _of: None)
     given = dict(shapes) if isinstance(shapes, Mapping) else {str(i): shape for i, shape in enumerate(shapes)}
     check_count(len(given), "shapes", low=2)

@@ -43,8 +43,8 @@ def carried_functions(
     if products > k_s:
         raise refuse("--products", f"at most the {k_s} functions that the map carries", str(products), "lower it")
     k = min(max(k_s, k_t), len(source.vertices) - 1, len(target.vertices) - 1)
-    plain = replace(Config(), basis=BasisConfig(k), refinement=None, finish=None, threads=threads)
-    plain = replace(plain, descriptors=DescriptorConfig(signature="none", landmark_map="none"))
+    plain = replace(Config.single_fit(), basis=BasisConfig(k), refinement=None, finish=None, threads=threads)
+    plain = replace(plain, descriptors=DescriptorConfig(signature="none", landmark_map="none", shot=False))
     across = border(prepare(source, plain, name="source"), prepare(target, plain, name="target"))
     points = across.part_s.number[found.target_to_source[across.part_t.kept]]
     bases = across.source.basis.truncated(k_s), across.target.basis.truncated(k_t)

@@ -145,7 +145,7 @@ def fit(
     KfmapsWarning
         When the solver broke down, so that the map is not the minimiser.
     """
-    config = config or Config()
+    config = config or Config.single_fit()
     clock = Clock(progress)
     seed = seed_of(rng)
     pairs = checked_landmarks(landmarks, source, target)

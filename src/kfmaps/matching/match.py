@@ -225,7 +225,7 @@ def match(
         A :class:`Shape` from :func:`prepare` saves the work that depends on one shape alone; it must come from the
         same settings of the basis, SHOT and the numbers of functions.
     config : Config, optional
-        ``Config.automatic()`` when not given; ``Config()``, one fit, with descriptors of the user's own.
+        ``Config()`` when not given; ``Config.single_fit()``, one fit, with descriptors of the user's own.
     landmarks : (l, 2) whole numbers, optional
         Pairs "source vertex, target vertex", 0-based.
     descriptors : pair of arrays (n_s, d), (n_t, d), optional
@@ -405,7 +405,7 @@ def continued(
     InvalidInput
         When the shapes were prepared otherwise, or the points are none of the source.
     """
-    config = config or Config.automatic()
+    config = config or Config()
     for shape in (source, target):
         check_prepared(shape, config)
     points = check_point_map(points, len(source.mesh.vertices), len(target.mesh.vertices))
@@ -555,4 +555,4 @@ def has_landmarks(landmarks: Any) -> bool:
 
 def default_config(descriptors: Any = None) -> Config:
     """What :func:`match` uses when no configuration is given."""
-    return Config() if descriptors is not None else Config.automatic()
+    return Config.single_fit() if descriptors is not None else Config()

@@ -153,7 +153,7 @@ def choose(
         When ``config.search`` is ``None``, landmarks cannot be used, or the kernel was learned with landmarks.
     """
     if config.search is None:
-        raise refuse("search", "settings of a search", "None", "use Config.automatic()")
+        raise refuse("search", "settings of a search", "None", "use Config(), which has them")
     taught = speaks(config, source, target)
     given = seed_of(rng)
     seed = _drawn(given)

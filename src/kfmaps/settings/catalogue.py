@@ -252,8 +252,8 @@ SETTINGS: tuple[Setting, ...] = tuple(setting for group in CATALOGUE.values() fo
 FLAGS: dict[str, Setting] = {setting.flag: setting for setting in SETTINGS if setting.flag}
 
 PRESETS: dict[str, str] = {
-    "automatic": "recommended: a search, with landmarks or without",
-    "default": "one fit, without a search",
+    "default": "recommended: a search, with landmarks or without",
+    "single-fit": "one fit, without a search",
     "paper": "the paper's section 7",
     "no17": "Nogneng and Ovsjanikov 2017: no kernel",
     "obcs12": "Ovsjanikov et al. 2012: no kernel, descriptors only",

@@ -44,9 +44,9 @@ def tables() -> str:
         lines.append("|---|---|---|---|---|---|")
         for s in settings:
             recommended, paper = default_of(s, Config()), default_of(s, preset("paper"))
-            automatic = default_of(s, preset("automatic"))
-            if automatic != recommended:
-                recommended += f"; automatic {automatic}"
+            single = default_of(s, Config.single_fit())
+            if single != recommended:
+                recommended += f"; single fit {single}"
             flag = f"`{s.flag}`" if s.flag else ""
             of = f" ({', '.join(kind.lower() for kind in s.kinds)})" if s.kinds else ""
             lines.append(f"| `{s.path}` | {flag} | {s.meaning}{of} | {s.values} | {recommended} | {paper} |")

@@ -18,11 +18,11 @@ def preset(name: str) -> Config:
     """The configuration of that name among ``PRESETS``."""
     if name not in PRESETS:
         raise refuse("--preset", "one of " + ", ".join(PRESETS), repr(name), "choose one of them")
-    return Config() if name == "default" else getattr(Config, name)()
+    return Config() if name == "default" else getattr(Config, name.replace("-", "_"))()
 
 
-def read_settings(path: str | Path, base: Config) -> Config:
-    """``base`` with the settings of a TOML file, or of a ``.pt`` file of ``kfmaps learn``.
+def read_settings(path: str | Path, base: Config | None = None) -> Config:
+    """``base``, by default ``Config()``, with the settings of a TOML file, or of a ``.pt`` file of ``kfmaps learn``.
 
     Raises
     ------

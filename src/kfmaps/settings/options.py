@@ -44,6 +44,8 @@ class Chosen:
     def config(self, base: Config) -> Config:
         """The configuration: the preset, or else ``base``, then the file, the flags and ``--set``.
 
+        What a file does not name is as in the preset, or in ``Config()``, whatever the command's ``base``.
+
         Raises
         ------
         InvalidInput
@@ -51,7 +53,7 @@ class Chosen:
         """
         from kfmaps.settings.merge import preset, read_settings, with_assignments, with_flags
 
-        config = base if self.preset is None else preset(self.preset)
+        config = base if self.preset is None and self.file is None else preset(self.preset or "default")
         config = config if self.file is None else read_settings(self.file, config)
         return with_assignments(with_flags(config, self.flags), self.assignments)
 

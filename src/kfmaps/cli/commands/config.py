@@ -25,7 +25,7 @@ def config(
 
     if output is not None:
         check_output(output, force)
-    text = settings_text(settings.config(Config.automatic()))
+    text = settings_text(settings.config(Config()))
     if output is None:
         typer.echo(text, nl=False)
         return

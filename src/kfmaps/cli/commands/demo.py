@@ -182,6 +182,7 @@ def compared(shape: str, vertices: int, landmarks: int, seed: int, *, quiet: boo
     from kfmaps._threads import one_blas_thread
     from kfmaps.cli.progress import Stages
     from kfmaps.config import Config
+    from kfmaps.matching.match import default_config
     from kfmaps.shape import prepare
 
     with one_blas_thread(), Stages(quiet) as stages:
@@ -189,7 +190,7 @@ def compared(shape: str, vertices: int, landmarks: int, seed: int, *, quiet: boo
         pair, rows = _pair(shape, vertices, landmarks, seed)
         stages("shapes", 1.0)
         pairs = np.stack([pair.truth[rows], rows], axis=1)
-        automatic, ours = Config.automatic(), Config()
+        automatic, ours = default_config(), Config.single_fit()
         # The same shapes for all: as many functions as the fits with landmarks need, which need more.
         wanted = max(automatic.eigenfunctions, ours.eigenfunctions)
         each = replace(automatic, descriptors=replace(automatic.descriptors, eigenfunctions=wanted))

@@ -205,8 +205,8 @@ def _base(truth_landmarks: str | None) -> Config:
 
     # SHOT tells what the signature cannot, and few strong descriptors want less commutativity and a sharper kernel.
     if not truth_landmarks:
-        return replace(Config.automatic(), descriptors=DescriptorConfig(count=COUNT_ALONE, shot=True))
-    start = replace(Config(), descriptors=DescriptorConfig(shot=True))
+        return replace(Config(), descriptors=DescriptorConfig(count=COUNT_ALONE, shot=True, eigenfunctions=200))
+    start = replace(Config.single_fit(), descriptors=DescriptorConfig(shot=True, eigenfunctions=200))
     weights = Weights(descriptors=1000.0, commutativity=1.0, laplacian=300.0)
     return replace(start, sharpness=5.0, weights=weights, formulation=Formulation(mask="resolvent"))
 
