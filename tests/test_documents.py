@@ -12,32 +12,61 @@ from kfmaps.cli.main import COMMANDS
 from kfmaps.settings.catalogue import FLAGS
 
 ROOT = Path(__file__).parents[1]
-DOCUMENTS = [
-    ROOT / name for name in ("README.md", "CHANGELOG.md", "CONTRIBUTING.md", *("docs/files.md", "docs/settings.md"))
-]
+PAGES = sorted((ROOT / "docs").glob("*.md"))
+RESEARCH = sorted((ROOT / "research").glob("*.md"))
+DOCUMENTS = [*(ROOT / name for name in ("README.md", "CHANGELOG.md", "CONTRIBUTING.md")), *PAGES, *RESEARCH]
+MOST_WORDS, MOST_IN_ALL = 1_200, 15_000
+LONGER = "mathematics"
+"""The one page that may be longer."""
 
 
 def text(name: str) -> str:
     return (ROOT / name).read_text(encoding="utf-8")
 
 
-@pytest.mark.parametrize("path", DOCUMENTS, ids=[path.name for path in DOCUMENTS])
+@pytest.mark.parametrize("path", DOCUMENTS, ids=lambda path: f"{path.parent.name}-{path.stem}")
 def test_links_and_paths_lead_somewhere(path: Path) -> None:
     content = path.read_text(encoding="utf-8")
     links = re.findall(r"\]\(([^)#]+)", content)
     named = re.findall(r"`((?:src|tests|docs)/[\w./]+)`", content)
     for link in [link for link in links if not link.startswith("https://")]:
-        assert (path.parent / link).exists(), link
+        made = link.removeprefix("docs/").startswith(("gallery/", "api/"))  # by Sphinx, from examples and docstrings
+        assert made or (path.parent / link).exists(), link
     for name in named:
         assert (ROOT / name).exists(), name
 
 
-@pytest.mark.parametrize("path", DOCUMENTS, ids=[path.name for path in DOCUMENTS])
+@pytest.mark.parametrize("path", DOCUMENTS, ids=lambda path: f"{path.parent.name}-{path.stem}")
 def test_commands_exist(path: Path) -> None:
     for name in re.findall(r"`?kfmaps ([a-z]+)\b(?= |`)", path.read_text(encoding="utf-8")):
         if name in ("is", "functional", "proposes", "that", "wrote", "developers"):
             continue
         assert name in COMMANDS, name
+
+
+def words(path: Path) -> int:
+    """How many words a page has, without displayed formulas, code and generated tables."""
+    content = re.sub(
+        r"^```.*?^```$|^\$\$.*?^\$\$$", "", path.read_text(encoding="utf-8"), flags=re.MULTILINE | re.DOTALL
+    )
+    content = re.sub(r"<!-- begin.*<!-- end -->", "", content, flags=re.DOTALL)
+    return sum(bool(re.search(r"\w", word)) for word in content.split())
+
+
+def test_manual_is_short() -> None:
+    lengths = {page.stem: words(page) for page in PAGES}
+    assert {name: n for name, n in lengths.items() if n > MOST_WORDS and name != LONGER} == {}
+    assert sum(lengths.values()) <= MOST_IN_ALL
+
+
+def test_every_research_page_begins_with_its_answer() -> None:
+    contents = text("research/README.md")
+    for page in RESEARCH:
+        if page.stem != "README":
+            lines = page.read_text(encoding="utf-8").splitlines()
+            assert re.fullmatch(r"# .*\?", lines[0]), page.name
+            assert lines[2].startswith("**Answer: "), page.name
+            assert f"({page.name})" in contents
 
 
 def test_readme_names_every_command() -> None:
