@@ -56,14 +56,14 @@ def picker(browser: Browser, pair: Pair, tmp_path: Path) -> Iterator[Browser]:
         map_output=tmp_path / "m.npz",
     )
     serving = picker_server(setting)
-    thread = threading.Thread(target=serving.server.serve_forever, kwargs={"poll_interval": 0.02})
+    thread = threading.Thread(target=serving.server.serve_forever)
     thread.start()
     browser.open(serving.server.address)
     yield browser
     browser.leave()
     serving.server.shutdown()
-    serving.close()
     thread.join()
+    serving.close()
 
 
 def cells(picker: Browser) -> list[list[str]]:

@@ -13,7 +13,7 @@ from conftest import blob
 from kfmaps.cli.main import main
 from kfmaps.config import Config
 from kfmaps.io import write_mesh
-from kfmaps.viz.tryout import Tryout
+from kfmaps.viz.interactive import Tryout
 
 MARKS = np.array([[3, 3], [50, 50], [120, 120], [9, 9]])
 

@@ -1,19 +1,25 @@
-"""One self-contained HTML document: bundled script and style, data, and a policy that allows no more."""
+"""Self-contained HTML documents: bundled script and style, data, and a policy that allows no more."""
 
 from __future__ import annotations
 
 import base64
 import hashlib
-import re
-from html import escape
 from importlib.resources import files
 from typing import Any
 
-from kfmaps.viz.pack import json_block
+from jinja2 import Environment, PackageLoader, StrictUndefined
+from markupsafe import Markup
+
+from kfmaps.viz.encode import json_block
+
+
+def environment(package: str) -> Environment:
+    """Return the templates of a package's ``templates`` folder; whatever is put into them is escaped."""
+    return Environment(loader=PackageLoader(package), autoescape=True, undefined=StrictUndefined, trim_blocks=True)
 
 
 def asset(name: str) -> str:
-    """The text of a file of the package's ``static`` folder."""
+    """Return the text of a file of the package's ``static`` folder."""
     return files("kfmaps.viz").joinpath("static", name).read_text(encoding="utf-8")
 
 
@@ -22,7 +28,7 @@ def _hash(text: str) -> str:
 
 
 def policy(script: str, style: str, *, connect: bool) -> str:
-    """The content security policy: this script, this style, images made in the page, and nothing else.
+    """Return the content security policy: this script, this style, images made in the page, and nothing else.
 
     With ``connect`` the page may also speak to the server it came from.
     """
@@ -39,28 +45,37 @@ def policy(script: str, style: str, *, connect: bool) -> str:
     )
 
 
-def document(body: str, *, title: str, data: Any, connect: bool = False) -> str:
-    """The whole page.
+def document(template: str, *, title: str, data: Any, connect: bool = False) -> str:
+    """Return a whole page.
 
     Parameters
     ----------
-    body : str
-        Name of the file of ``static`` with the page's HTML.
+    template : str
+        Name of the template with the page's body.
     title : str
         Any text; it is escaped.
     data : mapping
-        What :func:`kfmaps.viz.pack.plain` can turn into JSON; the script reads it as data only.
+        What :func:`kfmaps.viz.encode.plain` can turn into JSON; the script reads it as data only.
     connect : bool
         Whether the page may send requests to its own server. A page for the disk may send none at all.
     """
     script, style = asset("viewer.js"), asset("viewer.css")
-    parts = {
-        "policy": escape(policy(script, style, connect=connect), quote=True),
-        "title": escape(title),
-        "style": style,
-        "body": asset(body),
-        "data": json_block(data),
-        "script": script,
-    }
-    # One pass, so that nothing in a part is read as a placeholder again.
-    return re.sub(r"\{\{(\w+)\}\}", lambda match: parts[match[1]], asset("page.html"))
+    return _TEMPLATES.get_template(template).render(
+        policy=policy(script, style, connect=connect),
+        title=title,
+        style=Markup(style),
+        script=Markup(script),
+        data=Markup(json_block(data)),
+    )
+
+
+def forwarding_page(address: str) -> str:
+    """Return a page that leads to ``address`` at once.
+
+    Opened from a file that only its owner can read, it keeps the address out of the browser's command line, which
+    every user of the machine can see.
+    """
+    return _TEMPLATES.get_template("forward.html.j2").render(address=address)
+
+
+_TEMPLATES = environment("kfmaps.viz")

@@ -14,8 +14,8 @@ from kfmaps.io import check_map, projected_uv
 from kfmaps.viz.camera import broad_side, turn_between
 from kfmaps.viz.colors import position_colors
 from kfmaps.viz.document import document
+from kfmaps.viz.encode import packed, quantised
 from kfmaps.viz.fields import alignment, area_distortion, nearest_reached
-from kfmaps.viz.pack import packed, quantised
 
 
 def shape_record(mesh: Mesh, name: str) -> dict[str, Any]:
@@ -198,4 +198,4 @@ def result_page(
         "matrix": None if matrix is None else quantised(matrix),
         "summary": summary or {},
     }
-    return document("result.html", title=f"{names[0]} → {names[1]}", data=data)
+    return document("result.html.j2", title=f"{names[0]} → {names[1]}", data=data)

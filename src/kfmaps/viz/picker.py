@@ -14,7 +14,7 @@ from kfmaps.fmap.confidence import local_confidence
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.io import MapFile, check_map, save_map, write_landmarks
 from kfmaps.viz.document import document
-from kfmaps.viz.pack import quantised
+from kfmaps.viz.encode import quantised
 from kfmaps.viz.page import check_up, map_record, shape_record, source_record, views_record
 from kfmaps.viz.runs import Progress, Runs
 from kfmaps.viz.server import LocalServer, Reply, json_reply, page_reply
@@ -121,7 +121,7 @@ class Picker:
             "canMatch": self.matcher is not None,
         }
         title = f"Landmarks: {self.names[0]} → {self.names[1]}"
-        return document("picker.html", title=title, data=data, connect=True)
+        return document("picker.html.j2", title=title, data=data, connect=True)
 
 
 @dataclass(frozen=True, eq=False)
@@ -131,7 +131,7 @@ class PickerServer:
     Attributes
     ----------
     server : LocalServer
-        Not yet serving: call its ``serve_forever``.
+        Not yet answering: call its ``serve_forever``.
     runs : Runs
         The matches started from the page.
     """
@@ -142,7 +142,7 @@ class PickerServer:
     def close(self) -> None:
         """Stop a running match and give the port back."""
         self.runs.cancel(wait=2.0)
-        self.server.server_close()
+        self.server.close()
 
 
 def picker_server(picker: Picker, port: int = 0) -> PickerServer:

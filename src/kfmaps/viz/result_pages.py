@@ -186,22 +186,16 @@ def signatures(source: Mesh, target: Mesh) -> tuple[np.ndarray, np.ndarray]:
 
 
 def open_page(html: str) -> tuple[Path, bool]:
-    """Write a page where only its owner can read it and ask for a browser; the file, and whether one came.
+    """Write a page where only its owner can read it and ask for a browser; return the file, and whether one came.
 
     The file stays: the browser may read it at any time later.
     """
-    folder = Path(tempfile.mkdtemp(prefix="kfmaps-"))
-    path = folder / "map.html"
+    path = Path(tempfile.mkdtemp(prefix="kfmaps-")) / "page.html"
     path.write_text(html, encoding="utf-8")
-    return path, open_address(path.as_uri())
-
-
-def open_address(address: str) -> bool:
-    """Ask for a browser to open ``address``; whether one came."""
     try:
-        return webbrowser.open(address)
+        return path, webbrowser.open(path.as_uri())
     except webbrowser.Error:
-        return False
+        return path, False
 
 
 def mesh_path(given: Path | None, found: MapFile, side: str, beside: Path) -> Path:

@@ -7,30 +7,30 @@ token, which is in the address that only this program prints.
 
 from __future__ import annotations
 
-import contextlib
-import io
+import asyncio
 import json
-import os
 import secrets
 import socket
-import socketserver
-import threading
-import time
 import traceback
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
-from typing import Any
+from http.client import responses
+from typing import Any, cast
+
+from tornado.http1connection import HTTP1Connection
+from tornado.httpserver import HTTPServer
+from tornado.web import Application, RequestHandler
 
 from kfmaps._arrays import InvalidInput, refuse
-from kfmaps.viz.pack import plain
+from kfmaps.viz.encode import plain
 
 LOOPBACK = "127.0.0.1"
 LARGEST_REQUEST = 1 << 20
-SECONDS_TO_SPEAK = 30.0
-"""For a whole request and, again, for a whole answer: who sends a byte now and then is not waited for either."""
-SECONDS_TO_LISTEN = 2.0
-"""For what is left of a request that was refused before all of it was read."""
+"""Bytes of a request's body."""
+MAX_SECONDS = 30.0
+"""For the head of a request, its body and the answer each, however the bytes are spread."""
+WAITING_CONNECTIONS = 256
+"""The system turns away who comes when as many wait to be let in."""
 
 HEADERS = {
     "Cache-Control": "no-store",
@@ -38,6 +38,7 @@ HEADERS = {
     "Cross-Origin-Opener-Policy": "same-origin",
     "Cross-Origin-Resource-Policy": "same-origin",
     "Referrer-Policy": "no-referrer",
+    "Server": "kfmaps",
     "X-Content-Type-Options": "nosniff",
 }
 
@@ -52,12 +53,12 @@ class Reply:
 
 
 def page_reply(html: str) -> Reply:
-    """A web page."""
+    """Return the answer that is a web page."""
     return Reply(200, "text/html; charset=utf-8", html.encode())
 
 
 def json_reply(data: Any, status: int = 200) -> Reply:
-    """Data for the page's script."""
+    """Return the answer that is data for the page's script."""
     return Reply(status, "application/json", json.dumps(plain(data), allow_nan=False).encode())
 
 
@@ -65,8 +66,8 @@ Routes = Mapping[tuple[str, str], Callable[[Any], Reply]]
 """(method, name below the token) to a function of the request's JSON (``None`` for GET)."""
 
 
-class LocalServer(ThreadingHTTPServer):
-    """Serves ``routes`` at ``address`` until closed.
+class LocalServer:
+    """Answer ``routes`` at ``address`` until stopped, one request after another.
 
     Parameters
     ----------
@@ -74,125 +75,90 @@ class LocalServer(ThreadingHTTPServer):
         What is answered; everything else is refused. No file is ever read on a request.
     port : int
         0 takes any free one.
-    """
 
-    daemon_threads = True
-    allow_reuse_address = os.name == "posix"  # elsewhere it would let two programs share a port
-    request_queue_size = 256  # the system turns away who comes when as many wait to be let in
+    Raises
+    ------
+    InvalidInput
+        When the port is taken.
+    """
 
     def __init__(self, routes: Routes, port: int = 0) -> None:
         self.routes = routes
         self.token = secrets.token_urlsafe(24)
-        self.changing = threading.Lock()  # requests that change something come one after another
         try:
-            super().__init__((LOOPBACK, port), _Handler)
+            self._socket = socket.create_server((LOOPBACK, port), backlog=WAITING_CONNECTIONS)
         except (OSError, OverflowError) as error:
             reason = getattr(error, "strerror", None) or str(error)
             raise refuse("port", "a free port of this machine", f"{port} ({reason})", "give another") from error
-
-    def server_bind(self) -> None:
-        """Bind without looking up the machine's name, which may ask the network and wait."""
-        socketserver.TCPServer.server_bind(self)
-        self.server_name, self.server_port = LOOPBACK, self.server_address[1]
-
-    @property
-    def origin(self) -> str:
-        return f"http://{LOOPBACK}:{self.server_port}"
+        self._socket.setblocking(False)
+        self.port = self._socket.getsockname()[1]
+        self._loop = asyncio.new_event_loop()
 
     @property
     def address(self) -> str:
-        """Where the page is; whoever knows it can use it."""
-        return f"{self.origin}/{self.token}/"
+        """Where the page is. Whoever knows it can use the page."""
+        return f"http://{LOOPBACK}:{self.port}/{self.token}/"
 
-    def handle_error(self, request: Any, client_address: Any) -> None:
-        """Say nothing when a browser goes away in the middle of an answer."""
+    def serve_forever(self) -> None:
+        """Answer requests until :meth:`shutdown`, or until the user interrupts."""
+
+        application = Application([(".*", _Handler, {"site": self})], log_function=lambda _: None)
+        limits = {"idle_connection_timeout": MAX_SECONDS, "body_timeout": MAX_SECONDS}
+        server = HTTPServer(application, no_keep_alive=True, max_body_size=LARGEST_REQUEST, **limits)
+        self._loop.call_soon(server.add_socket, self._socket)
+        try:
+            self._loop.run_forever()
+        finally:
+            server.stop()
+            self._loop.run_until_complete(server.close_all_connections())
+
+    def shutdown(self) -> None:
+        """End :meth:`serve_forever`, from another thread."""
+        self._loop.call_soon_threadsafe(self._loop.stop)
+
+    def close(self) -> None:
+        """Give the port back. The server must not be answering any more."""
+        self._socket.close()
+        self._loop.close()
 
 
-class _Until(io.RawIOBase):
-    """What comes from a connection until a moment, and not a byte later."""
+class _Handler(RequestHandler):
+    def initialize(self, site: LocalServer) -> None:
+        self.site = site
 
-    def __init__(self, connection: socket.socket, seconds: float) -> None:
-        self.connection, self.end = connection, time.monotonic() + seconds
-
-    def readable(self) -> bool:
-        return True
-
-    def readinto(self, buffer: Any) -> int:
-        left = self.end - time.monotonic()
-        if left <= 0:
-            raise TimeoutError("the request took too long")
-        self.connection.settimeout(left)
-        return self.connection.recv_into(buffer)
-
-
-class _Handler(BaseHTTPRequestHandler):
-    server_version = "kfmaps"
-    sys_version = ""
-
-    def setup(self) -> None:
-        super().setup()
-        self.rfile.close()
-        self.rfile = io.BufferedReader(_Until(self.connection, SECONDS_TO_SPEAK))
-        self.unread = 0
-
-    @property
-    def site(self) -> LocalServer:
-        assert isinstance(self.server, LocalServer)
-        return self.server
-
-    def do_GET(self) -> None:
-        self._answer("GET")
-
-    def do_POST(self) -> None:
-        self._answer("POST")
-
-    def log_message(self, format: str, *args: Any) -> None:
-        pass
-
-    def _answer(self, method: str) -> None:
-        length = self.headers.get("Content-Length", "")
-        self.unread = int(length) if length.isascii() and length.isdigit() and len(length) < 19 else 0
-        reply = self._reply(method)
-        self.close_connection = True  # a body that was refused may be left unread
-        self.connection.settimeout(SECONDS_TO_SPEAK)
-        self.send_response(reply.status)
+    def set_default_headers(self) -> None:
         for name, value in HEADERS.items():
-            self.send_header(name, value)
-        self.send_header("Content-Type", reply.kind)
-        self.send_header("Content-Length", str(len(reply.body)))
-        self.send_header("Connection", "close")
-        self.end_headers()
-        self.wfile.write(reply.body)
-        self._listen()
+            self.set_header(name, value)
 
-    def _listen(self) -> None:
-        """Take what is left of the request: closed with it unread, the connection would lose the answer as well."""
-        if not 0 < self.unread <= LARGEST_REQUEST:
-            return
-        with contextlib.suppress(OSError):
-            self.connection.shutdown(socket.SHUT_WR)
-            rest = _Until(self.connection, SECONDS_TO_LISTEN)
-            while rest.read(1 << 16):
-                pass
+    async def get(self) -> None:
+        answer = self._reply()
+        self.set_status(answer.status)
+        self.set_header("Content-Type", answer.kind)
+        _, slow = await asyncio.wait({self.finish(answer.body)}, timeout=MAX_SECONDS)
+        if slow:  # who does not read the answer is not waited for
+            cast(HTTP1Connection, self.request.connection).close()
 
-    def _reply(self, method: str) -> Reply:
+    post = get
+
+    def write_error(self, status_code: int, **_: Any) -> None:
+        self.set_header("Content-Type", "application/json")
+        self.finish(json.dumps({"error": responses.get(status_code, "the request cannot be answered")}))
+
+    def _reply(self) -> Reply:
         refusal = self._foreign()
         if refusal:
             return json_reply({"error": refusal}, 403)
-        token, _, name = self.path.partition("?")[0].lstrip("/").partition("/")
+        token, _, name = self.request.path.lstrip("/").partition("/")
         if not secrets.compare_digest(token.encode(), self.site.token.encode()):
             return json_reply({"error": "the address lacks this program's token"}, 403)
+        method = self.request.method or ""
+        if self._from_other_site() and not (method == "GET" and name == "" and self._is_navigation()):
+            return json_reply({"error": "the request comes from another site"}, 403)
         route = self.site.routes.get((method, name))
         if route is None:
             return json_reply({"error": "there is nothing here"}, 404)
         try:
-            if method != "POST":
-                return route(None)
-            body = self._body()
-            with self.site.changing:
-                return route(body)
-        except TimeoutError:
-            return json_reply({"error": "the request took too long"}, 408)
+            return route(self._json() if method == "POST" else None)
         except InvalidInput as error:
             return json_reply({"error": str(error)}, 400)
         except OSError as error:
@@ -203,26 +169,27 @@ class _Handler(BaseHTTPRequestHandler):
 
     def _foreign(self) -> str | None:
         """Why the request is not this page's own, if it is not."""
-        port = self.site.server_port
-        if self.headers.get_all("Host", []) not in ([f"{LOOPBACK}:{port}"], [f"localhost:{port}"]):
+        hosts = self.request.headers.get_list("Host")
+        if hosts not in ([f"{LOOPBACK}:{self.site.port}"], [f"localhost:{self.site.port}"]):
             return "the request was sent to another host's name"
-        host = self.headers["Host"]
-        if any(origin != f"http://{host}" for origin in self.headers.get_all("Origin", [])):
+        if any(origin != f"http://{hosts[0]}" for origin in self.request.headers.get_list("Origin")):
             return "the request comes from another site"
-        if self.headers.get("Sec-Fetch-Site", "none") not in ("none", "same-origin"):
-            return "the request comes from another site; type or paste the address instead"
         return None
 
-    def _body(self) -> Any:
+    def _from_other_site(self) -> bool:
+        return self.request.headers.get("Sec-Fetch-Site", "none") not in ("none", "same-origin")
+
+    def _is_navigation(self) -> bool:
+        """Whether a window opens the address, as from the file that holds it (:func:`forwarding_page`)."""
+        wanted = {"Sec-Fetch-Mode": "navigate", "Sec-Fetch-Dest": "document"}
+        return all(self.request.headers.get(name) == value for name, value in wanted.items())
+
+    def _json(self) -> Any:
         # A plain form of another site cannot send this type without asking first.
-        if self.headers.get_content_type() != "application/json":
-            raise refuse("request", "JSON", self.headers.get_content_type(), "send application/json")
-        length = self.headers.get("Content-Length", "")
-        if not length.isascii() or not length.isdigit() or int(length) > LARGEST_REQUEST:
-            raise refuse("request", f"at most {LARGEST_REQUEST} bytes", repr(length), "send fewer landmarks")
+        kind = self.request.headers.get("Content-Type", "none").partition(";")[0].strip().lower()
+        if kind != "application/json":
+            raise refuse("request", "JSON", kind, "send application/json")
         try:
-            content = self.rfile.read(int(length))
-            self.unread = 0
-            return json.loads(content)
+            return json.loads(self.request.body)
         except (ValueError, RecursionError) as error:
             raise refuse("request", "JSON", "something else", "send application/json") from error

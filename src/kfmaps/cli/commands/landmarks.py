@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shutil
 import warnings
 from pathlib import Path
 from typing import Annotated
@@ -15,10 +16,11 @@ from kfmaps.io import check_output, read_landmark_names, read_landmarks, read_me
 from kfmaps.io.mapfile import check_format
 from kfmaps.matching.match import default_config
 from kfmaps.settings.options import Chosen, with_settings
+from kfmaps.viz.document import forwarding_page
+from kfmaps.viz.interactive import Tryout
 from kfmaps.viz.page import check_up
 from kfmaps.viz.picker import Picker, check_pairs, picker_server
-from kfmaps.viz.result_pages import open_address
-from kfmaps.viz.tryout import Tryout
+from kfmaps.viz.result_pages import open_page
 
 
 @with_settings
@@ -75,11 +77,16 @@ def landmarks(
     serving = picker_server(picker, port)
     typer.echo(serving.server.address)
     typer.echo("Only this machine can reach it, and only with that address. Ctrl-C ends.")
-    if browser and not open_address(serving.server.address):
-        typer.echo("No browser was found; open the address yourself.")
+    opened = None
     try:
-        serving.server.serve_forever(poll_interval=0.2)
+        if browser:  # by a file: the browser's command line, with a name in it, is there for all users to see
+            opened, found = open_page(forwarding_page(serving.server.address))
+            if not found:
+                typer.echo("No browser was found; open the address yourself.")
+        serving.server.serve_forever()
     except KeyboardInterrupt:
         typer.echo("Ended.")
     finally:
         serving.close()
+        if opened is not None:
+            shutil.rmtree(opened.parent, ignore_errors=True)
