@@ -13,6 +13,7 @@ import secrets
 import socket
 import traceback
 from collections.abc import Callable, Mapping
+from concurrent.futures import Future
 from dataclasses import dataclass
 from http.client import responses
 from typing import Any, cast
@@ -92,7 +93,7 @@ class LocalServer:
             raise refuse("port", "a free port of this machine", f"{port} ({reason})", "give another") from error
         self._socket.setblocking(False)
         self.port = self._socket.getsockname()[1]
-        self._loop = asyncio.new_event_loop()
+        self._stopped: Future[None] = Future()
 
     @property
     def address(self) -> str:
@@ -101,25 +102,26 @@ class LocalServer:
 
     def serve_forever(self) -> None:
         """Answer requests until :meth:`shutdown`, or until the user interrupts."""
+        asyncio.run(self._serve())
 
+    async def _serve(self) -> None:
         application = Application([(".*", _Handler, {"site": self})], log_function=lambda _: None)
         limits = {"idle_connection_timeout": MAX_SECONDS, "body_timeout": MAX_SECONDS}
         server = HTTPServer(application, no_keep_alive=True, max_body_size=LARGEST_REQUEST, **limits)
-        self._loop.call_soon(server.add_socket, self._socket)
+        server.add_socket(self._socket)
         try:
-            self._loop.run_forever()
+            await asyncio.wrap_future(self._stopped)
         finally:
             server.stop()
-            self._loop.run_until_complete(server.close_all_connections())
+            await server.close_all_connections()
 
     def shutdown(self) -> None:
         """End :meth:`serve_forever`, from another thread."""
-        self._loop.call_soon_threadsafe(self._loop.stop)
+        self._stopped.set_result(None)
 
     def close(self) -> None:
         """Give the port back. The server must not be answering any more."""
         self._socket.close()
-        self._loop.close()
 
 
 class _Handler(RequestHandler):
