@@ -1,4 +1,4 @@
-"""What learned kernels are worth: the tables of docs/learning.md.
+"""What learned kernels are worth: the tables of research/learning.md.
 
     python benchmarks/learning.py --data DIR default10=10 tuned=tune.toml learned=kernel.toml [--refined] [--pairs 12]
     python benchmarks/learning.py --data DIR --free kernel.toml [--pairs 8]

@@ -165,7 +165,7 @@ USUAL = Quality(orientation=0.9, distortion=0.1, stretch=0.1, descriptors=0.2, h
     ],
 )
 def test_every_measure_has_its_weight_in_the_score(measure, weight):
-    """Those of the table in docs/automatic.md."""
+    """Those of the table in docs/mathematics.md."""
     more = replace(USUAL, **{measure: getattr(USUAL, measure) + 0.01})
     assert more.score - USUAL.score == pytest.approx(0.01 * weight)
 
@@ -214,7 +214,7 @@ def test_heat_around_a_landmark_is_that_of_its_time(shape):
 
 
 def test_confidence_follows_from_score_bending_and_margin(shape):
-    """The probability of docs/automatic.md, and the scores: bending counts against them by five times its logarithm.
+    """The probability of docs/mathematics.md, and the scores: bending counts against them by five times its logarithm.
 
     Without tips, at which descriptors would count too.
     """
@@ -232,7 +232,7 @@ def test_confidence_follows_from_score_bending_and_margin(shape):
 
 
 def test_a_rival_close_behind_leaves_one_half_and_fades_within_its_margin():
-    """See docs/automatic.md: half where both are as good, and a third of that doubt four tenths further on."""
+    """See docs/mathematics.md: half where both are as good, and a third of that doubt four tenths further on."""
     for score in (-12.0, -8.0, 0.0):
         alone = probability(score, np.inf)
         assert probability(score, 0.0) == pytest.approx(alone / 2)

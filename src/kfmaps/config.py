@@ -370,7 +370,7 @@ class Config:
 
         Each descriptor has a maximum of 1, as in section 7.1. That is the reading under which the paper's Nyström
         errors come out, but the γ = 500 of figure 6 is then far too sharp: the paper does not give the scale that it
-        belongs to. So γ is found as there, by a grid search, on the first two people of FAUST (docs/experiments.md).
+        belongs to. So γ is found as there, by a grid search, on the first two people of FAUST (research/paper.md).
         """
         single = cls.single_fit()
         return replace(

@@ -6,7 +6,7 @@ shared out among :data:`PATCHES` patches, each to that of whose middle it is nea
 some 64. Each query names the patches nearest to it, then the nearest cells in these, and searches those. All of it is
 matrix products in single precision, of groups of queries that lie together with whatever any of them has named: so
 a query meets some two thousand middles and points, however many there are. Patches larger than the functions' waves
-would not do: beyond those all distances are alike. What is lost is in docs/performance.md.
+would not do: beyond those all distances are alike. What is lost is in research/speed.md.
 
 Where a point is known that is not far from the answer, nothing needs to be named: the cells around that point's are
 searched, which are the same for all queries whose point lies in that cell.

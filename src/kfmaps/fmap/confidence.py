@@ -2,7 +2,7 @@
 
 Going to the source and back with the nearest neighbours of one functional map tells next to nothing once the map is
 refined: right or wrong, nine vertices in ten come back to within an edge or two. What a wrong part of a map does
-change is distances. The comparison is in docs/mathematics.md, made by ``benchmarks/confidence.py``.
+change is distances. The comparison is in research/local-confidence.md, made by ``benchmarks/confidence.py``.
 """
 
 from __future__ import annotations

@@ -137,7 +137,7 @@ class Quality:
 
     @property
     def score(self) -> float:
-        """One number, higher is better; differences below 0.1 mean little. Weights: see docs/automatic.md."""
+        """One number, higher is better; differences below 0.1 mean little. Weights: see research/score.md."""
         return (
             self.orientation
             - 6.0 * self.distortion

@@ -5,7 +5,7 @@ says how likely that is of the best candidate; where one that puts the part else
 likelier that one, down to one half where both are equal. That other one has been looked for and was given every chance
 (:mod:`kfmaps.matching.partial.compare_alternatives`). The numbers are fitted to candidates of which the truth was
 known, right ones and wrong;
-docs/parts.md says of which shapes, and how well it does on kinds that it was not fitted to.
+research/parts.md says of which shapes, and how well it does on kinds that it was not fitted to.
 """
 
 from __future__ import annotations
