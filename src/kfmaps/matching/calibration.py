@@ -4,7 +4,7 @@
 best map of a search; where a different map is nearly as good, it is the likelier the other one, down to one half
 where both are equal; and where the source must bend much more than for other right maps of that score, something that
 the score does not see is wrong: a left bone on a right one. Landmarks that the map keeps without being led by them take
-away what doubt there is, as far as they reach. The formula is in docs/mathematics.md, what it rests on in research/verdict.md.
+away what doubt there is, as far as they reach. The formula is in docs/mathematics.md, its data in research/verdict.md.
 """
 
 from __future__ import annotations
