@@ -1,9 +1,9 @@
 """Break formulas of the core on purpose, one at a time, and see whether the tests notice.
 
 ``python benchmarks/mutants.py`` applies each mutant of ``mutants_list.py`` to a copy of the package, runs the tests
-that are named for it, and lists the survivors: formulas that could go wrong unnoticed. ``--random N --seed S``
-draws mutants from the syntax trees instead, with no eye for what tests there are, and runs the tests of the room.
-A mutant costs a few seconds.
+that are named for it, and lists the survivors: formulas that could go wrong unnoticed. Then it draws ``--random``
+further ones from the syntax trees of the core, without regard to what tests there are, and runs the test files whose
+``GUARDS`` name the module. ``--suite`` tries their survivors with all tests. A mutant costs a few seconds to minutes.
 """
 
 from __future__ import annotations
@@ -18,6 +18,7 @@ import shutil
 import sys
 import tempfile
 import time
+from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -28,22 +29,12 @@ import kfmaps
 
 ROOT = Path(__file__).parents[1]
 PACKAGE = ROOT / "src" / "kfmaps"
-TIMEOUT = 300
+TIMEOUT = 600
 """Seconds that one mutant's tests may take: an endless loop has been noticed too."""
-ROOMS = {
-    "kernels": "test_kernels test_nystrom test_formulas",
-    "geometry": "test_formulas test_geodesics test_spectrum test_orientation test_eigensolver test_maps test_topology "
-    "test_scale test_clouds test_inside test_precise test_nonrigid",
-    "descriptors": "test_formulas test_shot test_formulas_match",
-    "fmap": "test_formulas test_energy test_maps test_solvers test_preconditioners test_guided test_confidence "
-    "test_formulations test_rounding test_precise",
-    "registration": "test_nonrigid test_lift test_landing test_alternate test_looks test_stretch test_places",
-    "matching": "test_pipeline test_scale test_formulations_fit test_parts "
-    "test_formulas_match test_rounding test_search test_automatic",
-    "collection": "test_many test_many_differences test_many_maps",
-    "config": "test_pipeline test_settings",
-}
-"""Where random mutants are drawn, and the tests that should notice, the quickest first."""
+SUITE_TIMEOUT = 3600
+"""The same for all tests."""
+CORE = ("kernels", "geometry", "descriptors", "fmap", "registration", "matching", "collection", "config", "shape")
+"""Packages and modules that blind mutants are drawn from."""
 SWAPS = {
     ast.Add: ast.Sub,
     ast.Sub: ast.Add,
@@ -67,18 +58,41 @@ def where(line: str, file: str = "") -> Path:
     return found[0]
 
 
+@cache
+def guards() -> dict[str, tuple[str, ...]]:
+    """Return the ``GUARDS`` of each test file: the modules and packages whose mutants it is run for."""
+    result = {}
+    for path in sorted((ROOT / "tests").glob("test_*.py")):
+        for node in ast.parse(path.read_text()).body:
+            if isinstance(node, ast.Assign) and ast.unparse(node.targets[0]) == "GUARDS":
+                result[path.stem] = ast.literal_eval(node.value)
+    return result
+
+
+def guarding(path: Path) -> str:
+    """Return the test files that guard a module, those first that name the fewest beside it."""
+    module = ".".join(path.relative_to(PACKAGE.parent).with_suffix("").parts).removesuffix(".__init__")
+    of = {
+        test: (module not in names, len(names), test)
+        for test, names in guards().items()
+        if any(f"{module}.".startswith(f"{name}.") for name in names)
+    }
+    return " ".join(sorted(of, key=lambda test: of[test]))
+
+
 def survives(path: Path, text: str, tests: str) -> bool:
-    """Whether ``tests`` pass with ``text`` in place of the file ``path`` of the package."""
+    """Whether ``tests`` (all if empty) pass with ``text`` in place of the file ``path`` of the package."""
     names, _, expression = tests.partition(" -k ")
-    arguments = ["-x", "-q", "-n", "0", "-p", "no:cacheprovider", *(f"tests/{name}.py" for name in names.split())]
+    files = [f"tests/{name}.py" for name in names.split()]
+    arguments = ["-x", "-q", "-n", "0" if files else "auto", "-p", "no:cacheprovider", *files]
     arguments += ["-k", expression] if expression else []
     with tempfile.TemporaryDirectory() as folder:
         copy = Path(folder) / "kfmaps"
-        shutil.copytree(PACKAGE, copy, ignore=shutil.ignore_patterns("__pycache__", "static"))
+        shutil.copytree(PACKAGE, copy, ignore=shutil.ignore_patterns("__pycache__"))
         (copy / path.relative_to(PACKAGE)).write_text(text)
         child = multiprocessing.get_context("fork").Process(target=_tested, args=(folder, arguments))
         child.start()
-        child.join(TIMEOUT)
+        child.join(TIMEOUT if files else SUITE_TIMEOUT)
         if child.is_alive():
             child.kill()
             child.join()
@@ -93,6 +107,7 @@ def _tested(source: str, arguments: list[str]) -> None:
     for name in [name for name in sys.modules if name.split(".")[0] == kfmaps.__name__]:
         del sys.modules[name]
     sys.path.insert(0, source)
+    os.environ["PYTHONPATH"] = source  # for the processes that the tests start
     os.chdir(ROOT)
     nowhere = os.open(os.devnull, os.O_WRONLY)
     for stream in (1, 2):
@@ -102,7 +117,7 @@ def _tested(source: str, arguments: list[str]) -> None:
 
 def _load_libraries() -> None:
     """Import what the package and its tests import, once for all mutants."""
-    for room in ROOMS:
+    for room in CORE:
         package = importlib.import_module(f"kfmaps.{room}")
         for found in pkgutil.walk_packages(getattr(package, "__path__", []), f"{package.__name__}."):
             importlib.import_module(found.name)
@@ -126,12 +141,12 @@ def listed(word: str) -> list[tuple[Path, str, str, str]]:
 def drawn(count: int, seed: int) -> list[tuple[Path, str, str, str]]:
     """The same of ``count`` operators and numbers drawn from all of the rooms' code, each as likely as any other."""
     places = []
-    for room in ROOMS:
+    for room in CORE:
         for path in sorted((PACKAGE / room).rglob("*.py")) or [PACKAGE / f"{room}.py"]:
-            places += [(path, room, i) for i, _ in enumerate(_spots(ast.parse(path.read_text())))]
+            places += [(path, i) for i, _ in enumerate(_spots(ast.parse(path.read_text())))]
     chosen = np.random.default_rng(seed).choice(len(places), size=count, replace=False)
     result = []
-    for path, room, i in (places[c] for c in chosen):
+    for path, i in (places[c] for c in chosen):
         tree = ast.parse(path.read_text())
         node = _spots(tree)[i]
         before = ast.unparse(node)
@@ -142,7 +157,7 @@ def drawn(count: int, seed: int) -> list[tuple[Path, str, str, str]]:
         start = sum(len(line.encode()) for line in lines[: node.lineno - 1]) + node.col_offset
         data = "".join(lines).encode()
         text = (data[:start] + f"({ast.unparse(node)})".encode() + data[start + len(old.encode()) :]).decode()
-        result.append((path, text, ROOMS[room], f"{node.lineno}: {before}  →  {ast.unparse(node)}"))
+        result.append((path, text, guarding(path), f"{node.lineno}: {before}  →  {ast.unparse(node)}"))
     return result
 
 
@@ -176,22 +191,31 @@ def _flip(node: ast.expr) -> None:
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--random", type=int, metavar="N", help="draw N mutants instead of those of the list")
-    parser.add_argument("--seed", type=int, default=0)
-    parser.add_argument("--only", default="", metavar="WORD", help="those whose line or file has the word")
-    settings = parser.parse_args()
-    mutants = drawn(settings.random, settings.seed) if settings.random else listed(settings.only)
+    parser.add_argument("--random", type=int, default=30, metavar="N", help="how many are drawn blindly (default: 30)")
+    parser.add_argument("--seed", type=int, help="of those; drawn and printed if it is not given")
+    parser.add_argument("--no-list", action="store_true", help="only those that are drawn blindly")
+    parser.add_argument("--only", metavar="WORD", help="only those of the list whose line or file has the word")
+    parser.add_argument("--suite", action="store_true", help="try blind ones that survive with all tests")
+    options = parser.parse_args()
+    seed = np.random.SeedSequence().generate_state(1)[0] if options.seed is None else options.seed
+    mutants = [] if options.no_list else listed(options.only or "")
+    known = len(mutants)
+    if options.only is None:
+        print(f"seed of the blind ones: {seed}")
+        mutants += drawn(options.random, seed)
     _load_libraries()
     survivors = []
-    for path, text, tests, name in mutants:
+    for number, (path, text, tests, name) in enumerate(mutants):
         start = time.perf_counter()
-        alive = survives(path, text, tests)
+        alive = not tests or survives(path, text, tests)
+        if alive and options.suite and number >= known:
+            alive = survives(path, text, "")
         label = f"{path.relative_to(PACKAGE)}  {name}"
         print(f"{'SURVIVED' if alive else 'noticed':9s}{time.perf_counter() - start:6.1f} s  {label}", flush=True)
         survivors += [(label, tests)] if alive else []
     print(f"\n{len(mutants) - len(survivors)} of {len(mutants)} noticed")
     for label, tests in survivors:
-        print(f"survived {tests}:\n    {label}")
+        print(f"survived {tests or 'without a test that guards it'}:\n    {label}")
     sys.exit(bool(survivors))
 
 

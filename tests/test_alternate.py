@@ -31,6 +31,8 @@ from kfmaps.registration import alternating_registration as alternate
 from kfmaps.registration.alternating_registration import Grounds, alternated, grounds, lying, spread
 from kfmaps.registration.deformation_energy import MORE, copied
 
+GUARDS = ("kfmaps.matching", "kfmaps.registration.alternating_registration", "kfmaps.registration.deformation_energy")
+
 
 @pytest.fixture(autouse=True)
 def alike(monkeypatch):

@@ -11,6 +11,8 @@ from kfmaps.geometry.geodesic_graph import surface_graph
 from kfmaps.geometry.geodesics import farthest_geodesic
 from kfmaps.geometry.mesh import Mesh, unit_area
 
+GUARDS = ("kfmaps.geometry.among", "kfmaps.geometry.geodesics")
+
 MESH = unit_area(blob(1500))
 
 

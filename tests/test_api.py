@@ -19,6 +19,8 @@ from kfmaps.geometry.mesh import surface_area
 from kfmaps.io import MapFile, write_landmarks
 from kfmaps.io.inputs import as_map, as_mesh
 
+GUARDS = ("kfmaps.matching.match",)
+
 MESH = blob(200)
 V, F = MESH.vertices, MESH.faces
 ORDER = np.random.default_rng(5).permutation(200)

@@ -27,6 +27,14 @@ from kfmaps.matching.sample_pair import arena
 from kfmaps.matching.search import choose
 from kfmaps.shape import mirror_image, prepare
 
+GUARDS = (
+    "kfmaps.descriptors.shot",
+    "kfmaps.fmap.descriptor_guidance",
+    "kfmaps.geometry.mesh",
+    "kfmaps.matching",
+    "kfmaps.shape",
+)
+
 SMALL = replace(
     Config(),
     basis=BasisConfig(functions=40),

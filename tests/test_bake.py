@@ -26,6 +26,8 @@ from kfmaps.io.gltf import parse_gltf
 from kfmaps.io.record import Picture
 from test_files_export import globe
 
+GUARDS = ("kfmaps.geometry.closest_points",)
+
 
 def own_atlas(mesh: Mesh) -> MeshFile:
     """Each face has a cell of the picture for itself, and fills half of it but for a margin."""

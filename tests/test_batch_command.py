@@ -15,6 +15,8 @@ from kfmaps.cli.main import main
 from kfmaps.config import Config
 from kfmaps.io import load_map, read_vertex_numbers, write_landmarks
 
+GUARDS = ("kfmaps.matching.memory",)
+
 SIZES = ("--basis", "20", "--descriptors", "20", "--set", "descriptors.eigenfunctions=40", "--samples", "60")
 ZOOM = ("--zoom-start", "10", "--zoom-stop", "40", "--zoom-step", "5")
 MARKS = ("--truth-landmarks", ",".join(map(str, LANDMARKS)))

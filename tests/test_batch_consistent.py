@@ -33,6 +33,8 @@ from kfmaps.io import load_map, save_map
 from kfmaps.io.atomic import UNFINISHED
 from test_batch_run import until
 
+GUARDS = ("kfmaps.collection.repair", "kfmaps.collection.synchronization")
+
 MADE = Settings(AGREED, landmark_lines=LANDMARKS)
 
 

@@ -12,6 +12,8 @@ from kfmaps.geometry.between import distance_places
 from kfmaps.geometry.geodesics import distance_pairs
 from kfmaps.geometry.mesh import Mesh, surface_area
 
+GUARDS = ("kfmaps.fmap.evaluate", "kfmaps.fmap.precise", "kfmaps.geometry.between")
+
 
 def plane(rng: np.random.Generator, n: int = 600) -> Mesh:
     """A square cut into uneven triangles."""

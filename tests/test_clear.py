@@ -14,6 +14,8 @@ from kfmaps.matching.search import passed_over
 from kfmaps.shape import prepare
 from test_search import SMALL
 
+GUARDS = ("kfmaps.matching.candidates", "kfmaps.matching.sample_pair", "kfmaps.matching.search")
+
 NONE = np.zeros((0, 2), dtype=np.int64)
 
 

@@ -18,6 +18,8 @@ from kfmaps.config import Config, DescriptorConfig, NystromConfig
 from kfmaps.io import write_vertex_numbers
 from kfmaps.matching.memory import check_demand
 
+GUARDS = ("kfmaps.matching.memory",)
+
 
 @pytest.fixture
 def made(tmp_path: Path) -> types.SimpleNamespace:

@@ -12,6 +12,8 @@ from collecting import CONFIG, bent
 from kfmaps._arrays import InvalidInput
 from kfmaps.shape import Shape, prepare
 
+GUARDS = ("kfmaps.collection",)
+
 N = 300
 LOCAL = replace(CONFIG, search=kfmaps.Search(candidates=1, signs=2), threads=1)
 LOCAL = replace(LOCAL, descriptors=replace(LOCAL.descriptors, shot=True))

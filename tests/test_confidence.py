@@ -14,6 +14,8 @@ from kfmaps.fmap.confidence import RADIUS, local_confidence
 from kfmaps.geometry.geodesic_graph import surface_graph
 from kfmaps.geometry.mesh import Mesh, unit_area
 
+GUARDS = ("kfmaps.fmap.confidence",)
+
 
 def moved(mesh: Mesh) -> Mesh:
     return Mesh(7 * mesh.vertices @ Rotation.from_rotvec([1, 2, 3]).as_matrix() + 5, mesh.faces)

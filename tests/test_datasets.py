@@ -14,6 +14,8 @@ from kfmaps.datasets.skeleton import Body
 from kfmaps.datasets.surface import closed_mesh
 from kfmaps.geometry.mesh import Mesh, face_areas, surface_area, vertex_normals
 
+GUARDS = ("kfmaps.geometry.topology",)
+
 PAIRS = ("two_poses", "non_isometric", "partial", "symmetric_creature")
 
 

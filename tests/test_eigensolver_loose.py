@@ -15,6 +15,8 @@ from kfmaps.geometry.eigen import eigensolver as pencil
 from kfmaps.geometry.eigen.eigensolver import smallest_eigenpairs
 from kfmaps.geometry.mesh import Mesh, unit_area
 
+GUARDS = ("kfmaps.geometry.eigen",)
+
 
 def operators(mesh: Mesh) -> tuple[csr_array, np.ndarray]:
     stiffness, mass = robust_laplacian.mesh_laplacian(mesh.vertices, mesh.faces)

@@ -21,6 +21,15 @@ from kfmaps.fmap.solvers import dense
 from kfmaps.kernels.kernels import Gaussian, Linear, Polynomial
 from kfmaps.kernels.nystrom import nystrom
 
+GUARDS = (
+    "kfmaps.fmap.energy",
+    "kfmaps.fmap.full_kernel",
+    "kfmaps.fmap.multiplication_operators",
+    "kfmaps.fmap.solvers",
+    "kfmaps.fmap.terms",
+    "kfmaps.kernels.nystrom",
+)
+
 N_S, N_T, K_S, K_T, D = 30, 25, 6, 5, 4
 
 

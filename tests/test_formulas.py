@@ -40,6 +40,28 @@ from kfmaps.kernels.kernels import Gaussian, Laplacian, resolved, squared_distan
 from kfmaps.kernels.landmark_selection import farthest
 from kfmaps.kernels.nystrom import nystrom
 
+GUARDS = (
+    "kfmaps.descriptors.spectral",
+    "kfmaps.fmap.approximate_nearest",
+    "kfmaps.fmap.confidence",
+    "kfmaps.fmap.convert",
+    "kfmaps.fmap.descriptor_guidance",
+    "kfmaps.fmap.evaluate",
+    "kfmaps.fmap.losses",
+    "kfmaps.fmap.multiplication_operators",
+    "kfmaps.fmap.nearest",
+    "kfmaps.fmap.refine",
+    "kfmaps.fmap.solvers",
+    "kfmaps.fmap.terms",
+    "kfmaps.geometry.basis",
+    "kfmaps.geometry.geodesics",
+    "kfmaps.geometry.mesh",
+    "kfmaps.geometry.sampling",
+    "kfmaps.kernels.kernels",
+    "kfmaps.kernels.landmark_selection",
+    "kfmaps.kernels.nystrom",
+)
+
 
 def with_values(values: list[float]) -> Basis:
     """A basis that has these eigenvalues."""

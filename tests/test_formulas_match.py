@@ -25,6 +25,8 @@ from kfmaps.matching.quality import Quality, map_quality, probe
 from kfmaps.matching.search import choose
 from kfmaps.shape import Shape, mirror_image, prepare
 
+GUARDS = ("kfmaps.config", "kfmaps.descriptors.spectral", "kfmaps.fmap.terms", "kfmaps.matching")
+
 K = 20
 CONFIG = replace(
     Config.single_fit(),

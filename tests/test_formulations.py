@@ -21,6 +21,21 @@ from kfmaps.fmap.solvers import CG, Direct, solve
 from kfmaps.fmap.terms import inverse_term
 from kfmaps.fmap.transfer import carried
 
+GUARDS = (
+    "kfmaps.fmap.bidirectional_zoomout",
+    "kfmaps.fmap.constraints",
+    "kfmaps.fmap.coupled",
+    "kfmaps.fmap.energy",
+    "kfmaps.fmap.full_kernel",
+    "kfmaps.fmap.losses",
+    "kfmaps.fmap.minimize",
+    "kfmaps.fmap.multiplication_operators",
+    "kfmaps.fmap.optimal_transport",
+    "kfmaps.fmap.solvers",
+    "kfmaps.fmap.terms",
+    "kfmaps.fmap.transfer",
+)
+
 N, R = 60, 9
 SIZES = [(6, 6), (7, 5), (5, 7)]
 TIGHT = How(CG(rtol=1e-8, max_steps=500), rounds=20)

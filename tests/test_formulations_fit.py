@@ -21,6 +21,8 @@ from kfmaps.matching.fit import fit
 from kfmaps.matching.match import match
 from kfmaps.shape import prepare
 
+GUARDS = ("kfmaps.fmap.bidirectional_zoomout", "kfmaps.fmap.full_kernel", "kfmaps.matching")
+
 SMALL = replace(
     Config.single_fit(),
     basis=BasisConfig(functions=12),

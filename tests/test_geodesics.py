@@ -13,6 +13,8 @@ from kfmaps.geometry.geodesic_graph import surface_graph
 from kfmaps.geometry.geodesics import SEARCHES, distance_pairs, farthest_geodesic, geodesic_distances
 from kfmaps.geometry.mesh import Mesh
 
+GUARDS = ("kfmaps.geometry.geodesic_graph", "kfmaps.geometry.geodesics")
+
 METHODS = ("unfolded", "dijkstra", "heat")
 SEARCHED = METHODS[:2]
 

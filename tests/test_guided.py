@@ -14,6 +14,8 @@ from kfmaps.geometry.basis import laplace_basis
 from kfmaps.geometry.mesh import unit_area
 from kfmaps.geometry.sampling import spectral_samples
 
+GUARDS = ("kfmaps.fmap.descriptor_guidance", "kfmaps.fmap.refine")
+
 
 @pytest.fixture(scope="module")
 def symmetric():

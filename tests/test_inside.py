@@ -25,6 +25,17 @@ from kfmaps.geometry.topology import topology
 from kfmaps.matching.match import match
 from kfmaps.shape import inner, prepare
 
+GUARDS = (
+    "kfmaps.descriptors.shot",
+    "kfmaps.geometry.clean",
+    "kfmaps.geometry.places",
+    "kfmaps.geometry.topology",
+    "kfmaps.matching.match",
+    "kfmaps.matching.postprocess",
+    "kfmaps.matching.reindexing",
+    "kfmaps.shape",
+)
+
 SMALL = replace(
     Config.single_fit(),
     basis=BasisConfig(functions=20),

@@ -22,6 +22,8 @@ from kfmaps.kernels.kernels import (
 )
 from kfmaps.kernels.transformed import Metric, Network, Scaled, width
 
+GUARDS = ("kfmaps.kernels.kernels", "kfmaps.kernels.transformed")
+
 KERNELS = [
     Linear(),
     Polynomial(3, 0.5),

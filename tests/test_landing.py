@@ -10,6 +10,13 @@ from kfmaps.registration.contact_projection import APART, landed
 from kfmaps.registration.deformable import body_of
 from kfmaps.registration.nonrigid_icp import NonRigid
 
+GUARDS = (
+    "kfmaps.geometry.closest_points",
+    "kfmaps.registration.contact_projection",
+    "kfmaps.registration.deformable",
+    "kfmaps.registration.nonrigid_icp",
+)
+
 
 def sheet(height: float, size: int = 9, up: bool = True) -> Mesh:
     """A square of side 1 with normals up or down."""

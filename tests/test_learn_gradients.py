@@ -20,6 +20,8 @@ from kfmaps.fmap.terms import Elementwise
 from kfmaps.kernels.kernels import Gaussian, Laplacian, Linear, Polynomial, Product, Sum, Tanh
 from kfmaps.kernels.transformed import Metric, Scaled
 
+GUARDS = ("kfmaps.kernels.transformed",)
+
 torch = pytest.importorskip("torch")
 
 from kfmaps.learn import losses  # noqa: E402

@@ -23,6 +23,8 @@ from kfmaps.matching.sample_pair import arena
 from kfmaps.matching.search import choose, probed
 from kfmaps.shape import prepare
 
+GUARDS = ("kfmaps.matching",)
+
 COUNT = 12 + 352
 CONFIG = replace(
     Config.single_fit(),

@@ -13,6 +13,8 @@ from kfmaps.geometry.mesh import Mesh, unit_area
 from kfmaps.registration import nonrigid_icp as nonrigid
 from kfmaps.registration.nonrigid_icp import NonRigid
 
+GUARDS = ("kfmaps.geometry.arap", "kfmaps.geometry.coarse_proxy", "kfmaps.registration.nonrigid_icp")
+
 
 @pytest.fixture(scope="module")
 def pair() -> datasets.Pair:

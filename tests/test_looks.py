@@ -32,6 +32,13 @@ from kfmaps.registration import registered_shot as looks
 from kfmaps.registration.deformation_energy import copied, ready
 from kfmaps.registration.registered_shot import difference, mismatch, sight
 
+GUARDS = (
+    "kfmaps.matching",
+    "kfmaps.registration.alternating_registration",
+    "kfmaps.registration.deformation_energy",
+    "kfmaps.registration.registered_shot",
+)
+
 
 @pytest.fixture(scope="module")
 def knees() -> Pair:

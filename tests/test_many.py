@@ -15,6 +15,8 @@ from kfmaps.collection.synchronization import Choice, Link, agree, orthogonal
 from kfmaps.collection.zoomout import ConsistentZoomOut, through_latent
 from kfmaps.geometry.basis import Basis
 
+GUARDS = ("kfmaps.collection",)
+
 K = 8
 
 

@@ -22,6 +22,8 @@ from kfmaps.collection.pair_graph import every
 from kfmaps.collection.synchronization import Choice, Link, agree, orthogonal
 from kfmaps.geometry.basis import Basis
 
+GUARDS = ("kfmaps.collection.differences", "kfmaps.collection.pair_graph", "kfmaps.collection.synchronization")
+
 K = 8
 VALUES = np.array([0.0, 3, 4, 9, 11, 14, 20, 26])
 

@@ -16,6 +16,8 @@ from kfmaps.matching.match import continued
 from kfmaps.matching.search import probed
 from kfmaps.shape import Shape, mirror_image, prepare
 
+GUARDS = ("kfmaps.collection.paths", "kfmaps.collection.scored_map")
+
 N = 400
 LOCAL = replace(CONFIG, search=Search(), descriptors=replace(CONFIG.descriptors, shot=True), threads=1)
 

@@ -12,6 +12,14 @@ from kfmaps.fmap.refine import ICP, ZoomOut, spectral_samples
 from kfmaps.geometry.basis import Basis, laplace_basis
 from kfmaps.geometry.mesh import unit_area
 
+GUARDS = (
+    "kfmaps.fmap.convert",
+    "kfmaps.fmap.evaluate",
+    "kfmaps.fmap.nearest",
+    "kfmaps.fmap.refine",
+    "kfmaps.geometry.basis",
+)
+
 
 def test_nearest_is_nearest(asarray, rng):
     queries, points = rng.normal(size=(50, 6)), rng.normal(size=(70, 6))

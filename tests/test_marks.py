@@ -32,6 +32,13 @@ from kfmaps.registration.deformation_energy import copied
 from kfmaps.registration.nonrigid_icp import FIRMLY, HOLD, LOOSELY, SLOPPY, NonRigid, facing
 from kfmaps.shape import mirror_image
 
+GUARDS = (
+    "kfmaps.matching",
+    "kfmaps.registration.alternating_registration",
+    "kfmaps.registration.deformation_energy",
+    "kfmaps.registration.nonrigid_icp",
+)
+
 NAMES = [("a", True)]
 """Of a single map, which SHOT has led."""
 

@@ -12,6 +12,7 @@ import kfmaps
 BENCHMARKS = Path(__file__).parents[1] / "benchmarks"
 TEXTS = {path.as_posix(): path.read_text() for path in Path(kfmaps.__file__).parent.rglob("*.py")}
 sys.path.insert(0, str(BENCHMARKS))
+from mutants import CORE, PACKAGE, guarding, guards  # noqa: E402
 from mutants_list import MUTANTS  # noqa: E402
 
 sys.path.remove(str(BENCHMARKS))
@@ -28,3 +29,17 @@ def test_its_line_is_there_once_and_its_tests_too(mutant) -> None:
     assert mutant.broken != mutant.line
     for name in mutant.tests.partition(" -k ")[0].split():
         assert (Path(__file__).parent / f"{name}.py").is_file()
+
+
+def test_guards_name_modules_that_are_there() -> None:
+    for test, names in guards().items():
+        for name in names:
+            path = PACKAGE.parent.joinpath(*name.split("."))
+            assert path.is_dir() or path.with_suffix(".py").is_file(), f"tests/{test}.py: GUARDS names {name}"
+
+
+@pytest.mark.parametrize("room", CORE)
+def test_every_module_of_the_core_is_guarded(room: str) -> None:
+    for path in sorted((PACKAGE / room).rglob("*.py")) or [PACKAGE / f"{room}.py"]:
+        if path.name != "__init__.py":
+            assert guarding(path), f"name {path} in the GUARDS of the test files that should notice what breaks in it"

@@ -14,6 +14,15 @@ from kfmaps.geometry.closest_points import closest_of, places_on
 from kfmaps.geometry.mesh import Mesh, unit_area
 from kfmaps.registration.nonrigid_icp import NonRigid
 
+GUARDS = (
+    "kfmaps.fmap.precise",
+    "kfmaps.geometry.arap",
+    "kfmaps.geometry.closest_points",
+    "kfmaps.registration.data_terms",
+    "kfmaps.registration.deformable",
+    "kfmaps.registration.nonrigid_icp",
+)
+
 
 def turn(rng: np.random.Generator) -> np.ndarray:
     return nearest_rotations(rng.normal(size=(1, 3, 3)))[0]

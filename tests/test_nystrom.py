@@ -8,6 +8,8 @@ from kfmaps.kernels.kernels import Gaussian, Linear, Tanh, gram
 from kfmaps.kernels.landmark_selection import farthest, pivoted_cholesky, uniform
 from kfmaps.kernels.nystrom import nystrom
 
+GUARDS = ("kfmaps.kernels.kernels", "kfmaps.kernels.landmark_selection", "kfmaps.kernels.nystrom")
+
 
 def samplers(X, count, rng=0):
     return {

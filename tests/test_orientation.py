@@ -12,6 +12,8 @@ from kfmaps.geometry.basis import Basis, laplace_basis
 from kfmaps.geometry.mesh import Mesh, unit_area
 from kfmaps.geometry.orientation_operators import orientation_slices
 
+GUARDS = ("kfmaps.geometry.orientation_operators",)
+
 
 def square(m: int) -> Mesh:
     """A unit square of m × m vertices, seen from above."""

@@ -23,6 +23,8 @@ from kfmaps.matching.partial.scale_search import SCALES
 from kfmaps.shape import prepare
 from test_search import SMALL
 
+GUARDS = ("kfmaps.fmap.evaluate", "kfmaps.matching.partial")
+
 AUTO = replace(SMALL, partial=Partial("auto", samples=100, whole_samples=300))
 
 

@@ -6,6 +6,8 @@ import pytest
 from kfmaps.matching.partial.beam_search import ANCHORS, APART, beamed, differing, spread
 from kfmaps.matching.partial.relaxation_labeling import gauge
 
+GUARDS = ("kfmaps.matching.partial.beam_search", "kfmaps.matching.partial.relaxation_labeling")
+
 
 @pytest.fixture(scope="module")
 def plane():

@@ -10,6 +10,14 @@ from kfmaps.matching.partial.registration import OUTSIDE, bent, ground, judged, 
 from kfmaps.matching.partial.samples import border_of, scaled
 from kfmaps.registration.deformable import body_of
 
+GUARDS = (
+    "kfmaps.geometry.closest_points",
+    "kfmaps.matching.partial.overlap",
+    "kfmaps.matching.partial.registration",
+    "kfmaps.matching.partial.samples",
+    "kfmaps.registration.deformable",
+)
+
 TURN = np.linalg.qr(np.random.default_rng(3).normal(size=(3, 3)))[0]
 TURN *= np.sign(np.linalg.det(TURN))
 COUNT = 21

@@ -29,6 +29,8 @@ from kfmaps.matching.partial.relaxation_labeling import Placed
 from kfmaps.matching.partial.samples import side
 from kfmaps.matching.partial.scale_search import TRIALS, Rough, likeness
 
+GUARDS = ("kfmaps.matching.partial",)
+
 NONE = np.zeros((0, 2), dtype=np.int64)
 EMPTY: Any = None
 

@@ -10,6 +10,8 @@ from kfmaps.matching.partial.relaxation_labeling import gauge
 from kfmaps.matching.partial.samples import Side
 from kfmaps.matching.partial.scale_search import TRIALS
 
+GUARDS = ("kfmaps.matching.partial",)
+
 HALF = 60
 OTHER = np.roll(np.arange(2 * HALF), HALF)
 """Where half a turn takes each point."""

@@ -30,6 +30,8 @@ from kfmaps.matching.fit import checked_landmarks
 from kfmaps.matching.match import match
 from kfmaps.shape import prepare
 
+GUARDS = ("kfmaps.config", "kfmaps.fmap.energy", "kfmaps.matching", "kfmaps.shape")
+
 SMALL = replace(
     Config.single_fit(),
     basis=BasisConfig(functions=20),

@@ -15,6 +15,8 @@ from kfmaps.registration.accept import GAP, HARMED, Placed, placed
 from kfmaps.registration.deformable import body_of
 from kfmaps.registration.nonrigid_icp import NonRigid, Registered, _evened, facing
 
+GUARDS = ("kfmaps.fmap.precise", "kfmaps.geometry.arap", "kfmaps.registration")
+
 
 @pytest.fixture(scope="module")
 def pair() -> datasets.Pair:

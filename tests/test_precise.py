@@ -21,6 +21,8 @@ from kfmaps.geometry.clean import inside, outer_faces
 from kfmaps.geometry.closest_points import closest_weights
 from kfmaps.geometry.mesh import Mesh
 
+GUARDS = ("kfmaps.fmap.precise", "kfmaps.geometry.clean", "kfmaps.geometry.closest_points")
+
 
 def brute(queries: np.ndarray, points: np.ndarray, faces: np.ndarray) -> np.ndarray:
     """Squared distance of each query from the closest triangle, each asked for itself."""

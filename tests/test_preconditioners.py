@@ -10,6 +10,8 @@ from kfmaps.fmap.preconditioners import jacobi, sylvester
 from kfmaps.fmap.solvers import CG, dense, solve
 from kfmaps.kernels.kernels import Gaussian
 
+GUARDS = ("kfmaps.fmap.energy", "kfmaps.fmap.preconditioners", "kfmaps.fmap.terms")
+
 K_T, K_S, R = 5, 6, 4
 
 

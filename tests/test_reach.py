@@ -12,6 +12,8 @@ from kfmaps.fmap.approximate_geodesics import reach
 from kfmaps.fmap.confidence import local_confidence
 from kfmaps.geometry.mesh import Mesh, unit_area
 
+GUARDS = ("kfmaps.fmap.approximate_geodesics", "kfmaps.fmap.confidence")
+
 
 def coarser(monkeypatch: pytest.MonkeyPatch, points: int) -> None:
     monkeypatch.setattr(module, "LARGE", 1000)

@@ -28,6 +28,16 @@ from kfmaps.matching.ranking import distinct
 from kfmaps.matching.sample_pair import ground
 from kfmaps.shape import Shape, prepare
 
+GUARDS = (
+    "kfmaps.descriptors.spectral",
+    "kfmaps.fmap.confidence",
+    "kfmaps.fmap.multiplication_operators",
+    "kfmaps.fmap.refine",
+    "kfmaps.fmap.terms",
+    "kfmaps.geometry.basis",
+    "kfmaps.matching",
+)
+
 FIRST = (0.0, 1e-15, -1e-17)
 """How the eigenvalue of the constant may come out."""
 K = 30

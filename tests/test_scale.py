@@ -24,6 +24,20 @@ from kfmaps.matching.fit import fit, fit_points
 from kfmaps.matching.postprocess import finished
 from kfmaps.shape import local_descriptors, prepare, reduced
 
+GUARDS = (
+    "kfmaps.fmap.approximate_nearest",
+    "kfmaps.fmap.convert",
+    "kfmaps.fmap.multiplication_operators",
+    "kfmaps.fmap.nearest",
+    "kfmaps.fmap.refine",
+    "kfmaps.geometry.geodesics",
+    "kfmaps.geometry.sampling",
+    "kfmaps.kernels.landmark_selection",
+    "kfmaps.matching.fit",
+    "kfmaps.matching.postprocess",
+    "kfmaps.shape",
+)
+
 CONFIG = replace(
     Config.single_fit(),
     basis=BasisConfig(functions=30),

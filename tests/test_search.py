@@ -28,6 +28,8 @@ from kfmaps.matching.sample_pair import arena, differences, ground, without
 from kfmaps.matching.search import Found, choose, closing
 from kfmaps.shape import prepare, reduced
 
+GUARDS = ("kfmaps.fmap.descriptor_guidance", "kfmaps.geometry.coarsen", "kfmaps.geometry.sampling", "kfmaps.matching")
+
 SMALL = replace(
     Config(),
     basis=BasisConfig(functions=40),

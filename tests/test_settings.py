@@ -25,6 +25,8 @@ from kfmaps.settings.merge import preset, read_settings, with_assignments, with_
 from kfmaps.settings.options import Chosen, with_settings
 from kfmaps.settings.toml import settings_text
 
+GUARDS = ("kfmaps.config",)
+
 FAR = Config.paper()
 """A base that differs from the recommended settings in most things."""
 

@@ -14,6 +14,8 @@ from kfmaps.descriptors.shot import Form, mirrored, shot
 from kfmaps.geometry.mesh import Mesh, face_areas, unit_area, vertex_normals
 from plain_shot import plain_shot
 
+GUARDS = ("kfmaps.descriptors.shot",)
+
 FORMS: list[Form] = ["surface", "paper"]
 
 

@@ -6,6 +6,8 @@ import pytest
 from kfmaps._arrays import InvalidInput, to_numpy
 from kfmaps.fmap.solvers import CG, Direct, dense, solve
 
+GUARDS = ("kfmaps.fmap.solvers",)
+
 
 def system(rng, shape=(4, 5), rank=None):
     size = int(np.prod(shape))

@@ -15,6 +15,8 @@ from kfmaps.geometry.basis import Basis, cotangent_laplacian, laplace_basis
 from kfmaps.geometry.eigen.eigensolver import smallest_eigenpairs
 from kfmaps.geometry.mesh import Mesh, surface_area, unit_area, vertex_areas
 
+GUARDS = ("kfmaps.geometry.basis", "kfmaps.geometry.eigen.eigensolver", "kfmaps.geometry.mesh")
+
 LAPLACIANS = ("robust", "cotangent")
 
 

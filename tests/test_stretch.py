@@ -17,6 +17,8 @@ from kfmaps.matching.search import STRETCH, UNLIKE, Found, loosened
 from kfmaps.registration.local_scaling import LEAST, MOST, stretching
 from kfmaps.registration.nonrigid_icp import NonRigid
 
+GUARDS = ("kfmaps.geometry.arap", "kfmaps.registration.local_scaling", "kfmaps.registration.nonrigid_icp")
+
 EYE = np.eye(3)
 
 

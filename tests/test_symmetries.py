@@ -14,6 +14,8 @@ from kfmaps.matching.self_maps import KEPT, MOVED, symmetries, turns_of
 from kfmaps.shape import prepare
 from test_search import SMALL
 
+GUARDS = ("kfmaps.matching",)
+
 
 @pytest.fixture(scope="module")
 def pair():

@@ -21,6 +21,8 @@ from kfmaps.config import Config
 from kfmaps.matching import match as matching
 from kfmaps.viz.server import LocalServer
 
+GUARDS = ("kfmaps.matching.match",)
+
 ROOT = Path(__file__).parents[1]
 DOCS = ROOT / "docs"
 ELSEWHERE = ("import bpy", "--morph", "pip install", "part.npz", ".xyz")

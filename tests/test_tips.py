@@ -23,6 +23,8 @@ from kfmaps.registration.nonrigid_icp import NonRigid
 from kfmaps.shape import mirror_image, prepare
 from test_search import SMALL
 
+GUARDS = ("kfmaps.matching", "kfmaps.registration.deformation_energy")
+
 
 @pytest.fixture(scope="module")
 def creature():

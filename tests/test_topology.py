@@ -12,6 +12,8 @@ from conftest import blob, fibonacci_sphere
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.geometry.topology import first_occurrence, topology
 
+GUARDS = ("kfmaps.geometry.mesh", "kfmaps.geometry.topology")
+
 
 def sheet(rows: int, columns: int, wrap: tuple[bool, bool] = (False, False), flip: bool = False) -> Mesh:
     """A grid of squares, each cut in two; wrapped it is a cylinder or torus, flipped a Möbius strip."""
