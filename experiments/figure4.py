@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 import warnings
 from dataclasses import dataclass, replace
 
@@ -13,7 +12,7 @@ from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 
 import style
-from data_sets import Collection, ShapePair
+from experiment import Options, Result, main
 from kfmaps._arrays import KfmapsWarning
 from kfmaps.cli.words import UNIT
 from kfmaps.config import Config
@@ -23,13 +22,11 @@ from kfmaps.kernels.kernels import Gaussian
 from kfmaps.viz import ERROR_MAP, View, automatic_view, draw_surface, following_view, position_colors
 from kfmaps.viz.colors import percent_ticks
 from methods import literal, obcs12_regularised
-from options import Setting
-from outputs import Outcome, write_conclusions, write_pictures, write_table
-from pair_errors import fitted
+from pair_errors import fit_pair, raw_map
 
 COUNTS = (2, 4, 10, 100)
 GAMMA = 500.0
-SHOWN = (0.005, 0.2)
+COLOR_RANGE = (0.005, 0.2)
 """Errors between which the colours run from white to red, on a logarithmic scale, in units of √area."""
 
 GOOD = 5.0
@@ -49,40 +46,38 @@ class Panel:
     errors: np.ndarray
 
 
-def settings(count: int, alone: bool) -> dict[str, Config]:
-    """Both methods, with the same ``count`` descriptors; ``alone``: of the wave kernel signature alone."""
-    both = dict(zip(METHODS, (obcs12_regularised(count), replace(literal(count), kernel=Gaussian(GAMMA))), strict=True))
+def settings(count: int, signature_only: bool) -> dict[str, Config]:
+    """Return both methods with the same ``count`` descriptors, with or without landmark maps."""
+    both = (obcs12_regularised(count), replace(literal(count), kernel=Gaussian(GAMMA)))
+    changes = {"layout": "every-nth", "landmark_map": "none" if signature_only else "wave"}
     return {
-        name: replace(
-            config,
-            descriptors=replace(config.descriptors, layout="every-nth", landmark_map="none" if alone else "wave"),
-        )
-        for name, config in both.items()
+        method: replace(config, descriptors=replace(config.descriptors, **changes))
+        for method, config in zip(METHODS, both, strict=True)
     }
 
 
-def figure4(setting: Setting) -> Outcome:
+def figure4(options: Options) -> Result:
     """The map as transferred colours and the error on the target.
 
-    On the generated creature, which is like its own mirror image nowhere, the wave kernel signature alone is
+    On the generated creature, which is nowhere like its own mirror image, the wave kernel signature alone is
     used, as in the paper; people need landmark maps beside it to tell left from right.
     """
-    collection, pair = setting.specimen()
-    alone = collection.folder is None
-    if alone:
-        pair = ShapePair("poses-2-source", "poses-2-target")
+    data_set, pair = options.specimen()
+    signature_only = data_set.folder is None
+    if signature_only:
+        pair = ("poses-2-source", "poses-2-target")
+    source, target = (data_set.mesh(name) for name in pair)
+    true_s, true_t = data_set.truth(pair)
+    panels = []
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", KfmapsWarning)
-        panels = [
-            panel(collection, pair, name, count, config)
-            for count in COUNTS
-            for name, config in settings(count, alone).items()
-        ]
-        source, target = collection.mesh(pair.source), collection.mesh(pair.target)
-        truth = collection.truth(pair)
+        for count in COUNTS:
+            for method, config in settings(count, signature_only).items():
+                points = raw_map(fit_pair(data_set, pair, config, data_set.landmarks(pair))[1])
+                panels.append(Panel(method, count, points, true_t, geodesic_errors(source, points[true_t], true_s)))
     table = [
         {
-            "data": collection.name,
+            "data": data_set.name,
             "descriptors": p.count,
             "method": p.method,
             f"mean error ({UNIT})": 100 * float(p.errors.mean()),
@@ -91,91 +86,67 @@ def figure4(setting: Setting) -> Outcome:
         }
         for p in panels
     ]
-    lines = conclusions(panels, alone)
-    folder = setting.folder
-    correspondence = np.zeros(len(target.vertices), dtype=np.int64)
-    correspondence[truth.target] = truth.source
-    figure = draw(source, target, correspondence, panels)
-    return Outcome(
-        "figure4",
-        (write_table(folder / "figure4.csv", table),),
-        write_pictures(folder, "figure4", figure),
-        write_conclusions(folder, "figure4", [collection], lines),
-        tuple(lines),
-    )
+    truth = np.zeros(len(target.vertices), dtype=np.int64)
+    truth[true_t] = true_s
+    picture = draw(source, target, truth, panels)
+    return Result({"figure4": table}, {"figure4": picture}, conclusions(panels, signature_only), [data_set])
 
 
-def panel(collection: Collection, pair: ShapePair, method: str, count: int, config: Config) -> Panel:
-    """The raw map and its errors."""
-    truth = collection.truth(pair)
-    points = fitted(collection, pair, config, truth.landmarks).raw
-    errors = geodesic_errors(collection.mesh(pair.source), points[truth.target], truth.source)
-    return Panel(method, count, points, truth.target, errors)
-
-
-def conclusions(panels: list[Panel], alone: bool) -> list[str]:
-    """What the errors say."""
-    error = {(p.method, p.count): 100 * float(p.errors.mean()) for p in panels}
-    kind = "wave kernel signature alone" if alone else "wave kernel signature and landmark maps"
+def conclusions(panels: list[Panel], signature_only: bool) -> list[str]:
+    """Return what the errors say."""
+    without, kernel = ({p.count: 100 * float(p.errors.mean()) for p in panels if p.method == m} for m in METHODS)
+    kind = "wave kernel signature alone" if signature_only else "wave kernel signature and landmark maps"
     lines = [
-        f"{count} descriptors ({kind}): mean error in {UNIT} {error[METHODS[1], count]:.2f} with the Gaussian kernel "
-        f"(γ = {GAMMA:g}) and {error[METHODS[0], count]:.2f} without (OBCS12)."
+        f"{count} descriptors ({kind}): mean error in {UNIT} {kernel[count]:.2f} with the Gaussian kernel "
+        f"(γ = {GAMMA:g}) and {without[count]:.2f} without (OBCS12)."
         for count in COUNTS
     ]
-    few, bare = (error[method, COUNTS[0]] for method in (METHODS[1], METHODS[0]))
-    enough = {method: next((str(n) for n in COUNTS if error[method, n] <= GOOD), None) for method in METHODS}
-    without, kernel = (enough[method] or f"more than {COUNTS[-1]}" for method in METHODS)
+    enough = [
+        next((f"{count}" for count in COUNTS if errors[count] <= GOOD), f"more than {COUNTS[-1]}")
+        for errors in (kernel, without)
+    ]
+    few = COUNTS[0]
     lines.append(
-        f"With {COUNTS[0]} descriptors the kernel's map has {few / bare:.2f} times the error of OBCS12's. An error of "
-        f"at most {GOOD:g} takes {kernel} descriptors with the kernel and {without} without: the paper's claim that 2 "
-        f"are already good with the kernel {'holds here' if few <= GOOD else 'does not hold here'}."
+        f"With {few} descriptors the kernel's map has {kernel[few] / without[few]:.2f} times the error of OBCS12's. An "
+        f"error of at most {GOOD:g} takes {enough[0]} descriptors with the kernel and {enough[1]} without: the paper's "
+        f"claim that 2 are already good with the kernel {'holds' if kernel[few] <= GOOD else 'does not hold'} here."
     )
     return lines
 
 
-def draw(source: Mesh, target: Mesh, correspondence: np.ndarray, panels: list[Panel]) -> Figure:
-    """A row for each method; for each number of descriptors the transferred colours and the error."""
+def draw(source: Mesh, target: Mesh, truth: np.ndarray, panels: list[Panel]) -> Figure:
+    """Draw a row for each method; for each number of descriptors the transferred colours and the error."""
     columns = 1 + 2 * len(COUNTS)
     figure = Figure(figsize=(1.45 * columns, 5.2), facecolor="white", layout="constrained")
     axes = figure.subplots(2, columns)
     colors = position_colors(source)
-    seen = automatic_view(source)
-    seen_t = following_view(seen, source, target, correspondence)
-    scale = LogNorm(*SHOWN, clip=True)
-    _surface(axes[0, 0], source, colors, seen)
-    axes[0, 0].set_title("source", fontsize=9)
+    view = automatic_view(source)
+    view_t = following_view(view, source, target, truth)
+    scale = LogNorm(*COLOR_RANGE, clip=True)
+    _draw_surface(axes[0, 0], source, colors, view, "source")
     axes[1, 0].axis("off")
     for p in panels:
         row, column = METHODS.index(p.method), 1 + 2 * COUNTS.index(p.count)
-        _surface(axes[row, column], target, colors[p.target_to_source], seen_t)
-        errors = np.zeros(len(target.vertices))
-        errors[p.vertices] = p.errors
-        _surface(axes[row, column + 1], target, ERROR_MAP(scale(np.maximum(errors, SHOWN[0])))[:, :3], seen_t)
-        axes[row, column].set_title(f"{p.count} descriptors", fontsize=9)
-        axes[row, column + 1].set_title(f"error {100 * p.errors.mean():.1f} {UNIT}", fontsize=9)
+        errors = np.full(len(target.vertices), COLOR_RANGE[0])
+        errors[p.vertices] = np.maximum(p.errors, COLOR_RANGE[0])
+        left, right = axes[row, column], axes[row, column + 1]
+        _draw_surface(left, target, colors[p.target_to_source], view_t, f"{p.count} descriptors")
+        title = f"error {100 * p.errors.mean():.1f} {UNIT}"
+        _draw_surface(right, target, ERROR_MAP(scale(errors))[:, :3], view_t, title)
     for row, name in enumerate(METHODS):
-        axes[row, 1].text(
-            -0.08, 0.5, name, rotation=90, va="center", ha="right", fontsize=10, transform=axes[row, 1].transAxes
-        )
-    bar = figure.colorbar(
-        ScalarMappable(scale, ERROR_MAP),
-        ax=axes[1, 0],
-        location="left",
-        fraction=0.35,
-        extend="both",
-        format=percent_ticks(),
-    )
+        style.row_label(axes[row, 1], name)
+    place = {"ax": axes[1, 0], "location": "left", "fraction": 0.35, "extend": "both"}
+    bar = figure.colorbar(ScalarMappable(scale, ERROR_MAP), format=percent_ticks(), **place)
     bar.set_label(f"geodesic error ({UNIT})", fontsize=9, color=style.TEXT)
     return figure
 
 
-def _surface(ax: Axes, mesh: Mesh, colors: np.ndarray, seen: View) -> None:
-    drawn = draw_surface(ax, mesh, colors, seen)
+def _draw_surface(ax: Axes, mesh: Mesh, colors: np.ndarray, view: View, title: str) -> None:
+    drawn = draw_surface(ax, mesh, colors, view)
     if drawn is not None:
         drawn.set_rasterized(True)  # tens of thousands of triangles would make the PDF unwieldy
+    ax.set_title(title, fontsize=9)
 
 
 if __name__ == "__main__":
-    from run import main
-
-    main(["figure4", *sys.argv[1:]])
+    main(figure4)

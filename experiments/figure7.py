@@ -6,7 +6,6 @@ meshes with the paper's 2,529.
 
 from __future__ import annotations
 
-import sys
 import time
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -16,7 +15,8 @@ import numpy as np
 from matplotlib.figure import Figure
 
 import style
-from data_sets import Collection, ShapePair
+from data_sets import DataSet
+from experiment import Options, Result, main
 from kfmaps._threads import one_blas_thread
 from kfmaps.config import Config
 from kfmaps.fmap.energy import Energy, SliceCommutativity, hadamard_term
@@ -26,8 +26,6 @@ from kfmaps.geometry.basis import Basis
 from kfmaps.matching.assemble import problem
 from kfmaps.matching.features import Descriptors, Features, kernel_features, pair_descriptors
 from methods import paper, recommended
-from options import Setting
-from outputs import Outcome, write_conclusions, write_pictures, write_table
 from pair_errors import prepared
 
 PAPER_SECONDS = 1.47
@@ -37,88 +35,78 @@ BLOCK = 512
 
 
 def hadamard(bases: tuple[Basis, Basis], features: tuple[np.ndarray, np.ndarray], C: np.ndarray) -> np.ndarray:
-    """``Φ_tᵀ A_t [(Φ_t C Φ_sᵀ) ∘ (W_t W_sᵀ)] A_s Φ_s`` as figure 1 writes it, the kernel factored, in row blocks.
+    """Return ``Φ_tᵀ A_t [(Φ_t C Φ_sᵀ) ∘ (W_t W_sᵀ)] A_s Φ_s`` as in figure 1, the kernel factored, in row blocks.
 
     ``bases`` and ``features (n, r)`` are of source and target; ``C`` has shape (k_t, k_s).
     """
     source, target = bases
     W_s, W_t = features
     weighted = source.functions * source.mass[:, None]
-    carried = C @ source.functions.T
+    image = C @ source.functions.T
     mixed = np.zeros_like(C)
     for a in range(0, len(W_t), BLOCK):
         rows = slice(a, a + BLOCK)
-        product = (target.functions[rows] @ carried) * (W_t[rows] @ W_s.T)
+        product = (target.functions[rows] @ image) * (W_t[rows] @ W_s.T)
         mixed += (target.functions[rows] * target.mass[rows, None]).T @ (product @ weighted)
     return mixed
 
 
-def figure7(setting: Setting) -> Outcome:
-    """Residuals for the paper's and our settings, plain and preconditioned; times of four forms of the operator."""
+def figure7(options: Options) -> Result:
+    """Residuals for the paper's and our settings, plain and preconditioned; times of five forms of the operator."""
     residuals: dict[str, np.ndarray] = {}
     with one_blas_thread():
         for name, config in (("paper's settings", paper(100)), ("recommended", recommended(100))):
-            energy = assembled(setting, config).energy
+            energy = assemble(options, config).energy
             operators = (("plain", None), ("Jacobi", jacobi(energy.diagonal())), ("Sylvester", sylvester(energy)))
-            for how, precondition in operators:
-                solution = solve(energy.apply, energy.rhs(), CG(TOLERANCE, STEPS), preconditioner=precondition)
-                residuals[f"{name}, {how}"] = solution.residuals / solution.residuals[0]
-        times = timings(setting, paper(100))
+            for preconditioner, apply in operators:
+                solution = solve(energy.apply, energy.rhs(), CG(TOLERANCE, STEPS), preconditioner=apply)
+                residuals[f"{name}, {preconditioner}"] = solution.residuals / solution.residuals[0]
+        times = timings(options, paper(100))
     table = [
         {"settings": name, "step": step, "relative residual": float(value)}
         for name, values in residuals.items()
         for step, value in enumerate(values)
     ]
+    tables = {"figure7": table, "figure7-times": times}
     lines = conclusions(residuals, times)
-    folder = setting.folder
-    return Outcome(
-        "figure7",
-        (write_table(folder / "figure7.csv", table), write_table(folder / "figure7-times.csv", times)),
-        write_pictures(folder, "figure7", draw(residuals, times)),
-        write_conclusions(folder, "figure7", [Collection("generated")], lines),
-        tuple(lines),
-    )
+    return Result(tables, {"figure7": draw(residuals, times)}, lines, [DataSet("generated")])
 
 
 @dataclass(frozen=True, eq=False)
 class Assembled:
-    """An energy and what its forms are made of."""
+    """An energy, and the bases, descriptors and features that its forms are made of."""
 
     energy: Energy
     bases: tuple[Basis, Basis]
     descriptors: Descriptors
     features: Features
-    C: np.ndarray
 
 
-def assembled(setting: Setting, config: Config) -> Assembled:
-    """The energy of the generated pair."""
-    collection = Collection("generated", vertices=setting.timing_vertices)
-    pair = ShapePair("poses-2-source", "poses-2-target")
-    truth = collection.truth(pair)
-    source, target = (prepared(collection, name, config.eigenfunctions) for name in (pair.source, pair.target))
-    descriptors = pair_descriptors(
-        source, target, (source.basis, target.basis), config.descriptors, truth.landmarks, None
-    )
+def assemble(options: Options, config: Config) -> Assembled:
+    """Return the energy of the generated pair."""
+    data_set = DataSet("generated", vertices=options.timing_vertices)
+    pair = ("poses-2-source", "poses-2-target")
+    source, target = (prepared(data_set, name, config.eigenfunctions) for name in pair)
+    bases = (source.basis, target.basis)
+    descriptors = pair_descriptors(source, target, bases, config.descriptors, data_set.landmarks(pair), None)
     # The same generator twice: both see the same samples.
     features = kernel_features(source, target, descriptors, config, np.random.default_rng(0))
-    task = problem(source, target, (source.basis, target.basis), descriptors, config, np.random.default_rng(0))
-    bases = (source.basis.truncated(config.basis.functions), target.basis.truncated(config.basis.functions))
-    size = config.basis.functions
-    return Assembled(task.energy, bases, descriptors, features, np.random.default_rng(0).standard_normal((size, size)))
+    task = problem(source, target, bases, descriptors, config, np.random.default_rng(0))
+    source_basis, target_basis = (basis.truncated(config.basis.functions) for basis in bases)
+    return Assembled(task.energy, (source_basis, target_basis), descriptors, features)
 
 
-def timings(setting: Setting, config: Config) -> list[dict[str, Any]]:
-    """Seconds of one application of the whole operator in each form, and how far its result is from the slices'."""
-    exact = assembled(setting, config)
-    shorter = assembled(setting, replace(config, compression=recommended(100).compression))
+def timings(options: Options, config: Config) -> list[dict[str, Any]]:
+    """Return seconds of one application of the operator in each form, and the difference of its result to slices'."""
+    exact = assemble(options, config)
+    compressed = assemble(options, replace(config, compression=recommended(100).compression))
     rest = {n: w for n, w in exact.energy.weights.items() if n != "commutativity"}
     others = Energy({n: exact.energy.terms[n] for n in rest}, rest)
-    slices = cast(SliceCommutativity, exact.energy.terms["commutativity"])
-    fewer = cast(SliceCommutativity, shorter.energy.terms["commutativity"])
+    slices, fewer = (cast(SliceCommutativity, each.energy.terms["commutativity"]) for each in (exact, compressed))
     W_s, W_t = exact.features.source, exact.features.target
     source, target = exact.bases
-    one = np.eye(config.basis.functions)
+    size = config.basis.functions
+    one, C = np.eye(size), np.random.default_rng(0).standard_normal((size, size))
 
     def literal(C: np.ndarray) -> np.ndarray:
         S_s = hadamard((source, source), (W_s, W_s), one)
@@ -129,9 +117,7 @@ def timings(setting: Setting, config: Config) -> list[dict[str, Any]]:
         mixed = hadamard((source, target), (W_s, W_t), C)
         return C @ slices.gram_s + slices.gram_t @ C - 2 * mixed
 
-    whole = hadamard_term(
-        exact.features.kernel, exact.bases[0], exact.descriptors.source, exact.bases[1], exact.descriptors.target
-    )
+    whole = hadamard_term(exact.features.kernel, source, exact.descriptors.source, target, exact.descriptors.target)
     rank = W_s.shape[1]
     forms = {
         f"figure 1 as written, rank {rank}": literal,
@@ -140,24 +126,18 @@ def timings(setting: Setting, config: Config) -> list[dict[str, Any]]:
         f"slices, all {slices.count}": slices.apply,
         f"slices, compressed to {fewer.count}": fewer.apply,
     }
-    reference = others.apply(exact.C) + slices.apply(exact.C)
+    reference = others.apply(C) + slices.apply(C)
     rows = []
     for name, apply in forms.items():
-        result = others.apply(exact.C) + apply(exact.C)
-        rows.append(
-            {
-                "form": name,
-                "seconds": seconds(lambda apply=apply: others.apply(exact.C) + apply(exact.C)),
-                "relative difference": float(np.linalg.norm(result - reference) / np.linalg.norm(reference)),
-                "source vertices": len(W_s),
-                "target vertices": len(W_t),
-            }
-        )
+        gap = others.apply(C) + apply(C) - reference
+        row = {"form": name, "seconds": seconds(lambda apply=apply: others.apply(C) + apply(C))}
+        row["relative difference"] = float(np.linalg.norm(gap) / np.linalg.norm(reference))
+        rows.append(row | {"source vertices": len(W_s), "target vertices": len(W_t)})
     return rows
 
 
 def seconds(work: Callable[[], object], repeats: int = 9) -> float:
-    """The shortest of ``repeats`` runs: the one least disturbed by whatever else the machine does."""
+    """Return the time of the shortest of ``repeats`` runs, the one least disturbed by other work of the machine."""
     times = []
     for _ in range(repeats):
         start = time.perf_counter()
@@ -167,17 +147,17 @@ def seconds(work: Callable[[], object], repeats: int = 9) -> float:
 
 
 def conclusions(residuals: dict[str, np.ndarray], times: list[dict[str, Any]]) -> list[str]:
-    """What the residuals and times say."""
+    """Return what the residuals and times say."""
     lines = []
     for name, values in residuals.items():
         rises = int((np.diff(values) > 0).sum())
         reached = np.flatnonzero(values <= TOLERANCE)
-        told = f"reach {TOLERANCE:g} in {reached[0]} steps" if len(reached) else f"end at {values[-1]:.1e}"
-        lines.append(f"{name}: residuals {told} and rise {rises} times on the way.")
+        end = f"reach {TOLERANCE:g} in {reached[0]} steps" if len(reached) else f"end at {values[-1]:.1e}"
+        lines.append(f"{name}: residuals {end} and rise {rises} times on the way.")
     risen = any((np.diff(values) > 0).any() for values in residuals.values())
     lines.append(f"Residuals of conjugate gradients are {'not ' if risen else ''}monotone here; the paper's are not.")
     written, reused, whole, ours, fewer = (float(row["seconds"]) for row in times)
-    apart = [float(row["relative difference"]) for row in times]
+    gaps = [float(row["relative difference"]) for row in times]
     lines.append(
         f"One application of the operator takes {written:.3f} s as figure 1 writes it, {reused:.3f} s when what does "
         f"not change is precomputed, and {ours:.3f} s with slices: {written / ours:.1f} and {reused / ours:.1f} times "
@@ -185,14 +165,14 @@ def conclusions(residuals: dict[str, np.ndarray], times: list[dict[str, Any]]) -
         f"The paper's took {PAPER_SECONDS} s on a machine of 2018."
     )
     lines.append(
-        f"The first two and the slices agree to {max(apart[:2]):.0e}. The whole kernel differs from them by "
-        f"{apart[2]:.1e}, which is what the Nyström approximation leaves out."
+        f"The first two and the slices agree to {max(gaps[:2]):.0e}. The whole kernel differs from them by "
+        f"{gaps[2]:.1e}, which is what the Nyström approximation leaves out."
     )
     return lines
 
 
 def draw(residuals: dict[str, np.ndarray], times: list[dict[str, Any]]) -> Figure:
-    """Residuals against steps, and times as bars."""
+    """Draw residuals against steps, and times as bars."""
     figure, (left, right) = style.new_figure(columns=2, width=4.8)
     colors = (style.METHODS["ours (paper)"], style.METHODS["ours (recommended)"])
     for i, (name, values) in enumerate(residuals.items()):
@@ -212,6 +192,4 @@ def draw(residuals: dict[str, np.ndarray], times: list[dict[str, Any]]) -> Figur
 
 
 if __name__ == "__main__":
-    from run import main
-
-    main(["figure7", *sys.argv[1:]])
+    main(figure7)

@@ -1,6 +1,6 @@
-"""What each formulation makes of a pair, measured cheaply: descriptors, kernel and slices of a pair are made once.
+"""Errors of every formulation on one pair; descriptors, kernel and slices of a pair are computed once.
 
-Fits and refinements work on samples; errors are those of some hundred target vertices whose answers are known, each of
+Fits and refinements use samples; errors are those of some hundred target vertices with a known correspondence, each of
 which may be sent to any source vertex.
 """
 
@@ -14,7 +14,8 @@ from typing import Any
 
 import numpy as np
 
-from formulation_shapes import Known, Shapes
+from data_sets import DataSet
+from data_sets import Pair as Names
 from kfmaps._arrays import KfmapsWarning, to_numpy
 from kfmaps.config import BasisConfig, Config, DescriptorConfig, Formulation, NystromConfig, Weights
 from kfmaps.fmap.bidirectional_zoomout import zoomed_both
@@ -30,27 +31,29 @@ from kfmaps.matching.assemble import problem
 from kfmaps.matching.fit import fit_points
 from kfmaps.matching.solve import Minimised, minimiser
 from kfmaps.shape import Shape
+from pair_errors import prepared
 
-FUNCTIONS = 50
-POINTS = 1500
+Rows = list[dict[str, Any]]
+Settings = Mapping[str, tuple[Formulation, Weights]]
+
 ZOOM = ZoomOut(30, 100, 10)
 CONFIG = replace(
     Config.single_fit(),
-    basis=BasisConfig(functions=FUNCTIONS),
+    basis=BasisConfig(functions=50),
     descriptors=DescriptorConfig(eigenfunctions=ZOOM.stop, shot=False),
     nystrom=NystromConfig(samples=200),
     solver=CG(rtol=1e-4, max_steps=500),
-    fit_samples=POINTS,
+    fit_samples=1500,
     refinement=ZOOM,
     threads=1,
 )
 """The recommended settings, smaller and with fewer samples: a fit takes a tenth of a second."""
 
 KERNELS = {"linear": Linear(), "gaussian": Gaussian()}
-COUNTS = (10, 100)
+PLAIN = "least squares"
 
-FORMULATIONS: dict[str, tuple[Formulation, Weights]] = {
-    "least squares": (Formulation(), Weights()),
+FORMULATIONS: Settings = {
+    PLAIN: (Formulation(), Weights()),
     "orthogonal": (Formulation(constraint="orthogonal"), Weights()),
     "both directions": (Formulation(directions="both"), Weights()),
     "robust, per descriptor": (Formulation(loss="huber", loss_per="descriptor"), Weights()),
@@ -63,193 +66,186 @@ FORMULATIONS: dict[str, tuple[Formulation, Weights]] = {
 }
 """What is compared; every other setting is that of :data:`CONFIG`."""
 
+KNOWN_EACH = 12
+"""Errors are measured at each so many lines of a truth of 5,000."""
+
+WRONG_SHARES = (0.0, 0.1, 0.2, 0.3, 0.4, 0.5)
+LOSSES = ("squared", "huber", "geman")
+N_LANDMARKS = 20
+"""Landmarks of the comparison of losses, of which some are wrong."""
+
+PRODUCTS = (None, 5, 10, 15, 20, 30)
+"""Numbers of eigenfunctions whose products take part in the transfer; ``None``: no products."""
+
 
 @dataclass(frozen=True, eq=False)
 class Pair:
-    """Two prepared shapes, what is known of them, and samples for the refinement of a pair."""
+    """Two prepared shapes, bases at samples for the refinement, landmarks (6, 2) and known correspondences (q,).
+
+    ``distances (q, n_s)`` are geodesic, from the known source vertices to all others.
+    """
 
     source: Shape
     target: Shape
-    known: Known
-    few_s: Basis
-    few_t: Basis
+    samples: tuple[Basis, Basis]
+    landmarks: np.ndarray
+    known_s: np.ndarray
+    known_t: np.ndarray
+    distances: np.ndarray
+
+    def error(self, C: np.ndarray) -> float:
+        """Return the mean error of the known target vertices."""
+        points = to_points(C, self.source.basis, _rows(self.target.basis, self.known_t), threads=1)
+        return float(self.distances[np.arange(len(points)), points].mean())
+
+    def refine(self, C: np.ndarray) -> np.ndarray:
+        """Return the functional map after ZoomOut on samples."""
+        return to_numpy(ZOOM(C, *self.samples, threads=1).functional_map)
+
+    def refine_both(self, C: np.ndarray, D: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Return the functional maps of both directions after bidirectional ZoomOut on samples."""
+        there, back = zoomed_both(ZOOM, C, D, *self.samples)
+        return to_numpy(there.functional_map), to_numpy(back.functional_map)
 
 
-def loaded(shapes: Shapes, a: str, b: str) -> Pair:
-    """The pair of those names."""
-    source, target = (shapes.prepared(name, ZOOM.stop) for name in (a, b))
-    few_s, few_t = (stratified_samples(s.basis, n).basis for s, n in ((source, 1500), (target, 500)))
-    return Pair(source, target, shapes.known(a, b), few_s, few_t)
-
-
-def solutions(
-    pair: Pair, config: Config, landmarks: np.ndarray, formulations: Mapping[str, tuple[Formulation, Weights]]
-) -> dict[str, Minimised]:
-    """The minimiser of each formulation; what they have in common is made once."""
-    sides = (pair.source, pair.target)
-    most = replace(config, weights=Weights(orientation=max(w.orientation for _, w in formulations.values())))
-    shared: dict[bool, Any] = {}
-    found = {}
-    for name, (formulation, weights) in formulations.items():
-        asked = replace(config, formulation=formulation, weights=weights)
-        own = formulation.weighs_data
-        if own or False not in shared:
-            # The energy at least squares is shared by all that do not weigh the data before the kernel.
-            points = fit_points(*sides, asked if own else config, landmarks)
-            task = problem(*points.shapes, points.bases, points.descriptors, most, np.random.default_rng(0), sides)
-            shared[own] = task
-        task = shared[own]
-        kept = task.orientations if weights.orientation else None
-        found[name] = minimiser(replace(task, config=asked, orientations=kept), asked)
-    return found
+def load_pair(data_set: DataSet, names: Names) -> Pair:
+    """Return the pair of these names."""
+    source, target = (prepared(data_set, name, ZOOM.stop) for name in names)
+    samples = (stratified_samples(source.basis, 1500).basis, stratified_samples(target.basis, 500).basis)
+    step = max(1, len(data_set.truth(names)[0]) * KNOWN_EACH // 5000)
+    known_s, known_t = (side[::step] for side in data_set.truth(names))
+    distances = _distances(data_set, names[0], tuple(known_s.tolist()))
+    return Pair(source, target, samples, data_set.farthest_landmarks(names, 6), known_s, known_t, distances)
 
 
 @lru_cache(maxsize=4)
-def distances(shapes: Shapes, name: str, vertices: tuple[int, ...]) -> np.ndarray:
-    """Geodesic distances ``(q, n)`` from some vertices of a shape of unit area."""
-    return geodesic_distances(shapes.prepared(name, ZOOM.stop).mesh, np.array(vertices)).astype(np.float32)
+def _distances(data_set: DataSet, name: str, vertices: tuple[int, ...]) -> np.ndarray:
+    return geodesic_distances(prepared(data_set, name, ZOOM.stop).mesh, np.array(vertices)).astype(np.float32)
 
 
-def rows_of(basis: Basis, rows: np.ndarray) -> Basis:
-    """The basis at some vertices."""
+def _rows(basis: Basis, rows: np.ndarray) -> Basis:
     return Basis(basis.eigenvalues, basis.functions[rows], basis.mass[rows])
 
 
-def error(C: np.ndarray, source: Shape, target: Shape, asked: np.ndarray, far: np.ndarray) -> float:
-    """Mean error of the vertices ``asked`` of the target, given distances ``far (q, n_s)`` from where they belong."""
-    points = to_points(C, source.basis, rows_of(target.basis, asked), threads=1)
-    return float(far[np.arange(len(points)), points].mean())
+def solve_each(pair: Pair, config: Config, landmarks: np.ndarray, formulations: Settings) -> dict[str, Minimised]:
+    """Return the minimiser of each formulation; what they have in common is computed once."""
+    sides = (pair.source, pair.target)
+    orientation = max(weights.orientation for _, weights in formulations.values())
+    shared: dict[bool, Any] = {}
+    results = {}
+    for name, (formulation, weights) in formulations.items():
+        own_config = replace(config, formulation=formulation, weights=weights)
+        own = formulation.weighs_data
+        if own or False not in shared:
+            # All formulations that do not weigh the data before the kernel share the least-squares energy.
+            points = fit_points(*sides, own_config if own else config, landmarks)
+            with_orientation = replace(config, weights=Weights(orientation=orientation))
+            rng = np.random.default_rng(0)
+            shared[own] = problem(*points.shapes, points.bases, points.descriptors, with_orientation, rng, sides)
+        orientations = shared[own].orientations if weights.orientation else None
+        results[name] = minimiser(replace(shared[own], config=own_config, orientations=orientations), own_config)
+    return results
 
 
-def refined(C: np.ndarray, pair: Pair) -> np.ndarray:
-    """ZoomOut on samples."""
-    return to_numpy(ZOOM(C, pair.few_s, pair.few_t, threads=1).functional_map)
+def solve_one(pair: Pair, config: Config, name: str) -> Minimised:
+    """Return the minimiser of one of :data:`FORMULATIONS`."""
+    return solve_each(pair, config, pair.landmarks, {name: FORMULATIONS[name]})[name]
 
 
-def compared(shapes: Shapes, a: str, b: str, count: int, names: Sequence[str] = ()) -> list[dict[str, Any]]:
-    """Errors of every formulation with every kernel on one pair, raw and refined; see :func:`between` for cycles."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", KfmapsWarning)
-        pair = loaded(shapes, a, b)
-        known = pair.known
-        far = distances(shapes, a, tuple(known.source.tolist()))
-        out: list[dict[str, Any]] = []
+def compare_formulations(data_set: DataSet, names: Names, config: Config, formulations: Settings) -> Rows:
+    """Return the errors of every formulation with every kernel on one pair, raw and refined."""
+    with _quiet():
+        pair = load_pair(data_set, names)
+        rows: Rows = []
         for kernel, record in KERNELS.items():
-            config = replace(CONFIG, kernel=record, descriptors=replace(CONFIG.descriptors, count=count))
-            chosen = {n: f for n, f in FORMULATIONS.items() if not names or n in names}
-            for name, found in solutions(pair, config, known.landmarks, chosen).items():
-                C = to_numpy(found.solution.value)
-                row: dict[str, Any] = {"formulation": name, "kernel": kernel, "descriptors": count}
-                row["raw"] = error(C, pair.source, pair.target, known.target, far)
-                if found.back is None:
-                    last = refined(C, pair)
-                else:
-                    last = to_numpy(zoomed_both(ZOOM, C, found.back, pair.few_s, pair.few_t)[0].functional_map)
-                row["refined"] = error(last, pair.source, pair.target, known.target, far)
-                row["steps"] = found.solution.steps
-                out.append(row)
-        return out
+            results = solve_each(pair, replace(config, kernel=record), pair.landmarks, formulations)
+            for name, result in results.items():
+                C = to_numpy(result.solution.value)
+                refined = pair.refine(C) if result.back is None else pair.refine_both(C, to_numpy(result.back))[0]
+                row = {"formulation": name, "kernel": kernel, "descriptors": config.descriptors.count}
+                rows.append(row | {"raw": pair.error(C), "refined": pair.error(refined)})
+        return rows
 
 
-def between(shapes: Shapes, a: str, b: str, count: int) -> list[dict[str, Any]]:
-    """Cycle error, coverage and error of both maps of a pair, each fitted by itself and both at once."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", KfmapsWarning)
-        there, back = loaded(shapes, a, b), loaded(shapes, b, a)
-        far = distances(shapes, a, tuple(there.known.source.tolist()))
-        out: list[dict[str, Any]] = []
+def compare_directions(data_set: DataSet, names: Names, config: Config) -> Rows:
+    """Return cycle error, coverage and error of both maps of a pair, each fitted by itself and both at once."""
+    with _quiet():
+        there, back = load_pair(data_set, names), load_pair(data_set, (names[1], names[0]))
+        rows: Rows = []
         for kernel, record in KERNELS.items():
-            config = replace(CONFIG, kernel=record, descriptors=replace(CONFIG.descriptors, count=count))
-            alone = {"each by itself": FORMULATIONS["least squares"]}
-            C = to_numpy(solutions(there, config, there.known.landmarks, alone)["each by itself"].solution.value)
-            D = to_numpy(solutions(back, config, back.known.landmarks, alone)["each by itself"].solution.value)
-            both = solutions(there, config, there.known.landmarks, {"both": FORMULATIONS["both directions"]})["both"]
+            own = replace(config, kernel=record)
+            C, D = (to_numpy(solve_one(pair, own, PLAIN).solution.value) for pair in (there, back))
+            both = solve_one(there, own, "both directions")
             assert both.back is not None
             E, F = to_numpy(both.solution.value), to_numpy(both.back)
-            zoomed = [to_numpy(r.functional_map) for r in zoomed_both(ZOOM, E, F, there.few_s, there.few_t)]
             maps = {
                 ("each by itself", "raw"): (C, D),
                 ("both at once", "raw"): (E, F),
-                ("each by itself", "refined"): (refined(C, there), refined(D, back)),
-                ("both at once", "refined"): tuple(zoomed),
+                ("each by itself", "refined"): (there.refine(C), back.refine(D)),
+                ("both at once", "refined"): there.refine_both(E, F),
             }
             for (name, stage), (forth, reverse) in maps.items():
-                row: dict[str, Any] = {"maps": name, "stage": stage, "kernel": kernel, "descriptors": count}
-                row |= cycle(forth, reverse, there, far)
-                out.append(row)
-        return out
+                row = {"maps": name, "stage": stage, "kernel": kernel, "descriptors": config.descriptors.count}
+                rows.append(row | cycle(forth, reverse, there))
+        return rows
 
 
-def cycle(C: np.ndarray, D: np.ndarray, pair: Pair, far: np.ndarray) -> dict[str, float]:
-    """Error of ``C``'s points, how far a source vertex ends from itself, and how much of the source is reached.
+def cycle(C: np.ndarray, D: np.ndarray, pair: Pair) -> dict[str, float]:
+    """Return the error of ``C``'s points, their coverage of the source and the cycle error.
 
-    From the known source vertices to the target by ``D`` and back by ``C``.
+    The cycle error is the distance of known source vertices from where ``D`` and then ``C`` send them.
     """
-    known = pair.known
-    everywhere = to_points(C, pair.source.basis, pair.target.basis, threads=1)
-    over = to_points(D, pair.target.basis, rows_of(pair.source.basis, known.source), threads=1)
-    at = np.arange(len(known.source))
+    points = to_points(C, pair.source.basis, pair.target.basis, threads=1)
+    image = to_points(D, pair.target.basis, _rows(pair.source.basis, pair.known_s), threads=1)
+    each, mass = np.arange(len(pair.known_s)), pair.source.basis.mass
     return {
-        "error": float(far[at, everywhere[known.target]].mean()),
-        "cycle": float(far[at, everywhere[over]].mean()),
-        "coverage": float(pair.source.basis.mass[np.unique(everywhere)].sum() / pair.source.basis.mass.sum()),
+        "error": float(pair.distances[each, points[pair.known_t]].mean()),
+        "cycle": float(pair.distances[each, points[image]].mean()),
+        "coverage": float(mass[np.unique(points)].sum() / mass.sum()),
     }
 
 
-SHARES = (0.0, 0.1, 0.2, 0.3, 0.4, 0.5)
-LOSSES = ("squared", "huber", "geman")
-MARKS = 20
-
-
-def outliers(shapes: Shapes, a: str, b: str, count: int) -> list[dict[str, Any]]:
-    """Errors with some of 20 landmarks wrong, for every loss and kernel; which ones is drawn from the pair's name."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", KfmapsWarning)
-        pair = loaded(shapes, a, b)
-        known = pair.known
-        far = distances(shapes, a, tuple(known.source.tolist()))
-        right = shapes.landmarks(a, b, MARKS)
-        order = np.random.default_rng(sum(map(ord, a + b))).permutation(len(right))
-        out: list[dict[str, Any]] = []
-        for share in SHARES:
+def compare_losses(data_set: DataSet, names: Names, config: Config, losses: Sequence[str]) -> Rows:
+    """Return errors with some of 20 landmarks wrong, for every loss and kernel; drawn with the pair's names as seed."""
+    with _quiet():
+        pair = load_pair(data_set, names)
+        right = data_set.farthest_landmarks(names, N_LANDMARKS)
+        order = np.random.default_rng(sum(map(ord, "".join(names)))).permutation(len(right))
+        formulations: Settings = {loss: (Formulation(loss=loss), Weights()) for loss in losses}  # pyright: ignore
+        rows: Rows = []
+        for share in WRONG_SHARES:
             wrong = order[: round(share * len(right))]
-            marks = right.copy()
-            marks[wrong, 1] = right[np.roll(wrong, 1), 1]  # each takes another wrong one's place
-            asked = {loss: (Formulation(loss=loss), Weights()) for loss in LOSSES}
+            landmarks = right.copy()
+            landmarks[wrong, 1] = right[np.roll(wrong, 1), 1]  # each takes the target of another wrong one
             for kernel, record in KERNELS.items():
-                config = replace(CONFIG, kernel=record, descriptors=replace(CONFIG.descriptors, count=count))
-                for loss, found in solutions(pair, config, marks, asked).items():
-                    C = to_numpy(found.solution.value)
-                    value = error(C, pair.source, pair.target, known.target, far)
-                    last = error(refined(C, pair), pair.source, pair.target, known.target, far)
-                    out.append({"loss": loss, "kernel": kernel, "wrong": share, "raw": value, "refined": last})
-        return out
+                for loss, result in solve_each(pair, replace(config, kernel=record), landmarks, formulations).items():
+                    C = to_numpy(result.solution.value)
+                    row = {"loss": loss, "kernel": kernel, "wrong": share}
+                    rows.append(row | {"raw": pair.error(C), "refined": pair.error(pair.refine(C))})
+        return rows
 
 
-PRODUCTS = (None, 5, 10, 15, 20, 30)
-
-
-def functions(shapes: Shapes, a: str, b: str, count: int = 100) -> list[dict[str, Any]]:
-    """Relative errors of carried coordinates and of the indicator of a part, by C alone and with products."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", KfmapsWarning)
-        pair = loaded(shapes, a, b)
-        known = pair.known
-        config = replace(CONFIG, descriptors=replace(CONFIG.descriptors, count=count))
-        alone = {"plain": FORMULATIONS["least squares"]}
-        raw = to_numpy(solutions(pair, config, known.landmarks, alone)["plain"].solution.value)
-        zoomed = refined(raw, pair)
-        positions = pair.source.mesh.vertices - pair.source.mesh.vertices.mean(axis=0)
-        centre = known.landmarks[0, 0]
-        part = (geodesic_distances(pair.source.mesh, [centre])[0] < 0.3).astype(float)
-        out: list[dict[str, Any]] = []
-        for size, C in (("raw", raw), ("refined", zoomed), ("refined, first 30", zoomed[:30, :30])):
-            for what, f in (("coordinates", positions), ("part", part[:, None])):
-                truth = f[known.source]
+def compare_transfer(data_set: DataSet, names: Names, config: Config) -> Rows:
+    """Return relative errors of transferred coordinates and of a part's indicator, by C alone and with products."""
+    with _quiet():
+        pair = load_pair(data_set, names)
+        raw = to_numpy(solve_one(pair, config, PLAIN).solution.value)
+        refined = pair.refine(raw)
+        mesh = pair.source.mesh
+        part = geodesic_distances(mesh, [pair.landmarks[0, 0]])[0] < 0.3
+        functions = {"coordinates": mesh.vertices - mesh.vertices.mean(axis=0), "part": part[:, None].astype(float)}
+        rows: Rows = []
+        for size, C in (("raw", raw), ("refined", refined), ("refined, first 30", refined[:30, :30])):
+            for name, f in functions.items():
+                truth = f[pair.known_s]
                 for products in PRODUCTS:
                     if products is not None and products > C.shape[1]:
                         continue
-                    image = carried(f, C, pair.source.basis, pair.target.basis, products)[known.target]
-                    value = float(np.linalg.norm(image - truth) / np.linalg.norm(truth - truth.mean(axis=0)))
-                    out.append({"map": size, "function": what, "products": products or 0, "error": value})
-        return out
+                    image = carried(f, C, pair.source.basis, pair.target.basis, products)[pair.known_t]
+                    error = float(np.linalg.norm(image - truth) / np.linalg.norm(truth - truth.mean(axis=0)))
+                    rows.append({"map": size, "function": name, "products": products or 0, "error": error})
+        return rows
+
+
+def _quiet() -> warnings.catch_warnings:
+    return warnings.catch_warnings(action="ignore", category=KfmapsWarning)

@@ -1,4 +1,4 @@
-"""Methods on pairs: one row of errors for each."""
+"""Errors of the maps that settings give on pairs."""
 
 from __future__ import annotations
 
@@ -6,21 +6,21 @@ import hashlib
 import json
 import warnings
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass, replace
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from data_sets import Collection, ShapePair
+from data_sets import DataSet, Pair
 from kfmaps._arrays import KfmapsWarning
 from kfmaps.config import Config, as_dict
 from kfmaps.fmap.evaluate import error_curve
 from kfmaps.geometry.geodesics import geodesic_distances
 from kfmaps.geometry.mesh import surface_area
 from kfmaps.matching.fit import Fit, fit
-from kfmaps.matching.postprocess import finished
+from kfmaps.matching.postprocess import Finished, finished
 from kfmaps.shape import Shape, prepare
 from store import Job, run_jobs
 
@@ -30,132 +30,99 @@ THRESHOLDS = np.linspace(0, 0.25, 101)
 TOGETHER = 16
 """Settings that one job runs on a pair: enough to share the distances, few enough to lose little when stopped."""
 
-VERSION = 1
-"""Raised when the meaning of a row changes, so that old ones are not taken for new."""
-
 
 @dataclass(frozen=True)
 class Row:
-    """One method on one pair. Errors are geodesic, in units of √area of the source.
+    """Errors of one setting on one pair, geodesic, in units of √area of the source.
 
-    ``mean``, ``median`` and ``curve`` (at :data:`THRESHOLDS`) are of the raw map; ``refined`` is the mean after the
-    refinement, or the raw one without.
+    ``mean`` and ``curve`` (at :data:`THRESHOLDS`) are of the raw map; ``refined`` is the mean after the refinement, or
+    the raw one without.
     """
 
-    collection: str
-    source: str
-    target: str
-    method: str
     mean: float
-    median: float
     refined: float
     curve: tuple[float, ...]
     status: str
     steps: int
     rank: int
-    slices: int
-    kernel: str
     seconds: float
 
 
 def fingerprint(config: Config) -> str:
-    """A short text that differs when the settings do; threads do not count."""
-    settings = {"version": VERSION, **as_dict(replace(config, threads=None))}
-    return hashlib.sha256(json.dumps(settings, sort_keys=True).encode()).hexdigest()[:16]
+    """Return a short text that differs when the settings do; threads do not count."""
+    settings = json.dumps(as_dict(replace(config, threads=None)), sort_keys=True)
+    return hashlib.sha256(settings.encode()).hexdigest()[:16]
 
 
-def run_pairs(
-    collection: Collection,
-    pairs: Sequence[ShapePair],
-    methods: Mapping[str, Config],
-    store: Path,
-    *,
-    workers: int | None = None,
-) -> list[Row]:
-    """A row for each of ``pairs`` and ``methods``, methods of one pair together; see :func:`run_jobs`."""
-    names = list(methods)
-    jobs = []
+def pair_rows(
+    data_set: DataSet, pairs: Sequence[Pair], settings: Mapping[str, Config], store: Path, workers: int | None = None
+) -> dict[str, list[Row]]:
+    """Return a row for each pair, in the order of ``pairs``, by the name of the settings; see :func:`run_jobs`."""
+
+    def key(pair: Pair, name: str) -> str:
+        return f"{data_set} {pair} {fingerprint(settings[name])}"
+
+    names, jobs = list(settings), []
     # Pairs of one source next to each other: a worker keeps the shapes that it has prepared.
-    for pair in sorted(pairs, key=lambda pair: (pair.source, pair.target)):
+    for pair in sorted(pairs):
         for i in range(0, len(names), TOGETHER):
             some = names[i : i + TOGETHER]
-            keys = tuple(_key(collection, pair, methods[name]) for name in some)
-            jobs.append(Job(keys, measure, (collection, pair, tuple(methods[name] for name in some))))
-    values = run_jobs(jobs, store, workers=workers)
-    return [
-        _row(collection, pair, name, values[_key(collection, pair, methods[name])]) for pair in pairs for name in names
-    ]
+            arguments = (data_set, pair, [settings[name] for name in some])
+            jobs.append(Job(tuple(key(pair, name) for name in some), measure, arguments))
+    values = run_jobs(jobs, store, workers)
+    return {name: [Row(**values[key(pair, name)]) for pair in pairs] for name in names}
 
 
-def _key(collection: Collection, pair: ShapePair, config: Config) -> str:
-    size = f"{collection.vertices}" if collection.folder is None else ""
-    return f"{collection.name}{size} {pair.source} {pair.target} {fingerprint(config)}"
-
-
-def _row(collection: Collection, pair: ShapePair, name: str, value: dict[str, Any]) -> Row:
-    rest = {**value, "curve": tuple(value["curve"])}
-    return Row(collection.name, pair.source, pair.target, name, **rest)
-
-
-def measure(collection: Collection, pair: ShapePair, configs: Sequence[Config]) -> list[dict[str, Any]]:
-    """Fit a pair with each of ``configs`` and measure all maps at once: the fields of :class:`Row` but the names."""
+def measure(data_set: DataSet, pair: Pair, settings: Sequence[Config]) -> list[dict[str, Any]]:
+    """Fit a pair with each of ``settings`` and return the fields of their rows."""
     with warnings.catch_warnings():
-        # Expected here (an indefinite tanh kernel, scanned meshes) and of no use a thousand times.
+        # Expected here (an indefinite tanh kernel, scanned meshes).
         warnings.simplefilter("ignore", KfmapsWarning)
-        truth = collection.truth(pair)
-        matches = [fitted(collection, pair, config, truth.landmarks) for config in configs]
-        distances = all_distances(collection, pair.source)
-    return [
-        _measured(
-            m,
-            distances[truth.source, m.raw[truth.target]],
-            distances[truth.source, m.refined[truth.target]],
-        )
-        for m in matches
-    ]
+        source, target = data_set.truth(pair)
+        results = [fit_pair(data_set, pair, config, data_set.landmarks(pair)) for config in settings]
+        distances = all_distances(data_set, pair[0])
+    rows = []
+    for fitted, maps in results:
+        raw, refined = (distances[source, points[target]] for points in (raw_map(maps), maps.target_to_source))
+        seconds = sum(fitted.seconds.values()) + sum(maps.seconds.values())
+        row = {"mean": float(raw.mean()), "refined": float(refined.mean()), "seconds": round(seconds, 3)}
+        row |= {"curve": np.round(error_curve(raw, THRESHOLDS), 6).tolist(), "rank": fitted.rank}
+        rows.append(row | {"status": fitted.solution.status, "steps": fitted.solution.steps})
+    return rows
 
 
 @lru_cache(maxsize=1)
-def all_distances(collection: Collection, name: str) -> np.ndarray:
-    """``(n, n)`` float32 geodesic distances between all vertices of a shape, in units of √area.
+def all_distances(data_set: DataSet, name: str) -> np.ndarray:
+    """Return the geodesic distances between all vertices of a shape, (n, n) float32, in units of √area.
 
-    The next job is likely to have the same source, and then it costs nothing: :func:`kfmaps.geodesic_errors` would
-    work out most of this matrix each time.
+    The next job is likely to have the same source, and then they are there already.
     """
-    mesh = collection.mesh(name)
+    mesh = data_set.mesh(name)
     n = len(mesh.vertices)
-    found = np.empty((n, n), dtype=np.float32)
+    distances = np.empty((n, n), dtype=np.float32)
     for a in range(0, n, 512):
         rows = np.arange(a, min(a + 512, n))
-        found[rows] = geodesic_distances(mesh, rows) / np.sqrt(surface_area(mesh))
-    return found
+        distances[rows] = geodesic_distances(mesh, rows) / np.sqrt(surface_area(mesh))
+    return distances
 
 
-@dataclass(frozen=True, eq=False)
-class Fitted:
-    """One fit of a pair and its point maps (n_t,), raw and refined."""
-
-    fit: Fit
-    raw: np.ndarray
-    refined: np.ndarray
-    seconds: float
-
-
-def fitted(collection: Collection, pair: ShapePair, config: Config, landmarks: np.ndarray) -> Fitted:
-    """The fit of a pair of a collection, on one thread."""
-    size, laplacian = config.eigenfunctions, config.basis.laplacian
-    source, target = (prepared(collection, name, size, laplacian) for name in (pair.source, pair.target))
+def fit_pair(data_set: DataSet, pair: Pair, config: Config, landmarks: np.ndarray) -> tuple[Fit, Finished]:
+    """Fit a pair on one thread; return the fit and its point maps."""
+    source, target = (prepared(data_set, name, config.eigenfunctions, config.basis.laplacian) for name in pair)
     config = replace(config, threads=1)
-    found = fit(source, target, config, landmarks=landmarks, rng=0)
-    end = finished(found.functional_map, source, target, config)
-    assert end.raw_target_to_source is not None  # asked for
-    seconds = sum(found.seconds.values()) + sum(end.seconds.values())
-    return Fitted(found, end.raw_target_to_source, end.target_to_source, seconds)
+    fitted = fit(source, target, config, landmarks=landmarks, rng=0)
+    return fitted, finished(fitted.functional_map, source, target, config)
 
 
-@lru_cache(maxsize=64)
-def prepared(collection: Collection, name: str, size: int, laplacian: Any = "robust") -> Shape:
-    """The shape of that name with ``size`` eigenfunctions; kept in memory, since many pairs share it."""
+def raw_map(maps: Finished) -> np.ndarray:
+    """Return the point map before the refinement, (n_t,)."""
+    assert maps.raw_target_to_source is not None
+    return maps.raw_target_to_source
+
+
+@lru_cache(maxsize=128)
+def prepared(data_set: DataSet, name: str, size: int, laplacian: Any = "robust") -> Shape:
+    """Return a prepared shape with ``size`` eigenfunctions; kept in memory, since many pairs share it."""
     base = Config.single_fit()
     config = replace(
         base,
@@ -164,24 +131,4 @@ def prepared(collection: Collection, name: str, size: int, laplacian: Any = "rob
         refinement=None,
         threads=1,
     )
-    return prepare(collection.mesh(name), config, name=name)
-
-
-def _measured(m: Fitted, raw: np.ndarray, refined: np.ndarray) -> dict[str, Any]:
-    row = Row(
-        "",
-        "",
-        "",
-        "",
-        mean=float(raw.mean()),
-        median=float(np.median(raw)),
-        refined=float(refined.mean()),
-        curve=tuple(np.round(error_curve(raw, THRESHOLDS), 6).tolist()),
-        status=m.fit.solution.status,
-        steps=m.fit.solution.steps,
-        rank=m.fit.rank,
-        slices=m.fit.slices,
-        kernel=m.fit.kernel,
-        seconds=round(m.seconds, 3),
-    )
-    return {name: v for name, v in asdict(row).items() if name not in ("collection", "source", "target", "method")}
+    return prepare(data_set.mesh(name), config, name=name)

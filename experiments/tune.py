@@ -8,8 +8,6 @@ Writes ``tune.csv``, the mean error of every combination, and ``tune.toml``, the
 
 from __future__ import annotations
 
-import argparse
-import sys
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import product
@@ -18,15 +16,14 @@ from typing import Any
 
 import numpy as np
 
-from data_sets import Collection, ShapePair
+from data_sets import DataSet, Pair
+from experiment import Options, options_parser, read_options, write_table
 from kfmaps._arrays import InvalidInput, refuse
 from kfmaps.cli.words import UNIT
 from kfmaps.config import Config
 from kfmaps.io import read_text
 from kfmaps.settings.merge import preset, read_settings, with_assignments
 from kfmaps.settings.toml import settings_text
-from options import Setting, by_method
-from outputs import output_folder, write_table
 
 DEFAULT = ("sharpness=0.1,0.3,1.0", "weights.laplacian=0.1,1.0,10.0")
 
@@ -51,9 +48,9 @@ class Tuned:
 
 
 def grid_search(
-    setting: Setting,
+    options: Options,
     grid: dict[str, Config],
-    pairs: Sequence[tuple[Collection, Sequence[ShapePair]]],
+    pairs: Sequence[tuple[DataSet, Sequence[Pair]]],
     refined: bool = False,
 ) -> Tuned:
     """Return the settings of ``grid`` with the lowest mean over data sets of the mean error of their ``pairs``.
@@ -62,8 +59,8 @@ def grid_search(
     """
     fits = grid if refined else {name: replace(config, refinement=None) for name, config in grid.items()}
     errors: dict[str, list[float]] = {name: [] for name in grid}
-    for collection, some in pairs:
-        for name, rows in by_method(setting.rows(collection, some, fits)).items():
+    for data_set, some in pairs:
+        for name, rows in options.pair_rows(data_set, some, fits).items():
             errors[name].append(float(np.mean([row.refined if refined else row.mean for row in rows])))
     order = sorted(grid, key=lambda name: np.mean(errors[name]))
     table = [
@@ -78,48 +75,41 @@ def grid_search(
     return Tuned(grid[order[0]], order[0], float(np.mean(errors[order[0]])), tuple(table))
 
 
-def training_pairs(collection: Collection, count: int, seed: int, listed: Path | None) -> list[ShapePair]:
-    """Return the pairs of the file ``listed`` that the data set has, or ``count`` drawn training pairs."""
+def training_pairs(data_set: DataSet, options: Options, listed: Path | None) -> list[Pair]:
+    """Return the pairs of the file ``listed`` that the data set has, or drawn training pairs."""
     if listed is None:
-        return collection.training(count, seed)
-    known = set(collection.shapes())
+        return data_set.training(options.pairs, options.seed)
+    known = set(data_set.shapes())
     lines = [line.split() for line in read_text(listed).splitlines() if line.strip()]
-    return [ShapePair(*words) for words in lines if len(words) == 2 and known.issuperset(words)]
+    return [(words[0], words[1]) for words in lines if len(words) == 2 and known.issuperset(words)]
 
 
-def main(arguments: Sequence[str]) -> None:
+def main(arguments: Sequence[str] | None = None) -> None:
     """Run the grid search that ``arguments`` describe."""
-    parser = argparse.ArgumentParser(description=(__doc__ or "").partition("\n")[0])
-    parser.add_argument("--data", type=Path, help="folder of FAUST, FAUST_r or both; default: generated shapes")
-    parser.add_argument("-o", "--output", type=Path, default=Path("experiments-output"), help="folder for the results")
+    parser = options_parser("Grid search over settings on training pairs.", pairs=4)
     parser.add_argument("--base", default="single-fit", help="settings to vary: a settings file or a preset")
     parser.add_argument("--vary", action="append", metavar="NAME=VALUES", help="a setting and values, with commas")
-    parser.add_argument("--pairs", type=int, default=4, help="training pairs of each data set (4)")
     parser.add_argument("--pairs-from", type=Path, help='training pairs instead: a file of lines "source target"')
     parser.add_argument("--refined", action="store_true", help="judge the refined map instead of the raw one")
-    parser.add_argument("--workers", type=int, help="processes; default: one for each core")
-    parser.add_argument("--vertices", type=int, default=2500, help="vertices of a generated shape (2500)")
-    parser.add_argument("--seed", type=int, default=0, help="seed of the draw of pairs (0)")
-    options = parser.parse_args(arguments)
+    parsed = parser.parse_args(arguments)
     try:
-        base = options.base
+        base = parsed.base
         start = read_settings(base) if Path(base).suffix == ".toml" else preset(base)
-        grid = candidates(start, options.vary or DEFAULT)
-        folder = output_folder(options.output)
-        setting = Setting(options.data, folder, options.pairs, options.workers, options.vertices, seed=options.seed)
-        pairs = [(c, training_pairs(c, options.pairs, options.seed, options.pairs_from)) for c in setting.collections()]
-        pairs = [(collection, some) for collection, some in pairs if some]
+        grid = candidates(start, parsed.vary or DEFAULT)
+        options = read_options(parsed)
+        pairs = [(each, training_pairs(each, options, parsed.pairs_from)) for each in options.data_sets()]
+        pairs = [(data_set, some) for data_set, some in pairs if some]
         if not pairs:
-            raise refuse(f"--pairs-from {options.pairs_from}", "pairs of shapes in the data", "none", "check the names")
-        found = grid_search(setting, grid, pairs, options.refined)
-    except InvalidInput as error:
+            raise refuse(f"--pairs-from {parsed.pairs_from}", "pairs of shapes in the data", "none", "check the names")
+        tuned = grid_search(options, grid, pairs, parsed.refined)
+    except (InvalidInput, OSError) as error:
         parser.error(str(error))
-    write_table(folder / "tune.csv", found.table)
-    (folder / "tune.toml").write_text(settings_text(found.best), encoding="utf-8")
-    for row in found.table[:10]:
+    table = write_table(options.folder / "tune.csv", tuned.table)
+    (options.folder / "tune.toml").write_text(settings_text(tuned.best), encoding="utf-8")
+    for row in tuned.table[:10]:
         print(*(f"{v:.3f}" if isinstance(v, float) else v for v in row.values()), sep="  ")
-    print(f"best: {found.name}; {folder / 'tune.csv'}, {folder / 'tune.toml'}")
+    print(f"best: {tuned.name}; see {table} and {options.folder / 'tune.toml'}")
 
 
 if __name__ == "__main__":
-    main(sys.argv[1:])
+    main()

@@ -1,13 +1,14 @@
 """The experiments on tiny generated shapes, and the parts that their conclusions rest on."""
 
 import csv
-import json
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 
+import experiment
 import figure2
 import figure3
 import figure4
@@ -20,7 +21,8 @@ import pair_errors
 import run
 import section44
 import tune
-from data_sets import Collection, ShapePair, collections, person
+from data_sets import DataSet, find_data_sets, person
+from experiment import Options, Result
 from intervals import difference, ratio
 from kernel_matrix import best_errors, gaussian_matrix, nystrom_error
 from kfmaps._arrays import InvalidInput
@@ -33,15 +35,12 @@ from kfmaps.settings.merge import read_settings
 from kfmaps.settings.toml import settings_text
 from kfmaps.viz import surfaces
 from methods import no17, obcs12, paper, recommended
-from options import Setting
-from outputs import Outcome
-from pair_errors import Row, fingerprint, fitted, run_pairs
-from run import FIGURES
+from pair_errors import Row, fingerprint, fit_pair, pair_rows, raw_map
 from section44 import conditioning
-from store import Job, append_store, read_store, run_jobs
+from store import Job, read_store, run_jobs
 
-SMALL = Collection("generated", vertices=1500)
-PAIR = ShapePair("poses-2-source", "poses-2-target")
+SMALL = DataSet("generated", vertices=1500)
+PAIR = ("poses-2-source", "poses-2-target")
 
 
 def small(config: Config) -> Config:
@@ -60,29 +59,7 @@ def rows_of(path: Path) -> list[dict[str, str]]:
         return list(csv.DictReader(file))
 
 
-def check_outcome(outcome: Outcome, columns: set[str]) -> None:
-    """All files are there, pictures are pictures, the table has ``columns``, the text repeats the lines."""
-    assert columns <= set(rows_of(outcome.tables[0])[0])
-    kinds = {".png": b"\x89PNG", ".pdf": b"%PDF"}
-    assert {path.suffix for path in outcome.pictures} == set(kinds)
-    for path in outcome.pictures:
-        assert path.read_bytes().startswith(kinds[path.suffix])
-    text = outcome.conclusions.read_text(encoding="utf-8")
-    assert outcome.lines
-    assert all(line in text for line in outcome.lines)
-
-
 # The store
-
-
-def test_store_keeps_what_was_finished(tmp_path: Path) -> None:
-    store = tmp_path / "store.jsonl"
-    append_store(store, {"a": 1, "b": [2.5, "x"]})
-    with store.open("a", encoding="utf-8") as file:
-        file.write('{"key": "c", "val')  # a crash in the middle of a line
-    append_store(store, {"d": 4})
-    assert read_store(store) == {"a": 1, "b": [2.5, "x"], "d": 4}
-    assert read_store(tmp_path / "missing.jsonl") == {}
 
 
 class Work:
@@ -103,12 +80,15 @@ def square_jobs(work: Work) -> list[Job]:
     return [Job((f"{i}", f"{i} squared"), work, (i,)) for i in range(5)]
 
 
-def test_killed_run_goes_on_and_redoes_nothing(tmp_path: Path) -> None:
+def test_stopped_run_continues_and_redoes_nothing(tmp_path: Path) -> None:
     store = tmp_path / "store.jsonl"
     first, second, third = Work(stop=3), Work(), Work()
     with pytest.raises(KeyboardInterrupt):
         run_jobs(square_jobs(first), store, workers=1)
     assert first.done == [0, 1, 2]
+    assert read_store(store)["2 squared"] == 4
+    with store.open("a", encoding="utf-8") as file:
+        file.write('\n{"key": "3", "val')  # a crash in the middle of a line
     found = run_jobs(square_jobs(second), store, workers=1)
     assert second.done == [3, 4]
     assert found == {f"{i}": i for i in range(5)} | {f"{i} squared": i**2 for i in range(5)}
@@ -160,16 +140,16 @@ def test_reported_pairs_have_no_training_person(tmp_path: Path) -> None:
     remeshed = fake_data(tmp_path, "FAUST_r", 8)
     listed = [("tr_reg_005", "tr_reg_071"), ("tr_reg_022", "tr_reg_031"), ("tr_reg_040", "tr_reg_019")]
     (remeshed / "test_pairs.txt").write_text("\n".join(" ".join(pair) for pair in listed), encoding="utf-8")
-    faust, faust_r = collections(tmp_path)
+    faust, faust_r = find_data_sets(tmp_path)
     training, reported = faust.training(), faust.reported()
-    assert {person(n) for p in training for n in (p.source, p.target)} == {0, 1}
-    assert {person(n) for p in reported for n in (p.source, p.target)} == {2, 3}
+    assert {person(n) for p in training for n in p} == {0, 1}
+    assert {person(n) for p in reported for n in p} == {2, 3}
     assert len(set(training)) == 380
-    assert [person(p.source) == person(p.target) for p in training[:6]] == [True, False] * 3
+    assert [person(p[0]) == person(p[1]) for p in training[:6]] == [True, False] * 3
     assert faust.training(6) == training[:6]
     assert len(set(reported)) == 100
-    assert faust_r.reported() == [ShapePair("tr_reg_022", "tr_reg_031")]
-    assert collections(tmp_path / "FAUST")[0].folder == tmp_path / "FAUST"
+    assert faust_r.reported() == [("tr_reg_022", "tr_reg_031")]
+    assert find_data_sets(tmp_path / "FAUST")[0].folder == tmp_path / "FAUST"
 
 
 def test_a_longer_draw_begins_with_a_shorter() -> None:
@@ -180,14 +160,16 @@ def test_a_longer_draw_begins_with_a_shorter() -> None:
 
 def test_data_that_is_not_there(tmp_path: Path) -> None:
     with pytest.raises(InvalidInput, match="FAUST or FAUST_r"):
-        collections(tmp_path)
+        find_data_sets(tmp_path)
 
 
 def test_generated_truth_is_consistent() -> None:
-    truth = SMALL.truth(PAIR)
-    assert len(truth.landmarks) == 6
-    np.testing.assert_array_equal(truth.landmarks[:, 0], truth.source[truth.landmarks[:, 1]])
-    assert len(np.unique(truth.landmarks[:, 0])) == 6
+    source, target = SMALL.truth(PAIR)
+    for landmarks in (SMALL.landmarks(PAIR), SMALL.farthest_landmarks(PAIR, 6)):
+        assert len(np.unique(landmarks[:, 0])) == len(np.unique(landmarks[:, 1])) == 6
+        np.testing.assert_array_equal(landmarks[:, 0], source[landmarks[:, 1]])
+    back = SMALL.truth((PAIR[1], PAIR[0]))
+    np.testing.assert_array_equal(back, (target, source))
 
 
 # Pairs
@@ -195,32 +177,32 @@ def test_generated_truth_is_consistent() -> None:
 
 def test_rows_are_the_errors_of_the_fit(tmp_path: Path) -> None:
     config = small(no17(10))
-    (row,) = run_pairs(SMALL, [PAIR], {"NO17": config}, tmp_path / "pairs.jsonl", workers=1)
-    truth = SMALL.truth(PAIR)
-    points = fitted(SMALL, PAIR, config, truth.landmarks).raw
-    errors = geodesic_errors(SMALL.mesh(PAIR.source), points[truth.target], truth.source)
+    (row,) = pair_rows(SMALL, [PAIR], {"NO17": config}, tmp_path / "pairs.jsonl", workers=1)["NO17"]
+    source, target = SMALL.truth(PAIR)
+    points = raw_map(fit_pair(SMALL, PAIR, config, SMALL.landmarks(PAIR))[1])
+    errors = geodesic_errors(SMALL.mesh(PAIR[0]), points[target], source)
     assert row.mean == pytest.approx(errors.mean(), rel=1e-5)
     assert row.refined == row.mean
     at = int(np.flatnonzero(np.isclose(pair_errors.THRESHOLDS, 0.05))[0])
     assert row.curve[at] == pytest.approx((errors <= 0.05).mean(), abs=1e-3)
-    assert (row.method, row.source, row.status) == ("NO17", PAIR.source, "converged")
+    assert row.status == "converged"
 
 
 def test_pairs_resume_and_notice_other_settings(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     store = tmp_path / "pairs.jsonl"
-    methods = {"a": small(no17(10)), "b": small(obcs12(10))}
-    first = run_pairs(SMALL, [PAIR], methods, store, workers=1)
+    settings = {"a": small(no17(10)), "b": small(obcs12(10))}
+    first = pair_rows(SMALL, [PAIR], settings, store, workers=1)
     size = store.stat().st_size
     # Other threads are not other settings; another name is not other work.
-    renamed = {"c": replace(methods["a"], threads=3), "b": methods["b"]}
+    renamed = {"c": replace(settings["a"], threads=3), "b": settings["b"]}
     monkeypatch.setattr(pair_errors, "measure", lambda *_: pytest.fail("redone"))
-    again = run_pairs(SMALL, [PAIR], renamed, store, workers=1)
-    assert [replace(row, method="") for row in again] == [replace(row, method="") for row in first]
+    again = pair_rows(SMALL, [PAIR], renamed, store, workers=1)
+    assert list(again.values()) == list(first.values())
     assert store.stat().st_size == size
     monkeypatch.undo()
-    changed = {"a": replace(methods["a"], weights=replace(methods["a"].weights, laplacian=7.0))}
-    assert fingerprint(changed["a"]) != fingerprint(methods["a"])
-    run_pairs(SMALL, [PAIR], changed, store, workers=1)
+    changed = {"a": replace(settings["a"], weights=replace(settings["a"].weights, laplacian=7.0))}
+    assert fingerprint(changed["a"]) != fingerprint(settings["a"])
+    pair_rows(SMALL, [PAIR], changed, store, workers=1)
     assert len(read_store(store)) == 3
 
 
@@ -248,10 +230,8 @@ def test_nystrom_error_is_the_norm_and_vanishes_with_all_samples() -> None:
 
 
 def test_conditioning() -> None:
-    found = conditioning(np.diag([1.0, 4.0, 8.0]))
-    assert (found.rank, found.size, found.condition) == (3, 3, pytest.approx(8.0))
-    short = conditioning(np.diag([0.0, 1.0, 2.0]))
-    assert (short.rank, short.condition) == (2, np.inf)
+    assert conditioning(np.diag([1.0, 4.0, 8.0])) == (3, pytest.approx(8.0))
+    assert conditioning(np.diag([0.0, 1.0, 2.0])) == (2, np.inf)
 
 
 def test_figure_1_in_blocks_is_the_whole_formula(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -267,35 +247,29 @@ def test_figure_1_in_blocks_is_the_whole_formula(monkeypatch: pytest.MonkeyPatch
 # Conclusions follow the numbers
 
 
-def row(method: str, mean: float) -> Row:
-    return Row("x", "s", "t", method, mean, mean, mean, (0.0,) * 101, "converged", 1, 1, 1, "k", 0.1)
-
-
-def grouped(**means: float) -> dict[str, list[Row]]:
-    short = ("obcs", "alpha", "no17", "printed", "ours", "recommended", "converged", "scaled", "linear")
-    every = (*figure6.style.METHODS, *figure6.variants(10))
-    names: dict[str, str] = dict(zip(short, every, strict=True))
-    return {names[key]: [row(names[key], m), row(names[key], 2 * m)] for key, m in means.items()}
+def rows(mean: float) -> list[Row]:
+    return [Row(m, m, (0.0,) * 101, "converged", 1, 1, 0.1) for m in (mean, 2 * mean)]
 
 
 @pytest.mark.parametrize("good", [True, False])
 def test_figure6_claims(good: bool) -> None:
     ours, recommended_error = (0.9, 0.85) if good else (1.1, 0.95)
-    rest = {"converged": 0.8, "scaled": ours, "linear": 0.9}
-    rows = grouped(obcs=6.0, alpha=4.0, no17=1.0, printed=1.3, ours=ours, recommended=recommended_error, **rest)
-    claims = {c.claim: c for c in figure6.compared(rows)}
-    assert claims["ours at most NO17"].holds is good
-    assert claims["ours at most NO17"].interval.value == pytest.approx(150 * (ours - 1))
-    assert claims["recommended at least 10 % better than NO17"].holds is good
-    assert claims["ours at most a fifth of OBCS12"].holds
-    assert not claims["and of OBCS12 with α = 1"].holds
-    assert claims["and when both are scaled alike too"].interval.value == pytest.approx(150 * (0.8 - ours))
-    assert claims["recommended at most the same without a kernel"].holds is good
-    assert ("does not hold" in claims["ours at most NO17"].text()) is not good
+    means = (6.0, 4.0, 1.0, 1.3, ours, recommended_error, 0.8, ours, 0.9)
+    names = (*figure6.style.METHODS, *figure6.variants(10))
+    found = figure6.compare({name: rows(mean) for name, mean in zip(names, means, strict=True)})
+    claims = {c["claim"]: c for c in found}
+    assert claims["ours at most NO17"]["holds"] is good
+    assert claims["ours at most NO17"]["value"] == pytest.approx(150 * (ours - 1))
+    assert claims["recommended at least 10 % better than NO17"]["holds"] is good
+    assert claims["ours at most a fifth of OBCS12"]["holds"]
+    assert not claims["and of OBCS12 with α = 1"]["holds"]
+    assert claims["and when both are scaled alike too"]["value"] == pytest.approx(150 * (0.8 - ours))
+    assert claims["recommended at most the same without a kernel"]["holds"] is good
+    assert ("does not hold" in figure6.sentence(claims["ours at most NO17"])) is not good
 
 
 def test_figure3_conclusions() -> None:
-    last = {(g, way): figure3.PAPER[g] * 2 for g in figure3.GAMMAS for way in figure3.WAYS}
+    last = {(g, way): figure3.PAPER[g] * 2 for g in figure3.GAMMAS for way in figure3.METHODS}
     near = figure3.conclusions(last, 400)
     assert "within one order" in near[0]
     assert all("at least as good" in line for line in near[1:4])
@@ -325,8 +299,8 @@ def test_figure4_conclusions() -> None:
             for count, value in zip(figure4.COUNTS, errors, strict=True)
         ]
 
-    assert "holds here" in figure4.conclusions(panels(0.04, 0.03, 0.02, 0.01), alone=True)[-1]
-    later = figure4.conclusions(panels(0.13, 0.06, 0.03, 0.02), alone=True)[-1]
+    assert "holds here" in figure4.conclusions(panels(0.04, 0.03, 0.02, 0.01), True)[-1]
+    later = figure4.conclusions(panels(0.13, 0.06, 0.03, 0.02), True)[-1]
     assert "takes 10 descriptors with the kernel and more than 100 without" in later
     assert "does not hold here" in later
 
@@ -371,8 +345,8 @@ def test_section44_conclusions() -> None:
 
 
 @pytest.fixture
-def tiny(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Setting:
-    """A setting and figures of a size that takes a moment."""
+def tiny(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Options:
+    """Options and figures of a size that takes a moment."""
     both = (figure6.methods, figure5.kernels, figure4.settings, figure6.variants)
     monkeypatch.setattr(figure6, "variants", lambda n: {k: small(c) for k, c in both[3](n).items()})
     monkeypatch.setattr(figure6, "methods", lambda n: {k: small(c) for k, c in both[0](n).items()})
@@ -391,16 +365,14 @@ def tiny(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Setting:
     monkeypatch.setattr(section44, "WHOLE_SIZE", 5)
     few = ("least squares", "both directions")
     chosen = {name: formulation_pairs.FORMULATIONS[name] for name in few}
-    for module in (formulation_pairs, formulations):
-        monkeypatch.setattr(module, "FORMULATIONS", chosen)
+    monkeypatch.setattr(formulation_pairs, "FORMULATIONS", chosen)
     smaller = replace(formulation_pairs.CONFIG, nystrom=NystromConfig(30), basis=BasisConfig(functions=10))
     monkeypatch.setattr(formulation_pairs, "CONFIG", smaller)
     monkeypatch.setattr(formulation_pairs, "ZOOM", ZoomOut(10, 40, 10))
-    monkeypatch.setattr(formulation_pairs, "SHARES", (0.0, 0.3))
-    monkeypatch.setattr(formulation_pairs, "LOSSES", ("squared", "geman"))
+    monkeypatch.setattr(formulation_pairs, "WRONG_SHARES", (0.0, 0.3))
     monkeypatch.setattr(formulations, "LOSSES", ("squared", "geman"))
-    monkeypatch.setattr(formulations, "MOST", {"generated": 1, "FAUST_r": 1})
-    return Setting(None, tmp_path, pairs=1, workers=1, vertices=1500, timing_vertices=1500)
+    monkeypatch.setattr(formulations, "N_PAIRS", {"generated": 1, "FAUST_r": 1})
+    return Options(None, tmp_path, pairs=1, workers=1, vertices=1500, timing_vertices=1500)
 
 
 COLUMNS = {
@@ -415,19 +387,34 @@ COLUMNS = {
 }
 
 
-@pytest.mark.parametrize("name", FIGURES)
-def test_experiment_writes_its_files(name: str, tiny: Setting) -> None:
-    outcome = FIGURES[name](tiny)
-    check_outcome(outcome, COLUMNS[name])
-    assert "generated shapes" in outcome.conclusions.read_text(encoding="utf-8")
+def test_every_experiment_is_run_and_has_a_script() -> None:
+    assert [each.__name__ for each in run.EXPERIMENTS] == list(COLUMNS)
+    folder = Path(run.__file__).parent
+    assert all((folder / f"{name}.py").read_text(encoding="utf-8").endswith(f"main({name})\n") for name in COLUMNS)
+
+
+@pytest.mark.parametrize("function", run.EXPERIMENTS, ids=list(COLUMNS))
+def test_experiment_writes_its_files(function: Callable[[Options], Result], tiny: Options) -> None:
+    name = function.__name__
+    result = function(tiny)
+    paths = result.write(name, tiny.folder)
+    table = rows_of(tiny.folder / f"{name}.csv")
+    assert COLUMNS[name] <= set(table[0])
+    for path in paths:
+        if path.suffix in (".png", ".pdf"):
+            assert path.read_bytes().startswith({".png": b"\x89PNG", ".pdf": b"%PDF"}[path.suffix])
+    assert {".csv", ".png", ".pdf", ".md"} == {path.suffix for path in paths}
+    text = (tiny.folder / f"{name}.md").read_text(encoding="utf-8")
+    assert "shapes that the package generates" in text
+    assert result.conclusions
+    assert all(line in text for line in result.conclusions)
     if name == "figure3":
-        table = rows_of(outcome.tables[0])
         bound = {
             (r["gamma"], r["rank"]): float(r["relative error"]) for r in table if r["sampling"] == "spectral bound"
         }
         assert all(float(r["relative error"]) >= 0.99 * bound[r["gamma"], r["rank"]] for r in table)
     if name == "section44":
-        linear = [r for r in rows_of(outcome.tables[0]) if (r["kernel"], r["system"]) == ("linear", "F_P")]
+        linear = [r for r in table if (r["kernel"], r["system"]) == ("linear", "F_P")]
         assert [int(r["rank"]) for r in linear] == [1, 10]
 
 
@@ -447,9 +434,9 @@ def test_grid_names_every_combination() -> None:
 
 
 def test_grid_search_takes_the_lowest_error(tmp_path: Path) -> None:
-    setting = Setting(None, tmp_path, workers=1, vertices=1500)
+    options = Options(None, tmp_path, workers=1, vertices=1500)
     grid = tune.candidates(small(recommended(20)), ["weights.laplacian=1,1e9"])
-    found = tune.grid_search(setting, grid, [(SMALL, [PAIR])])
+    found = tune.grid_search(options, grid, [(SMALL, [PAIR])])
     errors = [line["mean error (% of √area)"] for line in found.table]
     assert errors == sorted(errors)
     assert found.error == pytest.approx(errors[0] / 100)
@@ -460,32 +447,34 @@ def test_grid_search_takes_the_lowest_error(tmp_path: Path) -> None:
 # Command lines
 
 
-def test_run_writes_and_prints(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]):
+def test_run_writes_and_prints(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     out = tmp_path / "out"
-    asked: list[Setting] = []
+    given: list[Options] = []
 
-    def figure(setting: Setting) -> Outcome:
-        asked.append(setting)
-        path = setting.folder / "figure2.csv"
-        return Outcome("figure2", (path,), (), path, ("a conclusion",))
+    def figure(options: Options) -> Result:
+        """A figure."""
+        given.append(options)
+        return Result({"figure": [{"a": 1.0}]}, {}, ("a conclusion",), options.data_sets())
 
-    monkeypatch.setitem(FIGURES, "figure2", figure)
-    words = ["figure2", "-o", str(out), "--vertices", "1500", "--workers", "3", "--pairs", "7", "--seed", "5"]
-    run.main(words)
-    (setting,) = asked
-    assert (setting.folder, setting.vertices, setting.workers, setting.pairs, setting.seed) == (out, 1500, 3, 7, 5)
+    def other(options: Options) -> Result:
+        return figure(options)
+
+    words = ["figure", "-o", str(out), "--vertices", "1500", "--workers", "3", "--pairs", "7", "--seed", "5"]
+    experiment.main(figure, other, arguments=words)
+    experiment.main(figure, arguments=words[1:])
+    assert given == [Options(None, out, 7, 3, 1500, 5)] * 2
     printed = capsys.readouterr().out
-    assert all(text in printed for text in ("generated shapes", "figure2.csv", "a conclusion"))
-    for wrong in (["figure9"], ["figure2", "--data", str(tmp_path)]):
+    assert all(text in printed for text in ("figure.csv", "figure.md", "a conclusion"))
+    for wrong in (["figure9"], ["figure", "--data", str(tmp_path)]):
         with pytest.raises(SystemExit):
-            run.main([*wrong, "-o", str(out)])
+            experiment.main(figure, other, arguments=[*wrong, "-o", str(out)])
 
 
 def test_tune_writes_settings_that_match_reads(tmp_path: Path) -> None:
     settings = tmp_path / "start.toml"
     settings.write_text(settings_text(small(Config.single_fit())), encoding="utf-8")
     listed = tmp_path / "pairs.txt"
-    listed.write_text(f"{PAIR.source} {PAIR.target}\n", encoding="utf-8")
+    listed.write_text(" ".join(PAIR), encoding="utf-8")
     out = tmp_path / "out"
     words = ["--base", str(settings), "--vary", "weights.laplacian=1,1e9", "--pairs-from", str(listed), "-o", str(out)]
     tune.main([*words, "--vertices", "1500", "--workers", "1"])
@@ -494,5 +483,4 @@ def test_tune_writes_settings_that_match_reads(tmp_path: Path) -> None:
     assert [r["settings"] for r in rows_of(out / "tune.csv")] == ["weights.laplacian=1", "weights.laplacian=1e9"]
     with pytest.raises(SystemExit):
         tune.main(["--vary", "weights.laplacian=one", "-o", str(out)])
-    store = [json.loads(line) for line in (out / "pairs.jsonl").read_text(encoding="utf-8").splitlines()]
-    assert len(store) == 2
+    assert len(read_store(out / "pairs.jsonl")) == 2
