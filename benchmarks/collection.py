@@ -9,8 +9,7 @@ known. Pairs are chosen by likeness (``--graph near``), matched by ``kfmaps batc
 (``--consistent``). A part ``--wrong`` of the maps is replaced by random ones before that. ``--plain`` makes one fit of
 each pair and a short refinement instead of a search, which is cheap, and wrong more often than a search is. With
 ``--out`` the same call goes on where it was cut short. ``--plan`` tells the pairs, memory and time that a run needs,
-and runs nothing. ``--zoom`` then compares each map in use, cut to k functions, with the map through the latent space
-after consistent ZoomOut to as many; ``--zoom --run DATA OUT`` does it for a run that is there. ``--agree`` measures the
+and runs nothing. ``--agree`` measures the
 agreement alone, on made-up maps of as many shapes. Errors are in per cent of √area.
 """
 
@@ -25,7 +24,6 @@ import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import replace
-from fnmatch import fnmatch
 from pathlib import Path
 
 import numpy as np
@@ -36,10 +34,10 @@ from kfmaps.batch.clock import RunStatus
 from kfmaps.batch.collection import BatchOutcome, match_collection
 from kfmaps.batch.exchange import map_in_use
 from kfmaps.batch.graphing import graph_pairs
-from kfmaps.batch.layout import Pair, find_collection
+from kfmaps.batch.layout import find_collection
 from kfmaps.batch.need import needed
 from kfmaps.batch.plan import make_plan
-from kfmaps.batch.results import Result, read_result
+from kfmaps.batch.results import Result
 from kfmaps.batch.settings import Settings
 from kfmaps.batch.spread import crew
 from kfmaps.batch.summary import BAD
@@ -47,17 +45,13 @@ from kfmaps.batch.tasks import PairTask
 from kfmaps.batch.truth import true_vertices
 from kfmaps.batch.work import loaded, map_path
 from kfmaps.cli.evaluation import assessed
-from kfmaps.collection.synchronization import FUNCTIONS, Choice, Link, agree, orthogonal
-from kfmaps.collection.zoomout import ConsistentZoomOut, through_latent
+from kfmaps.collection.synchronization import N_FUNCTIONS, CandidateMap, Edge, nearest_orthogonal, synchronize
 from kfmaps.config import BasisConfig, Config, DescriptorConfig, Search
-from kfmaps.fmap.convert import to_functional, to_points
 from kfmaps.fmap.refine import ZoomOut
 from kfmaps.geometry.coarsen import coarse
-from kfmaps.geometry.geodesics import geodesic_distances
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.geometry.sampling import stratified
-from kfmaps.io import load_map, read_mesh, read_vertex_numbers, save_map, write_mesh, write_vertex_numbers
-from kfmaps.shape import prepare
+from kfmaps.io import load_map, save_map, write_mesh, write_vertex_numbers
 
 FULL = Config()
 QUICK = replace(FULL, search=Search(candidates=2, signs=3), finish=None)
@@ -214,62 +208,27 @@ def measured(count: int, vertices: int, workers: int, wrong: float, config: Conf
 
 
 def agreement(count: int, wrong: float) -> str:
-    """CPU seconds a shape of :func:`kfmaps.collection.synchronization.agree` on noisy maps of which a part is
+    """CPU seconds a shape of :func:`kfmaps.collection.synchronization.synchronize` on noisy maps of which a part is
     random, and what it says.
 
     Each shape is joined with two successors and a shape anywhere: as many pairs as ``--graph near`` makes.
     """
     rng = np.random.default_rng(0)
-    frames = [orthogonal(rng.normal(size=(FUNCTIONS, FUNCTIONS))) for _ in range(count)]
+    frames = [nearest_orthogonal(rng.normal(size=(N_FUNCTIONS, N_FUNCTIONS))) for _ in range(count)]
     ends = [(i, (i + step) % count) for i in range(count) for step in (1, 2, int(rng.integers(3, count - 2)))]
     bad = rng.permutation(len(ends))[: round(wrong * len(ends))]
-    maps = [frames[b] @ frames[a].T + 0.05 * rng.normal(size=(FUNCTIONS, FUNCTIONS)) for a, b in ends]
+    maps = [frames[b] @ frames[a].T + 0.05 * rng.normal(size=(N_FUNCTIONS, N_FUNCTIONS)) for a, b in ends]
     for i in bad:
-        maps[i] = orthogonal(rng.normal(size=(FUNCTIONS, FUNCTIONS)))
-    links = [Link(a, b, (Choice(C),)) for (a, b), C in zip(ends, maps, strict=True)]
+        maps[i] = nearest_orthogonal(rng.normal(size=(N_FUNCTIONS, N_FUNCTIONS)))
+    links = [Edge(a, b, (CandidateMap(C),)) for (a, b), C in zip(ends, maps, strict=True)]
     begin = time.process_time()
-    found = agree(count, links)
+    found = synchronize(count, links)
     used = time.process_time() - begin
-    believed = np.array([chances[0] > 0.5 for chances in found.chances])
+    believed = np.array([chances[0] > 0.5 for chances in found.probabilities])
     right = np.ones(len(ends), dtype=bool)
     right[bad] = False
     told = f"{(~believed & ~right).sum():6d} {(~believed & right).sum():6d}"
     return f"{count:6d} {len(ends):6d} {used / count:10.3f} {len(bad):6d} {told}"
-
-
-def zoomed(data: Path, out: Path, only: str = "*") -> None:
-    """A table of consistent ZoomOut on the maps in use of a run: those of which both shapes are like ``only``."""
-    collection = find_collection(data)
-    done = [result for path in sorted((out / "pairs").glob("*.json")) if (result := read_result(path)) is not None]
-    named = [Pair(r.source, r.target) for r in done if r.status == "done"]
-    pairs = [p for p in named if all(any(fnmatch(n, o) for o in only.split(",")) for n in (p.source, p.target))]
-    names = sorted({name for pair in pairs for name in (pair.source, pair.target)})
-    shapes = {name: prepare(read_mesh(collection.shapes[name]), SPECTRAL, name=name) for name in names}
-    whole = {name: read_vertex_numbers(collection.truth[name]) for name in names}
-    truth = {name: true[np.linspace(0, len(true) - 1, JUDGED).astype(np.int64)] for name, true in whole.items()}
-    away = {name: geodesic_distances(shapes[name].mesh, truth[name]) for name in {pair.source for pair in pairs}}
-    ends = [(names.index(pair.source), names.index(pair.target)) for pair in pairs]
-    points = [load_map(map_in_use(out, pair.key)).target_to_source for pair in pairs]
-    bases = [shapes[name].basis for name in names]
-
-    def mean(found: list[np.ndarray]) -> float:
-        both = zip(pairs, found, strict=True)
-        errors = [away[p.source][np.arange(JUDGED), images[truth[p.target]]].mean() for p, images in both]
-        return 100 * float(np.mean(errors))
-
-    print(f"{len(pairs)} maps in use: {mean(points):.2f}\n functions  cut  through the latent space  worse    CPU s")
-    for k in (20, 40, 60):
-        few = [basis.truncated(k) for basis in bases]
-        cut = [np.asarray(to_functional(p, few[a], few[b])) for p, (a, b) in zip(points, ends, strict=True)]
-        begin = time.process_time()
-        latent = ConsistentZoomOut(min(20, k), k, 10)(bases, ends, points)[1]
-        used = time.process_time() - begin
-        through = [through_latent(latent, a, b) for a, b in ends]
-        own, joint = (
-            mean([to_points(C, few[a], few[b], threads=1) for C, (a, b) in zip(maps, ends, strict=True)])
-            for maps in (cut, through)
-        )
-        print(f"{k:10d} {own:5.2f} {joint:8.2f} {100 * (joint / own - 1):+20.0f} % {used:8.1f}", flush=True)
 
 
 def main() -> None:
@@ -284,19 +243,13 @@ def main() -> None:
     )
     parser.add_argument("--plain", action="store_true", help="one fit of each pair and a short refinement")
     parser.add_argument("--plan", action="store_true")
-    parser.add_argument("--zoom", action="store_true")
     parser.add_argument("--agree", action="store_true")
-    parser.add_argument("--run", nargs=2, type=Path, metavar=("DATA", "OUT"))
-    parser.add_argument("--only", default="*", help="of such a run, shapes like these, with commas")
     chosen = parser.parse_args()
     counts = [int(word) for word in chosen.shapes.split(",")]
     if chosen.agree:
         print("CPU seconds a shape to agree alone\nshapes  pairs    seconds  wrong  found  other")
         for count in counts:
             print(agreement(count, chosen.wrong), flush=True)
-        return
-    if chosen.run:
-        zoomed(chosen.run[0], chosen.run[1], chosen.only)
         return
     if chosen.plan:
         for count in counts:
@@ -315,8 +268,6 @@ def main() -> None:
         for count in counts:
             folder = chosen.out or Path(temporary)
             print(measured(count, chosen.vertices, chosen.workers, chosen.wrong, config, folder), flush=True)
-            if chosen.zoom:
-                zoomed(folder / f"shapes{count}", folder / f"out{count}")
 
 
 if __name__ == "__main__":

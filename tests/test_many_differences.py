@@ -8,18 +8,17 @@ import pytest
 from kfmaps._arrays import InvalidInput
 from kfmaps.collection.differences import (
     area_difference,
-    common_bases,
+    component_limit_shapes,
     components,
     conformal_difference,
     density,
-    latent_basis,
+    limit_shape,
     operators,
     shape_distances,
-    truncated,
     variation,
 )
-from kfmaps.collection.pair_graph import every
-from kfmaps.collection.synchronization import Choice, Link, agree, orthogonal
+from kfmaps.collection.pair_graph import complete_graph
+from kfmaps.collection.synchronization import CandidateMap, Edge, nearest_orthogonal, synchronize
 from kfmaps.geometry.basis import Basis
 
 GUARDS = ("kfmaps.collection.differences", "kfmaps.collection.pair_graph", "kfmaps.collection.synchronization")
@@ -31,19 +30,19 @@ VALUES = np.array([0.0, 3, 4, 9, 11, 14, 20, 26])
 def collection(stretches: list[np.ndarray], seed: int = 0):
     """Shapes with equal eigenvalues whose maps agree exactly and stretch as told; links, agreement, values."""
     rng = np.random.default_rng(seed)
-    own = [orthogonal(rng.normal(size=(K, K))) @ s for s in stretches]
-    pairs = every(len(own))
-    links = [Link(a, b, (Choice(own[b] @ np.linalg.inv(own[a])),)) for a, b in pairs]
-    return own, links, agree(len(own), links, K), np.tile(VALUES, (len(own), 1))
+    own = [nearest_orthogonal(rng.normal(size=(K, K))) @ s for s in stretches]
+    pairs = complete_graph(len(own))
+    links = [Edge(a, b, (CandidateMap(own[b] @ np.linalg.inv(own[a])),)) for a, b in pairs]
+    return own, links, synchronize(len(own), links, K), np.tile(VALUES, (len(own), 1))
 
 
 def test_equal_shapes_do_not_differ() -> None:
-    C = orthogonal(np.random.default_rng(0).normal(size=(K, K)))
+    C = nearest_orthogonal(np.random.default_rng(0).normal(size=(K, K)))
     np.testing.assert_allclose(area_difference(C), np.eye(K), atol=1e-12)
     signs = np.diag([1.0, -1, 1, 1, -1, 1, -1, 1])
     np.testing.assert_allclose(conformal_difference(signs, VALUES, VALUES), np.eye(K - 1), atol=1e-12)
     _, links, found, values = collection([np.eye(K)] * 4)
-    latent = latent_basis(found, links, [0] * len(links), values)
+    latent = limit_shape(found, links, [0] * len(links), values)
     for kind in ("area", "conformal"):
         assert shape_distances(operators(latent, values, "area")).max() < 1e-7, kind
     np.testing.assert_allclose(latent.areas.mean(axis=0), np.eye(K), atol=1e-7)
@@ -59,19 +58,20 @@ def test_scaling_shows_in_the_conformal_difference_alone() -> None:
 def test_planted_stretches_are_the_distances() -> None:
     one = np.diag([1, 1, 1.2, 1, 1, 1, 1, 1.0])
     own, links, found, values = collection([np.eye(K), one, np.eye(K), one @ one])
-    latent = latent_basis(found, links, [0] * len(links), values)
+    latent = limit_shape(found, links, [0] * len(links), values)
     D = shape_distances(operators(latent, values))
     assert D[0, 2] < 1e-6
     assert 0 < D[0, 1] < D[0, 3]
     # The same in any order of the shapes.
     order = [2, 0, 3, 1]
-    again = [Link(order.index(a.source), order.index(a.target), a.choices) for a in links]
-    other = latent_basis(agree(4, again, K), again, [0] * len(again), values)
+    again = [Edge(order.index(a.source), order.index(a.target), a.candidates) for a in links]
+    other = limit_shape(synchronize(4, again, K), again, [0] * len(again), values)
     np.testing.assert_allclose(shape_distances(operators(other, values)), D[np.ix_(order, order)], atol=1e-6)
     # Maps into the latent space agree with those between shapes.
     for link in links:
-        np.testing.assert_allclose(link.choices[0].map @ latent.maps[link.source], latent.maps[link.target], atol=1e-6)
-    assert truncated(latent, 3).maps.shape == (4, K, 3)
+        np.testing.assert_allclose(
+            link.candidates[0].map @ latent.maps[link.source], latent.maps[link.target], atol=1e-6
+        )
     assert len(own) == 4
 
 
@@ -95,7 +95,7 @@ def test_one_way_of_changing_is_one_component() -> None:
 def test_what_is_larger_is_denser_there() -> None:
     """One function stands for one region; a shape in which it is larger has more area there and nowhere else."""
     own, links, found, values = collection([np.eye(K), np.diag([1, 1, 1, 1, 1, 1, 1, 1.3])])
-    latent = latent_basis(found, links, [0] * len(links), values)
+    latent = limit_shape(found, links, [0] * len(links), values)
     functions = own[0] @ np.eye(K)  # vertex i of shape 0 is the i-th of the planted functions
     basis = Basis(VALUES, functions.T, np.ones(K))
     D = operators(latent, values)
@@ -108,11 +108,11 @@ def test_what_is_larger_is_denser_there() -> None:
 
 def test_what_hangs_together_not_has_no_common_basis() -> None:
     C = np.eye(K)
-    links = [Link(0, 1, (Choice(C),)), Link(2, 3, (Choice(C),))]
-    found, values = agree(4, links, K), np.tile(VALUES, (4, 1))
+    links = [Edge(0, 1, (CandidateMap(C),)), Edge(2, 3, (CandidateMap(C),))]
+    found, values = synchronize(4, links, K), np.tile(VALUES, (4, 1))
     with pytest.raises(InvalidInput, match="hang together"):
-        latent_basis(found, links, [0, 0], values)
-    latent = latent_basis(agree(2, links[:1], K), links[:1], [0], values[:2])
+        limit_shape(found, links, [0, 0], values)
+    latent = limit_shape(synchronize(2, links[:1], K), links[:1], [0], values[:2])
     with pytest.raises(InvalidInput, match="conformal"):
         operators(latent, values[:2], "other")
 
@@ -122,19 +122,19 @@ def test_each_part_has_the_basis_that_it_has_alone() -> None:
     rng = np.random.default_rng(3)
     values = np.sort(rng.uniform(1, 60, (9, K)), axis=1)
 
-    def family(first: int, count: int) -> list[Link]:
+    def family(first: int, count: int) -> list[Edge]:
         frames = [np.linalg.qr(rng.normal(size=(K, K)))[0] for _ in range(count)]
         ends = [(i, j) for i in range(count) for j in range(i + 1, count)]
-        return [Link(first + i, first + j, (Choice(frames[j] @ frames[i].T),)) for i, j in ends]
+        return [Edge(first + i, first + j, (CandidateMap(frames[j] @ frames[i].T),)) for i, j in ends]
 
     small, large, rest = family(0, 3), family(3, 4), family(7, 2)
-    found = agree(9, [*small, *large, *rest], K)
-    bases = common_bases(found, [*small, *large, *rest], values, K - 1)
+    found = synchronize(9, [*small, *large, *rest], K)
+    bases = component_limit_shapes(found, [*small, *large, *rest], values, K - 1)
     assert [b.members.tolist() for b in bases] == [[3, 4, 5, 6], [0, 1, 2]]
-    alone = agree(3, small, K)
-    (own,) = common_bases(alone, small, values[:3], K - 1)
+    alone = synchronize(3, small, K)
+    (own,) = component_limit_shapes(alone, small, values[:3], K - 1)
     for kind in ("area", "conformal"):
-        both = [shape_distances(operators(b.latent, values[:3], kind)) for b in (bases[1], own)]
+        both = [shape_distances(operators(b.limit_shape, values[:3], kind)) for b in (bases[1], own)]
         np.testing.assert_allclose(both[0], both[1], atol=1e-7)
-    assert own.latent.maps.shape == (3, K, K - 1)
-    assert common_bases(agree(2, rest[:0], K), [], values[:2], K) == ()
+    assert own.limit_shape.maps.shape == (3, K, K - 1)
+    assert component_limit_shapes(synchronize(2, rest[:0], K), [], values[:2], K) == ()

@@ -9,8 +9,8 @@ import pytest
 
 from collecting import CONFIG, bent
 from kfmaps._arrays import InvalidInput
-from kfmaps.collection.paths import composed, turned_back
-from kfmaps.collection.scored_map import judged
+from kfmaps.collection.paths import compose_maps, invert_map
+from kfmaps.collection.scored_map import score_maps
 from kfmaps.config import Search
 from kfmaps.matching.match import continued
 from kfmaps.matching.search import probed
@@ -31,12 +31,12 @@ def test_the_true_map_is_judged_best(shapes: list[Shape]) -> None:
     a, b = shapes[:2]
     probes = probed(a), probed(b)
     rng = np.random.default_rng(0)
-    true, random, shifted = judged([np.arange(N), rng.integers(0, N, N), np.roll(np.arange(N), 5)], a, b, probes)
+    true, random, shifted = score_maps([np.arange(N), rng.integers(0, N, N), np.roll(np.arange(N), 5)], a, b, probes)
     assert true.orientation > 0.8
     assert true.score > max(random.score, shifted.score) + 1
     mirrored = mirror_image(b)
     probes = probes[0], probed(mirrored)
-    turned, back = judged([np.arange(N)] * 2, a, mirrored, probes, [False, True])
+    turned, back = score_maps([np.arange(N)] * 2, a, mirrored, probes, [False, True])
     assert turned.orientation < 0
     assert (turned.reversed, back.reversed) == (False, True)
     assert back.score == pytest.approx(true.score, abs=0.1)
@@ -58,4 +58,4 @@ def test_a_known_map_is_finished(shapes: list[Shape]) -> None:
 
 def test_round_trips_of_true_maps_return(shapes: list[Shape]) -> None:
     order = np.random.default_rng(1).permutation(N)
-    np.testing.assert_array_equal(composed([order, turned_back(order, shapes[0].basis, N)]), np.arange(N))
+    np.testing.assert_array_equal(compose_maps([order, invert_map(order, shapes[0].basis, N)]), np.arange(N))

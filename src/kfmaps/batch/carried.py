@@ -16,7 +16,7 @@ from kfmaps.batch.exchange import exchanged_result, map_in_use
 from kfmaps.batch.layout import Pair
 from kfmaps.batch.results import Result, all_results, read_result
 from kfmaps.batch.settings import read_settings
-from kfmaps.collection.paths import Way, roads, ways_from
+from kfmaps.collection.paths import MapPath, adjacency, best_paths
 from kfmaps.fmap.precise import at_vertices
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.io import MapFile, atomic_output, check_map, check_output, load_map, read_mesh
@@ -96,33 +96,33 @@ def landmarks_everywhere(folder: Path, landmarks: Path, on: str | None = None) -
     meshes: dict[str, Mesh] = {}
     found: dict[int, Carried] = {}
     for at, way in _ways(len(names), ends, edges, number[start]).items():
-        if not way.links:
+        if not way.edges:
             points = read_named_points(landmarks, _mesh(start, edges, meshes))
             found[at] = Carried(start, replace(points, confidence=np.ones(len(points.names))), ())
             continue
-        edge, before = edges[way.links[-1]], found[way.shapes[-2]]
-        points = _carried(edge, before.points, ends[way.links[-1]][1] == way.shapes[-2], edges, meshes)
+        edge, before = edges[way.edges[-1]], found[way.shapes[-2]]
+        points = _carried(edge, before.points, ends[way.edges[-1]][1] == way.shapes[-2], edges, meshes)
         through = (*before.through, before.specimen) if before.specimen != start else ()
         found[at] = Carried(names[at], points, through)
     return list(found.values()), [name for name in names if number[name] not in found]
 
 
-def _ways(count: int, ends: Sequence[tuple[int, int]], edges: Sequence[_Edge], start: int) -> dict[int, Way]:
+def _ways(count: int, ends: Sequence[tuple[int, int]], edges: Sequence[_Edge], start: int) -> dict[int, MapPath]:
     """The best ways over whole maps, and over maps of parts to the specimens that nothing else leads to.
 
     A part has no counterpart for every landmark. Each way's last step begins where another way ends.
     """
-    around, own = roads(count, ends), [e.chance for e in edges]
+    around, own = adjacency(count, ends), [e.chance for e in edges]
     chances = list(own)
     while True:
-        ways = ways_from(around, chances, start)
-        used = dict.fromkeys(link for way in ways.values() for link in way.links)
+        ways = best_paths(around, chances, start)
+        used = dict.fromkeys(link for way in ways.values() for link in way.edges)
         parts = [link for link in used if (load_map(edges[link].path).target_to_source < 0).any()]
         if not parts:
             break
         for link in parts:
             chances[link] = 0.0
-    further = {} if len(ways) == count else ways_from(around, own, start)
+    further = {} if len(ways) == count else best_paths(around, own, start)
     return ways | {at: way for at, way in further.items() if at not in ways}
 
 

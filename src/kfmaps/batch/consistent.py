@@ -20,9 +20,9 @@ from kfmaps.batch.results import Result
 from kfmaps.batch.specimens import write_specimens
 from kfmaps.batch.spread import Crew
 from kfmaps.batch.tasks import PairTask
-from kfmaps.collection.repair import Repaired, Round, repaired
-from kfmaps.collection.scored_map import Judged, choices
-from kfmaps.collection.synchronization import Link
+from kfmaps.collection.repair import CyclePath, RepairResult, repair
+from kfmaps.collection.scored_map import ScoredMap, candidate_maps
+from kfmaps.collection.synchronization import Edge
 from kfmaps.io import atomic_output
 
 TABLE = "pairs.csv"
@@ -84,9 +84,9 @@ def make_consistent(plan: Plan, results: Sequence[Result], crew: Crew) -> Agreed
     names = list(dict.fromkeys(name for task in tasks for name in (task.pair.source, task.pair.target)))
     number = {name: i for i, name in enumerate(names)}
     ends = [(number[task.pair.source], number[task.pair.target]) for task in tasks]
-    made: dict[tuple[int, Round], Judged] = {}
+    made: dict[tuple[int, CyclePath], ScoredMap] = {}
 
-    def compose(asked: list[tuple[int, Round]]) -> list[Judged]:
+    def compose(asked: list[tuple[int, CyclePath]]) -> list[ScoredMap]:
         jobs = [_way(tasks, maps, link, way) for link, way in asked]
         for one, (_, found, reason) in zip(asked, crew.each("ways round", composition, jobs), strict=True):
             if found is None:
@@ -94,41 +94,41 @@ def make_consistent(plan: Plan, results: Sequence[Result], crew: Crew) -> Agreed
             made[one] = found
         return [made[one] for one in asked]
 
-    found = repaired(len(names), ends, maps, compose)
+    found = repair(len(names), ends, maps, compose)
     jobs = [
         Exchange(
-            tasks[c.link],
+            tasks[c.edge],
             c,
-            None if c.way is None else _way(tasks, maps, c.link, c.way),
-            () if c.way is None else tuple(names[i] for i in c.way.through),
-            known[tasks[c.link].pair.source, tasks[c.link].pair.target],
+            None if c.path is None else _way(tasks, maps, c.edge, c.path),
+            () if c.path is None else tuple(names[i] for i in c.path.through),
+            known[tasks[c.edge].pair.source, tasks[c.edge].pair.target],
         )
-        for c in found.changes
+        for c in found.replacements
         if c.kind != "none"
     ]
     _forget(plan, {job.task.pair.key for job in jobs})
     ended = crew.each("exchanged pairs", exchange, jobs)
     changed = {(r.source, r.target): r for r in ended if r.status == "done"}
     notes += [f"{r.source} → {r.target} stays as it was: {r.reason}" for r in ended if r.status == "failed"]
-    use = found.in_use
+    use = found.probabilities
     chance = {(t.pair.source, t.pair.target): float(use[i]) for i, t in enumerate(tasks)}
     final = tuple(
         changed.get((r.source, r.target), replace(r, agreement=chance.get((r.source, r.target)))) for r in results
     )
     doubted = tuple(
-        f"{tasks[c.link].pair.source} → {tasks[c.link].pair.target}: {reason_of(c)}"
-        for c in found.changes
+        f"{tasks[c.edge].pair.source} → {tasks[c.edge].pair.target}: {reason_of(c)}"
+        for c in found.replacements
         if c.kind == "none"
     )
     _write_pairs(plan.folder / FOLDER / TABLE, tasks, maps, found, names)
-    links = [Link(a, b, choices(several)) for (a, b), several in zip(ends, maps, strict=True)]
+    links = [Edge(a, b, candidate_maps(several)) for (a, b), several in zip(ends, maps, strict=True)]
     notes += write_specimens(plan, names, links, found, tasks)
     return Agreed(final, {key: known[key] for key in changed}, doubted, len(changed), tuple(notes))
 
 
-def _way(tasks: list[PairTask], maps: list[list[Judged]], link: int, way: Round) -> WayTask:
-    steps = tuple(StepTask(tasks[step.link], step.choice, step.forth) for step in way.steps)
-    turns = sum(maps[step.link][step.choice].reversed for step in way.steps)
+def _way(tasks: list[PairTask], maps: list[list[ScoredMap]], link: int, way: CyclePath) -> WayTask:
+    steps = tuple(StepTask(tasks[step.edge], step.candidate, step.forward) for step in way.steps)
+    turns = sum(maps[step.edge][step.candidate].reversed for step in way.steps)
     return WayTask(tasks[link], steps, turns % 2 == 1)
 
 
@@ -141,18 +141,18 @@ def _forget(plan: Plan, kept: set[str]) -> None:
 
 
 def _write_pairs(
-    path: Path, tasks: list[PairTask], maps: list[list[Judged]], found: Repaired, names: list[str]
+    path: Path, tasks: list[PairTask], maps: list[list[ScoredMap]], found: RepairResult, names: list[str]
 ) -> None:
     """What the collection says of every pair."""
     text = io.StringIO(newline="")
     out = csv.writer(text, lineterminator="\n")
     out.writerow(["source", "target", "candidates", "probability", "misfit", "score", "changed", "why"])
-    changes = {change.link: change for change in found.changes}
+    changes = {change.edge: change for change in found.replacements}
     for i, task in enumerate(tasks):
         change = changes.get(i)
-        what = "" if change is None else kind_of(change, [names[k] for k in change.way.through] if change.way else ())
-        row = [task.pair.source, task.pair.target, len(maps[i]), f"{found.agreement.chances[i][0]:.6f}"]
-        row += [f"{found.agreement.misfits[i][0]:.6f}", f"{maps[i][0].score:.4f}", what]
+        what = "" if change is None else kind_of(change, [names[k] for k in change.path.through] if change.path else ())
+        row = [task.pair.source, task.pair.target, len(maps[i]), f"{found.sync.probabilities[i][0]:.6f}"]
+        row += [f"{found.sync.residuals[i][0]:.6f}", f"{maps[i][0].score:.4f}", what]
         out.writerow([*row, "" if change is None else reason_of(change)])
     path.parent.mkdir(parents=True, exist_ok=True)
     with atomic_output(path, force=True) as temporary:

@@ -14,8 +14,8 @@ from kfmaps.batch.kept import kept_probe
 from kfmaps.batch.settings import digest_of
 from kfmaps.batch.tasks import PairTask
 from kfmaps.batch.work import loaded, map_path
-from kfmaps.collection.paths import composed, turned_back
-from kfmaps.collection.scored_map import Judged, better, judged
+from kfmaps.collection.paths import compose_maps, invert_map
+from kfmaps.collection.scored_map import ScoredMap, score_maps, with_better_score
 from kfmaps.fmap.convert import to_points
 from kfmaps.io import MapFile, atomic_output, check_map, load_map
 from kfmaps.matching.reindexing import Border, border
@@ -75,7 +75,7 @@ def map_digest(task: PairTask) -> str:
 PART = "the map of a part stays as it is and takes no part in this: {lost} of {count} vertices have no counterpart"
 
 
-def evidence(task: PairTask) -> tuple[list[Judged], str]:
+def evidence(task: PairTask) -> tuple[list[ScoredMap], str]:
     """The map of a pair and its runners-up, judged, unless that is kept; and why not, where it cannot be.
 
     Maps of parts take no part: neither cycles nor a common basis are defined where points have no counterpart.
@@ -111,7 +111,7 @@ def was_reversed(found: MapFile) -> bool:
         return False
 
 
-def _evidence(task: PairTask, found: MapFile) -> list[Judged]:
+def _evidence(task: PairTask, found: MapFile) -> list[ScoredMap]:
     """The candidates of a file, judged; the one in use as it was before it was finished, too, where that is better.
 
     Runners-up are not finished, and finishing does not aim at the score.
@@ -126,10 +126,10 @@ def _evidence(task: PairTask, found: MapFile) -> list[Judged]:
     source, target = (shape.basis for shape in shapes)
     rough = to_points(np.asarray(raw)[: len(target.eigenvalues), : len(source.eigenvalues)], source, target, 1)
     first, before, *others = _judged(task, shapes, [maps[0], (rough, maps[0][1]), *maps[1:]])
-    return [better(first, before), *others]
+    return [with_better_score(first, before), *others]
 
 
-def composition(way: WayTask) -> tuple[np.ndarray | None, Judged | None, str]:
+def composition(way: WayTask) -> tuple[np.ndarray | None, ScoredMap | None, str]:
     """The points of a way round and what speaks for them, unless that is kept; and why not, where it cannot be."""
     try:
         inputs = digest_of([map_digest(step.task) for step in way.steps], 32)
@@ -139,7 +139,7 @@ def composition(way: WayTask) -> tuple[np.ndarray | None, Judged | None, str]:
             with open(path, "rb") as file, np.load(file, allow_pickle=False) as arrays:
                 return arrays["points"], kept[0], ""
         with one_blas_thread():
-            points = composed([_step(step) for step in way.steps])
+            points = compose_maps([_step(step) for step in way.steps])
             shapes = loaded(way.task.source), loaded(way.task.target)
             kept = _judged(way.task, shapes, [(points, way.reversed)])
         _write(path, inputs, kept, points=points)
@@ -152,22 +152,22 @@ def _step(step: StepTask) -> np.ndarray:
     """For each vertex of the step's second shape one of its first."""
     found = load_map(map_path(Path(step.task.folder), step.task.pair.key))
     points = candidates(found)[step.choice][0]
-    return points if step.forth else turned_back(points, loaded(step.task.source).basis, len(points))
+    return points if step.forth else invert_map(points, loaded(step.task.source).basis, len(points))
 
 
-def _judged(task: PairTask, shapes: tuple[Shape, Shape], maps: list[tuple[np.ndarray, bool]]) -> list[Judged]:
+def _judged(task: PairTask, shapes: tuple[Shape, Shape], maps: list[tuple[np.ndarray, bool]]) -> list[ScoredMap]:
     entries = Path(task.source.entry), Path(task.target.entry)
     probes = kept_probe(shapes[0], entries[0], task.seed), kept_probe(shapes[1], entries[1], task.seed)
     across = border(*shapes)
     points = [_within(points, across) for points, _ in maps]
-    return judged(points, across.source, across.target, probes, [turned for _, turned in maps])
+    return score_maps(points, across.source, across.target, probes, [turned for _, turned in maps])
 
 
 def _within(points: np.ndarray, across: Border) -> np.ndarray:
     return across.part_s.number[points[across.part_t.kept]]
 
 
-def _write(path: Path, inputs: str, maps: list[Judged], **more: np.ndarray) -> None:
+def _write(path: Path, inputs: str, maps: list[ScoredMap], **more: np.ndarray) -> None:
     path.parent.mkdir(parents=True, exist_ok=True)
     with atomic_output(path, force=True) as temporary, open(temporary, "wb") as file:
         np.savez(
@@ -182,14 +182,14 @@ def _write(path: Path, inputs: str, maps: list[Judged], **more: np.ndarray) -> N
         )
 
 
-def _read(path: Path, inputs: str) -> list[Judged] | None:
+def _read(path: Path, inputs: str) -> list[ScoredMap] | None:
     """What is kept, where it is of these inputs and whole."""
     try:
         with open(path, "rb") as file, np.load(file, allow_pickle=False) as arrays:
             if str(arrays["inputs"]) != inputs:
                 return None
             rows = zip(arrays["maps"], arrays["scores"], arrays["orientations"], arrays["reversed"], strict=True)
-            return [Judged(C, float(score), float(turn), bool(back)) for C, score, turn, back in rows]
+            return [ScoredMap(C, float(score), float(turn), bool(back)) for C, score, turn, back in rows]
     except FileNotFoundError:
         return None
     except Exception:  # NumPy reports a damaged file by whatever it runs into

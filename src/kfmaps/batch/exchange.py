@@ -21,7 +21,7 @@ from kfmaps.batch.settings import digest_of
 from kfmaps.batch.tasks import PairTask
 from kfmaps.batch.truth import true_vertices
 from kfmaps.batch.work import MAPS, catching, loaded, map_path, now, recorded
-from kfmaps.collection.repair import Change
+from kfmaps.collection.repair import Replacement
 from kfmaps.io import load_map
 from kfmaps.matching.calibration import SURE
 from kfmaps.matching.match import continued
@@ -44,7 +44,7 @@ class Exchange:
     """
 
     task: PairTask
-    change: Change
+    change: Replacement
     way: WayTask | None
     through: tuple[str, ...]
     before: Result
@@ -66,20 +66,20 @@ def map_in_use(folder: Path, key: str) -> Path:
     return other if exchanged_result(folder, key).exists() and other.exists() else map_path(folder, key)
 
 
-def kind_of(change: Change, through: Sequence[str]) -> str:
+def kind_of(change: Replacement, through: Sequence[str]) -> str:
     """What a pair was exchanged for, in words for a table."""
     if change.kind == "runner-up":
-        return f"runner-up {change.choice}"
+        return f"runner-up {change.candidate}"
     if change.kind == "composition":
         return f"composition through {', '.join(through)}"
     return ""
 
 
-def reason_of(change: Change) -> str:
+def reason_of(change: Replacement) -> str:
     """Why, in words."""
     scores = f"score {change.score_before:.1f}, now {change.score_after:.1f}"
     if change.improved:
-        misfits = f"by {change.misfit_before:.2f}, and this by {change.misfit_after:.2f}"
+        misfits = f"by {change.residual_before:.2f}, and this by {change.residual_after:.2f}"
         return f"it strays from what other pairs say, {misfits}; {scores}"
     told = [f"other pairs leave it a probability of {change.before:.1%}, and this {change.after:.0%}"]
     if change.kind == "none":
@@ -99,7 +99,7 @@ def exchange(job: Exchange) -> Result:
     inputs = ""
     with catching() as caught, one_blas_thread():
         steps = [] if job.way is None else [[s.choice, s.forth, map_digest(s.task)] for s in job.way.steps]
-        inputs = digest_of([map_digest(task), change.kind, change.choice, steps])
+        inputs = digest_of([map_digest(task), change.kind, change.candidate, steps])
         there = read_result(path)
         other = exchanged_map(folder, task.pair.key)
         if there is not None and (there.settings, there.inputs) == (task.settings, inputs) and other.exists():
@@ -131,13 +131,13 @@ def _exchanged(job: Exchange) -> dict[str, Any]:
     source, target = loaded(task.source), loaded(task.target)
     given = candidates(load_map(map_path(folder, task.pair.key)))
     if job.way is None:
-        points, turned = given[change.choice]
+        points, turned = given[change.candidate]
     else:
         made, judged, reason = composition(job.way)
         if made is None or judged is None:
             raise refuse(f"composition of {task.pair.key}", "maps that can be read", reason, "run the command again")
         points, turned = made, job.way.reversed
-    others = [given[0][0], *(row for i, (row, _) in enumerate(given[1:], 1) if i != change.choice)]
+    others = [given[0][0], *(row for i, (row, _) in enumerate(given[1:], 1) if i != change.candidate)]
     found = continued(
         source,
         target,

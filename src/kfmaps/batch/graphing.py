@@ -15,7 +15,14 @@ from kfmaps.batch.settings import Settings, digest_of
 from kfmaps.batch.spread import Crew
 from kfmaps.batch.tasks import ShapeTask
 from kfmaps.batch.work import loaded, prepare_shape
-from kfmaps.collection.pair_graph import every, medoid, near, signature, star, unlikeness
+from kfmaps.collection.pair_graph import (
+    complete_graph,
+    medoid,
+    nearest_neighbor_graph,
+    signature,
+    signature_distances,
+    star_graph,
+)
 from kfmaps.io import atomic_output
 
 Kind = Literal["near", "star", "all"]
@@ -37,9 +44,8 @@ def graph_pairs(
     ----------
     kind : "near", "star" or "all"
         Each shape with those that are most like it, about three pairs a shape, on cycles
-        (:func:`kfmaps.collection.pair_graph.near`); the one in the middle with all others; every pair, one way. A
-        shape that
-        cannot be prepared has no likeness and is left out of the first two; with the third its pairs fail.
+        (:func:`kfmaps.collection.pair_graph.nearest_neighbor_graph`); the one in the middle with all others; every
+        pair, one way. A shape that cannot be prepared has no likeness and is left out of the first two.
 
     Raises
     ------
@@ -52,7 +58,7 @@ def graph_pairs(
     if len(names) < 2:
         raise refuse("pairs", "two shapes or more", f"{len(names)}", "add shapes")
     if kind == "all":
-        return [Pair(names[a], names[b]) for a, b in every(len(names))]
+        return [Pair(names[a], names[b]) for a, b in complete_graph(len(names))]
     tasks = shape_tasks(collection, settings, output, cache_folder)
     key = digest_of([kind, sorted((task.name, task.content) for task in tasks.values())], 32)
     path = Path(output) / FILE
@@ -64,8 +70,8 @@ def graph_pairs(
     if len(good) < 2:
         reason = next((done.reason for done in ready if done.reason), "")
         raise refuse("collection", "two shapes that can be prepared", f"{len(good)}: {reason}", "check the meshes")
-    unlike = unlikeness(np.stack(crew.each("likeness of shapes", _signature, good)))
-    chosen = near(unlike) if kind == "near" else star(len(good), medoid(unlike))
+    unlike = signature_distances(np.stack(crew.each("likeness of shapes", _signature, good)))
+    chosen = nearest_neighbor_graph(unlike) if kind == "near" else star_graph(len(good), medoid(unlike))
     pairs = [Pair(good[a].name, good[b].name) for a, b in chosen]
     with atomic_output(path, force=True) as temporary:
         content = {"kind": kind, "shapes": key, "pairs": [[p.source, p.target] for p in pairs]}

@@ -15,16 +15,16 @@ from kfmaps.batch.tasks import PairTask, ShapeTask
 from kfmaps.batch.work import loaded
 from kfmaps.collection.differences import (
     Components,
-    Latent,
-    common_bases,
+    LimitShape,
+    component_limit_shapes,
     components,
     operators,
     shape_distances,
     variation,
 )
 from kfmaps.collection.pair_graph import medoid
-from kfmaps.collection.repair import Repaired
-from kfmaps.collection.synchronization import Link
+from kfmaps.collection.repair import RepairResult
+from kfmaps.collection.synchronization import Edge
 from kfmaps.geometry.basis import Basis
 from kfmaps.io import atomic_output
 
@@ -36,7 +36,7 @@ KINDS = ("area", "conformal")
 
 
 def write_specimens(
-    plan: Plan, names: list[str], links: Sequence[Link], found: Repaired, tasks: list[PairTask]
+    plan: Plan, names: list[str], links: Sequence[Edge], found: RepairResult, tasks: list[PairTask]
 ) -> list[str]:
     """Write the tables and the common basis of each part that pairs join; what could not be, in words.
 
@@ -46,17 +46,17 @@ def write_specimens(
     shapes: dict[str, ShapeTask] = {}
     for task in tasks:
         shapes |= {task.pair.source: task.source, task.pair.target: task.target}
-    hand = ["" if (found.hands == 1).all() else ("+" if h > 0 else "-") for h in found.hands]
-    parts, k = found.agreement.component, found.agreement.latent.shape[1]
+    hand = ["" if (found.chirality == 1).all() else ("+" if h > 0 else "-") for h in found.chirality]
+    parts, k = found.sync.component, found.sync.latent.shape[1]
     values = np.stack([loaded(shapes[name]).basis.eigenvalues[:k] for name in names])
-    bases = common_bases(found.agreement, links, values, SIZE)
+    bases = component_limit_shapes(found.sync, links, values, SIZE)
     for path in folder.glob(f"{Path(LATENT).stem}*.npz"):
         path.unlink()
     scores: dict[int, dict[str, float]] = {i: {} for i in range(len(names))}
     apart: list[list] = []
     for number, common in enumerate(bases):
         own = [names[i] for i in common.members]
-        matrices = {kind: operators(common.latent, values[common.members], kind) for kind in KINDS}
+        matrices = {kind: operators(common.limit_shape, values[common.members], kind) for kind in KINDS}
         pca = {kind: components(matrices[kind], COMPONENTS) for kind in KINDS}
         for kind in KINDS:
             for i, row in zip(common.members.tolist(), pca[kind].scores, strict=True):
@@ -69,7 +69,7 @@ def write_specimens(
         ]
         middle = medoid(distances["area"])
         basis = loaded(shapes[own[middle]]).basis
-        _latent(latent_path(folder, number), own, middle, common.latent, pca, matrices, basis)
+        _latent(latent_path(folder, number), own, middle, common.limit_shape, pca, matrices, basis)
     titles = [f"{kind}_{i + 1}" for kind in KINDS for i in range(COMPONENTS)]
     titles = [title for title in titles if any(title in row for row in scores.values())]
     rows = [
@@ -105,7 +105,7 @@ def _latent(
     path: Path,
     names: list[str],
     middle: int,
-    latent: Latent,
+    latent: LimitShape,
     pca: dict[str, Components],
     matrices: dict[str, np.ndarray],
     basis: Basis,

@@ -10,12 +10,25 @@ import numpy as np
 
 from kfmaps._arrays import check_count, refuse
 from kfmaps._threads import one_blas_thread
-from kfmaps.collection.differences import Common, Latent, common_bases, operators, shape_distances
-from kfmaps.collection.pair_graph import every, medoid, near, signature, star, unlikeness
-from kfmaps.collection.paths import Way, composed, roads, turned_back, ways_from
-from kfmaps.collection.repair import Change, Round, repaired
-from kfmaps.collection.scored_map import Judged, choices, judged
-from kfmaps.collection.synchronization import Link
+from kfmaps.collection.differences import (
+    ComponentLimitShape,
+    LimitShape,
+    component_limit_shapes,
+    operators,
+    shape_distances,
+)
+from kfmaps.collection.pair_graph import (
+    complete_graph,
+    medoid,
+    nearest_neighbor_graph,
+    signature,
+    signature_distances,
+    star_graph,
+)
+from kfmaps.collection.paths import MapPath, adjacency, best_paths, compose_maps, invert_map
+from kfmaps.collection.repair import CyclePath, Replacement, repair
+from kfmaps.collection.scored_map import ScoredMap, candidate_maps, score_maps
+from kfmaps.collection.synchronization import Edge
 from kfmaps.config import Config
 from kfmaps.io import MapFile, check_map
 from kfmaps.io.inputs import as_map, as_mesh
@@ -68,14 +81,14 @@ class Collection:
     chances: tuple[float, ...]
     changes: dict[tuple[str, str], str]
     hands: dict[str, int]
-    bases: tuple[Common, ...] = ()
+    bases: tuple[ComponentLimitShape, ...] = ()
     parts: tuple[tuple[str, str], ...] = ()
 
     @property
-    def latent(self) -> Latent | None:
+    def latent(self) -> LimitShape | None:
         """The common basis of all shapes; ``None`` where pairs do not join them all, or there are only two."""
         whole = self.bases and len(self.bases[0].members) == len(self.names)
-        return self.bases[0].latent if whole else None
+        return self.bases[0].limit_shape if whole else None
 
     def map(self, source: str, target: str) -> np.ndarray:
         """A vertex of ``source`` for each vertex of ``target``, (n_t,): of any two shapes that maps join.
@@ -91,7 +104,7 @@ class Collection:
         a, b = self._number(source), self._number(target)
         if a == b:
             return np.arange(len(self.shapes[a].mesh.vertices))
-        ways = ways_from(roads(len(self.names), self._ends()), self.chances, a)
+        ways = best_paths(adjacency(len(self.names), self._ends()), self.chances, a)
         if b not in ways and (source, target) in self.parts:
             return self.maps[self.pairs.index((source, target))]
         if b not in ways:
@@ -112,12 +125,12 @@ class Collection:
         np.fill_diagonal(found, 0.0)
         for one in self.bases:
             values = self.eigenvalues()[one.members]
-            found[np.ix_(one.members, one.members)] = shape_distances(operators(one.latent, values, kind))
+            found[np.ix_(one.members, one.members)] = shape_distances(operators(one.limit_shape, values, kind))
         return found
 
     def eigenvalues(self) -> np.ndarray:
         """Of each shape at unit area, as many as the common bases need, (n, k)."""
-        k = self.bases[0].latent.maps.shape[1] if self.bases else 0
+        k = self.bases[0].limit_shape.maps.shape[1] if self.bases else 0
         return np.stack([shape.basis.eigenvalues[:k] for shape in self.shapes])
 
     def _number(self, name: str) -> int:
@@ -129,13 +142,13 @@ class Collection:
         return [(self.names.index(a), self.names.index(b)) for a, b in self.pairs]
 
 
-def _composed(found: Collection, way: Way) -> np.ndarray:
+def _composed(found: Collection, way: MapPath) -> np.ndarray:
     steps = []
-    for link, here in zip(way.links, way.shapes, strict=False):
+    for link, here in zip(way.edges, way.shapes, strict=False):
         source = found.names.index(found.pairs[link][0])
         points = found.maps[link]
-        steps.append(points if source == here else turned_back(points, found.shapes[source].basis, len(points)))
-    return composed(steps)
+        steps.append(points if source == here else invert_map(points, found.shapes[source].basis, len(points)))
+    return compose_maps(steps)
 
 
 def match_collection(
@@ -237,48 +250,48 @@ class _Work:
         both = self.probes[a], self.probes[b]
         return match(self.shapes[a], self.shapes[b], self.config, rng=self.seed, probes=both)
 
-    def judge(self, ends: tuple[int, int], maps: Sequence[np.ndarray], turned: bool) -> list[Judged]:
+    def judge(self, ends: tuple[int, int], maps: Sequence[np.ndarray], turned: bool) -> list[ScoredMap]:
         across = border(self.shapes[ends[0]], self.shapes[ends[1]])
         within = [across.part_s.number[points[across.part_t.kept]] for points in maps]
         both = self.probes[ends[0]], self.probes[ends[1]]
         with one_blas_thread():
-            return judged(within, across.source, across.target, both, [turned] * len(maps))
+            return score_maps(within, across.source, across.target, both, [turned] * len(maps))
 
     def agreed(
         self,
         ends: list[tuple[int, int]],
         points: list[list[np.ndarray]],
         matches: list[Match | None],
-        evidence: list[list[Judged]],
+        evidence: list[list[ScoredMap]],
     ) -> Collection:
         """The collection, its wrong maps exchanged."""
 
-        def along(way: Round) -> np.ndarray:
+        def along(way: CyclePath) -> np.ndarray:
             steps = []
             for step in way.steps:
-                one = points[step.link][step.choice]
-                basis = self.shapes[ends[step.link][0]].basis
-                steps.append(one if step.forth else turned_back(one, basis, len(one)))
-            return composed(steps)
+                one = points[step.edge][step.candidate]
+                basis = self.shapes[ends[step.edge][0]].basis
+                steps.append(one if step.forward else invert_map(one, basis, len(one)))
+            return compose_maps(steps)
 
-        def turns(way: Round) -> bool:
-            return sum(evidence[step.link][step.choice].reversed for step in way.steps) % 2 == 1
+        def turns(way: CyclePath) -> bool:
+            return sum(evidence[step.edge][step.candidate].reversed for step in way.steps) % 2 == 1
 
-        def compose(asked: list[tuple[int, Round]]) -> list[Judged]:
+        def compose(asked: list[tuple[int, CyclePath]]) -> list[ScoredMap]:
             return [self.judge(ends[link], [along(way)], turns(way))[0] for link, way in asked]
 
-        found = repaired(len(self.names), ends, evidence, compose)
+        found = repair(len(self.names), ends, evidence, compose)
         maps, matches, changes = [several[0] for several in points], list(matches), {}
-        for change in found.changes:
-            pair = tuple(self.names[i] for i in ends[change.link])
+        for change in found.replacements:
+            pair = tuple(self.names[i] for i in ends[change.edge])
             changes[pair] = self.described(change)
             if change.kind == "none":
                 continue
-            way = change.way
-            better = points[change.link][change.choice] if way is None else along(way)
-            turned = evidence[change.link][change.choice].reversed if way is None else turns(way)
-            a, b = ends[change.link]
-            matches[change.link] = made = continued(
+            way = change.path
+            better = points[change.edge][change.candidate] if way is None else along(way)
+            turned = evidence[change.edge][change.candidate].reversed if way is None else turns(way)
+            a, b = ends[change.edge]
+            matches[change.edge] = made = continued(
                 self.shapes[a],
                 self.shapes[b],
                 better,
@@ -288,29 +301,29 @@ class _Work:
                 verdict="sure" if change.after >= SURE else "ambiguous",
                 confidence=change.after,
                 quality=change.score_after,
-                runners_up=(points[change.link][0],),
+                runners_up=(points[change.edge][0],),
                 rng=self.seed,
             )
-            maps[change.link] = made.target_to_source
-        links = [Link(a, b, choices(several)) for (a, b), several in zip(ends, evidence, strict=True)]
-        values = np.stack([shape.basis.eigenvalues[: found.agreement.latent.shape[1]] for shape in self.shapes])
+            maps[change.edge] = made.target_to_source
+        links = [Edge(a, b, candidate_maps(several)) for (a, b), several in zip(ends, evidence, strict=True)]
+        values = np.stack([shape.basis.eigenvalues[: found.sync.latent.shape[1]] for shape in self.shapes])
         return Collection(
             self.names,
             tuple(self.shapes),
             tuple((self.names[a], self.names[b]) for a, b in ends),
             tuple(maps),
             tuple(matches),
-            tuple(found.in_use.tolist()),
+            tuple(found.probabilities.tolist()),
             changes,
-            dict(zip(self.names, found.hands.tolist(), strict=True)),
-            common_bases(found.agreement, links, values, LATENT),
+            dict(zip(self.names, found.chirality.tolist(), strict=True)),
+            component_limit_shapes(found.sync, links, values, LATENT),
         )
 
-    def described(self, change: Change) -> str:
+    def described(self, change: Replacement) -> str:
         if change.kind == "runner-up":
-            return f"runner-up {change.choice}"
-        if change.way is not None:
-            return f"composition through {', '.join(self.names[i] for i in change.way.through)}"
+            return f"runner-up {change.candidate}"
+        if change.path is not None:
+            return f"composition through {', '.join(self.names[i] for i in change.path.through)}"
         return "doubted"
 
 
@@ -339,10 +352,10 @@ def _runners_up(file: MapFile) -> list[np.ndarray]:
 
 def _graph(kind: str, shapes: Sequence[Shape]) -> list[tuple[int, int]]:
     if kind == "all":
-        return list(every(len(shapes)))
-    unlike = unlikeness(np.stack([signature(shape.basis) for shape in shapes]))
+        return list(complete_graph(len(shapes)))
+    unlike = signature_distances(np.stack([signature(shape.basis) for shape in shapes]))
     if kind == "near":
-        return list(near(unlike))
+        return list(nearest_neighbor_graph(unlike))
     if kind == "star":
-        return list(star(len(shapes), medoid(unlike)))
+        return list(star_graph(len(shapes), medoid(unlike)))
     raise refuse("graph", "near, star or all", repr(kind), "choose one of them")

@@ -1,4 +1,4 @@
-"""Left and right specimens told apart: which pairs are of one kind, made to agree over a collection."""
+"""Tell left from right specimens: signs of the shapes that agree with which maps keep orientation."""
 
 from __future__ import annotations
 
@@ -8,12 +8,13 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from kfmaps._arrays import check, refuse
+from kfmaps.geometry.topology import connected
 
-ROUNDS = 100
+MAX_FLIPS = 100
 
 
-def hands(count: int, ends: Sequence[tuple[int, int]], kept: Sequence[bool], weights: ArrayLike) -> np.ndarray:
-    """1 or -1 for each shape, such that pairs of equal sign keep orientation and others reverse it: (n,) int64.
+def chirality(count: int, ends: Sequence[tuple[int, int]], kept: Sequence[bool], weights: ArrayLike) -> np.ndarray:
+    """Return 1 or -1 for each shape, such that pairs of equal sign keep orientation and others reverse it: (n,) int64.
 
     As much of the ``weights`` as can be is to agree: the leading eigenvector of the signed graph gives signs
     (synchronisation over the group of two; Singer 2011), and a shape changes its own as long as that gains.
@@ -21,7 +22,7 @@ def hands(count: int, ends: Sequence[tuple[int, int]], kept: Sequence[bool], wei
     Parameters
     ----------
     count : int
-        Shapes.
+        Number of shapes.
     ends, kept, weights : sequences
         Of each pair its shapes, whether its map keeps orientation, and how sure that is, not negative.
 
@@ -43,7 +44,7 @@ def hands(count: int, ends: Sequence[tuple[int, int]], kept: Sequence[bool], wei
     signs = np.where(leading < -1e-12, -1, 1).astype(np.int64)
     # An eigenvector may live on one of several parts: each shape then asks its neighbours, from the surest on.
     signs = _along(signed, signs, np.abs(leading) > 1e-6)
-    for _ in range(ROUNDS):
+    for _ in range(MAX_FLIPS):
         gain = -signs * (signed @ signs)
         worst = int(gain.argmax()) if count else 0
         if count == 0 or gain[worst] <= 1e-9 * (1.0 + np.abs(signed).max()):
@@ -67,18 +68,8 @@ def _along(signed: np.ndarray, signs: np.ndarray, known: np.ndarray) -> np.ndarr
 
 
 def _anchored(signed: np.ndarray, signs: np.ndarray) -> np.ndarray:
-    """The lowest shape of each part has 1."""
-    seen = np.zeros(len(signs), dtype=bool)
-    for root in range(len(signs)):
-        if seen[root]:
-            continue
-        part, front = np.zeros(len(signs), dtype=bool), [root]
-        part[root] = True
-        while front:
-            fresh = (np.abs(signed[front]).sum(axis=0) > 0) & ~part
-            part |= fresh
-            front = np.flatnonzero(fresh).tolist()
-        seen |= part
-        if signs[root] < 0:
-            signs = np.where(part, -signs, signs)
-    return signs
+    """The lowest shape of each component has 1."""
+    a, b = np.nonzero(signed)
+    part = connected(len(signs), a, b)[1]
+    first = np.unique(part, return_index=True)[1]
+    return signs * signs[first[part]]

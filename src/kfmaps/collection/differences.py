@@ -17,7 +17,7 @@ import numpy as np
 from scipy.linalg import eigh
 
 from kfmaps._arrays import check, check_count, refuse, to_numpy
-from kfmaps.collection.synchronization import Agreement, Link
+from kfmaps.collection.synchronization import Edge, SyncResult
 from kfmaps.geometry.basis import Basis
 
 RIGHT = 0.5
@@ -27,7 +27,7 @@ SETTLING = 30
 
 
 @dataclass(frozen=True, eq=False)
-class Latent:
+class LimitShape:
     """A common basis of a collection.
 
     Attributes
@@ -47,13 +47,13 @@ class Latent:
         return np.swapaxes(self.maps, 1, 2) @ self.maps
 
 
-def latent_basis(
-    found: Agreement,
-    links: Sequence[Link],
+def limit_shape(
+    found: SyncResult,
+    edges: Sequence[Edge],
     chosen: Sequence[int | None],
     eigenvalues: np.ndarray,
     size: int | None = None,
-) -> Latent:
+) -> LimitShape:
     """A canonical latent basis for shapes whose maps agree.
 
     Orthogonal maps know no areas. From them on each shape's map becomes the mean of what its neighbours' say, again
@@ -63,9 +63,9 @@ def latent_basis(
     Parameters
     ----------
     found : Agreement
-    links : sequence of Link
+    edges : sequence of Link
     chosen : sequence of int or None
-        Of each link the candidate that is right; ``None`` where none is known.
+        Of each edge the candidate that is right; ``None`` where none is known.
     eigenvalues : (n, k)
         Of each shape at unit area, at least as many as the agreement has functions.
     size : int, optional
@@ -83,12 +83,12 @@ def latent_basis(
     values = check(np.asarray(eigenvalues), "eigenvalues", shape=(count, None), finite=True)[:, :k]
     size = k if size is None else check_count(size, "latent functions", 1, k)
     around: list[list[tuple[int, np.ndarray]]] = [[] for _ in range(count)]
-    for link, choice in zip(links, chosen, strict=True):
+    for edge, choice in zip(edges, chosen, strict=True):
         if choice is not None:
-            C = link.choices[choice].map[:k, :k]
-            around[link.target].append((link.source, C))
+            C = edge.candidates[choice].map[:k, :k]
+            around[edge.target].append((edge.source, C))
             # Back by the inverse, as far as it is safe: the transpose would turn a stretch round.
-            around[link.source].append((link.target, np.linalg.pinv(C, rcond=0.2)))
+            around[edge.source].append((edge.target, np.linalg.pinv(C, rcond=0.2)))
     maps = _normalised(found.latent)
     for _ in range(SETTLING):
         said = [np.mean([C @ maps[u] for u, C in near], axis=0) if near else maps[v] for v, near in enumerate(around)]
@@ -97,28 +97,30 @@ def latent_basis(
     gradients = (np.swapaxes(maps, 1, 2) @ (values[:, :, None] * maps)).mean(axis=0)
     means, functions = eigh(gradients, areas + 1e-9 * np.trace(areas) / k * np.eye(k))
     maps = (maps @ functions)[:, :, :size]
-    return Latent(maps * _signs(maps), np.maximum(means[:size], 0.0))
+    return LimitShape(maps * _signs(maps), np.maximum(means[:size], 0.0))
 
 
 @dataclass(frozen=True, eq=False)
-class Common:
+class ComponentLimitShape:
     """Shapes that pairs join, by number, ``members (m,)``, and their common basis, of ``m`` maps."""
 
     members: np.ndarray
-    latent: Latent
+    limit_shape: LimitShape
 
 
-def common_bases(found: Agreement, links: Sequence[Link], eigenvalues: np.ndarray, size: int) -> tuple[Common, ...]:
-    """:func:`latent_basis` of each part of the collection that pairs join, by the candidates that are probably right.
+def component_limit_shapes(
+    found: SyncResult, edges: Sequence[Edge], eigenvalues: np.ndarray, size: int
+) -> tuple[ComponentLimitShape, ...]:
+    """:func:`limit_shape` of each part of the collection that pairs join, by the candidates that are probably right.
 
-    Parts of three shapes or more, the largest first; at most ``size`` functions. ``links`` may lack the last candidates
+    Parts of three shapes or more, the largest first; at most ``size`` functions. ``edges`` may lack the last candidates
     of those that ``found`` is of, such as compositions.
     """
     k = found.latent.shape[1]
-    best = [int(chances[:-1].argmax()) for chances in found.chances]
+    best = [int(chances[:-1].argmax()) for chances in found.probabilities]
     chosen = [
-        b if b < len(link.choices) and chances[b] >= RIGHT else None
-        for b, chances, link in zip(best, found.chances, links, strict=True)
+        b if b < len(edge.candidates) and chances[b] >= RIGHT else None
+        for b, chances, edge in zip(best, found.probabilities, edges, strict=True)
     ]
     numbers, counts = np.unique(found.component, return_counts=True)
     bases = []
@@ -127,17 +129,19 @@ def common_bases(found: Agreement, links: Sequence[Link], eigenvalues: np.ndarra
         if len(members) < 3:
             continue
         place = {int(v): i for i, v in enumerate(members)}
-        inside = [i for i, link in enumerate(links) if link.source in place]
-        own = [replace(links[i], source=place[links[i].source], target=place[links[i].target]) for i in inside]
-        alone = Agreement(
+        inside = [i for i, edge in enumerate(edges) if edge.source in place]
+        own = [replace(edges[i], source=place[edges[i].source], target=place[edges[i].target]) for i in inside]
+        alone = SyncResult(
             found.latent[members],
-            tuple(found.chances[i] for i in inside),
-            tuple(found.misfits[i] for i in inside),
+            tuple(found.probabilities[i] for i in inside),
+            tuple(found.residuals[i] for i in inside),
             found.limit,
             np.zeros(len(members), dtype=np.int64),
         )
         values = np.asarray(eigenvalues)[members]
-        bases.append(Common(members, latent_basis(alone, own, [chosen[i] for i in inside], values, min(size, k))))
+        bases.append(
+            ComponentLimitShape(members, limit_shape(alone, own, [chosen[i] for i in inside], values, min(size, k)))
+        )
     return tuple(bases)
 
 
@@ -172,7 +176,7 @@ def conformal_difference(C: np.ndarray, eigenvalues_s: np.ndarray, eigenvalues_t
     return inside[1:, 1:] / np.maximum(values, 1e-9 * values.max())[:, None]
 
 
-def operators(latent: Latent, eigenvalues: np.ndarray, kind: str = "area") -> np.ndarray:
+def operators(shape: LimitShape, eigenvalues: np.ndarray, kind: str = "area") -> np.ndarray:
     """The symmetric matrix of each shape on the latent space, (n, m, m), the identity on average.
 
     Parameters
@@ -183,12 +187,12 @@ def operators(latent: Latent, eigenvalues: np.ndarray, kind: str = "area") -> np
         ``Y_vᵀ Y_v``, or ``Λ^{-1/2} Y_vᵀ Λ_v Y_v Λ^{-1/2}`` with the latent basis' own values and without the constant.
     """
     if kind == "area":
-        return latent.areas
+        return shape.areas
     if kind != "conformal":
         raise refuse("kind", "'area' or 'conformal'", repr(kind), "choose one of them")
-    maps = latent.maps[:, :, 1:]
+    maps = shape.maps[:, :, 1:]
     inside = np.swapaxes(maps, 1, 2) @ (np.asarray(eigenvalues)[:, : maps.shape[1], None] * maps)
-    roots = np.sqrt(np.maximum(latent.values[1:], 1e-9))
+    roots = np.sqrt(np.maximum(shape.values[1:], 1e-9))
     return inside / (roots[:, None] * roots[None, :])
 
 
@@ -243,13 +247,13 @@ def components(matrices: np.ndarray, count: int = 5) -> Components:
     return Components(scores, parts, (right[:kept] * flip[:, None]).reshape(kept, m, m), mean)
 
 
-def density(matrices: np.ndarray, latent: Latent, number: int, basis: Basis) -> np.ndarray:
-    """How large each shape is at each vertex of shape ``number``, beside the mean: (n, vertices), a ratio, smooth.
+def density(matrices: np.ndarray, shape: LimitShape, number: int, basis: Basis) -> np.ndarray:
+    """How large each specimen is at each vertex of shape ``number``, beside the mean: (n, vertices), a ratio, smooth.
 
     ``ψᵀ D_v ψ / ψᵀ D̄ ψ`` with ``ψ`` the latent coordinates of the vertex' delta function. With
     :func:`operators` of the kind "area" it is the density of area, at the resolution of the latent functions.
     """
-    own = latent.maps[number]
+    own = shape.maps[number]
     functions = to_numpy(basis.functions)[:, : len(own)]
     first = own.shape[1] - matrices.shape[1]
     at = (functions @ np.linalg.pinv(own, rcond=0.05).T)[:, first:]
@@ -258,11 +262,6 @@ def density(matrices: np.ndarray, latent: Latent, number: int, basis: Basis) -> 
     return each / np.maximum(whole, 1e-9 * whole.max())
 
 
-def variation(matrices: np.ndarray, latent: Latent, number: int, basis: Basis) -> np.ndarray:
+def variation(matrices: np.ndarray, shape: LimitShape, number: int, basis: Basis) -> np.ndarray:
     """Where on shape ``number`` specimens differ: the standard deviation over them of :func:`density`, (vertices,)."""
-    return density(matrices, latent, number, basis).std(axis=0)
-
-
-def truncated(latent: Latent, size: int) -> Latent:
-    """The first ``size`` latent functions."""
-    return replace(latent, maps=latent.maps[:, :, :size], values=latent.values[:size])
+    return density(matrices, shape, number, basis).std(axis=0)

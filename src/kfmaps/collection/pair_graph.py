@@ -1,4 +1,4 @@
-"""Which pairs of a collection to match, when not all: a connected graph with cycles, a few pairs for each shape.
+"""Choose which pairs of a collection to match: a connected graph with cycles, a few pairs for each shape.
 
 A pair that lies on no cycle cannot be checked by others. So a spanning tree of the shapes that are most alike, which
 are the easiest to match, gets further pairs until each shape has a few, and no pair is the only way to anywhere.
@@ -10,14 +10,15 @@ from collections.abc import Iterable
 
 import numpy as np
 from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components, minimum_spanning_tree
+from scipy.sparse.csgraph import minimum_spanning_tree
 
 from kfmaps._arrays import check, check_count, refuse, to_numpy
-from kfmaps.collection.paths import roads
+from kfmaps.collection.paths import adjacency
 from kfmaps.descriptors.spectral import heat_signature
 from kfmaps.geometry.basis import Basis
+from kfmaps.geometry.topology import connected
 
-VALUES = 30
+N_EIGENVALUES = 30
 """Eigenvalues that shapes are compared by."""
 TIMES = np.geomspace(0.005, 0.3, 8)
 """Diffusion times at unit area whose heat kernel signatures are compared."""
@@ -27,21 +28,21 @@ Pairs = tuple[tuple[int, int], ...]
 
 
 def signature(basis: Basis) -> np.ndarray:
-    """Numbers that alike shapes have alike, (d,): logarithms of eigenvalues, and how the heat kernel is spread.
+    """Return numbers that alike shapes have alike, (d,): logarithms of eigenvalues, and how the heat kernel is spread.
 
     Free of units where ``basis`` is that of unit area, of pose nearly, and of the triangulation. Mirror images have the
     same. Differences are of the order of 0.1 to 1.
     """
-    values = to_numpy(basis.eigenvalues)[1 : VALUES + 1]
+    values = to_numpy(basis.eigenvalues)[1 : N_EIGENVALUES + 1]
     # By Weyl's law the i-th is about 4 π i at unit area.
     growth = np.log(np.maximum(values, 1e-3) / (4 * np.pi * np.arange(1, len(values) + 1)))
-    growth = np.concatenate([growth, np.full(VALUES - len(growth), growth[-1] if len(growth) else 0.0)])
+    growth = np.concatenate([growth, np.full(N_EIGENVALUES - len(growth), growth[-1] if len(growth) else 0.0)])
     heat = np.log(np.maximum(to_numpy(heat_signature(basis, TIMES)), 1e-12))
     return np.concatenate([growth, np.quantile(heat, QUANTILES, axis=0).ravel()])
 
 
-def unlikeness(signatures: np.ndarray) -> np.ndarray:
-    """Distances between the rows of ``signatures (n, d)``: (n, n), symmetric, 0 on the diagonal."""
+def signature_distances(signatures: np.ndarray) -> np.ndarray:
+    """Return distances between the rows of ``signatures (n, d)``: (n, n), symmetric, 0 on the diagonal."""
     check(signatures, "signatures", shape=(None, None), finite=True)
     squares = (signatures**2).sum(axis=1)
     gram = signatures @ signatures.T
@@ -50,30 +51,30 @@ def unlikeness(signatures: np.ndarray) -> np.ndarray:
     return (found + found.T) / 2
 
 
-def star(count: int, centre: int) -> Pairs:
-    """``centre`` as the source of all others: the fewest pairs, none of which others can check."""
+def star_graph(count: int, centre: int) -> Pairs:
+    """Return the pairs of ``centre`` with all others: the fewest pairs, none of which others can check."""
     check_count(count, "shapes", low=2)
     return tuple((centre, other) for other in range(count) if other != centre)
 
 
-def every(count: int) -> Pairs:
-    """All pairs, one way."""
+def complete_graph(count: int) -> Pairs:
+    """Return all pairs, one way."""
     check_count(count, "shapes", low=2)
     return tuple((a, b) for a in range(count) for b in range(a + 1, count))
 
 
 def medoid(distances: np.ndarray) -> int:
-    """The shape that is least far from the others, by ``distances (n, n)``."""
+    """Return the shape that is least far from the others, by ``distances (n, n)``."""
     return int(distances.sum(axis=1).argmin())
 
 
-def near(distances: np.ndarray, each: int = 4) -> Pairs:
-    """The minimal spanning tree, and nearest neighbours until each shape has ``each`` pairs and lies on cycles.
+def nearest_neighbor_graph(distances: np.ndarray, each: int = 4) -> Pairs:
+    """Return the minimal spanning tree, and nearest neighbours until each shape has ``each`` pairs and lies on cycles.
 
     Parameters
     ----------
     distances : (n, n)
-        How unlike shapes are, see :func:`unlikeness`; symmetric.
+        See :func:`signature_distances`; symmetric.
     each : int
         Pairs that every shape is to have at least, from 2 on; in all there are about ``0.7 · each · n``, at most
         ``each · n``, fewer only where there are not so many shapes.
@@ -116,17 +117,21 @@ def _bridge(count: int, pairs: set[tuple[int, int]]) -> tuple[tuple[int, int], n
     if count < 3:
         return None
     pair = next(iter(sorted(bridges(count, pairs))), None)
-    return None if pair is None else (pair, _reached(count, pairs - {pair}, pair[1]))
+    if pair is None:
+        return None
+    rest = np.array(sorted(pairs - {pair}), dtype=np.int64).reshape(-1, 2)
+    part = connected(count, rest[:, 0], rest[:, 1])[1]
+    return pair, part == part[pair[1]]
 
 
 def bridges(count: int, pairs: Iterable[tuple[int, int]]) -> set[tuple[int, int]]:
-    """Those of the ``pairs`` of ``count`` shapes that lie on no cycle: without one its ends do not hang together.
+    """Return those of the ``pairs`` of ``count`` shapes that lie on no cycle: the bridges of the graph.
 
     Depth first with the lowest number that can be reached past the tree's edge (Tarjan 1974), without recursion. A pair
     that is there twice is on a cycle of two.
     """
     every = list(pairs)
-    neighbours = roads(count, every)
+    neighbours = adjacency(count, every)
     number, low = [-1] * count, [0] * count
     found: set[tuple[int, int]] = set()
     seen = 0
@@ -154,11 +159,3 @@ def bridges(count: int, pairs: Iterable[tuple[int, int]]) -> set[tuple[int, int]
                     if low[v] > number[up]:
                         found.add(every[by])
     return found
-
-
-def _reached(count: int, pairs: set[tuple[int, int]], start: int) -> np.ndarray:
-    """Which shapes (n,) hang together with ``start``."""
-    ends = np.array(sorted(pairs), dtype=np.int64).reshape(-1, 2)
-    graph = coo_array((np.ones(len(ends)), (ends[:, 0], ends[:, 1])), shape=(count, count))
-    label = connected_components(graph, directed=False)[1]
-    return label == label[start]

@@ -1,4 +1,4 @@
-"""Maps along paths of pairs: the best way from one shape to another, and the composition of the maps on it."""
+"""Maps along paths of pairs: the best path from one shape to another, and the composition of the maps on it."""
 
 from __future__ import annotations
 
@@ -14,36 +14,26 @@ from kfmaps.fmap.convert import check_point_map, nearest
 from kfmaps.geometry.basis import Basis, zero_level
 
 EMBEDDING = 60
-"""Functions by which the nearest images are found where a map is gone through backwards."""
-LEAST = 1e-6
-"""Probability below which a pair is no way to anywhere."""
+"""Functions by which the nearest images are found where a map is inverted."""
+MIN_PROBABILITY = 1e-6
+"""Probability below which a pair is on no path."""
+
+Adjacency = Sequence[Sequence[tuple[int, int]]]
+"""Of each shape its neighbours, with the number of the edge between."""
 
 
 @dataclass(frozen=True)
-class Way:
-    """A path between two shapes.
-
-    Attributes
-    ----------
-    shapes : tuple of int
-        From the source to the target.
-    links : tuple of int
-        The pairs between them, by number.
-    chance : float
-        Product of their probabilities.
-    """
+class MapPath:
+    """A path between two shapes: its shapes from source to target, the edges between them, by number, and the product
+    of their probabilities."""
 
     shapes: tuple[int, ...]
-    links: tuple[int, ...]
-    chance: float
+    edges: tuple[int, ...]
+    probability: float
 
 
-Roads = Sequence[Sequence[tuple[int, int]]]
-"""Of each shape its neighbours, with the number of the pair between."""
-
-
-def roads(count: int, ends: Sequence[tuple[int, int]]) -> Roads:
-    """The neighbours of each of ``count`` shapes by pairs with these ``ends``, made once for many searches."""
+def adjacency(count: int, ends: Sequence[tuple[int, int]]) -> Adjacency:
+    """Return the neighbours of each of ``count`` shapes by edges with these ``ends``."""
     around: list[list[tuple[int, int]]] = [[] for _ in range(count)]
     for number, (a, b) in enumerate(ends):
         around[a].append((b, number))
@@ -51,62 +41,62 @@ def roads(count: int, ends: Sequence[tuple[int, int]]) -> Roads:
     return around
 
 
-def best_way(
-    around: Roads, chances: Sequence[float], source: int, target: int, without: int | None = None
-) -> Way | None:
-    """The path from ``source`` to ``target`` whose maps are most probably all right; ``None`` where there is none.
+def best_path(
+    around: Adjacency, probabilities: Sequence[float], source: int, target: int, without: int | None = None
+) -> MapPath | None:
+    """Return the path from ``source`` to ``target`` whose maps are most probably all right; ``None`` without one.
 
     Parameters
     ----------
-    around : Roads
-        Links are gone through both ways.
-    chances : sequence
-        Of each link the probability that its map is right. Of equally probable paths the one of the fewest links is
-        taken, then of the lowest numbers.
+    around : Adjacency
+        Edges are gone through both ways.
+    probabilities : sequence of float
+        That the map of each edge is right. Of equally probable paths the one of the fewest edges is taken, then of the
+        lowest numbers.
     without : int, optional
-        A link that is not to be used.
+        An edge that is not to be used.
     """
-    return _searched(around, chances, source, target, without).get(target)
+    return _dijkstra(around, probabilities, source, target, without).get(target)
 
 
-def ways_from(around: Roads, chances: Sequence[float], source: int) -> dict[int, Way]:
-    """The best ways from one shape to all that can be reached, itself too; as :func:`best_way` finds them.
+def best_paths(around: Adjacency, probabilities: Sequence[float], source: int) -> dict[int, MapPath]:
+    """Return the :func:`best_path` from one shape to each that can be reached, itself too, the most probable first.
 
-    A way's first part is the way to where that ends, so that points can be carried along all of them step by step. In
-    the order of how probable they are.
+    A path without its last step is the best path to where that begins, so points can be carried step by step.
     """
-    return _searched(around, chances, source)
+    return _dijkstra(around, probabilities, source)
 
 
-def _searched(
-    around: Roads, chances: Sequence[float], source: int, target: int | None = None, without: int | None = None
-) -> dict[int, Way]:
-    """Dijkstra's search from ``source``, until ``target`` is found."""
+def _dijkstra(
+    around: Adjacency,
+    probabilities: Sequence[float],
+    source: int,
+    target: int | None = None,
+    without: int | None = None,
+) -> dict[int, MapPath]:
+    """Search from ``source``, until ``target`` is found (Dijkstra)."""
     queue: list[tuple[float, int, tuple[int, ...], tuple[int, ...]]] = [(0.0, 0, (source,), ())]
-    found: dict[int, Way] = {}
+    found: dict[int, MapPath] = {}
     while queue:
-        cost, length, shapes, links = heappop(queue)
+        cost, length, shapes, edges = heappop(queue)
         here = shapes[-1]
         if here in found:
             continue
-        found[here] = Way(shapes, links, math.exp(-cost))
+        found[here] = MapPath(shapes, edges, math.exp(-cost))
         if here == target:
             break
         for other, number in around[here]:
-            if other not in found and number != without and chances[number] > LEAST:
+            if other not in found and number != without and probabilities[number] > MIN_PROBABILITY:
                 # Rounded, so that what is equal but for rounding is equal; each step costs a little by itself.
-                further = round(cost - math.log(min(chances[number], 1.0)) + 1e-6, 9)
-                heappush(queue, (further, length + 1, (*shapes, other), (*links, number)))
+                further = round(cost - math.log(min(probabilities[number], 1.0)) + 1e-6, 9)
+                heappush(queue, (further, length + 1, (*shapes, other), (*edges, number)))
     return found
 
 
-def composed(maps: Sequence[np.ndarray]) -> np.ndarray:
-    """The map of a path: ``maps[i] (n_{i+1},)`` names for each vertex of the path's shape i + 1 one of shape i.
+def compose_maps(maps: Sequence[np.ndarray]) -> np.ndarray:
+    """Return the map of a path, (n_last,) int64: a vertex of its first shape for each vertex of its last.
 
-    Returns
-    -------
-    (n_last,) int64
-        A vertex of the first shape for each vertex of the last.
+    ``maps[i] (n_{i+1},)`` names for each vertex of the path's shape i + 1 one of shape i.
     """
     if not maps:
         raise refuse("maps", "at least one", "none", "give those between neighbours on the path")
@@ -117,8 +107,8 @@ def composed(maps: Sequence[np.ndarray]) -> np.ndarray:
     return found.astype(np.int64)
 
 
-def turned_back(target_to_source: np.ndarray, source: Basis, n_t: int) -> np.ndarray:
-    """A map the other way, (n_s,): for each source vertex the target vertex whose image is nearest to it.
+def invert_map(target_to_source: np.ndarray, source: Basis, n_t: int) -> np.ndarray:
+    """Return the inverse map, (n_s,): for each source vertex the target vertex whose image is nearest to it.
 
     Nearest in the embedding of the source's first functions, divided by the roots of their eigenvalues. Of a
     one-to-one map it is the inverse.

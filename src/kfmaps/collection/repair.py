@@ -1,329 +1,327 @@
-"""Which pairs of a collection are exchanged, for what and why.
+"""Choose which pairs of a collection get another map, which one, and why.
 
-:func:`kfmaps.collection.synchronization.agree` says how probable each candidate of each pair is beside all others.
-Where the map
-in use is rather wrong, the composition of the maps on the best way round is made another candidate, judged as the
-others are, and all is settled once more. A pair is exchanged only where the map in use is improbable and another
-probable; where no candidate is, that is said.
+:func:`kfmaps.collection.synchronization.synchronize` says how probable each candidate of each pair is beside all
+others. Where the map in use is rather wrong, the composition of the maps on the best other path becomes one more
+candidate, scored as the others are, and all is synchronized once more. A map is replaced only where it is improbable
+and another one probable; where no candidate is, that is said.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
-from kfmaps.collection.chirality import hands
-from kfmaps.collection.paths import Roads, Way, best_way, roads
-from kfmaps.collection.scored_map import TURNED, Judged, better, choices, same
-from kfmaps.collection.synchronization import FAR, FUNCTIONS, SAY, Agreement, Link, agree, misfits_of
+from kfmaps.collection.chirality import chirality
+from kfmaps.collection.paths import Adjacency, adjacency, best_path
+from kfmaps.collection.scored_map import MIN_ORIENTATION, ScoredMap, candidate_maps, is_same_map, with_better_score
+from kfmaps.collection.sync_init import MAX_LOG_ODDS
+from kfmaps.collection.synchronization import (
+    N_FUNCTIONS,
+    OUTLIER_FACTOR,
+    Edge,
+    SyncResult,
+    map_residuals,
+    synchronize,
+)
 
 DOUBT = 0.5
-"""Probability of the map in use below which a way round is looked for; ..."""
+"""Probability of the map in use below which a composition is sought."""
 WRONG = 0.1
-"""... below which it is exchanged, ..."""
+"""Probability of the map in use below which it is replaced."""
 RIGHT = 0.5
-"""... for another of at least this one."""
-SAFE = 0.3
-"""Probability that all maps of a way round are right, below which it is not gone."""
-BETTER = 0.3
-"""How much better a composition must score to be put in the place of a map that is right on the whole."""
-SHORT = 3
-"""Ways of two steps by the maps in use that are tried for a doubted pair."""
-ROUNDS = 3
-"""Times that ways round are looked for: an exchanged pair may open one for others."""
+"""Least probability of the map that replaces it."""
+MIN_PATH_PROBABILITY = 0.3
+"""Least probability that all maps of a path are right."""
+MIN_GAIN = 0.3
+"""How much better a composition must score to replace a map that is right on the whole."""
+N_TWO_STEP = 3
+"""Paths of two steps by the maps in use that are tried for a doubted pair."""
+N_ROUNDS = 3
+"""Rounds of compositions: a replaced map may open a path for others."""
 
 
 @dataclass(frozen=True)
-class Step:
-    """One map on a way round.
+class CycleStep:
+    """One map on a path: of edge ``edge`` its candidate number ``candidate``, from its source or (not) ``forward``."""
 
-    Attributes
-    ----------
-    link, choice : int
-        Of which pair, and which of its candidates.
-    forth : bool
-        Whether the way goes from the pair's source to its target.
-    """
-
-    link: int
-    choice: int
-    forth: bool
+    edge: int
+    candidate: int
+    forward: bool
 
 
 @dataclass(frozen=True)
-class Round:
-    """A way round a pair: its steps from the pair's source to its target, and the shapes between."""
+class CyclePath:
+    """A path that closes a cycle with a pair: steps from the pair's source to its target, and the shapes between."""
 
-    steps: tuple[Step, ...]
+    steps: tuple[CycleStep, ...]
     through: tuple[int, ...]
-    chance: float
 
 
 @dataclass(frozen=True)
-class Change:
-    """What became of a pair whose map in use is improbable.
+class Replacement:
+    """What becomes of a pair whose map in use is improbable.
 
     Attributes
     ----------
-    link : int
+    edge : int
     kind : "runner-up", "composition" or "none"
-        What it was exchanged for; "none" where no candidate is probable, and the map stays.
-    choice : int
+        What replaces the map; "none" where no candidate is probable, and the map stays.
+    candidate : int
         The runner-up's number, from 1.
-    way : Round or None
+    path : CyclePath or None
         Of a composition.
     before, after : float
         Probability of the map that was in use, and of the one that is.
     score_before, score_after : float
-        What speaks for each alone, :attr:`kfmaps.matching.quality.Quality.score`.
-    misfit_before, misfit_after : float
-        How far each is from what the rest of the collection says, see
-        :class:`kfmaps.collection.synchronization.Agreement`.
+        Own evidence of each, :attr:`kfmaps.matching.quality.Quality.score`.
+    residual_before, residual_after : float
+        Distance of each from what the rest of the collection says (:class:`SyncResult`).
     contradicts : bool
         Whether the map that was in use is of another orientation than it claims, or than the collection agrees on.
     improved : bool
-        Whether that map was right on the whole, and a way round merely fits better.
+        Whether that map was right on the whole, and a composition merely fits better.
     """
 
-    link: int
+    edge: int
     kind: str
-    choice: int = 0
-    way: Round | None = None
+    candidate: int = 0
+    path: CyclePath | None = None
     before: float = 0.0
     after: float = 0.0
     score_before: float = 0.0
     score_after: float = 0.0
-    misfit_before: float = 0.0
-    misfit_after: float = 0.0
+    residual_before: float = 0.0
+    residual_after: float = 0.0
     contradicts: bool = False
     improved: bool = False
 
+    def label(self, names: Sequence[str]) -> str:
+        """What the map was replaced by, in words; empty where it stays."""
+        if self.path is not None:
+            return f"composition through {', '.join(names[i] for i in self.path.through)}"
+        return f"runner-up {self.candidate}" if self.kind == "runner-up" else ""
+
+    def reason(self) -> str:
+        """Why, in words."""
+        scores = f"score {self.score_before:.1f}, now {self.score_after:.1f}"
+        if self.improved:
+            residuals = f"by {self.residual_before:.2f}, and this by {self.residual_after:.2f}"
+            return f"it strays from what other pairs say, {residuals}; {scores}"
+        other = "no other map is probable" if self.kind == "none" else f"this {self.after:.0%}"
+        parts = [f"other pairs leave it a probability of {self.before:.1%}, and {other}"]
+        parts += ["it is of another orientation than it claims"] if self.contradicts else []
+        parts += [scores] if self.kind != "none" else []
+        return "; ".join(parts)
+
 
 @dataclass(frozen=True, eq=False)
-class Repaired:
-    """What :func:`repaired` finds.
+class RepairResult:
+    """Result of :func:`repair`.
 
     Attributes
     ----------
-    agreement : Agreement
+    sync : SyncResult
         With the compositions among the candidates.
-    changes : tuple of Change
-        In the order of the links.
-    hands : (n,) int64
+    replacements : tuple of Replacement
+        In the order of the edges.
+    chirality : (n,) int64
         1 and -1: shapes that are mirror images of each other's kind.
     """
 
-    agreement: Agreement
-    changes: tuple[Change, ...]
-    hands: np.ndarray
+    sync: SyncResult
+    replacements: tuple[Replacement, ...]
+    chirality: np.ndarray
 
     @property
-    def in_use(self) -> np.ndarray:
-        """Probability of the map of each link after the changes, (l,)."""
-        found = np.array([chances[0] for chances in self.agreement.chances])
-        for change in self.changes:
-            found[change.link] = change.after
-        return found
+    def probabilities(self) -> np.ndarray:
+        """Probability of the map of each edge after the replacements, (e,)."""
+        result = np.array([chances[0] for chances in self.sync.probabilities])
+        for change in self.replacements:
+            result[change.edge] = change.after
+        return result
 
 
-Compose = Callable[[list[tuple[int, Round]]], list[Judged]]
-"""Given pairs and ways round them, the compositions, judged; in the same order."""
+Compose = Callable[[list[tuple[int, CyclePath]]], list[ScoredMap]]
+"""Given edges and paths, return the scored compositions in the same order."""
 
 
-def repaired(
-    count: int, ends: Sequence[tuple[int, int]], maps: Sequence[Sequence[Judged]], compose: Compose
-) -> Repaired:
-    """Settle which maps of a collection of ``count`` shapes are right.
+def repair(
+    count: int, ends: Sequence[tuple[int, int]], maps: Sequence[Sequence[ScoredMap]], compose: Compose
+) -> RepairResult:
+    """Find which maps of a collection of ``count`` shapes are wrong, and what replaces them.
 
     Parameters
     ----------
+    count : int
+        Number of shapes.
     ends : sequence of (int, int)
         Source and target of each pair.
-    maps : sequence of sequences of Judged
+    maps : sequence of sequences of ScoredMap
         Of each pair the map in use and its runners-up.
     compose : callable
-        Makes and judges compositions, all that one round asks for at once.
+        Makes and scores compositions, all that one round asks for at once.
+
+    Returns
+    -------
+    RepairResult
     """
-    known = [list(several) for several in maps]
-    ways: list[list[Round]] = [[] for _ in ends]
-    tried: set[tuple[int, tuple[Step, ...]]] = set()
-    around = roads(count, ends)
-    signs, found = _settled(count, ends, known)
-    for _ in range(ROUNDS):
-        asked, best = [], _best(found, ways)
-        for number, chances in enumerate(found.chances):
-            if chances[0] >= DOUBT:
-                continue
-            offered = [way_round(around, ends, best, number), *in_use(around, ends, known, number)]
-            for way in offered:
-                if way is not None and (number, way.steps) not in tried:
-                    tried.add((number, way.steps))
-                    asked.append((number, way))
-        if not asked:
-            break
-        for (number, way), made in zip(asked, compose(asked), strict=True):
-            _offer(known[number], ways[number], made, way)
-        signs, found = _settled(count, ends, known)
-    changes = [
-        change
-        for number in range(len(ends))
-        if (change := _change(number, known[number], len(maps[number]), ways[number], found, signs, ends)) is not None
-    ]
-    changes += _improved(around, ends, known, ways, found, compose, {change.link for change in changes})
-    return Repaired(found, tuple(sorted(changes, key=lambda change: change.link)), signs)
+    return _Repair(count, ends, maps, compose).run()
 
 
-def _improved(
-    around: Roads,
-    ends: Sequence[tuple[int, int]],
-    maps: Sequence[Sequence[Judged]],
-    ways: Sequence[Sequence[Round]],
-    found: Agreement,
-    compose: Compose,
-    done: set[int],
-) -> list[Change]:
-    """Maps that are right on the whole and loose in part, exchanged where a way round fits better and scores better.
+class _Repair:
+    """The candidates of each edge as they grow by compositions, and what their synchronization says."""
 
-    Loose are those whose misfit is beyond :data:`kfmaps.collection.synchronization.FAR` times what is usual.
-    """
-    own = np.array([misfits[0] for misfits in found.misfits])
-    usual = float(np.median(own)) if len(own) else 0.0
-    asked, likely = [], _best(found, ways)
-    for number in np.flatnonzero(own > FAR * usual + 1e-9).tolist():
-        if number in done or found.chances[number][0] < DOUBT:
-            continue
-        offered = [way_round(around, ends, likely, number), *in_use(around, ends, maps, number)]
-        seen = {way.steps: way for way in offered if way is not None}
-        asked += [(number, way) for way in seen.values()]
-    better_ones: dict[int, Change] = {}
-    for (number, way), made in zip(asked, compose(asked) if asked else [], strict=True):
-        a, b = ends[number]
-        size = found.latent.shape[1]
-        misfit = float(misfits_of(made.map[None, :size, :size], found.latent[a], found.latent[b])[0])
-        first, before = maps[number][0], better_ones.get(number)
-        least = first.score + BETTER if before is None else before.score_after
-        if made.score > least and misfit < own[number] and made.reversed == first.reversed:
-            chance = float(found.chances[number][0])
-            better_ones[number] = Change(
-                number,
-                "composition",
-                way=way,
-                before=chance,
-                after=chance,
-                score_before=first.score,
-                score_after=made.score,
-                misfit_before=float(own[number]),
-                misfit_after=misfit,
-                improved=True,
-            )
-    return list(better_ones.values())
+    def __init__(
+        self, count: int, ends: Sequence[tuple[int, int]], maps: Sequence[Sequence[ScoredMap]], compose: Compose
+    ) -> None:
+        self.count, self.ends, self.compose = count, ends, compose
+        self.maps = [list(several) for several in maps]
+        self.given = [len(several) for several in maps]
+        self.paths: list[list[CyclePath]] = [[] for _ in ends]  # of the candidates beyond those given
+        self.around = adjacency(count, ends)
+        self.signs, self.sync = _synchronize(count, ends, self.maps)
+
+    def run(self) -> RepairResult:
+        tried: set[tuple[int, tuple[CycleStep, ...]]] = set()
+        for _ in range(N_ROUNDS):
+            doubted = [i for i, chances in enumerate(self.sync.probabilities) if chances[0] < DOUBT]
+            asked = [(i, path) for i, path in self._paths_around(doubted) if (i, path.steps) not in tried]
+            if not asked:
+                break
+            tried |= {(i, path.steps) for i, path in asked}
+            for (i, path), made in zip(asked, self.compose(asked), strict=True):
+                self._offer(i, made, path)
+            self.signs, self.sync = _synchronize(self.count, self.ends, self.maps)
+        changes = {i: change for i in range(len(self.ends)) if (change := self._replacement(i)) is not None}
+        changes |= self._improvements(changes.keys())
+        return RepairResult(self.sync, tuple(changes[i] for i in sorted(changes)), self.signs)
+
+    def _paths_around(self, edges: Sequence[int]) -> list[tuple[int, CyclePath]]:
+        """For each of the ``edges`` the most probable other path, and those of two steps; each once.
+
+        Edges of which a composition is the best candidate are no part of a path: they are paths themselves.
+        """
+        best = [int(chances[:-1].argmax()) for chances in self.sync.probabilities]
+        each = zip(self.sync.probabilities, best, self.given, strict=True)
+        chances = [float(p[b]) if b < given else 0.0 for p, b, given in each]
+        found: dict[tuple[int, tuple[CycleStep, ...]], CyclePath] = {}
+        for i in edges:
+            likely = best_path(self.around, chances, *self.ends[i], without=i)
+            paths = two_step_paths(self.around, self.ends, self.maps, i)
+            if likely is not None and likely.probability >= MIN_PATH_PROBABILITY:
+                walk = zip(likely.edges, likely.shapes, strict=False)
+                steps = tuple(CycleStep(e, best[e], self.ends[e][0] == at) for e, at in walk)
+                paths.insert(0, CyclePath(steps, likely.shapes[1:-1]))
+            for path in paths:
+                found.setdefault((i, path.steps), path)
+        return [(i, path) for (i, _), path in found.items()]
+
+    def _offer(self, edge: int, made: ScoredMap, path: CyclePath) -> None:
+        """Add a composition to the candidates; where it is nearly one of them, that one may take its score."""
+        for i, one in enumerate(self.maps[edge]):
+            if is_same_map(one, made):
+                self.maps[edge][i] = with_better_score(one, made)
+                return
+        self.maps[edge].append(made)
+        self.paths[edge].append(path)
+
+    def _replacement(self, edge: int) -> Replacement | None:
+        maps, chances, residuals = self.maps[edge], self.sync.probabilities[edge], self.sync.residuals[edge]
+        if chances[0] >= WRONG:
+            return None
+        best = int(chances[:-1].argmax())
+        if chances[best] < RIGHT:
+            best = 0
+        a, b = self.ends[edge]
+        contradicts = maps[0].reversed != bool(self.signs[a] != self.signs[b]) or maps[0].orientation < MIN_ORIENTATION
+        composed = best >= self.given[edge]
+        return Replacement(
+            edge,
+            "none" if best == 0 else "composition" if composed else "runner-up",
+            candidate=0 if composed else best,
+            path=self.paths[edge][best - self.given[edge]] if composed else None,
+            before=float(chances[0]),
+            after=float(chances[best]),
+            score_before=maps[0].score,
+            score_after=maps[best].score,
+            residual_before=float(residuals[0]),
+            residual_after=float(residuals[best]),
+            contradicts=contradicts,
+        )
+
+    def _improvements(self, done: Collection[int]) -> dict[int, Replacement]:
+        """Replace maps that are right on the whole and loose in part, where a path fits better and scores better.
+
+        Loose are those whose residual is beyond :data:`OUTLIER_FACTOR` times the median.
+        """
+        own = np.array([residuals[0] for residuals in self.sync.residuals])
+        limit = OUTLIER_FACTOR * float(np.median(own)) + 1e-9 if len(own) else 0.0
+        right = [chances[0] >= DOUBT for chances in self.sync.probabilities]
+        asked = self._paths_around([i for i in np.flatnonzero(own > limit).tolist() if i not in done and right[i]])
+        found: dict[int, Replacement] = {}
+        for (i, path), made in zip(asked, self.compose(asked) if asked else [], strict=True):
+            a, b = self.ends[i]
+            size, latent = self.sync.latent.shape[1], self.sync.latent
+            residual = float(map_residuals(made.map[None, :size, :size], latent[a], latent[b])[0])
+            first = self.maps[i][0]
+            least = found[i].score_after if i in found else first.score + MIN_GAIN
+            if made.score > least and residual < own[i] and made.reversed == first.reversed:
+                found[i] = Replacement(
+                    i,
+                    "composition",
+                    path=path,
+                    before=(probability := float(self.sync.probabilities[i][0])),
+                    after=probability,
+                    score_before=first.score,
+                    score_after=made.score,
+                    residual_before=float(own[i]),
+                    residual_after=residual,
+                    improved=True,
+                )
+        return found
 
 
-def _offer(maps: list[Judged], ways: list[Round], made: Judged, way: Round) -> None:
-    """A composition beside the candidates of a pair; where it is nearly one of them, that may have its score."""
-    for i, one in enumerate(maps):
-        if same(one, made):
-            maps[i] = better(one, made)
-            return
-    maps.append(made)
-    ways.append(way)
-
-
-def in_use(
-    around: Roads, ends: Sequence[tuple[int, int]], maps: Sequence[Sequence[Judged]], number: int
-) -> list[Round]:
-    """Ways of two steps round link ``number`` by the maps in use, those of the best scores; at most :data:`SHORT`.
+def two_step_paths(
+    around: Adjacency, ends: Sequence[tuple[int, int]], maps: Sequence[Sequence[ScoredMap]], edge: int
+) -> list[CyclePath]:
+    """Return at most :data:`N_TWO_STEP` paths of two steps around an edge by the maps in use, of the best scores first.
 
     What most candidates say may be wrong together. These say what the maps say that a search thought best.
     """
-    source, target = ends[number]
+    source, target = ends[edge]
     near: dict[int, dict[int, int]] = {source: {}, target: {}}
     for here, others in near.items():
         for other, i in around[here]:
-            if i != number and (other not in others or maps[i][0].score > maps[others[other]][0].score):
+            if i != edge and (other not in others or maps[i][0].score > maps[others[other]][0].score):
                 others[other] = i
     found = []
     for middle in sorted(near[source].keys() & near[target].keys() - {source, target}):
         first, second = near[source][middle], near[target][middle]
-        worth = min(maps[first][0].score, maps[second][0].score)
-        steps = (Step(first, 0, ends[first][0] == source), Step(second, 0, ends[second][0] == middle))
-        found.append((worth, Round(steps, (middle,), 0.0)))
+        steps = (CycleStep(first, 0, ends[first][0] == source), CycleStep(second, 0, ends[second][0] == middle))
+        found.append((min(maps[first][0].score, maps[second][0].score), CyclePath(steps, (middle,))))
     found.sort(key=lambda item: -item[0])
-    return [way for _, way in found[:SHORT]]
+    return [path for _, path in found[:N_TWO_STEP]]
 
 
-def _best(found: Agreement, ways: Sequence[Sequence[Round]]) -> tuple[list[int], list[float]]:
-    """Of each link its best candidate, and how probable that is as a step of a way.
-
-    Links of which a composition is the best are no part of one: they are ways themselves.
-    """
-    best = [int(chances[:-1].argmax()) for chances in found.chances]
-    given = [len(chances) - 1 - len(several) for chances, several in zip(found.chances, ways, strict=True)]
-    each = zip(found.chances, best, given, strict=True)
-    return best, [float(chances[b]) if b < count else 0.0 for chances, b, count in each]
-
-
-def way_round(
-    around: Roads, ends: Sequence[tuple[int, int]], best: tuple[list[int], list[float]], number: int
-) -> Round | None:
-    """The best way from the source of link ``number`` to its target through others, each by its ``best`` candidate."""
-    candidate, chances = best
-    way: Way | None = best_way(around, chances, *ends[number], without=number)
-    if way is None or way.chance < SAFE:
-        return None
-    each = zip(way.links, way.shapes, strict=False)
-    steps = tuple(Step(link, candidate[link], ends[link][0] == at) for link, at in each)
-    return Round(steps, way.shapes[1:-1], way.chance)
-
-
-def _settled(count: int, ends: Sequence[tuple[int, int]], maps: list[list[Judged]]) -> tuple[np.ndarray, Agreement]:
-    """Hands, and the agreement of candidates that do not contradict them."""
-    offered = [choices(several) for several in maps]
+def _synchronize(
+    count: int, ends: Sequence[tuple[int, int]], maps: Sequence[Sequence[ScoredMap]]
+) -> tuple[np.ndarray, SyncResult]:
+    """Chirality, and the synchronization of candidates; those that contradict the chirality lose their odds."""
+    offered = [candidate_maps(several) for several in maps]
     signs = np.ones(count, dtype=np.int64)
     if any(one.reversed for several in maps for one in several):
-        first = [several[int(np.argmax([c.odds for c in several]))] for several in offered]
-        sure = [1.0 / (1.0 + np.exp(-c.odds)) for c in first]
-        signs = hands(count, ends, [not c.reversed for c in first], sure)
+        first = [several[int(np.argmax([c.log_odds for c in several]))] for several in offered]
+        weights = [1.0 / (1.0 + np.exp(-c.log_odds)) for c in first]
+        signs = chirality(count, ends, [not c.reversed for c in first], weights)
         offered = [
-            tuple(c if c.reversed == bool(signs[a] != signs[b]) else replace(c, odds=c.odds - 2 * SAY) for c in several)
+            tuple(
+                c if c.reversed == bool(signs[a] != signs[b]) else replace(c, log_odds=c.log_odds - 2 * MAX_LOG_ODDS)
+                for c in several
+            )
             for (a, b), several in zip(ends, offered, strict=True)
         ]
-    links = [Link(a, b, several) for (a, b), several in zip(ends, offered, strict=True)]
-    size = min([FUNCTIONS, *(min(c.map.shape) for several in offered for c in several)])
-    return signs, agree(count, links, size)
-
-
-def _change(
-    number: int,
-    maps: list[Judged],
-    given: int,
-    ways: list[Round],
-    found: Agreement,
-    signs: np.ndarray,
-    ends: Sequence[tuple[int, int]],
-) -> Change | None:
-    chances, misfits = found.chances[number], found.misfits[number]
-    before = float(chances[0])
-    if before >= WRONG:
-        return None
-    best = int(chances[:-1].argmax())
-    a, b = ends[number]
-    turned = maps[0].reversed != bool(signs[a] != signs[b]) or maps[0].orientation < TURNED
-    told = {
-        "before": before,
-        "score_before": maps[0].score,
-        "misfit_before": float(misfits[0]),
-        "contradicts": turned,
-    }
-    if best == 0 or chances[best] < RIGHT:
-        return Change(number, "none", after=before, score_after=maps[0].score, misfit_after=float(misfits[0]), **told)
-    told |= {
-        "after": float(chances[best]),
-        "score_after": maps[best].score,
-        "misfit_after": float(misfits[best]),
-    }
-    if best >= given:
-        return Change(number, "composition", way=ways[best - given], **told)
-    return Change(number, "runner-up", choice=best, **told)
+    edges = [Edge(a, b, several) for (a, b), several in zip(ends, offered, strict=True)]
+    size = min([N_FUNCTIONS, *(min(c.map.shape) for several in offered for c in several)])
+    return signs, synchronize(count, edges, size)

@@ -1,4 +1,4 @@
-"""What speaks for one map of a pair without a look at the others: evidence that agreement over cycles starts from."""
+"""Score the maps of one pair by themselves: the evidence that synchronization starts from."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from kfmaps._arrays import to_numpy
-from kfmaps.collection.synchronization import FUNCTIONS, SAY, Choice
+from kfmaps.collection.synchronization import MAX_LOG_ODDS, N_FUNCTIONS, CandidateMap
 from kfmaps.fmap.convert import to_functional
 from kfmaps.matching.calibration import probability
 from kfmaps.matching.candidates import AGAIN, refine
@@ -17,22 +17,22 @@ from kfmaps.matching.quality import Probe, map_quality, mirrored_probe
 from kfmaps.matching.sample_pair import ground
 from kfmaps.shape import Shape
 
-JUDGED = 80
-"""Functions of the maps that are judged, as many as the search judges by."""
+SCORED_FUNCTIONS = 80
+"""Functions of the maps that are scored, as many as the search scores by."""
 SAME = 0.1
-"""Misfit between two maps, ``‖C − C'‖² / k``, below which they are one."""
-TURNED = -0.2
-"""Orientation below which a map turns the surface inside out, which one that is to keep orientation cannot."""
+"""Distance ``‖C − C'‖² / k`` below which two maps are one."""
+MIN_ORIENTATION = -0.2
+"""Orientation below which a map turns the surface inside out."""
 
 
 @dataclass(frozen=True, eq=False)
-class Judged:
-    """One map of a pair as its evidence sees it.
+class ScoredMap:
+    """One map of a pair with its own evidence.
 
     Attributes
     ----------
     map : (k, k) float64
-        Its functional map, source → target, of :data:`kfmaps.collection.synchronization.FUNCTIONS` functions.
+        Its functional map, source → target, of :data:`kfmaps.collection.synchronization.N_FUNCTIONS` functions.
     score : float
         :attr:`kfmaps.matching.quality.Quality.score`.
     orientation : float
@@ -47,23 +47,23 @@ class Judged:
     reversed: bool = False
 
 
-def judged(
+def score_maps(
     maps: Sequence[np.ndarray],
     source: Shape,
     target: Shape,
     probes: tuple[Probe, Probe],
     reversed: Sequence[bool] | None = None,
-) -> list[Judged]:
-    """Judge ``maps (n_t,)`` of one pair, a source vertex for each target vertex, by the ``probes`` of both shapes.
+) -> list[ScoredMap]:
+    """Score ``maps (n_t,)`` of one pair, a source vertex for each target vertex, by the ``probes`` of both shapes.
 
-    Each is settled on the samples first, as candidates of a search are. A map that was finished on all vertices and one
-    that was not are then comparable, and scores mean what they mean there.
+    Each is refined on the samples first, as candidates of a search are: then a map that was finished on all vertices
+    and one that was not are comparable, and scores mean what they mean there.
     """
     turned = [False] * len(maps) if reversed is None else list(reversed)
-    k = min(JUDGED, len(source.basis.eigenvalues), len(target.basis.eigenvalues))
+    k = min(SCORED_FUNCTIONS, len(source.basis.eigenvalues), len(target.basis.eigenvalues))
     bases = source.basis.truncated(k), target.basis.truncated(k)
     rough = np.stack([to_numpy(to_functional(points, *bases)) for points in maps])
-    found: list[Judged | None] = [None] * len(maps)
+    found: list[ScoredMap | None] = [None] * len(maps)
     for back in sorted(set(turned)):
         on = ground(probes[0], mirrored_probe(probes[1]) if back else probes[1])
         rows = [i for i, one in enumerate(turned) if one == back]
@@ -71,35 +71,37 @@ def judged(
         settled, points = refine(rough[rows], on, (max(k // 2, 2), k), weights, (), 1)
         for i, C, at in zip(rows, settled, points, strict=True):
             quality = map_quality(C, on.source, on.target, at)
-            found[i] = Judged(C[:FUNCTIONS, :FUNCTIONS], quality.score, quality.orientation, back)
+            found[i] = ScoredMap(C[:N_FUNCTIONS, :N_FUNCTIONS], quality.score, quality.orientation, back)
     return [one for one in found if one is not None]
 
 
-def better(one: Judged, other: Judged) -> Judged:
-    """``one``, with the score of ``other`` where that is the same map and scores better."""
-    if not same(one, other) or other.score <= one.score:
+def with_better_score(one: ScoredMap, other: ScoredMap) -> ScoredMap:
+    """Return ``one``, with the score of ``other`` where that is the same map and scores better."""
+    if not is_same_map(one, other) or other.score <= one.score:
         return one
     return replace(one, score=other.score, orientation=other.orientation)
 
 
-def same(one: Judged, other: Judged) -> bool:
+def is_same_map(one: ScoredMap, other: ScoredMap) -> bool:
     """Whether two candidates of a pair are one map but for details."""
     return one.reversed == other.reversed and float(((one.map - other.map) ** 2).sum()) / len(one.map) < SAME
 
 
-def choices(maps: list[Judged]) -> tuple[Choice, ...]:
-    """The maps of one pair as candidates: between them scores decide, altogether what the best of them is worth.
+def candidate_maps(maps: Sequence[ScoredMap]) -> tuple[CandidateMap, ...]:
+    """Return the maps of one pair as candidates.
 
     The odds of the best are those that a search would give it (:mod:`kfmaps.matching.calibration`), at most ``e⁴``; the
-    others are behind by what their scores are.
+    others are behind by as much as their scores are.
     """
     odds = [_odds(one) for one in maps]
     best = max(odds)
-    over = max(best - SAY, 0.0)
-    return tuple(Choice(one.map, max(own - over, -SAY), one.reversed) for one, own in zip(maps, odds, strict=True))
+    over = max(best - MAX_LOG_ODDS, 0.0)
+    return tuple(
+        CandidateMap(one.map, max(own - over, -MAX_LOG_ODDS), one.reversed) for one, own in zip(maps, odds, strict=True)
+    )
 
 
-def _odds(one: Judged) -> float:
+def _odds(one: ScoredMap) -> float:
     chance = min(max(probability(one.score, math.inf), 1e-12), 1 - 1e-12)
     own = math.log(chance) - math.log1p(-chance)
-    return own - 2 * SAY if one.orientation < TURNED else own
+    return own - 2 * MAX_LOG_ODDS if one.orientation < MIN_ORIENTATION else own

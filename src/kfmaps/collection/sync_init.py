@@ -1,4 +1,4 @@
-"""Where the search for maps that agree begins: latent maps along a tree of the pairs, and from all pairs together."""
+"""Initial latent maps of a synchronization: along a spanning tree of the pairs, and from eigenvectors of all pairs."""
 
 from __future__ import annotations
 
@@ -11,28 +11,28 @@ from scipy.sparse.linalg import eigsh
 
 DENSE = 1500
 """Unknowns up to which eigenvectors are worked out densely."""
-SAY = 4.0
-"""What a candidate's own evidence can count at most, as a logarithm of odds."""
+MAX_LOG_ODDS = 4.0
+"""Largest log-odds that a candidate's own evidence counts for."""
 
 Ends = Sequence[tuple[int, int]]
 
 
-def orthogonal(C: np.ndarray) -> np.ndarray:
-    """The orthogonal matrix that is nearest to ``C (k, k)``."""
+def nearest_orthogonal(C: np.ndarray) -> np.ndarray:
+    """Return the orthogonal matrix that is nearest to ``C (k, k)``."""
     left, _, right = np.linalg.svd(C)
     return left @ right
 
 
-def along_tree(
+def spanning_tree_init(
     count: int, ends: Ends, maps: Sequence[np.ndarray], odds: Sequence[np.ndarray], functions: int
 ) -> np.ndarray:
-    """Latent maps along the spanning tree of the pairs whose best candidate has most for it, (n, k, k)."""
+    """Return latent maps along the spanning tree of the pairs whose best candidate has most for it, (n, k, k)."""
     latent = np.tile(np.eye(functions), (count, 1, 1))
     weight = np.full((count, count), np.inf)
     best: dict[tuple[int, int], np.ndarray] = {}
     for (a, b), C, own in zip(ends, maps, odds, strict=True):
         number = int(np.argmax(own))
-        cost = 1.0 + SAY - float(own[number])
+        cost = 1.0 + MAX_LOG_ODDS - float(own[number])
         if cost < weight[a, b]:
             weight[a, b] = weight[b, a] = cost
             best[a, b], best[b, a] = C[number], C[number].T
@@ -45,14 +45,14 @@ def along_tree(
         for v in order:
             seen[v] = True
             if v != root:
-                latent[v] = orthogonal(best[before[v], v] @ latent[before[v]])
+                latent[v] = nearest_orthogonal(best[before[v], v] @ latent[before[v]])
     return latent
 
 
-def spectral(
+def spectral_init(
     count: int, ends: Ends, maps: Sequence[np.ndarray], odds: Sequence[np.ndarray], functions: int
 ) -> np.ndarray:
-    """Latent maps from the leading eigenvectors of all pairs' maps together, each rounded, (n, k, k).
+    """Return latent maps from the leading eigenvectors of all pairs' maps together, each rounded, (n, k, k).
 
     Of ``D^{-1/2} W D^{-1/2}`` with blocks ``Σ_c p_c C`` and the shapes' degrees ``D``.
     """
@@ -80,4 +80,4 @@ def spectral(
         start = np.random.default_rng(0).normal(size=size)
         vectors = eigsh(whole, k=functions, which="LA", v0=start, tol=1e-3)[1]  # pyright: ignore[reportArgumentType]
     parts = vectors.reshape(count, functions, functions)
-    return np.stack([orthogonal(part) for part in parts])
+    return np.stack([nearest_orthogonal(part) for part in parts])
