@@ -362,8 +362,8 @@ MUTANTS = tuple(
         ),
         # many
         (
-            "say = np.append(odds - (misfits - limit) / spread, 0.0)",
-            "say = np.append(odds + (misfits - limit) / spread, 0.0)",
+            "logits = np.append(log_odds - (residuals - limit) / spread, 0.0)",
+            "logits = np.append(log_odds + (residuals - limit) / spread, 0.0)",
             "test_many -k planted",
         ),
         ("return left @ right\n", "return right @ left\n", "test_many -k that_agree_are", "collection/sync_init"),
@@ -373,8 +373,8 @@ MUTANTS = tuple(
             "test_many -k best_way",
         ),
         (
-            "turns = [found.latent[links[i].target].T @ maps[i] @ found.latent[links[i].source] for i in across]",
-            "turns = [maps[i] for i in across]",
+            "[result.latent[ends[i][1]].T @ problem.maps[i] @ result.latent[ends[i][0]] for i in across]",
+            "[problem.maps[i] for i in across]",
             "test_many -k long_cycles",
         ),
         ("if low[v] > number[up]:", "if low[v] >= number[up]:", "test_many -k bridges"),
@@ -384,12 +384,16 @@ MUTANTS = tuple(
             "inside = C.T @ (np.asarray(eigenvalues_s)[:, None] * C)",
             "test_many_differences -k scaling",
         ),
-        ("return own - 2 * SAY if one.orientation < TURNED else own", "return own", "test_many -k inside_out"),
-        ("parts = sizes[:kept] ** 2 / whole", "parts = sizes[:kept] / whole", "test_many_differences -k component"),
-        ("if made.score > least and misfit < own[number]", "if misfit < own[number]", "test_many -k loose"),
         (
-            "*in_use(around, ends, known, number)]",
-            "*in_use(around, ends, known, number)[:0]]",
+            "return own - 2 * MAX_LOG_ODDS if one.orientation < MIN_ORIENTATION else own",
+            "return own",
+            "test_many -k inside_out",
+        ),
+        ("parts = sizes[:kept] ** 2 / whole", "parts = sizes[:kept] / whole", "test_many_differences -k component"),
+        ("if made.score > least and residual < own[i]", "if residual < own[i]", "test_many -k loose"),
+        (
+            "paths = two_step_paths(self.around, self.ends, self.maps, i)",
+            "paths = two_step_paths(self.around, self.ends, self.maps, i)[:0]",
             "test_many -k family",
         ),
         (
