@@ -1,5 +1,7 @@
-"""Settings of the documentation: `make docs` builds it into docs/_build/html. Nothing is fetched while it builds, and
-the pages fetch nothing while they are read."""
+"""Sphinx configuration of the manual.
+
+`make docs` builds it into docs/_build/html. Neither the build nor the pages need a network.
+"""
 
 import sys
 from importlib.util import find_spec

@@ -1,6 +1,6 @@
-"""Pictures of an example for sphinx-gallery: Matplotlib figures that were made without pyplot.
+"""Save Matplotlib figures of gallery examples that were made without pyplot.
 
-The package's own figures are plain ``Figure`` objects, which pyplot, and so sphinx-gallery, does not know of.
+The package's figures are plain ``Figure`` objects, which pyplot and sphinx-gallery do not see.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from sphinx_gallery.scrapers import figure_rst
 
 
 def scrape(_block: Any, block_vars: dict[str, Any], gallery_conf: dict[str, Any], **_: Any) -> str:
-    """Write the figures that have appeared among an example's names since the last block."""
+    """Save the figures that an example made since its last block."""
     names = block_vars["example_globals"]
     shown = names.setdefault("__shown__", set())
     of_pyplot = {id(pyplot.figure(number)) for number in pyplot.get_fignums()}

@@ -1,4 +1,4 @@
-"""What Sphinx needs to be told about this package's docstrings."""
+"""Adapt Sphinx to the docstrings of this package."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ SEVERAL = re.compile(r"^(\w+(?:, \w+)+) : (.*)$")
 
 
 def separate(_app: Sphinx, _what: str, _name: str, _obj: Any, _options: Any, lines: list[str]) -> None:
-    """Give each of the attributes "a, b : type" an entry of its own; napoleon does so for parameters alone."""
+    """Split attributes "a, b : type" into one entry each, as napoleon does for parameters."""
     result: list[str] = []
     i = 0
     while i < len(lines):
@@ -40,12 +40,12 @@ def separate(_app: Sphinx, _what: str, _name: str, _obj: Any, _options: Any, lin
 def readable(
     _app: Sphinx, _what: str, _name: str, _obj: Any, _options: Any, signature: str | None, returned: str | None
 ) -> tuple[str | None, str | None]:
-    """Write defaults that are made anew each time as ``...``, which can be parsed."""
+    """Replace default factories in signatures by ``...``, which can be parsed."""
     return (signature.replace("<factory>", "...") if signature else signature), returned
 
 
 def by_last_name(app: Sphinx, env: BuildEnvironment, node: pending_xref, content: nodes.Node) -> nodes.Node | None:
-    """Find what a docstring calls by its bare name and the reference has under that of another module."""
+    """Resolve bare names in docstrings that belong to another documented module."""
     if node.get("refdomain") != "py" or not node.get("reftarget"):
         return None
     domain = env.domains.python_domain
