@@ -11,6 +11,8 @@ from sphinx.application import Sphinx
 from sphinx.environment import BuildEnvironment
 from sphinx.util.nodes import make_refnode
 
+import kfmaps
+
 SEVERAL = re.compile(r"^(\w+(?:, \w+)+) : (.*)$")
 
 
@@ -44,6 +46,13 @@ def readable(
     return (signature.replace("<factory>", "...") if signature else signature), returned
 
 
+def skipped(_app: Sphinx, what: str, name: str, obj: Any, skip: bool, _options: Any) -> bool | None:
+    """Leave constants out of modules, and names that the reference has as ``kfmaps.NAME``."""
+    if what == "module" and (name in kfmaps.__all__ or not callable(obj)):
+        return True
+    return skip or None
+
+
 def by_last_name(app: Sphinx, env: BuildEnvironment, node: pending_xref, content: nodes.Node) -> nodes.Node | None:
     """Resolve bare names in docstrings that belong to another documented module."""
     if node.get("refdomain") != "py" or not node.get("reftarget"):
@@ -60,5 +69,6 @@ def by_last_name(app: Sphinx, env: BuildEnvironment, node: pending_xref, content
 def setup(app: Sphinx) -> dict[str, bool]:
     app.connect("autodoc-process-docstring", separate, priority=400)  # before napoleon
     app.connect("autodoc-process-signature", readable)
+    app.connect("autodoc-skip-member", skipped)
     app.connect("missing-reference", by_last_name)
     return {"parallel_read_safe": True, "parallel_write_safe": True}
