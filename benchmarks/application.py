@@ -25,8 +25,13 @@ from shapes import bumpy_pair
 from kfmaps._arrays import Array, is_numpy, namespace, to_numpy
 from kfmaps._threads import one_blas_thread
 from kfmaps.config import Config
-from kfmaps.fmap.energy import hadamard_term, slice_term
-from kfmaps.fmap.multiplication_operators import compressed, condensed, packed_slices, unpacked_slices
+from kfmaps.fmap.energy import hadamard_term, operator_term
+from kfmaps.fmap.multiplication_operators import (
+    multiplication_operators,
+    truncate_features,
+    truncate_operators,
+    unpack_operators,
+)
 from kfmaps.kernels.kernels import Linear
 from kfmaps.matching.assemble import CONDENSATION
 from kfmaps.matching.features import kernel_features, pair_descriptors
@@ -75,7 +80,7 @@ def measure(options: argparse.Namespace) -> list[dict[str, Any]]:
     bases = (source.basis.to(device), target.basis.to(device))
     used = pair_descriptors(source, target, bases, config.descriptors, pair.landmarks, None)
     features = kernel_features(source, target, used, config, np.random.default_rng(0))
-    small = (bases[0].truncated(k), bases[1].truncated(k))
+    small = (bases[0].truncate(k), bases[1].truncate(k))
     xp = namespace(small[0].functions)
     C = xp.asarray(np.random.default_rng(1).normal(size=(k, k)), device=small[0].functions.device)
     F_s, F_t = features.source, features.target
@@ -99,10 +104,10 @@ def measure(options: argparse.Namespace) -> list[dict[str, Any]]:
         return C @ blocked.gram_s + blocked.gram_t @ C - 2 * mixed
 
     def formed(rtol: float) -> Any:
-        kept = condensed(small[0], F_s, small[1], F_t, CONDENSATION * rtol) if rtol else (F_s, F_t)
-        packed = packed_slices(small[0], kept[0]), packed_slices(small[1], kept[1])
-        packed = compressed(*packed, rtol) if rtol else packed
-        return slice_term(*(unpacked_slices(p) for p in packed))
+        kept = truncate_features(small[0], F_s, small[1], F_t, CONDENSATION * rtol) if rtol else (F_s, F_t)
+        packed = multiplication_operators(small[0], kept[0]), multiplication_operators(small[1], kept[1])
+        packed = truncate_operators(*packed, rtol) if rtol else packed
+        return operator_term(*(unpack_operators(p) for p in packed))
 
     square = xp.asarray(np.random.default_rng(2).normal(size=(2000, 2000)), device=C.device)
     peak = 2 * 2000**3 / seconds(lambda: square @ square, device, 3) / 1e9

@@ -25,7 +25,7 @@ import numpy as np
 
 import kfmaps
 from kfmaps import datasets
-from kfmaps.kernels.landmark_selection import farthest
+from kfmaps.kernels.landmark_selection import farthest_descriptors
 
 CHOSEN_ON = {
     "FAUST_r": {f"tr_reg_{i:03d}" for i in range(40)},
@@ -119,7 +119,7 @@ def chosen_landmarks(source: kfmaps.Shape, true: tuple[np.ndarray, np.ndarray], 
     rows = rows[np.unique(true[1][rows], return_index=True)[1]]
     places = source.basis.functions[true[0][rows], 1:40] / source.basis.eigenvalues[1:40]
     rng = np.random.default_rng(0)
-    pairs = np.stack(true, axis=1)[rows[farthest(places, count, rng)]]
+    pairs = np.stack(true, axis=1)[rows[farthest_descriptors(places, count, rng)]]
     bad = rng.permutation(count)[: round(wrong * count)]
     pairs[bad, 1] = rng.permutation(np.setdiff1d(true[1], pairs[:, 1]))[: len(bad)]
     return pairs
@@ -142,10 +142,10 @@ def judged(job: Job) -> dict:
         "verdict": found.verdict,
         "confidence": found.confidence,
         "orientation": found.orientation,
-        "doubted": found.doubted.tolist(),
+        "doubted": found.rejected_landmarks.tolist(),
         "scores": list(found.scores),
         "quality": found.quality,
-        "bending": found.bending,
+        "bending": found.deformation_energy,
         "seconds": end - start,
         "stages": {**{f"{k} of both": sum(s.seconds[k] for s in shapes) for k in shapes[0].seconds}, **found.seconds},
     }

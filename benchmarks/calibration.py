@@ -22,7 +22,7 @@ import numpy as np
 from automatic import RIGHT
 from scipy.optimize import minimize
 
-from kfmaps.matching.calibration import SURE, TIE, excess, probability
+from kfmaps.matching.calibration import SURE, TIE, excess_deformation, probability
 
 RIDGE = 0.3
 """Weight of the squares of the coefficients, of features with unit variance."""
@@ -45,7 +45,7 @@ def features(row: dict) -> list[float]:
     return [
         row["quality"],
         -math.exp(-max(margin(row), 0.0) / TIE),
-        0.0 if bent is None else excess(row["quality"], bent),
+        0.0 if bent is None else excess_deformation(row["quality"], bent),
     ]
 
 

@@ -48,7 +48,7 @@ from kfmaps.cli.evaluation import assessed
 from kfmaps.collection.synchronization import N_FUNCTIONS, CandidateMap, Edge, nearest_orthogonal, synchronize
 from kfmaps.config import BasisConfig, Config, DescriptorConfig, Search
 from kfmaps.fmap.refine import ZoomOut
-from kfmaps.geometry.coarsen import coarse
+from kfmaps.geometry.coarsen import coarsen
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.geometry.sampling import stratified
 from kfmaps.io import load_map, save_map, write_mesh, write_vertex_numbers
@@ -86,7 +86,7 @@ def specimen(body: Mesh, vertices: int, rng: np.random.Generator) -> tuple[Mesh,
     swell = 0.3 * rng.uniform(-1, 1) * np.exp(-((moved - centre) ** 2).sum(axis=1) / 0.1)
     moved = centre + (moved - centre) * (1 + swell[:, None])
     kept = np.sort(stratified(places, np.ones(len(places)), vertices, rng))
-    mesh = coarse(Mesh(moved, body.faces), kept)
+    mesh = coarsen(Mesh(moved, body.faces), kept)
     lines = np.linspace(0, len(places) - 1, LINES).astype(np.int64)
     return mesh, np.asarray(KDTree(moved[kept]).query(moved[lines])[1])
 

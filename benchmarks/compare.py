@@ -27,9 +27,9 @@ from kfmaps.fmap.evaluate import geodesic_errors
 from kfmaps.fmap.preconditioners import sylvester
 from kfmaps.fmap.refine import ZoomOut
 from kfmaps.fmap.solvers import CG, solve
-from kfmaps.matching.assemble import problem
+from kfmaps.matching.assemble import assemble
 from kfmaps.matching.features import pair_descriptors
-from kfmaps.matching.fit import checked_landmarks
+from kfmaps.matching.fit import check_landmark_pairs
 from kfmaps.matching.match import match
 from kfmaps.shape import Shape, prepare
 
@@ -87,11 +87,11 @@ def fits(pair: Pair, shapes: tuple[Shape, Shape], threads: int, maps: bool) -> d
     """Functional maps from the same descriptors: 100 in all, or (``maps``) 100 and 100 for each landmark."""
     bases = (shapes[0].basis, shapes[1].basis)
     wanted = descriptors(pair, maps)
-    given = pair_descriptors(*shapes, bases, wanted, checked_landmarks(pair.landmarks, *shapes), None)
+    given = pair_descriptors(*shapes, bases, wanted, check_landmark_pairs(pair.landmarks, *shapes), None)
 
     def ours(rtol: float) -> np.ndarray:
         settings = config(threads, rtol)
-        energy = problem(*shapes, bases, given, settings, np.random.default_rng(0)).energy
+        energy = assemble(*shapes, bases, given, settings, np.random.default_rng(0)).energy
         return solve(energy.apply, energy.rhs(), settings.solver, preconditioner=sylvester(energy)).value
 
     def theirs(factr: float = 1e7, pgtol: float = 1e-5) -> Any:

@@ -17,11 +17,11 @@ from kfmaps import datasets
 from kfmaps.datasets.creature import CREATURE, DANCE
 from kfmaps.datasets.skeleton import Body
 from kfmaps.datasets.surface import closed_mesh
-from kfmaps.fmap.precise import PointMap, points_of
-from kfmaps.geometry.arap import bending, rigidity
+from kfmaps.fmap.precise import PointMap, point_positions
+from kfmaps.geometry.arap import arap_energy, build_arap
 from kfmaps.geometry.mesh import Mesh, surface_area, unit_area, vertex_areas
 from kfmaps.matching.match import match
-from kfmaps.registration.nonrigid_icp import NonRigid, Registered
+from kfmaps.registration.nonrigid_icp import NonRigid, Registration
 
 VERTICES = 4000
 LIMBS = [limb.name for limb in CREATURE]
@@ -56,20 +56,20 @@ def main() -> None:
     body, rng = Body(CREATURE), np.random.default_rng(seed)
     rest_s, rest_t = (closed_mesh(body, body.box(), len(mesh.vertices), rng)[0] for mesh in (pair.source, pair.target))
     limb, middles, axis = axes(body, rest_t)
-    truth = points_of(PointMap(pair.truth_faces, pair.truth_weights), source)
+    truth = point_positions(PointMap(pair.truth_faces, pair.truth_weights), source)
     bent = body.bent(rest_s, DANCE) / np.sqrt(surface_area(pair.target))
-    energy, area = rigidity(source), float(vertex_areas(source).sum())
-    print(f"bending of the truth {bending(energy, bent) / area:.4f}")
+    energy, area = build_arap(source), float(vertex_areas(source).sum())
+    print(f"bending of the truth {arap_energy(energy, bent) / area:.4f}")
     found = match(pair.source, pair.target).target_to_source
-    fits: dict[str, Registered] = {
+    fits: dict[str, Registration] = {
         "from the map": NonRigid()(source, target, found),
         "from the truth": NonRigid()(source, target, pair.truth),
         "from the truth, 60 steps": NonRigid(steps=20)(source, target, pair.truth),
     }
     for name, fit in fits.items():
         place = PointMap(fit.faces, fit.weights)
-        errors = 100 * np.linalg.norm(points_of(place, source) - truth, axis=1)
-        turned = angles(rest_t, points_of(place, Mesh(rest_s, source.faces)), middles, axis)
+        errors = 100 * np.linalg.norm(point_positions(place, source) - truth, axis=1)
+        turned = angles(rest_t, point_positions(place, Mesh(rest_s, source.faces)), middles, axis)
         arms = np.isin(limb, [i for i, part in enumerate(LIMBS) if part.endswith(" arm")])
         print(
             f"{name}: error {errors.mean():.2f}, without the arms {errors[~arms].mean():.2f}; bending {fit.bending:.4f}"

@@ -20,7 +20,7 @@ from scipy.sparse.csgraph import dijkstra
 from shapes import bumpy_sphere
 
 from kfmaps._threads import one_blas_thread
-from kfmaps.geometry.geodesic_graph import surface_graph
+from kfmaps.geometry.geodesic_graph import geodesic_graph
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.io import read_mesh
 
@@ -31,7 +31,7 @@ def methods(mesh: Mesh) -> dict[str, tuple[Callable[[], Any], Callable[[Any, np.
     """For each name, what prepares the mesh, and the distances (q, n) from vertices (q,) by what that gave."""
     search = lambda graph, sources: dijkstra(graph, indices=sources)  # noqa: E731
     found: dict[str, Any] = {
-        f"unfolded {depth}" if depth else "edges": (lambda d=depth: surface_graph(mesh, d), search)
+        f"unfolded {depth}" if depth else "edges": (lambda d=depth: geodesic_graph(mesh, d), search)
         for depth in (0, 1, 2, 4, 6, 8)
     }
     found["heat"] = (
@@ -55,7 +55,7 @@ def main() -> None:
     v, f = mesh.vertices, mesh.faces
     edge = np.linalg.norm(v[f] - v[np.roll(f, 1, axis=1)], axis=2).mean()
     sources = np.random.default_rng(0).choice(len(v), options.sources, replace=False)
-    exact = dijkstra(surface_graph(mesh, REFERENCE), indices=sources)
+    exact = dijkstra(geodesic_graph(mesh, REFERENCE), indices=sources)
     apart, near = exact > 0, (exact > 0) & (exact <= 3 * edge)
     print("{:15} {:>9} {:>10} {:>7} {:>7} {:>7}".format("", "prepare s", "a source ms", "mean", "near", "worst"))
     rows = []

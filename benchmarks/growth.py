@@ -34,11 +34,11 @@ import kfmaps
 from kfmaps import datasets
 from kfmaps._threads import one_blas_thread
 from kfmaps.config import Config
-from kfmaps.geometry.geodesics import distance_pairs
+from kfmaps.geometry.geodesics import geodesic_distance_pairs
 from kfmaps.geometry.mesh import Mesh, unit_area
 from kfmaps.matching.fit import fit
 from kfmaps.matching.match import match
-from kfmaps.matching.postprocess import finished
+from kfmaps.matching.postprocess import refine_map
 from kfmaps.shape import prepare
 
 SIZES, LARGE, HUGE = (5_000, 20_000, 80_000), 300_000, 1_000_000
@@ -80,7 +80,7 @@ def measure(n: int, threads: int) -> dict[str, Any]:
         source = prepare(pair.source, config, name="source", progress=stages.report)
         target = prepare(pair.target, config, name="target", progress=stages.report)
         found = fit(source, target, config, landmarks=pair.landmarks, progress=stages.report)
-        end = finished(found.functional_map, source, target, config, progress=stages.report)
+        end = refine_map(found.functional_map, source, target, config, progress=stages.report)
     ends = {"raw": end.raw_target_to_source, "refined": end.target_to_source}
     return row(n, threads, pair.source, pair.target_to_source, ends, stages)
 
@@ -105,7 +105,7 @@ def row(
     rows = np.random.default_rng(0).choice(len(truth), 1000, replace=False)
     mesh = unit_area(source)
     errors = {
-        name: 100 * float(distance_pairs(mesh, p[rows], truth[rows]).mean())
+        name: 100 * float(geodesic_distance_pairs(mesh, p[rows], truth[rows]).mean())
         for name, p in ends.items()
         if p is not None
     }

@@ -37,7 +37,7 @@ from kfmaps.fmap.convert import nearest
 from kfmaps.geometry.geodesics import geodesic_distances
 from kfmaps.io import read_vertex_numbers
 from kfmaps.matching.fit import fit
-from kfmaps.matching.postprocess import finished
+from kfmaps.matching.postprocess import refine_map
 from kfmaps.settings.merge import read_settings
 
 SETS = ("FAUST_r", "TOSCA_r", "SHREC19_r")
@@ -151,7 +151,7 @@ def one_fit(config: kfmaps.Config, refined: bool) -> Callable[[Task], dict]:
         found: dict = {"raw": task.raw_error(C)}
         if refined:
             whole = replace(PLAIN, refinement=kfmaps.Config.single_fit().refinement)
-            points = finished(C, task.source, task.target, whole, raw=False).target_to_source
+            points = refine_map(C, task.source, task.target, whole, raw=False).target_to_source
             found["refined"] = task.error(points[task.judged])
         return found
 
@@ -162,7 +162,7 @@ def searched(config: kfmaps.Config) -> Callable[[Task], dict]:
     def measured(task: Task) -> dict:
         found = kfmaps.match(task.source, task.target, config)
         error = task.error(found.target_to_source[task.judged])
-        return {"raw": error, "origin": found.origin, "verdict": found.verdict}
+        return {"raw": error, "origin": found.initialization, "verdict": found.verdict}
 
     return measured
 

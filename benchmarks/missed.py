@@ -1,7 +1,7 @@
 """What a search says that has missed the right map: ``python benchmarks/missed.py --data DIR [--pairs 8]``.
 
 Of all rough maps of a search those near the truth are taken out before the near-symmetries of the shapes and random
-ones are tried (:func:`kfmaps.matching.candidates.from_symmetries`). Then the search ends as usual, once with the
+ones are tried (:func:`kfmaps.matching.candidates.symmetry_inits`). Then the search ends as usual, once with the
 near-symmetries and once without. A map that is "sure" and wrong was sure for want of a rival. DIR is as for
 benchmarks/automatic.py, and so are the pairs: none of two shapes that settings were chosen on.
 """
@@ -21,7 +21,7 @@ import kfmaps
 from kfmaps.fmap.convert import nearest
 from kfmaps.geometry.geodesics import geodesic_distances
 from kfmaps.matching import candidates as search
-from kfmaps.matching.search import choose
+from kfmaps.matching.search import search_map
 
 NEAR = 12.0
 """Mean error × 100 below which a rough map is taken out."""
@@ -48,7 +48,7 @@ def searched(job: Job) -> list[tuple[str, float]]:
     """Verdict and error of the search's end without and with near-symmetries, the right rough maps taken out."""
     config = replace(kfmaps.Config(), threads=1)
     source, target = (kfmaps.prepare(mesh, config, name=name) for mesh, name in zip(loaded(job), "st", strict=False))
-    error, usual = judge(job, source, target), search.from_symmetries
+    error, usual = judge(job, source, target), search.symmetry_inits
     ends = []
     for wanted in (False, True):
 
@@ -57,7 +57,7 @@ def searched(job: Job) -> list[tuple[str, float]]:
             return usual(found, *more) if wanted else []  # type: ignore[arg-type]
 
         with patch.object(search, "from_symmetries", blind):
-            found = choose(source, target, config)
+            found = search_map(source, target, config)
         ends.append((found.verdict, error(found.functional_map)))
     return ends
 

@@ -20,12 +20,12 @@ from shapes import Pair, bumpy_pair, read_pairs
 
 from kfmaps._threads import one_blas_thread
 from kfmaps.config import Config
-from kfmaps.fmap.approximate_nearest import nearest_by_cells
+from kfmaps.fmap.approximate_nearest import approximate_nearest
 from kfmaps.fmap.nearest import nearest
-from kfmaps.geometry.geodesics import distance_pairs
+from kfmaps.geometry.geodesics import geodesic_distance_pairs
 from kfmaps.geometry.mesh import Mesh, unit_area
 from kfmaps.matching.fit import fit
-from kfmaps.matching.postprocess import finished
+from kfmaps.matching.postprocess import refine_map
 from kfmaps.shape import prepare
 
 
@@ -56,7 +56,7 @@ def measure(pair: Pair) -> list[dict[str, float | str]]:
     config = replace(Config.single_fit(), threads=1)
     source, target = prepare(pair.source, config), prepare(pair.target, config)
     found = fit(source, target, config, landmarks=pair.landmarks)
-    end = finished(found.functional_map, source, target, config, raw=False)
+    end = refine_map(found.functional_map, source, target, config, raw=False)
     mesh, rows = unit_area(pair.source), []
     for name, C in (("raw", found.functional_map), ("refined", end.functional_map)):
         k = len(C)
@@ -69,11 +69,11 @@ def measure(pair: Pair) -> list[dict[str, float | str]]:
         answers = [("exact", (time.process_time() - start) * len(queries) / len(some), exact)]
         for probes in (4, 8, 16, 32):
             start = time.process_time()
-            answer = nearest_by_cells(queries, points, probes=probes, threads=1)
+            answer = approximate_nearest(queries, points, probes=probes, threads=1)
             answers.append((f"{probes} cells", time.process_time() - start, answer[some]))
         for search, spent, answer in answers:
             excess = np.linalg.norm(queries[some] - points[answer], axis=1) / np.maximum(best, 1e-300) - 1
-            away = distance_pairs(mesh, answer[known], pair.target_to_source[some][known])
+            away = geodesic_distance_pairs(mesh, answer[known], pair.target_to_source[some][known])
             rows.append(
                 {
                     "pair": pair.name,

@@ -35,15 +35,15 @@ import numpy as np
 
 import kfmaps
 from kfmaps.cli.partial_truth import PartTruth, part_accuracy, read_part_truth
-from kfmaps.fmap.evaluate import place_errors
-from kfmaps.fmap.precise import PointMap, points_of
-from kfmaps.geometry.closest_points import places_on
+from kfmaps.fmap.evaluate import precise_errors
+from kfmaps.fmap.precise import PointMap, point_positions
+from kfmaps.geometry.closest_points import closest_points
 from kfmaps.geometry.geodesics import farthest_geodesic
 from kfmaps.geometry.mesh import Mesh, unit_area, vertex_areas
 from kfmaps.io import load_map
 from kfmaps.matching.partial.match_partial import COMMON
 from kfmaps.matching.partial.overlap import covered
-from kfmaps.matching.partial.samples import border_of
+from kfmaps.matching.partial.samples import boundary_vertices
 
 CHOSEN_ON = {"cat", "horse", *(f"tr_reg_{i:03d}" for i in range(20))}
 SETS = {"cuts": "SHREC16", "holes": "SHREC16", "PFAUST_M": "PFAUST_M", "PFAUST_H": "PFAUST_H"}
@@ -162,9 +162,9 @@ def run_both(job: Job) -> dict[str, object] | None:
         read_part_truth(folder / f"{name}.baryc_gt", whole, part) for name, part in zip(names, parts, strict=True)
     ]
     source, target = (
-        Mesh(points_of(truth.places, whole), part.faces) for truth, part in zip(truths, parts, strict=True)
+        Mesh(point_positions(truth.places, whole), part.faces) for truth, part in zip(truths, parts, strict=True)
     )
-    true, areas = covered(source, border_of(source), target)[0] > COMMON, vertex_areas(target)
+    true, areas = covered(source, boundary_vertices(source), target)[0] > COMMON, vertex_areas(target)
     if areas[true].sum() < COMMON_AT_LEAST * areas.sum():
         return None
     config = kfmaps.Config()
@@ -180,9 +180,11 @@ def run_both(job: Job) -> dict[str, object] | None:
     error = float("nan")
     if len(rows):
         place = found.precise()
-        ends = points_of(PointMap(place.faces[rows], place.weights[rows]), source)
-        on, places = places_on(ends, whole.vertices, whole.faces), truths[1].places
-        errors = place_errors(whole, PointMap(on.faces, on.weights), PointMap(places.faces[rows], places.weights[rows]))
+        ends = point_positions(PointMap(place.faces[rows], place.weights[rows]), source)
+        on, places = closest_points(ends, whole.vertices, whole.faces), truths[1].places
+        errors = precise_errors(
+            whole, PointMap(on.faces, on.weights), PointMap(places.faces[rows], places.weights[rows])
+        )
         error = 100 * float(errors.mean())
     return {
         "name": name_of(job), "set": "both", "whole": job.other, "part": job.part, "error": error,

@@ -17,7 +17,7 @@ from matplotlib.figure import Figure
 
 import kfmaps
 from kfmaps import datasets
-from kfmaps.fmap.precise import vertices_of
+from kfmaps.fmap.precise import nearest_vertices
 from kfmaps.io import load_map, save_map
 from kfmaps.io.counterparts import counterparts
 from kfmaps.viz import automatic_view, position_colors, save_figure
@@ -43,7 +43,7 @@ def main() -> None:
         if arguments.map is None:
             path.unlink()
     ways = counterparts(found, whole, part)
-    back = np.where(ways.source, vertices_of(ways.back, part), -1)
+    back = np.where(ways.source, nearest_vertices(ways.back, part), -1)
     seen = automatic_view(whole)
     colors = position_colors(part)
     overlap = np.asarray(found.extra["overlap_source"])

@@ -28,15 +28,15 @@ from kfmaps import datasets
 from kfmaps.cli.partial_truth import read_part_truth
 from kfmaps.config import Partial
 from kfmaps.datasets.pairs import largest_piece
-from kfmaps.fmap.precise import PointMap, points_of
+from kfmaps.fmap.precise import PointMap, point_positions
 from kfmaps.geometry.mesh import Mesh, surface_area, unit_area
 from kfmaps.matching.partial.calibration import CLOSE, SURE
-from kfmaps.matching.partial.candidates import Candidate, laid, plain_score
-from kfmaps.matching.partial.compare_alternatives import contested, margin
+from kfmaps.matching.partial.candidates import Candidate, make_candidate, plain_score
+from kfmaps.matching.partial.compare_alternatives import compare_alternatives, margin
 from kfmaps.matching.partial.place_part import AGAIN, BEAMS, distinct
-from kfmaps.matching.partial.registration import Ground, ground
-from kfmaps.matching.partial.samples import Side, side
-from kfmaps.matching.partial.scale_search import SCALES, TRIALS, grown, searched, tried
+from kfmaps.matching.partial.registration import RegistrationTarget, registration_target
+from kfmaps.matching.partial.samples import PartSamples, part_samples
+from kfmaps.matching.partial.scale_search import SCALES, TRIALS, refine_placement, search_scale, try_scales
 
 PAIRS = (
     "cuts cat cuts_cat_03", "cuts horse cuts_horse_08", "holes cat holes_cat_02", "PFAUST_M tr_reg_000 part_006",
@@ -59,7 +59,7 @@ def generated(name: str, seed: int, vertices: int) -> tuple[Mesh, Mesh, np.ndarr
         height, kept = pair.target.vertices @ rng.normal(size=3), rng.uniform(0.35, 0.8)
         part, own = largest_piece(pair.target, height >= np.quantile(height, 1 - kept))
     places = PointMap(pair.truth_faces[own], pair.truth_weights[own])
-    return pair.source, part, points_of(places, unit_area(pair.source))
+    return pair.source, part, point_positions(places, unit_area(pair.source))
 
 
 def measured(job: Job) -> tuple[Mesh, Mesh, np.ndarray]:
@@ -67,7 +67,7 @@ def measured(job: Job) -> tuple[Mesh, Mesh, np.ndarray]:
     whole, part, truth_file = read_job(job)
     truth = read_part_truth(truth_file, whole, part)
     places = np.full((len(part.vertices), 3), np.nan)
-    places[truth.vertices] = points_of(truth.places, unit_area(whole))
+    places[truth.vertices] = point_positions(truth.places, unit_area(whole))
     return whole, part, places
 
 
@@ -75,16 +75,16 @@ def measured(job: Job) -> tuple[Mesh, Mesh, np.ndarray]:
 class Search:
     """A part and a whole as a search sees them, and the truth."""
 
-    part: Side
-    whole: Side
-    on: Ground
+    part: PartSamples
+    whole: PartSamples
+    on: RegistrationTarget
     truth: np.ndarray
 
     def error(self, one: Candidate) -> float:
         return 100 * float(np.nanmean(np.linalg.norm(one.bend.places.points - self.truth, axis=1)))
 
     def contested(self, some: list[Candidate]) -> list[Candidate]:
-        return contested(some, self.part, self.whole, self.on, NONE)
+        return compare_alternatives(some, self.part, self.whole, self.on, NONE)
 
 
 def candidates(pair: str, data: Path) -> tuple[Search, list[tuple[str, Candidate]]]:
@@ -93,16 +93,18 @@ def candidates(pair: str, data: Path) -> tuple[Search, list[tuple[str, Candidate
     whole, part, places = measured(Job(data, kind, one, two)) if kind in KINDS else generated(kind, int(one), int(two))
     ratio = float(np.sqrt(surface_area(part) / surface_area(whole)))
     settings = Partial()
-    sides = side(unit_area(part), settings.samples), side(unit_area(whole), settings.whole_samples)
-    search = Search(*sides, ground(sides[1].mesh, sides[1].border), places)
+    sides = part_samples(unit_area(part), settings.samples), part_samples(unit_area(whole), settings.whole_samples)
+    search = Search(*sides, registration_target(sides[1].mesh, sides[1].on_boundary), places)
     scales = [*SCALES, ratio]
-    first = distinct(tried(*sides, scales, NONE))[: settings.candidates]
+    first = distinct(try_scales(*sides, scales, NONE))[: settings.candidates]
     pool = [("relaxation", one) for one in first]
     for trial in TRIALS[1:]:
-        pool += [("again", one) for one in tried(*sides, [one.scale for one in first[:AGAIN]], NONE, trial)]
-    beams = sorted(searched(*sides, scales, NONE), key=lambda one: -plain_score(one))[:BEAMS]
+        pool += [("again", one) for one in try_scales(*sides, [one.scale for one in first[:AGAIN]], NONE, trial)]
+    beams = sorted(search_scale(*sides, scales, NONE), key=lambda one: -plain_score(one))[:BEAMS]
     pool += [("beam", one) for one in beams]
-    return search, [(origin, laid(one, grown(*sides, one, NONE), *sides, search.on)) for origin, one in pool]
+    return search, [
+        (origin, make_candidate(one, refine_placement(*sides, one, NONE), *sides, search.on)) for origin, one in pool
+    ]
 
 
 POOLS: dict[str, Callable[[str, float], bool]] = {
@@ -130,7 +132,7 @@ def examples(pair: str, data: Path) -> list[dict[str, Any]]:
             known[frozenset(rows)] = last, search.error(last[0])
         last, error = known[frozenset(rows)]
         first = max(rows, key=lambda i: everything[i][1].score)
-        row = {"case": pair, "pool": name, "score": last[0].score, "bending": last[0].seen.bending}
+        row = {"case": pair, "pool": name, "score": last[0].score, "bending": last[0].seen.deformation_energy}
         row |= {"margin": margin([(one.score, one.places) for one in last]), "err": error}
         found.append(row | {"first": errors[first], "all": [(one.score, search.error(one)) for one in last]})
     return found

@@ -30,12 +30,12 @@ from automatic import mesh_file, read
 
 import kfmaps
 from kfmaps import datasets
-from kfmaps._stage_timer import Clock
-from kfmaps.fmap.evaluate import place_errors, smoothness
-from kfmaps.fmap.precise import PointMap, nearest_places, points_of
-from kfmaps.geometry.closest_points import places_on
+from kfmaps._stage_timer import StageTimer
+from kfmaps.fmap.evaluate import precise_errors, smoothness
+from kfmaps.fmap.precise import PointMap, nearest_surface_points, point_positions
+from kfmaps.geometry.closest_points import closest_points
 from kfmaps.geometry.mesh import Mesh, unit_area
-from kfmaps.registration.accept import placed
+from kfmaps.registration.accept import register_map
 from kfmaps.registration.nonrigid_icp import NonRigid
 
 NUMBERS = [(20 + i, 30 + (3 * i) % 10) for i in range(10)] + [(30 + i, 20 + (7 * i + 4) % 10) for i in range(10)]
@@ -70,16 +70,16 @@ def laid(folder: Path, name: str, mesh: Mesh) -> Mesh:
         middle, centre = free.mean(axis=0), fixed.mean(axis=0)
         u, sizes, vh = np.linalg.svd((free - middle).T @ (fixed - centre))
         moved = sizes.sum() / ((free - middle) ** 2).sum() * (moved - middle) @ (u @ vh) + centre
-        free, fixed = places_on(mesh.vertices, moved, original.faces).points, mesh.vertices
+        free, fixed = closest_points(mesh.vertices, moved, original.faces).points, mesh.vertices
     return Mesh(moved, original.faces)
 
 
 def exact(folder: Path, names: list[str], meshes: list[Mesh]) -> PointMap:
     """Where the target's vertices lie on the source, by the original registrations of both."""
     source, target = (laid(folder, name, mesh) for name, mesh in zip(names, meshes, strict=True))
-    on = places_on(meshes[1].vertices, target.vertices, target.faces)
+    on = closest_points(meshes[1].vertices, target.vertices, target.faces)
     there = np.einsum("qi,qij->qj", on.weights, source.vertices[source.faces[on.faces]])
-    found = places_on(there, meshes[0].vertices, meshes[0].faces)
+    found = closest_points(there, meshes[0].vertices, meshes[0].faces)
     return PointMap(found.faces, found.weights)
 
 
@@ -132,32 +132,32 @@ def jobs(data: Path | None, kind: str, count: int):
 def row(name, source, target, truth, where, marks) -> dict:
     config = replace(kfmaps.Config(), threads=1)
     found = kfmaps.match(source, target, replace(config, finish=None), landmarks=marks)
-    assert found.border is not None
-    across, clock = found.border, Clock()
+    assert found._reindexing is not None
+    across, clock = found._reindexing, StageTimer()
     start = time.process_time()
-    inner_points = across.part_s.number[found.target_to_source][across.part_t.kept]
-    doubted = np.zeros((0, 2), dtype=np.int64) if marks is None else np.delete(marks, found.doubted, axis=0)
-    last = placed(inner_points, across.source, across.target, config, clock, across.landmarks(doubted))
+    inner_points = across.part_s.to_clean[found.target_to_source][across.part_t.to_original]
+    doubted = np.zeros((0, 2), dtype=np.int64) if marks is None else np.delete(marks, found.rejected_landmarks, axis=0)
+    last = register_map(inner_points, across.source, across.target, config, clock, across.landmarks(doubted))
     spent = time.process_time() - start
     spectral = found.precise()
-    fitted = spectral if last.place is None else across.place(last.place)
+    fitted = spectral if last.precise_map is None else across.place(last.precise_map)
 
     def error(places: PointMap | np.ndarray) -> float:
         some = PointMap(places.faces[where], places.weights[where]) if isinstance(places, PointMap) else places[where]
-        return 100 * float(place_errors(source, some, truth).mean())
+        return 100 * float(precise_errors(source, some, truth).mean())
 
     smooth = [smoothness(source, target, p) for p in (found.target_to_source, fitted)]
     return {
         "pair": name,
         "verdict": found.verdict,
-        "kept": last.place is not None,
+        "kept": last.precise_map is not None,
         "bend": None if last.fit is None else asdict(last.fit),
         "vertices": error(found.target_to_source),
         "spectral": error(spectral),
         "finish": error(fitted),
         "coverage": [s.coverage for s in smooth],
-        "flipped": [s.flipped for s in smooth],
-        "stretched": [s.stretched for s in smooth],
+        "flipped": [s.flipped_area for s in smooth],
+        "stretched": [s.stretched_area for s in smooth],
         "seconds": spent,
     }
 
@@ -169,7 +169,7 @@ def growth(sizes: list[int]) -> None:
     for size in sizes:
         pair = datasets.two_poses(size, rng=0)
         source, target = unit_area(pair.source), unit_area(pair.target)
-        true = points_of(PointMap(pair.truth_faces, pair.truth_weights), source)
+        true = point_positions(PointMap(pair.truth_faces, pair.truth_weights), source)
         waves = np.random.default_rng(0).normal(size=(3, 100), scale=4.0)
         seconds = []
         for piece in ("fit", "points"):
@@ -179,9 +179,9 @@ def growth(sizes: list[int]) -> None:
             else:
                 angles = (true @ waves, source.vertices @ waves)
                 queries, points = (np.hstack([np.cos(a), np.sin(a)]) for a in angles)
-                found = nearest_places(queries, points, source.faces, threads=1)
+                found = nearest_surface_points(queries, points, source.faces, threads=1)
             seconds.append(time.process_time() - start)
-            error = np.linalg.norm(points_of(PointMap(found.faces, found.weights), source) - true, axis=1)
+            error = np.linalg.norm(point_positions(PointMap(found.faces, found.weights), source) - true, axis=1)
             print(
                 f"  {piece} {len(source.vertices):8,} {seconds[-1]:8.2f} s, off {error.mean():.5f}", end="", flush=True
             )

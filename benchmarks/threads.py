@@ -21,7 +21,7 @@ from shapes import bumpy_pair, bumpy_sphere
 
 from kfmaps._threads import one_blas_thread
 from kfmaps.config import Config
-from kfmaps.fmap.approximate_nearest import nearest_by_cells
+from kfmaps.fmap.approximate_nearest import approximate_nearest
 from kfmaps.geometry.eigen.eigensolver import smallest_eigenpairs
 from kfmaps.matching.match import match
 
@@ -43,7 +43,7 @@ def tasks(large: int) -> dict[str, Callable[[int], Any]]:
         "match, 5000, landmarks": lambda t: matched(with_landmarks, t, pair.landmarks),
         "match, 5000, none": lambda t: matched(without, t, None),
         f"eigenproblem, {large}": lambda t: smallest_eigenpairs(stiffness, area.diagonal(), K, threads=t),
-        f"point map, {large}": lambda t: nearest_by_cells(functions, moved, threads=t),
+        f"point map, {large}": lambda t: approximate_nearest(functions, moved, threads=t),
     }
 
 

@@ -5,9 +5,10 @@
 Mean errors of whole matches without landmarks: as rigidly as possible throughout; with rest shapes that are stretched
 evenly (:mod:`kfmaps.registration.local_scaling`) while shapes are bent and matched in turn and in the last fit; with
 maps that
-begin with the likeliest pairings of the tips of limbs beside (:func:`kfmaps.matching.registration_refine.mended`);
+begin with the likeliest pairings of the tips of limbs beside
+(:func:`kfmaps.matching.registration_refine.refine_by_registration`);
 with torn area
-counted where others may be less torn (:func:`kfmaps.matching.match.worthier`); and with parts that touch told apart
+counted where others may be less torn (:func:`kfmaps.matching.match.better_match`); and with parts that touch told apart
 in the
 end (:mod:`kfmaps.registration.contact_projection`), which is all that there is. DIR is as for
 benchmarks/automatic.py. The half
@@ -29,21 +30,21 @@ import numpy as np
 from automatic import CHOSEN_ON, Job, loaded, pairs_of
 
 import kfmaps
-from kfmaps.geometry.closest_points import places_on
+from kfmaps.geometry.closest_points import closest_points
 from kfmaps.matching import match as matching
 from kfmaps.matching import registration_refine as mending
 from kfmaps.matching import search as choose
 from kfmaps.registration import alternating_registration as alternate
 from kfmaps.registration import nonrigid_icp as nonrigid
 
-RIGID = replace(alternate.FIT, stretch=0.0)
+RIGID = replace(alternate.FIT, local_scaling=0.0)
 ONCE = (matching, "TORN", 2.0)
 """More than all of the target is never torn."""
 UNPAIRED = (mending, "PAIRED", 0)
 CLOSEST = (
     nonrigid,
     "landed",
-    lambda _points, body, x, target, _normals: places_on(target.vertices, x, body.mesh.faces),
+    lambda _points, body, x, target, _normals: closest_points(target.vertices, x, body.mesh.faces),
 )
 KINDS = {
     "as rigid as possible": ((alternate, "FIT", RIGID), (choose, "STRETCH", 0.0), UNPAIRED, ONCE, CLOSEST),

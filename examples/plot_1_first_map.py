@@ -9,7 +9,7 @@ both. What comes back is a vertex of the source for each vertex of the target.
 from dataclasses import replace
 
 import kfmaps
-from kfmaps.kernels.landmark_selection import farthest
+from kfmaps.kernels.landmark_selection import farthest_descriptors
 from kfmaps.viz import match_figure
 
 pair = kfmaps.datasets.two_poses(vertices=2000)
@@ -19,7 +19,7 @@ print(f"source: {len(pair.source.vertices)} vertices, target: {len(pair.target.v
 # Landmarks are rows "source vertex, target vertex", counted from 0. Here the known truth stands in for a person who
 # clicks on six places far from each other (``kfmaps landmarks A B`` opens a page for that).
 
-marked = farthest(pair.target.vertices, 6)
+marked = farthest_descriptors(pair.target.vertices, 6)
 landmarks = [(int(pair.truth[v]), int(v)) for v in marked]
 print(landmarks)
 

@@ -12,10 +12,10 @@ from dataclasses import replace
 import matplotlib.pyplot as plt
 
 import kfmaps
-from kfmaps.kernels.landmark_selection import farthest
+from kfmaps.kernels.landmark_selection import farthest_descriptors
 
 pair = kfmaps.datasets.non_isometric(vertices=2000)
-marked = farthest(pair.target.vertices, 6)
+marked = farthest_descriptors(pair.target.vertices, 6)
 landmarks = [(int(pair.truth[v]), int(v)) for v in marked]
 
 base = replace(

@@ -14,11 +14,11 @@ from sklearn.gaussian_process.kernels import RationalQuadratic
 from sklearn.metrics.pairwise import rbf_kernel
 
 import kfmaps
-from kfmaps.kernels.landmark_selection import farthest
+from kfmaps.kernels.landmark_selection import farthest_descriptors
 from kfmaps.viz import match_figure
 
 pair = kfmaps.datasets.two_poses(vertices=2000)
-marked = farthest(pair.target.vertices, 4)
+marked = farthest_descriptors(pair.target.vertices, 4)
 landmarks = [(int(pair.truth[v]), int(v)) for v in marked]
 base = replace(
     kfmaps.Config.single_fit(),

@@ -13,11 +13,11 @@ import numpy as np
 
 import kfmaps
 from kfmaps.geometry.mesh import surface_area
-from kfmaps.kernels.landmark_selection import farthest
+from kfmaps.kernels.landmark_selection import farthest_descriptors
 from kfmaps.viz import match_figure
 
 pair = kfmaps.datasets.two_poses(vertices=2000)
-marked = farthest(pair.target.vertices, 4)
+marked = farthest_descriptors(pair.target.vertices, 4)
 landmarks = np.stack([pair.truth[marked], marked], axis=1)
 
 # %%

@@ -45,7 +45,7 @@ def mean_error(points, truth):
 
 direct, swapped = (mean_error(result.target_to_source, truth) for truth in (pair.truth, pair.mirrored))
 print(f"the map: mean error x 100: {100 * direct:.2f} against the truth, {100 * swapped:.2f} against the mirrored one")
-for i, points in enumerate(result.runners_up):
+for i, points in enumerate(result.alternatives):
     errors = [100 * mean_error(points, truth) for truth in (pair.truth, pair.mirrored)]
     print(f"runner-up {i + 1}: {errors[0]:.2f} and {errors[1]:.2f}")
 
@@ -56,7 +56,7 @@ for i, points in enumerate(result.runners_up):
 view_s, view_t = true_views(pair.source, pair.target, pair.truth, np.arange(len(pair.truth)))
 colors = position_colors(pair.source)
 shown = {"source": (pair.source, colors, view_s), "the answer": (pair.target, colors[result.target_to_source], view_t)}
-for i, points in enumerate(result.runners_up):
+for i, points in enumerate(result.alternatives):
     shown[f"runner-up {i + 1}"] = (pair.target, colors[points], view_t)
 
 figure, axes = plt.subplots(1, len(shown), figsize=(2.2 * len(shown), 3.2), layout="constrained")

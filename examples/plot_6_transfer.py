@@ -12,11 +12,11 @@ import numpy as np
 
 import kfmaps
 from kfmaps.io import transfer
-from kfmaps.kernels.landmark_selection import farthest
+from kfmaps.kernels.landmark_selection import farthest_descriptors
 from kfmaps.viz import Panel, grid_figure, match_figure
 
 pair = kfmaps.datasets.two_poses(vertices=2000)
-marked = farthest(pair.target.vertices, 6)
+marked = farthest_descriptors(pair.target.vertices, 6)
 landmarks = np.stack([pair.truth[marked], marked], axis=1)
 config = replace(
     kfmaps.Config.single_fit(),
@@ -50,8 +50,8 @@ print(f"labels that agree with the truth: {100 * agreement:.1f} %")
 
 k_t, k_s = result.functional_map.shape
 height = pair.source.vertices[:, 1:2]
-coefficients = source.basis.truncated(k_s).project(height)
-by_matrix = target.basis.truncated(k_t).lift(result.functional_map @ coefficients)[:, 0]
+coefficients = source.basis.truncate(k_s).project(height)
+by_matrix = target.basis.truncate(k_t).reconstruct(result.functional_map @ coefficients)[:, 0]
 true_height = height[pair.truth, 0]
 explained = 1 - np.mean((by_matrix - true_height) ** 2) / np.var(true_height)
 print(f"height by the functional map ({k_t} × {k_s}): {100 * explained:.2f} % of the variance")

@@ -10,10 +10,10 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 import kfmaps
-from kfmaps.descriptors.spectral import normalised, wave_energies, wave_signature
+from kfmaps.descriptors.spectral import normalize, wave_energies, wave_signature
 from kfmaps.geometry.geodesics import farthest_geodesic
 from kfmaps.geometry.mesh import unit_area
-from kfmaps.kernels.landmark_selection import farthest, pivoted_cholesky, uniform
+from kfmaps.kernels.landmark_selection import farthest_descriptors, pivoted_cholesky, uniform
 from kfmaps.kernels.nystrom import nystrom
 
 pair = kfmaps.datasets.two_poses(vertices=1500)
@@ -26,7 +26,7 @@ bases = [kfmaps.laplace_basis(mesh, 80) for mesh in meshes]
 
 energies, sigma = wave_energies(50, *bases)
 signatures = [wave_signature(basis, energies, sigma) for basis in bases]
-D_s, D_t = normalised(signatures[0], signatures[1], "max", bases[0].mass, bases[1].mass)
+D_s, D_t = normalize(signatures[0], signatures[1], "max", bases[0].mass, bases[1].mass)
 D = np.concatenate([D_s, D_t])
 kernel = kfmaps.Gaussian(gamma=1.0)
 K = kernel(D, D)
@@ -47,7 +47,7 @@ sides = (D_s, D_t)
 samplers = {
     "uniform": lambda q: halves(lambda i, half: uniform(len(sides[i]), half), q),
     "farthest, along the surface": lambda q: halves(lambda i, half: farthest_geodesic(meshes[i], half), q),
-    "farthest, between descriptors": lambda q: halves(lambda i, half: farthest(sides[i], half), q),
+    "farthest, between descriptors": lambda q: halves(lambda i, half: farthest_descriptors(sides[i], half), q),
     "pivoted Cholesky": lambda q: pivoted_cholesky(kernel, D, q),
 }
 ranks = [20, 40, 80, 160, 320]

@@ -11,11 +11,11 @@ from dataclasses import replace
 import numpy as np
 
 import kfmaps
-from kfmaps.kernels.landmark_selection import farthest
+from kfmaps.kernels.landmark_selection import farthest_descriptors
 from kfmaps.viz import Curve, curves_figure
 
 pair = kfmaps.datasets.two_poses(vertices=2000)
-marked = farthest(pair.target.vertices, 6)
+marked = farthest_descriptors(pair.target.vertices, 6)
 landmarks = [(int(pair.truth[v]), int(v)) for v in marked]
 
 
@@ -45,7 +45,7 @@ curves, summaries = [], {}
 for name, config in methods.items():
     result = kfmaps.match(source, target, config, landmarks=landmarks)
     errors = kfmaps.geodesic_errors(pair.source, result.target_to_source, pair.truth)
-    summaries[name] = kfmaps.evaluation(errors, auc_limit=0.25)
+    summaries[name] = kfmaps.summarize_errors(errors, auc_limit=0.25)
     curves.append(Curve(name, thresholds, kfmaps.error_curve(errors, thresholds)))
     print(f"{name:28} mean x 100: {100 * summaries[name].mean:6.2f}   area under the curve: {summaries[name].auc:.3f}")
 

@@ -10,7 +10,7 @@ Learning needs PyTorch (``pip install 'kfmaps[learn]'``); what was learned does 
 from dataclasses import replace
 
 import kfmaps
-from kfmaps.kernels.landmark_selection import farthest
+from kfmaps.kernels.landmark_selection import farthest_descriptors
 
 # Learning begins as this configuration, with ten descriptors and a map of 40 by 40.
 config = replace(
@@ -25,7 +25,7 @@ config = replace(
 def creature(number):
     """A creature in two poses: both shapes prepared, their true correspondence, six landmarks."""
     made = kfmaps.datasets.two_poses(vertices=1500, rng=number)
-    marked = farthest(made.target.vertices, 6)
+    marked = farthest_descriptors(made.target.vertices, 6)
     landmarks = [(int(made.truth[v]), int(v)) for v in marked]
     return kfmaps.prepare(made.source, config), kfmaps.prepare(made.target, config), made, landmarks
 

@@ -11,9 +11,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 import kfmaps
-from kfmaps.fmap.minimize import How, Objective, minimised
+from kfmaps.fmap.minimize import MinimizeOptions, Objective, minimize
 from kfmaps.fmap.terms import Elementwise
-from kfmaps.matching.assemble import problem
+from kfmaps.matching.assemble import assemble
 from kfmaps.matching.fit import fit_points
 
 
@@ -40,11 +40,11 @@ config = replace(kfmaps.Config.single_fit(), basis=kfmaps.BasisConfig(functions=
 source, target = (kfmaps.prepare(mesh, config) for mesh in (pair.source, pair.target))
 marks = np.stack([pair.truth[::300], np.arange(len(pair.truth))[::300]], axis=1)
 points = fit_points(source, target, config, marks)
-task = problem(*points.shapes, points.bases, points.descriptors, config, np.random.default_rng(0), (source, target))
+task = assemble(*points.shapes, points.bases, points.descriptors, config, np.random.default_rng(0), (source, target))
 
-how = How(config.solver)
-plain = minimised(Objective(task.energy), how).value
-few = minimised(Objective(task.energy, {"rows": (0.1, FewRows())}), how).value
+how = MinimizeOptions(config.solver)
+plain = minimize(Objective(task.energy), how).value
+few = minimize(Objective(task.energy, {"rows": (0.1, FewRows())}), how).value
 used = [int((np.linalg.norm(C, axis=1) > 0.05).sum()) for C in (plain, few)]
 print(f"rows in use: {used[0]} by least squares, {used[1]} with the penalty")
 assert used[1] < used[0]

@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 import style
 from experiment import Options, Result, main
 from kernel_matrix import GAMMAS, best_errors, kernel_spectra, signature
-from kfmaps.kernels.kernels import Gaussian, gram
+from kfmaps.kernels.kernels import Gaussian, kernel_matrix
 from kfmaps.shape import Shape
 from kfmaps.viz import automatic_view, draw_surface
 
@@ -83,14 +83,14 @@ def draw_kernels(shape: Shape, X: np.ndarray) -> Figure:
     order = np.argsort(shape.basis.functions[:, 1])
     few = order[np.linspace(0, len(order) - 1, min(N_SHOWN, len(order))).astype(int)]
     # A vertex that is neither the most common kind nor the rarest.
-    centre = int(np.argsort(gram(Gaussian(1.0), X, X[few]).mean(axis=1))[len(X) // 2])
+    centre = int(np.argsort(kernel_matrix(Gaussian(1.0), X, X[few]).mean(axis=1))[len(X) // 2])
     view = automatic_view(shape.mesh)
     for gamma, matrix, surface in zip(GAMMAS, axes, axes[len(GAMMAS) :], strict=False):
-        image = matrix.imshow(gram(Gaussian(gamma), X[few], X[few]), cmap="cividis", vmin=0, vmax=1)
+        image = matrix.imshow(kernel_matrix(Gaussian(gamma), X[few], X[few]), cmap="cividis", vmin=0, vmax=1)
         matrix.set(xticks=[], yticks=[])
         matrix.grid(False)
         matrix.set_title(f"γ = {gamma:g}", fontsize=10)
-        row = gram(Gaussian(gamma), X[centre : centre + 1], X)[0]
+        row = kernel_matrix(Gaussian(gamma), X[centre : centre + 1], X)[0]
         draw_surface(surface, shape.mesh, colormaps["cividis"](row)[:, :3], view)
         if gamma == GAMMAS[-1]:
             figure.colorbar(image, ax=axes, shrink=0.6).set_label("k(x, y)", fontsize=9)

@@ -19,11 +19,11 @@ from data_sets import DataSet
 from experiment import Options, Result, main
 from kfmaps._threads import one_blas_thread
 from kfmaps.config import Config
-from kfmaps.fmap.energy import Energy, SliceCommutativity, hadamard_term
+from kfmaps.fmap.energy import Energy, OperatorCommutativity, hadamard_term
 from kfmaps.fmap.preconditioners import jacobi, sylvester
 from kfmaps.fmap.solvers import CG, solve
 from kfmaps.geometry.basis import Basis
-from kfmaps.matching.assemble import problem
+from kfmaps.matching.assemble import assemble
 from kfmaps.matching.features import Descriptors, Features, kernel_features, pair_descriptors
 from methods import paper, recommended
 from pair_errors import prepared
@@ -56,7 +56,7 @@ def figure7(options: Options) -> Result:
     residuals: dict[str, np.ndarray] = {}
     with one_blas_thread():
         for name, config in (("paper's settings", paper(100)), ("recommended", recommended(100))):
-            energy = assemble(options, config).energy
+            energy = timed_assembly(options, config).energy
             operators = (("plain", None), ("Jacobi", jacobi(energy.diagonal())), ("Sylvester", sylvester(energy)))
             for preconditioner, apply in operators:
                 solution = solve(energy.apply, energy.rhs(), CG(TOLERANCE, STEPS), preconditioner=apply)
@@ -82,7 +82,7 @@ class Assembled:
     features: Features
 
 
-def assemble(options: Options, config: Config) -> Assembled:
+def timed_assembly(options: Options, config: Config) -> Assembled:
     """Return the energy of the generated pair."""
     data_set = DataSet("generated", vertices=options.timing_vertices)
     pair = ("poses-2-source", "poses-2-target")
@@ -91,18 +91,18 @@ def assemble(options: Options, config: Config) -> Assembled:
     descriptors = pair_descriptors(source, target, bases, config.descriptors, data_set.landmarks(pair), None)
     # The same generator twice: both see the same samples.
     features = kernel_features(source, target, descriptors, config, np.random.default_rng(0))
-    task = problem(source, target, bases, descriptors, config, np.random.default_rng(0))
-    source_basis, target_basis = (basis.truncated(config.basis.functions) for basis in bases)
+    task = assemble(source, target, bases, descriptors, config, np.random.default_rng(0))
+    source_basis, target_basis = (basis.truncate(config.basis.functions) for basis in bases)
     return Assembled(task.energy, (source_basis, target_basis), descriptors, features)
 
 
 def timings(options: Options, config: Config) -> list[dict[str, Any]]:
     """Return seconds of one application of the operator in each form, and the difference of its result to slices'."""
-    exact = assemble(options, config)
-    compressed = assemble(options, replace(config, compression=recommended(100).compression))
+    exact = timed_assembly(options, config)
+    compressed = timed_assembly(options, replace(config, compression=recommended(100).compression))
     rest = {n: w for n, w in exact.energy.weights.items() if n != "commutativity"}
     others = Energy({n: exact.energy.terms[n] for n in rest}, rest)
-    slices, fewer = (cast(SliceCommutativity, each.energy.terms["commutativity"]) for each in (exact, compressed))
+    slices, fewer = (cast(OperatorCommutativity, each.energy.terms["commutativity"]) for each in (exact, compressed))
     W_s, W_t = exact.features.source, exact.features.target
     source, target = exact.bases
     size = config.basis.functions

@@ -18,18 +18,18 @@ from data_sets import DataSet
 from data_sets import Pair as Names
 from kfmaps._arrays import KfmapsWarning, to_numpy
 from kfmaps.config import BasisConfig, Config, DescriptorConfig, Formulation, NystromConfig, Weights
-from kfmaps.fmap.bidirectional_zoomout import zoomed_both
+from kfmaps.fmap.bidirectional_zoomout import bidirectional_zoomout
 from kfmaps.fmap.convert import to_points
 from kfmaps.fmap.refine import ZoomOut
 from kfmaps.fmap.solvers import CG
-from kfmaps.fmap.transfer import carried
+from kfmaps.fmap.transfer import transfer_functions
 from kfmaps.geometry.basis import Basis
 from kfmaps.geometry.geodesics import geodesic_distances
 from kfmaps.geometry.sampling import stratified_samples
 from kfmaps.kernels.kernels import Gaussian, Linear
-from kfmaps.matching.assemble import problem
+from kfmaps.matching.assemble import assemble
 from kfmaps.matching.fit import fit_points
-from kfmaps.matching.solve import Minimised, minimiser
+from kfmaps.matching.solve import Minimised, minimize_problem
 from kfmaps.shape import Shape
 from pair_errors import prepared
 
@@ -104,7 +104,7 @@ class Pair:
 
     def refine_both(self, C: np.ndarray, D: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Return the functional maps of both directions after bidirectional ZoomOut on samples."""
-        there, back = zoomed_both(ZOOM, C, D, *self.samples)
+        there, back = bidirectional_zoomout(ZOOM, C, D, *self.samples)
         return to_numpy(there.functional_map), to_numpy(back.functional_map)
 
 
@@ -141,9 +141,9 @@ def solve_each(pair: Pair, config: Config, landmarks: np.ndarray, formulations: 
             points = fit_points(*sides, own_config if own else config, landmarks)
             with_orientation = replace(config, weights=Weights(orientation=orientation))
             rng = np.random.default_rng(0)
-            shared[own] = problem(*points.shapes, points.bases, points.descriptors, with_orientation, rng, sides)
+            shared[own] = assemble(*points.shapes, points.bases, points.descriptors, with_orientation, rng, sides)
         orientations = shared[own].orientations if weights.orientation else None
-        results[name] = minimiser(replace(shared[own], config=own_config, orientations=orientations), own_config)
+        results[name] = minimize_problem(replace(shared[own], config=own_config, orientations=orientations), own_config)
     return results
 
 
@@ -241,7 +241,7 @@ def compare_transfer(data_set: DataSet, names: Names, config: Config) -> Rows:
                 for products in PRODUCTS:
                     if products is not None and products > C.shape[1]:
                         continue
-                    image = carried(f, C, pair.source.basis, pair.target.basis, products)[pair.known_t]
+                    image = transfer_functions(f, C, pair.source.basis, pair.target.basis, products)[pair.known_t]
                     error = float(np.linalg.norm(image - truth) / np.linalg.norm(truth - truth.mean(axis=0)))
                     rows.append({"map": size, "function": name, "products": products or 0, "error": error})
         return rows

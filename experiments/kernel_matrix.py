@@ -10,8 +10,8 @@ from experiment import Options
 from kfmaps.descriptors.spectral import wave_energies, wave_signature
 from kfmaps.geometry.geodesics import farthest_geodesic
 from kfmaps.geometry.mesh import Mesh
-from kfmaps.kernels.kernels import Gaussian, gram
-from kfmaps.kernels.landmark_selection import farthest, pivoted_cholesky, uniform
+from kfmaps.kernels.kernels import Gaussian, kernel_matrix
+from kfmaps.kernels.landmark_selection import farthest_descriptors, pivoted_cholesky, uniform
 from kfmaps.kernels.nystrom import nystrom
 from kfmaps.shape import Shape
 from pair_errors import prepared
@@ -67,7 +67,7 @@ def nystrom_error(K: np.ndarray, X: np.ndarray, samples: np.ndarray, gamma: floa
 
 def gaussian_matrix(X: np.ndarray, gamma: float) -> np.ndarray:
     """Return the values of the Gaussian kernel, (n, n), exactly symmetric."""
-    K = gram(Gaussian(gamma), X, X)
+    K = kernel_matrix(Gaussian(gamma), X, X)
     return (K + K.T) / 2
 
 
@@ -81,6 +81,6 @@ def samples(method: str, mesh: Mesh, X: np.ndarray, gamma: float, count: int, rn
     if method == "geodesic farthest":
         return farthest_geodesic(mesh, count, rng)
     if method == "descriptor farthest":
-        return farthest(X, count, rng)
+        return farthest_descriptors(X, count, rng)
     power = 2.0 if method.endswith("squared") else 1.0
     return pivoted_cholesky(Gaussian(gamma), X, count, randomised=method.startswith("randomly"), power=power, rng=rng)

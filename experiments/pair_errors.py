@@ -20,7 +20,7 @@ from kfmaps.fmap.evaluate import error_curve
 from kfmaps.geometry.geodesics import geodesic_distances
 from kfmaps.geometry.mesh import surface_area
 from kfmaps.matching.fit import Fit, fit
-from kfmaps.matching.postprocess import Finished, finished
+from kfmaps.matching.postprocess import PostprocessedMap, refine_map
 from kfmaps.shape import Shape, prepare
 from store import Job, run_jobs
 
@@ -106,15 +106,15 @@ def all_distances(data_set: DataSet, name: str) -> np.ndarray:
     return distances
 
 
-def fit_pair(data_set: DataSet, pair: Pair, config: Config, landmarks: np.ndarray) -> tuple[Fit, Finished]:
+def fit_pair(data_set: DataSet, pair: Pair, config: Config, landmarks: np.ndarray) -> tuple[Fit, PostprocessedMap]:
     """Fit a pair on one thread; return the fit and its point maps."""
     source, target = (prepared(data_set, name, config.eigenfunctions, config.basis.laplacian) for name in pair)
     config = replace(config, threads=1)
     fitted = fit(source, target, config, landmarks=landmarks, rng=0)
-    return fitted, finished(fitted.functional_map, source, target, config)
+    return fitted, refine_map(fitted.functional_map, source, target, config)
 
 
-def raw_map(maps: Finished) -> np.ndarray:
+def raw_map(maps: PostprocessedMap) -> np.ndarray:
     """Return the point map before the refinement, (n_t,)."""
     assert maps.raw_target_to_source is not None
     return maps.raw_target_to_source

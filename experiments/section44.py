@@ -12,9 +12,9 @@ from matplotlib.ticker import NullFormatter
 import style
 from data_sets import DataSet, Pair
 from experiment import Options, Result, Rows, main
-from kfmaps.fmap.energy import Energy, descriptor_term, kernel_descriptor_term, laplacian_term, slice_term
-from kfmaps.fmap.multiplication_operators import packed_slices, unpacked_slices
-from kfmaps.fmap.solvers import dense
+from kfmaps.fmap.energy import Energy, descriptor_term, kernel_descriptor_term, laplacian_term, operator_term
+from kfmaps.fmap.multiplication_operators import multiplication_operators, unpack_operators
+from kfmaps.fmap.solvers import dense_matrix
 from kfmaps.kernels.kernels import KernelLike, Linear
 from kfmaps.matching.features import kernel_features, pair_descriptors
 from methods import paper
@@ -60,24 +60,24 @@ def systems(data_set: DataSet, pair: Pair, count: int) -> list[dict[str, Any]]:
     source, target = (prepared(data_set, name, base.eigenfunctions) for name in pair)
     bases = (source.basis, target.basis)
     used = pair_descriptors(source, target, bases, base.descriptors, data_set.landmarks(pair), None)
-    large, small = ((bases[0].truncated(size), bases[1].truncated(size)) for size in (SIZE, WHOLE_SIZE))
+    large, small = ((bases[0].truncate(size), bases[1].truncate(size)) for size in (SIZE, WHOLE_SIZE))
     rows = []
     for name in KERNELS:
         kernel: KernelLike = Linear() if name == "linear" else base.kernel
         features = kernel_features(source, target, used, replace(base, kernel=kernel), np.random.default_rng(0))
         slices = [
-            unpacked_slices(packed_slices(basis, F))
+            unpack_operators(multiplication_operators(basis, F))
             for basis, F in zip(small, (features.source, features.target), strict=True)
         ]
         terms = {
             "descriptors": descriptor_term(small[0], features.source, small[1], features.target),
-            "commutativity": slice_term(*slices),
+            "commutativity": operator_term(*slices),
             "laplacian": laplacian_term(*small),
         }
         matrices = {"F_P": kernel_descriptor_term(kernel, large[0], used.source, large[1], used.target).gram_s}
         for system, weights in zip(SYSTEMS[1:], ((1.0, 1.0, 0.0), (1.0, 1.0, 1.0)), strict=True):
             energy = Energy(terms, dict(zip(terms, weights, strict=True)))
-            matrices[system] = dense(energy.apply, (WHOLE_SIZE, WHOLE_SIZE), small[0].functions)
+            matrices[system] = dense_matrix(energy.apply, (WHOLE_SIZE, WHOLE_SIZE), small[0].functions)
         for system, matrix in matrices.items():
             rank, condition = conditioning(matrix)
             row = {"kernel": name, "system": system, "rank": rank, "size": len(matrix), "condition number": condition}

@@ -29,10 +29,10 @@ EQUAL = 1e-9
 """Relative difference, and part of the scale of the smallest, below which eigenvalues count as equal."""
 ROOMS = ("kernels", "geometry", "descriptors", "fmap", "registration", "matching")
 PRODUCTS = {
-    "kernels.kernels": ("gram",),
+    "kernels.kernels": ("kernel_matrix",),
     "descriptors.spectral": ("heat_signature", "wave_signature", "heat_map", "wave_map"),
     "descriptors.shot": ("shot",),
-    "fmap.multiplication_operators": ("packed_slices",),
+    "fmap.multiplication_operators": ("multiplication_operators",),
 }
 """Functions whose results are products, each entry of which moves."""
 
@@ -72,7 +72,7 @@ def install(seed: int) -> None:
         for name in names:
             original = getattr(importlib.import_module(f"kfmaps.{module}"), name)
             _everywhere(original, _moved(original, seed))
-    for name in ("project", "lift"):
+    for name in ("project", "reconstruct"):
         setattr(Basis, name, _moved(getattr(Basis, name), seed))
     mesh = importlib.import_module("kfmaps.geometry.mesh")
     scaled = mesh.unit_area

@@ -19,17 +19,30 @@ from kfmaps.matching import ranking
 from kfmaps.matching import registration_refine as mending
 from kfmaps.matching import search as choose
 from kfmaps.matching.calibration import BENT, PER_SCORE
-from kfmaps.matching.candidates import STRAIN, Candidate, differs, judged, paired_map
-from kfmaps.matching.extremity_matching import Pairing, completed, induced, limbs_of, pairings, unheard
-from kfmaps.matching.match import TEAR, TORN, worthier
-from kfmaps.matching.proxy_cache import Copies
-from kfmaps.matching.quality import Quality, probe
-from kfmaps.matching.ranking import closer
-from kfmaps.matching.registration_refine import mendable, mended
-from kfmaps.matching.sample_pair import arena, turned
+from kfmaps.matching.candidates import W_STRAIN, Candidate, map_distance, paired_map, score_maps
+from kfmaps.matching.extremity_matching import (
+    ExtremityMatch,
+    complete_match,
+    match_extremities,
+    match_of_map,
+    unused_matches,
+    vertices_of_match,
+)
+from kfmaps.matching.match import TEAR, TORN, better_match
+from kfmaps.matching.proxy_cache import ProxyCache
+from kfmaps.matching.quality import Quality, sample_for_scoring
+from kfmaps.matching.ranking import rerank_near_duplicates
+from kfmaps.matching.registration_refine import refine_by_registration, repairable
+from kfmaps.matching.sample_pair import mirrored_pair, two_level_samples
 from kfmaps.registration import alternating_registration as alternate
-from kfmaps.registration.alternating_registration import Grounds, alternated, grounds, lying, spread
-from kfmaps.registration.deformation_energy import MORE, copied
+from kfmaps.registration.alternating_registration import (
+    RegistrationPair,
+    alternating_registration,
+    position_normal_guidance,
+    project_positions,
+    registration_pair,
+)
+from kfmaps.registration.deformation_energy import MORE, coarse_copy
 
 GUARDS = ("kfmaps.matching", "kfmaps.registration.alternating_registration", "kfmaps.registration.deformation_energy")
 
@@ -37,16 +50,16 @@ GUARDS = ("kfmaps.matching", "kfmaps.registration.alternating_registration", "kf
 @pytest.fixture(autouse=True)
 def alike(monkeypatch):
     """How bent shapes look is tested in test_looks.py, and takes seconds."""
-    monkeypatch.setattr(copies, "looks", lambda on: SimpleNamespace(on=on))
+    monkeypatch.setattr(copies, "shot_pair", lambda on: SimpleNamespace(on=on))
     for module in (ranking, mending):
-        monkeypatch.setattr(module, "mismatch", lambda *_what: 0.2)
+        monkeypatch.setattr(module, "registered_shot_error", lambda *_what: 0.2)
 
 
-def both(source, target) -> Grounds:
-    a, b = copied(source, MORE), copied(target, MORE)
+def both(source, target) -> RegistrationPair:
+    a, b = coarse_copy(source, MORE), coarse_copy(target, MORE)
     assert a is not None
     assert b is not None
-    return grounds(source, target, (a, b))
+    return registration_pair(source, target, (a, b))
 
 
 def points_of(C, source, target):
@@ -65,42 +78,42 @@ def test_a_torn_map_is_mended(creatures):
     torn = truth.copy()
     high = np.argsort(target.mesh.vertices[:, 0])[-len(torn) // 4 :]
     torn[high] = np.random.default_rng(0).permutation(torn[high])
-    C = to_functional(torn, source.basis.truncated(40), target.basis.truncated(40))
-    found = alternated(C, both(source, target), None)
+    C = to_functional(torn, source.basis.truncate(40), target.basis.truncate(40))
+    found = alternating_registration(C, both(source, target), None)
     assert error(found.functional_map, source, target, truth) < 0.7 * error(C, source, target, truth)
-    assert found.bent.shape == source.mesh.vertices.shape
+    assert found.registered_vertices.shape == source.mesh.vertices.shape
 
 
 def test_bent_vertices_lie_where_the_truth_says(creatures):
     source, target, truth = creatures
-    C = to_functional(truth, source.basis.truncated(60), target.basis.truncated(60))
-    bent = alternated(C, both(source, target), None).bent
+    C = to_functional(truth, source.basis.truncate(60), target.basis.truncate(60))
+    bent = alternating_registration(C, both(source, target), None).registered_vertices
     off = np.linalg.norm(bent[truth] - target.mesh.vertices, axis=1)
     assert off.mean() < 0.04
 
 
 def test_each_fit_is_followed_by_a_refinement_that_it_takes_part_in(creatures, monkeypatch):
     source, target, truth = creatures
-    C = to_functional(truth, source.basis.truncated(40), target.basis.truncated(40))
+    C = to_functional(truth, source.basis.truncate(40), target.basis.truncate(40))
     told = []
-    first = alternated(C, both(source, target), None, told.append).functional_map
+    first = alternating_registration(C, both(source, target), None, told.append).functional_map
     assert told == [(i + 1) / alternate.ROUNDS for i in range(alternate.ROUNDS)]
     monkeypatch.setattr(alternate, "WEIGHT", 0.0)
-    without = alternated(C, both(source, target), None).functional_map
+    without = alternating_registration(C, both(source, target), None).functional_map
     assert error(first, source, target, truth) < error(without, source, target, truth)
 
 
 def test_positions_are_spread_smoothly(creatures):
     source = creatures[0]
     on = both(source, source)
-    again = spread(on.copies[0].mesh.vertices, on.bases[0], source.basis)
+    again = project_positions(on.copies[0].mesh.vertices, on.bases[0], source.basis)
     off = np.linalg.norm(again - source.mesh.vertices, axis=1)
     assert off.mean() < 0.01
 
 
 def test_what_lies_on_itself_differs_nowhere(creatures):
     mesh = creatures[0].mesh
-    guide = lying(mesh, mesh)
+    guide = position_normal_guidance(mesh, mesh)
     assert np.array_equal(guide.source, guide.target)
     a, b = np.random.default_rng(0).integers(len(mesh.vertices), size=(2, 4000))
     apart = ((guide.source[a] - guide.source[b]) ** 2)[:, :3].sum(axis=1)
@@ -110,25 +123,25 @@ def test_what_lies_on_itself_differs_nowhere(creatures):
 def test_point_clouds_are_not_bent(creatures):
     source = creatures[0]
     cloud = kfmaps.Mesh(source.mesh.vertices, np.zeros((0, 3), dtype=np.int64))
-    on = arena(source, source, (probe(source, 200), probe(source, 200))).whole
+    on = two_level_samples(source, source, (sample_for_scoring(source, 200), sample_for_scoring(source, 200))).whole
     for shapes in ((replace(source, mesh=cloud), source), (source, replace(source, mesh=cloud))):
-        assert Copies.of(*shapes, on).finer is None
+        assert ProxyCache.of(*shapes, on).fine is None
     for coarse in ((None, on.target.copy), (on.source.copy, None)):
-        assert Copies(source, source, coarse).few is None
+        assert ProxyCache(source, source, coarse).coarse is None
 
 
 def test_copies_are_made_once_and_of_the_image_that_is_meant(creatures):
     source, target, _ = creatures
-    on = arena(source, target, (probe(source, 200), probe(target, 200))).whole
-    kept, image = Copies.of(source, target, on), Copies.of(source, target, turned(on))
-    assert kept.few is not None
-    assert kept.few is kept.few
-    assert kept.finer is not None
-    assert kept.finer is kept.finer
+    on = two_level_samples(source, target, (sample_for_scoring(source, 200), sample_for_scoring(target, 200))).whole
+    kept, image = ProxyCache.of(source, target, on), ProxyCache.of(source, target, mirrored_pair(on))
+    assert kept.coarse is not None
+    assert kept.coarse is kept.coarse
+    assert kept.fine is not None
+    assert kept.fine is kept.fine
     assert kept.image is target
-    assert image.few is not None
-    assert image.finer is not None
-    for one, other in ((kept.few, image.few), (kept.finer.on, image.finer.on)):
+    assert image.coarse is not None
+    assert image.fine is not None
+    for one, other in ((kept.coarse, image.coarse), (kept.fine.on, image.fine.on)):
         (a, b), (c, d) = one.copies, other.copies
         np.testing.assert_array_equal(c.mesh.vertices, a.mesh.vertices)
         np.testing.assert_array_equal(d.mesh.vertices, b.mesh.vertices * MIRROR)
@@ -138,13 +151,18 @@ def test_copies_are_made_once_and_of_the_image_that_is_meant(creatures):
 def test_mending_tells_how_far_it_is(creatures, monkeypatch):
     """Five to ten seconds on real shapes, in which nobody should wonder."""
     source, target, truth = creatures
-    on = arena(source, target, (probe(source, 200), probe(target, 200))).whole
-    C = np.asarray(to_functional(truth, source.basis.truncated(40), target.basis.truncated(40)))
-    ranked = [replace(c, bending=1.0) for c in judged([("truth", True)], C[None], None, on, 1)]
-    monkeypatch.setattr(mending, "pairings", lambda *_: [])
+    on = two_level_samples(source, target, (sample_for_scoring(source, 200), sample_for_scoring(target, 200))).whole
+    C = np.asarray(to_functional(truth, source.basis.truncate(40), target.basis.truncate(40)))
+    ranked = [replace(c, deformation_energy=1.0) for c in score_maps([("truth", True)], C[None], None, on, 1)]
+    monkeypatch.setattr(mending, "match_extremities", lambda *_: [])
     told = []
-    mended(
-        ranked, on, Copies.of(source, target, on), np.zeros((0, 2), dtype=np.int64), 1, lambda *what: told.append(what)
+    refine_by_registration(
+        ranked,
+        on,
+        ProxyCache.of(source, target, on),
+        np.zeros((0, 2), dtype=np.int64),
+        1,
+        lambda *what: told.append(what),
     )
     assert {stage for stage, _ in told} == {"bent and matched in turn"}
     once = [*(0.9 * (i + 1) / alternate.ROUNDS for i in range(alternate.ROUNDS)), 1.0]
@@ -155,24 +173,26 @@ def test_mending_tells_how_far_it_is(creatures, monkeypatch):
 def test_the_target_is_bent_and_the_source_where_that_is_asked_for(creatures, monkeypatch):
     """Of the winner alone, and not where a copy falls apart."""
     source, target, truth = creatures
-    on = arena(source, target, (probe(source, 200), probe(target, 200))).whole
-    C = np.asarray(to_functional(truth, source.basis.truncated(40), target.basis.truncated(40)))
-    ranked = [replace(c, bending=1.0) for c in judged([("truth", True)], C[None], None, on, 1)]
+    on = two_level_samples(source, target, (sample_for_scoring(source, 200), sample_for_scoring(target, 200))).whole
+    C = np.asarray(to_functional(truth, source.basis.truncate(40), target.basis.truncate(40)))
+    ranked = [replace(c, deformation_energy=1.0) for c in score_maps([("truth", True)], C[None], None, on, 1)]
     calls, apart = [], []
 
     def made(C, on, led, _report):
         calls.append((on.source is target, led.source.shape[0], np.array_equal(C, ranked[0].functional_map.T)))
         if (on.source is target) in apart:
             raise NotConverged("it fell apart")
-        return alternate.Alternated(C, on.source.mesh.vertices)
+        return alternate.AlternatingResult(C, on.source.mesh.vertices)
 
     def end():
-        found = mended(ranked, on, Copies.of(source, target, on), np.zeros((0, 2), dtype=np.int64), 1)
+        found = refine_by_registration(
+            ranked, on, ProxyCache.of(source, target, on), np.zeros((0, 2), dtype=np.int64), 1
+        )
         assert len(found) == 1
         return found[0]
 
-    monkeypatch.setattr(mending, "alternated", made)
-    monkeypatch.setattr(mending, "pairings", lambda *_: [])
+    monkeypatch.setattr(mending, "alternating_registration", made)
+    monkeypatch.setattr(mending, "match_extremities", lambda *_: [])
     first = end()
     n_s, n_t = len(source.mesh.vertices), len(target.mesh.vertices)
     assert calls == [(True, n_t, True)]
@@ -181,70 +201,72 @@ def test_the_target_is_bent_and_the_source_where_that_is_asked_for(creatures, mo
     assert other is not None
     assert calls[1:] == [(False, n_s, False)]
     for one, backwards, count in ((first, True, n_t), (other, False, n_s)):
-        assert one.backwards == backwards
-        assert len(np.asarray(one.bent)) == count
+        assert one.swapped == backwards
+        assert len(np.asarray(one.registered_vertices)) == count
         np.testing.assert_array_equal(one.functional_map, ranked[0].functional_map)
     apart.append(False)
     assert way() is None
     apart.append(True)
-    assert end().bent is None
+    assert end().registered_vertices is None
 
 
 def test_likely_pairings_are_begun_with_where_no_map_has_them(creatures, monkeypatch):
     """With their own tips, which what is mended keeps to, and only as long as the copies hold."""
     source, target, truth = creatures
-    on = arena(source, target, (probe(source, 200), probe(target, 200))).whole
-    C = np.asarray(to_functional(truth, source.basis.truncated(40), target.basis.truncated(40)))
-    ranked = [replace(c, bending=1.0) for c in judged([("truth", True)], C[None], None, on, 1)]
-    (best, *others) = pairings(on.source, on.target, on.shot)
+    on = two_level_samples(source, target, (sample_for_scoring(source, 200), sample_for_scoring(target, 200))).whole
+    C = np.asarray(to_functional(truth, source.basis.truncate(40), target.basis.truncate(40)))
+    ranked = [replace(c, deformation_energy=1.0) for c in score_maps([("truth", True)], C[None], None, on, 1)]
+    (best, *others) = match_extremities(on.source, on.target, on.shot)
     mirror = next(one for one in others if one.contradicts(best))
-    monkeypatch.setattr(mending, "pairings", lambda *_: [best, mirror])
-    monkeypatch.setattr(mending, "completed", lambda one, _likely: one)
+    monkeypatch.setattr(mending, "match_extremities", lambda *_: [best, mirror])
+    monkeypatch.setattr(mending, "complete_match", lambda one, _likely: one)
     calls, begun, asked = [], [], []
 
     def tips_of(pairing, *rest):
         asked.append(f"{pairing}")
-        return limbs_of(pairing, *rest)
+        return vertices_of_match(pairing, *rest)
 
     def made(C, on, led, _report):
         calls.append(led.source.shape[1])
         begun.append(C)
         if len(calls) == 5:
             raise NotConverged("it fell apart")
-        return alternate.Alternated(C, on.source.mesh.vertices)
+        return alternate.AlternatingResult(C, on.source.mesh.vertices)
 
-    monkeypatch.setattr(mending, "alternated", made)
-    monkeypatch.setattr(mending, "limbs_of", tips_of)
+    monkeypatch.setattr(mending, "alternating_registration", made)
+    monkeypatch.setattr(mending, "vertices_of_match", tips_of)
     landmarks = np.zeros((0, 2), dtype=np.int64)
-    found = mended(ranked, on, Copies.of(source, target, on), landmarks, 1)
+    found = refine_by_registration(ranked, on, ProxyCache.of(source, target, on), landmarks, 1)
     names = {c.name for c in found}
     (first,) = (c for c in found if c.again)
     other = first.again[0]()
     assert {first.name, other and other.name} == names
     assert len(calls) == 2  # the truth has the best pairing itself
-    assert asked == [f"{induced(ranked[0].points, on.source, on.target)}", f"{mirror}"]
+    assert asked == [f"{match_of_map(ranked[0].points, on.source, on.target)}", f"{mirror}"]
     np.testing.assert_array_equal(begun[1].T, paired_map(mirror, on, len(begun[1])))
     assert names == {"truth", f"{mirror}"}
-    monkeypatch.setattr(mending, "induced", lambda *_: None)
-    assert f"{mirror}" not in {c.name for c in mended(ranked, on, Copies.of(source, target, on), landmarks, 1)}
+    monkeypatch.setattr(mending, "match_of_map", lambda *_: None)
+    assert f"{mirror}" not in {
+        c.name for c in refine_by_registration(ranked, on, ProxyCache.of(source, target, on), landmarks, 1)
+    }
     assert len(calls) == 5
 
 
 def test_pairings_are_heard_once():
     def pairing(*pairs):
-        return Pairing(*np.array(pairs).T)
+        return ExtremityMatch(*np.array(pairs).T)
 
     whole = pairing((0, 0), (1, 1), (2, 2), (3, 3))
     part, other = pairing((0, 0), (1, 1), (2, 2)), pairing((0, 0), (1, 2), (2, 1))
     third = pairing((0, 4), (1, 1), (2, 2))
     # Of the first the whole is begun with, though a part of it is likelier: there is less to differ.
-    assert unheard([part, whole, other, third], [], 3) == [whole, other, third]
-    assert unheard([part, whole, other, third], [], 2) == [whole, other]
-    assert unheard([part, other], [], 2) == [part, other]
-    assert completed(part, [other, third]) is part
-    assert completed(whole, [part, whole]) is whole
-    assert unheard([part, other, third], [whole], 3) == [other, third]
-    assert unheard([whole], [part], 1) == [whole]
+    assert unused_matches([part, whole, other, third], [], 3) == [whole, other, third]
+    assert unused_matches([part, whole, other, third], [], 2) == [whole, other]
+    assert unused_matches([part, other], [], 2) == [part, other]
+    assert complete_match(part, [other, third]) is part
+    assert complete_match(whole, [part, whole]) is whole
+    assert unused_matches([part, other, third], [whole], 3) == [other, third]
+    assert unused_matches([whole], [part], 1) == [whole]
     assert part.contradicts(third)
     assert part.contradicts(pairing((5, 0)))  # by the target's tip alone
     assert not part.contradicts(pairing((5, 5)))
@@ -254,39 +276,45 @@ def test_pairings_are_heard_once():
 def test_what_goes_astray_stays_as_it_was(creatures, monkeypatch):
     """As the right map of a body that touches itself."""
     source, target, truth = creatures
-    on = arena(source, target, (probe(source, 200), probe(target, 200))).whole
-    C = np.asarray(to_functional(truth, source.basis.truncated(40), target.basis.truncated(40)))
-    ranked = [replace(c, bending=1.0) for c in judged([("truth", True)], C[None], None, on, 1)]
-    astray = alternate.Alternated(np.linalg.qr(np.random.default_rng(0).normal(size=C.shape))[0], target.mesh.vertices)
-    monkeypatch.setattr(mending, "alternated", lambda *_rest: astray)
-    monkeypatch.setattr(mending, "pairings", lambda *_: [])
-    found = mended(ranked, on, Copies.of(source, target, on), np.zeros((0, 2), dtype=np.int64), 1)[0]
+    on = two_level_samples(source, target, (sample_for_scoring(source, 200), sample_for_scoring(target, 200))).whole
+    C = np.asarray(to_functional(truth, source.basis.truncate(40), target.basis.truncate(40)))
+    ranked = [replace(c, deformation_energy=1.0) for c in score_maps([("truth", True)], C[None], None, on, 1)]
+    astray = alternate.AlternatingResult(
+        np.linalg.qr(np.random.default_rng(0).normal(size=C.shape))[0], target.mesh.vertices
+    )
+    monkeypatch.setattr(mending, "alternating_registration", lambda *_rest: astray)
+    monkeypatch.setattr(mending, "match_extremities", lambda *_: [])
+    found = refine_by_registration(ranked, on, ProxyCache.of(source, target, on), np.zeros((0, 2), dtype=np.int64), 1)[
+        0
+    ]
     assert found.functional_map is ranked[0].functional_map
-    assert found.bent is None
-    assert [c.backwards for c in (way() for way in found.again) if c] == [False]
+    assert found.registered_vertices is None
+    assert [c.swapped for c in (way() for way in found.again) if c] == [False]
     # Looked at as closely as what it is compared with.
-    assert found.bending is not None
-    assert found.bending < 0.5
+    assert found.deformation_energy is not None
+    assert found.deformation_energy < 0.5
     assert found.strain is not None
 
 
 def test_what_goes_astray_one_way_is_mended_the_other(creatures, monkeypatch):
     source, target, truth = creatures
-    on = arena(source, target, (probe(source, 200), probe(target, 200))).whole
-    C = np.asarray(to_functional(truth, source.basis.truncated(40), target.basis.truncated(40)))
+    on = two_level_samples(source, target, (sample_for_scoring(source, 200), sample_for_scoring(target, 200))).whole
+    C = np.asarray(to_functional(truth, source.basis.truncate(40), target.basis.truncate(40)))
     rough = C + 0.02 * np.random.default_rng(1).normal(size=C.shape)
-    ranked = [replace(c, bending=1.0) for c in judged([("rough", True)], rough[None], None, on, 1)]
+    ranked = [replace(c, deformation_energy=1.0) for c in score_maps([("rough", True)], rough[None], None, on, 1)]
     astray = np.linalg.qr(np.random.default_rng(0).normal(size=C.shape))[0]
 
     def made(_C, where, *_rest):
-        return alternate.Alternated(astray if where.source is target else C, where.source.mesh.vertices)
+        return alternate.AlternatingResult(astray if where.source is target else C, where.source.mesh.vertices)
 
-    monkeypatch.setattr(mending, "alternated", made)
-    monkeypatch.setattr(mending, "pairings", lambda *_: [])
-    found = mended(ranked, on, Copies.of(source, target, on), np.zeros((0, 2), dtype=np.int64), 1)[0]
+    monkeypatch.setattr(mending, "alternating_registration", made)
+    monkeypatch.setattr(mending, "match_extremities", lambda *_: [])
+    found = refine_by_registration(ranked, on, ProxyCache.of(source, target, on), np.zeros((0, 2), dtype=np.int64), 1)[
+        0
+    ]
     np.testing.assert_array_equal(found.functional_map, C)
-    assert not found.backwards
-    assert found.bent is source.mesh.vertices
+    assert not found.swapped
+    assert found.registered_vertices is source.mesh.vertices
 
 
 def on_a_line(*places: float) -> Any:
@@ -297,12 +325,12 @@ def on_a_line(*places: float) -> Any:
 def test_what_is_not_mended_stays_and_stays_once():
     """Also where a second look has put the second far behind the third."""
     judgement = Quality(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
-    one = Candidate("a", np.eye(2), np.zeros(3, dtype=int), judgement, bending=0.15)
+    one = Candidate("a", np.eye(2), np.zeros(3, dtype=int), judgement, deformation_energy=0.15)
     ranked = [
-        replace(one, name=name, strain=-s / STRAIN, points=np.full(3, i))
+        replace(one, name=name, strain=-s / W_STRAIN, points=np.full(3, i))
         for i, (name, s) in enumerate(zip("abcd", (-1.0, -9.0, -4.0, -4.5), strict=True))
     ]
-    near, rest = mendable(ranked, on_a_line(0.0, 1.0, 2.0, 3.0))
+    near, rest = repairable(ranked, on_a_line(0.0, 1.0, 2.0, 3.0))
     assert [c.name for c in near] == ["a", "c"]
     assert [c.name for c in rest] == ["b", "d"]
 
@@ -311,68 +339,70 @@ def test_the_first_few_are_mended_and_those_that_differ():
     """However many hardly differ from the first, a rival is mended too."""
     judgement = Quality(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     ranked = [Candidate(n, np.eye(2), np.full(3, i), judgement) for i, n in enumerate("abcdefg")]
-    near, rest = mendable(ranked, on_a_line(0.0, 0.05, -0.05, 0.06, 1.0, 1.5, 2.0))
+    near, rest = repairable(ranked, on_a_line(0.0, 0.05, -0.05, 0.06, 1.0, 1.5, 2.0))
     assert [c.name for c in near] == ["a", "b", "e", "f"]
     assert [c.name for c in rest] == ["c", "d", "g"]
 
 
 def test_a_map_that_hardly_differs_comes_first_where_it_bends_less(creatures):
     source, target, truth = creatures
-    on = arena(source, target, (probe(source, 200), probe(target, 200))).whole
+    on = two_level_samples(source, target, (sample_for_scoring(source, 200), sample_for_scoring(target, 200))).whole
     torn = truth.copy()
     high = np.argsort(target.mesh.vertices[:, 0])[-len(torn) // 6 :]
     torn[high] = np.random.default_rng(0).permutation(torn[high])
-    bases = source.basis.truncated(40), target.basis.truncated(40)
+    bases = source.basis.truncate(40), target.basis.truncate(40)
     maps = np.stack([np.asarray(to_functional(points, *bases)) for points in (torn, truth)])
-    bad, good = judged([("torn", True), ("truth", True)], maps, None, on, 1)
+    bad, good = score_maps([("torn", True), ("truth", True)], maps, None, on, 1)
     # All else says as much for either, and a little more for the torn one.
     good = replace(good, quality=replace(bad.quality, distortion=bad.quality.distortion + 0.01))
-    of = Copies.of(source, target, on)
+    of = ProxyCache.of(source, target, on)
     ranked = ranking.ranking([bad], on, of, 1)
-    found = closer(ranked, [bad, good], on, of, 1)
+    found = rerank_near_duplicates(ranked, [bad, good], on, of, 1)
     assert [c.name for c in found] == ["truth", "torn"]
     assert found[1] is ranked[0]
-    assert found[0].bending is not None
-    assert ranked[0].bending is not None
-    assert found[0].bending < ranked[0].bending
-    assert closer(ranked, [bad], on, of, 1) == ranked
+    assert found[0].deformation_energy is not None
+    assert ranked[0].deformation_energy is not None
+    assert found[0].deformation_energy < ranked[0].deformation_energy
+    assert rerank_near_duplicates(ranked, [bad], on, of, 1) == ranked
     # Not where it is too far behind before that.
     far = replace(good, quality=replace(good.quality, distortion=good.quality.distortion + 0.2))
-    assert {c.name for c in closer(ranked, [bad, far], on, of, 1)} == {"truth", "torn"}
-    assert closer(ranked, [bad, far], on, of, 1, behind=1.0) == ranked
+    assert {c.name for c in rerank_near_duplicates(ranked, [bad, far], on, of, 1)} == {"truth", "torn"}
+    assert rerank_near_duplicates(ranked, [bad, far], on, of, 1, behind=1.0) == ranked
 
 
 def test_a_map_bends_unduly_or_not():
     one = Candidate("a", np.eye(2), np.zeros(3, dtype=int), Quality(0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0))
     usual = np.exp(BENT + PER_SCORE * one.quality.score)
-    assert choose.bends_unduly(replace(one, bending=usual * np.exp(choose.UNDULY + 0.01)))
-    assert not choose.bends_unduly(replace(one, bending=usual * np.exp(choose.UNDULY - 0.01)))
+    assert choose.bends_unduly(replace(one, deformation_energy=usual * np.exp(choose.EXCESS_DEFORMATION + 0.01)))
+    assert not choose.bends_unduly(replace(one, deformation_energy=usual * np.exp(choose.EXCESS_DEFORMATION - 0.01)))
     assert not choose.bends_unduly(one)
 
 
 def test_of_maps_that_are_alike_the_one_that_bends_less_is_found(creatures, monkeypatch):
     """And none of them is taken for a rival of the other."""
     source, target, truth = creatures
-    on = arena(source, target, (probe(source, 200), probe(target, 200)))
-    C = np.asarray(to_functional(truth, source.basis.truncated(40), target.basis.truncated(40)))
-    best = judged([("best", True)], C[None], None, on.whole, 1)[0]
+    on = two_level_samples(source, target, (sample_for_scoring(source, 200), sample_for_scoring(target, 200)))
+    C = np.asarray(to_functional(truth, source.basis.truncate(40), target.basis.truncate(40)))
+    best = score_maps([("best", True)], C[None], None, on.whole, 1)[0]
     few = np.where(np.arange(len(best.points)) < 10, best.points[::-1], best.points)
     worse = replace(best.quality, distortion=best.quality.distortion + 0.05)
     alike = replace(best, name="alike", points=few, quality=worse, functional_map=C.copy())
-    assert choose.ALIKE < differs(best, alike, on.whole.source) < ranking.DISTINCT
+    assert choose.ALIKE < map_distance(best, alike, on.whole.source) < ranking.DISTINCT
     bends = {"best": 0.12, "alike": 0.06}
-    monkeypatch.setattr(choose, "candidates", lambda *_what, **_how: [best, alike])
-    monkeypatch.setattr(ranking, "with_bending", lambda some, *_: [replace(c, bending=bends[c.name]) for c in some])
-    found = choose.choose(source, target, replace(kfmaps.Config(), threads=1))
-    assert found.origin == "alike"
+    monkeypatch.setattr(choose, "sample_candidates", lambda *_what, **_how: [best, alike])
+    monkeypatch.setattr(
+        ranking, "with_bending", lambda some, *_: [replace(c, deformation_energy=bends[c.name]) for c in some]
+    )
+    found = choose.search_map(source, target, replace(kfmaps.Config(), threads=1))
+    assert found.initialization == "alike"
     assert len(found.scores) == 1
 
 
 def test_the_match_that_is_worth_more_is_taken(creatures):
     """Of two that both have a fit, by score and torn area together; the one taken tells the seconds of the whole."""
     source, target, truth = creatures
-    one = matching.continued(source, target, truth, origin="a", quality=-9.0)
-    assert one.bend is not None
+    one = matching.match_from_map(source, target, truth, origin="a", quality=-9.0)
+    assert one.registration is not None
 
     def made(score, share):
         order = np.cumsum(vertex_areas(target.mesh)) <= share * vertex_areas(target.mesh).sum()
@@ -381,31 +411,33 @@ def test_the_match_that_is_worth_more_is_taken(creatures):
 
     known = replace(made(-9.0, 0.3), seconds=one.seconds)
     for lost, taken in ((0.1 * TEAR, 0.1), (0.3 * TEAR, 0.3), (-1.0, 0.1)):
-        found = worthier(known, made(-9.0 - lost, 0.1))
+        found = better_match(known, made(-9.0 - lost, 0.1))
         assert found.verdict == f"{taken}"
         assert found.seconds is one.seconds
-    refused = replace(made(-9.0, 0.1), place=None)
-    assert worthier(known, refused).verdict == "0.1"
-    assert worthier(known, replace(refused, bend=None)) is known
+    refused = replace(made(-9.0, 0.1), precise_map=None)
+    assert better_match(known, refused).verdict == "0.1"
+    assert better_match(known, replace(refused, registration=None)) is known
 
 
 def test_a_match_finishes_all_ways_unless_it_is_hardly_torn(creatures, monkeypatch):
     source, target, truth = creatures
-    C = np.asarray(to_functional(truth, source.basis.truncated(40), target.basis.truncated(40)))
-    other = choose.Found(C, "other", None, "poor", quality=-9.0, scores=(-9.0,))
+    C = np.asarray(to_functional(truth, source.basis.truncate(40), target.basis.truncate(40)))
+    other = choose.SearchResult(C, "other", None, "poor", quality=-9.0, scores=(-9.0,))
     asked = []
 
     def way(found):
         return lambda least: asked.append(least) or found
 
-    ways = tuple(way(one) for one in (replace(other, bent=target.mesh.vertices, backwards=True), other, None))
-    monkeypatch.setattr(matching, "choose", lambda *_a, **_k: replace(other, origin="one", again=ways))
-    monkeypatch.setattr(matching, "worthier", lambda a, b: replace(b, seconds=a.seconds))
+    ways = tuple(
+        way(one) for one in (replace(other, registered_vertices=target.mesh.vertices, swapped=True), other, None)
+    )
+    monkeypatch.setattr(matching, "search_map", lambda *_a, **_k: replace(other, initialization="one", again=ways))
+    monkeypatch.setattr(matching, "better_match", lambda a, b: replace(b, seconds=a.seconds))
     config = replace(kfmaps.Config(), finish=None)
     for share, ends in ((0.5, "other"), (TORN, "one"), (None, "one")):
-        monkeypatch.setattr(matching, "torn", lambda _match, share=share: share)
+        monkeypatch.setattr(matching, "torn_area_fraction", lambda _match, share=share: share)
         found = kfmaps.match(source, target, config)
-        assert found.origin == ends
+        assert found.initialization == ends
         assert [f"another way, {i}" in found.seconds for i in (1, 2)] == 2 * [ends == "other"]
     assert asked == 3 * [-9.0 - 0.5 * TEAR]
 
@@ -414,20 +446,20 @@ def test_a_search_tells_what_else_may_turn_out_better(creatures, monkeypatch):
     """Each where its score is above what is known; the runners-up of each differ from it."""
     source, target, _ = creatures
     judgement = Quality(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
-    one = Candidate("0", np.eye(5), np.zeros(2000, dtype=int), judgement, bending=0.15)
-    ranked = [replace(one, name=str(i), points=np.full(2000, i), strain=i / STRAIN) for i in range(5)]
-    twin = replace(one, name="twin", strain=0.5 / STRAIN)
+    one = Candidate("0", np.eye(5), np.zeros(2000, dtype=int), judgement, deformation_energy=0.15)
+    ranked = [replace(one, name=str(i), points=np.full(2000, i), strain=i / W_STRAIN) for i in range(5)]
+    twin = replace(one, name="twin", strain=0.5 / W_STRAIN)
     ways = (lambda: ranked[2], lambda: twin, lambda: None)
     ranked[0] = replace(ranked[0], again=ways)
-    monkeypatch.setattr(choose, "MENDED", np.inf)
-    monkeypatch.setattr(choose, "mended", lambda *_: ranked)
-    monkeypatch.setattr(choose, "closer", lambda *_: ranked)
-    monkeypatch.setattr(choose, "passed_over", lambda maps, *_: tuple(range(len(maps))))
-    monkeypatch.setattr(choose, "differs", lambda a, b, _: float(a.points[0] != b.points[0]))
-    found = choose.choose(source, target, kfmaps.Config())
+    monkeypatch.setattr(choose, "REPAIR_SCORE", np.inf)
+    monkeypatch.setattr(choose, "refine_by_registration", lambda *_: ranked)
+    monkeypatch.setattr(choose, "rerank_near_duplicates", lambda *_: ranked)
+    monkeypatch.setattr(choose, "alternative_maps", lambda maps, *_: tuple(range(len(maps))))
+    monkeypatch.setattr(choose, "map_distance", lambda a, b, _: float(a.points[0] != b.points[0]))
+    found = choose.search_map(source, target, kfmaps.Config())
     made = [way(-np.inf) for way in found.again]
     best = [c.score for c in ranked]
-    assert [m and (m.origin, m.scores[:2]) for m in (found, *made)] == [
+    assert [m and (m.initialization, m.scores[:2]) for m in (found, *made)] == [
         ("0", (best[0], best[1])),
         ("2", (best[2], best[0])),
         ("twin", (twin.score, best[1])),
@@ -439,11 +471,13 @@ def test_a_search_tells_what_else_may_turn_out_better(creatures, monkeypatch):
 def test_where_the_target_lies_leads_as_well(creatures):
     """Of a map found backwards the target is bent: what lies on each other is the same."""
     source, target, _ = creatures
-    found = choose.Found(np.eye(5), "a", None, "poor", bent=target.mesh.vertices + 1.0, backwards=True)
-    led = matching._led(found, [source, target])
-    alone = matching._led(replace(found, bent=None), [source, target])
+    found = choose.SearchResult(
+        np.eye(5), "a", None, "poor", registered_vertices=target.mesh.vertices + 1.0, swapped=True
+    )
+    led = matching._guidance(found, [source, target])
+    alone = matching._guidance(replace(found, registered_vertices=None), [source, target])
     assert led is not None
     assert alone is not None
-    lie = lying(source.mesh, Mesh(target.mesh.vertices + 1.0, target.mesh.faces))
+    lie = position_normal_guidance(source.mesh, Mesh(target.mesh.vertices + 1.0, target.mesh.faces))
     np.testing.assert_allclose(led.source, np.hstack([alone.source, np.sqrt(alternate.WEIGHT) * lie.source]))
     np.testing.assert_allclose(led.target, np.hstack([alone.target, np.sqrt(alternate.WEIGHT) * lie.target]))

@@ -6,8 +6,8 @@ from scipy.sparse.csgraph import dijkstra
 
 from conftest import blob
 from kfmaps.geometry import among
-from kfmaps.geometry.among import NEARBY, WHOLE, distances_among
-from kfmaps.geometry.geodesic_graph import surface_graph
+from kfmaps.geometry.among import NEARBY, WHOLE, pairwise_geodesics
+from kfmaps.geometry.geodesic_graph import geodesic_graph
 from kfmaps.geometry.geodesics import farthest_geodesic
 from kfmaps.geometry.mesh import Mesh, unit_area
 
@@ -26,8 +26,8 @@ def exact(graph, points):
 
 
 def test_near_points_are_exact_and_far_ones_hardly_farther(spread):
-    graph = surface_graph(MESH, 1)
-    true, found = exact(graph, spread), distances_among(graph, spread)
+    graph = geodesic_graph(MESH, 1)
+    true, found = exact(graph, spread), pairwise_geodesics(graph, spread)
     known = true <= NEARBY
     known[:WHOLE] = known[:, :WHOLE] = True
     np.testing.assert_allclose(found[known], true[known], rtol=1e-12)
@@ -40,8 +40,8 @@ def test_near_points_are_exact_and_far_ones_hardly_farther(spread):
 
 
 def test_few_points_are_exact(spread):
-    graph = surface_graph(MESH, 1)
-    np.testing.assert_allclose(distances_among(graph, spread[:50]), exact(graph, spread[:50]), rtol=1e-12)
+    graph = geodesic_graph(MESH, 1)
+    np.testing.assert_allclose(pairwise_geodesics(graph, spread[:50]), exact(graph, spread[:50]), rtol=1e-12)
 
 
 def test_components_are_infinitely_far_and_none_is_forgotten(monkeypatch):
@@ -50,8 +50,8 @@ def test_components_are_infinitely_far_and_none_is_forgotten(monkeypatch):
     both = Mesh(np.vstack([MESH.vertices, MESH.vertices + 5.0]), np.vstack([MESH.faces, MESH.faces + n]))
     points = np.concatenate([np.arange(0, n, 50), n + np.arange(0, n, 50)])
     monkeypatch.setattr(among, "WHOLE", 10)
-    graph = surface_graph(both, 1)
-    true, found = exact(graph, points), distances_among(graph, points)
+    graph = geodesic_graph(both, 1)
+    true, found = exact(graph, points), pairwise_geodesics(graph, points)
     np.testing.assert_array_equal(np.isinf(found), np.isinf(true))
     apart = np.isfinite(true)
     assert (found[apart] >= (1 - 1e-6) * true[apart]).all()

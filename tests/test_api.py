@@ -154,7 +154,7 @@ def test_inverse(shuffled: kfmaps.Match) -> None:
     """Of a one-to-one map the inverse; else what it gives lands where it should, or as near as any does."""
     np.testing.assert_array_equal(shuffled.inverse(), np.argsort(ORDER))
     points = np.sort(np.random.default_rng(0).integers(0, 200, 200))
-    crowded = replace(shuffled, target_to_source=points, target=MESH, place=None)
+    crowded = replace(shuffled, target_to_source=points, target=MESH, precise_map=None)
     back = crowded.inverse()
     reached = np.unique(points)
     np.testing.assert_array_equal(points[back[reached]], reached)
@@ -171,7 +171,7 @@ def test_the_inverse_is_finer_where_the_map_is() -> None:
     place = kfmaps.PointMap(pair.truth_faces, pair.truth_weights)
     plain = kfmaps.match(pair.source, pair.target, replace(QUICK, finish=None))
     coarse = replace(plain, target_to_source=pair.truth)
-    fine = replace(coarse, place=place)
+    fine = replace(coarse, precise_map=place)
     back = fine.precise_inverse()
     there = np.einsum("si,sij->sj", back.weights, pair.target.vertices[pair.target.faces[back.faces]])
     true = np.einsum("ti,tij->tj", place.weights, pair.source.vertices[pair.source.faces[place.faces]])

@@ -11,20 +11,20 @@ from kfmaps.config import BasisConfig, Config, NystromConfig, Partial, Search
 from kfmaps.datasets import partial, symmetric_creature
 from kfmaps.descriptors.shot import shot
 from kfmaps.fmap.convert import nearest
-from kfmaps.fmap.descriptor_guidance import FLAT, spread
+from kfmaps.fmap.descriptor_guidance import FLAT, descriptor_variance
 from kfmaps.fmap.evaluate import geodesic_errors
 from kfmaps.fmap.refine import ZoomOut
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.matching.calibration import BENT, MIDDLE, MUCH, PER_SCORE, SLOPE, probability, verdict
-from kfmaps.matching.candidates import Candidate, candidates, kicked
-from kfmaps.matching.extremities import Tips
-from kfmaps.matching.kernel_inits import planned
+from kfmaps.matching.candidates import Candidate, candidates, perturb
+from kfmaps.matching.extremities import Extremities
+from kfmaps.matching.kernel_inits import plan_fits
 from kfmaps.matching.match import match
-from kfmaps.matching.quality import _near, map_quality, probe, thinned
+from kfmaps.matching.quality import _near, map_quality, sample_for_scoring, subsample
 from kfmaps.matching.ranking import distinct
 from kfmaps.matching.sample_cache import known
-from kfmaps.matching.sample_pair import arena
-from kfmaps.matching.search import choose
+from kfmaps.matching.sample_pair import two_level_samples
+from kfmaps.matching.search import search_map
 from kfmaps.shape import mirror_image, prepare
 
 GUARDS = (
@@ -61,17 +61,17 @@ def reflected(mesh: Mesh) -> Mesh:
 
 
 def test_the_identity_is_a_perfect_map(shape):
-    judge = probe(shape, 300)
+    judge = sample_for_scoring(shape, 300)
     found = map_quality(np.eye(60), judge, judge)
     assert found.orientation == pytest.approx(1.0, abs=1e-2)
     assert found.coverage == pytest.approx(1.0)
-    zeros = (found.distortion, found.stretch, found.descriptors, found.heat, found.laplacian)
+    zeros = (found.distortion, found.local_distortion, found.descriptors, found.heat, found.laplacian)
     assert zeros == pytest.approx((0,) * 5)
 
 
 def test_the_map_to_the_mirror_image_reverses_orientation_and_nothing_else(shape):
     """Same vertices, so the identity matrix is the true map."""
-    here, there = probe(shape, 300), probe(mirror_image(shape), 300)
+    here, there = sample_for_scoring(shape, 300), sample_for_scoring(mirror_image(shape), 300)
     found = map_quality(np.eye(60), here, there)
     assert found.orientation == pytest.approx(-1.0, abs=1e-2)
     assert found.distortion == pytest.approx(0)
@@ -80,9 +80,9 @@ def test_the_map_to_the_mirror_image_reverses_orientation_and_nothing_else(shape
 
 
 def test_worse_maps_score_worse(shape, other):
-    here, there = probe(shape, 300), probe(other, 300)
+    here, there = sample_for_scoring(shape, 300), sample_for_scoring(other, 300)
     truth = nearest(other.mesh.vertices, shape.mesh.vertices)
-    right = other.basis.truncated(60).project(shape.basis.functions[truth][:, :60])
+    right = other.basis.truncate(60).project(shape.basis.functions[truth][:, :60])
     good = map_quality(right, here, there)
     rng = np.random.default_rng(0)
     shuffled = map_quality(np.linalg.qr(rng.normal(size=(60, 60)))[0], here, there)
@@ -97,18 +97,18 @@ def test_worse_maps_score_worse(shape, other):
 
 def test_a_torn_map_is_stretched_more_than_a_shaken_one(shape):
     """Half of the shape turned over: few pairs of neighbours change, those at the tear by much."""
-    judge = probe(shape, 300)
+    judge = sample_for_scoring(shape, 300)
     places = judge.positions
     torn = places * np.where(places[:, :1] > 0, 1.0, -1.0) ** np.array([0, 1, 1])
-    C = shape.basis.truncated(60).project(shape.basis.functions[:, :60])
+    C = shape.basis.truncate(60).project(shape.basis.functions[:, :60])
     whole = map_quality(C, judge, judge)
     flipped = nearest(places, torn, threads=1)
     phi = judge.samples.basis.functions[:, :60]
     broken = map_quality(np.linalg.lstsq(phi, phi[flipped], rcond=None)[0], judge, judge)
-    assert broken.stretch > whole.stretch + 0.1
+    assert broken.local_distortion > whole.local_distortion + 0.1
 
 
-NO_TIPS = Tips(np.zeros(0, dtype=np.int64), np.zeros(0), np.zeros((0, 5)), np.zeros((0, 0, 5)), 1.0)
+NO_TIPS = Extremities(np.zeros(0, dtype=np.int64), np.zeros(0), np.zeros((0, 5)), np.zeros((0, 0, 5)), 1.0)
 
 
 def test_stretch_counts_short_distances_alone():
@@ -121,7 +121,7 @@ def test_stretch_counts_short_distances_alone():
 
 def test_quality_is_what_its_definition_says(shape, other):
     """One product in single precision finds what exact searches find; differences keep to their formulas."""
-    here, there = thinned(probe(shape, 300), 200), thinned(probe(other, 300), 200)
+    here, there = subsample(sample_for_scoring(shape, 300), 200), subsample(sample_for_scoring(other, 300), 200)
     assert here.descriptors is not None
     assert there.descriptors is not None
     C = np.linalg.qr(np.eye(40) + 0.05 * np.random.default_rng(2).normal(size=(40, 40)))[0]
@@ -135,20 +135,20 @@ def test_quality_is_what_its_definition_says(shape, other):
             (here.descriptors, there.descriptors, forth, here.samples.basis.mass),
         )
     ]
-    both = max(spread(here.descriptors) + spread(there.descriptors), 2 * FLAT)
+    both = max(descriptor_variance(here.descriptors) + descriptor_variance(there.descriptors), 2 * FLAT)
     assert found.descriptors == pytest.approx(np.mean(squares) / both, rel=1e-4)
     at_ends = []
     for a, b, at, side in (
         (there.descriptors, here.descriptors, back, there),
         (here.descriptors, there.descriptors, forth, here),
     ):
-        near = (side.tips.distances * side.tips.unit).min(axis=0) < 0.3
+        near = (side.extremities.distances * side.extremities.unit).min(axis=0) < 0.3
         assert 0 < near.sum() < 200
         apart = ((a - b[at]) ** 2).sum(axis=1)
         at_ends.append(np.average(apart[near], weights=side.samples.basis.mass[near]))
-    assert found.ends == pytest.approx(np.mean(at_ends) / both, rel=1e-4)
-    without = replace(here, tips=here.tips.none()), replace(there, tips=there.tips.none())
-    assert map_quality(C, *without).ends == 0.0
+    assert found.extremity_descriptor_error == pytest.approx(np.mean(at_ends) / both, rel=1e-4)
+    without = replace(here, extremities=here.extremities.none()), replace(there, extremities=there.extremities.none())
+    assert map_quality(C, *without).extremity_descriptor_error == 0.0
     first_back, first_forth = nearest(rows[:100], images[:100]), nearest(images[:100], rows[:100])
     change = np.abs(here.distances[np.ix_(first_back, first_back)] - there.distances).mean()
     change += np.abs(there.distances[np.ix_(first_forth, first_forth)] - here.distances).mean()
@@ -156,21 +156,21 @@ def test_quality_is_what_its_definition_says(shape, other):
 
 
 def test_few_samples_of_a_probe_are_a_probe(shape):
-    judge = probe(shape, 300)
-    few = thinned(judge, 120)
+    judge = sample_for_scoring(shape, 300)
+    few = subsample(judge, 120)
     np.testing.assert_array_equal(few.samples.vertices, judge.samples.vertices[:120])
     assert few.samples.basis.mass.sum() == pytest.approx(judge.samples.basis.mass.sum())
     assert few.samples.basis.mass.min() > 0
     assert few.distances.shape == (60, 60)
-    assert thinned(judge, 300) is judge
+    assert subsample(judge, 300) is judge
 
 
 def test_quality_does_not_depend_on_position_or_units(shape):
     moved = prepare(Mesh(50 * blob(700).vertices[:, [1, 2, 0]] + 7, blob(700).faces), SMALL)
     truth = np.arange(700)
-    there = shape.basis.truncated(60)
-    C = moved.basis.truncated(60).project(there.functions[truth])
-    found = map_quality(C, probe(shape, 300), probe(moved, 300))
+    there = shape.basis.truncate(60)
+    C = moved.basis.truncate(60).project(there.functions[truth])
+    found = map_quality(C, sample_for_scoring(shape, 300), sample_for_scoring(moved, 300))
     assert found.orientation == pytest.approx(1.0, abs=0.02)
     assert found.distortion < 0.02
     assert found.descriptors < 1e-3
@@ -193,7 +193,7 @@ def test_an_asymmetric_shape_is_matched_and_sure(shape, other):
     assert found.confidence is not None
     assert found.confidence > 0.6
     assert list(found.scores[1:]) == sorted(found.scores[1:], reverse=True)
-    assert len(found.runners_up) == len(found.scores) - 1
+    assert len(found.alternatives) == len(found.scores) - 1
     again = match(shape, other, SMALL)
     np.testing.assert_array_equal(found.target_to_source, again.target_to_source)
     assert found.scores == again.scores
@@ -211,7 +211,7 @@ def test_a_sphere_is_ambiguous():
     a, b = (prepare(fibonacci_sphere(n, twist), SMALL) for n, twist in ((700, 0.0), (650, 0.4)))
     found = match(a, b, SMALL)
     assert found.verdict == "ambiguous"
-    assert found.runners_up
+    assert found.alternatives
 
 
 def test_no_map_between_unlike_shapes_is_called_sure(shape):
@@ -266,7 +266,7 @@ def test_left_and_right_of_a_symmetric_body_are_told_apart():
 
 def test_point_clouds_are_matched_without_orientation(shape):
     cloud = prepare(Mesh(blob(650, twist=0.4).vertices, np.zeros((0, 3), dtype=int)), SMALL)
-    found = choose(shape, cloud, SMALL)
+    found = search_map(shape, cloud, SMALL)
     assert found.functional_map.ndim == 2
     assert found.verdict in ("sure", "ambiguous", "poor")
     with pytest.raises(InvalidInput, match="point cloud"):
@@ -274,16 +274,20 @@ def test_point_clouds_are_matched_without_orientation(shape):
 
 
 def test_candidates_can_be_traded_for_time():
-    assert len(planned(replace(SMALL, search=Search(candidates=3)))) == 3
-    assert planned(SMALL, surfaces=False)[0].name.startswith("waves")
-    names = [fit.name for fit in planned(replace(SMALL, search=Search(candidates=99)))]
+    assert len(plan_fits(replace(SMALL, search=Search(candidates=3)))) == 3
+    assert plan_fits(SMALL, surfaces=False)[0].name.startswith("waves")
+    names = [fit.name for fit in plan_fits(replace(SMALL, search=Search(candidates=99)))]
     assert len(set(names)) == len(names) > 8
 
 
 def test_no_landmarks_are_as_none_at_all(shape, other):
     without, empty = (match(shape, other, SMALL, landmarks=marks) for marks in (None, []))
     np.testing.assert_array_equal(without.target_to_source, empty.target_to_source)
-    assert (without.origin, without.scores, without.verdict) == (empty.origin, empty.scores, empty.verdict)
+    assert (without.initialization, without.scores, without.verdict) == (
+        empty.initialization,
+        empty.scores,
+        empty.verdict,
+    )
 
 
 def test_a_match_of_a_search_has_no_fit_of_its_own(shape, other):
@@ -291,12 +295,12 @@ def test_a_match_of_a_search_has_no_fit_of_its_own(shape, other):
     assert found.config is SMALL
     assert found.raw_target_to_source is None
     assert found.fit is None
-    assert found.origin.startswith(("signs", "kicked", "SHOT", "tips", "turned"))
+    assert found.initialization.startswith(("signs", "kicked", "SHOT", "tips", "turned"))
 
 
 def test_progress_never_falls_and_ends_at_one(shape, other):
     seen = []
-    on = arena(shape, other, (probe(shape, 200), probe(other, 200)))
+    on = two_level_samples(shape, other, (sample_for_scoring(shape, 200), sample_for_scoring(other, 200)))
     candidates(shape, other, replace(SMALL, threads=1), on, 0, report=seen.append)
     assert seen == sorted(seen)
     assert seen[-1] == 1
@@ -304,13 +308,13 @@ def test_progress_never_falls_and_ends_at_one(shape, other):
 
 def test_kicks_are_orthogonal_and_keep_constants():
     values = np.arange(30.0)
-    C = kicked(np.eye(30), values, np.random.default_rng(0))
+    C = perturb(np.eye(30), values, np.random.default_rng(0))
     np.testing.assert_allclose(C.T @ C, np.eye(20), atol=1e-10)
     assert abs(C[0, 0]) > 0.9
 
 
 def test_distinct_maps_are_told_from_variations(shape):
-    judge = probe(shape, 300)
+    judge = sample_for_scoring(shape, 300)
     quality = map_quality(np.eye(60), judge, judge)
     same = np.arange(300)
     shuffled = np.random.default_rng(0).permutation(300)
@@ -323,10 +327,10 @@ def test_distinct_maps_are_told_from_variations(shape):
 
 
 def test_a_rival_needs_a_clear_margin(shape):
-    judge = probe(shape, 300)
+    judge = sample_for_scoring(shape, 300)
     quality = map_quality(np.eye(60), judge, judge)
     shuffled = np.random.default_rng(0).permutation(300)
-    rival = Candidate("rival", np.eye(60), np.arange(300), quality, guided=False)
+    rival = Candidate("rival", np.eye(60), np.arange(300), quality, uses_descriptors=False)
     for lag, first in ((0.2, "ours"), (0.5, "rival")):
         ours = Candidate("ours", np.eye(60), shuffled, replace(quality, coverage=quality.coverage - lag))
         assert distinct([rival, ours], judge)[0].name == first
@@ -341,4 +345,4 @@ def test_few_eigenfunctions_are_enough():
 
 def test_no_search_without_settings(shape):
     with pytest.raises(InvalidInput, match=r"a search"):
-        choose(shape, shape, replace(SMALL, search=None))
+        search_map(shape, shape, replace(SMALL, search=None))

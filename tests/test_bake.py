@@ -15,8 +15,8 @@ from PIL import Image
 
 from conftest import fibonacci_sphere
 from kfmaps._arrays import InvalidInput, KfmapsWarning
-from kfmaps.fmap.precise import PointMap, at_vertices
-from kfmaps.geometry.closest_points import places_on
+from kfmaps.fmap.precise import PointMap, vertex_point_map
+from kfmaps.geometry.closest_points import closest_points
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.io import MeshFile, grid_picture, read_mesh_file, write_textured
 from kfmaps.io.bake import bakeable, baked, pixels_of, png_of, sampled, texels_of
@@ -74,7 +74,7 @@ def test_the_identity_gives_back_the_picture() -> None:
     assert shape.uv is not None
     assert shape.uv_faces is not None
     pixels = np.random.default_rng(1).integers(0, 256, (256, 256, 3)) / 255.0
-    place = at_vertices(np.arange(60), shape.mesh)
+    place = vertex_point_map(np.arange(60), shape.mesh)
     uv, uv_faces = shape.uv, shape.uv_faces
     found = baked(shape, shape, pixels, uv, uv_faces, None, size=256)
     _, texel, _ = texels_of(uv[uv_faces], 256)
@@ -89,7 +89,7 @@ def test_the_identity_gives_back_the_picture() -> None:
 def test_a_picture_goes_around_a_seam_without_a_scar() -> None:
     """The colour in the target's atlas is that of the place on the sphere, at the seam of the source's texture too."""
     source, mesh = globe(900), fibonacci_sphere(700)
-    found = places_on(mesh.vertices, source.mesh.vertices, source.mesh.faces)
+    found = closest_points(mesh.vertices, source.mesh.vertices, source.mesh.faces)
     place = PointMap(found.faces, found.weights)
     points = source.mesh.faces[found.faces, found.weights.argmax(axis=1)]
     target = own_atlas(mesh)
@@ -120,7 +120,7 @@ def test_faces_outside_a_part_have_one_colour(tmp_path: Path) -> None:
     points = np.arange(n)
     away = source.mesh.vertices[:, 2] > 0.5
     points[away] = -1
-    write_textured(tmp_path / "b.glb", source, target, points, place=at_vertices(np.arange(n), source.mesh))
+    write_textured(tmp_path / "b.glb", source, target, points, place=vertex_point_map(np.arange(n), source.mesh))
     found = read_mesh_file(tmp_path / "b.glb").picture
     assert found is not None
     picture = pixels_of(found)

@@ -28,7 +28,7 @@ from kfmaps.geometry.mesh import Mesh
 from kfmaps.io import load_map, read_mesh, read_vertex_numbers, write_mesh, write_vertex_numbers
 from kfmaps.kernels.kernels import Linear
 from kfmaps.matching.match import match
-from kfmaps.matching.search import probed
+from kfmaps.matching.search import scoring_samples
 from kfmaps.shape import prepare
 
 
@@ -83,7 +83,7 @@ def test_a_kept_probe_changes_no_bit(tmp_path: Path) -> None:
     assert kept.keys() == known.keys()
     for name, value in known.items():
         np.testing.assert_array_equal(kept[name], value, err_msg=name)
-    plain, quick = match(a, b, config, rng=3), match(a, b, config, rng=3, probes=(read, probed(b, 3)))
+    plain, quick = match(a, b, config, rng=3), match(a, b, config, rng=3, probes=(read, scoring_samples(b, 3)))
     np.testing.assert_array_equal(quick.target_to_source, plain.target_to_source)
     assert quick.scores == plain.scores
     data = probe_path(entry, 3).read_bytes()

@@ -10,7 +10,7 @@ import pytest
 import kfmaps
 from commandline import run
 from kfmaps import datasets
-from kfmaps.fmap.precise import PointMap, inverse, points_of
+from kfmaps.fmap.precise import PointMap, invert_precise_map, point_positions
 from kfmaps.geometry.mesh import Mesh, surface_area, unit_area
 from kfmaps.io import MapFile, MeshFile, load_map, read_mesh_file, read_values, save_map, write_mesh
 from kfmaps.io.export import carried_uv, projected_uv
@@ -38,13 +38,13 @@ def made(tmp_path_factory: pytest.TempPathFactory) -> types.SimpleNamespace:
     }
     save_map(folder / "map.npz", MapFile(pair.truth, extra=extra))
     place = PointMap(pair.truth_faces, pair.truth_weights)
-    return types.SimpleNamespace(folder=folder, pair=pair, place=place, paths=paths, map=folder / "map.npz")
+    return types.SimpleNamespace(folder=folder, pair=pair, precise_map=place, paths=paths, map=folder / "map.npz")
 
 
 def test_coordinates_are_carried_finer_than_vertices(made: types.SimpleNamespace, tmp_path: Path) -> None:
     np.save(tmp_path / "x.npy", made.pair.source.vertices)
     run("transfer", made.map, tmp_path / "x.npy", "-o", tmp_path / "y.npy")
-    np.testing.assert_allclose(np.load(tmp_path / "y.npy"), points_of(made.place, made.pair.source), atol=1e-12)
+    np.testing.assert_allclose(np.load(tmp_path / "y.npy"), point_positions(made.place, made.pair.source), atol=1e-12)
     labels = np.arange(len(made.pair.source.vertices))
     np.save(tmp_path / "labels.npy", labels)
     run("transfer", made.map, tmp_path / "labels.npy", "-o", tmp_path / "carried.npy")
@@ -54,9 +54,9 @@ def test_coordinates_are_carried_finer_than_vertices(made: types.SimpleNamespace
 def test_there_and_back_is_where_it_was(made: types.SimpleNamespace, tmp_path: Path) -> None:
     np.save(tmp_path / "y.npy", made.pair.target.vertices)
     run("transfer", made.map, tmp_path / "y.npy", "--back", "-o", tmp_path / "x.npy")
-    there = inverse(made.place, made.pair.source, made.pair.target)
-    np.testing.assert_allclose(np.load(tmp_path / "x.npy"), points_of(there, made.pair.target), atol=1e-12)
-    images = points_of(made.place, made.pair.source)
+    there = invert_precise_map(made.place, made.pair.source, made.pair.target)
+    np.testing.assert_allclose(np.load(tmp_path / "x.npy"), point_positions(there, made.pair.target), atol=1e-12)
+    images = point_positions(made.place, made.pair.source)
     again = np.einsum("ti,tij->tj", there.weights, images[made.pair.target.faces[there.faces]])
     off = np.linalg.norm(again - made.pair.source.vertices, axis=1) / np.sqrt(surface_area(made.pair.source))
     assert np.median(off) < 0.005
@@ -110,7 +110,7 @@ def test_the_texture_lies_where_the_points_do(made: types.SimpleNamespace) -> No
     source = made.pair.source
     uv, uv_faces = carried_uv(MeshFile(source), made.pair.target, made.pair.truth, made.place)
     span = np.ptp(source.vertices, axis=0)
-    exact = projected_uv(np.vstack([points_of(made.place, source), source.vertices]))[: len(made.pair.truth)]
+    exact = projected_uv(np.vstack([point_positions(made.place, source), source.vertices]))[: len(made.pair.truth)]
     assert span.max() > 0
     kept = uv_faces < len(exact)
     assert kept.mean() > 0.95

@@ -12,7 +12,7 @@ from kfmaps import datasets
 from kfmaps.batch.page import summary_page
 from kfmaps.batch.results import Result
 from kfmaps.cli.partial_truth import PartTruth, true_overlap
-from kfmaps.fmap.precise import PointMap, inverse, points_of, vertices_of
+from kfmaps.fmap.precise import PointMap, invert_precise_map, nearest_vertices, point_positions
 from kfmaps.geometry.mesh import surface_area
 from kfmaps.io import MapFile, load_map, save_map, write_mesh
 from kfmaps.io.counterparts import counterparts
@@ -35,12 +35,12 @@ def made(tmp_path_factory: pytest.TempPathFactory) -> types.SimpleNamespace:
     up = {"source": down["target"], "target": down["source"]}
     told = {"place_faces": place.faces, "place_weights": place.weights, "overlap_source": common.astype(float)}
     save_map(folder / "down.npz", MapFile(pair.truth, extra={**down, **told}))
-    back = inverse(place, whole, part)
-    points = np.where(common, vertices_of(back, part), -1)
+    back = invert_precise_map(place, whole, part)
+    points = np.where(common, nearest_vertices(back, part), -1)
     save_map(folder / "up.npz", MapFile(points, extra={**up, "place_faces": back.faces, "place_weights": back.weights}))
     size = np.sqrt(surface_area(whole))
     return types.SimpleNamespace(
-        folder=folder, whole=whole, part=part, common=common, true=points_of(place, whole), size=size
+        folder=folder, whole=whole, part=part, common=common, true=point_positions(place, whole), size=size
     )
 
 

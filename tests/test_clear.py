@@ -7,10 +7,10 @@ from kfmaps import datasets
 from kfmaps.fmap.convert import to_points
 from kfmaps.matching import candidates as found_by
 from kfmaps.matching import search as chosen_by
-from kfmaps.matching.candidates import Candidate, candidates, clear
-from kfmaps.matching.quality import Quality, probe
-from kfmaps.matching.sample_pair import arena
-from kfmaps.matching.search import passed_over
+from kfmaps.matching.candidates import Candidate, candidates, early_exit
+from kfmaps.matching.quality import Quality, sample_for_scoring
+from kfmaps.matching.sample_pair import two_level_samples
+from kfmaps.matching.search import alternative_maps
 from kfmaps.shape import prepare
 from test_search import SMALL
 
@@ -27,7 +27,7 @@ def pair():
 
 @pytest.fixture(scope="module")
 def on(pair):
-    return arena(pair[0], pair[1], (probe(pair[0]), probe(pair[1])))
+    return two_level_samples(pair[0], pair[1], (sample_for_scoring(pair[0]), sample_for_scoring(pair[1])))
 
 
 def names(monkeypatch, pair, on, easy, landmarks=NONE, descriptors=None):
@@ -43,11 +43,11 @@ def names(monkeypatch, pair, on, easy, landmarks=NONE, descriptors=None):
         finalists.append(len(few))
         return few
 
-    original = found_by.rough
+    original = found_by.refine_coarse
     with monkeypatch.context() as patch:
-        patch.setattr(found_by, "EASY", easy)
-        patch.setattr(found_by, "rough", rough)
-        patch.setattr(found_by, "fine", fine)
+        patch.setattr(found_by, "EARLY_EXIT_SCORE", easy)
+        patch.setattr(found_by, "refine_coarse", rough)
+        patch.setattr(found_by, "refine_fine", fine)
         candidates(pair[0], pair[1], SMALL, on, 0, landmarks=landmarks, descriptors=descriptors)
     return set(tried), finalists[0]
 
@@ -66,8 +66,8 @@ def test_what_the_user_says_is_heard(monkeypatch, pair, on):
     there = np.random.default_rng(1).normal(size=(len(pair[1].mesh.vertices), 2))
     assert "kicked" in names(monkeypatch, pair, on, -np.inf, descriptors=(given, there))[0]
     marks = np.stack([pair[2][:2], np.arange(2)], axis=1)
-    both = probe(pair[0], landmarks=marks[:, 0]), probe(pair[1], landmarks=marks[:, 1])
-    led = arena(pair[0], pair[1], both, marks)
+    both = sample_for_scoring(pair[0], landmarks=marks[:, 0]), sample_for_scoring(pair[1], landmarks=marks[:, 1])
+    led = two_level_samples(pair[0], pair[1], both, marks)
     assert "kicked" in names(monkeypatch, pair, led, -np.inf, landmarks=marks)[0]
 
 
@@ -76,9 +76,9 @@ def test_rivals_make_nothing_clear():
         quality = Quality(1.0, distortion, 0.0, 0.0, 0.0, 1.0, 0.0)
         return Candidate("", np.eye(2), np.zeros(1, dtype=np.int64), quality, guided)
 
-    assert not clear([])
-    assert clear([of(1.0, True)])
-    assert not clear([of(1.0, False), of(2.0, True)])  # 2 - 6 · 2 is below
+    assert not early_exit([])
+    assert early_exit([of(1.0, True)])
+    assert not early_exit([of(1.0, False), of(2.0, True)])  # 2 - 6 · 2 is below
 
 
 def test_maps_passed_over_of_large_shapes_name_few_vertices(monkeypatch, pair):
@@ -86,9 +86,9 @@ def test_maps_passed_over_of_large_shapes_name_few_vertices(monkeypatch, pair):
     k = 30
     C = np.linalg.lstsq(target.basis.functions[:, :k], source.basis.functions[truth, :k], rcond=None)[0]
     whole = to_points(C, source.basis, target.basis)
-    np.testing.assert_array_equal(passed_over([C], source.basis, target.basis)[0], whole)
-    monkeypatch.setattr(chosen_by, "CANDIDATES", 500)
-    few = passed_over([C], source.basis, target.basis)[0]
+    np.testing.assert_array_equal(alternative_maps([C], source.basis, target.basis)[0], whole)
+    monkeypatch.setattr(chosen_by, "CANDIDATES_PER_CALL", 500)
+    few = alternative_maps([C], source.basis, target.basis)[0]
     assert len(np.unique(few)) <= 500
     off = np.linalg.norm(source.mesh.vertices[few] - source.mesh.vertices[whole], axis=1)
     assert 0 < off.mean() < 2 / np.sqrt(500)

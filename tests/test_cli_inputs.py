@@ -16,7 +16,7 @@ from kfmaps._arrays import InvalidInput
 from kfmaps._memory import check_memory, in_words, installed_memory
 from kfmaps.config import Config, DescriptorConfig, NystromConfig
 from kfmaps.io import write_vertex_numbers
-from kfmaps.matching.memory import check_demand
+from kfmaps.matching.memory import check_match_memory
 
 GUARDS = ("kfmaps.matching.memory",)
 
@@ -82,18 +82,18 @@ def test_numbers_out_of_proportion(made: types.SimpleNamespace, words: tuple[str
 def test_demand(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("kfmaps._memory.installed_memory", lambda: 16 << 30)
     for config in (Config.single_fit(), Config(), Config.paper(), Config.no17()):
-        check_demand(config, 80_000, 80_000, 50)
+        check_match_memory(config, 80_000, 80_000, 50)
     with pytest.raises(InvalidInput, match=r"got 80 GB for 500,000 descriptors of 20,000 points"):
-        check_demand(
+        check_match_memory(
             replace(Config.single_fit(), descriptors=DescriptorConfig(count=500_000, shot=False)),
             80_000,
             80_000,
         )
-    check_demand(
+    check_match_memory(
         replace(Config.single_fit(), nystrom=NystromConfig(samples=10**9)), 1000, 1000
     )  # there are only 2,000 points
     with pytest.raises(InvalidInput, match=r"got 230 GB for 160,000 Nyström samples of 20,000 points"):
-        check_demand(replace(Config.single_fit(), nystrom=NystromConfig(samples=10**9)), 80_000, 80_000)
+        check_match_memory(replace(Config.single_fit(), nystrom=NystromConfig(samples=10**9)), 80_000, 80_000)
 
 
 def test_demand_of_a_match_from_python() -> None:

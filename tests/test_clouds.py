@@ -18,11 +18,11 @@ from kfmaps.fmap.convert import to_functional
 from kfmaps.fmap.evaluate import coverage, geodesic_errors
 from kfmaps.fmap.refine import ZoomOut
 from kfmaps.geometry.basis import laplace_basis
-from kfmaps.geometry.geodesic_graph import surface_graph
+from kfmaps.geometry.geodesic_graph import geodesic_graph
 from kfmaps.geometry.geodesics import geodesic_distances
 from kfmaps.geometry.mesh import Mesh, surface_area, unit_area, vertex_areas
-from kfmaps.geometry.point_cloud import NEIGHBOURS, cloud_links
-from kfmaps.matching.quality import map_quality, probe
+from kfmaps.geometry.point_cloud import NEIGHBOURS, cloud_edges
+from kfmaps.matching.quality import map_quality, sample_for_scoring
 from kfmaps.shape import prepare
 
 GUARDS = ("kfmaps.geometry.basis", "kfmaps.geometry.geodesics", "kfmaps.geometry.point_cloud")
@@ -62,10 +62,10 @@ def test_a_surface_and_its_own_cloud_are_alike() -> None:
     surface, cloud = prepare(mesh, SMALL), prepare(cloud_of(mesh), SMALL)
     truth = np.arange(900)
     for source, target in ((surface, cloud), (cloud, surface)):
-        C = to_functional(truth, source.basis.truncated(30), target.basis.truncated(30))
-        quality = map_quality(C, probe(source), probe(target))
+        C = to_functional(truth, source.basis.truncate(30), target.basis.truncate(30))
+        quality = map_quality(C, sample_for_scoring(source), sample_for_scoring(target))
         assert quality.score > -1.2
-        assert quality.stretch < 0.15
+        assert quality.local_distortion < 0.15
         assert np.median(local_confidence(source.mesh, target.mesh, truth)) > 0.88
 
 
@@ -95,7 +95,7 @@ def test_points_on_no_surface_are_refused(points: np.ndarray) -> None:
 
 def test_neighbours_are_linked_and_the_pieces_joined_by_the_shortest_tree() -> None:
     points = clusters()
-    a, b, length = cloud_links(points)
+    a, b, length = cloud_edges(points)
     np.testing.assert_allclose(length, np.linalg.norm(points[a] - points[b], axis=1), rtol=1e-12)
     near = NEIGHBOURS + 1
     bridges = sorted(length[len(points) * near :])
@@ -111,7 +111,7 @@ def test_a_flat_cloud_in_pieces_is_joined_too() -> None:
     flat = np.concatenate(
         [rng.random((40, 2)), rng.random((40, 2)) + np.array([5, 0]), rng.random((40, 2)) + np.array([0, 9])]
     )
-    graph = surface_graph(Mesh(np.column_stack([flat, np.zeros(120)]), NO_FACES))
+    graph = geodesic_graph(Mesh(np.column_stack([flat, np.zeros(120)]), NO_FACES))
     assert connected_components(graph, directed=False)[0] == 1
 
 

@@ -11,7 +11,7 @@ from conftest import blob
 from kfmaps._arrays import InvalidInput
 from kfmaps.datasets import two_poses
 from kfmaps.fmap.confidence import RADIUS, local_confidence
-from kfmaps.geometry.geodesic_graph import surface_graph
+from kfmaps.geometry.geodesic_graph import geodesic_graph
 from kfmaps.geometry.mesh import Mesh, unit_area
 
 GUARDS = ("kfmaps.fmap.confidence",)
@@ -30,7 +30,7 @@ def test_it_is_what_its_definition_says() -> None:
     source, target = blob(300), moved(blob(250))
     rng = np.random.default_rng(3)
     points, samples = rng.integers(0, 300, 250), rng.choice(250, 90, replace=False)
-    d_s, d_t = (dijkstra(surface_graph(unit_area(m), 0)) for m in (source, target))
+    d_s, d_t = (dijkstra(geodesic_graph(unit_area(m), 0)) for m in (source, target))
     expected = np.empty(250)
     for i in range(250):
         near = [j for j in samples if d_t[i, j] <= RADIUS]

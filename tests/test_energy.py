@@ -13,11 +13,11 @@ from kfmaps.fmap.energy import (
     inverse_term,
     kernel_descriptor_term,
     laplacian_term,
-    slice_term,
+    operator_term,
     value,
 )
-from kfmaps.fmap.multiplication_operators import compressed, packed_slices, unpacked_slices
-from kfmaps.fmap.solvers import dense
+from kfmaps.fmap.multiplication_operators import multiplication_operators, truncate_operators, unpack_operators
+from kfmaps.fmap.solvers import dense_matrix
 from kfmaps.kernels.kernels import Gaussian, Linear, Polynomial
 from kfmaps.kernels.nystrom import nystrom
 
@@ -60,11 +60,13 @@ def make(name, case, asarray, convert):
         return kernel_descriptor_term(Gaussian(0.3), S, A_s, T, A_t, block=7), None
     if name == "slices":
         X_s, X_t = explicit_slices(source, W_s), explicit_slices(target, W_t)
-        term = slice_term(unpacked_slices(packed_slices(S, A_s)), unpacked_slices(packed_slices(T, A_t)))
+        term = operator_term(
+            unpack_operators(multiplication_operators(S, A_s)), unpack_operators(multiplication_operators(T, A_t))
+        )
         return term, lambda C: C @ X_s - X_t @ C
     if name == "antisymmetric slices":
         X_s, X_t = antisymmetric(rng, 3, K_S), antisymmetric(rng, 3, K_T)
-        return slice_term(asarray(X_s), asarray(X_t), parity=-1), lambda C: C @ X_s - X_t @ C
+        return operator_term(asarray(X_s), asarray(X_t), parity=-1), lambda C: C @ X_s - X_t @ C
     if name == "hadamard":
         return hadamard_term(Gaussian(0.3), S, A_s, T, A_t, block=7), None
     if name == "laplacian":
@@ -104,7 +106,7 @@ def test_laws(name, case, asarray, convert, rng):
     )
     assert inner(a, term.apply(b)) == pytest.approx(inner(b, term.apply(a)), rel=1e-10)
     # positive semi-definite, with the diagonal that it says
-    matrix = dense(term.apply, (K_T, K_S), a)
+    matrix = dense_matrix(term.apply, (K_T, K_S), a)
     values = np.linalg.eigvalsh((matrix + matrix.T) / 2)
     assert values[0] > -1e-10 * values[-1]
     np.testing.assert_allclose(to_numpy(term.diagonal()).ravel(), np.diag(matrix), rtol=1e-9, atol=1e-9)
@@ -124,7 +126,7 @@ def test_hadamard_form_equals_slices_of_the_features(kernel, case):
     source, target, P_s, P_t, C = case
     factor = nystrom(kernel, np.vstack([P_s, P_t]), rtol=1e-14)
     W_s, W_t = factor.features(P_s), factor.features(P_t)
-    slices = slice_term(explicit_slices(source, W_s), explicit_slices(target, W_t))
+    slices = operator_term(explicit_slices(source, W_s), explicit_slices(target, W_t))
     hadamard = hadamard_term(kernel, source, P_s, target, P_t, block=11)
     np.testing.assert_allclose(slices.apply(C), hadamard.apply(C), rtol=1e-6, atol=1e-7)
     np.testing.assert_allclose(slices.diagonal(), hadamard.diagonal(), rtol=1e-6, atol=1e-7)
@@ -154,31 +156,31 @@ def test_quadratic_kernel_equals_explicit_products(case):
     def lifted(P):
         return np.stack([P[:, i] * P[:, j] for i in range(D) for j in range(D)], axis=1)
 
-    explicit = slice_term(explicit_slices(source, lifted(P_s)), explicit_slices(target, lifted(P_t)))
+    explicit = operator_term(explicit_slices(source, lifted(P_s)), explicit_slices(target, lifted(P_t)))
     kernel = hadamard_term(Polynomial(2, 0.0), source, P_s, target, P_t)
     np.testing.assert_allclose(kernel.apply(C), explicit.apply(C), rtol=1e-10, atol=1e-10)
 
 
 def test_slices_are_packed_and_unpacked(case, asarray, convert):
     source, _, W, _, _ = case
-    packed = packed_slices(convert(source), asarray(W), block=4)
+    packed = multiplication_operators(convert(source), asarray(W), block=4)
     wanted = explicit_slices(source, W)
-    np.testing.assert_allclose(to_numpy(unpacked_slices(packed)), wanted, rtol=1e-10, atol=1e-12)
+    np.testing.assert_allclose(to_numpy(unpack_operators(packed)), wanted, rtol=1e-10, atol=1e-12)
     gram = to_numpy(packed @ packed.T)
     np.testing.assert_allclose(gram, np.einsum("iab,jab->ij", wanted, wanted), rtol=1e-10)
-    threaded = packed_slices(source, W, block=4, threads=3)
+    threaded = multiplication_operators(source, W, block=4, threads=3)
     np.testing.assert_allclose(threaded, to_numpy(packed), rtol=1e-10, atol=1e-13)
 
 
 def test_compression_is_exact_for_redundant_features_and_bounded_otherwise(case, rng):
     source, target, W_s, W_t, C = case
     mix = rng.normal(size=(D, 9))
-    redundant = [packed_slices(b, W @ mix) for b, W in ((source, W_s), (target, W_t))]
-    small = compressed(*redundant, rtol=0.0)
+    redundant = [multiplication_operators(b, W @ mix) for b, W in ((source, W_s), (target, W_t))]
+    small = truncate_operators(*redundant, rtol=0.0)
     assert small[0].shape[0] == D
-    whole, fewer = (slice_term(*(unpacked_slices(p) for p in pair)) for pair in (redundant, small))
+    whole, fewer = (operator_term(*(unpack_operators(p) for p in pair)) for pair in (redundant, small))
     np.testing.assert_allclose(fewer.apply(C), whole.apply(C), rtol=1e-9, atol=1e-9)
-    lossy = compressed(*redundant, rtol=0.4)
+    lossy = truncate_operators(*redundant, rtol=0.4)
     assert lossy[0].shape[0] < D
     total, kept = (sum(float((p**2).sum()) for p in pair) for pair in (redundant, lossy))
     assert 0.6 * total <= kept < 0.999 * total
@@ -209,6 +211,6 @@ def test_bad_energies_are_refused(case):
     with pytest.raises(InvalidInput, match="same number on both shapes"):
         descriptor_term(source, W_s, target, W_t[:, :-1])
     with pytest.raises(InvalidInput, match="parity"):
-        slice_term(np.zeros((1, 2, 2)), np.zeros((1, 2, 2)), parity=0)
+        operator_term(np.zeros((1, 2, 2)), np.zeros((1, 2, 2)), parity=0)
     with pytest.raises(InvalidInput, match="as many slices"):
-        slice_term(np.zeros((2, 2, 2)), np.zeros((1, 2, 2)))
+        operator_term(np.zeros((2, 2, 2)), np.zeros((1, 2, 2)))

@@ -14,30 +14,30 @@ from kfmaps.descriptors.spectral import (
     heat_map,
     heat_signature,
     heat_times,
-    normalised,
+    normalize,
     spectral_range,
     wave_energies,
     wave_map,
     wave_signature,
 )
 from kfmaps.fmap import nearest as nearest_module
-from kfmaps.fmap.approximate_nearest import nearest_by_cells
+from kfmaps.fmap.approximate_nearest import approximate_nearest
 from kfmaps.fmap.confidence import local_confidence
 from kfmaps.fmap.convert import to_points
-from kfmaps.fmap.descriptor_guidance import guide
+from kfmaps.fmap.descriptor_guidance import descriptor_guidance
 from kfmaps.fmap.losses import LOSSES, Loss
-from kfmaps.fmap.multiplication_operators import compressed, condensed
+from kfmaps.fmap.multiplication_operators import truncate_features, truncate_operators
 from kfmaps.fmap.nearest import nearest
-from kfmaps.fmap.refine import SampledBasis, ZoomOut, fitted
+from kfmaps.fmap.refine import SampledBasis, ZoomOut, fit_functional_map
 from kfmaps.fmap.solvers import CG, solve
 from kfmaps.fmap.terms import laplacian_term
 from kfmaps.geometry import geodesics
 from kfmaps.geometry.basis import Basis
-from kfmaps.geometry.geodesics import distance_pairs, geodesic_distances
+from kfmaps.geometry.geodesics import geodesic_distance_pairs, geodesic_distances
 from kfmaps.geometry.mesh import Mesh, face_areas, surface_area, unit_area, vertex_areas
 from kfmaps.geometry.sampling import _embedded, spectral_samples
-from kfmaps.kernels.kernels import Gaussian, Laplacian, resolved, squared_distances
-from kfmaps.kernels.landmark_selection import farthest
+from kfmaps.kernels.kernels import Gaussian, Laplacian, resolve_kernel, squared_distances
+from kfmaps.kernels.landmark_selection import farthest_descriptors
 from kfmaps.kernels.nystrom import nystrom
 
 GUARDS = (
@@ -86,7 +86,7 @@ def test_a_typical_pair_has_the_same_value_in_both_kernels_of_distance(sharpness
     squares = np.median(squared_distances(X, X)[np.triu_indices(31, 1)])
     pair = np.array([[0.0] * 5, [np.sqrt(squares)] + [0.0] * 4])
     for kind, exponent in ((Gaussian(), sharpness), (Laplacian(), np.sqrt(sharpness))):
-        kernel: Any = resolved(kind, X, sharpness)
+        kernel: Any = resolve_kernel(kind, X, sharpness)
         assert kernel(pair[:1], pair[1:])[0, 0] == pytest.approx(np.exp(-exponent))
 
 
@@ -105,7 +105,7 @@ def test_what_is_dropped_is_below_the_tolerance_and_what_is_kept_above(rtol, rng
 def test_farthest_points_of_a_small_pool_are_those_of_all_rows_where_there_are_no_more(rng):
     """At least four times as many as wanted are chosen from, however small the pool is to be."""
     X = rng.normal(size=(150, 3))
-    np.testing.assert_array_equal(farthest(X, 40, 0, pool=10), farthest(X, 40, 0, pool=None))
+    np.testing.assert_array_equal(farthest_descriptors(X, 40, 0, pool=10), farthest_descriptors(X, 40, 0, pool=None))
 
 
 # Surfaces.
@@ -163,7 +163,7 @@ def test_pairs_are_searched_no_farther_than_they_need(monkeypatch):
 
     original = geodesics.dijkstra
     monkeypatch.setattr(geodesics, "dijkstra", searched)
-    found = distance_pairs(mesh, np.arange(0, 1500, 10), target)
+    found = geodesic_distance_pairs(mesh, np.arange(0, 1500, 10), target)
     np.testing.assert_allclose(found, np.take_along_axis(everything, target[:, None], 1)[:, 0], rtol=1e-12)
     assert len(limits) <= 4  # three blocks, and one more for a stray
     assert sum(seen) < 0.4 * 150 * 1500
@@ -243,7 +243,7 @@ def test_descriptors_of_random_vertices_differ_by_two(rng):
     for d in (1, 7, 30):
         D_s, D_t = (rng.normal(size=(n, d)) ** 3 * rng.uniform(0.1, 9, d) + 5 for n in (60, 50))
         m_s, m_t = rng.random(60), 10 * rng.random(50)
-        found = np.concatenate(normalised(D_s, D_t, "variance", m_s, m_t))
+        found = np.concatenate(normalize(D_s, D_t, "variance", m_s, m_t))
         weight = np.concatenate([m_s / m_s.sum(), m_t / m_t.sum()]) / 2
         assert weight @ squared_distances(found, found) @ weight == pytest.approx(2)
 
@@ -264,7 +264,7 @@ def test_a_point_in_parts_condenses_as_a_whole(rng):
     F_s, F_t = rng.normal(size=(40, 9)), rng.normal(size=(30, 9))
     F_s[:5] *= 2
     fine, was = split(source, np.arange(5), 50)
-    one, other = (condensed(b, F, target, F_t, 0.2) for b, F in ((source, F_s), (fine, F_s[was])))
+    one, other = (truncate_features(b, F, target, F_t, 0.2) for b, F in ((source, F_s), (fine, F_s[was])))
     assert 1 < one[0].shape[1] < 9
     np.testing.assert_allclose(other[0] @ other[1].T, (one[0] @ one[1].T)[was], atol=1e-9)
 
@@ -277,7 +277,7 @@ def test_compression_drops_as_much_as_its_tolerance_allows_and_no_more(strong, r
     spectrum = np.sort(np.linalg.eigvalsh(packed[0] @ packed[0].T + packed[1] @ packed[1].T))
     lost = np.cumsum(spectrum) / spectrum.sum()
     for rtol in (1e-3, 0.01, 0.1, 0.4):
-        kept = compressed(packed[0], packed[1], rtol)
+        kept = truncate_operators(packed[0], packed[1], rtol)
         part = 1 - sum(float((p**2).sum()) for p in kept) / spectrum.sum()
         assert part <= rtol
         assert len(kept[0]) == 12 - np.count_nonzero(lost <= rtol)
@@ -290,7 +290,7 @@ def test_losses_start_at_zero_and_have_no_steps(delta):
         loss = Loss(name, delta)
         e = np.linspace(0, 4 * delta**2, 4001)
         assert loss.value(e[:1])[0] == pytest.approx(0, abs=3e-3 * delta**2)
-        assert np.diff(loss.value(e)).max() <= loss.weight(e).max() * e[1] * (1 + 1e-9)
+        assert np.diff(loss.value(e)).max() <= loss.weights(e).max() * e[1] * (1 + 1e-9)
         small = np.array([1e-4 * delta**2])
         if name in ("huber", "geman"):
             assert loss.value(small)[0] == pytest.approx(small[0], rel=1e-3)
@@ -358,9 +358,9 @@ def test_zoomout_starts_from_the_low_part_of_the_map(small_basis, rng):
 def test_a_guide_weighs_what_it_says_on_a_shape_of_any_size(area, rng):
     """Squared differences of functions are in 1/area; those of the descriptors beside them are too."""
     source, target = (replace(b, mass=area * b.mass / b.mass.sum()) for b in [random_basis(60, 4, rng)] * 2)
-    led = guide(*(rng.normal(size=(60, 5)) for _ in range(2)))
+    led = descriptor_guidance(*(rng.normal(size=(60, 5)) for _ in range(2)))
     assert led is not None
-    both = np.concatenate(led.beside(12.0, source, target))
+    both = np.concatenate(led.embedding_columns(12.0, source, target))
     assert squared_distances(both, both).mean() * area == pytest.approx(12)
 
 
@@ -370,7 +370,7 @@ def test_cells_compare_points_of_any_length(rng):
     queries = points[rng.permutation(400)[:100]] * (1 + 1e-3 * rng.normal(size=(100, 12)))
     wanted = ((queries[:, None] - points[None]) ** 2).sum(axis=2).argmin(axis=1)
     for size in (400, 50):
-        np.testing.assert_array_equal(nearest_by_cells(queries, points, size=size, probes=400), wanted)
+        np.testing.assert_array_equal(approximate_nearest(queries, points, size=size, probes=400), wanted)
 
 
 def test_the_damping_of_samples_lies_between_least_squares_and_projection(small_basis, rng):
@@ -380,10 +380,10 @@ def test_the_damping_of_samples_lies_between_least_squares_and_projection(small_
     root = np.sqrt(samples.mass)[:, None]
     least = np.linalg.lstsq(root * phi, root * pulled, rcond=None)[0]
     projected = (samples.mass[:, None] * phi).T @ pulled
-    np.testing.assert_allclose(fitted(points, small_basis, samples, 30, ridge=0.0), least, atol=1e-8)
-    np.testing.assert_allclose(fitted(points, small_basis, samples, 30, ridge=1e9), projected, atol=1e-6)
-    sizes = [np.linalg.norm(fitted(points, small_basis, samples, 30, ridge=r) - least) for r in (0.05, 0.2)]
-    usual = np.linalg.norm(fitted(points, small_basis, samples, 30) - least)
+    np.testing.assert_allclose(fit_functional_map(points, small_basis, samples, 30, ridge=0.0), least, atol=1e-8)
+    np.testing.assert_allclose(fit_functional_map(points, small_basis, samples, 30, ridge=1e9), projected, atol=1e-6)
+    sizes = [np.linalg.norm(fit_functional_map(points, small_basis, samples, 30, ridge=r) - least) for r in (0.05, 0.2)]
+    usual = np.linalg.norm(fit_functional_map(points, small_basis, samples, 30) - least)
     assert sizes[0] < usual < sizes[1] < np.linalg.norm(projected - least)
 
 
@@ -392,7 +392,9 @@ def test_the_damping_of_samples_costs_no_size(small_basis, rng):
     everywhere = SampledBasis(small_basis.eigenvalues, small_basis.functions, small_basis.mass)
     points = rng.integers(0, len(small_basis.mass), len(small_basis.mass))
     np.testing.assert_allclose(
-        fitted(points, small_basis, everywhere, 20), fitted(points, small_basis, small_basis, 20), atol=1e-9
+        fit_functional_map(points, small_basis, everywhere, 20),
+        fit_functional_map(points, small_basis, small_basis, 20),
+        atol=1e-9,
     )
 
 

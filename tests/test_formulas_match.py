@@ -14,15 +14,15 @@ from kfmaps.config import BasisConfig, Config, DescriptorConfig, NystromConfig, 
 from kfmaps.descriptors.spectral import heat_map, heat_signature
 from kfmaps.fmap.convert import to_points
 from kfmaps.fmap.refine import ZoomOut
-from kfmaps.fmap.terms import slice_term, value
+from kfmaps.fmap.terms import operator_term, value
 from kfmaps.kernels.kernels import Gaussian, squared_distances
-from kfmaps.matching.assemble import orientation_pair, principal, problem
+from kfmaps.matching.assemble import assemble, orientation_pair, principal_features
 from kfmaps.matching.calibration import probability
 from kfmaps.matching.candidates import Candidate
 from kfmaps.matching.features import Descriptors, Features, joint_samples, pair_descriptors
-from kfmaps.matching.landmark_evidence import TIMES, around
-from kfmaps.matching.quality import Quality, map_quality, probe
-from kfmaps.matching.search import choose
+from kfmaps.matching.landmark_evidence import TIMES, heat_features
+from kfmaps.matching.quality import Quality, map_quality, sample_for_scoring
+from kfmaps.matching.search import search_map
 from kfmaps.shape import Shape, mirror_image, prepare
 
 GUARDS = ("kfmaps.config", "kfmaps.descriptors.spectral", "kfmaps.fmap.terms", "kfmaps.matching")
@@ -96,16 +96,16 @@ def test_half_of_the_samples_come_from_each_shape(shape, other, sampling):
 def strongest(shape) -> Features:
     rng = np.random.default_rng(0)
     features = shape.basis.functions[:, 1:20] @ rng.normal(size=(19, 8))
-    return principal((shape.basis, shape.basis), Features(features, features, Gaussian(1.0)), 5)
+    return principal_features((shape.basis, shape.basis), Features(features, features, Gaussian(1.0)), 5)
 
 
 def test_orientation_is_kept_by_the_identity_and_lost_in_the_mirror(shape, strongest):
     """On a mirror image the identity turns each operator round: ½ Σ‖2 Ω‖², of which Σ‖Ω‖² on both is the size."""
     image = mirror_image(shape)
-    bases = shape.basis.truncated(K), shape.basis.truncated(K)
+    bases = shape.basis.truncate(K), shape.basis.truncate(K)
     for size in (1.0, 70.0):
         pairs = [orientation_pair((shape, s), (shape, s), bases, strongest, K, size) for s in (shape, image)]
-        same, turned = (slice_term(*pair, parity=-1) for pair in pairs)
+        same, turned = (operator_term(*pair, parity=-1) for pair in pairs)
         assert value(same, np.eye(K)) == pytest.approx(0, abs=1e-9 * size)
         assert value(turned, np.eye(K)) == pytest.approx(size)
         assert value(turned, -np.eye(K)) == pytest.approx(size)
@@ -122,13 +122,13 @@ def test_orientation_and_commutativity_weigh_the_same(shape, other):
     bases = shape.basis, other.basis
     config = replace(CONFIG, weights=replace(CONFIG.weights, orientation=1.0))
     used = pair_descriptors(shape, other, bases, config.descriptors, NO_LANDMARKS, None)
-    terms: Any = problem(shape, other, bases, used, config, np.random.default_rng(0)).energy.terms
+    terms: Any = assemble(shape, other, bases, used, config, np.random.default_rng(0)).energy.terms
     sizes = [sum(np.trace(S) for S in terms[name].sides()) for name in ("orientation", "commutativity")]
     assert sizes[0] == pytest.approx(sizes[1])
     assert sizes[0] > 0
     # And the identity of a shape is what both want.
     used = pair_descriptors(shape, shape, (bases[0],) * 2, config.descriptors, NO_LANDMARKS, None)
-    terms = problem(shape, shape, (bases[0],) * 2, used, config, np.random.default_rng(0)).energy.terms
+    terms = assemble(shape, shape, (bases[0],) * 2, used, config, np.random.default_rng(0)).energy.terms
     for name in ("orientation", "commutativity"):
         assert value(terms[name], np.eye(K)) == pytest.approx(0, abs=1e-9 * sizes[1])
 
@@ -136,8 +136,8 @@ def test_orientation_and_commutativity_weigh_the_same(shape, other):
 def test_a_constant_more_in_the_features_changes_no_principal_direction(shape, other, rng):
     bases = shape.basis, other.basis
     F = [rng.normal(size=(len(b.mass), 6)) * [5, 4, 3, 2, 1, 1] for b in bases]
-    found = principal(bases, Features(F[0], F[1], Gaussian(1.0)), 4)
-    moved = principal(bases, Features(F[0] + 100, F[1] + 100, Gaussian(1.0)), 4)
+    found = principal_features(bases, Features(F[0], F[1], Gaussian(1.0)), 4)
+    moved = principal_features(bases, Features(F[0] + 100, F[1] + 100, Gaussian(1.0)), 4)
     for a, b in ((found.source, moved.source), (found.target, moved.target)):
         np.testing.assert_allclose(a @ a.T, b @ b.T, atol=1e-6)
     # Left out is the mean by area, of both shapes alike: features that differ between them by a constant keep it.
@@ -151,7 +151,9 @@ def test_a_constant_more_in_the_features_changes_no_principal_direction(shape, o
 
 # The search.
 
-USUAL = Quality(orientation=0.9, distortion=0.1, stretch=0.1, descriptors=0.2, heat=0.1, coverage=0.9, laplacian=0.05)
+USUAL = Quality(
+    orientation=0.9, distortion=0.1, local_distortion=0.1, descriptors=0.2, heat=0.1, coverage=0.9, laplacian=0.05
+)
 
 
 @pytest.mark.parametrize(
@@ -174,7 +176,7 @@ def test_every_measure_has_its_weight_in_the_score(measure, weight):
 
 def test_the_score_is_the_same_from_either_side(shape, other):
     """An orthogonal map and its inverse pair up the same samples, so that all that compares these must agree."""
-    here, there = probe(shape, 300), probe(other, 300)
+    here, there = sample_for_scoring(shape, 300), sample_for_scoring(other, 300)
     C = np.linalg.qr(np.eye(40) + 0.05 * np.random.default_rng(0).normal(size=(40, 40)))[0]
     one, back = map_quality(C, here, there), map_quality(C.T, there, here)
     for measure in ("distortion", "stretch", "descriptors", "heat", "coverage"):
@@ -184,31 +186,31 @@ def test_the_score_is_the_same_from_either_side(shape, other):
 
 def test_points_are_those_of_the_functional_map(shape, other):
     """Told or not: a map that is far from symmetric tells C from its transpose."""
-    here, there = probe(shape, 200), probe(other, 200)
+    here, there = sample_for_scoring(shape, 200), sample_for_scoring(other, 200)
     C = np.linalg.qr(np.random.default_rng(0).normal(size=(30, 30)))[0]
     points = to_points(C, here.samples.basis, there.samples.basis)
     assert astuple(map_quality(C, here, there)) == pytest.approx(astuple(map_quality(C, here, there, points)))
 
 
 def test_coverage_is_that_of_the_direction_that_covers_less(shape):
-    judge = probe(shape, 200)
+    judge = sample_for_scoring(shape, 200)
     one_place = map_quality(np.eye(30), judge, judge, np.full(200, 3))
     assert one_place.coverage == pytest.approx(judge.samples.basis.mass[3])
     assert map_quality(np.eye(30), judge, judge).coverage == pytest.approx(1)
 
 
 def test_a_landmark_costs_what_it_is_missed_by_and_no_more_than_two(shape):
-    judge = probe(shape, 100)
+    judge = sample_for_scoring(shape, 100)
     quality = map_quality(np.eye(30), judge, judge)
     for missed, cost in (([0.0], 0), ([0.15], 1), ([0.3], 2), ([5.0], 2), ([0.15, 5.0, 0.0], 3)):
-        found = Candidate("a", np.eye(30), np.arange(100), quality, missed=np.array(missed))
+        found = Candidate("a", np.eye(30), np.arange(100), quality, landmark_errors=np.array(missed))
         assert found.score == pytest.approx(quality.score - cost)
 
 
 def test_heat_around_a_landmark_is_that_of_its_time(shape):
     """Between two landmarks: what is left after twice the time is the heat kernel's, normalised."""
     marks = np.array([3, 90])
-    found = around(shape.basis, shape.basis, marks)
+    found = heat_features(shape.basis, shape.basis, marks)
     heat = heat_map(shape.basis, marks, np.array(TIMES)).reshape(500, 2, len(TIMES))
     for i, time in enumerate(TIMES):
         own = heat_signature(shape.basis, np.array([time]))[:, 0]
@@ -221,12 +223,12 @@ def test_confidence_follows_from_score_bending_and_margin(shape):
     Without tips, at which descriptors would count too.
     """
     config = replace(CONFIG, search=Search(candidates=1, signs=2, tips=False))
-    found = choose(shape, shape, config)
+    found = search_map(shape, shape, config)
     assert found.quality is not None
-    assert found.bending is not None
-    assert found.scores[0] == pytest.approx(found.quality - 5 * np.log(found.bending / 0.15))
+    assert found.deformation_energy is not None
+    assert found.scores[0] == pytest.approx(found.quality - 5 * np.log(found.deformation_energy / 0.15))
     margin = found.scores[0] - found.scores[1]
-    excess = np.log(found.bending) + 3.6 + 0.233 * found.quality
+    excess = np.log(found.deformation_energy) + 3.6 + 0.233 * found.quality
     right = (1 - 0.5 * np.exp(-margin / 0.4)) / (1 + np.exp(-0.92 * (found.quality + 10.0)))
     right /= 1 + np.exp(12.5 * (excess - 0.65))
     assert found.confidence == pytest.approx(right)
@@ -248,7 +250,7 @@ def test_a_rival_close_behind_leaves_one_half_and_fades_within_its_margin():
 
 def test_measures_of_a_random_map_are_what_their_definitions_say(shape):
     """Differences of descriptors are those of random points: about 1; distances are as wrong as of random pairs."""
-    judge = probe(shape, 300)
+    judge = sample_for_scoring(shape, 300)
     C = np.linalg.qr(np.random.default_rng(0).normal(size=(60, 60)))[0]
     found = map_quality(C, judge, judge)
     assert 0.6 < found.heat < 1.6

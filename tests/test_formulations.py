@@ -10,16 +10,23 @@ import pytest
 
 from conftest import random_basis
 from kfmaps._arrays import InvalidInput, inner, to_numpy
-from kfmaps.fmap.constraints import nearest_orthogonal, orthogonal, tangent
-from kfmaps.fmap.coupled import coupled
-from kfmaps.fmap.energy import Energy, descriptor_term, laplacian_term, slice_term, value
-from kfmaps.fmap.losses import LOSSES, Loss, RobustData, sparse
-from kfmaps.fmap.minimize import Coupling, How, Objective, coupled_pair, minimised, quadratic
-from kfmaps.fmap.multiplication_operators import packed_slices, unpacked_slices
-from kfmaps.fmap.optimal_transport import costs, spatial, transport
+from kfmaps.fmap.constraints import minimize_orthogonal, nearest_orthogonal, tangent
+from kfmaps.fmap.coupled import couple_bases
+from kfmaps.fmap.energy import Energy, descriptor_term, laplacian_term, operator_term, value
+from kfmaps.fmap.losses import LOSSES, Loss, RobustData, sparse_penalty
+from kfmaps.fmap.minimize import (
+    BidirectionalWeights,
+    MinimizeOptions,
+    Objective,
+    fit_bidirectional,
+    minimize,
+    solve_quadratic,
+)
+from kfmaps.fmap.multiplication_operators import multiplication_operators, unpack_operators
+from kfmaps.fmap.optimal_transport import costs, transport, transport_penalty
 from kfmaps.fmap.solvers import CG, Direct, solve
 from kfmaps.fmap.terms import inverse_term
-from kfmaps.fmap.transfer import carried
+from kfmaps.fmap.transfer import transfer_functions
 
 GUARDS = (
     "kfmaps.fmap.bidirectional_zoomout",
@@ -38,7 +45,7 @@ GUARDS = (
 
 N, R = 60, 9
 SIZES = [(6, 6), (7, 5), (5, 7)]
-TIGHT = How(CG(rtol=1e-8, max_steps=500), rounds=20)
+TIGHT = MinimizeOptions(CG(rtol=1e-8, max_steps=500), max_outer_iter=20)
 
 
 def bases(k_t, k_s, seed=0):
@@ -52,13 +59,13 @@ def features(seed=1):
 
 
 def slices(basis, F):
-    return unpacked_slices(packed_slices(basis, F))
+    return unpack_operators(multiplication_operators(basis, F))
 
 
 def energy(source, target, F_s, F_t):
     terms = {
         "descriptors": descriptor_term(source, F_s, target, F_t),
-        "commutativity": slice_term(slices(source, F_s), slices(target, F_t)),
+        "commutativity": operator_term(slices(source, F_s), slices(target, F_t)),
         "laplacian": laplacian_term(source, target),
     }
     return Energy(terms, {"descriptors": 3.0, "commutativity": 0.5, "laplacian": 1.0})
@@ -90,7 +97,7 @@ def is_orthonormal(C):
 def test_orthogonal_minimiser_meets_constraint_and_first_order_condition(case):
     *_, E = case
     start = 0.0 * E.rhs() + 1.0
-    found = orthogonal(E, CG(rtol=1e-9, max_steps=500), E.rhs() + 0.1 * start)
+    found = minimize_orthogonal(E, CG(rtol=1e-9, max_steps=500), E.rhs() + 0.1 * start)
     assert found.status == "converged"
     assert is_orthonormal(found.value)
     # On the manifold the gradient is normal: G = C S with S symmetric (or S C, for more columns than rows).
@@ -107,11 +114,11 @@ def test_energy_never_rises_on_the_manifold(case):
     values = []
     C = E.rhs()
     for steps in (1, 2, 3, 5, 8, 13):
-        values.append(value(E, orthogonal(E, CG(rtol=0.0, max_steps=steps), C).value))
+        values.append(value(E, minimize_orthogonal(E, CG(rtol=0.0, max_steps=steps), C).value))
     assert value(E, nearest_orthogonal(C)) >= values[0]
     assert (np.diff(values) <= 1e-12 * values[0]).all()
     # and no orthonormal map near the last one is lower
-    last = orthogonal(E, CG(rtol=1e-9, max_steps=500), C).value
+    last = minimize_orthogonal(E, CG(rtol=1e-9, max_steps=500), C).value
     rng = np.random.default_rng(5)
     for _ in range(20):
         near = nearest_orthogonal(last + (last * 0.0 + 1.0) * float(rng.normal()) * 1e-2 + 1e-2 * E.rhs())
@@ -125,7 +132,7 @@ def test_orthogonal_agrees_with_procrustes(case):
     if k_t < k_s:
         pytest.skip("‖C P‖ depends on C when it has more columns than rows")
     term = descriptor_term(source, F_s, target, F_t)
-    found = orthogonal(term, CG(rtol=1e-12, max_steps=2000), term.rhs() + 0.3)
+    found = minimize_orthogonal(term, CG(rtol=1e-12, max_steps=2000), term.rhs() + 0.3)
     np.testing.assert_allclose(to_numpy(found.value), to_numpy(nearest_orthogonal(term.rhs())), atol=1e-6)
 
 
@@ -146,8 +153,8 @@ def test_loss_weight_is_its_slope_and_it_is_concave(name):
     loss = Loss(name, 0.7)
     e = np.linspace(1e-2, 5, 400)
     slope = (loss.value(e + 1e-6) - loss.value(e - 1e-6)) / 2e-6
-    np.testing.assert_allclose(slope, loss.weight(e), rtol=1e-5)
-    assert (np.diff(loss.weight(e)) <= 1e-15).all()
+    np.testing.assert_allclose(slope, loss.weights(e), rtol=1e-5)
+    assert (np.diff(loss.weights(e)) <= 1e-15).all()
     assert loss.value(np.zeros(1))[0] == pytest.approx(0.0, abs=2e-3)
 
 
@@ -170,8 +177,8 @@ def penalties(case):
     return {
         "relative": relative(case),
         **{name: robust(case, name) for name in LOSSES},
-        "sparse": sparse(E.rhs(), 1e-2),
-        "spatial": spatial(E.rhs() / inner(E.rhs(), E.rhs()) ** 0.5, case[0], case[1]),
+        "sparse": sparse_penalty(E.rhs(), 1e-2),
+        "spatial": transport_penalty(E.rhs() / inner(E.rhs(), E.rhs()) ** 0.5, case[0], case[1]),
     }
 
 
@@ -202,7 +209,7 @@ def test_squared_loss_is_the_least_squares_term(case):
     plain = descriptor_term(source, F_s, target, F_t)
     term = data.majorizer(plain.rhs())
     C = plain.rhs()
-    commuting = slice_term(slices(source, F_s), slices(target, F_t))
+    commuting = operator_term(slices(source, F_s), slices(target, F_t))
     wanted = plain.apply(C) + 0.2 * commuting.apply(C)
     np.testing.assert_allclose(to_numpy(term.apply(C)), to_numpy(wanted), rtol=1e-10, atol=1e-10)
     np.testing.assert_allclose(to_numpy(term.rhs()), to_numpy(plain.rhs()), rtol=1e-12, atol=1e-12)
@@ -218,7 +225,7 @@ def test_objective_falls_whatever_is_combined(case, constraint):
     C = nearest_orthogonal(E.rhs()) if constraint == "orthogonal" else 0 * E.rhs()
     values = [objective.value(C)]
     for _ in range(3):
-        C = minimised(objective, How(CG(rtol=1e-10), rounds=1), C).value
+        C = minimize(objective, MinimizeOptions(CG(rtol=1e-10), max_outer_iter=1), C).value
         values.append(objective.value(C))
         assert constraint == "none" or is_orthonormal(C)
     assert (np.diff(values) <= 1e-9 * values[0]).all()
@@ -228,10 +235,10 @@ def test_objective_falls_whatever_is_combined(case, constraint):
 
 def test_stationary_without_constraint(numbers):
     *_, E = numbers
-    objective = Objective(E, {"sparsity": (0.3, sparse(E.rhs(), 0.1)), "data": (1.0, robust(numbers, "huber"))})
-    C = minimised(objective, How(CG(rtol=1e-10), rounds=20), 0 * E.rhs()).value
+    objective = Objective(E, {"sparsity": (0.3, sparse_penalty(E.rhs(), 0.1)), "data": (1.0, robust(numbers, "huber"))})
+    C = minimize(objective, MinimizeOptions(CG(rtol=1e-10), max_outer_iter=20), 0 * E.rhs()).value
     for _ in range(100):
-        C = quadratic(Objective(objective.majorizer(C)), How(CG(rtol=1e-10)), C).value
+        C = solve_quadratic(Objective(objective.majorizer(C)), MinimizeOptions(CG(rtol=1e-10)), C).value
     h = 1e-5
     for D in (E.rhs() / inner(E.rhs(), E.rhs()) ** 0.5, 0 * C + 1.0):
         slope = (objective.value(C + h * D) - objective.value(C - h * D)) / (2 * h)
@@ -240,12 +247,12 @@ def test_stationary_without_constraint(numbers):
 
 def test_nothing_extra_is_the_linear_solve_to_the_last_digit(case):
     *_, E = case
-    how = How(CG(rtol=1e-8), "none")
+    how = MinimizeOptions(CG(rtol=1e-8), "none")
     np.testing.assert_array_equal(
-        to_numpy(minimised(Objective(E), how).value), to_numpy(solve(E.apply, E.rhs(), how.solver).value)
+        to_numpy(minimize(Objective(E), how).value), to_numpy(solve(E.apply, E.rhs(), how.solver).value)
     )
-    pair = coupled_pair(Objective(E), Objective(E), Coupling(0.0, 0.0), how)
-    np.testing.assert_array_equal(to_numpy(pair.forth.value), to_numpy(minimised(Objective(E), how).value))
+    pair = fit_bidirectional(Objective(E), Objective(E), BidirectionalWeights(0.0, 0.0), how)
+    np.testing.assert_array_equal(to_numpy(pair.forth.value), to_numpy(minimize(Objective(E), how).value))
 
 
 def reverse(case):
@@ -255,8 +262,10 @@ def reverse(case):
 
 def test_swapping_source_and_target_swaps_the_two_maps(numbers):
     forth, back = Objective(numbers[-1]), Objective(reverse(numbers))
-    how = How(CG(rtol=1e-10), rounds=200, settled=1e-9)
-    one, other = (coupled_pair(*order, Coupling(0.2, 0.2), how) for order in ((forth, back), (back, forth)))
+    how = MinimizeOptions(CG(rtol=1e-10), max_outer_iter=200, rtol=1e-9)
+    one, other = (
+        fit_bidirectional(*order, BidirectionalWeights(0.2, 0.2), how) for order in ((forth, back), (back, forth))
+    )
     assert (np.diff(one.history) <= 1e-9 * one.history[0]).all()
     assert one.history[-1] == pytest.approx(other.history[-1], rel=1e-6)
     np.testing.assert_allclose(one.forth.value, other.back.value, atol=1e-2)
@@ -271,7 +280,8 @@ def test_coupling_brings_the_maps_to_each_others_inverse(case):
         return np.linalg.norm(C @ D - np.eye(len(C))) + np.linalg.norm(D @ C - np.eye(len(D)))
 
     free, tied, adjoint = (
-        coupled_pair(forth, back, Coupling(*weights), TIGHT) for weights in ((0.0, 0.0), (1e3, 0.0), (0.0, 1e3))
+        fit_bidirectional(forth, back, BidirectionalWeights(*weights), TIGHT)
+        for weights in ((0.0, 0.0), (1e3, 0.0), (0.0, 1e3))
     )
     assert apart(tied) < 0.5 * apart(free)
     assert np.linalg.norm(to_numpy(adjoint.forth.value) - to_numpy(adjoint.back.value).T) < 0.05
@@ -285,17 +295,17 @@ def test_inverse_term_is_zero_for_an_inverse():
 def test_coupled_bases(case):
     source, target, F_s, F_t, _ = case
     cross = target.project(F_t) @ source.project(F_s).T
-    found = coupled(source.eigenvalues, target.eigenvalues, cross, weight=1.0)
+    found = couple_bases(source.eigenvalues, target.eigenvalues, cross, weight=1.0)
     assert (np.diff(found.history) <= 1e-12).all()
     assert is_orthonormal(found.U_s)
     assert is_orthonormal(found.U_t)
-    S, T = found.rotated(source, target)
+    S, T = found.to_rotated(source, target)
     np.testing.assert_allclose(to_numpy(S.project(S.functions)), np.eye(S.functions.shape[1]), atol=1e-9)
     C = 0 * cross + 1.0
     f = source.functions @ (0 * source.eigenvalues[:, None] + 1.0)
     np.testing.assert_allclose(
         to_numpy(T.functions @ (C @ S.project(f))),
-        to_numpy(target.functions @ (found.restored(C) @ source.project(f))),
+        to_numpy(target.functions @ (found.from_rotated(C) @ source.project(f))),
         atol=1e-9,
     )
 
@@ -307,7 +317,7 @@ def test_coupled_bases_undo_a_known_rotation():
     C = np.diag([1.0, -1.0, 1, 1, -1, 1])
     angle = 0.7
     C[2:4, 2:4] = [[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]]
-    found = coupled(values, values, C + 0.01 * rng.normal(size=(6, 6)), weight=1.0, start=C)
+    found = couple_bases(values, values, C + 0.01 * rng.normal(size=(6, 6)), weight=1.0, start=C)
     np.testing.assert_allclose(found.U_t.T @ C @ found.U_s, np.eye(6), atol=0.05)
     for U in (found.U_s, found.U_t):
         rotated = U.T @ np.diag(values) @ U
@@ -332,17 +342,19 @@ def test_resolvent_mask():
 
 def test_functions_beyond_the_basis(small_basis, asarray):
     """On equal shapes with the identity map a product of two basis functions is carried as it is; alone C cannot."""
-    basis = small_basis.truncated(12)
+    basis = small_basis.truncate(12)
     f = small_basis.functions[:, 7] * small_basis.functions[:, 9] + small_basis.functions[:, 3]
     C = asarray(np.eye(12))
     shape = type(basis)(*(asarray(a) for a in (basis.eigenvalues, basis.functions, basis.mass)))
-    alone = to_numpy(carried(asarray(f), C, shape, shape, None))
-    better = to_numpy(carried(asarray(f), C, shape, shape, 12, 1e-9))
+    alone = to_numpy(transfer_functions(asarray(f), C, shape, shape, None))
+    better = to_numpy(transfer_functions(asarray(f), C, shape, shape, 12, 1e-9))
     assert np.linalg.norm(better - f) < 1e-3 * np.linalg.norm(f)
     assert np.linalg.norm(alone - f) > 0.1 * np.linalg.norm(f)
     # what lies in the basis is carried by C alone, whatever the products
     inside = asarray(basis.functions[:, :4])
-    np.testing.assert_allclose(to_numpy(carried(inside, C, shape, shape, 8)), basis.functions[:, :4], atol=1e-8)
+    np.testing.assert_allclose(
+        to_numpy(transfer_functions(inside, C, shape, shape, 8)), basis.functions[:, :4], atol=1e-8
+    )
 
 
 def test_bad_input_is_refused(small_basis):
@@ -351,12 +363,12 @@ def test_bad_input_is_refused(small_basis):
     with pytest.raises(InvalidInput, match="delta"):
         Loss("huber", 0.0)
     with pytest.raises(InvalidInput, match="products"):
-        carried(small_basis.functions, np.eye(5), small_basis, small_basis, 6)
+        transfer_functions(small_basis.functions, np.eye(5), small_basis, small_basis, 6)
     with pytest.raises(InvalidInput, match="values"):
-        carried(np.ones((3, 1)), np.eye(5), small_basis, small_basis)
+        transfer_functions(np.ones((3, 1)), np.eye(5), small_basis, small_basis)
     E = energy(*bases(5, 5), *features())
     with pytest.raises(InvalidInput, match="start"):
-        orthogonal(E, Direct(), np.eye(4))
+        minimize_orthogonal(E, Direct(), np.eye(4))
 
 
 @pytest.mark.parametrize("blur", [1.0, 0.1, 0.003])

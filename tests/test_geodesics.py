@@ -9,8 +9,8 @@ from scipy.spatial import Delaunay
 
 from conftest import blob, fibonacci_sphere
 from kfmaps._arrays import InvalidInput
-from kfmaps.geometry.geodesic_graph import surface_graph
-from kfmaps.geometry.geodesics import SEARCHES, distance_pairs, farthest_geodesic, geodesic_distances
+from kfmaps.geometry.geodesic_graph import geodesic_graph
+from kfmaps.geometry.geodesics import SEARCHES, farthest_geodesic, geodesic_distance_pairs, geodesic_distances
 from kfmaps.geometry.mesh import Mesh
 
 GUARDS = ("kfmaps.geometry.geodesic_graph", "kfmaps.geometry.geodesics")
@@ -57,13 +57,13 @@ def test_deeper_unfolding_gives_exact_distances_farther() -> None:
     exact = between(mesh.vertices)
     hits = []
     for depth in (0, 1, 2, 4, 8):
-        graph = surface_graph(mesh, depth)
+        graph = geodesic_graph(mesh, depth)
         low, high = graph.nonzero()
         np.testing.assert_allclose(graph.toarray()[low, high], exact[low, high], rtol=1e-12)  # lines are straight
         assert abs(graph - graph.T).max() == 0
         hits.append(graph.nnz)
     assert np.all(np.diff(hits) > 0)
-    assert surface_graph(mesh, 40).nnz == 60 * 59  # in a convex plane everything sees everything
+    assert geodesic_graph(mesh, 40).nnz == 60 * 59  # in a convex plane everything sees everything
 
 
 def test_a_fold_is_laid_flat() -> None:
@@ -161,11 +161,11 @@ def test_pairs_are_entries_of_the_matrix(method: str) -> None:
     a, b = rng.integers(0, n, 400), rng.integers(0, n, 400)
     near = np.argsort(((mesh.vertices[a][:, None] - mesh.vertices) ** 2).sum(axis=2))
     b[:200] = near[np.arange(200), rng.integers(0, 8, 200)]
-    pairs = distance_pairs(mesh, a, b, method)
+    pairs = geodesic_distance_pairs(mesh, a, b, method)
     np.testing.assert_array_equal(pairs, geodesic_distances(mesh, a, method)[np.arange(400), b])
     assert np.isinf(pairs).any()
     assert (pairs == 0).any()
-    assert distance_pairs(mesh, [], [], method).shape == (0,)
+    assert geodesic_distance_pairs(mesh, [], [], method).shape == (0,)
 
 
 def test_far_pairs_are_found_too() -> None:
@@ -178,7 +178,7 @@ def test_far_pairs_are_found_too() -> None:
     bent = np.stack([0.01 * np.cos(turn), 20 * np.sin(turn), y], axis=2).reshape(-1, 3)
     mesh = Mesh(bent, faces)
     a, b = np.arange(width), np.arange(width)[::-1] + (length - 1) * width
-    np.testing.assert_array_equal(distance_pairs(mesh, a, b), geodesic_distances(mesh, a)[np.arange(width), b])
+    np.testing.assert_array_equal(geodesic_distance_pairs(mesh, a, b), geodesic_distances(mesh, a)[np.arange(width), b])
 
 
 def test_clouds() -> None:
@@ -196,7 +196,7 @@ def test_farthest_samples_are_the_farthest() -> None:
     mesh = blob(400)
     count = SEARCHES + 60  # beyond the whole searches: the spreading front must agree with them
     samples = farthest_geodesic(mesh, count, rng=4)
-    nearest = np.minimum.accumulate(dijkstra(surface_graph(mesh, 1), indices=samples), axis=0)
+    nearest = np.minimum.accumulate(dijkstra(geodesic_graph(mesh, 1), indices=samples), axis=0)
     reach = nearest[np.arange(count - 1), samples[1:]]
     np.testing.assert_allclose(reach, nearest[:-1].max(axis=1), rtol=1e-12)
     assert len(set(samples.tolist())) == count
@@ -220,12 +220,12 @@ def test_bad_input_is_refused() -> None:
         lambda: geodesic_distances(mesh, [0.5]),
         lambda: geodesic_distances(mesh, [[0, 1]]),
         lambda: geodesic_distances(mesh, [0], "magic"),
-        lambda: distance_pairs(mesh, [0, 1], [2]),
-        lambda: distance_pairs(mesh, [0], [20]),
+        lambda: geodesic_distance_pairs(mesh, [0, 1], [2]),
+        lambda: geodesic_distance_pairs(mesh, [0], [20]),
         lambda: farthest_geodesic(mesh, 21),
         lambda: farthest_geodesic(mesh, 0),
         lambda: farthest_geodesic(mesh, 2, first=20),
-        lambda: surface_graph(mesh, -1),
+        lambda: geodesic_graph(mesh, -1),
     ):
         with pytest.raises(InvalidInput):
             call()

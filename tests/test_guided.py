@@ -8,7 +8,7 @@ import pytest
 from conftest import blob
 from kfmaps._arrays import InvalidInput
 from kfmaps.fmap.convert import nearest
-from kfmaps.fmap.descriptor_guidance import guide
+from kfmaps.fmap.descriptor_guidance import descriptor_guidance
 from kfmaps.fmap.refine import ZoomOut
 from kfmaps.geometry.basis import laplace_basis
 from kfmaps.geometry.mesh import unit_area
@@ -37,9 +37,9 @@ def test_without_weight_or_guide_it_is_plain_zoomout(symmetric):
     basis, places = symmetric
     start = np.diag([1.0, 1, -1, 1, 1, -1])
     plain = ZoomOut(6, 40, 4)(start, basis, basis, threads=1).functional_map
-    np.testing.assert_array_equal(run(start, basis, 0.0, guide(places, places)), plain)
+    np.testing.assert_array_equal(run(start, basis, 0.0, descriptor_guidance(places, places)), plain)
     np.testing.assert_array_equal(run(start, basis, 12.0, None), plain)
-    assert np.abs(run(start, basis, 12.0, guide(places, places)) - plain).max() > 0.1
+    assert np.abs(run(start, basis, 12.0, descriptor_guidance(places, places)) - plain).max() > 0.1
 
 
 def test_descriptors_lead_from_the_wrong_signs_to_the_right_map(symmetric):
@@ -51,7 +51,7 @@ def test_descriptors_lead_from_the_wrong_signs_to_the_right_map(symmetric):
         return np.linalg.norm(places[nearest(phi, phi @ C.T, threads=1)] - places, axis=1).mean()
 
     assert error(run(wrong, basis, 0.0, None)) > 0.2
-    assert error(run(wrong, basis, 12.0, guide(places, places))) < 0.02
+    assert error(run(wrong, basis, 12.0, descriptor_guidance(places, places))) < 0.02
 
 
 def test_on_samples_of_large_shapes_the_guide_is_sampled_too():
@@ -59,14 +59,14 @@ def test_on_samples_of_large_shapes_the_guide_is_sampled_too():
     basis = laplace_basis(mesh, 50)
     zoom = ZoomOut(6, 40, 8, samples=200, guidance=12.0)
     wrong = np.diag([1.0, -1, 1, 1, 1, 1])
-    found = zoom(wrong, basis, basis, threads=1, guide=guide(mesh.vertices, mesh.vertices))
+    found = zoom(wrong, basis, basis, threads=1, guide=descriptor_guidance(mesh.vertices, mesh.vertices))
     assert (found.target_to_source == np.arange(900)).mean() > 0.9
 
 
 def test_a_guide_is_scaled_common_and_short():
     rng = np.random.default_rng(0)
     a, b = rng.normal(size=(200, 50)) * 7, rng.normal(size=(150, 50)) * 7
-    found, short = guide(a, b, dimensions=50), guide(a, b)
+    found, short = descriptor_guidance(a, b, dimensions=50), descriptor_guidance(a, b)
     assert found is not None
     assert short is not None
     before, after = np.vstack([a, b]), np.vstack([found.source, found.target])
@@ -82,10 +82,10 @@ def test_a_guide_is_scaled_common_and_short():
 def test_some_rows_tell_the_directions_of_all(monkeypatch):
     rng = np.random.default_rng(5)
     source, target = (rng.normal(size=(n, 6)) * [3.0, 2.0, 1.5, 0.1, 0.1, 0.1] + 1.0 for n in (900, 700))
-    every = guide(source, target, 3)
+    every = descriptor_guidance(source, target, 3)
     for name in ("ROWS", "TELLING"):
         monkeypatch.setattr(f"kfmaps.fmap.descriptor_guidance.{name}", 400)
-    some = guide(source, target, 3)
+    some = descriptor_guidance(source, target, 3)
     assert every is not None
     assert some is not None
 
@@ -98,12 +98,12 @@ def test_some_rows_tell_the_directions_of_all(monkeypatch):
 
 def test_noise_does_not_guide():
     rng = np.random.default_rng(0)
-    assert guide(1 + 0.01 * rng.normal(size=(50, 3)), 1 + 0.01 * rng.normal(size=(40, 3))) is None
-    assert guide(None, rng.normal(size=(40, 3))) is None
+    assert descriptor_guidance(1 + 0.01 * rng.normal(size=(50, 3)), 1 + 0.01 * rng.normal(size=(40, 3))) is None
+    assert descriptor_guidance(None, rng.normal(size=(40, 3))) is None
 
 
 def test_bad_settings_are_refused():
     with pytest.raises(InvalidInput, match="as many on both"):
-        guide(np.eye(4, 3), np.eye(4, 2))
+        descriptor_guidance(np.eye(4, 3), np.eye(4, 2))
     with pytest.raises(InvalidInput, match="guidance"):
         ZoomOut(guidance=-1.0)

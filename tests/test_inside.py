@@ -17,13 +17,13 @@ from kfmaps.fmap.confidence import local_confidence
 from kfmaps.fmap.evaluate import coverage, geodesic_errors
 from kfmaps.fmap.refine import ZoomOut
 from kfmaps.geometry.basis import laplace_basis
-from kfmaps.geometry.clean import SPECK, inside, representatives
-from kfmaps.geometry.geodesic_graph import surface_graph
-from kfmaps.geometry.geodesics import METHODS, distance_pairs, geodesic_distances
+from kfmaps.geometry.clean import SPECK, clean_mesh, weld_vertices
+from kfmaps.geometry.geodesic_graph import geodesic_graph
+from kfmaps.geometry.geodesics import METHODS, geodesic_distance_pairs, geodesic_distances
 from kfmaps.geometry.mesh import Mesh, surface_area
 from kfmaps.geometry.topology import topology
 from kfmaps.matching.match import match
-from kfmaps.shape import inner, prepare
+from kfmaps.shape import clean_shape, prepare
 
 GUARDS = (
     "kfmaps.descriptors.shot",
@@ -92,13 +92,13 @@ def quietly(mesh: Mesh, config: Config = SMALL):
 def test_cut_surfaces_are_connected_inside(cut) -> None:
     mesh = blob(300)
     pieces, was = cut(mesh)
-    part = inside(pieces)
-    np.testing.assert_array_equal(part.number, part.number[part.kept][part.number])
-    np.testing.assert_array_equal(was[part.kept][part.number], was)
-    np.testing.assert_array_equal(was[part.kept[part.mesh.faces]], was[pieces.faces])
-    assert not part.loose.any()
-    assert (len(part.kept), part.joined) == (300, len(was) - 300)
-    assert inside(part.mesh).mesh is part.mesh  # nothing is left to do
+    part = clean_mesh(pieces)
+    np.testing.assert_array_equal(part.to_clean, part.to_clean[part.to_original][part.to_clean])
+    np.testing.assert_array_equal(was[part.to_original][part.to_clean], was)
+    np.testing.assert_array_equal(was[part.to_original[part.mesh.faces]], was[pieces.faces])
+    assert not part.unreferenced.any()
+    assert (len(part.to_original), part.n_welded) == (300, len(was) - 300)
+    assert clean_mesh(part.mesh).mesh is part.mesh  # nothing is left to do
 
 
 @pytest.mark.parametrize("cut", [soup, seamed])
@@ -106,7 +106,7 @@ def test_cut_surfaces_are_the_surface_that_they_look_like(cut) -> None:
     mesh = blob(300)
     pieces, was = cut(mesh)
     whole, counts = topology(mesh), topology(pieces)
-    assert (counts.components, counts.boundary_edges, counts.genus, counts.closed) == (1, 0, 0, True)
+    assert (counts.components, counts.boundary_edges, counts.genus, counts.is_closed) == (1, 0, 0, True)
     assert (counts.euler_characteristic, counts.nonmanifold_vertices) == (whole.euler_characteristic, 0)
     assert counts.duplicated_vertices == len(was) - 300
     one, other = laplace_basis(mesh, 12), laplace_basis(pieces, 12)
@@ -123,14 +123,14 @@ def test_cut_surfaces_are_the_surface_that_they_look_like(cut) -> None:
         )
     copies = np.flatnonzero(was == was[-1])
     assert len(copies) > 1
-    assert not distance_pairs(pieces, np.repeat(copies[0], len(copies)), copies).any()
+    assert not geodesic_distance_pairs(pieces, np.repeat(copies[0], len(copies)), copies).any()
 
 
 def test_surfaces_that_only_touch_stay_apart() -> None:
     two = joined(TETRAHEDRON, placed(TETRAHEDRON, -1.0, (0, 0, 0)))  # closed, with one corner in common
-    np.testing.assert_array_equal(representatives(two), np.arange(8))
+    np.testing.assert_array_equal(weld_vertices(two), np.arange(8))
     open_two = Mesh(two.vertices, two.faces[[0, 1, 4, 5]])  # open, and still in one corner only
-    np.testing.assert_array_equal(representatives(open_two), np.arange(8))
+    np.testing.assert_array_equal(weld_vertices(open_two), np.arange(8))
 
 
 @pytest.mark.parametrize("cut", [soup, seamed])
@@ -150,18 +150,18 @@ def test_cut_copies_have_the_map_of_the_whole(cut) -> None:
     np.testing.assert_allclose(other.local_confidence, one.local_confidence[was_t], atol=0.15)
     # Welded in the order in which the places are met there is no difference at all.
     again = match(
-        quietly(inside(pieces_s).mesh),
-        quietly(inside(pieces_t).mesh),
+        quietly(clean_mesh(pieces_s).mesh),
+        quietly(clean_mesh(pieces_t).mesh),
         SMALL,
         landmarks=inside_marks(pieces_s, pieces_t, copy),
     )
-    part_s, part_t = inside(pieces_s), inside(pieces_t)
-    np.testing.assert_array_equal(other.target_to_source, part_s.kept[again.target_to_source][part_t.number])
+    part_s, part_t = clean_mesh(pieces_s), clean_mesh(pieces_t)
+    np.testing.assert_array_equal(other.target_to_source, part_s.to_original[again.target_to_source][part_t.to_clean])
     np.testing.assert_array_equal(other.functional_map, again.functional_map)
 
 
 def inside_marks(source: Mesh, target: Mesh, marks: np.ndarray) -> np.ndarray:
-    return np.stack([inside(source).number[marks[:, 0]], inside(target).number[marks[:, 1]]], axis=1)
+    return np.stack([clean_mesh(source).to_clean[marks[:, 0]], clean_mesh(target).to_clean[marks[:, 1]]], axis=1)
 
 
 def test_landmarks_on_copies_of_one_vertex_are_refused() -> None:
@@ -213,17 +213,17 @@ def test_specks_are_told_by_their_part_of_the_area() -> None:
     mesh = blob(300)
     for factor, specks in ((0.9, 1), (1.1, 0)):
         size = np.sqrt(factor * SPECK * surface_area(mesh) / surface_area(TETRAHEDRON))
-        part = inside(joined(placed(TETRAHEDRON, size), mesh), specks=True)
-        assert (part.specks, part.loose.sum()) == (specks, 4 * specks)
+        part = clean_mesh(joined(placed(TETRAHEDRON, size), mesh), specks=True)
+        assert (part.specks, part.unreferenced.sum()) == (specks, 4 * specks)
     leaves = joined(*(placed(TETRAHEDRON, 1.0, (3.0 * i, 0, 0)) for i in range(400)))
-    assert inside(leaves, specks=True).mesh is leaves  # equals of each other
+    assert clean_mesh(leaves, specks=True).mesh is leaves  # equals of each other
 
 
 def test_the_graph_of_a_cut_surface_is_that_of_the_whole() -> None:
     mesh = blob(200)
     pieces, was = soup(mesh)
     for depth in (0, 2):
-        whole, cut = (dijkstra(surface_graph(m, depth)) for m in (mesh, pieces))
+        whole, cut = (dijkstra(geodesic_graph(m, depth)) for m in (mesh, pieces))
         np.testing.assert_allclose(cut, whole[np.ix_(was, was)], rtol=1e-12, atol=1e-300)
 
 
@@ -231,24 +231,24 @@ def test_edges_of_no_length_connect_nothing() -> None:
     """Two needles that touch in the place of their short edges."""
     vertices = np.array([[0.0, 0, 0], [0, 0, 0], [1, 0, 0], [0, 0, 0], [0, 0, 0], [0, 1, 0]])
     needles = Mesh(vertices, np.array([[0, 1, 2], [3, 4, 5]]))
-    np.testing.assert_array_equal(representatives(needles), [0, 0, 2, 3, 3, 5])
+    np.testing.assert_array_equal(weld_vertices(needles), [0, 0, 2, 3, 3, 5])
 
 
 def test_a_shape_that_is_clean_is_worked_on_as_it_is() -> None:
     shape = prepare(blob(300), SMALL)
-    assert inner(shape)[0] is shape
+    assert clean_shape(shape)[0] is shape
 
 
 def test_a_prepared_shape_keeps_every_vertex() -> None:
     mesh = littered(blob(300))
     shape, clean = quietly(mesh), quietly(blob(300))
     assert len(shape.mesh.vertices) == len(shape.basis.functions) == len(mesh.vertices)
-    within, part = inner(shape)
+    within, part = clean_shape(shape)
     for name in ("eigenvalues", "functions", "mass"):
         np.testing.assert_array_equal(getattr(within.basis, name), getattr(clean.basis, name))
     np.testing.assert_array_equal(within.mesh.vertices, clean.mesh.vertices)
     np.testing.assert_array_equal(within.mesh.faces, clean.mesh.faces)
-    np.testing.assert_array_equal(part.kept, np.arange(300))
+    np.testing.assert_array_equal(part.to_original, np.arange(300))
     # Moved and scaled as one.
     scale = np.linalg.norm(shape.mesh.vertices[0] - shape.mesh.vertices[-1]) / np.linalg.norm(
         mesh.vertices[0] - mesh.vertices[-1]

@@ -15,12 +15,12 @@ from kfmaps.kernels.kernels import (
     Product,
     Sum,
     Tanh,
-    gram,
-    gram_diagonal,
-    resolved,
+    kernel_diagonal,
+    kernel_matrix,
+    resolve_kernel,
     squared_distances,
 )
-from kfmaps.kernels.transformed import Metric, Network, Scaled, width
+from kfmaps.kernels.transformed import Metric, Network, Scaled, descriptor_width
 
 GUARDS = ("kfmaps.kernels.kernels", "kfmaps.kernels.transformed")
 
@@ -73,20 +73,20 @@ def plain(kernel, x, y):
 def test_definition_on_every_library(kernel, asarray, rng):
     X, Y = rng.normal(size=(6, 3)), rng.normal(size=(5, 3))
     wanted = np.array([[plain(kernel, x, y) for y in Y] for x in X])
-    np.testing.assert_allclose(to_numpy(gram(kernel, asarray(X), asarray(Y))), wanted, rtol=1e-12, atol=1e-13)
+    np.testing.assert_allclose(to_numpy(kernel_matrix(kernel, asarray(X), asarray(Y))), wanted, rtol=1e-12, atol=1e-13)
 
 
 @pytest.mark.parametrize("kernel", KERNELS, ids=repr)
 def test_diagonal_is_that_of_the_matrix(kernel, asarray, rng):
     X = asarray(rng.normal(size=(6, 3)))
-    matrix = to_numpy(gram(kernel, X, X))
-    np.testing.assert_allclose(to_numpy(gram_diagonal(kernel, X)), np.diag(matrix), rtol=1e-7, atol=1e-7)
+    matrix = to_numpy(kernel_matrix(kernel, X, X))
+    np.testing.assert_allclose(to_numpy(kernel_diagonal(kernel, X)), np.diag(matrix), rtol=1e-7, atol=1e-7)
 
 
 @pytest.mark.parametrize("kernel", POSITIVE, ids=repr)
 def test_positive_semi_definite(kernel, rng):
     X = rng.normal(size=(30, 3))
-    values = np.linalg.eigvalsh(gram(kernel, X, X))
+    values = np.linalg.eigvalsh(kernel_matrix(kernel, X, X))
     assert values[0] > -1e-12 * values[-1]
 
 
@@ -97,7 +97,7 @@ def test_quadratic_polynomial_is_the_inner_product_of_all_products(rng):
         products = np.stack([D[:, i] * D[:, j] for i in range(3) for j in range(3)], axis=1)
         return np.hstack([np.ones((len(D), 1)), np.sqrt(2) * D, products])
 
-    np.testing.assert_allclose(gram(Polynomial(2, 1.0), X, Y), lifted(X) @ lifted(Y).T, rtol=1e-12)
+    np.testing.assert_allclose(kernel_matrix(Polynomial(2, 1.0), X, Y), lifted(X) @ lifted(Y).T, rtol=1e-12)
 
 
 def test_squared_distances_survive_a_large_shift(rng):
@@ -108,40 +108,47 @@ def test_squared_distances_survive_a_large_shift(rng):
 
 def test_scikit_learn_kernels_are_kernels(asarray, rng):
     X, Y = rng.normal(size=(6, 3)), rng.normal(size=(5, 3))
-    ours = to_numpy(gram(lambda a, b: rbf_kernel(a, b, gamma=0.4), asarray(X), asarray(Y)))
-    np.testing.assert_allclose(ours, gram(Gaussian(0.4), X, Y), rtol=1e-12)
-    assert to_numpy(gram_diagonal(laplacian_kernel, asarray(X))) == pytest.approx(np.ones(6))
+    ours = to_numpy(kernel_matrix(lambda a, b: rbf_kernel(a, b, gamma=0.4), asarray(X), asarray(Y)))
+    np.testing.assert_allclose(ours, kernel_matrix(Gaussian(0.4), X, Y), rtol=1e-12)
+    assert to_numpy(kernel_diagonal(laplacian_kernel, asarray(X))) == pytest.approx(np.ones(6))
 
 
 @pytest.mark.parametrize("scale", [1e-3, 1.0, 1e4])
 @pytest.mark.parametrize("kind", [Gaussian, Laplacian])
 def test_automatic_gamma_is_free_of_scale(kind, scale, rng):
     X = rng.normal(size=(40, 5))
-    reference = gram(resolved(kind(), X), X, X)
-    np.testing.assert_allclose(gram(resolved(kind(), scale * X), scale * X, scale * X), reference, rtol=1e-6)
+    reference = kernel_matrix(resolve_kernel(kind(), X), X, X)
+    np.testing.assert_allclose(
+        kernel_matrix(resolve_kernel(kind(), scale * X), scale * X, scale * X), reference, rtol=1e-6
+    )
 
 
 def test_automatic_gamma_is_one_over_the_median_squared_distance(rng):
     X = rng.normal(size=(40, 5))
     squares = squared_distances(X, X)[np.triu_indices(40, 1)]
-    simple: Any = resolved(Gaussian(), X, 2.0)
+    simple: Any = resolve_kernel(Gaussian(), X, 2.0)
     assert simple.gamma == pytest.approx(2.0 / np.median(squares))
-    inside: Any = resolved(Sum(Linear(), Product(Gaussian(), Gaussian(3.0))), X)
+    inside: Any = resolve_kernel(Sum(Linear(), Product(Gaussian(), Gaussian(3.0))), X)
     assert inside.b.a.gamma == pytest.approx(1.0 / np.median(squares))
     assert inside.b.b.gamma == 3.0
 
 
 def test_identical_descriptors_do_not_break_the_automatic_gamma():
-    kernel: Any = resolved(Gaussian(), np.ones((5, 2)))
+    kernel: Any = resolve_kernel(Gaussian(), np.ones((5, 2)))
     assert np.isfinite(kernel.gamma)
 
 
 def test_how_many_descriptors_a_kernel_takes():
     metric = Metric(Gaussian(1.0), (1.0, 2.0))
-    assert width(Gaussian()) is None
-    assert width(metric) == width(Scaled(metric, 2.0)) == width(Sum(Linear(), Product(metric, Linear()))) == 2
-    assert width(Metric(metric, ((1.0, 2.0, 3.0), (0.0, 0.0, 1.0)))) == 3
-    assert width(Network(Gaussian(), (((1.0, 2.0, 3.0),),))) == 2
+    assert descriptor_width(Gaussian()) is None
+    assert (
+        descriptor_width(metric)
+        == descriptor_width(Scaled(metric, 2.0))
+        == descriptor_width(Sum(Linear(), Product(metric, Linear())))
+        == 2
+    )
+    assert descriptor_width(Metric(metric, ((1.0, 2.0, 3.0), (0.0, 0.0, 1.0)))) == 3
+    assert descriptor_width(Network(Gaussian(), (((1.0, 2.0, 3.0),),))) == 2
 
 
 @pytest.mark.parametrize(
@@ -163,19 +170,19 @@ def test_impossible_parameters_are_refused(make):
 def test_bad_kernels_are_refused(rng):
     X = rng.normal(size=(4, 2))
     with pytest.raises(InvalidInput, match=r"wanted shape \(4, 4\), got shape \(4, 3\)"):
-        gram(lambda a, b: np.ones((len(a), len(b) - 1)), X, X)
+        kernel_matrix(lambda a, b: np.ones((len(a), len(b) - 1)), X, X)
     with pytest.raises(InvalidInput, match="NaN"):
-        gram(lambda a, b: np.full((len(a), len(b)), np.nan), X, X)
+        kernel_matrix(lambda a, b: np.full((len(a), len(b)), np.nan), X, X)
     with pytest.raises(InvalidInput, match="overflows"):
-        gram(Polynomial(400), 1e3 * X, X)
+        kernel_matrix(Polynomial(400), 1e3 * X, X)
     with pytest.raises(InvalidInput, match="resolved"):
-        gram(Gaussian(), X, X)
+        kernel_matrix(Gaussian(), X, X)
 
 
 def test_equal_rows_are_at_no_distance(rng):
     """So that the Laplacian kernel, whose root magnifies rounding, is 1 between a point and itself."""
     X = rng.normal(size=(50, 7)) + 100
-    values = np.diag(gram(Laplacian(3.0), X, X[:, :]))
+    values = np.diag(kernel_matrix(Laplacian(3.0), X, X[:, :]))
     np.testing.assert_array_equal(values, 1.0)
 
 
@@ -183,12 +190,12 @@ def test_automatic_widths_inside_transforming_kernels(rng):
     """Scaling what goes in, or the metric, changes no value of a kernel of automatic width."""
     X = rng.normal(size=(20, 3))
     weights = (1.0, 0.5, 2.0)
-    wanted = gram(resolved(Metric(Gaussian(), weights), X), X, X)
+    wanted = kernel_matrix(resolve_kernel(Metric(Gaussian(), weights), X), X, X)
     doubled = tuple(2 * w for w in weights)
-    np.testing.assert_allclose(gram(resolved(Metric(Gaussian(), doubled), X), X, X), wanted, rtol=1e-9)
+    np.testing.assert_allclose(kernel_matrix(resolve_kernel(Metric(Gaussian(), doubled), X), X, X), wanted, rtol=1e-9)
     layers = (((1.0, 2.0, 0.0, 0.0),),)
     for kernel in (Scaled(Gaussian(), 2.0), Network(Laplacian(), layers)):
-        assert gram(resolved(kernel, X), X, X).shape == (20, 20)
+        assert kernel_matrix(resolve_kernel(kernel, X), X, X).shape == (20, 20)
 
 
 @pytest.mark.parametrize(

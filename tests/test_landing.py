@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 from kfmaps import datasets
-from kfmaps.geometry.closest_points import closest_of, places_on
+from kfmaps.geometry.closest_points import closest_among, closest_points
 from kfmaps.geometry.mesh import Mesh, unit_area, vertex_normals
-from kfmaps.registration.contact_projection import APART, landed
-from kfmaps.registration.deformable import body_of
+from kfmaps.registration.contact_projection import MIN_REST_DISTANCE, project_with_contact
+from kfmaps.registration.deformable import deformable_mesh
 from kfmaps.registration.nonrigid_icp import NonRigid
 
 GUARDS = (
@@ -42,8 +42,8 @@ def test_the_normal_tells_sides_apart_that_nearly_touch() -> None:
     target = sheet(0.003)
     n = len(target.vertices)
     nowhere = np.zeros(n, dtype=np.int64)
-    found = landed(nowhere, body_of(source), source.vertices, target, vertex_normals(target))
-    assert (places_on(target.vertices, source.vertices, source.faces).faces >= len(target.faces)).all()
+    found = project_with_contact(nowhere, deformable_mesh(source), source.vertices, target, vertex_normals(target))
+    assert (closest_points(target.vertices, source.vertices, source.faces).faces >= len(target.faces)).all()
     assert (found.faces < len(target.faces)).all()
     np.testing.assert_allclose(found.distances, 0.003)
     np.testing.assert_allclose(found.points, target.vertices * (1, 1, 0), atol=1e-12)
@@ -58,15 +58,15 @@ def test_the_map_tells_parts_apart_that_lie_on_each_other(mine: int) -> None:
     x = both(one, sheet(0.002)).vertices
     target = sheet(0.0005 if mine else 0.0015)  # nearer to the other one
     off = (np.arange(n) // 9 + 4) % 9 * 9 + np.arange(n) % 9  # along the sheet
-    body, normals = body_of(rest), vertex_normals(target)
-    found = landed(mine * n + off, body, x, target, normals)
-    wrong = places_on(target.vertices, x, rest.faces).faces // len(one.faces) != mine
+    body, normals = deformable_mesh(rest), vertex_normals(target)
+    found = project_with_contact(mine * n + off, body, x, target, normals)
+    wrong = closest_points(target.vertices, x, rest.faces).faces // len(one.faces) != mine
     assert wrong.all()
     assert (found.faces // len(one.faces) == mine).all()
     np.testing.assert_allclose(found.distances, 0.0015)
     # A part that the map has elsewhere altogether is not fetched from afar: what the fit has found back stays so.
-    far = x + np.repeat([[0, 0, 0], [0, 0, 3 * 1.1 * APART]], n, axis=0)
-    there = landed(np.full(n, n), body, far, target, normals)
+    far = x + np.repeat([[0, 0, 0], [0, 0, 3 * 1.1 * MIN_REST_DISTANCE]], n, axis=0)
+    there = project_with_contact(np.full(n, n), body, far, target, normals)
     assert (there.faces < len(one.faces)).all()
 
 
@@ -78,12 +78,12 @@ def test_long_thin_triangles_keep_the_closest_place() -> None:
     normals /= np.linalg.norm(normals, axis=1, keepdims=True)
     points = source.vertices[source.faces].mean(axis=1) + 1e-3 * normals
     target = Mesh(points, np.array([[0, 1, 2]]))
-    body = body_of(source)
+    body = deformable_mesh(source)
     near = np.linalg.norm(points[:, None] - source.vertices, axis=2).argmin(axis=1)
-    ring = closest_of(points, source.vertices, source.faces, *body.around.around(near))
-    closest = places_on(points, source.vertices, source.faces)
+    ring = closest_among(points, source.vertices, source.faces, *body.around.around(near))
+    closest = closest_points(points, source.vertices, source.faces)
     assert (ring.distances > 10 * closest.distances).mean() > 0.1
-    found = landed(near, body, source.vertices, target, normals)
+    found = project_with_contact(near, body, source.vertices, target, normals)
     assert (found.distances < closest.distances + 1e-2).all()
     corners = source.vertices[source.faces[found.faces]]
     np.testing.assert_allclose(np.einsum("ti,tij->tj", found.weights, corners), found.points, atol=1e-12)
@@ -106,8 +106,8 @@ def hairpin(gap: float) -> Mesh:
 def test_arms_that_sink_into_each_other_keep_their_points() -> None:
     """An open hairpin bent onto a closed one, begun with the true map: no vertex lands on the other arm."""
     rest, closed = hairpin(0.4), hairpin(-0.02)
-    found = NonRigid(levels=2, steps=3)(rest, closed, np.arange(len(rest.vertices)))
-    plain = places_on(closed.vertices, found.vertices, rest.faces)
+    found = NonRigid(n_levels=2, steps=3)(rest, closed, np.arange(len(rest.vertices)))
+    plain = closest_points(closed.vertices, found.vertices, rest.faces)
     away, before = (
         np.linalg.norm(np.einsum("ti,tij->tj", w, rest.vertices[rest.faces[f]]) - rest.vertices, axis=1)
         for f, w in ((found.faces, found.weights), (plain.faces, plain.weights))

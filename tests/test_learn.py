@@ -13,7 +13,7 @@ from conftest import blob, fibonacci_sphere
 from kfmaps._arrays import InvalidInput, MissingDependency, NotConverged
 from kfmaps.config import BasisConfig, Config, DescriptorConfig, Formulation, NystromConfig, Search, Weights
 from kfmaps.io import write_mesh
-from kfmaps.kernels.kernels import Gaussian, Laplacian, Linear, Polynomial, gram, resolved
+from kfmaps.kernels.kernels import Gaussian, Laplacian, Linear, Polynomial, kernel_matrix, resolve_kernel
 from kfmaps.kernels.transformed import Metric
 from kfmaps.matching.match import match
 from kfmaps.settings.merge import read_settings
@@ -94,16 +94,16 @@ def test_what_is_learned_is_what_the_settings_say(parts, lessons):
     with torch.no_grad():
         found = model.matrix(model.lift(D_t), model.lift(D_s))
     config = model.settings()
-    np.testing.assert_allclose(found, gram(config.kernel, D_t.numpy(), D_s.numpy()), rtol=1e-10, atol=1e-14)
+    np.testing.assert_allclose(found, kernel_matrix(config.kernel, D_t.numpy(), D_s.numpy()), rtol=1e-10, atol=1e-14)
     assert ("terms" in parts) == (config.weights != CONFIG.weights)
 
 
 def test_it_begins_as_the_settings_it_was_given(lessons):
     model = Model(CONFIG, lessons[:1], ["gamma", "ard", "terms"])
-    kernel = resolved(CONFIG.kernel, lessons[0].samples.numpy(), CONFIG.sharpness)
+    kernel = resolve_kernel(CONFIG.kernel, lessons[0].samples.numpy(), CONFIG.sharpness)
     D = lessons[0].descriptors_s
     with torch.no_grad():
-        np.testing.assert_allclose(model.matrix(D, D), gram(kernel, D.numpy(), D.numpy()), rtol=1e-12)
+        np.testing.assert_allclose(model.matrix(D, D), kernel_matrix(kernel, D.numpy(), D.numpy()), rtol=1e-12)
     assert model.settings().weights.descriptors == pytest.approx(CONFIG.weights.descriptors)
 
 

@@ -13,7 +13,7 @@ from kfmaps.fmap.energy import (
     hadamard_term,
     kernel_descriptor_term,
     laplacian_term,
-    slice_term,
+    operator_term,
 )
 from kfmaps.fmap.solvers import CG, Direct, solve
 from kfmaps.fmap.terms import Elementwise
@@ -61,8 +61,8 @@ def minimum(parts, weights, bases):
 
 TERMS = {
     "descriptors": lambda s, t, F, G: descriptor_term(s, F, t, G),
-    "slices": lambda s, t, F, G: slice_term(operators(s, F), operators(t, G)),
-    "antisymmetric slices": lambda s, t, F, G: slice_term(_skew(operators(s, F)), _skew(operators(t, G)), -1),
+    "slices": lambda s, t, F, G: operator_term(operators(s, F), operators(t, G)),
+    "antisymmetric slices": lambda s, t, F, G: operator_term(_skew(operators(s, F)), _skew(operators(t, G)), -1),
     "kernel descriptors": lambda s, t, F, G: kernel_descriptor_term(Gaussian(0.3), s, F, t, G, block=5),
     "hadamard": lambda s, t, F, G: hadamard_term(Gaussian(0.3), s, F, t, G, block=5),
     "elementwise": lambda s, t, F, G: Elementwise(t.project(G**2)[:, :1] ** 2 + s.project(F**2)[:, :1].T ** 2),

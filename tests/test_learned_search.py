@@ -10,17 +10,17 @@ from kfmaps import datasets
 from kfmaps._arrays import InvalidInput
 from kfmaps.config import BasisConfig, Config, DescriptorConfig, Formulation, Search, Weights
 from kfmaps.kernels.kernels import Gaussian
-from kfmaps.kernels.transformed import Metric, landmarks
+from kfmaps.kernels.transformed import Metric, n_kernel_landmarks
 from kfmaps.matching.candidates import Candidate
 from kfmaps.matching.features import pair_descriptors
 from kfmaps.matching.fit import fit
-from kfmaps.matching.learned_kernel import by_metric, learned, plain, seen
+from kfmaps.matching.learned_kernel import by_metric, drop_learned, learned_candidates, seen
 from kfmaps.matching.match import match
-from kfmaps.matching.proxy_cache import Copies
+from kfmaps.matching.proxy_cache import ProxyCache
 from kfmaps.matching.quality import Quality
-from kfmaps.matching.ranking import BEHIND, CLEAR, beside
-from kfmaps.matching.sample_pair import arena
-from kfmaps.matching.search import choose, probed
+from kfmaps.matching.ranking import BEHIND, CLEAR, merge_alternatives
+from kfmaps.matching.sample_pair import two_level_samples
+from kfmaps.matching.search import scoring_samples, search_map
 from kfmaps.shape import prepare
 
 GUARDS = ("kfmaps.matching",)
@@ -57,16 +57,16 @@ def test_a_metric_that_knows_nothing_changes_no_digit(creature):
     usual, found = (match(source, target, c) for c in (CONFIG, taught(nonsense)))
     np.testing.assert_array_equal(found.target_to_source, usual.target_to_source)
     np.testing.assert_array_equal(found.functional_map, usual.functional_map)
-    assert found.origin == usual.origin
+    assert found.initialization == usual.initialization
 
 
 def test_what_was_learned_stays_out_of_the_searchs_own_fits():
     config = taught(np.eye(COUNT)[:2].tolist())
-    own = plain(config)
+    own = drop_learned(config)
     assert own == replace(CONFIG, kernel=Config.single_fit().kernel)
-    assert plain(CONFIG) is CONFIG
+    assert drop_learned(CONFIG) is CONFIG
     mine = replace(CONFIG, kernel=Gaussian(3.0), weights=Weights(5.0, 1.0, 1.0))
-    assert plain(mine) is mine  # a user's own settings, which nothing was learned for
+    assert drop_learned(mine) is mine  # a user's own settings, which nothing was learned for
 
 
 def discriminant(creature):
@@ -83,55 +83,55 @@ def test_candidates_of_the_metric(creature):
     """They are judged as all others are, and go where the metric says: compared in it, the truth is near."""
     source, target, truth = creature
     config = taught(discriminant(creature))
-    on = arena(source, target, (probed(source), probed(target)), NONE)
+    on = two_level_samples(source, target, (scoring_samples(source), scoring_samples(target)), NONE)
     rows = seen(source, target, config, on.whole.source, on.whole.target)
     assert rows is not None
     ground = by_metric(on.whole, *rows)
     assert ground.shot is not None
     assert on.whole.shot is not None
     assert ground.shot.shape == on.whole.shot.shape
-    found = learned(source, target, config, on, 0, 0)
+    found = learned_candidates(source, target, config, on, 0, 0)
     assert found
-    assert all(c.name.startswith("learned") and c.guided for c in found)
+    assert all(c.name.startswith("learned") and c.uses_descriptors for c in found)
     best = max(found, key=lambda c: c.score)
-    own = choose(source, target, plain(config))
+    own = search_map(source, target, drop_learned(config))
     assert best.quality.score > (own.quality or 0.0) - 3.0
     wanted = truth[on.whole.target.samples.vertices]
     images = source.mesh.vertices[on.whole.source.samples.vertices[best.points]]
     assert np.linalg.norm(images - source.mesh.vertices[wanted], axis=1).mean() < 0.15
-    assert learned(source, target, taught([1.0, 2.0]), on, 0, 0) == []  # of other descriptors
+    assert learned_candidates(source, target, taught([1.0, 2.0]), on, 0, 0) == []  # of other descriptors
 
 
 def candidate(name, score, place, on):
     """A map that sends all points to ``place``, of a given score."""
     points = np.full(len(on.target.positions), place)
-    return Candidate(name, np.eye(3), points, Quality(score, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0), bending=None)
+    return Candidate(name, np.eye(3), points, Quality(score, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0), deformation_energy=None)
 
 
 def test_only_what_is_clearly_better_comes_first(creature):
     source, target, _ = creature
-    on = arena(source, target, (probed(source), probed(target)), NONE).whole
+    on = two_level_samples(source, target, (scoring_samples(source), scoring_samples(target)), NONE).whole
     on = replace(on, source=replace(on.source, copy=None), target=replace(on.target, copy=None))
     far = int(np.linalg.norm(on.source.positions - on.source.positions[0], axis=1).argmax())
-    usual, copies = [candidate("own", 1.0, 0, on)], Copies.of(source, target, on)
+    usual, copies = [candidate("own", 1.0, 0, on)], ProxyCache.of(source, target, on)
 
     def first(score, place):
-        return [c.name for c in beside(usual, [candidate("new", score, place, on)], on, copies)]
+        return [c.name for c in merge_alternatives(usual, [candidate("new", score, place, on)], on, copies)]
 
     assert first(1.0 + 0.9 * CLEAR, far) == ["own", "new"]
     assert first(1.0 + 1.1 * CLEAR, far) == ["new", "own"]
     assert first(9.0, 0) == ["own"]  # the same map
     assert first(1.0 - 1.1 * BEHIND, far) == ["own"]
-    assert beside(usual, [], on, copies) is usual
+    assert merge_alternatives(usual, [], on, copies) is usual
 
 
 def test_a_kernel_knows_its_landmarks(creature):
     source, target, truth = creature
     marks = np.array([[truth[v], v] for v in (3, 200, 500)])
     with pytest.raises(InvalidInput, match="learned with 6"):
-        choose(source, target, taught([1.0] * COUNT, 6), landmarks=marks)
+        search_map(source, target, taught([1.0] * COUNT, 6), landmarks=marks)
     one = replace(taught([1.0] * COUNT, 3), search=None)
-    assert landmarks(one.kernel) == 3
+    assert n_kernel_landmarks(one.kernel) == 3
     assert fit(source, target, one, landmarks=marks).functional_map.shape == (30, 30)
     with pytest.raises(InvalidInput, match="wanted 3, as the kernel was learned with, got 0"):
         fit(source, target, one)  # as many descriptors, of other things

@@ -6,9 +6,9 @@ from scipy.sparse.csgraph import dijkstra
 
 from kfmaps import datasets
 from kfmaps.geometry import coarse_proxy as lift
-from kfmaps.geometry.arap import nearest_rotations, rigidity, rotations
-from kfmaps.geometry.coarse_proxy import copy_of, lifted
-from kfmaps.geometry.geodesic_graph import surface_graph
+from kfmaps.geometry.arap import build_arap, nearest_rotations, rotations
+from kfmaps.geometry.coarse_proxy import coarse_proxy, embedded_deformation
+from kfmaps.geometry.geodesic_graph import geodesic_graph
 from kfmaps.geometry.mesh import Mesh, unit_area
 from kfmaps.registration import nonrigid_icp as nonrigid
 from kfmaps.registration.nonrigid_icp import NonRigid
@@ -23,18 +23,18 @@ def pair() -> datasets.Pair:
 
 def test_every_vertex_belongs_to_the_nearest_of_the_copy(pair: datasets.Pair) -> None:
     mesh = unit_area(pair.source)
-    copy = copy_of(mesh, 600, np.array([7, 2000]))
+    copy = coarse_proxy(mesh, 600, np.array([7, 2000]))
     assert 550 < len(copy.vertices) < 620
     assert np.isin([7, 2000], copy.vertices).all()
     np.testing.assert_array_equal(copy.owner[copy.vertices], np.arange(len(copy.vertices)))
     np.testing.assert_array_equal(copy.mesh.vertices, mesh.vertices[copy.vertices])
     assert (np.bincount(copy.mesh.faces.ravel(), minlength=len(copy.vertices)) > 0).all()
-    away = dijkstra(surface_graph(mesh, 0), indices=copy.vertices)
+    away = dijkstra(geodesic_graph(mesh, 0), indices=copy.vertices)
     np.testing.assert_allclose(away[copy.owner, np.arange(len(mesh.vertices))], away.min(axis=0))
 
 
 def test_a_small_mesh_is_its_own_copy(pair: datasets.Pair) -> None:
-    copy = copy_of(pair.source, 3000, np.zeros(0, dtype=np.int64))
+    copy = coarse_proxy(pair.source, 3000, np.zeros(0, dtype=np.int64))
     assert copy.mesh is pair.source
     np.testing.assert_array_equal(copy.owner, np.arange(3000))
 
@@ -42,7 +42,7 @@ def test_a_small_mesh_is_its_own_copy(pair: datasets.Pair) -> None:
 def test_vertices_that_nothing_reaches_belong_to_the_nearest_in_space(pair: datasets.Pair) -> None:
     mesh = unit_area(pair.source)
     loose = mesh.vertices[[5, 100]] + 1e-4
-    copy = copy_of(Mesh(np.vstack([mesh.vertices, loose]), mesh.faces), 600, np.zeros(0, dtype=np.int64))
+    copy = coarse_proxy(Mesh(np.vstack([mesh.vertices, loose]), mesh.faces), 600, np.zeros(0, dtype=np.int64))
     for vertex in (-2, -1):
         away = np.linalg.norm(copy.mesh.vertices - loose[vertex], axis=1)
         assert copy.owner[vertex] == away.argmin()
@@ -50,17 +50,17 @@ def test_vertices_that_nothing_reaches_belong_to_the_nearest_in_space(pair: data
 
 def test_a_motion_of_the_copy_is_that_of_the_mesh(pair: datasets.Pair) -> None:
     mesh = unit_area(pair.source)
-    copy = copy_of(mesh, 600, np.zeros(0, dtype=np.int64))
+    copy = coarse_proxy(mesh, 600, np.zeros(0, dtype=np.int64))
     turn = nearest_rotations(np.random.default_rng(0).normal(size=(1, 3, 3)))[0]
     turns = np.broadcast_to(turn, (len(copy.vertices), 3, 3))
-    moved = lifted(copy, mesh, copy.mesh.vertices @ turn.T + 1.0, turns)
+    moved = embedded_deformation(copy, mesh, copy.mesh.vertices @ turn.T + 1.0, turns)
     np.testing.assert_allclose(moved, mesh.vertices @ turn.T + 1.0, atol=1e-12)
 
 
 def test_a_mesh_bends_as_its_copy_does(pair: datasets.Pair) -> None:
     """Lifted from a coarse copy a smooth bending is met far more closely than the copy is coarse."""
     mesh = unit_area(pair.source)
-    copy = copy_of(mesh, 600, np.zeros(0, dtype=np.int64))
+    copy = coarse_proxy(mesh, 600, np.zeros(0, dtype=np.int64))
 
     def bent(x: np.ndarray) -> np.ndarray:
         angle = 1.5 * x[:, 1]
@@ -68,7 +68,7 @@ def test_a_mesh_bends_as_its_copy_does(pair: datasets.Pair) -> None:
         return np.stack([turned[0], x[:, 1], turned[1]], axis=1)
 
     there = bent(copy.mesh.vertices)
-    found = lifted(copy, mesh, there, rotations(rigidity(copy.mesh), there))
+    found = embedded_deformation(copy, mesh, there, rotations(build_arap(copy.mesh), there))
     off = np.linalg.norm(found - bent(mesh.vertices), axis=1)
     snapped = np.linalg.norm(there[copy.owner] - bent(mesh.vertices), axis=1)
     assert off.mean() < 0.1 * snapped.mean()
@@ -90,8 +90,8 @@ def test_a_large_mesh_is_fitted_as_well_with_a_copy_first(pair: datasets.Pair, m
         return np.linalg.norm(places - truth, axis=1), found.gap
 
     whole, gap = off()
-    monkeypatch.setattr(nonrigid, "LARGE", 2000)
-    monkeypatch.setattr(lift, "POINTS", 1500)
+    monkeypatch.setattr(nonrigid, "PROXY_FROM_VERTICES", 2000)
+    monkeypatch.setattr(lift, "PROXY_VERTICES", 1500)
     quick, quick_gap = off()
     assert quick.mean() < 1.1 * whole.mean() < 0.6 * np.linalg.norm(source.vertices[start] - truth, axis=1).mean()
     assert quick_gap < 1.1 * gap

@@ -20,17 +20,17 @@ from kfmaps.matching import proxy_cache as copies
 from kfmaps.matching import ranking
 from kfmaps.matching import registration_refine as mending
 from kfmaps.matching import search as choose
-from kfmaps.matching.candidates import LOOKS, STRAIN, differs, judged
-from kfmaps.matching.proxy_cache import Copies
-from kfmaps.matching.quality import probe
-from kfmaps.matching.ranking import DISTINCT, LOOKED, over, second_look, usual
-from kfmaps.matching.registration_refine import HOPELESS, compared, mended
-from kfmaps.matching.sample_pair import arena
-from kfmaps.matching.search import unled
+from kfmaps.matching.candidates import W_SHOT, W_STRAIN, map_distance, score_maps
+from kfmaps.matching.proxy_cache import ProxyCache
+from kfmaps.matching.quality import sample_for_scoring
+from kfmaps.matching.ranking import DISTINCT, LOOKED, normalize_errors, reference_values, rerank_close
+from kfmaps.matching.registration_refine import HOPELESS, compared, refine_by_registration
+from kfmaps.matching.sample_pair import two_level_samples
+from kfmaps.matching.search import without_landmarks
 from kfmaps.registration import alternating_registration as alternate
 from kfmaps.registration import registered_shot as looks
-from kfmaps.registration.deformation_energy import copied, ready
-from kfmaps.registration.registered_shot import difference, mismatch, sight
+from kfmaps.registration.deformation_energy import coarse_copy, facing_pair
+from kfmaps.registration.registered_shot import registered_shot_error, shot_difference, surface_samples
 
 GUARDS = (
     "kfmaps.matching",
@@ -52,40 +52,40 @@ def knees() -> Pair:
 
 @pytest.fixture(scope="module")
 def at_rest(creatures):
-    source, target = (copied(shape) for shape in creatures[:2])
+    source, target = (coarse_copy(shape) for shape in creatures[:2])
     assert source is not None
     assert target is not None
-    return looks.looks(ready(source, target))
+    return looks.shot_pair(facing_pair(source, target))
 
 
 def functional(points, source, target, k=40):
-    return np.asarray(to_functional(points, source.basis.truncated(k), target.basis.truncated(k)))
+    return np.asarray(to_functional(points, source.basis.truncate(k), target.basis.truncate(k)))
 
 
 def test_differences_are_squared_and_from_what_lies_nearest(creatures, monkeypatch):
     mesh = creatures[0].mesh
     monkeypatch.setattr(looks, "shot", lambda _mesh, _radius, at, **_how: np.stack([at, at % 3], axis=1).astype(float))
-    here = sight(mesh)
+    here = surface_samples(mesh)
     at = np.arange(0, len(mesh.vertices), looks.STEP)
     np.testing.assert_array_equal(here.descriptors[:, 0], at)
-    assert difference(here, mesh) == 0
+    assert shot_difference(here, mesh) == 0
     moved = replace(here, descriptors=here.descriptors + np.array([3.0, 4.0]))
-    assert difference(moved, mesh) == pytest.approx(25.0)
+    assert shot_difference(moved, mesh) == pytest.approx(25.0)
 
 
 def test_a_surface_looks_like_itself_wherever_its_vertices_are(creatures):
     mesh = creatures[0].mesh
     order = np.random.default_rng(0).permutation(len(mesh.vertices))
     again = Mesh(mesh.vertices[order], np.argsort(order)[mesh.faces])
-    assert difference(sight(mesh), again) == pytest.approx(0, abs=1e-6)
-    assert difference(sight(mesh), Mesh(mesh.vertices * [1.0, 1.0, -1.0], mesh.faces[:, ::-1])) > 0.1
+    assert shot_difference(surface_samples(mesh), again) == pytest.approx(0, abs=1e-6)
+    assert shot_difference(surface_samples(mesh), Mesh(mesh.vertices * [1.0, 1.0, -1.0], mesh.faces[:, ::-1])) > 0.1
 
 
 def test_the_sides_of_a_thin_part_are_not_taken_for_each_other(creatures):
     """Where two sheets lie close, it is the normals that tell which point lies on which."""
     mesh = creatures[0].mesh
     inside_out = Mesh(mesh.vertices, mesh.faces[:, ::-1])
-    apart = np.linalg.norm(sight(mesh).places - sight(inside_out).places, axis=1)
+    apart = np.linalg.norm(surface_samples(mesh).places - surface_samples(inside_out).places, axis=1)
     np.testing.assert_allclose(apart, 2 * alternate.NORMALS, rtol=1e-6)
 
 
@@ -94,7 +94,7 @@ def test_what_is_bent_as_a_wrong_map_says_looks_otherwise(creatures, at_rest):
     v = source.mesh.vertices - source.mesh.vertices.mean(axis=0)
     about = nearest(v, v * [-1.0, -1.0, 1.0], threads=1)
     right, wrong = functional(truth, source, target), functional(about[truth], source, target)
-    good, bad = (mismatch(C, source, target, at_rest) for C in (right, wrong))
+    good, bad = (registered_shot_error(C, source, target, at_rest) for C in (right, wrong))
     assert good is not None
     assert bad is not None
     assert good < 0.8 * bad
@@ -105,11 +105,11 @@ def test_both_directions_count_unless_one_falls_apart(creatures, at_rest, monkey
     C = functional(truth, source, target)
     told: dict[bool, float | None] = {True: 0.1, False: 0.3}
     monkeypatch.setattr(looks, "_mismatch", lambda way, *_rest: told[way is at_rest.on.there])
-    assert mismatch(C, source, target, at_rest) == pytest.approx(0.2)
+    assert registered_shot_error(C, source, target, at_rest) == pytest.approx(0.2)
     told[False] = None
-    assert mismatch(C, source, target, at_rest) == pytest.approx(0.1)
+    assert registered_shot_error(C, source, target, at_rest) == pytest.approx(0.1)
     told[True] = None
-    assert mismatch(C, source, target, at_rest) is None
+    assert registered_shot_error(C, source, target, at_rest) is None
 
 
 def test_a_copy_that_falls_apart_is_not_looked_at(creatures, at_rest, monkeypatch):
@@ -120,31 +120,31 @@ def test_a_copy_that_falls_apart_is_not_looked_at(creatures, at_rest, monkeypatc
             raise NotConverged("it fell apart")
 
     monkeypatch.setattr(looks, "FIT", Broken())
-    assert mismatch(functional(truth, source, target), source, target, at_rest) is None
+    assert registered_shot_error(functional(truth, source, target), source, target, at_rest) is None
 
 
 def one_of(creatures):
     source, target, truth = creatures
-    on = arena(source, target, (probe(source, 200), probe(target, 200))).whole
-    return on, judged([("truth", True)], functional(truth, source, target)[None], None, on, 1)[0]
+    on = two_level_samples(source, target, (sample_for_scoring(source, 200), sample_for_scoring(target, 200))).whole
+    return on, score_maps([("truth", True)], functional(truth, source, target)[None], None, on, 1)[0]
 
 
 def test_looks_and_strain_count_over_usual_ones(creatures):
     one = one_of(creatures)[1]
-    some = [replace(one, strain=s, mismatch=m) for s, m in ((-1.0, 0.2), (-2.0, 0.26), (None, None))]
-    assert usual(some, min) == (-2.0, 0.2)
-    assert usual(some, np.mean) == pytest.approx((-1.5, 0.23))
-    assert usual(some[2:], min) == (0.0, 0.0)
-    assert over(some[0], (-2.0, 0.2)).evidence == pytest.approx(one.evidence - STRAIN)
-    assert over(some[1], (-2.0, 0.2)).evidence == pytest.approx(one.evidence - LOOKS * 0.06)
-    assert over(some[2], (-2.0, 0.2)).evidence == one.evidence
+    some = [replace(one, strain=s, shot_error=m) for s, m in ((-1.0, 0.2), (-2.0, 0.26), (None, None))]
+    assert reference_values(some, min) == (-2.0, 0.2)
+    assert reference_values(some, np.mean) == pytest.approx((-1.5, 0.23))
+    assert reference_values(some[2:], min) == (0.0, 0.0)
+    assert normalize_errors(some[0], (-2.0, 0.2)).evidence == pytest.approx(one.evidence - W_STRAIN)
+    assert normalize_errors(some[1], (-2.0, 0.2)).evidence == pytest.approx(one.evidence - W_SHOT * 0.06)
+    assert normalize_errors(some[2], (-2.0, 0.2)).evidence == one.evidence
 
 
 def test_of_mended_maps_the_one_that_looks_right_comes_first(creatures, monkeypatch):
     """Though all else says a little more for the other."""
     source, target, _ = creatures
     on, good = one_of(creatures)
-    good = replace(good, bending=1.0)
+    good = replace(good, deformation_energy=1.0)
     turned = np.roll(np.arange(len(good.points)), 50)
     quality = replace(good.quality, distortion=good.quality.distortion - 0.01)
     bad = replace(good, name="bad", points=turned, quality=quality, functional_map=-good.functional_map)
@@ -152,19 +152,22 @@ def test_of_mended_maps_the_one_that_looks_right_comes_first(creatures, monkeypa
     def stays(*_what):
         raise NotConverged("it fell apart")
 
-    monkeypatch.setattr(copies, "looks", lambda on: SimpleNamespace(on=on))
-    monkeypatch.setattr(mending, "mismatch", lambda *_what: 0.2)
-    monkeypatch.setattr(mending, "alternated", stays)
+    monkeypatch.setattr(copies, "shot_pair", lambda on: SimpleNamespace(on=on))
+    monkeypatch.setattr(mending, "registered_shot_error", lambda *_what: 0.2)
+    monkeypatch.setattr(mending, "alternating_registration", stays)
     nowhere = np.zeros((0, 2), dtype=np.int64)
-    assert [c.name for c in mended([bad, good], on, Copies.of(source, target, on), nowhere, 1)] == ["bad", "truth"]
-    made = alternate.Alternated(good.functional_map, source.mesh.vertices)
-    monkeypatch.setattr(mending, "alternated", lambda C, *_what: replace(made, functional_map=C))
-    monkeypatch.setattr(mending, "judged", lambda names, *_w: [bad if names[0][0] == "bad" else good])
+    assert [c.name for c in refine_by_registration([bad, good], on, ProxyCache.of(source, target, on), nowhere, 1)] == [
+        "bad",
+        "truth",
+    ]
+    made = alternate.AlternatingResult(good.functional_map, source.mesh.vertices)
+    monkeypatch.setattr(mending, "alternating_registration", lambda C, *_what: replace(made, functional_map=C))
+    monkeypatch.setattr(mending, "score_maps", lambda names, *_w: [bad if names[0][0] == "bad" else good])
     monkeypatch.setattr(mending, "seen", lambda c, *_what: replace(c, strain=0.0))
-    monkeypatch.setattr(mending, "mismatch", lambda C, *_what: 0.25 if C is bad.functional_map else 0.2)
-    found = mended([bad, good], on, Copies.of(source, target, on), nowhere, 1)
+    monkeypatch.setattr(mending, "registered_shot_error", lambda C, *_what: 0.25 if C is bad.functional_map else 0.2)
+    found = refine_by_registration([bad, good], on, ProxyCache.of(source, target, on), nowhere, 1)
     assert [c.name for c in found] == ["truth", "bad"]
-    assert [c.mismatch for c in found] == pytest.approx([0.0, 0.05])
+    assert [c.shot_error for c in found] == pytest.approx([0.0, 0.05])
 
 
 def exchanged(knees, height):
@@ -178,7 +181,7 @@ def test_feet_that_touch_are_exchanged_by_another_map(knees):
     on: Any = SimpleNamespace(positions=unit_area(knees.source).vertices)
     right: Any = SimpleNamespace(points=knees.truth)
     wrong: Any = SimpleNamespace(points=exchanged(knees, 0.1))
-    assert choose.ALIKE < differs(right, wrong, on) < DISTINCT
+    assert choose.ALIKE < map_distance(right, wrong, on) < DISTINCT
 
 
 def test_maps_are_alike_that_are_off_by_an_edge_here_and_there(knees):
@@ -190,7 +193,7 @@ def test_maps_are_alike_that_are_off_by_an_edge_here_and_there(knees):
     points[::10] = beside[points[::10]]
     right: Any = SimpleNamespace(points=knees.truth)
     off: Any = SimpleNamespace(points=points)
-    assert 0 < differs(right, off, on) < choose.ALIKE
+    assert 0 < map_distance(right, off, on) < choose.ALIKE
 
 
 def test_looks_decide_where_they_are_asked_for_but_bring_nothing_back(knees):
@@ -199,16 +202,16 @@ def test_looks_decide_where_they_are_asked_for_but_bring_nothing_back(knees):
     behind they would have to speak against a map that is wrong everywhere."""
     plain = replace(kfmaps.Config(), descriptors=replace(kfmaps.Config().descriptors, shot=False))
     source, target = (kfmaps.prepare(mesh, plain, name="a") for mesh in (knees.source, knees.target))
-    a, b = copied(source), copied(target)
+    a, b = coarse_copy(source), coarse_copy(target)
     assert a is not None
     assert b is not None
-    on = looks.looks(ready(a, b))
+    on = looks.shot_pair(facing_pair(a, b))
     seen = []
     for height in (0.0, 0.1, 0.7, 3.0):
-        what = mismatch(functional(exchanged(knees, height), source, target, 60), source, target, on)
+        what = registered_shot_error(functional(exchanged(knees, height), source, target, 60), source, target, on)
         assert what is not None
         seen.append(what)
-    feet, legs, all_of_it = (LOOKS * (bad - seen[0]) for bad in seen[1:])
+    feet, legs, all_of_it = (W_SHOT * (bad - seen[0]) for bad in seen[1:])
     assert feet < LOOKED < legs < HOPELESS < all_of_it
 
 
@@ -218,17 +221,17 @@ def test_of_two_that_are_close_looks_decide(creatures, monkeypatch, margin, agai
     source, target, _ = creatures
     on, good = one_of(creatures)
     quality = replace(good.quality, distortion=good.quality.distortion - margin / 6)
-    good = replace(good, bending=0.15)
+    good = replace(good, deformation_energy=0.15)
     bad = replace(good, name="bad", quality=quality, functional_map=-good.functional_map)
     rest = replace(good, name="rest", quality=replace(quality, distortion=quality.distortion + 9))
     bent = []
     monkeypatch.setattr(ranking, "seen", lambda c, *_what: bent.append(c.name) or replace(c, strain=0.0))
-    monkeypatch.setattr(copies, "looks", lambda on: SimpleNamespace(on=on))
-    monkeypatch.setattr(ranking, "mismatch", lambda C, *_what: 0.25 if C is bad.functional_map else 0.2)
-    found = second_look([bad, good, rest], Copies.of(source, target, on), 1)
+    monkeypatch.setattr(copies, "shot_pair", lambda on: SimpleNamespace(on=on))
+    monkeypatch.setattr(ranking, "registered_shot_error", lambda C, *_what: 0.25 if C is bad.functional_map else 0.2)
+    found = rerank_close([bad, good, rest], ProxyCache.of(source, target, on), 1)
     assert [c.name for c in found] == ["truth", "bad", "rest"]
-    assert [c.mismatch for c in found[:2]] == pytest.approx([0.0, 0.05])
-    assert found[0].score - found[1].score == pytest.approx(0.05 * LOOKS - margin)
+    assert [c.shot_error for c in found[:2]] == pytest.approx([0.0, 0.05])
+    assert found[0].score - found[1].score == pytest.approx(0.05 * W_SHOT - margin)
     assert found[2] is rest
     assert bent == (["bad", "truth"] if again else [])
 
@@ -237,46 +240,48 @@ def test_looks_are_asked_for_where_two_are_close(creatures, monkeypatch):
     source, target, _ = creatures
     on, one = one_of(creatures)
     asked = []
-    monkeypatch.setattr(ranking, "second_look", lambda order, *_rest: asked.append(len(order)) or order)
-    monkeypatch.setattr(ranking, "with_bending", lambda near, *_rest: [replace(c, bending=0.15) for c in near])
+    monkeypatch.setattr(ranking, "rerank_close", lambda order, *_rest: asked.append(len(order)) or order)
+    monkeypatch.setattr(
+        ranking, "with_bending", lambda near, *_rest: [replace(c, deformation_energy=0.15) for c in near]
+    )
     for margin, wanted in ((LOOKED + 0.2, 0), (LOOKED - 0.2, 1)):
         quality = replace(one.quality, distortion=one.quality.distortion + margin / 6)
         other = replace(one, name="other", quality=quality, points=np.roll(one.points, 50))
-        ranking.ranking([one, other], on, Copies.of(source, target, on), 1)
+        ranking.ranking([one, other], on, ProxyCache.of(source, target, on), 1)
         assert len(asked) == wanted
 
 
 def test_what_is_far_behind_is_not_looked_at(creatures):
     """And counts as the worst of those that are."""
     one = replace(one_of(creatures)[1], strain=0.0)
-    behind = [replace(one, strain=s / STRAIN) for s in (0.0, HOPELESS - 1, HOPELESS + 1)]
+    behind = [replace(one, strain=s / W_STRAIN) for s in (0.0, HOPELESS - 1, HOPELESS + 1)]
     asked = []
 
     def looked_at(c):
         asked.append(c.strain)
-        return replace(c, mismatch=0.2 + 0.1 * c.strain)
+        return replace(c, shot_error=0.2 + 0.1 * c.strain)
 
     found = compared(behind, looked_at, 1)
     assert asked == [c.strain for c in behind[:2]]
     assert [c.strain for c in found] == [c.strain for c in behind]
-    worst = 0.2 + 0.1 * (HOPELESS - 1) / STRAIN
-    assert [c.mismatch for c in found] == pytest.approx([0.2, worst, worst])
+    worst = 0.2 + 0.1 * (HOPELESS - 1) / W_STRAIN
+    assert [c.shot_error for c in found] == pytest.approx([0.2, worst, worst])
 
 
 def test_maps_found_without_landmarks_take_part(creatures, monkeypatch):
     """They are the ones of a search that knows of none, and are judged by the landmarks all the same."""
     source, target, truth = creatures
     marks = np.stack([truth[[5, 700]], [5, 700]], axis=1)
-    probes = [probe(s, 200, landmarks=at) for s, at in zip((source, target), marks.T, strict=True)]
-    on = arena(source, target, (probes[0], probes[1]), marks)
+    probes = [sample_for_scoring(s, 200, landmarks=at) for s, at in zip((source, target), marks.T, strict=True)]
+    on = two_level_samples(source, target, (probes[0], probes[1]), marks)
     asked = []
 
     def few(*what, **how):
         asked.append((what[3], how))
-        return judged([("free", True)], np.eye(40)[None], None, what[3].whole, 1)
+        return score_maps([("free", True)], np.eye(40)[None], None, what[3].whole, 1)
 
-    monkeypatch.setattr(choose, "candidates", few)
-    found = unled(source, target, kfmaps.Config(), on, 3, drawn=4)
+    monkeypatch.setattr(choose, "sample_candidates", few)
+    found = without_landmarks(source, target, kfmaps.Config(), on, 3, drawn=4)
     alone, how = asked[0]
     assert how == {"drawn": 4}
     assert alone.few.marks is None
@@ -285,5 +290,5 @@ def test_maps_found_without_landmarks_take_part(creatures, monkeypatch):
     assert alone.whole.landmarks is None
     assert alone.whole.shot is on.whole.shot
     assert [c.name for c in found] == ["free"]
-    assert found[0].missed.shape == (2,)
+    assert found[0].landmark_errors.shape == (2,)
     np.testing.assert_array_equal(found[0].functional_map, np.eye(40))

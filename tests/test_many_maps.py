@@ -12,8 +12,8 @@ from kfmaps._arrays import InvalidInput
 from kfmaps.collection.paths import compose_maps, invert_map
 from kfmaps.collection.scored_map import score_maps
 from kfmaps.config import Search
-from kfmaps.matching.match import continued
-from kfmaps.matching.search import probed
+from kfmaps.matching.match import match_from_map
+from kfmaps.matching.search import scoring_samples
 from kfmaps.shape import Shape, mirror_image, prepare
 
 GUARDS = ("kfmaps.collection.paths", "kfmaps.collection.scored_map")
@@ -29,13 +29,13 @@ def shapes() -> list[Shape]:
 
 def test_the_true_map_is_judged_best(shapes: list[Shape]) -> None:
     a, b = shapes[:2]
-    probes = probed(a), probed(b)
+    probes = scoring_samples(a), scoring_samples(b)
     rng = np.random.default_rng(0)
     true, random, shifted = score_maps([np.arange(N), rng.integers(0, N, N), np.roll(np.arange(N), 5)], a, b, probes)
     assert true.orientation > 0.8
     assert true.score > max(random.score, shifted.score) + 1
     mirrored = mirror_image(b)
-    probes = probes[0], probed(mirrored)
+    probes = probes[0], scoring_samples(mirrored)
     turned, back = score_maps([np.arange(N)] * 2, a, mirrored, probes, [False, True])
     assert turned.orientation < 0
     assert (turned.reversed, back.reversed) == (False, True)
@@ -46,14 +46,16 @@ def test_a_known_map_is_finished(shapes: list[Shape]) -> None:
     a, b = shapes[:2]
     rough = np.arange(N)
     rough[:60] = np.roll(rough[:60], 7)
-    found = continued(a, b, rough, LOCAL, origin="composition", confidence=0.9, verdict="sure", runners_up=(rough,))
+    found = match_from_map(
+        a, b, rough, LOCAL, origin="composition", confidence=0.9, verdict="sure", runners_up=(rough,)
+    )
     assert (found.target_to_source == np.arange(N)).mean() > max((rough == np.arange(N)).mean(), 0.9)
-    assert (found.origin, found.verdict, found.confidence) == ("composition", "sure", 0.9)
-    np.testing.assert_array_equal(found.runners_up[0], rough)
-    turned = continued(a, mirror_image(b), np.arange(N), LOCAL, origin="known", orientation="reversed")
+    assert (found.initialization, found.verdict, found.confidence) == ("composition", "sure", 0.9)
+    np.testing.assert_array_equal(found.alternatives[0], rough)
+    turned = match_from_map(a, mirror_image(b), np.arange(N), LOCAL, origin="known", orientation="reversed")
     assert (turned.target_to_source == np.arange(N)).mean() > 0.9
     with pytest.raises(InvalidInput, match="vertices 0 to 399"):
-        continued(a, b, rough + 1, LOCAL, origin="known")
+        match_from_map(a, b, rough + 1, LOCAL, origin="known")
 
 
 def test_round_trips_of_true_maps_return(shapes: list[Shape]) -> None:

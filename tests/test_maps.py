@@ -6,7 +6,7 @@ import pytest
 from conftest import blob, random_basis
 from kfmaps._arrays import InvalidInput, to_numpy
 from kfmaps.fmap.convert import nearest, to_functional, to_points
-from kfmaps.fmap.evaluate import coverage, error_curve, evaluation, geodesic_errors, truth_from_pairs
+from kfmaps.fmap.evaluate import coverage, error_curve, geodesic_errors, summarize_errors, truth_from_pairs
 from kfmaps.fmap.nearest import LARGE
 from kfmaps.fmap.refine import ICP, ZoomOut, spectral_samples
 from kfmaps.geometry.basis import Basis, laplace_basis
@@ -106,8 +106,8 @@ def test_permuted_vertices_permute_the_answer(small_basis, convert, rng):
     np.testing.assert_allclose(to_numpy(C), np.eye(40), atol=1e-8)
     np.testing.assert_array_equal(to_points(C, convert(small_basis), convert(target)), order)
     f = rng.normal(size=(40, 2))
-    carried = target.lift(to_numpy(C) @ f)
-    np.testing.assert_allclose(carried, small_basis.lift(f)[order], atol=1e-7)
+    carried = target.reconstruct(to_numpy(C) @ f)
+    np.testing.assert_allclose(carried, small_basis.reconstruct(f)[order], atol=1e-7)
 
 
 def test_a_vertex_without_area_is_nobodys_image(small_basis):
@@ -157,7 +157,7 @@ def test_refinement_repairs_a_noisy_map(refinement, two_meshings, rng):
     noisy = truth.copy()
     wrong = rng.random(len(noisy)) < 0.3
     noisy[wrong] = rng.integers(len(mesh.vertices), size=wrong.sum())
-    C = to_functional(noisy, source.truncated(20), target.truncated(20))
+    C = to_functional(noisy, source.truncate(20), target.truncate(20))
     before = geodesic_errors(mesh, noisy, truth).mean()
     refined = refinement(C, source, target)
     after = geodesic_errors(mesh, refined.target_to_source, truth).mean()
@@ -168,7 +168,7 @@ def test_refinement_repairs_a_noisy_map(refinement, two_meshings, rng):
 
 def test_zoomout_says_its_sizes_and_ends_with_the_map_of_its_points(two_meshings):
     _, source, target, truth = two_meshings
-    C = to_functional(truth, source.truncated(10), target.truncated(10))
+    C = to_functional(truth, source.truncate(10), target.truncate(10))
     refined = ZoomOut(8, 21, 5)(C, source, target)
     assert refined.history == (8, 13, 18, 21)
     assert refined.functional_map.shape == (21, 21)
@@ -214,7 +214,7 @@ def test_errors_are_free_of_units_and_zero_for_the_truth():
 
 
 def test_evaluation_of_known_errors():
-    found = evaluation(np.array([0.0, 0.1, 0.2, 0.5]), auc_limit=0.25)
+    found = summarize_errors(np.array([0.0, 0.1, 0.2, 0.5]), auc_limit=0.25)
     assert (found.mean, found.median, found.worst, found.exact) == pytest.approx((0.2, 0.15, 0.5, 0.25))
     assert found.auc == pytest.approx((0.25 + 0.15 + 0.05 + 0.0) / 4 / 0.25)
     thresholds = np.linspace(0, 0.25, 100_001)

@@ -20,16 +20,31 @@ from kfmaps.matching import proxy_cache as copies
 from kfmaps.matching import registration_refine as mending
 from kfmaps.matching import search as choose
 from kfmaps.matching.calibration import MIDDLE, SURE, TIE, probability
-from kfmaps.matching.candidates import judged
-from kfmaps.matching.landmark_evidence import LEAD, LESS, MISSED, NEAR, WELL, WIDTH, Marks, backing, leading
-from kfmaps.matching.proxy_cache import Copies
-from kfmaps.matching.quality import probe
-from kfmaps.matching.sample_pair import arena
-from kfmaps.matching.search import UNLIKE, Found, alike, alone, backed_by
+from kfmaps.matching.candidates import score_maps
+from kfmaps.matching.landmark_evidence import (
+    LEAD,
+    LESS,
+    MISSED,
+    NEAR,
+    WELL,
+    WIDTH,
+    LandmarkEvidence,
+    build_guidance,
+    landmark_support,
+)
+from kfmaps.matching.proxy_cache import ProxyCache
+from kfmaps.matching.quality import sample_for_scoring
+from kfmaps.matching.sample_pair import two_level_samples
+from kfmaps.matching.search import NON_ISOMETRIC_SCORE, SearchResult, backed_by, ignore_landmarks, near_isometric
 from kfmaps.registration import nonrigid_icp as nonrigid
-from kfmaps.registration.alternating_registration import Alternated, alternated, grounds, turned_round
-from kfmaps.registration.deformation_energy import copied
-from kfmaps.registration.nonrigid_icp import FIRMLY, HOLD, LOOSELY, SLOPPY, NonRigid, facing
+from kfmaps.registration.alternating_registration import (
+    AlternatingResult,
+    alternating_registration,
+    registration_pair,
+    swap_pair,
+)
+from kfmaps.registration.deformation_energy import coarse_copy
+from kfmaps.registration.nonrigid_icp import FIRMLY, HOLD, LOOSELY, SLOPPY, NonRigid, mesh_pair
 from kfmaps.shape import mirror_image
 
 GUARDS = (
@@ -43,11 +58,13 @@ NAMES = [("a", True)]
 """Of a single map, which SHOT has led."""
 
 
-def on_a_line(*places: float) -> tuple[Marks, np.ndarray]:
+def on_a_line(*places: float) -> tuple[LandmarkEvidence, np.ndarray]:
     """Landmarks at these places of a source of length 1 with a hundred samples, and their areas: a third in front."""
     samples = (np.arange(100) + 0.5) / 100
     nothing: Any = np.zeros((len(places), 0, 0))
-    return Marks(nothing, np.abs(np.array(places)[:, None] - samples), nothing, nothing), np.where(samples < 0.5, 1, 2)
+    return LandmarkEvidence(nothing, np.abs(np.array(places)[:, None] - samples), nothing, nothing), np.where(
+        samples < 0.5, 1, 2
+    )
 
 
 def spread_out(creatures: Any, count: int) -> np.ndarray:
@@ -58,15 +75,15 @@ def spread_out(creatures: Any, count: int) -> np.ndarray:
 
 def functional(points: np.ndarray, creatures: Any, k: int) -> np.ndarray:
     source, target, _ = creatures
-    return np.asarray(to_functional(points, source.basis.truncated(k), target.basis.truncated(k)))
+    return np.asarray(to_functional(points, source.basis.truncate(k), target.basis.truncate(k)))
 
 
 def only_the_truth(creatures: Any, monkeypatch: pytest.MonkeyPatch) -> None:
     """A search finds the true map alone, and mends nothing."""
     C = functional(creatures[2], creatures, 40)
-    monkeypatch.setattr(choose, "candidates", lambda *a, **_m: judged(NAMES, C[None], None, a[3].whole, 1))
-    monkeypatch.setattr(choose, "unled", lambda *_a, **_m: [])
-    monkeypatch.setattr(choose, "MENDED", -np.inf)
+    monkeypatch.setattr(choose, "sample_candidates", lambda *a, **_m: score_maps(NAMES, C[None], None, a[3].whole, 1))
+    monkeypatch.setattr(choose, "without_landmarks", lambda *_a, **_m: [])
+    monkeypatch.setattr(choose, "REPAIR_SCORE", -np.inf)
 
 
 @pytest.fixture(scope="module")
@@ -83,8 +100,8 @@ def given(creatures: Any, count: int) -> Any:
     """The ground on which maps between the creatures are judged with so many landmarks."""
     source, target, _ = creatures
     at = spread_out(creatures, count)
-    judges = probe(source, 300, landmarks=at[:, 0]), probe(target, 300, landmarks=at[:, 1])
-    return arena(source, target, judges, at).whole
+    judges = sample_for_scoring(source, 300, landmarks=at[:, 0]), sample_for_scoring(target, 300, landmarks=at[:, 1])
+    return two_level_samples(source, target, judges, at).whole
 
 
 def test_landmarks_back_a_map_as_far_as_they_reach() -> None:
@@ -92,14 +109,14 @@ def test_landmarks_back_a_map_as_far_as_they_reach() -> None:
     there, areas = on_a_line(NEAR, 0.5, far)
     kept = np.zeros(3)
     most = 1 / (1 + np.exp(-WELL / WIDTH))
-    assert backing(kept, there, areas) == pytest.approx(most)
+    assert landmark_support(kept, there, areas) == pytest.approx(most)
     # The squared share of the area, not of the samples nor of the landmarks.
     for place, samples in ((NEAR, np.arange(0, 40)), (far, np.arange(60, 100))):
         share = areas[samples].sum() / areas.sum()
-        assert backing(kept[:1], *on_a_line(place)) == pytest.approx(most * share**2)
-    many = backing(np.zeros(50), *on_a_line(*[NEAR] * 50))
-    assert many == pytest.approx(backing(kept[:1], *on_a_line(NEAR)))
-    shares = [backing(kept[:i], *on_a_line(*(NEAR, 0.5, far)[:i])) for i in range(4)]
+        assert landmark_support(kept[:1], *on_a_line(place)) == pytest.approx(most * share**2)
+    many = landmark_support(np.zeros(50), *on_a_line(*[NEAR] * 50))
+    assert many == pytest.approx(landmark_support(kept[:1], *on_a_line(NEAR)))
+    shares = [landmark_support(kept[:i], *on_a_line(*(NEAR, 0.5, far)[:i])) for i in range(4)]
     assert shares[0] == 0.0
     assert (np.diff(shares) > 0.05).all()
 
@@ -107,13 +124,13 @@ def test_landmarks_back_a_map_as_far_as_they_reach() -> None:
 def test_what_landmarks_say_ends_where_they_are_missed() -> None:
     """Together, when the mean is no longer that of a right map; a single one has its say, but no more than that."""
     there, areas = on_a_line(0.2, 0.5, 0.8)
-    assert backing(np.full(3, WELL), there, areas) == pytest.approx(0.5)
-    assert backing(np.full(3, WELL + WIDTH), there, areas) == pytest.approx(1 / (1 + np.e))
-    assert backing(np.array([0.0, 0.0, 3 * WELL]), there, areas) == pytest.approx(0.5)
-    offs = [backing(np.full(3, off), there, areas) for off in np.linspace(0, MISSED, 20)]
+    assert landmark_support(np.full(3, WELL), there, areas) == pytest.approx(0.5)
+    assert landmark_support(np.full(3, WELL + WIDTH), there, areas) == pytest.approx(1 / (1 + np.e))
+    assert landmark_support(np.array([0.0, 0.0, 3 * WELL]), there, areas) == pytest.approx(0.5)
+    offs = [landmark_support(np.full(3, off), there, areas) for off in np.linspace(0, MISSED, 20)]
     assert offs == sorted(offs, reverse=True)
     several = on_a_line(*np.linspace(0, 1, 6))
-    said = [backing(np.array([0.0, 0.0, 0.0, 0.0, 0.0, off]), *several) for off in (0.5 * MISSED, MISSED, 9.0)]
+    said = [landmark_support(np.array([0.0, 0.0, 0.0, 0.0, 0.0, off]), *several) for off in (0.5 * MISSED, MISSED, 9.0)]
     assert said[0] > 1.01 * said[1] == pytest.approx(1.01 * said[2])
     assert said[2] == pytest.approx(1 / (1 + np.exp((MISSED / 6 - WELL) / WIDTH)))
 
@@ -140,13 +157,17 @@ def test_backing_takes_away_doubt() -> None:
 def test_a_map_is_backed_by_landmarks_that_have_not_led_it(creatures, slid) -> None:
     on = given(creatures, 10)
     maps = (functional(creatures[2], creatures, 40), slid)
-    right, wrong = (judged(NAMES, C[None], None, on, 1)[0] for C in maps)
+    right, wrong = (score_maps(NAMES, C[None], None, on, 1)[0] for C in maps)
     areas = np.asarray(on.source.samples.basis.mass)
     assert on.marks is not None
-    assert backed_by(right, on, 1) == backing(alone(right, on, 1).missed, on.marks, areas) > 0.3
+    assert (
+        backed_by(right, on, 1)
+        == landmark_support(ignore_landmarks(right, on, 1).landmark_errors, on.marks, areas)
+        > 0.3
+    )
     # With landmarks in it the refinement would keep to them.
-    led = choose.again([wrong], on, 1)[0]
-    assert backing(led.missed, on.marks, areas) > 0.3
+    led = choose.rerefine([wrong], on, 1)[0]
+    assert landmark_support(led.landmark_errors, on.marks, areas) > 0.3
     assert backed_by(wrong, on, 1) < 1e-3
     assert backed_by(right, replace(on, landmarks=None, marks=None), 1) == 0.0
 
@@ -157,7 +178,9 @@ def test_a_search_says_that_landmarks_back_its_map(creatures, monkeypatch) -> No
     only_the_truth(creatures, monkeypatch)
     monkeypatch.setattr(verdict, "MIDDLE", 0.0)
     config = replace(kfmaps.Config(), threads=1)
-    without, backed = (choose.choose(source, target, config, landmarks=at) for at in (None, spread_out(creatures, 40)))
+    without, backed = (
+        choose.search_map(source, target, config, landmarks=at) for at in (None, spread_out(creatures, 40))
+    )
     assert (without.verdict, backed.verdict) == ("poor", "sure")
     assert without.confidence is not None
     assert without.confidence < 0.1
@@ -169,11 +192,11 @@ def test_a_landmark_that_the_map_keeps_is_doubted_no_longer(creatures, monkeypat
     """A rough map has missed two; the map that comes of it keeps the first, and has the second elsewhere indeed."""
     source, target, _ = creatures
     only_the_truth(creatures, monkeypatch)
-    monkeypatch.setattr(choose, "doubted", lambda missed: np.isin(missed, [missed.min(), missed.max()]))
+    monkeypatch.setattr(choose, "reject_landmarks", lambda missed: np.isin(missed, [missed.min(), missed.max()]))
     at = spread_out(creatures, 10)
     at[1, 0] = np.linalg.norm(source.mesh.vertices - source.mesh.vertices[at[1, 0]], axis=1).argmax()
-    found = choose.choose(source, target, replace(kfmaps.Config(), threads=1), landmarks=at)
-    assert found.doubted.tolist() == [1]
+    found = choose.search_map(source, target, replace(kfmaps.Config(), threads=1), landmarks=at)
+    assert found.rejected_landmarks.tolist() == [1]
     np.testing.assert_array_equal(found.landmarks, np.delete(at, 1, axis=0))
 
 
@@ -181,39 +204,39 @@ def test_copies_know_the_landmarks_nearest_to_them(creatures) -> None:
     """Also those of a mirror image, and the other way round."""
     source, target, _ = creatures
     at = spread_out(creatures, 30)
-    a, b = copied(source, 500), copied(target, 400)
+    a, b = coarse_copy(source, 500), coarse_copy(target, 400)
     assert a is not None
     assert b is not None
-    on = grounds(source, target, (a, b), at)
+    on = registration_pair(source, target, (a, b), at)
     for side, (shape, copy) in enumerate(((source, a), (target, b))):
         off = np.linalg.norm(copy.mesh.vertices - shape.mesh.vertices[at[:, side]][:, None], axis=2)
         chosen = off[np.arange(30), on.landmarks[:, side]]
         np.testing.assert_array_equal(chosen, off.min(axis=1))
         assert 0 < chosen.max() < 0.1
-    image = grounds(source, mirror_image(target), (a, b.mirrored()), at)
+    image = registration_pair(source, mirror_image(target), (a, b.mirrored()), at)
     np.testing.assert_array_equal(image.landmarks, on.landmarks)
     there = image.copies[1].mesh.vertices[image.landmarks[:, 1]]
     assert np.linalg.norm(there - target.mesh.vertices[at[:, 1]] * MIRROR, axis=1).max() < 0.1
-    back = turned_round(on)
-    again = grounds(target, source, (b, a), at[:, ::-1])
+    back = swap_pair(on)
+    again = registration_pair(target, source, (b, a), at[:, ::-1])
     np.testing.assert_array_equal(back.landmarks, again.landmarks)
     assert back.landmarks[0].tolist() == on.landmarks[0].tolist()[::-1]
-    assert grounds(source, target, (a, b)).landmarks.shape == (0, 2)
+    assert registration_pair(source, target, (a, b)).landmarks.shape == (0, 2)
 
 
 def test_the_fits_between_refinements_keep_to_landmarks(creatures, slid) -> None:
     source, target, truth = creatures
-    a, b = copied(source, 500), copied(target, 500)
+    a, b = coarse_copy(source, 500), coarse_copy(target, 500)
     assert a is not None
     assert b is not None
-    on = grounds(source, target, (a, b))
+    on = registration_pair(source, target, (a, b))
     rows = stratified_vertices(target.basis, 1200, 0)
     rows = rows[np.isin(rows, b.vertices) & np.isin(truth[rows], a.vertices)][:12]
     at = np.stack([truth[rows], rows], axis=1)
-    led = replace(on, landmarks=grounds(source, target, (a, b), at).landmarks)
+    led = replace(on, landmarks=registration_pair(source, target, (a, b), at).landmarks)
     off = []
     for where in (on, led):
-        bent = alternated(slid, where, None).bent
+        bent = alternating_registration(slid, where, None).registered_vertices
         off.append(np.linalg.norm(bent[truth] - target.mesh.vertices, axis=1))
     assert off[1][rows].mean() < 0.6 * off[0][rows].mean()
     assert off[1].mean() < off[0].mean()
@@ -230,10 +253,10 @@ def followed(off: float, fit: NonRigid) -> float:
 
 def test_what_may_be_stretched_follows_landmarks_that_are_far_off(monkeypatch) -> None:
     """Over an area as large as all of it nothing else is stretched: what differs is how landmarks hold."""
-    plain = NonRigid(stiffness=5e-3, levels=1, steps=4)
-    loose = replace(plain, stretch=100.0)
+    plain = NonRigid(stiffness=5e-3, n_levels=1, steps=4)
+    loose = replace(plain, local_scaling=100.0)
     near, far = 0.08, 0.15
-    ways = {(fit.stretch, off): followed(off, fit) for fit in (plain, loose) for off in (near, far)}
+    ways = {(fit.local_scaling, off): followed(off, fit) for fit in (plain, loose) for off in (near, far)}
     assert 1 - ways[100.0, near] < 0.7 * (1 - ways[0.0, near])
     assert ways[100.0, far] > 0.9
     assert ways[0.0, far] < 0.5
@@ -246,7 +269,7 @@ def test_what_may_be_stretched_follows_landmarks_that_are_far_off(monkeypatch) -
 def test_a_landmark_pulls_by_its_weight_and_less_from_afar() -> None:
     """Discs have area 1 each; at the distance from which a pull fades a quarter of it is left."""
     body = unit_area(blob(250))
-    pair = facing(nonrigid.body_of(body), body)
+    pair = mesh_pair(nonrigid.deformable_mesh(body), body)
     at = np.array([[3, 3], [200, 200]])
     discs = nonrigid._discs(pair, at)
     np.testing.assert_allclose(discs.sum(axis=0), 1.0)
@@ -262,8 +285,8 @@ def test_a_landmark_pulls_by_its_weight_and_less_from_afar() -> None:
 def test_landmarks_lead_by_their_weight(creatures, lead) -> None:
     source, target, _ = creatures
     at = spread_out(creatures, 3)
-    plain, led = (leading(source, target, some, None, None, lead) for some in (at[:0], at))
-    whole = leading(source, target, at)
+    plain, led = (build_guidance(source, target, some, None, None, lead) for some in (at[:0], at))
+    whole = build_guidance(source, target, at)
     assert plain is not None
     assert led is not None
     assert whole is not None
@@ -280,37 +303,37 @@ def test_landmarks_lead_by_their_weight(creatures, lead) -> None:
 def test_landmarks_lead_less_where_shapes_differ_much(creatures, monkeypatch) -> None:
     source, target, _ = creatures
     asked = []
-    monkeypatch.setattr(matching, "leading", lambda *_a, lead, **_m: asked.append(lead))
-    found = Found(np.eye(3), "a", None, "poor")
-    for quality in (None, UNLIKE, UNLIKE - 1):
-        assert alike(replace(found, quality=quality)) == (quality != UNLIKE - 1)
-        assert matching._led(replace(found, quality=quality), [source, target]) is None
+    monkeypatch.setattr(matching, "build_guidance", lambda *_a, lead, **_m: asked.append(lead))
+    found = SearchResult(np.eye(3), "a", None, "poor")
+    for quality in (None, NON_ISOMETRIC_SCORE, NON_ISOMETRIC_SCORE - 1):
+        assert near_isometric(replace(found, quality=quality)) == (quality != NON_ISOMETRIC_SCORE - 1)
+        assert matching._guidance(replace(found, quality=quality), [source, target]) is None
     assert asked == [LEAD, LEAD, LESS]
 
 
 def test_what_is_mended_keeps_to_landmarks(creatures, monkeypatch) -> None:
     """Each way round, with those that are not doubted."""
     source, target, truth = creatures
-    monkeypatch.setattr(copies, "looks", lambda on: SimpleNamespace(on=on))
-    monkeypatch.setattr(mending, "mismatch", lambda *_what: 0.2)
-    monkeypatch.setattr(mending, "pairings", lambda *_: [])
-    on = arena(source, target, (probe(source, 200), probe(target, 200))).whole
+    monkeypatch.setattr(copies, "shot_pair", lambda on: SimpleNamespace(on=on))
+    monkeypatch.setattr(mending, "registered_shot_error", lambda *_what: 0.2)
+    monkeypatch.setattr(mending, "match_extremities", lambda *_: [])
+    on = two_level_samples(source, target, (sample_for_scoring(source, 200), sample_for_scoring(target, 200))).whole
     C = functional(truth, creatures, 40)
-    ranked = [replace(c, bending=1.0) for c in judged(NAMES, C[None], None, on, 1)]
+    ranked = [replace(c, deformation_energy=1.0) for c in score_maps(NAMES, C[None], None, on, 1)]
     at = spread_out(creatures, 4)
-    begun, leads, usual = [], [], mending.leading
+    begun, leads, usual = [], [], mending.build_guidance
 
     def lead(*what: Any) -> Any:
         leads.append((what[2], what[5]))
         return usual(*what)
 
-    def made(C: np.ndarray, where: Any, *_rest: Any) -> Alternated:
+    def made(C: np.ndarray, where: Any, *_rest: Any) -> AlternatingResult:
         begun.append([c.vertices[i] for c, i in zip(where.copies, where.landmarks.T, strict=True)])
-        return Alternated(C, where.source.mesh.vertices)
+        return AlternatingResult(C, where.source.mesh.vertices)
 
-    monkeypatch.setattr(mending, "leading", lead)
-    monkeypatch.setattr(mending, "alternated", made)
-    found = mending.mended(ranked, on, Copies.of(source, target, on), at, 1)[0]
+    monkeypatch.setattr(mending, "build_guidance", lead)
+    monkeypatch.setattr(mending, "alternating_registration", made)
+    found = mending.refine_by_registration(ranked, on, ProxyCache.of(source, target, on), at, 1)[0]
     found.again[0]()
     (t, s), (s_again, t_again) = begun
     for there, here in ((s, t), (s_again, t_again)):
@@ -325,8 +348,8 @@ def test_ten_landmarks_make_a_match_no_worse(creatures, slid, monkeypatch) -> No
     at = spread_out(creatures, 10)
     errors = []
     for some in (at[:0], at):
-        found = Found(slid, "a", None, "poor", landmarks=some, quality=UNLIKE - 1)
-        monkeypatch.setattr(matching, "choose", lambda *_a, found=found, **_m: found)
+        found = SearchResult(slid, "a", None, "poor", landmarks=some, quality=NON_ISOMETRIC_SCORE - 1)
+        monkeypatch.setattr(matching, "search_map", lambda *_a, found=found, **_m: found)
         points = kfmaps.match(source, target, landmarks=at).target_to_source
         errors.append(kfmaps.geodesic_errors(source.mesh, points, truth))
     assert errors[1].mean() <= errors[0].mean() < 0.03

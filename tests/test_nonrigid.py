@@ -8,9 +8,9 @@ import pytest
 import kfmaps
 from kfmaps import datasets
 from kfmaps._arrays import InvalidInput
-from kfmaps.fmap.precise import at_vertices, points_of
-from kfmaps.geometry.arap import bending, local, nearest_rotations, pull, rigidity, rotations
-from kfmaps.geometry.closest_points import closest_of, places_on
+from kfmaps.fmap.precise import point_positions, vertex_point_map
+from kfmaps.geometry.arap import arap_energy, arap_energy_per_vertex, arap_rhs, build_arap, nearest_rotations, rotations
+from kfmaps.geometry.closest_points import closest_among, closest_points
 from kfmaps.geometry.mesh import Mesh, unit_area
 from kfmaps.registration.nonrigid_icp import NonRigid
 
@@ -57,9 +57,9 @@ def test_places_on_a_surface_are_the_closest_of_all_faces() -> None:
     n = len(mesh.vertices)
     faces = np.vstack([mesh.faces, [[n, n + 1, n + 2]]])
     points = rng.normal(size=(200, 3))
-    found = places_on(points, vertices, faces)
+    found = closest_points(points, vertices, faces)
     each = np.repeat(np.arange(len(points)), len(faces))
-    brute = closest_of(points, vertices, faces, np.tile(np.arange(len(faces)), len(points)), each)
+    brute = closest_among(points, vertices, faces, np.tile(np.arange(len(faces)), len(points)), each)
     np.testing.assert_allclose(found.distances, brute.distances, atol=1e-12)
     np.testing.assert_allclose(found.weights.sum(axis=1), 1)
     places = np.einsum("qi,qij->qj", found.weights, vertices[faces[found.faces]])
@@ -72,7 +72,7 @@ def test_no_point_of_a_triangle_is_closer() -> None:
     corners, points = rng.normal(size=(100, 3, 3)), rng.normal(size=(100, 3))
     corners[:10, 2] = corners[:10, 1]  # without area
     faces = np.arange(300).reshape(100, 3)
-    found = closest_of(points, corners.reshape(-1, 3), faces, np.arange(100), np.arange(100))
+    found = closest_among(points, corners.reshape(-1, 3), faces, np.arange(100), np.arange(100))
     weights = rng.dirichlet(np.ones(3) / 2, size=2000)
     others = np.einsum("wi,tij->wtj", weights, corners)
     assert (np.linalg.norm(others - points, axis=2).min(axis=0) >= found.distances - 1e-12).all()
@@ -83,42 +83,42 @@ def test_bending_is_nothing_for_motions_and_has_no_unit() -> None:
     mesh = datasets.sphere(200, rng=0)
     R = turn(rng)
     assert np.linalg.det(R) == pytest.approx(1)
-    energy = rigidity(mesh)
+    energy = build_arap(mesh)
     moved = mesh.vertices @ R.T + 1.0
-    assert bending(energy, moved) < 1e-10
+    assert arap_energy(energy, moved) < 1e-10
     np.testing.assert_allclose(rotations(energy, moved), np.broadcast_to(R, (len(moved), 3, 3)), atol=1e-8)
     stretched = mesh.vertices * np.array([1.0, 1.0, 1.5])
-    large = rigidity(Mesh(7 * mesh.vertices, mesh.faces))
-    assert bending(large, 7 * stretched) == pytest.approx(49 * bending(energy, stretched))
+    large = build_arap(Mesh(7 * mesh.vertices, mesh.faces))
+    assert arap_energy(large, 7 * stretched) == pytest.approx(49 * arap_energy(energy, stretched))
 
 
 def test_shares_of_vertices_add_up_to_twice_the_energy() -> None:
     mesh = datasets.sphere(100, rng=0)
-    energy = rigidity(mesh)
+    energy = build_arap(mesh)
     x = mesh.vertices * (1.0, 1.5, 0.7)
-    shares = local(energy, x)
-    assert shares.sum() == pytest.approx(2 * bending(energy, x))
+    shares = arap_energy_per_vertex(energy, x)
+    assert shares.sum() == pytest.approx(2 * arap_energy(energy, x))
     assert shares.min() > 0
     turned = mesh.vertices.copy()
     turned[mesh.vertices[:, 2] > 0.3] += (0.0, 0.0, 0.1)
     still = np.flatnonzero(mesh.vertices[:, 2] < -0.3)
-    assert local(energy, turned)[still] == pytest.approx(0, abs=1e-12)
+    assert arap_energy_per_vertex(energy, turned)[still] == pytest.approx(0, abs=1e-12)
 
 
 def test_bending_is_its_definition_and_pull_its_slope() -> None:
     rng = np.random.default_rng(3)
     mesh = datasets.sphere(100, rng=0)
-    energy = rigidity(mesh)
+    energy = build_arap(mesh)
     x, R = rng.normal(size=mesh.vertices.shape), nearest_rotations(rng.normal(size=(len(mesh.vertices), 3, 3)))
     edges = energy.laplacian.tocoo()
     i, j = edges.row, edges.col
     gap = (x[i] - x[j]) - np.einsum("eab,eb->ea", R[i], mesh.vertices[i] - mesh.vertices[j])
-    assert bending(energy, x, R) == pytest.approx(float((-0.5 * edges.data * (gap**2).sum(axis=1))[i != j].sum()))
+    assert arap_energy(energy, x, R) == pytest.approx(float((-0.5 * edges.data * (gap**2).sum(axis=1))[i != j].sum()))
     step = 1e-6 * rng.normal(size=x.shape)
-    slope = 2 * (energy.laplacian @ x - pull(energy, R))
-    change = (bending(energy, x + step, R) - bending(energy, x - step, R)) / 2
+    slope = 2 * (energy.laplacian @ x - arap_rhs(energy, R))
+    change = (arap_energy(energy, x + step, R) - arap_energy(energy, x - step, R)) / 2
     assert change == pytest.approx(float((slope * step).sum()), rel=1e-6)
-    assert bending(energy, x) <= bending(energy, x, R)  # the best rotations are the best
+    assert arap_energy(energy, x) <= arap_energy(energy, x, R)  # the best rotations are the best
 
 
 def test_a_moved_copy_is_found(pair: datasets.Pair) -> None:
@@ -156,12 +156,12 @@ def test_a_match_has_points_in_triangles(pair: datasets.Pair) -> None:
     marks = np.stack([pair.truth[::300], np.arange(len(pair.truth))[::300]], axis=1)
     found = kfmaps.match(pair.source, pair.target, config, landmarks=marks)
     place = found.precise()
-    assert found.bent is not None
-    assert found.bend is not None
-    assert found.bend.kept
-    assert found.bend.why is None
-    assert found.bend.loss is not None
-    assert found.bend.after == pytest.approx(found.local_confidence.mean())
+    assert found.registered_vertices is not None
+    assert found.registration is not None
+    assert found.registration.accepted
+    assert found.registration.reason is None
+    assert found.registration.loss is not None
+    assert found.registration.after == pytest.approx(found.local_confidence.mean())
     np.testing.assert_allclose(place.weights.sum(axis=1), 1)
     assert (place.weights >= 0).all()
     corners = pair.source.faces[place.faces]
@@ -169,14 +169,14 @@ def test_a_match_has_points_in_triangles(pair: datasets.Pair) -> None:
     true = np.einsum("ti,tij->tj", pair.truth_weights, pair.source.vertices[pair.source.faces[pair.truth_faces]])
     plain = kfmaps.match(pair.source, pair.target, replace(config, finish=None), landmarks=marks)
     errors = [
-        np.linalg.norm(points_of(p, pair.source) - true, axis=1).mean()
-        for p in (place, at_vertices(plain.target_to_source, pair.source))
+        np.linalg.norm(point_positions(p, pair.source) - true, axis=1).mean()
+        for p in (place, vertex_point_map(plain.target_to_source, pair.source))
     ]
     assert errors[0] < 0.75 * errors[1]
     target = unit_area(pair.target)
-    away = places_on(found.bent, target.vertices, target.faces).distances
+    away = closest_points(found.registered_vertices, target.vertices, target.faces).distances
     assert away.mean() < 2e-3
-    spectral = np.linalg.norm(points_of(plain.precise(), pair.source) - true, axis=1).mean()
+    spectral = np.linalg.norm(point_positions(plain.precise(), pair.source) - true, axis=1).mean()
     assert errors[0] < spectral < errors[1]
 
 
@@ -185,11 +185,11 @@ def test_a_whole_body_is_not_bent_onto_something_else(pair: datasets.Pair) -> No
     other = datasets.sphere(900, rng=0)
     config = replace(kfmaps.Config.single_fit(), threads=1)
     found = kfmaps.match(pair.source, other, config)
-    assert found.bent is None
-    assert found.bend is not None
-    assert not found.bend.kept
-    assert found.bend.why in ("gap", "harm")
-    assert found.bend.before == pytest.approx(found.local_confidence.mean())
+    assert found.registered_vertices is None
+    assert found.registration is not None
+    assert not found.registration.accepted
+    assert found.registration.reason in ("gap", "harm")
+    assert found.registration.before == pytest.approx(found.local_confidence.mean())
     plain = kfmaps.match(pair.source, other, replace(config, finish=None))
     np.testing.assert_array_equal(found.target_to_source, plain.target_to_source)
     assert len(found.precise().faces) == len(other.vertices)
@@ -199,7 +199,7 @@ def test_what_cannot_be_bent_is_refused(pair: datasets.Pair) -> None:
     cloud = Mesh(pair.source.vertices, np.zeros((0, 3)))
     with pytest.raises(InvalidInput, match="point cloud"):
         NonRigid()(cloud, pair.target, pair.truth)
-    for make in (lambda: NonRigid(stiffness=0.0), lambda: NonRigid(levels=0), lambda: NonRigid(steps=0)):
+    for make in (lambda: NonRigid(stiffness=0.0), lambda: NonRigid(n_levels=0), lambda: NonRigid(steps=0)):
         with pytest.raises(InvalidInput):
             make()
 

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from kfmaps._arrays import InvalidInput, KfmapsWarning, to_numpy
-from kfmaps.kernels.kernels import Gaussian, Linear, Tanh, gram
-from kfmaps.kernels.landmark_selection import farthest, pivoted_cholesky, uniform
+from kfmaps.kernels.kernels import Gaussian, Linear, Tanh, kernel_matrix
+from kfmaps.kernels.landmark_selection import farthest_descriptors, pivoted_cholesky, uniform
 from kfmaps.kernels.nystrom import nystrom
 
 GUARDS = ("kfmaps.kernels.kernels", "kfmaps.kernels.landmark_selection", "kfmaps.kernels.nystrom")
@@ -14,7 +14,7 @@ GUARDS = ("kfmaps.kernels.kernels", "kfmaps.kernels.landmark_selection", "kfmaps
 def samplers(X, count, rng=0):
     return {
         "uniform": uniform(len(X), count, rng),
-        "farthest": farthest(X, count, rng),
+        "farthest": farthest_descriptors(X, count, rng),
         "cholesky": pivoted_cholesky(Gaussian(0.5), X, count, rng=rng),
         "random cholesky": pivoted_cholesky(Gaussian(0.5), X, count, randomised=True, rng=rng),
         "squared cholesky": pivoted_cholesky(Gaussian(0.5), X, count, randomised=True, power=2, rng=rng),
@@ -26,15 +26,15 @@ def test_all_points_as_samples_give_the_exact_kernel(asarray, rng):
     both = asarray(np.vstack([X, Y]))
     factor = nystrom(Gaussian(2.0), both)
     W_x, W_y = (to_numpy(factor.features(asarray(D))) for D in (X, Y))
-    np.testing.assert_allclose(W_y @ W_x.T, gram(Gaussian(2.0), Y, X), atol=1e-9)
-    np.testing.assert_allclose(W_x @ W_x.T, gram(Gaussian(2.0), X, X), atol=1e-9)
+    np.testing.assert_allclose(W_y @ W_x.T, kernel_matrix(Gaussian(2.0), Y, X), atol=1e-9)
+    np.testing.assert_allclose(W_x @ W_x.T, kernel_matrix(Gaussian(2.0), X, X), atol=1e-9)
 
 
 def test_exact_on_the_samples_and_below_the_kernel_elsewhere(rng):
     X = rng.normal(size=(60, 3))
     for rows in samplers(X, 20).values():
         W = nystrom(Gaussian(0.5), X[rows]).features(X)
-        error = gram(Gaussian(0.5), X, X) - W @ W.T
+        error = kernel_matrix(Gaussian(0.5), X, X) - W @ W.T
         np.testing.assert_allclose(error[rows], 0, atol=1e-6)
         assert np.linalg.eigvalsh(error)[0] > -1e-6  # the Schur complement is positive semi-definite
 
@@ -52,7 +52,7 @@ def test_rank_deficiency_is_dropped(rng):
     assert factor.rank == 5
     W = factor.features(X)
     assert np.isfinite(W).all()
-    np.testing.assert_allclose(W @ W.T, gram(Gaussian(1.0), X, X), atol=1e-10)
+    np.testing.assert_allclose(W @ W.T, kernel_matrix(Gaussian(1.0), X, X), atol=1e-10)
 
 
 def test_indefinite_kernel_warns_and_stays_finite(rng):
@@ -65,7 +65,7 @@ def test_indefinite_kernel_warns_and_stays_finite(rng):
 
 def test_negative_kernel_is_refused(rng):
     with pytest.raises(InvalidInput, match="positive eigenvalue"):
-        nystrom(lambda a, b: -gram(Gaussian(1.0), a, b), rng.normal(size=(5, 2)))
+        nystrom(lambda a, b: -kernel_matrix(Gaussian(1.0), a, b), rng.normal(size=(5, 2)))
 
 
 def test_features_in_blocks_equal_those_in_one(rng):
@@ -86,7 +86,7 @@ def test_samples_are_distinct_and_seeded(rng):
 
 def test_farthest_points_are_farthest(rng):
     X = rng.normal(size=(40, 3))
-    rows = farthest(X, 12)
+    rows = farthest_descriptors(X, 12)
     for i in range(1, 12):
         distance = np.linalg.norm(X[:, None] - X[rows[:i]], axis=2).min(axis=1)
         assert distance[rows[i]] == pytest.approx(distance.max())
@@ -94,7 +94,7 @@ def test_farthest_points_are_farthest(rng):
 
 def test_cholesky_pivots_are_the_largest_residuals(rng):
     X = rng.normal(size=(40, 3))
-    K = gram(Gaussian(0.5), X, X)
+    K = kernel_matrix(Gaussian(0.5), X, X)
     rows = pivoted_cholesky(Gaussian(0.5), X, 10)
     for i in range(1, 10):
         taken = rows[:i]
@@ -107,14 +107,14 @@ def test_random_pivots_are_drawn_in_proportion_to_powers_of_the_residual(power):
     X = np.array([[0.0], [0.1], [0.4], [2.0]])
     draws = np.array([pivoted_cholesky(Gaussian(0.5), X, 2, randomised=True, power=power, rng=i) for i in range(4000)])
     second = draws[draws[:, 0] == 0, 1]
-    residual = 1 - gram(Gaussian(0.5), X[:1], X)[0] ** 2
+    residual = 1 - kernel_matrix(Gaussian(0.5), X[:1], X)[0] ** 2
     expected = residual**power / (residual**power).sum()
     np.testing.assert_allclose(np.bincount(second, minlength=4) / len(second), expected, atol=0.05)
 
 
 def test_samplers_stop_when_nothing_is_left():
     X = np.repeat(np.eye(3), 5, axis=0)
-    assert len(farthest(X, 10)) == 3
+    assert len(farthest_descriptors(X, 10)) == 3
     assert len(pivoted_cholesky(Gaussian(1.0), X, 10)) == 3
     assert len(pivoted_cholesky(Gaussian(1.0), X, 10, randomised=True)) == 3
 
@@ -138,6 +138,6 @@ def test_an_indefinite_kernel_stays_bounded_off_the_samples(spread, dimension, r
     assert eigenvalues[0] < -0.02 * eigenvalues[-1]
     positive = (vectors * np.maximum(eigenvalues, 0)) @ vectors.T
     for count in (60, 200):
-        W = nystrom(kernel, points[farthest(points, count)], rtol).features(points)
+        W = nystrom(kernel, points[farthest_descriptors(points, count)], rtol).features(points)
         assert (W**2).sum(axis=1).max() < np.diag(positive).max()
         assert np.linalg.norm(W @ W.T - positive) < 0.4 * np.linalg.norm(positive)

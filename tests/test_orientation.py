@@ -10,7 +10,7 @@ from conftest import blob, fibonacci_sphere, random_basis
 from kfmaps._arrays import InvalidInput
 from kfmaps.geometry.basis import Basis, laplace_basis
 from kfmaps.geometry.mesh import Mesh, unit_area
-from kfmaps.geometry.orientation_operators import orientation_slices
+from kfmaps.geometry.orientation_operators import orientation_operators
 
 GUARDS = ("kfmaps.geometry.orientation_operators",)
 
@@ -45,7 +45,7 @@ def plain(mesh: Mesh, basis: Basis, w: np.ndarray) -> np.ndarray:
 def test_agrees_with_loops_over_the_faces(rng):
     mesh = blob(60)
     basis, functions = random_basis(60, 4, rng), rng.normal(size=(60, 3))
-    found = orientation_slices(mesh, basis, functions)
+    found = orientation_operators(mesh, basis, functions)
     for s in range(3):
         np.testing.assert_allclose(found[s], plain(mesh, basis, functions[:, s]), atol=1e-12)
 
@@ -53,7 +53,7 @@ def test_agrees_with_loops_over_the_faces(rng):
 def test_takes_the_antisymmetric_part_where_there_is_a_boundary(rng):
     mesh = square(6)
     basis, functions = random_basis(36, 4, rng), rng.normal(size=(36, 2))
-    found = orientation_slices(mesh, basis, functions)
+    found = orientation_operators(mesh, basis, functions)
     for s in range(2):
         whole = plain(mesh, basis, functions[:, s])
         assert np.abs(whole + whole.T).max() > 0.1
@@ -62,20 +62,20 @@ def test_takes_the_antisymmetric_part_where_there_is_a_boundary(rng):
 
 def test_antisymmetric_and_linear(small_mesh, small_basis, rng):
     functions = rng.normal(size=(len(small_mesh.vertices), 3))
-    slices = orientation_slices(small_mesh, small_basis, functions)
+    slices = orientation_operators(small_mesh, small_basis, functions)
     assert slices.shape == (3, 40, 40)
     np.testing.assert_array_equal(slices, -slices.transpose(0, 2, 1))
-    mixed = orientation_slices(small_mesh, small_basis, functions @ np.array([[2.0], [-1.0], [0.5]]))[0]
+    mixed = orientation_operators(small_mesh, small_basis, functions @ np.array([[2.0], [-1.0], [0.5]]))[0]
     np.testing.assert_allclose(mixed, 2 * slices[0] - slices[1] + 0.5 * slices[2], atol=1e-9)
     coefficients = rng.normal(size=(40, 2))
-    combined = np.tensordot(coefficients.T, orientation_slices(small_mesh, small_basis, small_basis.functions), 1)
-    lifted = orientation_slices(small_mesh, small_basis, small_basis.lift(coefficients))
+    combined = np.tensordot(coefficients.T, orientation_operators(small_mesh, small_basis, small_basis.functions), 1)
+    lifted = orientation_operators(small_mesh, small_basis, small_basis.reconstruct(coefficients))
     np.testing.assert_allclose(combined, lifted, atol=1e-8)
 
 
 def test_constants_and_the_function_itself_are_annihilated(small_mesh, small_basis):
     phi = small_basis.functions
-    slices = orientation_slices(small_mesh, small_basis, np.column_stack([np.ones(len(phi)), phi[:, 5]]))
+    slices = orientation_operators(small_mesh, small_basis, np.column_stack([np.ones(len(phi)), phi[:, 5]]))
     np.testing.assert_allclose(slices[0], 0, atol=1e-10)
     np.testing.assert_allclose(slices[1][:, 5], 0, atol=1e-10)  # ∇w × ∇w
     np.testing.assert_allclose(slices[1][:, 0], 0, atol=1e-8)  # the gradient of a constant
@@ -88,7 +88,7 @@ def test_a_mirror_flips_the_sign(small_mesh):
     # The identity between the vertices carries functions; eigenfunctions may differ in sign.
     C = other.project(own.functions)
     functions = small_mesh.vertices
-    a, b = orientation_slices(small_mesh, own, functions), orientation_slices(mirror, other, functions)
+    a, b = orientation_operators(small_mesh, own, functions), orientation_operators(mirror, other, functions)
     np.testing.assert_allclose(b, -C @ a @ C.T, atol=1e-6)
     assert np.abs(a).max() > 1
 
@@ -99,7 +99,7 @@ def test_rotation_changes_nothing_and_scale_divides_by_area(small_mesh):
     own, other = laplace_basis(small_mesh, 12), laplace_basis(moved, 12)
     C = other.project(own.functions) / 3.0
     functions = small_mesh.vertices
-    a, b = orientation_slices(small_mesh, own, functions), orientation_slices(moved, other, functions)
+    a, b = orientation_operators(small_mesh, own, functions), orientation_operators(moved, other, functions)
     np.testing.assert_allclose(9.0 * b, C @ a @ C.T, atol=1e-6)
 
 
@@ -112,8 +112,8 @@ def test_order_of_the_faces_corners_and_vertices_changes_nothing(small_mesh, sma
     basis = Basis(small_basis.eigenvalues, small_basis.functions[order], small_basis.mass[order])
     functions = small_mesh.vertices
     np.testing.assert_allclose(
-        orientation_slices(shuffled, basis, functions[order]),
-        orientation_slices(small_mesh, small_basis, functions),
+        orientation_operators(shuffled, basis, functions[order]),
+        orientation_operators(small_mesh, small_basis, functions),
         atol=1e-9,
     )
 
@@ -128,7 +128,7 @@ def test_on_the_sphere_it_is_rotation_about_an_axis():
     for a, b, c in ((0, 1, 2), (1, 2, 0), (2, 0, 1)):
         # n · (∇x_b × ∇x_c) = x_a: entry (i, j) of slice s is ∫ φᵢ n · (∇x_s × ∇φⱼ).
         symbol[b, a, c], symbol[c, a, b] = 1, -1
-    np.testing.assert_allclose(orientation_slices(sphere, basis, sphere.vertices), symbol, atol=0.005)
+    np.testing.assert_allclose(orientation_operators(sphere, basis, sphere.vertices), symbol, atol=0.005)
 
 
 def test_on_the_square_it_converges_with_the_square_of_the_spacing():
@@ -139,7 +139,7 @@ def test_on_the_square_it_converges_with_the_square_of_the_spacing():
         h, g = np.sin(np.pi * x) * np.sin(np.pi * y), np.sin(2 * np.pi * x) * np.sin(np.pi * y)
         basis = Basis(np.zeros(2), np.stack([h, g], axis=1), np.full(m * m, 1 / m**2))
         # w = y²: n · (∇w × ∇g) = −2y ∂g/∂x, and ∫ h (−2y) 2π cos(2πx) sin(πy) = −4π · (−2/3π) · 1/4.
-        return abs(orientation_slices(mesh, basis, (y**2)[:, None])[0, 0, 1] - 2 / 3)
+        return abs(orientation_operators(mesh, basis, (y**2)[:, None])[0, 0, 1] - 2 / 3)
 
     assert error(61) < 2e-3
     assert error(61) < error(31) / 3.5
@@ -148,10 +148,10 @@ def test_on_the_square_it_converges_with_the_square_of_the_spacing():
 def test_threads_and_libraries_agree(convert, rng):
     mesh = unit_area(blob(200))
     basis, functions = laplace_basis(mesh, 8), rng.normal(size=(200, 5))
-    plainly = orientation_slices(mesh, basis, functions, threads=1)
-    np.testing.assert_array_equal(plainly, orientation_slices(mesh, basis, functions, threads=3))
+    plainly = orientation_operators(mesh, basis, functions, threads=1)
+    np.testing.assert_array_equal(plainly, orientation_operators(mesh, basis, functions, threads=3))
     other = convert(basis)
-    slices = orientation_slices(mesh, other, functions)
+    slices = orientation_operators(mesh, other, functions)
     assert type(slices) is type(other.functions)
     np.testing.assert_allclose(np.from_dlpack(slices), plainly, atol=1e-12)
 
@@ -159,10 +159,10 @@ def test_threads_and_libraries_agree(convert, rng):
 def test_refuses_what_does_not_fit(small_mesh, small_basis):
     n = len(small_mesh.vertices)
     with pytest.raises(InvalidInput, match="triangulate"):
-        orientation_slices(Mesh(small_mesh.vertices, np.zeros((0, 3))), small_basis, np.ones((n, 1)))
+        orientation_operators(Mesh(small_mesh.vertices, np.zeros((0, 3))), small_basis, np.ones((n, 1)))
     with pytest.raises(InvalidInput, match="functions"):
-        orientation_slices(small_mesh, small_basis, np.ones((n - 1, 1)))
+        orientation_operators(small_mesh, small_basis, np.ones((n - 1, 1)))
     with pytest.raises(InvalidInput, match="basis"):
-        orientation_slices(blob(50), small_basis, np.ones((50, 1)))
+        orientation_operators(blob(50), small_basis, np.ones((50, 1)))
     with pytest.raises(InvalidInput, match="functions"):
-        orientation_slices(small_mesh, small_basis, np.full((n, 1), np.nan))
+        orientation_operators(small_mesh, small_basis, np.full((n, 1), np.nan))

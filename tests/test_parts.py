@@ -9,16 +9,16 @@ from conftest import blob
 from kfmaps import datasets
 from kfmaps.cli.partial_truth import PartTruth, part_accuracy, true_overlap
 from kfmaps.config import Config, Partial
-from kfmaps.fmap.evaluate import place_errors
+from kfmaps.fmap.evaluate import precise_errors
 from kfmaps.fmap.precise import PointMap
 from kfmaps.geometry.mesh import Mesh, surface_area
 from kfmaps.io import load_map
 from kfmaps.matching.match import match
 from kfmaps.matching.partial.calibration import MIDDLE, SURE, part_probability, part_verdict
 from kfmaps.matching.partial.compare_alternatives import CLEAR
-from kfmaps.matching.partial.detect import OPEN, opening, suspicion
-from kfmaps.matching.partial.relaxation_labeling import SLACK, consistency, gauge
-from kfmaps.matching.partial.samples import border_of, side
+from kfmaps.matching.partial.detect import OPEN, boundary_opening, detect_part
+from kfmaps.matching.partial.relaxation_labeling import SLACK, consistency, distance_bounds
+from kfmaps.matching.partial.samples import boundary_vertices, part_samples
 from kfmaps.matching.partial.scale_search import SCALES
 from kfmaps.shape import prepare
 from test_search import SMALL
@@ -66,28 +66,30 @@ def disc(count):
 
 
 def test_the_opening_of_a_disc_is_another_disc(pair):
-    assert opening(disc(200)) == pytest.approx(1.0, rel=1e-3)
-    assert opening(pair.source) == 0.0
-    assert opening(Mesh(pair.source.vertices, pair.source.faces[:0])) == 0.0
-    assert opening(Mesh(5.0 * disc(200).vertices, disc(200).faces)) == pytest.approx(opening(disc(200)))
+    assert boundary_opening(disc(200)) == pytest.approx(1.0, rel=1e-3)
+    assert boundary_opening(pair.source) == 0.0
+    assert boundary_opening(Mesh(pair.source.vertices, pair.source.faces[:0])) == 0.0
+    assert boundary_opening(Mesh(5.0 * disc(200).vertices, disc(200).faces)) == pytest.approx(
+        boundary_opening(disc(200))
+    )
 
 
 def test_boundaries_tell_which_is_a_part(pair):
-    assert suspicion(pair.source, pair.target).which == "target"
-    assert suspicion(pair.target, pair.source).which == "source"
-    assert suspicion(pair.source, pair.source).which == "none"
-    assert suspicion(pair.target, pair.target).which == "none"
+    assert detect_part(pair.source, pair.target).which == "target"
+    assert detect_part(pair.target, pair.source).which == "source"
+    assert detect_part(pair.source, pair.source).which == "none"
+    assert detect_part(pair.target, pair.target).which == "none"
     cloud = Mesh(pair.target.vertices, pair.target.faces[:0])
-    assert suspicion(pair.source, cloud).which == "none"
+    assert detect_part(pair.source, cloud).which == "none"
     # A pinhole is none: a face of many is left out.
     pinhole = Mesh(pair.source.vertices, pair.source.faces[1:])
-    assert 0.0 < opening(pinhole) < OPEN
-    assert suspicion(pair.source, pinhole).which == "none"
+    assert 0.0 < boundary_opening(pinhole) < OPEN
+    assert detect_part(pair.source, pinhole).which == "none"
 
 
 def test_only_edges_of_one_face_are_a_boundary(pair):
-    assert not border_of(pair.source).any()
-    rim = border_of(disc(30))
+    assert not boundary_vertices(pair.source).any()
+    rim = boundary_vertices(disc(30))
     assert rim[:30].all()
     assert not rim[30]
 
@@ -106,17 +108,20 @@ def test_distances_that_may_pass_a_cut_may_be_shorter_on_the_whole():
 
 
 def test_a_gauge_grows_with_the_scale_and_knows_the_way_round_by_the_edge(pair):
-    one = side(pair.target, 60)
-    small, large = gauge(one.distances, one.edge, 0.5), gauge(one.distances, one.edge, 1.0)
+    one = part_samples(pair.target, 60)
+    small, large = (
+        distance_bounds(one.distances, one.boundary_distance, 0.5),
+        distance_bounds(one.distances, one.boundary_distance, 1.0),
+    )
     assert large.far == pytest.approx(2 * small.far)
     assert (large.low <= large.far).all()
-    assert np.isfinite(one.edge).all()
-    assert not np.isfinite(side(pair.source, 60).edge).any()
+    assert np.isfinite(one.boundary_distance).all()
+    assert not np.isfinite(part_samples(pair.source, 60).boundary_distance).any()
 
 
 def test_a_part_in_another_unit_and_turned_is_placed(pair, found, truth):
     assert found.overlap_target is not None
-    errors = place_errors(pair.source, found.precise(), truth.places)
+    errors = precise_errors(pair.source, found.precise(), truth.places)
     assert errors.mean() < 0.03
     common = found.target_to_source >= 0
     assert common.mean() > 0.95
@@ -195,7 +200,7 @@ def test_the_default_of_the_command_is_auto():
 
 
 def test_only_what_a_detour_explains_is_forgiven():
-    part = gauge(np.array([[0.0, 0.5], [0.5, 0.0]]), np.array([0.1, 0.1]), 1.0)
+    part = distance_bounds(np.array([[0.0, 0.5], [0.5, 0.0]]), np.array([0.1, 0.1]), 1.0)
     far, low = part.far[0, 1], part.low[0, 1]
     assert low == pytest.approx(0.2)
     fits = [

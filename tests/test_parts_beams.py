@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from kfmaps.matching.partial.beam_search import ANCHORS, APART, beamed, differing, spread
-from kfmaps.matching.partial.relaxation_labeling import gauge
+from kfmaps.matching.partial.beam_search import ANCHORS, APART, beam_search, differing, select_anchors
+from kfmaps.matching.partial.relaxation_labeling import distance_bounds
 
 GUARDS = ("kfmaps.matching.partial.beam_search", "kfmaps.matching.partial.relaxation_labeling")
 
@@ -22,8 +22,8 @@ def plane():
 
 def test_anchors_are_far_from_each_other_and_from_the_edge(plane):
     _, own, between, edge = plane
-    part = gauge(between[np.ix_(own, own)], edge, 1.0)
-    chosen = spread(part, edge, ANCHORS)
+    part = distance_bounds(between[np.ix_(own, own)], edge, 1.0)
+    chosen = select_anchors(part, edge, ANCHORS)
     assert len(set(chosen.tolist())) == ANCHORS
     rng = np.random.default_rng(1)
     least = [
@@ -31,26 +31,26 @@ def test_anchors_are_far_from_each_other_and_from_the_edge(plane):
         for some in (rng.permutation(len(own))[:ANCHORS] for _ in range(50))
     ]
     assert float((part.far[np.ix_(chosen, chosen)] + 9 * np.eye(ANCHORS)).min()) > max(least)
-    plain = spread(part, np.full(len(own), np.inf), ANCHORS)
+    plain = select_anchors(part, np.full(len(own), np.inf), ANCHORS)
     assert edge[chosen].mean() > edge[plain].mean()
     assert edge[chosen].min() > 2 * edge[plain].min()
     assert chosen[0] == edge.argmax()
-    assert spread(part, edge, ANCHORS, 3)[:3].tolist() == [0, 1, 2]
+    assert select_anchors(part, edge, ANCHORS, 3)[:3].tolist() == [0, 1, 2]
 
 
 def test_distances_alone_place_a_part(plane):
     """Descriptors that say nothing: the placing is the true one, up to what distances cannot tell."""
     _, own, between, edge = plane
-    part = gauge(between[np.ix_(own, own)], edge, 1.0)
+    part = distance_bounds(between[np.ix_(own, own)], edge, 1.0)
     alike = np.zeros((len(own), len(between)), dtype=np.float32)
-    found = beamed(part, edge, between, alike)
+    found = beam_search(part, edge, between, alike)
     first = found[0]
     anchors = np.flatnonzero(first.trust)
     assert len(anchors) == ANCHORS
     assert between[first.match[anchors], own[anchors]].max() < 0.1
     assert first.support > 0.9
     assert [one.support for one in found] == sorted((one.support for one in found), reverse=True)
-    half = beamed(gauge(part.far, edge, 0.5), 0.5 * edge, between, alike)
+    half = beam_search(distance_bounds(part.far, edge, 0.5), 0.5 * edge, between, alike)
     assert half[0].support < first.support
 
 
@@ -58,12 +58,12 @@ def test_a_descriptor_that_knows_decides_between_mirror_images():
     """Of points on a line the distances fit both ways round; one descriptor tells which."""
     line = np.linspace(-0.5, 0.5, 81)
     between = np.abs(line[:, None] - line[None]).astype(np.float32)
-    part = gauge(between, np.full(81, np.inf, dtype=np.float32), 1.0)
+    part = distance_bounds(between, np.full(81, np.inf, dtype=np.float32), 1.0)
     alike = np.zeros((81, 81), dtype=np.float32)
     for way in (1, -1):
         told = alike.copy()
         told[np.arange(81), np.arange(81)[::way]] = 1.0
-        first = beamed(part, np.full(81, np.inf, dtype=np.float32), between, told)[0]
+        first = beam_search(part, np.full(81, np.inf, dtype=np.float32), between, told)[0]
         anchors = np.flatnonzero(first.trust)
         np.testing.assert_array_equal(first.match[anchors], np.arange(81)[::way][anchors])
 
@@ -75,18 +75,18 @@ def test_descriptors_count_while_placings_are_weeded_out():
     alike = np.zeros((count, count), dtype=np.float32)
     alike[np.arange(count), np.arange(count)[::-1]] = 1.0
     edge = np.full(count, np.inf, dtype=np.float32)
-    first = beamed(gauge(between, edge, 1.0), edge, between, alike)[0]
+    first = beam_search(distance_bounds(between, edge, 1.0), edge, between, alike)[0]
     anchors = np.flatnonzero(first.trust)
     np.testing.assert_array_equal(first.match[anchors], count - 1 - anchors)
 
 
 def test_a_landmark_stays_where_it_is(plane):
     _, own, between, edge = plane
-    part = gauge(between[np.ix_(own, own)], edge, 1.0)
+    part = distance_bounds(between[np.ix_(own, own)], edge, 1.0)
     alike = np.zeros((len(own), len(between)), dtype=np.float32)
     alike[0] = -1.0
     alike[0, 5] = 2.0
-    assert all(one.match[0] == 5 for one in beamed(part, edge, between, alike, 1)[:1])
+    assert all(one.match[0] == 5 for one in beam_search(part, edge, between, alike, 1)[:1])
 
 
 def test_placings_that_hardly_differ_are_left_out():

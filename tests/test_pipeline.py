@@ -20,13 +20,13 @@ from kfmaps.config import (
 )
 from kfmaps.fmap.energy import Energy
 from kfmaps.fmap.refine import ICP, ZoomOut
-from kfmaps.fmap.solvers import CG, Direct, dense
+from kfmaps.fmap.solvers import CG, Direct, dense_matrix
 from kfmaps.geometry.basis import Basis
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.kernels.kernels import Gaussian, Linear, Polynomial, Product, Sum, Tanh
-from kfmaps.matching.assemble import problem
+from kfmaps.matching.assemble import assemble
 from kfmaps.matching.features import pair_descriptors
-from kfmaps.matching.fit import checked_landmarks
+from kfmaps.matching.fit import check_landmark_pairs
 from kfmaps.matching.match import match
 from kfmaps.shape import prepare
 
@@ -68,7 +68,7 @@ def marks(shape, other):
 def energy_of(shape, other, config, marks, bases=None):
     bases = bases or (shape.basis, other.basis)
     used = pair_descriptors(shape, other, bases, config.descriptors, marks, None)
-    return problem(shape, other, bases, used, config, np.random.default_rng(0)).energy
+    return assemble(shape, other, bases, used, config, np.random.default_rng(0)).energy
 
 
 def test_identical_shapes_give_the_identity(shape):
@@ -124,7 +124,7 @@ def test_flipped_signs_of_eigenvectors_change_nothing(shape, other, marks, rng):
 def test_operator_is_symmetric_positive_under_every_sampling(sampling, shape, other, marks):
     small = replace(RAW, basis=BasisConfig(functions=6), nystrom=NystromConfig(samples=30, sampling=sampling))
     energy = energy_of(shape, other, small, marks)
-    matrix = dense(energy.apply, (6, 6), np.zeros((6, 6)))
+    matrix = dense_matrix(energy.apply, (6, 6), np.zeros((6, 6)))
     np.testing.assert_allclose(matrix, matrix.T, atol=1e-10 * np.abs(matrix).max())
     assert np.linalg.eigvalsh(matrix)[0] > 0
     np.testing.assert_allclose(np.diag(matrix).reshape(6, 6), energy.diagonal(), rtol=1e-8)
@@ -253,7 +253,7 @@ def test_obcs12_leaves_commutativity_out():
 )
 def test_bad_landmarks_are_refused(landmarks, shape, other):
     with pytest.raises(InvalidInput, match=r"landmarks.*wanted .* got"):
-        checked_landmarks(np.asarray(landmarks), shape, other)
+        check_landmark_pairs(np.asarray(landmarks), shape, other)
 
 
 def test_bad_descriptors_and_kernels_are_refused(shape, other, marks):

@@ -7,13 +7,13 @@ import numpy as np
 import pytest
 
 from kfmaps import datasets
-from kfmaps._stage_timer import Clock
-from kfmaps.fmap.precise import PointMap, at_vertices, points_of
-from kfmaps.geometry.arap import nearest_rotations, rigidity, rotations
+from kfmaps._stage_timer import StageTimer
+from kfmaps.fmap.precise import PointMap, point_positions, vertex_point_map
+from kfmaps.geometry.arap import build_arap, nearest_rotations, rotations
 from kfmaps.geometry.mesh import Mesh, unit_area, vertex_areas
-from kfmaps.registration.accept import GAP, HARMED, Placed, placed
-from kfmaps.registration.deformable import body_of
-from kfmaps.registration.nonrigid_icp import NonRigid, Registered, _evened, facing
+from kfmaps.registration.accept import GAP, MAX_WORSENED_AREA, RegisteredMap, register_map
+from kfmaps.registration.deformable import deformable_mesh
+from kfmaps.registration.nonrigid_icp import NonRigid, Registration, _evened, mesh_pair
 
 GUARDS = ("kfmaps.fmap.precise", "kfmaps.geometry.arap", "kfmaps.registration")
 
@@ -23,8 +23,8 @@ def pair() -> datasets.Pair:
     return datasets.two_poses(1500, rng=3)
 
 
-def errors(found: Registered | PointMap, source: Mesh, truth: np.ndarray) -> np.ndarray:
-    return np.linalg.norm(points_of(PointMap(found.faces, found.weights), source) - truth, axis=1)
+def errors(found: Registration | PointMap, source: Mesh, truth: np.ndarray) -> np.ndarray:
+    return np.linalg.norm(point_positions(PointMap(found.faces, found.weights), source) - truth, axis=1)
 
 
 class Pretended:
@@ -36,19 +36,19 @@ class Pretended:
         self.pair, self.spot, self.gap, self.stubborn = pair, spot, gap, stubborn
         self.held: list[np.ndarray | None] = []
 
-    def __call__(self, source: Mesh, *_: Any, held: np.ndarray | None, **_more: Any) -> Registered:
+    def __call__(self, source: Mesh, *_: Any, held: np.ndarray | None, **_more: Any) -> Registration:
         self.held.append(held)
         points = self.pair.truth.copy()
         if held is None or self.stubborn:
             points[self.spot] = np.random.default_rng(0).permutation(points[self.spot])
-        place = at_vertices(points, source)
-        return Registered(source.vertices, place.faces, place.weights, 0.0, self.gap)
+        place = vertex_point_map(points, source)
+        return Registration(source.vertices, place.faces, place.weights, 0.0, self.gap)
 
 
-def end(pair: datasets.Pair, finish: Any, points: np.ndarray | None = None) -> Placed:
+def end(pair: datasets.Pair, finish: Any, points: np.ndarray | None = None) -> RegisteredMap:
     shapes: Any = [SimpleNamespace(mesh=unit_area(mesh)) for mesh in (pair.source, pair.target)]
     config: Any = SimpleNamespace(finish=finish, refinement="some")
-    return placed(pair.truth if points is None else points, shapes[0], shapes[1], config, Clock())
+    return register_map(pair.truth if points is None else points, shapes[0], shapes[1], config, StageTimer())
 
 
 def spot_of(pair: datasets.Pair, share: float) -> np.ndarray:
@@ -68,19 +68,19 @@ def test_a_fit_that_harms_a_part_is_made_again_with_the_map_held_there(pair: dat
     assert held[spot].mean() > 0.5
     assert np.delete(held, spot).mean() < 0.05
     assert last.fit is not None
-    assert last.fit.kept
-    assert last.fit.held
-    assert last.fit.harmed <= HARMED
+    assert last.fit.accepted
+    assert last.fit.pinned
+    assert last.fit.worsened <= MAX_WORSENED_AREA
     np.testing.assert_array_equal(last.target_to_source, pair.truth)
 
 
 def test_a_fit_that_harms_all_the_same_is_left(pair: datasets.Pair) -> None:
     last = end(pair, Pretended(pair, spot_of(pair, 0.05), stubborn=True))
     assert last.fit is not None
-    assert last.fit.why == "harm"
-    assert last.fit.harmed > HARMED
+    assert last.fit.reason == "harm"
+    assert last.fit.worsened > MAX_WORSENED_AREA
     assert last.fit.loss == pytest.approx(last.fit.before - (last.fit.after or 0))
-    assert last.place is None
+    assert last.precise_map is None
 
 
 def test_a_fit_that_heals_more_than_it_harms_is_kept(pair: datasets.Pair) -> None:
@@ -91,18 +91,18 @@ def test_a_fit_that_heals_more_than_it_harms_is_kept(pair: datasets.Pair) -> Non
     finish = Pretended(pair, spot_of(pair, 0.05), stubborn=True)
     last = end(pair, finish, wrong)
     assert last.fit is not None
-    assert last.fit.kept
-    assert last.fit.healed > last.fit.harmed > HARMED
+    assert last.fit.accepted
+    assert last.fit.improved > last.fit.worsened > MAX_WORSENED_AREA
     assert len(finish.held) == 2
     # A fit that lets sizes change changes distances: what it has changed is not held if it is kept.
     finish.held, finish.stretch = [], 0.01
     again = end(pair, finish, wrong)
     assert again.fit is not None
-    assert again.fit.kept
-    assert not again.fit.held
+    assert again.fit.accepted
+    assert not again.fit.pinned
     assert len(finish.held) == 1
     finish.held = []
-    assert not end(pair, finish).fit.kept  # type: ignore[union-attr]
+    assert not end(pair, finish).fit.accepted  # type: ignore[union-attr]
     assert len(finish.held) == 2
 
 
@@ -110,13 +110,13 @@ def test_a_gap_speaks_first(pair: datasets.Pair) -> None:
     finish = Pretended(pair, spot_of(pair, 0.05), gap=1.01 * GAP)
     last = end(pair, finish)
     assert last.fit is not None
-    assert (last.fit.why, last.fit.after, last.fit.kept) == ("gap", None, False)
+    assert (last.fit.reason, last.fit.after, last.fit.accepted) == ("gap", None, False)
     assert len(finish.held) == 1
 
 
 def test_rotations_become_even_and_constant_ones_stay(pair: datasets.Pair) -> None:
     rng = np.random.default_rng(0)
-    two = facing(body_of(unit_area(pair.source)), unit_area(pair.target))
+    two = mesh_pair(deformable_mesh(unit_area(pair.source)), unit_area(pair.target))
     n = len(pair.source.vertices)
     one = np.broadcast_to(nearest_rotations(rng.normal(size=(1, 3, 3))), (n, 3, 3))
     np.testing.assert_allclose(_evened(two, 1e-3)(one), one, atol=1e-8)
@@ -133,13 +133,13 @@ def test_rotations_become_even_and_constant_ones_stay(pair: datasets.Pair) -> No
 def test_the_fit_bends_more_evenly(pair: datasets.Pair) -> None:
     """Neighbouring rotations of the bent source differ less when they are averaged, the surfaces no more."""
     source, target = unit_area(pair.source), unit_area(pair.target)
-    energy = rigidity(source)
+    energy = build_arap(source)
 
-    def unevenness(found: Registered) -> float:
+    def unevenness(found: Registration) -> float:
         turns = rotations(energy, found.vertices).reshape(-1, 9)
         return float(np.sum(turns * (energy.laplacian @ turns)))
 
-    rough, even = (NonRigid(evenness=area)(source, target, pair.truth) for area in (0.0, 1e-3))
+    rough, even = (NonRigid(rotation_smoothing=area)(source, target, pair.truth) for area in (0.0, 1e-3))
     assert unevenness(even) < 0.95 * unevenness(rough)
     assert even.gap < 1.2 * rough.gap
 

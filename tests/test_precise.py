@@ -10,14 +10,14 @@ from kfmaps import datasets
 from kfmaps._arrays import InvalidInput
 from kfmaps.fmap.precise import (
     PointMap,
-    at_vertices,
-    check_places,
-    matrix_of,
-    nearest_places,
-    points_of,
-    vertices_of,
+    check_point_map_precise,
+    nearest_surface_points,
+    nearest_vertices,
+    point_map_matrix,
+    point_positions,
+    vertex_point_map,
 )
-from kfmaps.geometry.clean import inside, outer_faces
+from kfmaps.geometry.clean import clean_mesh, outer_faces
 from kfmaps.geometry.closest_points import closest_weights
 from kfmaps.geometry.mesh import Mesh
 
@@ -47,7 +47,7 @@ def test_the_search_is_exact(dimension: int, scale: float) -> None:
     rng = np.random.default_rng(dimension)
     points, queries = scale * rng.normal(size=(150, dimension)), scale * rng.normal(size=(300, dimension))
     faces = np.stack([rng.permutation(150)[:3] for _ in range(400)])
-    found = nearest_places(queries, points, faces)
+    found = nearest_surface_points(queries, points, faces)
     np.testing.assert_allclose(
         squared(found, queries, points, faces), brute(queries, points, faces), atol=1e-9 * scale**2
     )
@@ -59,15 +59,15 @@ def test_the_search_is_exact(dimension: int, scale: float) -> None:
 def test_around_nearest_vertices_of_a_smooth_surface_it_is_the_same() -> None:
     mesh = datasets.sphere(800, rng=0)
     queries = 1.02 * datasets.sphere(500, rng=1).vertices
-    whole = nearest_places(queries, mesh.vertices, mesh.faces)
-    near = nearest_places(queries, mesh.vertices, mesh.faces, exact=False)
+    whole = nearest_surface_points(queries, mesh.vertices, mesh.faces)
+    near = nearest_surface_points(queries, mesh.vertices, mesh.faces, exact=False)
     distances = [squared(p, queries, mesh.vertices, mesh.faces) for p in (whole, near)]
     np.testing.assert_allclose(distances[0], distances[1], rtol=1e-9, atol=1e-12)
 
 
 def test_vertices_that_no_face_uses_attract_nothing() -> None:
     points = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [5, 5, 5]])
-    found = nearest_places(np.array([[5.0, 5, 5]]), points, np.array([[0, 1, 2]]))
+    found = nearest_surface_points(np.array([[5.0, 5, 5]]), points, np.array([[0, 1, 2]]))
     np.testing.assert_allclose(found.weights[0], [0, 0.5, 0.5], atol=1e-12)
 
 
@@ -75,23 +75,25 @@ def test_maps_of_vertices_and_of_points_agree() -> None:
     mesh = datasets.sphere(200, rng=0)
     rng = np.random.default_rng(0)
     points = rng.integers(0, len(mesh.vertices), 300)
-    places = at_vertices(points, mesh)
-    np.testing.assert_array_equal(vertices_of(places, mesh), points)
-    np.testing.assert_allclose(points_of(places, mesh), mesh.vertices[points])
+    places = vertex_point_map(points, mesh)
+    np.testing.assert_array_equal(nearest_vertices(places, mesh), points)
+    np.testing.assert_allclose(point_positions(places, mesh), mesh.vertices[points])
     inner = PointMap(places.faces, rng.dirichlet(np.ones(3), 300))
     np.testing.assert_allclose(
-        matrix_of(inner, mesh.faces, len(mesh.vertices)) @ mesh.vertices, points_of(inner, mesh), atol=1e-12
+        point_map_matrix(inner, mesh.faces, len(mesh.vertices)) @ mesh.vertices,
+        point_positions(inner, mesh),
+        atol=1e-12,
     )
     corner = mesh.vertices[mesh.faces[inner.faces]]
-    nearest = np.linalg.norm(corner - points_of(inner, mesh)[:, None], axis=2).min(axis=1)
-    chosen = np.linalg.norm(mesh.vertices[vertices_of(inner, mesh)] - points_of(inner, mesh), axis=1)
+    nearest = np.linalg.norm(corner - point_positions(inner, mesh)[:, None], axis=2).min(axis=1)
+    chosen = np.linalg.norm(mesh.vertices[nearest_vertices(inner, mesh)] - point_positions(inner, mesh), axis=1)
     np.testing.assert_allclose(chosen, nearest)
 
 
 def test_broken_maps_are_refused() -> None:
     mesh = datasets.sphere(100, rng=0)
-    good = at_vertices(np.arange(len(mesh.vertices)), mesh)
-    check_places(good, mesh, len(mesh.vertices))
+    good = vertex_point_map(np.arange(len(mesh.vertices)), mesh)
+    check_point_map_precise(good, mesh, len(mesh.vertices))
     for faces, weights in (
         (good.faces + len(mesh.faces), good.weights),
         (good.faces.astype(float), good.weights),
@@ -100,9 +102,9 @@ def test_broken_maps_are_refused() -> None:
         (good.faces[1:], good.weights),
     ):
         with pytest.raises(InvalidInput):
-            check_places(PointMap(faces, weights), mesh)
+            check_point_map_precise(PointMap(faces, weights), mesh)
     with pytest.raises(InvalidInput, match="no face uses"):
-        at_vertices(np.array([100]), Mesh(np.vstack([mesh.vertices, [[9.0, 9, 9]]]), mesh.faces))
+        vertex_point_map(np.array([100]), Mesh(np.vstack([mesh.vertices, [[9.0, 9, 9]]]), mesh.faces))
 
 
 def test_faces_inside_are_found_outside() -> None:
@@ -112,7 +114,7 @@ def test_faces_inside_are_found_outside() -> None:
     faces = np.arange(len(soup)).reshape(-1, 3)
     speck = np.array([[9.0, 0, 0], [9.01, 0, 0], [9, 0.01, 0]])
     mesh = Mesh(np.vstack([speck, soup]), np.vstack([[[0, 1, 2], [3, 3, 4]], faces + 3]))
-    part = inside(mesh, specks=True)
+    part = clean_mesh(mesh, specks=True)
     assert len(part.mesh.vertices) < len(mesh.vertices) / 3
     outer = outer_faces(mesh, part)
     np.testing.assert_array_equal(mesh.vertices[mesh.faces[outer]], part.mesh.vertices[part.mesh.faces])
@@ -126,6 +128,6 @@ def test_a_match_of_cut_meshes_has_places_outside() -> None:
     one = kfmaps.match(pair.source, pair.target, config).precise()
     with pytest.warns(kfmaps.KfmapsWarning, match="seams"):
         many = kfmaps.match(soup, pair.target, config).precise()
-    check_places(many, soup, len(pair.target.vertices))
-    near = np.linalg.norm(points_of(one, pair.source) - points_of(many, soup), axis=1)
+    check_point_map_precise(many, soup, len(pair.target.vertices))
+    near = np.linalg.norm(point_positions(one, pair.source) - point_positions(many, soup), axis=1)
     assert np.median(near) < 1e-3

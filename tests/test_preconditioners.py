@@ -5,9 +5,9 @@ import pytest
 
 from conftest import random_basis
 from kfmaps._arrays import to_numpy
-from kfmaps.fmap.energy import Energy, descriptor_term, hadamard_term, laplacian_term, slice_term
+from kfmaps.fmap.energy import Energy, descriptor_term, hadamard_term, laplacian_term, operator_term
 from kfmaps.fmap.preconditioners import jacobi, sylvester
-from kfmaps.fmap.solvers import CG, dense, solve
+from kfmaps.fmap.solvers import CG, dense_matrix, solve
 from kfmaps.kernels.kernels import Gaussian
 
 GUARDS = ("kfmaps.fmap.energy", "kfmaps.fmap.preconditioners", "kfmaps.fmap.terms")
@@ -31,8 +31,8 @@ def terms(rng, asarray, convert):
 
     return {
         "descriptors": descriptor_term(source, W_s, target, W_t),
-        "slices": slice_term(slices(K_S, 1), slices(K_T, 1)),
-        "orientation": slice_term(slices(K_S, -1), slices(K_T, -1), parity=-1),
+        "slices": operator_term(slices(K_S, 1), slices(K_T, 1)),
+        "orientation": operator_term(slices(K_S, -1), slices(K_T, -1), parity=-1),
         "hadamard": hadamard_term(Gaussian(0.3), source, W_s, target, W_t, block=7),
         "laplacian": laplacian_term(source, target),
     }
@@ -42,7 +42,7 @@ def test_diagonal_in_other_bases_is_that_of_the_rotated_operator(terms, rng, asa
     terms["energy"] = Energy(dict(terms), dict.fromkeys(terms, 0.7))
     U_t, U_s = asarray(orthogonal(rng, K_T)), asarray(orthogonal(rng, K_S))
     for name, term in terms.items():
-        matrix = dense(lambda C, t=term: U_t.T @ t.apply(U_t @ C @ U_s.T) @ U_s, (K_T, K_S), U_t)
+        matrix = dense_matrix(lambda C, t=term: U_t.T @ t.apply(U_t @ C @ U_s.T) @ U_s, (K_T, K_S), U_t)
         found = to_numpy(term.rotated_diagonal(U_t, U_s)).ravel()
         np.testing.assert_allclose(found, np.diag(matrix), rtol=1e-9, atol=1e-9, err_msg=name)
 
@@ -56,7 +56,7 @@ def test_sides_are_what_is_left_without_the_coupling(rng):
         return X + X.transpose(0, 2, 1)
 
     nothing_t, nothing_s = np.zeros((R, K_T, K_T)), np.zeros((R, K_S, K_S))
-    for term in (slice_term(symmetric(K_S), nothing_t), slice_term(nothing_s, symmetric(K_T))):
+    for term in (operator_term(symmetric(K_S), nothing_t), operator_term(nothing_s, symmetric(K_T))):
         S_t, S_s = term.sides()
         np.testing.assert_allclose(S_t @ C + C @ S_s, term.apply(C), rtol=1e-10)
 
@@ -76,7 +76,7 @@ def test_preconditioners_are_positive_definite_and_self_adjoint(terms):
     energy = Energy(terms, dict.fromkeys(terms, 1.0))
     example = energy.rhs()
     for operator in (jacobi(energy.diagonal()), sylvester(energy)):
-        matrix = dense(operator, (K_T, K_S), example)
+        matrix = dense_matrix(operator, (K_T, K_S), example)
         np.testing.assert_allclose(matrix, matrix.T, atol=1e-12)
         assert np.linalg.eigvalsh(matrix)[0] > 0
 

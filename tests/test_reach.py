@@ -8,7 +8,7 @@ import pytest
 from conftest import blob
 from kfmaps.datasets import two_poses
 from kfmaps.fmap import approximate_geodesics as module
-from kfmaps.fmap.approximate_geodesics import reach
+from kfmaps.fmap.approximate_geodesics import approximate_geodesics
 from kfmaps.fmap.confidence import local_confidence
 from kfmaps.geometry.mesh import Mesh, unit_area
 
@@ -16,16 +16,16 @@ GUARDS = ("kfmaps.fmap.approximate_geodesics", "kfmaps.fmap.confidence")
 
 
 def coarser(monkeypatch: pytest.MonkeyPatch, points: int) -> None:
-    monkeypatch.setattr(module, "LARGE", 1000)
-    monkeypatch.setattr(module, "POINTS", points)
+    monkeypatch.setattr(module, "PROXY_FROM_VERTICES", 1000)
+    monkeypatch.setattr(module, "PROXY_VERTICES", points)
 
 
 def test_distances_are_nearly_those_of_all_edges(monkeypatch: pytest.MonkeyPatch) -> None:
     mesh = unit_area(blob(3000))
     sources, limit = np.array([5, 1700, 2999]), 0.3
-    exact = reach(mesh)(sources, limit)
+    exact = approximate_geodesics(mesh)(sources, limit)
     coarser(monkeypatch, 900)
-    found = reach(mesh)(sources, limit)
+    found = approximate_geodesics(mesh)(sources, limit)
     assert found.shape == exact.shape
     near = exact <= 0.9 * limit
     assert np.abs(found - exact)[near].mean() < 0.01
@@ -38,7 +38,7 @@ def test_a_component_that_is_not_reached_stays_far(monkeypatch: pytest.MonkeyPat
     coarser(monkeypatch, 900)
     one = unit_area(blob(1500))
     two = Mesh(np.vstack([one.vertices, one.vertices + 3]), np.vstack([one.faces, one.faces + 1500]))
-    found = reach(two)(np.array([0, 1500]), 0.3)
+    found = approximate_geodesics(two)(np.array([0, 1500]), 0.3)
     assert (found[0, 1500:] > 1).all()
     assert (found[1, :1500] > 1).all()
     assert (found[0, :1500] <= 0.3).any()

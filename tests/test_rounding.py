@@ -9,23 +9,28 @@ import pytest
 
 from conftest import blob, random_basis
 from kfmaps.config import BasisConfig, Config, Search
-from kfmaps.descriptors.spectral import heat_signature, heat_times, normalised, wave_energies, wave_signature
+from kfmaps.descriptors.spectral import heat_signature, heat_times, normalize, wave_energies, wave_signature
 from kfmaps.fmap.confidence import local_confidence
-from kfmaps.fmap.multiplication_operators import compressed, condensed, packed_slices, unpacked_slices
-from kfmaps.fmap.refine import ICP, ZoomOut, fitted
+from kfmaps.fmap.multiplication_operators import (
+    multiplication_operators,
+    truncate_features,
+    truncate_operators,
+    unpack_operators,
+)
+from kfmaps.fmap.refine import ICP, ZoomOut, fit_functional_map
 from kfmaps.fmap.solvers import CG, solve
-from kfmaps.fmap.terms import laplacian_term, slice_term, value
-from kfmaps.geometry.basis import Basis, zero_level
+from kfmaps.fmap.terms import laplacian_term, operator_term, value
+from kfmaps.geometry.basis import Basis, eigenvalue_tolerance
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.geometry.sampling import spectral_samples, stratified_samples
-from kfmaps.kernels.kernels import Gaussian, Laplacian, resolved
-from kfmaps.matching.assemble import orientation_pair, principal
-from kfmaps.matching.candidates import judged, kicked
+from kfmaps.kernels.kernels import Gaussian, Laplacian, resolve_kernel
+from kfmaps.matching.assemble import orientation_pair, principal_features
+from kfmaps.matching.candidates import perturb, score_maps
 from kfmaps.matching.features import Features
 from kfmaps.matching.match import match
-from kfmaps.matching.quality import map_quality, probe, thinned
+from kfmaps.matching.quality import map_quality, sample_for_scoring, subsample
 from kfmaps.matching.ranking import distinct
-from kfmaps.matching.sample_pair import ground
+from kfmaps.matching.sample_pair import sample_pair
 from kfmaps.shape import Shape, prepare
 
 GUARDS = (
@@ -80,10 +85,10 @@ def poor_maps() -> dict[str, np.ndarray]:
 @pytest.mark.parametrize("name", poor_maps())
 def test_poor_maps_score_finite_low_and_the_same_whatever_zero_is(shape, name):
     C = poor_maps()[name]
-    right = map_quality(np.eye(K), probe(shape, 200), probe(shape, 200))
+    right = map_quality(np.eye(K), sample_for_scoring(shape, 200), sample_for_scoring(shape, 200))
     found = []
     for first in FIRST:
-        judge = probe(starting(shape, first), 200)
+        judge = sample_for_scoring(starting(shape, first), 200)
         quality = map_quality(C, judge, judge)
         assert np.isfinite(astuple(quality)).all()
         assert quality.score < right.score - 1
@@ -92,22 +97,24 @@ def test_poor_maps_score_finite_low_and_the_same_whatever_zero_is(shape, name):
 
 
 def test_a_map_of_constants_alone_is_as_bad_as_of_unrelated_shapes(shape):
-    judge = probe(starting(shape, 0.0), 200)
+    judge = sample_for_scoring(starting(shape, 0.0), 200)
     quality = map_quality(poor_maps()["constants alone"], judge, judge)
     assert quality.laplacian == 1
     assert quality.orientation == 0
 
 
 def test_the_order_of_candidates_knows_no_rounding(shape):
-    judge = probe(shape, 200)
+    judge = sample_for_scoring(shape, 200)
     maps = {"right": np.eye(K), **poor_maps()}
     for first in FIRST:
-        judge = probe(starting(shape, first), 200)
-        found = judged([(name, True) for name in maps], np.stack(list(maps.values())), None, ground(judge, judge))
+        judge = sample_for_scoring(starting(shape, first), 200)
+        found = score_maps(
+            [(name, True) for name in maps], np.stack(list(maps.values())), None, sample_pair(judge, judge)
+        )
         assert distinct(found, judge)[0].name == "right"
         assert distinct(found[::-1], judge)[0].name == "right"
     # Symmetric maps tie but for rounding: the one that was found first stays first.
-    right = judged([("right", True)], np.eye(K)[None], None, ground(judge, judge))[0]
+    right = score_maps([("right", True)], np.eye(K)[None], None, sample_pair(judge, judge))[0]
     up = replace(right, quality=replace(right.quality, coverage=right.quality.coverage + 1e-15))
     assert up.score == right.score
 
@@ -126,20 +133,20 @@ def test_a_score_is_finite_where_every_sample_is_a_component_of_its_own():
     soup = Mesh(corners.reshape(-1, 3), np.arange(180).reshape(-1, 3))
     config = replace(SMALL, descriptors=replace(SMALL.descriptors, eigenfunctions=30))
     shape = prepare(soup, config)
-    assert shape.basis.eigenvalues[-1] < zero_level(shape.basis)
-    judge = thinned(probe(shape, 60), 40)
+    assert shape.basis.eigenvalues[-1] < eigenvalue_tolerance(shape.basis)
+    judge = subsample(sample_for_scoring(shape, 60), 40)
     assert np.isfinite(astuple(map_quality(np.eye(20), judge, judge))).all()
     for samples in (spectral_samples(shape.basis, 30), stratified_samples(shape.basis, 30)):
         assert len(samples.vertices) > 20
         assert samples.basis.mass.sum() == pytest.approx(shape.basis.mass.sum())
-    assert np.isfinite(kicked(np.eye(20), shape.basis.eigenvalues, rng)).all()
+    assert np.isfinite(perturb(np.eye(20), shape.basis.eigenvalues, rng)).all()
 
 
 @pytest.mark.parametrize("first", FIRST)
 def test_kicks_are_the_same_whatever_zero_is(shape, first):
     values = starting(shape, first).basis.eigenvalues
-    usual = kicked(np.eye(K), shape.basis.eigenvalues, np.random.default_rng(3))
-    np.testing.assert_allclose(kicked(np.eye(K), values, np.random.default_rng(3)), usual, atol=1e-5)
+    usual = perturb(np.eye(K), shape.basis.eigenvalues, np.random.default_rng(3))
+    np.testing.assert_allclose(perturb(np.eye(K), values, np.random.default_rng(3)), usual, atol=1e-5)
 
 
 @pytest.mark.parametrize("name", poor_maps())
@@ -148,13 +155,13 @@ def test_refinement_starts_from_any_map(shape, name):
     found = ZoomOut(6, 20, 7)(C, shape.basis, shape.basis)
     assert np.isfinite(found.functional_map).all()
     sampled = spectral_samples(shape.basis, 120).basis
-    assert np.isfinite(fitted(np.zeros(120, dtype=int), shape.basis, sampled, 20)).all()
+    assert np.isfinite(fit_functional_map(np.zeros(120, dtype=int), shape.basis, sampled, 20)).all()
 
 
 def test_icp_turns_nothing_that_the_points_say_nothing_of(shape):
     collapsed = np.full(500, 7)
     C = ICP(1)(np.eye(10), shape.basis, shape.basis, points=collapsed).functional_map
-    basis = shape.basis.truncated(10)
+    basis = shape.basis.truncate(10)
     image = basis.functions[7] / np.linalg.norm(basis.functions[7])
     np.testing.assert_allclose(C, np.outer(np.sign(basis.functions[0, 0]) * np.eye(10)[0], image), atol=1e-9)
 
@@ -185,7 +192,7 @@ def test_a_constant_descriptor_stays_one(how, rng):
     """Without its mean it is rounding, which must not be blown up to the size of the others."""
     D_s, D_t = rng.normal(size=(50, 9)), rng.normal(size=(40, 9))
     D_s[:, :8] = D_t[:, :8] = np.arange(1, 9) / 7
-    found = normalised(D_s, D_t, how, rng.random(50), rng.random(40))
+    found = normalize(D_s, D_t, how, rng.random(50), rng.random(40))
     columns = np.concatenate([part[:, :8] for part in found])
     np.testing.assert_allclose(np.ptp(columns, axis=0), 0, atol=1e-12)
     if how == "variance":
@@ -195,7 +202,7 @@ def test_a_constant_descriptor_stays_one(how, rng):
 @pytest.mark.parametrize("kernel", [Gaussian(), Laplacian()])
 def test_a_width_is_not_chosen_from_rounding(kernel, rng):
     X = 7 + 1e-15 * rng.normal(size=(30, 4)) + np.array([0.1, 0.2, 0.3, 0.4])
-    assert resolved(kernel, X) == resolved(kernel, np.ones((30, 4)))
+    assert resolve_kernel(kernel, X) == resolve_kernel(kernel, np.ones((30, 4)))
 
 
 @pytest.mark.parametrize("first", FIRST)
@@ -218,24 +225,24 @@ def test_the_laplacian_term_does_not_tell_zeros_apart():
 def test_constant_features_have_no_orientation(shape):
     """Their operators are rounding, which must not be scaled up to the size of the others."""
     constant = np.arange(1, 9) / 7 * (1 + 1e-15 * np.random.default_rng(1).normal(size=(500, 8)))
-    bases = shape.basis.truncated(K), shape.basis.truncated(K)
-    strongest = principal(bases, Features(constant, constant, Gaussian(1.0)), 40)
+    bases = shape.basis.truncate(K), shape.basis.truncate(K)
+    strongest = principal_features(bases, Features(constant, constant, Gaussian(1.0)), 40)
     pair = orientation_pair((shape, shape), (shape, shape), bases, strongest, K, 50.0)
-    term = slice_term(*pair, parity=-1)
+    term = operator_term(*pair, parity=-1)
     assert value(term, np.random.default_rng(0).normal(size=(K, K))) == 0
 
 
 def test_slices_of_features_that_are_zero(shape):
-    nothing, basis = np.zeros((500, 3)), shape.basis.truncated(8)
-    for features in condensed(basis, nothing, basis, nothing, 1e-3):
+    nothing, basis = np.zeros((500, 3)), shape.basis.truncate(8)
+    for features in truncate_features(basis, nothing, basis, nothing, 1e-3):
         assert features.shape == (500, 0)
-    packed = compressed(packed_slices(basis, nothing), packed_slices(basis, nothing), 0.0)
-    term = slice_term(*map(unpacked_slices, packed))
+    packed = truncate_operators(multiplication_operators(basis, nothing), multiplication_operators(basis, nothing), 0.0)
+    term = operator_term(*map(unpack_operators, packed))
     assert value(term, np.ones((8, 8))) == 0
 
 
 def test_the_zero_level_is_free_of_units(shape):
     basis = shape.basis
     large = Basis(basis.eigenvalues / 1e6, basis.functions / 1e3, basis.mass * 1e6)
-    assert zero_level(large) == pytest.approx(zero_level(basis) / 1e6)
-    assert basis.eigenvalues[0] < 1e-3 * zero_level(basis) < 1e-3 * basis.eigenvalues[1]
+    assert eigenvalue_tolerance(large) == pytest.approx(eigenvalue_tolerance(basis) / 1e6)
+    assert basis.eigenvalues[0] < 1e-3 * eigenvalue_tolerance(basis) < 1e-3 * basis.eigenvalues[1]

@@ -9,20 +9,20 @@ import kfmaps.shape as fit_shape
 from conftest import blob, fibonacci_sphere, random_basis
 from kfmaps._arrays import InvalidInput, inner
 from kfmaps.config import BasisConfig, Config, DescriptorConfig, NystromConfig, Weights
-from kfmaps.fmap.approximate_nearest import nearest_by_cells
+from kfmaps.fmap.approximate_nearest import approximate_nearest
 from kfmaps.fmap.convert import to_functional, to_points
-from kfmaps.fmap.multiplication_operators import condensed, packed_slices
+from kfmaps.fmap.multiplication_operators import multiplication_operators, truncate_features
 from kfmaps.fmap.nearest import nearest
 from kfmaps.fmap.refine import ZoomOut
 from kfmaps.fmap.solvers import CG
 from kfmaps.geometry.basis import laplace_basis
-from kfmaps.geometry.geodesics import distance_pairs
+from kfmaps.geometry.geodesics import geodesic_distance_pairs
 from kfmaps.geometry.mesh import Mesh, unit_area
 from kfmaps.geometry.sampling import SampledBasis, spectral_samples, stratified_samples, stratified_vertices
-from kfmaps.kernels.landmark_selection import farthest
+from kfmaps.kernels.landmark_selection import farthest_descriptors
 from kfmaps.matching.fit import fit, fit_points
-from kfmaps.matching.postprocess import finished
-from kfmaps.shape import local_descriptors, prepare, reduced
+from kfmaps.matching.postprocess import refine_map
+from kfmaps.shape import local_descriptors, prepare, sample_shape
 
 GUARDS = (
     "kfmaps.fmap.approximate_nearest",
@@ -91,7 +91,7 @@ def test_samples_do_not_crowd_on_a_thin_bridge(count):
     assert samples.basis.mass.sum() == pytest.approx(basis.mass.sum())
     # Where they do not crowd, as on a wider bridge, they are the farthest points themselves.
     wide = laplace_basis(unit_area(necked(1500, 0.2, 0.2)), 40)
-    expected = farthest(wide.functions[:, 1:] / wide.eigenvalues[1:], count, 0)
+    expected = farthest_descriptors(wide.functions[:, 1:] / wide.eigenvalues[1:], count, 0)
     np.testing.assert_array_equal(spectral_samples(wide, count, 0).vertices, expected)
 
 
@@ -100,10 +100,10 @@ def test_a_sampled_basis_stays_one(device):
     if device == "torch":
         pytest.importorskip("torch")
     basis = spectral_samples(laplace_basis(blob(200), 5), 30).basis
-    for other in (basis.truncated(3), basis.to(device), basis.to(device).truncated(2)):
+    for other in (basis.truncate(3), basis.to(device), basis.to(device).truncate(2)):
         assert isinstance(other, SampledBasis)
     with pytest.raises(InvalidInput, match="from 1 to 5"):
-        basis.truncated(99)
+        basis.truncate(99)
 
 
 def test_every_choice_of_points_comes_from_the_seed(pair):
@@ -111,7 +111,7 @@ def test_every_choice_of_points_comes_from_the_seed(pair):
     config, none = replace(CONFIG, fit_samples=500), np.zeros((0, 2), dtype=np.int64)
     for seed in (0, 5):
         points = fit_points(source, target, config, none, rng=seed)
-        expected = reduced(source, 500, none[:, 0], seed).shape.mesh.vertices
+        expected = sample_shape(source, 500, none[:, 0], seed).shape.mesh.vertices
         np.testing.assert_array_equal(points.shapes[0].mesh.vertices, expected)
     maps = [fit(source, target, config, rng=seed).functional_map for seed in (0, 0, 5, np.random.default_rng(5))]
     np.testing.assert_array_equal(maps[0], maps[1])
@@ -119,7 +119,7 @@ def test_every_choice_of_points_comes_from_the_seed(pair):
     C = to_functional(truth, source.basis, target.basis)[:20, :20]
     zoom = ZoomOut(20, 40, 10, samples=300)
     ends = [
-        finished(C, source, target, replace(CONFIG, refinement=z), rng=r).functional_map
+        refine_map(C, source, target, replace(CONFIG, refinement=z), rng=r).functional_map
         for z, r in ((zoom, 0), (zoom, 3), (replace(zoom, seed=3), 0), (zoom, 0))
     ]
     np.testing.assert_array_equal(ends[1], ends[2])
@@ -130,7 +130,7 @@ def test_every_choice_of_points_comes_from_the_seed(pair):
 def test_search_of_all_cells_is_exact(rng):
     points, queries = rng.normal(size=(300, 40)) + 5, rng.normal(size=(70, 40)) + 5
     for size in (1, 7, 300):
-        found = nearest_by_cells(queries, points, size=size, probes=300, threads=2)
+        found = approximate_nearest(queries, points, size=size, probes=300, threads=2)
         np.testing.assert_array_equal(found, brute(queries, points))
 
 
@@ -144,9 +144,9 @@ def test_search_by_cells_misses_few_and_none_by_much(pair):
     assert np.mean(found != exact) < 0.005
     some = nearest(queries[::70], points, exact=False)  # queries far apart
     assert np.mean(some != exact[::70]) < 0.03
-    errors = [distance_pairs(source.mesh, f, truth).mean() for f in (exact, found)]
+    errors = [geodesic_distance_pairs(source.mesh, f, truth).mean() for f in (exact, found)]
     assert errors[1] < 1.02 * errors[0]
-    few = nearest_by_cells(queries, points, probes=1)
+    few = approximate_nearest(queries, points, probes=1)
     assert np.mean(few != exact) > np.mean(found != exact)  # more probes find more
 
 
@@ -163,7 +163,7 @@ def test_a_point_not_far_from_the_nearest_is_where_to_look(pair):
     far = start[np.random.default_rng(0).permutation(len(start))]
     lost = nearest(queries, points, exact=False, start=far)
     assert np.mean(lost != exact) > 0.3
-    everything = nearest_by_cells(queries, points, start=far, around=10_000)
+    everything = approximate_nearest(queries, points, start=far, around=10_000)
     assert np.mean(everything != exact) < 1e-3  # but for single precision
 
 
@@ -173,22 +173,22 @@ def test_cells_hold_every_point_once(pair, size, threads):
     source, _, _ = pair
     functions = source.basis.functions[:, :40]
     np.testing.assert_array_equal(
-        nearest_by_cells(functions, functions, size=size, threads=threads), np.arange(len(functions))
+        approximate_nearest(functions, functions, size=size, threads=threads), np.arange(len(functions))
     )
 
 
 def test_search_by_cells_takes_empty_and_tiny_sets(rng):
     points = rng.normal(size=(1, 40))
-    assert nearest_by_cells(points, points).tolist() == [0]
-    assert nearest_by_cells(np.zeros((0, 40)), points).shape == (0,)
-    assert set(nearest_by_cells(np.ones((500, 40)), np.ones((3, 40)))) <= {0, 1, 2}
+    assert approximate_nearest(points, points).tolist() == [0]
+    assert approximate_nearest(np.zeros((0, 40)), points).shape == (0,)
+    assert set(approximate_nearest(np.ones((500, 40)), np.ones((3, 40)))) <= {0, 1, 2}
     with pytest.raises(InvalidInput, match="probes"):
-        nearest_by_cells(points, points, probes=0)
+        approximate_nearest(points, points, probes=0)
 
 
 @pytest.mark.parametrize("choose", [spectral_samples, stratified_samples])
 def test_samples_are_a_quadrature(choose, pair):
-    basis = pair[0].basis.truncated(15)
+    basis = pair[0].basis.truncate(15)
     samples = choose(basis, 400, 0)
     b = samples.basis
     np.testing.assert_array_equal(b.functions, basis.functions[samples.vertices])
@@ -230,20 +230,20 @@ def test_kept_vertices_without_area_have_none():
 
 def test_farthest_points_of_a_pool_are_rows_of_all(rng):
     X = rng.normal(size=(500, 3))
-    rows = farthest(X, 10, 0, pool=50)
+    rows = farthest_descriptors(X, 10, 0, pool=50)
     assert len(set(rows.tolist())) == 10
     assert not set(rows.tolist()) <= set(range(50))
-    np.testing.assert_array_equal(farthest(X, 10, 0, pool=500), farthest(X, 10, 0, None))
+    np.testing.assert_array_equal(farthest_descriptors(X, 10, 0, pool=500), farthest_descriptors(X, 10, 0, None))
 
 
 def test_reduced_shapes_keep_landmarks_and_small_shapes(pair):
     source = pair[0]
     marks = np.array([2500, 3, 77])
-    part = reduced(source, 500, marks)
+    part = sample_shape(source, 500, marks)
     np.testing.assert_array_equal(part.vertices[part.landmarks], marks)
     np.testing.assert_array_equal(part.shape.mesh.vertices, source.mesh.vertices[part.vertices])
-    assert reduced(source, 3000, marks).shape is source
-    assert reduced(source, None, marks).shape is source
+    assert sample_shape(source, 3000, marks).shape is source
+    assert sample_shape(source, None, marks).shape is source
 
 
 @pytest.mark.parametrize("orientation", [0.0, 0.5])
@@ -257,7 +257,7 @@ def test_a_fit_on_samples_is_as_good(pair, orientation):
         for count in (None, 1000)
     )
     maps = [to_points(m.functional_map, source.basis, target.basis) for m in (full, part)]
-    errors = [distance_pairs(source.mesh, points, truth).mean() for points in maps]
+    errors = [geodesic_distance_pairs(source.mesh, points, truth).mean() for points in maps]
     assert errors[1] < 1.15 * errors[0] + 1e-3
     assert np.linalg.norm(full.functional_map - part.functional_map) > 0
     with pytest.raises(InvalidInput, match="descriptors of"):
@@ -266,13 +266,13 @@ def test_a_fit_on_samples_is_as_good(pair, orientation):
 
 def test_zoomout_chooses_from_some_of_a_large_source(pair, monkeypatch):
     source, target, truth = pair
-    start = to_functional(truth, source.basis.truncated(10), target.basis.truncated(10))
+    start = to_functional(truth, source.basis.truncate(10), target.basis.truncate(10))
     zoom = ZoomOut(10, 50, 10, samples=300)
     monkeypatch.setattr("kfmaps.fmap.refine.EACH", 100)
     every = zoom(start, source.basis, target.basis)
-    monkeypatch.setattr("kfmaps.fmap.refine.CANDIDATES", 1000)
+    monkeypatch.setattr("kfmaps.fmap.refine.CANDIDATES_PER_CALL", 1000)
     some = zoom(start, source.basis, target.basis)
-    errors = [distance_pairs(source.mesh, m.target_to_source, truth).mean() for m in (every, some)]
+    errors = [geodesic_distance_pairs(source.mesh, m.target_to_source, truth).mean() for m in (every, some)]
     assert (every.target_to_source != some.target_to_source).any()
     assert errors[1] < 1.1 * errors[0] + 1e-3
     last = to_points(some.functional_map, source.basis, target.basis)
@@ -285,7 +285,7 @@ def test_condensed_features_lose_no_more_than_they_say(rng):
     W_s, W_t = rng.normal(size=(60, 20)) @ mix, rng.normal(size=(50, 20)) @ mix
 
     def energy(F_s, F_t):
-        return sum(inner(p, p) for p in (packed_slices(source, F_s), packed_slices(target, F_t)))
+        return sum(inner(p, p) for p in (multiplication_operators(source, F_s), multiplication_operators(target, F_t)))
 
     def bound(F_s, F_t):
         return sum(
@@ -296,15 +296,15 @@ def test_condensed_features_lose_no_more_than_they_say(rng):
     assert whole <= bound(W_s, W_t)
     counts = []
     for rtol in (1e-8, 1e-4, 1e-2):
-        kept = condensed(source, W_s, target, W_t, rtol)
+        kept = truncate_features(source, W_s, target, W_t, rtol)
         counts.append(kept[0].shape[1])
         assert whole - energy(*kept) + 1e-12 * whole >= 0
         assert whole - energy(*kept) <= rtol * bound(W_s, W_t) + 1e-12 * whole
     assert 20 >= counts[0] > counts[1] > counts[2] >= 1
-    kept = condensed(source, W_s, target, W_t, 0.0)
+    kept = truncate_features(source, W_s, target, W_t, 0.0)
     assert energy(*kept) == pytest.approx(whole, rel=1e-12)
     with pytest.raises(InvalidInput, match="rtol"):
-        condensed(source, W_s, target, W_t, 1.0)
+        truncate_features(source, W_s, target, W_t, 1.0)
 
 
 def test_a_warm_start_spares_steps_and_changes_nothing(pair):

@@ -8,25 +8,25 @@ import pytest
 from conftest import blob
 from kfmaps.config import BasisConfig, Config, NystromConfig, Search
 from kfmaps.fmap.convert import nearest
-from kfmaps.fmap.descriptor_guidance import guide, joined
+from kfmaps.fmap.descriptor_guidance import combine_guidance, descriptor_guidance
 from kfmaps.fmap.refine import ZoomOut
 from kfmaps.fmap.solvers import CG
-from kfmaps.geometry.coarsen import coarse
+from kfmaps.geometry.coarsen import coarsen
 from kfmaps.geometry.geodesics import geodesic_distances
 from kfmaps.geometry.mesh import Mesh, face_areas, unit_area, vertex_normals
 from kfmaps.geometry.sampling import spectral_samples
 from kfmaps.matching import candidates
 from kfmaps.matching import kernel_inits as fits
-from kfmaps.matching.batched_zoomout import zoomed
-from kfmaps.matching.candidates import LANDMARK, again, fine, judged
+from kfmaps.matching.batched_zoomout import batched_zoomout
+from kfmaps.matching.candidates import W_LANDMARK, refine_fine, rerefine, score_maps
 from kfmaps.matching.fit import fit
-from kfmaps.matching.kernel_inits import Fit, fitted_family, sampled
-from kfmaps.matching.landmark_evidence import around, doubted, missed, side_by_side
+from kfmaps.matching.kernel_inits import FitSpec, fit_descriptor_set, sample_shapes
+from kfmaps.matching.landmark_evidence import heat_features, heat_guidance, landmark_errors, reject_landmarks
 from kfmaps.matching.match import match
-from kfmaps.matching.quality import probe, surface
-from kfmaps.matching.sample_pair import arena, differences, ground, without
-from kfmaps.matching.search import Found, choose, closing
-from kfmaps.shape import prepare, reduced
+from kfmaps.matching.quality import sample_for_scoring, sample_surface
+from kfmaps.matching.sample_pair import descriptor_cost, drop_landmarks, sample_pair, two_level_samples
+from kfmaps.matching.search import SearchResult, adapt_refinement, search_map
+from kfmaps.shape import prepare, sample_shape
 
 GUARDS = ("kfmaps.fmap.descriptor_guidance", "kfmaps.geometry.coarsen", "kfmaps.geometry.sampling", "kfmaps.matching")
 
@@ -64,12 +64,12 @@ def marks_of(truth, rows):
 @pytest.mark.parametrize("weight", [0.0, 12.0])
 def test_many_maps_at_once_are_refined_as_one_is(shape, other, weight):
     a, b = (spectral_samples(s.basis, 200) for s in (shape, other))
-    led = guide(shape.mesh.vertices[a.vertices], other.mesh.vertices[b.vertices])
+    led = descriptor_guidance(shape.mesh.vertices[a.vertices], other.mesh.vertices[b.vertices])
     assert led is not None
     rng = np.random.default_rng(0)
     starts = np.stack([np.diag([1.0, *signs]) for signs in rng.choice([-1.0, 1.0], size=(7, 5))])
-    against = np.float32(weight) * differences(led) if weight else None
-    maps, points = zoomed(starts, a.basis, b.basis, (6, 14, 22, 30), against, threads=2)
+    against = np.float32(weight) * descriptor_cost(led) if weight else None
+    maps, points = batched_zoomout(starts, a.basis, b.basis, (6, 14, 22, 30), against, threads=2)
     for C, here, start in zip(maps, points, starts, strict=True):
         one = ZoomOut(6, 30, 8, guidance=weight)(start, a.basis, b.basis, threads=1, guide=led)
         np.testing.assert_allclose(C, one.functional_map, atol=2e-3)
@@ -86,9 +86,9 @@ def test_a_family_makes_the_maps_that_single_fits_make(shape, other):
         weights=replace(SMALL.weights, orientation=0.0),
     )
     none = np.zeros((0, 2), dtype=np.int64)
-    points = sampled(shape, other, none, None)
-    wanted = [Fit("SHOT and waves", k, 0.0) for k in (30, 12)]
-    maps = fitted_family("SHOT and waves", wanted, points, settings, (None, None), 3)
+    points = sample_shapes(shape, other, none, None)
+    wanted = [FitSpec("SHOT and waves", k, 0.0) for k in (30, 12)]
+    maps = fit_descriptor_set("SHOT and waves", wanted, points, settings, (None, None), 3)
     for chosen, C in zip(wanted, maps, strict=True):
         assert C.shape == (chosen.functions, chosen.functions)
         alone = fit(shape, other, replace(settings, basis=BasisConfig(functions=chosen.functions)), rng=3)
@@ -100,31 +100,31 @@ def test_the_points_of_the_fits_come_from_the_seed(shape, other, monkeypatch):
 
     def spy(*arguments):
         asked.append(arguments[-1])
-        return sampled(*arguments)
+        return sample_shapes(*arguments)
 
-    monkeypatch.setattr(candidates, "sampled", spy)
-    monkeypatch.setattr(candidates, "EASY", np.inf)
+    monkeypatch.setattr(candidates, "sample_shapes", spy)
+    monkeypatch.setattr(candidates, "EARLY_EXIT_SCORE", np.inf)
     for seed in (7, 0):
-        choose(shape, other, SMALL, rng=seed)
+        search_map(shape, other, SMALL, rng=seed)
     assert asked == [7, 0]
-    monkeypatch.setattr(fits, "POINTS", 300)
+    monkeypatch.setattr(fits, "PROXY_VERTICES", 300)
     none = np.zeros((0, 2), dtype=np.int64)
-    expected = reduced(shape, 300, none[:, 0], 7).shape.mesh.vertices
-    np.testing.assert_array_equal(sampled(shape, other, none, None, 7).shapes[0].mesh.vertices, expected)
+    expected = sample_shape(shape, 300, none[:, 0], 7).shape.mesh.vertices
+    np.testing.assert_array_equal(sample_shapes(shape, other, none, None, 7).shapes[0].mesh.vertices, expected)
 
 
 def test_the_orientation_of_a_family_turns_its_maps(shape, other):
     none = np.zeros((0, 2), dtype=np.int64)
-    points = sampled(shape, other, none, None)
-    probes = probe(shape, 200), probe(other, 200)
+    points = sample_shapes(shape, other, none, None)
+    probes = sample_for_scoring(shape, 200), sample_for_scoring(other, 200)
     cubes = probes[0].orientation, probes[1].orientation
     assert cubes[1] is not None
     maps = [
-        fitted_family("waves", [Fit("waves", 20, w)], points, SMALL, c, 0)[0]
+        fit_descriptor_set("waves", [FitSpec("waves", 20, w)], points, SMALL, c, 0)[0]
         for w, c in ((1.0, cubes), (1.0, (cubes[0], -cubes[1])), (0.0, cubes))
     ]
-    on = ground(*probes)
-    kept, turned, free = (c.quality.orientation for c in judged([("", True)] * 3, np.stack(maps), None, on))
+    on = sample_pair(*probes)
+    kept, turned, free = (c.quality.orientation for c in score_maps([("", True)] * 3, np.stack(maps), None, on))
     assert kept > 0.8
     assert kept > turned + 0.3
     assert kept >= free - 1e-6
@@ -132,51 +132,51 @@ def test_the_orientation_of_a_family_turns_its_maps(shape, other):
 
 def test_heat_from_landmarks_is_one_at_the_landmark_and_nowhere_more(shape):
     at = np.array([3, 77])
-    found = around(shape.basis, shape.basis, at)
+    found = heat_features(shape.basis, shape.basis, at)
     assert found.shape == (2, 700, 3)
     np.testing.assert_allclose(found[[0, 1], at], 1.0)
     assert found.max() <= 1 + 1e-12
-    places = side_by_side(found, found)
+    places = heat_guidance(found, found)
     gaps = ((places.source[:, None] - places.target[None]) ** 2).sum(axis=2).mean()
     assert gaps == pytest.approx(1.0)
 
 
 def test_guides_are_joined_in_proportion_to_their_weights(shape):
-    first, second = (side_by_side(*[around(shape.basis, shape.basis, np.array([v]))] * 2) for v in (5, 300))
-    both = joined([(12.0, first), (3.0, second)])
+    first, second = (heat_guidance(*[heat_features(shape.basis, shape.basis, np.array([v]))] * 2) for v in (5, 300))
+    both = combine_guidance([(12.0, first), (3.0, second)])
     assert both is not None
     gap = ((both.source[1] - both.target[2]) ** 2).sum()
     parts = [((g.source[1] - g.target[2]) ** 2).sum() for g in (first, second)]
     assert gap == pytest.approx(parts[0] + parts[1] / 4)
-    assert joined([(12.0, None), (0.0, second)]) is None
+    assert combine_guidance([(12.0, None), (0.0, second)]) is None
 
 
 def test_landmarks_are_doubted_when_most_of_the_others_are_met():
     near, far = 0.02, 0.9
-    assert doubted(np.array([near, near, far, near, near])).tolist() == [False, False, True, False, False]
-    assert not doubted(np.array([far, near])).any()
-    assert not doubted(np.array([far, far, near, near, far])).any()
+    assert reject_landmarks(np.array([near, near, far, near, near])).tolist() == [False, False, True, False, False]
+    assert not reject_landmarks(np.array([far, near])).any()
+    assert not reject_landmarks(np.array([far, far, near, near, far])).any()
 
 
 def test_missed_is_the_distance_from_where_a_landmark_belongs(shape):
     at = np.array([10, 200, 400])
     wrong = np.array([10, 200, 5])
-    judge = probe(shape, 300, landmarks=at)
-    on = arena(shape, shape, (judge, judge), np.stack([at, wrong], axis=1))
+    judge = sample_for_scoring(shape, 300, landmarks=at)
+    on = two_level_samples(shape, shape, (judge, judge), np.stack([at, wrong], axis=1))
     assert on.whole.marks is not None
-    off = missed(np.eye(60), judge.samples.basis.functions, on.whole.marks)
+    off = landmark_errors(np.eye(60), judge.samples.basis.functions, on.whole.marks)
     true = geodesic_distances(shape.mesh, at[2:])[0, 5]
     assert off[:2].max() < 0.1
     assert off[2] == pytest.approx(true, abs=0.1)
-    one = judged([("", True)], np.eye(60)[None], None, on.whole)[0]
-    assert one.quality.score - one.score == pytest.approx(LANDMARK, rel=0.3)
-    less = without(on.whole, np.array([False, False, True]))
-    assert again([one], less)[0].missed.shape == (2,)
-    assert len(fine([one], less, less, 90)[0].missed) == 2
+    one = score_maps([("", True)], np.eye(60)[None], None, on.whole)[0]
+    assert one.quality.score - one.score == pytest.approx(W_LANDMARK, rel=0.3)
+    less = drop_landmarks(on.whole, np.array([False, False, True]))
+    assert rerefine([one], less)[0].landmark_errors.shape == (2,)
+    assert len(refine_fine([one], less, less, 90)[0].landmark_errors) == 2
 
 
 def test_no_landmarks_are_an_empty_list_of_them(shape, other):
-    with_none, with_empty = (choose(shape, other, SMALL, landmarks=marks) for marks in (None, []))
+    with_none, with_empty = (search_map(shape, other, SMALL, landmarks=marks) for marks in (None, []))
     np.testing.assert_array_equal(with_none.functional_map, with_empty.functional_map)
     assert with_none.scores == with_empty.scores
 
@@ -184,10 +184,10 @@ def test_no_landmarks_are_an_empty_list_of_them(shape, other):
 def test_wrong_landmarks_are_named_and_spoil_nothing(shape, other, truth):
     marks = marks_of(truth, [10, 120, 240, 360, 480, 600])
     marks[3, 0] = truth[11]
-    found = choose(shape, other, SMALL, landmarks=marks)
-    assert found.doubted.tolist() == [3]
+    found = search_map(shape, other, SMALL, landmarks=marks)
+    assert found.rejected_landmarks.tolist() == [3]
     np.testing.assert_array_equal(found.landmarks, np.delete(marks, 3, axis=0))
-    right = choose(shape, other, SMALL, landmarks=np.delete(marks, 3, axis=0))
+    right = search_map(shape, other, SMALL, landmarks=np.delete(marks, 3, axis=0))
     phi = other.basis.functions[:, : len(found.functional_map)].copy()
     images = [shape.basis.functions[:, : len(phi.T)] @ f.functional_map.T for f in (found, right)]
     moved = [shape.mesh.vertices[nearest(phi, i)] - other.mesh.vertices for i in images]
@@ -200,7 +200,7 @@ def test_a_coarse_surface_has_the_distances_and_the_sides_of_the_fine_one():
     mesh = unit_area(blob(3000))
     basis = prepare(mesh, replace(SMALL, descriptors=replace(SMALL.descriptors, shot=False))).basis
     vertices = np.sort(spectral_samples(basis, 500).vertices)
-    few = coarse(mesh, vertices)
+    few = coarsen(mesh, vertices)
     np.testing.assert_array_equal(few.vertices, mesh.vertices[vertices])
     assert face_areas(few).sum() == pytest.approx(1.0, rel=0.05)
     true = geodesic_distances(mesh, vertices[:20])[:, vertices]
@@ -209,17 +209,17 @@ def test_a_coarse_surface_has_the_distances_and_the_sides_of_the_fine_one():
     sides = (vertex_normals(few) * vertex_normals(mesh)[vertices]).sum(axis=1)
     assert sides.min() > 0.5
     cloud = Mesh(mesh.vertices, np.zeros((0, 3), dtype=int))
-    assert len(coarse(cloud, vertices).faces) == 0
+    assert len(coarsen(cloud, vertices).faces) == 0
 
 
 def test_a_large_shape_is_judged_on_a_coarse_copy(monkeypatch):
     shape = prepare(blob(1500), SMALL)
-    whole = probe(shape, 200, landmarks=np.array([7]))
+    whole = sample_for_scoring(shape, 200, landmarks=np.array([7]))
     monkeypatch.setattr("kfmaps.matching.quality.SURFACE", 900)
-    assert len(surface(shape, np.arange(10))[0].vertices) < 950
-    less = probe(shape, 200, landmarks=np.array([7]))
+    assert len(sample_surface(shape, np.arange(10))[0].vertices) < 950
+    less = sample_for_scoring(shape, 200, landmarks=np.array([7]))
     np.testing.assert_array_equal(less.samples.vertices, whole.samples.vertices)
-    for a, b in ((less.distances, whole.distances), (less.marks, whole.marks)):
+    for a, b in ((less.distances, whole.distances), (less.landmark_distances, whole.landmark_distances)):
         assert np.abs(a - b).mean() < 0.03 * b.mean()
     assert less.orientation is not None
     assert whole.orientation is not None
@@ -235,20 +235,20 @@ def test_a_mirrored_shape_is_told_from_a_kept_one(shape, other):
     moved = shape.mesh.vertices[reversed_one.target_to_source] * [1, 1, -1] - unit_area(image).vertices
     assert reversed_one.orientation == "reversed"
     assert np.linalg.norm(moved - moved.mean(axis=0), axis=1).mean() < 0.04
-    assert choose(shape, other, either).orientation == "kept"
-    assert choose(shape, prepare(image, SMALL), SMALL).orientation == "kept"
+    assert search_map(shape, other, either).orientation == "kept"
+    assert search_map(shape, prepare(image, SMALL), SMALL).orientation == "kept"
 
 
 def test_a_refinement_of_unlike_shapes_ends_early():
     zoom = ZoomOut(50, 200, 25, guidance=36.0)
 
     def found(quality):
-        return Found(np.eye(80), "signs", None, "sure", quality=quality)
+        return SearchResult(np.eye(80), "signs", None, "sure", quality=quality)
 
-    assert closing(zoom, found(-5.0)) is zoom
-    assert closing(zoom, found(None)) is zoom
-    assert closing(None, found(-12.0)) is None
-    early = closing(zoom, found(-12.0))
+    assert adapt_refinement(zoom, found(-5.0)) is zoom
+    assert adapt_refinement(zoom, found(None)) is zoom
+    assert adapt_refinement(None, found(-12.0)) is None
+    early = adapt_refinement(zoom, found(-12.0))
     assert isinstance(early, ZoomOut)
     assert (early.start, early.stop, early.guidance) == (50, 100, 36.0)
-    assert closing(ZoomOut(20, 60, 5), found(-12.0)) == ZoomOut(20, 60, 5)
+    assert adapt_refinement(ZoomOut(20, 60, 5), found(-12.0)) == ZoomOut(20, 60, 5)

@@ -10,7 +10,7 @@ from scipy.spatial.transform import Rotation
 import kfmaps.descriptors.shot as module
 from conftest import blob
 from kfmaps._arrays import InvalidInput
-from kfmaps.descriptors.shot import Form, mirrored, shot
+from kfmaps.descriptors.shot import Form, mirror_shot, shot
 from kfmaps.geometry.mesh import Mesh, face_areas, unit_area, vertex_normals
 from plain_shot import plain_shot
 
@@ -80,9 +80,9 @@ def test_a_mirror_reverses_the_azimuths(form, samples):
     mesh = blob(400)
     mirror = Mesh(mesh.vertices * np.array([-1.0, 1.0, 1.0]), mesh.faces[:, ::-1])
     own, other = (shot(m, 0.2, form=form, samples=samples) for m in (mesh, mirror))
-    np.testing.assert_allclose(other, mirrored(own), atol=1e-5)
+    np.testing.assert_allclose(other, mirror_shot(own), atol=1e-5)
     assert np.median(np.linalg.norm(own - other, axis=1)) > 0.1
-    np.testing.assert_array_equal(mirrored(mirrored(own)), own)
+    np.testing.assert_array_equal(mirror_shot(mirror_shot(own)), own)
 
 
 @pytest.mark.parametrize("form", FORMS)
@@ -243,4 +243,4 @@ def test_refuses_what_has_no_surface():
     with pytest.raises(InvalidInput, match="vertices"):
         shot(Mesh(np.where(vertices > 1, np.nan, vertices), blob(50).faces))
     with pytest.raises(InvalidInput, match="32"):
-        mirrored(np.ones((3, 33)))
+        mirror_shot(np.ones((3, 33)))

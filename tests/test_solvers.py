@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from kfmaps._arrays import InvalidInput, to_numpy
-from kfmaps.fmap.solvers import CG, Direct, dense, solve
+from kfmaps.fmap.solvers import CG, Direct, dense_matrix, solve
 
 GUARDS = ("kfmaps.fmap.solvers",)
 
@@ -95,7 +95,7 @@ def test_direct_gives_the_least_squares_answer_of_a_singular_system(rng):
 
 def test_dense_is_the_matrix(rng):
     matrix, apply = system(rng)
-    np.testing.assert_allclose(dense(apply, (4, 5), np.zeros((4, 5))), matrix)
+    np.testing.assert_allclose(dense_matrix(apply, (4, 5), np.zeros((4, 5))), matrix)
 
 
 @pytest.mark.parametrize(

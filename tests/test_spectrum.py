@@ -52,8 +52,10 @@ def test_functions_are_orthonormal_in_every_array_library(basis: Basis, asarray:
     mine = Basis(asarray(basis.eigenvalues), asarray(basis.functions), asarray(basis.mass))
     np.testing.assert_allclose(to_numpy(mine.project(mine.functions)), np.eye(25), atol=1e-11)
     coefficients = asarray(np.random.default_rng(0).normal(size=(25, 3)))
-    np.testing.assert_allclose(to_numpy(mine.project(mine.lift(coefficients))), to_numpy(coefficients), atol=1e-11)
-    short = mine.truncated(7)
+    np.testing.assert_allclose(
+        to_numpy(mine.project(mine.reconstruct(coefficients))), to_numpy(coefficients), atol=1e-11
+    )
+    short = mine.truncate(7)
     assert short.eigenvalues.shape == (7,)
     np.testing.assert_array_equal(to_numpy(short.functions), basis.functions[:, :7])
 
@@ -119,7 +121,9 @@ def test_components_multiply_eigenvalues(mesh: Mesh) -> None:
     np.testing.assert_allclose(tripled.eigenvalues, np.repeat(one, 3), rtol=1e-7, atol=1e-8)
     # The three functions of eigenvalue zero span the components.
     indicator = np.repeat(np.eye(3), n, axis=0)
-    np.testing.assert_allclose(tripled.truncated(3).lift(tripled.truncated(3).project(indicator)), indicator, atol=1e-7)
+    np.testing.assert_allclose(
+        tripled.truncate(3).reconstruct(tripled.truncate(3).project(indicator)), indicator, atol=1e-7
+    )
 
 
 @pytest.mark.parametrize("laplacian", LAPLACIANS)
@@ -252,7 +256,7 @@ def test_bad_input_is_refused(mesh: Mesh, basis: Basis) -> None:
     with pytest.raises(InvalidInput, match="magic"):
         laplace_basis(mesh, 5, "magic")
     with pytest.raises(InvalidInput, match="from 1 to 25"):
-        basis.truncated(26)
+        basis.truncate(26)
 
 
 def test_to_device(basis: Basis, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -10,11 +10,11 @@ import pytest
 import kfmaps
 from kfmaps import datasets
 from kfmaps._arrays import InvalidInput
-from kfmaps.geometry.arap import nearest_rotations, rigidity, rotations
+from kfmaps.geometry.arap import build_arap, nearest_rotations, rotations
 from kfmaps.geometry.mesh import Mesh, unit_area, vertex_areas
 from kfmaps.matching import match as matching
-from kfmaps.matching.search import STRETCH, UNLIKE, Found, loosened
-from kfmaps.registration.local_scaling import LEAST, MOST, stretching
+from kfmaps.matching.search import NON_ISOMETRIC_SCORE, STRETCH, SearchResult, adapt_registration
+from kfmaps.registration.local_scaling import LEAST, MOST, local_scaling
 from kfmaps.registration.nonrigid_icp import NonRigid
 
 GUARDS = ("kfmaps.geometry.arap", "kfmaps.registration.local_scaling", "kfmaps.registration.nonrigid_icp")
@@ -25,14 +25,14 @@ EYE = np.eye(3)
 @pytest.fixture(scope="module")
 def ball():
     mesh = unit_area(datasets.sphere(400, rng=0))
-    return mesh, rigidity(mesh), vertex_areas(mesh)
+    return mesh, build_arap(mesh), vertex_areas(mesh)
 
 
 def test_a_change_of_size_is_found_exactly(ball) -> None:
     mesh, energy, areas = ball
     turn = nearest_rotations(np.random.default_rng(0).normal(size=(1, 3, 3)))[0]
     x = 1.4 * mesh.vertices @ turn.T
-    found = stretching(energy, areas, 0.05)(x, rotations(energy, x))
+    found = local_scaling(energy, areas, 0.05)(x, rotations(energy, x))
     np.testing.assert_allclose(found, np.broadcast_to(1.4 * turn, found.shape), atol=1e-8)
 
 
@@ -41,7 +41,7 @@ def test_longer_in_one_direction_is_found_nearly(ball) -> None:
     mesh, energy, areas = ball
     longer = np.diag([1.0, 1.0, 1.6])
     still = np.broadcast_to(EYE, (len(areas), 3, 3))
-    wide, narrow = (stretching(energy, areas, area)(mesh.vertices @ longer, still) for area in (1.0, 0.01))
+    wide, narrow = (local_scaling(energy, areas, area)(mesh.vertices @ longer, still) for area in (1.0, 0.01))
     assert np.abs(wide - longer).max() < 0.12
     assert np.abs(wide - longer).mean() < np.abs(narrow - longer).mean() < np.abs(EYE - longer).mean()
 
@@ -54,7 +54,7 @@ def test_one_side_alone_is_hardly_stretched(ball) -> None:
     top = np.argmax(up)
 
     def size(where: np.ndarray) -> float:
-        found = stretching(energy, areas, 0.05)(mesh.vertices * (1 + 0.5 * where[:, None]), still)
+        found = local_scaling(energy, areas, 0.05)(mesh.vertices * (1 + 0.5 * where[:, None]), still)
         return float(np.trace(found[top]) / 3)
 
     assert size((up > 0.98).astype(float)) < 1.15
@@ -66,7 +66,7 @@ def test_it_turns_along_and_keeps_to_its_bounds(ball) -> None:
     rng = np.random.default_rng(1)
     x = mesh.vertices * (0.3, 1.0, 6.0) + 0.02 * rng.normal(size=mesh.vertices.shape)
     turn = nearest_rotations(rng.normal(size=(1, 3, 3)))[0]
-    stretched = stretching(energy, areas, 0.02)
+    stretched = local_scaling(energy, areas, 0.02)
     found, turned = (stretched(y, rotations(energy, y)) for y in (x, x @ turn.T))
     np.testing.assert_allclose(turned, turn @ found, atol=1e-6)
     assert np.linalg.svd(found, compute_uv=False).max() == pytest.approx(MOST)
@@ -78,7 +78,7 @@ def test_it_turns_along_and_keeps_to_its_bounds(ball) -> None:
 def test_no_area_leaves_rotations(ball) -> None:
     mesh, energy, areas = ball
     turns = rotations(energy, mesh.vertices)
-    assert stretching(energy, areas, 0.0)(2 * mesh.vertices, turns) is turns
+    assert local_scaling(energy, areas, 0.0)(2 * mesh.vertices, turns) is turns
 
 
 def test_bodies_of_other_proportions_slide_less() -> None:
@@ -90,31 +90,31 @@ def test_bodies_of_other_proportions_slide_less() -> None:
     other = x + np.where(along > 0, 0.35 * along, -0.25 * along)[:, None] * axis
     target = unit_area(Mesh(other, source.faces))
     every = np.arange(len(x))
-    stiff = NonRigid(stiffness=5e-3, levels=2, steps=4)
+    stiff = NonRigid(stiffness=5e-3, n_levels=2, steps=4)
     off = [
         float(np.linalg.norm(fit.vertices(source, target, every) - target.vertices, axis=1).mean())
-        for fit in (stiff, replace(stiff, stretch=0.05))
+        for fit in (stiff, replace(stiff, local_scaling=0.05))
     ]
     assert off[1] < 0.7 * off[0]
 
 
 def test_a_stretch_is_an_area() -> None:
     with pytest.raises(InvalidInput, match="stretch of the non-rigid fit"):
-        NonRigid(stretch=-0.01)
+        NonRigid(local_scaling=-0.01)
 
 
 def test_only_unlike_shapes_are_stretched_in_the_end(monkeypatch) -> None:
-    found = Found(np.eye(3), "a", None, "poor", quality=UNLIKE - 1)
-    assert loosened(NonRigid(), found) == NonRigid(stretch=STRETCH)
-    assert loosened(NonRigid(stretch=0.2), found) == NonRigid(stretch=0.2)
-    assert loosened(None, found) is None
-    for like in (UNLIKE, None):
-        assert loosened(NonRigid(), replace(found, quality=like)) == NonRigid()
+    found = SearchResult(np.eye(3), "a", None, "poor", quality=NON_ISOMETRIC_SCORE - 1)
+    assert adapt_registration(NonRigid(), found) == NonRigid(local_scaling=STRETCH)
+    assert adapt_registration(NonRigid(local_scaling=0.2), found) == NonRigid(local_scaling=0.2)
+    assert adapt_registration(None, found) is None
+    for like in (NON_ISOMETRIC_SCORE, None):
+        assert adapt_registration(NonRigid(), replace(found, quality=like)) == NonRigid()
     pair = datasets.two_poses(1500, rng=1)
     config = kfmaps.Config()
     source, target = (kfmaps.prepare(mesh, config, name="a") for mesh in (pair.source, pair.target))
-    seen, usual = [], matching.placed
-    monkeypatch.setattr(matching, "placed", lambda *a: seen.append(a[3].finish.stretch) or usual(*a))
-    for quality in (UNLIKE + 1, UNLIKE - 1):
-        matching.continued(source, target, pair.truth, config, origin="a", quality=quality)
+    seen, usual = [], matching.register_map
+    monkeypatch.setattr(matching, "register_map", lambda *a: seen.append(a[3].finish.stretch) or usual(*a))
+    for quality in (NON_ISOMETRIC_SCORE + 1, NON_ISOMETRIC_SCORE - 1):
+        matching.match_from_map(source, target, pair.truth, config, origin="a", quality=quality)
     assert seen == [0.0, STRETCH]

@@ -6,11 +6,11 @@ import pytest
 from kfmaps import datasets
 from kfmaps.fmap.convert import to_functional
 from kfmaps.matching import self_maps as within
-from kfmaps.matching.candidates import apart, from_symmetries, judged, rough
-from kfmaps.matching.quality import map_quality, mirrored_probe, probe, thinned
-from kfmaps.matching.sample_pair import arena
-from kfmaps.matching.search import probed
-from kfmaps.matching.self_maps import KEPT, MOVED, symmetries, turns_of
+from kfmaps.matching.candidates import refine_coarse, score_maps, select_distinct, symmetry_inits
+from kfmaps.matching.quality import map_quality, mirror_samples, sample_for_scoring, subsample
+from kfmaps.matching.sample_pair import two_level_samples
+from kfmaps.matching.search import scoring_samples
+from kfmaps.matching.self_maps import KEPT, MOVED, self_maps, symmetries
 from kfmaps.shape import prepare
 from test_search import SMALL
 
@@ -25,7 +25,7 @@ def pair():
 
 @pytest.fixture(scope="module")
 def on(pair):
-    return arena(pair[0], pair[1], (probe(pair[0]), probe(pair[1]))).few
+    return two_level_samples(pair[0], pair[1], (sample_for_scoring(pair[0]), sample_for_scoring(pair[1]))).few
 
 
 def kept_seed():
@@ -63,14 +63,14 @@ def test_those_that_change_distances_early_are_none(monkeypatch, on):
 
 
 def test_a_kept_probe_knows_them(pair):
-    kept = probed(pair[0])
-    few = thinned(probe(pair[0], rng=kept_seed()), 400)
-    for C, again in zip(turns_of(thinned(kept, 400), 100), symmetries(few, 100), strict=True):
+    kept = scoring_samples(pair[0])
+    few = subsample(sample_for_scoring(pair[0], rng=kept_seed()), 400)
+    for C, again in zip(self_maps(subsample(kept, 400), 100), symmetries(few, 100), strict=True):
         np.testing.assert_array_equal(C, again)
     assert kept.turns is not None
-    np.testing.assert_array_equal(mirrored_probe(kept).turns, kept.turns)
+    np.testing.assert_array_equal(mirror_samples(kept).turns, kept.turns)
     # Those of fewer functions are others.
-    assert [len(C) for C in turns_of(thinned(kept, 400), 30)] == [30] * len(symmetries(few, 30))
+    assert [len(C) for C in self_maps(subsample(kept, 400), 30)] == [30] * len(symmetries(few, 30))
 
 
 def test_one_function_has_none(on):
@@ -81,12 +81,12 @@ def test_one_function_has_none(on):
 def test_a_map_is_compared_with_what_it_is_mistaken_for(pair, on, of_target):
     """Of nothing but the mirrored map the true one is found: it could not be sure for want of a rival."""
     source, target, truth = pair
-    C = np.asarray(to_functional(truth, source.basis.truncated(40), target.basis.truncated(40)))
+    C = np.asarray(to_functional(truth, source.basis.truncate(40), target.basis.truncate(40)))
     S = symmetries(on.target if of_target else on.source, 40)[0]
-    right = judged([("truth", True)], C[None], None, on)[0]
-    mirrored = judged([("mirrored", True)], (S @ C if of_target else C @ S)[None], None, on)[0]
-    assert len(apart([right, mirrored], on.source, 0.12)) == 2
-    starts = from_symmetries([mirrored], on, 60)
-    assert {start.guided for start in starts} == {True}
-    found = sorted(rough(starts, on, 60), key=lambda c: c.score, reverse=True)
-    assert len(apart([right, found[0]], on.source, 0.08)) == 1
+    right = score_maps([("truth", True)], C[None], None, on)[0]
+    mirrored = score_maps([("mirrored", True)], (S @ C if of_target else C @ S)[None], None, on)[0]
+    assert len(select_distinct([right, mirrored], on.source, 0.12)) == 2
+    starts = symmetry_inits([mirrored], on, 60)
+    assert {start.uses_descriptors for start in starts} == {True}
+    found = sorted(refine_coarse(starts, on, 60), key=lambda c: c.score, reverse=True)
+    assert len(select_distinct([right, found[0]], on.source, 0.08)) == 1

@@ -51,7 +51,7 @@ def answer(made: Path) -> matching.Match:
     found = matching.match(pair[0], pair[1], config, landmarks=kfmaps.read_landmarks(made / "pairs.txt"))
     rng = np.random.default_rng(0)
     rough = np.where(rng.random(len(found.target_to_source)) < 0.1, 0, found.target_to_source)
-    return replace(found, verdict="ambiguous", confidence=0.4, scores=(-1.0, -1.1), runners_up=(rough,))
+    return replace(found, verdict="ambiguous", confidence=0.4, scores=(-1.0, -1.1), alternatives=(rough,))
 
 
 @pytest.fixture

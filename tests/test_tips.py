@@ -8,17 +8,33 @@ import pytest
 from kfmaps import datasets
 from kfmaps._arrays import NotConverged
 from kfmaps.geometry.mesh import Mesh
-from kfmaps.matching.batched_zoomout import zoomed
-from kfmaps.matching.candidates import STRAIN, Candidate, from_tips, paired_map, rough
-from kfmaps.matching.extremities import APART, tips, turns
-from kfmaps.matching.extremity_matching import FEWEST, Pairing, against, alike, induced, pairings, told
-from kfmaps.matching.proxy_cache import Copies
-from kfmaps.matching.quality import Quality, mirrored_probe, probe, thinned
+from kfmaps.matching.batched_zoomout import batched_zoomout
+from kfmaps.matching.candidates import W_STRAIN, Candidate, extremity_inits, paired_map, refine_coarse
+from kfmaps.matching.extremities import APART, extremities, gradient_cross
+from kfmaps.matching.extremity_matching import (
+    FEWEST,
+    ExtremityMatch,
+    extremity_cost,
+    extremity_features,
+    extremity_similarity,
+    match_extremities,
+    match_of_map,
+)
+from kfmaps.matching.proxy_cache import ProxyCache
+from kfmaps.matching.quality import Quality, mirror_samples, sample_for_scoring, subsample
 from kfmaps.matching.ranking import in_order, ranking
-from kfmaps.matching.sample_pair import arena
-from kfmaps.matching.search import choose
+from kfmaps.matching.sample_pair import two_level_samples
+from kfmaps.matching.search import search_map
 from kfmaps.matching.self_maps import symmetries
-from kfmaps.registration.deformation_energy import LEAST, MOST, Copy, bending, bent, copied, ready
+from kfmaps.registration.deformation_energy import (
+    LEAST,
+    MOST,
+    CoarseProxy,
+    coarse_copy,
+    deform,
+    deformation_energy,
+    facing_pair,
+)
 from kfmaps.registration.nonrigid_icp import NonRigid
 from kfmaps.shape import mirror_image, prepare
 from test_search import SMALL
@@ -35,16 +51,16 @@ def creature():
 
 @pytest.fixture(scope="module")
 def probes(creature):
-    return probe(creature[0]), probe(creature[1])
+    return sample_for_scoring(creature[0]), sample_for_scoring(creature[1])
 
 
 @pytest.fixture(scope="module")
 def on(creature, probes):
-    return arena(creature[0], creature[1], probes)
+    return two_level_samples(creature[0], creature[1], probes)
 
 
 def identity(count):
-    return Pairing(np.arange(count), np.arange(count))
+    return ExtremityMatch(np.arange(count), np.arange(count))
 
 
 def test_tips_are_far_from_everything_around_them_and_from_each_other(probes):
@@ -66,8 +82,8 @@ def test_tips_know_nothing_of_units_position_and_numbering(creature, probes):
     moved = Mesh((shape.mesh.vertices @ rotation.T + 5.0)[order], number[shape.mesh.faces])
     rows = number[one.samples.vertices]
     mass = np.ones(len(one.distances))
-    before = tips(one.distances, mass, shape.mesh, one.samples.vertices)
-    after = tips(one.distances, mass, moved, rows)
+    before = extremities(one.distances, mass, shape.mesh, one.samples.vertices)
+    after = extremities(one.distances, mass, moved, rows)
     assert np.array_equal(before.points, after.points)
     assert after.distances == pytest.approx(before.distances, abs=1e-9)
     assert after.turn == pytest.approx(before.turn, abs=1e-6)
@@ -82,28 +98,28 @@ def test_turn_is_the_sine_between_two_directions():
     )
     angle = 0.7
     slanted = sheet[:, 0] * np.cos(angle) + sheet[:, 1] * np.sin(angle)
-    found = turns(Mesh(sheet, faces), np.stack([sheet[:, 0], slanted]))
+    found = gradient_cross(Mesh(sheet, faces), np.stack([sheet[:, 0], slanted]))
     assert found[0, 1] == pytest.approx(np.sin(angle))
     assert found[1, 0] == pytest.approx(-np.sin(angle))
-    mirrored = turns(Mesh(sheet, faces[:, ::-1]), np.stack([sheet[:, 0], slanted]))
+    mirrored = gradient_cross(Mesh(sheet, faces[:, ::-1]), np.stack([sheet[:, 0], slanted]))
     assert mirrored == pytest.approx(-found)
-    assert not turns(Mesh(sheet, faces[:0]), np.stack([sheet[:, 0], slanted])).any()
+    assert not gradient_cross(Mesh(sheet, faces[:0]), np.stack([sheet[:, 0], slanted])).any()
 
 
 def test_a_shape_is_told_from_its_mirror_image_by_turns_alone(probes):
     one = probes[0].tips
     m = len(one.points)
     whole = identity(m)
-    same, turned = against(one, one, whole), against(one, one.mirrored(), whole)
+    same, turned = extremity_cost(one, one, whole), extremity_cost(one, one.mirrored(), whole)
     assert np.diag(same) == pytest.approx(0.0, abs=1e-9)
     assert (same.argmin(axis=1) == np.arange(len(same))).mean() > 0.99
     assert np.diag(turned).mean() > 0.1
-    assert told(one, whole.source).shape == (len(one.distances[0]), m + m * (m - 1) // 2)
+    assert extremity_features(one, whole.source).shape == (len(one.distances[0]), m + m * (m - 1) // 2)
 
 
 def test_the_true_pairing_is_among_the_first(creature, probes, on):
     """Tips in which the truth nearly agrees, most of them, among the pairings that are refined."""
-    found = pairings(on.few.source, on.few.target, on.few.shot)
+    found = match_extremities(on.few.source, on.few.target, on.few.shot)
     a, b = probes[0], probes[1]
     truth = creature[2]
     images = truth[b.samples.vertices[b.tips.points]]
@@ -118,33 +134,35 @@ def test_the_true_pairing_is_among_the_first(creature, probes, on):
 
 def test_equal_shapes_pair_their_tips_with_themselves(probes):
     one = probes[0]
-    first = alike(one, one)[0]
+    first = extremity_similarity(one, one)[0]
     assert np.array_equal(first.source, first.target)
     assert len(first.source) == len(one.tips.points)
     everywhere = np.arange(len(one.positions))
-    back = induced(everywhere, one, one)
+    back = match_of_map(everywhere, one, one)
     assert back is not None
     assert np.array_equal(back.source, back.target)
     assert len(back.source) == len(one.tips.points)
-    assert induced(np.zeros_like(everywhere), one, one) is None
+    assert match_of_map(np.zeros_like(everywhere), one, one) is None
 
 
 def test_distances_between_tips_alone_pair_them(probes):
     one = probes[0]
-    plain = replace(one, heat=np.zeros_like(one.heat), tips=replace(one.tips, reach=np.ones(len(one.tips.points))))
+    plain = replace(
+        one, heat=np.zeros_like(one.heat), extremities=replace(one.tips, reach=np.ones(len(one.tips.points)))
+    )
     order = np.array([3, 0, 5, 1, 4, 2, *range(6, len(one.tips.points))])
     tips = replace(plain.tips, points=plain.tips.points[order], distances=plain.tips.distances[order])
-    first = alike(plain, replace(plain, tips=tips))[0]
+    first = extremity_similarity(plain, replace(plain, extremities=tips))[0]
     assert np.array_equal(order[first.target], first.source)
 
 
 def test_shapes_without_limbs_are_not_paired(probes):
     one = probes[0]
-    bare = replace(one, tips=one.tips.none())
-    assert pairings(one, bare, None) == []
-    assert induced(np.arange(len(one.positions)), bare, one) is None
+    bare = replace(one, extremities=one.tips.none())
+    assert match_extremities(one, bare, None) == []
+    assert match_of_map(np.arange(len(one.positions)), bare, one) is None
     few = replace(one.tips, points=one.tips.points[: FEWEST - 1])
-    assert pairings(replace(one, tips=few), one, None) == []
+    assert match_extremities(replace(one, extremities=few), one, None) == []
 
 
 def test_the_map_of_a_pairing_is_nearly_the_identity(on):
@@ -155,7 +173,7 @@ def test_the_map_of_a_pairing_is_nearly_the_identity(on):
 
 
 def test_pairings_find_the_map_between_bodies_of_other_proportions(creature, on):
-    found = rough(from_tips(40, on.few), on.few, 40)
+    found = refine_coarse(extremity_inits(40, on.few), on.few, 40)
     best = max(found, key=lambda c: c.score)
     truth = creature[2][on.few.target.samples.vertices]
     where = creature[0].mesh.vertices
@@ -165,51 +183,51 @@ def test_pairings_find_the_map_between_bodies_of_other_proportions(creature, on)
 
 def test_each_map_may_have_evidence_of_its_own(on):
     bases = on.few.source.samples.basis, on.few.target.samples.basis
-    pairs = [identity(6), None, Pairing(np.arange(6), np.arange(6)[::-1].copy())]
+    pairs = [identity(6), None, ExtremityMatch(np.arange(6), np.arange(6)[::-1].copy())]
     maps = np.repeat(np.eye(10)[None], 3, axis=0)
     cost = on.few.against(4.0, 0.0, 30.0, pairs)
     assert cost.shape == (3, len(on.few.target.positions), len(on.few.source.positions))
-    together = zoomed(maps, *bases, (10, 20, 30), cost, 1)
+    together = batched_zoomout(maps, *bases, (10, 20, 30), cost, 1)
     for i, pairing in enumerate(pairs):
-        alone = zoomed(maps[:1], *bases, (10, 20, 30), on.few.against(4.0, 0.0, 30.0, [pairing]), 1)
+        alone = batched_zoomout(maps[:1], *bases, (10, 20, 30), on.few.against(4.0, 0.0, 30.0, [pairing]), 1)
         assert np.array_equal(together[1][i], alone[1][0])
     assert not np.array_equal(together[1][0], together[1][2])
     speaks = on.few.against(0.0, 0.0, 2.0, pairs[:1])
     assert speaks is not None
-    assert speaks[0] == pytest.approx(2 * against(on.few.source.tips, on.few.target.tips, pairs[0]), abs=1e-5)
+    assert speaks[0] == pytest.approx(2 * extremity_cost(on.few.source.tips, on.few.target.tips, pairs[0]), abs=1e-5)
 
 
 def test_a_shape_bends_least_onto_itself(creature, probes):
     shape, one = creature[0], probes[0]
-    both = ready(one.copy, one.copy)
+    both = facing_pair(one.copy, one.copy)
     k = 40
     signs = np.diag(np.where(np.arange(k) % 2, -1.0, 1.0))
-    assert bending(np.eye(k), shape, shape, both) == LEAST
-    assert LEAST < 0.05 < bending(signs, shape, shape, both) <= MOST
+    assert deformation_energy(np.eye(k), shape, shape, both) == LEAST
+    assert LEAST < 0.05 < deformation_energy(signs, shape, shape, both) <= MOST
 
 
 def test_limbs_of_different_lengths_leave_no_symmetry(probes):
-    assert symmetries(thinned(probes[1], 400), 100) == []
+    assert symmetries(subsample(probes[1], 400), 100) == []
 
 
 def test_strain_is_of_all_places_and_not_of_the_worst(creature, probes):
     shape, one = creature[0], probes[0]
-    both = ready(one.copy, one.copy)
+    both = facing_pair(one.copy, one.copy)
     k = 40
     signs = np.diag(np.where(np.arange(k) % 2, -1.0, 1.0))
-    kept, torn = (bent(C, shape, shape, both) for C in (np.eye(k), signs))
+    kept, torn = (deform(C, shape, shape, both) for C in (np.eye(k), signs))
     assert kept.strain == pytest.approx(np.log(LEAST), abs=1e-6)
     assert kept.strain < torn.strain < np.log(MOST)
     # The mean of logarithms is below the logarithm of the mean.
-    assert torn.strain < np.log(torn.bending)
+    assert torn.strain < np.log(torn.energy)
 
 
 def test_what_is_bent_and_strained_less_is_the_likelier():
     judgement = Quality(1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0)
-    one = Candidate("a", np.eye(2), np.zeros(3, dtype=int), judgement, bending=0.15)
-    assert replace(one, strain=0.1).evidence == pytest.approx(one.evidence - 0.1 * STRAIN)
-    assert replace(one, bending=0.3).evidence == pytest.approx(one.evidence - 5 * np.log(2))
-    worse = replace(one, quality=replace(judgement, ends=0.25))
+    one = Candidate("a", np.eye(2), np.zeros(3, dtype=int), judgement, deformation_energy=0.15)
+    assert replace(one, strain=0.1).evidence == pytest.approx(one.evidence - 0.1 * W_STRAIN)
+    assert replace(one, deformation_energy=0.3).evidence == pytest.approx(one.evidence - 5 * np.log(2))
+    worse = replace(one, quality=replace(judgement, extremity_descriptor_error=0.25))
     assert worse.quality.score == one.quality.score
     assert worse.evidence == pytest.approx(one.evidence - 2.0)
 
@@ -217,43 +235,43 @@ def test_what_is_bent_and_strained_less_is_the_likelier():
 def test_copies_have_no_loose_points(creature):
     shape = creature[0]
     loose = replace(shape, mesh=Mesh(np.vstack([shape.mesh.vertices, [[9.0, 9.0, 9.0]]]), shape.mesh.faces))
-    found = copied(loose, len(loose.mesh.vertices))
-    assert isinstance(found, Copy)
+    found = coarse_copy(loose, len(loose.mesh.vertices))
+    assert isinstance(found, CoarseProxy)
     assert len(found.mesh.vertices) == len(shape.mesh.vertices)
-    fewer = copied(loose, 500)
-    assert isinstance(fewer, Copy)
+    fewer = coarse_copy(loose, 500)
+    assert isinstance(fewer, CoarseProxy)
     assert len(fewer.mesh.vertices) <= 500
     assert np.array_equal(np.unique(fewer.mesh.faces), np.arange(len(fewer.mesh.vertices)))
-    assert copied(replace(shape, mesh=Mesh(shape.mesh.vertices, shape.mesh.faces[:3]))) is None
+    assert coarse_copy(replace(shape, mesh=Mesh(shape.mesh.vertices, shape.mesh.faces[:3]))) is None
     turned = found.mirrored().mesh
     assert turned.vertices[:, 0] == pytest.approx(-found.mesh.vertices[:, 0])
     assert np.array_equal(turned.faces[:, ::-1], found.mesh.faces)
 
 
 def test_what_bends_less_comes_first_and_what_was_not_tried_never(creature, on):
-    found = rough(from_tips(40, on.few), on.few, 40)
-    ranked = ranking(found, on.whole, Copies.of(creature[0], creature[1], on.whole))
+    found = refine_coarse(extremity_inits(40, on.few), on.few, 40)
+    ranked = ranking(found, on.whole, ProxyCache.of(creature[0], creature[1], on.whole))
     scores = [c.score for c in ranked]
     assert scores == sorted(scores, reverse=True)
-    equal = [replace(ranked[0], bending=b) for b in (0.3, 0.1, 0.2)]
-    assert [c.bending for c in in_order(equal)] == [0.1, 0.2, 0.3]
+    equal = [replace(ranked[0], deformation_energy=b) for b in (0.3, 0.1, 0.2)]
+    assert [c.deformation_energy for c in in_order(equal)] == [0.1, 0.2, 0.3]
     assert equal[0].quality == ranked[0].quality
     assert equal[0].score < equal[1].score
 
 
 def test_the_probe_of_a_mirror_image_turns_the_other_way(probes):
-    turned = mirrored_probe(probes[0])
+    turned = mirror_samples(probes[0])
     assert turned.copy is not None
     assert turned.mirrored
-    assert np.array_equal(turned.tips.turn, -probes[0].tips.turn)
+    assert np.array_equal(turned.extremities.turn, -probes[0].tips.turn)
     assert turned.copy.mesh.vertices[:, 0] == pytest.approx(-probes[0].copy.mesh.vertices[:, 0])
 
 
 def test_tips_can_be_left_out(creature):
     assert SMALL.search is not None
-    plain = replace(SMALL, search=replace(SMALL.search, tips=False))
+    plain = replace(SMALL, search=replace(SMALL.search, extremities=False))
     source, target = creature[:2]
-    names = choose(source, target, plain, rng=0).origin, choose(source, target, SMALL, rng=0)
+    names = search_map(source, target, plain, rng=0).initialization, search_map(source, target, SMALL, rng=0)
     assert not names[0].startswith("tips")
     assert names[1].confidence is not None
 
@@ -263,21 +281,21 @@ def test_a_creature_is_matched_to_a_mirror_image_in_another_pose_unasked():
     pair = datasets.two_poses(1500, rng=1)
     source, other = (prepare(mesh, SMALL, name="creature") for mesh in (pair.source, pair.target))
     mirrored = mirror_image(other)
-    found = choose(source, mirrored, SMALL, rng=0)
+    found = search_map(source, mirrored, SMALL, rng=0)
     assert found.orientation == "reversed"
     assert found.verdict == "sure"
     assert SMALL.search is not None
-    kept = choose(source, mirrored, replace(SMALL, search=replace(SMALL.search, orientation="kept")), rng=0)
+    kept = search_map(source, mirrored, replace(SMALL, search=replace(SMALL.search, orientation="kept")), rng=0)
     assert kept.orientation == "kept"
     assert kept.verdict != "sure"
-    assert choose(source, other, SMALL, rng=0).orientation == "kept"
+    assert search_map(source, other, SMALL, rng=0).orientation == "kept"
 
 
 def test_that_a_copy_falls_apart_says_nothing_of_the_map(creature, probes, monkeypatch):
     """The other direction is believed then; only a map of which both fail has the most."""
-    shape, both = creature[0], ready(probes[0].copy, probes[0].copy)
+    shape, both = creature[0], facing_pair(probes[0].copy, probes[0].copy)
     signs = np.diag(np.where(np.arange(40) % 2, -1.0, 1.0))
-    usual, fit = bent(signs, shape, shape, both), NonRigid.bent
+    usual, fit = deform(signs, shape, shape, both), NonRigid.bent
     failing = [True, False]
 
     def falls(self, *what):
@@ -286,6 +304,6 @@ def test_that_a_copy_falls_apart_says_nothing_of_the_map(creature, probes, monke
         return fit(self, *what)
 
     monkeypatch.setattr(NonRigid, "bent", falls)
-    assert 0.3 < bent(signs, shape, shape, both).bending / usual.bending < 3.0
+    assert 0.3 < deform(signs, shape, shape, both).energy / usual.energy < 3.0
     failing = [True, True]
-    assert bent(signs, shape, shape, both).bending == MOST
+    assert deform(signs, shape, shape, both).energy == MOST

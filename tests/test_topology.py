@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from conftest import blob, fibonacci_sphere
 from kfmaps.geometry.mesh import Mesh
-from kfmaps.geometry.topology import first_occurrence, topology
+from kfmaps.geometry.topology import topology, unique_vertices
 
 GUARDS = ("kfmaps.geometry.mesh", "kfmaps.geometry.topology")
 
@@ -41,9 +41,9 @@ def together(*meshes: Mesh) -> Mesh:
 def test_sphere() -> None:
     counts = topology(fibonacci_sphere(100))
     assert (counts.components, counts.genus, counts.euler_characteristic) == (1, 0, 2)
-    assert counts.closed
-    assert counts.manifold
-    assert counts.orientable
+    assert counts.is_closed
+    assert counts.is_manifold
+    assert counts.is_orientable
     assert counts.boundary_loops == counts.boundary_edges == counts.inconsistent_edges == 0
     assert counts.duplicated_vertices == counts.unreferenced_vertices == counts.degenerate_faces == 0
 
@@ -62,14 +62,14 @@ def test_known_surfaces(mesh: Mesh, loops: int, edges: int, genus: int, characte
     counts = topology(mesh)
     assert (counts.boundary_loops, counts.boundary_edges) == (loops, edges)
     assert (counts.genus, counts.euler_characteristic) == (genus, characteristic)
-    assert counts.orientable
+    assert counts.is_orientable
     assert counts.inconsistent_edges == 0
 
 
 def test_moebius_strip_has_one_edge_and_no_genus() -> None:
     counts = topology(sheet(7, 4, (True, False), flip=True))
     assert counts.boundary_loops == 1
-    assert not counts.orientable
+    assert not counts.is_orientable
     assert counts.genus is None
     assert counts.inconsistent_edges > 0
 
@@ -80,17 +80,17 @@ def test_a_flipped_face_is_found_but_the_surface_stays_orientable() -> None:
     faces[5] = faces[5, ::-1]
     counts = topology(Mesh(mesh.vertices, faces))
     assert counts.inconsistent_edges == 3
-    assert counts.orientable
+    assert counts.is_orientable
     assert counts.genus == 0
-    assert counts.manifold  # fans do not depend on orientation
+    assert counts.is_manifold  # fans do not depend on orientation
 
 
 def test_three_faces_on_an_edge() -> None:
     counts = topology(Mesh(np.random.default_rng(0).normal(size=(5, 3)), np.array([[0, 1, 2], [1, 0, 3], [0, 1, 4]])))
     assert counts.nonmanifold_edges == 1
     assert counts.nonmanifold_vertices == 2
-    assert not counts.manifold
-    assert not counts.closed
+    assert not counts.is_manifold
+    assert not counts.is_closed
     assert counts.genus is None
 
 
@@ -101,7 +101,7 @@ def test_two_spheres_that_touch_in_a_vertex() -> None:
     faces[faces == 40] = 0
     counts = topology(Mesh(both.vertices, faces))
     assert (counts.components, counts.nonmanifold_vertices, counts.unreferenced_vertices) == (1, 1, 1)
-    assert counts.closed
+    assert counts.is_closed
     assert counts.genus is None
 
 
@@ -152,4 +152,4 @@ def test_permuting_everything_changes_nothing(seed: int) -> None:
 def test_first_occurrence_is_the_first_equal_row(n: int, seed: int) -> None:
     places = np.random.default_rng(seed).choice([-1.0, -0.0, 0.0, 1.0], size=(n, 3))
     expected = [next(j for j in range(n) if (places[j] == places[i]).all()) for i in range(n)]
-    np.testing.assert_array_equal(first_occurrence(places), expected)
+    np.testing.assert_array_equal(unique_vertices(places), expected)

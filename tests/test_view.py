@@ -292,7 +292,7 @@ def a_match() -> Match:
         verdict="landmarks",
         config=Config.single_fit(),
         seconds={"solve": 0.5},
-        origin="one fit",
+        initialization="one fit",
         raw_functional_map=np.eye(2),
         raw_target_to_source=np.zeros(4, np.int64),
         fit=Fit(

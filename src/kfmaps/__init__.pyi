@@ -26,8 +26,8 @@ from kfmaps.fmap.convert import to_functional as to_functional
 from kfmaps.fmap.convert import to_points as to_points
 from kfmaps.fmap.evaluate import coverage as coverage
 from kfmaps.fmap.evaluate import error_curve as error_curve
-from kfmaps.fmap.evaluate import evaluation as evaluation
 from kfmaps.fmap.evaluate import geodesic_errors as geodesic_errors
+from kfmaps.fmap.evaluate import summarize_errors as summarize_errors
 from kfmaps.fmap.precise import PointMap as PointMap
 from kfmaps.fmap.refine import ICP as ICP
 from kfmaps.fmap.refine import ZoomOut as ZoomOut

@@ -9,7 +9,7 @@ from contextlib import contextmanager
 from kfmaps._progress import Progress
 
 
-class Clock:
+class StageTimer:
     """Tells ``progress`` of each stage and keeps its seconds.
 
     Attributes

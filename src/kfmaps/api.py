@@ -22,7 +22,7 @@ from kfmaps._arrays import check, refuse
 from kfmaps.cli.evaluation import Truth, check_truth
 from kfmaps.cli.progress import Stages
 from kfmaps.config import Config
-from kfmaps.fmap.precise import PointMap, inverse, vertices_of
+from kfmaps.fmap.precise import PointMap, invert_precise_map, nearest_vertices
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.io import MapFile, atomic_output, check_map, load_map, save_map
 from kfmaps.io import transfer as carried
@@ -86,7 +86,7 @@ class Match(matching.Match):
         """Carry ``values (n_s, ...)`` to the target's vertices, (n_t, ...): short for :func:`kfmaps.transfer`.
 
         With ``products`` the values are functions, which the functional map carries instead of the points, and with it
-        products of that many of its first functions (:func:`kfmaps.fmap.transfer.carried`).
+        products of that many of its first functions (:func:`kfmaps.fmap.transfer.transfer_functions`).
         """
         return transfer(values, self) if products is None else matching.Match.transfer(self, values, products)
 
@@ -103,8 +103,8 @@ class Match(matching.Match):
         places = self.target.vertices[known]
         if len(known) == 0:
             return np.full(n_s, -1, dtype=np.int64)
-        if self.place is not None and self.overlap_source is None:
-            return vertices_of(self.precise_inverse(), self.target)
+        if self.precise_map is not None and self.overlap_source is None:
+            return nearest_vertices(self.precise_inverse(), self.target)
         count = np.bincount(points, minlength=n_s)
         middle = np.stack([np.bincount(points, axis, minlength=n_s) for axis in places.T], axis=1)
         middle /= np.maximum(count, 1)[:, None]
@@ -126,7 +126,7 @@ class Match(matching.Match):
             When one of the shapes is a point cloud.
         """
         known = self.target_to_source >= 0
-        return inverse(self.precise(), self.source, self.target, None if known.all() else known)
+        return invert_precise_map(self.precise(), self.source, self.target, None if known.all() else known)
 
 
 def match(

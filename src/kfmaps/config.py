@@ -13,7 +13,7 @@ from kfmaps.fmap.minimize import CONSTRAINTS, Constraint, Preconditioner
 from kfmaps.fmap.refine import Refinement, ZoomOut
 from kfmaps.fmap.solvers import CG, Solver
 from kfmaps.fmap.terms import MASKS, Mask
-from kfmaps.kernels.kernels import Gaussian, KernelLike, Linear, describe
+from kfmaps.kernels.kernels import Gaussian, KernelLike, Linear, describe_kernel
 from kfmaps.kernels.transformed import KERNELS
 from kfmaps.registration.nonrigid_icp import NonRigid
 
@@ -62,7 +62,7 @@ class DescriptorConfig:
     shot_weight : float
         Its weight in squared distances between descriptors, against 1 for all others together.
     normalisation : str
-        See :func:`kfmaps.descriptors.spectral.normalised`.
+        See :func:`kfmaps.descriptors.spectral.normalize`.
     """
 
     count: int = 100
@@ -135,7 +135,7 @@ class Formulation:
     constraint : "none" or "orthogonal"
         Orthogonal maps keep areas (:mod:`kfmaps.fmap.constraints`).
     directions : "one" or "both"
-        Both maps at once, tied to each other (:func:`kfmaps.fmap.minimize.coupled_pair`).
+        Both maps at once, tied to each other (:func:`kfmaps.fmap.minimize.fit_bidirectional`).
     inverse, adjoint : float
         Weights of that tie: each map the other's inverse, each the other's adjoint. As those of ``sparsity`` and
         ``spatial`` they are in units of the mean diagonal of the energy's operator.
@@ -282,12 +282,12 @@ class Config:
     exact : bool
         The whole kernel in row blocks (equations 8 and 10 to 12) instead of its Nyström features; slow.
     sharpness : float
-        For a kernel without explicit γ, see :func:`kfmaps.kernels.kernels.resolved`.
+        For a kernel without explicit γ, see :func:`kfmaps.kernels.kernels.resolve_kernel`.
     formulation : Formulation
         What is asked of the map beside least squares.
     compression : float
         Part of the slices' squared norm that may be left out, see
-        :func:`kfmaps.fmap.multiplication_operators.compressed`.
+        :func:`kfmaps.fmap.multiplication_operators.truncate_operators`.
     preconditioner : "sylvester", "jacobi" or "none"
         See :mod:`kfmaps.fmap.preconditioners`.
     fit_samples : int or None
@@ -468,7 +468,7 @@ def as_dict(value: Any) -> Any:
     Records of which a field may hold several kinds carry theirs under ``kind``. A kernel that is a callable of
     the user's own becomes ``{"kind": "callable", "name": …}``, which :func:`from_dict` refuses.
     """
-    return _records.as_dict(value, RECORDS, describe)
+    return _records.as_dict(value, RECORDS, describe_kernel)
 
 
 def from_dict(values: dict[str, Any], base: Config | None = None) -> Config:

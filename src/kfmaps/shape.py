@@ -15,12 +15,12 @@ from kfmaps._arrays import KfmapsWarning, refuse, take
 from kfmaps._progress import Progress
 from kfmaps._threads import available_cores
 from kfmaps.config import Config
-from kfmaps.descriptors.shot import mirrored, shot
+from kfmaps.descriptors.shot import mirror_shot, shot
 from kfmaps.geometry.basis import Basis, laplace_basis
-from kfmaps.geometry.clean import Inside, inside
+from kfmaps.geometry.clean import CleanedMesh, clean_mesh
 from kfmaps.geometry.eigen.eigensolver import EXACT
 from kfmaps.geometry.mesh import Mesh, check_mesh, surface_area, unit_area, vertex_normals
-from kfmaps.geometry.mesh import mirrored as mirrored_mesh
+from kfmaps.geometry.mesh import mirror_mesh as mirrored_mesh
 from kfmaps.geometry.sampling import stratified_samples, stratified_vertices
 
 FEW, NEARLY = 3_000, 1e-2
@@ -41,7 +41,7 @@ class Shape:
         Scaled to unit area, vertices in the order given.
     basis : Basis
         Of as many functions as the configuration needs in all. Vertices that lie on no surface, and all but the first
-        in one place, have no area and the functions of the vertex that they count as (:func:`inner`).
+        in one place, have no area and the functions of the vertex that they count as (:func:`clean_shape`).
     shot : (n, 352) float64 or None
         The SHOT descriptor when the configuration asks for it; a point cloud has none.
     name : str
@@ -66,8 +66,8 @@ class Shape:
 
 
 @dataclass(frozen=True, eq=False)
-class Reduced:
-    """Some points of a shape that stand for all; made by :func:`reduced`.
+class SampledShape:
+    """Some points of a shape that stand for all; made by :func:`sample_shape`.
 
     Attributes
     ----------
@@ -84,31 +84,33 @@ class Reduced:
     landmarks: np.ndarray
 
 
-def reduced(shape: Shape, count: int | None, landmarks: np.ndarray, rng: int | np.random.Generator = 0) -> Reduced:
+def sample_shape(
+    shape: Shape, count: int | None, landmarks: np.ndarray, rng: int | np.random.Generator = 0
+) -> SampledShape:
     """``shape`` on about ``count`` stratified points and the ``landmarks (l,)``; itself when it has no more.
 
     ``None`` takes all points.
     """
     n = len(shape.mesh.vertices)
     if count is None or n <= count:
-        return Reduced(shape, np.arange(n), landmarks)
+        return SampledShape(shape, np.arange(n), landmarks)
     samples = stratified_samples(shape.basis, count, rng, landmarks)
     rows = samples.vertices
     cloud = Mesh(shape.mesh.vertices[rows], np.zeros((0, 3), dtype=np.int64))
     local = None if shape.shot is None else shape.shot[rows]
     part = replace(shape, mesh=cloud, basis=samples.basis, shot=local)
-    return Reduced(part, rows, np.searchsorted(rows, landmarks))
+    return SampledShape(part, rows, np.searchsorted(rows, landmarks))
 
 
-def inner(shape: Shape) -> tuple[Shape, Inside]:
+def clean_shape(shape: Shape) -> tuple[Shape, CleanedMesh]:
     """``shape`` with each place once, without unused vertices and specks, and how its vertices are numbered.
 
     A match works on that; a shape that has nothing of the kind is returned as it is.
     """
-    part = inside(shape.mesh, specks=True)
+    part = clean_mesh(shape.mesh, specks=True)
     if part.whole:
         return shape, part
-    kept, basis = part.kept, shape.basis
+    kept, basis = part.to_original, shape.basis
     local = None if shape.shot is None else shape.shot[kept]
     few = Basis(basis.eigenvalues, take(basis.functions, kept), take(basis.mass, kept))
     return replace(shape, mesh=part.mesh, basis=few, shot=local), part
@@ -123,7 +125,7 @@ def prepare(
     ----------
     mesh : Mesh
         In any unit; a mesh without faces is a point cloud. Open edges that lie in one place are connected, specks
-        and vertices that no face uses are left out (:func:`kfmaps.geometry.clean.inside`), with a warning.
+        and vertices that no face uses are left out (:func:`kfmaps.geometry.clean.clean_mesh`), with a warning.
     config : Config, optional
         Its basis, descriptor and refinement settings count here.
 
@@ -136,7 +138,7 @@ def prepare(
     """
     config = config or Config()
     report = progress or (lambda _stage, _done: None)
-    part = inside(check_mesh(mesh, name, cloud=True), specks=True)
+    part = clean_mesh(check_mesh(mesh, name, cloud=True), specks=True)
     small = unit_area(part.mesh)
     wanted = config.eigenfunctions
     if len(small.vertices) <= wanted:
@@ -175,9 +177,9 @@ def prepare(
     if part.whole:
         return shape
     mass = np.zeros(len(mesh.vertices))
-    mass[part.kept] = basis.mass
-    whole = Basis(basis.eigenvalues, basis.functions[part.number], mass)
-    local = None if local is None else local[part.number]
+    mass[part.to_original] = basis.mass
+    whole = Basis(basis.eigenvalues, basis.functions[part.to_clean], mass)
+    local = None if local is None else local[part.to_clean]
     return replace(shape, mesh=_placed(mesh, part, small), basis=whole, shot=local)
 
 
@@ -218,25 +220,25 @@ def mirror_image(shape: Shape) -> Shape:
     """
     if len(shape.mesh.faces) == 0:
         raise refuse(shape.name, "a surface, which can be mirrored", "a point cloud", "leave orientation at 'kept'")
-    return replace(shape, mesh=mirrored_mesh(shape.mesh), shot=None if shape.shot is None else mirrored(shape.shot))
+    return replace(shape, mesh=mirrored_mesh(shape.mesh), shot=None if shape.shot is None else mirror_shot(shape.shot))
 
 
-def _placed(mesh: Mesh, part: Inside, small: Mesh) -> Mesh:
+def _placed(mesh: Mesh, part: CleanedMesh, small: Mesh) -> Mesh:
     """All of ``mesh`` moved and scaled as ``part`` of it was to become ``small``."""
     centre = part.mesh.vertices.mean(axis=0)
     before, after = part.mesh.vertices - centre, small.vertices
     far = np.unravel_index(np.abs(before).argmax(), before.shape)
     vertices = (mesh.vertices - centre) * (after[far] / before[far])
-    vertices[part.kept] = after
-    joined = ~part.loose
-    vertices[joined] = after[part.number[joined]]
+    vertices[part.to_original] = after
+    joined = ~part.unreferenced
+    vertices[joined] = after[part.to_clean[joined]]
     return Mesh(vertices, mesh.faces)
 
 
-def _tell(part: Inside, name: str) -> None:
+def _tell(part: CleanedMesh, name: str) -> None:
     """One warning of what is connected or left out."""
     what = "points in one place count as one" if len(part.mesh.faces) == 0 else "vertices on seams are connected"
-    told = [f"{part.joined} {what}"] * bool(part.joined)
+    told = [f"{part.n_welded} {what}"] * bool(part.n_welded)
     told += [f"{part.specks} specks are left out"] * bool(part.specks)
     if told:
         warnings.warn(f"{name}: {', '.join(told)} inside; the numbering is kept", KfmapsWarning, stacklevel=3)

@@ -17,7 +17,7 @@ from kfmaps.batch.layout import Pair
 from kfmaps.batch.results import Result, all_results, read_result
 from kfmaps.batch.settings import read_settings
 from kfmaps.collection.paths import MapPath, adjacency, best_paths
-from kfmaps.fmap.precise import at_vertices
+from kfmaps.fmap.precise import vertex_point_map
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.io import MapFile, atomic_output, check_map, check_output, load_map, read_mesh
 from kfmaps.io.counterparts import counterparts
@@ -135,7 +135,7 @@ def _carried(
     ways = counterparts(known, source, target, str(edge.path)) if (known.target_to_source < 0).any() else None
     if ways is None:
         check_map(known, len(source.vertices), len(target.vertices), str(edge.path))
-        place, some = place_of(known, source) or at_vertices(known.target_to_source, source), {}
+        place, some = place_of(known, source) or vertex_point_map(known.target_to_source, source), {}
     else:
         place, some = ways.place, {"known": ways.target, "common": ways.source}
     trust = known.extra.get("local_confidence")

@@ -18,7 +18,7 @@ from kfmaps.collection.paths import compose_maps, invert_map
 from kfmaps.collection.scored_map import ScoredMap, score_maps, with_better_score
 from kfmaps.fmap.convert import to_points
 from kfmaps.io import MapFile, atomic_output, check_map, load_map
-from kfmaps.matching.reindexing import Border, border
+from kfmaps.matching.reindexing import VertexReindexing, reindexing
 from kfmaps.shape import Shape
 
 FOLDER = "consistent"
@@ -158,13 +158,13 @@ def _step(step: StepTask) -> np.ndarray:
 def _judged(task: PairTask, shapes: tuple[Shape, Shape], maps: list[tuple[np.ndarray, bool]]) -> list[ScoredMap]:
     entries = Path(task.source.entry), Path(task.target.entry)
     probes = kept_probe(shapes[0], entries[0], task.seed), kept_probe(shapes[1], entries[1], task.seed)
-    across = border(*shapes)
+    across = reindexing(*shapes)
     points = [_within(points, across) for points, _ in maps]
     return score_maps(points, across.source, across.target, probes, [turned for _, turned in maps])
 
 
-def _within(points: np.ndarray, across: Border) -> np.ndarray:
-    return across.part_s.number[points[across.part_t.kept]]
+def _within(points: np.ndarray, across: VertexReindexing) -> np.ndarray:
+    return across.part_s.to_clean[points[across.part_t.to_original]]
 
 
 def _write(path: Path, inputs: str, maps: list[ScoredMap], **more: np.ndarray) -> None:

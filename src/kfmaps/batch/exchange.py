@@ -24,7 +24,7 @@ from kfmaps.batch.work import MAPS, catching, loaded, map_path, now, recorded
 from kfmaps.collection.repair import Replacement
 from kfmaps.io import load_map
 from kfmaps.matching.calibration import SURE
-from kfmaps.matching.match import continued
+from kfmaps.matching.match import match_from_map
 
 
 @dataclass(frozen=True)
@@ -138,7 +138,7 @@ def _exchanged(job: Exchange) -> dict[str, Any]:
             raise refuse(f"composition of {task.pair.key}", "maps that can be read", reason, "run the command again")
         points, turned = made, job.way.reversed
     others = [given[0][0], *(row for i, (row, _) in enumerate(given[1:], 1) if i != change.candidate)]
-    found = continued(
+    found = match_from_map(
         source,
         target,
         points,

@@ -9,8 +9,8 @@ from typing import Any, get_args, get_type_hints
 import numpy as np
 
 from kfmaps.io import atomic_output
-from kfmaps.matching.quality import Probe
-from kfmaps.matching.search import probed
+from kfmaps.matching.quality import ShapeSamples
+from kfmaps.matching.search import scoring_samples
 from kfmaps.shape import Shape
 
 
@@ -19,27 +19,27 @@ def probe_path(entry: Path, seed: int) -> Path:
     return entry.with_name(f"{entry.stem}.probe{seed}.npz")
 
 
-def kept_probe(shape: Shape, entry: Path, seed: int) -> Probe:
+def kept_probe(shape: Shape, entry: Path, seed: int) -> ShapeSamples:
     """The probe of ``shape``: read where it is kept, else worked out and kept. The same to the last bit."""
     path = probe_path(entry, seed)
     found = load_probe(path)
     if found is None:
-        found = probed(shape, seed)
+        found = scoring_samples(shape, seed)
         save_probe(path, found)
     return found
 
 
-def save_probe(path: Path, probe: Probe) -> None:
+def save_probe(path: Path, probe: ShapeSamples) -> None:
     """Write it whole or not at all."""
     with atomic_output(path, force=True) as temporary, open(temporary, "wb") as file:
         np.savez(file, allow_pickle=False, **_flat(probe, ""))
 
 
-def load_probe(path: Path) -> Probe | None:
+def load_probe(path: Path) -> ShapeSamples | None:
     """Read it; ``None`` when there is none or it is damaged, so that it is worked out again."""
     try:
         with open(path, "rb") as file, np.load(file, allow_pickle=False) as arrays:
-            return _record(Probe, dict(arrays), "")
+            return _record(ShapeSamples, dict(arrays), "")
     except FileNotFoundError:
         return None
     except Exception:  # NumPy reports a damaged file by whatever it runs into

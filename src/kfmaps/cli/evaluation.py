@@ -17,10 +17,10 @@ from kfmaps.fmap.evaluate import (
     Smoothness,
     coverage,
     error_curve,
-    evaluation,
     geodesic_errors,
-    place_errors,
+    precise_errors,
     smoothness,
+    summarize_errors,
     truth_from_pairs,
 )
 from kfmaps.fmap.precise import PointMap
@@ -170,7 +170,7 @@ def assessed(
         predicted, true = predicted[::step], truth.source[::step]
         if not (predicted >= 0).any():
             raise refuse("map", "a counterpart for some of the truth's points", "none", "nothing can be compared")
-        return evaluation(geodesic_errors(source, predicted[predicted >= 0], true[predicted >= 0]))
+        return summarize_errors(geodesic_errors(source, predicted[predicted >= 0], true[predicted >= 0]))
 
     swapped = None if truth.mirrored is None else errors(truth.mirrored, mirrored)
     precise = smooth = None
@@ -178,7 +178,7 @@ def assessed(
     if place is not None and np.isin(truth.source, source.faces).all():
         rows = truth.target[target_to_source[truth.target] >= 0]
         at = PointMap(place.faces[rows], place.weights[rows])
-        precise = evaluation(place_errors(source, at, truth.source[target_to_source[truth.target] >= 0]))
+        precise = summarize_errors(precise_errors(source, at, truth.source[target_to_source[truth.target] >= 0]))
     lost = target_to_source < 0
     whole = place is not None or bool(np.isin(target_to_source[~lost], source.faces).all())
     if target is not None and len(target.faces) and whole:

@@ -12,16 +12,16 @@ from scipy.spatial import KDTree
 
 from kfmaps._arrays import refuse
 from kfmaps.cli.evaluation import numbers_of
-from kfmaps.fmap.evaluate import Evaluation, evaluation, place_errors
-from kfmaps.fmap.precise import PointMap, at_vertices, check_places, points_of
-from kfmaps.geometry.closest_points import places_on
+from kfmaps.fmap.evaluate import Evaluation, precise_errors, summarize_errors
+from kfmaps.fmap.precise import PointMap, check_point_map_precise, point_positions, vertex_point_map
+from kfmaps.geometry.closest_points import closest_points
 from kfmaps.geometry.mesh import Mesh, unit_area, vertex_areas
 from kfmaps.io import MapFile, read_landmarks
 from kfmaps.io.export import place_of
 from kfmaps.io.text import clean_text, parse_rows, read_bytes, table
 from kfmaps.matching.partial.match_partial import COMMON
 from kfmaps.matching.partial.overlap import covered
-from kfmaps.matching.partial.samples import border_of
+from kfmaps.matching.partial.samples import boundary_vertices
 
 Side = Literal["source", "target"]
 
@@ -71,13 +71,13 @@ def read_part_truth(path: Path, whole: Mesh, part: Mesh) -> PartTruth:
         if (total < 0.5).any() or (total > 1.5).any() or (found[:, 0] != np.rint(found[:, 0])).any():
             raise refuse(name, "a triangle and three weights of sum 1 a line", "others", "check the file")
         places = PointMap(found[:, 0].astype(np.int64) - 1, weights / total)
-        return PartTruth(np.arange(len(found)), check_places(places, whole), True)
+        return PartTruth(np.arange(len(found)), check_point_map_precise(places, whole), True)
     pairs = read_landmarks(path)
     for column, mesh, side in ((pairs[:, 0], whole, "whole"), (pairs[:, 1], part, "part")):
         if len(column) and column.max() >= len(mesh.vertices):
             wanted = f"vertices of the {side} from 0 to {len(mesh.vertices) - 1}"
             raise refuse(name, wanted, str(int(column.max())), "the whole's stand first, counted from 0")
-    return PartTruth(pairs[:, 1], at_vertices(pairs[:, 0], whole), False)
+    return PartTruth(pairs[:, 1], vertex_point_map(pairs[:, 0], whole), False)
 
 
 @dataclass(frozen=True, eq=False)
@@ -121,7 +121,7 @@ def part_accuracy(source: Mesh, target: Mesh, found: MapFile, truth: PartTruth, 
         When the map gives none of the points a counterpart.
     """
     points = found.target_to_source
-    place = place_of(found, source) or at_vertices(np.maximum(points, 0), source)
+    place = place_of(found, source) or vertex_point_map(np.maximum(points, 0), source)
     if part == "target":
         known = points[truth.vertices] >= 0
         rows = truth.vertices[known]
@@ -133,7 +133,7 @@ def part_accuracy(source: Mesh, target: Mesh, found: MapFile, truth: PartTruth, 
         whole = target
     if not known.any():
         raise refuse("map", "a counterpart for some of the truth's points", "none", "nothing can be compared")
-    errors = evaluation(place_errors(whole, said, true))
+    errors = summarize_errors(precise_errors(whole, said, true))
     true_common = true_overlap(whole, source if part == "source" else target, truth)
     areas = vertex_areas(whole)
     ours = common_vertices(found, part)
@@ -160,23 +160,23 @@ def _carried_on(
 ) -> tuple[np.ndarray, PointMap, PointMap]:
     """Which target vertices can be compared, they, and where what is mapped to them belongs."""
     there = np.full((len(source.vertices), 3), np.nan)
-    there[truth.vertices] = points_of(truth.places, target)
+    there[truth.vertices] = point_positions(truth.places, target)
     # A corner without weight has no say, nor has what nobody knows of it.
     corners = np.where(place.weights[:, :, None] > 0, there[source.faces[place.faces]], 0.0)
     ends = np.einsum("ti,tij->tj", place.weights, corners)
     told = np.isfinite(ends).all(axis=1)
     known = (points >= 0) & told
     rows = np.flatnonzero(known)
-    on = places_on(ends[rows], target.vertices, target.faces)
-    return known[told], at_vertices(rows, target), PointMap(on.faces, on.weights)
+    on = closest_points(ends[rows], target.vertices, target.faces)
+    return known[told], vertex_point_map(rows, target), PointMap(on.faces, on.weights)
 
 
 def true_overlap(whole: Mesh, part: Mesh, truth: PartTruth) -> np.ndarray:
     """Which vertices of the whole (n,) are common by the truth."""
     if truth.dense:
         unit = unit_area(whole)
-        bent = Mesh(points_of(truth.places, unit), part.faces)
-        return covered(bent, border_of(part), unit)[0] > COMMON
+        bent = Mesh(point_positions(truth.places, unit), part.faces)
+        return covered(bent, boundary_vertices(part), unit)[0] > COMMON
     listed = np.unique(whole.faces[truth.places.faces][truth.places.weights > 0.5])
     ends = whole.vertices[whole.faces]
     edge = float(np.linalg.norm(ends - np.roll(ends, 1, axis=1), axis=2).mean())

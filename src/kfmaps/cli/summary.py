@@ -66,11 +66,11 @@ def summary(outcome: MatchRun) -> dict[str, Any]:
         **sides,
         "landmarks": len(outcome.landmarks),
         "orientation": match.orientation,
-        "doubted": [int(number) for number in match.doubted],
+        "doubted": [int(number) for number in match.rejected_landmarks],
         "seed": outcome.seed,
         "map_rows": k_t,
         "map_columns": k_s,
-        "origin": match.origin,
+        "origin": match.initialization,
         "fit_size": None if fit is None else fit.functional_map.shape[0],
         "kernel": None if fit is None else fit.kernel,
         "rank": None if fit is None else fit.rank,
@@ -82,7 +82,7 @@ def summary(outcome: MatchRun) -> dict[str, Any]:
         "confidence": None if match.confidence is None else float(match.confidence),
         "local_confidence": mean_confidence(match),
         "scores": [float(score) for score in match.scores],
-        "runners_up": len(match.runners_up),
+        "runners_up": len(match.alternatives),
         "partial": match.partial,
         "partial_reason": match.partial_reason,
         "part_scale": match.part_scale,
@@ -171,7 +171,7 @@ def _rows(match: Match, found: dict[str, Any], accuracy: Accuracy | None) -> lis
         )
         told = ", ".join(f"{per} {number} {weight:.2f}" for number, weight in least)
         rows.append(("believed least", f"{told} (counted from 0; 1 is fully)"))
-    if match.fit is not None and match.origin == ONE_FIT:
+    if match.fit is not None and match.initialization == ONE_FIT:
         kernel = re.sub(r"\d+\.\d{5,}", lambda number: f"{float(number[0]):.4g}", found["kernel"])
         slices = f", {found['slices']} slices" if found["slices"] else ""
         status = found["solver_status"] + (f" in {found['solver_steps']} steps" if found["solver_steps"] else "")
@@ -183,7 +183,7 @@ def _rows(match: Match, found: dict[str, Any], accuracy: Accuracy | None) -> lis
             ("energy", ", ".join(energies)),
         ]
     else:
-        rows.append(("map", f"{size}, started from {match.origin}"))
+        rows.append(("map", f"{size}, started from {match.initialization}"))
     rows += [
         ("time", f"{sum(found['times'].values()):.1f} s: " + ", ".join(f"{name} {t:.2f}" for name, t in spent)),
     ]

@@ -33,10 +33,10 @@ from kfmaps.config import Config
 from kfmaps.io import MapFile, check_map
 from kfmaps.io.inputs import as_map, as_mesh
 from kfmaps.matching.calibration import SURE
-from kfmaps.matching.match import Match, check_prepared, continued, match
-from kfmaps.matching.quality import Probe
-from kfmaps.matching.reindexing import border
-from kfmaps.matching.search import probed
+from kfmaps.matching.match import Match, check_prepared, match, match_from_map
+from kfmaps.matching.quality import ShapeSamples
+from kfmaps.matching.reindexing import reindexing
+from kfmaps.matching.search import scoring_samples
 from kfmaps.shape import Shape, prepare
 
 Told = Callable[[str, int, int], None]
@@ -202,7 +202,7 @@ def match_collection(
         told("shapes", i + 1, len(given))
     known = _given(maps, names, ready) if maps is not None else {}
     ends = list(known) if maps is not None else _graph(graph, ready)
-    work = _Work(names, ready, config, rng, [probed(shape, rng) for shape in ready])
+    work = _Work(names, ready, config, rng, [scoring_samples(shape, rng) for shape in ready])
     matches: list[Match | None] = []
     evidence, points, whole = [], [], []
     apart: dict[tuple[int, int], tuple[np.ndarray, Match | None]] = {}
@@ -244,15 +244,15 @@ class _Work:
     shapes: list[Shape]
     config: Config
     seed: int
-    probes: list[Probe]
+    probes: list[ShapeSamples]
 
     def match(self, a: int, b: int) -> Match:
         both = self.probes[a], self.probes[b]
         return match(self.shapes[a], self.shapes[b], self.config, rng=self.seed, probes=both)
 
     def judge(self, ends: tuple[int, int], maps: Sequence[np.ndarray], turned: bool) -> list[ScoredMap]:
-        across = border(self.shapes[ends[0]], self.shapes[ends[1]])
-        within = [across.part_s.number[points[across.part_t.kept]] for points in maps]
+        across = reindexing(self.shapes[ends[0]], self.shapes[ends[1]])
+        within = [across.part_s.to_clean[points[across.part_t.to_original]] for points in maps]
         both = self.probes[ends[0]], self.probes[ends[1]]
         with one_blas_thread():
             return score_maps(within, across.source, across.target, both, [turned] * len(maps))
@@ -291,7 +291,7 @@ class _Work:
             better = points[change.edge][change.candidate] if way is None else along(way)
             turned = evidence[change.edge][change.candidate].reversed if way is None else turns(way)
             a, b = ends[change.edge]
-            matches[change.edge] = made = continued(
+            matches[change.edge] = made = match_from_map(
                 self.shapes[a],
                 self.shapes[b],
                 better,

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from kfmaps._arrays import check, refuse
-from kfmaps.geometry.topology import connected
+from kfmaps.geometry.topology import component_labels
 
 MAX_FLIPS = 100
 
@@ -70,6 +70,6 @@ def _along(signed: np.ndarray, signs: np.ndarray, known: np.ndarray) -> np.ndarr
 def _anchored(signed: np.ndarray, signs: np.ndarray) -> np.ndarray:
     """The lowest shape of each component has 1."""
     a, b = np.nonzero(signed)
-    part = connected(len(signs), a, b)[1]
+    part = component_labels(len(signs), a, b)[1]
     first = np.unique(part, return_index=True)[1]
     return signs * signs[first[part]]

@@ -16,7 +16,7 @@ from kfmaps._arrays import check, check_count, refuse, to_numpy
 from kfmaps.collection.paths import adjacency
 from kfmaps.descriptors.spectral import heat_signature
 from kfmaps.geometry.basis import Basis
-from kfmaps.geometry.topology import connected
+from kfmaps.geometry.topology import component_labels
 
 N_EIGENVALUES = 30
 """Eigenvalues that shapes are compared by."""
@@ -120,7 +120,7 @@ def _bridge(count: int, pairs: set[tuple[int, int]]) -> tuple[tuple[int, int], n
     if pair is None:
         return None
     rest = np.array(sorted(pairs - {pair}), dtype=np.int64).reshape(-1, 2)
-    part = connected(count, rest[:, 0], rest[:, 1])[1]
+    part = component_labels(count, rest[:, 0], rest[:, 1])[1]
     return pair, part == part[pair[1]]
 
 

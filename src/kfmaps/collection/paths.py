@@ -11,7 +11,7 @@ import numpy as np
 
 from kfmaps._arrays import refuse, to_numpy
 from kfmaps.fmap.convert import check_point_map, nearest
-from kfmaps.geometry.basis import Basis, zero_level
+from kfmaps.geometry.basis import Basis, eigenvalue_tolerance
 
 EMBEDDING = 60
 """Functions by which the nearest images are found where a map is inverted."""
@@ -116,5 +116,5 @@ def invert_map(target_to_source: np.ndarray, source: Basis, n_t: int) -> np.ndar
     points = check_point_map(target_to_source, len(source.functions), n_t)
     k = min(EMBEDDING, len(source.eigenvalues))
     values = to_numpy(source.eigenvalues)[1:k]
-    places = to_numpy(source.functions)[:, 1:k] / np.sqrt(np.maximum(values, max(zero_level(source), 1e-9)))
+    places = to_numpy(source.functions)[:, 1:k] / np.sqrt(np.maximum(values, max(eigenvalue_tolerance(source), 1e-9)))
     return nearest(places, places[points], threads=1)

@@ -12,9 +12,9 @@ from kfmaps._arrays import to_numpy
 from kfmaps.collection.synchronization import MAX_LOG_ODDS, N_FUNCTIONS, CandidateMap
 from kfmaps.fmap.convert import to_functional
 from kfmaps.matching.calibration import probability
-from kfmaps.matching.candidates import AGAIN, refine
-from kfmaps.matching.quality import Probe, map_quality, mirrored_probe
-from kfmaps.matching.sample_pair import ground
+from kfmaps.matching.candidates import AGAIN, refine_batch
+from kfmaps.matching.quality import ShapeSamples, map_quality, mirror_samples
+from kfmaps.matching.sample_pair import sample_pair
 from kfmaps.shape import Shape
 
 SCORED_FUNCTIONS = 80
@@ -51,7 +51,7 @@ def score_maps(
     maps: Sequence[np.ndarray],
     source: Shape,
     target: Shape,
-    probes: tuple[Probe, Probe],
+    probes: tuple[ShapeSamples, ShapeSamples],
     reversed: Sequence[bool] | None = None,
 ) -> list[ScoredMap]:
     """Score ``maps (n_t,)`` of one pair, a source vertex for each target vertex, by the ``probes`` of both shapes.
@@ -61,14 +61,14 @@ def score_maps(
     """
     turned = [False] * len(maps) if reversed is None else list(reversed)
     k = min(SCORED_FUNCTIONS, len(source.basis.eigenvalues), len(target.basis.eigenvalues))
-    bases = source.basis.truncated(k), target.basis.truncated(k)
+    bases = source.basis.truncate(k), target.basis.truncate(k)
     rough = np.stack([to_numpy(to_functional(points, *bases)) for points in maps])
     found: list[ScoredMap | None] = [None] * len(maps)
     for back in sorted(set(turned)):
-        on = ground(probes[0], mirrored_probe(probes[1]) if back else probes[1])
+        on = sample_pair(probes[0], mirror_samples(probes[1]) if back else probes[1])
         rows = [i for i, one in enumerate(turned) if one == back]
         weights = (AGAIN[0] if on.shot is not None else 0.0, 0.0)
-        settled, points = refine(rough[rows], on, (max(k // 2, 2), k), weights, (), 1)
+        settled, points = refine_batch(rough[rows], on, (max(k // 2, 2), k), weights, (), 1)
         for i, C, at in zip(rows, settled, points, strict=True):
             quality = map_quality(C, on.source, on.target, at)
             found[i] = ScoredMap(C[:N_FUNCTIONS, :N_FUNCTIONS], quality.score, quality.orientation, back)

@@ -18,7 +18,7 @@ import numpy as np
 from kfmaps._arrays import check_count, refuse
 from kfmaps.collection.pair_graph import bridges
 from kfmaps.collection.sync_init import MAX_LOG_ODDS, nearest_orthogonal, spanning_tree_init, spectral_init
-from kfmaps.geometry.topology import connected
+from kfmaps.geometry.topology import component_labels
 
 N_FUNCTIONS = 20
 """Size of the maps that are compared: enough to tell flipped limbs, and few enough to fit other bodies."""
@@ -161,7 +161,7 @@ def synchronize(count: int, edges: Sequence[Edge], functions: int = N_FUNCTIONS)
             break
         result = turned
     pairs = np.array(ends, dtype=np.int64).reshape(-1, 2)
-    return replace(result, component=connected(count, pairs[:, 0], pairs[:, 1])[1].astype(np.int64))
+    return replace(result, component=component_labels(count, pairs[:, 0], pairs[:, 1])[1].astype(np.int64))
 
 
 def _solve(problem: _Problem, functions: int) -> SyncResult:
@@ -215,7 +215,7 @@ def _rejoin(problem: _Problem, result: SyncResult) -> SyncResult | None:
     believed = [pair for pair, p in zip(ends, result.probabilities, strict=True) if p[-1] < 0.5]
     single = bridges(problem.count, believed)
     own = np.array([pair for pair in believed if pair not in single], dtype=np.int64).reshape(-1, 2)
-    parts, part = connected(problem.count, own[:, 0], own[:, 1])
+    parts, part = component_labels(problem.count, own[:, 0], own[:, 1])
     across = [i for i, (a, b) in enumerate(ends) if part[a] != part[b]]
     if parts == 1 or not across:
         return None

@@ -1,6 +1,6 @@
 """SHOT: how the surface around each vertex is bent, direction by direction, in a frame of its own.
 
-Unlike heat and wave signatures it tells left from right: a mirrored shape has others (:func:`mirrored`).
+Unlike heat and wave signatures it tells left from right: a mirrored shape has others (:func:`mirror_mesh`).
 
 Tombari, Salti and Di Stefano, "Unique signatures of histograms for local surface description", ECCV 2010.
 """
@@ -17,7 +17,7 @@ from scipy.spatial import KDTree
 
 from kfmaps._arrays import check, check_count, check_positive, refuse
 from kfmaps._threads import parallel
-from kfmaps.geometry.clean import inside
+from kfmaps.geometry.clean import clean_mesh
 from kfmaps.geometry.mesh import Mesh, face_areas, unit_area, vertex_normals
 
 AZIMUTHS, ELEVATIONS, SHELLS = 8, 2, 2
@@ -86,7 +86,7 @@ def shot(
     ----------
     mesh : Mesh
         With faces, oriented consistently. Open edges in one place are connected
-        (:func:`kfmaps.geometry.clean.inside`); a vertex that no face uses has the descriptor of the nearest one.
+        (:func:`kfmaps.geometry.clean.clean_mesh`); a vertex that no face uses has the descriptor of the nearest one.
     radius : float, optional
         Radius of the ball as a fraction of √area, so that units do not matter; 0.09 when not given.
     bins : int
@@ -137,12 +137,12 @@ def shot(
     if len(mesh.faces) == 0:
         raise refuse("mesh", "faces, which give the normals", "a point cloud", "triangulate it first")
     check(mesh.vertices, "vertices")
-    part = inside(mesh)
+    part = clean_mesh(mesh)
     if not part.whole:
         same = {"bins": bins, "form": form, "samples": samples, "threads": threads, "progress": progress}
         if at is None:
-            return shot(part.mesh, radius, **same)[part.number]
-        return shot(part.mesh, radius, at=part.number[at], **same)
+            return shot(part.mesh, radius, **same)[part.to_clean]
+        return shot(part.mesh, radius, at=part.to_clean[at], **same)
     mesh = unit_area(mesh)
     normals = vertex_normals(mesh)
     vertices = _Support(mesh.vertices, normals, np.ones(len(normals)))
@@ -164,7 +164,7 @@ def shot(
     return result
 
 
-def mirrored(descriptors: np.ndarray) -> np.ndarray:
+def mirror_shot(descriptors: np.ndarray) -> np.ndarray:
     """What :func:`shot` would give on the mirror image of the shape: the azimuths in reverse order.
 
     Matching ``shot(mesh)`` with ``mirrored(shot(mesh))`` finds a left-right symmetry.

@@ -138,7 +138,7 @@ def check_landmarks(landmarks: Sequence[int] | np.ndarray, n: int, name: str = "
     return rows
 
 
-def normalised(D_s: Array, D_t: Array, how: Normalisation, mass_s: Array, mass_t: Array) -> tuple[Array, Array]:
+def normalize(D_s: Array, D_t: Array, how: Normalisation, mass_s: Array, mass_t: Array) -> tuple[Array, Array]:
     """Scale the descriptors ``(n_s, d)`` and ``(n_t, d)`` by the same numbers on both shapes.
 
     Parameters

@@ -2,7 +2,8 @@
 
 In the 100 or 200 dimensions of a basis no tree prunes: the nearest point is seldom much nearer than those around it.
 Yet the points are those of a surface, so what is near to the query has near points around it. The points are
-shared out among :data:`PATCHES` patches, each to that of whose middle it is nearest, and patches are cut into cells of
+shared out among :data:`N_COARSE_LISTS` patches, each to that of whose middle it is nearest, and patches are cut into
+cells of
 some 64. Each query names the patches nearest to it, then the nearest cells in these, and searches those. All of it is
 matrix products in single precision, of groups of queries that lie together with whatever any of them has named: so
 a query meets some two thousand middles and points, however many there are. Patches larger than the functions' waves
@@ -20,17 +21,17 @@ from scipy.spatial import KDTree
 from kfmaps._arrays import blocks, check_count
 from kfmaps._threads import parallel
 
-CELL = 64
+LIST_SIZE = 64
 """Points in a cell, about."""
 GROUP = 128
 """Queries that are worked on together, at most."""
-PATCHES = 512
+N_COARSE_LISTS = 512
 """Patches, at most."""
-NAMED = 8
+COARSE_PROBE = 8
 """Patches that a query names."""
-PROBES = 16
+N_PROBE = 16
 """Cells that a query names."""
-HASTY = 4
+N_PROBE_FAST = 4
 """Cells that a query names whose answer need not be quite the nearest: it misses one in 150, by little."""
 AROUND = 16
 """Cells around that of a known point that are searched, itself among them."""
@@ -38,12 +39,12 @@ LEADING = 9
 """Leading columns, in falling weight, that say which rows lie together: the lowest functions of a basis."""
 
 
-def nearest_by_cells(
+def approximate_nearest(
     queries: np.ndarray,
     points: np.ndarray,
     *,
-    size: int = CELL,
-    probes: int = PROBES,
+    size: int = LIST_SIZE,
+    probes: int = N_PROBE,
     threads: int | None = None,
     start: np.ndarray | None = None,
     around: int = AROUND,
@@ -106,7 +107,7 @@ def nearest_by_cells(
             # Seen from the middle of the group, differences of nearly equal distances lose no digits.
             here = x.mean(axis=0)
             x -= here
-            cells = _inside(patches, _named(x, wider - here, NAMED))
+            cells = _inside(patches, _named(x, wider - here, COARSE_PROBE))
             cells = cells[_named(x, centres[cells] - here, probes)]
             found = _inside(edges, cells)
             answer[mine] = order[found[np.argmax(_scores(x, rows[found] - here), axis=1)]]
@@ -119,7 +120,7 @@ def _cells(
     points: np.ndarray, size: int, middle: np.ndarray, unit: float, threads: int | None
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """An order of ``points``, where each cell starts in it, and which cell each patch starts with (and the ends)."""
-    count = min(PATCHES, -(-len(points) // size))
+    count = min(N_COARSE_LISTS, -(-len(points) // size))
     order, starts = _runs(points, -(-len(points) // count))
     seeds = _single(points[order[(starts[:-1] + starts[1:]) // 2]], middle, unit)
 

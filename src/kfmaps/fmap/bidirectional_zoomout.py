@@ -15,8 +15,8 @@ import numpy as np
 from kfmaps._arrays import Array, refuse
 from kfmaps._progress import Done
 from kfmaps.fmap.convert import to_points
-from kfmaps.fmap.descriptor_guidance import Guide
-from kfmaps.fmap.refine import Refined, ZoomOut, candidates, fitted
+from kfmaps.fmap.descriptor_guidance import DescriptorGuidance
+from kfmaps.fmap.refine import Refined, ZoomOut, fit_functional_map, sample_candidates
 from kfmaps.geometry.basis import Basis
 from kfmaps.geometry.sampling import stratified_samples
 
@@ -31,7 +31,7 @@ class _Side:
     choice_rows: np.ndarray | None = None
 
 
-def zoomed_both(
+def bidirectional_zoomout(
     zoom: ZoomOut,
     C: Array,
     D: Array,
@@ -39,7 +39,7 @@ def zoomed_both(
     target: Basis,
     progress: Done | None = None,
     threads: int | None = None,
-    guide: Guide | None = None,
+    guide: DescriptorGuidance | None = None,
 ) -> tuple[Refined, Refined]:
     """ZoomOut of ``C (k_t, k_s)`` and ``D (k_s, k_t)`` together: the refined maps forth and back.
 
@@ -64,9 +64,9 @@ def zoomed_both(
     on_s, on_t = _side(source, zoom), _side(target, zoom)
     for i, larger in enumerate(sizes[1:]):
         found = _points(C, on_s, on_t, zoom, guide, threads)
-        forth = fitted(found, on_s.choice, on_t.mapped, larger)
+        forth = fit_functional_map(found, on_s.choice, on_t.mapped, larger)
         found = _points(C.T, on_t, on_s, zoom, _turned(guide), threads)
-        back = fitted(found, on_t.choice, on_s.mapped, larger)
+        back = fit_functional_map(found, on_t.choice, on_s.mapped, larger)
         C = 0.5 * (forth + back.T)
         if progress is not None:
             progress((i + 1) / len(sizes))
@@ -84,22 +84,22 @@ def _side(basis: Basis, zoom: ZoomOut) -> _Side:
     if zoom.samples is not None and zoom.samples < n:
         samples = stratified_samples(basis, zoom.samples, zoom.seed)
         mapped, mapped_rows = samples.basis, samples.vertices
-        if n > candidates(zoom.samples):
-            samples = stratified_samples(basis, candidates(zoom.samples), zoom.seed)
+        if n > sample_candidates(zoom.samples):
+            samples = stratified_samples(basis, sample_candidates(zoom.samples), zoom.seed)
             choice, choice_rows = samples.basis, samples.vertices
     return _Side(mapped, choice, mapped_rows, choice_rows)
 
 
 def _points(
-    C: Array, source: _Side, target: _Side, zoom: ZoomOut, guide: Guide | None, threads: int | None
+    C: Array, source: _Side, target: _Side, zoom: ZoomOut, guide: DescriptorGuidance | None, threads: int | None
 ) -> np.ndarray:
     """A point of ``source.choice`` for each of ``target.mapped``."""
     beside = None
     if guide is not None:
         few = guide.at(source.choice_rows, target.mapped_rows)
-        beside = few.beside(zoom.guidance, source.choice, target.mapped)
+        beside = few.embedding_columns(zoom.guidance, source.choice, target.mapped)
     return to_points(C, source.choice, target.mapped, threads, beside)
 
 
-def _turned(guide: Guide | None) -> Guide | None:
-    return None if guide is None else Guide(guide.target, guide.source)
+def _turned(guide: DescriptorGuidance | None) -> DescriptorGuidance | None:
+    return None if guide is None else DescriptorGuidance(guide.target, guide.source)

@@ -12,9 +12,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from kfmaps._arrays import blocks
-from kfmaps.fmap.approximate_geodesics import Reach, reach
+from kfmaps.fmap.approximate_geodesics import GraphDistances, approximate_geodesics
 from kfmaps.fmap.convert import check_point_map
-from kfmaps.geometry.clean import Inside, inside
+from kfmaps.geometry.clean import CleanedMesh, clean_mesh
 from kfmaps.geometry.mesh import Mesh, unit_area, vertex_areas
 from kfmaps.geometry.sampling import stratified
 
@@ -54,19 +54,19 @@ def local_confidence(
     -------
     (n_t,) float64
         0 where nothing can be told: at vertices that no face uses, on specks
-        (:func:`kfmaps.geometry.clean.inside`), and where no sample is in the surroundings.
+        (:func:`kfmaps.geometry.clean.clean_mesh`), and where no sample is in the surroundings.
 
     Raises
     ------
     InvalidInput
         When the map does not fit the two shapes, or one of them has no area.
     """
-    return surroundings(source, target, samples, sized=sized)(target_to_source)
+    return build_local_distortion(source, target, samples, sized=sized)(target_to_source)
 
 
 @dataclass(frozen=True, eq=False)
-class Surroundings:
-    """What is the same for all maps between two shapes; made by :func:`surroundings`.
+class LocalDistortion:
+    """What is the same for all maps between two shapes; made by :func:`build_local_distortion`.
 
     Attributes
     ----------
@@ -79,9 +79,9 @@ class Surroundings:
         For each :data:`BLOCK` of samples, which of them is how far from which vertex of the target, where it is near.
     """
 
-    part_s: Inside
-    part_t: Inside
-    reach_s: Reach
+    part_s: CleanedMesh
+    part_t: CleanedMesh
+    reach_s: GraphDistances
     samples: np.ndarray
     near: tuple[tuple[np.ndarray, np.ndarray, np.ndarray], ...]
 
@@ -90,8 +90,8 @@ class Surroundings:
         part_s, part_t = self.part_s, self.part_t
         points = np.asarray(target_to_source)
         lost = points < 0
-        points = check_point_map(np.where(points == -1, 0, points), len(part_s.number), len(part_t.number))
-        points, lost = part_s.number[points][part_t.kept], lost[part_t.kept]
+        points = check_point_map(np.where(points == -1, 0, points), len(part_s.to_clean), len(part_t.to_clean))
+        points, lost = part_s.to_clean[points][part_t.to_original], lost[part_t.to_original]
         n = len(points)
         change, whole = np.zeros(n), np.zeros(n)
         for part, near in zip(blocks(len(self.samples), BLOCK), self.near, strict=True):
@@ -105,14 +105,16 @@ class Surroundings:
             whole += np.bincount(columns, here, minlength=n)
         # Vertices in one place are surroundings of no size.
         trust = 1 - np.divide(change, whole, out=np.ones(n), where=whole > 1e-9)
-        return np.where(part_t.loose, 0.0, np.maximum(trust, 0.0)[part_t.number])
+        return np.where(part_t.unreferenced, 0.0, np.maximum(trust, 0.0)[part_t.to_clean])
 
 
-def surroundings(source: Mesh, target: Mesh, samples: np.ndarray | None = None, *, sized: bool = False) -> Surroundings:
+def build_local_distortion(
+    source: Mesh, target: Mesh, samples: np.ndarray | None = None, *, sized: bool = False
+) -> LocalDistortion:
     """Of two shapes; the parameters and errors are those of :func:`local_confidence`."""
-    part_s, part_t = inside(source, specks=True), inside(target, specks=True)
+    part_s, part_t = clean_mesh(source, specks=True), clean_mesh(target, specks=True)
     if samples is not None and not part_t.whole:
-        samples = np.unique(part_t.number[samples[~part_t.loose[samples]]])
+        samples = np.unique(part_t.to_clean[samples[~part_t.unreferenced[samples]]])
     source, target = part_s.mesh, part_t.mesh
     if not sized:
         source, target = unit_area(source), unit_area(target)
@@ -120,9 +122,9 @@ def surroundings(source: Mesh, target: Mesh, samples: np.ndarray | None = None, 
         areas = vertex_areas(target)
         used = np.flatnonzero(areas > 0)
         samples = used[stratified(target.vertices[used], areas[used], SAMPLES, rng=0)]
-    reach_t, near = reach(target), []
+    reach_t, near = approximate_geodesics(target), []
     for part in blocks(len(samples), BLOCK):
         here = reach_t(samples[part], RADIUS)
         rows, columns = np.nonzero(here <= RADIUS)
         near.append((rows, columns, here[rows, columns]))
-    return Surroundings(part_s, part_t, reach(source), samples, tuple(near))
+    return LocalDistortion(part_s, part_t, approximate_geodesics(source), samples, tuple(near))

@@ -41,7 +41,7 @@ def tangent(C: Array, G: Array) -> Array:
     return G - 0.5 * (C @ (product + product.T))
 
 
-def orthogonal(
+def minimize_orthogonal(
     energy: Term,
     solver: Solver,
     start: Array,
@@ -106,7 +106,7 @@ def orthogonal(
                 direction = -z
         there = _line_search(energy, right, here, gradient, direction)
         if there is None:
-            bound = bound or 1.1 * largest(energy, here.C)
+            bound = bound or 1.1 * largest_curvature(energy, here.C)
             there, bound = _polar_step(energy, right, here, bound)
             if there is None:
                 status = "breakdown"
@@ -166,7 +166,7 @@ def _polar_step(energy: Term, right: Array, here: _At, bound: float) -> tuple[_A
     return None, bound
 
 
-def largest(energy: Term, like: Array, steps: int = 20) -> float:
+def largest_curvature(energy: Term, like: Array, steps: int = 20) -> float:
     """The largest eigenvalue of the energy's operator, from below, by the power method from ``like``."""
     x = like + 0.01 * namespace(like).ones_like(like)
     value = 0.0

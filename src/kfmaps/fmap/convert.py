@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from kfmaps._arrays import Array, namespace, refuse, take, to_numpy
-from kfmaps.fmap.approximate_nearest import PROBES
+from kfmaps.fmap.approximate_nearest import N_PROBE
 from kfmaps.fmap.nearest import nearest
 from kfmaps.geometry.basis import Basis
 
@@ -20,20 +20,20 @@ def to_points(
     beside: tuple[Array, Array] | None = None,
     exact: bool | None = None,
     start: np.ndarray | None = None,
-    probes: int = PROBES,
+    probes: int = N_PROBE,
 ) -> np.ndarray:
     """The point map ``target_to_source (n_t,)`` of a functional map ``C (k_t, k_s)``.
 
     Rows of ``Φ_s Cᵀ`` are the images of the source's delta functions, rows of ``Φ_t`` the target's deltas; each of
     the latter takes the closest of the former (Ovsjanikov et al. 2012). Bases larger than ``C`` are truncated.
     ``beside``: further columns ``(n_s, d)`` and ``(n_t, d)`` to compare, see
-    :meth:`kfmaps.fmap.descriptor_guidance.Guide.beside`.
+    :meth:`kfmaps.fmap.descriptor_guidance.DescriptorGuidance.embedding_columns`.
     From about 10,000 points on each side the search is by cells, unless ``exact`` says otherwise, see
     :func:`kfmaps.fmap.nearest.nearest`, and quicker with fewer ``probes`` or a map ``start (n_t,)`` that is
     nearly right.
     """
     k_t, k_s = C.shape
-    source, target = source.truncated(k_s), target.truncated(k_t)
+    source, target = source.truncate(k_s), target.truncate(k_t)
     images, places = source.functions @ C.T, target.functions
     if beside is not None:
         xp = namespace(images)

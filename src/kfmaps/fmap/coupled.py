@@ -20,23 +20,23 @@ from kfmaps.geometry.basis import Basis
 
 
 @dataclass(frozen=True, eq=False)
-class Coupled:
+class CoupledBases:
     """Rotations ``U_s`` (k_s, k_s) and ``U_t`` (k_t, k_t) and the objective before the first step and after each."""
 
     U_s: Array
     U_t: Array
     history: np.ndarray
 
-    def rotated(self, source: Basis, target: Basis) -> tuple[Basis, Basis]:
+    def to_rotated(self, source: Basis, target: Basis) -> tuple[Basis, Basis]:
         """The coupled bases; their "eigenvalues" are the diagonals of the rotated Laplacians, Dirichlet energies."""
         return _rotated(source, self.U_s), _rotated(target, self.U_t)
 
-    def restored(self, C: Array) -> Array:
+    def from_rotated(self, C: Array) -> Array:
         """A map ``C`` between the coupled bases as one between the original ones."""
         return self.U_t @ C @ self.U_s.T
 
 
-def coupled(
+def couple_bases(
     values_s: Array,
     values_t: Array,
     cross: Array,
@@ -44,7 +44,7 @@ def coupled(
     steps: int = 100,
     start: Array | None = None,
     rtol: float = 1e-6,
-) -> Coupled:
+) -> CoupledBases:
     """Joint approximate diagonalisation of two Laplacians, coupled by corresponding functions.
 
     Minimises ``½ Σ off(U_xᵀ Λ_x U_x) / ‖Λ_x‖² − weight tr(U_tᵀ cross U_s) / Σσ(cross)`` over rotations, where ``off``
@@ -95,7 +95,7 @@ def coupled(
         history.append(objective())
         if history[-2] - history[-1] <= rtol * max(abs(history[-2]), 1e-300):
             break
-    return Coupled(U_s, U_t, np.asarray(history))
+    return CoupledBases(U_s, U_t, np.asarray(history))
 
 
 def _tangent(values: Array, U: Array, kept: Array) -> Array:
@@ -120,8 +120,8 @@ def _rotated(basis: Basis, U: Array) -> Basis:
 
 
 @dataclass(frozen=True, eq=False)
-class Seen:
-    """A term of the map as it is in coupled bases, ``C ↦ term(U_tᵀ C U_s)``; made by :func:`seen`."""
+class RotatedTerm:
+    """A term of the map as it is in coupled bases, ``C ↦ term(U_tᵀ C U_s)``; made by :func:`rotate_term`."""
 
     term: Term
     U_t: Array
@@ -147,14 +147,14 @@ class Seen:
         return self.term.rotated_diagonal(self.U_t.T @ U_t, self.U_s.T @ U_s)
 
 
-def seen(term: Term, U_t: Array, U_s: Array) -> Seen:
+def rotate_term(term: Term, U_t: Array, U_s: Array) -> RotatedTerm:
     """``term`` of the map between the bases rotated by ``U_t`` and ``U_s``, as a term of the map itself."""
-    return Seen(term, U_t, U_s)
+    return RotatedTerm(term, U_t, U_s)
 
 
 @dataclass(frozen=True, eq=False)
-class SeenPenalty:
-    """A penalty of the map as it is in coupled bases; made by :func:`seen_penalty`."""
+class RotatedPenalty:
+    """A penalty of the map as it is in coupled bases; made by :func:`rotate_penalty`."""
 
     penalty: Penalty
     U_t: Array
@@ -164,9 +164,9 @@ class SeenPenalty:
         return self.penalty.value(self.U_t.T @ C @ self.U_s)
 
     def majorizer(self, C: Array) -> Term:
-        return Seen(self.penalty.majorizer(self.U_t.T @ C @ self.U_s), self.U_t, self.U_s)
+        return RotatedTerm(self.penalty.majorizer(self.U_t.T @ C @ self.U_s), self.U_t, self.U_s)
 
 
-def seen_penalty(penalty: Penalty, U_t: Array, U_s: Array) -> SeenPenalty:
+def rotate_penalty(penalty: Penalty, U_t: Array, U_s: Array) -> RotatedPenalty:
     """``penalty`` of the map between the bases rotated by ``U_t`` and ``U_s``, as a penalty of the map itself."""
-    return SeenPenalty(penalty, U_t, U_s)
+    return RotatedPenalty(penalty, U_t, U_s)

@@ -26,8 +26,9 @@ TELLING = 10_000
 
 
 @dataclass(frozen=True, eq=False)
-class Guide:
-    """Descriptors of the points of two shapes, ``source (n_s, d)`` and ``target (n_t, d)``; made by :func:`guide`.
+class DescriptorGuidance:
+    """Descriptors of the points of two shapes, ``source (n_s, d)`` and ``target (n_t, d)``; made by
+    :func:`descriptor_guidance`.
 
     Two random points differ by 1 on average (mean of the squared length).
     """
@@ -35,7 +36,7 @@ class Guide:
     source: np.ndarray
     target: np.ndarray
 
-    def at(self, source: np.ndarray | None, target: np.ndarray | None) -> Guide:
+    def at(self, source: np.ndarray | None, target: np.ndarray | None) -> DescriptorGuidance:
         """The guide of some vertices ``(q,)`` of each shape; ``None`` keeps all."""
         return replace(
             self,
@@ -43,7 +44,7 @@ class Guide:
             target=self.target if target is None else self.target[target],
         )
 
-    def beside(self, weight: float, source: Basis, target: Basis) -> tuple[Array, Array]:
+    def embedding_columns(self, weight: float, source: Basis, target: Basis) -> tuple[Array, Array]:
         """Columns to put beside the functions, such that squared differences are ``weight`` on average at unit area.
 
         Of random points they are about 2 k in k functions, so that descriptors matter much while k is small.
@@ -52,7 +53,9 @@ class Guide:
         return like(scale * self.source, source.functions), like(scale * self.target, target.functions)
 
 
-def guide(source: np.ndarray | None, target: np.ndarray | None, dimensions: int = DIMENSIONS) -> Guide | None:
+def descriptor_guidance(
+    source: np.ndarray | None, target: np.ndarray | None, dimensions: int = DIMENSIONS
+) -> DescriptorGuidance | None:
     """The first principal components of SHOT ``(n_s, d)`` and ``(n_t, d)``, common to both shapes.
 
     ``None`` where one shape has no descriptors, or both have nothing but noise in them.
@@ -77,24 +80,24 @@ def guide(source: np.ndarray | None, target: np.ndarray | None, dimensions: int 
     directions = np.linalg.eigh(some.T @ some)[1][:, ::-1][:, :dimensions]
     reduced = [side @ directions - mean @ directions for side in sides]
     unit = np.sqrt(2 * sum((part**2).sum() for part in reduced) / count)
-    return Guide(reduced[0] / unit, reduced[1] / unit)
+    return DescriptorGuidance(reduced[0] / unit, reduced[1] / unit)
 
 
 def _varied(descriptors: np.ndarray) -> bool:
-    """Whether :func:`spread` is at least :data:`FLAT`, mostly told in one pass."""
+    """Whether :func:`descriptor_variance` is at least :data:`FLAT`, mostly told in one pass."""
     mean = descriptors.mean(axis=0)
     about = float(np.einsum("ij,ij->", descriptors, descriptors)) / len(descriptors) - float(mean @ mean)
-    return about > 2 * FLAT or spread(descriptors) >= FLAT
+    return about > 2 * FLAT or descriptor_variance(descriptors) >= FLAT
 
 
-def spread(descriptors: np.ndarray) -> float:
+def descriptor_variance(descriptors: np.ndarray) -> float:
     """Mean squared distance of the rows from their mean."""
     mean = descriptors.mean(axis=0)
     squares = sum(float(((descriptors[rows] - mean) ** 2).sum()) for rows in blocks(len(descriptors), ROWS))
     return squares / len(descriptors)
 
 
-def joined(guides: list[tuple[float, Guide | None]]) -> Guide | None:
+def combine_guidance(guides: list[tuple[float, DescriptorGuidance | None]]) -> DescriptorGuidance | None:
     """One guide of several with weights, relative to the first that there is; its own weight is kept as 1."""
     present = [(w, g) for w, g in guides if g is not None and w > 0]
     if not present:
@@ -104,4 +107,4 @@ def joined(guides: list[tuple[float, Guide | None]]) -> Guide | None:
         [s * side for s, side in zip(scale, pair, strict=True)]
         for pair in zip(*((g.source, g.target) for _, g in present), strict=True)
     ]
-    return Guide(np.hstack(sides[0]), np.hstack(sides[1]))
+    return DescriptorGuidance(np.hstack(sides[0]), np.hstack(sides[1]))

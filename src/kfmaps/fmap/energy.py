@@ -26,21 +26,21 @@ from kfmaps.fmap.full_kernel import HadamardCommutativity as HadamardCommutativi
 from kfmaps.fmap.full_kernel import hadamard_term as hadamard_term
 from kfmaps.fmap.full_kernel import kernel_descriptor_term as kernel_descriptor_term
 from kfmaps.fmap.terms import Elementwise as Elementwise
+from kfmaps.fmap.terms import InverseConsistency as InverseConsistency
+from kfmaps.fmap.terms import OperatorCommutativity as OperatorCommutativity
 from kfmaps.fmap.terms import Preservation as Preservation
-from kfmaps.fmap.terms import SliceCommutativity as SliceCommutativity
 from kfmaps.fmap.terms import Term as Term
-from kfmaps.fmap.terms import TwoSided as TwoSided
 from kfmaps.fmap.terms import adjoint_term as adjoint_term
 from kfmaps.fmap.terms import descriptor_term as descriptor_term
 from kfmaps.fmap.terms import inverse_term as inverse_term
 from kfmaps.fmap.terms import laplacian_term as laplacian_term
-from kfmaps.fmap.terms import slice_term as slice_term
+from kfmaps.fmap.terms import operator_term as operator_term
 from kfmaps.fmap.terms import value as value
 
 
 @dataclass(frozen=True, eq=False)
 class Energy:
-    """A named weighted sum of terms, itself a :class:`Term`; terms of weight zero are left out.
+    """A named weighted sum of terms, itself a :class:`DataTerm`; terms of weight zero are left out.
 
     Parameters
     ----------

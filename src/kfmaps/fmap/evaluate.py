@@ -8,10 +8,10 @@ import numpy as np
 
 from kfmaps._arrays import check, refuse
 from kfmaps.fmap.convert import check_point_map
-from kfmaps.fmap.precise import PointMap, at_vertices, check_places, points_of
-from kfmaps.geometry.between import distance_places
-from kfmaps.geometry.clean import inside
-from kfmaps.geometry.geodesics import distance_pairs
+from kfmaps.fmap.precise import PointMap, check_point_map_precise, point_positions, vertex_point_map
+from kfmaps.geometry.between import surface_point_distances
+from kfmaps.geometry.clean import clean_mesh
+from kfmaps.geometry.geodesics import geodesic_distance_pairs
 from kfmaps.geometry.mesh import Mesh, check_is_mesh, face_areas, surface_area, vertex_areas, vertex_normals
 
 
@@ -64,10 +64,10 @@ def geodesic_errors(
     n = len(source.vertices)
     predicted = check_point_map(predicted, n, len(predicted))
     true = check_point_map(true, n, len(true))
-    return distance_pairs(source, true, predicted, method=method) / np.sqrt(surface_area(source))
+    return geodesic_distance_pairs(source, true, predicted, method=method) / np.sqrt(surface_area(source))
 
 
-def place_errors(source: Mesh, predicted: PointMap | np.ndarray, true: PointMap | np.ndarray) -> np.ndarray:
+def precise_errors(source: Mesh, predicted: PointMap | np.ndarray, true: PointMap | np.ndarray) -> np.ndarray:
     """Geodesic distance on ``source`` from each ``predicted`` to its ``true`` point, (q,), divided by √area.
 
     Points lie inside triangles (:class:`kfmaps.fmap.precise.PointMap`, not snapped) or are vertices (whole
@@ -81,12 +81,12 @@ def place_errors(source: Mesh, predicted: PointMap | np.ndarray, true: PointMap 
     ends = []
     for name, given in (("predicted", predicted), ("true", true)):
         if not isinstance(given, PointMap):
-            given = at_vertices(check_point_map(np.asarray(given), len(source.vertices), len(given)), source)
-        ends.append(check_places(given, source))
+            given = vertex_point_map(check_point_map(np.asarray(given), len(source.vertices), len(given)), source)
+        ends.append(check_point_map_precise(given, source))
         if len(ends[0].faces) != len(given.faces):
             got = f"{len(ends[0].faces)} and {len(given.faces)}"
             raise refuse(f"{name} points", "lists of equal length", got, "evaluate the same points")
-    distances = distance_places(source, ends[0].faces, ends[0].weights, ends[1].faces, ends[1].weights)
+    distances = surface_point_distances(source, ends[0].faces, ends[0].weights, ends[1].faces, ends[1].weights)
     return distances / np.sqrt(surface_area(source))
 
 
@@ -105,8 +105,8 @@ class Smoothness:
     """
 
     coverage: float
-    flipped: float
-    stretched: float
+    flipped_area: float
+    stretched_area: float
 
 
 def smoothness(source: Mesh, target: Mesh, places: PointMap | np.ndarray) -> Smoothness:
@@ -115,9 +115,11 @@ def smoothness(source: Mesh, target: Mesh, places: PointMap | np.ndarray) -> Smo
     Lengths are compared at equal areas of the shapes, in space.
     """
     if not isinstance(places, PointMap):
-        places = at_vertices(check_point_map(np.asarray(places), len(source.vertices), len(target.vertices)), source)
-    places = check_places(places, source, len(target.vertices))
-    images, faces = points_of(places, source), target.faces
+        places = vertex_point_map(
+            check_point_map(np.asarray(places), len(source.vertices), len(target.vertices)), source
+        )
+    places = check_point_map_precise(places, source, len(target.vertices))
+    images, faces = point_positions(places, source), target.faces
     hit = np.unique(source.faces[places.faces][places.weights > 0])
     areas = vertex_areas(source)
     normals = vertex_normals(source)
@@ -133,7 +135,7 @@ def smoothness(source: Mesh, target: Mesh, places: PointMap | np.ndarray) -> Smo
     return Smoothness(float(areas[hit].sum() / areas.sum()), float(sizes[over].sum() / sizes.sum()), float(long.mean()))
 
 
-def evaluation(errors: np.ndarray, auc_limit: float = 0.25) -> Evaluation:
+def summarize_errors(errors: np.ndarray, auc_limit: float = 0.25) -> Evaluation:
     """Mean, median, worst, and area under the curve of ``errors (q,)``; the curve ends at ``auc_limit``."""
     errors = np.asarray(errors, dtype=float)
     check(errors, "errors", shape=(None,), finite=False)
@@ -165,12 +167,12 @@ def coverage(target_to_source: np.ndarray, source: Mesh) -> float:
     Connected vertices in one place count as one; those that belong to no face count for nothing.
     """
     check_is_mesh(source, "source")
-    part = inside(source)
+    part = clean_mesh(source)
     areas = vertex_areas(part.mesh)
     points = np.asarray(target_to_source)
     points = points[points != -1]
     points = check_point_map(points, len(source.vertices), len(points))
-    hit = np.unique(part.number[points[~part.loose[points]]])
+    hit = np.unique(part.to_clean[points[~part.unreferenced[points]]])
     return float(areas[hit].sum() / areas.sum())
 
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from kfmaps._arrays import Array, blocks, namespace, number
-from kfmaps.fmap.terms import Preservation, rotated, same_count
+from kfmaps.fmap.terms import Preservation, check_same_count, rotate_gram
 from kfmaps.geometry.basis import Basis
-from kfmaps.kernels.kernels import KernelLike, gram
+from kfmaps.kernels.kernels import KernelLike, kernel_matrix
 
 
 def kernel_descriptor_term(
@@ -19,14 +19,14 @@ def kernel_descriptor_term(
     block: int = 1024,
 ) -> Preservation:
     """The same for a whole kernel (equation 8), in row blocks: no (n_s, n_t) matrix is ever held."""
-    same_count(descriptors_s, descriptors_t)
+    check_same_count(descriptors_s, descriptors_t)
     sides = ((source, descriptors_s), (target, descriptors_t))
     weighted = [basis.functions * basis.mass[:, None] for basis, _ in sides]
 
     def sandwich(i: int, j: int) -> Array:
         rows = sides[i][1]
         return sum(
-            weighted[i][part, :].T @ (gram(kernel, rows[part, :], sides[j][1]) @ weighted[j])
+            weighted[i][part, :].T @ (kernel_matrix(kernel, rows[part, :], sides[j][1]) @ weighted[j])
             for part in blocks(rows.shape[0], block)
         )
 
@@ -74,7 +74,7 @@ class HadamardCommutativity:
         return self.gram_t, self.gram_s
 
     def rotated_diagonal(self, U_t: Array, U_s: Array) -> Array:
-        own = rotated(self.gram_t, U_t)[:, None] + rotated(self.gram_s, U_s)[None, :]
+        own = rotate_gram(self.gram_t, U_t)[:, None] + rotate_gram(self.gram_s, U_s)[None, :]
         squares_t = (self.weighted_t @ U_t) * (self.functions_t @ U_t)
         return own - 2 * self._coupling(squares_t, (self.weighted_s @ U_s) * (self.functions_s @ U_s))
 
@@ -85,7 +85,7 @@ class HadamardCommutativity:
         return cross
 
     def _cross(self, rows: slice) -> Array:
-        return gram(self.kernel, self.descriptors_t[rows, :], self.descriptors_s)
+        return kernel_matrix(self.kernel, self.descriptors_t[rows, :], self.descriptors_s)
 
 
 def hadamard_term(
@@ -99,9 +99,9 @@ def hadamard_term(
     """Commutativity for the exact kernel of the descriptors ``(n_s, d)`` and ``(n_t, d)``.
 
     Every application costs ``n_s n_t`` kernel values and as many multiply-adds for each column of ``C``, in blocks
-    of ``block`` rows: the oracle for :func:`slice_term`, and what to use when no approximation will do.
+    of ``block`` rows: the oracle for :func:`operator_term`, and what to use when no approximation will do.
     """
-    same_count(descriptors_s, descriptors_t)
+    check_same_count(descriptors_s, descriptors_t)
     sides = ((source, descriptors_s), (target, descriptors_t))
     weighted = [basis.functions * basis.mass[:, None] for basis, _ in sides]
 
@@ -109,7 +109,7 @@ def hadamard_term(
         basis, rows = sides[i]
         total = 0.0
         for part in blocks(rows.shape[0], block):
-            product = (basis.functions[part, :] @ basis.functions.T) * gram(kernel, rows[part, :], rows)
+            product = (basis.functions[part, :] @ basis.functions.T) * kernel_matrix(kernel, rows[part, :], rows)
             total = total + weighted[i][part, :].T @ (product @ weighted[i])
         return total
 

@@ -2,7 +2,7 @@
 
 A *penalty* knows its value and a quadratic term that lies above it and touches it where the map is
 (:class:`Penalty`). Minimising the energy with that term in the penalty's place lowers the true objective, whatever
-else it is made of; :func:`kfmaps.fmap.minimize.minimised` does so until it falls no more. So a penalty goes
+else it is made of; :func:`kfmaps.fmap.minimize.minimize` does so until it falls no more. So a penalty goes
 together with every term, kernel, constraint and solver.
 
 With ``e_g`` the squared residual of a group of data (a landmark, a descriptor, a feature) and a scale ``δ``:
@@ -28,7 +28,7 @@ import numpy as np
 
 from kfmaps._arrays import Array, check_positive, like, namespace, refuse, to_numpy
 from kfmaps.fmap.energy import Energy
-from kfmaps.fmap.terms import Elementwise, Preservation, Term, slice_term
+from kfmaps.fmap.terms import Elementwise, Preservation, Term, operator_term
 
 LossName = Literal["squared", "huber", "l21", "geman"]
 LOSSES: tuple[LossName, ...] = ("squared", "huber", "l21", "geman")
@@ -75,7 +75,7 @@ class Loss:
             return 2 * d * np.sqrt(e + (1e-3 * d) ** 2)
         return d * d * e / (d * d + e)
 
-    def weight(self, e: np.ndarray) -> np.ndarray:
+    def weights(self, e: np.ndarray) -> np.ndarray:
         """ρ' of the squared residuals ``e (g,)``."""
         d = self.delta
         if self.name == "squared":
@@ -127,7 +127,7 @@ class RobustData:
 
     def weights(self, C: Array) -> np.ndarray:
         """The weight of each column at ``C``, (r,), from 0 to 1 but for "l21"."""
-        weights = np.append(self.loss.weight(self.residuals(C)), 1.0)
+        weights = np.append(self.loss.weights(self.residuals(C)), 1.0)
         return weights[np.where(self.groups < 0, len(weights) - 1, self.groups)]
 
     def value(self, C: Array) -> float:
@@ -145,7 +145,7 @@ class RobustData:
         if self.slices_s is None or self.slices_t is None or not self.commutativity:
             return data
         root = namespace(w).sqrt(w)[:, None, None]
-        terms = {"data": data, "slices": slice_term(root * self.slices_s, root * self.slices_t)}
+        terms = {"data": data, "slices": operator_term(root * self.slices_s, root * self.slices_t)}
         return Energy(terms, {"data": 1.0, "slices": self.commutativity})
 
     def _relative(self, e: np.ndarray) -> np.ndarray:
@@ -167,7 +167,7 @@ class RobustData:
 
 @dataclass(frozen=True, eq=False)
 class Sparse:
-    """``Σ weights √(C² + ε²)``: the L1 norm, smoothed at zero; made by :func:`sparse`.
+    """``Σ weights √(C² + ε²)``: the L1 norm, smoothed at zero; made by :func:`sparse_penalty`.
 
     Of the functional map, whose entries are of the order of 1, or below it off the diagonal.
     """
@@ -184,7 +184,7 @@ class Sparse:
         return Elementwise(self.weights / xp.sqrt(C * C + self.smoothing**2))
 
 
-def sparse(example: Array, smoothing: float = 1e-3) -> Sparse:
+def sparse_penalty(example: Array, smoothing: float = 1e-3) -> Sparse:
     """Sparsity of maps of the shape of ``example (k_t, k_s)``, with weights that grow from the diagonal.
 
     From 0 on the line between the two corners to 1 in the others, the distance in parts of the size (Pokrass et al.,

@@ -3,7 +3,7 @@
 Without penalties and constraint it is the linear system that it always was, solved once. A penalty
 (:mod:`kfmaps.fmap.losses`) is replaced by its quadratic majorizer, again and again; a constraint
 (:mod:`kfmaps.fmap.constraints`) takes the place of the linear solve. Both maps of a pair at once are minimised in
-turn (:func:`coupled_pair`). Every step starts where the last one ended and lowers the same objective, so it never
+turn (:func:`fit_bidirectional`). Every step starts where the last one ended and lowers the same objective, so it never
 rises, whatever is combined.
 """
 
@@ -16,7 +16,7 @@ from typing import Literal
 import numpy as np
 
 from kfmaps._arrays import Array
-from kfmaps.fmap.constraints import orthogonal
+from kfmaps.fmap.constraints import minimize_orthogonal
 from kfmaps.fmap.energy import Energy, adjoint_term, inverse_term, value
 from kfmaps.fmap.losses import Penalty
 from kfmaps.fmap.preconditioners import jacobi, sylvester
@@ -28,7 +28,7 @@ CONSTRAINTS: tuple[Constraint, ...] = ("none", "orthogonal")
 Preconditioner = Literal["none", "jacobi", "sylvester"]
 PRECONDITIONERS: tuple[Preconditioner, ...] = ("none", "jacobi", "sylvester")
 
-Told = Callable[[int, float], None]
+ProgressCallback = Callable[[int, float], None]
 
 
 @dataclass(frozen=True, eq=False)
@@ -63,7 +63,7 @@ class Objective:
 
 
 @dataclass(frozen=True)
-class How:
+class MinimizeOptions:
     """How an objective is minimised.
 
     ``solver`` and ``preconditioner`` are of each quadratic step; there are at most ``rounds`` of them, and none after
@@ -72,11 +72,13 @@ class How:
 
     solver: Solver
     preconditioner: Preconditioner = "sylvester"
-    rounds: int = 20
-    settled: float = 1e-4
+    max_outer_iter: int = 20
+    rtol: float = 1e-4
 
 
-def minimised(objective: Objective, how: How, start: Array | None = None, progress: Told | None = None) -> Solution:
+def minimize(
+    objective: Objective, how: MinimizeOptions, start: Array | None = None, progress: ProgressCallback | None = None
+) -> Solution:
     """The minimiser of ``objective`` that is reached from ``start``.
 
     Without a start it is the minimiser of the energy with the penalties' majorizers at zero, that is, about where
@@ -84,24 +86,28 @@ def minimised(objective: Objective, how: How, start: Array | None = None, progre
     """
     if start is None and (objective.penalties or objective.constraint != "none"):
         zero = 0.0 * objective.energy.rhs()
-        start = quadratic(Objective(objective.majorizer(zero)), how, None, progress).value
-    solution = quadratic(replace(objective, energy=objective.majorizer(start), penalties={}), how, start, progress)
+        start = solve_quadratic(Objective(objective.majorizer(zero)), how, None, progress).value
+    solution = solve_quadratic(
+        replace(objective, energy=objective.majorizer(start), penalties={}), how, start, progress
+    )
     if not objective.penalties:
         return solution
     last = objective.value(solution.value)
     steps = solution.steps
-    for _ in range(how.rounds - 1):
+    for _ in range(how.max_outer_iter - 1):
         energy = objective.majorizer(solution.value)
-        solution = quadratic(replace(objective, energy=energy, penalties={}), how, solution.value, progress)
+        solution = solve_quadratic(replace(objective, energy=energy, penalties={}), how, solution.value, progress)
         steps += solution.steps
         now = objective.value(solution.value)
-        if last - now <= how.settled * abs(last):
+        if last - now <= how.rtol * abs(last):
             break
         last = now
     return replace(solution, steps=steps)
 
 
-def quadratic(objective: Objective, how: How, start: Array | None, progress: Told | None = None) -> Solution:
+def solve_quadratic(
+    objective: Objective, how: MinimizeOptions, start: Array | None, progress: ProgressCallback | None = None
+) -> Solution:
     """The minimiser of an objective without penalties: one linear solve, or one descent along the manifold."""
     energy = objective.energy
     inverse = None
@@ -111,20 +117,20 @@ def quadratic(objective: Objective, how: How, start: Array | None, progress: Tol
         inverse = sylvester(energy)
     if objective.constraint == "orthogonal":
         assert start is not None
-        return orthogonal(energy, how.solver, start, inverse, progress)
+        return minimize_orthogonal(energy, how.solver, start, inverse, progress)
     return solve(energy.apply, energy.rhs(), how.solver, start, inverse, progress)
 
 
 @dataclass(frozen=True)
-class Coupling:
-    """How strongly the two maps ``C`` and ``D`` of a pair are tied; see :func:`coupled_pair`."""
+class BidirectionalWeights:
+    """How strongly the two maps ``C`` and ``D`` of a pair are tied; see :func:`fit_bidirectional`."""
 
     inverse: float = 1.0
     adjoint: float = 0.0
 
 
 @dataclass(frozen=True, eq=False)
-class PairSolution:
+class BidirectionalSolution:
     """``forth`` (k_t, k_s), ``back`` (k_s, k_t) and the objective of both together before the first round and after
     each."""
 
@@ -133,14 +139,14 @@ class PairSolution:
     history: np.ndarray
 
 
-def coupled_pair(
+def fit_bidirectional(
     forth: Objective,
     back: Objective,
-    coupling: Coupling,
-    how: How,
+    coupling: BidirectionalWeights,
+    how: MinimizeOptions,
     start: tuple[Array | None, Array | None] = (None, None),
-    progress: Told | None = None,
-) -> PairSolution:
+    progress: ProgressCallback | None = None,
+) -> BidirectionalSolution:
     """Both directions at once: the sum of both objectives and, of the maps ``C`` forth and ``D`` back,
 
     ``½ inverse (‖C D − I‖² + ‖D C − I‖²) + ½ adjoint ‖D − Cᵀ‖²``
@@ -148,8 +154,8 @@ def coupled_pair(
     (Eynard et al., Coupled functional maps, 2016; Huang and Ovsjanikov, Adjoint map representation, 2017). It is
     quadratic in each map; they are minimised in turn, from the uncoupled ones, until the sum hardly falls.
     """
-    one = minimised(forth, how, start[0], progress)
-    other = minimised(back, how, start[1], progress)
+    one = minimize(forth, how, start[0], progress)
+    other = minimize(back, how, start[1], progress)
     tied = {name: w for name, w in (("inverse", coupling.inverse), ("adjoint", coupling.adjoint)) if w > 0}
 
     def with_other(objective: Objective, there: Array) -> Objective:
@@ -162,13 +168,13 @@ def coupled_pair(
         return with_other(forth, other.value).value(one.value) + back.value(other.value)
 
     history = [total()]
-    single = replace(how, rounds=1)
-    for _ in range(how.rounds if tied else 0):
-        found = minimised(with_other(forth, other.value), single, one.value, progress)
+    single = replace(how, max_outer_iter=1)
+    for _ in range(how.max_outer_iter if tied else 0):
+        found = minimize(with_other(forth, other.value), single, one.value, progress)
         one = replace(found, steps=one.steps + found.steps)
-        found = minimised(with_other(back, one.value), single, other.value, progress)
+        found = minimize(with_other(back, one.value), single, other.value, progress)
         other = replace(found, steps=other.steps + found.steps)
         history.append(total())
-        if history[-2] - history[-1] <= how.settled * abs(history[-2]):
+        if history[-2] - history[-1] <= how.rtol * abs(history[-2]):
             break
-    return PairSolution(one, other, np.asarray(history))
+    return BidirectionalSolution(one, other, np.asarray(history))

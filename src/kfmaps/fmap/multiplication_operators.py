@@ -13,7 +13,9 @@ from kfmaps._threads import available_cores, parallel
 from kfmaps.geometry.basis import Basis
 
 
-def condensed(source: Basis, features_s: Array, target: Basis, features_t: Array, rtol: float) -> tuple[Array, Array]:
+def truncate_features(
+    source: Basis, features_s: Array, target: Basis, features_t: Array, rtol: float
+) -> tuple[Array, Array]:
     """Rotate the features ``(n_s, r)``, ``(n_t, r)`` of both shapes jointly and drop those that matter least.
 
     The commutativity energy is the same in every rotation of the features, as long as both shapes share it. The
@@ -34,7 +36,7 @@ def condensed(source: Basis, features_s: Array, target: Basis, features_t: Array
     return features_s @ rotation, features_t @ rotation
 
 
-def packed_slices(basis: Basis, features: Array, block: int = 512, threads: int | None = None) -> Array:
+def multiplication_operators(basis: Basis, features: Array, block: int = 512, threads: int | None = None) -> Array:
     """Packed upper triangles ``(r, k(k+1)/2)`` of the operators of ``features (n, r)``.
 
     Off-diagonal entries are multiplied by √2, so that inner products of rows are Frobenius inner products of
@@ -82,7 +84,7 @@ def _fill_products(phi: np.ndarray, old: np.ndarray | None) -> np.ndarray:
     return products
 
 
-def unpacked_slices(packed: Array) -> Array:
+def unpack_operators(packed: Array) -> Array:
     """The operators ``(r, k, k)`` of packed rows ``(r, k(k+1)/2)``."""
     xp = namespace(packed)
     k = int(np.sqrt(2 * packed.shape[1] + 0.25) - 0.5)
@@ -96,7 +98,7 @@ def unpacked_slices(packed: Array) -> Array:
     return xp.reshape(flat, (packed.shape[0], k, k))
 
 
-def compressed(packed_s: Array, packed_t: Array, rtol: float) -> tuple[Array, Array]:
+def truncate_operators(packed_s: Array, packed_t: Array, rtol: float) -> tuple[Array, Array]:
     """Rotate the slices of both shapes jointly and drop those that carry next to nothing.
 
     The commutativity energy is the same in every rotation of the features, as long as both shapes share it. The

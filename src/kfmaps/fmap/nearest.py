@@ -12,7 +12,7 @@ from scipy.spatial import KDTree
 
 from kfmaps._arrays import Array, blocks, check, is_numpy, namespace, refuse, to_numpy
 from kfmaps._threads import available_cores, parallel
-from kfmaps.fmap.approximate_nearest import PROBES, nearest_by_cells
+from kfmaps.fmap.approximate_nearest import N_PROBE, approximate_nearest
 
 TREE_DIMENSION = 32
 """Up to here a k-d tree beats the matrix product on large sets; beyond, space is too empty for it."""
@@ -34,7 +34,7 @@ def nearest(
     threads: int | None = None,
     exact: bool | None = None,
     start: np.ndarray | None = None,
-    probes: int = PROBES,
+    probes: int = N_PROBE,
 ) -> np.ndarray:
     """For each row of ``queries (q, d)`` the index of the closest row of ``points (p, d)``: ``(q,)`` int64.
 
@@ -57,7 +57,7 @@ def nearest(
         Points not far from the answers, ...
     probes : int
         ... and cells that each query names: both count in a search by cells alone
-        (:func:`kfmaps.fmap.approximate_nearest.nearest_by_cells`).
+        (:func:`kfmaps.fmap.approximate_nearest.approximate_nearest`).
 
     Raises
     ------
@@ -73,7 +73,7 @@ def nearest(
         if points.shape[1] <= TREE_DIMENSION and len(points) > LARGE:
             return _by_tree(queries, points, threads)
         if exact is False or (exact is None and len(queries) * len(points) > EXACT_PAIRS):
-            return nearest_by_cells(queries, points, threads=threads, probes=probes, start=start)
+            return approximate_nearest(queries, points, threads=threads, probes=probes, start=start)
     return _exact(queries, points, block, threads)
 
 

@@ -30,17 +30,17 @@ POINTS = 500
 """Points of each shape that the plan is made between."""
 STIFFNESS = 10.0
 """``ρ / ε``: how dear it is to move less or more than a point's area, against a blurred plan."""
-SCALINGS = 300
+MAX_SINKHORN_ITER = 300
 """Of rows and columns, at most."""
 LARGE, TINY = 50.0, 1e-300
 """A change of a logarithmic scaling that is put into the potentials at once, and what keeps logarithms finite."""
-SETTLED = 1e-7
+SINKHORN_RTOL = 1e-7
 """Change of a logarithmic scaling, in units of ε, below which no more follow."""
 
 
 @dataclass(frozen=True, eq=False)
-class Spatial:
-    """The penalty above, between some points of both shapes; made by :func:`spatial`.
+class TransportPenalty:
+    """The penalty above, between some points of both shapes; made by :func:`transport_penalty`.
 
     Attributes
     ----------
@@ -82,7 +82,7 @@ class Spatial:
         return self._last["found"]
 
 
-def spatial(C: Array, source: Basis, target: Basis, blur: float = 0.3) -> Spatial:
+def transport_penalty(C: Array, source: Basis, target: Basis, blur: float = 0.3) -> TransportPenalty:
     """The penalty for maps near to ``C (k_t, k_s)``.
 
     Parameters
@@ -93,12 +93,12 @@ def spatial(C: Array, source: Basis, target: Basis, blur: float = 0.3) -> Spatia
         ``ε`` in units of the median cost of the nearest point at ``C``.
     """
     check_positive(blur, "blur")
-    few = [stratified_samples(b.truncated(k), POINTS).basis for b, k in ((source, C.shape[1]), (target, C.shape[0]))]
+    few = [stratified_samples(b.truncate(k), POINTS).basis for b, k in ((source, C.shape[1]), (target, C.shape[0]))]
     xp = namespace(C)
     mass_s, mass_t = (b.mass / xp.sum(b.mass) for b in few)
     nearest = to_numpy(xp.min(costs(C, few[0].functions, few[1].functions), axis=1))
     unit = max(float(np.median(nearest)), 1e-12)
-    return Spatial(few[0].functions, few[1].functions, mass_s, mass_t, blur * unit)
+    return TransportPenalty(few[0].functions, few[1].functions, mass_s, mass_t, blur * unit)
 
 
 def costs(C: Array, functions_s: Array, functions_t: Array) -> Array:
@@ -123,13 +123,13 @@ def transport(cost: Array, a: Array, b: Array, blur: float, stiffness: float = S
     g = -damped * _log_sum(scaled + (xp.log(a) + f)[:, None], 0)
     kernel = xp.exp(scaled + f[:, None] + g[None, :])
     up, vp = xp.zeros_like(a), xp.zeros_like(b)  # what is to be added to the potentials
-    for step in range(SCALINGS):
+    for step in range(MAX_SINKHORN_ITER):
         # The new f is −damped · log(K (b eᵍ)), of which the kernel holds eᶠ and eᵍ already.
         moved = -damped * xp.log(kernel @ (b * xp.exp(vp)) + TINY) - (1.0 - damped) * f
         change = float(xp.max(xp.abs(moved - up)))
         up = moved
         vp = -damped * xp.log(kernel.T @ (a * xp.exp(up)) + TINY) - (1.0 - damped) * g
-        if change < SETTLED:
+        if change < SINKHORN_RTOL:
             break
         if step % 20 == 19 or change > LARGE:
             f, g = f + up, g + vp

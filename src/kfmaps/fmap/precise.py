@@ -15,7 +15,7 @@ from kfmaps._arrays import Array, check, namespace, refuse, to_numpy
 from kfmaps._threads import parallel
 from kfmaps.fmap.nearest import EXACT_PAIRS, nearest
 from kfmaps.geometry.basis import Basis
-from kfmaps.geometry.closest_points import Rings, closest_weights, places_on, rings
+from kfmaps.geometry.closest_points import VertexRings, closest_points, closest_weights, vertex_rings
 from kfmaps.geometry.mesh import Mesh
 
 BLOCK = 256
@@ -39,7 +39,7 @@ class PointMap:
     weights: np.ndarray
 
 
-def check_places(places: PointMap, source: Mesh, n_t: int | None = None) -> PointMap:
+def check_point_map_precise(places: PointMap, source: Mesh, n_t: int | None = None) -> PointMap:
     """``places`` when they lie on faces of ``source``, one for each of ``n_t`` target vertices where that is given.
 
     Raises
@@ -60,30 +60,30 @@ def check_places(places: PointMap, source: Mesh, n_t: int | None = None) -> Poin
     return PointMap(faces.astype(np.int64), weights)
 
 
-def corners_of(places: PointMap, faces_s: np.ndarray) -> np.ndarray:
+def point_corners(places: PointMap, faces_s: np.ndarray) -> np.ndarray:
     """The source vertices around each point, (n_t, 3)."""
     return faces_s[places.faces]
 
 
-def matrix_of(places: PointMap, faces_s: np.ndarray, n_s: int) -> csr_array:
+def point_map_matrix(places: PointMap, faces_s: np.ndarray, n_s: int) -> csr_array:
     """Sparse ``(n_t, n_s)`` that takes functions on the source's vertices to the target's, linear in each face."""
     n = len(places.faces)
     return csr_array((places.weights.ravel(), faces_s[places.faces].ravel(), 3 * np.arange(n + 1)), shape=(n, n_s))
 
 
-def points_of(places: PointMap, source: Mesh) -> np.ndarray:
+def point_positions(places: PointMap, source: Mesh) -> np.ndarray:
     """Where the points lie in space, (n_t, 3), in the source's unit."""
     return np.einsum("ti,tij->tj", places.weights, source.vertices[source.faces[places.faces]])
 
 
-def vertices_of(places: PointMap, source: Mesh) -> np.ndarray:
+def nearest_vertices(places: PointMap, source: Mesh) -> np.ndarray:
     """The corner that is nearest to each point, ``target_to_source (n_t,)``."""
     corners = source.faces[places.faces]
-    away = np.linalg.norm(source.vertices[corners] - points_of(places, source)[:, None], axis=2)
+    away = np.linalg.norm(source.vertices[corners] - point_positions(places, source)[:, None], axis=2)
     return corners[np.arange(len(corners)), away.argmin(axis=1)].astype(np.int64)
 
 
-def at_vertices(target_to_source: np.ndarray, source: Mesh) -> PointMap:
+def vertex_point_map(target_to_source: np.ndarray, source: Mesh) -> PointMap:
     """A map of vertices as a map of points: each in a corner of some face that has it.
 
     Raises
@@ -101,7 +101,7 @@ def at_vertices(target_to_source: np.ndarray, source: Mesh) -> PointMap:
     return PointMap(chosen, np.eye(3)[corner[target_to_source]])
 
 
-def to_places(
+def to_precise_map(
     C: Array,
     source: Basis,
     target: Basis,
@@ -114,16 +114,16 @@ def to_places(
     As :func:`kfmaps.fmap.convert.to_points`, with triangles between the rows of ``Φ_s Cᵀ``.
     """
     k_t, k_s = C.shape
-    source, target = source.truncated(k_s), target.truncated(k_t)
+    source, target = source.truncate(k_s), target.truncate(k_t)
     images, places = source.functions @ C.T, target.functions
     if beside is not None:
         xp = namespace(images)
         images, places = xp.concat([images, beside[0]], axis=1), xp.concat([places, beside[1]], axis=1)
     queries, points = (np.asarray(to_numpy(x), dtype=np.float64) for x in (places, images))
-    return nearest_places(queries, points, faces_s, threads)
+    return nearest_surface_points(queries, points, faces_s, threads)
 
 
-def nearest_places(
+def nearest_surface_points(
     queries: np.ndarray, points: np.ndarray, faces: np.ndarray, threads: int | None = None, exact: bool | None = None
 ) -> PointMap:
     """For each of ``queries (q, d)`` the closest point of the triangles ``faces (f, 3)`` between ``points (p, d)``.
@@ -139,7 +139,7 @@ def nearest_places(
     """
     check(queries, "queries", shape=(None, points.shape[1]))
     check(points, "points", shape=(None, None))
-    around = rings(faces, len(points))
+    around = vertex_rings(faces, len(points))
     lengths = np.stack([((points[faces[:, j]] - points[faces[:, i]]) ** 2).sum(axis=1) for i, j in EDGES], axis=1)
     if exact is False or (exact is None and len(queries) * len(points) > EXACT_PAIRS):
         return _among_neighbours(queries, points, faces, lengths, around, threads)
@@ -217,7 +217,7 @@ def _among_neighbours(
     points: np.ndarray,
     faces: np.ndarray,
     lengths: np.ndarray,
-    around: Rings,
+    around: VertexRings,
     threads: int | None,
 ) -> PointMap:
     """Around the nearest vertex: the faces of that vertex, then of the corners of the best, until nothing is better."""
@@ -234,7 +234,7 @@ def _among_neighbours(
     return PointMap(best, weights)
 
 
-def inverse(places: PointMap, source: Mesh, target: Mesh, known: np.ndarray | None = None) -> PointMap:
+def invert_precise_map(places: PointMap, source: Mesh, target: Mesh, known: np.ndarray | None = None) -> PointMap:
     """The map the other way: a point on the target for each source vertex.
 
     The target's faces lie, flat between the images of their corners, on or near the source; each source vertex takes
@@ -246,9 +246,9 @@ def inverse(places: PointMap, source: Mesh, target: Mesh, known: np.ndarray | No
     InvalidInput
         When the map does not fit the two shapes, or no face is known.
     """
-    places = check_places(places, source, len(target.vertices))
+    places = check_point_map_precise(places, source, len(target.vertices))
     rows = np.arange(len(target.faces)) if known is None else np.flatnonzero(known[target.faces].all(axis=1))
     if len(rows) == 0:
         raise refuse("map", "a face of the target with a counterpart", "none", "carry values of the source instead")
-    found = places_on(source.vertices, points_of(places, source), target.faces[rows])
+    found = closest_points(source.vertices, point_positions(places, source), target.faces[rows])
     return PointMap(rows[found.faces], found.weights)

@@ -13,15 +13,30 @@ import numpy as np
 
 from kfmaps._arrays import Array, check_count, namespace, refuse, take
 from kfmaps._progress import Done
-from kfmaps.fmap.approximate_nearest import HASTY
+from kfmaps.fmap.approximate_nearest import N_PROBE_FAST
 from kfmaps.fmap.convert import to_functional, to_points
-from kfmaps.fmap.descriptor_guidance import Guide
+from kfmaps.fmap.descriptor_guidance import DescriptorGuidance
 from kfmaps.geometry.basis import Basis
-from kfmaps.geometry.sampling import SampledBasis, Samples, spectral_samples, stratified_samples, stratified_vertices
+from kfmaps.geometry.sampling import (
+    SampledBasis,
+    SpectralSamples,
+    spectral_samples,
+    stratified_samples,
+    stratified_vertices,
+)
 
-__all__ = ["ICP", "Refined", "Refinement", "SampledBasis", "Samples", "ZoomOut", "fitted", "spectral_samples"]
+__all__ = [
+    "ICP",
+    "Refined",
+    "Refinement",
+    "SampledBasis",
+    "SpectralSamples",
+    "ZoomOut",
+    "fit_functional_map",
+    "spectral_samples",
+]
 
-CANDIDATES, EACH = 8_000, 2
+CANDIDATES_PER_CALL, EACH = 8_000, 2
 """Points of the source that ZoomOut's steps on samples choose from, spread evenly, at most: so many in all, and so many
 for each sample. The last step has them all."""
 PAIRS = 2_000_000
@@ -71,7 +86,7 @@ class ICP:
         if k_t != k_s:
             raise refuse("ICP", "a square functional map", f"{k_t} by {k_s}", "use equal basis sizes, or ZoomOut")
         xp = namespace(C)
-        source, target = source.truncated(k_s), target.truncated(k_t)
+        source, target = source.truncate(k_s), target.truncate(k_t)
         points = to_points(C, source, target, threads) if points is None else points
         changes: list[int] = []
         for step in range(self.steps):
@@ -103,7 +118,8 @@ class ZoomOut:
     samples : int or None
         Points of the target that the steps before the last work on: the functional map is then fitted to them by
         damped least squares, each weighted by the area that is closest to it, and of a source with more than
-        :data:`EACH` times as many points, or :data:`CANDIDATES`, that many are there to be chosen. ``None`` takes all
+        :data:`EACH` times as many points, or :data:`CANDIDATES_PER_CALL`, that many are there to be chosen. ``None``
+        takes all
         points. The last step always does.
     seed : int
         For the choice of samples; that of a match (``rng``) is added to it.
@@ -136,7 +152,7 @@ class ZoomOut:
         progress: Done | None = None,
         threads: int | None = None,
         points: np.ndarray | None = None,
-        guide: Guide | None = None,
+        guide: DescriptorGuidance | None = None,
     ) -> Refined:
         available = min(source.functions.shape[1], target.functions.shape[1])
         if self.stop > available:
@@ -153,8 +169,8 @@ class ZoomOut:
         if self.samples is not None and self.samples < target.functions.shape[0]:
             sampled = stratified_samples(target, self.samples, self.seed)
             coarse, few = sampled.basis, guide and guide.at(None, sampled.vertices)
-            if source.functions.shape[0] > candidates(self.samples):
-                rows = stratified_vertices(source, candidates(self.samples), self.seed)
+            if source.functions.shape[0] > sample_candidates(self.samples):
+                rows = stratified_vertices(source, sample_candidates(self.samples), self.seed)
                 choice = SampledBasis(source.eigenvalues, take(source.functions, rows), take(source.mass, rows))
                 few = few and few.at(rows, None)
             points = None
@@ -163,11 +179,11 @@ class ZoomOut:
             C: Array,
             source: Basis,
             target: Basis,
-            guide: Guide | None,
+            guide: DescriptorGuidance | None,
             exact: bool | None = None,
             **search: Any,
         ) -> np.ndarray:
-            beside = None if guide is None else guide.beside(self.guidance, source, target)
+            beside = None if guide is None else guide.embedding_columns(self.guidance, source, target)
             return to_points(C, source, target, threads, beside, exact, **search)
 
         # On samples the next step forgives a point in a thousand that is not quite the nearest.
@@ -175,29 +191,29 @@ class ZoomOut:
             False if choice.functions.shape[0] * coarse.functions.shape[0] > PAIRS and coarse is not target else None
         )
         for i, larger in enumerate(sizes[1:]):
-            found = matched(C, choice, coarse, few, exact, probes=HASTY) if points is None else points
-            C, points = fitted(found, choice, coarse, larger), None
+            found = matched(C, choice, coarse, few, exact, probes=N_PROBE_FAST) if points is None else points
+            C, points = fit_functional_map(found, choice, coarse, larger), None
             if progress is not None:
                 progress((i + 1) / len(sizes))
         if points is None:
             # What a quick search by cells misses is found by the one that follows.
             quick = coarse is not target and target.functions.shape[0] * source.functions.shape[0] > PAIRS
-            points = matched(C, source, target, guide, **({"exact": False, "probes": HASTY} if quick else {}))
+            points = matched(C, source, target, guide, **({"exact": False, "probes": N_PROBE_FAST} if quick else {}))
         if coarse is not target:
             # Once more with all points, whose functional map owes nothing to the choice of samples.
-            C = fitted(points, source, target, self.stop)
+            C = fit_functional_map(points, source, target, self.stop)
             points = matched(C, source, target, guide, start=points)
         if progress is not None:
             progress(1.0)
         return Refined(C, points, tuple(sizes))
 
 
-def candidates(samples: int) -> int:
+def sample_candidates(samples: int) -> int:
     """Points of the source that steps on so many ``samples`` choose from."""
-    return min(CANDIDATES, EACH * samples)
+    return min(CANDIDATES_PER_CALL, EACH * samples)
 
 
-def fitted(points: np.ndarray, source: Basis, target: Basis, k: int, ridge: float = 0.1) -> Array:
+def fit_functional_map(points: np.ndarray, source: Basis, target: Basis, k: int, ridge: float = 0.1) -> Array:
     """The functional map ``(k, k)`` of a point map, on all points of ``target`` or on samples of it.
 
     On all points the basis is orthonormal and the map is the projection ``Φ_tᵀ A_t Φ_s[points]``. Samples are not
@@ -205,7 +221,7 @@ def fitted(points: np.ndarray, source: Basis, target: Basis, k: int, ridge: floa
     for k; plain projection leaves the error of the quadrature: ``ridge`` stands between, and is undone in the size.
     """
     if not isinstance(target, SampledBasis):
-        return to_functional(points, source.truncated(k), target.truncated(k))
+        return to_functional(points, source.truncate(k), target.truncate(k))
     xp = namespace(target.functions)
     phi = target.functions[:, :k]
     weighted = (target.mass[:, None] * phi).T

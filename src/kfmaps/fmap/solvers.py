@@ -143,7 +143,7 @@ def solve(
     return Solution(x, status, steps, np.asarray(residuals))
 
 
-def dense(apply: Operator, shape: tuple[int, ...], example: Array) -> np.ndarray:
+def dense_matrix(apply: Operator, shape: tuple[int, ...], example: Array) -> np.ndarray:
     """The matrix of ``apply`` on arrays of ``shape``, flattened in row-major order; for small sizes."""
     size = int(np.prod(shape))
     columns = np.empty((size, size))
@@ -159,7 +159,7 @@ def _direct(apply: Operator, b: Array, solver: Direct) -> Solution:
     if size > solver.limit:
         remedy = "use CG, or raise Direct(limit=...) and have the memory"
         raise refuse("Direct", f"at most {solver.limit} unknowns", str(size), remedy)
-    matrix = dense(apply, tuple(b.shape), b)
+    matrix = dense_matrix(apply, tuple(b.shape), b)
     right = to_numpy(b).ravel()
     # Least squares, not Cholesky: a linear kernel with few descriptors leaves the system singular.
     flat = np.linalg.lstsq(matrix, right, rcond=None)[0]

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Literal, Protocol
 
 from kfmaps._arrays import Array, check, check_positive, inner, namespace, refuse
-from kfmaps.geometry.basis import Basis, zero_level
+from kfmaps.geometry.basis import Basis, eigenvalue_tolerance
 
 Mask = Literal["squared", "resolvent"]
 MASKS: tuple[Mask, ...] = ("squared", "resolvent")
@@ -71,12 +71,12 @@ class Preservation:
 
     def rotated_diagonal(self, U_t: Array, U_s: Array) -> Array:
         xp = namespace(self.cross)
-        return xp.broadcast_to(rotated(self.gram_s, U_s)[None, :], (U_t.shape[1], U_s.shape[1]))
+        return xp.broadcast_to(rotate_gram(self.gram_s, U_s)[None, :], (U_t.shape[1], U_s.shape[1]))
 
 
 def descriptor_term(source: Basis, features_s: Array, target: Basis, features_t: Array) -> Preservation:
     """Preservation of the features ``(n_s, r)`` and ``(n_t, r)``."""
-    same_count(features_s, features_t)
+    check_same_count(features_s, features_t)
     coefficients_s, coefficients_t = source.project(features_s), target.project(features_t)
     return Preservation(
         coefficients_s @ coefficients_s.T,
@@ -86,8 +86,8 @@ def descriptor_term(source: Basis, features_s: Array, target: Basis, features_t:
 
 
 @dataclass(frozen=True, eq=False)
-class SliceCommutativity:
-    """``½ Σᵢ ‖C X_sⁱ − X_tⁱ C‖²`` with the slices at hand; made by :func:`slice_term`.
+class OperatorCommutativity:
+    """``½ Σᵢ ‖C X_sⁱ − X_tⁱ C‖²`` with the slices at hand; made by :func:`operator_term`.
 
     ``parity`` is +1 for symmetric slices (multiplication by a function), −1 for antisymmetric ones (the
     orientation operators). The slices lie in two layouts that turn one application into two matrix products.
@@ -130,11 +130,11 @@ class SliceCommutativity:
         k_t, k_s = self.gram_t.shape[0], self.gram_s.shape[0]
         of_s = xp.sum(xp.reshape(self.right @ U_s, (self.count, k_s, k_s)) * U_s[None, :, :], axis=1)
         of_t = xp.sum(xp.reshape(self.left @ U_t, (k_t, self.count, k_t)) * U_t[:, None, :], axis=0)
-        own = rotated(self.gram_t, U_t)[:, None] + rotated(self.gram_s, U_s)[None, :]
+        own = rotate_gram(self.gram_t, U_t)[:, None] + rotate_gram(self.gram_s, U_s)[None, :]
         return own - 2 * (of_t.T @ of_s)  # zero where the slices are antisymmetric, in every basis
 
 
-def slice_term(slices_s: Array, slices_t: Array, parity: int = 1) -> SliceCommutativity:
+def operator_term(slices_s: Array, slices_t: Array, parity: int = 1) -> OperatorCommutativity:
     """Commutativity with the operators ``slices_s (r, k_s, k_s)`` and ``slices_t (r, k_t, k_t)``.
 
     Raises
@@ -154,7 +154,7 @@ def slice_term(slices_s: Array, slices_t: Array, parity: int = 1) -> SliceCommut
     # Xᵀ = parity X, so that Σ X Xᵀ = parity Σ X X is a Gram matrix of the stacked rows.
     flat_t = xp.reshape(slices_t, (r * k_t, k_t))
     cross = xp.linalg.diagonal(slices_t).T @ xp.linalg.diagonal(slices_s)
-    return SliceCommutativity(left, right, right.T @ right, flat_t.T @ flat_t, cross, parity)
+    return OperatorCommutativity(left, right, right.T @ right, flat_t.T @ flat_t, cross, parity)
 
 
 @dataclass(frozen=True, eq=False)
@@ -199,7 +199,7 @@ def laplacian_term(
     if mask not in MASKS:
         raise refuse("mask", "one of " + ", ".join(MASKS), repr(mask), "choose one of them")
     if scale is None:
-        scale = max(float(xp.max(source.eigenvalues)), float(xp.max(target.eigenvalues)), zero_level(source))
+        scale = max(float(xp.max(source.eigenvalues)), float(xp.max(target.eigenvalues)), eigenvalue_tolerance(source))
     if mask == "squared":
         difference = (source.eigenvalues[None, :] - target.eigenvalues[:, None]) / scale
         return Elementwise(difference * difference)
@@ -214,7 +214,7 @@ def laplacian_term(
 
 
 @dataclass(frozen=True, eq=False)
-class TwoSided:
+class InverseConsistency:
     """``½⟨C, gram_t C + C gram_s⟩ − ⟨cross, C⟩ + total``; made by :func:`inverse_term` and :func:`adjoint_term`."""
 
     gram_t: Array
@@ -239,16 +239,16 @@ class TwoSided:
         return self.gram_t, self.gram_s
 
     def rotated_diagonal(self, U_t: Array, U_s: Array) -> Array:
-        return rotated(self.gram_t, U_t)[:, None] + rotated(self.gram_s, U_s)[None, :]
+        return rotate_gram(self.gram_t, U_t)[:, None] + rotate_gram(self.gram_s, U_s)[None, :]
 
 
-def inverse_term(back: Array) -> TwoSided:
+def inverse_term(back: Array) -> InverseConsistency:
     """``½‖C back − I‖² + ½‖back C − I‖²`` for a map ``back (k_s, k_t)`` the other way (Eynard et al. 2016)."""
     k_s, k_t = back.shape
-    return TwoSided(back.T @ back, back @ back.T, 2.0 * back.T, 0.5 * (k_s + k_t))
+    return InverseConsistency(back.T @ back, back @ back.T, 2.0 * back.T, 0.5 * (k_s + k_t))
 
 
-def adjoint_term(back: Array, ratio: float = 1.0) -> TwoSided:
+def adjoint_term(back: Array, ratio: float = 1.0) -> InverseConsistency:
     """``½‖C − ratio backᵀ‖²``: ``back`` is the adjoint of ``C`` in the areas (Huang and Ovsjanikov 2017).
 
     In bases that are orthonormal in the area the adjoint is the transpose, and the map back of one that keeps areas
@@ -257,19 +257,19 @@ def adjoint_term(back: Array, ratio: float = 1.0) -> TwoSided:
     xp = namespace(back)
     k_s, k_t = back.shape
     one = xp.eye(k_s, dtype=back.dtype, device=back.device)
-    return TwoSided(zeros(k_t, back), one, ratio * back.T, 0.5 * ratio**2 * inner(back, back))
+    return InverseConsistency(zeros(k_t, back), one, ratio * back.T, 0.5 * ratio**2 * inner(back, back))
 
 
 def zeros(k: int, like: Array) -> Array:
     return namespace(like).zeros((k, k), dtype=like.dtype, device=like.device)
 
 
-def rotated(gram: Array, U: Array) -> Array:
+def rotate_gram(gram: Array, U: Array) -> Array:
     """The diagonal of ``Uᵀ gram U``."""
     return namespace(gram).sum(U * (gram @ U), axis=0)
 
 
-def same_count(a: Array, b: Array) -> None:
+def check_same_count(a: Array, b: Array) -> None:
     if a.shape[1] != b.shape[1]:
         raise refuse(
             "descriptors",

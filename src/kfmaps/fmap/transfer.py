@@ -15,7 +15,7 @@ from kfmaps._arrays import Array, check, check_count, check_positive, namespace,
 from kfmaps.geometry.basis import Basis
 
 
-def carried(
+def transfer_functions(
     values: Array,
     C: Array,
     source: Basis,
@@ -51,7 +51,7 @@ def carried(
     k_t, k_s = C.shape
     single = len(values.shape) == 1
     values = values[:, None] if single else values
-    source, target = source.truncated(k_s), target.truncated(k_t)
+    source, target = source.truncate(k_s), target.truncate(k_t)
     check(values, "values", shape=(source.functions.shape[0], None), remedy="give one row per source vertex")
     coefficients = source.project(values)
     images = target.functions @ C
@@ -61,7 +61,7 @@ def carried(
         check_positive(ridge, "ridge")
         if products > k_s:
             raise refuse("products", f"at most the {k_s} functions that the map carries", str(products), "lower it")
-        on_s, on_t = pairs(source.functions, products), pairs(images, products)
+        on_s, on_t = function_pairs(source.functions, products), function_pairs(images, products)
         # Of unit norm on the source, and the same divisor for the image.
         weights = source.mass[:, None]
         norms = xp.sqrt(xp.sum(weights * on_s * on_s, axis=0))
@@ -70,8 +70,8 @@ def carried(
         # The basis takes all it can; the products explain what is left. Both at once, the basis undamped, is the
         # same problem with the products' parts in the basis taken out.
         inside = source.project(on_s)
-        rest = on_s - source.lift(inside)
-        left = values - source.lift(coefficients)
+        rest = on_s - source.reconstruct(inside)
+        left = values - source.reconstruct(coefficients)
         gram = rest.T @ (weights * rest)
         eye = xp.eye(gram.shape[0], dtype=gram.dtype, device=gram.device)
         share = xp.linalg.solve(gram + ridge * eye, rest.T @ (weights * left))
@@ -79,7 +79,7 @@ def carried(
     return found[:, 0] if single else found
 
 
-def pairs(functions: Array, count: int) -> Array:
+def function_pairs(functions: Array, count: int) -> Array:
     """Products ``(n, m)`` of two of the columns 1 to ``count`` of ``functions``, the first (the constant) left out."""
     first, second = np.triu_indices(count - 1)
     return take(functions, first + 1, axis=1) * take(functions, second + 1, axis=1)

@@ -12,7 +12,7 @@ NEARBY = 0.25
 """Distance at unit area up to which it is from the others: a fifth of a body."""
 
 
-def distances_among(graph: csr_array, points: np.ndarray) -> np.ndarray:
+def pairwise_geodesics(graph: csr_array, points: np.ndarray) -> np.ndarray:
     """Lengths (c, c) of shortest paths in ``graph (n, n)`` between ``points (c,)``; infinite where there is none.
 
     Exact between each of the first :data:`WHOLE` and all, and up to :data:`NEARBY`. Others are those of paths over one
@@ -21,7 +21,7 @@ def distances_among(graph: csr_array, points: np.ndarray) -> np.ndarray:
     Parameters
     ----------
     graph : sparse (n, n)
-        Symmetric, of a surface of about unit area; see :func:`kfmaps.geometry.geodesic_graph.surface_graph`.
+        Symmetric, of a surface of about unit area; see :func:`kfmaps.geometry.geodesic_graph.geodesic_graph`.
     points : (c,) int64
         Those first that are spread over all of it.
     """

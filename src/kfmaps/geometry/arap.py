@@ -28,8 +28,8 @@ ROOT_STEPS = 12
 
 
 @dataclass(frozen=True, eq=False)
-class Rigidity:
-    """What the energy needs of the rest shape; made by :func:`rigidity`.
+class ArapEnergy:
+    """What the energy needs of the rest shape; made by :func:`build_arap`.
 
     Attributes
     ----------
@@ -45,7 +45,7 @@ class Rigidity:
     rest: np.ndarray
 
 
-def rigidity(mesh: Mesh) -> Rigidity:
+def build_arap(mesh: Mesh) -> ArapEnergy:
     """The energy of bending ``mesh``; the constants do not depend on its unit."""
     v, f = mesh.vertices, mesh.faces
     n = len(v)
@@ -70,15 +70,15 @@ def rigidity(mesh: Mesh) -> Rigidity:
     columns = np.concatenate([i, i, i, j, j, j])
     entries = np.concatenate([moved.T.ravel(), -moved.T.ravel()])
     moments = csr_array((entries, (rows, columns)), shape=(3 * n, n))
-    return Rigidity((diags_array(weights.sum(axis=1)) - weights).tocsr(), moments, v)
+    return ArapEnergy((diags_array(weights.sum(axis=1)) - weights).tocsr(), moments, v)
 
 
-def rotations(energy: Rigidity, x: np.ndarray) -> np.ndarray:
+def rotations(energy: ArapEnergy, x: np.ndarray) -> np.ndarray:
     """The best rotation of each vertex, ``(n, 3, 3)``: ``R_i x̄`` is the rest shape turned as ``x (n, 3)`` is."""
-    return nearest_rotations(moments_of(energy, x))
+    return nearest_rotations(edge_covariances(energy, x))
 
 
-def moments_of(energy: Rigidity, x: np.ndarray) -> np.ndarray:
+def edge_covariances(energy: ArapEnergy, x: np.ndarray) -> np.ndarray:
     """``Σ_j w_ij (x_i − x_j)(x̄_i − x̄_j)ᵀ`` of each vertex, ``(n, 3, 3)``."""
     return (energy.moments @ x).reshape(3, len(x), 3).transpose(1, 2, 0)
 
@@ -136,20 +136,20 @@ def _times(a: np.ndarray, b: np.ndarray) -> np.ndarray:
     return out
 
 
-def pull(energy: Rigidity, turns: np.ndarray) -> np.ndarray:
+def arap_rhs(energy: ArapEnergy, turns: np.ndarray) -> np.ndarray:
     """``b (n, 3)`` such that ``laplacian @ x = b`` at the least energy for the rotations ``turns (n, 3, 3)``."""
     n = len(turns)
     return 0.5 * (energy.moments.T @ turns.transpose(2, 0, 1).reshape(3 * n, 3))
 
 
-def bending(energy: Rigidity, x: np.ndarray, turns: np.ndarray | None = None) -> float:
+def arap_energy(energy: ArapEnergy, x: np.ndarray, turns: np.ndarray | None = None) -> float:
     """The energy of ``x (n, 3)``, at least 0; with the best rotations unless ``turns`` are given."""
     turns = rotations(energy, x) if turns is None else turns
     sizes = np.sum(x * (energy.laplacian @ x)) + np.sum(energy.rest * (energy.laplacian @ energy.rest))
-    return max(float(sizes - 2 * np.sum(x * pull(energy, turns))), 0.0)
+    return max(float(sizes - 2 * np.sum(x * arap_rhs(energy, turns))), 0.0)
 
 
-def local(energy: Rigidity, x: np.ndarray) -> np.ndarray:
+def arap_energy_per_vertex(energy: ArapEnergy, x: np.ndarray) -> np.ndarray:
     """The share of each vertex ``(n,)`` in twice the energy of ``x (n, 3)``, with the best rotations."""
     edges = energy.laplacian.tocoo()
     off = edges.row != edges.col

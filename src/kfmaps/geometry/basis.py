@@ -10,13 +10,13 @@ import robust_laplacian
 from scipy.sparse import coo_array, csc_array
 
 from kfmaps._arrays import Array, MissingDependency, check_count, refuse, to_numpy
-from kfmaps.geometry.clean import inside
+from kfmaps.geometry.clean import clean_mesh
 from kfmaps.geometry.eigen.eigensolver import EXACT, smallest_eigenpairs
 from kfmaps.geometry.eigen.factorization import Sparse
 from kfmaps.geometry.mesh import Mesh, check_is_mesh, vertex_areas
 from kfmaps.geometry.point_cloud import cloud_laplacian
 
-THIN = 1e-6
+MIN_ANGLE_RATIO = 1e-6
 """Angle below which a face counts as one with longer edges, and how much longer they are."""
 
 
@@ -45,11 +45,11 @@ class Basis:
         """Coefficients (k, d) of the functions ``f`` (n, d): ``Φᵀ A f``."""
         return self.functions.T @ (self.mass[:, None] * f)
 
-    def lift(self, c: Array) -> Array:
+    def reconstruct(self, c: Array) -> Array:
         """Functions (n, d) that have the coefficients ``c`` (k, d): ``Φ c``."""
         return self.functions @ c
 
-    def truncated(self, k: int) -> Basis:
+    def truncate(self, k: int) -> Basis:
         """The basis of the first ``k`` functions, of the same kind.
 
         Raises
@@ -89,7 +89,7 @@ class Basis:
             raise refuse("device", "one that PyTorch can use", f"{device!r} ({reason})", "use cpu") from error
 
 
-def zero_level(basis: Basis) -> float:
+def eigenvalue_tolerance(basis: Basis) -> float:
     """Below this an eigenvalue is zero, that of a component's constant: one machine gives 0, another 1e-12.
 
     A millionth of ``4π / area``, Weyl's estimate of the distance between eigenvalues.
@@ -114,7 +114,7 @@ def cotangent_laplacian(mesh: Mesh) -> csc_array:
         a, b = mesh.vertices[i] - mesh.vertices[tip], mesh.vertices[j] - mesh.vertices[tip]
         dot = (a * b).sum(axis=1)
         sine = np.linalg.norm(np.cross(a, b), axis=1)
-        wide = sine > THIN * np.linalg.norm(a, axis=1) * np.linalg.norm(b, axis=1)
+        wide = sine > MIN_ANGLE_RATIO * np.linalg.norm(a, axis=1) * np.linalg.norm(b, axis=1)
         halves.append(np.divide(dot, sine, out=np.zeros_like(dot), where=wide) / 2)
         thin |= ~wide
     if thin.any():
@@ -134,10 +134,10 @@ def _mollified(corners: np.ndarray) -> np.ndarray:
     """Half the cotangents at the ``corners`` (f, 3, 3) of faces, their edges made longer, (3, f)."""
     opposite = np.linalg.norm(np.roll(corners, -1, axis=1) - np.roll(corners, 1, axis=1), axis=2)
     longest = opposite.max(axis=1, keepdims=True)
-    order = -np.sort(-(opposite + THIN * longest), axis=1).T  # Kahan's area of a triangle needs a ≥ b ≥ c
+    order = -np.sort(-(opposite + MIN_ANGLE_RATIO * longest), axis=1).T  # Kahan's area of a triangle needs a ≥ b ≥ c
     a, b, c = order
     area = 0.25 * np.sqrt(np.maximum((a + (b + c)) * (c - (a - b)) * (c + (a - b)) * (a + (b - c)), 0))
-    squares = (opposite + THIN * longest).T ** 2
+    squares = (opposite + MIN_ANGLE_RATIO * longest).T ** 2
     above = np.roll(squares, 1, axis=0) + np.roll(squares, -1, axis=0) - squares
     return np.divide(above, 8 * area, out=np.zeros_like(above), where=area > 0)
 
@@ -170,7 +170,7 @@ def laplace_basis(
 
     Any triangles will do: boundaries (with natural, Neumann conditions), several components (one eigenvalue
     zero for each), faces without area, edges with more than two faces. Open edges that lie in one place are connected
-    (:func:`kfmaps.geometry.clean.representatives`), and points of a cloud in one place count as one: the first has the
+    (:func:`kfmaps.geometry.clean.weld_vertices`), and points of a cloud in one place count as one: the first has the
     mass, the others its functions. A vertex that no face uses takes part in nothing: its mass is zero, and its
     functions are those of the used vertex nearest in space.
 
@@ -208,14 +208,14 @@ def laplace_basis(
     check_is_mesh(mesh)
     if laplacian not in ("robust", "cotangent"):
         raise refuse("laplacian", "'robust' or 'cotangent'", repr(laplacian), "choose one of them")
-    part = inside(mesh)
-    if len(part.kept) <= check_count(k, "k"):
-        wanted = f"fewer eigenfunctions than the {len(part.kept)} vertices in use"
+    part = clean_mesh(mesh)
+    if len(part.to_original) <= check_count(k, "k"):
+        wanted = f"fewer eigenfunctions than the {len(part.to_original)} vertices in use"
         raise refuse("k", wanted, str(k), "ask for fewer, or refine the mesh")
     stiffness, area = _operators(part.mesh, laplacian)
     pairs = smallest_eigenpairs(stiffness, area, k, tolerance=tolerance, rng=rng, threads=threads, progress=progress)
     if part.whole:
         return Basis(pairs.values, pairs.vectors, area)
     mass = np.zeros(len(mesh.vertices))
-    mass[part.kept] = area
-    return Basis(pairs.values, pairs.vectors[part.number], mass)
+    mass[part.to_original] = area
+    return Basis(pairs.values, pairs.vectors[part.to_clean], mass)

@@ -7,8 +7,8 @@ from scipy.sparse import coo_array, csr_array
 from scipy.sparse.csgraph import connected_components, dijkstra
 
 from kfmaps._arrays import check, refuse
-from kfmaps.geometry.clean import representatives
-from kfmaps.geometry.geodesic_graph import _cross, _crossed, _neighbours, _Windows, surface_graph
+from kfmaps.geometry.clean import weld_vertices
+from kfmaps.geometry.geodesic_graph import _cross, _crossed, _neighbours, _Windows, geodesic_graph
 from kfmaps.geometry.mesh import Mesh
 
 LOOKS = 4
@@ -19,13 +19,13 @@ BLOCK = 64
 """Points searched from together, which bounds the memory."""
 
 
-def distance_places(
+def surface_point_distances(
     mesh: Mesh, faces_a: np.ndarray, weights_a: np.ndarray, faces_b: np.ndarray, weights_b: np.ndarray
 ) -> np.ndarray:
     """Distance along the surface from point ``a[i]`` to point ``b[i]``, (q,), in the mesh's own unit.
 
     The shorter of the straight line from one to the other over up to :data:`DIRECT` unfolded edges, which is exact, and
-    the shortest path over vertices (:func:`kfmaps.geometry.geodesic_graph.surface_graph`) that both see in straight
+    the shortest path over vertices (:func:`kfmaps.geometry.geodesic_graph.geodesic_graph`) that both see in straight
     lines.
 
     Parameters
@@ -48,7 +48,7 @@ def distance_places(
         On lists of different length and faces that do not exist.
     """
     q, n = len(faces_a), len(mesh.vertices)
-    first = representatives(mesh)
+    first = weld_vertices(mesh)
     faces = first[mesh.faces]
     sides = []
     for name, chosen, weights in (("a", faces_a, weights_a), ("b", faces_b, weights_b)):
@@ -86,7 +86,7 @@ def distance_places(
             if side == 0:
                 near = np.minimum(_nearest(windows), np.inf)
                 windows = windows[near < 1.5 * _limit(straight, places)[windows.source]]
-    graph = _joined(surface_graph(mesh), links, n + 2 * q)
+    graph = _joined(geodesic_graph(mesh), links, n + 2 * q)
     return np.minimum(straight, _over_vertices(graph, n, q, np.linalg.norm(places[0] - places[1], axis=1)))
 
 

@@ -15,15 +15,15 @@ from scipy.sparse.csgraph import connected_components
 from scipy.spatial import KDTree
 
 from kfmaps.geometry.mesh import Mesh, face_areas
-from kfmaps.geometry.places import first_occurrence
+from kfmaps.geometry.places import unique_vertices
 
 SPECK = 0.005
 """Area of a component, over that of the largest, below which it is a speck: what one of 200 samples stands for."""
 
 
 @dataclass(frozen=True, eq=False)
-class Inside:
-    """A mesh of ``m`` vertices that stands for one of ``n``; made by :func:`inside`.
+class CleanedMesh:
+    """A mesh of ``m`` vertices that stands for one of ``n``; made by :func:`clean_mesh`.
 
     Attributes
     ----------
@@ -42,19 +42,19 @@ class Inside:
     """
 
     mesh: Mesh
-    kept: np.ndarray
-    number: np.ndarray
-    loose: np.ndarray
-    joined: int = 0
+    to_original: np.ndarray
+    to_clean: np.ndarray
+    unreferenced: np.ndarray
+    n_welded: int = 0
     specks: int = 0
 
     @property
     def whole(self) -> bool:
         """Whether all vertices are there, each for itself."""
-        return len(self.kept) == len(self.number)
+        return len(self.to_original) == len(self.to_clean)
 
 
-def representatives(mesh: Mesh) -> np.ndarray:
+def weld_vertices(mesh: Mesh) -> np.ndarray:
     """For each vertex the first of those that it is connected with by lying in one place, (n,) int64.
 
     Of a mesh these are the ends of open edges, those of one face only, that lie on other open edges: surfaces that
@@ -62,7 +62,7 @@ def representatives(mesh: Mesh) -> np.ndarray:
     """
     n = len(mesh.vertices)
     if len(mesh.faces) == 0:
-        return first_occurrence(mesh.vertices)
+        return unique_vertices(mesh.vertices)
     faces = mesh.faces[_proper(mesh.faces)]
     tail, head = faces.ravel(), faces[:, [1, 2, 0]].ravel()
     edges = np.sort(np.minimum(tail, head) * n + np.maximum(tail, head))
@@ -73,7 +73,7 @@ def representatives(mesh: Mesh) -> np.ndarray:
     ends = np.stack([edges // n, edges % n], axis=1)
     rim = np.unique(ends)
     place = np.arange(n)
-    place[rim] = rim[first_occurrence(mesh.vertices[rim])]
+    place[rim] = rim[unique_vertices(mesh.vertices[rim])]
     at = place[ends]
     flipped = at[:, 0] > at[:, 1]
     ends[flipped], at[flipped] = ends[flipped][:, ::-1], at[flipped][:, ::-1]
@@ -98,7 +98,7 @@ def _proper(faces: np.ndarray) -> np.ndarray:
     return (a != b) & (b != c) & (c != a)
 
 
-def inside(mesh: Mesh, specks: bool = False) -> Inside:
+def clean_mesh(mesh: Mesh, specks: bool = False) -> CleanedMesh:
     """``mesh`` with each place once, without faces that name a vertex twice and vertices that no other face uses.
 
     Parameters
@@ -109,7 +109,7 @@ def inside(mesh: Mesh, specks: bool = False) -> Inside:
         Whether to leave out components whose area is less than :data:`SPECK` of the largest one's.
     """
     n = len(mesh.vertices)
-    first = representatives(mesh)
+    first = weld_vertices(mesh)
     numbers = np.arange(n)
     joined = int((first != numbers).sum())
     if len(mesh.faces) == 0:
@@ -127,22 +127,22 @@ def inside(mesh: Mesh, specks: bool = False) -> Inside:
         used = used[first]
     if len(kept) == n:
         same = mesh if len(faces) == len(mesh.faces) else Mesh(mesh.vertices, faces)
-        return Inside(same, numbers, numbers, np.zeros(n, dtype=bool))
+        return CleanedMesh(same, numbers, numbers, np.zeros(n, dtype=bool))
     number = np.full(n, -1)
     number[kept] = np.arange(len(kept))
     faces = number[faces]
     number = number[first]
     if not used.all() and len(kept):
         number[~used] = KDTree(mesh.vertices[kept]).query(mesh.vertices[~used])[1]
-    return Inside(Mesh(mesh.vertices[kept], faces), kept, number, ~used, joined, gone)
+    return CleanedMesh(Mesh(mesh.vertices[kept], faces), kept, number, ~used, joined, gone)
 
 
-def outer_faces(mesh: Mesh, part: Inside) -> np.ndarray:
+def outer_faces(mesh: Mesh, part: CleanedMesh) -> np.ndarray:
     """The face of ``mesh`` that each face inside is, (g,) int64; ``part`` is its inside, corners in the same order."""
     if part.mesh.faces is mesh.faces:
         return np.arange(len(mesh.faces))
-    within = part.number[mesh.faces]
-    within[part.loose[mesh.faces].any(axis=1)] = -1
+    within = part.to_clean[mesh.faces]
+    within[part.unreferenced[mesh.faces].any(axis=1)] = -1
     # Equal rows get equal numbers; of faces that are there twice any will do.
     label = np.unique(np.concatenate([within, part.mesh.faces]), axis=0, return_inverse=True)[1].reshape(-1)
     order = np.argsort(label[: len(within)], kind="stable")

@@ -56,7 +56,7 @@ def _gain(s, t, e11, e12, e22, r1, r2):
 
 
 @dataclass(frozen=True, eq=False)
-class Rings:
+class VertexRings:
     """The faces around each vertex: those of vertex ``i`` are ``faces[start[i]:start[i + 1]]``."""
 
     start: np.ndarray
@@ -70,16 +70,16 @@ class Rings:
         return self.faces[np.arange(len(owner)) + np.repeat(self.start[vertices] - first, count)], owner
 
 
-def rings(faces: np.ndarray, n: int) -> Rings:
+def vertex_rings(faces: np.ndarray, n: int) -> VertexRings:
     """The faces ``(f, 3)`` around each of ``n`` vertices."""
     corners = faces.ravel()
     order = np.argsort(corners, kind="stable")
     start = np.concatenate([[0], np.cumsum(np.bincount(corners, minlength=n))])
-    return Rings(start, order // 3)
+    return VertexRings(start, order // 3)
 
 
 @dataclass(frozen=True, eq=False)
-class Places:
+class ClosestPoints:
     """Points on a surface: a face and barycentric weights for each, and how far they are from what was asked.
 
     Attributes
@@ -97,9 +97,9 @@ class Places:
     distances: np.ndarray
 
 
-def closest_of(
+def closest_among(
     points: np.ndarray, vertices: np.ndarray, faces: np.ndarray, candidates: np.ndarray, owner: np.ndarray
-) -> Places:
+) -> ClosestPoints:
     """The closest place to each of ``points (q, 3)`` among ``candidates (m,)``, faces of the point ``owner (m,)``.
 
     ``owner`` ascends and names every point at least once.
@@ -118,10 +118,10 @@ def closest_of(
     places = a[hits] + s[:, None] * u[hits] + t[:, None] * v[hits]
     weights = np.stack([1 - s - t, s, t], axis=1)
     np.clip(weights, 0, 1, out=weights)
-    return Places(candidates[hits], weights / weights.sum(axis=1, keepdims=True), places, np.sqrt(least))
+    return ClosestPoints(candidates[hits], weights / weights.sum(axis=1, keepdims=True), places, np.sqrt(least))
 
 
-def places_on(points: np.ndarray, vertices: np.ndarray, faces: np.ndarray) -> Places:
+def closest_points(points: np.ndarray, vertices: np.ndarray, faces: np.ndarray) -> ClosestPoints:
     """The closest place on a surface to each of ``points (q, 3)``; exact.
 
     Faces are sought by their centres: no face comes nearer than its centre less its radius. Faces of like size are
@@ -132,7 +132,7 @@ def places_on(points: np.ndarray, vertices: np.ndarray, faces: np.ndarray) -> Pl
     radii = np.linalg.norm(corners - centres[:, None], axis=2).max(axis=1)
     least = max(float(radii.max()) * 1e-3, np.finfo(float).tiny)
     octave = np.floor(np.log2(np.maximum(radii, least))).astype(np.int64)
-    best = Places(
+    best = ClosestPoints(
         np.zeros(len(points), dtype=np.int64),
         np.zeros((len(points), 3)),
         np.zeros((len(points), 3)),
@@ -145,7 +145,7 @@ def places_on(points: np.ndarray, vertices: np.ndarray, faces: np.ndarray) -> Pl
 
 
 def _improve(
-    best: Places,
+    best: ClosestPoints,
     points: np.ndarray,
     vertices: np.ndarray,
     faces: np.ndarray,
@@ -164,7 +164,7 @@ def _improve(
         some = np.flatnonzero(inside.any(axis=1))
         if len(some):
             owner = np.repeat(np.arange(len(some)), inside[some].sum(axis=1))
-            found = closest_of(points[left[some]], vertices, faces, chosen[index[inside]], owner)
+            found = closest_among(points[left[some]], vertices, faces, chosen[index[inside]], owner)
             nearer = np.flatnonzero(found.distances < best.distances[left[some]])
             for name in ("faces", "weights", "points", "distances"):
                 getattr(best, name)[left[some[nearer]]] = getattr(found, name)[nearer]

@@ -9,21 +9,21 @@ import numpy as np
 from scipy.sparse import csr_array
 from scipy.spatial import KDTree
 
-from kfmaps.geometry.arap import rigidity, rotations
-from kfmaps.geometry.coarsen import coarse, regions
+from kfmaps.geometry.arap import build_arap, rotations
+from kfmaps.geometry.coarsen import coarsen, voronoi_regions
 from kfmaps.geometry.mesh import Mesh, vertex_areas
 from kfmaps.geometry.sampling import stratified
 
-LARGE = 15_000
+PROXY_FROM_VERTICES = 15_000
 """Vertices above which a mesh is bent with a copy first."""
-POINTS = 5_000
+PROXY_VERTICES = 5_000
 """Vertices of the copy: 1.4 % of √area apart, finer than what the first levels' stiffness lets bend. The last level has
 all vertices. Of 20,000 two poses ended alike, at 0.76 to 0.77, with copies of 4,000 to 8,000."""
 
 
 @dataclass(frozen=True, eq=False)
-class Copy:
-    """A coarse copy of a mesh; made by :func:`copy_of`.
+class CoarseProxy:
+    """A coarse copy of a mesh; made by :func:`coarse_proxy`.
 
     Attributes
     ----------
@@ -40,17 +40,17 @@ class Copy:
     owner: np.ndarray
 
 
-def copy_of(mesh: Mesh, count: int, kept: np.ndarray) -> Copy:
+def coarse_proxy(mesh: Mesh, count: int, kept: np.ndarray) -> CoarseProxy:
     """A copy of ``mesh`` with about ``count`` vertices, ``kept (l,)`` among them; itself where it has no more."""
     if len(mesh.vertices) <= count:
         every = np.arange(len(mesh.vertices))
-        return Copy(mesh, every, every)
+        return CoarseProxy(mesh, every, every)
     areas = vertex_areas(mesh)
     used = np.flatnonzero(areas > 0)
     chosen = used[stratified(mesh.vertices[used], areas[used], count, rng=0)]
     vertices = np.union1d(chosen, kept)
-    owner = regions(mesh, vertices)
-    faces = coarse(mesh, vertices, owner).faces
+    owner = voronoi_regions(mesh, vertices)
+    faces = coarsen(mesh, vertices, owner).faces
     # Thin parts may lose their faces, and a point that no face uses bends with nothing.
     whole = np.unique(faces)
     number = np.full(len(vertices), -1, dtype=np.int64)
@@ -60,10 +60,10 @@ def copy_of(mesh: Mesh, count: int, kept: np.ndarray) -> Copy:
     lost = np.flatnonzero(owner < 0)
     if len(lost):
         owner[lost] = KDTree(mesh.vertices[vertices]).query(mesh.vertices[lost])[1]
-    return Copy(Mesh(mesh.vertices[vertices], number[faces]), vertices, owner)
+    return CoarseProxy(Mesh(mesh.vertices[vertices], number[faces]), vertices, owner)
 
 
-def lifted(copy: Copy, mesh: Mesh, bent: np.ndarray, turns: np.ndarray) -> np.ndarray:
+def embedded_deformation(copy: CoarseProxy, mesh: Mesh, bent: np.ndarray, turns: np.ndarray) -> np.ndarray:
     """``mesh``'s vertices ``(n, 3)`` where its copy has been bent to ``bent (q, 3)``, turned by ``turns (q, 3, 3)``.
 
     Each moves with the vertices of the copy around it, by the motion of each, blended by weights that fall to zero
@@ -87,7 +87,7 @@ def lifted(copy: Copy, mesh: Mesh, bent: np.ndarray, turns: np.ndarray) -> np.nd
     return np.stack([np.bincount(fine, weights * places[:, k], minlength=n) / total for k in range(3)], axis=1)
 
 
-def bent_copy(
+def register_proxy(
     fit: Callable[..., np.ndarray],
     source: Mesh,
     target: Mesh,
@@ -98,7 +98,7 @@ def bent_copy(
 ) -> np.ndarray:
     """The source's vertices ``(n_s, 3)`` after the ``fit`` of coarse copies of both, called as
     :meth:`kfmaps.registration.nonrigid_icp.NonRigid.vertices` is."""
-    a, b = (copy_of(mesh, POINTS, landmarks[:, side]) for side, mesh in enumerate((source, target)))
+    a, b = (coarse_proxy(mesh, PROXY_VERTICES, landmarks[:, side]) for side, mesh in enumerate((source, target)))
     progress(0.1)
     marks = np.stack([a.owner[landmarks[:, 0]], b.owner[landmarks[:, 1]]], axis=1)
     bent = fit(
@@ -109,4 +109,4 @@ def bent_copy(
         landmarks=marks,
         held=None if held is None else held[b.vertices],
     )
-    return lifted(a, source, bent, rotations(rigidity(a.mesh), bent))
+    return embedded_deformation(a, source, bent, rotations(build_arap(a.mesh), bent))

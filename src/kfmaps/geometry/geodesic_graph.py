@@ -8,9 +8,9 @@ import numpy as np
 from scipy.sparse import csr_array
 
 from kfmaps._arrays import check_count
-from kfmaps.geometry.clean import representatives
+from kfmaps.geometry.clean import weld_vertices
 from kfmaps.geometry.mesh import Mesh
-from kfmaps.geometry.point_cloud import cloud_links
+from kfmaps.geometry.point_cloud import cloud_edges
 
 CHUNK = 200_000
 """Corners unfolded together, which bounds the memory."""
@@ -138,7 +138,7 @@ def _shortest(rows: np.ndarray, columns: np.ndarray, lengths: np.ndarray) -> tup
     return low[first], high[first], lengths[first]
 
 
-def surface_graph(mesh: Mesh, depth: int = 4) -> csr_array:
+def geodesic_graph(mesh: Mesh, depth: int = 4) -> csr_array:
     """Symmetric graph (n, n) whose shortest paths run along the surface; its weights are lengths.
 
     It joins the ends of every edge and, for ``depth`` above 0, every two vertices that a straight line joins
@@ -167,13 +167,13 @@ def surface_graph(mesh: Mesh, depth: int = 4) -> csr_array:
     Ying, Wang and He, Saddle vertex graph: a novel solution to the discrete geodesic problem (2013).
     """
     check_count(depth, "depth", 0)
-    v, first = mesh.vertices, representatives(mesh)
+    v, first = mesh.vertices, weld_vertices(mesh)
     f, n = first[mesh.faces], len(v)
     copies = np.flatnonzero(first != np.arange(n))
     links = [(copies, first[copies], np.zeros(len(copies)))]
     if len(f) == 0:
         places = np.unique(first)
-        a, b, lengths = cloud_links(v[places])
+        a, b, lengths = cloud_edges(v[places])
         links.append((places[a], places[b], lengths))
     else:
         a, b = _edges(f, n)

@@ -25,14 +25,14 @@ from scipy.sparse import csr_array
 from scipy.sparse.csgraph import connected_components, dijkstra
 
 from kfmaps._arrays import check_count, refuse
-from kfmaps.geometry.clean import inside, representatives
-from kfmaps.geometry.geodesic_graph import surface_graph
+from kfmaps.geometry.clean import clean_mesh, weld_vertices
+from kfmaps.geometry.geodesic_graph import geodesic_graph
 from kfmaps.geometry.mesh import Mesh, check_is_mesh
 
 METHODS = ("unfolded", "dijkstra", "heat")
 
 BLOCK = 64
-"""Sources worked on together: what bounds the memory of :func:`distance_pairs`."""
+"""Sources worked on together: what bounds the memory of :func:`geodesic_distance_pairs`."""
 
 SEARCHES = 64
 """Farthest samples whose regions are large enough that a whole search is faster than a spreading front."""
@@ -52,26 +52,26 @@ def _indices(values: ArrayLike, n: int, name: str) -> np.ndarray:
 def _graph(mesh: Mesh, method: str) -> csr_array:
     if method not in METHODS:
         raise refuse("method", f"one of {', '.join(METHODS)}", repr(method), "choose one of them")
-    return surface_graph(mesh) if method == "unfolded" else surface_graph(mesh, 0)
+    return geodesic_graph(mesh) if method == "unfolded" else geodesic_graph(mesh, 0)
 
 
 def _heat(mesh: Mesh, sources: np.ndarray) -> np.ndarray:
     """Heat-method distances (q, n), infinite on other components."""
-    part = inside(mesh)
-    _, component = connected_components(surface_graph(part.mesh, 0), directed=False)
+    part = clean_mesh(mesh)
+    _, component = connected_components(geodesic_graph(part.mesh, 0), directed=False)
     if len(mesh.faces) == 0:
         solver = potpourri3d.PointCloudHeatSolver(part.mesh.vertices)
     else:
         solver = potpourri3d.MeshHeatMethodDistanceSolver(part.mesh.vertices, part.mesh.faces)
     distances = np.full((len(sources), len(mesh.vertices)), np.inf)
-    used = ~part.loose
+    used = ~part.unreferenced
     for row, source in zip(distances, sources, strict=True):
         if used[source]:
-            here = part.number[source]
+            here = part.to_clean[source]
             found = solver.compute_distance(int(here))
             found[component != component[here]] = np.inf
             found[here] = 0
-            row[used] = found[part.number[used]]
+            row[used] = found[part.to_clean[used]]
         row[source] = 0
     return distances
 
@@ -89,7 +89,7 @@ def geodesic_distances(mesh: Mesh, sources: ArrayLike, method: str = "unfolded")
         Vertex numbers.
     method : {"unfolded", "dijkstra", "heat"}
         ``"unfolded"``: shortest paths over edges and straight lines across up to four unfolded edges
-        (:func:`~kfmaps.geometry.geodesic_graph.surface_graph`). ``"dijkstra"``: over edges alone. Both are never
+        (:func:`~kfmaps.geometry.geodesic_graph.geodesic_graph`). ``"dijkstra"``: over edges alone. Both are never
         shorter than
         the geodesic, symmetric, and obey the triangle inequality. ``"heat"``: Crane, Weischedel and Wardetzky,
         Geodesics in heat (2013), which does neither.
@@ -111,12 +111,12 @@ def geodesic_distances(mesh: Mesh, sources: ArrayLike, method: str = "unfolded")
         return np.zeros((0, len(mesh.vertices)))
     if method == "heat":
         return _heat(mesh, sources)
-    first = representatives(mesh)
+    first = weld_vertices(mesh)
     distances = dijkstra(graph, indices=first[sources])
     return distances if (first == np.arange(len(first))).all() else distances[:, first]
 
 
-def distance_pairs(mesh: Mesh, a: ArrayLike, b: ArrayLike, method: str = "unfolded") -> np.ndarray:
+def geodesic_distance_pairs(mesh: Mesh, a: ArrayLike, b: ArrayLike, method: str = "unfolded") -> np.ndarray:
     """Distance along the surface from vertex ``a[i]`` to vertex ``b[i]``, (q,), in the mesh's own unit.
 
     No n × n matrix is held: sources are taken in blocks, each searched only as far as its pairs need, so that
@@ -144,7 +144,7 @@ def distance_pairs(mesh: Mesh, a: ArrayLike, b: ArrayLike, method: str = "unfold
     a, b = _indices(a, n, "a"), _indices(b, n, "b")
     if len(a) != len(b):
         raise refuse("a and b", "lists of equal length", f"{len(a)} and {len(b)}", "give one pair per entry")
-    first = representatives(mesh)
+    first = weld_vertices(mesh)
     a, b = first[a], first[b]
     graph = _graph(mesh, method)
     _, component = connected_components(graph, directed=False)
@@ -225,7 +225,7 @@ def farthest_geodesic(
     if first is None:
         first = int(np.random.default_rng(rng).choice(np.flatnonzero(used)))
     samples = [int(_indices(np.array([first]), n, "first")[0])]
-    graph = surface_graph(mesh, 1)
+    graph = geodesic_graph(mesh, 1)
     nearest = np.where(used, np.inf, -np.inf)
     while True:
         if len(samples) <= SEARCHES:

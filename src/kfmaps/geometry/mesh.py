@@ -96,7 +96,7 @@ MIRROR = np.array([-1.0, 1.0, 1.0])
 """What takes positions to those of the mirror image."""
 
 
-def mirrored(mesh: Mesh) -> Mesh:
+def mirror_mesh(mesh: Mesh) -> Mesh:
     """The mirror image, with the same vertices and its outside outside."""
     return Mesh(mesh.vertices * MIRROR, mesh.faces[:, ::-1])
 

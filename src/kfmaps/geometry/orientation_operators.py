@@ -15,7 +15,7 @@ from kfmaps.geometry.basis import Basis
 from kfmaps.geometry.mesh import Mesh
 
 
-def orientation_slices(mesh: Mesh, basis: Basis, functions: Array, threads: int | None = None) -> Array:
+def orientation_operators(mesh: Mesh, basis: Basis, functions: Array, threads: int | None = None) -> Array:
     """Matrices of the operators ``Ω_w[g] = n · (∇w × ∇g)`` in a basis, one for each function w.
 
     Entry (i, j) of slice s is ``∫ φᵢ n · (∇wₛ × ∇φⱼ)``, w and φ linear on each face and the integral exact. It

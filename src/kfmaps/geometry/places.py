@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 
-def first_occurrence(vertices: np.ndarray) -> np.ndarray:
+def unique_vertices(vertices: np.ndarray) -> np.ndarray:
     """For each vertex the number of the first one in exactly the same place, (n,) int64.
 
     Parameters

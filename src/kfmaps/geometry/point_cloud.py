@@ -10,7 +10,7 @@ from scipy.spatial import Delaunay, KDTree
 
 from kfmaps._arrays import refuse
 from kfmaps.geometry.eigen.factorization import Sparse
-from kfmaps.geometry.places import first_occurrence
+from kfmaps.geometry.places import unique_vertices
 
 AROUND = 30
 """Neighbours of a point that its piece of the surface is triangulated from."""
@@ -53,13 +53,13 @@ def cloud_areas(points: np.ndarray) -> np.ndarray:
     InvalidInput
         When the points lie on no surface.
     """
-    kept = np.unique(first_occurrence(points))
+    kept = np.unique(unique_vertices(points))
     areas = np.zeros(len(points))
     areas[kept] = cloud_laplacian(points[kept])[1]
     return areas
 
 
-def cloud_links(points: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def cloud_edges(points: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Pairs of neighbouring ``points (n, 3)`` and their distances: ``(a (m,), b (m,), length (m,))``.
 
     Each point is linked to its 12 nearest. What would then fall apart, as a cat's ears do, whose points are all

@@ -13,8 +13,8 @@ import numpy as np
 from scipy.spatial import KDTree
 
 from kfmaps._arrays import check_count, like, take, to_numpy
-from kfmaps.geometry.basis import Basis, zero_level
-from kfmaps.kernels.landmark_selection import farthest
+from kfmaps.geometry.basis import Basis, eigenvalue_tolerance
+from kfmaps.kernels.landmark_selection import farthest_descriptors
 
 EMBEDDING = 40
 """Functions of the biharmonic embedding, the constant among them."""
@@ -37,14 +37,14 @@ class SampledBasis(Basis):
 
 
 @dataclass(frozen=True, eq=False)
-class Samples:
+class SpectralSamples:
     """Some vertices of a shape, ``(q,)``, and its basis on them."""
 
     vertices: np.ndarray
     basis: SampledBasis
 
 
-def spectral_samples(basis: Basis, count: int, rng: int | np.random.Generator = 0) -> Samples:
+def spectral_samples(basis: Basis, count: int, rng: int | np.random.Generator = 0) -> SpectralSamples:
     """Farthest points of a shape in its biharmonic embedding (Lipman et al. 2010), with the area closest to each.
 
     Needs no mesh, and spreads evenly over the surface whatever its triangulation. At most the vertices there
@@ -59,17 +59,17 @@ def spectral_samples(basis: Basis, count: int, rng: int | np.random.Generator = 
     pool = np.arange(len(candidates))
     if len(pool) > max(POOL, 4 * count):
         pool = stratified(embedding, to_numpy(basis.mass)[candidates], max(POOL, 4 * count), rng)
-    chosen = pool[farthest(embedding[pool], min(count, len(pool)), rng, None)]
+    chosen = pool[farthest_descriptors(embedding[pool], min(count, len(pool)), rng, None)]
     samples = _samples(basis, candidates, embedding, chosen)
     if not _crowded(samples, count):
         return samples
     pool = stratified(embedding, to_numpy(basis.mass)[candidates], 2 * count, rng)
-    spread = pool[farthest(embedding[pool], min(count, len(pool)), rng, None)]
+    spread = pool[farthest_descriptors(embedding[pool], min(count, len(pool)), rng, None)]
     # Where places coincide in the embedding, as those of one of many components do, fewer of them may be left.
     return samples if len(spread) < len(chosen) else _samples(basis, candidates, embedding, spread)
 
 
-def _crowded(samples: Samples, count: int) -> bool:
+def _crowded(samples: SpectralSamples, count: int) -> bool:
     """Whether the half of the samples with the smallest areas has next to none of the area."""
     areas = np.sort(to_numpy(samples.basis.mass))
     return len(areas) == count and float(areas[: count // 2].sum()) < CROWDED * float(areas.sum())
@@ -77,7 +77,7 @@ def _crowded(samples: Samples, count: int) -> bool:
 
 def stratified_samples(
     basis: Basis, count: int, rng: int | np.random.Generator = 0, kept: np.ndarray | None = None
-) -> Samples:
+) -> SpectralSamples:
     """One random point from each of ``count`` compact regions of equal area, with the area closest to each.
 
     Needs no mesh and takes time ``n log n`` whatever the count: made for thousands of samples. A vertex that
@@ -100,7 +100,7 @@ def stratified_samples(
     areas = np.zeros(len(vertices))
     areas[np.searchsorted(vertices, samples.vertices)] = to_numpy(samples.basis.mass)
     functions = take(basis.functions, vertices)
-    return Samples(vertices, SampledBasis(basis.eigenvalues, functions, like(areas, basis.mass)))
+    return SpectralSamples(vertices, SampledBasis(basis.eigenvalues, functions, like(areas, basis.mass)))
 
 
 def stratified_vertices(
@@ -122,7 +122,7 @@ def _embedded(basis: Basis) -> tuple[np.ndarray, np.ndarray]:
     """Vertices that have an area, and their places in the biharmonic embedding."""
     candidates = np.flatnonzero(to_numpy(basis.mass) > 0)
     values, functions = to_numpy(basis.eigenvalues), to_numpy(basis.functions)
-    positive = np.flatnonzero(values > zero_level(basis))[: EMBEDDING - 1]
+    positive = np.flatnonzero(values > eigenvalue_tolerance(basis))[: EMBEDDING - 1]
     if len(positive) == 0:  # more components than functions, which tell them apart
         return candidates, functions[candidates]
     positive = positive[values[positive] > 1e-6 * values[positive[-1]]]
@@ -144,8 +144,10 @@ def stratified(
     return np.unique(order[np.searchsorted(reached / reached[-1], drawn).clip(max=len(order) - 1)])
 
 
-def _samples(basis: Basis, candidates: np.ndarray, embedding: np.ndarray, chosen: np.ndarray) -> Samples:
+def _samples(basis: Basis, candidates: np.ndarray, embedding: np.ndarray, chosen: np.ndarray) -> SpectralSamples:
     closest = KDTree(embedding[chosen]).query(embedding)[1]
     areas = np.bincount(closest, to_numpy(basis.mass)[candidates], minlength=len(chosen))
     vertices = candidates[chosen]
-    return Samples(vertices, SampledBasis(basis.eigenvalues, take(basis.functions, vertices), like(areas, basis.mass)))
+    return SpectralSamples(
+        vertices, SampledBasis(basis.eigenvalues, take(basis.functions, vertices), like(areas, basis.mass))
+    )

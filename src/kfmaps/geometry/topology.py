@@ -8,16 +8,16 @@ import numpy as np
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
-from kfmaps.geometry.clean import representatives
+from kfmaps.geometry.clean import weld_vertices
 from kfmaps.geometry.mesh import Mesh, face_areas
-from kfmaps.geometry.places import first_occurrence
+from kfmaps.geometry.places import unique_vertices
 
 
 @dataclass(frozen=True)
 class Topology:
     """Counts that describe a triangle mesh. Faces that name a vertex twice enter only ``degenerate_faces``.
 
-    Open edges that lie in one place count as connected (:func:`kfmaps.geometry.clean.representatives`): a mesh cut
+    Open edges that lie in one place count as connected (:func:`kfmaps.geometry.clean.weld_vertices`): a mesh cut
     along seams, or into single triangles, is the surface that it looks like.
 
     Attributes
@@ -53,7 +53,7 @@ class Topology:
     boundary_edges: int
     boundary_loops: int
     euler_characteristic: int
-    orientable: bool
+    is_orientable: bool
     genus: int | None
     nonmanifold_edges: int
     nonmanifold_vertices: int
@@ -63,17 +63,17 @@ class Topology:
     duplicated_vertices: int
 
     @property
-    def closed(self) -> bool:
+    def is_closed(self) -> bool:
         """Whether every edge has exactly two faces."""
         return self.boundary_edges == 0 and self.nonmanifold_edges == 0
 
     @property
-    def manifold(self) -> bool:
+    def is_manifold(self) -> bool:
         """Whether every vertex has one fan of faces around it, closed or open."""
         return self.nonmanifold_edges == 0 and self.nonmanifold_vertices == 0
 
 
-def connected(count: int, a: np.ndarray, b: np.ndarray) -> tuple[int, np.ndarray]:
+def component_labels(count: int, a: np.ndarray, b: np.ndarray) -> tuple[int, np.ndarray]:
     """Connected components of the graph with links a[i] - b[i] on ``count`` nodes: how many, and labels."""
     if count == 0:
         return 0, np.zeros(0, dtype=np.int64)
@@ -91,7 +91,7 @@ def topology(mesh: Mesh) -> Topology:
         Its face numbers within range (see :func:`kfmaps.geometry.mesh.check_mesh`). A point cloud has no components.
     """
     n = len(mesh.vertices)
-    corners = representatives(mesh)[mesh.faces]
+    corners = weld_vertices(mesh)[mesh.faces]
     repeated = (corners == np.roll(corners, 1, axis=1)).any(axis=1)
     areas = face_areas(mesh)
     flat = areas <= 1e-14 * areas.max(initial=0.0)
@@ -110,11 +110,11 @@ def topology(mesh: Mesh) -> Topology:
     against = tail[one] == tail[two]
 
     used = np.flatnonzero(np.bincount(tail, minlength=n))
-    _, label = connected(n, tail, head)
+    _, label = component_labels(n, tail, head)
     components = len(np.unique(label[used]))
 
     # Corners that meet across an edge belong to one fan around their vertex.
-    fans, fan = connected(
+    fans, fan = component_labels(
         3 * f,
         np.concatenate([one, following[one]]),
         np.concatenate([np.where(against, two, following[two]), np.where(against, following[two], two)]),
@@ -123,12 +123,12 @@ def topology(mesh: Mesh) -> Topology:
     centre[fan] = tail
     nonmanifold_vertices = int((np.bincount(centre, minlength=n) > 1).sum())
     # A boundary edge leads from one open fan to the next.
-    _, loop = connected(fans, fan[rim], fan[following[rim]])
+    _, loop = component_labels(fans, fan[rim], fan[following[rim]])
     loops = len(np.unique(loop[fan[rim]]))
 
     # Orientable: the double cover by (face, side) falls into twice as many pieces as the faces.
-    pieces, _ = connected(f, one // 3, two // 3)
-    sides, _ = connected(
+    pieces, _ = component_labels(f, one // 3, two // 3)
+    sides, _ = component_labels(
         2 * f,
         np.concatenate([one // 3, one // 3 + f]),
         np.concatenate([two // 3 + f * against, two // 3 + f * ~against]),
@@ -143,12 +143,12 @@ def topology(mesh: Mesh) -> Topology:
         boundary_edges=len(rim),
         boundary_loops=loops,
         euler_characteristic=characteristic,
-        orientable=orientable,
+        is_orientable=orientable,
         genus=(2 * components - loops - characteristic) // 2 if manifold and orientable else None,
         nonmanifold_edges=nonmanifold_edges,
         nonmanifold_vertices=nonmanifold_vertices,
         inconsistent_edges=int(against.sum()),
         degenerate_faces=int((repeated | flat).sum()),
         unreferenced_vertices=int((np.bincount(mesh.faces.ravel(), minlength=n) == 0).sum()),
-        duplicated_vertices=int((first_occurrence(mesh.vertices) != np.arange(n)).sum()),
+        duplicated_vertices=int((unique_vertices(mesh.vertices) != np.arange(n)).sum()),
     )

@@ -10,8 +10,8 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
 from kfmaps._arrays import refuse
-from kfmaps.fmap.precise import PointMap, points_of
-from kfmaps.geometry.closest_points import places_on
+from kfmaps.fmap.precise import PointMap, point_positions
+from kfmaps.geometry.closest_points import closest_points
 from kfmaps.io.record import MeshFile, Picture
 
 SMALLEST, LARGEST = 1024, 4096
@@ -171,9 +171,9 @@ def baked(
         torn = (chart != chart[:, :1]).any(axis=1) | (uv_faces != target.mesh.faces).any(axis=1)
         single = (uv_faces == uv_faces[:, :1]).all(axis=1)  # faces outside a part have one colour
         seam = np.flatnonzero((torn & ~single)[face])
-        corners = points_of(place, source.mesh)[target.mesh.faces[face[seam]]]
+        corners = point_positions(place, source.mesh)[target.mesh.faces[face[seam]]]
         points = np.einsum("qi,qij->qj", weights[seam], corners)
-        found = places_on(points, source.mesh.vertices, source.mesh.faces)
+        found = closest_points(points, source.mesh.vertices, source.mesh.faces)
         where[seam] = np.einsum("qi,qij->qj", found.weights, source.uv[source.uv_faces[found.faces]])
     picture = np.zeros((size * size, 3))
     picture[texel] = sampled(pixels, where)

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from kfmaps.fmap.precise import PointMap, at_vertices, inverse, points_of
+from kfmaps.fmap.precise import PointMap, invert_precise_map, point_positions, vertex_point_map
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.io.export import place_of
 from kfmaps.io.mapfile import MapFile, check_map
@@ -53,8 +53,8 @@ def counterparts(found: MapFile, source: Mesh, target: Mesh, name: str = "map") 
     """
     points = check_map(found, len(source.vertices), len(target.vertices), name, lost=True)
     known = points >= 0
-    place = place_of(found, source) or at_vertices(np.where(known, points, points.max()), source)
-    back = inverse(place, source, target, None if known.all() else known)
+    place = place_of(found, source) or vertex_point_map(np.where(known, points, points.max()), source)
+    back = invert_precise_map(place, source, target, None if known.all() else known)
     return Counterparts(place, back, known, _reached(found, source, target, place, back, known))
 
 
@@ -66,7 +66,7 @@ def _reached(
         return np.asarray(overlap) > COMMON
     if known.all():
         return np.ones(len(source.vertices), dtype=bool)
-    corners = points_of(place, source)[target.faces[back.faces]]
+    corners = point_positions(place, source)[target.faces[back.faces]]
     near = np.einsum("ti,tij->tj", back.weights, corners)
     half = 0.5 * np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).mean(axis=1)
     return np.linalg.norm(near - source.vertices, axis=1) <= half

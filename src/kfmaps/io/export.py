@@ -11,7 +11,7 @@ import numpy as np
 from scipy.spatial import KDTree
 
 from kfmaps._arrays import KfmapsWarning, check, refuse
-from kfmaps.fmap.precise import PointMap, check_places, matrix_of, points_of
+from kfmaps.fmap.precise import PointMap, check_point_map_precise, point_map_matrix, point_positions
 from kfmaps.geometry.mesh import Mesh, surface_area
 from kfmaps.io.atomic import atomic_output
 from kfmaps.io.bake import bakeable, baked, pixels_of, png_of
@@ -131,7 +131,7 @@ def carried_uv(
     seam = np.flatnonzero(spread(exact[target.faces]) > 4 * (np.minimum(spread(uv[snapped]), usual) + usual))
     if len(seam) == 0:
         return result, uv_faces
-    images = points_of(place, source.mesh)[target.faces[seam]]  # (b, 3, 3)
+    images = point_positions(place, source.mesh)[target.faces[seam]]  # (b, 3, 3)
     options = [uv[snapped[seam]]]
     for i in range(3):
         under = place.faces[target.faces[seam, i]]
@@ -206,7 +206,11 @@ def write_textured(
     points = check_map(target_to_source, len(source.mesh.vertices), len(mesh.vertices), lost=True)
     if picture is not None and not (Path(picture).is_file() and Path(picture).suffix.lower() in PICTURES):
         raise refuse(f"picture {picture}", f"a file {' '.join(PICTURES)}", "none", "check the name")
-    place = place_of(target_to_source, source.mesh) if place is None else check_places(place, source.mesh, len(points))
+    place = (
+        place_of(target_to_source, source.mesh)
+        if place is None
+        else check_point_map_precise(place, source.mesh, len(points))
+    )
     image = _picture(picture, source)
     lost = np.asarray(points < 0)
     uv, uv_faces = carried_uv(source, mesh, np.where(lost, points.max(), points), place)
@@ -262,7 +266,7 @@ def place_of(found: Any, source: Mesh) -> PointMap | None:
         When they are not on ``source``.
     """
     place = found.place if isinstance(found, MapFile) else None
-    return None if place is None else check_places(place, source, len(found.target_to_source))
+    return None if place is None else check_point_map_precise(place, source, len(found.target_to_source))
 
 
 def write_colored(
@@ -289,7 +293,7 @@ def write_colored(
     points = check_map(target_to_source, len(colors), len(target.vertices), lost=True)
     mixed = colors[points]
     if place is not None and faces_s is not None:
-        mixed = np.clip(matrix_of(place, faces_s, len(colors)) @ colors, 0, 1)
+        mixed = np.clip(point_map_matrix(place, faces_s, len(colors)) @ colors, 0, 1)
     mixed = np.where(points[:, None] < 0, LOST, mixed)
     write_mesh(path, target, colors=mixed, force=force)
 

@@ -8,10 +8,10 @@ import numpy as np
 
 from kfmaps._arrays import check, refuse
 from kfmaps.config import BasisConfig, Config, DescriptorConfig
-from kfmaps.fmap.transfer import carried
+from kfmaps.fmap.transfer import transfer_functions
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.io.mapfile import MapFile, check_map
-from kfmaps.matching.reindexing import border
+from kfmaps.matching.reindexing import reindexing
 from kfmaps.shape import prepare
 
 FUNCTIONS = 100
@@ -23,7 +23,8 @@ def carried_functions(
 ) -> np.ndarray:
     """``values (n_s, ...)`` on the source as functions on the target, (n_t, ...) float64.
 
-    See :func:`kfmaps.fmap.transfer.carried`. Eigenfunctions are found anew and ``C = Φ_tᵀ A_t Φ_s[map]`` from the
+    See :func:`kfmaps.fmap.transfer.transfer_functions`. Eigenfunctions are found anew and ``C = Φ_tᵀ A_t Φ_s[map]``
+    from the
     map's points, since their signs may be others than when the map was made. It has the size of the file's map.
 
     Raises
@@ -45,10 +46,10 @@ def carried_functions(
     k = min(max(k_s, k_t), len(source.vertices) - 1, len(target.vertices) - 1)
     plain = replace(Config.single_fit(), basis=BasisConfig(k), refinement=None, finish=None, threads=threads)
     plain = replace(plain, descriptors=DescriptorConfig(signature="none", landmark_map="none", shot=False))
-    across = border(prepare(source, plain, name="source"), prepare(target, plain, name="target"))
-    points = across.part_s.number[found.target_to_source[across.part_t.kept]]
-    bases = across.source.basis.truncated(k_s), across.target.basis.truncated(k_t)
+    across = reindexing(prepare(source, plain, name="source"), prepare(target, plain, name="target"))
+    points = across.part_s.to_clean[found.target_to_source[across.part_t.to_original]]
+    bases = across.source.basis.truncate(k_s), across.target.basis.truncate(k_t)
     C = bases[1].project(bases[0].functions[points])
-    flat = values[across.part_s.kept].reshape(len(across.part_s.kept), -1).astype(np.float64)
-    images = carried(flat, C, *bases, products)
-    return images.reshape(len(images), *values.shape[1:])[across.part_t.number]
+    flat = values[across.part_s.to_original].reshape(len(across.part_s.to_original), -1).astype(np.float64)
+    images = transfer_functions(flat, C, *bases, products)
+    return images.reshape(len(images), *values.shape[1:])[across.part_t.to_clean]

@@ -155,17 +155,17 @@ def match_map(match: Match) -> MapFile:
     extra: dict[str, Any] = {"raw_functional_map": match.raw_functional_map}
     if match.raw_target_to_source is not None:
         extra["raw_target_to_source"] = match.raw_target_to_source
-    if match.runners_up:
-        extra["runners_up"] = np.stack(match.runners_up)
+    if match.alternatives:
+        extra["runners_up"] = np.stack(match.alternatives)
     if match.confidence is not None:
         extra["confidence"] = np.float64(match.confidence)
-    if match.source_to_target is not None and match.map_back is not None:
-        extra |= {"source_to_target": match.source_to_target, "map_back": match.map_back}
+    if match.source_to_target is not None and match.functional_map_back is not None:
+        extra |= {"source_to_target": match.source_to_target, "map_back": match.functional_map_back}
     extra["local_confidence"] = match.local_confidence
-    if match.place is not None:
-        extra |= {"place_faces": match.place.faces, "place_weights": match.place.weights}
-    if match.bent is not None:
-        extra["bent"] = match.bent
+    if match.precise_map is not None:
+        extra |= {"place_faces": match.precise_map.faces, "place_weights": match.precise_map.weights}
+    if match.registered_vertices is not None:
+        extra["bent"] = match.registered_vertices
     if match.overlap_source is not None and match.overlap_target is not None:
         extra |= {"overlap_source": match.overlap_source, "overlap_target": match.overlap_target}
     config = json.dumps(as_dict(match.config))

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from kfmaps._arrays import KfmapsWarning, check, refuse, shown
-from kfmaps.geometry.clean import inside
+from kfmaps.geometry.clean import clean_mesh
 from kfmaps.geometry.mesh import Mesh, check_is_mesh, check_mesh
 from kfmaps.geometry.topology import topology
 from kfmaps.io.atomic import atomic_output, check_output
@@ -92,7 +92,7 @@ def _warn_of_oddities(mesh: Mesh, name: str) -> None:
     if len(mesh.faces) == 0:
         return
     counts = topology(mesh)
-    apart = counts.duplicated_vertices - inside(mesh).joined  # who connects seams tells of them
+    apart = counts.duplicated_vertices - clean_mesh(mesh).n_welded  # who connects seams tells of them
     odd = [
         (counts.components if counts.components > 1 else 0, "component", "components"),
         (counts.boundary_loops, "boundary loop", "boundary loops"),

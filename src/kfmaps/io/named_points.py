@@ -10,8 +10,8 @@ from pathlib import Path
 import numpy as np
 
 from kfmaps._arrays import refuse
-from kfmaps.fmap.precise import PointMap, at_vertices, points_of, vertices_of
-from kfmaps.geometry.closest_points import places_on
+from kfmaps.fmap.precise import PointMap, nearest_vertices, point_positions, vertex_point_map
+from kfmaps.geometry.closest_points import closest_points
 from kfmaps.geometry.mesh import Mesh, surface_area
 from kfmaps.io.atomic import atomic_output, check_output
 from kfmaps.io.text import REPAIR, read_bytes
@@ -87,11 +87,11 @@ def read_named_points(path: str | Path, mesh: Mesh) -> NamedPoints:
         vertices = values[:, 0].astype(np.int64)
         if (vertices != values[:, 0]).any() or vertices.min() < 0 or vertices.max() >= n:
             raise refuse(name, f"vertices from 0 to {n - 1}", f"{values.min():g} to {values.max():g}", "count from 0")
-        place = at_vertices(vertices, mesh)
+        place = vertex_point_map(vertices, mesh)
         return NamedPoints(names, place, mesh.vertices[vertices], vertices, known, np.zeros(len(names)))
-    found = places_on(values, mesh.vertices, mesh.faces)
+    found = closest_points(values, mesh.vertices, mesh.faces)
     place = PointMap(found.faces, found.weights)
-    return NamedPoints(names, place, found.points, vertices_of(place, mesh), known, found.distances)
+    return NamedPoints(names, place, found.points, nearest_vertices(place, mesh), known, found.distances)
 
 
 def _number(cell: str) -> bool:
@@ -123,10 +123,10 @@ def carried_points(
     Of a map of parts ``known (n_t,)`` and ``common (n_s,)`` say which vertices have a counterpart. A point has none
     where most of its face has none: its vertex is −1, its place and confidence are NaN.
     """
-    images = points_of(place, source)
+    images = point_positions(place, source)
     if back:
         at = np.einsum("qi,qij->qj", given.place.weights, images[target.faces[given.place.faces]])
-        found = places_on(at, source.vertices, source.faces)
+        found = closest_points(at, source.vertices, source.faces)
         there, mesh, on_target = PointMap(found.faces, found.weights), source, given.place
         # Where a face is torn apart the mean of its corners lies on no surface: then the nearest corner's image.
         torn = found.distances > 0.02 * np.sqrt(surface_area(source))
@@ -136,13 +136,13 @@ def carried_points(
         there.faces[torn], there.weights[torn] = place.faces[given.vertices[torn]], place.weights[given.vertices[torn]]
     else:
         rows = np.arange(len(target.faces)) if known is None else np.flatnonzero(known[target.faces].all(axis=1))
-        found = places_on(given.points, images, target.faces[rows])
+        found = closest_points(given.points, images, target.faces[rows])
         there = on_target = PointMap(rows[found.faces], found.weights)
         mesh = target
     trust = np.full(len(given.names), np.nan)
     if confidence is not None:
         trust = np.einsum("qi,qi->q", on_target.weights, confidence[target.faces[on_target.faces]])
-    points, vertices = points_of(there, mesh), vertices_of(there, mesh)
+    points, vertices = point_positions(there, mesh), nearest_vertices(there, mesh)
     own, on = (known, target) if back else (common, source)
     if own is not None:
         lost = np.einsum("qi,qi->q", given.place.weights, own[on.faces[given.place.faces]]) < 0.5

@@ -9,7 +9,7 @@ import numpy as np
 
 from kfmaps._arrays import check, refuse
 from kfmaps.geometry.mesh import Mesh
-from kfmaps.geometry.topology import first_occurrence
+from kfmaps.geometry.topology import unique_vertices
 from kfmaps.io.record import MeshFile
 from kfmaps.io.text import REPAIR, clean_text, parse_rows, table
 
@@ -50,7 +50,7 @@ def parse_stl(data: bytes, name: str) -> MeshFile:
         wanted = f"{_HEAD} bytes and {_TRIANGLE} per triangle, or text that begins with solid"
         raise refuse(name, wanted, got, "the file is cut short or is no STL: export it again")
     check(places, f"{name}: vertices", remedy=REPAIR)
-    first = first_occurrence(places)
+    first = unique_vertices(places)
     kept = np.unique(first)
     return MeshFile(Mesh(places[kept], np.searchsorted(kept, first).reshape(-1, 3)))
 

@@ -1,7 +1,7 @@
 """Kernels: inner products of lifted descriptors, ``k(X (n, d), Y (m, d)) -> (n, m)``.
 
 Every kernel is a small frozen record. Any callable with that signature is a kernel too (scikit-learn's
-pairwise kernels, a function of your own): :func:`gram` calls it and checks what comes back.
+pairwise kernels, a function of your own): :func:`kernel_matrix` calls it and checks what comes back.
 """
 
 from __future__ import annotations
@@ -95,7 +95,7 @@ class Polynomial:
 
 @dataclass(frozen=True)
 class Gaussian:
-    """``exp(-γ ‖x − y‖²)``; ``gamma=None`` is chosen from the descriptors by :func:`resolved`."""
+    """``exp(-γ ‖x − y‖²)``; ``gamma=None`` is chosen from the descriptors by :func:`resolve_kernel`."""
 
     gamma: float | None = None
 
@@ -156,10 +156,10 @@ class Sum:
     b: KernelLike
 
     def __call__(self, X: Array, Y: Array, /) -> Array:
-        return gram(self.a, X, Y) + gram(self.b, X, Y)
+        return kernel_matrix(self.a, X, Y) + kernel_matrix(self.b, X, Y)
 
     def diagonal(self, X: Array, /) -> Array:
-        return gram_diagonal(self.a, X) + gram_diagonal(self.b, X)
+        return kernel_diagonal(self.a, X) + kernel_diagonal(self.b, X)
 
 
 @dataclass(frozen=True)
@@ -170,17 +170,17 @@ class Product:
     b: KernelLike
 
     def __call__(self, X: Array, Y: Array, /) -> Array:
-        return gram(self.a, X, Y) * gram(self.b, X, Y)
+        return kernel_matrix(self.a, X, Y) * kernel_matrix(self.b, X, Y)
 
     def diagonal(self, X: Array, /) -> Array:
-        return gram_diagonal(self.a, X) * gram_diagonal(self.b, X)
+        return kernel_diagonal(self.a, X) * kernel_diagonal(self.b, X)
 
 
 KERNELS = (Linear, Polynomial, Gaussian, Laplacian, Tanh, Sum, Product)
 """Those that a settings file can name."""
 
 
-def gram(kernel: KernelLike, X: Array, Y: Array) -> Array:
+def kernel_matrix(kernel: KernelLike, X: Array, Y: Array) -> Array:
     """Kernel matrix ``(n, m)`` between rows of ``X (n, d)`` and ``Y (m, d)``, checked.
 
     A callable that knows only NumPy works on any array library: it is handed NumPy arrays when it is not
@@ -197,7 +197,7 @@ def gram(kernel: KernelLike, X: Array, Y: Array) -> Array:
         else:
             values = like(np.asarray(kernel(to_numpy(X), to_numpy(Y))), X)
     wanted = (X.shape[0], Y.shape[0])
-    name = f"kernel {describe(kernel)}"
+    name = f"kernel {describe_kernel(kernel)}"
     shape = tuple(getattr(values, "shape", ()))
     if shape != wanted:
         raise refuse(name, f"shape {wanted}", f"shape {shape}", "return one value for each pair of rows")
@@ -209,22 +209,24 @@ def gram(kernel: KernelLike, X: Array, Y: Array) -> Array:
     return values
 
 
-def gram_diagonal(kernel: KernelLike, X: Array) -> Array:
+def kernel_diagonal(kernel: KernelLike, X: Array) -> Array:
     """``(n,)`` values ``k(x, x)``, asked for row by row when the kernel has no ``diagonal``."""
     if isinstance(kernel, Kernel):
         return kernel.diagonal(X)
     xp = namespace(X)
-    return xp.concat([xp.reshape(gram(kernel, X[i : i + 1, :], X[i : i + 1, :]), (1,)) for i in range(X.shape[0])])
+    return xp.concat(
+        [xp.reshape(kernel_matrix(kernel, X[i : i + 1, :], X[i : i + 1, :]), (1,)) for i in range(X.shape[0])]
+    )
 
 
-def describe(kernel: KernelLike) -> str:
+def describe_kernel(kernel: KernelLike) -> str:
     """The kernel's name for messages and tables."""
     if isinstance(kernel, Kernel):
         return repr(kernel)
     return getattr(kernel, "__name__", type(kernel).__name__)
 
 
-def resolved(kernel: KernelLike, samples: Array, sharpness: float = 1.0) -> KernelLike:
+def resolve_kernel(kernel: KernelLike, samples: Array, sharpness: float = 1.0) -> KernelLike:
     """The kernel with every automatic γ made a number.
 
     The rule looks only at descriptors: for the Gaussian ``γ = sharpness / median ‖x − y‖²`` and for the
@@ -232,7 +234,9 @@ def resolved(kernel: KernelLike, samples: Array, sharpness: float = 1.0) -> Kern
     ``sharpness`` is a number without unit that survives any scaling of the descriptors.
     """
     if isinstance(kernel, Sum | Product):
-        return replace(kernel, a=resolved(kernel.a, samples, sharpness), b=resolved(kernel.b, samples, sharpness))
+        return replace(
+            kernel, a=resolve_kernel(kernel.a, samples, sharpness), b=resolve_kernel(kernel.b, samples, sharpness)
+        )
     if isinstance(kernel, Adaptable):
         return kernel.resolved(samples, sharpness)
     if not isinstance(kernel, Gaussian | Laplacian) or kernel.gamma is not None:

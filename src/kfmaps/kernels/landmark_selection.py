@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 
 from kfmaps._arrays import Array, check_count, check_positive, to_numpy
-from kfmaps.kernels.kernels import KernelLike, gram, gram_diagonal
+from kfmaps.kernels.kernels import KernelLike, kernel_diagonal, kernel_matrix
 
 Rng = int | np.random.Generator | None
 
@@ -24,7 +24,7 @@ POOL = 50_000
 """Rows that farthest points are chosen from, at most: a random choice of them where there are more."""
 
 
-def farthest(X: Array, count: int, rng: Rng = 0, pool: int | None = POOL) -> np.ndarray:
+def farthest_descriptors(X: Array, count: int, rng: Rng = 0, pool: int | None = POOL) -> np.ndarray:
     """Farthest points in descriptor space (Gonzalez 1985; descriptor FPS of the paper, section 7.1).
 
     Starts at a random row of ``X (n, d)``, then takes the row farthest from all taken; stops early when
@@ -36,7 +36,7 @@ def farthest(X: Array, count: int, rng: Rng = 0, pool: int | None = POOL) -> np.
     draw = np.random.default_rng(rng)
     if pool is not None and len(X) > max(pool, 4 * count):
         drawn = draw.choice(len(X), size=max(pool, 4 * count), replace=False)
-        return drawn[farthest(X[drawn], count, draw, None)]
+        return drawn[farthest_descriptors(X[drawn], count, draw, None)]
     X = X - X.mean(axis=0)
     squares = np.einsum("ij,ij->i", X, X)
     taken = np.empty(count, dtype=np.int64)
@@ -69,14 +69,14 @@ def pivoted_cholesky(
     check_count(count, "sample count", high=X.shape[0])
     check_positive(power, "power")
     draw = np.random.default_rng(rng)
-    residual = to_numpy(gram_diagonal(kernel, X)).astype(float).clip(min=0.0)
+    residual = to_numpy(kernel_diagonal(kernel, X)).astype(float).clip(min=0.0)
     spent = 1e-14 * residual.max()
     factor = np.zeros((X.shape[0], count))
     taken: list[int] = []
     for i in range(count):
         pivot = _drawn(residual**power, draw) if randomised else int(np.argmax(residual))
         taken.append(pivot)
-        column = to_numpy(gram(kernel, X, X[pivot : pivot + 1, :]))[:, 0] - factor[:, :i] @ factor[pivot, :i]
+        column = to_numpy(kernel_matrix(kernel, X, X[pivot : pivot + 1, :]))[:, 0] - factor[:, :i] @ factor[pivot, :i]
         if not column[pivot] > 0:
             taken.pop()
             break

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from kfmaps._arrays import Array, KfmapsWarning, blocks, check, like, namespace, refuse, take, to_numpy
-from kfmaps.kernels.kernels import KernelLike, describe, gram
+from kfmaps.kernels.kernels import KernelLike, describe_kernel, kernel_matrix
 
 NEGATIVE = 0.2
 """Part of the most negative eigenvalue's size below which positive ones of an indefinite kernel are dropped too."""
@@ -50,7 +50,9 @@ class Nystrom:
             shape=(None, self.samples.shape[1]),
             remedy="use those that the samples come from",
         )
-        rows = [gram(self.kernel, X[part, :], self.samples) @ self.whitener for part in blocks(X.shape[0], block)]
+        rows = [
+            kernel_matrix(self.kernel, X[part, :], self.samples) @ self.whitener for part in blocks(X.shape[0], block)
+        ]
         return namespace(X).concat(rows)
 
 
@@ -71,20 +73,20 @@ def nystrom(kernel: KernelLike, samples: Array, rtol: float = 1e-12) -> Nystrom:
     if not 0 <= rtol < 1:
         raise refuse("Nyström rtol", "a number from 0 to below 1", repr(rtol), "1e-12 is usual")
     xp = namespace(samples)
-    values = gram(kernel, samples, samples)
+    values = kernel_matrix(kernel, samples, samples)
     eigenvalues, vectors = xp.linalg.eigh((values + values.T) / 2)
     spectrum = to_numpy(eigenvalues)
     top = float(spectrum[-1])
     if not top > 0:
         remedy = "use a positive definite kernel such as Gaussian"
-        raise refuse(f"kernel {describe(kernel)}", "a positive eigenvalue", f"{top:.3g} as the largest", remedy)
+        raise refuse(f"kernel {describe_kernel(kernel)}", "a positive eigenvalue", f"{top:.3g} as the largest", remedy)
     negative = max(0.0, -float(spectrum[0])) / top
     indefinite = negative > max(rtol, 1e-10)
     least = min(max(rtol, NEGATIVE * negative), 0.999) if indefinite else rtol  # the largest stays
     keep = np.flatnonzero(spectrum > least * top)[::-1]
     if indefinite:
         warnings.warn(
-            f"kernel {describe(kernel)} is not positive definite on these samples (most negative eigenvalue "
+            f"kernel {describe_kernel(kernel)} is not positive definite on these samples (most negative eigenvalue "
             f"{negative:.2g} of the largest); its negative part is left out",
             KfmapsWarning,
             stacklevel=2,

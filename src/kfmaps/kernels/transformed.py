@@ -14,7 +14,7 @@ import numpy as np
 
 from kfmaps._arrays import Array, check_count, check_positive, like, namespace, refuse, take
 from kfmaps.kernels import kernels
-from kfmaps.kernels.kernels import Gaussian, KernelLike, describe, gram, gram_diagonal, resolved
+from kfmaps.kernels.kernels import Gaussian, KernelLike, describe_kernel, kernel_diagonal, kernel_matrix, resolve_kernel
 
 
 @dataclass(frozen=True)
@@ -28,7 +28,7 @@ class Metric:
         A weight for each descriptor ("automatic relevance determination", MacKay 1994), or the rows of ``M (r, d)``.
     landmarks : int or None
         Of how many landmarks these descriptors are, where that matters: as many descriptors of other landmarks are
-        other descriptors. Checked by :func:`kfmaps.matching.features.resolved_kernel`.
+        other descriptors. Checked by :func:`kfmaps.matching.features.resolve_kernel_width`.
     """
 
     kernel: KernelLike = field(default_factory=Gaussian)
@@ -43,12 +43,12 @@ class Metric:
         object.__setattr__(self, "matrix", tuple(tuple(row) if values.ndim == 2 else row for row in plain))
 
     def __call__(self, X: Array, Y: Array, /) -> Array:
-        return gram(self.kernel, self.transformed(X), self.transformed(Y))
+        return kernel_matrix(self.kernel, self.transform(X), self.transform(Y))
 
     def diagonal(self, X: Array, /) -> Array:
-        return gram_diagonal(self.kernel, self.transformed(X))
+        return kernel_diagonal(self.kernel, self.transform(X))
 
-    def transformed(self, X: Array) -> Array:
+    def transform(self, X: Array) -> Array:
         """``(n, r)`` rows ``M x`` of descriptors ``X (n, d)``."""
         M = like(self.matrix, X)
         if X.shape[1] != M.shape[-1]:
@@ -58,11 +58,11 @@ class Metric:
 
     def resolved(self, samples: Array, sharpness: float) -> Metric:
         """The same with every automatic γ of the inner kernel made a number."""
-        return replace(self, kernel=resolved(self.kernel, self.transformed(samples), sharpness))
+        return replace(self, kernel=resolve_kernel(self.kernel, self.transform(samples), sharpness))
 
     def __repr__(self) -> str:
         size = " × ".join(str(n) for n in np.shape(self.matrix))
-        return f"Metric({describe(self.kernel)}, {size})"
+        return f"Metric({describe_kernel(self.kernel)}, {size})"
 
 
 @dataclass(frozen=True)
@@ -94,12 +94,12 @@ class Network:
         object.__setattr__(self, "columns", tuple(int(c) for c in self.columns))
 
     def __call__(self, X: Array, Y: Array, /) -> Array:
-        return gram(self.kernel, self.transformed(X), self.transformed(Y))
+        return kernel_matrix(self.kernel, self.transform(X), self.transform(Y))
 
     def diagonal(self, X: Array, /) -> Array:
-        return gram_diagonal(self.kernel, self.transformed(X))
+        return kernel_diagonal(self.kernel, self.transform(X))
 
-    def transformed(self, X: Array) -> Array:
+    def transform(self, X: Array) -> Array:
         """``(n, d + out)`` rows ``(x, f(x))`` of descriptors ``X (n, d)``."""
         seen = take(X, np.asarray(self.columns), axis=1) if self.columns else X
         if len(self.layers[0][0]) != seen.shape[1] + 1:
@@ -109,11 +109,11 @@ class Network:
 
     def resolved(self, samples: Array, sharpness: float) -> Network:
         """The same with every automatic γ of the inner kernel made a number."""
-        return replace(self, kernel=resolved(self.kernel, self.transformed(samples), sharpness))
+        return replace(self, kernel=resolve_kernel(self.kernel, self.transform(samples), sharpness))
 
     def __repr__(self) -> str:
         sizes = " → ".join(str(n) for n in [len(self.layers[0][0]) - 1, *(len(m) for m in self.layers)])
-        return f"Network({describe(self.kernel)}, {sizes})"
+        return f"Network({describe_kernel(self.kernel)}, {sizes})"
 
 
 @dataclass(frozen=True)
@@ -127,35 +127,39 @@ class Scaled:
         check_positive(self.factor, "Scaled factor")
 
     def __call__(self, X: Array, Y: Array, /) -> Array:
-        return self.factor * gram(self.kernel, X, Y)
+        return self.factor * kernel_matrix(self.kernel, X, Y)
 
     def diagonal(self, X: Array, /) -> Array:
-        return self.factor * gram_diagonal(self.kernel, X)
+        return self.factor * kernel_diagonal(self.kernel, X)
 
     def resolved(self, samples: Array, sharpness: float) -> Scaled:
         """The same with every automatic γ of the inner kernel made a number."""
-        return replace(self, kernel=resolved(self.kernel, samples, sharpness))
+        return replace(self, kernel=resolve_kernel(self.kernel, samples, sharpness))
 
 
 KERNELS: tuple[type, ...] = (*kernels.KERNELS, Metric, Network, Scaled)
 """Every kernel that a settings file can name."""
 
 
-def width(kernel: KernelLike) -> int | None:
+def descriptor_width(kernel: KernelLike) -> int | None:
     """How many descriptors ``kernel`` takes; ``None`` when it takes any number."""
     if isinstance(kernel, Metric):
         return int(np.shape(kernel.matrix)[-1])
     if isinstance(kernel, Network) and not kernel.columns:
         return len(kernel.layers[0][0]) - 1
     inside = [getattr(kernel, name) for name in ("kernel", "a", "b") if hasattr(kernel, name)]
-    return next((found for found in map(width, inside) if found is not None), None)
+    return next((found for found in map(descriptor_width, inside) if found is not None), None)
 
 
-def landmarks(kernel: KernelLike) -> int | None:
+def n_kernel_landmarks(kernel: KernelLike) -> int | None:
     """Of how many landmarks the descriptors of ``kernel`` are; ``None`` when it does not say."""
     own = getattr(kernel, "landmarks", None)
     inside = [getattr(kernel, name) for name in ("kernel", "a", "b") if hasattr(kernel, name)]
-    return own if own is not None else next((found for found in map(landmarks, inside) if found is not None), None)
+    return (
+        own
+        if own is not None
+        else next((found for found in map(n_kernel_landmarks, inside) if found is not None), None)
+    )
 
 
 def forward(layers: tuple[Array, ...], X: Array) -> Array:

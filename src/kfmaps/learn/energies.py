@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 import torch
 
 from kfmaps.config import Formulation
-from kfmaps.fmap.energy import Energy, Term, descriptor_term, laplacian_term, slice_term
+from kfmaps.fmap.energy import Energy, Term, descriptor_term, laplacian_term, operator_term
 from kfmaps.geometry.basis import Basis
 
 KernelMatrix = Callable[[torch.Tensor, torch.Tensor], torch.Tensor]
@@ -35,7 +35,7 @@ def features(
 def condensation(bases: tuple[Basis, Basis], W: tuple[torch.Tensor, torch.Tensor], rtol: float) -> torch.Tensor:
     """A rotation ``(q, r)`` onto the features that matter for commutativity, without a derivative.
 
-    As :func:`kfmaps.fmap.multiplication_operators.condensed`. The energy is the same in every rotation of all
+    As :func:`kfmaps.fmap.multiplication_operators.truncate_features`. The energy is the same in every rotation of all
     features, so only
     the few that are dropped make the gradient inexact.
     """
@@ -96,5 +96,5 @@ def pair_energy(
                 flat = [X.reshape(len(X), -1) for X in slices]
                 rotation = _strongest(flat[0] @ flat[0].T + flat[1] @ flat[1].T, compression)
             slices = [torch.tensordot(rotation.T, X, dims=1) for X in slices]
-        terms["commutativity"] = slice_term(slices[0], slices[1])
+        terms["commutativity"] = operator_term(slices[0], slices[1])
     return Energy(terms, {name: given[name] for name in terms})  # pyright: ignore[reportArgumentType]

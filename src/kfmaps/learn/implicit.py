@@ -25,7 +25,8 @@ TIGHT = CG(rtol=1e-10, max_steps=2000)
 
 @dataclass(frozen=True, eq=False)
 class Minimum:
-    """What :func:`minimiser` returns: the map ``C (k_t, k_s)``, a part of PyTorch's graph, and how it was found."""
+    """What :func:`minimize_problem` returns: the map ``C (k_t, k_s)``, a part of PyTorch's graph, and how it was
+    found."""
 
     C: torch.Tensor
     solution: Solution

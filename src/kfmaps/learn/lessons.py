@@ -15,11 +15,11 @@ from kfmaps.fmap.nearest import nearest
 from kfmaps.geometry.basis import Basis
 from kfmaps.geometry.geodesics import geodesic_distances
 from kfmaps.geometry.mesh import Mesh
-from kfmaps.kernels.kernels import Gaussian, Laplacian, resolved
-from kfmaps.kernels.landmark_selection import farthest
+from kfmaps.kernels.kernels import Gaussian, Laplacian, resolve_kernel
+from kfmaps.kernels.landmark_selection import farthest_descriptors
 from kfmaps.matching.features import pair_descriptors
-from kfmaps.matching.fit import checked_landmarks
-from kfmaps.shape import Shape, reduced
+from kfmaps.matching.fit import check_landmark_pairs
+from kfmaps.shape import Shape, sample_shape
 
 JUDGED = 500
 """True correspondences of a pair, at most, at which errors are measured."""
@@ -123,19 +123,19 @@ def lesson(
         remedy = "leave the formulation out but for its mask"
         raise refuse("settings to learn from", "an energy that is quadratic in one map", repr(asked), remedy)
     draw = np.random.default_rng(rng)
-    pairs = checked_landmarks(landmarks, source, target)
-    parts = [reduced(shape, config.fit_samples, pairs[:, i]) for i, shape in enumerate((source, target))]
+    pairs = check_landmark_pairs(landmarks, source, target)
+    parts = [sample_shape(shape, config.fit_samples, pairs[:, i]) for i, shape in enumerate((source, target))]
     bases = (parts[0].shape.basis, parts[1].shape.basis)
     marks = np.stack([part.landmarks for part in parts], axis=1)
     both = pair_descriptors(parts[0].shape, parts[1].shape, bases, config.descriptors, marks, None)
-    rows = [D[farthest(D, min(samples // 2, len(D)), draw)] for D in (both.source, both.target)]
+    rows = [D[farthest_descriptors(D, min(samples // 2, len(D)), draw)] for D in (both.source, both.target)]
     k = config.basis.functions
-    found = resolved(config.kernel, np.concatenate(rows), config.sharpness)
+    found = resolve_kernel(config.kernel, np.concatenate(rows), config.sharpness)
     known = None if truth is None else _known(source, target, (parts[0].vertices, parts[1].vertices), k, truth)
     return Lesson(
         f"{source.name} {target.name}",
-        bases[0].truncated(k).to("torch"),
-        bases[1].truncated(k).to("torch"),
+        bases[0].truncate(k).to("torch"),
+        bases[1].truncate(k).to("torch"),
         torch.from_numpy(to_numpy(both.source)),
         torch.from_numpy(to_numpy(both.target)),
         torch.from_numpy(np.concatenate(rows)),
@@ -160,7 +160,7 @@ def _known(
         if side.ndim != 1 or len(side) < k or side.min() < 0 or side.max() >= n:
             got = f"shape {side.shape}" + (f", {side.min()} to {side.max()}" if side.size else "")
             raise refuse(name, f"at least {k} vertices, 0 to {n - 1}", got, "take the lists of these shapes")
-    functions_s, functions_t = (shape.basis.truncated(k).functions for shape in (source, target))
+    functions_s, functions_t = (shape.basis.truncate(k).functions for shape in (source, target))
     wanted = np.linalg.lstsq(functions_t[true_t], functions_s[true_s], rcond=None)[0]
     # The same lines for every pair of a collection: distances from them can be kept with the shape.
     lines = np.random.default_rng(0)

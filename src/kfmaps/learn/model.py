@@ -12,7 +12,7 @@ import torch
 
 from kfmaps._arrays import refuse
 from kfmaps.config import Config, DescriptorConfig, Weights
-from kfmaps.kernels.kernels import Gaussian, KernelLike, Laplacian, Sum, gram, resolved
+from kfmaps.kernels.kernels import Gaussian, KernelLike, Laplacian, Sum, kernel_matrix, resolve_kernel
 from kfmaps.kernels.transformed import Metric, Network, Scaled, forward
 from kfmaps.learn.lessons import Lesson
 from kfmaps.learn.names import PARTS
@@ -112,7 +112,7 @@ class Model(torch.nn.Module):
             # The middle kernel begins alone but for a hundredth, through which the others can grow.
             self._add("log_share", np.where(middle == 0, 0.0, np.log(0.01)), {"mixture"})
         else:
-            self.kernel = resolved(kernel, lessons[0].samples.numpy(), config.sharpness)
+            self.kernel = resolve_kernel(kernel, lessons[0].samples.numpy(), config.sharpness)
         weights = config.weights
         free = [name for name in ("descriptors", "laplacian") if getattr(weights, name) > 0]
         self.terms = tuple(free)
@@ -176,7 +176,7 @@ class Model(torch.nn.Module):
     def matrix(self, X: torch.Tensor, Y: torch.Tensor) -> torch.Tensor:
         """Kernel values ``(n, m)`` of rows that :meth:`lift` returned."""
         if not isinstance(self.kernel, Gaussian | Laplacian):
-            return gram(self.kernel, X, Y)
+            return kernel_matrix(self.kernel, X, Y)
         gammas, shares = torch.exp(self._tensor("log_gamma")), torch.exp(self._tensor("log_share"))
         parts = [shares[i] * opened(self.kernel, gamma=gammas[i])(X, Y) for i in range(len(gammas))]
         return torch.stack(parts).sum(dim=0) if len(parts) > 1 else parts[0]
@@ -235,7 +235,7 @@ def rows_of(rank: int | Mapping[str, int], kind: str) -> int:
 
 def _width(kernel: Gaussian | Laplacian, lifted: Sequence[np.ndarray], sharpness: float) -> float:
     """The automatic γ for transformed samples of pairs: the median over them."""
-    found = [resolved(replace(kernel, gamma=None), X, sharpness) for X in lifted]
+    found = [resolve_kernel(replace(kernel, gamma=None), X, sharpness) for X in lifted]
     return float(np.median([k.gamma or 1.0 for k in found if isinstance(k, Gaussian | Laplacian)]))
 
 

@@ -16,13 +16,18 @@ from kfmaps.fmap.energy import (
     hadamard_term,
     kernel_descriptor_term,
     laplacian_term,
-    slice_term,
+    operator_term,
 )
-from kfmaps.fmap.multiplication_operators import compressed, condensed, packed_slices, unpacked_slices
+from kfmaps.fmap.multiplication_operators import (
+    multiplication_operators,
+    truncate_features,
+    truncate_operators,
+    unpack_operators,
+)
 from kfmaps.geometry.basis import Basis
-from kfmaps.geometry.orientation_operators import orientation_slices
+from kfmaps.geometry.orientation_operators import orientation_operators
 from kfmaps.kernels.kernels import KernelLike
-from kfmaps.matching.features import Descriptors, Features, kernel_features, resolved_kernel
+from kfmaps.matching.features import Descriptors, Features, kernel_features, resolve_kernel_width
 from kfmaps.shape import Shape
 
 CONDENSATION = 0.5
@@ -32,8 +37,8 @@ ORIENTATION_FEATURES = 40
 
 
 @dataclass(frozen=True, eq=False)
-class Problem:
-    """What two shapes tell a map between them, in either direction; made by :func:`problem`.
+class FitProblem:
+    """What two shapes tell a map between them, in either direction; made by :func:`assemble`.
 
     Attributes
     ----------
@@ -95,13 +100,13 @@ class Problem:
             F = (self.features.source, self.features.target)
             terms["descriptors"] = descriptor_term(small[s], F[s], small[t], F[t])
         if self.multiplications is not None:
-            terms["commutativity"] = slice_term(self.multiplications[s], self.multiplications[t])
+            terms["commutativity"] = operator_term(self.multiplications[s], self.multiplications[t])
         if self.orientations is not None:
-            terms["orientation"] = slice_term(self.orientations[s], self.orientations[t], parity=-1)
+            terms["orientation"] = operator_term(self.orientations[s], self.orientations[t], parity=-1)
         return Energy(terms, {name: getattr(weights, name) for name in terms})
 
 
-def problem(
+def assemble(
     source: Shape,
     target: Shape,
     bases: tuple[Basis, Basis],
@@ -109,37 +114,39 @@ def problem(
     config: Config,
     rng: np.random.Generator,
     whole: tuple[Shape, Shape] | None = None,
-) -> Problem:
+) -> FitProblem:
     """What ``config`` asks a map to keep: kernel, features and slices, from which energies are made.
 
     ``bases`` are of at least the map's size and on the device of ``descriptors``. Where ``source`` and ``target`` are
-    samples of shapes (:func:`kfmaps.shape.reduced`), ``whole`` are those shapes: orientation needs their faces.
+    samples of shapes (:func:`kfmaps.shape.sample_shape`), ``whole`` are those shapes: orientation needs their faces.
     """
-    small = (bases[0].truncated(config.basis.functions), bases[1].truncated(config.basis.functions))
+    small = (bases[0].truncate(config.basis.functions), bases[1].truncate(config.basis.functions))
     weights = config.weights
     if config.exact:
         if weights.orientation:
             raise refuse("orientation weight", "0 with the exact kernel", str(weights.orientation), "use features")
-        return Problem(config, small, resolved_kernel(descriptors, config, rng), descriptors)
+        return FitProblem(config, small, resolve_kernel_width(descriptors, config, rng), descriptors)
     features = kernel_features(source, target, descriptors, config, rng)
     multiplications, orientations, size = None, None, 0.0
     if weights.commutativity:
         formed = (features.source, features.target)
         if config.compression:
             share = CONDENSATION * config.compression
-            formed = condensed(small[0], formed[0], small[1], formed[1], share)
-        packed_s, packed_t = (packed_slices(b, F, threads=config.threads) for b, F in zip(small, formed, strict=True))
+            formed = truncate_features(small[0], formed[0], small[1], formed[1], share)
+        packed_s, packed_t = (
+            multiplication_operators(b, F, threads=config.threads) for b, F in zip(small, formed, strict=True)
+        )
         if config.compression:
-            packed_s, packed_t = compressed(packed_s, packed_t, config.compression)
+            packed_s, packed_t = truncate_operators(packed_s, packed_t, config.compression)
         size = inner(packed_s, packed_s) + inner(packed_t, packed_t)
-        multiplications = (unpacked_slices(packed_s), unpacked_slices(packed_t))
+        multiplications = (unpack_operators(packed_s), unpack_operators(packed_t))
     if weights.orientation:
-        strongest = principal(small, features, ORIENTATION_FEATURES)
+        strongest = principal_features(small, features, ORIENTATION_FEATURES)
         size = size or 2.0 * small[0].functions.shape[1]
         shapes = (source, target)
         k = config.basis.functions
         orientations = orientation_pair(shapes, whole or shapes, bases, strongest, k, size, config.threads)
-    return Problem(config, small, features.kernel, descriptors, features, multiplications, orientations)
+    return FitProblem(config, small, features.kernel, descriptors, features, multiplications, orientations)
 
 
 def orientation_pair(
@@ -160,14 +167,14 @@ def orientation_pair(
     slices = []
     for shape, all_of_it, basis, F in zip(shapes, whole, bases, (features.source, features.target), strict=True):
         if all_of_it is not shape:
-            F, basis = all_of_it.basis.lift(to_numpy(basis.project(F))), all_of_it.basis
-        slices.append(like(orientation_slices(all_of_it.mesh, basis.truncated(k), F, threads), features.source))
+            F, basis = all_of_it.basis.reconstruct(to_numpy(basis.project(F))), all_of_it.basis
+        slices.append(like(orientation_operators(all_of_it.mesh, basis.truncate(k), F, threads), features.source))
     total = sum(inner(X, X) for X in slices)
     scale = (size / total) ** 0.5 if total else 0.0
     return slices[0] * scale, slices[1] * scale
 
 
-def principal(bases: tuple[Basis, Basis], features: Features, count: int) -> Features:
+def principal_features(bases: tuple[Basis, Basis], features: Features, count: int) -> Features:
     """The ``count`` strongest directions of the features of both shapes, their common mean left out."""
     F = [to_numpy(features.source), to_numpy(features.target)]
     mass = [to_numpy(b.mass) for b in bases]

@@ -15,12 +15,12 @@ from kfmaps._threads import parallel
 from kfmaps.geometry.sampling import SampledBasis
 
 RIDGE = 0.1
-"""Damping of the least squares, as in :func:`kfmaps.fmap.refine.fitted`."""
+"""Damping of the least squares, as in :func:`kfmaps.fmap.refine.fit_functional_map`."""
 PAIRS = 1_000_000
 """Pairs of points worked on together: score matrices that stay in the cache."""
 
 
-def zoomed(
+def batched_zoomout(
     maps: np.ndarray,
     source: SampledBasis,
     target: SampledBasis,
@@ -41,10 +41,10 @@ def zoomed(
         Growing; the last is the size of the result.
     against : (q_t, q_s) or (m, q_t, q_s), optional
         Half the squared differences of descriptors, up to a constant for each target point, for all maps or for each:
-        what speaks against a pair besides the functions; see :func:`kfmaps.matching.sample_pair.differences`.
+        what speaks against a pair besides the functions; see :func:`kfmaps.matching.sample_pair.descriptor_cost`.
     threads : int, optional
     solvers : callable, optional
-        :func:`projector` of the target for k functions, where many refinements share them.
+        :func:`pseudo_inverse` of the target for k functions, where many refinements share them.
 
     Returns
     -------
@@ -54,7 +54,7 @@ def zoomed(
     """
     phi_s = np.asarray(to_numpy(source.functions)[:, : sizes[-1]], dtype=np.float32)
     phi_t = np.asarray(to_numpy(target.functions)[:, : sizes[-1]], dtype=np.float32)
-    found_by = solvers or (lambda k: projector(target, k))
+    found_by = solvers or (lambda k: pseudo_inverse(target, k))
     steps = [(k, found_by(k)) for k in sizes[1:]]
     count = max(1, PAIRS // (len(phi_s) * len(phi_t)))
 
@@ -63,15 +63,16 @@ def zoomed(
         says = against[some] if against is not None and against.ndim == 3 else against
         C = np.asarray(maps[some, : sizes[0], : sizes[0]], dtype=np.float32)
         for larger, solver in steps:
-            C = solver @ phi_s[:, :larger][closest(C, phi_s, phi_t, says)]
-        return np.asarray(C, dtype=np.float64), closest(C, phi_s, phi_t, says)
+            C = solver @ phi_s[:, :larger][nearest_samples(C, phi_s, phi_t, says)]
+        return np.asarray(C, dtype=np.float64), nearest_samples(C, phi_s, phi_t, says)
 
     found = parallel(through, range(0, len(maps), count), threads)
     return np.concatenate([f[0] for f in found]), np.concatenate([f[1] for f in found])
 
 
-def closest(C: np.ndarray, phi_s: np.ndarray, phi_t: np.ndarray, against: np.ndarray | None) -> np.ndarray:
-    """The nearest image of a source point, (m, q_t), for the maps ``C (m, k, k)``; ``against`` as in :func:`zoomed`."""
+def nearest_samples(C: np.ndarray, phi_s: np.ndarray, phi_t: np.ndarray, against: np.ndarray | None) -> np.ndarray:
+    """The nearest image of a source point, (m, q_t), for the maps ``C (m, k, k)``; ``against`` as in
+    :func:`batched_zoomout`."""
     k = C.shape[1]
     # One column more holds half the squared length, so that the product is the whole score.
     images = np.empty((len(C), len(phi_s), k + 1), dtype=np.float32)
@@ -85,7 +86,7 @@ def closest(C: np.ndarray, phi_s: np.ndarray, phi_t: np.ndarray, against: np.nda
     return score.argmax(axis=2)
 
 
-def projector(basis: SampledBasis, k: int) -> np.ndarray:
+def pseudo_inverse(basis: SampledBasis, k: int) -> np.ndarray:
     """The matrix ``(k, q)`` float32 that takes values at samples to coefficients, by damped least squares."""
     phi = to_numpy(basis.functions)[:, :k]
     weighted = (to_numpy(basis.mass)[:, None] * phi).T

@@ -30,18 +30,19 @@ SURE = 0.9
 def probability(score: float, margin: float, bending: float | None = None, backing: float = 0.0) -> float:
     """That a map of this ``score`` is right, when the best different one is ``margin`` behind.
 
-    ``bending``: see :func:`kfmaps.registration.deformation_energy.bending`; ``None`` where nothing can be bent.
+    ``bending``: see :func:`kfmaps.registration.deformation_energy.deformation_energy`; ``None`` where nothing can be
+    bent.
     ``backing``: how far
-    landmarks speak for it, from 0 to 1 (:func:`kfmaps.matching.landmark_evidence.backing`).
+    landmarks speak for it, from 0 to 1 (:func:`kfmaps.matching.landmark_evidence.landmark_support`).
     """
     fits = float(expit(SLOPE * (score - MIDDLE)))
     if bending is not None:
-        fits *= float(expit((MUCH - excess(score, bending)) / WIDTH))
+        fits *= float(expit((MUCH - excess_deformation(score, bending)) / WIDTH))
     alone = fits * (1.0 - 0.5 * math.exp(-max(margin, 0.0) / TIE))
     return alone + (1.0 - alone) * backing
 
 
-def excess(score: float, bending: float) -> float:
+def excess_deformation(score: float, bending: float) -> float:
     """By how much the logarithm of the bending energy exceeds that of right maps of such a ``score``."""
     return math.log(bending) - BENT - PER_SCORE * score
 

@@ -20,13 +20,13 @@ from scipy.linalg import expm
 from kfmaps._threads import parallel
 from kfmaps.config import Config
 from kfmaps.fmap.convert import nearest
-from kfmaps.matching.batched_zoomout import zoomed
-from kfmaps.matching.extremity_matching import Pairing, against, induced, pairings
-from kfmaps.matching.kernel_inits import fitted_family, planned, sampled
-from kfmaps.matching.landmark_evidence import FAR, missed
-from kfmaps.matching.quality import Probe, Quality, map_quality
-from kfmaps.matching.sample_pair import Arena, Ground
-from kfmaps.matching.self_maps import turns_of
+from kfmaps.matching.batched_zoomout import batched_zoomout
+from kfmaps.matching.extremity_matching import ExtremityMatch, extremity_cost, match_extremities, match_of_map
+from kfmaps.matching.kernel_inits import fit_descriptor_set, plan_fits, sample_shapes
+from kfmaps.matching.landmark_evidence import FAR, landmark_errors
+from kfmaps.matching.quality import Quality, ShapeSamples, map_quality
+from kfmaps.matching.sample_pair import SamplePair, TwoLevelSamples
+from kfmaps.matching.self_maps import self_maps
 from kfmaps.shape import Shape
 
 Weights = tuple[float, ...]
@@ -34,7 +34,7 @@ Weights = tuple[float, ...]
 WEIGHTS: tuple[Weights, ...] = ((0.0, 0.0), (12.0, 12.0), (4.0, 12.0))
 """In the rough refinement: none, so that symmetric maps are found too, much, and some."""
 QUICK = 2
-"""The first of them, after which a map may be :func:`clear`: then the others are left out."""
+"""The first of them, after which a map may be :func:`early_exit`: then the others are left out."""
 FROM_FITS: tuple[Weights, ...] = ((4.0, 12.0), (12.0, 12.0))
 ROUGH, ROUGH_STEP = 40, 4
 """Functions at the end of the rough refinement, and how many more at each step."""
@@ -49,29 +49,30 @@ TIP_FUNCTIONS = 12
 STARTS = (6, 10, 20)
 """Where the rough refinement of a fit starts. From few functions it repairs maps that are wrong in part, also of
 shapes that are far from isometric; from many it keeps what is right."""
-KICKS = 6
+N_PERTURBATIONS = 6
 """Maps that start from a random symmetry of the low functions."""
 TURNED, TURNED_APART = 3, 0.08
 """Of the best rough maps, those that are composed with symmetries of the shapes, and how far apart they are."""
 FINALISTS, FEWER = 10, 6
-"""Distinct rough maps that are refined further, and where one is :func:`clear`."""
-EASY = -7.0
+"""Distinct rough maps that are refined further, and where one is :func:`early_exit`."""
+EARLY_EXIT_SCORE = -7.0
 """Score of a rough map, apart from landmarks and the ends of limbs, from which it is: people have -4 to -10, animals
 of different kinds -8.5 and less."""
-ZERO = 0.03
+MIN_FREQUENCY = 0.03
 """Frequency, the root of an eigenvalue at unit area, below which there is no wave: a sphere's first is 5."""
-APART = 0.04
+MIN_MAP_DISTANCE = 0.04
 """Mean distance, in units of √area, from which rough maps count as different: nearer than in the end."""
-ENDS = 8.0
+W_EXTREMITIES = 8.0
 """Weight of the descriptors at hands, feet, faces and tails, which no pose changes, beside those of the whole."""
 BEND, USUAL = 5.0, 0.15
 """Weight of the logarithm of the bending energy over a usual one, ..."""
-STRAIN = 6.0
-"""Weight of the strain, where it is known; see :class:`kfmaps.registration.deformation_energy.Bent`."""
-LOOKS = 60.0
-"""Weight of :func:`kfmaps.registration.registered_shot.mismatch`, where it is known; right and wrong maps differ by
+W_STRAIN = 6.0
+"""Weight of the strain, where it is known; see :class:`kfmaps.registration.deformation_energy.DeformationEnergy`."""
+W_SHOT = 60.0
+"""Weight of :func:`kfmaps.registration.registered_shot.registered_shot_error`, where it is known; right and wrong
+maps differ by
 0.02 and more."""
-LANDMARK = 2.0
+W_LANDMARK = 2.0
 """What a landmark whose image is simply wrong costs."""
 
 
@@ -92,13 +93,15 @@ class Candidate:
     missed : (l,) float64
         How far the image of each landmark is from where it belongs, in units of √area.
     bending : float or None
-        See :func:`kfmaps.registration.deformation_energy.bending`; ``None`` where it is not known.
+        See :func:`kfmaps.registration.deformation_energy.deformation_energy`; ``None`` where it is not known.
     strain : float or None
-        See :class:`kfmaps.registration.deformation_energy.Bent`, over a usual one; known of the first two of a close
+        See :class:`kfmaps.registration.deformation_energy.DeformationEnergy`, over a usual one; known of the first
+        two of a close
         call and of what was
         mended.
     mismatch : float or None
-        See :func:`kfmaps.registration.registered_shot.mismatch`, over the least; known of the first two where they
+        See :func:`kfmaps.registration.registered_shot.registered_shot_error`, over the least; known of the first two
+        where they
         are close
         and of what was mended.
     bent : (n_s, 3) float64 or None
@@ -113,30 +116,30 @@ class Candidate:
     functional_map: np.ndarray
     points: np.ndarray
     quality: Quality
-    guided: bool = True
-    missed: np.ndarray = field(default_factory=lambda: np.zeros(0))
-    bending: float | None = None
+    uses_descriptors: bool = True
+    landmark_errors: np.ndarray = field(default_factory=lambda: np.zeros(0))
+    deformation_energy: float | None = None
     strain: float | None = None
-    mismatch: float | None = None
-    bent: np.ndarray | None = None
-    backwards: bool = False
+    shot_error: float | None = None
+    registered_vertices: np.ndarray | None = None
+    swapped: bool = False
     again: tuple[Callable[[], Candidate | None], ...] = ()
 
     @property
     def score(self) -> float:
-        """Of the map itself and of the landmarks, each of which costs no more than :data:`LANDMARK`.
+        """Of the map itself and of the landmarks, each of which costs no more than :data:`W_LANDMARK`.
 
         In steps so small that only what is equal but for rounding becomes equal.
         """
-        return round(self.evidence - LANDMARK * float(np.minimum(self.missed / FAR, 1.0).sum()), 9)
+        return round(self.evidence - W_LANDMARK * float(np.minimum(self.landmark_errors / FAR, 1.0).sum()), 9)
 
     @property
     def evidence(self) -> float:
         """What the shapes say: quality, the ends of limbs and, where they are known, bending and looks."""
-        bent = 0.0 if self.bending is None else -BEND * math.log(self.bending / USUAL)
-        strained = 0.0 if self.strain is None else -STRAIN * self.strain
-        looks = 0.0 if self.mismatch is None else -LOOKS * self.mismatch
-        return self.quality.score - ENDS * self.quality.ends + bent + strained + looks
+        bent = 0.0 if self.deformation_energy is None else -BEND * math.log(self.deformation_energy / USUAL)
+        strained = 0.0 if self.strain is None else -W_STRAIN * self.strain
+        looks = 0.0 if self.shot_error is None else -W_SHOT * self.shot_error
+        return self.quality.score - W_EXTREMITIES * self.quality.extremity_descriptor_error + bent + strained + looks
 
 
 @dataclass(frozen=True, eq=False)
@@ -147,8 +150,8 @@ class Start:
     functional_map: np.ndarray
     functions: int
     weights: Weights
-    guided: bool
-    pairing: Pairing | None = None
+    uses_descriptors: bool
+    pairing: ExtremityMatch | None = None
 
 
 Report = Callable[[float], None]
@@ -158,7 +161,7 @@ def candidates(
     source: Shape,
     target: Shape,
     config: Config,
-    on: Arena,
+    on: TwoLevelSamples,
     seed: int,
     *,
     landmarks: np.ndarray | None = None,
@@ -176,40 +179,42 @@ def candidates(
     functions = min(len(source.basis.eigenvalues), len(target.basis.eigenvalues))
     marks = np.zeros((0, 2), dtype=np.int64) if landmarks is None else landmarks
     signs, weights = min(config.search.signs, functions - 1), _told_apart(WEIGHTS, on.few)
-    found = rough(from_signs(signs, on.few, weights[:QUICK]), on.few, functions, config.threads)
+    found = refine_coarse(sign_inits(signs, on.few, weights[:QUICK]), on.few, functions, config.threads)
     told(0.3)
     # What the user says of landmarks and points is heard in the fits.
-    easy = len(marks) == 0 and descriptors is None and clear(found)
+    easy = len(marks) == 0 and descriptors is None and early_exit(found)
     if not easy:
-        found += rough(from_signs(signs, on.few, weights[QUICK:]), on.few, functions, config.threads)
-        starts = from_fits(source, target, config, on, marks, descriptors, seed, drawn) + from_tips(functions, on.few)
+        found += refine_coarse(sign_inits(signs, on.few, weights[QUICK:]), on.few, functions, config.threads)
+        starts = kernel_inits(source, target, config, on, marks, descriptors, seed, drawn) + extremity_inits(
+            functions, on.few
+        )
         told(0.5)
-        found += rough(starts, on.few, functions, config.threads)
+        found += refine_coarse(starts, on.few, functions, config.threads)
     told(0.7)
-    again = from_symmetries(found, on.few, functions, config.threads)
+    again = symmetry_inits(found, on.few, functions, config.threads)
     if not easy:
         best = max(found, key=lambda c: c.score)
         values = source.basis.eigenvalues
-        kicks = [kicked(best.functional_map, values, np.random.default_rng(seed + i)) for i in range(KICKS)]
+        kicks = [perturb(best.functional_map, values, np.random.default_rng(seed + i)) for i in range(N_PERTURBATIONS)]
         again += [Start(f"kicked {i}", C, STARTS[0], WEIGHTS[0], False) for i, C in enumerate(kicks)]
-    found += rough(again, on.few, functions, config.threads)
+    found += refine_coarse(again, on.few, functions, config.threads)
     told(0.75)
     order = sorted(found, key=lambda c: c.score, reverse=True)
-    chosen = apart(order, on.few.source, APART, FEWER if easy else FINALISTS)
-    refined = fine(chosen, on.few, on.whole, functions, config.threads)
+    chosen = select_distinct(order, on.few.source, MIN_MAP_DISTANCE, FEWER if easy else FINALISTS)
+    refined = refine_fine(chosen, on.few, on.whole, functions, config.threads)
     told(1.0)
     return refined
 
 
-def clear(found: list[Candidate]) -> bool:
+def early_exit(found: list[Candidate]) -> bool:
     """Whether diagonal maps alone have led to one so good that fits, tips and kicks have nothing to add.
 
     Of two people they have; only what such a map is mistaken for is looked for then.
     """
-    return max((c.quality.score for c in found if c.guided), default=-math.inf) >= EASY
+    return max((c.quality.score for c in found if c.uses_descriptors), default=-math.inf) >= EARLY_EXIT_SCORE
 
 
-def from_signs(count: int, on: Ground, weights: Iterable[Weights] = WEIGHTS) -> list[Start]:
+def sign_inits(count: int, on: SamplePair, weights: Iterable[Weights] = WEIGHTS) -> list[Start]:
     """Diagonal maps with all choices of signs of ``count`` functions after the constant one, with all ``weights``."""
     if count == 0:
         return []
@@ -225,11 +230,11 @@ def _signs(signs: np.ndarray, weights: Weights) -> str:
     return "signs " + "".join("+" if s > 0 else "-" for s in signs[1:]) + f", weight {weights[0]:g}"
 
 
-def from_fits(
+def kernel_inits(
     source: Shape,
     target: Shape,
     config: Config,
-    on: Arena,
+    on: TwoLevelSamples,
     landmarks: np.ndarray,
     descriptors: tuple[Any, Any] | None,
     seed: int,
@@ -237,15 +242,15 @@ def from_fits(
 ) -> list[Start]:
     """Small kernel fits, each to be refined from several sizes and with several weights of the descriptors."""
     surfaces = bool(len(source.mesh.faces) and len(target.mesh.faces))
-    fits = planned(config, surfaces)
-    families = list(dict.fromkeys(fit.family for fit in fits))
-    points = sampled(source, target, landmarks, descriptors, drawn)
+    fits = plan_fits(config, surfaces)
+    families = list(dict.fromkeys(fit.descriptor_set for fit in fits))
+    points = sample_shapes(source, target, landmarks, descriptors, drawn)
     cubes = on.whole.source.orientation, on.whole.target.orientation
     weights = _told_apart(FROM_FITS, on.few)
 
     def starts(family: str) -> list[Start]:
-        members = [fit for fit in fits if fit.family == family]
-        maps = fitted_family(family, members, points, config, cubes, seed)
+        members = [fit for fit in fits if fit.descriptor_set == family]
+        maps = fit_descriptor_set(family, members, points, config, cubes, seed)
         return [
             Start(f"{fit.name}, from {start}, weight {w[0]:g}", C, start, w, True)
             for fit, C in zip(members, maps, strict=True)
@@ -256,9 +261,9 @@ def from_fits(
     return [start for several in parallel(starts, families, config.threads) for start in several]
 
 
-def from_tips(functions: int, on: Ground) -> list[Start]:
+def extremity_inits(functions: int, on: SamplePair) -> list[Start]:
     """Maps that follow from pairings of the tips of limbs; see :mod:`kfmaps.matching.extremity_matching`."""
-    tried = pairings(on.source, on.target, on.shot)
+    tried = match_extremities(on.source, on.target, on.shot)
     maps = [(pairing, paired_map(pairing, on, min(TIP_FUNCTIONS, functions))) for pairing in tried]
     return [
         Start(
@@ -274,14 +279,14 @@ def from_tips(functions: int, on: Ground) -> list[Start]:
     ]
 
 
-def from_symmetries(found: list[Candidate], on: Ground, functions: int, threads: int | None = None) -> list[Start]:
+def symmetry_inits(found: list[Candidate], on: SamplePair, functions: int, threads: int | None = None) -> list[Start]:
     """The best of ``found`` composed with near-symmetries of both shapes: what they are easily mistaken for.
 
     Whatever else a search has missed, the best map is compared with these, so that it is not sure for want of a rival.
     """
     order = sorted(found, key=lambda c: c.score, reverse=True)
-    best = apart(order, on.source, TURNED_APART, TURNED)
-    own, theirs = (turns_of(side, functions, threads) for side in (on.source, on.target))
+    best = select_distinct(order, on.source, TURNED_APART, TURNED)
+    own, theirs = (self_maps(side, functions, threads) for side in (on.source, on.target))
     turned = []
     for i, candidate in enumerate(best):
         C = candidate.functional_map
@@ -296,19 +301,19 @@ def from_symmetries(found: list[Candidate], on: Ground, functions: int, threads:
     ]
 
 
-def paired_map(pairing: Pairing, on: Ground, k: int) -> np.ndarray:
+def paired_map(pairing: ExtremityMatch, on: SamplePair, k: int) -> np.ndarray:
     """The functional map (k, k) of the points that the tips of a pairing say are alike."""
-    points = against(on.source.tips, on.target.tips, pairing, on.shot).argmin(axis=1)
+    points = extremity_cost(on.source.extremities, on.target.extremities, pairing, on.shot).argmin(axis=1)
     return np.asarray(on.solver(k) @ on.source.samples.basis.functions[points, :k], float)
 
 
-def _told_apart(weights: Iterable[Weights], on: Ground) -> list[Weights]:
+def _told_apart(weights: Iterable[Weights], on: SamplePair) -> list[Weights]:
     """The ``weights`` that differ on a ground which may know nothing of SHOT or of landmarks."""
     known = (on.shot is not None, on.landmarks is not None, True)
     return list(dict.fromkeys(tuple(w if k else 0.0 for w, k in zip(each, known, strict=False)) for each in weights))
 
 
-def rough(starts: list[Start], on: Ground, functions: int, threads: int | None = None) -> list[Candidate]:
+def refine_coarse(starts: list[Start], on: SamplePair, functions: int, threads: int | None = None) -> list[Candidate]:
     """The starts refined on few points."""
     stop = min(ROUGH, functions)
     groups: dict[tuple[int, Weights], list[Start]] = {}
@@ -319,13 +324,13 @@ def rough(starts: list[Start], on: Ground, functions: int, threads: int | None =
     for (size, weights), members in groups.items():
         maps = np.stack([start.functional_map[:size, :size] for start in members])
         pairs = [start.pairing for start in members]
-        refined = refine(maps, on, (*range(size, stop, ROUGH_STEP), stop), weights, pairs, threads)
-        found += judged([(s.name, s.guided) for s in members], *refined, on, threads)
+        refined = refine_batch(maps, on, (*range(size, stop, ROUGH_STEP), stop), weights, pairs, threads)
+        found += score_maps([(s.name, s.uses_descriptors) for s in members], *refined, on, threads)
     return found
 
 
-def fine(
-    chosen: list[Candidate], few: Ground, on: Ground, functions: int, threads: int | None = None
+def refine_fine(
+    chosen: list[Candidate], few: SamplePair, on: SamplePair, functions: int, threads: int | None = None
 ) -> list[Candidate]:
     """The chosen maps, found on ``few`` points, refined on all: with the descriptors, and rivals without as well."""
     stop = min(FINE, functions)
@@ -334,49 +339,50 @@ def fine(
     led, bare = _told_apart(FINE_WEIGHTS, on), WEIGHTS[0]
     found = []
     for weights in dict.fromkeys((bare, *led)):
-        members = [c for c in chosen if weights in led or not c.guided]
+        members = [c for c in chosen if weights in led or not c.uses_descriptors]
         if members:
             maps = np.stack([c.functional_map[:size, :size] for c in members])
             says = bool(weights[0]) or on.shot is None
-            pairs = [induced(c.points, few.source, few.target) for c in members] if weights[2:] else []
-            refined = refine(maps, on, sizes, weights, pairs, threads)
-            found += judged([(c.name, says) for c in members], *refined, on, threads)
+            pairs = [match_of_map(c.points, few.source, few.target) for c in members] if weights[2:] else []
+            refined = refine_batch(maps, on, sizes, weights, pairs, threads)
+            found += score_maps([(c.name, says) for c in members], *refined, on, threads)
     return found
 
 
-def again(found: list[Candidate], on: Ground, threads: int | None = None) -> list[Candidate]:
+def rerefine(found: list[Candidate], on: SamplePair, threads: int | None = None) -> list[Candidate]:
     """The finished candidates settled once more on a ground of which something has changed."""
     maps = np.stack([c.functional_map for c in found])
     size = maps.shape[1]
     out: list[Candidate] = []
     for says in (True, False):
-        members = [i for i, c in enumerate(found) if c.guided == says]
+        members = [i for i, c in enumerate(found) if c.uses_descriptors == says]
         if members:
             weights = _told_apart((AGAIN if says else WEIGHTS[0],), on)[0]
-            refined = refine(maps[members], on, (max(size // 2, 2), size), weights, (), threads)
-            out += judged([(found[i].name, says) for i in members], *refined, on, threads)
+            refined = refine_batch(maps[members], on, (max(size // 2, 2), size), weights, (), threads)
+            out += score_maps([(found[i].name, says) for i in members], *refined, on, threads)
     return out
 
 
-def refine(
+def refine_batch(
     maps: np.ndarray,
-    on: Ground,
+    on: SamplePair,
     sizes: tuple[int, ...],
     weights: Weights,
-    paired: Sequence[Pairing | None],
+    paired: Sequence[ExtremityMatch | None],
     threads: int | None,
 ) -> tuple[np.ndarray, np.ndarray]:
-    """:func:`kfmaps.matching.batched_zoomout.zoomed` on a ground; ``paired``: the tips that each map takes to each
+    """:func:`kfmaps.matching.batched_zoomout.batched_zoomout` on a ground; ``paired``: the tips that each map takes
+    to each
     other."""
     bases = on.source.samples.basis, on.target.samples.basis
-    return zoomed(maps, *bases, sizes, on.against(*weights, paired=paired), threads, on.solver)
+    return batched_zoomout(maps, *bases, sizes, on.against(*weights, paired=paired), threads, on.solver)
 
 
-def judged(
+def score_maps(
     names: list[tuple[str, bool]],
     maps: np.ndarray,
     points: np.ndarray | None,
-    on: Ground,
+    on: SamplePair,
     threads: int | None = None,
 ) -> list[Candidate]:
     """Candidates of ``maps (m, k, k)`` with their quality.
@@ -388,37 +394,39 @@ def judged(
 
     def judge(i: int) -> Candidate:
         C = maps[i]
-        at = points[i] if points is not None else mapped(C, on)
-        off = np.zeros(0) if on.marks is None else missed(C, functions, on.marks)
+        at = points[i] if points is not None else sample_points(C, on)
+        off = np.zeros(0) if on.marks is None else landmark_errors(C, functions, on.marks)
         return Candidate(names[i][0], C, at, map_quality(C, on.source, on.target, at), names[i][1], off)
 
     return parallel(judge, range(len(maps)), threads)
 
 
-def mapped(C: np.ndarray, on: Ground) -> np.ndarray:
+def sample_points(C: np.ndarray, on: SamplePair) -> np.ndarray:
     """The source sample ``(q_t,)`` of each target sample by ``C (k_t, k_s)``."""
     k_t, k_s = C.shape
     images = on.source.samples.basis.functions[:, :k_s] @ C.T
     return nearest(on.target.samples.basis.functions[:, :k_t], images, threads=1)
 
 
-def apart(order: list[Candidate], source: Probe, distance: float, most: int | None = None) -> list[Candidate]:
+def select_distinct(
+    order: list[Candidate], source: ShapeSamples, distance: float, most: int | None = None
+) -> list[Candidate]:
     """The first of ``order``, then the first of those that are ``distance`` from it on average, and so on: ``most``."""
     kept: list[Candidate] = []
     for candidate in order:
         if len(kept) == most:
             break
-        if all(differs(candidate, other, source) > distance for other in kept):
+        if all(map_distance(candidate, other, source) > distance for other in kept):
             kept.append(candidate)
     return kept
 
 
-def differs(a: Candidate, b: Candidate, source: Probe) -> float:
+def map_distance(a: Candidate, b: Candidate, source: ShapeSamples) -> float:
     """Mean distance between the images of the target's samples, in units of √area."""
     return float(np.linalg.norm(source.positions[a.points] - source.positions[b.points], axis=1).mean())
 
 
-def kicked(C: np.ndarray, eigenvalues: np.ndarray, rng: np.random.Generator) -> np.ndarray:
+def perturb(C: np.ndarray, eigenvalues: np.ndarray, rng: np.random.Generator) -> np.ndarray:
     """``C`` after a random rotation of the source's low functions that mixes mostly those of like frequency.
 
     Of a shape with a continuous symmetry, whose eigenvalues come in pairs, that is about a random symmetry; of any
@@ -427,7 +435,7 @@ def kicked(C: np.ndarray, eigenvalues: np.ndarray, rng: np.random.Generator) -> 
     k = min(20, *C.shape)
     values = np.sqrt(np.maximum(eigenvalues[:k], 0.0))
     # Constants of many components have eigenvalues of rounding size: all are alike.
-    width = 0.02 * max(float(values[-1]), ZERO)
+    width = 0.02 * max(float(values[-1]), MIN_FREQUENCY)
     alike = np.exp(-(((values[:, None] - values[None, :]) / width) ** 2))
     generator = rng.normal(size=(k, k)) * alike * np.pi
     rotation = expm((generator - generator.T) / 2)

@@ -14,7 +14,7 @@ import numpy as np
 from scipy.sparse import csr_array
 from scipy.sparse.csgraph import dijkstra
 
-from kfmaps.geometry.geodesic_graph import surface_graph
+from kfmaps.geometry.geodesic_graph import geodesic_graph
 from kfmaps.geometry.mesh import Mesh
 
 APART = 0.3
@@ -26,8 +26,8 @@ SMOOTHING = 6
 
 
 @dataclass(frozen=True, eq=False)
-class Tips:
-    """The tips of one shape; made by :func:`tips`.
+class Extremities:
+    """The tips of one shape; made by :func:`extremities`.
 
     Attributes
     ----------
@@ -48,20 +48,22 @@ class Tips:
     turn: np.ndarray
     unit: float
 
-    def thinned(self, count: int) -> Tips:
+    def thinned(self, count: int) -> Extremities:
         """At the first samples."""
         return replace(self, distances=self.distances[:, :count], turn=self.turn[:, :, :count])
 
-    def none(self) -> Tips:
+    def none(self) -> Extremities:
         """As of a shape without any."""
-        return Tips(self.points[:0], self.reach[:0], self.distances[:0], self.turn[:0, :0], self.unit)
+        return Extremities(self.points[:0], self.reach[:0], self.distances[:0], self.turn[:0, :0], self.unit)
 
-    def mirrored(self) -> Tips:
+    def mirrored(self) -> Extremities:
         """Of the mirror image."""
         return replace(self, turn=-self.turn)
 
 
-def tips(distances: np.ndarray, mass: np.ndarray, mesh: Mesh, rows: np.ndarray, graph: csr_array | None = None) -> Tips:
+def extremities(
+    distances: np.ndarray, mass: np.ndarray, mesh: Mesh, rows: np.ndarray, graph: csr_array | None = None
+) -> Extremities:
     """The tips of a shape.
 
     Parameters
@@ -81,19 +83,19 @@ def tips(distances: np.ndarray, mass: np.ndarray, mesh: Mesh, rows: np.ndarray, 
     mean = float(far @ (mass / mass.sum())) or 1.0
     farthest = [i for i, near in enumerate(distances < APART) if far[i] >= far[near].max(initial=0.0)]
     points = np.array(sorted(farthest, key=lambda i: -far[i])[:MOST], dtype=np.int64)
-    found = everywhere(mesh, rows[points], mean, graph)
-    return Tips(points, far[points] / mean, found.distances[:, rows], found.turn[:, :, rows], mean)
+    found = at_all_vertices(mesh, rows[points], mean, graph)
+    return Extremities(points, far[points] / mean, found.distances[:, rows], found.turn[:, :, rows], mean)
 
 
-def everywhere(mesh: Mesh, vertices: np.ndarray, unit: float, graph: csr_array | None = None) -> Tips:
+def at_all_vertices(mesh: Mesh, vertices: np.ndarray, unit: float, graph: csr_array | None = None) -> Extremities:
     """What the tips at ``vertices (m,)`` tell of all n vertices, with distances in ``unit``; ``graph`` as in tips."""
-    found = dijkstra(surface_graph(mesh, 1) if graph is None else graph, indices=vertices)
+    found = dijkstra(geodesic_graph(mesh, 1) if graph is None else graph, indices=vertices)
     joined = np.isfinite(found)
     found = np.where(joined, found, found[joined].max(initial=0.0))
-    return Tips(vertices, found.mean(axis=1) / unit, found / unit, turns(mesh, found), unit)
+    return Extremities(vertices, found.mean(axis=1) / unit, found / unit, gradient_cross(mesh, found), unit)
 
 
-def turns(mesh: Mesh, functions: np.ndarray) -> np.ndarray:
+def gradient_cross(mesh: Mesh, functions: np.ndarray) -> np.ndarray:
     """``n · (∇fᵢ × ∇fⱼ)`` at the vertices, (m, m, n), of ``functions (m, n)``, averaged over a few edges."""
     m, n = functions.shape
     found = np.zeros((m, m, n))

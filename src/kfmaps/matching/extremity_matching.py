@@ -11,10 +11,10 @@ from itertools import combinations, permutations
 
 import numpy as np
 
-from kfmaps.fmap.descriptor_guidance import Guide
+from kfmaps.fmap.descriptor_guidance import DescriptorGuidance
 from kfmaps.geometry.mesh import Mesh
-from kfmaps.matching.extremities import Tips, everywhere
-from kfmaps.matching.quality import Probe
+from kfmaps.matching.extremities import Extremities, at_all_vertices
+from kfmaps.matching.quality import ShapeSamples
 
 FEWEST = 3
 """Tips without which nothing is told apart."""
@@ -35,7 +35,7 @@ SHOT = 0.02
 
 
 @dataclass(frozen=True, eq=False)
-class Pairing:
+class ExtremityMatch:
     """Tips ``source (m,)`` of one shape and, in the same order, ``target (m,)`` of the other."""
 
     source: np.ndarray
@@ -45,11 +45,11 @@ class Pairing:
         """Of the tips' numbers."""
         return set(zip(self.source.tolist(), self.target.tolist(), strict=True))
 
-    def within(self, other: Pairing) -> bool:
+    def within(self, other: ExtremityMatch) -> bool:
         """Whether ``other`` has all of its pairs."""
         return self.pairs() <= other.pairs()
 
-    def contradicts(self, other: Pairing) -> bool:
+    def contradicts(self, other: ExtremityMatch) -> bool:
         """Whether one tip, of either shape, goes to different ones."""
         return any((i == k) != (j == n) for i, j in self.pairs() for k, n in other.pairs())
 
@@ -57,20 +57,20 @@ class Pairing:
         return f"tips {'-'.join(map(str, self.source))} to {'-'.join(map(str, self.target))}"
 
 
-def unheard(likely: list[Pairing], known: list[Pairing], most: int) -> list[Pairing]:
+def unused_matches(likely: list[ExtremityMatch], known: list[ExtremityMatch], most: int) -> list[ExtremityMatch]:
     """The first ``most`` of ``likely`` that contradict each other, less those all of which is in one of ``known``.
 
     Two contradict each other where they take one tip, of either shape, to different ones.
     """
-    first: list[Pairing] = []
+    first: list[ExtremityMatch] = []
     for one in likely:
         if len(first) < most and all(one.contradicts(other) for other in first):
             first.append(one)
-    whole = [completed(one, likely) for one in first]
+    whole = [complete_match(one, likely) for one in first]
     return [one for one in whole if not any(one.within(other) for other in known)]
 
 
-def completed(pairing: Pairing, likely: list[Pairing]) -> Pairing:
+def complete_match(pairing: ExtremityMatch, likely: list[ExtremityMatch]) -> ExtremityMatch:
     """The first of ``likely`` with all pairs of ``pairing`` and more, else itself.
 
     With one tip left out there is always less to differ: of a right pairing of all tips the parts come first.
@@ -78,29 +78,29 @@ def completed(pairing: Pairing, likely: list[Pairing]) -> Pairing:
     return next((one for one in likely if pairing.within(one) and len(one.source) > len(pairing.source)), pairing)
 
 
-def pairings(source: Probe, target: Probe, shot: np.ndarray | None) -> list[Pairing]:
+def match_extremities(source: ShapeSamples, target: ShapeSamples, shot: np.ndarray | None) -> list[ExtremityMatch]:
     """The likeliest, best first; none where a shape has hardly any tips.
 
     ``shot (q_t, q_s)``: half the squared differences of descriptors, see
-    :func:`kfmaps.matching.sample_pair.differences`.
+    :func:`kfmaps.matching.sample_pair.descriptor_cost`.
     """
-    a, b = source.tips, target.tips
+    a, b = source.extremities, target.extremities
     if min(len(a.points), len(b.points)) < FEWEST:
         return []
-    tried = alike(source, target)[:TRIED]
+    tried = extremity_similarity(source, target)[:TRIED]
     thin = a.thinned(THIN), b.thinned(THIN)
     less = None if shot is None else shot[:THIN, :THIN]
-    left = [float(against(*thin, pairing, less).min(axis=1).mean()) for pairing in tried]
+    left = [float(extremity_cost(*thin, pairing, less).min(axis=1).mean()) for pairing in tried]
     return [tried[i] for i in np.argsort(left, kind="stable")[:KEPT]]
 
 
-def alike(source: Probe, target: Probe) -> list[Pairing]:
+def extremity_similarity(source: ShapeSamples, target: ShapeSamples) -> list[ExtremityMatch]:
     """All pairings of as many tips as both shapes have, or of one less, in the order of how alike the tips lie.
 
     Their distances from each other and from the rest are compared, and the heat kernel signature, which knows a tail
     from a leg.
     """
-    a, b = source.tips, target.tips
+    a, b = source.extremities, target.extremities
     between_s, between_t = a.distances[:, a.points], b.distances[:, b.points]
     apart = np.abs(a.reach[:, None] - b.reach[None, :])
     heat_s, heat_t = source.heat[a.points], target.heat[b.points]
@@ -116,14 +116,16 @@ def alike(source: Probe, target: Probe) -> list[Pairing]:
             cost = cost + apart[np.array(chosen), images].mean(axis=1) + LEFT_OUT * (both - size) / both
             best = np.argsort(cost, kind="stable")[:TRIED]
             costs.append(cost[best])
-            found += [Pairing(np.array(chosen), images[i]) for i in best]
+            found += [ExtremityMatch(np.array(chosen), images[i]) for i in best]
     order = np.argsort(np.concatenate(costs), kind="stable")
     return [found[i] for i in order]
 
 
-def against(a: Tips, b: Tips, pairing: Pairing, shot: np.ndarray | None = None) -> np.ndarray:
+def extremity_cost(
+    a: Extremities, b: Extremities, pairing: ExtremityMatch, shot: np.ndarray | None = None
+) -> np.ndarray:
     """What speaks against each pair of samples ``(q_t, q_s)``: squared differences of all that tips tell."""
-    there, here = told(b, pairing.target), told(a, pairing.source)
+    there, here = extremity_features(b, pairing.target), extremity_features(a, pairing.source)
     cost = -2 * there @ here.T
     cost += (there**2).sum(axis=1)[:, None]
     cost += (here**2).sum(axis=1)
@@ -132,52 +134,53 @@ def against(a: Tips, b: Tips, pairing: Pairing, shot: np.ndarray | None = None) 
     return cost
 
 
-def induced(points: np.ndarray, source: Probe, target: Probe) -> Pairing | None:
+def match_of_map(points: np.ndarray, source: ShapeSamples, target: ShapeSamples) -> ExtremityMatch | None:
     """The tips that a map ``points (q_t,)`` takes to each other, nearly; ``None`` where they are fewer than three."""
-    a, b = source.tips, target.tips
+    a, b = source.extremities, target.extremities
     if min(len(a.points), len(b.points)) < FEWEST:
         return None
     # From each tip of the source to the image of each of the target.
     off = a.distances[:, points[b.points]]
     nearest_s, nearest_t = off.argmin(axis=0), off.argmin(axis=1)
     theirs = np.flatnonzero((off.min(axis=0) < NEAR) & (nearest_t[nearest_s] == np.arange(len(b.points))))
-    return Pairing(nearest_s[theirs], theirs) if len(theirs) >= FEWEST else None
+    return ExtremityMatch(nearest_s[theirs], theirs) if len(theirs) >= FEWEST else None
 
 
 @dataclass(frozen=True, eq=False)
-class Limbs:
+class ExtremityVertices:
     """Paired tips as vertices ``source (m,)`` and ``target (m,)`` of both shapes, and the unit of distances of each."""
 
     source: np.ndarray
     target: np.ndarray
     units: tuple[float, float]
 
-    def guide(self, source: Mesh, target: Mesh) -> Guide:
-        """What the tips tell of all vertices, for the refinement: half its squared differences are :func:`against`."""
+    def guide(self, source: Mesh, target: Mesh) -> DescriptorGuidance:
+        """What the tips tell of all vertices, for the refinement: half its squared differences are
+        :func:`extremity_cost`."""
         everything = np.arange(len(self.source))
         sides = ((source, self.source), (target, self.target))
-        return Guide(
+        return DescriptorGuidance(
             *(
-                np.sqrt(2.0) * told(everywhere(mesh, at, unit), everything)
+                np.sqrt(2.0) * extremity_features(at_all_vertices(mesh, at, unit), everything)
                 for (mesh, at), unit in zip(sides, self.units, strict=True)
             )
         )
 
 
-def limbs(points: np.ndarray, source: Probe, target: Probe) -> Limbs | None:
-    """Those that a map ``points (q_t,)`` of samples pairs (:func:`induced`)."""
-    found = induced(points, source, target)
-    return None if found is None else limbs_of(found, source, target)
+def extremity_vertices(points: np.ndarray, source: ShapeSamples, target: ShapeSamples) -> ExtremityVertices | None:
+    """Those that a map ``points (q_t,)`` of samples pairs (:func:`match_of_map`)."""
+    found = match_of_map(points, source, target)
+    return None if found is None else vertices_of_match(found, source, target)
 
 
-def limbs_of(found: Pairing, source: Probe, target: Probe) -> Limbs:
+def vertices_of_match(found: ExtremityMatch, source: ShapeSamples, target: ShapeSamples) -> ExtremityVertices:
     """The tips of a pairing as vertices of both shapes."""
-    at = source.tips.points[found.source], target.tips.points[found.target]
-    units = source.tips.unit, target.tips.unit
-    return Limbs(source.samples.vertices[at[0]], target.samples.vertices[at[1]], units)
+    at = source.extremities.points[found.source], target.extremities.points[found.target]
+    units = source.extremities.unit, target.extremities.unit
+    return ExtremityVertices(source.samples.vertices[at[0]], target.samples.vertices[at[1]], units)
 
 
-def told(found: Tips, chosen: np.ndarray) -> np.ndarray:
+def extremity_features(found: Extremities, chosen: np.ndarray) -> np.ndarray:
     """What the ``chosen`` tips tell of each sample: distances and turns, each of them one on average."""
     upper = np.triu_indices(len(chosen), 1)
     turn = found.turn[np.ix_(chosen, chosen)][upper]

@@ -14,17 +14,17 @@ from kfmaps.descriptors.spectral import (
     heat_map,
     heat_signature,
     heat_times,
-    normalised,
+    normalize,
     wave_energies,
     wave_map,
     wave_signature,
 )
 from kfmaps.geometry.basis import Basis
 from kfmaps.geometry.geodesics import farthest_geodesic
-from kfmaps.kernels.kernels import KernelLike, Linear, resolved
-from kfmaps.kernels.landmark_selection import farthest, pivoted_cholesky, uniform
+from kfmaps.kernels.kernels import KernelLike, Linear, resolve_kernel
+from kfmaps.kernels.landmark_selection import farthest_descriptors, pivoted_cholesky, uniform
 from kfmaps.kernels.nystrom import nystrom
-from kfmaps.kernels.transformed import landmarks as taught
+from kfmaps.kernels.transformed import n_kernel_landmarks as taught
 from kfmaps.shape import Shape
 
 EVERY = 200
@@ -73,7 +73,7 @@ def pair_descriptors(
         Descriptors of the user's own, beside the computed ones.
     """
     size = min(config.eigenfunctions, *(b.functions.shape[1] for b in bases))
-    small = (bases[0].truncated(size), bases[1].truncated(size))
+    small = (bases[0].truncate(size), bases[1].truncate(size))
     sides = [spectral_descriptors(i, small, config, landmarks[:, i]) for i in (0, 1)]
     whose = landmark_of_each(config, len(landmarks))
     if given is not None:
@@ -87,14 +87,14 @@ def pair_descriptors(
     if sides[0] and sides[1]:
         xp = namespace(bases[0].functions)
         D_s, D_t = (xp.concat(side, axis=1) for side in sides)
-        blocks.append(normalised(D_s, D_t, config.normalisation, *masses))
+        blocks.append(normalize(D_s, D_t, config.normalisation, *masses))
     if config.shot:
         local = []
         for shape, basis in zip((source, target), bases, strict=True):
             if shape.shot is None:
                 raise refuse(shape.name, "a shape prepared with SHOT", "one without", "prepare it with this config")
             local.append(like(shape.shot, basis.functions))
-        D_s, D_t = normalised(local[0], local[1], "variance", *masses)
+        D_s, D_t = normalize(local[0], local[1], "variance", *masses)
         weight = math.sqrt(config.shot_weight)
         blocks.append((D_s * weight, D_t * weight))
     if not blocks:
@@ -175,7 +175,7 @@ def _every_nth(side: int, bases: tuple[Basis, ...], config: DescriptorConfig, la
     return take(everything, _chosen(everything.shape[1], config.count), axis=1)
 
 
-def resolved_kernel(descriptors: Descriptors, config: Config, rng: np.random.Generator) -> KernelLike:
+def resolve_kernel_width(descriptors: Descriptors, config: Config, rng: np.random.Generator) -> KernelLike:
     """The kernel of ``config`` with automatic γ chosen from farthest points of both shapes' descriptors.
 
     Raises
@@ -188,7 +188,7 @@ def resolved_kernel(descriptors: Descriptors, config: Config, rng: np.random.Gen
         remedy = "give as many, or learn a kernel with as many (kfmaps learn --truth-landmarks, or without)"
         raise refuse("landmarks", f"{wanted}, as the kernel was learned with", str(given), remedy)
     rows = [_farthest_rows(D, 100, rng) for D in (descriptors.source, descriptors.target)]
-    return resolved(config.kernel, namespace(rows[0]).concat(rows), config.sharpness)
+    return resolve_kernel(config.kernel, namespace(rows[0]).concat(rows), config.sharpness)
 
 
 def kernel_features(
@@ -197,7 +197,7 @@ def kernel_features(
     """Nyström features of the joint kernel, or the descriptors themselves when it is linear."""
     if isinstance(config.kernel, Linear):
         return Features(descriptors.source, descriptors.target, config.kernel)
-    kernel = resolved_kernel(descriptors, config, rng)
+    kernel = resolve_kernel_width(descriptors, config, rng)
     samples = joint_samples(source, target, descriptors, kernel, config.nystrom, rng)
     factor = nystrom(kernel, samples, config.nystrom.rtol)
     return Features(factor.features(descriptors.source), factor.features(descriptors.target), kernel)
@@ -224,7 +224,7 @@ def joint_samples(
     for shape, D in ((source, D_s), (target, D_t)):
         count = min(config.samples // 2, D.shape[0])
         if config.sampling == "descriptor":
-            rows = farthest(D, count, rng)
+            rows = farthest_descriptors(D, count, rng)
         elif config.sampling == "geodesic":
             rows = farthest_geodesic(shape.mesh, count, rng)
         else:
@@ -234,5 +234,5 @@ def joint_samples(
 
 
 def _farthest_rows(D: Array, count: int, rng: np.random.Generator) -> Array:
-    rows = farthest(D, min(count, D.shape[0]), rng)
+    rows = farthest_descriptors(D, min(count, D.shape[0]), rng)
     return take(D, rows)

@@ -12,18 +12,18 @@ import numpy as np
 
 from kfmaps._arrays import check, refuse, seed_of, to_numpy
 from kfmaps._progress import Progress
-from kfmaps._stage_timer import Clock
+from kfmaps._stage_timer import StageTimer
 from kfmaps._threads import one_blas_thread
 from kfmaps.config import Config
 from kfmaps.descriptors.spectral import check_landmarks
 from kfmaps.fmap.solvers import Solution
 from kfmaps.geometry.basis import Basis
-from kfmaps.kernels.kernels import describe
-from kfmaps.matching.assemble import problem
+from kfmaps.kernels.kernels import describe_kernel
+from kfmaps.matching.assemble import assemble
 from kfmaps.matching.features import Descriptors, pair_descriptors
-from kfmaps.matching.robust_weights import believed
-from kfmaps.matching.solve import solved
-from kfmaps.shape import Reduced, Shape, reduced
+from kfmaps.matching.robust_weights import robust_weights
+from kfmaps.matching.solve import solve_problem
+from kfmaps.shape import SampledShape, Shape, sample_shape
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,7 +67,7 @@ class Fit:
 
 
 @dataclass(frozen=True, eq=False)
-class Points:
+class FitPoints:
     """The points of two shapes that a fit is made from, and what is known there.
 
     Attributes
@@ -87,7 +87,7 @@ class Points:
     weights: np.ndarray | None = None
 
 
-def checked_landmarks(landmarks: Any, source: Shape, target: Shape) -> np.ndarray:
+def check_landmark_pairs(landmarks: Any, source: Shape, target: Shape) -> np.ndarray:
     """``landmarks`` as ``(l, 2)`` int64 "source, target"; ``None`` is none.
 
     Raises
@@ -146,25 +146,25 @@ def fit(
         When the solver broke down, so that the map is not the minimiser.
     """
     config = config or Config.single_fit()
-    clock = Clock(progress)
+    clock = StageTimer(progress)
     seed = seed_of(rng)
-    pairs = checked_landmarks(landmarks, source, target)
+    pairs = check_landmark_pairs(landmarks, source, target)
     with one_blas_thread():
         with clock("descriptors"):
             points = fit_points(source, target, config, pairs, descriptors, seed)
         with clock("energy"):
-            task = problem(
+            task = assemble(
                 *points.shapes, points.bases, points.descriptors, config, np.random.default_rng(seed), (source, target)
             )
         with clock("solve"):
-            found = solved(task, config, clock.report, start)
+            found = solve_problem(task, config, clock.report, start)
     return Fit(
         functional_map=to_numpy(found.solution.value),
         solution=found.solution,
         energies=found.energies,
         rank=task.rank,
         slices=task.slices,
-        kernel=describe(task.kernel),
+        kernel=describe_kernel(task.kernel),
         config=config,
         seconds=clock.seconds,
         back=None if found.back is None else to_numpy(found.back),
@@ -179,10 +179,10 @@ def fit_points(
     landmarks: np.ndarray,
     descriptors: tuple[Any, Any] | None = None,
     rng: int | np.random.Generator = 0,
-) -> Points:
+) -> FitPoints:
     """The points that ``config.fit_samples`` leaves of both shapes, with the ``landmarks (l, 2)``, and descriptors."""
     shapes = (source, target)
-    parts = [reduced(s, config.fit_samples, landmarks[:, i], rng) for i, s in enumerate(shapes)]
+    parts = [sample_shape(s, config.fit_samples, landmarks[:, i], rng) for i, s in enumerate(shapes)]
     bases = [part.shape.basis for part in parts]
     if config.device != "cpu":
         bases = [basis.to(config.device) for basis in bases]
@@ -192,12 +192,12 @@ def fit_points(
     small, on = (parts[0].shape, parts[1].shape), (bases[0], bases[1])
     used = pair_descriptors(*small, on, config.descriptors, marks, descriptors)
     if not config.formulation.weighs_data:
-        return Points(small, on, used)
-    weighed = believed(used, on, config)
-    return Points(small, on, weighed.descriptors, weighed.weights)
+        return FitPoints(small, on, used)
+    weighed = robust_weights(used, on, config)
+    return FitPoints(small, on, weighed.descriptors, weighed.weights)
 
 
-def _on_samples(given: tuple[Any, Any], parts: list[Reduced], shapes: tuple[Shape, Shape]) -> tuple[Any, Any]:
+def _on_samples(given: tuple[Any, Any], parts: list[SampledShape], shapes: tuple[Shape, Shape]) -> tuple[Any, Any]:
     """The rows of descriptors of the user's own that belong to the samples."""
     rows = []
     for values, part, shape in zip(given, parts, shapes, strict=True):

@@ -13,7 +13,7 @@ from scipy.special import expit
 
 from kfmaps._arrays import to_numpy
 from kfmaps.fmap.convert import nearest
-from kfmaps.fmap.descriptor_guidance import DIMENSIONS, Guide, guide, joined
+from kfmaps.fmap.descriptor_guidance import DIMENSIONS, DescriptorGuidance, combine_guidance, descriptor_guidance
 from kfmaps.geometry.basis import Basis
 from kfmaps.shape import Shape
 
@@ -38,7 +38,7 @@ a map is right below 0.08, and its landmarks are a sample of its errors."""
 
 
 @dataclass(frozen=True, eq=False)
-class Marks:
+class LandmarkEvidence:
     """What landmarks say at the samples of both shapes; made by :func:`marks`.
 
     Attributes
@@ -48,7 +48,7 @@ class Marks:
     distances : (l, q_s) float64
         From each of the source's landmarks to its samples along the surface, in units of √area.
     functions_s, functions_t : (l, q_s, t), (l, q_t, t) float64
-        Functions around each landmark at the samples, see :func:`around`.
+        Functions around each landmark at the samples, see :func:`heat_features`.
     """
 
     target: np.ndarray
@@ -56,22 +56,22 @@ class Marks:
     functions_s: np.ndarray
     functions_t: np.ndarray
 
-    def thinned(self, q_s: int, q_t: int) -> Marks:
+    def thinned(self, q_s: int, q_t: int) -> LandmarkEvidence:
         """Of the first samples."""
-        return Marks(
+        return LandmarkEvidence(
             self.target,
             self.distances[:, :q_s],
             self.functions_s[:, :q_s],
             self.functions_t[:, :q_t],
         )
 
-    def without(self, doubted: np.ndarray) -> Marks:
+    def without(self, doubted: np.ndarray) -> LandmarkEvidence:
         """Of the other landmarks; ``doubted (l,)`` bool."""
         kept = ~doubted
-        return Marks(*(getattr(self, name)[kept] for name in self.__dataclass_fields__))
+        return LandmarkEvidence(*(getattr(self, name)[kept] for name in self.__dataclass_fields__))
 
 
-def around(points: Basis, basis: Basis, landmarks: np.ndarray) -> np.ndarray:
+def heat_features(points: Basis, basis: Basis, landmarks: np.ndarray) -> np.ndarray:
     """Correlation of heat from each landmark with heat from each of ``points``, (l, q, t), from about 0 to 1.
 
     ``h_t(p, x) / √(h_t(p, p) h_t(x, x))`` for the heat kernel h at :data:`TIMES`: 1 at the landmark, nearly free of
@@ -88,7 +88,7 @@ def around(points: Basis, basis: Basis, landmarks: np.ndarray) -> np.ndarray:
     return np.stack(found, axis=2)
 
 
-def side_by_side(functions_s: np.ndarray, functions_t: np.ndarray) -> Guide:
+def heat_guidance(functions_s: np.ndarray, functions_t: np.ndarray) -> DescriptorGuidance:
     """A guide of the functions ``(l, q, t)`` around landmarks; two random points differ by 1 on average."""
     flat = [np.moveaxis(f, 0, 1).reshape(f.shape[1], -1) for f in (functions_s, functions_t)]
     both = np.vstack(flat)
@@ -96,10 +96,10 @@ def side_by_side(functions_s: np.ndarray, functions_t: np.ndarray) -> Guide:
     if centred.shape[1] > DIMENSIONS:
         centred = centred @ np.linalg.eigh(centred.T @ centred)[1][:, ::-1][:, :DIMENSIONS]
     centred = centred / np.sqrt(max(2 * (centred**2).sum(axis=1).mean(), 1e-12))
-    return Guide(centred[: len(flat[0])], centred[len(flat[0]) :])
+    return DescriptorGuidance(centred[: len(flat[0])], centred[len(flat[0]) :])
 
 
-def missed(C: np.ndarray, functions_s: np.ndarray, found: Marks) -> np.ndarray:
+def landmark_errors(C: np.ndarray, functions_s: np.ndarray, found: LandmarkEvidence) -> np.ndarray:
     """How far the image of each target landmark is from the source's, (l,), in units of √area.
 
     ``functions_s (q_s, k)``: the source's basis at its samples. The other direction says less: the ends of limbs,
@@ -110,14 +110,14 @@ def missed(C: np.ndarray, functions_s: np.ndarray, found: Marks) -> np.ndarray:
     return found.distances[np.arange(len(back)), back]
 
 
-def doubted(distances: np.ndarray) -> np.ndarray:
+def reject_landmarks(distances: np.ndarray) -> np.ndarray:
     """Which landmarks ``(l,)`` are contradicted by a map that keeps to most of them; none of fewer than three."""
     wrong = distances > MISSED
     few = len(distances) < 3 or (~wrong).mean() < KEPT
     return np.zeros(len(distances), dtype=bool) if few else wrong
 
 
-def backing(distances: np.ndarray, found: Marks, areas: np.ndarray) -> float:
+def landmark_support(distances: np.ndarray, found: LandmarkEvidence, areas: np.ndarray) -> float:
     """How far landmarks back a map that misses them by ``distances (l,)``, from 0 to 1.
 
     The squared share of the source, whose samples have ``areas (q_s,)``, that lies within :data:`NEAR` of one, where
@@ -131,20 +131,20 @@ def backing(distances: np.ndarray, found: Marks, areas: np.ndarray) -> float:
     return share**2 * float(expit((WELL - float(np.minimum(distances, MISSED).mean())) / WIDTH))
 
 
-def leading(
+def build_guidance(
     source: Shape,
     target: Shape,
     landmarks: np.ndarray,
-    limbs: Guide | None = None,
-    shot: Guide | None = None,
+    limbs: DescriptorGuidance | None = None,
+    shot: DescriptorGuidance | None = None,
     lead: float = LEAD,
-) -> Guide | None:
+) -> DescriptorGuidance | None:
     """SHOT, ``landmarks (l, 2)`` and ``limbs`` on all vertices, for the refinement; ``None`` where nothing leads.
 
     ``shot``: its guide, where that is known; ``lead``: the weight of the landmarks beside it.
     """
-    local = joined([(1.0, shot or guide(source.shot, target.shot)), (LIMBS, limbs)])
+    local = combine_guidance([(1.0, shot or descriptor_guidance(source.shot, target.shot)), (LIMBS, limbs)])
     if len(landmarks) == 0:
         return local
-    functions = [around(s.basis, s.basis, at) for s, at in zip((source, target), landmarks.T, strict=True)]
-    return joined([(1.0, local), (lead, side_by_side(*functions))])
+    functions = [heat_features(s.basis, s.basis, at) for s, at in zip((source, target), landmarks.T, strict=True)]
+    return combine_guidance([(1.0, local), (lead, heat_guidance(*functions))])

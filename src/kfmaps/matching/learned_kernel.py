@@ -3,7 +3,8 @@
 A search goes as it would without: its fits, its judgement and its refinement know nothing of what was learned. Where
 the kernel was learned without landmarks, maps are made with it as well: small fits, and refinements in which points
 are compared in its metric instead of by principal components of SHOT. The best of these takes the place of what the
-search has found only where it is another map and clearly better (:func:`kfmaps.matching.ranking.beside`); so what was
+search has found only where it is another map and clearly better
+(:func:`kfmaps.matching.ranking.merge_alternatives`); so what was
 learned on other bodies than those at hand changes no digit of a map that is right.
 """
 
@@ -15,27 +16,27 @@ import numpy as np
 
 from kfmaps._arrays import refuse, to_numpy
 from kfmaps.config import Config
-from kfmaps.fmap.descriptor_guidance import guide
+from kfmaps.fmap.descriptor_guidance import descriptor_guidance
 from kfmaps.kernels.kernels import KernelLike
-from kfmaps.kernels.transformed import Metric, Network, landmarks, width
+from kfmaps.kernels.transformed import Metric, Network, descriptor_width, n_kernel_landmarks
 from kfmaps.matching.candidates import (
-    APART,
     FINE,
     FINE_FROM,
     FINE_STEP,
+    MIN_MAP_DISTANCE,
     STARTS,
     Candidate,
     Start,
-    apart,
-    from_signs,
-    judged,
-    refine,
-    rough,
+    refine_batch,
+    refine_coarse,
+    score_maps,
+    select_distinct,
+    sign_inits,
 )
 from kfmaps.matching.features import pair_descriptors
-from kfmaps.matching.kernel_inits import LEARNED, Fit, fitted_family, sampled
-from kfmaps.matching.quality import Probe
-from kfmaps.matching.sample_pair import Arena, Ground, differences
+from kfmaps.matching.kernel_inits import LEARNED, FitSpec, fit_descriptor_set, sample_shapes
+from kfmaps.matching.quality import ShapeSamples
+from kfmaps.matching.sample_pair import SamplePair, TwoLevelSamples, descriptor_cost
 from kfmaps.shape import Shape
 
 WEIGHTS = (12.0, 12.0)
@@ -48,16 +49,16 @@ FINALISTS = 4
 """Distinct rough maps that are refined further."""
 
 
-def plain(config: Config) -> Config:
+def drop_learned(config: Config) -> Config:
     """``config`` without what :mod:`kfmaps.learn` learns, for the search's own fits: they are those without it."""
-    if width(config.kernel) is None:
+    if descriptor_width(config.kernel) is None:
         return config
     usual = Config()
     asked = replace(config.formulation, mask=usual.formulation.mask, mask_power=usual.formulation.mask_power)
     return replace(config, kernel=usual.kernel, sharpness=usual.sharpness, weights=usual.weights, formulation=asked)
 
 
-def speaks(config: Config, source: Shape, target: Shape) -> bool:
+def learned_kernel_applies(config: Config, source: Shape, target: Shape) -> bool:
     """Whether the kernel of ``config`` was learned from descriptors that these shapes have without landmarks.
 
     Raises
@@ -65,16 +66,18 @@ def speaks(config: Config, source: Shape, target: Shape) -> bool:
     InvalidInput
         When it was learned with landmarks: a search has no fit of their descriptors.
     """
-    if width(config.kernel) is None:
+    if descriptor_width(config.kernel) is None:
         return False
-    if landmarks(config.kernel):
+    if n_kernel_landmarks(config.kernel):
         wanted = "a kernel learned without landmarks, or none"
-        got = f"one learned with {landmarks(config.kernel)}"
+        got = f"one learned with {n_kernel_landmarks(config.kernel)}"
         raise refuse("kernel of a search", wanted, got, "learn without --truth-landmarks, or set search to none")
     return not config.descriptors.shot or (source.shot is not None and target.shot is not None)
 
 
-def learned(source: Shape, target: Shape, config: Config, on: Arena, seed: int, drawn: int) -> list[Candidate]:
+def learned_candidates(
+    source: Shape, target: Shape, config: Config, on: TwoLevelSamples, seed: int, drawn: int
+) -> list[Candidate]:
     """Refined candidates by the kernel of ``config``, judged as all others are; none where it is of others."""
     assert config.search is not None
     rows = seen(source, target, config, on.whole.source, on.whole.target)
@@ -82,28 +85,28 @@ def learned(source: Shape, target: Shape, config: Config, on: Arena, seed: int, 
         return []
     few, whole = (by_metric(ground, *rows) for ground in (on.few, on.whole))
     functions = min(len(source.basis.eigenvalues), len(target.basis.eigenvalues))
-    starts = [s for s in from_signs(min(config.search.signs, functions - 1), few) if s.weights[0] == WEIGHTS[0]]
-    points = sampled(source, target, np.zeros((0, 2), dtype=np.int64), None, drawn)
+    starts = [s for s in sign_inits(min(config.search.signs, functions - 1), few) if s.weights[0] == WEIGHTS[0]]
+    points = sample_shapes(source, target, np.zeros((0, 2), dtype=np.int64), None, drawn)
     cubes = on.whole.source.orientation, on.whole.target.orientation
-    fits = [Fit(LEARNED, min(k, config.basis.functions), ORIENTATION) for k in SIZES]
-    maps = fitted_family(LEARNED, fits, points, config, cubes, seed)
+    fits = [FitSpec(LEARNED, min(k, config.basis.functions), ORIENTATION) for k in SIZES]
+    maps = fit_descriptor_set(LEARNED, fits, points, config, cubes, seed)
     starts += [
         Start(f"{fit.name}, from {start}", C, start, WEIGHTS, True)
         for fit, C in zip(fits, maps, strict=True)
         for start in STARTS
     ]
-    found = sorted(rough(starts, few, functions, config.threads), key=lambda c: c.score, reverse=True)
-    chosen = apart(found, few.source, APART, FINALISTS)
+    found = sorted(refine_coarse(starts, few, functions, config.threads), key=lambda c: c.score, reverse=True)
+    chosen = select_distinct(found, few.source, MIN_MAP_DISTANCE, FINALISTS)
     stop = min(FINE, functions)
     size = min(FINE_FROM, stop, *chosen[0].functional_map.shape)
     C = np.stack([c.functional_map[:size, :size] for c in chosen])
-    refined = refine(C, whole, (*range(size, stop, FINE_STEP), stop), WEIGHTS, (), config.threads)
+    refined = refine_batch(C, whole, (*range(size, stop, FINE_STEP), stop), WEIGHTS, (), config.threads)
     names = [(c.name if c.name.startswith(LEARNED) else f"{LEARNED}, {c.name}", True) for c in chosen]
-    return judged(names, *refined, on.whole, config.threads)
+    return score_maps(names, *refined, on.whole, config.threads)
 
 
 def seen(
-    source: Shape, target: Shape, config: Config, probe_s: Probe, probe_t: Probe
+    source: Shape, target: Shape, config: Config, probe_s: ShapeSamples, probe_t: ShapeSamples
 ) -> tuple[np.ndarray, np.ndarray] | None:
     """Transformed descriptors ``(q_s, r)``, ``(q_t, r)`` at the samples of both probes.
 
@@ -115,19 +118,19 @@ def seen(
         for shape, basis, probe in zip((source, target), bases, (probe_s, probe_t), strict=True)
     ]
     used = pair_descriptors(at[0], at[1], bases, config.descriptors, np.zeros((0, 2), dtype=np.int64), None)
-    if width(config.kernel) != used.source.shape[1]:
+    if descriptor_width(config.kernel) != used.source.shape[1]:
         return None
-    return transformed(config.kernel, to_numpy(used.source)), transformed(config.kernel, to_numpy(used.target))
+    return transform_rows(config.kernel, to_numpy(used.source)), transform_rows(config.kernel, to_numpy(used.target))
 
 
-def transformed(kernel: KernelLike, rows: np.ndarray) -> np.ndarray:
+def transform_rows(kernel: KernelLike, rows: np.ndarray) -> np.ndarray:
     """``rows (n, d)`` as the innermost kernel sees them."""
     if isinstance(kernel, Metric | Network):
-        return transformed(kernel.kernel, np.asarray(kernel.transformed(rows)))
+        return transform_rows(kernel.kernel, np.asarray(kernel.transform(rows)))
     return rows
 
 
-def by_metric(on: Ground, source: np.ndarray, target: np.ndarray) -> Ground:
+def by_metric(on: SamplePair, source: np.ndarray, target: np.ndarray) -> SamplePair:
     """The ground with points compared in the learned metric; rows of more samples than it has are left out."""
     rows = source[: len(on.source.positions)], target[: len(on.target.positions)]
-    return replace(on, shot=None if (found := guide(*rows)) is None else differences(found))
+    return replace(on, shot=None if (found := descriptor_guidance(*rows)) is None else descriptor_cost(found))

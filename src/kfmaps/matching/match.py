@@ -9,27 +9,27 @@ import numpy as np
 
 from kfmaps._arrays import check, refuse, seed_of, to_numpy
 from kfmaps._progress import Progress
-from kfmaps._stage_timer import Clock
+from kfmaps._stage_timer import StageTimer
 from kfmaps._threads import available_cores, parallel
 from kfmaps.config import Config
 from kfmaps.fmap.convert import check_point_map, to_functional
-from kfmaps.fmap.descriptor_guidance import Guide, guide, joined
-from kfmaps.fmap.precise import PointMap, to_places
+from kfmaps.fmap.descriptor_guidance import DescriptorGuidance, combine_guidance, descriptor_guidance
+from kfmaps.fmap.precise import PointMap, to_precise_map
 from kfmaps.fmap.refine import ZoomOut
-from kfmaps.fmap.transfer import carried
+from kfmaps.fmap.transfer import transfer_functions
 from kfmaps.geometry.eigen.eigensolver import THREADED
 from kfmaps.geometry.mesh import MIRROR, Mesh, vertex_areas
-from kfmaps.matching.fit import Fit, checked_landmarks, fit
-from kfmaps.matching.landmark_evidence import LEAD, LESS, leading
-from kfmaps.matching.memory import check_demand
-from kfmaps.matching.partial.detect import suspicion
-from kfmaps.matching.partial.match_partial import Partly, partly, reason
-from kfmaps.matching.postprocess import finished
-from kfmaps.matching.quality import Probe
-from kfmaps.matching.reindexing import Border, border
-from kfmaps.matching.search import Found, alike, choose, closing, loosened
-from kfmaps.registration.accept import Bend, placed
-from kfmaps.registration.alternating_registration import WEIGHT, lying
+from kfmaps.matching.fit import Fit, check_landmark_pairs, fit
+from kfmaps.matching.landmark_evidence import LEAD, LESS, build_guidance
+from kfmaps.matching.memory import check_match_memory
+from kfmaps.matching.partial.detect import detect_part
+from kfmaps.matching.partial.match_partial import PartialMatch, match_partial, reason
+from kfmaps.matching.postprocess import refine_map
+from kfmaps.matching.quality import ShapeSamples
+from kfmaps.matching.reindexing import VertexReindexing, reindexing
+from kfmaps.matching.search import SearchResult, adapt_refinement, adapt_registration, near_isometric, search_map
+from kfmaps.registration.accept import RegistrationReport, register_map
+from kfmaps.registration.alternating_registration import WEIGHT, position_normal_guidance
 from kfmaps.shape import Shape, mirror_image, prepare
 
 ONE_FIT = "one fit"
@@ -104,7 +104,7 @@ class Match:
         Of a search: the score of the map itself, :attr:`kfmaps.matching.quality.Quality.score`, 0 at best.
     bending : float or None
         Of a search: how far the shapes must bend to follow it,
-        :func:`kfmaps.registration.deformation_energy.bending`; 0 for a motion.
+        :func:`kfmaps.registration.deformation_energy.deformation_energy`; 0 for a motion.
     overlap_source, overlap_target : (n_s,), (n_t,) float64 or None
         Probability of each vertex to be in the part that both have; ``None`` where both were taken for whole.
     """
@@ -116,44 +116,44 @@ class Match:
     verdict: str
     config: Config
     seconds: dict[str, float]
-    origin: str
+    initialization: str
     raw_functional_map: np.ndarray
     raw_target_to_source: np.ndarray | None
     fit: Fit | None
     local_confidence: np.ndarray
     confidence: float | None = None
     scores: tuple[float, ...] = ()
-    runners_up: tuple[np.ndarray, ...] = ()
-    doubted: np.ndarray = field(default_factory=lambda: np.zeros(0, dtype=np.int64))
+    alternatives: tuple[np.ndarray, ...] = ()
+    rejected_landmarks: np.ndarray = field(default_factory=lambda: np.zeros(0, dtype=np.int64))
     orientation: str = "kept"
     source_to_target: np.ndarray | None = None
-    map_back: np.ndarray | None = None
-    border: Border | None = None
-    place: PointMap | None = None
-    bent: np.ndarray | None = None
-    bend: Bend | None = None
+    functional_map_back: np.ndarray | None = None
+    _reindexing: VertexReindexing | None = None
+    precise_map: PointMap | None = None
+    registered_vertices: np.ndarray | None = None
+    registration: RegistrationReport | None = None
     partial: str = "none"
     partial_reason: str = ""
     part_scale: float | None = None
     overlap_source: np.ndarray | None = None
     overlap_target: np.ndarray | None = None
     quality: float | None = None
-    bending: float | None = None
+    deformation_energy: float | None = None
 
     def precise(self) -> PointMap:
         """A point inside a triangle of the source for each target vertex: finer than ``target_to_source``.
 
         Of the non-rigid fit, where it was kept; else the exact nearest point of the source's surface in the spectral
-        embedding (:func:`kfmaps.fmap.precise.to_places`), which is found anew with every call.
+        embedding (:func:`kfmaps.fmap.precise.to_precise_map`), which is found anew with every call.
 
         Raises
         ------
         InvalidInput
             When one of the shapes is a point cloud.
         """
-        if self.place is not None:
-            return self.place
-        across = self.border
+        if self.precise_map is not None:
+            return self.precise_map
+        across = self._reindexing
         if across is None:
             raise refuse("precise", "a match with its shapes", "one without", "match them again")
         for shape in (across.source, across.target):
@@ -162,10 +162,10 @@ class Match:
         refine, beside = self.config.refinement, None
         mirrored = self.orientation == "reversed"
         if isinstance(refine, ZoomOut) and refine.guidance and not mirrored:
-            guiding = guide(across.source.shot, across.target.shot)
-            beside = guiding and guiding.beside(refine.guidance, across.source.basis, across.target.basis)
+            guiding = descriptor_guidance(across.source.shot, across.target.shot)
+            beside = guiding and guiding.embedding_columns(refine.guidance, across.source.basis, across.target.basis)
         bases, faces = (across.source.basis, across.target.basis), across.source.mesh.faces
-        return across.place(to_places(self.functional_map, *bases, faces, self.config.threads, beside))
+        return across.place(to_precise_map(self.functional_map, *bases, faces, self.config.threads, beside))
 
     def transfer(self, values: Any, products: int | None = 20) -> np.ndarray:
         """Functions ``values (n_s, d)`` or ``(n_s,)`` on the source, carried to the target by the functional map.
@@ -174,7 +174,7 @@ class Match:
         outside the common part is in every coefficient.
 
         ``products`` of the first basis functions with each other are carried too, beyond what the map alone can; see
-        :func:`kfmaps.fmap.transfer.carried`. Labels, which are no functions, go by points:
+        :func:`kfmaps.fmap.transfer.transfer_functions`. Labels, which are no functions, go by points:
         ``values[match.target_to_source]``.
 
         Raises
@@ -182,19 +182,21 @@ class Match:
         InvalidInput
             When there is not one row per source vertex.
         """
-        across = self.border
+        across = self._reindexing
         if across is None:
             raise refuse("transfer", "a match with its shapes", "one without", "match them again")
         values = np.asarray(values, dtype=np.float64)
-        n = len(across.part_s.number)
+        n = len(across.part_s.to_clean)
         check(values, "values", shape=(n, *(None,) * (values.ndim - 1)), remedy="give one row per source vertex")
-        if self.partial != "none" and self.place is not None:
-            corners = values[across.outside[0].mesh.faces[self.place.faces]]
-            mixed = np.einsum("ti,ti...->t...", self.place.weights, corners)
+        if self.partial != "none" and self.precise_map is not None:
+            corners = values[across.outside[0].mesh.faces[self.precise_map.faces]]
+            mixed = np.einsum("ti,ti...->t...", self.precise_map.weights, corners)
             mixed[self.target_to_source < 0] = np.nan
             return mixed
         bases = (across.source.basis, across.target.basis)
-        return carried(values[across.part_s.kept], self.functional_map, *bases, products)[across.part_t.number]
+        return transfer_functions(values[across.part_s.to_original], self.functional_map, *bases, products)[
+            across.part_t.to_clean
+        ]
 
 
 def match(
@@ -206,7 +208,7 @@ def match(
     descriptors: tuple[Any, Any] | None = None,
     rng: int | np.random.Generator | None = 0,
     progress: Progress | None = None,
-    probes: tuple[Probe, Probe] | None = None,
+    probes: tuple[ShapeSamples, ShapeSamples] | None = None,
 ) -> Match:
     """Find for each vertex of ``target`` the corresponding vertex of ``source``.
 
@@ -235,7 +237,8 @@ def match(
     progress : callable, optional
         ``progress(stage, done)`` with done from 0 to 1.
     probes : pair of Probe, optional
-        What the search with this ``rng`` needs to know of each shape, from :func:`kfmaps.matching.search.probed`: saves
+        What the search with this ``rng`` needs to know of each shape, from
+        :func:`kfmaps.matching.search.scoring_samples`: saves
         an eighth of the time where a shape is matched many times, and changes nothing.
 
     Raises
@@ -248,21 +251,21 @@ def match(
     config = config or default_config(descriptors)
     marks = landmarks if has_landmarks(landmarks) else None
     shapes = prepare_both(source, target, config, progress=progress)
-    across = border(shapes[0], shapes[1])
+    across = reindexing(shapes[0], shapes[1])
     marks, descriptors = across.landmarks(marks), across.descriptors(descriptors)
     n_s, n_t = (len(shape.mesh.vertices) for shape in shapes)
-    check_demand(config, n_s, n_t, 0 if marks is None else len(marks))
+    check_match_memory(config, n_s, n_t, 0 if marks is None else len(marks))
     shapes = [across.source, across.target]
-    clock = Clock(progress)
+    clock = StageTimer(progress)
     seed = seed_of(rng)
     more = {"descriptors": descriptors, "rng": seed, "progress": progress}
     which, why = config.partial.which, "as asked for"
     if which == "auto":
-        seen = suspicion(shapes[0].mesh, shapes[1].mesh)
-        which, why = seen.which, seen.why
+        seen = detect_part(shapes[0].mesh, shapes[1].mesh)
+        which, why = seen.which, seen.reason
     if which != "none":
         with clock("parts"):
-            part = partly(shapes[0], shapes[1], config, which, landmarks=marks, rng=seed, progress=progress)
+            part = match_partial(shapes[0], shapes[1], config, which, landmarks=marks, rng=seed, progress=progress)
         if config.partial.which != "auto" or (not part.whole and part.verdict != "poor"):
             return _parted(part, why, across, shapes, config, clock)
         why = f"taken for whole: {why}, but " + ("each covers all of the other" if part.whole else "it fits nowhere")
@@ -272,95 +275,100 @@ def match(
             shapes[1] = mirror_image(shapes[1])
             probes = None  # they are of the shapes as they were given
         with clock("candidates"):
-            found = choose(shapes[0], shapes[1], config, landmarks=marks, probes=probes, **more)
+            found = search_map(shapes[0], shapes[1], config, landmarks=marks, probes=probes, **more)
         if found.orientation == "reversed" and config.search.orientation != "reversed":
             shapes[1] = mirror_image(shapes[1])
-        led = _led(found, shapes)
+        led = _guidance(found, shapes)
     else:
         one = fit(shapes[0], shapes[1], config, landmarks=marks, **more)
         clock.seconds.update(one.seconds)
-        verdict, pairs = "unchecked" if marks is None else "landmarks", checked_landmarks(marks, *shapes)
-        found = Found(one.functional_map, ONE_FIT, one, verdict, landmarks=pairs)
+        verdict, pairs = "unchecked" if marks is None else "landmarks", check_landmark_pairs(marks, *shapes)
+        found = SearchResult(one.functional_map, ONE_FIT, one, verdict, landmarks=pairs)
     back = None
     if config.formulation.directions == "both":
         # The adjoint, where a search has found the map: its candidates are refined one way.
-        back = found.fit.back if found.origin == ONE_FIT and found.fit is not None else found.functional_map.T
-    ended = _ended(found, across, shapes, config, clock, led, back, seed)
+        back = found.fit.back if found.initialization == ONE_FIT and found.fit is not None else found.functional_map.T
+    ended = _refine_and_register(found, across, shapes, config, clock, led, back, seed)
     for i, way in enumerate(found.again, 1):
-        if (torn(ended) or 0.0) <= TORN:
+        if (torn_area_fraction(ended) or 0.0) <= TORN:
             break
         with clock(f"another way, {i}"):
             # With a lower score it would not be worth more even if nothing of it were torn.
-            told = way(worth(ended))
+            told = way(final_score(ended))
             if told is not None:
                 back = None if back is None else told.functional_map.T
-                ending = Clock(progress)
-                ended = worthier(ended, _ended(told, across, shapes, config, ending, _led(told, shapes), back, seed))
+                ending = StageTimer(progress)
+                ended = better_match(
+                    ended,
+                    _refine_and_register(told, across, shapes, config, ending, _guidance(told, shapes), back, seed),
+                )
     return replace(ended, partial_reason=why) if config.partial.which == "auto" else ended
 
 
-def _led(found: Found, shapes: list[Shape]) -> Guide | None:
+def _guidance(found: SearchResult, shapes: list[Shape]) -> DescriptorGuidance | None:
     """What leads the refinement of a map that a search has found."""
-    tips = found.limbs and found.limbs.guide(shapes[0].mesh, shapes[1].mesh)
-    led = leading(shapes[0], shapes[1], found.landmarks, tips, lead=LEAD if alike(found) else LESS)
-    if found.bent is None:
+    tips = found.extremities and found.extremities.guide(shapes[0].mesh, shapes[1].mesh)
+    led = build_guidance(shapes[0], shapes[1], found.landmarks, tips, lead=LEAD if near_isometric(found) else LESS)
+    if found.registered_vertices is None:
         return led
     meshes = [shape.mesh for shape in shapes]
-    moved = 1 if found.backwards else 0
-    meshes[moved] = Mesh(found.bent, meshes[moved].faces)
-    return joined([(1.0, led), (WEIGHT, lying(meshes[0], meshes[1]))])
+    moved = 1 if found.swapped else 0
+    meshes[moved] = Mesh(found.registered_vertices, meshes[moved].faces)
+    return combine_guidance([(1.0, led), (WEIGHT, position_normal_guidance(meshes[0], meshes[1]))])
 
 
-def worthier(one: Match, other: Match) -> Match:
+def better_match(one: Match, other: Match) -> Match:
     """The ``other`` of two matches of the same shapes where it is worth more, else ``one``; with its seconds.
 
     Between shapes of other proportions distances nearby change everywhere; after the non-rigid fit they are kept badly
     only where a limb is torn or has been sent elsewhere, which no score of the search tells so well. Without that fit
     nothing can be told.
     """
-    if torn(one) is None or torn(other) is None or worth(other) <= worth(one):
+    if torn_area_fraction(one) is None or torn_area_fraction(other) is None or final_score(other) <= final_score(one):
         return one
     return replace(other, seconds=one.seconds)
 
 
-def worth(match: Match) -> float:
+def final_score(match: Match) -> float:
     """The score of a match that a search has found, less :data:`TEAR` times what is torn."""
-    return match.scores[0] - TEAR * (torn(match) or 0.0)
+    return match.scores[0] - TEAR * (torn_area_fraction(match) or 0.0)
 
 
-def torn(match: Match) -> float | None:
+def torn_area_fraction(match: Match) -> float | None:
     """The share of the target around which a match with a non-rigid fit keeps distances badly, from 0 to 1.
 
     Where the fit was refused that of the map before it, which is more. ``None`` where none was made, before which
     distances between shapes of other proportions are kept badly everywhere.
     """
-    if match.bend is None or match.border is None:
+    if match.registration is None or match._reindexing is None:
         return None
-    areas = vertex_areas(match.border.outside[1].mesh)
+    areas = vertex_areas(match._reindexing.outside[1].mesh)
     return float(areas[match.local_confidence < BADLY].sum() / areas.sum())
 
 
-def _parted(part: Partly, why: str, across: Border, shapes: list[Shape], config: Config, clock: Clock) -> Match:
+def _parted(
+    part: PartialMatch, why: str, across: VertexReindexing, shapes: list[Shape], config: Config, clock: StageTimer
+) -> Match:
     """The match of a part and a whole."""
     overlaps = across.overlap(part.overlap_source, part.overlap_target)
-    return _filled(
+    return _build_result(
         part.target_to_source,
         part.functional_map,
-        part.trust,
+        part.local_confidence,
         across,
         shapes,
         config,
         clock,
-        place=part.place,
-        bent=part.bent,
+        precise_map=part.precise_map,
+        registered_vertices=part.registered_vertices,
         verdict=part.verdict,
-        origin="a part bent onto the other",
+        initialization="a part bent onto the other",
         raw_functional_map=part.functional_map,
         raw_target_to_source=None,
         fit=None,
         confidence=part.confidence,
         scores=part.scores,
-        doubted=part.doubted,
+        rejected_landmarks=part.rejected_landmarks,
         partial=part.part,
         partial_reason=reason(part, why),
         part_scale=part.scale,
@@ -369,7 +377,7 @@ def _parted(part: Partly, why: str, across: Border, shapes: list[Shape], config:
     )
 
 
-def continued(
+def match_from_map(
     source: Shape,
     target: Shape,
     points: np.ndarray,
@@ -392,7 +400,7 @@ def continued(
     points : (n_t,) whole numbers
         A source vertex for each target vertex: of a composition of other maps, say.
     origin : str
-        Where it comes from, for :attr:`Match.origin`.
+        Where it comes from, for :attr:`Match.initialization`.
     orientation : "kept" or "reversed"
         Whether it is a map to the target or to its mirror image.
     verdict, confidence, runners_up
@@ -409,31 +417,35 @@ def continued(
     for shape in (source, target):
         check_prepared(shape, config)
     points = check_point_map(points, len(source.mesh.vertices), len(target.mesh.vertices))
-    across, clock = border(source, target), Clock(progress)
+    across, clock = reindexing(source, target), StageTimer(progress)
     shapes = [across.source, mirror_image(across.target) if orientation == "reversed" else across.target]
-    within = across.part_s.number[points[across.part_t.kept]]
+    within = across.part_s.to_clean[points[across.part_t.to_original]]
     size = min(CONTINUED, *(len(shape.basis.eigenvalues) for shape in shapes))
-    C = to_numpy(to_functional(within, *(shape.basis.truncated(size) for shape in shapes)))
-    found = Found(C, origin, None, verdict, confidence, orientation=orientation, quality=quality)
-    led = leading(shapes[0], shapes[1], found.landmarks)
+    C = to_numpy(to_functional(within, *(shape.basis.truncate(size) for shape in shapes)))
+    found = SearchResult(C, origin, None, verdict, confidence, orientation=orientation, quality=quality)
+    led = build_guidance(shapes[0], shapes[1], found.landmarks)
     back = C.T if config.formulation.directions == "both" else None
-    return replace(_ended(found, across, shapes, config, clock, led, back, seed_of(rng)), runners_up=runners_up)
+    return replace(
+        _refine_and_register(found, across, shapes, config, clock, led, back, seed_of(rng)), alternatives=runners_up
+    )
 
 
-def _ended(
-    found: Found,
-    across: Border,
+def _refine_and_register(
+    found: SearchResult,
+    across: VertexReindexing,
     shapes: list[Shape],
     config: Config,
-    clock: Clock,
-    led: Guide | None,
+    clock: StageTimer,
+    led: DescriptorGuidance | None,
     back: np.ndarray | None,
     seed: int,
 ) -> Match:
     """The match of a map that is ``found`` between two ``shapes`` inside their border, the target turned as it says."""
-    single = found.origin == ONE_FIT
-    ending = replace(config, refinement=closing(config.refinement, found), finish=loosened(config.finish, found))
-    end = finished(
+    single = found.initialization == ONE_FIT
+    ending = replace(
+        config, refinement=adapt_refinement(config.refinement, found), finish=adapt_registration(config.finish, found)
+    )
+    end = refine_map(
         found.functional_map,
         shapes[0],
         shapes[1],
@@ -445,49 +457,49 @@ def _ended(
         progress=clock.report,
     )
     clock.seconds.update(end.seconds)
-    last = placed(end.target_to_source, shapes[0], shapes[1], ending, clock, found.landmarks)
-    bent = last.bent
+    last = register_map(end.target_to_source, shapes[0], shapes[1], ending, clock, found.landmarks)
+    bent = last.registered_vertices
     if bent is not None and found.orientation == "reversed":
         bent = bent * MIRROR
-    return _filled(
+    return _build_result(
         last.target_to_source,
         end.functional_map,
-        last.trust,
+        last.local_confidence,
         across,
         shapes,
         config,
         clock,
-        place=last.place,
-        bent=bent,
+        precise_map=last.precise_map,
+        registered_vertices=bent,
         verdict=found.verdict,
-        origin=found.origin,
+        initialization=found.initialization,
         raw_functional_map=found.functional_map,
         raw_target_to_source=None if end.raw_target_to_source is None else across.points(end.raw_target_to_source),
         fit=found.fit,
         confidence=found.confidence,
         scores=found.scores,
-        runners_up=tuple(across.points(points) for points in found.runners_up),
-        doubted=found.doubted,
+        alternatives=tuple(across.points(points) for points in found.runners_up),
+        rejected_landmarks=found.rejected_landmarks,
         orientation=found.orientation,
         source_to_target=None if end.source_to_target is None else across.points_back(end.source_to_target),
-        map_back=end.map_back,
-        bend=last.fit,
+        functional_map_back=end.functional_map_back,
+        registration=last.fit,
         quality=found.quality,
-        bending=found.bending,
+        deformation_energy=found.deformation_energy,
     )
 
 
-def _filled(
+def _build_result(
     points: np.ndarray,
     C: np.ndarray,
     trust: np.ndarray,
-    across: Border,
+    across: VertexReindexing,
     shapes: list[Shape],
     config: Config,
-    clock: Clock,
+    clock: StageTimer,
     *,
-    place: PointMap | None,
-    bent: np.ndarray | None,
+    precise_map: PointMap | None,
+    registered_vertices: np.ndarray | None,
     **more: Any,
 ) -> Match:
     """The record of a map that was made inside its border: what is given per vertex goes out to the shapes as given."""
@@ -500,9 +512,9 @@ def _filled(
         config=config,
         seconds=clock.seconds,
         local_confidence=across.trust(trust),
-        border=across,
-        place=None if place is None else across.place(place),
-        bent=None if bent is None else across.bent(bent),
+        _reindexing=across,
+        precise_map=None if precise_map is None else across.place(precise_map),
+        registered_vertices=None if registered_vertices is None else across.bent(registered_vertices),
         **more,
     )
 

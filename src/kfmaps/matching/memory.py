@@ -6,7 +6,7 @@ from kfmaps._memory import check_memory
 from kfmaps.config import Config
 
 
-def check_demand(config: Config, n_s: int, n_t: int, landmarks: int = 0) -> None:
+def check_match_memory(config: Config, n_s: int, n_t: int, landmarks: int = 0) -> None:
     """Refuse numbers of descriptors or samples whose arrays do not fit into the machine's memory.
 
     Counted are only the arrays that cannot be avoided, so that nothing is refused which could be done.

@@ -10,20 +10,20 @@ import numpy as np
 
 from kfmaps._arrays import like, to_numpy
 from kfmaps._progress import Progress
-from kfmaps._stage_timer import Clock
+from kfmaps._stage_timer import StageTimer
 from kfmaps._threads import one_blas_thread
 from kfmaps.config import Config
-from kfmaps.fmap.bidirectional_zoomout import zoomed_both
+from kfmaps.fmap.bidirectional_zoomout import bidirectional_zoomout
 from kfmaps.fmap.convert import to_points
-from kfmaps.fmap.descriptor_guidance import Guide, guide
+from kfmaps.fmap.descriptor_guidance import DescriptorGuidance, descriptor_guidance
 from kfmaps.fmap.refine import ICP, ZoomOut
 from kfmaps.geometry.basis import Basis
 from kfmaps.shape import Shape
 
 
 @dataclass(frozen=True, eq=False)
-class Finished:
-    """What :func:`finished` returns.
+class PostprocessedMap:
+    """What :func:`refine_map` returns.
 
     Attributes
     ----------
@@ -45,21 +45,21 @@ class Finished:
     raw_target_to_source: np.ndarray | None
     seconds: dict[str, float]
     source_to_target: np.ndarray | None = None
-    map_back: np.ndarray | None = None
+    functional_map_back: np.ndarray | None = None
 
 
-def finished(
+def refine_map(
     C: Any,
     source: Shape,
     target: Shape,
     config: Config,
     *,
     raw: bool = True,
-    led: Guide | None = None,
+    led: DescriptorGuidance | None = None,
     back: Any = None,
     rng: int = 0,
     progress: Progress | None = None,
-) -> Finished:
+) -> PostprocessedMap:
     """The points of ``C (k_t, k_s)`` on all vertices, refined as ``config.refinement`` says.
 
     ``raw`` asks for the point map before the refinement too. What guides a refinement that wants guidance is ``led``
@@ -70,7 +70,7 @@ def finished(
     """
     if isinstance(config.refinement, ZoomOut):
         config = replace(config, refinement=replace(config.refinement, seed=config.refinement.seed + rng))
-    clock = Clock(progress)
+    clock = StageTimer(progress)
     bases = (source.basis, target.basis)
     if config.device != "cpu":
         bases = (bases[0].to(config.device), bases[1].to(config.device))
@@ -81,20 +81,20 @@ def finished(
                 points = to_points(C, *bases, threads=config.threads)
         if config.refinement is None:
             assert points is not None
-            found = Finished(points, to_numpy(C), points, clock.seconds)
+            found = PostprocessedMap(points, to_numpy(C), points, clock.seconds)
             if back is None:
                 return found
             back = like(back, bases[0].functions)
             return replace(
                 found,
                 source_to_target=to_points(back, bases[1], bases[0], threads=config.threads),
-                map_back=to_numpy(back),
+                functional_map_back=to_numpy(back),
             )
         refine = config.refinement
         if back is not None:
             return _finished_both(C, like(back, C), (source, target), bases, config, points, clock, led)
         if isinstance(refine, ZoomOut) and refine.guidance:
-            refine = partial(refine, guide=led or guide(source.shot, target.shot))
+            refine = partial(refine, guide=led or descriptor_guidance(source.shot, target.shot))
         with clock("refinement"):
             refined = refine(
                 C,
@@ -103,7 +103,7 @@ def finished(
                 threads=config.threads,
                 points=points,
             )
-    return Finished(refined.target_to_source, to_numpy(refined.functional_map), points, clock.seconds)
+    return PostprocessedMap(refined.target_to_source, to_numpy(refined.functional_map), points, clock.seconds)
 
 
 def _finished_both(
@@ -113,10 +113,10 @@ def _finished_both(
     bases: tuple[Basis, Basis],
     config: Config,
     points: np.ndarray | None,
-    clock: Clock,
-    led: Guide | None,
-) -> Finished:
-    """Both maps refined; see :func:`finished`."""
+    clock: StageTimer,
+    led: DescriptorGuidance | None,
+) -> PostprocessedMap:
+    """Both maps refined; see :func:`refine_map`."""
     refine = config.refinement
 
     def told(done: float) -> None:
@@ -124,13 +124,13 @@ def _finished_both(
 
     with clock("refinement"):
         if isinstance(refine, ZoomOut):
-            guiding = led or guide(shapes[0].shot, shapes[1].shot) if refine.guidance else None
-            forth, other = zoomed_both(refine, C, back, *bases, told, config.threads, guiding)
+            guiding = led or descriptor_guidance(shapes[0].shot, shapes[1].shot) if refine.guidance else None
+            forth, other = bidirectional_zoomout(refine, C, back, *bases, told, config.threads, guiding)
         else:
             assert isinstance(refine, ICP)
             forth = refine(C, *bases, progress=told, threads=config.threads, points=points)
             other = refine(back, bases[1], bases[0], threads=config.threads)
-    return Finished(
+    return PostprocessedMap(
         forth.target_to_source,
         to_numpy(forth.functional_map),
         points,

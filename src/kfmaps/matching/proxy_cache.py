@@ -5,14 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cached_property
 
-from kfmaps.matching.sample_pair import Ground
-from kfmaps.registration.deformation_energy import MORE, Copy, Ready, copied, ready
-from kfmaps.registration.registered_shot import Looks, looks
+from kfmaps.matching.sample_pair import SamplePair
+from kfmaps.registration.deformation_energy import MORE, CoarseProxy, FacingPair, coarse_copy, facing_pair
+from kfmaps.registration.registered_shot import ShotPair, shot_pair
 from kfmaps.shape import Shape, mirror_image
 
 
 @dataclass(frozen=True, eq=False)
-class Copies:
+class ProxyCache:
     """Of two shapes, each made when it is first asked for; ``None`` where a shape has no faces to bend.
 
     Attributes
@@ -26,11 +26,11 @@ class Copies:
 
     source: Shape
     target: Shape
-    coarse: tuple[Copy | None, Copy | None]
+    copies: tuple[CoarseProxy | None, CoarseProxy | None]
     mirrored: bool = False
 
     @classmethod
-    def of(cls, source: Shape, target: Shape, on: Ground) -> Copies:
+    def of(cls, source: Shape, target: Shape, on: SamplePair) -> ProxyCache:
         """Of the shapes as they are ``on`` a ground."""
         return cls(source, target, (on.source.copy, on.target.copy), on.target.mirrored)
 
@@ -40,13 +40,13 @@ class Copies:
         return mirror_image(self.target) if self.mirrored else self.target
 
     @cached_property
-    def few(self) -> Ready | None:
+    def coarse(self) -> FacingPair | None:
         """The coarse ones."""
-        a, b = self.coarse
-        return None if a is None or b is None else ready(a, b)
+        a, b = self.copies
+        return None if a is None or b is None else facing_pair(a, b)
 
     @cached_property
-    def finer(self) -> Looks | None:
+    def fine(self) -> ShotPair | None:
         """With :data:`~kfmaps.registration.deformation_energy.MORE` points, and how they look."""
-        a, b = copied(self.source, MORE), copied(self.target, MORE)
-        return None if a is None or b is None else looks(ready(a, b.mirrored() if self.mirrored else b))
+        a, b = coarse_copy(self.source, MORE), coarse_copy(self.target, MORE)
+        return None if a is None or b is None else shot_pair(facing_pair(a, b.mirrored() if self.mirrored else b))

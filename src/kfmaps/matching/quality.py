@@ -14,21 +14,21 @@ import numpy as np
 from scipy.sparse.csgraph import dijkstra
 
 from kfmaps._arrays import Array, like, to_numpy
-from kfmaps.descriptors.shot import mirrored
+from kfmaps.descriptors.shot import mirror_shot
 from kfmaps.descriptors.spectral import heat_signature
 from kfmaps.fmap.convert import nearest
 from kfmaps.fmap.descriptor_guidance import FLAT
-from kfmaps.fmap.refine import SampledBasis, Samples, spectral_samples
-from kfmaps.geometry.among import distances_among
-from kfmaps.geometry.basis import Basis, zero_level
-from kfmaps.geometry.coarsen import coarse
-from kfmaps.geometry.geodesic_graph import surface_graph
+from kfmaps.fmap.refine import SampledBasis, SpectralSamples, spectral_samples
+from kfmaps.geometry.among import pairwise_geodesics
+from kfmaps.geometry.basis import Basis, eigenvalue_tolerance
+from kfmaps.geometry.coarsen import coarsen
+from kfmaps.geometry.geodesic_graph import geodesic_graph
 from kfmaps.geometry.mesh import Mesh
-from kfmaps.geometry.orientation_operators import orientation_slices
+from kfmaps.geometry.orientation_operators import orientation_operators
 from kfmaps.geometry.sampling import stratified_vertices
-from kfmaps.matching.extremities import Tips, tips
+from kfmaps.matching.extremities import Extremities, extremities
 from kfmaps.matching.sample_cache import Known, Rows, known
-from kfmaps.registration.deformation_energy import Copy, copied
+from kfmaps.registration.deformation_energy import CoarseProxy, coarse_copy
 from kfmaps.shape import Shape
 
 POINTS = 1000
@@ -50,8 +50,8 @@ WAVES = 10
 
 
 @dataclass(frozen=True, eq=False)
-class Probe:
-    """What judging maps needs of one shape; made by :func:`probe`.
+class ShapeSamples:
+    """What judging maps needs of one shape; made by :func:`sample_for_scoring`.
 
     Attributes
     ----------
@@ -79,15 +79,15 @@ class Probe:
         mirror image too; ``None`` where they have not been looked for.
     """
 
-    samples: Samples
+    samples: SpectralSamples
     distances: np.ndarray
     orientation: np.ndarray | None
     descriptors: np.ndarray | None
     heat: np.ndarray
     positions: np.ndarray
-    marks: np.ndarray
-    tips: Tips
-    copy: Copy | None
+    landmark_distances: np.ndarray
+    extremities: Extremities
+    copy: CoarseProxy | None
     mirrored: bool = False
     turns: np.ndarray | None = None
 
@@ -96,7 +96,9 @@ class Probe:
         """What judging each of many maps would find again."""
         basis = self.samples.basis
         areas = to_numpy(basis.mass) / float(basis.mass.sum())
-        return known(basis.functions, areas, self.distances, self.orientation, self.descriptors, self.heat, self.tips)
+        return known(
+            basis.functions, areas, self.distances, self.orientation, self.descriptors, self.heat, self.extremities
+        )
 
 
 @dataclass(frozen=True)
@@ -128,12 +130,12 @@ class Quality:
 
     orientation: float
     distortion: float
-    stretch: float
+    local_distortion: float
     descriptors: float
     heat: float
     coverage: float
     laplacian: float
-    ends: float = 0.0
+    extremity_descriptor_error: float = 0.0
 
     @property
     def score(self) -> float:
@@ -141,7 +143,7 @@ class Quality:
         return (
             self.orientation
             - 6.0 * self.distortion
-            - 10.0 * self.stretch
+            - 10.0 * self.local_distortion
             - 12.0 * self.descriptors
             - 2.0 * self.heat
             + self.coverage
@@ -149,13 +151,13 @@ class Quality:
         )
 
 
-def probe(
+def sample_for_scoring(
     shape: Shape,
     count: int = POINTS,
     rng: int | np.random.Generator = 0,
     threads: int | None = None,
     landmarks: np.ndarray | None = None,
-) -> Probe:
+) -> ShapeSamples:
     """Sample ``count`` points of ``shape`` and work out what :func:`map_quality` compares.
 
     ``landmarks (l,)``: vertices whose distances to the samples are wanted too.
@@ -163,9 +165,9 @@ def probe(
     samples = spectral_samples(shape.basis, count, rng)
     marked = np.zeros(0, dtype=np.int64) if landmarks is None else landmarks
     first = samples.vertices[:COARSE]
-    mesh, functions, rows = surface(shape, np.concatenate([samples.vertices, marked]))
-    graph = surface_graph(mesh, 1)
-    close = distances_among(graph, rows[: len(first)])
+    mesh, functions, rows = sample_surface(shape, np.concatenate([samples.vertices, marked]))
+    graph = geodesic_graph(mesh, 1)
+    close = pairwise_geodesics(graph, rows[: len(first)])
     # Separate components are as far apart as the farthest points of one.
     joined = np.isfinite(close)
     farthest = close[joined].max() or float(np.linalg.norm(np.ptp(shape.mesh.vertices[first], axis=0)))
@@ -178,10 +180,10 @@ def probe(
     orientation = None
     if len(shape.mesh.faces):
         low = Basis(shape.basis.eigenvalues, functions[:, :OPERATORS], shape.basis.mass)
-        orientation = orientation_slices(mesh, low, functions[:, : 4 * WAVES], threads)
+        orientation = orientation_operators(mesh, low, functions[:, : 4 * WAVES], threads)
     local = None if shape.shot is None else shape.shot[samples.vertices]
     heat = np.log(np.maximum(to_numpy(heat_signature(samples.basis, TIMES)), 1e-12))
-    return Probe(
+    return ShapeSamples(
         samples,
         close,
         orientation,
@@ -189,21 +191,21 @@ def probe(
         heat,
         shape.mesh.vertices[samples.vertices],
         marks,
-        tips(close, areas_of_first(samples.basis, len(first)), mesh, rows[: len(samples.vertices)], graph),
-        copied(shape),
+        extremities(close, areas_of_first(samples.basis, len(first)), mesh, rows[: len(samples.vertices)], graph),
+        coarse_copy(shape),
     )
 
 
-def surface(shape: Shape, wanted: np.ndarray) -> tuple[Mesh, np.ndarray, np.ndarray]:
+def sample_surface(shape: Shape, wanted: np.ndarray) -> tuple[Mesh, np.ndarray, np.ndarray]:
     """The surface itself or, of a large one, a coarse copy; the basis on it; and where the ``wanted`` vertices are."""
     if len(shape.mesh.vertices) <= SURFACE:
         return shape.mesh, to_numpy(shape.basis.functions), wanted
     vertices = stratified_vertices(shape.basis, SURFACE, 0, np.unique(wanted))
-    mesh = coarse(shape.mesh, vertices)
+    mesh = coarsen(shape.mesh, vertices)
     return mesh, to_numpy(shape.basis.functions)[vertices], np.searchsorted(vertices, wanted)
 
 
-def thinned(probe: Probe, count: int) -> Probe:
+def subsample(probe: ShapeSamples, count: int) -> ShapeSamples:
     """The first ``count`` samples of ``probe``, which are farthest points too, with the areas of the others."""
     basis = probe.samples.basis
     if count >= len(probe.samples.vertices):
@@ -212,37 +214,37 @@ def thinned(probe: Probe, count: int) -> Probe:
     few = SampledBasis(basis.eigenvalues, basis.functions[:count], like(areas, basis.mass))
     return replace(
         probe,
-        samples=Samples(probe.samples.vertices[:count], few),
+        samples=SpectralSamples(probe.samples.vertices[:count], few),
         distances=probe.distances[: count // 2, : count // 2],
         descriptors=None if probe.descriptors is None else probe.descriptors[:count],
         heat=probe.heat[:count],
         positions=probe.positions[:count],
-        marks=probe.marks[:, :count],
-        tips=probe.tips.thinned(count),
+        landmark_distances=probe.landmark_distances[:, :count],
+        extremities=probe.extremities.thinned(count),
     )
 
 
 def areas_of_first(basis: SampledBasis, count: int) -> np.ndarray:
     """The areas (count,) that the first samples stand for when the others are given to the nearest of them."""
     functions, values = to_numpy(basis.functions)[:, 1 : LOW + 1], to_numpy(basis.eigenvalues)[1 : LOW + 1]
-    embedding = functions / np.maximum(values, max(1e-6 * values[-1], zero_level(basis)))
+    embedding = functions / np.maximum(values, max(1e-6 * values[-1], eigenvalue_tolerance(basis)))
     closest = nearest(embedding, embedding[:count], threads=1)
     return np.bincount(closest, to_numpy(basis.mass), minlength=count)
 
 
-def mirrored_probe(probe: Probe) -> Probe:
+def mirror_samples(probe: ShapeSamples) -> ShapeSamples:
     """The probe of the mirror image of the shape, with the same vertices."""
     return replace(
         probe,
-        descriptors=None if probe.descriptors is None else mirrored(probe.descriptors),
+        descriptors=None if probe.descriptors is None else mirror_shot(probe.descriptors),
         orientation=None if probe.orientation is None else -probe.orientation,
-        tips=probe.tips.mirrored(),
+        extremities=probe.extremities.mirrored(),
         copy=None if probe.copy is None else probe.copy.mirrored(),
         mirrored=not probe.mirrored,
     )
 
 
-def map_quality(C: Array, source: Probe, target: Probe, points: np.ndarray | None = None) -> Quality:
+def map_quality(C: Array, source: ShapeSamples, target: ShapeSamples, points: np.ndarray | None = None) -> Quality:
     """Judge the functional map ``C (k, k)``, refined on the samples of both probes, without knowing the truth.
 
     ``points``: the source sample of each target sample ``(q_t,)`` by ``C``, where they are known.
@@ -261,7 +263,7 @@ def map_quality(C: Array, source: Probe, target: Probe, points: np.ndarray | Non
     return Quality(
         orientation=_orientation(C, source, target),
         distortion=distortion,
-        stretch=stretch,
+        local_distortion=stretch,
         descriptors=0.5 * (_mean(squares_t, area_t) + _mean(squares_s, area_s)),
         heat=0.5
         * (
@@ -270,11 +272,11 @@ def map_quality(C: Array, source: Probe, target: Probe, points: np.ndarray | Non
         ),
         coverage=float(min(covered)),
         laplacian=_ratio((commutator**2).sum(), ((C * values_s[None, :]) ** 2).sum(), (values_s**2).sum(), 1.0),
-        ends=0.5 * (_mean(squares_t, known_t.ends) + _mean(squares_s, known_s.ends)),
+        extremity_descriptor_error=0.5 * (_mean(squares_t, known_t.ends) + _mean(squares_s, known_s.ends)),
     )
 
 
-def map_distortion(C: Array, source: Probe, target: Probe, points: np.ndarray | None = None) -> float:
+def map_distortion(C: Array, source: ShapeSamples, target: ShapeSamples, points: np.ndarray | None = None) -> float:
     """:attr:`Quality.distortion` alone; the parameters are those of :func:`map_quality`."""
     return _distortion(_images(to_numpy(C), source, target, points), source, target)[0]
 
@@ -289,7 +291,7 @@ class _Images:
     first_forth: np.ndarray
 
 
-def _images(C: np.ndarray, source: Probe, target: Probe, points: np.ndarray | None) -> _Images:
+def _images(C: np.ndarray, source: ShapeSamples, target: ShapeSamples, points: np.ndarray | None) -> _Images:
     """Nearest neighbours in both directions, from one product in single precision."""
     k_t, k_s = C.shape
     carried = source.known.functions[:, :k_s] @ np.asarray(C.T, dtype=np.float32)
@@ -317,7 +319,7 @@ def _ratio(part: float, whole: float, scale: float, otherwise: float) -> float:
     return float(part / whole) if whole > 1e-12 * scale else otherwise
 
 
-def _orientation(C: np.ndarray, source: Probe, target: Probe) -> float:
+def _orientation(C: np.ndarray, source: ShapeSamples, target: ShapeSamples) -> float:
     if source.orientation is None or target.orientation is None:
         return 0.0
     low = min(LOW, source.orientation.shape[1], target.orientation.shape[1], *C.shape)
@@ -332,7 +334,7 @@ def _orientation(C: np.ndarray, source: Probe, target: Probe) -> float:
     return _ratio((ours * theirs).sum(), size, float(usual), 0.0)
 
 
-def _distortion(found: _Images, source: Probe, target: Probe) -> tuple[float, float]:
+def _distortion(found: _Images, source: ShapeSamples, target: ShapeSamples) -> tuple[float, float]:
     """Mean change of all distances and of the short ones, both divided by their mean."""
     near, far = [], 0.0
     for here, there, at in ((target, source, found.first_back), (source, target, found.first_forth)):

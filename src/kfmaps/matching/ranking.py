@@ -14,12 +14,12 @@ from typing import Any
 import numpy as np
 
 from kfmaps._threads import parallel
-from kfmaps.matching.candidates import APART, Candidate, apart, differs
-from kfmaps.matching.proxy_cache import Copies
-from kfmaps.matching.quality import Probe
-from kfmaps.matching.sample_pair import Ground
-from kfmaps.registration.deformation_energy import LONGER, Ready, bending, bent
-from kfmaps.registration.registered_shot import mismatch
+from kfmaps.matching.candidates import MIN_MAP_DISTANCE, Candidate, map_distance, select_distinct
+from kfmaps.matching.proxy_cache import ProxyCache
+from kfmaps.matching.quality import ShapeSamples
+from kfmaps.matching.sample_pair import SamplePair
+from kfmaps.registration.deformation_energy import LONGER, FacingPair, deform, deformation_energy
+from kfmaps.registration.registered_shot import registered_shot_error
 from kfmaps.shape import Shape
 
 DISTINCT = 0.08
@@ -31,13 +31,14 @@ BENT = 3
 BEHIND = 3.0
 """... unless they are so far behind in the score."""
 CLOSER = 5
-"""Maps that may be closer to each other, rough ones' :data:`~kfmaps.matching.candidates.APART`, and are bent too."""
+"""Maps that may be closer to each other, rough ones' :data:`~kfmaps.matching.candidates.MIN_MAP_DISTANCE`, and are
+bent too."""
 LOOKED, CLOSE = 2.5, 1.0
 """Margins below which it counts how the first two look when they are bent, and below which they are bent again and
 those that hardly differ are bent at all."""
 
 
-def ranking(found: list[Candidate], on: Ground, copies: Copies, threads: int | None = None) -> list[Candidate]:
+def ranking(found: list[Candidate], on: SamplePair, copies: ProxyCache, threads: int | None = None) -> list[Candidate]:
     """The distinct ones of ``found``, best first; the first few are judged by how far the source must bend as well."""
     ranked = distinct(found, on.source)
     near = [c for c in ranked[:BENT] if c.score > ranked[0].score - BEHIND]
@@ -45,20 +46,20 @@ def ranking(found: list[Candidate], on: Ground, copies: Copies, threads: int | N
     if not tried:
         return ranked
     # As bad as the worst, so that none that was not tried comes first.
-    worst = max(c.bending for c in tried if c.bending is not None)
-    order = in_order([*tried, *(replace(c, bending=worst) for c in ranked[len(near) :])])
+    worst = max(c.deformation_energy for c in tried if c.deformation_energy is not None)
+    order = in_order([*tried, *(replace(c, deformation_energy=worst) for c in ranked[len(near) :])])
     if len(near) > 1 and order[0].score - order[1].score < LOOKED:
-        return second_look(order, copies, threads)
+        return rerank_close(order, copies, threads)
     return order
 
 
-def closer(
+def rerank_near_duplicates(
     ranked: list[Candidate],
     found: list[Candidate],
-    on: Ground,
-    copies: Copies,
+    on: SamplePair,
+    copies: ProxyCache,
     threads: int | None = None,
-    distance: float = APART,
+    distance: float = MIN_MAP_DISTANCE,
     behind: float = np.inf,
 ) -> list[Candidate]:
     """``ranked``, and between them the best of ``found`` that hardly differ from a better one: by ``distance``.
@@ -66,30 +67,30 @@ def closer(
     A map with one limb wrong is near the right one, and may come before it by chance: which of them is torn shows when
     both are bent. None that is farther ``behind`` before that.
     """
-    best = apart(in_order(found), on.source, distance, CLOSER)
+    best = select_distinct(in_order(found), on.source, distance, CLOSER)
     known = [c.functional_map for c in ranked]
     more = [c for c in best if c.score > best[0].score - behind and not any(c.functional_map is C for C in known)]
     return in_order([*ranked, *with_bending(more, copies, threads)])
 
 
-def with_bending(found: list[Candidate], copies: Copies, threads: int | None = None) -> list[Candidate]:
+def with_bending(found: list[Candidate], copies: ProxyCache, threads: int | None = None) -> list[Candidate]:
     """``found`` with how far the coarse copies must bend; none where a shape has no copy to bend."""
-    if not found or copies.few is None:
+    if not found or copies.coarse is None:
         return []
-    source, target, both = copies.source, copies.target, copies.few
-    energies = parallel(lambda c: bending(c.functional_map, source, target, both), found, threads)
-    return [replace(c, bending=energy) for c, energy in zip(found, energies, strict=True)]
+    source, target, both = copies.source, copies.target, copies.coarse
+    energies = parallel(lambda c: deformation_energy(c.functional_map, source, target, both), found, threads)
+    return [replace(c, deformation_energy=energy) for c, energy in zip(found, energies, strict=True)]
 
 
-def beside(
+def merge_alternatives(
     ranked: list[Candidate],
     more: list[Candidate],
-    on: Ground,
-    copies: Copies,
+    on: SamplePair,
+    copies: ProxyCache,
     threads: int | None = None,
 ) -> list[Candidate]:
     """``ranked``, and the best of ``more`` that is none of them: first where it is clearly better, else a rival."""
-    others = [c for c in more if all(differs(c, one, on.source) > DISTINCT for one in ranked)]
+    others = [c for c in more if all(map_distance(c, one, on.source) > DISTINCT for one in ranked)]
     if not others or max(c.quality.score for c in others) < ranked[0].quality.score - BEHIND:
         return ranked
     new = ranking(others, on, copies, threads)[0]
@@ -98,52 +99,52 @@ def beside(
     return [ranked[0], *sorted([*ranked[1:], new], key=lambda c: c.score, reverse=True)]
 
 
-def second_look(order: list[Candidate], copies: Copies, threads: int | None = None) -> list[Candidate]:
+def rerank_close(order: list[Candidate], copies: ProxyCache, threads: int | None = None) -> list[Candidate]:
     """The first two with how they look when bent; where they are close, bent with more points and patience too.
 
     A map that swaps front and back may come first by a margin that leaves no doubt to the score.
     """
-    source, target, finer = copies.source, copies.target, copies.finer
+    source, target, finer = copies.source, copies.target, copies.fine
     if finer is None:
         return order
     close = order[0].score - order[1].score < CLOSE
 
     def look(found: Candidate) -> Candidate:
-        found = seen(found, source, target, finer.on) if close else found
-        return replace(found, mismatch=mismatch(found.functional_map, source, target, finer))
+        found = score_registered(found, source, target, finer.on) if close else found
+        return replace(found, shot_error=registered_shot_error(found.functional_map, source, target, finer))
 
     found = parallel(look, order[:2], threads)
     # Nothing is added for looks: the best is compared with maps that nobody has looked at.
-    middle = usual(found, np.mean)[0], usual(found, min)[1]
-    return in_order([over(c, middle) for c in found]) + order[2:]
+    middle = reference_values(found, np.mean)[0], reference_values(found, min)[1]
+    return in_order([normalize_errors(c, middle) for c in found]) + order[2:]
 
 
-def seen(found: Candidate, source: Shape, target: Shape, on: Ready) -> Candidate:
+def score_registered(found: Candidate, source: Shape, target: Shape, on: FacingPair) -> Candidate:
     """With what its map says when the copies are bent with more patience."""
-    one = bent(found.functional_map, source, target, on, LONGER)
-    return replace(found, bending=one.bending, strain=one.strain, mismatch=None)
+    one = deform(found.functional_map, source, target, on, LONGER)
+    return replace(found, deformation_energy=one.energy, strain=one.strain, shot_error=None)
 
 
-def usual(found: list[Candidate], of: Callable[[list[float]], Any]) -> tuple[float, float]:
+def reference_values(found: list[Candidate], of: Callable[[list[float]], Any]) -> tuple[float, float]:
     """The strain and the mismatch of bent candidates that others are compared with: both depend on the shapes."""
     strains = [c.strain for c in found if c.strain is not None]
-    looks = [c.mismatch for c in found if c.mismatch is not None]
+    looks = [c.shot_error for c in found if c.shot_error is not None]
     return float(of(strains)) if strains else 0.0, float(of(looks)) if looks else 0.0
 
 
-def over(found: Candidate, usual: tuple[float, float]) -> Candidate:
+def normalize_errors(found: Candidate, usual: tuple[float, float]) -> Candidate:
     """With strain and mismatch, where they are known, over the usual ones."""
-    strain, looks = found.strain, found.mismatch
+    strain, looks = found.strain, found.shot_error
     return replace(
         found,
         strain=None if strain is None else strain - usual[0],
-        mismatch=None if looks is None else looks - usual[1],
+        shot_error=None if looks is None else looks - usual[1],
     )
 
 
-def distinct(found: list[Candidate], source: Probe) -> list[Candidate]:
+def distinct(found: list[Candidate], source: ShapeSamples) -> list[Candidate]:
     """The best of ``found``, then the best of those that differ from it, and so on."""
-    return apart(in_order(found), source, DISTINCT)
+    return select_distinct(in_order(found), source, DISTINCT)
 
 
 def in_order(found: list[Candidate]) -> list[Candidate]:
@@ -152,7 +153,7 @@ def in_order(found: list[Candidate]) -> list[Candidate]:
     A rival, which no descriptors speak for, comes first only when it is clearly better than every other candidate.
     """
     order = sorted(found, key=lambda c: c.score, reverse=True)
-    best = next((c for c in order if c.guided), None)
+    best = next((c for c in order if c.uses_descriptors), None)
     if best is not None and best.score > order[0].score - CLEAR:
         order.insert(0, order.pop(next(i for i, c in enumerate(order) if c is best)))
     return order

@@ -9,20 +9,20 @@ import numpy as np
 
 from kfmaps._arrays import check, refuse, to_numpy
 from kfmaps.fmap.precise import PointMap
-from kfmaps.geometry.clean import Inside, outer_faces
-from kfmaps.matching.fit import checked_landmarks
-from kfmaps.shape import Shape, inner
+from kfmaps.geometry.clean import CleanedMesh, outer_faces
+from kfmaps.matching.fit import check_landmark_pairs
+from kfmaps.shape import Shape, clean_shape
 
 
 @dataclass(frozen=True, eq=False)
-class Border:
-    """Two prepared shapes as they are outside and inside; made by :func:`border`.
+class VertexReindexing:
+    """Two prepared shapes as they are outside and inside; made by :func:`reindexing`.
 
     Attributes
     ----------
     outside : (Shape, Shape)
     source, target : Shape
-        Inside: each place once, without unused vertices and specks (:func:`kfmaps.shape.inner`).
+        Inside: each place once, without unused vertices and specks (:func:`kfmaps.shape.clean_shape`).
     part_s, part_t : Inside
         How their vertices are numbered.
     """
@@ -30,8 +30,8 @@ class Border:
     outside: tuple[Shape, Shape]
     source: Shape
     target: Shape
-    part_s: Inside
-    part_t: Inside
+    part_s: CleanedMesh
+    part_t: CleanedMesh
 
     @property
     def open(self) -> bool:
@@ -48,10 +48,10 @@ class Border:
         """
         if given is None or self.open:
             return given
-        pairs = checked_landmarks(given, *self.outside)
+        pairs = check_landmark_pairs(given, *self.outside)
         columns = []
         for i, (part, shape) in enumerate(((self.part_s, self.source), (self.part_t, self.target))):
-            within = part.number[pairs[:, i]]
+            within = part.to_clean[pairs[:, i]]
             first = np.unique(within, return_index=True)[1]
             again = np.setdiff1d(np.arange(len(pairs)), first)
             if len(again):
@@ -69,41 +69,41 @@ class Border:
         for values, part, shape in zip(given, (self.part_s, self.part_t), self.outside, strict=True):
             values = to_numpy(values) if hasattr(values, "shape") else np.asarray(values)
             name = f"descriptors of {shape.name}"
-            check(values, name, shape=(len(part.number), None), finite=False, remedy="give one row per vertex")
-            rows.append(values[part.kept])
+            check(values, name, shape=(len(part.to_clean), None), finite=False, remedy="give one row per vertex")
+            rows.append(values[part.to_original])
         return rows[0], rows[1]
 
     def points(self, target_to_source: np.ndarray) -> np.ndarray:
         """A point map inside as one outside, (n_t,); −1 stays."""
-        return np.where(target_to_source < 0, -1, self.part_s.kept[target_to_source])[self.part_t.number]
+        return np.where(target_to_source < 0, -1, self.part_s.to_original[target_to_source])[self.part_t.to_clean]
 
     def points_back(self, source_to_target: np.ndarray) -> np.ndarray:
         """A point map back inside as one outside, (n_s,)."""
-        return self.part_t.kept[source_to_target][self.part_s.number]
+        return self.part_t.to_original[source_to_target][self.part_s.to_clean]
 
     def place(self, places: PointMap) -> PointMap:
         """Points in triangles inside as such outside."""
         faces = outer_faces(self.outside[0].mesh, self.part_s)[places.faces]
-        return PointMap(faces[self.part_t.number], places.weights[self.part_t.number])
+        return PointMap(faces[self.part_t.to_clean], places.weights[self.part_t.to_clean])
 
     def bent(self, vertices: np.ndarray) -> np.ndarray:
         """Positions on the target of the source's vertices inside (m_s, 3), as outside (n_s, 3): in its unit there."""
-        here, there = self.target.mesh.vertices, self.outside[1].mesh.vertices[self.part_t.kept]
+        here, there = self.target.mesh.vertices, self.outside[1].mesh.vertices[self.part_t.to_original]
         scale = np.linalg.norm(there - there.mean(axis=0)) / np.linalg.norm(here - here.mean(axis=0))
-        return scale * (vertices - here.mean(axis=0))[self.part_s.number] + there.mean(axis=0)
+        return scale * (vertices - here.mean(axis=0))[self.part_s.to_clean] + there.mean(axis=0)
 
     def overlap(self, source: np.ndarray, target: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Probabilities inside (m_s,) and (m_t,) as outside (n_s,), (n_t,): none in vertices that lie on no surface."""
         sides = ((source, self.part_s), (target, self.part_t))
-        first, second = (np.where(part.loose, 0.0, values[part.number]) for values, part in sides)
+        first, second = (np.where(part.unreferenced, 0.0, values[part.to_clean]) for values, part in sides)
         return first, second
 
     def trust(self, confidence: np.ndarray) -> np.ndarray:
         """Confidence inside (m_t,) as outside (n_t,): none in vertices that lie on no surface."""
-        return np.where(self.part_t.loose, 0.0, confidence[self.part_t.number])
+        return np.where(self.part_t.unreferenced, 0.0, confidence[self.part_t.to_clean])
 
 
-def border(source: Shape, target: Shape) -> Border:
+def reindexing(source: Shape, target: Shape) -> VertexReindexing:
     """What is inside two prepared shapes."""
-    (within_s, part_s), (within_t, part_t) = inner(source), inner(target)
-    return Border((source, target), within_s, within_t, part_s, part_t)
+    (within_s, part_s), (within_t, part_t) = clean_shape(source), clean_shape(target)
+    return VertexReindexing((source, target), within_s, within_t, part_s, part_t)

@@ -17,8 +17,8 @@ from kfmaps._arrays import like, refuse
 from kfmaps.config import Config
 from kfmaps.fmap.energy import Energy, laplacian_term
 from kfmaps.fmap.losses import Loss, RobustData
-from kfmaps.fmap.minimize import How, Objective, minimised
-from kfmaps.fmap.multiplication_operators import packed_slices, unpacked_slices
+from kfmaps.fmap.minimize import MinimizeOptions, Objective, minimize
+from kfmaps.fmap.multiplication_operators import multiplication_operators, unpack_operators
 from kfmaps.fmap.solvers import CG
 from kfmaps.geometry.basis import Basis
 from kfmaps.matching.features import Descriptors
@@ -28,14 +28,14 @@ FUNCTIONS = 30
 
 
 @dataclass(frozen=True, eq=False)
-class Believed:
+class RobustWeights:
     """Descriptors scaled by how far they are believed, and the weight of each landmark or descriptor, (g,)."""
 
     descriptors: Descriptors
     weights: np.ndarray
 
 
-def believed(descriptors: Descriptors, bases: tuple[Basis, Basis], config: Config) -> Believed:
+def robust_weights(descriptors: Descriptors, bases: tuple[Basis, Basis], config: Config) -> RobustWeights:
     """``descriptors`` scaled by the square roots of the weights that a robust loss per landmark or descriptor gives.
 
     Parameters
@@ -59,23 +59,26 @@ def believed(descriptors: Descriptors, bases: tuple[Basis, Basis], config: Confi
     else:
         groups = np.arange(descriptors.source.shape[1])
     k = min(FUNCTIONS, config.basis.functions)
-    small = [basis.truncated(k) for basis in bases]
+    small = [basis.truncate(k) for basis in bases]
     sides = (descriptors.source, descriptors.target)
     P = [basis.project(D) for basis, D in zip(small, sides, strict=True)]
-    X = [unpacked_slices(packed_slices(b, D, threads=config.threads)) for b, D in zip(small, sides, strict=True)]
+    X = [
+        unpack_operators(multiplication_operators(b, D, threads=config.threads))
+        for b, D in zip(small, sides, strict=True)
+    ]
     weights = config.weights
     against = weights.descriptors or 1.0
     data = RobustData(P[0], P[1], groups, Loss("squared"), X[0], X[1], weights.commutativity / against)
     alone = Energy(
         {"laplacian": laplacian_term(small[0], small[1])}, {"laplacian": max(weights.laplacian / against, 1e-6)}
     )
-    how = How(CG(rtol=1e-4, max_steps=500), rounds=asked.rounds, settled=1e-3)
-    C = minimised(Objective(alone, {"data": (1.0, data)}), replace(how, rounds=1)).value
+    how = MinimizeOptions(CG(rtol=1e-4, max_steps=500), max_outer_iter=asked.rounds, rtol=1e-3)
+    C = minimize(Objective(alone, {"data": (1.0, data)}), replace(how, max_outer_iter=1)).value
     robust = replace(data, loss=Loss(asked.loss)).scaled(C, asked.loss_width)
-    C = minimised(Objective(alone, {"data": (1.0, robust)}), how, C).value
+    C = minimize(Objective(alone, {"data": (1.0, robust)}), how, C).value
     columns = robust.weights(C)
     columns = np.where(groups < 0, 1.0, columns / max(1.0, float(columns[groups >= 0].max())))
     root = like(np.sqrt(columns), descriptors.source)[None, :]
     scaled = replace(descriptors, source=descriptors.source * root, target=descriptors.target * root)
     first = np.unique(groups, return_index=True)
-    return Believed(scaled, columns[first[1][first[0] >= 0]])
+    return RobustWeights(scaled, columns[first[1][first[0] >= 0]])

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from kfmaps._arrays import Array, to_numpy
-from kfmaps.fmap.descriptor_guidance import spread
-from kfmaps.matching.extremities import Tips
+from kfmaps.fmap.descriptor_guidance import descriptor_variance
+from kfmaps.matching.extremities import Extremities
 
 NEAR = 0.2
 """Distance, in units of √area, up to which points are neighbours whose distance a good map keeps."""
@@ -18,7 +18,7 @@ LIMB = 0.3
 
 @dataclass(frozen=True, eq=False)
 class Rows:
-    """Descriptors ``(q, d)``, their squared lengths ``(q,)`` and :func:`spread`."""
+    """Descriptors ``(q, d)``, their squared lengths ``(q,)`` and :func:`descriptor_variance`."""
 
     values: np.ndarray
     squares: np.ndarray
@@ -27,7 +27,7 @@ class Rows:
     @classmethod
     def of(cls, descriptors: np.ndarray, precision: type = np.float32) -> Rows:
         values = np.asarray(descriptors, dtype=precision)
-        return cls(values, np.einsum("ij,ij->i", values, values), spread(descriptors))
+        return cls(values, np.einsum("ij,ij->i", values, values), descriptor_variance(descriptors))
 
 
 @dataclass(frozen=True, eq=False)
@@ -69,9 +69,9 @@ def known(
     orientation: np.ndarray | None,
     descriptors: np.ndarray | None,
     heat: np.ndarray,
-    tips: Tips,
+    tips: Extremities,
 ) -> Known:
-    """Of the arrays of a :class:`kfmaps.matching.quality.Probe`."""
+    """Of the arrays of a :class:`kfmaps.matching.quality.ShapeSamples`."""
     nearest_other = np.partition(distances, 1, axis=1)[:, 1] if len(distances) > 1 else np.ones(1)
     short = np.flatnonzero(distances <= max(NEAR, float(nearest_other.max())))
     return Known(
@@ -87,7 +87,7 @@ def known(
     )
 
 
-def _ends(areas: np.ndarray, tips: Tips) -> np.ndarray | None:
+def _ends(areas: np.ndarray, tips: Extremities) -> np.ndarray | None:
     if len(tips.distances) == 0:
         return None
     near = np.where(tips.unit * tips.distances.min(axis=0) < LIMB, areas, 0.0)

@@ -7,11 +7,11 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from kfmaps.fmap.descriptor_guidance import Guide, guide
-from kfmaps.matching.batched_zoomout import projector
-from kfmaps.matching.extremity_matching import Pairing, against
-from kfmaps.matching.landmark_evidence import Marks, around, side_by_side
-from kfmaps.matching.quality import Probe, mirrored_probe, thinned
+from kfmaps.fmap.descriptor_guidance import DescriptorGuidance, descriptor_guidance
+from kfmaps.matching.batched_zoomout import pseudo_inverse
+from kfmaps.matching.extremity_matching import ExtremityMatch, extremity_cost
+from kfmaps.matching.landmark_evidence import LandmarkEvidence, heat_features, heat_guidance
+from kfmaps.matching.quality import ShapeSamples, mirror_samples, subsample
 from kfmaps.shape import Shape
 
 POINTS = 400
@@ -19,14 +19,14 @@ POINTS = 400
 
 
 @dataclass(frozen=True, eq=False)
-class Ground:
+class SamplePair:
     """Samples of both shapes and what speaks against pairs of them.
 
     Attributes
     ----------
     source, target : Probe
     shot : (q_t, q_s) float32 or None
-        See :func:`differences`; ``None`` where SHOT says nothing.
+        See :func:`descriptor_cost`; ``None`` where SHOT says nothing.
     landmarks : (q_t, q_s) float32 or None
         The same of the functions around landmarks.
     marks : Marks or None
@@ -34,23 +34,23 @@ class Ground:
         What :meth:`solver` has made, to be found again.
     """
 
-    source: Probe
-    target: Probe
+    source: ShapeSamples
+    target: ShapeSamples
     shot: np.ndarray | None
     landmarks: np.ndarray | None = None
-    marks: Marks | None = None
+    marks: LandmarkEvidence | None = None
     solvers: dict[int, np.ndarray] = field(default_factory=dict)
 
     def solver(self, k: int) -> np.ndarray:
-        """:func:`kfmaps.matching.batched_zoomout.projector` of the target, made once for all refinements."""
+        """:func:`kfmaps.matching.batched_zoomout.pseudo_inverse` of the target, made once for all refinements."""
         if k not in self.solvers:
-            self.solvers[k] = projector(self.target.samples.basis, k)
+            self.solvers[k] = pseudo_inverse(self.target.samples.basis, k)
         return self.solvers[k]
 
     def against(
-        self, shot: float, landmarks: float = 0.0, tips: float = 0.0, paired: Sequence[Pairing | None] = ()
+        self, shot: float, landmarks: float = 0.0, tips: float = 0.0, paired: Sequence[ExtremityMatch | None] = ()
     ) -> np.ndarray | None:
-        """What speaks against pairs, with weights, for :func:`kfmaps.matching.batched_zoomout.zoomed`.
+        """What speaks against pairs, with weights, for :func:`kfmaps.matching.batched_zoomout.batched_zoomout`.
 
         (q_t, q_s), or (m, q_t, q_s) when the tips of m maps are ``paired`` and count.
         """
@@ -64,47 +64,51 @@ class Ground:
                 each[:] = total
             for i, pairing in enumerate(paired):
                 if pairing is not None:
-                    each[i] += tips * against(self.source.tips, self.target.tips, pairing)
+                    each[i] += tips * extremity_cost(self.source.extremities, self.target.extremities, pairing)
             total = each
         return total
 
 
 @dataclass(frozen=True, eq=False)
-class Arena:
+class TwoLevelSamples:
     """Few samples for many rough maps, and all of a probe for the best."""
 
-    few: Ground
-    whole: Ground
+    few: SamplePair
+    whole: SamplePair
 
 
-def arena(source: Shape, target: Shape, probes: tuple[Probe, Probe], landmarks: np.ndarray | None = None) -> Arena:
+def two_level_samples(
+    source: Shape, target: Shape, probes: tuple[ShapeSamples, ShapeSamples], landmarks: np.ndarray | None = None
+) -> TwoLevelSamples:
     """For two prepared shapes with their ``probes``, which know of the ``landmarks (l, 2)``, if any."""
     found = None
     if landmarks is not None and len(landmarks):
         sides = list(zip((source, target), probes, landmarks.T, strict=True))
-        functions = [around(p.samples.basis, shape.basis, at) for shape, p, at in sides]
-        found = Marks(target.basis.functions[landmarks[:, 1]], probes[0].marks, functions[0], functions[1])
-    few = thinned(probes[0], POINTS), thinned(probes[1], POINTS)
+        functions = [heat_features(p.samples.basis, shape.basis, at) for shape, p, at in sides]
+        found = LandmarkEvidence(
+            target.basis.functions[landmarks[:, 1]], probes[0].landmark_distances, functions[0], functions[1]
+        )
+    few = subsample(probes[0], POINTS), subsample(probes[1], POINTS)
     less = found and found.thinned(*(len(p.samples.vertices) for p in few))
-    return Arena(ground(*few, less), ground(*probes, found))
+    return TwoLevelSamples(sample_pair(*few, less), sample_pair(*probes, found))
 
 
-def ground(source: Probe, target: Probe, marks: Marks | None = None) -> Ground:
-    found = guide(source.descriptors, target.descriptors)
-    around = None if marks is None else differences(side_by_side(marks.functions_s, marks.functions_t))
-    return Ground(source, target, None if found is None else differences(found), around, marks)
+def sample_pair(source: ShapeSamples, target: ShapeSamples, marks: LandmarkEvidence | None = None) -> SamplePair:
+    found = descriptor_guidance(source.descriptors, target.descriptors)
+    around = None if marks is None else descriptor_cost(heat_guidance(marks.functions_s, marks.functions_t))
+    return SamplePair(source, target, None if found is None else descriptor_cost(found), around, marks)
 
 
-def without(on: Ground, wrong: np.ndarray) -> Ground:
+def drop_landmarks(on: SamplePair, wrong: np.ndarray) -> SamplePair:
     """The ground without the ``wrong (l,)`` landmarks."""
-    return ground(on.source, on.target, on.marks and on.marks.without(wrong))
+    return sample_pair(on.source, on.target, on.marks and on.marks.without(wrong))
 
 
-def turned(on: Ground) -> Ground:
+def mirrored_pair(on: SamplePair) -> SamplePair:
     """The ground with the target's mirror image."""
-    return ground(on.source, mirrored_probe(on.target), on.marks)
+    return sample_pair(on.source, mirror_samples(on.target), on.marks)
 
 
-def differences(found: Guide) -> np.ndarray:
+def descriptor_cost(found: DescriptorGuidance) -> np.ndarray:
     """Half the squared differences ``(q_t, q_s)`` float32 of a guide, up to a constant for each target point."""
     return (0.5 * (found.source**2).sum(axis=1)[None, :] - found.target @ found.source.T).astype(np.float32)

@@ -14,8 +14,8 @@ from itertools import product
 
 import numpy as np
 
-from kfmaps.matching.batched_zoomout import closest, zoomed
-from kfmaps.matching.quality import Probe, map_distortion
+from kfmaps.matching.batched_zoomout import batched_zoomout, nearest_samples
+from kfmaps.matching.quality import ShapeSamples, map_distortion
 
 SIGNS = 5
 """Functions after the constant one whose signs are tried."""
@@ -33,26 +33,26 @@ SOON, LIKELY = 14, 12
 best eight there."""
 
 
-def turns_of(of: Probe, functions: int, threads: int | None = None) -> list[np.ndarray]:
+def self_maps(of: ShapeSamples, functions: int, threads: int | None = None) -> list[np.ndarray]:
     """:func:`symmetries` of a probe, or those that it has kept."""
     if of.turns is not None and of.turns.shape[1] == _size(of, functions):
         return list(of.turns)
     return symmetries(of, functions, threads)
 
 
-def with_turns(of: Probe, few: Probe) -> Probe:
+def with_self_maps(of: ShapeSamples, few: ShapeSamples) -> ShapeSamples:
     """``of`` with the near-symmetries of its first samples, ``few``, so that they are found once for many matches."""
     functions = few.samples.basis.functions.shape[1]
     found, k = symmetries(few, functions, 1), _size(few, functions)
     return replace(of, turns=np.array(found, dtype=np.float64).reshape(len(found), k, k))
 
 
-def _size(of: Probe, functions: int) -> int:
+def _size(of: ShapeSamples, functions: int) -> int:
     """Functions of the self-maps."""
     return min(STOP, functions, len(of.samples.vertices))
 
 
-def symmetries(of: Probe, functions: int, threads: int | None = None) -> list[np.ndarray]:
+def symmetries(of: ShapeSamples, functions: int, threads: int | None = None) -> list[np.ndarray]:
     """Functional maps ``(k, k)`` of a shape onto itself, other than the identity, that nearly keep distances.
 
     At most :data:`MOST`, the best first; none of a shape without near-symmetries. ``functions``: as many as k may have.
@@ -64,9 +64,9 @@ def symmetries(of: Probe, functions: int, threads: int | None = None) -> list[np
     maps = np.stack([np.diag([1.0, *signs]) for signs in product((1.0, -1.0), repeat=count)])
     basis = of.samples.basis
     soon = min(SOON, stop)
-    begun, _ = zoomed(maps, basis, basis, (*range(count + 1, soon, STEP), soon), None, threads)
+    begun, _ = batched_zoomout(maps, basis, basis, (*range(count + 1, soon, STEP), soon), None, threads)
     likely = np.sort(np.argsort(_changed(begun, of), kind="stable")[:LIKELY])
-    found, points = zoomed(begun[likely], basis, basis, (*range(soon, stop, STEP), stop), None, threads)
+    found, points = batched_zoomout(begun[likely], basis, basis, (*range(soon, stop, STEP), stop), None, threads)
     judged = [map_distortion(C, of, of, at) for C, at in zip(found, points, strict=True)]
     kept: list[int] = []
     for i in np.argsort(judged, kind="stable"):
@@ -80,8 +80,8 @@ def symmetries(of: Probe, functions: int, threads: int | None = None) -> list[np
     return [found[i] for i in kept]
 
 
-def _changed(maps: np.ndarray, of: Probe) -> np.ndarray:
+def _changed(maps: np.ndarray, of: ShapeSamples) -> np.ndarray:
     """Mean change (m,) of the distances between the first points by each of the self-maps ``maps (m, k, k)``."""
     first = of.known.functions[: len(of.distances)]
-    images = closest(np.asarray(maps, dtype=np.float32), first, first, None)
+    images = nearest_samples(np.asarray(maps, dtype=np.float32), first, first, None)
     return np.array([np.abs(of.distances[at[:, None], at] - of.distances).mean() for at in images])

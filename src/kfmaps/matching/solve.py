@@ -11,13 +11,20 @@ import numpy as np
 from kfmaps._arrays import Array, KfmapsWarning, check, like, to_numpy
 from kfmaps._progress import Progress
 from kfmaps.config import Config
-from kfmaps.fmap.coupled import Coupled, coupled, seen, seen_penalty
+from kfmaps.fmap.coupled import CoupledBases, couple_bases, rotate_penalty, rotate_term
 from kfmaps.fmap.energy import Energy, laplacian_term
-from kfmaps.fmap.losses import Loss, Penalty, RobustData, sparse
-from kfmaps.fmap.minimize import Coupling, How, Objective, Told, coupled_pair, minimised
-from kfmaps.fmap.optimal_transport import spatial
+from kfmaps.fmap.losses import Loss, Penalty, RobustData, sparse_penalty
+from kfmaps.fmap.minimize import (
+    BidirectionalWeights,
+    MinimizeOptions,
+    Objective,
+    ProgressCallback,
+    fit_bidirectional,
+    minimize,
+)
+from kfmaps.fmap.optimal_transport import transport_penalty
 from kfmaps.fmap.solvers import CG, Solution
-from kfmaps.matching.assemble import Problem
+from kfmaps.matching.assemble import FitProblem
 
 
 @dataclass(frozen=True, eq=False)
@@ -29,8 +36,8 @@ class Minimised:
     energies: dict[str, float]
 
 
-def solved(task: Problem, config: Config, report: Progress, start: Any = None) -> Minimised:
-    """:func:`minimiser` from ``start`` where one is given, which is checked; told as the stage "solve".
+def solve_problem(task: FitProblem, config: Config, report: Progress, start: Any = None) -> Minimised:
+    """:func:`minimize_problem` from ``start`` where one is given, which is checked; told as the stage "solve".
 
     Warns
     -----
@@ -50,7 +57,7 @@ def solved(task: Problem, config: Config, report: Progress, start: Any = None) -
             by_size = np.log(max(relative, 1e-300)) / np.log(max(config.solver.rtol, 1e-16))
             report("solve", float(np.clip(max(step / limit, by_size), 0.0, 1.0)))
 
-    found = minimiser(task, config, start, told)
+    found = minimize_problem(task, config, start, told)
     if found.solution.status == "breakdown" and config.formulation.constraint == "none":
         text = (
             f"the solver broke down after {found.solution.steps} steps: the energy is not positive definite or a "
@@ -61,27 +68,29 @@ def solved(task: Problem, config: Config, report: Progress, start: Any = None) -
     return found
 
 
-def minimiser(task: Problem, config: Config, start: Array | None = None, told: Told | None = None) -> Minimised:
+def minimize_problem(
+    task: FitProblem, config: Config, start: Array | None = None, told: ProgressCallback | None = None
+) -> Minimised:
     """What minimises what ``task`` and ``config.formulation`` ask, reached from ``start``."""
     asked = config.formulation
-    how = How(config.solver, config.preconditioner, asked.rounds)
+    how = MinimizeOptions(config.solver, config.preconditioner, asked.rounds)
     if asked.weighs_features or asked.bases == "coupled" or asked.spatial:
-        start = minimised(Objective(task.energy), how, start, told).value
+        start = minimize(Objective(task.energy), how, start, told).value
     rotation = _rotation(task, start, config) if asked.bases == "coupled" and start is not None else None
     forth = objective(task, config, start, rotation)
     if asked.directions == "one":
-        solution = minimised(forth, how, start, told)
+        solution = minimize(forth, how, start, told)
         return Minimised(solution, None, forth.breakdown(solution.value))
-    turned = None if rotation is None else Coupled(rotation.U_t, rotation.U_s, rotation.history)
+    turned = None if rotation is None else CoupledBases(rotation.U_t, rotation.U_s, rotation.history)
     back = objective(task, config, None if start is None else start.T, turned, reverse=True)
     size = typical(task.energy)
-    tied = Coupling(asked.inverse * size, asked.adjoint * size)
-    pair = coupled_pair(forth, back, tied, how, (start, None), told)
+    tied = BidirectionalWeights(asked.inverse * size, asked.adjoint * size)
+    pair = fit_bidirectional(forth, back, tied, how, (start, None), told)
     return Minimised(pair.forth, pair.back.value, forth.breakdown(pair.forth.value))
 
 
 def objective(
-    task: Problem, config: Config, plain: Array | None, rotation: Coupled | None, reverse: bool = False
+    task: FitProblem, config: Config, plain: Array | None, rotation: CoupledBases | None, reverse: bool = False
 ) -> Objective:
     """What one direction minimises; ``plain`` is the least-squares map, where the formulation needs it."""
     asked = config.formulation
@@ -100,25 +109,25 @@ def objective(
         energy = energy.without("descriptors")
         penalties["descriptors"] = (config.weights.descriptors, data)
     if asked.sparsity:
-        penalties["sparsity"] = (asked.sparsity * typical(energy), sparse(energy.rhs()))
+        penalties["sparsity"] = (asked.sparsity * typical(energy), sparse_penalty(energy.rhs()))
     if asked.spatial:
         assert plain is not None
-        moving = spatial(plain, bases[0], bases[1], asked.spatial_blur)
+        moving = transport_penalty(plain, bases[0], bases[1], asked.spatial_blur)
         penalties["spatial"] = (asked.spatial * typical(energy), moving)
     if rotation is not None:
         U = (rotation.U_t, rotation.U_s)
-        term = laplacian_term(*rotation.rotated(*bases), mask=asked.mask, power=asked.mask_power)
-        energy = Energy({**energy.terms, "laplacian": seen(term, *U)}, energy.weights)
+        term = laplacian_term(*rotation.to_rotated(*bases), mask=asked.mask, power=asked.mask_power)
+        energy = Energy({**energy.terms, "laplacian": rotate_term(term, *U)}, energy.weights)
         if "sparsity" in penalties:
             weight, penalty = penalties["sparsity"]
-            penalties["sparsity"] = (weight, seen_penalty(penalty, *U))
+            penalties["sparsity"] = (weight, rotate_penalty(penalty, *U))
     return Objective(energy, penalties, asked.constraint)
 
 
-def _rotation(task: Problem, plain: Array, config: Config) -> Coupled:
+def _rotation(task: FitProblem, plain: Array, config: Config) -> CoupledBases:
     """Coupled bases that the least-squares map speaks for."""
     values = [basis.eigenvalues for basis in task.bases]
-    return coupled(values[0], values[1], plain, config.formulation.coupling, start=plain)
+    return couple_bases(values[0], values[1], plain, config.formulation.coupling, start=plain)
 
 
 def typical(energy: Energy) -> float:

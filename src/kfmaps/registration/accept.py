@@ -6,12 +6,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from kfmaps._stage_timer import Clock
+from kfmaps._stage_timer import StageTimer
 from kfmaps.config import Config
-from kfmaps.fmap.confidence import surroundings
-from kfmaps.fmap.precise import PointMap, vertices_of
+from kfmaps.fmap.confidence import build_local_distortion
+from kfmaps.fmap.precise import PointMap, nearest_vertices
 from kfmaps.geometry.mesh import vertex_areas
-from kfmaps.registration.nonrigid_icp import Registered
+from kfmaps.registration.nonrigid_icp import Registration
 from kfmaps.shape import Shape
 
 GAP = 0.02
@@ -20,15 +20,15 @@ GAP = 0.02
 more."""
 DROP = 0.2
 """Change of the confidence of a vertex that counts: such vertices are harmed, or healed, by a fit."""
-HARMED = 0.006
+MAX_WORSENED_AREA = 0.006
 """Share of the target's area that a right fit harms at most, fingertips mostly; above, what it harmed is held back."""
-HEALED = 0.5
+MIN_IMPROVED_RATIO = 0.5
 """Area healed over area harmed from which a fit is kept all the same: it mends more than it hides."""
 
 
 @dataclass(frozen=True)
-class Bend:
-    """What a non-rigid fit tells about a map, without the truth; made by :func:`placed`.
+class RegistrationReport:
+    """What a non-rigid fit tells about a map, without the truth; made by :func:`register_map`.
 
     Attributes
     ----------
@@ -51,14 +51,14 @@ class Bend:
     """
 
     gap: float
-    bending: float
+    deformation_energy: float
     before: float
     after: float | None = None
-    harmed: float = 0.0
-    healed: float = 0.0
-    held: bool = False
-    kept: bool = False
-    why: str | None = "gap"
+    worsened: float = 0.0
+    improved: float = 0.0
+    pinned: bool = False
+    accepted: bool = False
+    reason: str | None = "gap"
 
     @property
     def loss(self) -> float | None:
@@ -67,8 +67,8 @@ class Bend:
 
 
 @dataclass(frozen=True, eq=False)
-class Placed:
-    """Points inside triangles; made by :func:`placed`.
+class RegisteredMap:
+    """Points inside triangles; made by :func:`register_map`.
 
     Attributes
     ----------
@@ -85,45 +85,46 @@ class Placed:
     """
 
     target_to_source: np.ndarray
-    place: PointMap | None
-    bent: np.ndarray | None
-    trust: np.ndarray
-    fit: Bend | None = None
+    precise_map: PointMap | None
+    registered_vertices: np.ndarray | None
+    local_confidence: np.ndarray
+    fit: RegistrationReport | None = None
 
 
 @dataclass(frozen=True, eq=False)
 class _Tried:
     """A fit and what it tells."""
 
-    found: Registered
+    found: Registration
     vertices: np.ndarray
     trust: np.ndarray
-    told: Bend
+    told: RegistrationReport
 
 
-def placed(
+def register_map(
     points: np.ndarray,
     source: Shape,
     target: Shape,
     config: Config,
-    clock: Clock,
+    clock: StageTimer,
     landmarks: np.ndarray | None = None,
-) -> Placed:
+) -> RegisteredMap:
     """The map ``points (n_t,)`` made finer than vertices as ``config.finish`` says; ``landmarks (l, 2)`` hold softly.
 
     A fit that does not bring the source to the target up to :data:`GAP` is left: so are parts. One that harms more of
-    the target than :data:`HARMED` (distances to the surroundings are kept clearly worse than before) is made once more
+    the target than :data:`MAX_WORSENED_AREA` (distances to the surroundings are kept clearly worse than before) is
+    made once more
     with the map held fast there; one that lets sizes change, as between shapes of other proportions, only where it
     would not be kept. Of the two the last is kept for which the evidence speaks: that harms little, or heals at least
     half as much as it harms.
     """
     with clock("confidence"):
-        confidence = surroundings(source.mesh, target.mesh)
+        confidence = build_local_distortion(source.mesh, target.mesh)
         trust = confidence(points)
     surfaces = bool(len(source.mesh.faces) and len(target.mesh.faces))
     finish = config.finish
     if finish is None or config.refinement is None or not surfaces:
-        return Placed(points, None, None, trust)
+        return RegisteredMap(points, None, None, trust)
     areas = vertex_areas(target.mesh)
     areas = areas / areas.sum()
 
@@ -133,24 +134,28 @@ def placed(
             found = finish(
                 source.mesh, target.mesh, points, lambda done: clock.report(stage, done), landmarks=landmarks, held=held
             )
-        told = Bend(found.gap, found.bending, float(trust.mean()), held=held is not None)
+        told = RegistrationReport(found.gap, found.bending, float(trust.mean()), pinned=held is not None)
         if found.gap > GAP:
             return _Tried(found, points, trust, told)
-        vertices = vertices_of(PointMap(found.faces, found.weights), source.mesh)
+        vertices = nearest_vertices(PointMap(found.faces, found.weights), source.mesh)
         with clock("confidence after the fit"):
             after = confidence(vertices)
         harmed, healed = (float(areas[change > DROP].sum()) for change in (trust - after, after - trust))
-        kept = harmed <= HARMED or healed >= HEALED * harmed
-        told = replace(told, after=float(after.mean()), harmed=harmed, healed=healed)
-        return _Tried(found, vertices, after, replace(told, kept=kept, why=None if kept else "harm"))
+        kept = harmed <= MAX_WORSENED_AREA or healed >= MIN_IMPROVED_RATIO * harmed
+        told = replace(told, after=float(after.mean()), worsened=harmed, improved=healed)
+        return _Tried(found, vertices, after, replace(told, accepted=kept, reason=None if kept else "harm"))
 
     first = best = tried(None)
     # Where sizes may change distances do, rightly: what a fit that is kept has changed there is no reason to hold it.
-    if first.told.after is not None and first.told.harmed > HARMED and not (finish.stretch and first.told.kept):
+    if (
+        first.told.after is not None
+        and first.told.worsened > MAX_WORSENED_AREA
+        and not (finish.local_scaling and first.told.accepted)
+    ):
         held = np.clip(2 * (trust - first.trust) / DROP - 1, 0.0, 1.0)
         second = tried(held)
-        best = second if second.told.kept or not first.told.kept else first
-    if not best.told.kept:
-        return Placed(points, None, None, trust, best.told)
+        best = second if second.told.accepted or not first.told.accepted else first
+    if not best.told.accepted:
+        return RegisteredMap(points, None, None, trust, best.told)
     place = PointMap(best.found.faces, best.found.weights)
-    return Placed(best.vertices, place, best.found.vertices, best.trust, best.told)
+    return RegisteredMap(best.vertices, place, best.found.vertices, best.trust, best.told)

@@ -15,18 +15,18 @@ from scipy.spatial import KDTree
 
 from kfmaps._arrays import to_numpy
 from kfmaps._progress import Done
-from kfmaps.fmap.descriptor_guidance import Guide, joined
+from kfmaps.fmap.descriptor_guidance import DescriptorGuidance, combine_guidance
 from kfmaps.fmap.refine import ZoomOut
 from kfmaps.geometry.basis import Basis
 from kfmaps.geometry.mesh import Mesh, vertex_areas, vertex_normals
 from kfmaps.geometry.sampling import SampledBasis
-from kfmaps.registration.deformation_energy import Copy
+from kfmaps.registration.deformation_energy import CoarseProxy
 from kfmaps.registration.nonrigid_icp import NonRigid
 from kfmaps.shape import Shape
 
 ROUNDS = 2
 """Fits, each followed by a refinement on the copies."""
-FIT = NonRigid(stiffness=5e-3, levels=2, steps=4, stretch=0.05)
+FIT = NonRigid(stiffness=5e-3, n_levels=2, steps=4, local_scaling=0.05)
 """Stiff, so that what is torn is not bent to fit; but limbs may be longer or thicker."""
 REFINE = ZoomOut(start=20, stop=100, step=20, guidance=36.0)
 """On the copies; the high functions of shapes that differ much do not correspond."""
@@ -39,25 +39,28 @@ RIDGE = 1e-3
 
 
 @dataclass(frozen=True, eq=False)
-class Grounds:
-    """Copies of both shapes with their functions, and their landmarks ``(l, 2)``; made by :func:`grounds`."""
+class RegistrationPair:
+    """Copies of both shapes with their functions, and their landmarks ``(l, 2)``; made by :func:`registration_pair`."""
 
     source: Shape
     target: Shape
-    copies: tuple[Copy, Copy]
+    copies: tuple[CoarseProxy, CoarseProxy]
     bases: tuple[SampledBasis, SampledBasis]
     landmarks: np.ndarray
 
 
 @dataclass(frozen=True, eq=False)
-class Alternated:
-    """What :func:`alternated` returns: a functional map ``(k, k)`` and the source's vertices, ``(n_s, 3)``, bent."""
+class AlternatingResult:
+    """What :func:`alternating_registration` returns: a functional map ``(k, k)`` and the source's vertices, ``(n_s,
+    3)``, bent."""
 
     functional_map: np.ndarray
-    bent: np.ndarray
+    registered_vertices: np.ndarray
 
 
-def grounds(source: Shape, target: Shape, copies: tuple[Copy, Copy], landmarks: np.ndarray | None = None) -> Grounds:
+def registration_pair(
+    source: Shape, target: Shape, copies: tuple[CoarseProxy, CoarseProxy], landmarks: np.ndarray | None = None
+) -> RegistrationPair:
     """The copies of two shapes to alternate on, with the vertices there that are nearest to ``landmarks (l, 2)``."""
     marks = np.zeros((0, 2), dtype=np.int64) if landmarks is None else landmarks
     near = [
@@ -65,16 +68,18 @@ def grounds(source: Shape, target: Shape, copies: tuple[Copy, Copy], landmarks: 
         for shape, copy, at in zip((source, target), copies, marks.T, strict=True)
     ]
     bases = _sampled(source.basis, copies[0]), _sampled(target.basis, copies[1])
-    return Grounds(source, target, copies, bases, np.stack(near, axis=1))
+    return RegistrationPair(source, target, copies, bases, np.stack(near, axis=1))
 
 
-def turned_round(on: Grounds) -> Grounds:
+def swap_pair(on: RegistrationPair) -> RegistrationPair:
     """The same copies for maps the other way."""
     a, b = on.copies
-    return Grounds(on.target, on.source, (b, a), (on.bases[1], on.bases[0]), on.landmarks[:, ::-1])
+    return RegistrationPair(on.target, on.source, (b, a), (on.bases[1], on.bases[0]), on.landmarks[:, ::-1])
 
 
-def alternated(C: np.ndarray, on: Grounds, led: Guide | None, report: Done | None = None) -> Alternated:
+def alternating_registration(
+    C: np.ndarray, on: RegistrationPair, led: DescriptorGuidance | None, report: Done | None = None
+) -> AlternatingResult:
     """The map ``C (k_t, k_s)`` between unlike shapes mended; ``led`` guides it on all vertices.
 
     Raises
@@ -90,29 +95,31 @@ def alternated(C: np.ndarray, on: Grounds, led: Guide | None, report: Done | Non
     bent = a.mesh.vertices
     for i in range(ROUNDS):
         bent = FIT.vertices(a.mesh, b.mesh, found.target_to_source, landmarks=on.landmarks)
-        lie = lying(Mesh(bent, a.mesh.faces), b.mesh)
-        found = refine(found.functional_map, *on.bases, guide=joined([(1.0, here), (WEIGHT, lie)]))
+        lie = position_normal_guidance(Mesh(bent, a.mesh.faces), b.mesh)
+        found = refine(found.functional_map, *on.bases, guide=combine_guidance([(1.0, here), (WEIGHT, lie)]))
         if report is not None:
             report((i + 1) / ROUNDS)
-    return Alternated(to_numpy(found.functional_map), spread(bent, on.bases[0], on.source.basis))
+    return AlternatingResult(to_numpy(found.functional_map), project_positions(bent, on.bases[0], on.source.basis))
 
 
-def lying(source: Mesh, target: Mesh) -> Guide:
+def position_normal_guidance(source: Mesh, target: Mesh) -> DescriptorGuidance:
     """Positions and normals of two surfaces that lie on each other.
 
     Positions of two random points differ by 1 on average, normals by about as much.
     """
     middle = target.vertices.mean(axis=0)
     size = np.sqrt(2 * ((target.vertices - middle) ** 2).sum(axis=1).mean())
-    return Guide(*((places(mesh) - np.append(middle, np.zeros(3))) / size for mesh in (source, target)))
+    return DescriptorGuidance(
+        *((position_normals(mesh) - np.append(middle, np.zeros(3))) / size for mesh in (source, target))
+    )
 
 
-def places(mesh: Mesh) -> np.ndarray:
+def position_normals(mesh: Mesh) -> np.ndarray:
     """Positions and normals of its vertices, (n, 6), in units of length."""
     return np.hstack([mesh.vertices, NORMALS * vertex_normals(mesh)])
 
 
-def spread(positions: np.ndarray, samples: SampledBasis, basis: Basis, k: int = 100) -> np.ndarray:
+def project_positions(positions: np.ndarray, samples: SampledBasis, basis: Basis, k: int = 100) -> np.ndarray:
     """``positions (q, 3)`` at samples as smooth functions on all vertices, (n, 3), by damped least squares."""
     phi = to_numpy(samples.functions)[:, :k]
     weighted = (to_numpy(samples.mass)[:, None] * phi).T
@@ -120,7 +127,7 @@ def spread(positions: np.ndarray, samples: SampledBasis, basis: Basis, k: int = 
     return to_numpy(basis.functions)[:, : phi.shape[1]] @ found
 
 
-def _sampled(basis: Basis, copy: Copy) -> SampledBasis:
+def _sampled(basis: Basis, copy: CoarseProxy) -> SampledBasis:
     areas = vertex_areas(copy.mesh)
     areas = areas * (float(to_numpy(basis.mass).sum()) / areas.sum())
     return SampledBasis(basis.eigenvalues, to_numpy(basis.functions)[copy.vertices], areas)

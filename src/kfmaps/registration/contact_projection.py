@@ -10,36 +10,41 @@ from __future__ import annotations
 import numpy as np
 from scipy.spatial import KDTree
 
-from kfmaps.geometry.closest_points import Places, closest_of, places_on
+from kfmaps.geometry.closest_points import ClosestPoints, closest_among, closest_points
 from kfmaps.geometry.mesh import Mesh, vertex_normals
-from kfmaps.registration.deformable import NORMALS, Body
+from kfmaps.registration.deformable import NORMALS, DeformableMesh
 
-APART = 0.05
+MIN_REST_DISTANCE = 0.05
 """Distance in space, at unit area, that counts as much as places at rest that are 1 apart: a limb that the fit has
 found back, half a body from where the map had it, stays there unless another is as near."""
 
 
-def landed(points: np.ndarray, body: Body, x: np.ndarray, target: Mesh, normals: np.ndarray) -> Places:
+def project_with_contact(
+    points: np.ndarray, body: DeformableMesh, x: np.ndarray, target: Mesh, normals: np.ndarray
+) -> ClosestPoints:
     """The place of each vertex of ``target``, with its ``normals (n_t, 3)``, on ``body``, bent to ``x (n_s, 3)``.
 
     The closest place in space or, where it costs less, one at the vertex that is nearest by everything: squared
     distance in space, in normals (those that differ by 1 count as :data:`~kfmaps.registration.deformable.NORMALS`),
     and at
-    rest from the map's ``points (n_t,)`` (:data:`APART`). On meshes as uneven as may be none costs more than the
+    rest from the map's ``points (n_t,)`` (:data:`MIN_REST_DISTANCE`). On meshes as uneven as may be none costs more
+    than the
     closest in space.
     """
     faces, rest = body.mesh.faces, body.mesh.vertices
-    there = np.hstack([x, NORMALS * vertex_normals(Mesh(x, faces)), APART * rest])
-    wanted = np.hstack([target.vertices, NORMALS * normals, APART * rest[points]])
-    closest = places_on(target.vertices, x, faces)
+    there = np.hstack([x, NORMALS * vertex_normals(Mesh(x, faces)), MIN_REST_DISTANCE * rest])
+    wanted = np.hstack([target.vertices, NORMALS * normals, MIN_REST_DISTANCE * rest[points]])
+    closest = closest_points(target.vertices, x, faces)
     near = np.asarray(KDTree(there).query(wanted)[1])
-    likely = closest_of(target.vertices, x, faces, *body.around.around(near))
+    likely = closest_among(target.vertices, x, faces, *body.around.around(near))
     cheaper = _cost(likely, there[faces], wanted) < _cost(closest, there[faces], wanted)
     pairs = ((getattr(likely, name), getattr(closest, name)) for name in ("faces", "weights", "points", "distances"))
-    return Places(*(np.where(cheaper if one.ndim == 1 else cheaper[:, None], one, other) for one, other in pairs))
+    return ClosestPoints(
+        *(np.where(cheaper if one.ndim == 1 else cheaper[:, None], one, other) for one, other in pairs)
+    )
 
 
-def _cost(places: Places, corners: np.ndarray, wanted: np.ndarray) -> np.ndarray:
+def _cost(places: ClosestPoints, corners: np.ndarray, wanted: np.ndarray) -> np.ndarray:
     """Squared distance of each place from what is ``wanted (n_t, 9)``; ``corners (f, 3, 9)`` of the faces."""
     here = np.einsum("qi,qid->qd", places.weights, corners[places.faces])
     here[:, 3:6] *= NORMALS / np.maximum(np.linalg.norm(here[:, 3:6], axis=1, keepdims=True), 1e-12)

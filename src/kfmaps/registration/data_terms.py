@@ -8,17 +8,17 @@ from typing import Any
 
 import numpy as np
 
-from kfmaps.geometry.arap import Rigidity, pull
+from kfmaps.geometry.arap import ArapEnergy, arap_rhs
 
-SLIDING = 0.03
+NORMAL_FRACTION = 0.03
 """Weight of squared distances along the surface, against 1 along its normal."""
-INNER = 3
+PCG_STEPS = 3
 """Steps of conjugate gradients for each set of closest points."""
 
 
 @dataclass(frozen=True, eq=False)
-class Term:
-    """``Σ_q weights_q ‖P_q((rows x)_q − places_q)‖²``, ``P`` shortened to :data:`SLIDING` across ``normals``.
+class DataTerm:
+    """``Σ_q weights_q ‖P_q((rows x)_q − places_q)‖²``, ``P`` shortened to :data:`NORMAL_FRACTION` across ``normals``.
 
     ``rows`` is sparse ``(q, n_s)``, ``None`` for the vertices themselves; without normals ``P`` is the identity.
     """
@@ -42,17 +42,17 @@ class Term:
         if self.normals is None:
             return self.weights[:, None] * z
         along = np.einsum("qi,qi->q", self.normals, z)
-        return self.weights[:, None] * (SLIDING * z + ((1 - SLIDING) * along)[:, None] * self.normals)
+        return self.weights[:, None] * (NORMAL_FRACTION * z + ((1 - NORMAL_FRACTION) * along)[:, None] * self.normals)
 
 
-def descended(
-    energy: Rigidity,
+def descend(
+    energy: ArapEnergy,
     stiffness: float,
     solve: Callable[[np.ndarray], np.ndarray],
-    terms: list[Term],
+    terms: list[DataTerm],
     x: np.ndarray,
     turns: np.ndarray,
-    steps: int = INNER,
+    steps: int = PCG_STEPS,
 ) -> np.ndarray:
     """``x`` after a few steps of conjugate gradients on the quadratic energy for fixed rotations and terms.
 
@@ -62,7 +62,7 @@ def descended(
     def apply(z: np.ndarray) -> np.ndarray:
         return stiffness * (energy.laplacian @ z) + sum(term.at(z) for term in terms)
 
-    residual = stiffness * pull(energy, turns) + sum(term.right() for term in terms) - apply(x)
+    residual = stiffness * arap_rhs(energy, turns) + sum(term.right() for term in terms) - apply(x)
     direction = towards = solve(residual)
     size = float(np.sum(residual * towards))
     for step in range(steps):

@@ -8,12 +8,12 @@ import numpy as np
 from scipy.sparse import csr_array, diags_array
 from scipy.spatial import KDTree
 
-from kfmaps.geometry.arap import Rigidity, nearest_rotations, rigidity, rotations
-from kfmaps.geometry.closest_points import Places, Rings, closest_of, rings
-from kfmaps.geometry.eigen.factorization import Solve, factorise
+from kfmaps.geometry.arap import ArapEnergy, build_arap, nearest_rotations, rotations
+from kfmaps.geometry.closest_points import ClosestPoints, VertexRings, closest_among, vertex_rings
+from kfmaps.geometry.eigen.factorization import Solve, factorize
 from kfmaps.geometry.mesh import Mesh, vertex_areas, vertex_normals
-from kfmaps.geometry.topology import connected
-from kfmaps.registration.data_terms import Term, descended
+from kfmaps.geometry.topology import component_labels
+from kfmaps.registration.data_terms import DataTerm, descend
 
 NORMALS = 0.02
 """Distance in space, at unit area, that counts as much as normals that differ by 1."""
@@ -23,41 +23,46 @@ START = 1e-3
 """Stiffness of the first shape, which follows the map."""
 DIFFUSION = 2.5e-3
 """Area over which rotations of the first shape are averaged, halved in each of ..."""
-UNFOLDINGS = 3
+INITIAL_STEPS = 3
 """... so many rounds."""
 SMOOTH = 1e-4
 """Area over which the map's images are averaged before anything is known of rotations."""
 
 
 @dataclass(frozen=True, eq=False)
-class Look:
+class ClosestPointQuery:
     """A surface in which closest points with like normals are sought."""
 
     vertices: np.ndarray
     faces: np.ndarray
     normals: np.ndarray
-    around: Rings
+    around: VertexRings
     tree: KDTree
 
-    def __call__(self, points: np.ndarray, normals: np.ndarray) -> tuple[Places, np.ndarray, np.ndarray]:
+    def __call__(self, points: np.ndarray, normals: np.ndarray) -> tuple[ClosestPoints, np.ndarray, np.ndarray]:
         """Places of ``points (q, 3)`` with ``normals``, the normals there, and how well they agree, 0 to 1."""
         near = self.tree.query(np.hstack([points, NORMALS * normals]))[1]
-        found = closest_of(points, self.vertices, self.faces, *self.around.around(near))
+        found = closest_among(points, self.vertices, self.faces, *self.around.around(near))
         there = _unit(np.einsum("qi,qij->qj", found.weights, self.normals[self.faces[found.faces]]))
         cosine = np.einsum("qi,qi->q", there, normals)
         return found, there, np.clip((cosine - AGREEMENT) / (1 - AGREEMENT), 0.0, 1.0)
 
 
-def look(mesh: Mesh, normals: np.ndarray | None = None, around: Rings | None = None) -> Look:
-    """A :class:`Look` at ``mesh``, whose ``normals (n, 3)`` and rings are worked out where they are not given."""
+def closest_point_query(
+    mesh: Mesh, normals: np.ndarray | None = None, around: VertexRings | None = None
+) -> ClosestPointQuery:
+    """A :class:`ClosestPointQuery` at ``mesh``, whose ``normals (n, 3)`` and rings are worked out where they are not
+    given."""
     normals = vertex_normals(mesh) if normals is None else normals
-    around = rings(mesh.faces, len(mesh.vertices)) if around is None else around
-    return Look(mesh.vertices, mesh.faces, normals, around, KDTree(np.hstack([mesh.vertices, NORMALS * normals])))
+    around = vertex_rings(mesh.faces, len(mesh.vertices)) if around is None else around
+    return ClosestPointQuery(
+        mesh.vertices, mesh.faces, normals, around, KDTree(np.hstack([mesh.vertices, NORMALS * normals]))
+    )
 
 
 @dataclass(frozen=True, eq=False)
-class Body:
-    """A surface at rest, and what stays the same while it is bent; made by :func:`body_of`.
+class DeformableMesh:
+    """A surface at rest, and what stays the same while it is bent; made by :func:`deformable_mesh`.
 
     Attributes
     ----------
@@ -72,9 +77,9 @@ class Body:
     """
 
     mesh: Mesh
-    energy: Rigidity
+    energy: ArapEnergy
     areas: np.ndarray
-    around: Rings
+    around: VertexRings
     solvers: dict[tuple[float, float], Solve] | None = None
 
     def solver(self, stiffness: float, data: float) -> Solve:
@@ -82,19 +87,21 @@ class Body:
         kept, key = self.solvers, (stiffness, data)
         if kept is not None and key in kept:
             return kept[key]
-        solve = factorise(stiffness * self.energy.laplacian + diags_array(data * self.areas), ordered=False)
+        solve = factorize(stiffness * self.energy.laplacian + diags_array(data * self.areas), ordered=False)
         if kept is not None:
             kept[key] = solve
         return solve
 
 
-def body_of(mesh: Mesh, solvers: dict[tuple[float, float], Solve] | None = None) -> Body:
+def deformable_mesh(mesh: Mesh, solvers: dict[tuple[float, float], Solve] | None = None) -> DeformableMesh:
     """``mesh`` at rest."""
-    return Body(mesh, rigidity(mesh), vertex_areas(mesh), rings(mesh.faces, len(mesh.vertices)), solvers)
+    return DeformableMesh(
+        mesh, build_arap(mesh), vertex_areas(mesh), vertex_rings(mesh.faces, len(mesh.vertices)), solvers
+    )
 
 
-def unfolded(
-    body: Body, points: np.ndarray, places: np.ndarray, normals: np.ndarray, weights: np.ndarray
+def initial_deformation(
+    body: DeformableMesh, points: np.ndarray, places: np.ndarray, normals: np.ndarray, weights: np.ndarray
 ) -> np.ndarray:
     """The first shape, ``(n, 3)``: where the places say, but where these fold it, as the surroundings do.
 
@@ -108,19 +115,19 @@ def unfolded(
     gathered = rows.T @ np.hstack([weights[:, None] * places, weights[:, None] * normals])
     share = rows.T @ weights
     _take_along(body.mesh, share, gathered)
-    smooth = factorise(SMOOTH * energy.laplacian + diags_array(share), ordered=False)(gathered)
+    smooth = factorize(SMOOTH * energy.laplacian + diags_array(share), ordered=False)(gathered)
     x, wanted = np.ascontiguousarray(smooth[:, :3]), _unit(smooth[:, 3:])
     solve = body.solver(START, 1.0)
-    for round in range(UNFOLDINGS):
+    for round in range(INITIAL_STEPS):
         agreement = np.einsum("ij,ij->i", vertex_normals(Mesh(x, body.mesh.faces)), wanted)
         trust = np.clip(agreement, 0.0, 1.0)
         held = body.areas * (trust + 1e-3)
         turns = rotations(energy, x).reshape(n, 9)
-        diffusion = factorise(DIFFUSION * 0.5**round * energy.laplacian + diags_array(held), ordered=False)
+        diffusion = factorize(DIFFUSION * 0.5**round * energy.laplacian + diags_array(held), ordered=False)
         turns = nearest_rotations(diffusion(held[:, None] * turns).reshape(n, 3, 3))
-        terms = [Term(weights * trust[points], places, rows)]
-        x = descended(energy, START, solve, terms, x, turns, 8)
-        x = descended(energy, START, solve, terms, x, rotations(energy, x), 8)
+        terms = [DataTerm(weights * trust[points], places, rows)]
+        x = descend(energy, START, solve, terms, x, turns, 8)
+        x = descend(energy, START, solve, terms, x, rotations(energy, x), 8)
     return x
 
 
@@ -131,7 +138,7 @@ def _take_along(mesh: Mesh, share: np.ndarray, gathered: np.ndarray) -> None:
     """
     n = len(mesh.vertices)
     ends = mesh.faces[:, :2].ravel(), mesh.faces[:, 1:].ravel()
-    label = connected(n, *ends)[1]
+    label = component_labels(n, *ends)[1]
     lost = np.flatnonzero((np.bincount(label, share) == 0)[label])
     held = np.flatnonzero(share > 0)
     if len(lost) == 0 or len(held) == 0:

@@ -14,20 +14,20 @@ import numpy as np
 
 from kfmaps._arrays import NotConverged, to_numpy
 from kfmaps.fmap.convert import nearest
-from kfmaps.geometry.arap import bending as whole_energy
-from kfmaps.geometry.arap import local
-from kfmaps.geometry.coarsen import coarse
-from kfmaps.geometry.mesh import Mesh, mirrored
+from kfmaps.geometry.arap import arap_energy as whole_energy
+from kfmaps.geometry.arap import arap_energy_per_vertex
+from kfmaps.geometry.coarsen import coarsen
+from kfmaps.geometry.mesh import Mesh, mirror_mesh
 from kfmaps.geometry.sampling import stratified_vertices
-from kfmaps.registration.deformable import body_of, look
-from kfmaps.registration.nonrigid_icp import Facing, NonRigid, facing
+from kfmaps.registration.deformable import closest_point_query, deformable_mesh
+from kfmaps.registration.nonrigid_icp import MeshPair, NonRigid, mesh_pair
 from kfmaps.shape import Shape
 
 POINTS, MORE = 1200, 3000
 """Vertices of a coarse copy, and of one for a second look where two maps are close."""
 FEWEST = 12
 """Faces below which there is nothing to bend."""
-FIT, LONGER = NonRigid(levels=2, steps=2, evenness=0.0), NonRigid(levels=3, steps=3)
+FIT, LONGER = NonRigid(n_levels=2, steps=2, rotation_smoothing=0.0), NonRigid(n_levels=3, steps=3)
 """The fits of both."""
 LEAST, MOST = 1e-2, 10.0
 """Energies below which maps are alike, as of two meshes of one shape, and above which nothing is left of the shape."""
@@ -39,8 +39,8 @@ TINY = 1e-12
 
 
 @dataclass(frozen=True, eq=False)
-class Copy:
-    """A coarse copy of a shape; made by :func:`copied`.
+class CoarseProxy:
+    """A coarse copy of a shape; made by :func:`coarse_copy`.
 
     Attributes
     ----------
@@ -52,12 +52,12 @@ class Copy:
     mesh: Mesh
     vertices: np.ndarray
 
-    def mirrored(self) -> Copy:
+    def mirrored(self) -> CoarseProxy:
         """Of the mirror image."""
-        return replace(self, mesh=mirrored(self.mesh))
+        return replace(self, mesh=mirror_mesh(self.mesh))
 
 
-def copied(shape: Shape, points: int = POINTS) -> Copy | None:
+def coarse_copy(shape: Shape, points: int = POINTS) -> CoarseProxy | None:
     """A coarse copy of a shape with so many ``points``; ``None`` where it has no faces, or too few."""
     if len(shape.mesh.faces) < FEWEST:
         return None
@@ -65,19 +65,19 @@ def copied(shape: Shape, points: int = POINTS) -> Copy | None:
     mesh = shape.mesh
     if len(vertices) > points:
         vertices = stratified_vertices(shape.basis, points, 0)
-        mesh = coarse(shape.mesh, vertices)
+        mesh = coarsen(shape.mesh, vertices)
     # Thin parts may lose their faces, and a point that no face uses bends with nothing.
     used = np.unique(mesh.faces)
     if len(mesh.faces) < FEWEST:
         return None
     number = np.full(len(vertices), -1, dtype=np.int64)
     number[used] = np.arange(len(used))
-    return Copy(Mesh(mesh.vertices[used], number[mesh.faces]), vertices[used])
+    return CoarseProxy(Mesh(mesh.vertices[used], number[mesh.faces]), vertices[used])
 
 
 @dataclass(frozen=True)
-class Bent:
-    """How far both shapes must bend to follow a map; made by :func:`bent`.
+class DeformationEnergy:
+    """How far both shapes must bend to follow a map; made by :func:`deform`.
 
     Attributes
     ----------
@@ -89,27 +89,27 @@ class Bent:
         back, shows in it; the few places where two bodies differ most, which have most of the energy, hardly.
     """
 
-    bending: float
+    energy: float
     strain: float
 
 
 @dataclass(frozen=True, eq=False)
-class Ready:
-    """Two copies at rest and looked at, so that what depends on no map is found once; made by :func:`ready`."""
+class FacingPair:
+    """Two copies at rest and looked at, so that what depends on no map is found once; made by :func:`facing_pair`."""
 
-    copies: tuple[Copy, Copy]
-    there: Facing
-    back: Facing
+    copies: tuple[CoarseProxy, CoarseProxy]
+    there: MeshPair
+    back: MeshPair
 
 
-def ready(a: Copy, b: Copy) -> Ready:
+def facing_pair(a: CoarseProxy, b: CoarseProxy) -> FacingPair:
     """Copies of two shapes ready to be bent onto each other as several maps say."""
-    bodies = [body_of(copy.mesh, {}) for copy in (a, b)]
-    looks = [look(body.mesh, around=body.around) for body in bodies]
-    return Ready((a, b), facing(bodies[0], b.mesh, looks[1]), facing(bodies[1], a.mesh, looks[0]))
+    bodies = [deformable_mesh(copy.mesh, {}) for copy in (a, b)]
+    looks = [closest_point_query(body.mesh, around=body.around) for body in bodies]
+    return FacingPair((a, b), mesh_pair(bodies[0], b.mesh, looks[1]), mesh_pair(bodies[1], a.mesh, looks[0]))
 
 
-def ways(C: np.ndarray, source: Shape, target: Shape, on: Ready) -> tuple[tuple[Facing, np.ndarray], ...]:
+def map_samples(C: np.ndarray, source: Shape, target: Shape, on: FacingPair) -> tuple[tuple[MeshPair, np.ndarray], ...]:
     """Each copy and the other, with the point of the first for each of the second that ``C (k_t, k_s)`` says."""
     k_t, k_s = C.shape
     a, b = on.copies
@@ -118,27 +118,29 @@ def ways(C: np.ndarray, source: Shape, target: Shape, on: Ready) -> tuple[tuple[
     return (on.there, nearest(rows, images, threads=1)), (on.back, nearest(images, rows, threads=1))
 
 
-def bent(C: np.ndarray, source: Shape, target: Shape, on: Ready, fit: NonRigid = FIT) -> Bent:
+def deform(C: np.ndarray, source: Shape, target: Shape, on: FacingPair, fit: NonRigid = FIT) -> DeformationEnergy:
     """Each shape bent onto the other as ``C (k_t, k_s)`` says."""
-    there, back = (_bent(fit, *way) for way in ways(C, source, target, on))
+    there, back = (_bent(fit, *way) for way in map_samples(C, source, target, on))
     if there is None or back is None:
         # That a copy falls apart says nothing of the map.
-        return there or back or Bent(MOST, math.log(MOST))
-    return Bent(math.sqrt(there.bending * back.bending), (there.strain + back.strain) / 2)
+        return there or back or DeformationEnergy(MOST, math.log(MOST))
+    return DeformationEnergy(math.sqrt(there.energy * back.energy), (there.strain + back.strain) / 2)
 
 
-def bending(C: np.ndarray, source: Shape, target: Shape, on: Ready, fit: NonRigid = FIT) -> float:
-    """:attr:`Bent.bending` alone."""
-    return bent(C, source, target, on, fit).bending
+def deformation_energy(C: np.ndarray, source: Shape, target: Shape, on: FacingPair, fit: NonRigid = FIT) -> float:
+    """:attr:`Bent.energy` alone."""
+    return deform(C, source, target, on, fit).energy
 
 
-def _bent(fit: NonRigid, pair: Facing, points: np.ndarray) -> Bent | None:
+def _bent(fit: NonRigid, pair: MeshPair, points: np.ndarray) -> DeformationEnergy | None:
     try:
         x, _ = fit.bent(pair, points)
     except NotConverged:
         return None
     energy, sizes = pair.body.energy, pair.body.areas
     areas = np.maximum(sizes, TINY)
-    dense = np.log(np.maximum(local(energy, x) / areas, STILL))
+    dense = np.log(np.maximum(arap_energy_per_vertex(energy, x) / areas, STILL))
     whole = whole_energy(energy, x) / float(sizes.sum())
-    return Bent(min(max(whole, LEAST), MOST), max(float(np.average(dense, weights=areas)), math.log(LEAST)))
+    return DeformationEnergy(
+        min(max(whole, LEAST), MOST), max(float(np.average(dense, weights=areas)), math.log(LEAST))
+    )

@@ -16,8 +16,8 @@ from collections.abc import Callable
 import numpy as np
 from scipy.sparse import diags_array
 
-from kfmaps.geometry.arap import Rigidity, moments_of
-from kfmaps.geometry.eigen.factorization import factorise
+from kfmaps.geometry.arap import ArapEnergy, edge_covariances
+from kfmaps.geometry.eigen.factorization import factorize
 
 ROUND = 0.05
 """Damping towards a change of size alike in all directions: flat surroundings say nothing of the third."""
@@ -26,7 +26,7 @@ LEAST, MOST = 0.4, 2.5
 TINY = 1e-300
 
 
-def stretching(energy: Rigidity, areas: np.ndarray, area: float) -> Callable[[np.ndarray, np.ndarray], np.ndarray]:
+def local_scaling(energy: ArapEnergy, areas: np.ndarray, area: float) -> Callable[[np.ndarray, np.ndarray], np.ndarray]:
     """A function that puts the stretch of the surroundings, of about ``area``, into rotations.
 
     It takes the bent shape ``x (n, 3)`` and the rotations ``(n, 3, 3)`` of its vertices, and returns ``R_i S_i``, with
@@ -37,17 +37,17 @@ def stretching(energy: Rigidity, areas: np.ndarray, area: float) -> Callable[[np
     if area == 0:
         return lambda _x, turns: turns
     n = len(areas)
-    diffuse = factorise(area * energy.laplacian + diags_array(areas), ordered=False)
+    diffuse = factorize(area * energy.laplacian + diags_array(areas), ordered=False)
 
     def averaged(matrices: np.ndarray) -> np.ndarray:
         return np.asarray(diffuse(np.ascontiguousarray(matrices.reshape(n, 9)))).reshape(n, 3, 3)
 
-    rest = averaged(moments_of(energy, energy.rest))
+    rest = averaged(edge_covariances(energy, energy.rest))
     size = np.maximum(np.trace(rest, axis1=1, axis2=2), TINY)
     inverse = np.linalg.inv(rest + (ROUND * size)[:, None, None] * np.eye(3))
 
     def stretched(x: np.ndarray, turns: np.ndarray) -> np.ndarray:
-        moved = averaged(turns.transpose(0, 2, 1) @ moments_of(energy, x))
+        moved = averaged(turns.transpose(0, 2, 1) @ edge_covariances(energy, x))
         scale = np.clip(np.trace(moved, axis1=1, axis2=2) / size, LEAST, MOST)
         found = (moved + (ROUND * size * scale)[:, None, None] * np.eye(3)) @ inverse
         values, axes = np.linalg.eigh(0.5 * (found + found.transpose(0, 2, 1)))

@@ -23,15 +23,21 @@ from scipy.sparse import csr_array, diags_array
 
 from kfmaps._arrays import check_count, check_positive, refuse
 from kfmaps.fmap.convert import check_point_map
-from kfmaps.geometry.arap import bending, nearest_rotations, rotations
-from kfmaps.geometry.closest_points import Places
-from kfmaps.geometry.coarse_proxy import LARGE, bent_copy
-from kfmaps.geometry.eigen.factorization import factorise
+from kfmaps.geometry.arap import arap_energy, nearest_rotations, rotations
+from kfmaps.geometry.closest_points import ClosestPoints
+from kfmaps.geometry.coarse_proxy import PROXY_FROM_VERTICES, register_proxy
+from kfmaps.geometry.eigen.factorization import factorize
 from kfmaps.geometry.mesh import Mesh, vertex_areas, vertex_normals
-from kfmaps.registration.contact_projection import landed
-from kfmaps.registration.data_terms import Term, descended
-from kfmaps.registration.deformable import Body, Look, body_of, look, unfolded
-from kfmaps.registration.local_scaling import stretching
+from kfmaps.registration.contact_projection import project_with_contact
+from kfmaps.registration.data_terms import DataTerm, descend
+from kfmaps.registration.deformable import (
+    ClosestPointQuery,
+    DeformableMesh,
+    closest_point_query,
+    deformable_mesh,
+    initial_deformation,
+)
+from kfmaps.registration.local_scaling import local_scaling
 
 DECLINE = 10**-0.5
 """Stiffness of a level over that of the one before."""
@@ -48,7 +54,7 @@ FIRMLY, LOOSELY = 30.0, 0.1
 
 
 @dataclass(frozen=True, eq=False)
-class Registered:
+class Registration:
     """A source bent onto a target, both at unit area.
 
     Attributes
@@ -58,9 +64,10 @@ class Registered:
     faces : (n_t,) int64
         The source face that each target vertex lies on, ...
     weights : (n_t, 3) float64
-        ... and the barycentric coordinates of its place there (:func:`kfmaps.registration.contact_projection.landed`).
+        ... and the barycentric coordinates of its place there
+        (:func:`kfmaps.registration.contact_projection.project_with_contact`).
     bending : float
-        As-rigid-as-possible energy per area (:func:`kfmaps.geometry.arap.bending`): 0 for a motion.
+        As-rigid-as-possible energy per area (:func:`kfmaps.geometry.arap.arap_energy`): 0 for a motion.
     gap : float
         Root of the mean squared distance of the two surfaces, in both directions, in units of √area.
     """
@@ -92,16 +99,16 @@ class NonRigid:
     """
 
     stiffness: float = 2e-4
-    levels: int = 3
+    n_levels: int = 3
     steps: int = 5
-    evenness: float = 1e-3
-    stretch: float = 0.0
+    rotation_smoothing: float = 1e-3
+    local_scaling: float = 0.0
 
     def __post_init__(self) -> None:
         check_positive(self.stiffness, "stiffness of the non-rigid fit")
-        check_count(self.levels, "levels of the non-rigid fit")
+        check_count(self.n_levels, "levels of the non-rigid fit")
         check_count(self.steps, "steps of the non-rigid fit")
-        for value, name in ((self.evenness, "evenness"), (self.stretch, "stretch")):
+        for value, name in ((self.rotation_smoothing, "evenness"), (self.local_scaling, "stretch")):
             if value != 0:
                 check_positive(value, f"{name} of the non-rigid fit", "give 0 or a number above it")
 
@@ -113,7 +120,7 @@ class NonRigid:
         progress: Callable[[float], None] | None = None,
         landmarks: np.ndarray | None = None,
         held: np.ndarray | None = None,
-    ) -> Registered:
+    ) -> Registration:
         """Bend ``source`` onto ``target``, beginning with the map ``target_to_source (n_t,)``.
 
         ``landmarks (l, 2)``, pairs "source vertex, target vertex", are pulled together softly; so is each target
@@ -125,9 +132,9 @@ class NonRigid:
             When one of them is a point cloud, or the map does not fit.
         """
         pair, x, gap = self._bent(source, target, target_to_source, progress, landmarks, held)
-        found = landed(target_to_source, pair.body, x, target, pair.normals_t)
-        energy = bending(pair.body.energy, x) / float(pair.body.areas.sum())
-        return Registered(x, found.faces, found.weights, energy, gap)
+        found = project_with_contact(target_to_source, pair.body, x, target, pair.normals_t)
+        energy = arap_energy(pair.body.energy, x) / float(pair.body.areas.sum())
+        return Registration(x, found.faces, found.weights, energy, gap)
 
     def vertices(
         self,
@@ -149,7 +156,7 @@ class NonRigid:
         progress: Callable[[float], None] | None,
         landmarks: np.ndarray | None,
         held: np.ndarray | None,
-    ) -> tuple[Facing, np.ndarray, float]:
+    ) -> tuple[MeshPair, np.ndarray, float]:
         """Both surfaces, the source's vertices (n_s, 3) on the target, and the gap."""
         for mesh, name in ((source, "source"), (target, "target")):
             if len(mesh.faces) == 0:
@@ -158,14 +165,14 @@ class NonRigid:
         points = check_point_map(target_to_source, len(source.vertices), len(target.vertices))
         marks = np.zeros((0, 2), dtype=np.int64) if landmarks is None else np.asarray(landmarks)
         x = None
-        if max(len(source.vertices), len(target.vertices)) > LARGE:
-            x = bent_copy(self.vertices, source, target, points, lambda done: report(0.3 * done), marks, held)
-        pair = facing(body_of(source), target)
+        if max(len(source.vertices), len(target.vertices)) > PROXY_FROM_VERTICES:
+            x = register_proxy(self.vertices, source, target, points, lambda done: report(0.3 * done), marks, held)
+        pair = mesh_pair(deformable_mesh(source), target)
         return pair, *self.bent(pair, points, x, report, marks, held)
 
     def bent(
         self,
-        pair: Facing,
+        pair: MeshPair,
         points: np.ndarray,
         x: np.ndarray | None = None,
         report: Callable[[float], None] = lambda _done: None,
@@ -176,17 +183,17 @@ class NonRigid:
 
         With ``x (n_s, 3)``, where the source lies nearly, only the last level is done.
         """
-        levels, steps, begun = range(self.levels), self.steps, 0.2
+        levels, steps, begun = range(self.n_levels), self.steps, 0.2
         if x is not None:
-            levels, steps, begun = range(self.levels)[-1:], min(self.steps, LAST), 0.3
+            levels, steps, begun = range(self.n_levels)[-1:], min(self.steps, LAST), 0.3
         else:
-            x = unfolded(pair.body, points, pair.target.vertices, pair.normals_t, pair.areas_t)
+            x = initial_deformation(pair.body, points, pair.target.vertices, pair.normals_t, pair.areas_t)
             report(begun)
-        even = _evened(pair, self.evenness)
-        stretched = stretching(pair.body.energy, pair.body.areas, self.stretch)
+        even = _evened(pair, self.rotation_smoothing)
+        stretched = local_scaling(pair.body.energy, pair.body.areas, self.local_scaling)
         marks = np.zeros((0, 2), dtype=np.int64) if marks is None else marks
         discs = _discs(pair, marks)
-        hold, fading = (FIRMLY, LOOSELY) if self.stretch else (HOLD, SLOPPY)
+        hold, fading = (FIRMLY, LOOSELY) if self.local_scaling else (HOLD, SLOPPY)
         stays = [] if held is None or not held.any() else [_stays(pair, points, held)]
         gap = 0.0
         for level in levels:
@@ -198,20 +205,20 @@ class NonRigid:
                 if len(marks):
                     terms.append(_marked(pair, marks, discs, x, hold * stiffness, fading))
                 turns = stretched(x, even(rotations(pair.body.energy, x)))
-                x = descended(pair.body.energy, stiffness, solve, terms, x, turns)
+                x = descend(pair.body.energy, stiffness, solve, terms, x, turns)
                 done = (level - levels[0]) * steps + step + 1
                 report(begun + (1 - begun) * done / (len(levels) * steps))
         return x, gap
 
 
 @dataclass(frozen=True, eq=False)
-class Facing:
-    """Two surfaces and what stays the same while the first is bent onto the second; made by :func:`facing`."""
+class MeshPair:
+    """Two surfaces and what stays the same while the first is bent onto the second; made by :func:`mesh_pair`."""
 
-    body: Body
+    body: DeformableMesh
     target: Mesh
     areas_t: np.ndarray
-    look_t: Look
+    look_t: ClosestPointQuery
 
     @property
     def normals_t(self) -> np.ndarray:
@@ -219,60 +226,60 @@ class Facing:
         return self.look_t.normals
 
 
-def facing(body: Body, target: Mesh, look_t: Look | None = None) -> Facing:
+def mesh_pair(body: DeformableMesh, target: Mesh, look_t: ClosestPointQuery | None = None) -> MeshPair:
     """A surface at rest and the one that it is to be bent onto; ``look_t`` where it is there already."""
-    return Facing(body, target, vertex_areas(target), look(target) if look_t is None else look_t)
+    return MeshPair(body, target, vertex_areas(target), closest_point_query(target) if look_t is None else look_t)
 
 
-def _evened(pair: Facing, area: float) -> Callable[[np.ndarray], np.ndarray]:
+def _evened(pair: MeshPair, area: float) -> Callable[[np.ndarray], np.ndarray]:
     """Averages rotations ``(n_s, 3, 3)`` with those around: one step of implicit diffusion over ``area``."""
     if area == 0:
         return lambda turns: turns
-    diffuse = factorise(area * pair.body.energy.laplacian + diags_array(pair.body.areas), ordered=False)
+    diffuse = factorize(area * pair.body.energy.laplacian + diags_array(pair.body.areas), ordered=False)
     return lambda turns: nearest_rotations(
         diffuse(pair.body.areas[:, None] * turns.reshape(len(turns), 9)).reshape(turns.shape)
     )
 
 
-def _stays(pair: Facing, points: np.ndarray, held: np.ndarray) -> Term:
+def _stays(pair: MeshPair, points: np.ndarray, held: np.ndarray) -> DataTerm:
     """The map itself as a term, with weights ``held (n_t,)``."""
     some = np.flatnonzero(held)
     rows = csr_array(
         (np.ones(len(some)), points[some], np.arange(len(some) + 1)), shape=(len(some), len(pair.body.areas))
     )
-    return Term(held[some] * pair.areas_t[some], pair.target.vertices[some], rows)
+    return DataTerm(held[some] * pair.areas_t[some], pair.target.vertices[some], rows)
 
 
-def _discs(pair: Facing, landmarks: np.ndarray) -> np.ndarray:
+def _discs(pair: MeshPair, landmarks: np.ndarray) -> np.ndarray:
     """How much of each source vertex belongs to each landmark of ``(l, 2)``: columns (n_s, l) with sum 1."""
     n, count = len(pair.body.areas), len(landmarks)
     if count == 0:
         return np.zeros((n, 0))
     points = np.zeros((n, count))
     points[landmarks[:, 0], np.arange(count)] = 1.0
-    diffuse = factorise(DISC * pair.body.energy.laplacian + diags_array(pair.body.areas), ordered=False)
+    diffuse = factorize(DISC * pair.body.energy.laplacian + diags_array(pair.body.areas), ordered=False)
     return pair.body.areas[:, None] * np.asarray(diffuse(points)).reshape(n, count)
 
 
 def _marked(
-    pair: Facing, landmarks: np.ndarray, discs: np.ndarray, x: np.ndarray, weight: float, fading: float
-) -> Term:
+    pair: MeshPair, landmarks: np.ndarray, discs: np.ndarray, x: np.ndarray, weight: float, fading: float
+) -> DataTerm:
     """Landmarks ``(l, 2)`` as a term: each takes its disc along, those farther off than ``fading`` with less weight."""
     missing = pair.target.vertices[landmarks[:, 1]] - x[landmarks[:, 0]]
     shares = weight * discs / (1 + (missing**2).sum(axis=1) / fading**2) ** 2
     held = shares.sum(axis=1)
-    return Term(held, x + shares @ missing / np.maximum(held, 1e-300)[:, None])
+    return DataTerm(held, x + shares @ missing / np.maximum(held, 1e-300)[:, None])
 
 
-def _closest_terms(pair: Facing, x: np.ndarray) -> tuple[list[Term], float]:
+def _closest_terms(pair: MeshPair, x: np.ndarray) -> tuple[list[DataTerm], float]:
     """Closest points in both directions as terms, and how far the surfaces are apart (root mean square)."""
     bent = Mesh(x, pair.body.mesh.faces)
     normals = vertex_normals(bent)
     forth, there, agree_s = pair.look_t(x, normals)
-    back, _, agree_t = look(bent, normals, pair.body.around)(pair.target.vertices, pair.normals_t)
+    back, _, agree_t = closest_point_query(bent, normals, pair.body.around)(pair.target.vertices, pair.normals_t)
     terms = [
-        Term(pair.body.areas * agree_s, forth.points, None, there),
-        Term(pair.areas_t * agree_t, pair.target.vertices, _rows(pair, back), pair.normals_t),
+        DataTerm(pair.body.areas * agree_s, forth.points, None, there),
+        DataTerm(pair.areas_t * agree_t, pair.target.vertices, _rows(pair, back), pair.normals_t),
     ]
     squares = [
         np.average(places.distances**2, weights=areas)
@@ -281,7 +288,7 @@ def _closest_terms(pair: Facing, x: np.ndarray) -> tuple[list[Term], float]:
     return terms, float(np.sqrt(np.mean(squares)))
 
 
-def _rows(pair: Facing, places: Places) -> Any:
+def _rows(pair: MeshPair, places: ClosestPoints) -> Any:
     """Sparse ``(q, n_s)``: what takes the source's vertices to ``places`` on it."""
     q = len(places.faces)
     corners = pair.body.mesh.faces[places.faces].ravel()

@@ -15,9 +15,9 @@ from scipy.spatial import KDTree
 from kfmaps._arrays import NotConverged
 from kfmaps.descriptors.shot import shot
 from kfmaps.geometry.mesh import Mesh
-from kfmaps.registration.alternating_registration import FIT, places
-from kfmaps.registration.deformation_energy import Ready, ways
-from kfmaps.registration.nonrigid_icp import Facing
+from kfmaps.registration.alternating_registration import FIT, position_normals
+from kfmaps.registration.deformation_energy import FacingPair, map_samples
+from kfmaps.registration.nonrigid_icp import MeshPair
 from kfmaps.shape import Shape
 
 RADIUS, SUPPORT = 0.2, 5000
@@ -27,25 +27,25 @@ STEP = 6
 
 
 @dataclass(frozen=True, eq=False)
-class Sight:
+class SurfaceSamples:
     """Where some points of a surface are, (q, 6) positions and normals, and how it looks from there, (q, 352) SHOT."""
 
     places: np.ndarray
     descriptors: np.ndarray
 
 
-def sight(mesh: Mesh) -> Sight:
+def surface_samples(mesh: Mesh) -> SurfaceSamples:
     """Of every few vertices of a ``mesh`` of unit area."""
     at = np.arange(0, len(mesh.vertices), STEP)
-    return Sight(places(mesh)[at], _descriptors(mesh, at))
+    return SurfaceSamples(position_normals(mesh)[at], _descriptors(mesh, at))
 
 
-def difference(seen: Sight, other: Mesh) -> float:
+def shot_difference(seen: SurfaceSamples, other: Mesh) -> float:
     """Mean squared difference of SHOT, from 0 to 2, from that of an ``other`` surface in the same place.
 
     Each point is compared with the vertex that lies nearest; the points of a copy are spread evenly and count alike.
     """
-    near = np.asarray(KDTree(places(other)).query(seen.places)[1])
+    near = np.asarray(KDTree(position_normals(other)).query(seen.places)[1])
     return float(((seen.descriptors - _descriptors(other, near)) ** 2).sum(axis=1).mean())
 
 
@@ -54,32 +54,32 @@ def _descriptors(mesh: Mesh, at: np.ndarray) -> np.ndarray:
 
 
 @dataclass(frozen=True, eq=False)
-class Looks:
-    """The copies of two shapes, ready to be bent, and how they look at rest; made by :func:`looks`."""
+class ShotPair:
+    """The copies of two shapes, ready to be bent, and how they look at rest; made by :func:`shot_pair`."""
 
-    on: Ready
-    seen: tuple[Sight, Sight]
+    on: FacingPair
+    seen: tuple[SurfaceSamples, SurfaceSamples]
 
 
-def looks(on: Ready) -> Looks:
+def shot_pair(on: FacingPair) -> ShotPair:
     """Of copies of two shapes."""
-    return Looks(on, (sight(on.copies[0].mesh), sight(on.copies[1].mesh)))
+    return ShotPair(on, (surface_samples(on.copies[0].mesh), surface_samples(on.copies[1].mesh)))
 
 
-def mismatch(C: np.ndarray, source: Shape, target: Shape, of: Looks) -> float | None:
-    """:func:`difference` of each copy, bent onto the other as ``C (k_t, k_s)`` says; the mean of both directions.
+def registered_shot_error(C: np.ndarray, source: Shape, target: Shape, of: ShotPair) -> float | None:
+    """:func:`shot_difference` of each copy, bent onto the other as ``C (k_t, k_s)`` says; the mean of both directions.
 
     Of one where the other falls apart, ``None`` where both do.
     """
-    there, back = ways(C, source, target, of.on)
+    there, back = map_samples(C, source, target, of.on)
     found = [_mismatch(*there, of.seen[1]), _mismatch(*back, of.seen[0])]
     known = [value for value in found if value is not None]
     return sum(known) / len(known) if known else None
 
 
-def _mismatch(pair: Facing, points: np.ndarray, seen: Sight) -> float | None:
+def _mismatch(pair: MeshPair, points: np.ndarray, seen: SurfaceSamples) -> float | None:
     try:
         x, _ = FIT.bent(pair, points)
     except NotConverged:
         return None
-    return difference(seen, Mesh(x, pair.body.mesh.faces))
+    return shot_difference(seen, Mesh(x, pair.body.mesh.faces))

@@ -41,7 +41,7 @@ def match_summary(match: Match) -> dict[str, Any]:
         "confidence": match.confidence,
         "scores": list(match.scores),
         "size of the map": f"{k_t} × {k_s}",
-        "started from": match.origin,
+        "started from": match.initialization,
         "parts": match.partial_reason if match.partial != "none" else None,
     }
     told: dict[str, Any] = {}
@@ -82,7 +82,7 @@ def match_page(
     descriptors : bool
         Whether to work out wave kernel signatures to show, which takes an eigensolve of each shape.
     """
-    maps = [match.target_to_source, *match.runners_up]
+    maps = [match.target_to_source, *match.alternatives]
     return result_page(
         source,
         target,
@@ -90,7 +90,7 @@ def match_page(
         functional_map=match.functional_map,
         errors=None if truth is None else errors_against(source, maps, *truth),
         confidence=_confidences(source, target, maps, match.local_confidence),
-        runners_up=match.runners_up,
+        runners_up=match.alternatives,
         descriptors=signatures(source, target) if descriptors else None,
         common=None if match.overlap_source is None else match.overlap_source > 0.5,
         summary=match_summary(match),

@@ -176,8 +176,8 @@ def _table(accuracy: Accuracy) -> Table:
     if accuracy.smooth is not None:
         for name, value in (
             ("source covered, with neighbours", accuracy.smooth.coverage),
-            ("target's area turned over", accuracy.smooth.flipped),
-            ("edges stretched or shrunk twofold", accuracy.smooth.stretched),
+            ("target's area turned over", accuracy.smooth.flipped_area),
+            ("edges stretched or shrunk twofold", accuracy.smooth.stretched_area),
         ):
             table.add_row(name, *[""] * (1 if accuracy.precise is not None else 0), f"{100 * value:.1f} %")
     if accuracy.mirrored is not None and accuracy.mirrored.mean < accuracy.errors.mean:

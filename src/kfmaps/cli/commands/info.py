@@ -43,7 +43,7 @@ def description(path: str | Path, content: MeshFile) -> dict[str, Any]:
         "area": surface_area(mesh) if surface else None,
         "colors": content.colors is not None,
         "texture_coordinates": content.uv is not None,
-        "topology": {**asdict(counts), "closed": counts.closed, "manifold": counts.manifold} if surface else None,
+        "topology": {**asdict(counts), "closed": counts.is_closed, "manifold": counts.is_manifold} if surface else None,
     }
 
 

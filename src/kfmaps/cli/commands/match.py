@@ -72,7 +72,7 @@ def match(
     from kfmaps.cli.summary import map_file, summary, table
     from kfmaps.io import read_landmarks, save_map
     from kfmaps.matching.match import default_config
-    from kfmaps.matching.memory import check_demand
+    from kfmaps.matching.memory import check_match_memory
     from kfmaps.settings.device import check_device
 
     own_descriptors = descriptors_source is not None or descriptors_target is not None
@@ -85,7 +85,7 @@ def match(
     if pairs is not None:
         _check_landmarks(pairs, meshes, (source, target))
     n_s, n_t = (len(mesh.vertices) for mesh in meshes)
-    check_demand(config, n_s, n_t, 0 if pairs is None else len(pairs))
+    check_match_memory(config, n_s, n_t, 0 if pairs is None else len(pairs))
     own = _own_descriptors((descriptors_source, descriptors_target), meshes)
     if known is not None:
         check_truth(known, meshes[0], len(meshes[1].vertices))

@@ -15,7 +15,7 @@ from scipy.sparse.linalg import ArpackError, LinearOperator, eigsh
 
 from kfmaps._arrays import NotConverged, blocks, check, check_count, check_positive, refuse
 from kfmaps._threads import available_cores, one_blas_thread
-from kfmaps.geometry.eigen.factorization import Map, Sparse, factorise, fill_order
+from kfmaps.geometry.eigen.factorization import Map, Sparse, factorize, fill_order
 from kfmaps.geometry.eigen.lanczos import LOOSE, WIDTH, largest_eigenpairs
 
 METHODS = ("auto", "block", "arpack", "dense")
@@ -242,7 +242,7 @@ class _Pencil:
         self.matrix, self.mass, self.root, self.each = matrix, mass, np.sqrt(mass), each
         self.unit = 4 * np.pi / mass.sum()
         shifted = matrix + shift * self.unit * diags_array(mass)
-        self.solve = factorise(shifted.astype(precision, copy=False), ordered, each)
+        self.solve = factorize(shifted.astype(precision, copy=False), ordered, each)
 
     def inverse(self, block: np.ndarray) -> np.ndarray:
         """``√A (L + σA)⁻¹ √A`` times the block."""

@@ -57,7 +57,7 @@ def fill_order(matrix: Sparse, ordering: str = "auto") -> np.ndarray | None:
     return np.asarray(order)
 
 
-def factorise(matrix: Sparse, ordered: bool, each: Map = map) -> Solve:
+def factorize(matrix: Sparse, ordered: bool, each: Map = map) -> Solve:
     """Factorise ``matrix`` once and return the function that solves with it.
 
     Parameters

@@ -50,7 +50,7 @@ Map = Callable[..., Iterable[Any]]
 
 
 @dataclass(frozen=True, eq=False)
-class Locked:
+class ConvergedPairs:
     """Converged pairs: eigenvalues (c,) descending, vectors (n, c) orthonormal, and how many restarts it took."""
 
     values: np.ndarray
@@ -132,7 +132,7 @@ def _orthonormal(block: np.ndarray, bases: list[np.ndarray], each: Map) -> tuple
 
 def _stage(
     apply: Callable[[np.ndarray], np.ndarray],
-    locked: Locked,
+    locked: ConvergedPairs,
     k: int,
     tolerance: float,
     rng: np.random.Generator,
@@ -216,7 +216,7 @@ def largest_eigenpairs(
     tolerance: float,
     rng: np.random.Generator,
     each: Map = map,
-) -> Locked:
+) -> ConvergedPairs:
     """At least the ``k`` largest eigenpairs of the operator ``apply``, (n, b) -> (n, b).
 
     Parameters
@@ -231,7 +231,7 @@ def largest_eigenpairs(
     NotConverged
         When the Krylov basis is full without a new converged pair.
     """
-    locked = Locked(np.zeros(0), np.zeros((n, 0)), 0)
+    locked = ConvergedPairs(np.zeros(0), np.zeros((n, 0)), 0)
     while True:
         values, vectors = _stage(apply, locked, k, tolerance, rng, each)
         if len(locked.values) >= k:
@@ -243,4 +243,4 @@ def largest_eigenpairs(
         order = np.argsort(-together, kind="stable")
         if locked.stages:
             vectors = np.hstack([locked.vectors, vectors])
-        locked = Locked(together[order], np.asfortranarray(vectors[:, order]), locked.stages + 1)
+        locked = ConvergedPairs(together[order], np.asfortranarray(vectors[:, order]), locked.stages + 1)

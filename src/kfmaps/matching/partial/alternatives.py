@@ -11,10 +11,10 @@ from __future__ import annotations
 import numpy as np
 
 from kfmaps._threads import parallel
-from kfmaps.matching.partial.beam_search import beamed
-from kfmaps.matching.partial.relaxation_labeling import gauge, relaxed, settled
-from kfmaps.matching.partial.samples import Side
-from kfmaps.matching.partial.scale_search import TRIALS, Rough, likeness
+from kfmaps.matching.partial.beam_search import beam_search
+from kfmaps.matching.partial.relaxation_labeling import distance_bounds, reassign, relax
+from kfmaps.matching.partial.samples import PartSamples
+from kfmaps.matching.partial.scale_search import TRIALS, Placement, shot_similarity
 
 ELSEWHERE = 0.1
 """Median distance between places, in √area of the whole, from which two placings differ."""
@@ -24,15 +24,15 @@ BESIDE = (1.0, 1.1, 1 / 1.1)
 """Scales that are tried, against that of the placing: a wrong one has a scale of its own."""
 
 
-def rivals(
-    part: Side,
-    whole: Side,
+def alternative_placements(
+    part: PartSamples,
+    whole: PartSamples,
     scale: float,
     places: np.ndarray,
     pairs: np.ndarray,
     fixed: bool = False,
     threads: int | None = None,
-) -> list[Rough]:
+) -> list[Placement]:
     """Samples placed elsewhere than at ``places (q, 3)`` on the whole, all that relaxation and beam searches find.
 
     ``scale``: √area of the part over that of the whole, the placing's own. ``pairs (l, 2)``: samples that are
@@ -43,15 +43,15 @@ def rivals(
     paid[: part.marks] = 0.0
     each = np.arange(len(places))
 
-    def at(scale: float) -> list[Rough]:
-        alike = likeness(part, whole, scale, TRIALS[0].radii, pairs, 1)
-        measure = gauge(part.distances, part.edge, scale)
+    def at(scale: float) -> list[Placement]:
+        alike = shot_similarity(part, whole, scale, TRIALS[0].radii, pairs, 1)
+        measure = distance_bounds(part.distances, part.boundary_distance, scale)
         left = alike - paid
-        begun = beamed(measure, part.edge * np.float32(scale), whole.distances, left, part.marks)
-        begun.append(relaxed(measure, whole.distances, left, TRIALS[0], part.marks))
-        placed = [settled(measure, whole.distances, alike, one, part.marks) for one in begun]
+        begun = beam_search(measure, part.boundary_distance * np.float32(scale), whole.distances, left, part.marks)
+        begun.append(relax(measure, whole.distances, left, TRIALS[0], part.marks))
+        placed = [reassign(measure, whole.distances, alike, one, part.marks) for one in begun]
         elsewhere = [one for one in placed if float(np.median(off[each, one.match])) > ELSEWHERE]
-        return [Rough(scale, TRIALS[0], one, alike) for one in elsewhere]
+        return [Placement(scale, TRIALS[0], one, alike) for one in elsewhere]
 
     return [
         one
@@ -60,7 +60,7 @@ def rivals(
     ]
 
 
-def apart(places: np.ndarray, whole: Side) -> np.ndarray:
+def apart(places: np.ndarray, whole: PartSamples) -> np.ndarray:
     """Distances (q, m), straight, of ``places (q, 3)`` from all samples of the whole."""
     there = whole.mesh.vertices[whole.samples]
     return np.linalg.norm(places[:, None] - there[None], axis=2)

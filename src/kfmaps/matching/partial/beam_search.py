@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from kfmaps.matching.partial.relaxation_labeling import SLACK, Gauge, Placed, consistency
+from kfmaps.matching.partial.relaxation_labeling import SLACK, Assignment, DistanceBounds, consistency
 
 ANCHORS = 16
 """Samples that are placed."""
@@ -26,7 +26,7 @@ MOST = 12
 """Placings that are handed on."""
 
 
-def spread(part: Gauge, edge: np.ndarray, count: int, marks: int = 0) -> np.ndarray:
+def select_anchors(part: DistanceBounds, edge: np.ndarray, count: int, marks: int = 0) -> np.ndarray:
     """``count`` samples, far from each other and from the boundary, ``edge (q,)`` away, in the unit of ``part``.
 
     The first ``marks`` samples come first. Farthest points, by the smaller of the distance to those chosen and twice
@@ -44,7 +44,9 @@ def spread(part: Gauge, edge: np.ndarray, count: int, marks: int = 0) -> np.ndar
     return np.array(chosen, dtype=np.int64)
 
 
-def beamed(part: Gauge, edge: np.ndarray, whole: np.ndarray, alike: np.ndarray, marks: int = 0) -> list[Placed]:
+def beam_search(
+    part: DistanceBounds, edge: np.ndarray, whole: np.ndarray, alike: np.ndarray, marks: int = 0
+) -> list[Assignment]:
     """Distinct placings of a few samples, best first; only these have trust, and ``support`` is what they score.
 
     Parameters
@@ -57,7 +59,7 @@ def beamed(part: Gauge, edge: np.ndarray, whole: np.ndarray, alike: np.ndarray, 
     alike : (q, m) float
         Products of descriptors; rows of the first ``marks`` samples have one entry above all others.
     """
-    anchors = spread(part, edge, ANCHORS, marks)
+    anchors = select_anchors(part, edge, ANCHORS, marks)
     m = min(LABELS, alike.shape[1])
     there = whole[:m, :m]
     unlike = alike[anchors, :m]
@@ -86,7 +88,7 @@ def beamed(part: Gauge, edge: np.ndarray, whole: np.ndarray, alike: np.ndarray, 
 def differing(states: np.ndarray, whole: np.ndarray, most: int, mostly: bool = False) -> np.ndarray:
     """Rows of ``states (b, t)``, places in the order of how good they are, that differ from all better ones.
 
-    In at least one place by :data:`APART`, or where ``mostly`` in half of them.
+    In at least one place by :data:`MIN_REST_DISTANCE`, or where ``mostly`` in half of them.
     """
     kept: list[int] = []
     left = np.arange(len(states))
@@ -108,7 +110,7 @@ def _most(values: np.ndarray, count: int) -> np.ndarray:
     return some[np.argsort(-flat[some], kind="stable")][:count]
 
 
-def _placed(anchors: np.ndarray, places: np.ndarray, score: float, count: int) -> Placed:
+def _placed(anchors: np.ndarray, places: np.ndarray, score: float, count: int) -> Assignment:
     match, trust = np.zeros(count, dtype=np.int64), np.zeros(count)
     match[anchors], trust[anchors] = places, 1.0
-    return Placed(match, trust, score)
+    return Assignment(match, trust, score)

@@ -24,7 +24,7 @@ POOR = 0.5
 
 
 def part_probability(score: float, margin: float) -> float:
-    """That a part is placed right; see :class:`kfmaps.matching.partial.place_part.Parted`."""
+    """That a part is placed right; see :class:`kfmaps.matching.partial.place_part.PlacedPart`."""
     rival = math.exp(-max(margin, 0.0) / CLOSE)
     return _fits(score) * (1.0 - rival / 2)
 

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from kfmaps.matching.partial.registration import QUICK, Bent, Ground, bent
-from kfmaps.matching.partial.samples import Side
-from kfmaps.matching.partial.scale_search import Rough
+from kfmaps.matching.partial.registration import QUICK, PartRegistration, RegistrationTarget, register_part
+from kfmaps.matching.partial.samples import PartSamples
+from kfmaps.matching.partial.scale_search import Placement
 
 CONSISTENCY, BENDING = 4.0, 3.0
 """Weights in the score. Where a half of a body lies on its other half, turned front to back, descriptors and distances
@@ -31,7 +31,7 @@ class Evidence:
     unlike : float
         Mean logarithm of the part of the whole's samples that resemble a sample more than its place does: 0 and less.
     bending, gap, folded : float
-        Of :class:`kfmaps.matching.partial.registration.Bent`.
+        Of :class:`kfmaps.matching.partial.registration.PartRegistration`.
     spread : float
         Part of the samples that have places of their own.
     """
@@ -39,7 +39,7 @@ class Evidence:
     support: float
     consistency: float
     unlike: float
-    bending: float
+    deformation_energy: float
     gap: float
     folded: float
     spread: float
@@ -60,9 +60,9 @@ class Candidate:
     score : float
     """
 
-    begun: Rough
-    full: Rough
-    bend: Bent
+    begun: Placement
+    full: Placement
+    bend: PartRegistration
     places: np.ndarray
     seen: Evidence
     score: float
@@ -71,7 +71,7 @@ class Candidate:
 def score(found: Evidence) -> float:
     """One number, higher is better."""
     fits = CONSISTENCY * found.consistency - found.unlike - 50.0 * found.gap - 4.0 * found.folded
-    return fits + BENDING * firmness(found.bending)
+    return fits + BENDING * firmness(found.deformation_energy)
 
 
 def firmness(bending: float) -> float:
@@ -79,21 +79,23 @@ def firmness(bending: float) -> float:
     return -math.log(max(bending, 0.0) + LITTLE)
 
 
-def laid(begun: Rough, full: Rough, part: Side, whole: Side, on: Ground) -> Candidate:
+def make_candidate(
+    begun: Placement, full: Placement, part: PartSamples, whole: PartSamples, on: RegistrationTarget
+) -> Candidate:
     """The candidate that a placing makes."""
     bend = placed_on(full, part, whole, on)
     seen = evidence(begun, full, bend)
     return Candidate(begun, full, bend, bend.places.points[part.samples], seen, score(seen))
 
 
-def placed_on(full: Rough, part: Side, whole: Side, on: Ground) -> Bent:
+def placed_on(full: Placement, part: PartSamples, whole: PartSamples, on: RegistrationTarget) -> PartRegistration:
     """The part bent quickly by its placed samples."""
     at = whole.samples[full.placed.match]
     trust = np.maximum(full.placed.trust, 0.01)
-    return bent(part.mesh, full.scale, on, part.samples, on.mesh.vertices[at], on.normals[at], trust, QUICK, 3)
+    return register_part(part.mesh, full.scale, on, part.samples, on.mesh.vertices[at], on.normals[at], trust, QUICK, 3)
 
 
-def unlikeness(full: Rough) -> float:
+def similarity_rank(full: Placement) -> float:
     """See :attr:`Evidence.unlike`."""
     match, alike = full.placed.match, full.alike
     own = alike[np.arange(len(match)), match]
@@ -101,20 +103,20 @@ def unlikeness(full: Rough) -> float:
     return float(np.log((better + 1) / alike.shape[1]).mean())
 
 
-def plain_score(full: Rough) -> float:
+def plain_score(full: Placement) -> float:
     """What of :func:`score` is known before the part is bent."""
-    return CONSISTENCY * full.placed.support - unlikeness(full)
+    return CONSISTENCY * full.placed.support - similarity_rank(full)
 
 
-def evidence(rough: Rough, full: Rough, bend: Bent) -> Evidence:
+def evidence(rough: Placement, full: Placement, bend: PartRegistration) -> Evidence:
     """Of one candidate, as it was tried, placed and bent."""
     match = full.placed.match
     return Evidence(
         rough.placed.support,
         full.placed.support,
-        unlikeness(full),
-        bend.bending,
+        similarity_rank(full),
+        bend.deformation_energy,
         bend.gap,
-        bend.folded,
+        bend.flipped_area,
         len(np.unique(match)) / len(match),
     )

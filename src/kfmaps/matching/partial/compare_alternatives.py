@@ -8,12 +8,12 @@ from dataclasses import replace
 import numpy as np
 from scipy.spatial import KDTree
 
-from kfmaps.matching.partial.alternatives import ELSEWHERE, rivals
-from kfmaps.matching.partial.candidates import Candidate, laid, plain_score
-from kfmaps.matching.partial.registration import Ground
-from kfmaps.matching.partial.relaxation_labeling import Placed
-from kfmaps.matching.partial.samples import Side
-from kfmaps.matching.partial.scale_search import grown
+from kfmaps.matching.partial.alternatives import ELSEWHERE, alternative_placements
+from kfmaps.matching.partial.candidates import Candidate, make_candidate, plain_score
+from kfmaps.matching.partial.registration import RegistrationTarget
+from kfmaps.matching.partial.relaxation_labeling import Assignment
+from kfmaps.matching.partial.samples import PartSamples
+from kfmaps.matching.partial.scale_search import refine_placement
 
 LOOKED = 3
 """Placings elsewhere than the best that are looked for and bent, ..."""
@@ -29,11 +29,11 @@ CLEAR = 3.0
 """Margin from which more does not count."""
 
 
-def contested(
+def compare_alternatives(
     found: Sequence[Candidate],
-    part: Side,
-    whole: Side,
-    on: Ground,
+    part: PartSamples,
+    whole: PartSamples,
+    on: RegistrationTarget,
     marked: np.ndarray,
     fixed: bool = False,
     threads: int | None = None,
@@ -47,20 +47,27 @@ def contested(
     ``marked (l, 2)``: landmarks, by numbers of samples.
     """
     best = max(found, key=lambda one: one.score)
-    elsewhere = rivals(part, whole, best.bend.scale, best.places, marked, fixed, threads)
+    elsewhere = alternative_placements(part, whole, best.bend.scale, best.places, marked, fixed, threads)
     likely = sorted(elsewhere, key=lambda one: -plain_score(one))[:LOOKED]
-    more = [laid(one, grown(part, whole, one, marked, fixed), part, whole, on) for one in likely]
+    more = [make_candidate(one, refine_placement(part, whole, one, marked, fixed), part, whole, on) for one in likely]
     chosen: list[Candidate] = []
     rest: list[Candidate] = []
     for one in sorted([*found, *more], key=lambda one: -one.score):
         if all(differ(one.places, other.places) for other in chosen):
             (chosen if len(chosen) <= RIVALS else rest).append(one)
     least = chosen[0].score - HOPELESS
-    last = [polished(one, part, whole, on, marked, fixed) if one.score > least else one for one in chosen]
+    last = [refine_candidate(one, part, whole, on, marked, fixed) if one.score > least else one for one in chosen]
     return sorted([*last, *rest], key=lambda one: -one.score)
 
 
-def polished(one: Candidate, part: Side, whole: Side, on: Ground, marked: np.ndarray, fixed: bool = False) -> Candidate:
+def refine_candidate(
+    one: Candidate,
+    part: PartSamples,
+    whole: PartSamples,
+    on: RegistrationTarget,
+    marked: np.ndarray,
+    fixed: bool = False,
+) -> Candidate:
     """Placed and bent anew from where it came to lie, until that makes it no better."""
     for done in range(POLISHED[1]):
         before, one = one.score, settled_in(one, part, whole, on, marked, fixed)
@@ -70,15 +77,20 @@ def polished(one: Candidate, part: Side, whole: Side, on: Ground, marked: np.nda
 
 
 def settled_in(
-    one: Candidate, part: Side, whole: Side, on: Ground, marked: np.ndarray, fixed: bool = False
+    one: Candidate,
+    part: PartSamples,
+    whole: PartSamples,
+    on: RegistrationTarget,
+    marked: np.ndarray,
+    fixed: bool = False,
 ) -> Candidate:
     """Placed and bent once more from where it came to lie, at the scale that its edges say."""
     match = np.asarray(KDTree(whole.mesh.vertices[whole.samples]).query(one.places)[1])
     match[marked[:, 0]] = marked[:, 1]
-    placed = Placed(match, np.maximum(one.bend.inside[part.samples], 1e-3), one.full.placed.support)
-    scale = one.full.scale if fixed else one.bend.scale * one.bend.longer
-    full = grown(part, whole, replace(one.full, scale=scale, placed=placed), marked, fixed)
-    return laid(one.begun, full, part, whole, on)
+    placed = Assignment(match, np.maximum(one.bend.inside[part.samples], 1e-3), one.full.placed.support)
+    scale = one.full.scale if fixed else one.bend.scale * one.bend.edge_ratio
+    full = refine_placement(part, whole, replace(one.full, scale=scale, placed=placed), marked, fixed)
+    return make_candidate(one.begun, full, part, whole, on)
 
 
 def differ(one: np.ndarray, other: np.ndarray) -> bool:

@@ -9,7 +9,7 @@ import numpy as np
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
-from kfmaps.geometry.clean import inside
+from kfmaps.geometry.clean import clean_mesh
 from kfmaps.geometry.mesh import Mesh, surface_area
 
 OPEN = 0.01
@@ -19,19 +19,19 @@ MORE = 3.0
 
 
 @dataclass(frozen=True)
-class Suspicion:
+class PartDetection:
     """``which``: "none", "source" or "target"; ``why``: in words."""
 
     which: Literal["none", "source", "target"]
-    why: str
+    reason: str
 
 
-def opening(mesh: Mesh) -> float:
+def boundary_opening(mesh: Mesh) -> float:
     """Area of flat discs as long around as the boundaries of ``mesh``, over its own area: the least that is missing.
 
     0 of a closed surface and of a point cloud.
     """
-    mesh = inside(mesh).mesh
+    mesh = clean_mesh(mesh).mesh
     f, n = mesh.faces, len(mesh.vertices)
     if len(f) == 0:
         return 0.0
@@ -49,14 +49,17 @@ def opening(mesh: Mesh) -> float:
     return float((around**2).sum() / (4 * np.pi) / surface_area(mesh))
 
 
-def suspicion(source: Mesh, target: Mesh) -> Suspicion:
+def detect_part(source: Mesh, target: Mesh) -> PartDetection:
     """Which of two surfaces may be a part of the other."""
     if len(source.faces) == 0 or len(target.faces) == 0:
-        return Suspicion("none", "point clouds are taken for whole")
-    openings: dict[Literal["source", "target"], float] = {"source": opening(source), "target": opening(target)}
+        return PartDetection("none", "point clouds are taken for whole")
+    openings: dict[Literal["source", "target"], float] = {
+        "source": boundary_opening(source),
+        "target": boundary_opening(target),
+    }
     part, whole = sorted(openings, key=lambda name: -openings[name])
     if openings[part] < OPEN:
-        return Suspicion("none", "no boundary is long enough for a cut")
+        return PartDetection("none", "no boundary is long enough for a cut")
     if openings[part] < MORE * openings[whole]:
-        return Suspicion("none", "both have open boundaries alike")
-    return Suspicion(part, f"the {part} has long open boundaries, and the {whole} has not")
+        return PartDetection("none", "both have open boundaries alike")
+    return PartDetection(part, f"the {part} has long open boundaries, and the {whole} has not")

@@ -11,9 +11,9 @@ from kfmaps._arrays import refuse, take, to_numpy
 from kfmaps._progress import Progress
 from kfmaps.config import Config
 from kfmaps.fmap.confidence import local_confidence
-from kfmaps.fmap.precise import PointMap, vertices_of
+from kfmaps.fmap.precise import PointMap, nearest_vertices
 from kfmaps.matching.partial.calibration import part_probability, part_verdict
-from kfmaps.matching.partial.place_part import parted
+from kfmaps.matching.partial.place_part import place_part
 from kfmaps.matching.partial.samples import scaled
 from kfmaps.shape import Shape
 
@@ -26,7 +26,7 @@ STRAY = 0.1
 
 
 @dataclass(frozen=True, eq=False)
-class Partly:
+class PartialMatch:
     """A match of shapes of which one is a part of the other, inside their border.
 
     Attributes
@@ -57,17 +57,17 @@ class Partly:
 
     part: str
     target_to_source: np.ndarray
-    place: PointMap
+    precise_map: PointMap
     overlap_source: np.ndarray
     overlap_target: np.ndarray
     functional_map: np.ndarray
-    trust: np.ndarray
-    bent: np.ndarray | None
+    local_confidence: np.ndarray
+    registered_vertices: np.ndarray | None
     scale: float
     verdict: str
     confidence: float
     scores: tuple[float, ...]
-    doubted: np.ndarray
+    rejected_landmarks: np.ndarray
     whole: bool
 
     @property
@@ -76,7 +76,7 @@ class Partly:
         return float(self.overlap_source.mean()), float(self.overlap_target.mean())
 
 
-def partly(
+def match_partial(
     source: Shape,
     target: Shape,
     config: Config,
@@ -85,7 +85,7 @@ def partly(
     landmarks: np.ndarray | None = None,
     rng: int = 0,
     progress: Progress | None = None,
-) -> Partly:
+) -> PartialMatch:
     """Match two prepared shapes of which one is a part; ``landmarks (l, 2)`` are pairs "source, target".
 
     With "both" each may have what the other lacks; what is bent is the one with the smaller area, or the target where
@@ -103,7 +103,7 @@ def partly(
     forward = which == "target" or (which == "both" and (ratio is None or ratio <= 1))
     part, whole = (target, source) if forward else (source, target)
     pairs = None if landmarks is None else np.asarray(landmarks)[:, ::-1] if forward else np.asarray(landmarks)
-    found = parted(
+    found = place_part(
         part.mesh,
         whole.mesh,
         config.partial,
@@ -116,13 +116,13 @@ def partly(
     )
     place = found.overlap.on_whole if forward else found.overlap.on_part
     overlaps = (found.overlap.whole, found.overlap.part) if forward else (found.overlap.part, found.overlap.whole)
-    points = np.where(overlaps[1] > COMMON, vertices_of(place, (whole if forward else part).mesh), -1)
+    points = np.where(overlaps[1] > COMMON, nearest_vertices(place, (whole if forward else part).mesh), -1)
     at_scale = scaled(part.mesh, found.scale)
     here, there = (whole.mesh, at_scale) if forward else (at_scale, whole.mesh)
     trust = local_confidence(here, there, points, sized=True)
     masses = to_numpy(part.basis.mass), to_numpy(whole.basis.mass)
     common = float(masses[0] @ found.overlap.part), float(masses[1] @ found.overlap.whole)
-    return Partly(
+    return PartialMatch(
         which,
         points,
         place,
@@ -156,7 +156,7 @@ def slanted(points: np.ndarray, source: Shape, target: Shape, ratio: float) -> n
     return weighted.T @ pulled
 
 
-def reason(found: Partly, asked: str) -> str:
+def reason(found: PartialMatch, asked: str) -> str:
     """One line for people: what was taken for a part, and why."""
     if found.part == "both":
         shares = found.shares

@@ -7,10 +7,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from kfmaps.fmap.precise import PointMap
-from kfmaps.geometry.closest_points import Places
+from kfmaps.geometry.closest_points import ClosestPoints
 from kfmaps.geometry.mesh import Mesh, vertex_normals
-from kfmaps.matching.partial.registration import Bent, Ground, on_border
-from kfmaps.registration.deformable import look
+from kfmaps.matching.partial.registration import PartRegistration, RegistrationTarget, on_border
+from kfmaps.registration.deformable import closest_point_query
 
 WIDTH = 0.02
 """Distance between the surfaces, in √area of the whole, at which a common point is as likely as not."""
@@ -39,13 +39,13 @@ class Overlap:
 
 def covered(
     bent: Mesh, border: np.ndarray, whole: Mesh, normals: np.ndarray | None = None
-) -> tuple[np.ndarray, Places]:
+) -> tuple[np.ndarray, ClosestPoints]:
     """Probability (n_w,) of each vertex of ``whole`` to lie on a ``bent`` mesh, and the closest place on it.
 
     Both in the unit of the whole, which has unit area. ``border``: the bent mesh's vertices on its boundary;
     ``normals``: the whole's.
     """
-    found, _, agree = look(bent)(whole.vertices, vertex_normals(whole) if normals is None else normals)
+    found, _, agree = closest_point_query(bent)(whole.vertices, vertex_normals(whole) if normals is None else normals)
     edge = on_border(found, bent.faces, border)
     # Beyond the part's edge the closest point lies on it: half the length of its edges is as near as vertices can tell.
     corners = bent.vertices[bent.faces[found.faces]]
@@ -54,7 +54,7 @@ def covered(
     return _near(found.distances, width) * np.where(agree > 0, 1.0, 0.25), found
 
 
-def overlap(bent: Bent, whole: Ground, border: np.ndarray) -> Overlap:
+def overlap(bent: PartRegistration, whole: RegistrationTarget, border: np.ndarray) -> Overlap:
     """Of a part ``bent`` onto ``whole``; ``border (n_p,)`` are the part's vertices on its boundary."""
     common, found = covered(Mesh(bent.vertices, bent.rest.faces), border, whole.mesh, whole.normals)
     own = np.where(bent.inside, _near(bent.places.distances, WIDTH), 0.0)

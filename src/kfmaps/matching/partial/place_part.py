@@ -10,14 +10,28 @@ import numpy as np
 from kfmaps._arrays import refuse
 from kfmaps._threads import parallel
 from kfmaps.config import Partial
-from kfmaps.geometry.closest_points import places_on
+from kfmaps.geometry.closest_points import closest_points
 from kfmaps.geometry.mesh import Mesh
-from kfmaps.matching.partial.candidates import Candidate, Evidence, laid, plain_score
-from kfmaps.matching.partial.compare_alternatives import contested, margin
+from kfmaps.matching.partial.candidates import Candidate, Evidence, make_candidate, plain_score
+from kfmaps.matching.partial.compare_alternatives import compare_alternatives, margin
 from kfmaps.matching.partial.overlap import Overlap, overlap
-from kfmaps.matching.partial.registration import FULL, Bent, Ground, bent, ground
-from kfmaps.matching.partial.samples import Side, side
-from kfmaps.matching.partial.scale_search import LARGER, SCALES, TRIALS, Rough, grown, searched, tried
+from kfmaps.matching.partial.registration import (
+    FULL,
+    PartRegistration,
+    RegistrationTarget,
+    register_part,
+    registration_target,
+)
+from kfmaps.matching.partial.samples import PartSamples, part_samples
+from kfmaps.matching.partial.scale_search import (
+    LARGER,
+    SCALES,
+    TRIALS,
+    Placement,
+    refine_placement,
+    search_scale,
+    try_scales,
+)
 
 ALIKE = 1.12
 """Ratio of scales from which two are worth a trial each."""
@@ -30,7 +44,7 @@ BENT = 2
 
 
 @dataclass(frozen=True, eq=False)
-class Parted:
+class PlacedPart:
     """A part placed on a whole.
 
     Attributes
@@ -48,7 +62,7 @@ class Parted:
         How far each landmark ended from where it was said to be, in √area of the whole.
     """
 
-    bent: Bent
+    bent: PartRegistration
     overlap: Overlap
     evidence: Evidence
     score: float
@@ -62,7 +76,7 @@ class Parted:
         return self.bent.scale
 
 
-def parted(
+def place_part(
     part: Mesh,
     whole: Mesh,
     settings: Partial,
@@ -73,7 +87,7 @@ def parted(
     rng: int = 0,
     threads: int | None = None,
     progress: Callable[[float], None] | None = None,
-) -> Parted:
+) -> PlacedPart:
     """Place ``part`` on ``whole``, both at unit area.
 
     ``ratio``: √area of the part over that of the whole as they were given, one of the scales that are tried, and the
@@ -84,40 +98,43 @@ def parted(
     pairs = np.zeros((0, 2), dtype=np.int64) if landmarks is None else np.asarray(landmarks)
     if settings.units == "same" and ratio is None:
         raise refuse("units", "shapes whose sizes are known", "prepared ones without", "prepare them again")
-    sides = side(part, settings.samples, pairs[:, 0], rng), side(whole, settings.whole_samples, pairs[:, 1], rng)
+    sides = (
+        part_samples(part, settings.samples, pairs[:, 0], rng),
+        part_samples(whole, settings.whole_samples, pairs[:, 1], rng),
+    )
     told(0.15)
     marked = np.stack([np.arange(len(pairs))] * 2, axis=1)
     fixed = settings.units == "same"
     scales = [ratio] if fixed and ratio else [*SCALES, *(LARGER if loose else ())]
     if not fixed and ratio and scales[0] / ALIKE < ratio < scales[-1] * ALIKE:
         scales.append(ratio)
-    first = distinct(tried(*sides, scales, marked, TRIALS[0], threads))[: settings.candidates]
+    first = distinct(try_scales(*sides, scales, marked, TRIALS[0], threads))[: settings.candidates]
     told(0.3)
     rough = [*first]
     for trial in TRIALS[1:]:
-        rough += tried(*sides, [one.scale for one in first[:AGAIN]], marked, trial, threads)
-    further = sorted(searched(*sides, scales, marked, threads), key=lambda one: -plain_score(one))[:BEAMS]
+        rough += try_scales(*sides, [one.scale for one in first[:AGAIN]], marked, trial, threads)
+    further = sorted(search_scale(*sides, scales, marked, threads), key=lambda one: -plain_score(one))[:BEAMS]
     told(0.4)
-    full = parallel(lambda one: (one, grown(*sides, one, marked, fixed)), [*rough, *further], threads)
+    full = parallel(lambda one: (one, refine_placement(*sides, one, marked, fixed)), [*rough, *further], threads)
     # Few of the samples of a beam search were placed by their descriptors: before it is bent it looks worse than it is.
     plain, beams = (
         sorted(some, key=lambda pair: -plain_score(pair[1])) for some in (full[: len(rough)], full[len(rough) :])
     )
     likely = [*plain[: settings.candidates + 1], *beams[:BENT]]
     told(0.5)
-    on = ground(whole, sides[1].border)
+    on = registration_target(whole, sides[1].on_boundary)
     found: list[Candidate] = []
     for i, (one, placed) in enumerate(likely):
-        found.append(laid(one, placed, *sides, on))
+        found.append(make_candidate(one, placed, *sides, on))
         told(0.5 + 0.15 * (i + 1) / len(likely))
-    found = contested(found, *sides, on, marked, fixed, threads)
+    found = compare_alternatives(found, *sides, on, marked, fixed, threads)
     best = found[0]
     told(0.75)
     last = finished(best.bend, sides[0], on, pairs, fixed, lambda done: told(0.75 + 0.25 * done))
     ends = last.vertices[pairs[:, 0]] - whole.vertices[pairs[:, 1]]
-    return Parted(
+    return PlacedPart(
         last,
-        overlap(last, on, sides[0].border),
+        overlap(last, on, sides[0].on_boundary),
         best.seen,
         best.score,
         tuple(one.score for one in found[1:]),
@@ -126,9 +143,9 @@ def parted(
     )
 
 
-def distinct(rough: Sequence[Rough]) -> list[Rough]:
+def distinct(rough: Sequence[Placement]) -> list[Placement]:
     """The best, then the best of those at scales that differ from it by more than steps between them."""
-    kept: list[Rough] = []
+    kept: list[Placement] = []
     for one in rough:
         if all(max(one.scale / other.scale, other.scale / one.scale) > ALIKE for other in kept):
             kept.append(one)
@@ -136,13 +153,18 @@ def distinct(rough: Sequence[Rough]) -> list[Rough]:
 
 
 def finished(
-    bend: Bent, part: Side, on: Ground, pairs: np.ndarray, fixed: bool, progress: Callable[[float], None]
-) -> Bent:
+    bend: PartRegistration,
+    part: PartSamples,
+    on: RegistrationTarget,
+    pairs: np.ndarray,
+    fixed: bool,
+    progress: Callable[[float], None],
+) -> PartRegistration:
     """Bent once more, from where it came to lie, at the scale that its edges say."""
-    places = places_on(bend.vertices[part.samples], on.mesh.vertices, on.mesh.faces)
+    places = closest_points(bend.vertices[part.samples], on.mesh.vertices, on.mesh.faces)
     points, normals = places.points, on.normals[on.mesh.faces[places.faces]].mean(axis=1)
     trust = bend.inside[part.samples] * np.exp2(-((places.distances / 0.02) ** 2)) + 1e-3
     points[: len(pairs)], normals[: len(pairs)] = on.mesh.vertices[pairs[:, 1]], on.normals[pairs[:, 1]]
     normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-12)
-    scale = bend.scale if fixed else bend.scale * bend.longer
-    return bent(part.mesh, scale, on, part.samples, points, normals, trust, FULL, 5, progress)
+    scale = bend.scale if fixed else bend.scale * bend.edge_ratio
+    return register_part(part.mesh, scale, on, part.samples, points, normals, trust, FULL, 5, progress)

@@ -12,12 +12,18 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from kfmaps.geometry.arap import bending, rotations
-from kfmaps.geometry.closest_points import Places, places_on
+from kfmaps.geometry.arap import arap_energy, rotations
+from kfmaps.geometry.closest_points import ClosestPoints, closest_points
 from kfmaps.geometry.mesh import Mesh, surface_area, vertex_normals
 from kfmaps.matching.partial.samples import scaled
-from kfmaps.registration.data_terms import Term, descended
-from kfmaps.registration.deformable import Body, Look, body_of, look, unfolded
+from kfmaps.registration.data_terms import DataTerm, descend
+from kfmaps.registration.deformable import (
+    ClosestPointQuery,
+    DeformableMesh,
+    closest_point_query,
+    deformable_mesh,
+    initial_deformation,
+)
 
 QUICK = (2e-3, 6e-4, 2e-4)
 """Stiffness of the levels by which candidates are compared, ..."""
@@ -28,23 +34,23 @@ OUTSIDE = 0.01
 
 
 @dataclass(frozen=True, eq=False)
-class Ground:
-    """A whole, at unit area, in which closest points are sought; made by :func:`ground`."""
+class RegistrationTarget:
+    """A whole, at unit area, in which closest points are sought; made by :func:`registration_target`."""
 
     mesh: Mesh
     normals: np.ndarray
-    look: Look
+    look: ClosestPointQuery
     border: np.ndarray
 
 
-def ground(mesh: Mesh, border: np.ndarray) -> Ground:
+def registration_target(mesh: Mesh, border: np.ndarray) -> RegistrationTarget:
     """``border (n,)``: its vertices that lie on the boundary."""
     normals = vertex_normals(mesh)
-    return Ground(mesh, normals, look(mesh, normals), border)
+    return RegistrationTarget(mesh, normals, closest_point_query(mesh, normals), border)
 
 
 @dataclass(frozen=True, eq=False)
-class Bent:
+class PartRegistration:
     """A part bent onto a whole, in its unit.
 
     Attributes
@@ -71,18 +77,18 @@ class Bent:
     vertices: np.ndarray
     rest: Mesh
     scale: float
-    places: Places
+    places: ClosestPoints
     inside: np.ndarray
-    bending: float
+    deformation_energy: float
     gap: float
-    folded: float
-    longer: float
+    flipped_area: float
+    edge_ratio: float
 
 
-def bent(
+def register_part(
     part: Mesh,
     scale: float,
-    whole: Ground,
+    whole: RegistrationTarget,
     samples: np.ndarray,
     places: np.ndarray,
     normals: np.ndarray,
@@ -90,24 +96,24 @@ def bent(
     levels: tuple[float, ...] = FULL,
     steps: int = 5,
     progress: Callable[[float], None] | None = None,
-) -> Bent:
+) -> PartRegistration:
     """Bend ``part``, at unit area and times ``scale``; its vertices ``samples (q,)`` begin at ``places (q, 3)``.
 
     ``normals (q, 3)`` are the whole's there, ``trust (q,)`` how much each counts.
     """
-    rest = body_of(scaled(part, scale))
+    rest = deformable_mesh(scaled(part, scale))
     share = rest.areas.sum() * trust / trust.sum()
-    x = unfolded(rest, samples, places, normals, share)
+    x = initial_deformation(rest, samples, places, normals, share)
     for i, stiffness in enumerate(levels):
         solve = rest.solver(stiffness, 1.0)
         for step in range(steps):
             found, there, agree = whole.look(x, vertex_normals(Mesh(x, rest.mesh.faces)))
             counts = agree * within(found, whole)
-            x = descended(
+            x = descend(
                 rest.energy,
                 stiffness,
                 solve,
-                [Term(rest.areas * counts, found.points, None, there)],
+                [DataTerm(rest.areas * counts, found.points, None, there)],
                 x,
                 rotations(rest.energy, x),
             )
@@ -116,10 +122,10 @@ def bent(
     return judged(x, rest, scale, whole)
 
 
-def judged(x: np.ndarray, body: Body, scale: float, whole: Ground) -> Bent:
+def judged(x: np.ndarray, body: DeformableMesh, scale: float, whole: RegistrationTarget) -> PartRegistration:
     """What a part, ``body`` at rest, shows with its vertices at ``x (n, 3)``."""
     rest, energy, areas = body.mesh, body.energy, body.areas
-    found = places_on(x, whole.mesh.vertices, whole.mesh.faces)
+    found = closest_points(x, whole.mesh.vertices, whole.mesh.faces)
     there = whole.normals[whole.mesh.faces[found.faces]].mean(axis=1)
     cosine = np.einsum("ij,ij->i", vertex_normals(Mesh(x, rest.faces)), there)
     ends = np.concatenate([rest.faces[:, [0, 1]], rest.faces[:, [1, 2]], rest.faces[:, [2, 0]]])
@@ -127,25 +133,25 @@ def judged(x: np.ndarray, body: Body, scale: float, whole: Ground) -> Bent:
     longer = np.divide(after, before, out=np.ones_like(after), where=before > 0)
     inside = within(found, whole)
     on = areas * inside
-    return Bent(
+    return PartRegistration(
         x,
         rest,
         scale,
         found,
         inside,
-        bending(energy, x) / float(surface_area(rest)),
+        arap_energy(energy, x) / float(surface_area(rest)),
         float(np.sqrt(np.average(found.distances**2, weights=on))) if on.any() else 1.0,
         float(areas[cosine < 0.3].sum() / areas.sum()),
         float(np.median(longer)),
     )
 
 
-def within(found: Places, whole: Ground) -> np.ndarray:
+def within(found: ClosestPoints, whole: RegistrationTarget) -> np.ndarray:
     """Which places (q,) are no points of the whole's boundary that something beyond it is nearest to."""
     return ~(on_border(found, whole.mesh.faces, whole.border) & (found.distances > OUTSIDE))
 
 
-def on_border(found: Places, faces: np.ndarray, border: np.ndarray) -> np.ndarray:
+def on_border(found: ClosestPoints, faces: np.ndarray, border: np.ndarray) -> np.ndarray:
     """Which places (q,) on ``faces (m, 3)`` lie on an edge between vertices of the ``border (n,)``."""
     counts = found.weights > 1e-9
     return np.asarray((border[faces[found.faces]] | ~counts).all(axis=1) & ~counts.all(axis=1))

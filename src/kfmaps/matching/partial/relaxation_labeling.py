@@ -32,7 +32,7 @@ MARK = 3.0
 
 
 @dataclass(frozen=True)
-class Trial:
+class RelaxationParams:
     """One way to begin: what is compared, and how much is left open.
 
     Attributes
@@ -54,7 +54,7 @@ class Trial:
 
 
 @dataclass(frozen=True, eq=False)
-class Gauge:
+class DistanceBounds:
     """Distances between the part's samples in the unit of the whole: as they are, and at least in the whole.
 
     ``far (q, q)`` and ``low (q, q)``, the latter at most the former; infinite distances say nothing.
@@ -64,11 +64,11 @@ class Gauge:
     low: np.ndarray
 
 
-def gauge(distances: np.ndarray, edge: np.ndarray, scale: float) -> Gauge:
+def distance_bounds(distances: np.ndarray, edge: np.ndarray, scale: float) -> DistanceBounds:
     """Of ``distances (q, q)`` and distances to the boundary ``edge (q,)``, times ``scale``."""
     far = distances * np.float32(scale)
     around = (edge[:, None] + edge[None, :]) * np.float32(scale)
-    return Gauge(far, np.minimum(far, around))
+    return DistanceBounds(far, np.minimum(far, around))
 
 
 def consistency(
@@ -89,7 +89,7 @@ def consistency(
 
 
 @dataclass(frozen=True, eq=False)
-class Placed:
+class Assignment:
     """A sample of the whole for each of the part's.
 
     Attributes
@@ -107,7 +107,9 @@ class Placed:
     support: float
 
 
-def relaxed(part: Gauge, whole: np.ndarray, alike: np.ndarray, trial: Trial, marks: int = 0) -> Placed:
+def relax(
+    part: DistanceBounds, whole: np.ndarray, alike: np.ndarray, trial: RelaxationParams, marks: int = 0
+) -> Assignment:
     """The first few samples placed, by ``alike (q, m)``, the products of their descriptors with the whole's.
 
     ``whole (m, m)`` are distances there. Rows of the first ``marks`` samples have one entry above all others.
@@ -141,10 +143,12 @@ def relaxed(part: Gauge, whole: np.ndarray, alike: np.ndarray, trial: Trial, mar
     found = np.zeros(len(part.far), dtype=np.int64)
     found[:n] = candidates[each, best]
     trust = np.concatenate([trust, np.zeros(len(found) - n)])
-    return Placed(found, trust, float((support / np.maximum(near.sum(axis=1), 1)).mean()))
+    return Assignment(found, trust, float((support / np.maximum(near.sum(axis=1), 1)).mean()))
 
 
-def settled(part: Gauge, whole: np.ndarray, alike: np.ndarray, placed: Placed, marks: int = 0) -> Placed:
+def reassign(
+    part: DistanceBounds, whole: np.ndarray, alike: np.ndarray, placed: Assignment, marks: int = 0
+) -> Assignment:
     """Every sample placed anew among all of the whole's, by its nearest trusted neighbours and its descriptor."""
     q = len(alike)
     match, fit = np.zeros(q, dtype=np.int64), np.zeros(q)
@@ -164,10 +168,10 @@ def settled(part: Gauge, whole: np.ndarray, alike: np.ndarray, placed: Placed, m
         fit[i] = share[match[i]]
     trust = np.maximum(fit - TRUST, 0.0) / (1 - TRUST)
     trust[:marks] = MARK
-    return Placed(match, trust, float(fit.mean()))
+    return Assignment(match, trust, float(fit.mean()))
 
 
-def stretch(part: Gauge, whole: np.ndarray, placed: Placed) -> float:
+def stretch(part: DistanceBounds, whole: np.ndarray, placed: Assignment) -> float:
     """How much longer distances are on the whole, as far as the boundary has no say in them."""
     trust = np.minimum(placed.trust, 1.0)
     there = whole[np.ix_(placed.match, placed.match)]

@@ -8,8 +8,8 @@ import numpy as np
 from scipy.sparse.csgraph import dijkstra
 
 from kfmaps.descriptors.shot import shot
-from kfmaps.geometry.coarsen import coarse
-from kfmaps.geometry.geodesic_graph import surface_graph
+from kfmaps.geometry.coarsen import coarsen
+from kfmaps.geometry.geodesic_graph import geodesic_graph
 from kfmaps.geometry.geodesics import farthest_geodesic
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.geometry.sampling import stratified
@@ -23,8 +23,8 @@ DENSITY = 10_000
 
 
 @dataclass(frozen=True, eq=False)
-class Side:
-    """Samples of one shape; made by :func:`side`. Lengths are in units of √area of the shape itself.
+class PartSamples:
+    """Samples of one shape; made by :func:`part_samples`. Lengths are in units of √area of the shape itself.
 
     Attributes
     ----------
@@ -45,8 +45,8 @@ class Side:
     mesh: Mesh
     samples: np.ndarray
     distances: np.ndarray
-    edge: np.ndarray
-    border: np.ndarray
+    boundary_distance: np.ndarray
+    on_boundary: np.ndarray
     marks: int = 0
     known: dict[float, np.ndarray] = field(default_factory=dict)
 
@@ -58,7 +58,7 @@ class Side:
         return self.known[radius]
 
 
-def border_of(mesh: Mesh) -> np.ndarray:
+def boundary_vertices(mesh: Mesh) -> np.ndarray:
     """Which vertices (n,) lie on the boundary: on an edge that only one face has."""
     f = mesh.faces
     ends = np.sort(np.concatenate([f[:, [0, 1]], f[:, [1, 2]], f[:, [2, 0]]]), axis=1)
@@ -68,24 +68,24 @@ def border_of(mesh: Mesh) -> np.ndarray:
     return on
 
 
-def side(mesh: Mesh, count: int, landmarks: np.ndarray | None = None, rng: int = 0) -> Side:
+def part_samples(mesh: Mesh, count: int, landmarks: np.ndarray | None = None, rng: int = 0) -> PartSamples:
     """``count`` samples of ``mesh``, which is at unit area, and the vertices ``landmarks (l,)``."""
     marks = np.zeros(0, dtype=np.int64) if landmarks is None else np.asarray(landmarks, dtype=np.int64)
-    border = border_of(mesh)
+    border = boundary_vertices(mesh)
     small, rows = mesh, np.arange(len(mesh.vertices))
     if len(rows) > LARGE:
         areas = np.full(len(rows), 1.0)
         rows = np.union1d(stratified(mesh.vertices, areas, COARSE, rng), marks)
-        small = coarse(mesh, rows)
+        small = coarsen(mesh, rows)
     used = np.unique(small.faces)
     chosen = farthest_geodesic(small, min(count, len(used)), rng)
     first = np.searchsorted(rows, marks)
     chosen = np.concatenate([first, chosen[~np.isin(chosen, first)]])
-    graph = surface_graph(small, 1)
+    graph = geodesic_graph(small, 1)
     distances = dijkstra(graph, indices=chosen)
-    on = np.flatnonzero(border_of(small))
+    on = np.flatnonzero(boundary_vertices(small))
     edge = distances[:, on].min(axis=1) if len(on) else np.full(len(chosen), np.inf)
-    return Side(
+    return PartSamples(
         mesh,
         rows[chosen],
         distances[:, chosen].astype(np.float32),

@@ -8,14 +8,21 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from kfmaps._threads import parallel
-from kfmaps.matching.partial.beam_search import beamed
-from kfmaps.matching.partial.relaxation_labeling import Placed, Trial, gauge, relaxed, settled, stretch
-from kfmaps.matching.partial.samples import Side
+from kfmaps.matching.partial.beam_search import beam_search
+from kfmaps.matching.partial.relaxation_labeling import (
+    Assignment,
+    RelaxationParams,
+    distance_bounds,
+    reassign,
+    relax,
+    stretch,
+)
+from kfmaps.matching.partial.samples import PartSamples
 
 TRIALS = (
-    Trial(),
-    Trial((0.06, 0.09, 0.14, 0.2), 100, 30, 1.2),
-    Trial((0.06, 0.09, 0.14, 0.2), 70, 45, 1.2),
+    RelaxationParams(),
+    RelaxationParams((0.06, 0.09, 0.14, 0.2), 100, 30, 1.2),
+    RelaxationParams((0.06, 0.09, 0.14, 0.2), 70, 45, 1.2),
 )
 """The first tries all scales, the others the best of these."""
 SCALES = tuple(0.28 * 1.15**i for i in range(10))
@@ -30,7 +37,7 @@ ROUNDS = 3
 
 
 @dataclass(frozen=True, eq=False)
-class Rough:
+class Placement:
     """Samples of the part placed at one scale.
 
     Attributes
@@ -44,13 +51,18 @@ class Rough:
     """
 
     scale: float
-    trial: Trial
-    placed: Placed
+    trial: RelaxationParams
+    placed: Assignment
     alike: np.ndarray
 
 
-def likeness(
-    part: Side, whole: Side, scale: float, radii: tuple[float, ...], pairs: np.ndarray, threads: int | None = None
+def shot_similarity(
+    part: PartSamples,
+    whole: PartSamples,
+    scale: float,
+    radii: tuple[float, ...],
+    pairs: np.ndarray,
+    threads: int | None = None,
 ) -> np.ndarray:
     """Mean products ``(q, m)`` of the SHOT of both, in balls of equal size; landmarks ``pairs`` are settled."""
     total = sum(part.shot(r / scale, threads) @ whole.shot(r, threads).T for r in radii)
@@ -61,47 +73,49 @@ def likeness(
     return alike
 
 
-def tried(
-    part: Side,
-    whole: Side,
+def try_scales(
+    part: PartSamples,
+    whole: PartSamples,
     scales: Sequence[float],
     pairs: np.ndarray,
-    trial: Trial = TRIALS[0],
+    trial: RelaxationParams = TRIALS[0],
     threads: int | None = None,
-) -> list[Rough]:
+) -> list[Placement]:
     """The first samples placed at each of ``scales`` as ``trial`` says, the best supported first."""
     for radius in trial.radii:
         whole.shot(radius, threads)
 
-    def at(scale: float) -> Rough:
-        alike = likeness(part, whole, scale, trial.radii, pairs, 1)
-        placed = relaxed(gauge(part.distances, part.edge, scale), whole.distances, alike, trial, part.marks)
-        return Rough(scale, trial, placed, alike)
+    def at(scale: float) -> Placement:
+        alike = shot_similarity(part, whole, scale, trial.radii, pairs, 1)
+        placed = relax(
+            distance_bounds(part.distances, part.boundary_distance, scale), whole.distances, alike, trial, part.marks
+        )
+        return Placement(scale, trial, placed, alike)
 
     return sorted(parallel(at, list(scales), threads), key=lambda rough: -rough.placed.support)
 
 
-def searched(
-    part: Side,
-    whole: Side,
+def search_scale(
+    part: PartSamples,
+    whole: PartSamples,
     scales: Sequence[float],
     pairs: np.ndarray,
     threads: int | None = None,
-) -> list[Rough]:
+) -> list[Placement]:
     """All samples placed by the beam searches at each of ``scales``, the best that each finds, best first."""
     trial = TRIALS[0]
     for radius in trial.radii:
         whole.shot(radius, threads)
 
-    def at(scale: float) -> list[Rough]:
-        alike = likeness(part, whole, scale, trial.radii, pairs, 1)
-        measure = gauge(part.distances, part.edge, scale)
-        begun = beamed(measure, part.edge * np.float32(scale), whole.distances, alike, part.marks)
-        return [Rough(scale, trial, placed, alike) for placed in begun]
+    def at(scale: float) -> list[Placement]:
+        alike = shot_similarity(part, whole, scale, trial.radii, pairs, 1)
+        measure = distance_bounds(part.distances, part.boundary_distance, scale)
+        begun = beam_search(measure, part.boundary_distance * np.float32(scale), whole.distances, alike, part.marks)
+        return [Placement(scale, trial, placed, alike) for placed in begun]
 
-    def all_placed(rough: Rough) -> Rough:
-        measure = gauge(part.distances, part.edge, rough.scale)
-        placed = settled(measure, whole.distances, rough.alike, rough.placed, part.marks)
+    def all_placed(rough: Placement) -> Placement:
+        measure = distance_bounds(part.distances, part.boundary_distance, rough.scale)
+        placed = reassign(measure, whole.distances, rough.alike, rough.placed, part.marks)
         return replace(rough, placed=placed)
 
     found = sorted(parallel(at, list(scales), threads), key=lambda some: -some[0].placed.support)
@@ -109,15 +123,17 @@ def searched(
     return parallel(all_placed, likely, threads)
 
 
-def grown(part: Side, whole: Side, rough: Rough, pairs: np.ndarray, fixed: bool = False) -> Rough:
+def refine_placement(
+    part: PartSamples, whole: PartSamples, rough: Placement, pairs: np.ndarray, fixed: bool = False
+) -> Placement:
     """All samples placed, and the scale found with them unless it is ``fixed``."""
     scale, placed, alike = rough.scale, rough.placed, rough.alike
     for repeated in range(2):
         for _ in range(ROUNDS):
-            measure = gauge(part.distances, part.edge, scale)
-            placed = settled(measure, whole.distances, alike, placed, part.marks)
+            measure = distance_bounds(part.distances, part.boundary_distance, scale)
+            placed = reassign(measure, whole.distances, alike, placed, part.marks)
             if not fixed:
                 scale = float(np.clip(scale * stretch(measure, whole.distances, placed), *LIMITS))
         if not repeated and not fixed:
-            alike = likeness(part, whole, scale, rough.trial.radii, pairs, 1)
-    return Rough(scale, rough.trial, placed, alike)
+            alike = shot_similarity(part, whole, scale, rough.trial.radii, pairs, 1)
+    return Placement(scale, rough.trial, placed, alike)
