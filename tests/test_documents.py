@@ -28,7 +28,8 @@ def text(name: str) -> str:
 def test_links_and_paths_lead_somewhere(path: Path) -> None:
     content = path.read_text(encoding="utf-8")
     links = re.findall(r"\]\(([^)#]+)", content)
-    named = re.findall(r"`((?:src|tests|docs)/[\w./]+)`", content)
+    named = re.findall(r"`((?:src|tests|docs|research)/[\w./-]+)`", content)
+    named += re.findall(r"\b((?:src|tests|benchmarks|experiments)/[\w/]+\.py)\b", content)
     for link in [link for link in links if not link.startswith("https://")]:
         made = link.removeprefix("docs/").startswith(("gallery/", "api/"))  # by Sphinx, from examples and docstrings
         assert made or (path.parent / link).exists(), link
