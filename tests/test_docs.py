@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import pkgutil
 import re
 from pathlib import Path
 
@@ -14,6 +15,12 @@ def test_the_reference_has_every_public_name():
     documented = "\n".join(path.read_text(encoding="utf-8") for path in (DOCS / "api").glob("*.rst"))
     entries = set(re.findall(r"^\.\. auto\w+:: kfmaps\.(\w+)$", documented, re.MULTILINE))
     assert set(kfmaps.__all__) <= entries
+
+
+def test_the_reference_names_what_exists():
+    for path in (DOCS / "api").glob("*.rst"):
+        for name in re.findall(r"^\.\. auto\w+:: ([\w.]+)$", path.read_text(encoding="utf-8"), re.MULTILINE):
+            assert pkgutil.resolve_name(name) is not None
 
 
 def test_every_public_name_says_what_it_is():

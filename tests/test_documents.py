@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import pkgutil
 import re
 from pathlib import Path
 
@@ -35,6 +36,12 @@ def test_links_and_paths_lead_somewhere(path: Path) -> None:
         assert made or (path.parent / link).exists(), link
     for name in named:
         assert (ROOT / name).exists(), name
+
+
+@pytest.mark.parametrize("path", DOCUMENTS, ids=lambda path: f"{path.parent.name}-{path.stem}")
+def test_names_of_the_package_exist(path: Path) -> None:
+    for name in re.findall(r"`(kfmaps(?:\.\w+)+)", path.read_text(encoding="utf-8")):
+        assert pkgutil.resolve_name(name) is not None
 
 
 @pytest.mark.parametrize("path", DOCUMENTS, ids=lambda path: f"{path.parent.name}-{path.stem}")
