@@ -453,7 +453,7 @@ MUTANTS = tuple(
             "found = set(pictures.values())",
             "test_files_obj_picture",
         ),
-        ("path = found.pop() if len(found) == 1 else None", "path = found.pop()", "test_files_obj_picture"),
+        ("picture = found.pop() if len(found) == 1 else None", "picture = found.pop()", "test_files_obj_picture"),
         # parts
         ("counts = agree * within(found, whole)", "counts = agree", "test_parts_bend"),
         (
@@ -519,7 +519,11 @@ MUTANTS = tuple(
         ),
         ("paid[: part.marks] = 0.0", "paid[: part.marks] = 2.0 * PAID", "test_parts_rivals"),
         ("if float(np.median(off[each, one.match])) > ELSEWHERE", "if one is not None", "test_parts_rivals"),
-        ("mixed if ways.source.all() else without(mixed, ~ways.source, lost)", "mixed", "test_carried_parts"),
+        (
+            "target.faces, nearest), ~ways.source, lost)",
+            "target.faces, nearest), ways.source, lost)",
+            "test_carried_parts",
+        ),
         (
             "invert_precise_map(place, source, target, None if known.all() else known)",
             "invert_precise_map(place, source, target)",

@@ -19,10 +19,10 @@ import kfmaps
 from kfmaps import datasets
 from kfmaps.fmap.precise import nearest_vertices
 from kfmaps.io import load_map, save_map
-from kfmaps.io.counterparts import counterparts
+from kfmaps.io.partial_map import counterparts
 from kfmaps.viz import automatic_view, position_colors, save_figure
 from kfmaps.viz.camera import following_view
-from kfmaps.viz.matches import carried_colors
+from kfmaps.viz.figures import transferred_colors
 from kfmaps.viz.surfaces import draw_surface
 
 
@@ -49,7 +49,7 @@ def main() -> None:
     overlap = np.asarray(found.extra["overlap_source"])
     panels = (
         ("the part", part, colors, following_view(seen, whole, part, found.target_to_source)),
-        ("the whole in the part's colours", whole, carried_colors(colors, back), seen),
+        ("the whole in the part's colours", whole, transferred_colors(colors, back), seen),
         ("probability to be on both", whole, matplotlib.colormaps["viridis"](overlap)[:, :3], seen),
     )
     figure = Figure(figsize=(9.6, 4.4), facecolor="white")

@@ -15,9 +15,10 @@ import kfmaps
 from collecting import CONFIG
 from conftest import blob
 from kfmaps import InvalidInput, KfmapsWarning, Mesh
+from kfmaps.fmap.precise import vertex_point_map
 from kfmaps.geometry.mesh import surface_area
 from kfmaps.io import MapFile, write_landmarks
-from kfmaps.io.inputs import as_map, as_mesh
+from kfmaps.io.convert import as_map, as_mesh
 
 GUARDS = ("kfmaps.matching.match",)
 
@@ -209,7 +210,11 @@ def test_picture_and_page_of_a_map(shuffled: kfmaps.Match, tmp_path: Path) -> No
         (lambda: kfmaps.prepare("a.off", 3), "config"),  # pyright: ignore
         (lambda: kfmaps.laplace_basis("a.off", 5), "mesh: wanted a Mesh, got str"),  # pyright: ignore
         (lambda: kfmaps.geodesic_distances((V, F), [0]), "mesh: wanted a Mesh, got tuple"),  # pyright: ignore
-        (lambda: kfmaps.geodesic_errors("a.off", ORDER, ORDER), "source: wanted a Mesh"),  # pyright: ignore
+        (lambda: kfmaps.geodesic_errors("no.off", ORDER, ORDER), "no.off: wanted a file"),
+        (lambda: kfmaps.geodesic_errors(MESH, ORDER, ORDER[:5]), "predicted and true vertices: wanted lists of equal"),
+        (lambda: kfmaps.geodesic_errors(MESH, ORDER, ([0], [200])), "the truth's target vertices"),
+        (lambda: kfmaps.transfer(V, vertex_point_map(ORDER, MESH)), "a PointMap alone; give source="),
+        (lambda: kfmaps.render(vertex_point_map(ORDER, MESH), Mesh(V), OTHER), "map"),
         (lambda: kfmaps.coverage(ORDER, "a.off"), "source: wanted a Mesh"),  # pyright: ignore
         (lambda: kfmaps.write_mesh("a.off", (V, F)), "mesh: wanted a Mesh"),  # pyright: ignore
         (lambda: kfmaps.save_map("a.npz", ORDER), "map: wanted a Match"),  # pyright: ignore
@@ -226,6 +231,30 @@ def test_wrong_things_are_told_in_words(call: Any, told: str) -> None:
 def test_a_map_may_be_handed_in_as_anything_that_is_one(shuffled: kfmaps.Match) -> None:
     for given in (shuffled, MapFile(ORDER), ORDER, ORDER.tolist()):
         np.testing.assert_array_equal(as_map(given).target_to_source, ORDER)
+
+
+@pytest.mark.filterwarnings("ignore::kfmaps.KfmapsWarning")
+def test_each_call_takes_any_kind_of_map(shuffled: kfmaps.Match, tmp_path: Path) -> None:
+    """A match, its file, the file's content, points inside triangles and a list of vertices: all mean the same."""
+    shuffled.save(tmp_path / "m.npz")
+    kfmaps.write_mesh(tmp_path / "a.off", MESH)
+    given = (shuffled, tmp_path / "m.npz", MapFile(ORDER), vertex_point_map(ORDER, MESH), ORDER, ORDER.tolist())
+    moved = np.roll(ORDER, 1)
+    pictures, errors = [], []
+    for one in given:
+        np.testing.assert_allclose(kfmaps.transfer(V, one, source=MESH), V[ORDER], atol=1e-6)
+        assert kfmaps.transfer(ORDER, one, source=tmp_path / "a.off").tolist() == ORDER[ORDER].tolist()
+        errors.append(kfmaps.geodesic_errors((V, F), one, moved))
+        truth = (moved[:9], np.arange(9))
+        np.testing.assert_array_equal(kfmaps.geodesic_errors(MESH, one, truth), errors[-1][:9])
+        figure = kfmaps.render(one, MESH, OTHER, colors=np.zeros((200, 3)))
+        pictures.append(len(figure.axes))
+    assert pictures == [2] * len(given)
+    assert (errors[0] > 0.05).mean() > 0.9
+    for other in errors[1:]:
+        np.testing.assert_allclose(other, errors[0], rtol=0.03)  # paths between points are found otherwise
+    part = np.where(ORDER < 100, ORDER, -1)
+    np.testing.assert_array_equal(np.isnan(kfmaps.geodesic_errors(MESH, part, moved)), part < 0)
 
 
 def test_warnings_of_a_file_reach_the_caller(tmp_path: Path) -> None:

@@ -16,7 +16,7 @@ from kfmaps.io import MapFile, MeshFile, load_map, read_mesh_file, read_values, 
 from kfmaps.io.export import carried_uv, projected_uv
 from kfmaps.io.glb import format_glb
 from kfmaps.io.gltf import parse_gltf
-from kfmaps.io.named import sha256
+from kfmaps.io.provenance import sha256
 
 
 @pytest.fixture(scope="module")

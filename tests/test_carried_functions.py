@@ -11,7 +11,7 @@ from kfmaps import datasets
 from kfmaps._arrays import InvalidInput
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.io import MapFile, save_map, write_mesh
-from kfmaps.io.functions import carried_functions
+from kfmaps.io.transfer import transfer_by_functions
 
 
 @pytest.fixture(scope="module")
@@ -44,11 +44,11 @@ def test_the_command_carries_functions_with_products(made: types.SimpleNamespace
 def test_a_permutation_of_the_target_permutes_what_is_carried(made: types.SimpleNamespace) -> None:
     source, target = made.pair.source, made.pair.target
     values = np.cos(3 * source.vertices[:, :1])
-    plain = carried_functions(values, made.found, source, target, 10)
+    plain = transfer_by_functions(values, made.found, source, target, 10)
     order = np.random.default_rng(0).permutation(len(target.vertices))
     place = np.argsort(order)
     moved = MapFile(made.pair.truth[order], made.found.functional_map)
-    other = carried_functions(values, moved, source, Mesh(target.vertices[order], place[target.faces]), 10)
+    other = transfer_by_functions(values, moved, source, Mesh(target.vertices[order], place[target.faces]), 10)
     np.testing.assert_allclose(other, plain[order], atol=2e-3 * np.abs(plain).max())
 
 
@@ -61,10 +61,10 @@ def test_what_cannot_be_is_said(made: types.SimpleNamespace, tmp_path: Path) -> 
         (ones[:-1], 5, "one row per source vertex"),
     ):
         with pytest.raises(InvalidInput, match=words):
-            carried_functions(values, made.found, source, target, products)
+            transfer_by_functions(values, made.found, source, target, products)
     part = np.where(np.arange(len(target.vertices)) < 9, -1, made.pair.truth)
     with pytest.raises(InvalidInput, match="a map of the whole target"):
-        carried_functions(ones, MapFile(part), source, target, 5)
+        transfer_by_functions(ones, MapFile(part), source, target, 5)
     np.save(tmp_path / "x.npy", ones)
     ran = run("transfer", made.map, tmp_path / "x.npy", "-o", tmp_path / "y.npy", "--products", 5, "--back")
     assert "leave one of them out" in ran.error

@@ -15,7 +15,7 @@ from kfmaps.cli.partial_truth import PartTruth, true_overlap
 from kfmaps.fmap.precise import PointMap, invert_precise_map, nearest_vertices, point_positions
 from kfmaps.geometry.mesh import surface_area
 from kfmaps.io import MapFile, load_map, save_map, write_mesh
-from kfmaps.io.counterparts import counterparts
+from kfmaps.io.partial_map import counterparts
 
 NEAR = 0.02
 """In √area of the whole: the meshes of part and whole have nothing to do with each other."""

@@ -197,7 +197,7 @@ BAD_PLY = {
     "a short line": (ply(TEXT + XYZ + LIST, b"0 0 0\n1 0 0\n0 1\n3 0 1 2\n"), "only 2 numbers"),
     "a long line": (ply(TEXT + XYZ + LIST, b"0 0 0\n1 0 0 4\n0 1 0\n3 0 1 2\n"), "got 4 numbers"),
     "a short list": (ply(TEXT + XYZ + LIST, NUMBERS + b"4 0 1 2\n"), "only 4 numbers"),
-    "a negative length in text": (ply(TEXT + XYZ + LIST, NUMBERS + b"-1 0 1 2\n"), "0 or more"),
+    "a negative length in text": (ply(TEXT + XYZ + LIST, NUMBERS + b"-1 0 1 2\n"), "of 0 numbers or more, got -1"),
     "a word": (ply(TEXT + XYZ + LIST, NUMBERS + b"3 0 1 x\n"), "numbers, got 'x'"),
     "beyond its type": (ply(TEXT + XYZ + LIST.replace("int v", "uchar v"), NUMBERS + b"3 0 1 256\n"), "to 255"),
     "an edge": (ply(TEXT + XYZ + LIST, NUMBERS + b"2 0 1\n"), "three corners or more, got 2 in face 0"),

@@ -205,20 +205,35 @@ def test_gltf_strips_quantised_colors_and_nested_nodes(tmp_path: Path) -> None:
     assert "form a tree" in refused(tmp_path / "a.gltf", json.dumps({**tree, "scenes": [{"nodes": [0]}]}).encode())
 
 
-def test_gltf_of_more_copies_than_fit_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """A few thousand nodes that each show a mesh of a few thousand vertices, as often as they like."""
-    monkeypatch.setattr("kfmaps._memory.installed_memory", lambda: 32 << 30)
-    places = np.zeros((20_000, 3), "<f4").tobytes()
+def copies(vertices: int, parts: int, nodes: int) -> bytes:
+    """A file that shows a mesh of equal parts at so many nodes."""
+    places = np.zeros((vertices, 3), "<f4").tobytes()
     tree = {
         "asset": {"version": "2.0"},
         "buffers": [{"byteLength": len(places), "uri": "data:;base64," + base64.b64encode(places).decode()}],
         "bufferViews": [{"buffer": 0, "byteLength": len(places)}],
-        "accessors": [{"bufferView": 0, "componentType": 5126, "count": 20_000, "type": "VEC3"}],
-        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}] * 2000}],
-        "nodes": [{"mesh": 0}] * 20,
-        "scenes": [{"nodes": list(range(20))}],
+        "accessors": [{"bufferView": 0, "componentType": 5126, "count": vertices, "type": "VEC3"}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}] * parts}],
+        "nodes": [{"mesh": 0}] * nodes,
+        "scenes": [{"nodes": list(range(nodes))}],
     }
-    assert "of memory, got 80 GB" in refused(tmp_path / "a.gltf", json.dumps(tree).encode())
+    return json.dumps(tree).encode()
+
+
+@pytest.mark.parametrize(("vertices", "parts", "nodes"), [(99, 1, 200_000), (20_000, 2000, 20)])
+def test_gltf_of_more_copies_than_anybody_means_is_refused(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, vertices: int, parts: int, nodes: int
+) -> None:
+    """Nodes may show a mesh as often as they like; the file is refused before any copy is made."""
+    monkeypatch.setattr("kfmaps.io.gltf._numbers", lambda *_: pytest.fail("numbers were read"))
+    told = refused(tmp_path / "a.gltf", copies(vertices, parts, nodes))
+    assert "at most 4,000,000 vertices and corners that nodes repeat" in told
+    assert "export each shape once" in told
+
+
+def test_gltf_that_does_not_fit_into_memory_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("kfmaps._memory.installed_memory", lambda: 1 << 20)
+    assert "got 5 MB for 20,000 vertices and corners of 1 parts" in refused(tmp_path / "a.gltf", copies(20_000, 1, 1))
 
 
 def test_parts_follow_in_order_and_are_placed(tmp_path: Path) -> None:
@@ -272,7 +287,14 @@ def accessor(tree: dict[str, Any], **more: Any) -> None:
             "without compression",
         ),
         (lambda t: accessor(t, sparse={}), "export it without compression"),
+        (
+            lambda t: t["bufferViews"][0].update(extensions={"EXT_meshopt_compression": {"buffer": 0}}),
+            "compressed data (EXT_meshopt_compression); export it without compression",
+        ),
+        (lambda t: t.update(extensionsRequired=["KHR_draco_mesh_compression"]), "export it without compression"),
+        (lambda t: t.update(extensionsRequired=["EXT_mesh_gpu_instancing"]), "the extension EXT_mesh_gpu_instancing"),
         (lambda t: accessor(t, componentType=5123), "export it unquantised"),
+        (lambda t: accessor(t, count=3), "mesh 0, part 0: wanted corners of faces from 0 to 2, for it has 3 vertices"),
         (lambda t: accessor(t, count=10**9), "complete glTF 2.0 file"),
         (lambda t: t["accessors"][primitive(t)["indices"]].update(componentType=5126), "unsigned vertex numbers"),
         (lambda t: primitive(t).update(mode=6), "export it as triangles"),

@@ -16,11 +16,11 @@ from conftest import blob
 from kfmaps._arrays import InvalidInput, KfmapsWarning
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.io import MeshFile, read_mesh, read_mesh_file, write_mesh
+from kfmaps.io.meshes import parse_xyz
 from kfmaps.io.obj import format_obj, parse_obj
 from kfmaps.io.off import format_off, parse_off
 from kfmaps.io.ply import format_ply, parse_ply
 from kfmaps.io.record import fan
-from kfmaps.io.xyz import parse_xyz
 
 PLACES = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0.5]])
 FACES = [[0, 1, 2], [0, 2, 3]]

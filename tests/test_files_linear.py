@@ -1,24 +1,30 @@
-"""Every reader takes time linear in the size of its file, whatever is repeated in it."""
+"""Every reader takes steps linear in the size of its file, whatever is repeated in it."""
 
 from __future__ import annotations
 
 import json
-import time
+import sys
 import warnings
 from collections.abc import Callable
 from contextlib import suppress
 from itertools import pairwise
 from pathlib import Path
+from types import FrameType
+from typing import Any
 
 import pytest
 
+import kfmaps.io
 from kfmaps._arrays import InvalidInput
 from kfmaps.io import load_map, read_landmarks, read_mesh, read_values, read_vertex_numbers
 
 pytestmark = pytest.mark.timeout(120)
 
-BYTES = 30_000
-"""Of the smaller file. What is quadratic takes seconds at this size, what backtracks never ends."""
+READERS = str(Path(kfmaps.io.__file__).parent)
+BYTES = 1_500
+"""Of the smaller of two files whose steps are counted."""
+LARGE = 60_000
+"""Bytes at which an expression that backtracks does not end within the time of a test."""
 
 HEADS = {
     ".off": (b"", b"OFF ", b"OFF\n3 1 0\n"),
@@ -39,24 +45,35 @@ PIECES = (
 )  # fmt: skip
 
 
-def seconds(read: Callable[[Path], object], path: Path, content: bytes) -> float:
-    """CPU time of reading, whatever comes of it."""
+def steps(read: Callable[[Path], object], path: Path, content: bytes) -> int:
+    """How many lines of the readers run, whatever comes of it."""
     path.write_bytes(content)
-    start = time.process_time()
-    with warnings.catch_warnings(), suppress(InvalidInput):
-        warnings.simplefilter("ignore")
-        read(path)
-    return time.process_time() - start
+    count = 0
+
+    def within(frame: FrameType, event: str, _: object) -> Any:
+        nonlocal count
+        count += event == "line"
+        return within if frame.f_code.co_filename.startswith(READERS) else None
+
+    before = sys.gettrace()
+    sys.settrace(within)
+    try:
+        with warnings.catch_warnings(), suppress(InvalidInput):
+            warnings.simplefilter("ignore")
+            read(path)
+    finally:
+        sys.settrace(before)
+    return count
 
 
 def check_linear(read: Callable[[Path], object], path: Path, content: Callable[[int], bytes], name: object) -> None:
-    """Twice the size takes about twice the time; a slow moment of the machine is given two more tries."""
-    small = large = 0.0
-    for _ in range(3):
-        small, large = (seconds(read, path, content(size)) for size in (BYTES, 2 * BYTES))
-        if large < 3 * small + 0.1:
-            return
-    pytest.fail(f"{path.suffix}: {small:.2f} s, then {large:.2f} s for twice as much of {name!r}")
+    """Twice the size takes at most about twice the steps; a large file is read too, which must end."""
+    small, large = (steps(read, path, content(size)) for size in (BYTES, 2 * BYTES))
+    assert large < 2.5 * small + 100, f"{path.suffix}: {small} steps, {large} for twice as much of {name!r}"
+    path.write_bytes(content(LARGE))
+    with warnings.catch_warnings(), suppress(InvalidInput):
+        warnings.simplefilter("ignore")
+        read(path)
 
 
 def repeated(head: bytes, piece: bytes) -> Callable[[int], bytes]:

@@ -9,7 +9,7 @@ from kfmaps.geometry.mesh import Mesh
 from kfmaps.io import read_mesh_file
 from kfmaps.io.bake import png_of
 from kfmaps.io.export import write_morph, write_textured
-from kfmaps.io.mtl import materials
+from kfmaps.io.obj import materials
 from kfmaps.io.record import MeshFile, Picture
 
 pytestmark = pytest.mark.filterwarnings("ignore:.*boundary loop")

@@ -245,3 +245,15 @@ def test_landmarks_of_a_vts_file_count_from_one(tmp_path: Path) -> None:
         read_landmarks(tmp_path / "b.vts" if (tmp_path / "b.vts").write_text("0 5\n") else tmp_path)
     (tmp_path / "a.vts").write_text("# source target, counted from 0\n0 4\n7 2\n")  # as older versions wrote them
     np.testing.assert_array_equal(read_landmarks(tmp_path / "a.vts"), pairs)
+
+
+@pytest.mark.parametrize("suffix", [".txt", ".csv"])
+def test_one_long_label_does_not_take_its_room_for_all(tmp_path: Path, suffix: str) -> None:
+    """An array of texts gives each the room of the longest: a file of a megabyte would take gigabytes."""
+    path = tmp_path / f"a{suffix}"
+    path.write_text("arm\n" * 1000 + "x" * 100_000 + "\n")
+    told = r"labels of at most 67,041 letters each, for there are 1,001, got one of 100,000 letters \('xxx"
+    with pytest.raises(InvalidInput, match=told):
+        read_values(path)
+    path.write_text("arm\n" * 1000 + "x" * 1000 + "\n")
+    assert read_values(path).array[1000] == "x" * 1000

@@ -23,13 +23,14 @@ from kfmaps.fmap.confidence import local_confidence
 from kfmaps.fmap.solvers import Solution
 from kfmaps.geometry.mesh import Mesh, unit_area, vertex_areas
 from kfmaps.io import MapFile, save_map, write_mesh, write_vertex_numbers
+from kfmaps.io.provenance import mesh_path
 from kfmaps.matching.fit import Fit
 from kfmaps.matching.match import Match
 from kfmaps.viz.document import asset
 from kfmaps.viz.encode import json_block, packed, plain, quantised
 from kfmaps.viz.fields import alignment, area_distortion, nearest_reached
 from kfmaps.viz.page import result_page
-from kfmaps.viz.result_pages import errors_against, map_page, match_summary, mesh_path, signatures
+from kfmaps.viz.result_pages import map_page, match_summary, signatures, vertex_errors
 
 WEB = Path(__file__).parents[1] / "web"
 NO_FACES = np.zeros((0, 3), int)
@@ -267,7 +268,7 @@ def test_errors_are_zero_at_the_truth_and_unknown_elsewhere(pair: tuple) -> None
     truth_t = np.arange(0, 240, 2)
     off = points.copy()
     off[0] = (points[0] + 1) % 300
-    rows = errors_against(source, [points, off], points[truth_t], truth_t)
+    rows = vertex_errors(source, [points, off], points[truth_t], truth_t)
     assert np.isnan(rows[:, 1::2]).all()
     assert (rows[0, ::2] == 0).all()
     assert rows[1, 0] > 0
@@ -371,15 +372,6 @@ def test_mesh_is_where_the_map_says_or_asked_for(tmp_path: Path) -> None:
         mesh_path(None, nameless, "source", tmp_path / "m.npz")
     with pytest.raises(InvalidInput, match="nothing at"):
         mesh_path(None, MapFile(np.zeros(1, int), extra={"source": "no.off"}), "source", tmp_path / "m.npz")
-
-
-def test_example_of_the_documentation_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    text = (WEB.parent / "docs" / "view.md").read_text(encoding="utf-8")
-    monkeypatch.chdir(tmp_path)
-    exec(text.split("```python\n")[1].split("```")[0], {})
-    data = page_data((tmp_path / "page.html").read_text(encoding="utf-8"))
-    assert (data["source"]["name"], data["target"]["name"]) == ("waving", "dancing")
-    assert data["maps"][0]["points"]["shape"] == [1600]
 
 
 # The bundle -----------------------------------------------------------------------------------------------

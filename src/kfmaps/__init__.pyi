@@ -7,6 +7,7 @@ from kfmaps._arrays import KfmapsWarning as KfmapsWarning
 from kfmaps._arrays import MissingDependency as MissingDependency
 from kfmaps._arrays import NotConverged as NotConverged
 from kfmaps.api import Match as Match
+from kfmaps.api import geodesic_errors as geodesic_errors
 from kfmaps.api import match as match
 from kfmaps.api import prepare as prepare
 from kfmaps.api import render as render
@@ -26,7 +27,6 @@ from kfmaps.fmap.convert import to_functional as to_functional
 from kfmaps.fmap.convert import to_points as to_points
 from kfmaps.fmap.evaluate import coverage as coverage
 from kfmaps.fmap.evaluate import error_curve as error_curve
-from kfmaps.fmap.evaluate import geodesic_errors as geodesic_errors
 from kfmaps.fmap.evaluate import summarize_errors as summarize_errors
 from kfmaps.fmap.precise import PointMap as PointMap
 from kfmaps.fmap.refine import ICP as ICP

@@ -22,11 +22,12 @@ from kfmaps._arrays import check, refuse
 from kfmaps.cli.evaluation import Truth, check_truth
 from kfmaps.cli.progress import Stages
 from kfmaps.config import Config
+from kfmaps.fmap import evaluate
 from kfmaps.fmap.precise import PointMap, invert_precise_map, nearest_vertices
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.io import MapFile, atomic_output, check_map, load_map, save_map
 from kfmaps.io import transfer as carried
-from kfmaps.io.inputs import as_landmarks, as_map, as_mesh, is_file
+from kfmaps.io.convert import as_landmarks, as_map, as_mesh, is_file
 from kfmaps.matching import match as matching
 from kfmaps.shape import Shape
 from kfmaps.shape import prepare as prepared
@@ -215,29 +216,74 @@ def prepare(
         return prepared(as_mesh(shape, name), config, name=name, progress=report)
 
 
-def transfer(values: Any, found: Any, lost: Any = None) -> np.ndarray:
+def transfer(values: Any, found: Any, lost: Any = None, *, source: Any = None) -> np.ndarray:
     """Carry values from the vertices of the source to those of the target.
 
     Parameters
     ----------
     values : (n_s, ...) array
         Functions, labels, colours: anything with a row per source vertex.
-    found : Match, MapFile, path, or (n_t,) whole numbers
+    found : Match, MapFile, path, PointMap, or (n_t,) whole numbers
         The map.
     lost : optional
         What target vertices without a counterpart get; by default NaN, for whole numbers −1, for texts the empty one.
+    source : as :func:`match` takes it, optional
+        The source's shape. With it floating numbers are mixed between the corners of the triangles that the points of
+        the map lie in, where it has such. A PointMap needs it.
 
     Returns
     -------
     (n_t, ...) array
-        Of the same dtype: row j is ``values[target_to_source[j]]``.
+        Of the same dtype: row j is ``values[target_to_source[j]]``, or the mean of three rows.
 
     Raises
     ------
     InvalidInput
         When the map names a vertex that has no value, or the source has another number of vertices.
     """
-    return carried(values, _with_size(found), lost=lost)
+    mesh = None if source is None else _mesh(source, "source")
+    return carried(values, _with_size(found, mesh), None if mesh is None else mesh.faces, lost)
+
+
+def geodesic_errors(source: Any, predicted: Any, true: Any, method: str = "unfolded") -> np.ndarray:
+    """Return the geodesic distance on the source from each predicted to its true point, divided by √area.
+
+    Parameters
+    ----------
+    source : as :func:`match` takes it
+    predicted : Match, MapFile, path, PointMap, or (q,) whole numbers
+        A map, for all target vertices, or a source vertex for each point that is evaluated. The points of a PointMap
+        are not snapped to vertices.
+    true : (q,) whole numbers, PointMap, or a tuple ((q,), (q,)) of whole numbers
+        The true source vertex of each target vertex; or corresponding vertices of the source and of the target.
+    method : str
+        As of :func:`kfmaps.geodesic_distances`. It counts for vertices alone.
+
+    Returns
+    -------
+    (q,) float64
+        In units of the square root of the source's area. Infinite between components; NaN without a counterpart.
+
+    Raises
+    ------
+    InvalidInput
+        When the two differ in length, or name vertices that the source does not have.
+    """
+    mesh = _mesh(source, "source")
+    points = predicted if isinstance(predicted, PointMap) else as_map(predicted).target_to_source
+    if isinstance(true, tuple):
+        true, rows = (check(np.asarray(part), "truth", shape=(None,)) for part in true)
+        n_t = len(points.faces if isinstance(points, PointMap) else points)
+        rows = check_map(rows, n_t, len(true), "the truth's target vertices")
+        points = PointMap(points.faces[rows], points.weights[rows]) if isinstance(points, PointMap) else points[rows]
+    if isinstance(points, PointMap) or isinstance(true, PointMap):
+        return evaluate.precise_errors(mesh, points, true)
+    known, true = points >= 0, np.asarray(true)
+    if known.all() or known.shape != true.shape:
+        return evaluate.geodesic_errors(mesh, points, true, method)
+    errors = np.full(len(points), np.nan)
+    errors[known] = evaluate.geodesic_errors(mesh, points[known], true[known], method)
+    return errors
 
 
 def render(
@@ -254,7 +300,7 @@ def render(
 
     Parameters
     ----------
-    found : Match, MapFile, path, or (n_t,) whole numbers
+    found : Match, MapFile, path, PointMap, or (n_t,) whole numbers
     source, target : as :func:`match` takes them, optional
         By default those of the match, or those that the map's file names.
     output : path, optional
@@ -278,7 +324,7 @@ def render(
     from kfmaps.viz import match_figure, painted_errors, picture_format, save_figure, true_views
 
     shapes = _shapes(found, source, target)
-    points = check_map(as_map(found), len(shapes[0].vertices), len(shapes[1].vertices), lost=True)
+    points = check_map(as_map(found, shapes[0]), len(shapes[0].vertices), len(shapes[1].vertices), lost=True)
     if truth is not None:
         known = _truth(truth, shapes)
         options.setdefault("errors", painted_errors(*shapes, points, known.source, known.target))
@@ -336,7 +382,7 @@ def view(
     if isinstance(found, matching.Match):
         html = match_page(found, *shapes, names, **given)
     else:
-        html = map_page(as_map(found), *shapes, names, **given)
+        html = map_page(as_map(found, shapes[0]), *shapes, names, **given)
     if output is None:
         return open_page(html)[0]
     with atomic_output(output, force) as temporary:
@@ -344,9 +390,13 @@ def view(
     return Path(output)
 
 
-def _with_size(found: Any) -> MapFile:
+def _mesh(shape: Any, name: str) -> Mesh:
+    return shape.mesh if isinstance(shape, Shape) else as_mesh(shape, name)
+
+
+def _with_size(found: Any, source: Mesh | None = None) -> MapFile:
     """A map that says how many vertices its source has, where that is known."""
-    known = as_map(found)
+    known = as_map(found, source)
     if not isinstance(found, Match):
         return known
     return replace(known, extra={**known.extra, "n_s": np.int64(len(found.source.vertices))})
@@ -374,14 +424,14 @@ def _truth(truth: tuple[Any, Any], shapes: tuple[Mesh, Mesh]) -> Truth:
 
 def _shapes(found: Any, source: Any, target: Any) -> tuple[Mesh, Mesh]:
     """The two shapes of a map: as given, else the match's own, else those that the map's file names."""
-    from kfmaps.viz.result_pages import map_mesh
+    from kfmaps.io.provenance import map_mesh
 
     named = load_map(found) if is_file(found) else found
     beside = Path(found) if is_file(found) else Path()
     meshes = []
     for given, side in ((source, "source"), (target, "target")):
         if given is not None:
-            meshes.append(as_mesh(given, side))
+            meshes.append(_mesh(given, side))
         elif isinstance(named, Match):
             meshes.append(getattr(named, side))
         elif isinstance(named, MapFile):

@@ -20,8 +20,6 @@ from kfmaps.collection.paths import MapPath, adjacency, best_paths
 from kfmaps.fmap.precise import vertex_point_map
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.io import MapFile, atomic_output, check_map, check_output, load_map, read_mesh
-from kfmaps.io.counterparts import counterparts
-from kfmaps.io.export import place_of
 from kfmaps.io.named_points import (
     NamedPoints,
     carried_points,
@@ -29,6 +27,7 @@ from kfmaps.io.named_points import (
     read_named_points,
     spread_points,
 )
+from kfmaps.io.partial_map import counterparts, place_of
 
 UNKNOWN = 0.5
 """Probability of a map of which nothing is known."""

@@ -19,7 +19,7 @@ from kfmaps.batch.plan import Plan
 from kfmaps.batch.specimens import KINDS, SHAPES, latent_paths
 from kfmaps.io import read_mesh
 from kfmaps.viz import save_figure
-from kfmaps.viz.variation import varied_figure
+from kfmaps.viz.matches import values_figure
 
 NAMED = 60
 """Shapes up to which their names stand in the chart."""
@@ -83,7 +83,7 @@ def _varied(plan: Plan, known: dict[str, np.ndarray]) -> str:
     if any(len(v) != len(mesh.vertices) for v in values.values()):
         return ""
     buffer = io.BytesIO()
-    save_figure(varied_figure(mesh, values), buffer, "png")
+    save_figure(values_figure(mesh, values), buffer, "png")
     image = f'<img alt="Where the shapes differ" src="{_data("png", buffer.getvalue())}">'
     told = f"Where on the surface the shapes differ: standard deviation over all, as a part of the mean, on {name}."
     return f"<figure>{image}<figcaption>{escape(told)}</figcaption></figure>"

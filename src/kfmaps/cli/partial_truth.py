@@ -17,7 +17,7 @@ from kfmaps.fmap.precise import PointMap, check_point_map_precise, point_positio
 from kfmaps.geometry.closest_points import closest_points
 from kfmaps.geometry.mesh import Mesh, unit_area, vertex_areas
 from kfmaps.io import MapFile, read_landmarks
-from kfmaps.io.export import place_of
+from kfmaps.io.partial_map import place_of
 from kfmaps.io.text import clean_text, parse_rows, read_bytes, table
 from kfmaps.matching.partial.match_partial import COMMON
 from kfmaps.matching.partial.overlap import covered

@@ -19,7 +19,7 @@ from kfmaps.cli.words import LOUD, UNIT, percent, verdict_line
 from kfmaps.config import as_dict
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.io import MapFile, match_map
-from kfmaps.io.named import sha256
+from kfmaps.io.provenance import sha256
 from kfmaps.matching.fit import Fit
 from kfmaps.matching.match import ONE_FIT, Match
 

@@ -31,7 +31,7 @@ from kfmaps.collection.scored_map import ScoredMap, candidate_maps, score_maps
 from kfmaps.collection.synchronization import Edge
 from kfmaps.config import Config
 from kfmaps.io import MapFile, check_map
-from kfmaps.io.inputs import as_map, as_mesh
+from kfmaps.io.convert import as_map, as_mesh
 from kfmaps.matching.calibration import SURE
 from kfmaps.matching.match import Match, check_prepared, match, match_from_map
 from kfmaps.matching.quality import ShapeSamples

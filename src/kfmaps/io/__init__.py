@@ -7,18 +7,19 @@ from kfmaps.io.export import (
     write_colored,
     write_textured,
 )
-from kfmaps.io.mapfile import MapFile, check_map, load_map, match_map, save_map
-from kfmaps.io.meshes import read_mesh, read_mesh_file, write_mesh
-from kfmaps.io.numbers import (
+from kfmaps.io.index_files import (
     read_landmark_names,
     read_landmarks,
     read_vertex_numbers,
     write_landmarks,
     write_vertex_numbers,
 )
+from kfmaps.io.mapfile import MapFile, check_map, load_map, match_map, save_map
+from kfmaps.io.meshes import read_mesh, read_mesh_file, write_mesh
 from kfmaps.io.record import MeshFile
 from kfmaps.io.text import read_text
-from kfmaps.io.values import Values, read_values, transfer, write_values
+from kfmaps.io.transfer import transfer
+from kfmaps.io.vertex_data import Values, read_values, write_values
 
 __all__ = [
     "MapFile",

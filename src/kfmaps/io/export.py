@@ -16,9 +16,10 @@ from kfmaps.geometry.mesh import Mesh, surface_area
 from kfmaps.io.atomic import atomic_output
 from kfmaps.io.bake import bakeable, baked, pixels_of, png_of
 from kfmaps.io.glb import format_glb
-from kfmaps.io.mapfile import MapFile, check_map
+from kfmaps.io.mapfile import check_map
 from kfmaps.io.meshes import write_mesh
 from kfmaps.io.obj import format_obj
+from kfmaps.io.partial_map import place_of
 from kfmaps.io.record import MeshFile, Picture
 
 PICTURES = (".png", ".jpg", ".jpeg")
@@ -255,18 +256,6 @@ def _picture(picture: str | Path | None, source: MeshFile) -> Picture:
         kind = "image/png" if Path(picture).suffix.lower() == ".png" else "image/jpeg"
         return Picture(Path(picture).read_bytes(), kind)
     return source.picture or png_of(grid_picture())
-
-
-def place_of(found: Any, source: Mesh) -> PointMap | None:
-    """The points inside triangles of a map file, where it has any; checked.
-
-    Raises
-    ------
-    InvalidInput
-        When they are not on ``source``.
-    """
-    place = found.place if isinstance(found, MapFile) else None
-    return None if place is None else check_point_map_precise(place, source, len(found.target_to_source))
 
 
 def write_colored(

@@ -5,25 +5,31 @@ from __future__ import annotations
 import base64
 import json
 from dataclasses import dataclass
-from pathlib import Path, PurePosixPath
+from pathlib import Path
 from typing import Any
 from urllib.parse import unquote
 
 import numpy as np
 
-from kfmaps._arrays import InvalidInput, refuse
+from kfmaps._arrays import refuse
 from kfmaps._memory import check_memory
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.io.record import MeshFile, Picture, picture_in
-from kfmaps.io.text import REPAIR, read_bytes
+from kfmaps.io.text import REPAIR, beside, complete, read_bytes
 
 _TYPES = {5120: "i1", 5121: "u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
 _FLOAT, _UNSIGNED = 5126, {5121, 5123, 5125}
 _WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4}
 _TRIANGLES, _STRIP, _FAN = 4, 5, 6
+_WHOLE = "a complete glTF 2.0 file"
 _CUT = "the file is cut short or damaged: export it again"
-_BYTES_PER_ROW = 100
-"""About what a vertex or a triangle takes while it is read."""
+_BYTES_PER_ROW = 250
+"""What a vertex or a corner takes while it is read and checked, measured on a scene of 20 million."""
+_MOST_REPEATED = 4_000_000
+"""Vertices and corners that nodes may add by placing a mesh again: a file of 8 MB could mean a thousandfold."""
+_LOOKS = ("KHR_materials_", "KHR_texture_", "EXT_texture_", "KHR_lights_", "KHR_xmp", "MSFT_texture_")
+"""How the names of extensions begin that change the look of a scene and not its vertices and triangles."""
+_COMPRESSION = ("EXT_meshopt_compression", "KHR_meshopt_compression", "KHR_draco_mesh_compression")
 
 
 @dataclass(frozen=True)
@@ -47,11 +53,12 @@ def parse_gltf(data: bytes, name: str) -> MeshFile:
     Raises
     ------
     InvalidInput
-        On a file that is cut short, compressed or sparse data, triangle fans, nodes that are no tree, and more
-        copies of a part than fit into memory.
+        On a file that is cut short, compressed or sparse data, extensions that are needed and not known, triangle
+        fans, nodes that are no tree, and too many copies of a part.
     """
-    with _described(name):
+    with complete(name, _WHOLE):
         tree, binary = _split(data, name)
+        _check_extensions(tree, name)
         buffers = _buffers(tree, binary, name)
         parts = [p for m in tree.get("meshes", []) for p in m["primitives"]]
         _check_parts(parts, tree.get("accessors", []), name)
@@ -66,26 +73,20 @@ def buffer_files(data: bytes, name: str) -> list[Path]:
     InvalidInput
         When ``data`` is no glTF.
     """
-    with _described(name):
+    with complete(name, _WHOLE):
         tree, _ = _split(data, name)
         uris = [buffer.get("uri") for buffer in tree.get("buffers", [])]
         return [_beside(uri, name) for uri in uris if uri is not None and not uri.startswith("data:")]
 
 
-class _described:
-    """Tell of whatever a wrong structure runs into as a file that is not complete."""
-
-    def __init__(self, name: str) -> None:
-        self.name = name
-
-    def __enter__(self) -> None:
-        pass
-
-    def __exit__(self, kind: Any, error: Any, trace: Any) -> None:
-        wrong = (ValueError, KeyError, TypeError, IndexError, AttributeError, RecursionError, OverflowError)
-        if isinstance(error, wrong) and not isinstance(error, InvalidInput):
-            got = " ".join(f"{kind.__name__}: {error}".split())[:100]
-            raise refuse(self.name, "a complete glTF 2.0 file", got, REPAIR) from error
+def _check_extensions(tree: dict[str, Any], name: str) -> None:
+    """Refuse a file whose numbers are not what they seem without an extension."""
+    views = [extension for view in tree.get("bufferViews", []) for extension in view.get("extensions", {})]
+    for extension in [*tree.get("extensionsRequired", []), *views]:
+        if extension in _COMPRESSION:
+            raise refuse(name, "plain data", f"compressed data ({extension})", "export it without compression")
+        if not str(extension).startswith((*_LOOKS, "KHR_mesh_quantization")):
+            raise refuse(name, "plain glTF 2.0", f"the extension {extension!s:.60}", "export it without that")
 
 
 def _split(data: bytes, name: str) -> tuple[dict[str, Any], bytes | None]:
@@ -132,10 +133,10 @@ def _buffers(tree: dict[str, Any], binary: bytes | None, name: str) -> list[byte
 
 def _beside(uri: str, name: str) -> Path:
     """The file that a relative address names, which must lie in the folder of ``name`` or below it."""
-    path = PurePosixPath(unquote(uri))
-    if path.is_absolute() or ".." in path.parts or ":" in path.parts[0] or "\\" in str(path):
+    path = beside(unquote(uri), name)
+    if path is None:
         raise refuse(name, "numbers in a file beside it", f"the address {uri[:60]!r}", "export it as .glb")
-    return Path(name).parent / path
+    return path
 
 
 def _check_parts(parts: list[dict[str, Any]], accessors: list[dict[str, Any]], name: str) -> None:
@@ -226,8 +227,7 @@ def _rows(tree: dict[str, Any], buffers: list[bytes], number: Any, name: str) ->
     offset, first = _count(accessor.get("byteOffset", 0)), _count(view.get("byteOffset", 0))
     buffer, size = buffers[_count(view["buffer"])], _count(view["byteLength"])
     if step < row or (count and offset + (count - 1) * step + row > size) or first + size > len(buffer):
-        what = "a complete glTF 2.0 file"
-        raise refuse(name, what, f"too few bytes for {count} rows of numbers", _CUT)
+        raise refuse(name, _WHOLE, f"too few bytes for {count} rows of numbers", _CUT)
     if count == 0:
         return np.zeros((0, width), item)
     return np.ndarray((count, width), item, buffer, first + offset, (step, item.itemsize))
@@ -238,13 +238,19 @@ def _joined(tree: dict[str, Any], buffers: list[bytes], name: str) -> MeshFile:
     parts = _placed(tree, name)
     primitives = [tree["meshes"][part.mesh]["primitives"][part.primitive] for part in parts]
     used = [a for p in primitives for a in (p["attributes"]["POSITION"], p.get("indices")) if a is not None]
-    rows = sum(len(_rows(tree, buffers, a, name)) for a in used)
+    sizes = {a: len(_rows(tree, buffers, a, name)) for a in set(used)}
+    rows = sum(sizes[a] for a in used)
+    repeated = rows - sum(sizes.values())
+    if repeated > _MOST_REPEATED:
+        got = f"{repeated:,}, with {len(parts):,} placed parts"
+        remedy = "export each shape once"
+        raise refuse(name, f"at most {_MOST_REPEATED:,} vertices and corners that nodes repeat", got, remedy)
     check_memory(_BYTES_PER_ROW * rows, name, f"{rows:,} vertices and corners of {len(parts):,} parts", REPAIR)
     places, faces, colors, uv, n = [], [], [], [], 0
     for part, primitive in zip(parts, primitives, strict=True):
         attributes = primitive["attributes"]
         own = _numbers(tree, buffers, attributes["POSITION"], name)
-        corners = _triangles(tree, buffers, primitive, len(own), name)
+        corners = _triangles(tree, buffers, primitive, len(own), f"{name}: mesh {part.mesh}, part {part.primitive}")
         turn, shift = part.matrix[:3, :3], part.matrix[:3, 3]
         places.append(own if np.array_equal(part.matrix, np.eye(4)) else own @ turn.T + shift)
         faces.append((corners[:, ::-1] if np.linalg.det(turn) < 0 else corners) + n)
@@ -304,11 +310,12 @@ def _triangles(tree: dict[str, Any], buffers: list[bytes], primitive: dict[str, 
     else:
         corners = np.arange(n)
     if len(corners) and corners.max() >= n:
-        raise refuse(f"{name}: faces", f"vertices of a part of {n}", str(corners.max()), REPAIR)
+        wanted = f"corners of faces from 0 to {n - 1}, for it has {n} vertices" if n else "vertices for its faces"
+        raise refuse(name, wanted, str(corners.max()) if n else "none", REPAIR)
     if primitive.get("mode", _TRIANGLES) == _STRIP:
         strip = np.stack([corners[:-2], corners[1:-1], corners[2:]], axis=1)
         strip[1::2] = strip[1::2, [1, 0, 2]]  # every other one runs the other way round
         return strip
     if len(corners) % 3:
-        raise refuse(f"{name}: faces", "three corners each", f"{len(corners)} corners", REPAIR)
+        raise refuse(name, "faces of three corners each", f"{len(corners)} corners", REPAIR)
     return corners.reshape(-1, 3)

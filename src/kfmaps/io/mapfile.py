@@ -17,9 +17,9 @@ from kfmaps._arrays import InvalidInput, check, refuse
 from kfmaps._memory import in_words
 from kfmaps.fmap.precise import PointMap
 from kfmaps.io.atomic import atomic_output, check_output
+from kfmaps.io.index_files import read_vertex_numbers, write_vertex_numbers
 from kfmaps.io.mapcontent import checked_extra, json_text, real
 from kfmaps.io.matfile import read_mat
-from kfmaps.io.numbers import read_vertex_numbers, write_vertex_numbers
 from kfmaps.io.text import REPAIR, read_bytes
 
 if TYPE_CHECKING:

@@ -19,8 +19,23 @@ from kfmaps.io.off import format_off, parse_off
 from kfmaps.io.ply import format_ply, parse_ply
 from kfmaps.io.record import MeshFile, checked_colors
 from kfmaps.io.stl import parse_stl
-from kfmaps.io.text import read_bytes
-from kfmaps.io.xyz import parse_xyz
+from kfmaps.io.text import clean_text, parse_rows, read_bytes, table
+
+
+def parse_xyz(data: bytes, name: str) -> MeshFile:
+    """Read a point cloud: ``x y z`` a line.
+
+    Further columns (a normal, a colour) are left out; all lines have the same number of them.
+
+    Raises
+    ------
+    InvalidInput
+        On words that are no numbers and on lines of different lengths.
+    """
+    rows = parse_rows(clean_text(data, name), name)
+    columns = table(rows, (3, 4, 6, 7, 9, 10), name, "x y z, the same number of columns in every line")
+    return MeshFile(Mesh(columns[:, :3], np.zeros((0, 3), dtype=np.int64)))
+
 
 READERS = {
     ".off": parse_off,

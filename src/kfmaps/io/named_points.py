@@ -14,7 +14,7 @@ from kfmaps.fmap.precise import PointMap, nearest_vertices, point_positions, ver
 from kfmaps.geometry.closest_points import closest_points
 from kfmaps.geometry.mesh import Mesh, surface_area
 from kfmaps.io.atomic import atomic_output, check_output
-from kfmaps.io.text import REPAIR, read_bytes
+from kfmaps.io.text import REPAIR, is_number, read_csv
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,12 +56,8 @@ def read_named_points(path: str | Path, mesh: Mesh) -> NamedPoints:
         On rows of another kind, names that are there twice, vertices that do not exist, and an empty file.
     """
     name = str(path)
-    try:
-        text = read_bytes(Path(path)).decode("utf-8-sig")
-        rows = [[cell.strip() for cell in row] for row in csv.reader(io.StringIO(text, newline=""), strict=True) if row]
-    except (UnicodeDecodeError, csv.Error) as error:
-        raise refuse(name, "comma-separated values in UTF-8", str(error), REPAIR) from error
-    if rows and not _number(rows[0][-1]):
+    rows = [row for _, row in read_csv(path)]
+    if rows and not is_number(rows[0][-1]):
         rows = rows[1:]
     if not rows:
         raise refuse(name, "a point a row", "none", 'write "name, vertex" or "name, x, y, z"')
@@ -75,7 +71,7 @@ def read_named_points(path: str | Path, mesh: Mesh) -> NamedPoints:
         again = next(one for i, one in enumerate(names) if one in names[:i])
         raise refuse(name, "each name once", f"{again!r} twice", "rename one")
     cells = [row[1:] if named else row for row in rows]
-    bad = next((cell for row in cells for cell in row if not _number(cell)), None)
+    bad = next((cell for row in cells for cell in row if not is_number(cell)), None)
     if bad is not None:
         raise refuse(name, "numbers after the name", repr(bad), REPAIR)
     values = np.array(cells, dtype=np.float64)
@@ -92,14 +88,6 @@ def read_named_points(path: str | Path, mesh: Mesh) -> NamedPoints:
     found = closest_points(values, mesh.vertices, mesh.faces)
     place = PointMap(found.faces, found.weights)
     return NamedPoints(names, place, found.points, nearest_vertices(place, mesh), known, found.distances)
-
-
-def _number(cell: str) -> bool:
-    try:
-        float(cell)
-    except ValueError:
-        return False
-    return True
 
 
 def carried_points(

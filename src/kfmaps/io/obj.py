@@ -2,15 +2,29 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 
 from kfmaps._arrays import refuse
 from kfmaps.geometry.mesh import Mesh
-from kfmaps.io.mtl import obj_picture
-from kfmaps.io.record import MeshFile, fan, unit_colors
-from kfmaps.io.text import REPAIR, Rows, clean_text, parse_rows, quoted, table, whole, words
+from kfmaps.io.record import MeshFile, Picture, fan, picture_in, unit_colors
+from kfmaps.io.text import (
+    REPAIR,
+    Rows,
+    beside,
+    check_lines,
+    clean_text,
+    is_number,
+    parse_rows,
+    quoted,
+    read_bytes,
+    table,
+    whole,
+    words,
+)
 
 _SKIPPED = frozenset(
     b"vn vp p l o g s mg usemtl mtllib usemap maplib bevel c_interp d_interp lod shadow_obj trace_obj ctech "
@@ -45,7 +59,7 @@ def parse_obj(data: bytes, name: str) -> MeshFile:
     A vertex is ``v x y z``, perhaps with a weight of 1, or ``v x y z red green blue``; vertices have colours
     only when all of them do. A corner of a face is ``v``, ``v/vt``, ``v//vn`` or ``v/vt/vn``, counted from
     1, or backwards from the last one read when negative. Texture coordinates are kept when every corner
-    has them, and then the picture of its materials (:func:`kfmaps.io.mtl.obj_picture`).
+    has them, and then the picture of the materials.
 
     Raises
     ------
@@ -67,7 +81,7 @@ def parse_obj(data: bytes, name: str) -> MeshFile:
     mesh = Mesh(places, absolute(0, _V, len(places)))
     if len(numbers) == 0 or (numbers[:, 1] == 0).any():
         return MeshFile(mesh, colors)
-    return MeshFile(mesh, colors, uv, absolute(1, _VT, len(uv)), obj_picture(lines.said, at, name))
+    return MeshFile(mesh, colors, uv, absolute(1, _VT, len(uv)), _picture(lines.said, at, name))
 
 
 def _split(text: bytes, name: str) -> _Lines:
@@ -104,18 +118,14 @@ def _numbers(lines: _Lines, kind: int, name: str, wanted: str) -> Rows:
     """The numbers of the lines of one kind, none of them without."""
     body, at = lines.of(kind)
     rows = parse_rows(body, name, at)
-    if len(rows) < len(at):
-        bare = np.setdiff1d(at, rows.lines)[0]
-        raise refuse(f"{name}, line {bare}", wanted, "no numbers", REPAIR)
+    check_lines(~np.isin(at, rows.lines), at, name, wanted, lambda _: "no numbers")
     return rows
 
 
 def _vertices(rows: Rows, name: str) -> tuple[np.ndarray, np.ndarray | None]:
     """Positions (n, 3), and colours (n, 3) when every vertex has them."""
-    odd = np.flatnonzero(~np.isin(rows.counts, (3, 4, 6, 7)))
-    if len(odd):
-        got = f"{rows.counts[odd[0]]} numbers"
-        raise refuse(f"{name}, line {rows.lines[odd[0]]}", "v x y z, or v x y z r g b", got, REPAIR)
+    odd = ~np.isin(rows.counts, (3, 4, 6, 7))
+    check_lines(odd, rows.lines, name, "v x y z, or v x y z r g b", lambda i: f"{rows.counts[i]} numbers")
     weight = rows.values[rows.starts[rows.counts == 4] + 3]
     if (weight != 1).any():
         got = f"{weight[weight != 1][0]:g}"
@@ -131,9 +141,7 @@ def _corners(lines: _Lines, name: str) -> tuple[np.ndarray, np.ndarray, np.ndarr
     body, numbers = lines.of(_F)
     at, line = words(body)
     sizes = np.bincount(line, minlength=len(numbers))[: len(numbers)]
-    if (sizes < 3).any():
-        i = np.flatnonzero(sizes < 3)[0]
-        raise refuse(f"{name}, line {numbers[i]}", "a face with three corners or more", str(sizes[i]), REPAIR)
+    check_lines(sizes < 3, numbers, name, "a face with three corners or more", lambda i: str(sizes[i]))
     slash = np.flatnonzero(np.frombuffer(body, dtype=np.uint8) == ord("/"))
     slashes = np.bincount(np.searchsorted(at, slash, side="right") - 1, minlength=len(at))
     rows = parse_rows(body.replace(b"//", b"/0/").replace(b"/", b" "), name, numbers)
@@ -150,11 +158,83 @@ def _absolute(numbers: np.ndarray, before: np.ndarray, total: int, at: np.ndarra
     """0-based numbers of what is counted from 1, or backwards from the ``before`` ones already read."""
     result = np.where(numbers > 0, numbers - 1, before + numbers)
     bad = (numbers == 0) | (result < 0) | (result >= total)
-    if bad.any():
-        i = np.flatnonzero(bad)[0]
-        wanted = f"numbers from 1 to {total}, or negative ones counted back from the last"
-        raise refuse(f"{name}, line {at[i]}", wanted, str(numbers[i]), REPAIR)
+    wanted = f"numbers from 1 to {total}, or negative ones counted back from the last"
+    check_lines(bad, at, name, wanted, lambda i: str(numbers[i]))
     return result
+
+
+def _picture(said: list[tuple[int, str, str]], faces: np.ndarray, name: str) -> Picture | None:
+    """The one colour texture (``map_Kd``) of all faces, in an MTL file beside the OBJ file; ``None`` if there is none.
+
+    Files that are missing, lie elsewhere than in the folder of the OBJ file or below it, or are no PNG or JPEG are
+    none either, and so are pictures that are moved or scaled: who wants the shape alone need not have them.
+    Specification: Alias/Wavefront, "MTL material format", 1995.
+
+    Parameters
+    ----------
+    said : list of (line, word, rest)
+        The file's lines ``mtllib`` and ``usemtl``, from line 1 on, ascending.
+    faces : (p,) int64
+        The line of each face.
+    name : str
+        The OBJ file.
+    """
+    used = [(line, rest) for line, word, rest in said if word == "usemtl"]
+    if not used or len(faces) == 0:
+        return None
+    last = np.searchsorted([line for line, _ in used], faces) - 1
+    if last.min() < 0:
+        return None  # faces before any material
+    pictures: dict[str, str | None] = {}
+    for _, word, rest in said:
+        if word == "mtllib":
+            for path in _libraries(rest, name):
+                pictures |= materials(read_bytes(path).decode("utf-8", "replace"))
+    found = {pictures.get(used[i][1]) for i in np.unique(last)}
+    picture = found.pop() if len(found) == 1 else None
+    path = None if picture is None else _file(picture, name)
+    return None if path is None else picture_in(read_bytes(path))
+
+
+def materials(text: str) -> dict[str, str | None]:
+    """The picture that each material of an MTL file names; ``None`` where it has none as it is."""
+    found: dict[str, str | None] = {}
+    current = None
+    for line in text.splitlines():
+        word, _, rest = line.strip().replace("\t", " ").partition(" ")
+        rest = rest.strip()
+        if word == "newmtl":
+            current = rest
+            found.setdefault(current, None)
+        elif word.lower() == "map_kd" and current is not None:
+            found[current] = _plain(rest)
+    return found
+
+
+_OPTION = re.compile(r"(-[ost])((?:\s+[-+.\deE]+){1,3})\s+|-mm\s+\S+\s+\S+\s+|-\w+\s+\S+\s+")
+"""An option of a map with its values: three move, scale or disturb the picture, with up to three numbers."""
+
+
+def _plain(rest: str) -> str | None:
+    """The file of a map, after its options; ``None`` where these move or scale the picture."""
+    while option := _OPTION.match(rest):
+        still = 1.0 if option[1] == "-s" else 0.0
+        if option[1] and any(float(value) != still for value in option[2].split() if is_number(value)):
+            return None
+        rest = rest[option.end() :]
+    return rest or None
+
+
+def _libraries(rest: str, name: str) -> list[Path]:
+    """The files of a line ``mtllib``: one whose name may have spaces, or several."""
+    single = _file(rest, name)
+    return [single] if single else [path for word in rest.split() if (path := _file(word, name))]
+
+
+def _file(address: str, name: str) -> Path | None:
+    """The file that a relative name means, in the folder of ``name`` or below it; ``None`` when it is not there."""
+    path = beside(address.replace("\\", "/"), name)
+    return path if path is not None and path.is_file() and path.stat().st_size else None
 
 
 def format_obj(

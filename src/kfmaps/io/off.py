@@ -9,7 +9,7 @@ import numpy as np
 from kfmaps._arrays import refuse
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.io.record import MeshFile, bytes_of, fan, gathered, unit_colors
-from kfmaps.io.text import REPAIR, Rows, clean_text, parse_rows, quoted, table, whole
+from kfmaps.io.text import REPAIR, Rows, check_lines, clean_text, parse_rows, quoted, table, whole
 
 _HEADER = re.compile(rb"\s*(ST)?(C?N?|NC)(4?n?)OFF(?![A-Za-z])[ \t]*(BINARY)?", re.ASCII)
 
@@ -62,14 +62,9 @@ def _faces(rows: Rows, name: str) -> np.ndarray:
     if len(rows) == 0:
         return np.zeros((0, 3), dtype=np.int64)
     sizes = whole(rows.values[rows.starts], f"{name}: corners of a face")
-    for bad, wanted in (
-        (sizes < 3, "faces with three corners or more"),
-        (sizes >= rows.counts, "as many corners as the line says"),
-    ):
-        if bad.any():
-            i = np.flatnonzero(bad)[0]
-            got = f"{sizes[i]}" if sizes[i] < 3 else f"{rows.counts[i] - 1} of {sizes[i]}"
-            raise refuse(f"{name}, line {rows.lines[i]}", wanted, got, REPAIR)
+    check_lines(sizes < 3, rows.lines, name, "faces with three corners or more", lambda i: str(sizes[i]))
+    short, wanted = sizes >= rows.counts, "as many corners as the line says"
+    check_lines(short, rows.lines, name, wanted, lambda i: f"{rows.counts[i] - 1} of {sizes[i]}")
     corners = rows.values[gathered(rows.starts + 1, sizes)]
     return whole(corners, f"{name}: faces", "whole vertex numbers")[fan(sizes)]
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from kfmaps._arrays import refuse
 from kfmaps.io.record import gathered
-from kfmaps.io.text import REPAIR, Rows, whole
+from kfmaps.io.text import REPAIR, Rows, check_lines, whole
 
 
 @dataclass(frozen=True)
@@ -47,10 +47,8 @@ def text_columns(element: Element, rows: Rows, name: str) -> dict[str, Column]:
     def step(lengths: np.ndarray | int) -> None:
         nonlocal at
         at = at + lengths
-        if (at > ends).any():
-            i = np.flatnonzero(at > ends)[0]
-            wanted = f"every property of a {element.name}"
-            raise refuse(f"{name}, line {rows.lines[i]}", wanted, f"only {rows.counts[i]} numbers", REPAIR)
+        wanted = f"every property of a {element.name}"
+        check_lines(at > ends, rows.lines, name, wanted, lambda i: f"only {rows.counts[i]} numbers")
 
     columns = {}
     for item in element.properties:
@@ -60,14 +58,12 @@ def text_columns(element: Element, rows: Rows, name: str) -> dict[str, Column]:
             columns[item.name] = Column(_typed(rows.values[first], item, name))
             continue
         sizes = whole(rows.values[first], f"{name}: length of {item.name}")
-        _check_sizes(sizes, item, name)
+        check_lines(sizes < 0, rows.lines, name, f"{item.name} of 0 numbers or more", lambda i: str(sizes[i]))  # noqa: B023
         first = at
         step(sizes)
         columns[item.name] = Column(_typed(rows.values[gathered(first, sizes)], item, name), sizes)
-    if (at < ends).any():
-        i = np.flatnonzero(at < ends)[0]
-        wanted = f"only the properties of a {element.name}"
-        raise refuse(f"{name}, line {rows.lines[i]}", wanted, f"{rows.counts[i]} numbers", REPAIR)
+    wanted = f"only the properties of a {element.name}"
+    check_lines(at < ends, rows.lines, name, wanted, lambda i: f"{rows.counts[i]} numbers")
     return columns
 
 
@@ -81,11 +77,6 @@ def _typed(values: np.ndarray, item: Property, name: str) -> np.ndarray:
         got = f"{numbers.min()} to {numbers.max()}"
         raise refuse(f"{name}: {item.name}", f"numbers from {low} to {high}, as the header says", got, REPAIR)
     return numbers.astype(item.kind)
-
-
-def _check_sizes(sizes: np.ndarray, item: Property, name: str) -> None:
-    if (sizes < 0).any():
-        raise refuse(f"{name}: length of {item.name}", "0 or more", str(sizes.min()), REPAIR)
 
 
 def binary_columns(element: Element, data: bytes, start: int, name: str) -> tuple[dict[str, Column], int]:

@@ -1,10 +1,14 @@
-"""Strict, vectorised reading of text files full of numbers."""
+"""Strict, vectorised reading of text files full of numbers, and what all readers share."""
 
 from __future__ import annotations
 
+import csv
+import io
 import re
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
-from pathlib import Path
+from pathlib import Path, PurePosixPath
 
 import numpy as np
 
@@ -14,7 +18,7 @@ from kfmaps._memory import check_memory
 REPAIR = "repair the file or export it again"
 _BLANK = np.zeros(256, dtype=bool)
 _BLANK[list(b" \t\n\v\f\r")] = True
-_NUMBER = re.compile(rb"[+-]?(\d+(\.\d*)?|\.\d+)([eE][+-]?\d+)?|[+-]?(inf|infinity|nan)", re.IGNORECASE)
+_NUMBER = re.compile(r"[+-]?(\d+(\.\d*)?|\.\d+)([eE][+-]?\d+)?|[+-]?(inf|infinity|nan)", re.ASCII | re.IGNORECASE)
 
 
 @dataclass(frozen=True, eq=False)
@@ -72,7 +76,7 @@ def read_bytes(path: str | Path) -> bytes:
 
 
 def read_text(path: str | Path) -> str:
-    """The content of a regular file of UTF-8 text.
+    """Return the content of a regular file of UTF-8 text.
 
     Raises
     ------
@@ -83,6 +87,51 @@ def read_text(path: str | Path) -> str:
         return read_bytes(path).decode("utf-8-sig")
     except UnicodeDecodeError as error:
         raise refuse(str(path), "UTF-8 text", "something else", "check that it is the right file") from error
+
+
+def read_csv(path: str | Path) -> list[tuple[int, list[str]]]:
+    """Return the rows of a file of comma-separated values that are not empty: the line's number, and its cells.
+
+    Raises
+    ------
+    InvalidInput
+        As :func:`read_text`, and on quotes that do not close and cells of more than 131,072 letters.
+    """
+    reader = csv.reader(io.StringIO(read_text(path), newline=""), strict=True)
+    try:
+        return [(reader.line_num, [cell.strip() for cell in row]) for row in reader if row]
+    except csv.Error as error:
+        raise refuse(str(path), "comma-separated values", str(error), REPAIR) from error
+
+
+@contextmanager
+def complete(name: str, wanted: str) -> Iterator[None]:
+    """Report whatever a reader runs into in a wrong structure as a file that is not complete.
+
+    Raises
+    ------
+    InvalidInput
+        In place of any other error but a lack of memory.
+    """
+    try:
+        yield
+    except (InvalidInput, MemoryError):
+        raise
+    except Exception as error:
+        got = " ".join(f"{type(error).__name__}: {error}".split())[:100]
+        raise refuse(name, wanted, got, REPAIR) from error
+
+
+def beside(address: str, name: str) -> Path | None:
+    """Return the file that a relative address in the file ``name`` means; ``None`` outside the folder of ``name``."""
+    path = PurePosixPath(address)
+    outside = not path.parts or path.is_absolute() or ".." in path.parts or ":" in path.parts[0]
+    return None if outside or "\\" in address or "\0" in address else Path(name).parent / path
+
+
+def is_number(word: str) -> bool:
+    """Return whether ``word`` is a number as files write it."""
+    return _NUMBER.fullmatch(word) is not None
 
 
 def clean_text(data: bytes, name: str, comment: bytes = b"#") -> bytes:
@@ -105,7 +154,7 @@ def _bad_number(text: bytes, name: str, numbers: np.ndarray | None) -> Exception
     """The complaint about the first word of ``text`` that is no number."""
     for i, line in enumerate(text.split(b"\n")):
         for word in line.split():
-            if not _NUMBER.fullmatch(word):
+            if not is_number(word.decode("latin-1")):
                 at = i + 1 if numbers is None else numbers[i]
                 return refuse(f"{name}, line {at}", "numbers", quoted(word), REPAIR)
     return refuse(name, "numbers", "something else", REPAIR)
@@ -159,6 +208,19 @@ def parse_rows(text: bytes, name: str, line_numbers: np.ndarray | None = None) -
     return Rows(values, counts, np.cumsum(counts) - counts, numbers)
 
 
+def check_lines(bad: np.ndarray, lines: np.ndarray, name: str, wanted: str, got: Callable[[int], str]) -> None:
+    """Refuse the first of the ``lines (r,)`` of a file that is ``bad (r,)``; ``got`` says what is in row ``i``.
+
+    Raises
+    ------
+    InvalidInput
+        Naming the line.
+    """
+    if bad.any():
+        i = int(np.argmax(bad))
+        raise refuse(f"{name}, line {lines[i]}", wanted, got(i), REPAIR)
+
+
 def whole(values: np.ndarray, name: str, wanted: str = "whole numbers") -> np.ndarray:
     """``values`` as int64.
 
@@ -185,9 +247,6 @@ def table(rows: Rows, columns: int | tuple[int, ...], name: str, wanted: str) ->
         return np.zeros((0, columns if isinstance(columns, int) else columns[0]))
     allowed = (columns,) if isinstance(columns, int) else columns
     width = int(rows.counts[0]) if rows.counts[0] in allowed else allowed[0]
-    odd = np.flatnonzero(rows.counts != width)
-    if len(odd):
-        line, got = rows.lines[odd[0]], rows.counts[odd[0]]
-        raise refuse(f"{name}, line {line}", wanted, f"{got} numbers", REPAIR)
+    check_lines(rows.counts != width, rows.lines, name, wanted, lambda i: f"{rows.counts[i]} numbers")
     first = int(rows.starts[0])
     return rows.values[first : first + width * len(rows)].reshape(len(rows), width)

@@ -7,7 +7,8 @@ from collections.abc import Sequence
 from matplotlib.figure import Figure
 
 from kfmaps.learn.training import Epoch
-from kfmaps.viz.curves import COLORS, TEXT
+from kfmaps.viz.curves import COLORS
+from kfmaps.viz.figures import TEXT
 
 
 def learning_figure(history: Sequence[Epoch], *, truth: bool = True) -> Figure:

@@ -4,8 +4,9 @@ from kfmaps.viz.camera import View, automatic_view, following_view, view
 from kfmaps.viz.colors import ERROR_MAP, error_colors, error_limit, position_colors
 from kfmaps.viz.curves import Curve, curves_figure, mean_curve
 from kfmaps.viz.errors import painted_errors, true_views
+from kfmaps.viz.figures import picture_format, save_figure
 from kfmaps.viz.grids import Panel, grid_figure
-from kfmaps.viz.matches import match_figure, picture_format, save_figure
+from kfmaps.viz.matches import match_figure
 from kfmaps.viz.surfaces import draw_surface
 
 __all__ = [

@@ -13,11 +13,11 @@ from matplotlib.ticker import PercentFormatter
 from kfmaps._arrays import check, refuse
 from kfmaps.cli.words import UNIT
 from kfmaps.viz.colors import percent_ticks
+from kfmaps.viz.figures import TEXT
 
 # Okabe and Ito (2008): told apart without colour vision; the dashes do it in grey too.
 COLORS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#000000", "#56B4E9")
 DASHES = ("solid", "dashed", "dashdot", "dotted")
-TEXT = "#333333"
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,7 +44,7 @@ class Curve:
 
 
 def mean_curve(label: str, thresholds: np.ndarray, curves: np.ndarray) -> Curve:
-    """The mean of the ``curves`` (m, t) of single pairs, with a band that holds the middle 80 % of them."""
+    """Return the mean of the ``curves`` (m, t) of single pairs, with a band that holds the middle 80 % of them."""
     curves = check(np.asarray(curves, dtype=np.float64), "curves", shape=(None, len(thresholds)))
     if len(curves) == 0:
         raise refuse("curves", "at least one pair", "none", "evaluate a pair whose truth is known")
@@ -54,7 +54,7 @@ def mean_curve(label: str, thresholds: np.ndarray, curves: np.ndarray) -> Curve:
 
 
 def curves_figure(curves: Sequence[Curve], *, title: str | None = None, size: tuple[float, float] = (5, 3.9)) -> Figure:
-    """Error curves in one set of axes, each with its band.
+    """Draw error curves in one set of axes, each with its band.
 
     Parameters
     ----------

@@ -1,6 +1,8 @@
-"""What the truth tells a picture: the error at every vertex, and where to look from."""
+"""What the truth tells pictures and pages: the error at every vertex, and where to look from."""
 
 from __future__ import annotations
+
+from collections.abc import Sequence
 
 import numpy as np
 from scipy.spatial import KDTree
@@ -10,6 +12,28 @@ from kfmaps.geometry.mesh import Mesh
 from kfmaps.viz.camera import View, automatic_view, carried_view
 
 
+def vertex_errors(source: Mesh, maps: Sequence[np.ndarray], truth_s: np.ndarray, truth_t: np.ndarray) -> np.ndarray:
+    """Return the geodesic error of each map at each target vertex, (m, n_t), in √area.
+
+    NaN where the truth is not known, or a vertex has no counterpart.
+
+    Parameters
+    ----------
+    source : Mesh
+    maps : m arrays (n_t,)
+    truth_s, truth_t : (q,) int
+        Corresponding vertices. Of several truths for one target vertex the last counts.
+    """
+    rows = np.full((len(maps), len(maps[0])), np.nan)
+    # All at once, so that one search from a true vertex serves every map.
+    predicted = np.concatenate([truth_from_pairs(truth_s, truth_t, points) for points in maps])
+    known = predicted >= 0
+    errors = np.full(len(predicted), np.nan)
+    errors[known] = geodesic_errors(source, predicted[known], np.tile(truth_s, len(maps))[known])
+    rows[:, truth_t] = errors.reshape(len(maps), -1)
+    return rows
+
+
 def painted_errors(
     source: Mesh,
     target: Mesh,
@@ -17,28 +41,24 @@ def painted_errors(
     truth_s: np.ndarray,
     truth_t: np.ndarray,
 ) -> np.ndarray:
-    """Geodesic error at each target vertex, (n_t,), in units of √area of the source.
+    """Return the geodesic error at each target vertex, (n_t,), in √area of the source, without gaps.
 
-    A vertex whose truth is not known takes the error of the nearest one whose truth is: right for a picture,
-    not for a mean.
+    A vertex whose truth is not known, or that has no counterpart (−1), takes the error of the nearest one that has
+    both: right for a picture, not for a mean. On another component the error is the largest of all, and at least 1.
 
     Parameters
     ----------
     source, target : Mesh
     target_to_source : (n_t,) int64
-        Vertices without a counterpart, −1, take the error of the nearest one too: they are to be painted over.
     truth_s, truth_t : (q,) int64
         Corresponding vertices, at least one. Of several truths for one target vertex the last counts.
     """
-    errors = np.full(len(target.vertices), np.nan)
-    known = np.asarray(target_to_source)[truth_t] >= 0
-    if not known.any():
-        return np.zeros(len(target.vertices))
-    truth_s, truth_t = truth_s[known], truth_t[known]
-    errors[truth_t] = geodesic_errors(source, truth_from_pairs(truth_s, truth_t, target_to_source), truth_s)
-    endless = np.isinf(errors)  # on another component
-    errors[endless] = max(errors[np.isfinite(errors)].max(initial=0.0), 1.0)
+    errors = vertex_errors(source, [np.asarray(target_to_source)], truth_s, truth_t)[0]
     known, unknown = np.flatnonzero(~np.isnan(errors)), np.flatnonzero(np.isnan(errors))
+    if len(known) == 0:
+        return np.zeros(len(errors))
+    endless = np.isinf(errors)
+    errors[endless] = max(errors[np.isfinite(errors)].max(initial=0.0), 1.0)
     errors[unknown] = errors[known[KDTree(target.vertices[known]).query(target.vertices[unknown])[1]]]
     return errors
 

@@ -8,10 +8,11 @@ from scipy.sparse.csgraph import dijkstra
 from scipy.spatial import KDTree
 
 from kfmaps.geometry.mesh import Mesh, face_areas
+from kfmaps.viz.camera import best_turn
 
 
 def area_distortion(source: Mesh, target: Mesh, target_to_source: np.ndarray) -> np.ndarray:
-    """Base-2 logarithm of how the map changes area around each target vertex, (n_t,), within [-4, 4].
+    """Return the base-2 logarithm of how the map changes area around each target vertex, (n_t,), within [-4, 4].
 
     The area on the source of the images of the faces around a vertex over the area of those faces on the
     target, both shapes scaled to unit area. 0 keeps area, 1 doubles it, -1 halves it; faces collapsed to
@@ -33,7 +34,7 @@ def area_distortion(source: Mesh, target: Mesh, target_to_source: np.ndarray) ->
 
 
 def nearest_reached(source: Mesh, target_to_source: np.ndarray) -> np.ndarray:
-    """For each source vertex the nearest one that some target vertex lands on, (n_s,); itself if one does.
+    """Return for each source vertex the nearest one that some target vertex lands on, (n_s,); itself if one does.
 
     Nearest along the edges, so that a point of an arm is not linked to the leg beside it; straight through
     space for point clouds and for parts that no target vertex reaches.
@@ -62,12 +63,10 @@ def nearest_reached(source: Mesh, target_to_source: np.ndarray) -> np.ndarray:
 
 
 def alignment(source: Mesh, target: Mesh, target_to_source: np.ndarray) -> np.ndarray:
-    """The rotation, (3, 3), that turns the target's vertices best onto their matches (Kabsch 1976)."""
+    """Return the rotation, (3, 3), that turns the target's vertices best onto their matches (Kabsch 1976)."""
     known = np.asarray(target_to_source) >= 0
     if not known.any():
         return np.eye(3)
     there = source.vertices[np.asarray(target_to_source)[known]]
     here = target.vertices[known] - target.vertices[known].mean(axis=0)
-    u, _, vt = np.linalg.svd(here.T @ (there - there.mean(axis=0)))
-    flip = np.diag([1.0, 1.0, np.sign(np.linalg.det(u @ vt)) or 1.0])
-    return (u @ flip @ vt).T
+    return best_turn(here, there - there.mean(axis=0))[0]

@@ -10,12 +10,12 @@ from matplotlib.figure import Figure
 
 from kfmaps._arrays import check_count, refuse
 from kfmaps.geometry.mesh import Mesh, surface_area
+from kfmaps.io import check_map
 from kfmaps.viz.camera import View, automatic_view, following_view
 from kfmaps.viz.colors import position_colors
-from kfmaps.viz.matches import carried_colors
+from kfmaps.viz.figures import TEXT, transferred_colors
 from kfmaps.viz.surfaces import draw_surface
 
-TEXT = "#333333"
 LABEL, TITLE = 0.3, 0.45
 """Height of a line of labels and of the title, in inches."""
 
@@ -49,7 +49,7 @@ def grid_figure(
     panel: float = 1.9,
     title: str | None = None,
 ) -> Figure:
-    """The source first, its label in bold, then every target in the source's colours.
+    """Draw the source first, its label in bold, then every target in the source's colours.
 
     Parameters
     ----------
@@ -76,16 +76,12 @@ def grid_figure(
         raise refuse("grid", "at least one target", "none", "choose a source that was matched")
     colors = position_colors(source) if colors is None else np.asarray(colors)
     view = view or automatic_view(source)
-    for item in panels:
-        n_t, points = len(item.mesh.vertices), np.asarray(item.target_to_source)
-        if points.shape != (n_t,) or points.min() < -1 or points.max() >= len(source.vertices):
-            wanted = f"{n_t} source vertices below {len(source.vertices)}"
-            got = f"{points.shape} up to {points.max(initial=0)}"
-            raise refuse(f"map to {item.label}", wanted, got, "check which mesh is which")
     cells = [(label, source, colors, view)]
     for item in panels:
-        seen = following_view(view, source, item.mesh, item.target_to_source)
-        cells.append((item.label, item.mesh, carried_colors(colors, np.asarray(item.target_to_source)), seen))
+        sizes = len(source.vertices), len(item.mesh.vertices)
+        points = check_map(item.target_to_source, *sizes, f"map to {item.label}", lost=True)
+        seen = following_view(view, source, item.mesh, points)
+        cells.append((item.label, item.mesh, transferred_colors(colors, points), seen))
 
     # All shapes at one scale, that of equal areas, in panels that hold the largest.
     half = np.max([_half(mesh, seen) / _scale(mesh) for _, mesh, _, seen in cells], axis=0) * 1.03

@@ -4,24 +4,24 @@ from __future__ import annotations
 
 import json
 import tempfile
-import warnings
 import webbrowser
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from kfmaps._arrays import KfmapsWarning, refuse
 from kfmaps.cli.summary import relative_residuals
 from kfmaps.config import as_dict
 from kfmaps.descriptors.spectral import wave_energies, wave_signature
 from kfmaps.fmap.confidence import local_confidence
-from kfmaps.fmap.evaluate import geodesic_errors, truth_from_pairs
 from kfmaps.geometry.basis import laplace_basis
 from kfmaps.geometry.mesh import Mesh, unit_area
-from kfmaps.io import MapFile, check_map, read_mesh
+from kfmaps.io import MapFile, check_map, match_map
 from kfmaps.matching.match import Match
+from kfmaps.viz.encode import plain
+from kfmaps.viz.errors import vertex_errors
 from kfmaps.viz.page import result_page
 
 SIGNATURES = 12
@@ -63,40 +63,11 @@ def match_summary(match: Match) -> dict[str, Any]:
     }
 
 
-def match_page(
-    match: Match,
-    source: Mesh,
-    target: Mesh,
-    names: tuple[str, str],
-    *,
-    truth: tuple[np.ndarray, np.ndarray] | None = None,
-    descriptors: bool = True,
-    up: str | None = None,
-) -> str:
-    """The page of a match: :func:`kfmaps.viz.page.result_page` with all that the match knows.
-
-    Parameters
-    ----------
-    truth : ((q,), (q,)) int, optional
-        Corresponding vertices of the source and of the target, for the errors.
-    descriptors : bool
-        Whether to work out wave kernel signatures to show, which takes an eigensolve of each shape.
-    """
-    maps = [match.target_to_source, *match.alternatives]
-    return result_page(
-        source,
-        target,
-        match.target_to_source,
-        functional_map=match.functional_map,
-        errors=None if truth is None else errors_against(source, maps, *truth),
-        confidence=_confidences(source, target, maps, match.local_confidence),
-        runners_up=match.alternatives,
-        descriptors=signatures(source, target) if descriptors else None,
-        common=None if match.overlap_source is None else match.overlap_source > 0.5,
-        summary=match_summary(match),
-        names=names,
-        up=up,
-    )
+def match_page(match: Match, source: Mesh, target: Mesh, names: tuple[str, str], **options: Any) -> str:
+    """Return the page of a match with all that it knows: :func:`map_page`, which has the options."""
+    found = match_map(match)
+    summary = json.dumps(plain(match_summary(match)))
+    return map_page(replace(found, extra={**found.extra, "summary": summary}), source, target, names, **options)
 
 
 def map_page(
@@ -109,7 +80,21 @@ def map_page(
     descriptors: bool = True,
     up: str | None = None,
 ) -> str:
-    """As :func:`match_page`, of a map read from a file; shows what of it the file holds."""
+    """Return the page of a map: :func:`kfmaps.viz.page.result_page` with what of it the file holds.
+
+    Parameters
+    ----------
+    found : MapFile
+    source, target : Mesh
+    names : (str, str)
+        What the page calls the shapes.
+    truth : ((q,), (q,)) int, optional
+        Corresponding vertices of the source and of the target, for the errors.
+    descriptors : bool
+        Whether to work out wave kernel signatures to show, which takes an eigensolve of each shape.
+    up : {"x", "y", "z"}, optional
+        The vertical axis; by default a good side is found.
+    """
     summary = _json_of(found.extra.get("summary"))
     settings = _json_of(found.config)
     if settings:
@@ -125,7 +110,7 @@ def map_page(
         target,
         found.target_to_source,
         functional_map=found.functional_map,
-        errors=None if truth is None else errors_against(source, maps, *truth),
+        errors=None if truth is None else vertex_errors(source, maps, *truth),
         confidence=_confidences(source, target, maps, found.extra.get("local_confidence")),
         runners_up=others,
         descriptors=signatures(source, target) if descriptors else None,
@@ -154,28 +139,6 @@ def _json_of(text: Any) -> dict[str, Any]:
     return value if isinstance(value, dict) else {"note": value}
 
 
-def errors_against(source: Mesh, maps: Sequence[np.ndarray], truth_s: np.ndarray, truth_t: np.ndarray) -> np.ndarray:
-    """Geodesic error of each map at each target vertex, (m, n_t), in √area.
-
-    NaN where the truth is not known, or a vertex has no counterpart.
-
-    Parameters
-    ----------
-    source : Mesh
-    maps : m arrays (n_t,)
-    truth_s, truth_t : (q,) int
-        Corresponding vertices. Of several truths for one target vertex the last counts.
-    """
-    rows = np.full((len(maps), len(maps[0])), np.nan)
-    # All at once, so that one search from a true vertex serves every map.
-    predicted = np.concatenate([truth_from_pairs(truth_s, truth_t, points) for points in maps])
-    known = predicted >= 0
-    errors = np.full(len(predicted), np.nan)
-    errors[known] = geodesic_errors(source, predicted[known], np.tile(truth_s, len(maps))[known])
-    rows[:, truth_t] = errors.reshape(len(maps), -1)
-    return rows
-
-
 def signatures(source: Mesh, target: Mesh) -> tuple[np.ndarray, np.ndarray]:
     """Wave kernel signatures of both shapes at the same energies, (n_s, 12) and (n_t, 12), of unit area."""
     most = min(EIGENFUNCTIONS, len(source.vertices) - 1, len(target.vertices) - 1)
@@ -196,33 +159,3 @@ def open_page(html: str) -> tuple[Path, bool]:
         return path, webbrowser.open(path.as_uri())
     except webbrowser.Error:
         return path, False
-
-
-def mesh_path(given: Path | None, found: MapFile, side: str, beside: Path) -> Path:
-    """The file of the shape ``side``: as given, else as the map names it, there or beside the map.
-
-    Raises
-    ------
-    InvalidInput
-        When nothing names a file that exists.
-    """
-    if given is not None:
-        return given
-    named = found.extra.get(side)
-    if not isinstance(named, str) or not named:
-        raise refuse(f"{side} mesh", "its file", "a map that does not name it", f"give --{side} FILE")
-    for path in (Path(named), beside.parent / named, beside.parent / Path(named).name):
-        if path.is_file():
-            return path
-    raise refuse(f"{side} mesh", "the file that the map names", f"nothing at {named}", f"give --{side} FILE")
-
-
-def map_mesh(given: Path | None, found: MapFile, side: str, beside: Path) -> Mesh:
-    """The shape ``side`` of a map, read from :func:`mesh_path`.
-
-    What is odd about it was told when it was matched, and is not told again.
-    """
-    path = mesh_path(given, found, side, beside)
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", KfmapsWarning)
-        return read_mesh(path)

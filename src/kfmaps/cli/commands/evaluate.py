@@ -58,8 +58,8 @@ def evaluate(
     """Print the geodesic error of a map, by the Princeton protocol, in per cent of √area."""
     from kfmaps.cli.evaluation import assessed, known_truth, write_curve
     from kfmaps.io import check_map, check_output, load_map
-    from kfmaps.io.export import place_of
-    from kfmaps.viz.result_pages import map_mesh
+    from kfmaps.io.partial_map import place_of
+    from kfmaps.io.provenance import map_mesh
 
     if curve is not None:
         if curve.suffix.lower() not in CURVES:
@@ -106,7 +106,7 @@ def _evaluate_part(
     from kfmaps.cli.terminal import Terminal
     from kfmaps.cli.words import UNIT, percent
     from kfmaps.io import check_map, load_map
-    from kfmaps.viz.result_pages import map_mesh
+    from kfmaps.io.provenance import map_mesh
 
     if part not in ("source", "target"):
         raise refuse("--part", "source or target", repr(part), "choose one of them")
@@ -139,7 +139,7 @@ def _evaluate_part(
 
 def _target(given: Path | None, found: MapFile, map: Path) -> Mesh | None:
     """The target, as given or as the map names it; ``None`` where it does not, or the file is gone or another."""
-    from kfmaps.viz.result_pages import map_mesh
+    from kfmaps.io.provenance import map_mesh
 
     if given is not None:
         return map_mesh(given, found, "target", map)

@@ -22,10 +22,10 @@ from kfmaps.io import (
     write_textured,
     write_values,
 )
-from kfmaps.io.export import place_of, write_morph
-from kfmaps.io.named import warn_of_change
+from kfmaps.io.export import write_morph
+from kfmaps.io.partial_map import place_of
+from kfmaps.io.provenance import mesh_path, warn_of_change
 from kfmaps.viz import position_colors
-from kfmaps.viz.result_pages import mesh_path
 
 SHAPES = (".obj", ".ply", ".off", ".glb")
 MAPS = (".txt", ".vts", ".mat", ".npz")

@@ -17,6 +17,7 @@ from kfmaps.batch.work import map_path
 from kfmaps.cli.evaluation import known_truth
 from kfmaps.cli.words import UNIT, percent
 from kfmaps.io import atomic_output, check_map, check_output, load_map
+from kfmaps.io.provenance import map_mesh
 from kfmaps.viz import (
     Panel,
     View,
@@ -29,7 +30,6 @@ from kfmaps.viz import (
     true_views,
     view,
 )
-from kfmaps.viz.result_pages import map_mesh
 
 app = typer.Typer(help="Figures for papers (PNG, SVG, PDF), drawn without a display.", no_args_is_help=True)
 

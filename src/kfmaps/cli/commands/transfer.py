@@ -12,13 +12,11 @@ import typer
 from kfmaps._arrays import KfmapsWarning, refuse
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.io import MapFile, Values, check_output, load_map, read_mesh, read_values, write_values
-from kfmaps.io import transfer as carried
-from kfmaps.io.counterparts import Counterparts, counterparts
-from kfmaps.io.export import place_of
-from kfmaps.io.named import warn_of_change
 from kfmaps.io.named_points import carried_points, read_named_points, write_named_points
-from kfmaps.io.values import without
-from kfmaps.viz.result_pages import mesh_path
+from kfmaps.io.partial_map import Counterparts, counterparts, place_of
+from kfmaps.io.provenance import mesh_path, warn_of_change
+from kfmaps.io.transfer import transfer as transfer_values
+from kfmaps.io.transfer import transfer_back, transfer_by_functions
 
 
 def transfer(
@@ -93,20 +91,19 @@ def transfer(
     if lost is not None and given.array.dtype.kind in "iu" and lost == int(lost):
         gone = int(lost)
     if back:
-        write_values(output, Values(_back(found, map, given.array, (source, target), gone), given.columns), force)
+        _, mesh, ways = _both(found, map, (source, target))
+        write_values(output, Values(transfer_back(given.array, ways, mesh, gone), given.columns), force)
         return
     if products is not None:
-        from kfmaps.io.functions import carried_functions
-
         sides = _shape(found, "source", source, map), _shape(found, "target", target, map)
-        write_values(output, Values(carried_functions(given.array, found, *sides, products), given.columns), force)
+        write_values(output, Values(transfer_by_functions(given.array, found, *sides, products), given.columns), force)
         return
     faces = None
     if found.place is not None and given.array.dtype.kind == "f":
         shape = _shape(found, "source", source, map)
         place_of(found, shape)
         faces = shape.faces
-    write_values(output, Values(carried(given.array, found, faces, gone), given.columns), force)
+    write_values(output, Values(transfer_values(given.array, found, faces, gone), given.columns), force)
 
 
 def _everywhere(
@@ -169,19 +166,3 @@ def _points(
     named = read_named_points(values, target if back else source)
     some = {} if ways.complete else {"known": ways.target, "common": ways.source}
     write_named_points(output, carried_points(named, source, target, ways.place, confidence, back=back, **some), force)
-
-
-def _back(
-    found: MapFile, map: Path, values: np.ndarray, given: tuple[Path | None, Path | None], lost: float | int | None
-) -> np.ndarray:
-    """Values of the target on the source: each source vertex takes those of its own place on the target."""
-    _, target, ways = _both(found, map, given)
-    if values.ndim == 0 or len(values) != len(target.vertices):
-        got = f"{len(values)}" if values.ndim else "a single value"
-        raise refuse("values", f"{len(target.vertices)} rows, one per target vertex", got, "are they the target's?")
-    there = ways.back
-    if values.dtype.kind == "f":
-        mixed = np.einsum("ti,ti...->t...", there.weights, values[target.faces[there.faces]])
-    else:
-        mixed = values[target.faces[there.faces, there.weights.argmax(axis=1)]]
-    return mixed if ways.source.all() else without(mixed, ~ways.source, lost)

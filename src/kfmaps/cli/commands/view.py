@@ -10,8 +10,9 @@ import typer
 from kfmaps.cli.evaluation import known_truth
 from kfmaps.cli.terminal import say
 from kfmaps.io import atomic_output, check_output, load_map
+from kfmaps.io.provenance import map_mesh, mesh_path
 from kfmaps.viz.page import check_up
-from kfmaps.viz.result_pages import map_mesh, map_page, mesh_path, open_page
+from kfmaps.viz.result_pages import map_page, open_page
 
 
 def view(

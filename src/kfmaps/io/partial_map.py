@@ -7,11 +7,22 @@ from typing import Any
 
 import numpy as np
 
-from kfmaps.fmap.precise import PointMap, invert_precise_map, point_positions, vertex_point_map
+from kfmaps.fmap.precise import PointMap, check_point_map_precise, invert_precise_map, point_positions, vertex_point_map
 from kfmaps.geometry.mesh import Mesh
-from kfmaps.io.export import place_of
 from kfmaps.io.mapfile import MapFile, check_map
 from kfmaps.matching.partial.match_partial import COMMON
+
+
+def place_of(found: Any, source: Mesh) -> PointMap | None:
+    """The points inside triangles of a map file, where it has any; checked.
+
+    Raises
+    ------
+    InvalidInput
+        When they are not on ``source``.
+    """
+    place = found.place if isinstance(found, MapFile) else None
+    return None if place is None else check_point_map_precise(place, source, len(found.target_to_source))
 
 
 @dataclass(frozen=True, eq=False)

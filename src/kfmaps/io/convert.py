@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 
 from kfmaps._arrays import InvalidInput, refuse
+from kfmaps.fmap.precise import PointMap, check_point_map_precise, nearest_vertices
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.io import MapFile, load_map, match_map, read_landmarks, read_mesh
 from kfmaps.io.record import fan
@@ -119,16 +120,37 @@ def as_landmarks(landmarks: Any) -> Any:
     return read_landmarks(landmarks) if is_file(landmarks) else landmarks
 
 
-def as_map(found: Any) -> MapFile:
-    """A match, a file's map, a path or a list of vertices as a :class:`~kfmaps.io.MapFile`."""
+def as_map(found: Any, source: Mesh | None = None) -> MapFile:
+    """Return a map of any kind as a :class:`~kfmaps.io.MapFile`.
+
+    Parameters
+    ----------
+    found : Match, MapFile, path, PointMap, or (n_t,) whole numbers
+        A match; what :func:`kfmaps.load_map` returns; a file; points inside the source's triangles; or a source vertex
+        for each target vertex.
+    source : Mesh, optional
+        Needed for a PointMap alone, whose triangles are the source's.
+
+    Raises
+    ------
+    InvalidInput
+        On anything else, a PointMap that does not fit the source, and as :func:`kfmaps.load_map`.
+    """
     if isinstance(found, MapFile):
         return found
     if isinstance(found, Match):
         return match_map(found)
     if is_file(found):
         return load_map(Path(found))
+    if isinstance(found, PointMap):
+        if source is None:
+            raise refuse("map", "the source of points inside its triangles", "a PointMap alone", "give source=")
+        check_point_map_precise(found, source)
+        n_s: Any = np.int64(len(source.vertices))
+        extra = {"place_faces": found.faces, "place_weights": found.weights, "n_s": n_s}
+        return MapFile(nearest_vertices(found, source), extra=extra)
     try:
         return MapFile(np.asarray(found))
     except (TypeError, ValueError) as error:
-        wanted = "a Match, the file of a map, or a source vertex for each target vertex"
+        wanted = "a Match, the file of a map, a PointMap, or a source vertex for each target vertex"
         raise refuse("map", wanted, type(found).__name__, "give what kfmaps.match returned") from error

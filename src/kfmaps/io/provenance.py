@@ -1,0 +1,58 @@
+"""The files of the two shapes that a map names: where they are, and whether they are still the same."""
+
+from __future__ import annotations
+
+import hashlib
+import warnings
+from pathlib import Path
+
+from kfmaps._arrays import KfmapsWarning, refuse
+from kfmaps.geometry.mesh import Mesh
+from kfmaps.io.mapfile import MapFile
+from kfmaps.io.meshes import read_mesh
+
+
+def sha256(path: str | Path) -> str:
+    """Return the SHA-256 of a file, 64 hexadecimal digits; empty when it cannot be read."""
+    try:
+        with open(path, "rb") as file:
+            return hashlib.file_digest(file, "sha256").hexdigest()
+    except OSError:
+        return ""
+
+
+def warn_of_change(found: MapFile, side: str, path: Path) -> None:
+    """Warn (:class:`KfmapsWarning`) when the file of ``side`` is not the one that was matched."""
+    known = found.extra.get(f"{side}_sha256")
+    if isinstance(known, str) and known and sha256(path) not in ("", known):
+        warnings.warn(f"{path} has changed since the map was made", KfmapsWarning, stacklevel=2)
+
+
+def mesh_path(given: Path | None, found: MapFile, side: str, beside: Path) -> Path:
+    """Return the file of the shape ``side``: as given, else as the map names it, there or beside the map.
+
+    Raises
+    ------
+    InvalidInput
+        When nothing names a file that exists.
+    """
+    if given is not None:
+        return given
+    named = found.extra.get(side)
+    if not isinstance(named, str) or not named:
+        raise refuse(f"{side} mesh", "its file", "a map that does not name it", f"give --{side} FILE")
+    for path in (Path(named), beside.parent / named, beside.parent / Path(named).name):
+        if path.is_file():
+            return path
+    raise refuse(f"{side} mesh", "the file that the map names", f"nothing at {named}", f"give --{side} FILE")
+
+
+def map_mesh(given: Path | None, found: MapFile, side: str, beside: Path) -> Mesh:
+    """Return the shape ``side`` of a map, read from :func:`mesh_path`.
+
+    What is odd about it was told when it was matched, and is not told again.
+    """
+    path = mesh_path(given, found, side, beside)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", KfmapsWarning)
+        return read_mesh(path)

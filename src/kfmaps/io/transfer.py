@@ -1,0 +1,146 @@
+"""Values of one shape's vertices carried over a map to those of the other."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from kfmaps._arrays import check, refuse
+from kfmaps.config import BasisConfig, Config, DescriptorConfig
+from kfmaps.fmap.precise import PointMap
+from kfmaps.fmap.transfer import transfer_functions
+from kfmaps.geometry.mesh import Mesh
+from kfmaps.io.mapfile import MapFile, check_map
+from kfmaps.io.partial_map import Counterparts
+from kfmaps.matching.reindexing import reindexing
+from kfmaps.shape import prepare
+
+N_FUNCTIONS = 100
+"""Size of the functional map where the file has none."""
+
+
+def transfer(values_s: Any, target_to_source: Any, faces_s: np.ndarray | None = None, lost: Any = None) -> np.ndarray:
+    """Carry values from the vertices of the source to those of the target.
+
+    Parameters
+    ----------
+    values_s : (n_s, ...) array
+        Functions, labels, colours: anything with a row per source vertex.
+    target_to_source : (n_t,) int64 or MapFile
+        A source vertex for each target vertex.
+    faces_s : (f_s, 3) int64, optional
+        The source's faces: with those, functions (floating numbers) are mixed between the corners of the points inside
+        triangles that the map file has. Labels and whole numbers are those of the nearest vertex.
+    lost : optional
+        What target vertices without a counterpart get; by default NaN, for whole numbers −1, for texts the empty one.
+
+    Returns
+    -------
+    (n_t, ...) array
+        Of the same dtype: row j is ``values_s[target_to_source[j]]``, or the mean of three rows.
+
+    Raises
+    ------
+    InvalidInput
+        When the map names a vertex that has no value, or says of itself that the source has another
+        number of vertices.
+    """
+    values = np.asarray(values_s)
+    if values.ndim == 0:
+        raise refuse("values", "a row for each source vertex", "a single value", "give an array")
+    mapfile = target_to_source if isinstance(target_to_source, MapFile) else None
+    if mapfile is not None and mapfile.n_s not in (None, len(values)):
+        wanted = f"{mapfile.n_s} rows, one per source vertex"
+        raise refuse("values", wanted, str(len(values)), "check that they are the source's")
+    points = check_map(target_to_source, n_s=len(values), lost=True)
+    nearest, precise = np.maximum(points, 0), None if mapfile is None else mapfile.place
+    return fill_lost(_interpolate(values, precise, faces_s, nearest), points < 0, lost)
+
+
+def _interpolate(values: np.ndarray, at: PointMap | None, faces: np.ndarray | None, nearest: np.ndarray) -> np.ndarray:
+    """Functions mixed between the corners of the triangles that points lie in; of all else that of the nearest vertex.
+
+    A corner without a finite value makes none of the mean, whose nearest vertex counts; one of weight 0 has no say.
+    """
+    if at is None or faces is None or values.dtype.kind != "f":
+        return values[nearest]
+    corners = values[faces[at.faces]]
+    finite = np.isfinite(corners)
+    mixed = np.einsum("ti,ti...->t...", at.weights, np.where(finite, corners, 0.0))
+    counted = (at.weights > 0).reshape(*at.weights.shape, *[1] * (values.ndim - 1))
+    return np.where((~finite & counted).any(axis=1), values[nearest], mixed).astype(values.dtype)
+
+
+def fill_lost(values: np.ndarray, gone: np.ndarray, lost: Any = None) -> np.ndarray:
+    """Put ``lost`` into the rows ``gone (n,)`` of ``values (n, ...)``; see :func:`transfer` for what it is by default.
+
+    Raises
+    ------
+    InvalidInput
+        When their kind has no such value.
+    """
+    if not gone.any():
+        return values
+    if lost is None:
+        lost = {"f": np.nan, "c": np.nan, "U": "", "i": -1}.get(values.dtype.kind)
+    if lost is None or (values.dtype.kind in "ui" and not np.can_cast(np.min_scalar_type(lost), values.dtype)):
+        got = f"{values.dtype}, and {gone.sum()} vertices without a counterpart"
+        raise refuse("values", "a kind with a value for vertices without counterpart", got, "give the value: lost=")
+    values[gone] = lost
+    return values
+
+
+def transfer_back(values_t: np.ndarray, ways: Counterparts, target: Mesh, lost: Any = None) -> np.ndarray:
+    """Carry values from the vertices of the target to those of the source, (n_t, ...) to (n_s, ...).
+
+    Each source vertex takes those of its own place on the target. ``lost`` is as for :func:`transfer`.
+
+    Raises
+    ------
+    InvalidInput
+        When they are not the target's.
+    """
+    if values_t.ndim == 0 or len(values_t) != len(target.vertices):
+        got = f"{len(values_t)}" if values_t.ndim else "a single value"
+        raise refuse("values", f"{len(target.vertices)} rows, one per target vertex", got, "are they the target's?")
+    nearest = target.faces[ways.back.faces, ways.back.weights.argmax(axis=1)]
+    return fill_lost(_interpolate(values_t, ways.back, target.faces, nearest), ~ways.source, lost)
+
+
+def transfer_by_functions(
+    values: np.ndarray, found: MapFile, source: Mesh, target: Mesh, products: int, threads: int | None = None
+) -> np.ndarray:
+    """Carry functions ``values (n_s, ...)`` by the functional map and products of eigenfunctions, (n_t, ...) float64.
+
+    See :func:`kfmaps.fmap.transfer.transfer_functions`. Eigenfunctions are found anew and ``C = Φ_tᵀ A_t Φ_s[map]``
+    from the map's points, since their signs may be others than when the map was made. It has the size of the file's
+    map.
+
+    Raises
+    ------
+    InvalidInput
+        When values are no numbers, or do not belong to the source, or the map to the shapes.
+    """
+    if values.dtype.kind not in "fiu":
+        raise refuse("values", "numbers", str(values.dtype), "leave --products out: labels go by points")
+    if (found.target_to_source < 0).any():
+        got = "one of a part, with vertices without counterpart"
+        raise refuse("--products", "a map of the whole target", got, "leave it out: values then go by points")
+    check_map(found, len(source.vertices), len(target.vertices), "the map")
+    tail = (None,) * (values.ndim - 1)
+    check(values, "values", shape=(len(source.vertices), *tail), remedy="give one row per source vertex")
+    k_t, k_s = (N_FUNCTIONS, N_FUNCTIONS) if found.functional_map is None else found.functional_map.shape
+    if products > k_s:
+        raise refuse("--products", f"at most the {k_s} functions that the map carries", str(products), "lower it")
+    k = min(max(k_s, k_t), len(source.vertices) - 1, len(target.vertices) - 1)
+    plain = replace(Config.single_fit(), basis=BasisConfig(k), refinement=None, finish=None, threads=threads)
+    plain = replace(plain, descriptors=DescriptorConfig(signature="none", landmark_map="none", shot=False))
+    across = reindexing(prepare(source, plain, name="source"), prepare(target, plain, name="target"))
+    points = across.part_s.to_clean[found.target_to_source[across.part_t.to_original]]
+    bases = across.source.basis.truncate(k_s), across.target.basis.truncate(k_t)
+    C = bases[1].project(bases[0].functions[points])
+    flat = values[across.part_s.to_original].reshape(len(across.part_s.to_original), -1).astype(np.float64)
+    images = transfer_functions(flat, C, *bases, products)
+    return images.reshape(len(images), *values.shape[1:])[across.part_t.to_clean]

@@ -1,0 +1,166 @@
+"""Per-vertex values in files: functions and labels."""
+
+from __future__ import annotations
+
+import csv
+import io
+import re
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from kfmaps._arrays import refuse
+from kfmaps.io.atomic import atomic_output, check_output
+from kfmaps.io.mapfile import check_npy
+from kfmaps.io.text import REPAIR, check_lines, complete, is_number, read_bytes, read_csv, read_text
+
+FORMATS = (".npy", ".csv", ".txt")
+MOST_LETTERS = 1 << 26
+"""Letters of all labels together when each takes the room of the longest, four bytes a letter: a quarter of a GiB."""
+_WHOLE = re.compile(r"[+-]?\d+", re.ASCII)
+
+
+@dataclass(frozen=True, eq=False)
+class Values:
+    """Something known at each vertex.
+
+    Attributes
+    ----------
+    array : (n,) or (n, d) array
+        int64 (or uint64) when all are whole numbers, float64 when they are numbers, else texts (labels). Whole
+        numbers whose digits neither would keep are texts.
+    columns : tuple of str or None
+        The header of a ``.csv`` file that has one.
+    """
+
+    array: np.ndarray
+    columns: tuple[str, ...] | None = None
+
+
+def read_values(path: str | Path) -> Values:
+    """Read per-vertex values from ``.npy``, ``.csv`` or ``.txt``.
+
+    In a ``.csv`` file a first row of names is recognised above numbers. A ``.txt`` file has a vertex a line,
+    numbers between blanks, or one label; lines that begin with ``#`` are comments. Tables are numbers
+    throughout or texts throughout.
+
+    Raises
+    ------
+    InvalidInput
+        On an unknown extension, a file that is missing, empty, cut short or holds pickled objects, and rows
+        of different lengths or kinds.
+    """
+    suffix = _format(path)
+    if suffix == ".npy":
+        return Values(_npy(read_bytes(path), str(path)))
+    if suffix == ".csv":
+        table = read_csv(path)
+        titled = len(table) > 1 and not any(map(is_number, table[0][1])) and all(map(is_number, table[1][1]))
+        columns = tuple(table[0][1]) if titled else None
+        array = _table(table[titled:], str(path))
+        return Values(array[:, 0] if array.shape[1] == 1 else array, columns)
+    lines = [(i, line.strip()) for i, line in enumerate(read_text(path).splitlines(), 1)]
+    lines = [(i, line) for i, line in lines if line and not line.startswith("#")]
+    rows = [(i, line.split()) for i, line in lines]
+    if rows and not any(all(map(is_number, row)) for _, row in rows):
+        return Values(_texts([line for _, line in lines], str(path)))
+    array = _table(rows, str(path))
+    return Values(array[:, 0] if array.shape[1] == 1 else array)
+
+
+def _format(path: str | Path) -> str:
+    suffix = Path(path).suffix.lower()
+    if suffix not in FORMATS:
+        got = suffix or "no extension"
+        raise refuse(f"values {path}", f"one of {' '.join(FORMATS)}", got, "convert or rename it")
+    return suffix
+
+
+def _table(rows: list[tuple[int, list[str]]], name: str) -> np.ndarray:
+    """The cells as a (rows, columns) array of numbers, or of texts when no row is all numbers."""
+    if not rows:
+        raise refuse(name, "a row for each source vertex", "none", "check that it is the right file")
+    at, cells = np.array([line for line, _ in rows]), [row for _, row in rows]
+    width, numeric = len(cells[0]), np.array([all(map(is_number, row)) for row in cells])
+    odd = np.array([len(row) != width for row in cells])
+    check_lines(odd, at, name, f"{width} values as before", lambda i: str(len(cells[i])))
+    wanted, got = ("numbers", "text") if numeric[0] else ("text", "numbers")
+    check_lines(numeric != numeric[0], at, name, f"{wanted} as before", lambda _: got)
+    flat = [cell for row in cells for cell in row]
+    texts = _texts(flat, name).reshape(len(cells), width)
+    kind = _kind(flat) if numeric[0] else None
+    with np.errstate(over="ignore"):  # 1e999 is infinity
+        return texts if kind is None else texts.astype(kind)
+
+
+def _texts(cells: list[str], name: str) -> np.ndarray:
+    """``cells`` as an array, in which each takes the room of the longest.
+
+    Raises
+    ------
+    InvalidInput
+        When that is more than :data:`MOST_LETTERS` in all.
+    """
+    longest = max(cells, key=len)
+    if len(longest) * len(cells) > MOST_LETTERS:
+        wanted = f"labels of at most {MOST_LETTERS // len(cells):,} letters each, for there are {len(cells):,}"
+        raise refuse(name, wanted, f"one of {len(longest):,} letters ({longest[:24]!r}...)", "shorten it")
+    return np.array(cells)
+
+
+def _kind(cells: list[str]) -> type | None:
+    """The type that keeps every digit of whole numbers; ``None`` where none does, and they must stay texts."""
+    integral = all(_WHOLE.fullmatch(cell) for cell in cells)
+    long = [cell for cell in cells if len(cell) > 15 and _WHOLE.fullmatch(cell)]
+    if max(map(len, long), default=0) > 400:
+        return None
+    if not integral:
+        return np.float64 if all(int(cell) == float(cell) for cell in long) else None
+    low, high = min(map(int, long), default=0), max(map(int, long), default=0)
+    if low >= -(2**63) and high < 2**63:
+        return np.int64
+    shortest = min(map(int, cells))
+    return np.uint64 if shortest >= 0 and high < 2**64 else None
+
+
+def _npy(data: bytes, name: str) -> np.ndarray:
+    with complete(name, "a complete .npy file without objects"):
+        check_npy(io.BytesIO(data), len(data), name)
+        array = np.load(io.BytesIO(data), allow_pickle=False)
+    if array.ndim == 0 or array.dtype.kind not in "biufcU":
+        got = f"shape {array.shape} of {array.dtype}"
+        raise refuse(name, "a row of numbers or texts for each source vertex", got, REPAIR)
+    return array
+
+
+def write_values(path: str | Path, values: Values, force: bool = False) -> None:
+    """Write per-vertex values so that :func:`read_values` reads them back; every digit is kept.
+
+    Raises
+    ------
+    InvalidInput
+        On an unknown extension, more than two dimensions in a text format, and as :func:`atomic_output`.
+    """
+    suffix = _format(path)
+    check_output(path, force)
+    array = values.array
+    if suffix == ".npy":
+        with atomic_output(path, force) as temporary, open(temporary, "wb") as file:
+            np.save(file, array, allow_pickle=False)
+        return
+    if array.ndim > 2 or array.dtype.kind == "c":
+        got = "complex numbers" if array.dtype.kind == "c" else f"shape {array.shape}"
+        raise refuse(f"output {path}", "a table of real numbers or texts", got, "write .npy instead")
+    numbers = array.astype(np.int64) if array.dtype.kind == "b" else array
+    rows = (numbers[:, None] if array.ndim == 1 else numbers).tolist()
+    cells = [[cell if isinstance(cell, str) else repr(cell) for cell in row] for row in rows]
+    with (
+        atomic_output(path, force) as temporary,
+        open(temporary, "w", encoding="utf-8", newline="") as file,
+    ):
+        if suffix == ".csv":
+            table = [list(values.columns)] if values.columns else []
+            csv.writer(file, lineterminator="\n").writerows(table + cells)
+        else:
+            file.writelines(" ".join(row) + "\n" for row in cells)

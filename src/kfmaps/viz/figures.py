@@ -1,0 +1,92 @@
+"""What all figures share: formats, the colour bar of errors, and colours carried over a map."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import IO
+
+import numpy as np
+from matplotlib import rc_context
+from matplotlib.cm import ScalarMappable
+from matplotlib.colors import Normalize
+from matplotlib.figure import Figure
+
+from kfmaps._arrays import refuse
+from kfmaps.viz.colors import ERROR_MAP, percent_ticks
+
+FORMATS = ("png", "svg", "pdf")
+DPI = 160
+TEXT = "#333333"
+LOST = 0.75
+"""Grey of target vertices without a counterpart."""
+
+
+def picture_format(path: str | Path) -> str:
+    """Return the format that a file's extension names: png, svg or pdf.
+
+    Raises
+    ------
+    InvalidInput
+        For any other extension.
+    """
+    kind = Path(path).suffix.lower().removeprefix(".")
+    if kind not in FORMATS:
+        got = f"'.{kind}'" if kind else "no extension"
+        raise refuse(f"picture {path}", "a name ending in .png, .svg or .pdf", got, "rename it")
+    return kind
+
+
+def save_figure(figure: Figure, file: str | Path | IO[bytes], kind: str | None = None, *, dpi: float = DPI) -> None:
+    """Write ``figure`` as ``kind`` (png, svg or pdf; by default what the name of ``file`` says).
+
+    The same figure gives the same bytes: no date goes in. An existing file is replaced.
+
+    Parameters
+    ----------
+    figure : matplotlib.figure.Figure
+    file : path or binary file
+    kind : str, optional
+    dpi : float
+        Dots per inch of a PNG, and of the surfaces inside an SVG or PDF.
+
+    Raises
+    ------
+    InvalidInput
+        For another format, or none where ``file`` has no name.
+    """
+    if kind is None:
+        kind = picture_format(file if isinstance(file, str | Path) else getattr(file, "name", ""))
+    elif kind not in FORMATS:
+        raise refuse("picture", f"one of {', '.join(FORMATS)}", repr(kind), "choose one of them")
+    metadata = {"png": {"Software": None}, "svg": {"Date": None}, "pdf": {"CreationDate": None}}[kind]
+    # The salt makes the names inside an SVG the same each time.
+    with rc_context({"svg.hashsalt": "kfmaps"}):
+        figure.savefig(file, format=kind, dpi=dpi, metadata=metadata)
+
+
+def transferred_colors(colors: np.ndarray, target_to_source: np.ndarray) -> np.ndarray:
+    """Return the source's ``colors (n_s, 3)`` at the target's vertices (n_t, 3), grey where there is no counterpart."""
+    return np.where(target_to_source[:, None] < 0, LOST, np.asarray(colors)[target_to_source])
+
+
+def add_error_bar(
+    figure: Figure,
+    place: tuple[float, float, float, float],
+    limit: float,
+    label: str,
+    *,
+    beyond: bool,
+    text: float = 10.0,
+) -> None:
+    """Draw the colour bar of errors from 0 to ``limit`` at ``place`` (left, bottom, width, height of the figure).
+
+    Its end is pointed where some errors lie ``beyond``; ``text`` is the size of the label in points, and a ninth more.
+    """
+    bar = figure.colorbar(
+        ScalarMappable(Normalize(0, limit), ERROR_MAP),
+        cax=figure.add_axes(place),
+        extend="max" if beyond else "neither",
+        format=percent_ticks(),
+    )
+    bar.set_label(label, color=TEXT, fontsize=0.9 * text)
+    bar.ax.tick_params(colors=TEXT, labelsize=0.8 * text)
