@@ -389,7 +389,7 @@ def test_of_maps_that_are_alike_the_one_that_bends_less_is_found(creatures, monk
     alike = replace(best, name="alike", points=few, quality=worse, functional_map=C.copy())
     assert choose.ALIKE < map_distance(best, alike, on.whole.source) < ranking.DISTINCT
     bends = {"best": 0.12, "alike": 0.06}
-    monkeypatch.setattr(choose, "sample_candidates", lambda *_what, **_how: [best, alike])
+    monkeypatch.setattr(choose, "candidates", lambda *_what, **_how: [best, alike])
     monkeypatch.setattr(
         ranking, "with_bending", lambda some, *_: [replace(c, deformation_energy=bends[c.name]) for c in some]
     )

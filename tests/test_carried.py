@@ -38,7 +38,7 @@ def made(tmp_path_factory: pytest.TempPathFactory) -> types.SimpleNamespace:
     }
     save_map(folder / "map.npz", MapFile(pair.truth, extra=extra))
     place = PointMap(pair.truth_faces, pair.truth_weights)
-    return types.SimpleNamespace(folder=folder, pair=pair, precise_map=place, paths=paths, map=folder / "map.npz")
+    return types.SimpleNamespace(folder=folder, pair=pair, place=place, paths=paths, map=folder / "map.npz")
 
 
 def test_coordinates_are_carried_finer_than_vertices(made: types.SimpleNamespace, tmp_path: Path) -> None:
@@ -195,7 +195,7 @@ def test_evaluate_measures_points_in_triangles(made: types.SimpleNamespace, tmp_
     found = json.loads(run("evaluate", made.map, "--json", *truth_files(made, tmp_path)).stdout)
     assert found["mean"] == 0
     assert 0 < found["precise"]["mean"] < 0.02
-    assert found["smoothness"]["flipped"] < 0.05
+    assert found["smoothness"]["flipped_area"] < 0.05
     assert found["smoothness"]["coverage"] > 0.9
     shown = run("evaluate", made.map, *truth_files(made, tmp_path)).stdout
     assert "points in triangles" in shown

@@ -163,7 +163,7 @@ def test_of_mended_maps_the_one_that_looks_right_comes_first(creatures, monkeypa
     made = alternate.AlternatingResult(good.functional_map, source.mesh.vertices)
     monkeypatch.setattr(mending, "alternating_registration", lambda C, *_what: replace(made, functional_map=C))
     monkeypatch.setattr(mending, "score_maps", lambda names, *_w: [bad if names[0][0] == "bad" else good])
-    monkeypatch.setattr(mending, "seen", lambda c, *_what: replace(c, strain=0.0))
+    monkeypatch.setattr(mending, "score_registered", lambda c, *_what: replace(c, strain=0.0))
     monkeypatch.setattr(mending, "registered_shot_error", lambda C, *_what: 0.25 if C is bad.functional_map else 0.2)
     found = refine_by_registration([bad, good], on, ProxyCache.of(source, target, on), nowhere, 1)
     assert [c.name for c in found] == ["truth", "bad"]
@@ -225,7 +225,7 @@ def test_of_two_that_are_close_looks_decide(creatures, monkeypatch, margin, agai
     bad = replace(good, name="bad", quality=quality, functional_map=-good.functional_map)
     rest = replace(good, name="rest", quality=replace(quality, distortion=quality.distortion + 9))
     bent = []
-    monkeypatch.setattr(ranking, "seen", lambda c, *_what: bent.append(c.name) or replace(c, strain=0.0))
+    monkeypatch.setattr(ranking, "score_registered", lambda c, *_what: bent.append(c.name) or replace(c, strain=0.0))
     monkeypatch.setattr(copies, "shot_pair", lambda on: SimpleNamespace(on=on))
     monkeypatch.setattr(ranking, "registered_shot_error", lambda C, *_what: 0.25 if C is bad.functional_map else 0.2)
     found = rerank_close([bad, good, rest], ProxyCache.of(source, target, on), 1)
@@ -280,7 +280,7 @@ def test_maps_found_without_landmarks_take_part(creatures, monkeypatch):
         asked.append((what[3], how))
         return score_maps([("free", True)], np.eye(40)[None], None, what[3].whole, 1)
 
-    monkeypatch.setattr(choose, "sample_candidates", few)
+    monkeypatch.setattr(choose, "candidates", few)
     found = without_landmarks(source, target, kfmaps.Config(), on, 3, drawn=4)
     alone, how = asked[0]
     assert how == {"drawn": 4}

@@ -81,7 +81,7 @@ def functional(points: np.ndarray, creatures: Any, k: int) -> np.ndarray:
 def only_the_truth(creatures: Any, monkeypatch: pytest.MonkeyPatch) -> None:
     """A search finds the true map alone, and mends nothing."""
     C = functional(creatures[2], creatures, 40)
-    monkeypatch.setattr(choose, "sample_candidates", lambda *a, **_m: score_maps(NAMES, C[None], None, a[3].whole, 1))
+    monkeypatch.setattr(choose, "candidates", lambda *a, **_m: score_maps(NAMES, C[None], None, a[3].whole, 1))
     monkeypatch.setattr(choose, "without_landmarks", lambda *_a, **_m: [])
     monkeypatch.setattr(choose, "REPAIR_SCORE", -np.inf)
 

@@ -73,10 +73,10 @@ def test_a_part_that_was_moved_lies_where_it_was_cut(shapes, laid):
     found = lay()
     assert np.linalg.norm(found.vertices - half.vertices, axis=1).max() < 5e-3
     assert found.scale == size
-    assert found.bending < 1e-4
+    assert found.deformation_energy < 1e-4
     assert found.gap < 1e-3
-    assert found.folded == 0.0
-    assert found.longer == pytest.approx(1.0, abs=5e-3)
+    assert found.flipped_area == 0.0
+    assert found.edge_ratio == pytest.approx(1.0, abs=5e-3)
     assert found.inside.all()
 
 
@@ -96,7 +96,7 @@ def test_edges_tell_the_scale(shapes, laid, factor):
 
 def test_a_mirror_image_is_folded(laid):
     lay, _, part, _ = laid
-    assert lay(more=Mesh(part.vertices, part.faces[:, ::-1])).folded > 0.5
+    assert lay(more=Mesh(part.vertices, part.faces[:, ::-1])).flipped_area > 0.5
 
 
 def test_what_lies_beyond_the_whole_is_let_alone(shapes):

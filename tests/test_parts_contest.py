@@ -88,7 +88,7 @@ def stub(score, x, gain=0.0) -> Any:
     """A candidate at the place ``x``, which gains so much whenever it is placed anew."""
     places = np.full((5, 3), float(x))
     bend = SimpleNamespace(scale=1.0, edge_ratio=1.0, inside=np.ones(3, dtype=bool))
-    return SimpleNamespace(score=score, places=places, registration=bend, gain=gain, times=0)
+    return SimpleNamespace(score=score, places=places, bend=bend, gain=gain, times=0)
 
 
 def again(one, *_rest):

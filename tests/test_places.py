@@ -30,7 +30,7 @@ def errors(found: Registration | PointMap, source: Mesh, truth: np.ndarray) -> n
 class Pretended:
     """A fit that returns the true map, but wrong around ``spot`` as long as nothing holds it there."""
 
-    stretch = 0.0
+    local_scaling = 0.0
 
     def __init__(self, pair: datasets.Pair, spot: np.ndarray, gap: float = 0.0, stubborn: bool = False) -> None:
         self.pair, self.spot, self.gap, self.stubborn = pair, spot, gap, stubborn

@@ -107,7 +107,7 @@ def test_the_points_of_the_fits_come_from_the_seed(shape, other, monkeypatch):
     for seed in (7, 0):
         search_map(shape, other, SMALL, rng=seed)
     assert asked == [7, 0]
-    monkeypatch.setattr(fits, "PROXY_VERTICES", 300)
+    monkeypatch.setattr(fits, "POINTS", 300)
     none = np.zeros((0, 2), dtype=np.int64)
     expected = sample_shape(shape, 300, none[:, 0], 7).shape.mesh.vertices
     np.testing.assert_array_equal(sample_shapes(shape, other, none, None, 7).shapes[0].mesh.vertices, expected)

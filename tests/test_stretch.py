@@ -114,7 +114,7 @@ def test_only_unlike_shapes_are_stretched_in_the_end(monkeypatch) -> None:
     config = kfmaps.Config()
     source, target = (kfmaps.prepare(mesh, config, name="a") for mesh in (pair.source, pair.target))
     seen, usual = [], matching.register_map
-    monkeypatch.setattr(matching, "register_map", lambda *a: seen.append(a[3].finish.stretch) or usual(*a))
+    monkeypatch.setattr(matching, "register_map", lambda *a: seen.append(a[3].finish.local_scaling) or usual(*a))
     for quality in (NON_ISOMETRIC_SCORE + 1, NON_ISOMETRIC_SCORE - 1):
         matching.match_from_map(source, target, pair.truth, config, origin="a", quality=quality)
     assert seen == [0.0, STRETCH]

@@ -65,12 +65,14 @@ def identity(count):
 
 def test_tips_are_far_from_everything_around_them_and_from_each_other(probes):
     for one in probes:
-        between = one.distances[np.ix_(one.tips.points, one.tips.points)]
-        assert len(one.tips.points) >= 5
+        between = one.distances[np.ix_(one.extremities.points, one.extremities.points)]
+        assert len(one.extremities.points) >= 5
         assert (between[~np.eye(len(between), dtype=bool)] >= APART).all()
-        assert (np.diff(one.tips.reach) <= 0).all()
-        assert (one.tips.reach > 1.0).all()
-        assert one.tips.distances[np.arange(len(between)), one.tips.points] == pytest.approx(0.0, abs=1e-12)
+        assert (np.diff(one.extremities.reach) <= 0).all()
+        assert (one.extremities.reach > 1.0).all()
+        assert one.extremities.distances[np.arange(len(between)), one.extremities.points] == pytest.approx(
+            0.0, abs=1e-12
+        )
 
 
 def test_tips_know_nothing_of_units_position_and_numbering(creature, probes):
@@ -107,7 +109,7 @@ def test_turn_is_the_sine_between_two_directions():
 
 
 def test_a_shape_is_told_from_its_mirror_image_by_turns_alone(probes):
-    one = probes[0].tips
+    one = probes[0].extremities
     m = len(one.points)
     whole = identity(m)
     same, turned = extremity_cost(one, one, whole), extremity_cost(one, one.mirrored(), whole)
@@ -122,9 +124,9 @@ def test_the_true_pairing_is_among_the_first(creature, probes, on):
     found = match_extremities(on.few.source, on.few.target, on.few.shot)
     a, b = probes[0], probes[1]
     truth = creature[2]
-    images = truth[b.samples.vertices[b.tips.points]]
+    images = truth[b.samples.vertices[b.extremities.points]]
     vertices = creature[0].mesh.vertices
-    tip = a.samples.vertices[a.tips.points]
+    tip = a.samples.vertices[a.extremities.points]
     off = np.linalg.norm(vertices[tip][:, None] - vertices[images][None], axis=2)
     worst = [off[pairing.source, pairing.target].max() for pairing in found]
     assert min(worst[:8]) < 0.2
@@ -136,39 +138,43 @@ def test_equal_shapes_pair_their_tips_with_themselves(probes):
     one = probes[0]
     first = extremity_similarity(one, one)[0]
     assert np.array_equal(first.source, first.target)
-    assert len(first.source) == len(one.tips.points)
+    assert len(first.source) == len(one.extremities.points)
     everywhere = np.arange(len(one.positions))
     back = match_of_map(everywhere, one, one)
     assert back is not None
     assert np.array_equal(back.source, back.target)
-    assert len(back.source) == len(one.tips.points)
+    assert len(back.source) == len(one.extremities.points)
     assert match_of_map(np.zeros_like(everywhere), one, one) is None
 
 
 def test_distances_between_tips_alone_pair_them(probes):
     one = probes[0]
     plain = replace(
-        one, heat=np.zeros_like(one.heat), extremities=replace(one.tips, reach=np.ones(len(one.tips.points)))
+        one,
+        heat=np.zeros_like(one.heat),
+        extremities=replace(one.extremities, reach=np.ones(len(one.extremities.points))),
     )
-    order = np.array([3, 0, 5, 1, 4, 2, *range(6, len(one.tips.points))])
-    tips = replace(plain.tips, points=plain.tips.points[order], distances=plain.tips.distances[order])
+    order = np.array([3, 0, 5, 1, 4, 2, *range(6, len(one.extremities.points))])
+    tips = replace(
+        plain.extremities, points=plain.extremities.points[order], distances=plain.extremities.distances[order]
+    )
     first = extremity_similarity(plain, replace(plain, extremities=tips))[0]
     assert np.array_equal(order[first.target], first.source)
 
 
 def test_shapes_without_limbs_are_not_paired(probes):
     one = probes[0]
-    bare = replace(one, extremities=one.tips.none())
+    bare = replace(one, extremities=one.extremities.none())
     assert match_extremities(one, bare, None) == []
     assert match_of_map(np.arange(len(one.positions)), bare, one) is None
-    few = replace(one.tips, points=one.tips.points[: FEWEST - 1])
+    few = replace(one.extremities, points=one.extremities.points[: FEWEST - 1])
     assert match_extremities(replace(one, extremities=few), one, None) == []
 
 
 def test_the_map_of_a_pairing_is_nearly_the_identity(on):
     few = replace(on.few, target=on.few.source, shot=None)
     k = 8
-    C = paired_map(identity(len(few.source.tips.points)), few, k)
+    C = paired_map(identity(len(few.source.extremities.points)), few, k)
     assert np.linalg.norm(C - np.eye(k)) < 0.5
 
 
@@ -194,7 +200,9 @@ def test_each_map_may_have_evidence_of_its_own(on):
     assert not np.array_equal(together[1][0], together[1][2])
     speaks = on.few.against(0.0, 0.0, 2.0, pairs[:1])
     assert speaks is not None
-    assert speaks[0] == pytest.approx(2 * extremity_cost(on.few.source.tips, on.few.target.tips, pairs[0]), abs=1e-5)
+    assert speaks[0] == pytest.approx(
+        2 * extremity_cost(on.few.source.extremities, on.few.target.extremities, pairs[0]), abs=1e-5
+    )
 
 
 def test_a_shape_bends_least_onto_itself(creature, probes):
@@ -263,13 +271,13 @@ def test_the_probe_of_a_mirror_image_turns_the_other_way(probes):
     turned = mirror_samples(probes[0])
     assert turned.copy is not None
     assert turned.mirrored
-    assert np.array_equal(turned.extremities.turn, -probes[0].tips.turn)
+    assert np.array_equal(turned.extremities.turn, -probes[0].extremities.turn)
     assert turned.copy.mesh.vertices[:, 0] == pytest.approx(-probes[0].copy.mesh.vertices[:, 0])
 
 
 def test_tips_can_be_left_out(creature):
     assert SMALL.search is not None
-    plain = replace(SMALL, search=replace(SMALL.search, extremities=False))
+    plain = replace(SMALL, search=replace(SMALL.search, tips=False))
     source, target = creature[:2]
     names = search_map(source, target, plain, rng=0).initialization, search_map(source, target, SMALL, rng=0)
     assert not names[0].startswith("tips")

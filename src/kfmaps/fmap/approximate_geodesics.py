@@ -1,6 +1,6 @@
 """Distances along the edges of a surface from a few vertices to all, on a coarse copy where it is large.
 
-Dijkstra's search takes half a microsecond a vertex and source. On a copy of :data:`PROXY_VERTICES` vertices it does
+Dijkstra's search takes half a microsecond a vertex and source. On a copy of :data:`POINTS` vertices it does
 not grow
 with the mesh; all vertices take the distance linearly from the corners of the triangle of the copy that they are
 closest to. Of 20,000 vertices confidences made of both (:mod:`kfmaps.fmap.confidence`) differ by 0.009 on
