@@ -122,7 +122,7 @@ MUTANTS = tuple(
         ),
         ("np.minimum(10 * (1 - distance), 1)", "np.minimum(2 * (1 - distance), 1)", "test_shot -k plain"),
         ("np.arccos(np.clip(z / pairs.distance, -1, 1))", "np.arccos(np.clip(z, -1, 1))", "test_shot -k plain"),
-        ("_unit(np.sqrt(_histograms(", "_unit(np.abs(_histograms(", "test_shot -k plain"),
+        ("unit_rows(np.sqrt(_histograms(", "unit_rows(np.abs(_histograms(", "test_shot -k plain"),
         ("AZIMUTHS, -1)[:, ::-1]", "AZIMUTHS, -1)[:, :]", "test_shot -k mirror"),
         # functional: the energy
         ("0.5 * inner(coefficients_t, coefficients_t)", "inner(coefficients_t, coefficients_t)", "test_energy -k laws"),
@@ -446,7 +446,7 @@ MUTANTS = tuple(
         ("even(rotations(pair.body.energy, x))", "rotations(pair.body.energy, x)", "test_places test_nonrigid"),
         ("owner[lost] = KDTree(", "owner[lost] = 0 * KDTree(", "test_lift"),
         ('np.einsum("eij,ej->ei", turns[node], rest)', "rest", "test_lift"),
-        ("a.owner[target_to_source[b.vertices]]", "a.owner[b.vertices]", "test_lift"),
+        ("a.owner[points[b.vertices]]", "a.owner[b.vertices]", "test_lift"),
         # pictures of OBJ files
         (
             "found = {pictures.get(used[i][1]) for i in np.unique(last)}",
@@ -707,9 +707,13 @@ MUTANTS = tuple(
         (
             "rest[np.isinf(rest)] = over[np.isinf(rest)]",
             "rest[np.isinf(rest)] = 2 * over[np.isinf(rest)]",
-            "test_among -k hardly",
+            "test_pairwise_geodesics -k hardly",
         ),
-        ("if len(lost):\n            found[lost]", "if False:\n            found[lost]", "test_among -k forgotten"),
+        (
+            "if len(lost):\n            found[lost]",
+            "if False:\n            found[lost]",
+            "test_pairwise_geodesics -k forgotten",
+        ),
         # landmarks between shapes of other proportions, and what they say of a map
         ("np.minimum(distances, MISSED).mean()", "distances.mean()", "test_marks -k where_they_are_missed"),
         ("still = wrong & still_missed(", "still = wrong | still_missed(", "test_marks -k doubted_no_longer"),

@@ -39,11 +39,10 @@ from kfmaps.fmap.evaluate import precise_errors
 from kfmaps.fmap.precise import PointMap, point_positions
 from kfmaps.geometry.closest_points import closest_points
 from kfmaps.geometry.geodesics import farthest_geodesic
-from kfmaps.geometry.mesh import Mesh, unit_area, vertex_areas
+from kfmaps.geometry.mesh import Mesh, boundary_vertices, unit_area, vertex_areas
 from kfmaps.io import load_map
 from kfmaps.matching.partial.match_partial import COMMON
 from kfmaps.matching.partial.overlap import covered
-from kfmaps.matching.partial.samples import boundary_vertices
 
 CHOSEN_ON = {"cat", "horse", *(f"tr_reg_{i:03d}" for i in range(20))}
 SETS = {"cuts": "SHREC16", "holes": "SHREC16", "PFAUST_M": "PFAUST_M", "PFAUST_H": "PFAUST_H"}

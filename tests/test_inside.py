@@ -28,7 +28,7 @@ from kfmaps.shape import clean_shape, prepare
 GUARDS = (
     "kfmaps.descriptors.shot",
     "kfmaps.geometry.clean",
-    "kfmaps.geometry.places",
+    "kfmaps.geometry.connectivity",
     "kfmaps.geometry.topology",
     "kfmaps.matching.match",
     "kfmaps.matching.postprocess",

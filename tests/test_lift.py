@@ -5,15 +5,14 @@ import pytest
 from scipy.sparse.csgraph import dijkstra
 
 from kfmaps import datasets
-from kfmaps.geometry import coarse_proxy as lift
 from kfmaps.geometry.arap import build_arap, nearest_rotations, rotations
-from kfmaps.geometry.coarse_proxy import coarse_proxy, embedded_deformation
+from kfmaps.geometry.coarsen import coarse_proxy, embedded_deformation, spread_vertices
 from kfmaps.geometry.geodesic_graph import geodesic_graph
 from kfmaps.geometry.mesh import Mesh, unit_area
 from kfmaps.registration import nonrigid_icp as nonrigid
 from kfmaps.registration.nonrigid_icp import NonRigid
 
-GUARDS = ("kfmaps.geometry.arap", "kfmaps.geometry.coarse_proxy", "kfmaps.registration.nonrigid_icp")
+GUARDS = ("kfmaps.geometry.arap", "kfmaps.geometry.coarsen", "kfmaps.registration.nonrigid_icp")
 
 
 @pytest.fixture(scope="module")
@@ -23,7 +22,7 @@ def pair() -> datasets.Pair:
 
 def test_every_vertex_belongs_to_the_nearest_of_the_copy(pair: datasets.Pair) -> None:
     mesh = unit_area(pair.source)
-    copy = coarse_proxy(mesh, 600, np.array([7, 2000]))
+    copy = coarse_proxy(mesh, spread_vertices(mesh, 600, np.array([7, 2000])))
     assert 550 < len(copy.vertices) < 620
     assert np.isin([7, 2000], copy.vertices).all()
     np.testing.assert_array_equal(copy.owner[copy.vertices], np.arange(len(copy.vertices)))
@@ -34,7 +33,7 @@ def test_every_vertex_belongs_to_the_nearest_of_the_copy(pair: datasets.Pair) ->
 
 
 def test_a_small_mesh_is_its_own_copy(pair: datasets.Pair) -> None:
-    copy = coarse_proxy(pair.source, 3000, np.zeros(0, dtype=np.int64))
+    copy = coarse_proxy(pair.source, spread_vertices(pair.source, 3000))
     assert copy.mesh is pair.source
     np.testing.assert_array_equal(copy.owner, np.arange(3000))
 
@@ -42,7 +41,8 @@ def test_a_small_mesh_is_its_own_copy(pair: datasets.Pair) -> None:
 def test_vertices_that_nothing_reaches_belong_to_the_nearest_in_space(pair: datasets.Pair) -> None:
     mesh = unit_area(pair.source)
     loose = mesh.vertices[[5, 100]] + 1e-4
-    copy = coarse_proxy(Mesh(np.vstack([mesh.vertices, loose]), mesh.faces), 600, np.zeros(0, dtype=np.int64))
+    with_loose = Mesh(np.vstack([mesh.vertices, loose]), mesh.faces)
+    copy = coarse_proxy(with_loose, spread_vertices(with_loose, 600))
     for vertex in (-2, -1):
         away = np.linalg.norm(copy.mesh.vertices - loose[vertex], axis=1)
         assert copy.owner[vertex] == away.argmin()
@@ -50,7 +50,7 @@ def test_vertices_that_nothing_reaches_belong_to_the_nearest_in_space(pair: data
 
 def test_a_motion_of_the_copy_is_that_of_the_mesh(pair: datasets.Pair) -> None:
     mesh = unit_area(pair.source)
-    copy = coarse_proxy(mesh, 600, np.zeros(0, dtype=np.int64))
+    copy = coarse_proxy(mesh, spread_vertices(mesh, 600))
     turn = nearest_rotations(np.random.default_rng(0).normal(size=(1, 3, 3)))[0]
     turns = np.broadcast_to(turn, (len(copy.vertices), 3, 3))
     moved = embedded_deformation(copy, mesh, copy.mesh.vertices @ turn.T + 1.0, turns)
@@ -60,7 +60,7 @@ def test_a_motion_of_the_copy_is_that_of_the_mesh(pair: datasets.Pair) -> None:
 def test_a_mesh_bends_as_its_copy_does(pair: datasets.Pair) -> None:
     """Lifted from a coarse copy a smooth bending is met far more closely than the copy is coarse."""
     mesh = unit_area(pair.source)
-    copy = coarse_proxy(mesh, 600, np.zeros(0, dtype=np.int64))
+    copy = coarse_proxy(mesh, spread_vertices(mesh, 600))
 
     def bent(x: np.ndarray) -> np.ndarray:
         angle = 1.5 * x[:, 1]
@@ -91,7 +91,7 @@ def test_a_large_mesh_is_fitted_as_well_with_a_copy_first(pair: datasets.Pair, m
 
     whole, gap = off()
     monkeypatch.setattr(nonrigid, "PROXY_FROM_VERTICES", 2000)
-    monkeypatch.setattr(lift, "PROXY_VERTICES", 1500)
+    monkeypatch.setattr(nonrigid, "PROXY_VERTICES", 1500)
     quick, quick_gap = off()
     assert quick.mean() < 1.1 * whole.mean() < 0.6 * np.linalg.norm(source.vertices[start] - truth, axis=1).mean()
     assert quick_gap < 1.1 * gap

@@ -11,14 +11,14 @@ from kfmaps.cli.partial_truth import PartTruth, part_accuracy, true_overlap
 from kfmaps.config import Config, Partial
 from kfmaps.fmap.evaluate import precise_errors
 from kfmaps.fmap.precise import PointMap
-from kfmaps.geometry.mesh import Mesh, surface_area
+from kfmaps.geometry.mesh import Mesh, boundary_vertices, surface_area
 from kfmaps.io import load_map
 from kfmaps.matching.match import match
 from kfmaps.matching.partial.calibration import MIDDLE, SURE, part_probability, part_verdict
 from kfmaps.matching.partial.compare_alternatives import CLEAR
 from kfmaps.matching.partial.detect import OPEN, boundary_opening, detect_part
 from kfmaps.matching.partial.relaxation_labeling import SLACK, consistency, distance_bounds
-from kfmaps.matching.partial.samples import boundary_vertices, part_samples
+from kfmaps.matching.partial.samples import part_samples
 from kfmaps.matching.partial.scale_search import SCALES
 from kfmaps.shape import prepare
 from test_search import SMALL

@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 from kfmaps.geometry.closest_points import closest_points
-from kfmaps.geometry.mesh import Mesh, surface_area, unit_area, vertex_normals
+from kfmaps.geometry.mesh import Mesh, boundary_vertices, surface_area, unit_area, vertex_normals
 from kfmaps.matching.partial.overlap import WIDTH, covered, overlap
 from kfmaps.matching.partial.registration import OUTSIDE, judged, register_part, registration_target, within
-from kfmaps.matching.partial.samples import boundary_vertices, scaled
+from kfmaps.matching.partial.samples import scaled
 from kfmaps.registration.deformable import deformable_mesh
 
 GUARDS = (

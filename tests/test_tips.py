@@ -7,6 +7,7 @@ import pytest
 
 from kfmaps import datasets
 from kfmaps._arrays import NotConverged
+from kfmaps.geometry.coarsen import CoarseProxy
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.matching.batched_zoomout import batched_zoomout
 from kfmaps.matching.candidates import W_STRAIN, Candidate, extremity_inits, paired_map, refine_coarse
@@ -29,7 +30,6 @@ from kfmaps.matching.self_maps import symmetries
 from kfmaps.registration.deformation_energy import (
     LEAST,
     MOST,
-    CoarseProxy,
     coarse_copy,
     deform,
     deformation_energy,

@@ -9,10 +9,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from conftest import blob, fibonacci_sphere
+from kfmaps.geometry.connectivity import unique_vertices
 from kfmaps.geometry.mesh import Mesh
-from kfmaps.geometry.topology import topology, unique_vertices
+from kfmaps.geometry.topology import topology
 
-GUARDS = ("kfmaps.geometry.mesh", "kfmaps.geometry.topology")
+GUARDS = ("kfmaps.geometry.mesh", "kfmaps.geometry.connectivity", "kfmaps.geometry.topology")
 
 
 def sheet(rows: int, columns: int, wrap: tuple[bool, bool] = (False, False), flip: bool = False) -> Mesh:

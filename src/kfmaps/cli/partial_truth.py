@@ -15,13 +15,12 @@ from kfmaps.cli.evaluation import numbers_of
 from kfmaps.fmap.evaluate import Evaluation, precise_errors, summarize_errors
 from kfmaps.fmap.precise import PointMap, check_point_map_precise, point_positions, vertex_point_map
 from kfmaps.geometry.closest_points import closest_points
-from kfmaps.geometry.mesh import Mesh, unit_area, vertex_areas
+from kfmaps.geometry.mesh import Mesh, boundary_vertices, unit_area, vertex_areas
 from kfmaps.io import MapFile, read_landmarks
 from kfmaps.io.partial_map import place_of
 from kfmaps.io.text import clean_text, parse_rows, read_bytes, table
 from kfmaps.matching.partial.match_partial import COMMON
 from kfmaps.matching.partial.overlap import covered
-from kfmaps.matching.partial.samples import boundary_vertices
 
 Side = Literal["source", "target"]
 

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from kfmaps._arrays import check, refuse
-from kfmaps.geometry.topology import component_labels
+from kfmaps.geometry.connectivity import component_labels
 
 MAX_FLIPS = 100
 

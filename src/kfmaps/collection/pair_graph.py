@@ -16,7 +16,7 @@ from kfmaps._arrays import check, check_count, refuse, to_numpy
 from kfmaps.collection.paths import adjacency
 from kfmaps.descriptors.spectral import heat_signature
 from kfmaps.geometry.basis import Basis
-from kfmaps.geometry.topology import component_labels
+from kfmaps.geometry.connectivity import component_labels
 
 N_EIGENVALUES = 30
 """Eigenvalues that shapes are compared by."""

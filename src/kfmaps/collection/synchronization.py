@@ -18,7 +18,7 @@ import numpy as np
 from kfmaps._arrays import check_count, refuse
 from kfmaps.collection.pair_graph import bridges
 from kfmaps.collection.sync_init import MAX_LOG_ODDS, nearest_orthogonal, spanning_tree_init, spectral_init
-from kfmaps.geometry.topology import component_labels
+from kfmaps.geometry.connectivity import component_labels
 
 N_FUNCTIONS = 20
 """Size of the maps that are compared: enough to tell flipped limbs, and few enough to fit other bodies."""

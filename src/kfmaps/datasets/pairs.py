@@ -5,17 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
 from scipy.spatial import KDTree
 
-from kfmaps._arrays import blocks
 from kfmaps.datasets.skeleton import Bend, Body
 from kfmaps.datasets.surface import closed_mesh
+from kfmaps.geometry.closest_points import closest_points
+from kfmaps.geometry.connectivity import component_labels
 from kfmaps.geometry.mesh import Mesh, face_areas
-
-BLOCK = 50_000
-"""Points worked on together, which bounds the memory."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,33 +40,6 @@ class Pair:
     truth_faces: np.ndarray
     truth_weights: np.ndarray
     mirrored: np.ndarray | None = None
-
-
-def locate(points: np.ndarray, mesh: Mesh) -> tuple[np.ndarray, np.ndarray]:
-    """The face (n,) and barycentric coordinates (n, 3) of the place on ``mesh`` nearest to each point.
-
-    Looks at the faces around the three nearest vertices, which is enough for points that lie as close to
-    the surface as those of another mesh of it.
-    """
-    if len(points) > BLOCK:
-        parts = [locate(points[part], mesh) for part in blocks(len(points), BLOCK)]
-        return np.concatenate([face for face, _ in parts]), np.concatenate([weights for _, weights in parts])
-    corners = mesh.faces.ravel()
-    order = np.argsort(corners, kind="stable")
-    count = np.bincount(corners, minlength=len(mesh.vertices))
-    first = np.cumsum(count) - count
-    vertices = np.asarray(KDTree(mesh.vertices).query(points, k=3)[1])
-    slots = np.minimum(np.arange(count.max()), count[vertices][:, :, None] - 1)
-    faces = (order[first[vertices][:, :, None] + slots] // 3).reshape(len(points), -1)
-    triangles = mesh.vertices[mesh.faces[faces]].reshape(-1, 3, 3)
-    from trimesh.triangles import closest_point, points_to_barycentric
-
-    places = closest_point(triangles, np.repeat(points, faces.shape[1], axis=0)).reshape(*faces.shape, 3)
-    best = np.linalg.norm(places - points[:, None], axis=2).argmin(axis=1)
-    rows = np.arange(len(points))
-    face, place = faces[rows, best], places[rows, best]
-    weights = np.clip(points_to_barycentric(mesh.vertices[mesh.faces[face]], place), 0, None)
-    return face, weights / weights.sum(axis=1, keepdims=True)
 
 
 def nearest_vertex(reference: np.ndarray, posed: np.ndarray, points: np.ndarray, exact: np.ndarray) -> np.ndarray:
@@ -116,9 +85,9 @@ def posed_pair(
     def truth(points: np.ndarray) -> np.ndarray:
         return nearest_vertex(points_s, source.vertices, points, body.bent(points, pose_s))
 
-    truth_faces, truth_weights = locate(points_t, Mesh(points_s, faces_s))
+    on_source = closest_points(points_t, points_s, faces_s)
     mirrored = truth(points_t * [-1, 1, 1]) if mirror else None
-    return Pair(name, source, target, truth(points_t), truth_faces, truth_weights, mirrored)
+    return Pair(name, source, target, truth(points_t), on_source.faces, on_source.weights, mirrored)
 
 
 def pieces(faces: np.ndarray) -> np.ndarray:
@@ -128,8 +97,7 @@ def pieces(faces: np.ndarray) -> np.ndarray:
     edge = edge.reshape(3, -1)
     total = len(faces) + edge.max() + 1
     rows = np.tile(np.arange(len(faces)), 3)
-    links = coo_array((np.ones(rows.size), (rows, len(faces) + edge.ravel())), shape=(total, total))
-    return connected_components(links, directed=False)[1][: len(faces)]
+    return component_labels(total, rows, len(faces) + edge.ravel())[1][: len(faces)]
 
 
 def largest_piece(mesh: Mesh, keep: np.ndarray) -> tuple[Mesh, np.ndarray]:

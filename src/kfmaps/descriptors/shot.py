@@ -18,7 +18,7 @@ from scipy.spatial import KDTree
 from kfmaps._arrays import check, check_count, check_positive, refuse
 from kfmaps._threads import parallel
 from kfmaps.geometry.clean import clean_mesh
-from kfmaps.geometry.mesh import Mesh, face_areas, unit_area, vertex_normals
+from kfmaps.geometry.mesh import Mesh, face_areas, unit_area, unit_rows, vertex_normals
 
 AZIMUTHS, ELEVATIONS, SHELLS = 8, 2, 2
 VOLUMES = AZIMUTHS * ELEVATIONS * SHELLS
@@ -202,7 +202,7 @@ def _surface_support(mesh: Mesh, normals: np.ndarray, samples: int) -> _Support:
             points.append(np.tensordot(bary, mesh.vertices[faces], axes=(0, 1)))
             directions.append(np.tensordot(bary, normals[faces], axes=(0, 1)))
             weights.append(share)
-    support = _Support(np.concatenate(points), _unit(np.concatenate(directions)), np.concatenate(weights))
+    support = _Support(np.concatenate(points), unit_rows(np.concatenate(directions)), np.concatenate(weights))
     return _merged(support, np.sqrt(1.5 / samples)) if len(support.points) > 2 * samples else support
 
 
@@ -234,7 +234,7 @@ def _merged(support: _Support, side: float) -> _Support:
     both = np.hstack([support.points, support.normals])
     summed = np.stack([np.bincount(group, w * column) for column in both.T], axis=1)
     points = summed[:, :3] / np.maximum(total, np.finfo(float).tiny)[:, None]
-    return _Support(points, _unit(summed[:, 3:]), total)
+    return _Support(points, unit_rows(summed[:, 3:]), total)
 
 
 def _blocks(vertices: np.ndarray, tree: KDTree, radius: float) -> list[np.ndarray]:
@@ -255,9 +255,9 @@ def _describe(centres: np.ndarray, tree: KDTree, support: _Support, radius: floa
     normal = np.ascontiguousarray(support.normals.take(j, axis=0).T)
     pairs = _Pairs(i, offset, distance, normal, support.weights[j], len(centres))
     if form == "paper":
-        return _unit(_histograms(pairs, _frames(pairs, form), pairs.weight, bins))
+        return unit_rows(_histograms(pairs, _frames(pairs, form), pairs.weight, bins))
     faded = pairs.weight * np.minimum(10 * (1 - distance), 1)
-    return _unit(np.sqrt(_histograms(pairs, _frames(pairs, form), faded, bins)))
+    return unit_rows(np.sqrt(_histograms(pairs, _frames(pairs, form), faded, bins)))
 
 
 def _frames(pairs: _Pairs, form: Form) -> np.ndarray:
@@ -276,7 +276,7 @@ def _frames(pairs: _Pairs, form: Form) -> np.ndarray:
         x, z = vectors[:, :, 2], _towards(pairs, vectors[:, :, 0], mean_normal)
     else:
         cancelled = np.linalg.norm(mean_normal, axis=1) <= 1e-9 * pairs.total(near)
-        z = _unit(np.where(cancelled[:, None], 0, mean_normal))
+        z = unit_rows(np.where(cancelled[:, None], 0, mean_normal))
         down = z[:, :, None] * z[:, None, :]
         across = np.eye(3) - down
         # Below zero z cannot be the principal direction, even where nothing lies across it.
@@ -335,9 +335,3 @@ def _histograms(pairs: _Pairs, frames: np.ndarray, weight: np.ndarray, bins: int
     summed = spread @ nodes
     summed = summed.reshape(count, AZIMUTHS, bins + 1, ELEVATIONS * SHELLS)
     return summed.transpose(0, 1, 3, 2).reshape(count, VOLUMES * (bins + 1))
-
-
-def _unit(rows: np.ndarray) -> np.ndarray:
-    """Rows of unit length; zero stays zero."""
-    length = np.linalg.norm(rows, axis=1, keepdims=True)
-    return np.divide(rows, length, out=np.zeros_like(rows), where=length > 0)

@@ -15,8 +15,9 @@ import numpy as np
 from scipy.sparse import csr_array
 from scipy.sparse.csgraph import dijkstra
 
-from kfmaps.geometry.closest_points import VertexRings, closest_among, vertex_rings
-from kfmaps.geometry.coarse_proxy import CoarseProxy, coarse_proxy
+from kfmaps.geometry.closest_points import closest_among
+from kfmaps.geometry.coarsen import CoarseProxy, coarse_proxy, spread_vertices
+from kfmaps.geometry.connectivity import VertexRings, vertex_rings
 from kfmaps.geometry.geodesic_graph import geodesic_graph
 from kfmaps.geometry.mesh import Mesh
 
@@ -80,7 +81,7 @@ def approximate_geodesics(mesh: Mesh) -> GraphDistances:
     n = len(mesh.vertices)
     if n <= LARGE or len(mesh.faces) == 0:
         return GraphDistances(geodesic_graph(mesh, 0))
-    copy = coarse_proxy(mesh, POINTS, np.zeros(0, dtype=np.int64))
+    copy = coarse_proxy(mesh, spread_vertices(mesh, POINTS))
     few = copy.mesh
     around = vertex_rings(few.faces, len(few.vertices))
     places = closest_among(mesh.vertices, few.vertices, few.faces, *around.around(copy.owner))

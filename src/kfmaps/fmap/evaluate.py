@@ -9,10 +9,10 @@ import numpy as np
 from kfmaps._arrays import check, refuse
 from kfmaps.fmap.convert import check_point_map
 from kfmaps.fmap.precise import PointMap, check_point_map_precise, point_positions, vertex_point_map
-from kfmaps.geometry.between import surface_point_distances
 from kfmaps.geometry.clean import clean_mesh
 from kfmaps.geometry.geodesics import geodesic_distance_pairs
 from kfmaps.geometry.mesh import Mesh, check_is_mesh, face_areas, surface_area, vertex_areas, vertex_normals
+from kfmaps.geometry.surface_points import surface_point_distances
 
 
 @dataclass(frozen=True, eq=False)

@@ -15,7 +15,8 @@ from kfmaps._arrays import Array, check, namespace, refuse, to_numpy
 from kfmaps._threads import parallel
 from kfmaps.fmap.nearest import EXACT_PAIRS, nearest
 from kfmaps.geometry.basis import Basis
-from kfmaps.geometry.closest_points import VertexRings, closest_points, closest_weights, vertex_rings
+from kfmaps.geometry.closest_points import barycentric_weights, closest_points, closest_weights, first_minima
+from kfmaps.geometry.connectivity import VertexRings, vertex_rings
 from kfmaps.geometry.mesh import Mesh
 
 BLOCK = 256
@@ -204,12 +205,8 @@ def _settled(
     a, b, c = away[entry.reshape(-1, 3)].T
     ab, ac, bc = lengths[candidates].T
     s, t, gain = closest_weights(ab, (ab + ac - bc) / 2, ac, (a + ab - b) / 2, (a + ac - c) / 2)
-    first = np.flatnonzero(np.diff(owner, prepend=-1))
-    least = np.minimum.reduceat(a - gain, first)
-    hits = np.flatnonzero(a - gain == np.repeat(least, np.diff(np.append(first, len(owner)))))
-    hits = hits[np.flatnonzero(np.diff(owner[hits], prepend=-1))]
-    weights = np.clip(np.stack([1 - s[hits] - t[hits], s[hits], t[hits]], axis=1), 0, 1)
-    return candidates[hits], weights / weights.sum(axis=1, keepdims=True)
+    hits = first_minima(a - gain, owner)
+    return candidates[hits], barycentric_weights(s[hits], t[hits])
 
 
 def _among_neighbours(

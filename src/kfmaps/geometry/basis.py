@@ -11,6 +11,7 @@ from scipy.sparse import coo_array, csc_array
 
 from kfmaps._arrays import Array, MissingDependency, check_count, refuse, to_numpy
 from kfmaps.geometry.clean import clean_mesh
+from kfmaps.geometry.connectivity import proper_faces
 from kfmaps.geometry.eigen.eigensolver import EXACT, smallest_eigenpairs
 from kfmaps.geometry.eigen.factorization import Sparse
 from kfmaps.geometry.mesh import Mesh, check_is_mesh, vertex_areas
@@ -107,7 +108,7 @@ def cotangent_laplacian(mesh: Mesh) -> csc_array:
     out.
     """
     n = len(mesh.vertices)
-    faces = mesh.faces[_proper(mesh.faces)]
+    faces = mesh.faces[proper_faces(mesh.faces)]
     halves, thin = [], np.zeros(len(faces), dtype=bool)
     for corner in range(3):
         tip, i, j = (faces[:, (corner + step) % 3] for step in range(3))
@@ -140,11 +141,6 @@ def _mollified(corners: np.ndarray) -> np.ndarray:
     squares = (opposite + MIN_ANGLE_RATIO * longest).T ** 2
     above = np.roll(squares, 1, axis=0) + np.roll(squares, -1, axis=0) - squares
     return np.divide(above, 8 * area, out=np.zeros_like(above), where=area > 0)
-
-
-def _proper(faces: np.ndarray) -> np.ndarray:
-    """Which faces have three different corners, (f,)."""
-    return (faces != np.roll(faces, 1, axis=1)).all(axis=1)
 
 
 def _operators(mesh: Mesh, laplacian: str) -> tuple[Sparse, np.ndarray]:

@@ -10,12 +10,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
 from scipy.spatial import KDTree
 
+from kfmaps.geometry.connectivity import boundary_edges, component_labels, proper_faces, unique_vertices
 from kfmaps.geometry.mesh import Mesh, face_areas
-from kfmaps.geometry.places import unique_vertices
 
 SPECK = 0.005
 """Area of a component, over that of the largest, below which it is a speck: what one of 200 samples stands for."""
@@ -63,14 +61,9 @@ def weld_vertices(mesh: Mesh) -> np.ndarray:
     n = len(mesh.vertices)
     if len(mesh.faces) == 0:
         return unique_vertices(mesh.vertices)
-    faces = mesh.faces[_proper(mesh.faces)]
-    tail, head = faces.ravel(), faces[:, [1, 2, 0]].ravel()
-    edges = np.sort(np.minimum(tail, head) * n + np.maximum(tail, head))
-    if len(edges) % 2 == 0 and (edges[::2] == edges[1::2]).all():  # each is there twice, as of a closed surface
+    ends = boundary_edges(mesh.faces[proper_faces(mesh.faces)], n)
+    if len(ends) == 0:
         return np.arange(n)
-    starts = np.flatnonzero(np.diff(edges, prepend=-1))
-    edges = edges[starts[np.diff(starts, append=len(edges)) == 1]]
-    ends = np.stack([edges // n, edges % n], axis=1)
     rim = np.unique(ends)
     place = np.arange(n)
     place[rim] = rim[unique_vertices(mesh.vertices[rim])]
@@ -86,16 +79,9 @@ def weld_vertices(mesh: Mesh) -> np.ndarray:
     if not same.any():
         return result
     a, b = ends[:-1][same].ravel(), ends[1:][same].ravel()
-    graph = coo_array((np.ones(len(a), dtype=bool), (a, b)), shape=(n, n))
-    _, group = connected_components(graph, directed=False)
+    _, group = component_labels(n, a, b)
     first = np.unique(group, return_index=True)[1]
     return first[group].astype(np.int64)
-
-
-def _proper(faces: np.ndarray) -> np.ndarray:
-    """Which faces name three vertices, (f,) bool."""
-    a, b, c = faces.T
-    return (a != b) & (b != c) & (c != a)
 
 
 def clean_mesh(mesh: Mesh, specks: bool = False) -> CleanedMesh:
@@ -117,7 +103,7 @@ def clean_mesh(mesh: Mesh, specks: bool = False) -> CleanedMesh:
         used = np.ones(n, dtype=bool)
     else:
         faces = first[mesh.faces]
-        faces = faces[_proper(faces)]
+        faces = faces[proper_faces(faces)]
         gone = 0
         if specks:
             keep, gone = _no_speck(Mesh(mesh.vertices, faces))
@@ -152,8 +138,7 @@ def outer_faces(mesh: Mesh, part: CleanedMesh) -> np.ndarray:
 def _no_speck(mesh: Mesh) -> tuple[np.ndarray, int]:
     """Which faces lie on no speck, (f,) bool, and how many specks there are."""
     n, faces = len(mesh.vertices), mesh.faces
-    graph = coo_array((np.ones(3 * len(faces), dtype=bool), (faces.ravel(), np.roll(faces, 1, axis=1).ravel())), (n, n))
-    count, label = connected_components(graph, directed=False)
+    count, label = component_labels(n, faces.ravel(), np.roll(faces, 1, axis=1).ravel())
     piece = label[faces[:, 0]]
     areas = np.bincount(piece, face_areas(mesh), minlength=count)
     speck = areas < SPECK * areas.max(initial=0.0)

@@ -9,6 +9,7 @@ from scipy.sparse import csr_array
 
 from kfmaps._arrays import check_count
 from kfmaps.geometry.clean import weld_vertices
+from kfmaps.geometry.connectivity import proper_faces
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.geometry.point_cloud import cloud_edges
 
@@ -178,7 +179,7 @@ def geodesic_graph(mesh: Mesh, depth: int = 4) -> csr_array:
     else:
         a, b = _edges(f, n)
         links.append((a, b, np.linalg.norm(v[a] - v[b], axis=1)))
-        faces = f[(f != np.roll(f, 1, axis=1)).all(axis=1)]
+        faces = f[proper_faces(f)]
         start, twins = _neighbours(faces) if depth else (np.zeros(1), np.zeros(0))
         for chunk in range(0, 3 * len(faces) if depth else 0, CHUNK):
             windows = _first_windows(v, faces, np.arange(chunk, min(chunk + CHUNK, 3 * len(faces))))

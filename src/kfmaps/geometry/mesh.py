@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from kfmaps._arrays import KfmapsWarning, check, refuse, shown
+from kfmaps.geometry.connectivity import boundary_edges
 from kfmaps.geometry.point_cloud import cloud_areas
 
 
@@ -50,7 +51,8 @@ def _face_vectors(mesh: Mesh) -> np.ndarray:
     return np.cross(b - a, c - a)
 
 
-def _unit_rows(vectors: np.ndarray) -> np.ndarray:
+def unit_rows(vectors: np.ndarray) -> np.ndarray:
+    """Return ``vectors (m, d)`` scaled to unit length, zero where they are zero."""
     length = np.linalg.norm(vectors, axis=1, keepdims=True)
     return np.divide(vectors, length, out=np.zeros_like(vectors), where=length > 0)
 
@@ -62,7 +64,7 @@ def face_areas(mesh: Mesh) -> np.ndarray:
 
 def face_normals(mesh: Mesh) -> np.ndarray:
     """Unit normal of each face, (f, 3); zero for a face without area."""
-    return _unit_rows(_face_vectors(mesh))
+    return unit_rows(_face_vectors(mesh))
 
 
 def surface_area(mesh: Mesh) -> float:
@@ -89,7 +91,14 @@ def vertex_normals(mesh: Mesh) -> np.ndarray:
     vectors = _face_vectors(mesh)
     corners = mesh.faces.ravel()
     summed = [np.bincount(corners, np.repeat(v, 3), minlength=len(mesh.vertices)) for v in vectors.T]
-    return _unit_rows(np.stack(summed, axis=1))
+    return unit_rows(np.stack(summed, axis=1))
+
+
+def boundary_vertices(mesh: Mesh) -> np.ndarray:
+    """Return which vertices (n,) lie on an edge that only one face has."""
+    result = np.zeros(len(mesh.vertices), dtype=bool)
+    result[boundary_edges(mesh.faces, len(result))] = True
+    return result
 
 
 MIRROR = np.array([-1.0, 1.0, 1.0])

@@ -5,12 +5,12 @@ from __future__ import annotations
 import numpy as np
 import robust_laplacian
 from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components, minimum_spanning_tree
+from scipy.sparse.csgraph import minimum_spanning_tree
 from scipy.spatial import Delaunay, KDTree
 
 from kfmaps._arrays import refuse
+from kfmaps.geometry.connectivity import component_labels, unique_vertices
 from kfmaps.geometry.eigen.factorization import Sparse
-from kfmaps.geometry.places import unique_vertices
 
 AROUND = 30
 """Neighbours of a point that its piece of the surface is triangulated from."""
@@ -69,8 +69,7 @@ def cloud_edges(points: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]
     length, index = KDTree(points).query(points, k=min(NEIGHBOURS + 1, n))  # each point is one of its own
     length, index = np.reshape(length, (n, -1)), np.reshape(index, (n, -1))
     a, b, length = np.repeat(np.arange(n), index.shape[1]), index.ravel(), length.ravel()
-    graph = coo_array((np.ones(len(a), dtype=bool), (a, b)), shape=(n, n))
-    pieces, piece = connected_components(graph, directed=False)
+    pieces, piece = component_labels(n, a, b)
     if pieces == 1:
         return a, b, length
     c, d, gap = _bridges(points, pieces, piece)

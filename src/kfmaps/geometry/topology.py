@@ -5,12 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
 
 from kfmaps.geometry.clean import weld_vertices
+from kfmaps.geometry.connectivity import component_labels, proper_faces, unique_vertices
 from kfmaps.geometry.mesh import Mesh, face_areas
-from kfmaps.geometry.places import unique_vertices
 
 
 @dataclass(frozen=True)
@@ -73,15 +71,6 @@ class Topology:
         return self.nonmanifold_edges == 0 and self.nonmanifold_vertices == 0
 
 
-def component_labels(count: int, a: np.ndarray, b: np.ndarray) -> tuple[int, np.ndarray]:
-    """Connected components of the graph with links a[i] - b[i] on ``count`` nodes: how many, and labels."""
-    if count == 0:
-        return 0, np.zeros(0, dtype=np.int64)
-    graph = coo_array((np.ones(len(a), dtype=bool), (a, b)), shape=(count, count))
-    number, labels = connected_components(graph, directed=False)
-    return int(number), labels
-
-
 def topology(mesh: Mesh) -> Topology:
     """Count components, boundaries, handles and defects of ``mesh``.
 
@@ -92,7 +81,7 @@ def topology(mesh: Mesh) -> Topology:
     """
     n = len(mesh.vertices)
     corners = weld_vertices(mesh)[mesh.faces]
-    repeated = (corners == np.roll(corners, 1, axis=1)).any(axis=1)
+    repeated = ~proper_faces(corners)
     areas = face_areas(mesh)
     flat = areas <= 1e-14 * areas.max(initial=0.0)
     faces = corners[~repeated]

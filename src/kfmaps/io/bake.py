@@ -6,12 +6,11 @@ import io
 
 import numpy as np
 from scipy.ndimage import distance_transform_edt
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
 
 from kfmaps._arrays import refuse
 from kfmaps.fmap.precise import PointMap, point_positions
 from kfmaps.geometry.closest_points import closest_points
+from kfmaps.geometry.connectivity import component_labels
 from kfmaps.io.record import MeshFile, Picture
 
 SMALLEST, LARGEST = 1024, 4096
@@ -103,9 +102,7 @@ def texels_of(corners: np.ndarray, size: int) -> tuple[np.ndarray, np.ndarray, n
 
 def charts(uv_faces: np.ndarray, count: int) -> np.ndarray:
     """Numbers (f,) of the connected pieces of an atlas with ``count`` coordinates that faces ``(f, 3)`` lie in."""
-    ends = (uv_faces[:, [0, 1]].ravel(), uv_faces[:, [1, 2]].ravel())
-    links = coo_array((np.ones(len(ends[0])), ends), shape=(count, count))
-    return connected_components(links, directed=False)[1][uv_faces[:, 0]]
+    return component_labels(count, uv_faces[:, [0, 1]].ravel(), uv_faces[:, [1, 2]].ravel())[1][uv_faces[:, 0]]
 
 
 def side_of(picture: np.ndarray) -> int:

@@ -7,8 +7,8 @@ import re
 import numpy as np
 
 from kfmaps._arrays import check, refuse
+from kfmaps.geometry.connectivity import unique_vertices
 from kfmaps.geometry.mesh import Mesh
-from kfmaps.geometry.topology import unique_vertices
 from kfmaps.io.record import MeshFile
 from kfmaps.io.text import REPAIR, clean_text, parse_rows, table
 

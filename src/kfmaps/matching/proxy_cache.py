@@ -5,8 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cached_property
 
+from kfmaps.geometry.coarsen import CoarseProxy
 from kfmaps.matching.sample_pair import SamplePair
-from kfmaps.registration.deformation_energy import MORE, CoarseProxy, FacingPair, coarse_copy, facing_pair
+from kfmaps.registration.deformation_energy import MORE, FacingPair, coarse_copy, facing_pair
 from kfmaps.registration.registered_shot import ShotPair, shot_pair
 from kfmaps.shape import Shape, mirror_image
 

@@ -18,9 +18,9 @@ from kfmaps._progress import Done
 from kfmaps.fmap.descriptor_guidance import DescriptorGuidance, combine_guidance
 from kfmaps.fmap.refine import ZoomOut
 from kfmaps.geometry.basis import Basis
+from kfmaps.geometry.coarsen import CoarseProxy
 from kfmaps.geometry.mesh import Mesh, vertex_areas, vertex_normals
 from kfmaps.geometry.sampling import SampledBasis
-from kfmaps.registration.deformation_energy import CoarseProxy
 from kfmaps.registration.nonrigid_icp import NonRigid
 from kfmaps.shape import Shape
 

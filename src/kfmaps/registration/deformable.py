@@ -9,10 +9,10 @@ from scipy.sparse import csr_array, diags_array
 from scipy.spatial import KDTree
 
 from kfmaps.geometry.arap import ArapEnergy, build_arap, nearest_rotations, rotations
-from kfmaps.geometry.closest_points import ClosestPoints, VertexRings, closest_among, vertex_rings
+from kfmaps.geometry.closest_points import ClosestPoints, closest_among
+from kfmaps.geometry.connectivity import VertexRings, component_labels, vertex_rings
 from kfmaps.geometry.eigen.factorization import Solve, factorize
-from kfmaps.geometry.mesh import Mesh, vertex_areas, vertex_normals
-from kfmaps.geometry.topology import component_labels
+from kfmaps.geometry.mesh import Mesh, unit_rows, vertex_areas, vertex_normals
 from kfmaps.registration.data_terms import DataTerm, descend
 
 NORMALS = 0.02
@@ -43,7 +43,7 @@ class ClosestPointQuery:
         """Places of ``points (q, 3)`` with ``normals``, the normals there, and how well they agree, 0 to 1."""
         near = self.tree.query(np.hstack([points, NORMALS * normals]))[1]
         found = closest_among(points, self.vertices, self.faces, *self.around.around(near))
-        there = _unit(np.einsum("qi,qij->qj", found.weights, self.normals[self.faces[found.faces]]))
+        there = unit_rows(np.einsum("qi,qij->qj", found.weights, self.normals[self.faces[found.faces]]))
         cosine = np.einsum("qi,qi->q", there, normals)
         return found, there, np.clip((cosine - AGREEMENT) / (1 - AGREEMENT), 0.0, 1.0)
 
@@ -116,7 +116,7 @@ def initial_deformation(
     share = rows.T @ weights
     _take_along(body.mesh, share, gathered)
     smooth = factorize(SMOOTH * energy.laplacian + diags_array(share), ordered=False)(gathered)
-    x, wanted = np.ascontiguousarray(smooth[:, :3]), _unit(smooth[:, 3:])
+    x, wanted = np.ascontiguousarray(smooth[:, :3]), unit_rows(smooth[:, 3:])
     solve = body.solver(START, 1.0)
     for round in range(INITIAL_STEPS):
         agreement = np.einsum("ij,ij->i", vertex_normals(Mesh(x, body.mesh.faces)), wanted)
@@ -147,7 +147,3 @@ def _take_along(mesh: Mesh, share: np.ndarray, gathered: np.ndarray) -> None:
     moved = gathered[beside, :3] / share[beside, None] - mesh.vertices[beside]
     gathered[lost] = np.hstack([mesh.vertices[lost] + moved, vertex_normals(mesh)[lost]])
     share[lost] = 1.0
-
-
-def _unit(rows: np.ndarray) -> np.ndarray:
-    return rows / np.maximum(np.linalg.norm(rows, axis=1, keepdims=True), 1e-12)

@@ -8,7 +8,7 @@ possible (:mod:`kfmaps.registration.nonrigid_icp`), both in coarse copies, and t
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -16,8 +16,7 @@ from kfmaps._arrays import NotConverged, to_numpy
 from kfmaps.fmap.convert import nearest
 from kfmaps.geometry.arap import arap_energy as whole_energy
 from kfmaps.geometry.arap import arap_energy_per_vertex
-from kfmaps.geometry.coarsen import coarsen
-from kfmaps.geometry.mesh import Mesh, mirror_mesh
+from kfmaps.geometry.coarsen import CoarseProxy, coarse_proxy
 from kfmaps.geometry.sampling import stratified_vertices
 from kfmaps.registration.deformable import closest_point_query, deformable_mesh
 from kfmaps.registration.nonrigid_icp import MeshPair, NonRigid, mesh_pair
@@ -38,41 +37,13 @@ TINY = 1e-12
 """Area of a vertex that has none."""
 
 
-@dataclass(frozen=True, eq=False)
-class CoarseProxy:
-    """A coarse copy of a shape; made by :func:`coarse_copy`.
-
-    Attributes
-    ----------
-    mesh : Mesh
-    vertices : (q,) int64
-        The shape's vertex of each of its vertices.
-    """
-
-    mesh: Mesh
-    vertices: np.ndarray
-
-    def mirrored(self) -> CoarseProxy:
-        """Of the mirror image."""
-        return replace(self, mesh=mirror_mesh(self.mesh))
-
-
 def coarse_copy(shape: Shape, points: int = POINTS) -> CoarseProxy | None:
     """A coarse copy of a shape with so many ``points``; ``None`` where it has no faces, or too few."""
     if len(shape.mesh.faces) < FEWEST:
         return None
-    vertices = np.arange(len(shape.mesh.vertices))
-    mesh = shape.mesh
-    if len(vertices) > points:
-        vertices = stratified_vertices(shape.basis, points, 0)
-        mesh = coarsen(shape.mesh, vertices)
-    # Thin parts may lose their faces, and a point that no face uses bends with nothing.
-    used = np.unique(mesh.faces)
-    if len(mesh.faces) < FEWEST:
-        return None
-    number = np.full(len(vertices), -1, dtype=np.int64)
-    number[used] = np.arange(len(used))
-    return CoarseProxy(Mesh(mesh.vertices[used], number[mesh.faces]), vertices[used])
+    n = len(shape.mesh.vertices)
+    copy = coarse_proxy(shape.mesh, stratified_vertices(shape.basis, points, 0) if n > points else np.arange(n))
+    return None if len(copy.mesh.faces) < FEWEST else copy
 
 
 @dataclass(frozen=True)

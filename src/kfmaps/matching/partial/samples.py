@@ -11,7 +11,7 @@ from kfmaps.descriptors.shot import shot
 from kfmaps.geometry.coarsen import coarsen
 from kfmaps.geometry.geodesic_graph import geodesic_graph
 from kfmaps.geometry.geodesics import farthest_geodesic
-from kfmaps.geometry.mesh import Mesh
+from kfmaps.geometry.mesh import Mesh, boundary_vertices
 from kfmaps.geometry.sampling import stratified
 
 LARGE = 20_000
@@ -56,16 +56,6 @@ class PartSamples:
             found = shot(self.mesh, radius, at=self.samples, samples=DENSITY, threads=threads)
             self.known[radius] = found.astype(np.float32)
         return self.known[radius]
-
-
-def boundary_vertices(mesh: Mesh) -> np.ndarray:
-    """Which vertices (n,) lie on the boundary: on an edge that only one face has."""
-    f = mesh.faces
-    ends = np.sort(np.concatenate([f[:, [0, 1]], f[:, [1, 2]], f[:, [2, 0]]]), axis=1)
-    edges, count = np.unique(ends, axis=0, return_counts=True)
-    on = np.zeros(len(mesh.vertices), dtype=bool)
-    on[edges[count == 1]] = True
-    return on
 
 
 def part_samples(mesh: Mesh, count: int, landmarks: np.ndarray | None = None, rng: int = 0) -> PartSamples:

@@ -8,11 +8,11 @@ from kfmaps import datasets
 from kfmaps._arrays import InvalidInput
 from kfmaps.fmap.evaluate import geodesic_errors, precise_errors, smoothness
 from kfmaps.fmap.precise import PointMap, point_positions, vertex_point_map
-from kfmaps.geometry.between import surface_point_distances
 from kfmaps.geometry.geodesics import geodesic_distance_pairs
 from kfmaps.geometry.mesh import Mesh, surface_area
+from kfmaps.geometry.surface_points import surface_point_distances
 
-GUARDS = ("kfmaps.fmap.evaluate", "kfmaps.fmap.precise", "kfmaps.geometry.between")
+GUARDS = ("kfmaps.fmap.evaluate", "kfmaps.fmap.precise", "kfmaps.geometry.surface_points")
 
 
 def plane(rng: np.random.Generator, n: int = 600) -> Mesh:

@@ -8,8 +8,9 @@ from scipy.sparse.csgraph import connected_components, dijkstra
 
 from kfmaps._arrays import check, refuse
 from kfmaps.geometry.clean import weld_vertices
+from kfmaps.geometry.connectivity import proper_faces
 from kfmaps.geometry.geodesic_graph import _cross, _crossed, _neighbours, _Windows, geodesic_graph
-from kfmaps.geometry.mesh import Mesh
+from kfmaps.geometry.mesh import Mesh, unit_rows
 
 LOOKS = 4
 """Edges that a straight line from a point to a vertex may cross."""
@@ -62,7 +63,7 @@ def surface_point_distances(
     if q == 0:
         return np.zeros(0)
     # Faces that name a vertex twice are lines: crossing them leads nowhere.
-    whole = np.flatnonzero((faces != np.roll(faces, 1, axis=1)).all(axis=1))
+    whole = np.flatnonzero(proper_faces(faces))
     start, twins = _neighbours(faces[whole])
     number = np.full(len(faces), -1)
     number[whole] = np.arange(len(whole))
@@ -111,8 +112,8 @@ def _views(
     corners = faces[chosen]
     a = vertices[corners[:, 1]] - vertices[corners[:, 0]]
     normal = np.cross(a, vertices[corners[:, 2]] - vertices[corners[:, 0]])
-    one = _unit(a)
-    two = np.cross(_unit(normal), one)
+    one = unit_rows(a)
+    two = np.cross(unit_rows(normal), one)
     gap = vertices[corners] - points[:, None]
     flat = np.stack([np.einsum("mij,mj->mi", gap, one), np.einsum("mij,mj->mi", gap, two)], axis=2)
     rows = [[], [], [], [], [], []]
@@ -125,10 +126,6 @@ def _views(
     source, edge, right, left, right_at, left_at = (np.concatenate(row) for row in rows)
     seen = _cross(right_at, left_at) > 0
     return _Windows(source, edge, right, left, right_at, left_at, right_at, left_at)[seen]
-
-
-def _unit(rows: np.ndarray) -> np.ndarray:
-    return rows / np.maximum(np.linalg.norm(rows, axis=1, keepdims=True), np.finfo(float).tiny)
 
 
 def _met(
