@@ -48,7 +48,7 @@ def readable(
 
 def skipped(_app: Sphinx, what: str, name: str, obj: Any, skip: bool, _options: Any) -> bool | None:
     """Leave constants out of modules, and names that the reference has as ``kfmaps.NAME``."""
-    if what == "module" and (name in kfmaps.__all__ or not callable(obj)):
+    if what == "module" and (getattr(kfmaps, name, None) is obj or not callable(obj)):
         return True
     return skip or None
 
