@@ -237,7 +237,7 @@ def epoch(data: Data) -> None:
     for a, b in pairs:
         true = data.truth(a), data.truth(b)
         marks = np.stack([side[FAUST_LINES] for side in true], axis=1)
-        lessons.append(learn.lesson(data.shape(a), data.shape(b), config, landmarks=marks, truth=true))
+        lessons.append(learn.training_pair(data.shape(a), data.shape(b), config, landmarks=marks, truth=true))
     model = learn.Model(config, lessons, ["gamma", "ard", "terms"])
     clock = (time.process_time(), time.perf_counter())
     moments: list[tuple[float, float]] = []
@@ -245,7 +245,7 @@ def epoch(data: Data) -> None:
     def keep(_state: object) -> None:
         moments.append((time.process_time() - clock[0], time.perf_counter() - clock[1]))
 
-    learn.learn(model, lessons, [], learn.Training(epochs=1), keep=keep)
+    learn.learn(model, lessons, [], learn.TrainingOptions(epochs=1), on_epoch=keep)
     cpu, wall = (after - before for after, before in zip(moments[1], moments[0], strict=True))
     points = len(lessons[0].descriptors_s)
     print(f"epoch of {len(lessons)} pairs, k = 50, {points} points: {cpu:.1f} CPU s on one thread, {wall:.1f} s")
@@ -297,16 +297,16 @@ def starts(data: Data, names: list[str]) -> None:
                 config, **{part: replace(getattr(config, part), **{field: value})} if part else {field: value}
             )
 
-        def lesson(a: str, b: str, config: kfmaps.Config = config) -> learn.Lesson:
+        def lesson(a: str, b: str, config: kfmaps.Config = config) -> learn.TrainingPair:
             true = data.truth(a), data.truth(b)
             marks = np.stack([side[FAUST_LINES] for side in true], axis=1)
-            return learn.lesson(data.shape(a), data.shape(b), config, landmarks=marks, truth=true)
+            return learn.training_pair(data.shape(a), data.shape(b), config, landmarks=marks, truth=true)
 
         model = learn.Model(
             config, [lesson(*p) for p in drawn(range(2), 8, 1)], ["metric", "gamma", "terms"], rank=rank
         )
         solver, judged = CG(3e-4, 300), [lesson(*p) for p in drawn(range(2, 4), 6, 2)]
-        errors = [100 * learn.point_error(model, one, solver=solver, compression=0.05) for one in judged]
+        errors = [100 * learn.point_error(model, one, solver=solver, operator_rtol=0.05) for one in judged]
         print(f"| {name} | {np.mean(errors):.2f} | {', '.join(f'{e:.2f}' for e in errors)} |", flush=True)
 
 

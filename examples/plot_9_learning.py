@@ -35,15 +35,15 @@ def creature(number):
 # each descriptor, and the weights of the energy's terms, so that the expected error of the map falls on two pairs; the
 # third tells when to stop.
 
-lessons = []
+pairs = []
 for number in (1, 2, 3):
     source, target, made, landmarks = creature(number)
     truth = (made.truth, range(len(made.truth)))
-    lessons.append(kfmaps.learn.lesson(source, target, config, landmarks=landmarks, truth=truth, samples=60))
+    pairs.append(kfmaps.learn.training_pair(source, target, config, landmarks=landmarks, truth=truth, samples=60))
 
-model = kfmaps.learn.Model(config, lessons[:2], ["gamma", "ard", "terms"])
-training = kfmaps.learn.Training(epochs=8, batch=2, rate=0.1)
-state = kfmaps.learn.learn(model, lessons[:2], lessons[2:], training)
+model = kfmaps.learn.Model(config, pairs[:2], ["gamma", "ard", "terms"])
+training = kfmaps.learn.TrainingOptions(epochs=8, batch=2, rate=0.1)
+state = kfmaps.learn.learn(model, pairs[:2], pairs[2:], training)
 learned = model.settings()
 print(learned.kernel, learned.weights, sep="\n")
 

@@ -32,7 +32,7 @@ def difference(a: np.ndarray, b: np.ndarray) -> Interval:
 
 
 def ratio(a: np.ndarray, b: np.ndarray) -> Interval:
-    """Return ``mean(a) / mean(b)`` with its interval; see :func:`shot_difference`."""
+    """Return ``mean(a) / mean(b)`` with its interval; see :func:`difference`."""
     return _interval(a, b, lambda x, y, axis: x.mean(axis) / y.mean(axis))
 
 

@@ -1,7 +1,7 @@
 """Learning: it starts as the settings that it was given, what it learned is what a match then uses, and it resumes."""
 
 import sys
-from dataclasses import replace
+from dataclasses import fields, replace
 from typing import Any
 
 import numpy as np
@@ -22,20 +22,22 @@ from kfmaps.shape import prepare
 
 torch = pytest.importorskip("torch")
 
+from kfmaps.cli.commands import learn as learn_command  # noqa: E402
 from kfmaps.fmap.solvers import CG  # noqa: E402
 from kfmaps.learn import (  # noqa: E402
     LOSSES,
     Model,
-    Training,
+    TrainingOptions,
     functional_map,
     learn,
     learning_figure,
-    lesson,
     load,
     pair_loss,
     point_error,
     save,
+    training_pair,
 )
+from kfmaps.learn import PARTS as PARTS_OF_MODEL  # noqa: E402
 from kfmaps.learn.model import columns  # noqa: E402
 
 CONFIG = replace(
@@ -48,7 +50,7 @@ CONFIG = replace(
 )
 EXACT = CG(rtol=1e-12, max_steps=500)
 SIZES = ((150, 0.0), (130, 0.9), (140, 2.0))
-QUICK = Training(epochs=3, batch=2, patience=3, solver=CG(1e-8, 300), compression=0.0)
+QUICK = TrainingOptions(epochs=3, batch=2, patience=3, solver=CG(1e-8, 300), operator_rtol=0.0)
 
 
 @pytest.fixture(scope="module")
@@ -66,7 +68,7 @@ def taught(shapes, a, b, config=CONFIG, truth=True, landmarks=2):
     known = partners(a, b)
     marks = np.array([[known[v], v] for v in (5, 120)])[:landmarks]
     sides = (known, np.arange(len(known))) if truth else None
-    return lesson(shapes[a], shapes[b], config, landmarks=marks, truth=sides, samples=40)
+    return training_pair(shapes[a], shapes[b], config, landmarks=marks, truth=sides, samples=40)
 
 
 @pytest.fixture(scope="module")
@@ -92,7 +94,7 @@ def test_what_is_learned_is_what_the_settings_say(parts, lessons):
     model = shaken(Model(CONFIG, lessons, parts, rank=3))
     D_s, D_t = lessons[0].descriptors_s, lessons[0].descriptors_t
     with torch.no_grad():
-        found = model.matrix(model.lift(D_t), model.lift(D_s))
+        found = model.kernel_matrix(model.transform(D_t), model.transform(D_s))
     config = model.settings()
     np.testing.assert_allclose(found, kernel_matrix(config.kernel, D_t.numpy(), D_s.numpy()), rtol=1e-10, atol=1e-14)
     assert ("terms" in parts) == (config.weights != CONFIG.weights)
@@ -103,7 +105,7 @@ def test_it_begins_as_the_settings_it_was_given(lessons):
     kernel = resolve_kernel(CONFIG.kernel, lessons[0].samples.numpy(), CONFIG.sharpness)
     D = lessons[0].descriptors_s
     with torch.no_grad():
-        np.testing.assert_allclose(model.matrix(D, D), kernel_matrix(kernel, D.numpy(), D.numpy()), rtol=1e-12)
+        np.testing.assert_allclose(model.kernel_matrix(D, D), kernel_matrix(kernel, D.numpy(), D.numpy()), rtol=1e-12)
     assert model.settings().weights.descriptors == pytest.approx(CONFIG.weights.descriptors)
 
 
@@ -113,7 +115,7 @@ def test_the_map_is_that_of_a_match(formulation, shapes):
     base = replace(CONFIG, formulation=formulation)
     known = partners(0, 1)
     marks = np.array([[known[v], v] for v in (5, 120)])
-    each = lesson(shapes[0], shapes[1], base, landmarks=marks, samples=200)
+    each = training_pair(shapes[0], shapes[1], base, landmarks=marks, samples=200)
     model = shaken(Model(base, [each], ["ard", "terms"]))
     with torch.no_grad():
         C = functional_map(model, each, EXACT)
@@ -175,9 +177,9 @@ def test_metric_starts_where_corresponding_points_agree(lessons):
     assert size[0] < 0.2 * size[1:].max()
     block = list(model.columns.blocks[0])
     gaps = [
-        x.descriptors_s[x.known.rows_s][:, block] - x.descriptors_t[x.known.rows_t][:, block]
+        x.descriptors_s[x.truth.points_s][:, block] - x.descriptors_t[x.truth.points_t][:, block]
         for x in noisy
-        if x.known is not None
+        if x.truth is not None
     ]
     between = M @ np.mean([(g.T @ g).numpy() / len(g) for g in gaps], axis=0) @ M.T
     # with the ridge, the same number for all rows, they are of unit variance and uncorrelated
@@ -194,8 +196,14 @@ def test_the_rate_falls_to_zero(lessons):
     for falling in (True, False):
         model = Model(CONFIG, lessons, ["gamma"])
         seen = []
-        many = replace(QUICK, epochs=6, batch=4, patience=9, falling=falling, rate=0.3)
-        learn(model, lessons, [], many, keep=lambda state, seen=seen: seen.append(float(state.parameters["log_gamma"])))
+        many = replace(QUICK, epochs=6, batch=4, patience=9, cosine_decay=falling, rate=0.3)
+        learn(
+            model,
+            lessons,
+            [],
+            many,
+            on_epoch=lambda state, seen=seen: seen.append(float(state.parameters["log_gamma"])),
+        )
         moved[falling] = abs(seen[-1] - seen[-2])
     assert moved[True] < 0.3 * moved[False]
 
@@ -218,10 +226,10 @@ def test_it_learns_stops_and_resumes_alike(lessons, tmp_path):
 
     whole = learn(model(), lessons[:2], lessons[2:], QUICK)
     assert whole.history[-1].loss < whole.history[0].loss
-    assert whole.chosen.held_out <= whole.history[0].held_out
+    assert whole.best_epoch.held_out <= whole.history[0].held_out
     again = model()
     kept = []
-    first = learn(again, lessons[:2], lessons[2:], replace(QUICK, epochs=1), keep=kept.append)
+    first = learn(again, lessons[:2], lessons[2:], replace(QUICK, epochs=1), on_epoch=kept.append)
     assert [state.history[-1].number for state in kept] == [0, 1]
     file = tmp_path / "state.pt"
     save(file, first, settings_text(again.settings()), {"seed": 0})
@@ -249,9 +257,9 @@ def test_without_landmarks():
         search=Search(candidates=1, signs=0),
     )
     source, target = (prepare(blob(n, twist), config, name="blob") for n, twist in SIZES[:2])
-    each = lesson(source, target, config, samples=30)
+    each = training_pair(source, target, config, samples=30)
     model = Model(config, [each], ["metric"], rank=3)
-    learn(model, [each], [], Training({"coupling": 1.0}, epochs=1))
+    learn(model, [each], [], TrainingOptions({"coupling": 1.0}, epochs=1))
     found = match(source, target, model.settings())
     assert found.target_to_source.shape == (SIZES[1][0],)
     assert isinstance(found.config.kernel, Metric)
@@ -263,7 +271,7 @@ def test_patience(lessons):
     before = model.settings()
     state = learn(model, lessons[:1], lessons[1:2], replace(QUICK, epochs=9, rate=3.0, patience=1))
     assert len(state.history) < 9
-    if state.chosen.number == 0:
+    if state.best_epoch.number == 0:
         assert model.settings() == before
 
 
@@ -272,7 +280,7 @@ def test_a_number_that_is_none_stops_and_keeps_the_best(rate, lessons):
     model = Model(CONFIG, lessons, ["gamma", "ard", "terms"])
     kept = []
     with pytest.raises(NotConverged, match="the best so far, is kept"):
-        learn(model, lessons[:2], lessons[2:], replace(QUICK, rate=rate, epochs=20, patience=20), keep=kept.append)
+        learn(model, lessons[:2], lessons[2:], replace(QUICK, rate=rate, epochs=20, patience=20), on_epoch=kept.append)
     best = kept[-1].best
     assert all(bool(torch.isfinite(t).all()) for t in best.values())
     torch.testing.assert_close(dict(model.named_parameters())["log_terms"].detach(), best["log_terms"])
@@ -325,15 +333,16 @@ def test_pairs_must_be_alike(shapes, lessons):
     with pytest.raises(InvalidInput, match="equally many landmarks"):
         Model(CONFIG, [*lessons, taught(shapes, 0, 1, landmarks=1)], ["ard"])
     with pytest.raises(InvalidInput, match="truth of blob"):
-        lesson(shapes[0], shapes[1], CONFIG, truth=(np.arange(30), np.arange(31)))
+        training_pair(shapes[0], shapes[1], CONFIG, truth=(np.arange(30), np.arange(31)))
     with pytest.raises(InvalidInput, match="orientation"):
         taught(shapes, 0, 1, replace(CONFIG, weights=Weights(orientation=1.0)))
     with pytest.raises(InvalidInput, match="quadratic in one map"):
         taught(shapes, 0, 1, replace(CONFIG, formulation=Formulation(constraint="orthogonal")))
-    bad: list[dict[str, Any]] = [{"losses": {}}, {"losses": {"wits": 1.0}}, {"rate": 0.0}, {"epochs": 0}, {"decay": -1}]
+    bad: list[dict[str, Any]] = [{"losses": {}}, {"losses": {"wits": 1.0}}, {"rate": 0.0}, {"epochs": 0}]
+    bad += [{"start_penalty": -1}, {"seconds": 0.0}]
     for wrong in bad:
         with pytest.raises(InvalidInput, match="wanted"):
-            Training(**wrong)
+            TrainingOptions(**wrong)
 
 
 class Harmful:
@@ -360,7 +369,7 @@ def test_a_file_never_runs_anything(tmp_path, capsys):
 
 WORDS = (
     *("--basis", "12", "--descriptors", "10", "--set", "descriptors.eigenfunctions=30", "--samples", "60"),
-    *("--truth-landmarks", "6,121", "--pairs", "2", "--held-out-pairs", "1", "--refine", "none"),
+    *("--truth-landmarks", "6,121", "--training", "pairs=2", "--training", "held_out_pairs=1", "--refine", "none"),
     *("--shapes", "blob*", "--held-out", "blob0,blob1"),
 )
 
@@ -378,29 +387,33 @@ def folder(tmp_path):
 
 def test_command(folder, monkeypatch):
     out = folder / "kernel.toml"
-    words = ("learn", "--data", str(folder / "data"), "-o", str(out), *WORDS)
-    ran = run(*words, "--epochs", "1")
+    words = ("learn", str(folder / "data"), "-o", str(out), *WORDS, "--training")
+    ran = run(*words, "epochs=1")
     assert ran.status == 0, ran.stderr
     assert "held-out pairs" in ran.stdout
     assert sorted(p.name for p in folder.iterdir()) == ["data", "kernel.png", "kernel.pt", "kernel.toml"]
-    assert "a new file" in run(*words, "--epochs", "1").error
-    assert run(*words, "--epochs", "2", "--resume", "-q").status == 0
-    assert len(load(folder / "kernel.pt")[0].history) == 3
-    assert "another rate" in run(*words, "--resume", "--rate", "0.01").stderr
+    first = load(folder / "kernel.pt")[0]
+    assert run(*words, "epochs=2", "-q").status == 0
+    second = load(folder / "kernel.pt")[0]
+    assert second.history[:2] == first.history
+    assert len(second.history) == 3
+    assert "another --training" in run(*words, "rate=0.01").stderr
     config = read_settings(folder / "kernel.pt", Config.single_fit())
     monkeypatch.setitem(sys.modules, "torch", None)
     assert read_settings(out, Config.single_fit()) == config  # without PyTorch
     assert isinstance(config.kernel, Metric)
     with pytest.raises(MissingDependency, match=r"kfmaps\[learn\]"):
         read_settings(folder / "kernel.pt", Config.single_fit())
+    (folder / "kernel.pt").unlink()
+    assert "a new file" in run(*words, "epochs=1").error
 
 
 def test_command_without_truth(folder):
     for path in (folder / "data" / "corres").iterdir():
         path.unlink()
-    words = ("--data", str(folder / "data"), "-o", str(folder / "kernel.pt"), "--descriptors", "10", "--refine", "none")
-    small = ("--basis", "8", "--set", "descriptors.eigenfunctions=20", "--pairs", "1", "--held-out-pairs", "1")
-    ran = run("learn", *words, *small, "--held-out", "none", "--epochs", "1", "--no-shot", "--learn", "gamma")
+    words = (str(folder / "data"), "-o", str(folder / "kernel.pt"), "--descriptors", "10", "--refine", "none")
+    small = ("--basis", "8", "--set", "descriptors.eigenfunctions=20", "--training", "pairs=1")
+    ran = run("learn", *words, *small, "--held-out", "none", "--training", "epochs=1", "--no-shot", "--learn", "gamma")
     assert ran.status == 0, ran.stderr
     learned = read_settings(folder / "kernel.pt", Config.single_fit())
     assert isinstance(learned.kernel, Gaussian)
@@ -408,10 +421,19 @@ def test_command_without_truth(folder):
 
 
 def test_command_refuses(folder):
-    words = ("learn", "--data", str(folder / "data"), "-o", str(folder / "kernel.toml"))
+    words = ("learn", str(folder / "data"), "-o", str(folder / "kernel.toml"))
     assert "--shapes" in run(*words, "--shapes", "cat*").error
     assert "--loss" in run(*words, "--loss", "cycle=much").error
     assert "ends in .toml or .pt" in run(*words[:-1], str(folder / "kernel.txt")).error
-    assert "--resume" in run(*words, "--resume").error
-    assert "--rank" in run(*words, "--rank", "2,0,1").error
-    assert "--minutes" in run(*words, "--minutes", "0").error
+    for wrong in ("epochs=many", "epochs=2.5", "haste=1", "pairs=0"):
+        assert "--training" in run(*words, "--training", wrong).error
+    assert "--truth-landmarks" in run(*words, "--truth-landmarks", "0,5").error
+
+
+def test_help_names_what_the_library_has():
+    assert learn_command.PARTS.split(", ") == list(PARTS_OF_MODEL)
+    assert learn_command.LOSSES.split(", ") == list(LOSSES)
+    own = {field.name: field.default for field in fields(TrainingOptions)}
+    assert {name: own[name] for name in learn_command.NUMBERS if name in own} == {
+        name: value for name, value in learn_command.NUMBERS.items() if name not in ("pairs", "held_out_pairs", "rank")
+    }

@@ -25,9 +25,13 @@ GUARDS = ("kfmaps.kernels.transformed",)
 torch = pytest.importorskip("torch")
 
 from kfmaps.learn import losses  # noqa: E402
-from kfmaps.learn.energies import features, operators, pair_energy  # noqa: E402
-from kfmaps.learn.implicit import minimiser  # noqa: E402
-from kfmaps.learn.model import opened  # noqa: E402
+from kfmaps.learn.energy import (  # noqa: E402
+    differentiable_minimum,
+    nystrom_features,
+    operators,
+    pair_energy,
+)
+from kfmaps.learn.model import bind  # noqa: E402
 
 N_S, N_T, K_S, K_T, D = 10, 9, 4, 3, 2
 EXACT = CG(rtol=1e-13, max_steps=500)
@@ -56,7 +60,7 @@ def ground(source, target):
 def minimum(parts, weights, bases):
     ones, laplacian = ground(*bases)
     terms = {**parts, "ones": ones, "laplacian": laplacian}
-    return minimiser(Energy(terms, {**weights, "ones": 0.1, "laplacian": 0.5}), EXACT).C
+    return differentiable_minimum(Energy(terms, {**weights, "ones": 0.1, "laplacian": 0.5}), EXACT).C
 
 
 TERMS = {
@@ -89,13 +93,16 @@ def test_every_term_and_its_weight(name, case):
 
 KERNELS = {
     "linear": (lambda: Linear(), ()),
-    "polynomial": (lambda offset: opened(Polynomial(3, 0.5), offset=offset), (0.5,)),
-    "gaussian": (lambda gamma: opened(Gaussian(1.0), gamma=gamma), (0.4,)),
-    "laplacian": (lambda gamma: opened(Laplacian(1.0), gamma=gamma), (0.6,)),
-    "tanh": (lambda scale, offset: opened(Tanh(0.3, 0.1), scale=scale, offset=offset), (0.3, 0.1)),
-    "sum": (lambda gamma, a: Sum(opened(Gaussian(1.0), gamma=gamma), opened(Scaled(Linear()), factor=a)), (0.4, 0.2)),
+    "polynomial": (lambda offset: bind(Polynomial(3, 0.5), offset=offset), (0.5,)),
+    "gaussian": (lambda gamma: bind(Gaussian(1.0), gamma=gamma), (0.4,)),
+    "laplacian": (lambda gamma: bind(Laplacian(1.0), gamma=gamma), (0.6,)),
+    "tanh": (lambda scale, offset: bind(Tanh(0.3, 0.1), scale=scale, offset=offset), (0.3, 0.1)),
+    "sum": (
+        lambda gamma, a: Sum(bind(Gaussian(1.0), gamma=gamma), bind(Scaled(Linear()), factor=a)),
+        (0.4, 0.2),
+    ),
     "product": (
-        lambda gamma, offset: Product(opened(Laplacian(1.0), gamma=gamma), opened(Polynomial(2, 1.0), offset=offset)),
+        lambda gamma, offset: Product(bind(Laplacian(1.0), gamma=gamma), bind(Polynomial(2, 1.0), offset=offset)),
         (0.4, 0.8),
     ),
 }
@@ -125,8 +132,8 @@ def test_features_of_samples(name, case):
     build, numbers = KERNELS[name]
 
     def C(F, G, S, *numbers):
-        W = features(build(*numbers), F, G, S)
-        return minimiser(
+        W = nystrom_features(build(*numbers), F, G, S)
+        return differentiable_minimum(
             pair_energy(source, target, *W, {"descriptors": 2.0, "commutativity": 1.0, "laplacian": 0.5}), EXACT
         ).C
 
@@ -136,14 +143,14 @@ def test_features_of_samples(name, case):
 def test_features_reproduce_the_kernel_where_every_point_is_a_sample(case):
     _, _, F, G = case
     kernel = Gaussian(0.4)
-    W_s, W_t = features(kernel, F, G, torch.cat([F, G]))
+    W_s, W_t = nystrom_features(kernel, F, G, torch.cat([F, G]))
     np.testing.assert_allclose((W_t @ W_s.T).detach(), kernel(G, F).detach(), atol=1e-6)
 
 
 def test_the_map_is_that_of_the_other_solver(case):
     source, target, F, G = case
     energy = pair_energy(source, target, F, G, {"descriptors": 1.0, "commutativity": 1.0, "laplacian": 0.5})
-    found = minimiser(energy, EXACT)
+    found = differentiable_minimum(energy, EXACT)
     with torch.no_grad():
         wanted = solve(energy.apply, energy.rhs(), Direct()).value
     np.testing.assert_allclose(found.C.detach(), wanted, rtol=1e-9)
@@ -158,7 +165,7 @@ def test_memory_does_not_grow_with_the_iterations(case):
         kept = []
         with torch.autograd.graph.saved_tensors_hooks(lambda t: kept.append(t.numel()) or t, lambda t: t):
             energy = pair_energy(source, target, F, G, {"descriptors": 1.0, "commutativity": 1.0, "laplacian": 0.5})
-            found = minimiser(energy, solver)
+            found = differentiable_minimum(energy, solver)
         return sum(kept), found.solution.steps
 
     (few, short), (many, long) = held(CG(max_steps=1)), held(EXACT)
@@ -173,7 +180,7 @@ def test_compression_hardly_changes_the_gradient(case):
     spread = torch.cat([F, G[:, :1].mean() + 1e-4 * F], dim=1), torch.cat([G, G[:, :1].mean() + 1e-4 * G], dim=1)
     gradients = []
     for rtol in (0.0, 1e-6):
-        C = minimiser(pair_energy(source, target, *spread, weights, rtol), EXACT).C
+        C = differentiable_minimum(pair_energy(source, target, *spread, weights, rtol), EXACT).C
         gradients.append(torch.autograd.grad((C**2).sum(), F, retain_graph=True)[0])
     np.testing.assert_allclose(*gradients, rtol=1e-3, atol=1e-5)
 
@@ -182,7 +189,7 @@ def test_a_breakdown_is_told(case):
     source, target, F, G = case
     energy = pair_energy(source, target, F * float("nan"), G, {"descriptors": 1.0, "laplacian": 0.5})
     with pytest.raises((NotConverged, RuntimeError)):
-        minimiser(energy, EXACT)
+        differentiable_minimum(energy, EXACT)
 
 
 @pytest.mark.parametrize("name", ["supervised", "orthogonality", "cycle", "commutativity", "geodesic", "coupling"])
@@ -191,13 +198,13 @@ def test_losses(name, case, rng):
     wanted, back = torch.from_numpy(rng.normal(size=(K_T, K_S))), leaf(rng.normal(size=(K_S, K_T)))
     distances = torch.from_numpy(rng.random((N_T, N_S)))
     loss = {
-        "supervised": lambda C, _: losses.supervised(C, wanted),
-        "orthogonality": lambda C, _: losses.orthogonality(C),
-        "cycle": losses.cycle,
-        "commutativity": lambda C, _: losses.commutativity(C, source, target),
+        "supervised": lambda C, _: losses.supervised_loss(C, wanted),
+        "orthogonality": lambda C, _: losses.orthogonality_loss(C),
+        "cycle": losses.cycle_loss,
+        "commutativity": lambda C, _: losses.commutativity_loss(C, source, target),
         # At a fixed scale: what the temperature is measured in has no derivative, by choice.
-        "geodesic": lambda C, _: losses.geodesic(C, source.functions, target.functions, distances, 3.0),
-        "coupling": lambda C, _: losses.coupling(C, distances, source.functions, target.functions),
+        "geodesic": lambda C, _: losses.geodesic_loss(C, source.functions, target.functions, distances, 3.0),
+        "coupling": lambda C, _: losses.coupling_loss(C, distances, source.functions, target.functions),
     }[name]
     C = leaf(rng.normal(size=(K_T, K_S)))
     if name == "geodesic":
@@ -209,14 +216,14 @@ def test_losses(name, case, rng):
 def test_losses_are_zero_where_they_should_be(rng):
     basis = random_basis(N_S, K_S, rng).to("torch")
     identity = torch.eye(K_S, dtype=torch.float64)
-    assert float(losses.orthogonality(identity)) == 0
-    assert float(losses.cycle(2 * identity, identity / 2)) == 0
-    assert float(losses.commutativity(identity, basis, basis)) == 0
-    assert float(losses.supervised(identity, identity)) == 0
+    assert float(losses.orthogonality_loss(identity)) == 0
+    assert float(losses.cycle_loss(2 * identity, identity / 2)) == 0
+    assert float(losses.commutativity_loss(identity, basis, basis)) == 0
+    assert float(losses.supervised_loss(identity, identity)) == 0
     everywhere = torch.eye(N_S, dtype=torch.float64)
-    assert float(losses.coupling(identity, everywhere, basis.functions, basis.functions, 0.0)) < 1e-20
+    assert float(losses.coupling_loss(identity, everywhere, basis.functions, basis.functions, 0.0)) < 1e-20
     far = 1 - everywhere
-    nearest = losses.geodesic(identity, basis.functions, basis.functions + 1e-3, far, 1e-6)
+    nearest = losses.geodesic_loss(identity, basis.functions, basis.functions + 1e-3, far, 1e-6)
     assert float(nearest) < 1e-9
     assert inner(identity, identity) == K_S
 

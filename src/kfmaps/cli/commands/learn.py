@@ -2,369 +2,286 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import replace
 from fnmatch import fnmatch
+from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from kfmaps._arrays import refuse
-from kfmaps.learn.names import LOSSES, PARTS
+from kfmaps._arrays import check_count, refuse
 from kfmaps.settings.options import Chosen, with_settings
 
 if TYPE_CHECKING:
-    import numpy as np
-
     from kfmaps.batch.layout import Pair, ShapeFolder
     from kfmaps.config import Config
-    from kfmaps.learn.lessons import Lesson
-    from kfmaps.learn.model import Model
-    from kfmaps.learn.training import State, Training
+    from kfmaps.learn import State, TrainingPair
 
-WITH_TRUTH = {"geodesic": 1.0}
-WITHOUT = {"orthogonality": 0.05, "cycle": 0.05, "coupling": 1.0}
-KNOWN, UNKNOWN = "gamma,metric,terms", "gamma,ard,terms"
-"""What is learned where the truth is known, and else."""
-RANK, RANK_ALONE = "2,1,2", "4,1,28"
-"""Rows of the metric with landmarks, and without."""
-COUNT_ALONE = 30
-"""Energies of the signature without landmarks, as many as the search's own fits have."""
-POINTS = 2500
-"""Of each shape that learning fits maps from; matches take as many as the settings say."""
-PART_LIST = "; ".join(f"{name}: {meaning}" for name, meaning in PARTS.items())
-LOSS_LIST = "; ".join(f"{name}: {meaning}" for name, meaning in LOSSES.items())
+PARTS = "gamma, ard, metric, mixture, terms, network"
+LOSSES = "geodesic, supervised, orthogonality, cycle, commutativity, coupling"
+WITH_TRUTH = ("gamma,metric,terms", "geodesic")
+WITHOUT_TRUTH = ("gamma,ard,terms", "orthogonality=0.05,cycle=0.05,coupling")
+"""Default parts and losses."""
+
+NUMBERS: dict[str, int | float] = {
+    **{"pairs": 32, "held_out_pairs": 6, "epochs": 5, "batch": 2, "rate": 0.1, "patience": 3},
+    **{"start_penalty": 0.0, "temperature": 0.03, "seconds": float("inf"), "rank": 0, "seed": 0},
+}
+"""Defaults of --training: numbers of pairs, rows of the metric (0: automatic), and fields of TrainingOptions."""
+
+RANK = {"signature": 2, "landmark": 1, "shot": 2}
+RANK_ALONE = {"signature": 4, "landmark": 1, "shot": 28}
+"""Automatic numbers of rows of the metric with landmarks, and without."""
+N_SPECTRAL_ALONE = 30
+"""Spectral descriptors without landmarks, as many as the search's own fits have."""
+MAX_SAMPLES = 2500
+"""Points of each shape that learning fits maps from; matches take as many as the settings say."""
 
 
 @with_settings
 def learn(
     data: Annotated[
-        Path,
-        typer.Option(help="A folder of shapes, with their true correspondences if there are any.", show_default=False),
+        Path, typer.Argument(help="Folder of shapes, with true correspondences if there are any.", metavar="FOLDER")
     ],
     output: Annotated[
         Path,
         typer.Option(
             "-o",
             "--output",
-            help="Settings for kfmaps match --config: .toml, or .pt. Beside it, what --resume needs, and a picture.",
+            help="Settings for kfmaps match --config: .toml, or .pt. The state (.pt) and a picture lie beside it.",
         ),
     ],
     settings: Chosen,
     parts: Annotated[
         str,
-        typer.Option(
-            "--learn",
-            metavar="NAMES",
-            show_default=False,
-            help=f"What to learn; default: {KNOWN}, where no truth is known {UNKNOWN}. {PART_LIST}.",
-        ),
+        typer.Option("--learn", metavar="NAMES", help=f"What to learn: {PARTS}. Default: {WITH_TRUTH[0]}."),
     ] = "",
     losses: Annotated[
         str,
-        typer.Option(
-            "--loss", metavar="NAMES", show_default=False, help=f"Losses, as NAME or NAME=WEIGHT. {LOSS_LIST}."
-        ),
+        typer.Option("--loss", metavar="NAMES", help=f"NAME or NAME=WEIGHT: {LOSSES}. Default: {WITH_TRUTH[1]}."),
     ] = "",
     shapes: Annotated[str, typer.Option(metavar="PATTERNS", help="Shapes to learn from, as a?,b*.")] = "*",
     held_out: Annotated[
         str,
         typer.Option(
             metavar="PATTERNS",
-            show_default=False,
-            help="Shapes to stop by; default: the last quarter of those. none: learn from all, to the end.",
+            help="Shapes to stop by; default: the last quarter. none: learn from all, to the end.",
         ),
     ] = "",
-    pairs: Annotated[int, typer.Option(min=1, help="Pairs to learn from.")] = 32,
-    held_out_pairs: Annotated[int, typer.Option(min=1, help="Pairs to stop by.")] = 6,
     truth_landmarks: Annotated[
-        str | None,
-        typer.Option(help="Landmarks: these lines of the truth, counted from 1.", metavar="201,1121,..."),
-    ] = None,
-    identity: Annotated[bool, typer.Option("--identity", help="Truth: vertex i is vertex i.")] = False,
-    epochs: Annotated[int, typer.Option(min=1, help="Times through all pairs, at most.")] = 5,
-    rate: Annotated[float, typer.Option(help="Of learning.")] = 0.1,
-    patience: Annotated[int, typer.Option(min=1, help="Epochs without anything better before it stops.")] = 3,
-    minutes: Annotated[float | None, typer.Option(help="Time to stay within.", show_default=False)] = None,
-    rank: Annotated[
         str,
-        typer.Option(
-            metavar="NUMBERS",
-            show_default=False,
-            help="Rows of the metric for the signature, each landmark and SHOT; one number r is r, r / 2 and r. "
-            f"Default: {RANK}, without landmarks {RANK_ALONE}.",
-        ),
+        typer.Option(help="Landmarks: these lines of the truth, counted from 1.", metavar="201,1121,..."),
     ] = "",
-    resume: Annotated[bool, typer.Option("--resume", help="Go on from where the output's .pt file is.")] = False,
-    force: Annotated[bool, typer.Option("--force", help="Replace existing files.")] = False,
-    seed: Annotated[int, typer.Option(min=0, help="For everything that is drawn at random.")] = 0,
-    quiet: Annotated[bool, typer.Option("-q", "--quiet", help="Say nothing.")] = False,
+    identity: Annotated[bool, typer.Option("--identity", help="Truth: vertex i is vertex i.")] = False,
+    training: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="NAME=NUMBER", help="Repeatable: " + ", ".join(f"{k} ({v:g})" for k, v in NUMBERS.items()) + "."
+        ),
+    ] = None,
+    force: Annotated[bool, typer.Option("--force", help="Replace existing files and start anew.")] = False,
+    quiet: Annotated[bool, typer.Option("-q", "--quiet", help="Print nothing.")] = False,
 ) -> None:
     """Learn a kernel from pairs of shapes, and write settings for kfmaps match --config.
 
-    Needs PyTorch; what it learns does not, unless it is written as .pt.
+    Needs PyTorch; what it learns does not, unless it is written as .pt. The same command continues a run that was
+    stopped.
     """
-    chosen, limit, rows = _losses(losses), _seconds(minutes), _rank(rank or (RANK if truth_landmarks else RANK_ALONE))
-    files = _files(output, force, resume)
-    # PyTorch's absence is told before anything is read.
-    from kfmaps.cli.progress import Stages
-    from kfmaps.learn import Model, Training
-    from kfmaps.learn import learn as learned
-    from kfmaps.learn.checkpoint import load, save
-    from kfmaps.settings.toml import settings_text
-
-    asked = settings.config(_base(truth_landmarks))
-    config = _lean(asked)
-    task = _task(data, shapes, held_out, pairs, held_out_pairs, truth_landmarks, identity, seed)
-    with Stages(quiet) as stages:
-        training_pairs, judges = _lessons(task, config, seed, stages)
-        known = all(each.known for each in training_pairs)
-        chosen = chosen or (WITH_TRUTH if known else WITHOUT)
-        names = tuple(part.strip() for part in (parts or (KNOWN if known else UNKNOWN)).split(",") if part.strip())
-        model = Model(config, training_pairs, names, rank=rows, seed=seed)
-        training = Training(chosen, epochs, rate=rate, patience=patience, seed=seed, seconds=limit)
-        # What must be asked for again to go on: everything but when to stop.
-        request = {
-            "learn": list(names),
-            "losses": dict(training.losses),
-            "pairs": [each.name for each in training_pairs],
-            "held out": [each.name for each in judges],
-            "rate": rate,
-            "rank": rows,
-            "seed": seed,
-            "settings": settings_text(config, comments=False),
-        }
-        state = None
-        if resume:
-            state, _, before = load(files.state)
-            _same_request(before, request, files.state)
-
-        def keep(state: State) -> None:
-            best = _asked(_best(model, state), asked)
-            save(files.state, state, settings_text(best), request)
-            _written(files, best, state, truth=bool(judges) and all(each.known for each in judges), training=training)
-
-        done = learned(model, training_pairs, judges, training, state=state, keep=keep, progress=stages)
-    if not quiet:
-        _told(done, files, model)
-
-
-@dataclass(frozen=True)
-class _Files:
-    """What is written: settings, the state to resume from (the same file when that is asked for), the picture."""
-
-    settings: Path
-    state: Path
-    picture: Path
-
-
-def _files(output: Path, force: bool, resume: bool) -> _Files:
-    from kfmaps.io import check_output
-
+    numbers, weights = _numbers(training or []), _losses(losses)
     if output.suffix not in (".toml", ".pt"):
         raise refuse(f"output {output}", "a name that ends in .toml or .pt", output.suffix or "none", "choose one")
-    found = _Files(output, output.with_suffix(".pt"), output.with_suffix(".png"))
-    for path in {found.settings, found.state, found.picture}:
-        check_output(path, force or resume)
-    if resume and not found.state.is_file():
-        raise refuse("--resume", "what an earlier run left", f"no file {found.state}", "leave --resume out")
-    return found
+    from kfmaps import learn as library  # its absence of PyTorch comes before any work
+    from kfmaps.batch.layout import find_collection
+    from kfmaps.cli.progress import Stages
+    from kfmaps.io import check_output
+    from kfmaps.settings.toml import settings_text
+
+    state_file = output.with_suffix(".pt")
+    stopped = state_file.is_file() and not force
+    for path in {output, state_file, output.with_suffix(".png")}:
+        check_output(path, force or stopped)
+    lines = _lines(truth_landmarks)
+    requested = settings.config(_start(bool(lines)))
+    config = replace(requested, fit_samples=min(requested.fit_samples or MAX_SAMPLES, MAX_SAMPLES))
+    with Stages(quiet) as stages:
+        folder = find_collection(data)
+        drawn, judges = _draw(folder, shapes, held_out, numbers)
+        prepare = _preparation(folder, config, lines, identity, int(numbers["seed"]))
+        every = []
+        for i, pair in enumerate([*drawn, *judges]):
+            stages("preparing pairs", i / (len(drawn) + len(judges)))
+            every.append(prepare(pair))
+        pairs, held_out_pairs = every[: len(drawn)], every[len(drawn) :]
+        known = all(pair.truth for pair in pairs)
+        default_parts, default_losses = WITH_TRUTH if known else WITHOUT_TRUTH
+        chosen = tuple(word.strip() for word in (parts or default_parts).split(","))
+        rank = int(numbers["rank"]) or (RANK if lines else RANK_ALONE)
+        model = library.Model(config, pairs, chosen, rank=rank, seed=int(numbers["seed"]))
+        own = {name: value for name, value in numbers.items() if name not in ("pairs", "held_out_pairs", "rank")}
+        options = library.TrainingOptions(weights or _losses(default_losses), **own)  # pyright: ignore
+        # What must be asked for again to continue: everything but when to stop.
+        request = {
+            "--learn": list(chosen),
+            "--loss": dict(options.losses),
+            "pairs": [pair.name for pair in every],
+            "--training": {name: numbers[name] for name in numbers if name not in ("epochs", "patience", "seconds")},
+            "settings": settings_text(config, comments=False),
+        }
+        state = _continued(state_file, request) if stopped else None
+
+        def write(state: State) -> None:
+            best = replace(model.settings(state.best), fit_samples=requested.fit_samples)
+            library.save(state_file, state, settings_text(best), request)
+            judged = bool(held_out_pairs) and all(pair.truth for pair in held_out_pairs)
+            _write(output, best, state, judged, ", ".join(options.losses))
+
+        state = library.learn(model, pairs, held_out_pairs, options, state=state, on_epoch=write, progress=stages)
+    if not quiet:
+        first, best = state.history[0], state.best_epoch
+        print(f"held-out pairs: {first.held_out:.5f} before, {best.held_out:.5f} after epoch {best.number}")
+        print(f"kernel: {model.settings().kernel!r}", f"settings: {output}", f"state: {state_file}", sep="\n")
 
 
 def _losses(text: str) -> dict[str, float]:
-    """``"geodesic,cycle=0.1"`` as names and weights; empty for none."""
-    found = {}
+    """Return the names and weights of a text like "geodesic,cycle=0.1"."""
+    weights = {}
     for word in (part.strip() for part in text.split(",") if part.strip()):
         name, sign, weight = word.partition("=")
-        try:
-            found[name.strip()] = float(weight) if sign else 1.0
-        except ValueError as error:
-            raise refuse(f"--loss {word}", "NAME or NAME=WEIGHT", repr(weight), "for instance cycle=0.1") from error
-    return found
+        weights[name.strip()] = _number(f"--loss {word}", weight, float) if sign else 1.0
+    return weights
 
 
-def _seconds(minutes: float | None) -> float | None:
-    if minutes is not None and not 0 < minutes < float("inf"):
-        raise refuse("--minutes", "a number above zero", repr(minutes), "leave it out for no limit")
-    return None if minutes is None else 60 * minutes
+def _numbers(assignments: list[str]) -> dict[str, int | float]:
+    """Return the numbers of --training, defaults included."""
+    numbers = dict(NUMBERS)
+    for text in assignments:
+        name, _, value = (part.strip() for part in text.partition("="))
+        if name not in NUMBERS:
+            raise refuse(f"--training {text}", "one of " + ", ".join(NUMBERS), repr(name), "for instance epochs=5")
+        numbers[name] = _number(f"--training {text}", value, type(NUMBERS[name]))
+    for name in ("pairs", "held_out_pairs"):
+        check_count(int(numbers[name]), f"--training {name}")
+    return numbers
 
 
-def _rank(text: str) -> int | dict[str, int]:
-    """``"2,1,2"`` as rows for each kind of descriptors, ``"8"`` as the number."""
-    words = [word.strip() for word in text.split(",")]
-    if len(words) not in (1, 3) or not all(word.isdecimal() and int(word) > 0 for word in words):
-        raise refuse("--rank", "a whole number above zero, or three with commas", repr(text), "for instance 2,1,2")
-    numbers = [int(word) for word in words]
-    return numbers[0] if len(numbers) == 1 else dict(zip(("signature", "landmark", "shot"), numbers, strict=True))
+def _number(name: str, text: str, kind: type) -> Any:
+    try:
+        return kind(text)
+    except ValueError as error:
+        expected = "a whole number" if kind is int else "a number"
+        raise refuse(name, expected, repr(text), "write it as NAME=NUMBER") from error
 
 
-def _base(truth_landmarks: str | None) -> Config:
-    from dataclasses import replace
+def _lines(text: str) -> tuple[int, ...]:
+    """Return the numbers of --truth-landmarks, counted from 0."""
+    words = text.split(",") if text else []
+    if not all(word.strip().isdecimal() and int(word) > 0 for word in words):
+        raise refuse("--truth-landmarks", "lines of the truth, with commas", repr(text), "as 201,1121")
+    return tuple(int(word) - 1 for word in words)
 
+
+def _start(landmarks: bool) -> Config:
+    """Return the settings that learning starts from."""
     from kfmaps.config import Config, DescriptorConfig, Formulation, Weights
 
     # SHOT tells what the signature cannot, and few strong descriptors want less commutativity and a sharper kernel.
-    if not truth_landmarks:
-        return replace(Config(), descriptors=DescriptorConfig(count=COUNT_ALONE, shot=True, eigenfunctions=200))
+    if not landmarks:
+        return replace(Config(), descriptors=DescriptorConfig(count=N_SPECTRAL_ALONE, shot=True, eigenfunctions=200))
     start = replace(Config.single_fit(), descriptors=DescriptorConfig(shot=True, eigenfunctions=200))
     weights = Weights(descriptors=1000.0, commutativity=1.0, laplacian=300.0)
     return replace(start, sharpness=5.0, weights=weights, formulation=Formulation(mask="resolvent"))
 
 
-def _lean(config: Config) -> Config:
-    """The same from fewer points of each shape: thousands of fits are made."""
-    from dataclasses import replace
-
-    return replace(config, fit_samples=min(config.fit_samples or POINTS, POINTS))
-
-
-def _asked(learned: Config, asked: Config) -> Config:
-    """What was learned, for fits from as many points as were asked for."""
-    from dataclasses import replace
-
-    return replace(learned, fit_samples=asked.fit_samples)
-
-
-@dataclass(frozen=True)
-class _Task:
-    """Where shapes and truths are, and which pairs to take."""
-
-    folder: ShapeFolder
-    pairs: list[Pair]
-    held_out: list[Pair]
-    lines: tuple[int, ...]
-    identity: bool
-
-
-def _task(
-    data: Path,
-    shapes: str,
-    held_out: str,
-    count: int,
-    held_out_count: int,
-    truth_landmarks: str | None,
-    identity: bool,
-    seed: int,
-) -> _Task:
+def _draw(
+    folder: ShapeFolder, shapes: str, held_out: str, numbers: dict[str, int | float]
+) -> tuple[list[Pair], list[Pair]]:
+    """Return the pairs to learn from and those held out."""
     import numpy as np
 
-    from kfmaps.batch.layout import Pair, find_collection
+    from kfmaps.batch.layout import Pair
 
-    folder = find_collection(data)
-    names = [name for name in folder.shapes if _like(name, shapes) and not (held_out and _like(name, held_out))]
-    if held_out == "none":
-        judges = []
-    elif held_out:
-        judges = [name for name in folder.shapes if _like(name, held_out)]
+    def matching(patterns: str) -> list[str]:
+        return [name for name in folder.shapes if any(fnmatch(name, p.strip()) for p in patterns.split(","))]
+
+    def draw(names: list[str], count: str, salt: int, option: str) -> list[Pair]:
+        if len(names) < 2:
+            raise refuse(option, "at least two shapes", f"{len(names)} of {len(folder.shapes)}", "choose others")
+        every = [Pair(a, b) for a in names for b in names if a != b]
+        order = np.random.default_rng([int(numbers["seed"]), salt]).permutation(len(every))
+        return [every[i] for i in order[: int(numbers[count])]]
+
+    names = matching(shapes)
+    if held_out:
+        judges = matching(held_out)
+        names = [name for name in names if name not in judges]
     else:
         names, judges = names[: len(names) - len(names) // 4], names[len(names) - len(names) // 4 :]
-    lines = tuple(int(word) for word in (truth_landmarks or "").split(",") if word.strip().isdecimal())
-    if truth_landmarks and (not lines or min(lines) < 1):
-        raise refuse("--truth-landmarks", "lines of the truth, with commas", repr(truth_landmarks), "as 201,1121")
-
-    def drawn(some: list[str], count: int, salt: int, flag: str) -> list[Pair]:
-        if len(some) < 2:
-            raise refuse(flag, "at least two shapes", f"{len(some)} of {len(folder.shapes)}", "choose others")
-        every = [Pair(a, b) for a in some for b in some if a != b]
-        order = np.random.default_rng([seed, salt]).permutation(len(every))
-        return [every[i] for i in order[:count]]
-
-    return _Task(
-        folder,
-        drawn(names, count, 0, "--shapes"),
-        [] if held_out == "none" else drawn(judges, held_out_count, 1, "--held-out"),
-        lines,
-        identity,
-    )
+    pairs = draw(names, "pairs", 0, "--shapes")
+    return pairs, [] if held_out == "none" else draw(judges, "held_out_pairs", 1, "--held-out")
 
 
-def _like(name: str, patterns: str) -> bool:
-    return any(fnmatch(name, pattern.strip()) for pattern in patterns.split(","))
-
-
-def _lessons(task: _Task, config: Config, seed: int, progress: Any) -> tuple[list[Lesson], list[Lesson]]:
-    """The pairs to learn from and those held out; each shape is prepared once."""
-    from functools import cache
-
+def _preparation(
+    folder: ShapeFolder, config: Config, lines: tuple[int, ...], identity: bool, seed: int
+) -> Callable[[Pair], TrainingPair]:
+    """Return a function that prepares a pair; each shape is read once."""
     import numpy as np
 
     from kfmaps.io import read_mesh, read_vertex_numbers
-    from kfmaps.learn import lesson
+    from kfmaps.learn import training_pair
     from kfmaps.shape import Shape, prepare
 
     @cache
     def shape(name: str) -> Shape:
-        return prepare(read_mesh(task.folder.shapes[name]), config, name=name)
+        return prepare(read_mesh(folder.shapes[name]), config, name=name)
 
     @cache
     def truth(name: str) -> np.ndarray | None:
-        if task.identity:
+        if identity:
             return np.arange(len(shape(name).mesh.vertices))
-        path = task.folder.truth.get(name)
+        path = folder.truth.get(name)
         return None if path is None else read_vertex_numbers(path)
 
-    def one(pair: Pair) -> Lesson:
-        sides = truth(pair.source), truth(pair.target)
-        known = None if sides[0] is None or sides[1] is None else (sides[0], sides[1])
-        if known is not None and len(known[0]) != len(known[1]):
-            got = f"{len(known[0])} and {len(known[1])} lines"
+    def prepared(pair: Pair) -> TrainingPair:
+        a, b = truth(pair.source), truth(pair.target)
+        known = None if a is None or b is None else (a, b)
+        counts = [len(side) for side in known or ()]
+        if known and counts[0] != counts[1]:
+            got = f"{counts[0]} and {counts[1]} lines"
             raise refuse(f"truth of {pair.source} and {pair.target}", "equally many lines", got, "choose --shapes")
-        marks = None
-        if task.lines:
-            if known is None or max(task.lines) > len(known[0]):
-                got = "no truth" if known is None else f"{len(known[0])} lines"
-                raise refuse("--truth-landmarks", f"a truth of {max(task.lines)} lines", got, "choose other lines")
-            rows = np.array(task.lines) - 1
-            marks = np.stack([known[0][rows], known[1][rows]], axis=1)
-        return lesson(shape(pair.source), shape(pair.target), config, landmarks=marks, truth=known, rng=seed)
+        if lines and (not known or max(lines) >= counts[0]):
+            got = f"{counts[0]} lines" if known else "no truth"
+            raise refuse("--truth-landmarks", f"a truth of {max(lines) + 1} lines", got, "choose other lines")
+        landmarks = np.stack([side[list(lines)] for side in known], axis=1) if known and lines else None
+        sides = shape(pair.source), shape(pair.target)
+        return training_pair(*sides, config, landmarks=landmarks, truth=known, rng=seed)
 
-    every = [*task.pairs, *task.held_out]
-    found = []
-    for i, pair in enumerate(every):
-        progress("preparing pairs", i / len(every))
-        found.append(one(pair))
-    progress("preparing pairs", 1.0)
-    return found[: len(task.pairs)], found[len(task.pairs) :]
+    return prepared
 
 
-def _same_request(before: dict[str, Any], now: dict[str, Any], path: Path) -> None:
-    differing = [name for name in now if before.get(name) != now[name]]
+def _continued(path: Path, request: dict[str, Any]) -> State:
+    """Return the state that an earlier run with the same request left."""
+    from kfmaps.learn import load
+
+    state, _, before = load(path)
+    differing = [name for name in request if before.get(name) != request[name]]
     if differing:
-        remedy = "give the same arguments, or leave --resume out"
-        raise refuse(f"--resume {path}", "the run that it belongs to", f"another {', '.join(differing)}", remedy)
+        remedy = "give the same arguments to continue, --force to start anew, or another output"
+        raise refuse(f"{path}", "the state of the same run", f"another {', '.join(differing)}", remedy)
+    return state
 
 
-def _best(model: Model, state: State) -> Config:
-    """The settings of the best parameters; the model itself is left as it is."""
-    now = {name: tensor.clone() for name, tensor in model.state_dict().items()}
-    model.load_state_dict(state.best)
-    found = model.settings()
-    model.load_state_dict(now)
-    return found
-
-
-def _written(files: _Files, best: Config, state: State, *, truth: bool, training: Training) -> None:
-    """Settings and picture, anew after each epoch."""
+def _write(output: Path, best: Config, state: State, truth: bool, losses: str) -> None:
+    """Write settings and picture."""
     from kfmaps.io import atomic_output
     from kfmaps.learn import learning_figure
     from kfmaps.settings.toml import settings_text
 
-    if files.settings != files.state:
-        with atomic_output(files.settings, force=True) as temporary:
-            chosen = state.chosen
-            what = "error of held-out pairs, in √area" if truth else "loss of held-out pairs"
-            head = f"# Learned by {', '.join(training.losses)}; {what}: {chosen.held_out:.5f}, epoch {chosen.number}.\n"
+    if output.suffix == ".toml":
+        kept, judge = state.best_epoch, "error of held-out pairs, in √area" if truth else "loss of held-out pairs"
+        head = f"# Learned by {losses}; {judge}: {kept.held_out:.5f}, epoch {kept.number}.\n"
+        with atomic_output(output, force=True) as temporary:
             temporary.write_text(head + settings_text(best), encoding="utf-8")
-    figure = learning_figure(state.history, truth=truth)
-    with atomic_output(files.picture, force=True) as temporary:
-        figure.savefig(temporary, dpi=150)
-
-
-def _told(state: State, files: _Files, model: Model) -> None:
-    from rich.console import Console
-
-    first, best = state.history[0], state.chosen
-    console = Console()
-    console.print(f"held-out pairs: {first.held_out:.5f} before, {best.held_out:.5f} after epoch {best.number}")
-    console.print(f"kernel: {model.settings().kernel!r}", soft_wrap=True, highlight=False)
-    console.print(f"settings: {files.settings}", f"picture: {files.picture}", sep="\n", soft_wrap=True)
+    with atomic_output(output.with_suffix(".png"), force=True) as temporary:
+        learning_figure(state.history, truth=truth).savefig(temporary, dpi=150)

@@ -1,0 +1,200 @@
+"""The energy of a pair as a function of its features, in PyTorch, and its minimiser with derivatives.
+
+The map ``C`` that minimises ``½⟨C, A(C)⟩ − ⟨B, C⟩`` solves ``A(C) = B``. Where ``A`` and ``B`` depend on parameters θ,
+``dC = A⁻¹ (dB − dA(C))``. So for a loss with the gradient ``G`` in ``C``, the gradient in θ is that of
+``⟨Λ, B − A(C)⟩`` with ``C`` and ``Λ = A⁻¹(G)`` held fixed. ``A`` is self-adjoint: one more solve with the same operator
+gives ``Λ``. The iterations are not recorded, so memory does not grow with their number.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import torch
+
+from kfmaps._arrays import NotConverged
+from kfmaps.config import Formulation
+from kfmaps.fmap.energy import Energy, Term, descriptor_term, laplacian_term, operator_term
+from kfmaps.fmap.preconditioners import sylvester
+from kfmaps.fmap.solvers import CG, Operator, Solution, solve
+from kfmaps.geometry.basis import Basis
+
+KernelMatrix = Callable[[torch.Tensor, torch.Tensor], torch.Tensor]
+"""``(n, d), (m, d) ↦ (n, m)``."""
+
+JITTER = 1e-8
+"""Added to the diagonal of the samples' kernel matrix, in units of its mean, so that its Cholesky factor exists."""
+
+
+def nystrom_features(
+    kernel: KernelMatrix, D_s: torch.Tensor, D_t: torch.Tensor, samples: torch.Tensor
+) -> tuple[torch.Tensor, torch.Tensor]:
+    """Return Nyström features of descriptors, differentiable in the kernel's parameters.
+
+    ``W = k(D, S) L⁻ᵀ`` with the Cholesky factor of ``k(S, S) = L Lᵀ``: the same ``W Wᵀ`` as from eigenvectors, which
+    is all that the energy depends on, but with a derivative where eigenvalues coincide.
+
+    Parameters
+    ----------
+    kernel : callable
+        ``(n, d), (m, d) ↦ (n, m)``.
+    D_s, D_t : (n_s, d), (n_t, d) tensors
+        Descriptors of source and target.
+    samples : (q, d) tensor
+
+    Returns
+    -------
+    (n_s, q), (n_t, q) tensors
+    """
+    R = kernel(samples, samples)
+    size = torch.diagonal(R).mean().detach()
+    L = torch.linalg.cholesky((R + R.T) / 2 + JITTER * size * torch.eye(len(R), dtype=R.dtype))
+    W_s, W_t = (torch.linalg.solve_triangular(L, kernel(samples, D), upper=False).T for D in (D_s, D_t))
+    return W_s, W_t
+
+
+def pair_energy(
+    source: Basis,
+    target: Basis,
+    W_s: torch.Tensor,
+    W_t: torch.Tensor,
+    weights: Mapping[str, torch.Tensor | float],
+    operator_rtol: float = 0.0,
+    formulation: Formulation = Formulation(),  # noqa: B008
+) -> Energy:
+    """Return the energy of a pair as a function of its features and weights.
+
+    Parameters
+    ----------
+    source, target : Basis
+        Of the map's size, as tensors.
+    W_s, W_t : (n_s, r), (n_t, r) tensors
+        Features of source and target.
+    weights : mapping of str to number or tensor
+        Of "descriptors", "commutativity" and "laplacian"; a term without weight is left out.
+    operator_rtol : float
+        Part of the features' weight that commutativity may leave out; 0 keeps the gradient exact.
+    formulation : Formulation
+        Only the mask of its Laplacian term is used.
+    """
+    weights = {name: weight for name, weight in weights.items() if bool(weight > 0)}
+    terms: dict[str, Term] = {}
+    if "laplacian" in weights:
+        terms["laplacian"] = laplacian_term(source, target, mask=formulation.mask, power=formulation.mask_power)
+    if "descriptors" in weights:
+        terms["descriptors"] = descriptor_term(source, W_s, target, W_t)
+    if "commutativity" in weights:
+        both = _truncated_operators((source, target), (W_s, W_t), operator_rtol)
+        terms["commutativity"] = operator_term(both[0], both[1])
+    return Energy(terms, {name: weights[name] for name in terms})  # pyright: ignore[reportArgumentType]
+
+
+def operators(basis: Basis, W: torch.Tensor) -> torch.Tensor:
+    """Return the multiplication operators ``Φᵀ A diag(wᵢ) Φ``, ``(r, k, k)``, of features ``W (n, r)``."""
+    phi, weighted = basis.functions, basis.mass[:, None] * W
+    return torch.stack([phi.T @ (weighted[:, i : i + 1] * phi) for i in range(W.shape[1])])
+
+
+def _truncated_operators(
+    bases: tuple[Basis, Basis], W: tuple[torch.Tensor, torch.Tensor], rtol: float
+) -> list[torch.Tensor]:
+    """Return the operators of both shapes without the weakest, as :mod:`kfmaps.fmap.multiplication_operators` does.
+
+    The rotations have no derivative. The energy is the same in every rotation of all features, so only the operators
+    that are dropped make the gradient inexact.
+    """
+    if not rtol:
+        return [operators(basis, F) for basis, F in zip(bases, W, strict=True)]
+    with torch.no_grad():
+        bounds = [torch.sqrt(basis.mass * (basis.functions**2).sum(dim=1))[:, None] for basis in bases]
+        rotation = _strongest([(bound * F).T for bound, F in zip(bounds, W, strict=True)], rtol / 2)
+    both = [operators(basis, F @ rotation) for basis, F in zip(bases, W, strict=True)]
+    with torch.no_grad():
+        rotation = _strongest([X.reshape(len(X), -1) for X in both], rtol)
+    return [torch.tensordot(rotation.T, X, dims=1) for X in both]
+
+
+def _strongest(rows: list[torch.Tensor], rtol: float) -> torch.Tensor:
+    """Return eigenvectors of the Gram matrix of ``rows`` without the weakest, which hold ``rtol`` of its trace."""
+    values, vectors = torch.linalg.eigh(rows[0] @ rows[0].T + rows[1] @ rows[1].T)
+    lost = torch.cumsum(values.clamp(min=0.0), dim=0)
+    return vectors[:, lost > rtol * lost[-1]]
+
+
+@dataclass(frozen=True, eq=False)
+class Minimum:
+    """The minimiser of an energy: the map ``C (k_t, k_s)``, part of PyTorch's graph, and the solver's report."""
+
+    C: torch.Tensor
+    solution: Solution
+
+
+class _Implicit(torch.autograd.Function):
+    """``residual ↦ C``, for ``residual = B − A(C)`` of value zero, whose derivative is ``A⁻¹``."""
+
+    @staticmethod
+    def forward(ctx: Any, residual: torch.Tensor, C: torch.Tensor, inverse: Operator) -> torch.Tensor:
+        del residual  # zero; it is here for its derivative
+        ctx.inverse = inverse
+        return C.clone()
+
+    @staticmethod
+    @torch.autograd.function.once_differentiable
+    def backward(  # pyright: ignore[reportIncompatibleMethodOverride]
+        ctx: Any, *gradients: torch.Tensor
+    ) -> tuple[torch.Tensor | None, ...]:
+        return ctx.inverse(gradients[0]), None, None
+
+
+def differentiable_minimum(
+    energy: Energy,
+    solver: CG = CG(rtol=1e-10, max_steps=2000),  # noqa: B008
+    start: torch.Tensor | None = None,
+) -> Minimum:
+    """Minimise an energy, with derivatives in all tensors that its terms and weights were made from.
+
+    Parameters
+    ----------
+    energy : Energy
+        Positive definite, of terms made from PyTorch tensors; weights may be tensors too.
+    solver : CG
+        For the map and for its derivative. The gradient's relative error is of the order of ``rtol``.
+    start : (k_t, k_s) tensor, optional
+        Start of the iteration; it does not change the minimiser.
+
+    Returns
+    -------
+    Minimum
+        Running out of steps shows in ``solution.status``.
+
+    Raises
+    ------
+    NotConverged
+        When the solver breaks down, here or in the backward pass.
+    """
+    with torch.no_grad():
+        precondition = sylvester(energy)
+        solution = _check(solve(energy.apply, energy.rhs(), solver, start, precondition), "map")
+
+    def inverse(gradient: torch.Tensor) -> torch.Tensor:
+        with torch.no_grad():
+            return _check(solve(energy.apply, gradient, solver, None, precondition), "derivative").value
+
+    C = solution.value.detach()
+    if torch.is_grad_enabled():
+        implicit: Any = _Implicit.apply
+        C = implicit(energy.rhs() - energy.apply(C), C, inverse)
+    return Minimum(C, solution)
+
+
+def _check(solution: Solution, name: str) -> Solution:
+    if solution.status == "breakdown" and not np.isclose(solution.residuals[-1], 0.0):
+        raise NotConverged(
+            f"{name}: wanted a positive definite energy of finite numbers, got a breakdown of conjugate gradients "
+            f"after {solution.steps} steps (residual {solution.residuals[-1]:.3g}); lower the learning rate, or "
+            "keep the weight of the Laplacian term above zero"
+        )
+    return solution

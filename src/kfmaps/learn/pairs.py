@@ -1,0 +1,192 @@
+"""Pairs of shapes to learn from: descriptors and bases as tensors, and the truth where it is known."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Any
+from weakref import WeakKeyDictionary
+
+import numpy as np
+import torch
+
+from kfmaps._arrays import check, refuse, to_numpy
+from kfmaps.config import Config, Formulation
+from kfmaps.fmap.nearest import nearest
+from kfmaps.geometry.basis import Basis
+from kfmaps.geometry.geodesics import geodesic_distances
+from kfmaps.geometry.mesh import Mesh
+from kfmaps.kernels.kernels import Gaussian, Laplacian, resolve_kernel
+from kfmaps.kernels.landmark_selection import farthest_descriptors
+from kfmaps.matching.features import pair_descriptors
+from kfmaps.matching.fit import check_landmark_pairs
+from kfmaps.shape import Shape, sample_shape
+
+MAX_CORRESPONDENCES = 500
+"""Largest number of true correspondences of a pair at which errors are measured."""
+
+
+@dataclass(frozen=True, eq=False)
+class PairTruth:
+    """The truth of a pair, at ``m`` of its correspondences.
+
+    Attributes
+    ----------
+    functional_map : (k, k) tensor
+        Of the true point map, by least squares.
+    functions_t : (m, k) tensor
+        Basis of the target at these correspondences.
+    distances : (m, n_s) float32 tensor
+        Geodesic, in √area, from the source vertex of each to every point of the source.
+    points_s, points_t : (m,) int64 tensors
+        The points of source and target nearest to these correspondences.
+    """
+
+    functional_map: torch.Tensor
+    functions_t: torch.Tensor
+    distances: torch.Tensor
+    points_s: torch.Tensor
+    points_t: torch.Tensor
+
+
+@dataclass(frozen=True, eq=False)
+class TrainingPair:
+    """A pair to learn from, at the points that the fit uses; made by :func:`training_pair`.
+
+    Attributes
+    ----------
+    name : str
+    source, target : Basis
+        Of the map's size, as tensors.
+    descriptors_s, descriptors_t : (n_s, d), (n_t, d) tensors
+        Normalised as the configuration says.
+    samples : (q, d) tensor
+        Of the Nyström approximation, half from each shape.
+    gamma : float
+        The automatic γ of this pair; 1 for a kernel without γ.
+    n_landmarks : int
+    truth : PairTruth or None
+    """
+
+    name: str
+    source: Basis
+    target: Basis
+    descriptors_s: torch.Tensor
+    descriptors_t: torch.Tensor
+    samples: torch.Tensor
+    gamma: float
+    n_landmarks: int
+    truth: PairTruth | None
+
+    def __repr__(self) -> str:
+        """Return name and sizes in one line."""
+        sizes = f"{len(self.descriptors_s):,} and {len(self.descriptors_t):,} points"
+        return f"TrainingPair({self.name}, {sizes}, {'with' if self.truth else 'without'} truth)"
+
+    def swapped(self) -> TrainingPair:
+        """Return the pair with source and target exchanged, without its truth."""
+        return replace(
+            self,
+            source=self.target,
+            target=self.source,
+            descriptors_s=self.descriptors_t,
+            descriptors_t=self.descriptors_s,
+            truth=None,
+        )
+
+
+def training_pair(
+    source: Shape,
+    target: Shape,
+    config: Config,
+    *,
+    landmarks: Any = None,
+    truth: tuple[Any, Any] | None = None,
+    samples: int = 150,
+    rng: int | np.random.Generator = 0,
+) -> TrainingPair:
+    """Return what learning needs of two shapes that were prepared with ``config``.
+
+    Parameters
+    ----------
+    source, target : Shape
+    config : Config
+        Settings that learning starts from.
+    landmarks : (l, 2) whole numbers, optional
+        Pairs "source, target", as for :func:`kfmaps.match`.
+    truth : pair of arrays (q,), (q,), optional
+        Corresponding vertices of source and target.
+    samples : int
+        Number of Nyström samples; fewer than a match takes, since learning makes thousands of fits.
+    rng : seed or Generator
+
+    Raises
+    ------
+    InvalidInput
+        When landmarks or truth do not fit the shapes, or the configuration has a term that cannot be learned with.
+    """
+    if config.weights.orientation or config.exact:
+        got = "an orientation term" if config.weights.orientation else "the exact kernel"
+        raise refuse("settings to learn from", "features and the terms of the paper", got, "leave it out")
+    formulation = config.formulation
+    if replace(Formulation(), mask=formulation.mask, mask_power=formulation.mask_power) != formulation:
+        remedy = "leave the formulation out but for its mask"
+        raise refuse("settings to learn from", "an energy that is quadratic in one map", repr(formulation), remedy)
+    rng = np.random.default_rng(rng)
+    landmarks = check_landmark_pairs(landmarks, source, target)
+    parts = [sample_shape(shape, config.fit_samples, landmarks[:, i]) for i, shape in enumerate((source, target))]
+    bases = (parts[0].shape.basis, parts[1].shape.basis)
+    rows = np.stack([part.landmarks for part in parts], axis=1)
+    descriptors = pair_descriptors(parts[0].shape, parts[1].shape, bases, config.descriptors, rows, None)
+    both = (descriptors.source, descriptors.target)
+    chosen = np.concatenate([D[farthest_descriptors(D, min(samples // 2, len(D)), rng)] for D in both])
+    kernel = resolve_kernel(config.kernel, chosen, config.sharpness)
+    k = config.basis.functions
+    return TrainingPair(
+        f"{source.name} {target.name}",
+        bases[0].truncate(k).to("torch"),
+        bases[1].truncate(k).to("torch"),
+        torch.from_numpy(to_numpy(both[0])),
+        torch.from_numpy(to_numpy(both[1])),
+        torch.from_numpy(chosen),
+        float(kernel.gamma or 1.0) if isinstance(kernel, Gaussian | Laplacian) else 1.0,
+        len(landmarks),
+        None if truth is None else _truth(source, target, (parts[0].vertices, parts[1].vertices), k, truth),
+    )
+
+
+def _truth(
+    source: Shape, target: Shape, points: tuple[np.ndarray, np.ndarray], k: int, truth: tuple[Any, Any]
+) -> PairTruth:
+    """Return the truth of a fit that uses ``points`` of source and target."""
+    true_s, true_t = (np.asarray(side) for side in truth)
+    for side, shape in ((true_s, source), (true_t, target)):
+        name, n = f"truth of {shape.name}", len(shape.mesh.vertices)
+        check(side, name, shape=true_s.shape, finite=False, remedy="give as many vertices on both")
+        if side.ndim != 1 or len(side) < k or side.min() < 0 or side.max() >= n:
+            got = f"shape {side.shape}" + (f", {side.min()} to {side.max()}" if side.size else "")
+            raise refuse(name, f"at least {k} vertices, 0 to {n - 1}", got, "take the lists of these shapes")
+    functions_s, functions_t = (shape.basis.truncate(k).functions for shape in (source, target))
+    functional_map = np.linalg.lstsq(functions_t[true_t], functions_s[true_s], rcond=None)[0]
+    # The same lines for every pair of a collection: distances from them can be kept with the shape.
+    lines = np.random.default_rng(0).choice(len(true_s), min(MAX_CORRESPONDENCES, len(true_s)), replace=False)
+    true_s, true_t = (side[np.sort(lines)] for side in (true_s, true_t))
+    points_s, points_t = (
+        nearest(shape.mesh.vertices[side], shape.mesh.vertices[kept])
+        for shape, side, kept in zip((source, target), (true_s, true_t), points, strict=True)
+    )
+    distances = _distances(source.mesh, true_s)
+    distances = distances if len(points[0]) == distances.shape[1] else distances[:, points[0]]
+    arrays = (functional_map, functions_t[true_t], distances, points_s, points_t)
+    return PairTruth(*(torch.from_numpy(array) for array in arrays))
+
+
+_KEPT: WeakKeyDictionary[Mesh, dict[bytes, np.ndarray]] = WeakKeyDictionary()
+
+
+def _distances(mesh: Mesh, sources: np.ndarray) -> np.ndarray:
+    """Return geodesic distances ``(m, n)`` float32, kept as long as the mesh: it is the source of many pairs."""
+    kept = _KEPT.setdefault(mesh, {})
+    key = sources.tobytes()
+    if key not in kept:
+        kept[key] = geodesic_distances(mesh, sources).astype(np.float32)
+    return kept[key]

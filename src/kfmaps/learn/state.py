@@ -1,0 +1,140 @@
+"""Where learning stands: its history and parameters, as a file from which it continues, and as a picture."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import astuple, dataclass
+from pathlib import Path
+from typing import Any
+
+import torch
+from matplotlib.figure import Figure
+
+from kfmaps._arrays import refuse
+from kfmaps.io import atomic_output
+from kfmaps.settings.learned import FORMAT, read_learned
+from kfmaps.viz.curves import COLORS
+from kfmaps.viz.figures import TEXT
+
+
+@dataclass(frozen=True)
+class Epoch:
+    """Losses after an epoch; epoch 0 is before learning.
+
+    Attributes
+    ----------
+    number : int
+    loss : float
+        Mean over the training pairs.
+    held_out : float
+        Mean over the held-out pairs: the geodesic error of their raw point maps in √area where their truth is known,
+        else the loss.
+    seconds : float
+        Since the start.
+    """
+
+    number: int
+    loss: float
+    held_out: float
+    seconds: float
+
+
+@dataclass(frozen=True, eq=False)
+class State:
+    """Where learning stands: all that is needed to continue as if it had never stopped.
+
+    Attributes
+    ----------
+    parameters, best, start : dict of str to tensor
+        Of the model: now, at the epoch that was best on the held-out pairs, and before learning.
+    optimizer : dict
+        State of Adam.
+    history : tuple of Epoch
+    """
+
+    parameters: dict[str, torch.Tensor]
+    best: dict[str, torch.Tensor]
+    start: dict[str, torch.Tensor]
+    optimizer: dict
+    history: tuple[Epoch, ...]
+
+    @property
+    def best_epoch(self) -> Epoch:
+        """Return the epoch that was best on the held-out pairs."""
+        return min(self.history, key=lambda epoch: epoch.held_out)
+
+
+def save(path: str | Path, state: State, settings: str, request: dict[str, Any]) -> None:
+    """Write a state, its settings and the request that it answers.
+
+    Parameters
+    ----------
+    path : str or Path
+    state : State
+    settings : str
+        TOML of the best parameters.
+    request : dict of plain values
+        What a later run must ask for again to continue from here.
+    """
+    content = {
+        "format": FORMAT,
+        "settings": settings,
+        "request": request,
+        "parameters": state.parameters,
+        "best": state.best,
+        "start": state.start,
+        "optimizer": state.optimizer,
+        "history": [list(astuple(epoch)) for epoch in state.history],
+    }
+    with atomic_output(Path(path), force=True) as temporary:
+        torch.save(content, temporary)
+
+
+def load(path: str | Path) -> tuple[State, str, dict[str, Any]]:
+    """Return the state, settings and request of a file that :func:`save` wrote.
+
+    Only tensors and plain values are read (``weights_only``): a file with anything else is refused.
+
+    Raises
+    ------
+    InvalidInput
+        When the file is missing, damaged, or of another kind.
+    """
+    content = read_learned(path)
+    try:
+        history = tuple(Epoch(*row) for row in content["history"])
+        tensors = [dict(content[name]) for name in ("parameters", "best", "start")]
+        if not all(isinstance(t, torch.Tensor) for part in tensors for t in part.values()):
+            raise TypeError("tensors as parameters")
+        state = State(tensors[0], tensors[1], tensors[2], dict(content["optimizer"]), history)
+        return state, str(content["settings"]), dict(content["request"])
+    except (KeyError, TypeError, ValueError) as error:
+        raise refuse(f"{path}", "a file of kfmaps learn", f"one without {error}", "learn anew") from error
+
+
+def learning_figure(history: Sequence[Epoch], *, truth: bool = True) -> Figure:
+    """Draw the training loss and the held-out error by epoch; a ring marks the epoch that was kept.
+
+    Parameters
+    ----------
+    history : sequence of Epoch
+    truth : bool
+        Whether held-out pairs were judged by the error of their point maps, drawn times 100, or by the loss.
+    """
+    figure = Figure(figsize=(5.5, 4.2), facecolor="white", layout="constrained")
+    upper, lower = figure.subplots(2, 1, sharex=True)
+    numbers = [epoch.number for epoch in history]
+    factor = 100 if truth else 1
+    kept = min(history, key=lambda epoch: epoch.held_out)
+    upper.plot(numbers, [epoch.loss for epoch in history], color=COLORS[0], marker=".")
+    lower.plot(numbers, [factor * epoch.held_out for epoch in history], color=COLORS[1], marker=".")
+    lower.plot([kept.number], [factor * kept.held_out], "o", color=COLORS[1], markersize=10, fillstyle="none")
+    lower.set_xlabel("epoch", fontsize=10, color=TEXT)
+    lower.xaxis.get_major_locator().set_params(integer=True)
+    for ax, name in ((upper, "training loss"), (lower, "held-out error × 100" if truth else "held-out loss")):
+        ax.set_ylabel(name, fontsize=10, color=TEXT)
+        ax.spines[["top", "right"]].set_visible(False)
+        ax.grid(True, color="#e4e4e4", linewidth=0.6)
+        ax.set_axisbelow(True)
+        ax.tick_params(colors=TEXT, labelsize=9)
+    return figure
