@@ -30,20 +30,15 @@ import numpy as np
 from scipy.spatial import KDTree
 
 from kfmaps import datasets
-from kfmaps.batch.clock import RunStatus
-from kfmaps.batch.collection import BatchOutcome, match_collection
-from kfmaps.batch.exchange import map_in_use
-from kfmaps.batch.graphing import graph_pairs
+from kfmaps.batch.consistent import map_in_use
+from kfmaps.batch.jobs import WorkerPool
 from kfmaps.batch.layout import find_collection
-from kfmaps.batch.need import needed
-from kfmaps.batch.plan import make_plan
-from kfmaps.batch.results import Result
-from kfmaps.batch.settings import Settings
-from kfmaps.batch.spread import crew
-from kfmaps.batch.summary import BAD
-from kfmaps.batch.tasks import PairTask
-from kfmaps.batch.truth import true_vertices
-from kfmaps.batch.work import loaded, map_path
+from kfmaps.batch.plan import graph_pairs, make_plan
+from kfmaps.batch.progress import RunStatus, estimate
+from kfmaps.batch.results import BAD, Result
+from kfmaps.batch.run import BatchResult, run_batch
+from kfmaps.batch.run_spec import RunSpec
+from kfmaps.batch.work import PairTask, load_prepared, map_path, true_vertices
 from kfmaps.cli.evaluation import assessed
 from kfmaps.collection.synchronization import N_FUNCTIONS, CandidateMap, Edge, nearest_orthogonal, synchronize
 from kfmaps.config import BasisConfig, Config, DescriptorConfig, Search
@@ -157,13 +152,13 @@ def plant(tasks: tuple[PairTask, ...], wrong: float, note: Path) -> list[tuple[s
 def error_in_use(task: PairTask) -> float:
     """Mean error of the map of a pair that is in use, worked out anew."""
     points = load_map(map_in_use(Path(task.folder), task.pair.key)).target_to_source
-    source, target = loaded(task.source).mesh, loaded(task.target).mesh
+    source, target = load_prepared(task.source).mesh, load_prepared(task.target).mesh
     truth = true_vertices(task, len(source.vertices), len(target.vertices))
     assert truth is not None
     return assessed(source, points, truth).errors.mean
 
 
-def going_on(outcome: BatchOutcome) -> BatchOutcome:
+def going_on(outcome: BatchResult) -> BatchResult:
     """``outcome`` of a run that was not interrupted."""
     if outcome.interrupted:
         raise KeyboardInterrupt("interrupted: the same call goes on")
@@ -174,18 +169,18 @@ def measured(count: int, vertices: int, workers: int, wrong: float, config: Conf
     """One row of the table."""
     shapes, out = folder / f"shapes{count}", folder / f"out{count}"
     write_specimens(shapes, count, vertices)
-    collection, settings = find_collection(shapes), Settings(config)
+    collection, settings = find_collection(shapes), RunSpec(config)
     costs = folder / f"costs{count}.json"
     with spending(costs, "match"):
-        with crew(workers) as hands:
+        with WorkerPool(workers) as hands:
             pairs = graph_pairs(collection, settings, out, "near", hands)
         plan = make_plan(collection, pairs, settings, out)
         if plan.todo:
-            going_on(match_collection(plan, workers=workers, worst=0, callback=watching(len(pairs))))
+            going_on(run_batch(plan, workers=workers, worst=0, callback=watching(len(pairs))))
     planted = set(plant(plan.tasks, wrong, out / "planted"))
     with spending(costs, "agree"):
         plan = make_plan(collection, pairs, settings, out)
-        outcome = going_on(match_collection(plan, workers=workers, worst=0, consistent=True))
+        outcome = going_on(run_batch(plan, workers=workers, worst=0, consistent=True))
     changed = {(r.source, r.target): float(r.error_mean or 0.0) for r in outcome.results if r.changed}
     keys = [(task.pair.source, task.pair.target) for task in plan.tasks]
     matched = {(r.source, r.target): float(r.error_mean or 0.0) for r in plan.results}
@@ -253,7 +248,7 @@ def main() -> None:
         return
     if chosen.plan:
         for count in counts:
-            print(needed(count, 3 * count, chosen.vertices, Config(), chosen.workers).told())
+            print(estimate(count, 3 * count, chosen.vertices, Config(), chosen.workers))
         return
     config = FULL if chosen.full else PLAIN if chosen.plain else QUICK
     print(

@@ -15,11 +15,11 @@ from pathlib import Path
 import numpy as np
 
 from conftest import blob
-from kfmaps.batch.collection import match_collection
 from kfmaps.batch.layout import Pair, choose_pairs, find_collection
 from kfmaps.batch.plan import Plan, make_plan
 from kfmaps.batch.results import Result
-from kfmaps.batch.settings import Settings
+from kfmaps.batch.run import run_batch
+from kfmaps.batch.run_spec import RunSpec
 from kfmaps.batch.work import match_pair, prepare_shape
 from kfmaps.config import BasisConfig, Config, DescriptorConfig, NystromConfig
 from kfmaps.fmap.refine import ZoomOut
@@ -73,7 +73,7 @@ def plan_of(
 ) -> Plan:
     """The plan of all pairs of a folder."""
     collection = find_collection(folder)
-    settings = Settings(config, seed=seed, landmark_lines=lines)
+    settings = RunSpec(config, seed=seed, landmark_lines=lines)
     return make_plan(collection, choose_pairs(collection, every=True), settings, output, retry_failed=retry_failed)
 
 
@@ -110,11 +110,11 @@ def agreed_plan(folder: Path, output: Path) -> Plan:
     """The plan of all pairs of a folder, one way."""
     names = sorted(find_collection(folder).shapes)
     pairs = [Pair(a, b) for i, a in enumerate(names) for b in names[i + 1 :]]
-    return make_plan(find_collection(folder), pairs, Settings(AGREED, landmark_lines=LANDMARKS), output)
+    return make_plan(find_collection(folder), pairs, RunSpec(AGREED, landmark_lines=LANDMARKS), output)
 
 
 if __name__ == "__main__":
     if sys.argv[3:]:
-        match_collection(agreed_plan(Path(sys.argv[1]), Path(sys.argv[2])), workers=1, worst=0, consistent=True)
+        run_batch(agreed_plan(Path(sys.argv[1]), Path(sys.argv[2])), workers=1, worst=0, consistent=True)
     else:
-        match_collection(plan_of(Path(sys.argv[1]), Path(sys.argv[2])), workers=1)
+        run_batch(plan_of(Path(sys.argv[1]), Path(sys.argv[2])), workers=1)

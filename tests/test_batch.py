@@ -13,13 +13,12 @@ from threadpoolctl import threadpool_info, threadpool_limits
 from collecting import CONFIG, LANDMARKS, bent, done, plan_of, touch, write_collection
 from conftest import blob
 from kfmaps._arrays import InvalidInput
-from kfmaps.batch import work
-from kfmaps.batch.cache import file_digest, load_shape, save_shape, shape_key
-from kfmaps.batch.kept import kept_probe, load_probe, probe_path
+from kfmaps.batch import cache, work
+from kfmaps.batch.cache import cached_samples, file_digest, load_record, load_shape, samples_path, save_shape, shape_key
 from kfmaps.batch.layout import Pair, find_collection
 from kfmaps.batch.plan import make_plan
-from kfmaps.batch.settings import Settings
-from kfmaps.batch.summary import summarised
+from kfmaps.batch.results import summarize
+from kfmaps.batch.run_spec import RunSpec
 from kfmaps.batch.work import attempts, map_path, match_pair, prepare_shape
 from kfmaps.cli.evaluation import Truth, assessed
 from kfmaps.config import NystromConfig, Search
@@ -74,10 +73,10 @@ def test_a_kept_probe_changes_no_bit(tmp_path: Path) -> None:
     config = replace(CONFIG, search=Search(candidates=1, signs=2), threads=1)
     a, b = (prepare(bent(i, 300), config, name=str(i)) for i in (0, 1))
     entry = tmp_path / "a.npz"
-    first = kept_probe(a, entry, 3)
-    assert probe_path(entry, 3).exists()
-    assert not probe_path(entry, 4).exists()
-    read = kept_probe(a, entry, 3)
+    first = cached_samples(a, entry, 3)
+    assert samples_path(entry, 3).exists()
+    assert not samples_path(entry, 4).exists()
+    read = cached_samples(a, entry, 3)
     assert read is not first
     known, kept = _arrays_of(first), _arrays_of(read)
     assert kept.keys() == known.keys()
@@ -86,9 +85,9 @@ def test_a_kept_probe_changes_no_bit(tmp_path: Path) -> None:
     plain, quick = match(a, b, config, rng=3), match(a, b, config, rng=3, probes=(read, scoring_samples(b, 3)))
     np.testing.assert_array_equal(quick.target_to_source, plain.target_to_source)
     assert quick.scores == plain.scores
-    data = probe_path(entry, 3).read_bytes()
-    probe_path(entry, 3).write_bytes(data[: len(data) // 2])
-    assert load_probe(probe_path(entry, 3)) is None
+    data = samples_path(entry, 3).read_bytes()
+    samples_path(entry, 3).write_bytes(data[: len(data) // 2])
+    assert load_record(samples_path(entry, 3), type(first)) is None
 
 
 def test_far_mirrored_points_are_sampled(folder: Path) -> None:
@@ -144,7 +143,7 @@ def test_a_pair_equals_a_single_match(folder: Path, tmp_path: Path) -> None:
         other = match(source, target, config, landmarks=landmarks, rng=4).functional_map
         assert np.abs(saved.functional_map - other).max() > 1e-9  # the seed counts
         np.testing.assert_array_equal(saved.extra["landmarks"], landmarks)
-    assert summarised(results).error_mean == pytest.approx(np.mean([float(r.error_mean or 0) for r in results]))
+    assert summarize(results).error_mean == pytest.approx(np.mean([float(r.error_mean or 0) for r in results]))
 
 
 def test_nothing_done_is_done_again(folder: Path, tmp_path: Path) -> None:
@@ -183,6 +182,33 @@ def test_a_bad_shape_fails_its_pairs_alone_and_can_be_retried(tmp_path: Path) ->
     (folder / "b1.off").write_bytes(good)
     assert len(plan_of(folder, out).todo) == 4
     assert {r.status for r in done(plan_of(folder, out))} == {"done"}
+
+
+def test_a_mesh_that_lost_its_faces_is_no_point_cloud(tmp_path: Path) -> None:
+    folder = write_collection(tmp_path / "c", 2)
+    mesh = read_mesh(folder / "b1.off")
+    rows = "\n".join(" ".join(map(str, row)) for row in mesh.vertices.tolist())
+    touch(folder / "b1.off", f"OFF\n{len(mesh.vertices)} 0 0\n{rows}\n")
+    results = done(plan_of(folder, tmp_path / "out"))
+    assert [r.status for r in results] == ["failed"] * 2
+    assert all("shape b1 could not be prepared" in r.reason and "faces" in r.reason for r in results)
+
+
+def test_a_file_that_cannot_be_read_fails_its_pairs_alone(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    folder = write_collection(tmp_path / "c")
+    digest = cache.file_digest
+
+    def denied(path: str | Path) -> str:
+        if Path(path).name == "b1.off":
+            raise PermissionError(13, "Permission denied", str(path))
+        return digest(path)
+
+    for module in ("cache", "plan", "work"):
+        monkeypatch.setattr(f"kfmaps.batch.{module}.file_digest", denied)
+    results = done(plan_of(folder, tmp_path / "out"))
+    failed = [r for r in results if r.status == "failed"]
+    assert len(results) - len(failed) == 2
+    assert all("b1" in (r.source, r.target) and "Permission denied" in r.reason for r in failed)
 
 
 def test_a_defect_is_recorded_with_its_type(folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -274,7 +300,7 @@ def test_identity_and_pair_truth_agree_with_lists(tmp_path: Path) -> None:
         if way == "map":
             touch(folder / "corres" / "b0_b1.map", numbers)
         found = find_collection(folder)
-        settings = Settings(CONFIG, landmark_lines=LANDMARKS, identity=way == "identity")
+        settings = RunSpec(CONFIG, landmark_lines=LANDMARKS, identity=way == "identity")
         means.append(done(make_plan(found, [Pair("b0", "b1")], settings, tmp_path / f"o{way}"))[0].error_mean)
     assert means[0] == means[1] == means[2]
 
@@ -299,4 +325,4 @@ def test_bad_truth_is_a_recorded_failure(tmp_path: Path, change, message: str) -
 def test_identity_beside_files_is_refused(folder: Path, tmp_path: Path) -> None:
     found = find_collection(folder)
     with pytest.raises(InvalidInput, match="--identity"):
-        make_plan(found, [Pair("b0", "b1")], Settings(CONFIG, identity=True), tmp_path)
+        make_plan(found, [Pair("b0", "b1")], RunSpec(CONFIG, identity=True), tmp_path)

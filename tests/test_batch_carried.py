@@ -14,11 +14,11 @@ import pytest
 
 from collecting import CONFIG, LANDMARKS, done, touch, write_collection
 from kfmaps._arrays import InvalidInput
-from kfmaps.batch.carried import landmarks_everywhere, write_landmarks_csv, write_tps
 from kfmaps.batch.layout import Pair, find_collection
 from kfmaps.batch.plan import make_plan
+from kfmaps.batch.propagate_landmarks import propagate_landmarks, write_landmarks_csv, write_tps
 from kfmaps.batch.results import result_path
-from kfmaps.batch.settings import Settings
+from kfmaps.batch.run_spec import RunSpec
 from kfmaps.batch.work import map_path
 from kfmaps.cli.main import main
 from kfmaps.io import load_map, read_mesh, read_vertex_numbers, save_map
@@ -33,7 +33,7 @@ def run(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Path]:
     folder = write_collection(tmp_path_factory.mktemp("shapes"), 4)
     out = tmp_path_factory.mktemp("out")
     pairs = [Pair("b0", "b1"), Pair("b2", "b1"), Pair("b2", "b3")]
-    done(make_plan(find_collection(folder), pairs, Settings(CONFIG, landmark_lines=LANDMARKS), out))
+    done(make_plan(find_collection(folder), pairs, RunSpec(CONFIG, landmark_lines=LANDMARKS), out))
     for pair in pairs:  # as sure as can be of true maps
         path = map_path(out, pair.key)
         found = load_map(path)
@@ -57,7 +57,7 @@ def landmark_file(path: Path, vertices: np.ndarray) -> Path:
 
 def test_landmarks_reach_all_along_true_maps(run: tuple[Path, Path], tmp_path: Path) -> None:
     folder, out = run
-    found, missed = landmarks_everywhere(out, landmark_file(tmp_path / "m.csv", marks(folder)), "b0")
+    found, missed = propagate_landmarks(out, landmark_file(tmp_path / "m.csv", marks(folder)), "b0")
     assert not missed
     assert [one.specimen for one in found] == ["b0", "b1", "b2", "b3"]
     assert [one.through for one in found] == [(), (), ("b1",), ("b1", "b2")]
@@ -124,7 +124,7 @@ def test_what_only_a_part_leads_to_has_the_landmarks_that_it_has(run: tuple[Path
     folder, out = run
     file = landmark_file(tmp_path / "m.csv", marks(folder))
     with without_tip(folder, out, "b2-b1"):  # b2 by the part, b3 behind it
-        found, missed = landmarks_everywhere(out, file, "b0")
+        found, missed = propagate_landmarks(out, file, "b0")
         assert not missed
         assert [one.through for one in found] == [(), (), ("b1",), ("b1", "b2")]
         for one in found:
@@ -142,14 +142,14 @@ def test_what_only_a_part_leads_to_has_the_landmarks_that_it_has(run: tuple[Path
     assert all(row[c] == "" for row in gone for c in ("x", "y", "z", "weight_1", "confidence"))
     assert (tmp_path / "all.tps").read_text(encoding="utf-8").count("NA NA NA\n") == 2
     with without_tip(folder, out, "b0-b1", "b2-b3"):  # forth and back over parts
-        found, _ = landmarks_everywhere(out, file, "b0")
+        found, _ = propagate_landmarks(out, file, "b0")
         assert [int((one.points.vertices >= 0).sum()) for one in found] == [3, 2, 2, 2]
 
 
 def test_maps_of_parts_are_gone_round(run: tuple[Path, Path], tmp_path: Path) -> None:
     folder, out = run
     file = landmark_file(tmp_path / "m.csv", marks(folder))
-    plan = make_plan(find_collection(folder), [Pair("b0", "b2")], Settings(CONFIG, landmark_lines=LANDMARKS), out)
+    plan = make_plan(find_collection(folder), [Pair("b0", "b2")], RunSpec(CONFIG, landmark_lines=LANDMARKS), out)
     done(plan)
     found = load_map(map_path(out, "b0-b2"))
     points = np.empty_like(found.target_to_source)
@@ -158,15 +158,15 @@ def test_maps_of_parts_are_gone_round(run: tuple[Path, Path], tmp_path: Path) ->
     save_map(map_path(out, "b0-b2"), replace(found, target_to_source=points, extra=extra), force=True)
     try:
         with without_tip(folder, out, "b0-b2"):
-            carried, _ = landmarks_everywhere(out, file, "b0")
+            carried, _ = propagate_landmarks(out, file, "b0")
             through = {one.specimen: one.through for one in carried}
             assert through == {"b0": (), "b1": (), "b2": ("b1",), "b3": ("b1", "b2")}
             assert all((one.points.vertices >= 0).all() for one in carried)
         with without_tip(folder, out, "b0-b2", "b2-b3"):  # by a part to b3 alone
-            carried, _ = landmarks_everywhere(out, file, "b0")
+            carried, _ = propagate_landmarks(out, file, "b0")
             assert {one.specimen: one.through for one in carried} == through
             assert [int((one.points.vertices >= 0).sum()) for one in carried] == [3, 3, 3, 2]
-        carried, _ = landmarks_everywhere(out, file, "b0")
+        carried, _ = propagate_landmarks(out, file, "b0")
         assert next(one.through for one in carried if one.specimen == "b3") == ("b2",)
     finally:
         map_path(out, "b0-b2").unlink()
@@ -176,6 +176,6 @@ def test_maps_of_parts_are_gone_round(run: tuple[Path, Path], tmp_path: Path) ->
 def test_what_cannot_be_carried(run: tuple[Path, Path], tmp_path: Path) -> None:
     _, out = run
     with pytest.raises(InvalidInput, match="an output folder of kfmaps batch"):
-        landmarks_everywhere(tmp_path, touch(tmp_path / "m.csv", "a,1\n"))
+        propagate_landmarks(tmp_path, touch(tmp_path / "m.csv", "a,1\n"))
     with pytest.raises(InvalidInput, match="vertices from 0 to 199"):
-        landmarks_everywhere(out, touch(tmp_path / "m.csv", "a,999\n"), "b0")
+        propagate_landmarks(out, touch(tmp_path / "m.csv", "a,999\n"), "b0")

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from collecting import LANDMARKS, touch, write_collection
-from kfmaps.batch.need import needed
+from kfmaps.batch.progress import estimate
 from kfmaps.cli.main import main
 from kfmaps.config import Config
 from kfmaps.io import load_map, read_vertex_numbers, write_landmarks
@@ -19,7 +19,7 @@ GUARDS = ("kfmaps.matching.memory",)
 
 SIZES = ("--basis", "20", "--descriptors", "20", "--set", "descriptors.eigenfunctions=40", "--samples", "60")
 ZOOM = ("--zoom-start", "10", "--zoom-stop", "40", "--zoom-step", "5")
-MARKS = ("--truth-landmarks", ",".join(map(str, LANDMARKS)))
+MARKS = ("--landmarks", ",".join(map(str, LANDMARKS)))
 
 
 @pytest.fixture(scope="module")
@@ -34,7 +34,7 @@ def test_a_run_and_another_that_finds_it_done(folder: Path, tmp_path: Path, caps
     assert main([*words, "--pairs", str(pairs)]) == 0
     told = capsys.readouterr().out
     assert "2 pairs of 3 shapes" in told
-    assert "pairs 2/2, all matched" in told
+    assert "pairs 2/2, finished" in told
     with open(out / "results.csv", encoding="utf-8", newline="") as file:
         rows = list(csv.DictReader(file))
     mean = sum(float(row["error_mean"]) for row in rows) / 2
@@ -45,11 +45,11 @@ def test_a_run_and_another_that_finds_it_done(folder: Path, tmp_path: Path, caps
     alone = [_error_of_a_single_match(folder, out, tmp_path, row, capsys) for row in rows]
     assert [float(row["error_mean"]) for row in rows] == pytest.approx(alone, rel=1e-12)
     assert mean == pytest.approx(np.mean(alone), rel=1e-12)
-    assert main([*words, "--all"]) == 0
+    assert main([*words, "--graph", "both"]) == 0
     told = capsys.readouterr().out
     assert "6 pairs of 3 shapes, 2 done already" in told
     assert (out / "summary.html").read_text(encoding="utf-8").count("data:image/png") == 6
-    assert main([*words, "--all", "-q"]) == 0
+    assert main([*words, "--graph", "both", "-q"]) == 0
     assert capsys.readouterr().out == ""
 
 
@@ -77,10 +77,23 @@ def _error_of_a_single_match(
 def test_failures_have_a_status_of_their_own(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     folder = write_collection(tmp_path / "c", 3)
     touch(folder / "b2.off", "OFF\n")
-    words = ["batch", str(folder), "-o", str(tmp_path / "out"), "--star", "b0", "--workers", "1", *SIZES, *ZOOM, *MARKS]
+    words = [
+        "batch",
+        str(folder),
+        "-o",
+        str(tmp_path / "out"),
+        "--graph",
+        "star:b0",
+        "--workers",
+        "1",
+        *SIZES,
+        *ZOOM,
+        *MARKS,
+    ]
     assert main(words) == 1
     told = capsys.readouterr().out
     assert "failed: b0 → b2: shape b2 could not be prepared" in told
+    assert "pairs 2/2 (1 failed), finished" in told
     assert "1 pair failed" in told
     assert main(words) == 1  # and nothing is tried again unasked
     assert "2 pairs of 3 shapes, 2 done already" in capsys.readouterr().out
@@ -89,13 +102,16 @@ def test_failures_have_a_status_of_their_own(tmp_path: Path, capsys: pytest.Capt
 @pytest.mark.parametrize(
     ("words", "message"),
     [
-        (["--all", "--star", "b0"], "one of --pairs, --all and --star"),
+        (["--pairs", "list.txt", "--graph", "both"], "one of --graph and --pairs"),
         ([], "test_pairs.txt"),
-        (["--all", "--truth-landmarks", "1,x"], "'1,x'"),
-        (["--all", "--truth-landmarks", "0"], "whole numbers from 1"),
-        (["--all", "--scheduler", "tcp://127.0.0.1:9", "--workers", "2"], "--workers"),
-        (["--all", "--kernel", "cubic"], "cubic"),
-        (["--all", "--identity"], "--identity"),
+        (["--graph", "ring"], "near, star, star:SHAPE, all or both"),
+        (["--graph", "star:b9"], "b9"),
+        (["--graph", "both", "--landmarks", "1,x"], "'1,x'"),
+        (["--graph", "both", "--landmarks", "0"], "whole numbers from 1"),
+        (["--graph", "both", "--landmarks", ","], "line numbers, or none"),
+        (["--graph", "near", "--workers", "0"], "workers"),
+        (["--graph", "both", "--kernel", "cubic"], "cubic"),
+        (["--graph", "both", "--identity"], "--identity"),
     ],
 )
 def test_refusals(
@@ -109,7 +125,19 @@ def test_refusals(
 
 
 def test_other_settings_are_refused(folder: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    words = ["batch", str(folder), "-o", str(tmp_path / "out"), "--star", "b0", "--workers", "1", *SIZES, *ZOOM, *MARKS]
+    words = [
+        "batch",
+        str(folder),
+        "-o",
+        str(tmp_path / "out"),
+        "--graph",
+        "star:b0",
+        "--workers",
+        "1",
+        *SIZES,
+        *ZOOM,
+        *MARKS,
+    ]
     assert main([*words, "-q"]) == 0
     assert main([*words, "--alpha", "2"]) == 2
     assert "config.weights.laplacian 1.0, now 2.0" in capsys.readouterr().err
@@ -117,7 +145,7 @@ def test_other_settings_are_refused(folder: Path, tmp_path: Path, capsys: pytest
 
 def test_a_graph_of_pairs_that_agree(folder: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     out = tmp_path / "out"
-    words = ["batch", str(folder), "-o", str(out), "--workers", "1", "--graph", "near", "--consistent", "--worst", "0"]
+    words = ["batch", str(folder), "-o", str(out), "--workers", "1", "--graph", "near", "--consistent"]
     words += [*SIZES, *ZOOM, *MARKS]
     assert main(words) == 0
     told = capsys.readouterr().out
@@ -132,18 +160,16 @@ def test_a_graph_of_pairs_that_agree(folder: Path, tmp_path: Path, capsys: pytes
         "distances.csv",
         "latent.npz",
     }
-    assert main([*words, "--star", "b0"]) == 2
-    assert "one of --graph, --pairs, --all and --star" in capsys.readouterr().err
 
 
 def test_what_is_needed_grows_with_the_work() -> None:
-    one = needed(100, 300, 5000, Config(), 2)
-    assert needed(200, 600, 5000, Config(), 2).seconds == pytest.approx(2 * one.seconds)
-    assert needed(200, 600, 5000, Config(), 2).disk == pytest.approx(2 * one.disk)
-    assert needed(100, 300, 5000, Config(), 4).memory == pytest.approx(2 * one.memory)
-    assert needed(100, 300, 5000, Config.single_fit(), 2).seconds < one.seconds
-    fit, agreed = (needed(100, 300, 5000, Config.single_fit(), 2, consistent=c) for c in (False, True))
+    one = estimate(100, 300, 5000, Config(), 2)
+    assert estimate(200, 600, 5000, Config(), 2).seconds == pytest.approx(2 * one.seconds)
+    assert estimate(200, 600, 5000, Config(), 2).disk == pytest.approx(2 * one.disk)
+    assert estimate(100, 300, 5000, Config(), 4).memory == pytest.approx(2 * one.memory)
+    assert estimate(100, 300, 5000, Config.single_fit(), 2).seconds < one.seconds
+    fit, agreed = (estimate(100, 300, 5000, Config.single_fit(), 2, consistent=c) for c in (False, True))
     assert agreed.seconds > fit.seconds
     assert agreed.disk > fit.disk + 100 * 5e6
-    assert needed(100, 300, 5000, Config(), 2, consistent=True).disk == one.disk
-    assert one.told().startswith("300 pairs of 100 shapes of about 5,000 vertices need about 3.")
+    assert estimate(100, 300, 5000, Config(), 2, consistent=True).disk == one.disk
+    assert str(one).startswith("3.0 GB on disk")

@@ -18,16 +18,13 @@ import pytest
 
 from collecting import AGREED, LANDMARKS, agreed_plan, done, write_collection
 from kfmaps._arrays import InvalidInput
-from kfmaps.batch.collection import match_collection, write_outputs
-from kfmaps.batch.consistent import make_consistent
-from kfmaps.batch.evidence import FOLDER
-from kfmaps.batch.exchange import exchanged_map, exchanged_result, map_in_use
-from kfmaps.batch.graphing import graph_pairs
-from kfmaps.batch.layout import find_collection
-from kfmaps.batch.plan import Plan, make_plan
+from kfmaps.batch.consistent import CONSISTENT, make_consistent, map_in_use, replacement_map, replacement_result
+from kfmaps.batch.jobs import WorkerPool
+from kfmaps.batch.layout import Pair, find_collection
+from kfmaps.batch.plan import Plan, graph_pairs, make_plan
 from kfmaps.batch.results import Result, read_result
-from kfmaps.batch.settings import Settings
-from kfmaps.batch.spread import Crew
+from kfmaps.batch.run import run_batch, write_outputs
+from kfmaps.batch.run_spec import RunSpec
 from kfmaps.batch.work import map_path
 from kfmaps.io import load_map, save_map
 from kfmaps.io.atomic import UNFINISHED
@@ -35,18 +32,18 @@ from test_batch_run import until
 
 GUARDS = ("kfmaps.collection.repair", "kfmaps.collection.synchronization")
 
-MADE = Settings(AGREED, landmark_lines=LANDMARKS)
+MADE = RunSpec(AGREED, landmark_lines=LANDMARKS)
 
 
-class Alone(Crew):
+class Alone(WorkerPool):
     """A crew of this process."""
 
     def __init__(self, stop_after: int | None = None) -> None:
-        super().__init__(None, None, lambda _what, _done, _of: None)
+        super().__init__()
         self.asked: list[str] = []
         self.left = stop_after
 
-    def each(self, what: str, function: Callable[[Any], Any], items: Sequence[Any]) -> list[Any]:
+    def map(self, what: str, function: Callable[[Any], Any], items: Sequence[Any]) -> list[Any]:
         found = []
         for item in items:
             if self.left is not None and self.left == 0:
@@ -83,7 +80,7 @@ def test_the_wrong_map_is_exchanged_and_no_other(run: tuple[Plan, list[Result]])
     plan, results = run
     before = {p: p.read_bytes() for p in (plan.folder / "maps").iterdir()}
     found = make_consistent(plan, results, Alone())
-    assert found.exchanged == 1
+    assert found.replaced == 1
     assert not found.doubted
     assert not found.notes
     (changed,) = [r for r in found.results if r.changed]
@@ -96,10 +93,10 @@ def test_the_wrong_map_is_exchanged_and_no_other(run: tuple[Plan, list[Result]])
     assert found.before["b1", "b3"] == results[[r.target for r in results if r.source == "b1"].index("b3") + 4]
     assert {p: p.read_bytes() for p in before} == before  # the run's own maps are as they were
     ours = load_map(map_in_use(plan.folder, "b1-b3"))
-    assert map_in_use(plan.folder, "b1-b3") == exchanged_map(plan.folder, "b1-b3")
+    assert map_in_use(plan.folder, "b1-b3") == replacement_map(plan.folder, "b1-b3")
     assert map_in_use(plan.folder, "b0-b1") == map_path(plan.folder, "b0-b1")
     assert ours.extra["runners_up"].shape[0] == 1  # type: ignore[union-attr]
-    table = {(r["source"], r["target"]): r for r in rows(plan.folder / FOLDER / "pairs.csv")}
+    table = {(r["source"], r["target"]): r for r in rows(plan.folder / CONSISTENT / "pairs.csv")}
     assert float(table["b1", "b3"]["probability"]) < 0.1
     assert table["b1", "b3"]["changed"] == changed.changed
     assert sum(bool(r["changed"]) for r in table.values()) == 1
@@ -108,35 +105,35 @@ def test_the_wrong_map_is_exchanged_and_no_other(run: tuple[Plan, list[Result]])
 def test_what_is_finished_is_found_again(run: tuple[Plan, list[Result]]) -> None:
     plan, results = run
     first = make_consistent(plan, results, Alone())
-    stamp = exchanged_map(plan.folder, "b1-b3").stat().st_mtime_ns
+    stamp = replacement_map(plan.folder, "b1-b3").stat().st_mtime_ns
     again = make_consistent(plan, results, Alone())
     assert again.results == first.results
-    assert exchanged_map(plan.folder, "b1-b3").stat().st_mtime_ns == stamp
+    assert replacement_map(plan.folder, "b1-b3").stat().st_mtime_ns == stamp
     # However early it is cut off, the end is the same and nothing that was finished is lost.
-    for path in (plan.folder / FOLDER).rglob("*.*"):
+    for path in (plan.folder / CONSISTENT).rglob("*.*"):
         path.unlink()
     for stop in (3, 10, 11):
         with pytest.raises(KeyboardInterrupt):
             make_consistent(plan, results, Alone(stop))
-    kept = len(list((plan.folder / FOLDER / "evidence").glob("*.npz")))
+    kept = len(list((plan.folder / CONSISTENT / "evidence").glob("*.npz")))
     assert kept == len(plan.tasks)
     last = make_consistent(plan, results, Alone())
     plain = [replace(r, seconds={}, finished="", worker="") for r in last.results]
     assert plain == [replace(r, seconds={}, finished="", worker="") for r in first.results]
     # A damaged file is made again.
-    damaged = plan.folder / FOLDER / "evidence" / "b0-b1.npz"
+    damaged = plan.folder / CONSISTENT / "evidence" / "b0-b1.npz"
     damaged.write_bytes(damaged.read_bytes()[:100])
-    assert make_consistent(plan, results, Alone()).exchanged == 1
+    assert make_consistent(plan, results, Alone()).replaced == 1
 
 
 def test_specimens_are_told_of(run: tuple[Plan, list[Result]]) -> None:
     plan, results = run
     found = make_consistent(plan, results, Alone())
-    shapes = rows(plan.folder / FOLDER / "shapes.csv")
+    shapes = rows(plan.folder / CONSISTENT / "shapes.csv")
     assert [r["shape"] for r in shapes] == [f"b{i}" for i in range(5)]
     bend = [float(r["area_1"]) for r in shapes]
     assert abs(np.corrcoef(bend, np.arange(5))[0, 1]) > 0.9  # each pose bends the shape a little more
-    distances = {(r["shape"], r["other"]): float(r["area"]) for r in rows(plan.folder / FOLDER / "distances.csv")}
+    distances = {(r["shape"], r["other"]): float(r["area"]) for r in rows(plan.folder / CONSISTENT / "distances.csv")}
     assert distances["b0", "b1"] < distances["b0", "b4"]
     write_outputs(plan, list(found.results), "c", 1, found)
     page = (plan.folder / "summary.html").read_text(encoding="utf-8")
@@ -152,12 +149,12 @@ def test_pairs_that_match_again_are_not_exchanged_any_more(run: tuple[Plan, list
     make_consistent(plan, results, Alone())
     path = map_path(plan.folder, "b1-b3")
     wrong = path.read_bytes()
-    right = load_map(exchanged_map(plan.folder, "b1-b3"))
+    right = load_map(replacement_map(plan.folder, "b1-b3"))
     save_map(path, replace(right, extra={k: v for k, v in right.extra.items() if k != "runners_up"}), force=True)
     try:
-        assert make_consistent(plan, results, Alone()).exchanged == 0
-        assert not exchanged_map(plan.folder, "b1-b3").exists()
-        assert read_result(exchanged_result(plan.folder, "b1-b3")) is None
+        assert make_consistent(plan, results, Alone()).replaced == 0
+        assert not replacement_map(plan.folder, "b1-b3").exists()
+        assert read_result(replacement_result(plan.folder, "b1-b3")) is None
     finally:
         path.write_bytes(wrong)
 
@@ -181,8 +178,24 @@ def test_graphs_are_kept(tmp_path: Path) -> None:
     star = graph_pairs(collection, MADE, tmp_path / "out", "star", Alone())
     assert len({p.source for p in star}) == 1
     assert len(star) == 4
-    with pytest.raises(InvalidInput, match="near, star or all"):
+    chosen = graph_pairs(collection, MADE, tmp_path / "out", "star:b3", Alone())
+    assert chosen == [Pair("b3", f"b{i}") for i in (0, 1, 2, 4)]
+    assert len(graph_pairs(collection, MADE, tmp_path / "out", "both", Alone())) == 20
+    with pytest.raises(InvalidInput, match="near, star, star:SHAPE"):
         graph_pairs(collection, MADE, tmp_path / "out", "ring", Alone())
+
+
+def test_a_shape_that_cannot_be_prepared_is_in_the_graph(tmp_path: Path) -> None:
+    """One pair of it is there to fail, so that the log, the table, the page and the exit status tell of it."""
+    folder = write_collection(tmp_path / "shapes", 5)
+    (folder / "b2.off").write_text("OFF\n3 1 0\n0 0 0\n", encoding="utf-8")
+    collection = find_collection(folder)
+    for kind in ("near", "star"):
+        pairs = graph_pairs(collection, MADE, tmp_path / kind, kind, Alone())
+        (pair,) = [pair for pair in pairs if "b2" in (pair.source, pair.target)]
+        (result,) = done(make_plan(collection, [pair], MADE, tmp_path / kind))
+        assert result.status == "failed"
+        assert "shape b2 could not be prepared" in result.reason
 
 
 def test_maps_of_parts_take_no_part(run: tuple[Plan, list[Result]]) -> None:
@@ -198,12 +211,12 @@ def test_maps_of_parts_take_no_part(run: tuple[Plan, list[Result]]) -> None:
         (note,) = agreed.notes
         assert note.startswith("b0 → b4: the map of a part stays as it is")
         assert "20 of 200 vertices" in note
-        assert agreed.exchanged == 1
+        assert agreed.replaced == 1
         assert {(r.source, r.target) for r in agreed.results if r.agreement is None} == {("b0", "b4")}
         alone = [r for r in results if (r.source, r.target) == ("b0", "b4")]
         only = make_consistent(plan, alone, Alone())
         assert only.results == tuple(alone)
-        assert (only.exchanged, len(only.notes)) == (0, 1)
+        assert (only.replaced, len(only.notes)) == (0, 1)
     finally:
         path.write_bytes(whole)
 
@@ -219,22 +232,22 @@ def test_a_kill_while_maps_are_made_to_agree_loses_nothing(tmp_path: Path) -> No
     reference = tmp_path / "reference"
     shutil.copytree(out, reference)
     script = Path(__file__).with_name("collecting.py")
-    stages = {"evidence/*.npz": 2, "ways/*.npz": 1}
+    stages = {"evidence/*.npz": 2, "paths/*.npz": 1}
     kept: dict[Path, tuple[bytes, int]] = {}
     for pattern, enough in stages.items():
         with subprocess.Popen([sys.executable, str(script), str(folder), str(out), "consistent"]) as process:
-            until(lambda p=pattern, n=enough: len(finished(out / FOLDER, p)) >= n, 60.0)
+            until(lambda p=pattern, n=enough: len(finished(out / CONSISTENT, p)) >= n, 60.0)
             for each in (*psutil.Process(process.pid).children(recursive=True), process):
                 each.kill()
         assert process.returncode == -signal.SIGKILL
         assert not (out / "results.csv").exists()
-        now = {p: (p.read_bytes(), p.stat().st_mtime_ns) for p in finished(out / FOLDER, pattern)}
+        now = {p: (p.read_bytes(), p.stat().st_mtime_ns) for p in finished(out / CONSISTENT, pattern)}
         assert {p: (p.read_bytes(), p.stat().st_mtime_ns) for p in kept} == kept
         kept |= now
     pairs = {p: p.read_bytes() for p in (*(out / "pairs").iterdir(), *(out / "maps").iterdir())}
     again = agreed_plan(folder, out)
     assert again.todo == ()
-    last = match_collection(again, workers=1, worst=0, consistent=True)
+    last = run_batch(again, workers=1, worst=0, consistent=True)
     assert {p: p.read_bytes() for p in pairs} == pairs
     assert {p: (p.read_bytes(), p.stat().st_mtime_ns) for p in kept} == kept  # nothing finished was made again
     wanted = make_consistent(agreed_plan(folder, reference), list(done_results(reference)), Alone())
@@ -244,7 +257,7 @@ def test_a_kill_while_maps_are_made_to_agree_loses_nothing(tmp_path: Path) -> No
         return sorted(found, key=lambda r: (r.source, r.target))
 
     assert plain(last.results) == plain(wanted.results)
-    ours, theirs = (load_map(exchanged_map(f, "b1-b3")).target_to_source for f in (out, reference))
+    ours, theirs = (load_map(replacement_map(f, "b1-b3")).target_to_source for f in (out, reference))
     np.testing.assert_array_equal(ours, theirs)
     assert not list(out.rglob(f"{UNFINISHED}*"))
 

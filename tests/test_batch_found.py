@@ -11,10 +11,10 @@ import pytest
 
 from collecting import CONFIG, touch
 from kfmaps._arrays import InvalidInput
-from kfmaps.batch.clock import remaining_seconds
 from kfmaps.batch.layout import Pair, choose_pairs, find_collection, natural
 from kfmaps.batch.plan import recommended
-from kfmaps.batch.settings import Settings, claim
+from kfmaps.batch.progress import remaining_seconds
+from kfmaps.batch.run_spec import RunSpec, claim
 from kfmaps.cli.words import in_words
 from kfmaps.config import Config
 from kfmaps.kernels.kernels import Linear
@@ -88,7 +88,6 @@ def test_bad_choices_of_pairs(tmp_path: Path) -> None:
     touch(tmp_path / "a.off")
     found = find_collection(tmp_path)
     choices: list[tuple[dict[str, Any], str]] = [
-        ({"every": True, "star": "a"}, "several"),
         ({}, "test_pairs.txt"),
         ({"star": "x"}, "'x'"),
         ({"every": True}, "two shapes"),
@@ -114,33 +113,33 @@ def test_natural_order() -> None:
 
 
 def test_digest_follows_what_matters() -> None:
-    base = Settings(CONFIG)
+    base = RunSpec(CONFIG)
     for other in (
-        Settings(replace(CONFIG, kernel=Linear())),
-        Settings(CONFIG, seed=1),
-        Settings(CONFIG, identity=True),
-        Settings(CONFIG, landmark_lines=(3,)),
-        Settings(CONFIG, landmark_files=False),
+        RunSpec(replace(CONFIG, kernel=Linear())),
+        RunSpec(CONFIG, seed=1),
+        RunSpec(CONFIG, identity=True),
+        RunSpec(CONFIG, landmark_lines=(3,)),
+        RunSpec(CONFIG, landmark_files=False),
     ):
         assert other.digest != base.digest
-    assert Settings(replace(CONFIG, threads=3)).digest == base.digest
+    assert RunSpec(replace(CONFIG, threads=3)).digest == base.digest
 
 
 def test_other_settings_are_refused_by_name(tmp_path: Path) -> None:
-    claim(tmp_path, Settings(CONFIG))
-    claim(tmp_path, Settings(replace(CONFIG, threads=2)))
+    claim(tmp_path, RunSpec(CONFIG))
+    claim(tmp_path, RunSpec(replace(CONFIG, threads=2)))
     changed = replace(CONFIG, weights=replace(CONFIG.weights, laplacian=2.0))
     with pytest.raises(InvalidInput, match=r"config\.weights\.laplacian 1\.0, now 2\.0.*another output folder"):
-        claim(tmp_path, Settings(changed))
+        claim(tmp_path, RunSpec(changed))
     (tmp_path / "settings.json").write_text("{")
     with pytest.raises(InvalidInput, match="remove it"):
-        claim(tmp_path, Settings(CONFIG))
+        claim(tmp_path, RunSpec(CONFIG))
 
 
 def test_landmark_lines_are_checked() -> None:
     for lines in ((0,), (2, 2)):
-        with pytest.raises(InvalidInput, match="truth-landmarks"):
-            Settings(CONFIG, landmark_lines=lines)
+        with pytest.raises(InvalidInput, match="--landmarks"):
+            RunSpec(CONFIG, landmark_lines=lines)
 
 
 def test_recommended_as_match_would(tmp_path: Path) -> None:
@@ -213,7 +212,7 @@ def test_numbers_beside_a_gltf_belong_to_it(tmp_path: Path) -> None:
 @pytest.mark.parametrize("deep", ["[" * 100_000, '{"a":' * 100_000])
 def test_deep_results_and_settings(tmp_path: Path, deep: str) -> None:
     from kfmaps.batch.results import read_result
-    from kfmaps.batch.settings import read_settings
+    from kfmaps.batch.run_spec import read_settings
 
     assert read_result(touch(tmp_path / "r.json", deep)) is None
     touch(tmp_path / "settings.json", deep)

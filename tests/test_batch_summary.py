@@ -13,18 +13,20 @@ import numpy as np
 import pytest
 
 from collecting import done, plan_of, write_collection
-from kfmaps.batch.collection import COLUMNS, PAGE, TABLE, match_collection, write_outputs
-from kfmaps.batch.page import summary_page
+from kfmaps.batch.page import PAGE, summary_page
 from kfmaps.batch.results import (
     Result,
     all_results,
+    fitting_limit,
     read_result,
     result_path,
+    summarize,
+    worst_first,
     write_csv,
     write_parquet,
     write_result,
 )
-from kfmaps.batch.summary import fitting_limit, summarised, worst_first
+from kfmaps.batch.run import COLUMNS, TABLE, run_batch, write_outputs
 
 
 @pytest.fixture(scope="module")
@@ -93,10 +95,10 @@ def test_the_summary_escapes_and_needs_no_network() -> None:
     found = Elements(page)
     assert not {"b", "i", "iframe", "link", "object"} & set(found.tags)
     assert found.tags.count("script") == 1  # its own, which sorts
-    assert "script-src &#x27;sha256-" in page
+    assert "script-src &#39;sha256-" in page
     assert found.tags.count("img") == 2  # the curve and the picture, not those of names
     assert all(address.startswith("data:image/") for address in found.addresses)
-    assert "default-src &#x27;none&#x27;" in page
+    assert "default-src &#39;none&#39;" in page
     text = " ".join(found.text)
     for told in ("<b>name</b>", "<script>alert(2)</script>", "2 not done yet", "</pre><script>", "11.00", "1 failed"):
         assert told in text
@@ -109,7 +111,7 @@ def test_columns_of_which_nothing_is_known_are_left_out() -> None:
     assert '<th class="n">mean' not in page
     assert "<th>verdict</th>" in page
     assert "geodesic" not in page
-    changed = [replace(some_results()[0], changed="runner-up 1", reason="<why>", error_before=0.4, agreement=0.99)]
+    changed = [replace(some_results()[0], changed="runner-up 1", why="<why>", error_before=0.4, agreement=0.99)]
     page = summary_page("c", changed, {}, {}, 1, pages={("a", "b"): "pages/a-b.html"}, doubted=["<x> → y"])
     assert "Exchanged maps" in page
     assert "&lt;why&gt;" in page
@@ -127,7 +129,7 @@ def test_colours_end_where_the_errors_do() -> None:
 
 
 def test_numbers_of_the_summary() -> None:
-    numbers = summarised(some_results())
+    numbers = summarize(some_results())
     assert (numbers.done, numbers.failed, numbers.evaluated, numbers.bad, numbers.flipped) == (2, 1, 2, 1, 1)
     assert numbers.error_mean == pytest.approx(0.11)
     assert numbers.seconds_total == pytest.approx(8)
@@ -135,7 +137,7 @@ def test_numbers_of_the_summary() -> None:
     assert [r.error_mean for r in worst_first(some_results())] == [0.2, 0.02]
     unknown = [replace(r, error_mean=None) for r in some_results()]
     assert [r.confidence for r in worst_first(unknown)] == [0.5, None]
-    assert summarised([]).error_mean is None
+    assert summarize([]).error_mean is None
 
 
 def test_outputs_come_from_the_result_files(folder: Path, tmp_path: Path) -> None:
@@ -145,14 +147,14 @@ def test_outputs_come_from_the_result_files(folder: Path, tmp_path: Path) -> Non
     result_path(tmp_path, "broken").write_text("{")
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        outcome = match_collection(plan_of(folder, tmp_path), name="c", worst=1)
+        outcome = run_batch(plan_of(folder, tmp_path), name="c", worst=1)
     assert outcome.matched == 0
     assert len(outcome.results) == 6
-    assert all_results(tmp_path, plan.settings.digest) == list(outcome.results)
+    assert all_results(tmp_path, plan.spec.digest) == list(outcome.results)
     # A worker killed between writing a result and renaming it leaves the whole text under its temporary name.
     one = next((tmp_path / "pairs").glob("[!.]*.json"))
     (tmp_path / "pairs" / ".unfinished-0123456789ab.json").write_bytes(one.read_bytes())
-    assert all_results(tmp_path, plan.settings.digest) == list(outcome.results)
+    assert all_results(tmp_path, plan.spec.digest) == list(outcome.results)
     page = (tmp_path / PAGE).read_text(encoding="utf-8")
     assert page.count("data:image/png;base64,") == 1
     mean = np.mean([float(r.error_mean or 0) for r in outcome.results])

@@ -207,7 +207,7 @@ def test_devices(tmp_path: Path, place: str) -> None:
         ("landmarks", "a.off", "a.off", "--no-browser", "-o"),
         ("render", "pair", "m.txt", "-o"),
         ("demo", "-o"),
-        ("batch", ".", "--all", "-o"),
+        ("batch", ".", "--pairs", "x", "-o"),
     ],
 )
 def test_no_command_writes_to_a_device(words: tuple[str, ...], tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -34,16 +34,16 @@ def test_given_maps_are_kept_but_for_the_wrong_one(shapes: dict[str, Shape]) -> 
     maps["s0", "s2"] = np.random.default_rng(0).permutation(N)
     told: list[str] = []
     found = kfmaps.match_collection(shapes, maps, config=LOCAL, progress=lambda what, *_: told.append(what))
-    assert list(found.changes) == [("s0", "s2")]
-    assert found.changes["s0", "s2"].startswith("composition through s")
+    assert list(found.replacements) == [("s0", "s2")]
+    assert found.replacements["s0", "s2"].startswith("composition through s")
     at = found.pairs.index(("s0", "s2"))
     assert (found.maps[at] == np.arange(N)).mean() > 0.9
     match = found.matches[at]
     assert match is not None
-    assert match.initialization == found.changes["s0", "s2"]
+    assert match.initialization == found.replacements["s0", "s2"]
     assert [m is None for m in found.matches].count(False) == 1
-    assert min(found.chances) > 0.5
-    assert set(found.hands.values()) == {1}
+    assert min(found.probabilities) > 0.5
+    assert set(found.chirality.values()) == {1}
     assert set(told) == {"shapes", "pairs"}
     D = found.distances()
     assert D.shape == (4, 4)
@@ -58,7 +58,7 @@ def test_any_two_shapes_have_a_map(shapes: dict[str, Shape]) -> None:
     np.testing.assert_array_equal(found.map("s0", "s0"), np.arange(N))
     np.testing.assert_array_equal(found.map("s1", "s2"), np.arange(N))
     apart = kfmaps.match_collection(shapes, {("s0", "s1"): np.arange(N)}, config=LOCAL)
-    assert apart.latent is None
+    assert apart.limit_shape is None
     with pytest.raises(InvalidInput, match="shapes that maps join"):
         apart.map("s0", "s3")
     with pytest.raises(InvalidInput, match="three shapes or more"):
@@ -97,14 +97,14 @@ def test_maps_of_parts_stay_apart(shapes: dict[str, Shape]) -> None:
     found = kfmaps.match_collection(shapes, {**maps, ("s0", "s3"): part}, config=LOCAL)
     assert found.parts == (("s0", "s3"),)
     assert found.pairs == (*usual.pairs, ("s0", "s3"))
-    assert found.chances[:-1] == pytest.approx(usual.chances)
-    assert np.isnan(found.chances[-1])
+    assert found.probabilities[:-1] == pytest.approx(usual.probabilities)
+    assert np.isnan(found.probabilities[-1])
     np.testing.assert_array_equal(found.map("s0", "s3"), part)
     with pytest.raises(InvalidInput, match="shapes that maps join"):
         found.map("s1", "s3")
-    assert found.latent is None
+    assert found.limit_shape is None
     np.testing.assert_allclose(found.distances()[:3, :3], usual.distances(), atol=1e-9)
     assert np.isnan(found.distances()[:3, 3]).all()
     only = kfmaps.match_collection(shapes, {("s0", "s3"): part}, config=LOCAL)
     assert only.parts == only.pairs == (("s0", "s3"),)
-    assert only.changes == {}
+    assert only.replacements == {}

@@ -32,6 +32,7 @@ FLOORS = {
     "learn": 12,
     "batch": 12,
     "collection.api": 12,
+    "collection.consistency": 12,
     "api": 12,
     "__main__": 13,
 }

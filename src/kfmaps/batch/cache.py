@@ -1,30 +1,32 @@
-"""Prepared shapes on disk, found again by the content of the mesh and by the settings that matter."""
+"""Prepared shapes and their samples on disk, found again by the content of the mesh and the settings that matter."""
 
 from __future__ import annotations
 
 import hashlib
 from contextlib import suppress
+from dataclasses import fields, is_dataclass, replace
 from pathlib import Path
+from typing import Any, get_args, get_origin, get_type_hints
 
 import numpy as np
 
 import kfmaps
 from kfmaps._arrays import InvalidInput
-from kfmaps.batch.settings import digest_of
+from kfmaps.batch.run_spec import digest_of
 from kfmaps.config import Config
-from kfmaps.geometry.basis import Basis
-from kfmaps.geometry.mesh import Mesh
 from kfmaps.io import atomic_output
 from kfmaps.io.gltf import buffer_files
 from kfmaps.io.text import read_bytes
+from kfmaps.matching.quality import ShapeSamples
+from kfmaps.matching.search import scoring_samples
 from kfmaps.shape import Shape
 
-LAYOUT = 2
+LAYOUT = 3
 """Raised when what an entry holds changes."""
 
 
 def file_digest(path: str | Path) -> str:
-    """32 hexadecimal digits that stand for the content of a file, and of those that a .gltf keeps its numbers in."""
+    """Return 32 hexadecimal digits for the content of a file, and of those that a .gltf keeps its numbers in."""
     with open(path, "rb") as file:
         digest = hashlib.file_digest(file, "sha256")
     if Path(path).suffix.lower() == ".gltf":
@@ -35,7 +37,7 @@ def file_digest(path: str | Path) -> str:
 
 
 def shape_key(content: str, suffix: str, config: Config) -> str:
-    """The name of an entry: ``content`` (digest of the mesh's file) with all settings that preparing depends on.
+    """Return the name of an entry: ``content`` (digest of the mesh's file) with all settings of its preparation.
 
     ``suffix`` is the file's extension, which decides how its content is read.
     """
@@ -55,40 +57,75 @@ def shape_key(content: str, suffix: str, config: Config) -> str:
 
 def save_shape(path: Path, shape: Shape) -> None:
     """Write a prepared shape, whole or not at all; an entry that is there is replaced by its equal."""
-    arrays = {
-        "vertices": shape.mesh.vertices,
-        "faces": shape.mesh.faces,
-        "eigenvalues": shape.basis.eigenvalues,
-        "functions": shape.basis.functions,
-        "mass": shape.basis.mass,
-        "stages": np.array(list(shape.seconds)),
-        "seconds": np.array(list(shape.seconds.values()), dtype=np.float64),
-        "laplacian": np.array(shape.laplacian),
-    }
-    if shape.extent is not None:
-        arrays["extent"] = np.float64(shape.extent)
-    if shape.shot is not None:
-        arrays |= {"shot": shape.shot, "shot_radius": np.float64(shape.shot_radius)}
-    with atomic_output(path, force=True) as temporary, open(temporary, "wb") as file:
-        np.savez(file, allow_pickle=False, **arrays)
+    save_record(path, shape)
 
 
 def load_shape(path: Path, name: str) -> Shape | None:
     """Read a prepared shape; ``None`` when there is none or the entry is damaged, so that it is made again."""
+    shape = load_record(path, Shape)
+    return None if shape is None else replace(shape, name=name)
+
+
+def samples_path(entry: Path, seed: int) -> Path:
+    """Return where the samples for this seed lie, beside the ``entry`` of their shape."""
+    return entry.with_name(f"{entry.stem}.samples{seed}.npz")
+
+
+def cached_samples(shape: Shape, entry: Path, seed: int) -> ShapeSamples:
+    """Return what a search needs to know of ``shape``: read where it is kept, else worked out and kept."""
+    path = samples_path(entry, seed)
+    samples = load_record(path, ShapeSamples)
+    if samples is None:
+        samples = scoring_samples(shape, seed)
+        save_record(path, samples)
+    return samples
+
+
+def save_record(path: Path, record: Any) -> None:
+    """Write the arrays of a dataclass and of those in it, whole or not at all."""
+    with atomic_output(path, force=True) as temporary, open(temporary, "wb") as file:
+        np.savez(file, allow_pickle=False, **_flatten(record, ""))
+
+
+def load_record(path: Path, kind: type) -> Any:
+    """Read what :func:`save_record` wrote; ``None`` when there is none or the file is damaged."""
     try:
         with open(path, "rb") as file, np.load(file, allow_pickle=False) as arrays:
-            seconds = dict(zip(arrays["stages"].tolist(), arrays["seconds"].tolist(), strict=True))
-            return Shape(
-                Mesh(arrays["vertices"], arrays["faces"]),
-                Basis(arrays["eigenvalues"], arrays["functions"], arrays["mass"]),
-                arrays["shot"] if "shot" in arrays.files else None,
-                name,
-                seconds,
-                str(arrays["laplacian"]),
-                float(arrays["shot_radius"]) if "shot" in arrays.files else None,
-                float(arrays["extent"]) if "extent" in arrays.files else None,
-            )
+            return _restore(kind, dict(arrays), "")
     except FileNotFoundError:
         return None
     except Exception:  # NumPy reports a damaged file by whatever it runs into
         return None
+
+
+def _flatten(record: Any, before: str) -> dict[str, np.ndarray]:
+    """Arrays by dotted names; what is ``None`` is left out, and a dictionary of numbers is two arrays."""
+    arrays: dict[str, np.ndarray] = {}
+    for field in fields(record):
+        value, name = getattr(record, field.name), before + field.name
+        if is_dataclass(value):
+            arrays |= _flatten(value, name + ".")
+        elif isinstance(value, dict):
+            arrays |= {f"{name}.keys": np.array(list(value)), f"{name}.values": np.array(list(value.values()))}
+        elif value is not None:
+            arrays[name] = np.asarray(value)
+    return arrays
+
+
+def _restore(kind: Any, arrays: dict[str, np.ndarray], before: str) -> Any:
+    """The record of which :func:`_flatten` made ``arrays``; ``KeyError`` when one is missing that is not optional."""
+    values = {}
+    for name, hint in get_type_hints(kind).items():
+        path = before + name
+        inner = next((part for part in (hint, *get_args(hint)) if is_dataclass(part)), None)
+        if inner is not None:
+            there = inner is hint or any(key.startswith(f"{path}.") for key in arrays)
+            values[name] = _restore(inner, arrays, f"{path}.") if there else None
+        elif get_origin(hint) is dict:
+            values[name] = dict(zip(arrays[f"{path}.keys"].tolist(), arrays[f"{path}.values"].tolist(), strict=True))
+        elif path in arrays or "None" not in str(hint):
+            array = arrays[path]
+            values[name] = array if array.ndim else array.item()
+        else:
+            values[name] = None
+    return kind(**values)

@@ -1,46 +1,77 @@
-"""The maps of a whole run made to agree over cycles: which are exchanged, for what and why; all written beside them.
+"""Make the maps of a whole run agree over cycles; which are replaced, by what and why is written beside them.
 
 Nothing of the run itself is touched, so that the same evidence leads to the same end however often it is cut short.
-What each pair says, each way round and each exchanged map is a file of its own, with a digest of its inputs.
+The scores of each pair, each composition and each replacement is a file of its own, with a digest of its inputs.
 """
 
 from __future__ import annotations
 
 import csv
 import io
+import os
+import platform
+import time
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Any
+
+import numpy as np
 
 from kfmaps._arrays import refuse
-from kfmaps.batch.evidence import FOLDER, StepTask, WayTask, composition, evidence
-from kfmaps.batch.exchange import Exchange, exchange, exchanged_map, exchanged_result, kind_of, reason_of
+from kfmaps._threads import one_blas_thread
+from kfmaps.batch.cache import file_digest, load_record, save_record
+from kfmaps.batch.jobs import WorkerPool
 from kfmaps.batch.plan import Plan
-from kfmaps.batch.results import Result
-from kfmaps.batch.specimens import write_specimens
-from kfmaps.batch.spread import Crew
-from kfmaps.batch.tasks import PairTask
-from kfmaps.collection.repair import CyclePath, RepairResult, repair
-from kfmaps.collection.scored_map import ScoredMap, candidate_maps
-from kfmaps.collection.synchronization import Edge
-from kfmaps.io import atomic_output
+from kfmaps.batch.results import FOLDER as RESULTS
+from kfmaps.batch.results import Result, read_result, write_result
+from kfmaps.batch.run_spec import digest_of
+from kfmaps.batch.shape_statistics import write_shape_statistics
+from kfmaps.batch.work import (
+    MAPS,
+    PairTask,
+    capture_errors,
+    load_prepared,
+    map_path,
+    now,
+    pair_samples,
+    recorded,
+    true_vertices,
+)
+from kfmaps.collection.consistency import (
+    Candidate,
+    Consistency,
+    compose_path,
+    refine_replacement,
+    score_candidates,
+    score_stored,
+    stored_candidates,
+    synchronize_store,
+)
+from kfmaps.collection.repair import CyclePath, Replacement
+from kfmaps.collection.scored_map import ScoredMap
+from kfmaps.io import atomic_output, load_map
+from kfmaps.shape import Shape
 
+CONSISTENT, EVIDENCE, PATHS = "consistent", "evidence", "paths"
 TABLE = "pairs.csv"
+LAYOUT = 4
+"""Raised when what is kept of a pair changes."""
+PART = "the map of a part stays as it is and takes no part in this: {} of {} vertices have no counterpart"
 
 
 @dataclass(frozen=True, eq=False)
-class Agreed:
+class ConsistentResult:
     """A run whose maps were made to agree.
 
     Attributes
     ----------
     results : tuple of Result
-        Those given, with their probabilities; of exchanged pairs the new.
+        Those given, with their probabilities; of replaced maps the new.
     before : dict of (source, target) to Result
-        Of exchanged pairs the old.
+        Of replaced maps the old.
     doubted : tuple of str
         A line for each pair that others contradict and for which nothing better is known.
-    exchanged : int
     notes : tuple of str
         What could not be taken into account.
     """
@@ -48,112 +79,306 @@ class Agreed:
     results: tuple[Result, ...]
     before: dict[tuple[str, str], Result]
     doubted: tuple[str, ...]
-    exchanged: int
     notes: tuple[str, ...] = ()
 
+    @property
+    def replaced(self) -> int:
+        """How many maps were replaced."""
+        return len(self.before)
 
-def make_consistent(plan: Plan, results: Sequence[Result], crew: Crew) -> Agreed:
-    """Settle which maps of a finished run are right, exchange what is wrong, and write what came of it.
+
+def replacement_map(folder: Path, key: str) -> Path:
+    """Return where the map lies that replaces a pair's own."""
+    return folder / CONSISTENT / MAPS / f"{key}.npz"
+
+
+def replacement_result(folder: Path, key: str) -> Path:
+    """Return where its result lies."""
+    return folder / CONSISTENT / RESULTS / f"{key}.json"
+
+
+def map_in_use(folder: Path, key: str) -> Path:
+    """Return the map of a pair: that which replaces its own, or its own."""
+    other = replacement_map(folder, key)
+    return other if replacement_result(folder, key).exists() and other.exists() else map_path(folder, key)
+
+
+def make_consistent(plan: Plan, results: Sequence[Result], pool: WorkerPool) -> ConsistentResult:
+    """Find which maps of a finished run are wrong, replace them, and write what came of it.
 
     Parameters
     ----------
     plan : Plan
     results : sequence of Result
         Of the plan's pairs; those that failed are left as they are.
-    crew : Crew
-        Workers.
+    pool : WorkerPool
 
     Raises
     ------
     InvalidInput
-        When there is no pair to speak of.
+        When no pair is matched.
     """
     known = {(r.source, r.target): r for r in results if r.status == "done"}
     tasks = [task for task in plan.tasks if (task.pair.source, task.pair.target) in known]
-    said = crew.each("evidence of pairs", evidence, tasks)
-    notes = [
-        f"{t.pair.source} → {t.pair.target}: {reason}" for t, (_, reason) in zip(tasks, said, strict=True) if reason
-    ]
-    both = [(task, maps) for task, (maps, reason) in zip(tasks, said, strict=True) if not reason]
     if not tasks:
         raise refuse("--consistent", "pairs that are matched", "none", "see why the pairs failed")
+    scored = pool.map("evidence of pairs", score_pair, tasks)
+    notes = [f"{task}: {reason}" for task, (_, reason) in zip(tasks, scored, strict=True) if reason]
+    both = [(task, maps) for task, (maps, reason) in zip(tasks, scored, strict=True) if not reason]
     if not both:
         _forget(plan, set())
-        return Agreed(tuple(results), {}, (), 0, tuple(notes))
-    tasks, maps = [task for task, _ in both], [m for _, m in both]
-    names = list(dict.fromkeys(name for task in tasks for name in (task.pair.source, task.pair.target)))
-    number = {name: i for i, name in enumerate(names)}
-    ends = [(number[task.pair.source], number[task.pair.target]) for task in tasks]
-    made: dict[tuple[int, CyclePath], ScoredMap] = {}
-
-    def compose(asked: list[tuple[int, CyclePath]]) -> list[ScoredMap]:
-        jobs = [_way(tasks, maps, link, way) for link, way in asked]
-        for one, (_, found, reason) in zip(asked, crew.each("ways round", composition, jobs), strict=True):
-            if found is None:
-                raise refuse("way round", "maps that can be read", reason, "run the command again")
-            made[one] = found
-        return [made[one] for one in asked]
-
-    found = repair(len(names), ends, maps, compose)
-    jobs = [
-        Exchange(
-            tasks[c.edge],
-            c,
-            None if c.path is None else _way(tasks, maps, c.edge, c.path),
-            () if c.path is None else tuple(names[i] for i in c.path.through),
-            known[tasks[c.edge].pair.source, tasks[c.edge].pair.target],
-        )
-        for c in found.replacements
-        if c.kind != "none"
-    ]
-    _forget(plan, {job.task.pair.key for job in jobs})
-    ended = crew.each("exchanged pairs", exchange, jobs)
-    changed = {(r.source, r.target): r for r in ended if r.status == "done"}
-    notes += [f"{r.source} → {r.target} stays as it was: {r.reason}" for r in ended if r.status == "failed"]
-    use = found.probabilities
-    chance = {(t.pair.source, t.pair.target): float(use[i]) for i, t in enumerate(tasks)}
+        return ConsistentResult(tuple(results), {}, (), tuple(notes))
+    store = _FolderStore(plan, [task for task, _ in both], [maps for _, maps in both], known, pool)
+    found = synchronize_store(store)
+    changed = {(r.source, r.target): r for r in store.replaced if r.status == "done"}
+    notes += [f"{r.source} → {r.target} stays as it was: {r.reason}" for r in store.replaced if r.status == "failed"]
+    pairs = [(task.pair.source, task.pair.target) for task in store.tasks]
+    chance = dict(zip(pairs, found.repaired.probabilities.tolist(), strict=True))
     final = tuple(
         changed.get((r.source, r.target), replace(r, agreement=chance.get((r.source, r.target)))) for r in results
     )
-    doubted = tuple(
-        f"{tasks[c.edge].pair.source} → {tasks[c.edge].pair.target}: {reason_of(c)}"
-        for c in found.replacements
-        if c.kind == "none"
+    doubted = [c for c in found.repaired.replacements if c.kind == "none"]
+    _write_pairs(plan.folder / CONSISTENT / TABLE, store, found)
+    notes += write_shape_statistics(plan.folder / CONSISTENT, store.names, store.shape, found)
+    before = {key: known[key] for key in changed}
+    return ConsistentResult(final, before, tuple(f"{store.tasks[c.edge]}: {c.reason()}" for c in doubted), tuple(notes))
+
+
+class _FolderStore:
+    """A :class:`~kfmaps.collection.consistency.MapStore` of the maps of a run, worked on by a pool of workers."""
+
+    def __init__(
+        self,
+        plan: Plan,
+        tasks: list[PairTask],
+        scores: list[list[ScoredMap]],
+        results: dict[tuple[str, str], Result],
+        pool: WorkerPool,
+    ) -> None:
+        self.plan, self.tasks, self.scores, self.results, self.pool = plan, tasks, scores, results, pool
+        self.shapes = {t.name: t for task in tasks for t in (task.source, task.target)}
+        self.names = list(self.shapes)
+        number = {name: i for i, name in enumerate(self.names)}
+        self.ends = [(number[task.pair.source], number[task.pair.target]) for task in tasks]
+        self.replaced: list[Result] = []
+
+    def shape(self, name: str) -> Shape:
+        return load_prepared(self.shapes[name])
+
+    def score(self) -> list[list[ScoredMap]]:
+        return self.scores
+
+    def compose(self, asked: list[tuple[int, CyclePath]]) -> list[ScoredMap]:
+        made = []
+        for _, scored, reason in self.pool.map("compositions", compose, [self._path(*one) for one in asked]):
+            if scored is None:
+                raise refuse("composition", "maps that can be read", reason, "run the command again")
+            made.append(scored)
+        return made
+
+    def replace(self, replacements: Sequence[Replacement]) -> None:
+        jobs = []
+        for change in replacements:
+            task = self.tasks[change.edge]
+            path = None if change.path is None else self._path(change.edge, change.path)
+            before = self.results[task.pair.source, task.pair.target]
+            jobs.append(_ReplaceTask(task, change, path, change.label(self.names), before))
+        _forget(self.plan, {job.task.key for job in jobs})
+        self.replaced = self.pool.map("replaced maps", replace_map, jobs)
+
+    def eigenvalues(self, count: int) -> np.ndarray:
+        return np.stack([self.shape(name).basis.eigenvalues[:count] for name in self.names])
+
+    def _path(self, edge: int, path: CyclePath) -> _PathTask:
+        return _PathTask(self.tasks[edge], tuple((self.tasks[s.edge], s.candidate, s.forward) for s in path.steps))
+
+
+@dataclass(frozen=True)
+class _PathTask:
+    """A path around a pair: of each step the pair, the number of its candidate, and whether it goes forward."""
+
+    task: PairTask
+    steps: tuple[tuple[PairTask, int, bool], ...]
+
+    def __str__(self) -> str:
+        return str(self.task)
+
+    @property
+    def file(self) -> Path:
+        named = digest_of([[task.key, candidate, forward] for task, candidate, forward in self.steps])
+        return Path(self.task.folder) / CONSISTENT / PATHS / f"{self.task.key}.{named}.npz"
+
+
+@dataclass(frozen=True)
+class _ReplaceTask:
+    """A map to be replaced: by which composition, if by one, and the result of the map that was in use."""
+
+    task: PairTask
+    change: Replacement
+    path: _PathTask | None
+    label: str
+    before: Result
+
+    def __str__(self) -> str:
+        return str(self.task)
+
+
+@dataclass(frozen=True, eq=False)
+class _Kept:
+    """Scored maps of a pair on disk; of a composition with its ``points``."""
+
+    inputs: str
+    maps: np.ndarray
+    scores: np.ndarray
+    orientations: np.ndarray
+    reversed: np.ndarray
+    points: np.ndarray | None = None
+
+    def scored(self) -> list[ScoredMap]:
+        rows = zip(self.maps, self.scores, self.orientations, self.reversed, strict=True)
+        return [ScoredMap(C, float(score), float(turn), bool(back)) for C, score, turn, back in rows]
+
+
+def _keep(path: Path, inputs: str, scored: list[ScoredMap], points: np.ndarray | None = None) -> _Kept:
+    kept = _Kept(
+        inputs,
+        np.stack([one.map for one in scored]),
+        np.array([one.score for one in scored]),
+        np.array([one.orientation for one in scored]),
+        np.array([one.reversed for one in scored]),
+        points,
     )
-    _write_pairs(plan.folder / FOLDER / TABLE, tasks, maps, found, names)
-    links = [Edge(a, b, candidate_maps(several)) for (a, b), several in zip(ends, maps, strict=True)]
-    notes += write_specimens(plan, names, links, found, tasks)
-    return Agreed(final, {key: known[key] for key in changed}, doubted, len(changed), tuple(notes))
+    path.parent.mkdir(parents=True, exist_ok=True)
+    save_record(path, kept)
+    return kept
 
 
-def _way(tasks: list[PairTask], maps: list[list[ScoredMap]], link: int, way: CyclePath) -> WayTask:
-    steps = tuple(StepTask(tasks[step.edge], step.candidate, step.forward) for step in way.steps)
-    turns = sum(maps[step.edge][step.candidate].reversed for step in way.steps)
-    return WayTask(tasks[link], steps, turns % 2 == 1)
+def _kept(path: Path, inputs: str) -> _Kept | None:
+    kept = load_record(path, _Kept)
+    return kept if kept is not None and kept.inputs == inputs else None
+
+
+def _map_digest(task: PairTask) -> str:
+    """Digest of a pair's own map and all that it was made from."""
+    path = map_path(Path(task.folder), task.key)
+    return digest_of([LAYOUT, task.settings, task.inputs, file_digest(path)], 32)
+
+
+def score_pair(task: PairTask) -> tuple[list[ScoredMap], str]:
+    """Score the map of a pair and its runners-up, unless that is kept; or say why it cannot be done.
+
+    Maps of parts take no part: neither cycles nor a common basis are defined where points have no counterpart.
+    """
+    try:
+        inputs = _map_digest(task)
+        path = Path(task.folder) / CONSISTENT / EVIDENCE / f"{task.key}.npz"
+        kept = _kept(path, inputs)
+        if kept is None:
+            file = load_map(map_path(Path(task.folder), task.key))
+            lost = int((file.target_to_source < 0).sum())
+            if lost:
+                return [], PART.format(lost, len(file.target_to_source))
+            with one_blas_thread():
+                shapes = _shapes(task)
+                kept = _keep(path, inputs, score_stored(file, shapes, pair_samples(task, shapes)))
+        return kept.scored(), ""
+    except Exception as error:  # told of with the pair; one bad file must not end the run
+        return [], f"{type(error).__name__}: {error}"
+
+
+def compose(job: _PathTask) -> tuple[np.ndarray | None, ScoredMap | None, str]:
+    """Compose the maps of a path and score the composition, unless that is kept; or say why it cannot be done."""
+    try:
+        inputs = digest_of([_map_digest(task) for task, _, _ in job.steps], 32)
+        kept = _kept(job.file, inputs)
+        if kept is None:
+            with one_blas_thread():
+                made = compose_path(
+                    [
+                        (_candidates(task)[number], None if forward else load_prepared(task.source).basis)
+                        for task, number, forward in job.steps
+                    ]
+                )
+                shapes = _shapes(job.task)
+                scored = score_candidates([made], shapes, pair_samples(job.task, shapes))
+                kept = _keep(job.file, inputs, scored, made[0])
+        return kept.points, kept.scored()[0], ""
+    except Exception as error:
+        return None, None, f"{type(error).__name__}: {error}"
+
+
+def replace_map(job: _ReplaceTask) -> Result:
+    """Finish, evaluate and save the map that replaces another unless that is done; a failure is recorded."""
+    task, change, folder = job.task, job.change, Path(job.task.folder)
+    path, other = replacement_result(folder, task.key), replacement_map(folder, task.key)
+    begun = time.perf_counter()
+    values: dict[str, Any] = {"seconds": {}}
+    inputs = ""
+    with capture_errors() as caught, one_blas_thread():
+        steps = [] if job.path is None else [[n, forward, _map_digest(t)] for t, n, forward in job.path.steps]
+        inputs = digest_of([_map_digest(task), change.kind, change.candidate, steps])
+        there = read_result(path)
+        if there is not None and (there.settings, there.inputs) == (task.settings, inputs) and other.exists():
+            return there
+        path.unlink(missing_ok=True)
+        other.unlink(missing_ok=True)
+        composition = None
+        if job.path is not None:
+            points, scored, reason = compose(job.path)
+            if points is None or scored is None:
+                raise refuse(f"composition of {task.key}", "maps that can be read", reason, "run the command again")
+            composition = points, scored.reversed
+        shapes = _shapes(task)
+        config = replace(task.config, threads=1)
+        found = refine_replacement(change, _candidates(task), composition, shapes, config, job.label, task.seed)
+        truth = true_vertices(task, *(len(shape.mesh.vertices) for shape in shapes))
+        values = recorded(task, found, shapes, truth, None, other)
+    values["seconds"]["total"] = time.perf_counter() - begun
+    result = Result(
+        *(task.pair.source, task.pair.target, "failed" if caught.reason else "done", task.settings, inputs),
+        reason=caught.reason,
+        worker=f"{platform.node()}:{os.getpid()}",
+        finished=now(),
+        changed=job.label,
+        why=change.reason(),
+        error_before=job.before.error_mean,
+        agreement=change.after,
+        notes=tuple(caught.notes),
+        **values,
+    )
+    path.parent.mkdir(parents=True, exist_ok=True)
+    write_result(path, result)
+    return result
+
+
+def _shapes(task: PairTask) -> tuple[Shape, Shape]:
+    return load_prepared(task.source), load_prepared(task.target)
+
+
+def _candidates(task: PairTask) -> list[Candidate]:
+    return stored_candidates(load_map(map_path(Path(task.folder), task.key)))
 
 
 def _forget(plan: Plan, kept: set[str]) -> None:
-    """Away with maps of pairs that are not exchanged any more, since others have been matched again."""
+    """Remove replacements of maps that are not replaced any more, since others have been matched again."""
     for task in plan.tasks:
-        if task.pair.key not in kept:
-            exchanged_result(plan.folder, task.pair.key).unlink(missing_ok=True)
-            exchanged_map(plan.folder, task.pair.key).unlink(missing_ok=True)
+        if task.key not in kept:
+            replacement_result(plan.folder, task.key).unlink(missing_ok=True)
+            replacement_map(plan.folder, task.key).unlink(missing_ok=True)
 
 
-def _write_pairs(
-    path: Path, tasks: list[PairTask], maps: list[list[ScoredMap]], found: RepairResult, names: list[str]
-) -> None:
+def _write_pairs(path: Path, store: _FolderStore, found: Consistency) -> None:
     """What the collection says of every pair."""
     text = io.StringIO(newline="")
     out = csv.writer(text, lineterminator="\n")
-    out.writerow(["source", "target", "candidates", "probability", "misfit", "score", "changed", "why"])
-    changes = {change.edge: change for change in found.replacements}
-    for i, task in enumerate(tasks):
+    out.writerow(["source", "target", "candidates", "probability", "residual", "score", "changed", "why"])
+    changes = {change.edge: change for change in found.repaired.replacements}
+    sync = found.repaired.sync
+    for i, (task, maps) in enumerate(zip(store.tasks, found.scores, strict=True)):
         change = changes.get(i)
-        what = "" if change is None else kind_of(change, [names[k] for k in change.path.through] if change.path else ())
-        row = [task.pair.source, task.pair.target, len(maps[i]), f"{found.sync.probabilities[i][0]:.6f}"]
-        row += [f"{found.sync.residuals[i][0]:.6f}", f"{maps[i][0].score:.4f}", what]
-        out.writerow([*row, "" if change is None else reason_of(change)])
+        row = [task.pair.source, task.pair.target, len(maps), f"{sync.probabilities[i][0]:.6f}"]
+        row += [f"{sync.residuals[i][0]:.6f}", f"{maps[0].score:.4f}"]
+        out.writerow([*row, *(("", "") if change is None else (change.label(store.names), change.reason()))])
     path.parent.mkdir(parents=True, exist_ok=True)
     with atomic_output(path, force=True) as temporary:
         temporary.write_text(text.getvalue(), encoding="utf-8", newline="")

@@ -18,8 +18,6 @@ SHAPE_FOLDERS = ("shapes", "off", "meshes", "ply", "obj")
 TRUTH_FOLDERS = ("corres", "groundtruth")
 LANDMARK_FOLDER = "landmarks"
 PAIRS_FILE = "test_pairs.txt"
-
-
 LONGEST_KEY = 200
 """Bytes of a key; file systems take names of 255."""
 
@@ -30,6 +28,9 @@ class Pair:
 
     source: str
     target: str
+
+    def __str__(self) -> str:
+        return f"{self.source} → {self.target}"
 
     @property
     def key(self) -> str:
@@ -158,7 +159,7 @@ def _pair_truth(paths: Iterable[Path], shapes: Mapping[str, Path]) -> dict[Pair,
 def choose_pairs(
     collection: ShapeFolder, *, file: str | Path | None = None, every: bool = False, star: str | None = None
 ) -> list[Pair]:
-    """The pairs to match, each once and in order.
+    """Return the pairs to match, each once and in order.
 
     Parameters
     ----------
@@ -174,16 +175,13 @@ def choose_pairs(
     Raises
     ------
     InvalidInput
-        On more than one choice, none at all, a shape that is not there, and two pairs whose files would be named
-        alike.
+        When there is no pair, a shape is not there, or two pairs would have files of one name.
     """
-    if (file is not None) + every + (star is not None) > 1:
-        raise refuse("pairs", "one of --pairs, --all and --star", "several", "leave the others out")
     names = list(collection.shapes)
     if every:
         pairs = [Pair(a, b) for a in names for b in names if a != b]
     elif star is not None:
-        centre = _known(star, collection, "--star")
+        centre = _known(star, collection, "--graph star:SHAPE")
         pairs = [Pair(centre, name) for name in names if name != centre]
     elif file is not None or collection.pairs is not None:
         pairs = read_pairs(file or collection.pairs or "", collection)
@@ -191,7 +189,7 @@ def choose_pairs(
         pairs = list(collection.maps)
     else:
         got = f"no {PAIRS_FILE} in {collection.folder}"
-        raise refuse("pairs", "a list of pairs", got, "give --pairs FILE, --all or --star SHAPE")
+        raise refuse("pairs", "a list of pairs", got, "give --pairs FILE, or let --graph near choose them")
     pairs = list(dict.fromkeys(pairs))
     if not pairs:
         raise refuse("pairs", "two shapes or more", f"{len(names)}", "add shapes")

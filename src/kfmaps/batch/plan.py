@@ -1,19 +1,35 @@
-"""From a collection, its pairs and the settings to tasks: what there is to do, and what is done already."""
+"""From a collection, its pairs and a specification to tasks: what there is to do, and what is done already."""
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
-from kfmaps._arrays import refuse
+import numpy as np
+
+from kfmaps._arrays import InvalidInput, refuse
 from kfmaps.batch.cache import file_digest, shape_key
-from kfmaps.batch.layout import Pair, ShapeFolder
+from kfmaps.batch.jobs import WorkerPool
+from kfmaps.batch.layout import Pair, ShapeFolder, choose_pairs
 from kfmaps.batch.results import FOLDER, Result, read_result, result_path
-from kfmaps.batch.settings import Settings, claim, digest_of
-from kfmaps.batch.tasks import PairTask, ShapeTask
+from kfmaps.batch.run_spec import RunSpec, claim, digest_of
+from kfmaps.batch.work import PairTask, ShapeTask, load_prepared, prepare_shape
+from kfmaps.collection.pair_graph import (
+    complete_graph,
+    medoid,
+    nearest_neighbor_graph,
+    signature,
+    signature_distances,
+    star_graph,
+)
 from kfmaps.config import Config
+from kfmaps.io import atomic_output
+
+GRAPH = "graph.json"
+GRAPHS = "near, star, star:SHAPE, all or both"
 
 
 @dataclass(frozen=True)
@@ -24,7 +40,7 @@ class Plan:
     ----------
     folder : Path
         The output folder.
-    settings : Settings
+    spec : RunSpec
     tasks : tuple of PairTask
         Every pair asked for, in order.
     todo : tuple of PairTask
@@ -36,7 +52,7 @@ class Plan:
     """
 
     folder: Path
-    settings: Settings
+    spec: RunSpec
     tasks: tuple[PairTask, ...]
     todo: tuple[PairTask, ...]
     results: tuple[Result, ...]
@@ -53,7 +69,7 @@ def recommended(collection: ShapeFolder, pairs: Sequence[Pair], landmark_lines: 
 def make_plan(
     collection: ShapeFolder,
     pairs: Sequence[Pair],
-    settings: Settings,
+    spec: RunSpec,
     output: str | Path,
     *,
     cache_folder: str | Path | None = None,
@@ -71,55 +87,127 @@ def make_plan(
     Raises
     ------
     InvalidInput
-        When the output folder holds results of other settings or cannot be made.
+        When the output folder holds results of another specification or cannot be made.
     """
-    if settings.identity and (collection.truth or collection.maps):
+    if spec.identity and (collection.truth or collection.maps):
         remedy = "leave --identity out, or move the files away"
         raise refuse("--identity", "a collection without files of correspondences", "one with such files", remedy)
-    folder = _folder(output)
-    digest = cache(file_digest)
-    shape_task = cache(_shape_tasks(collection, settings, folder, cache_folder, digest))
+    folder, digest = _folder(output), cache(_digest)
+    shape_task = cache(_shape_tasks(collection, spec, folder, cache_folder, digest))
     _folder(folder / FOLDER)
-    used = settings.digest
-    tasks = tuple(_pair_task(collection, pair, settings, used, folder, shape_task, digest) for pair in pairs)
+    used = spec.digest
+    tasks = tuple(_pair_task(collection, pair, spec, used, folder, shape_task, digest) for pair in pairs)
     todo, results, changed = [], [], 0
     for task in tasks:
-        there = read_result(result_path(folder, task.pair.key))
+        there = read_result(result_path(folder, task.key))
         fits = there is not None and (there.settings, there.inputs) == (task.settings, task.inputs)
         if there is not None and (there.source, there.target) != (task.pair.source, task.pair.target):
             got = f"{there.source} and {there.target}"
-            raise refuse(f"result {task.pair.key}", f"of {task.pair}", got, "rename one of the shapes")
+            raise refuse(f"result {task.key}", f"of {task.pair}", got, "rename one of the shapes")
         if there is None or not fits or (retry_failed and there.status == "failed"):
             changed += there is not None and not fits
             todo.append(task)
         else:
             results.append(there)
-    return Plan(folder, settings, tasks, tuple(todo), tuple(results), changed)
+    return Plan(folder, spec, tasks, tuple(todo), tuple(results), changed)
 
 
-def shape_tasks(
-    collection: ShapeFolder, settings: Settings, output: str | Path, cache_folder: str | Path | None = None
-) -> dict[str, ShapeTask]:
-    """The tasks of preparing every shape, by name; makes the output folder as :func:`make_plan` does."""
-    task = _shape_tasks(collection, settings, _folder(output), cache_folder, file_digest)
-    return {name: task(name) for name in collection.shapes}
+def graph_pairs(
+    collection: ShapeFolder,
+    spec: RunSpec,
+    output: str | Path,
+    kind: str,
+    pool: WorkerPool,
+    *,
+    cache_folder: str | Path | None = None,
+) -> list[Pair]:
+    """Choose pairs over a graph of the whole collection.
+
+    Parameters
+    ----------
+    kind : str
+        "near": each shape with those that are most like it, about three pairs a shape, on cycles
+        (:func:`kfmaps.collection.pair_graph.nearest_neighbor_graph`). "star": the one in the middle with all others;
+        "star:SHAPE": this one. "all": every pair, one way; "both": both ways. What the shapes decide is kept in the
+        output folder, so that it stays the same. A shape that cannot be prepared has one pair, with the middle one,
+        which fails.
+
+    Raises
+    ------
+    InvalidInput
+        On another kind, and when fewer than two shapes can be prepared.
+    """
+    names = list(collection.shapes)
+    if kind.startswith("star:"):
+        return choose_pairs(collection, star=kind.removeprefix("star:"))
+    if kind not in ("near", "star", "all", "both"):
+        raise refuse("--graph", GRAPHS, repr(kind), "choose one of them")
+    if len(names) < 2:
+        raise refuse("pairs", "two shapes or more", f"{len(names)}", "add shapes")
+    if kind == "both":
+        return choose_pairs(collection, every=True)
+    if kind == "all":
+        return [Pair(names[a], names[b]) for a, b in complete_graph(len(names))]
+    make_task = _shape_tasks(collection, spec, _folder(output), cache_folder, _digest)
+    tasks = [make_task(name) for name in names]
+    key = digest_of([kind, sorted((task.name, task.content) for task in tasks)], 32)
+    path = Path(output) / GRAPH
+    kept = _read_graph(path, key)
+    if kept is not None:
+        return kept
+    prepared = pool.map("shapes", prepare_shape, tasks)
+    good = [task for task, done in zip(tasks, prepared, strict=True) if not done.reason]
+    bad = [done for done in prepared if done.reason]
+    if len(good) < 2:
+        got = f"{len(good)}: {bad[0].reason}"
+        raise refuse("collection", "two shapes that can be prepared", got, "check the meshes")
+    distances = signature_distances(np.stack(pool.map("likeness of shapes", _signature, good)))
+    middle = medoid(distances)
+    chosen = nearest_neighbor_graph(distances) if kind == "near" else star_graph(len(good), middle)
+    pairs = [Pair(good[a].name, good[b].name) for a, b in chosen]
+    pairs += [Pair(good[middle].name, done.name) for done in bad]
+    with atomic_output(path, force=True) as temporary:
+        content = {"kind": kind, "shapes": key, "pairs": [[p.source, p.target] for p in pairs]}
+        temporary.write_text(json.dumps(content, indent=1) + "\n", encoding="utf-8")
+    return pairs
+
+
+def _signature(task: ShapeTask) -> np.ndarray:
+    return signature(load_prepared(task).basis)
+
+
+def _read_graph(path: Path, key: str) -> list[Pair] | None:
+    """The pairs that are kept, where they are of these shapes."""
+    try:
+        content = json.loads(path.read_text(encoding="utf-8"))
+        return [Pair(str(a), str(b)) for a, b in content["pairs"]] if content["shapes"] == key else None
+    except (OSError, ValueError, KeyError, TypeError, RecursionError):
+        return None
+
+
+def _digest(path: Path) -> str:
+    """The digest of a file; of one that cannot be read why, which is told with its pairs."""
+    try:
+        return file_digest(path)
+    except (OSError, InvalidInput) as error:
+        return digest_of(str(error), 32)
 
 
 def _shape_tasks(
     collection: ShapeFolder,
-    settings: Settings,
+    spec: RunSpec,
     folder: Path,
     cache_folder: str | Path | None,
     digest: Callable[[Path], str],
 ) -> Callable[[str], ShapeTask]:
-    claim(folder, settings)
+    claim(folder, spec)
     shelf = _folder(cache_folder or folder / "cache")
 
     def task(name: str) -> ShapeTask:
         path = collection.shapes[name].resolve()
         content = digest(path)
-        entry = shelf / f"{shape_key(content, path.suffix, settings.config)}.npz"
-        return ShapeTask(name, str(path), content, str(entry), str(folder), settings.config)
+        entry = shelf / f"{shape_key(content, path.suffix, spec.config)}.npz"
+        return ShapeTask(name, str(path), content, str(entry), str(folder), spec.config)
 
     return task
 
@@ -136,29 +224,28 @@ def _folder(path: str | Path) -> Path:
 def _pair_task(
     collection: ShapeFolder,
     pair: Pair,
-    settings: Settings,
+    spec: RunSpec,
     used: str,
     folder: Path,
     shape_task: Callable[[str], ShapeTask],
     digest: Callable[[Path], str],
 ) -> PairTask:
     source, target = shape_task(pair.source), shape_task(pair.target)
-    own = None if settings.identity else collection.maps.get(pair)
-    lists = own is None and not settings.identity
-    truth = _both(collection.truth, pair) if lists else None
+    own = None if spec.identity else collection.maps.get(pair)
+    truth = _both(collection.truth, pair) if own is None and not spec.identity else None
     mirrored = collection.mirrored.get(pair.target) if truth else None
-    marks = settings.landmark_files and not settings.landmark_lines
-    landmarks = _both(collection.landmarks, pair) if marks else None
+    use_files = spec.landmark_files and not spec.landmark_lines
+    landmarks = _both(collection.landmarks, pair) if use_files else None
     files = [own, *(truth or ()), mirrored, *(landmarks or ())]
     content = [source.content, target.content, *(digest(Path(f)) if f else None for f in files)]
     return PairTask(
-        *(pair, str(folder), source, target, used, digest_of(content), settings.config, settings.seed),
+        *(pair, str(folder), source, target, used, digest_of(content), spec.config, spec.seed),
         truth=truth,
         mirrored=str(mirrored.resolve()) if mirrored else None,
         truth_map=str(own.resolve()) if own else None,
-        identity=settings.identity,
+        identity=spec.identity,
         landmarks=landmarks,
-        landmark_lines=settings.landmark_lines,
+        landmark_lines=spec.landmark_lines,
     )
 
 

@@ -1,79 +1,39 @@
-"""One small file per pair, which is the truth about it; tables are made from these files alone."""
+"""Results of pairs: a small file each, from which all tables and the numbers of the summary are made."""
 
 from __future__ import annotations
 
 import csv
 import json
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import asdict, dataclass, field, fields
 from pathlib import Path
 from typing import Any
+
+import numpy as np
 
 from kfmaps._arrays import MissingDependency
 from kfmaps.io import atomic_output
 
 FOLDER = "pairs"
+BAD = 0.05
+"""A mean error above this counts as a wrong map."""
+COLOR_LIMITS = (0.02, 0.03, 0.05, 0.1, 0.15, 0.2, 0.3, 0.5)
+"""Round errors at which the colours of pictures may end."""
 
 
 @dataclass(frozen=True)
 class Result:
-    """What came of one pair. Errors are in units of √area of the source; ``None`` where the truth is unknown.
-
-    Attributes
-    ----------
-    source, target : str
-    status : "done" or "failed"
-    reason : str
-        Why it failed.
-    settings : str
-        Digest of the settings.
-    inputs : str
-        Digest of the files it was made from; a pair whose files have changed is done again.
-    attempts : int
-        How often the work was begun, by this run or an earlier one that was cut short.
-    worker : str
-        Host and process that did it.
-    finished : str
-        When, in UTC.
-    vertices_s, vertices_t, landmarks : int
-    error_mean, error_median, error_max, auc : float or None
-    mirrored_mean : float or None
-        Mean error against the truth with left and right swapped, at 500 points: small where the map is mirrored.
-    coverage : float or None
-        Part of the source's area that the map reaches.
-    confidence : float or None
-        Of the search without landmarks.
-    local_confidence : float or None
-        Mean over the target's vertices, see :mod:`kfmaps.fmap.confidence`.
-    verdict : str
-    orientation : "kept", "reversed" or ""
-        Whether it is a map to the target or to its mirror image.
-    agreement : float or None
-        Probability that the map is right beside all others of the collection, where they were made to agree.
-    common_s, common_t : float or None
-        Part of the area of source and target that both have, where one was taken for a part of the other.
-    changed : str
-        What a map was exchanged for that others contradict: "runner-up 1", "composition through A, B"; empty mostly.
-    why : str
-        For what reason.
-    error_before : float or None
-        Mean error of the map that was exchanged.
-    solver, solver_steps, rank
-    seconds : dict of str to float
-        Per stage; ``total`` is all of it, with reading and evaluation.
-    curve : tuple of float
-        Fraction of points with an error at or below each of :data:`CURVE_ERRORS`.
-    """
+    """What came of one pair. Errors are in units of √area of the source; ``None`` where the truth is unknown."""
 
     source: str
     target: str
-    status: str
-    settings: str
-    inputs: str
-    reason: str = ""
-    attempts: int = 1
-    worker: str = ""
-    finished: str = ""
+    status: str  # "done" or "failed"
+    settings: str  # digest of the specification
+    inputs: str  # digest of the files it was made from; a pair whose files have changed is done again
+    reason: str = ""  # why it failed
+    attempts: int = 1  # how often the work was begun, by this run or an earlier one that was cut short
+    worker: str = ""  # host and process
+    finished: str = ""  # when, in UTC
     vertices_s: int | None = None
     vertices_t: int | None = None
     landmarks: int | None = None
@@ -81,23 +41,23 @@ class Result:
     error_median: float | None = None
     error_max: float | None = None
     auc: float | None = None
-    mirrored_mean: float | None = None
-    coverage: float | None = None
-    confidence: float | None = None
-    local_confidence: float | None = None
+    mirrored_mean: float | None = None  # against the truth with left and right swapped: small where the map is mirrored
+    coverage: float | None = None  # part of the source's area that the map reaches
+    confidence: float | None = None  # of the search without landmarks
+    local_confidence: float | None = None  # mean over the target's vertices, see kfmaps.fmap.confidence
     verdict: str = ""
-    orientation: str = ""
-    agreement: float | None = None
-    common_s: float | None = None
+    orientation: str = ""  # whether it is a map to the target or to its mirror image
+    agreement: float | None = None  # probability that the map is right beside all others, where they were made to agree
+    common_s: float | None = None  # part of the source's area that both have, where one is a part of the other
     common_t: float | None = None
-    changed: str = ""
-    why: str = ""
-    error_before: float | None = None
+    changed: str = ""  # what replaces a map that others contradict: "runner-up 1", "composition through A, B"
+    why: str = ""  # for what reason
+    error_before: float | None = None  # mean error of the map that was replaced
     solver: str = ""
     solver_steps: int | None = None
     rank: int | None = None
-    seconds: dict[str, float] = field(default_factory=dict)
-    curve: tuple[float, ...] = ()
+    seconds: dict[str, float] = field(default_factory=dict)  # per stage; "total" includes reading and evaluation
+    curve: tuple[float, ...] = ()  # fraction of points with an error at or below each of CURVE_ERRORS
     notes: tuple[str, ...] = ()
 
 
@@ -135,26 +95,21 @@ def all_results(folder: Path, settings: str) -> list[Result]:
     return sorted((r for r in found if r is not None and r.settings == settings), key=lambda r: (r.source, r.target))
 
 
-def row(result: Result) -> dict[str, Any]:
-    """The flat row of a table: times as ``seconds_…``, no curve."""
-    values = asdict(result)
-    seconds = values.pop("seconds")
-    del values["curve"]
-    values["notes"] = "; ".join(values["notes"])
-    return values | {"seconds_" + name.replace(" ", "_"): time for name, time in seconds.items()}
-
-
-def table(results: Iterable[Result]) -> tuple[list[str], list[dict[str, Any]]]:
-    """Columns, those of :class:`Result` first and then all times, and a row for each result."""
-    rows = [row(result) for result in results]
+def _table(results: Iterable[Result]) -> tuple[list[str], list[dict[str, Any]]]:
+    """Columns, those of :class:`Result` first and then all times as ``seconds_…``, and a flat row for each result."""
+    rows = []
+    for result in results:
+        values = asdict(result)
+        times = {"seconds_" + name.replace(" ", "_"): time for name, time in values.pop("seconds").items()}
+        del values["curve"]
+        rows.append(values | {"notes": "; ".join(values["notes"])} | times)
     fixed = [f.name for f in fields(Result) if f.name not in ("seconds", "curve")]
-    times = dict.fromkeys(name for r in rows for name in r if name.startswith("seconds_"))
-    return fixed + list(times), rows
+    return fixed + list(dict.fromkeys(name for row in rows for name in row if name.startswith("seconds_"))), rows
 
 
 def write_csv(path: Path, results: Iterable[Result]) -> None:
     """One row a pair; empty where something is not known. Replaces an existing file."""
-    columns, rows = table(results)
+    columns, rows = _table(results)
     with (
         atomic_output(path, force=True) as temporary,
         open(temporary, "w", encoding="utf-8", newline="") as file,
@@ -177,7 +132,7 @@ def write_parquet(path: Path, results: Iterable[Result]) -> None:
         from pyarrow import parquet
     except ImportError as error:
         raise MissingDependency("Parquet needs pyarrow; install it with: pip install 'kfmaps[parquet]'") from error
-    columns, rows = table(results)
+    columns, rows = _table(results)
     kinds = {"attempts": pa.int64(), "vertices_s": pa.int64(), "vertices_t": pa.int64(), "landmarks": pa.int64()}
     kinds |= {"solver_steps": pa.int64(), "rank": pa.int64()}
     texts = ("source", "target", "status", "settings", "inputs", "reason", "worker", "finished", "verdict", "solver")
@@ -185,3 +140,79 @@ def write_parquet(path: Path, results: Iterable[Result]) -> None:
     schema = pa.schema([(name, kinds.get(name, pa.float64())) for name in columns])
     with atomic_output(path, force=True) as temporary:
         parquet.write_table(pa.Table.from_pylist(rows, schema=schema), temporary)
+
+
+@dataclass(frozen=True)
+class Summary:
+    """Numbers over all pairs; errors in units of √area, ``None`` where no truth is known."""
+
+    done: int
+    failed: int
+    evaluated: int  # pairs whose truth is known
+    error_mean: float | None  # mean over the pairs of each pair's mean error
+    error_median: float | None
+    error_worst: float | None
+    bad: int  # pairs with a mean error above BAD
+    flipped: int  # pairs that are nearer to the mirrored truth than to the truth
+    seconds_mean: float | None  # of the pairs' matching, without the shapes' preparation
+    seconds_total: float | None
+    verdicts: dict[str, int]
+    mirrored: int = 0  # pairs whose mirrored truth is known
+    agreed: int = 0  # pairs that were set beside the others of the collection
+    changed: int = 0  # those of them whose map was replaced
+    parts: int = 0  # pairs of which one shape was taken for a part of the other
+
+
+def summarize(results: Sequence[Result]) -> Summary:
+    """The numbers of some results."""
+    done = [r for r in results if r.status == "done"]
+    errors = np.array([r.error_mean for r in done if r.error_mean is not None])
+    seconds = [r.seconds["total"] for r in done if "total" in r.seconds]
+    verdicts = dict.fromkeys(sorted(r.verdict for r in done), 0)
+    for r in done:
+        verdicts[r.verdict] += 1
+    flipped = [
+        r for r in done if r.mirrored_mean is not None and r.error_mean is not None and r.mirrored_mean < r.error_mean
+    ]
+    return Summary(
+        done=len(done),
+        failed=len(results) - len(done),
+        evaluated=len(errors),
+        error_mean=float(errors.mean()) if len(errors) else None,
+        error_median=float(np.median(errors)) if len(errors) else None,
+        error_worst=float(errors.max()) if len(errors) else None,
+        bad=int((errors > BAD).sum()),
+        flipped=len(flipped),
+        seconds_mean=float(np.mean(seconds)) if seconds else None,
+        seconds_total=float(np.sum(seconds)) if seconds else None,
+        verdicts=verdicts,
+        mirrored=sum(r.mirrored_mean is not None for r in done),
+        agreed=sum(r.agreement is not None for r in done),
+        changed=sum(bool(r.changed) for r in done),
+        parts=sum(r.common_s is not None for r in done),
+    )
+
+
+def fitting_limit(results: Sequence[Result]) -> float:
+    """Where an error's colours end, in √area: a round number a little above the errors that are not plainly wrong.
+
+    The same for all pictures of a collection, so that they can be compared.
+    """
+    errors = [r.error_mean for r in results if r.error_mean is not None]
+    usual = [e for e in errors if e <= BAD] or errors
+    wanted = 3 * max(usual, default=COLOR_LIMITS[-1])
+    return next((limit for limit in COLOR_LIMITS if limit >= wanted), COLOR_LIMITS[-1])
+
+
+def worst_first(results: Sequence[Result]) -> list[Result]:
+    """Those that are done, the largest mean error first; where no truth is known, the least sure first.
+
+    With landmarks there was no search to be sure of, and the mean confidence of the vertices decides.
+    """
+    done = [r for r in results if r.status == "done"]
+
+    def rank(r: Result) -> tuple[float, ...]:
+        sure = [float("inf") if c is None else c for c in (r.confidence, r.local_confidence)]
+        return (-(r.error_mean if r.error_mean is not None else -1.0), *sure)
+
+    return sorted(done, key=rank)

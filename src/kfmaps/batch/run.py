@@ -1,75 +1,199 @@
-"""Do what a plan leaves to do, on Dask workers, and keep count."""
+"""Run a plan: prepare its shapes, match its pairs, and write what came of it."""
 
 from __future__ import annotations
 
 import json
-import time
-from collections import deque
-from collections.abc import Callable
+import os
+from collections.abc import Callable, Iterator
+from contextlib import closing, contextmanager
+from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import kfmaps
-from kfmaps._arrays import refuse
-from kfmaps.batch.clock import RunStatus, remaining_seconds
-from kfmaps.batch.cluster import DEATHS, LOST, Workers
+from kfmaps._arrays import MissingDependency, refuse
+from kfmaps.batch.consistent import CONSISTENT, EVIDENCE, PATHS, ConsistentResult, make_consistent
+from kfmaps.batch.jobs import MAX_DEATHS, TOO_LITTLE_MEMORY, ProgressCallback, WorkerPool
+from kfmaps.batch.page import write_page
 from kfmaps.batch.plan import Plan
-from kfmaps.batch.results import Result, result_path
-from kfmaps.batch.settings import FILE
-from kfmaps.batch.tasks import PairTask, Prepared, ShapeTask
-from kfmaps.batch.work import attempts, give_up, match_pair, prepare_shape
+from kfmaps.batch.progress import Callback, RunStatus, failure_line, log_to, remaining_seconds
+from kfmaps.batch.results import FOLDER, Result, all_results, result_path, write_csv, write_parquet
+from kfmaps.batch.run_spec import FILE
+from kfmaps.batch.work import MAPS, PairTask, Prepared, ShapeTask, attempts, match_pair, prepare_shape, record_failure
+from kfmaps.io import remove_unfinished
 
-if TYPE_CHECKING:
-    from distributed import Future
-
-Callback = Callable[[RunStatus, Result | None], None]
-"""Called with how the run stands, and with the result that has just come, if one has."""
-
-PATIENCE = 60.0
-"""Seconds that a run goes on without any worker; one that was killed takes a few to come back."""
-AHEAD = 2
-"""Pairs that are handed to Dask for each worker."""
+A_DAY = 86400.0
+TABLE, COLUMNS = "results.csv", "results.parquet"
+DIED = f"{MAX_DEATHS} workers died while it was worked on; there may be too little memory"
 
 
-def run_plan(plan: Plan, workers: Workers, callback: Callback | None = None) -> list[Result]:
-    """Match every pair that the plan leaves to do; the results, in the order in which they came.
+@dataclass(frozen=True)
+class BatchResult:
+    """What came of a run.
 
-    Each shape is a task of its own that its pairs wait for, so it is prepared once. Only a few pairs are handed
-    to Dask ahead of time, so a collection may have any number of them. When a worker dies, Dask hands its task
-    to another, which keeps what is finished and begins the rest anew.
+    Attributes
+    ----------
+    results : tuple of Result
+        Of every pair that was asked for and has one, by source and target.
+    matched : int
+        Pairs that this run worked on.
+    interrupted : bool
+        Whether it was stopped by the user; the same call goes on.
+    files : tuple of Path
+        Tables and summary.
+    consistent : ConsistentResult or None
+        What came of making the maps agree, where that was asked for.
+    """
+
+    results: tuple[Result, ...]
+    matched: int
+    interrupted: bool
+    files: tuple[Path, ...]
+    consistent: ConsistentResult | None = None
+
+
+def run_batch(
+    plan: Plan,
+    *,
+    workers: int | None = None,
+    scheduler: str | None = None,
+    name: str = "collection",
+    worst: int = 6,
+    callback: Callback | None = None,
+    consistent: bool = False,
+    progress: ProgressCallback | None = None,
+) -> BatchResult:
+    """Do what the plan leaves to do, then write the tables and the summary.
+
+    Parameters
+    ----------
+    plan : Plan
+        From :func:`~kfmaps.batch.plan.make_plan`.
+    workers, scheduler, progress
+        See :class:`~kfmaps.batch.jobs.WorkerPool`.
+    name : str
+        The summary's title.
+    worst : int
+        How many of the worst pairs the summary shows as pictures.
+    callback : callable, optional
+        Called with how the run stands, and with each result.
+    consistent : bool
+        Whether the maps are made to agree in the end (:func:`~kfmaps.batch.consistent.make_consistent`).
+
+    Raises
+    ------
+    MissingDependency
+        When Dask is not installed and there is something to do.
+    InvalidInput
+        When another run is using the output folder, or the workers cannot be used.
+    """
+    new: list[Result] = []
+    interrupted, agreed = False, None
+    log = log_to(plan.folder)
+    asked = {(task.pair.source, task.pair.target) for task in plan.tasks}
+    with _locked(plan.folder), _tidied(plan), WorkerPool(workers, scheduler, progress, log) as pool:
+        log(f"{len(plan.todo)} of {len(plan.tasks)} pairs to match")
+        try:
+            if plan.todo:
+                for result in match_pairs(plan, pool, callback, log):
+                    new.append(result)
+            if consistent:
+                matched = all_results(plan.folder, plan.spec.digest)
+                agreed = make_consistent(plan, [r for r in matched if (r.source, r.target) in asked], pool)
+        except KeyboardInterrupt:
+            interrupted = True
+            log("interrupted")
+        finally:
+            pool.close()  # what they are still at is not to end behind the back of the tables
+        better = {} if agreed is None else {(r.source, r.target): r for r in agreed.results}
+        everything = [better.get((r.source, r.target), r) for r in all_results(plan.folder, plan.spec.digest)]
+        files = write_outputs(plan, everything, name, 0 if interrupted else worst, agreed)
+    results = tuple(r for r in everything if (r.source, r.target) in asked)
+    log(f"{len(results)} pairs have a result, {sum(r.status == 'failed' for r in results)} of them failed")
+    return BatchResult(results, len(new), interrupted, files, agreed)
+
+
+def match_pairs(
+    plan: Plan, pool: WorkerPool, callback: Callback | None = None, log: Callable[[str], None] | None = None
+) -> Iterator[Result]:
+    """Prepare the shapes and match the pairs that the plan leaves to do; the results, in the order in which they come.
+
+    When a worker dies, Dask hands its task to another, which keeps what is finished and begins the rest anew. A task
+    that kills :data:`~kfmaps.batch.jobs.MAX_DEATHS` workers is recorded as failed.
 
     Raises
     ------
     InvalidInput
-        When the workers do not see the output folder or run another version, and when the scheduler is lost.
+        When the workers do not see the output folder or run another version, and when they or the scheduler are lost.
     """
-    from distributed import as_completed
-
-    check_workers(plan, workers)
+    log, callback = log or (lambda _line: None), callback or (lambda _status, _result: None)
+    check_workers(plan, pool)
     for task in plan.todo:
-        result_path(plan.folder, task.pair.key).unlink(missing_ok=True)
-    run = _Run(plan, workers, as_completed(loop=workers.client.loop))
-    callback = callback or (lambda _status, _result: None)
-    callback(run.status(), None)
-    try:
-        run.hand_over()
-        while run.jobs:
-            result = run.next()
-            run.hand_over()
-            callback(run.status(), result)
-    except BaseException:
-        workers.client.cancel(list(run.jobs), force=True)
-        raise
-    return run.results
+        result_path(plan.folder, task.key).unlink(missing_ok=True)
+    shapes = list({t.entry: t for task in plan.todo for t in (task.source, task.target)}.values())
+    prepared: dict[str, Prepared] = {}
+    done: list[Result] = list(plan.results)
+
+    def tell(result: Result | None = None) -> None:
+        callback(_status(plan, pool, len(shapes), list(prepared.values()), done), result)
+
+    tell()
+    with closing(pool.imap(prepare_shape, shapes, n_begun=_attempts)) as values:
+        for number, value in values:
+            task = shapes[number]
+            prepared[task.entry] = value if isinstance(value, Prepared) else Prepared(task.name, reason=_reason(value))
+            if prepared[task.entry].reason:
+                log(f"shape {task.name} could not be prepared: {prepared[task.entry].reason}")
+            tell()
+    jobs = [(task, prepared[task.source.entry], prepared[task.target.entry]) for task in plan.todo]
+    label, n_begun = (lambda job: str(job[0])), (lambda job: _attempts(job[0]))
+    with closing(pool.imap(_match, jobs, label=label, n_begun=n_begun)) as values:
+        for number, value in values:
+            result = record_failure(plan.todo[number], _reason(value)) if isinstance(value, Exception) else value
+            if result.status == "failed":
+                log(failure_line(result))
+            done.append(result)
+            tell(result)
+            yield result
 
 
-def check_workers(plan: Plan, workers: Workers) -> None:
-    """Whether every worker has this version and sees the output folder under the same path."""
+def _match(job: tuple[PairTask, Prepared, Prepared]) -> Result:
+    return match_pair(*job)
+
+
+def _attempts(task: ShapeTask | PairTask) -> int:
+    return attempts(Path(task.folder), task.key)
+
+
+def _reason(error: Exception) -> str:
+    return DIED if type(error).__name__ == "KilledWorker" else f"{type(error).__name__}: {error}"
+
+
+def _status(plan: Plan, pool: WorkerPool, shapes: int, prepared: list[Prepared], done: list[Result]) -> RunStatus:
+    new = done[len(plan.results) :]
+    measured = [r.seconds["total"] for r in new if r.status == "done"]
+    measured = measured or [r.seconds["total"] for r in plan.results if r.status == "done"]
+    shape_seconds = [one.seconds for one in prepared if one.seconds and not one.reason]
+    left = remaining_seconds(shape_seconds, measured, shapes - len(prepared), len(plan.todo) - len(new), pool.n_threads)
+    failed = sum(r.status == "failed" for r in done)
+    return RunStatus(len(prepared), shapes, len(done), failed, len(plan.tasks), pool.n_threads, left, len(measured))
+
+
+def check_workers(plan: Plan, pool: WorkerPool) -> None:
+    """Check that every worker has this version and sees the output folder under the same path.
+
+    Raises
+    ------
+    InvalidInput
+        When one does not.
+    """
     name = "workers"
     try:
-        seen: Any = workers.client.run(_seen, str(plan.folder / FILE))
+        seen: Any = pool.client.run(_seen, str(plan.folder / FILE))
     except OSError as error:
-        raise refuse(name, "processes that answer", "some that ended", LOST) from error
+        raise refuse(name, "processes that answer", "some that ended", TOO_LITTLE_MEMORY) from error
+    except MissingDependency:
+        raise
     except Exception as error:  # whatever a foreign worker runs into
         got = " ".join(f"{type(error).__name__}: {error}".split())[:200]
         raise refuse(name, "kfmaps installed on them", got, "install the same version there") from error
@@ -77,141 +201,72 @@ def check_workers(plan: Plan, workers: Workers) -> None:
         if version != kfmaps.__version__:
             got = f"{version} at {address}"
             raise refuse(name, f"kfmaps {kfmaps.__version__}", got, "install the same version there")
-        if digest != plan.settings.digest:
-            wanted = f"the folder {plan.folder} on all of them"
-            raise refuse(name, wanted, f"none at {address}", "choose one that all machines share")
+        if digest != plan.spec.digest:
+            expected = f"the folder {plan.folder} on all of them"
+            raise refuse(name, expected, f"none at {address}", "choose one that all machines share")
 
 
 def _seen(path: str) -> tuple[str, str]:
-    """Run on a worker: its version, and the digest in the settings file at ``path``."""
+    """Run on a worker: its version, and the digest in the specification at ``path``."""
     try:
         return kfmaps.__version__, json.loads(Path(path).read_text(encoding="utf-8"))["digest"]
     except (OSError, ValueError, KeyError):
         return kfmaps.__version__, ""
 
 
-class _Run:
-    """The tasks that are with Dask, those that wait, and what has come back."""
+def write_outputs(
+    plan: Plan, results: list[Result], name: str, worst: int, consistent: ConsistentResult | None = None
+) -> tuple[Path, ...]:
+    """Write the tables and the summary anew from the ``results``; their paths."""
+    files = [plan.folder / TABLE]
+    write_csv(files[0], results)
+    try:
+        write_parquet(plan.folder / COLUMNS, results)
+        files.append(plan.folder / COLUMNS)
+    except MissingDependency:
+        (plan.folder / COLUMNS).unlink(missing_ok=True)  # one of an earlier run would be out of date
+    return (*files, write_page(plan, results, name, worst, consistent))
 
-    def __init__(self, plan: Plan, workers: Workers, coming) -> None:
-        self.plan, self.workers, self.coming = plan, workers, coming
-        self.waiting = deque(plan.todo)
-        self.jobs: dict[Future, PairTask | ShapeTask] = {}
-        self.shapes: dict[str, Future] = {}
-        self.needed = {t.entry for task in plan.todo for t in (task.source, task.target)}
-        self.ended: set[str] = set()
-        self.begun: dict[str, int] = {}
-        self.results: list[Result] = []
-        self.shape_seconds: list[float] = []
-        self.pair_seconds: list[float] = []
 
-    def hand_over(self) -> None:
-        """Give Dask the next pairs, with the shapes they need."""
-        ahead = sum(isinstance(task, PairTask) for task in self.jobs.values())
-        while self.waiting and ahead < AHEAD * self.workers.count + 1:
-            task = self.waiting.popleft()
-            self.begun.setdefault(task.pair.key, attempts(self.plan.folder, task.pair.key))
-            self._submit(task, match_pair, task, self._shape(task.source), self._shape(task.target))
-            ahead += 1
+@contextmanager
+def _tidied(plan: Plan) -> Iterator[None]:
+    """Before and after the block, remove what workers that were killed have left half written.
 
-    def _shape(self, task: ShapeTask) -> Future:
-        if task.entry not in self.shapes:
-            key = Path(task.entry).stem
-            self.begun.setdefault(key, attempts(self.plan.folder, key))
-            self.shapes[task.entry] = self._submit(task, prepare_shape, task)
-        return self.shapes[task.entry]
+    In a cache elsewhere, which other runs may be writing to, only what nobody can be working on any more.
+    """
+    shelves = {Path(task.source.entry).parent for task in plan.tasks}
 
-    def _submit(self, task: PairTask | ShapeTask, function: Callable, *arguments) -> Future:
-        future = self.workers.client.submit(function, *arguments, pure=False)
-        self.jobs[future] = task
-        self.coming.add(future)
-        return future
+    def tidy() -> None:
+        beside = plan.folder / CONSISTENT
+        parts = (plan.folder, beside, *(top / part for top in (plan.folder, beside) for part in (FOLDER, MAPS)))
+        for folder in (*parts, beside / EVIDENCE, beside / PATHS):
+            remove_unfinished(folder)
+        for shelf in shelves:
+            remove_unfinished(shelf, 0.0 if plan.folder in shelf.parents else A_DAY)
 
-    def next(self) -> Result | None:
-        """Wait for the next thing that ends; its result when it is a pair's."""
-        from distributed import CancelledError
+    tidy()
+    try:
+        yield
+    finally:
+        tidy()
 
-        self._wait()
-        future = next(self.coming)
-        task = self.jobs.pop(future)
-        if future.status in ("lost", "pending"):
-            # The worker that had it died just now, and Dask does it again, which finds what is finished.
-            self.jobs[future] = task
-            self.coming.add(future)
-            return None
-        try:
-            value = future.result()
-        except CancelledError as error:
-            raise refuse("scheduler", "an answer", "none any more", "run the same command again to go on") from error
-        except Exception as error:  # of the task or of whatever killed its worker
-            value = error
-        if isinstance(task, ShapeTask):
-            if isinstance(value, Prepared):
-                self.ended.add(task.entry)
-                self.shape_seconds += [value.seconds] if value.seconds and not value.reason else []
-            return None
-        result = self._failed(value, task) if isinstance(value, Exception) else value
-        if result is not None:
-            self.results.append(result)
-            self.pair_seconds += [result.seconds["total"]] if result.status == "done" else []
-        return result
 
-    def _wait(self) -> None:
-        """Until something has ended.
-
-        Raises
-        ------
-        InvalidInput
-            When there has been no worker for :data:`PATIENCE` seconds: Dask gives up those that are killed as they
-            start, and would wait for others for ever.
-        """
-        looked = alive = time.monotonic()
-        while not self.coming.has_ready():
-            time.sleep(0.02)
-            if (now := time.monotonic()) - looked > min(2.0, PATIENCE):
-                looked = now
-                try:
-                    alive = now if self.workers.client.nthreads() else alive
-                except (OSError, RuntimeError, TimeoutError):
-                    continue  # a scheduler that does not answer
-                if now - alive > PATIENCE:
-                    wanted = "processes that stay alive"
-                    raise refuse("workers", wanted, f"none for {PATIENCE:.0f} seconds", LOST)
-
-    def _failed(self, error: Exception, task: PairTask) -> Result | None:
-        """A pair whose task raised, which is not the pair's doing unless it has killed several workers."""
-        from distributed import KilledWorker
-
-        if not isinstance(error, KilledWorker):
-            return give_up(task, f"{type(error).__name__}: {error}")
-        bad = next((t for t in (task.source, task.target) if self._shape(t).status == "error"), None)
-        key, what = (task.pair.key, "it") if bad is None else (Path(bad.entry).stem, f"shape {bad.name}")
-        deaths = attempts(self.plan.folder, key) - self.begun[key]
-        if deaths >= DEATHS:
-            if bad is not None:
-                self.ended.add(bad.entry)
-            reason = f"{deaths} workers died while {what} was worked on; there may be too little memory"
-            return give_up(task, reason)
-        # Dask blames everything that was with the workers that died; this had not begun on so many of them.
-        if bad is not None:
-            del self.shapes[bad.entry]
-        self.waiting.append(task)
-        return None
-
-    def status(self) -> RunStatus:
-        """How the run stands now."""
-        earlier = [r.seconds["total"] for r in self.plan.results if r.status == "done"]
-        measured = self.pair_seconds or earlier
-        ended = [*self.plan.results, *self.results]
-        shapes_left = len(self.needed) - len(self.ended)
-        pairs_left = len(self.plan.todo) - len(self.results)
-        return RunStatus(
-            len(self.ended),
-            len(self.needed),
-            len(ended),
-            sum(r.status == "failed" for r in ended),
-            len(self.plan.tasks),
-            self.workers.count,
-            remaining_seconds(self.shape_seconds, measured, shapes_left, pairs_left, self.workers.count),
-            len(measured),
-        )
+@contextmanager
+def _locked(folder: Path) -> Iterator[None]:
+    """Hold the output folder for this run; the system lets go of it however the run ends."""
+    try:
+        import fcntl
+    except ImportError:  # Windows: two runs at once do some pairs twice, and record each once
+        yield
+        return
+    handle = os.open(folder / ".lock", os.O_RDWR | os.O_CREAT, 0o644)
+    try:
+        fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError as error:
+        raise refuse(f"output {folder}", "a folder of its own", "one in use by another run", "wait for it") from error
+    except OSError:
+        pass  # a file system without locks
+    try:
+        yield
+    finally:
+        os.close(handle)

@@ -1,4 +1,4 @@
-"""The two units of work, each safe to be begun again at any moment: prepare a shape, match a pair."""
+"""The units of work, each safe to be begun again at any moment: prepare a shape, match a pair."""
 
 from __future__ import annotations
 
@@ -18,28 +18,84 @@ import numpy as np
 
 from kfmaps._arrays import InvalidInput, KfmapsWarning, MissingDependency, NotConverged, refuse
 from kfmaps._threads import one_blas_thread
-from kfmaps.batch.cache import file_digest, load_shape, save_shape
-from kfmaps.batch.kept import kept_probe
+from kfmaps.batch.cache import cached_samples, file_digest, load_shape, save_shape
+from kfmaps.batch.layout import Pair
 from kfmaps.batch.results import CURVE_ERRORS, Result, read_result, result_path, write_result
-from kfmaps.batch.tasks import PairTask, Prepared, ShapeTask
-from kfmaps.batch.truth import landmark_pairs, true_vertices
 from kfmaps.cli.evaluation import Accuracy, Truth, assessed
 from kfmaps.cli.summary import MatchRun, map_file, mean_confidence
+from kfmaps.config import Config
 from kfmaps.fmap.evaluate import coverage, error_curve
-from kfmaps.geometry.mesh import vertex_areas
-from kfmaps.io import read_mesh, save_map
+from kfmaps.geometry.mesh import Mesh, vertex_areas
+from kfmaps.io import read_mesh, read_vertex_numbers, save_map
 from kfmaps.matching.match import Match, match
+from kfmaps.matching.quality import ShapeSamples
 from kfmaps.shape import Shape, prepare
 
 ATTEMPTS, MAPS = "attempts", "maps"
-MIRRORED = 500
+MIRRORED_POINTS = 500
 """Points at which a map is compared with the mirrored truth."""
 EXPECTED = (InvalidInput, NotConverged, MissingDependency, OSError)
 """What may go wrong with one shape or pair; of anything else the type is told as well."""
 
 
+@dataclass(frozen=True)
+class ShapeTask:
+    """One shape to prepare: small, and the same on every machine."""
+
+    name: str
+    path: str  # of the mesh
+    content: str  # digest of that file when the run began
+    entry: str  # where in the cache the prepared shape lies or will lie
+    folder: str  # the output folder
+    config: Config
+
+    def __str__(self) -> str:
+        return self.name
+
+    @property
+    def key(self) -> str:
+        return Path(self.entry).stem
+
+
+@dataclass(frozen=True)
+class Prepared:
+    """What came of a :class:`ShapeTask`: its seconds (0 from the cache), why it failed, warnings about the mesh."""
+
+    name: str
+    seconds: float = 0.0
+    reason: str = ""
+    notes: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class PairTask:
+    """One pair to match."""
+
+    pair: Pair
+    folder: str  # the output folder
+    source: ShapeTask
+    target: ShapeTask
+    settings: str  # digest of the specification, as of Result
+    inputs: str  # digest of the files, as of Result
+    config: Config
+    seed: int = 0
+    truth: tuple[str, str] | None = None  # vertex lists of source and target
+    mirrored: str | None = None  # vertex list of the target, left and right swapped
+    truth_map: str | None = None  # truth of this pair alone, see ShapeFolder
+    identity: bool = False  # whether vertex i is vertex i
+    landmarks: tuple[str, str] | None = None  # vertex lists of source and target
+    landmark_lines: tuple[int, ...] = ()  # lines of the truth, counted from 1, that serve as landmarks
+
+    def __str__(self) -> str:
+        return str(self.pair)
+
+    @property
+    def key(self) -> str:
+        return self.pair.key
+
+
 def map_path(folder: Path, key: str) -> Path:
-    """Where the map of the pair with this key lies."""
+    """Return where the map of the pair with this key lies."""
     return folder / MAPS / f"{key}.npz"
 
 
@@ -71,27 +127,26 @@ def prepare_shape(task: ShapeTask) -> Prepared:
     if load_shape(entry, task.name) is not None:
         return Prepared(task.name)
     start = time.perf_counter()
-    begin(Path(task.folder), entry.stem)
-    with catching() as caught, one_blas_thread():
+    begin(Path(task.folder), task.key)
+    with capture_errors() as caught, one_blas_thread():
         if file_digest(task.path) != task.content:
             raise refuse(task.path, "the file of the run's start", "a changed one", "run the command again")
-        mesh = read_mesh(task.path)
-        save_shape(entry, prepare(mesh, replace(task.config, threads=1), name=task.name))
+        save_shape(entry, prepare(read_shape_mesh(task.path), replace(task.config, threads=1), name=task.name))
     return Prepared(task.name, time.perf_counter() - start, caught.reason, tuple(caught.notes))
 
 
 def match_pair(task: PairTask, source: Prepared, target: Prepared) -> Result:
     """Match a pair unless its result is there; save the map and then the result. A failure is recorded, not raised."""
     folder = Path(task.folder)
-    path = result_path(folder, task.pair.key)
+    path = result_path(folder, task.key)
     there = read_result(path)
     if there is not None and (there.settings, there.inputs) == (task.settings, task.inputs):
         return there
     start = time.perf_counter()
-    attempt = begin(folder, task.pair.key)
-    map_path(folder, task.pair.key).unlink(missing_ok=True)  # of files that have changed since
+    attempt = begin(folder, task.key)
+    map_path(folder, task.key).unlink(missing_ok=True)  # of files that have changed since
     values: dict[str, Any] = {"seconds": {}}
-    with catching() as caught, one_blas_thread():
+    with capture_errors() as caught, one_blas_thread():
         for part in (source, target):
             if part.reason:
                 raise InvalidInput(f"shape {part.name} could not be prepared: {part.reason}")
@@ -110,21 +165,21 @@ def match_pair(task: PairTask, source: Prepared, target: Prepared) -> Result:
     return result
 
 
-def give_up(task: PairTask, reason: str) -> Result:
+def record_failure(task: PairTask, reason: str) -> Result:
     """Record that a pair cannot be matched, for a reason outside the work itself."""
     folder = Path(task.folder)
     result = Result(
         *(task.pair.source, task.pair.target, "failed", task.settings, task.inputs),
         reason=reason,
-        attempts=attempts(folder, task.pair.key),
+        attempts=attempts(folder, task.key),
         finished=now(),
     )
-    write_result(result_path(folder, task.pair.key), result)
+    write_result(result_path(folder, task.key), result)
     return result
 
 
 @dataclass
-class _Caught:
+class _Captured:
     """What went wrong inside a block, and what was warned of."""
 
     reason: str = ""
@@ -132,9 +187,9 @@ class _Caught:
 
 
 @contextmanager
-def catching() -> Iterator[_Caught]:
+def capture_errors() -> Iterator[_Captured]:
     """Turn exceptions and our own warnings into text; one bad pair must not end the run."""
-    caught = _Caught()
+    caught = _Captured()
     with warnings.catch_warnings(record=True) as told:
         warnings.simplefilter("always", KfmapsWarning)
         try:
@@ -147,10 +202,11 @@ def catching() -> Iterator[_Caught]:
 
 
 def now() -> str:
+    """Return the time in UTC."""
     return datetime.now(UTC).isoformat(timespec="milliseconds")
 
 
-def loaded(task: ShapeTask) -> Shape:
+def load_prepared(task: ShapeTask) -> Shape:
     """The prepared shape, which must be in the cache."""
     shape = load_shape(Path(task.entry), task.name)
     if shape is None:
@@ -158,18 +214,31 @@ def loaded(task: ShapeTask) -> Shape:
     return shape
 
 
+def pair_samples(task: PairTask, shapes: tuple[Shape, Shape]) -> tuple[ShapeSamples, ShapeSamples]:
+    """Return what a search needs to know of both shapes, from the cache."""
+    source, target = task.source, task.target
+    return (
+        cached_samples(shapes[0], Path(source.entry), task.seed),
+        cached_samples(shapes[1], Path(target.entry), task.seed),
+    )
+
+
+def read_shape_mesh(path: str) -> Mesh:
+    """Read a mesh. A file without faces is a point cloud only when its name says so; else something was lost."""
+    return read_mesh(path, cloud=Path(path).suffix.lower() == ".xyz")
+
+
 def _matched(task: PairTask) -> dict[str, Any]:
     """Match, save the map, and give the fields of the result."""
-    source, target = loaded(task.source), loaded(task.target)
+    source, target = load_prepared(task.source), load_prepared(task.target)
     sizes = len(source.mesh.vertices), len(target.mesh.vertices)
     truth = true_vertices(task, *sizes)
     landmarks = landmark_pairs(task, truth, *sizes)
     probes = None
     if task.config.search is not None and landmarks is None:
-        entries = Path(task.source.entry), Path(task.target.entry)
-        probes = kept_probe(source, entries[0], task.seed), kept_probe(target, entries[1], task.seed)
+        probes = pair_samples(task, (source, target))
     found = match(source, target, replace(task.config, threads=1), landmarks=landmarks, rng=task.seed, probes=probes)
-    path = map_path(Path(task.folder), task.pair.key)
+    path = map_path(Path(task.folder), task.key)
     return recorded(task, found, (source, target), truth, landmarks, path)
 
 
@@ -186,7 +255,7 @@ def recorded(
     sizes = len(source.mesh.vertices), len(target.mesh.vertices)
     start = time.perf_counter()
     points = found.target_to_source
-    accuracy = None if truth is None else assessed(source.mesh, points, truth, mirrored=MIRRORED)
+    accuracy = None if truth is None else assessed(source.mesh, points, truth, mirrored=MIRRORED_POINTS)
     reached = coverage(points, source.mesh)
     seconds = {**found.seconds, "evaluation": time.perf_counter() - start}
     marks = np.zeros((0, 2), dtype=np.int64) if landmarks is None else landmarks
@@ -235,3 +304,72 @@ def _errors(accuracy: Accuracy | None) -> dict[str, Any]:
         "mirrored_mean": None if accuracy.mirrored is None else accuracy.mirrored.mean,
         "curve": tuple(error_curve(direct.errors, np.array(CURVE_ERRORS)).tolist()),
     }
+
+
+def true_vertices(task: PairTask, n_s: int, n_t: int) -> Truth | None:
+    """What is known of the pair's true correspondence; ``n_s`` and ``n_t`` are the numbers of vertices.
+
+    Raises
+    ------
+    InvalidInput
+        When its files cannot be used or do not fit the shapes.
+    """
+    if task.identity:
+        if n_s != n_t:
+            raise refuse("--identity", "equally many vertices", f"{n_s} and {n_t}", "leave it out")
+        return Truth(np.arange(n_s), np.arange(n_t))
+    if task.truth_map is not None:
+        numbers = _within(read_vertex_numbers(task.truth_map, one_based=True), n_t, task.truth_map)
+        if len(numbers) != n_s:
+            raise refuse(task.truth_map, f"{n_s} lines, one per source vertex", f"{len(numbers)}", "check the file")
+        return Truth(np.arange(n_s), numbers)
+    if task.truth is None:
+        return None
+    source, target = _two_lists(task.truth, n_s, n_t)
+    if task.mirrored is None:
+        return Truth(source, target)
+    mirrored = _within(read_vertex_numbers(task.mirrored), n_t, task.mirrored)
+    _same_length(task.truth[0], source, task.mirrored, mirrored)
+    return Truth(source, target, mirrored)
+
+
+def landmark_pairs(task: PairTask, truth: Truth | None, n_s: int, n_t: int) -> np.ndarray | None:
+    """The pair's landmarks (l, 2), 0-based, or ``None``.
+
+    Raises
+    ------
+    InvalidInput
+        When lines of a truth are asked for that it does not have, or the landmarks' files cannot be used.
+    """
+    if task.landmark_lines:
+        if truth is None:
+            raise refuse("--truth-landmarks", "true correspondences", "none for this pair", "leave it out")
+        highest = max(task.landmark_lines)
+        if highest > len(truth.source):
+            got = f"line {highest} of {len(truth.source)}"
+            raise refuse("--truth-landmarks", "lines of the truth", got, "choose others")
+        rows = np.array(task.landmark_lines) - 1
+        return np.stack([truth.source[rows], truth.target[rows]], axis=1)
+    if task.landmarks is not None:
+        return np.stack(_two_lists(task.landmarks, n_s, n_t), axis=1)
+    return None
+
+
+def _two_lists(paths: tuple[str, str], n_s: int, n_t: int) -> tuple[np.ndarray, np.ndarray]:
+    """Vertex lists of source and target, of equal length."""
+    a, b = (_within(read_vertex_numbers(path), n, path) for path, n in zip(paths, (n_s, n_t), strict=True))
+    _same_length(paths[0], a, paths[1], b)
+    return a, b
+
+
+def _same_length(path_a: str, a: np.ndarray, path_b: str, b: np.ndarray) -> None:
+    if len(a) != len(b):
+        got = f"{len(a)} in {path_a} and {len(b)} in {path_b}"
+        raise refuse("vertex lists", "equally many lines", got, "take both from one data set")
+
+
+def _within(numbers: np.ndarray, n: int, path: str) -> np.ndarray:
+    if numbers.max() >= n:
+        remedy = "check that the file belongs to the mesh"
+        raise refuse(path, f"vertices of a mesh of {n}", f"number {numbers.max()}, counted from 0", remedy)
+    return numbers

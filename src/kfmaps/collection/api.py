@@ -3,20 +3,23 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
 
 from kfmaps._arrays import check_count, refuse
 from kfmaps._threads import one_blas_thread
-from kfmaps.collection.differences import (
-    ComponentLimitShape,
-    LimitShape,
-    component_limit_shapes,
-    operators,
-    shape_distances,
+from kfmaps.collection.consistency import (
+    Candidate,
+    compose_path,
+    refine_replacement,
+    score_candidates,
+    score_stored,
+    stored_candidates,
+    synchronize_store,
 )
+from kfmaps.collection.differences import ComponentLimitShape, LimitShape, operators, shape_distances
 from kfmaps.collection.pair_graph import (
     complete_graph,
     medoid,
@@ -25,23 +28,18 @@ from kfmaps.collection.pair_graph import (
     signature_distances,
     star_graph,
 )
-from kfmaps.collection.paths import MapPath, adjacency, best_paths, compose_maps, invert_map
-from kfmaps.collection.repair import CyclePath, Replacement, repair
-from kfmaps.collection.scored_map import ScoredMap, candidate_maps, score_maps
-from kfmaps.collection.synchronization import Edge
+from kfmaps.collection.paths import adjacency, best_paths
+from kfmaps.collection.repair import CyclePath, Replacement
+from kfmaps.collection.scored_map import ScoredMap
 from kfmaps.config import Config
 from kfmaps.io import MapFile, check_map
 from kfmaps.io.convert import as_map, as_mesh
-from kfmaps.matching.calibration import SURE
-from kfmaps.matching.match import Match, check_prepared, match, match_from_map
+from kfmaps.matching.match import Match, check_prepared, match
 from kfmaps.matching.quality import ShapeSamples
-from kfmaps.matching.reindexing import reindexing
 from kfmaps.matching.search import scoring_samples
 from kfmaps.shape import Shape, prepare
 
-Told = Callable[[str, int, int], None]
-LATENT = 15
-"""Functions of the common basis at most."""
+ProgressCallback = Callable[[str, int, int], None]
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,13 +57,13 @@ class Collection:
         A source vertex for each target vertex of each pair, after the changes.
     matches : tuple of Match or None
         Of each pair, with all that is known of it; ``None`` where a map was given and was kept.
-    chances : tuple of float
+    probabilities : tuple of float
         Probability of each map beside all others; NaN of maps of parts.
-    changes : dict of (str, str) to str
+    replacements : dict of (str, str) to str
         Of each pair whose map others contradict: what it was exchanged for, or "doubted".
-    hands : dict of str to int
+    chirality : dict of str to int
         1 and -1: shapes that are mirror images of each other's kind.
-    bases : tuple of Common
+    limit_shapes : tuple of ComponentLimitShape
         A common basis of all shapes or, where pairs do not join them all, of each part of three or more, the largest
         first.
     parts : tuple of (str, str)
@@ -78,17 +76,17 @@ class Collection:
     pairs: tuple[tuple[str, str], ...]
     maps: tuple[np.ndarray, ...]
     matches: tuple[Match | None, ...]
-    chances: tuple[float, ...]
-    changes: dict[tuple[str, str], str]
-    hands: dict[str, int]
-    bases: tuple[ComponentLimitShape, ...] = ()
+    probabilities: tuple[float, ...]
+    replacements: dict[tuple[str, str], str]
+    chirality: dict[str, int]
+    limit_shapes: tuple[ComponentLimitShape, ...] = ()
     parts: tuple[tuple[str, str], ...] = ()
 
     @property
-    def latent(self) -> LimitShape | None:
+    def limit_shape(self) -> LimitShape | None:
         """The common basis of all shapes; ``None`` where pairs do not join them all, or there are only two."""
-        whole = self.bases and len(self.bases[0].members) == len(self.names)
-        return self.bases[0].limit_shape if whole else None
+        whole = self.limit_shapes and len(self.limit_shapes[0].members) == len(self.names)
+        return self.limit_shapes[0].limit_shape if whole else None
 
     def map(self, source: str, target: str) -> np.ndarray:
         """A vertex of ``source`` for each vertex of ``target``, (n_t,): of any two shapes that maps join.
@@ -104,12 +102,16 @@ class Collection:
         a, b = self._number(source), self._number(target)
         if a == b:
             return np.arange(len(self.shapes[a].mesh.vertices))
-        ways = best_paths(adjacency(len(self.names), self._ends()), self.chances, a)
+        ways = best_paths(adjacency(len(self.names), self._ends()), self.probabilities, a)
         if b not in ways and (source, target) in self.parts:
             return self.maps[self.pairs.index((source, target))]
         if b not in ways:
             raise refuse("map", "shapes that maps join", f"{source} and {target}", "match more pairs")
-        return _composed(self, ways[b])
+        steps = []
+        for edge, here in zip(ways[b].edges, ways[b].shapes, strict=False):
+            first, points = self.names.index(self.pairs[edge][0]), self.maps[edge]
+            steps.append(((points, False), None if first == here else self.shapes[first].basis))
+        return compose_path(steps)[0]
 
     def distances(self, kind: str = "area") -> np.ndarray:
         """How much the shapes differ, (n, n): in areas, or ("conformal") but for areas; NaN where no maps join them.
@@ -119,18 +121,18 @@ class Collection:
         InvalidInput
             Where there is no common basis.
         """
-        if not self.bases:
+        if not self.limit_shapes:
             raise refuse("distances", "three shapes or more that maps join", "fewer", "match more pairs")
         found = np.full((len(self.names),) * 2, np.nan)
         np.fill_diagonal(found, 0.0)
-        for one in self.bases:
+        for one in self.limit_shapes:
             values = self.eigenvalues()[one.members]
             found[np.ix_(one.members, one.members)] = shape_distances(operators(one.limit_shape, values, kind))
         return found
 
     def eigenvalues(self) -> np.ndarray:
         """Of each shape at unit area, as many as the common bases need, (n, k)."""
-        k = self.bases[0].limit_shape.maps.shape[1] if self.bases else 0
+        k = self.limit_shapes[0].limit_shape.maps.shape[1] if self.limit_shapes else 0
         return np.stack([shape.basis.eigenvalues[:k] for shape in self.shapes])
 
     def _number(self, name: str) -> int:
@@ -142,15 +144,6 @@ class Collection:
         return [(self.names.index(a), self.names.index(b)) for a, b in self.pairs]
 
 
-def _composed(found: Collection, way: MapPath) -> np.ndarray:
-    steps = []
-    for link, here in zip(way.edges, way.shapes, strict=False):
-        source = found.names.index(found.pairs[link][0])
-        points = found.maps[link]
-        steps.append(points if source == here else invert_map(points, found.shapes[source].basis, len(points)))
-    return compose_maps(steps)
-
-
 def match_collection(
     shapes: Mapping[str, Any] | Sequence[Any],
     maps: Mapping[tuple[str, str], Any] | None = None,
@@ -158,13 +151,13 @@ def match_collection(
     graph: str = "near",
     config: Config | None = None,
     rng: int = 0,
-    progress: Told | None = None,
+    progress: ProgressCallback | None = None,
 ) -> Collection:
     """Match a collection over a graph of pairs, or take its ``maps``, and make the maps agree.
 
-    Each pair's map and its runners-up are judged, and set beside compositions through other shapes. A map that the
-    others contradict is exchanged for a runner-up or a composition that they speak for, and that is finished as a match
-    is. Maps of parts, in which some vertices have no counterpart, stay as they are and take no part in this
+    Each pair's map and its alternatives are scored, and set beside compositions through other shapes. A map that the
+    others contradict is replaced by an alternative or a composition that they speak for, and that is finished as a
+    match is. Maps of parts, in which some vertices have no counterpart, stay as they are and take no part in this
     (:attr:`Collection.parts`). All is done in this process; ``kfmaps batch --consistent`` does it with many, and goes
     on where it stopped.
 
@@ -182,7 +175,11 @@ def match_collection(
     rng : int
         Seed.
     progress : callable, optional
-        Told what is being done, how much of it is done and how much there is.
+        Called with what is being done, how much of it is done and how much there is.
+
+    Returns
+    -------
+    Collection
 
     Raises
     ------
@@ -190,144 +187,110 @@ def match_collection(
         When a shape or map cannot be used, or there are fewer than two shapes.
     """
     config = config or Config()
-    told = progress or (lambda _what, _done, _of: None)
+    progress = progress or (lambda _what, _done, _of: None)
     given = dict(shapes) if isinstance(shapes, Mapping) else {str(i): shape for i, shape in enumerate(shapes)}
     check_count(len(given), "shapes", low=2)
-    names = tuple(given)
-    ready = []
+    names, ready = tuple(given), []
     for i, (name, shape) in enumerate(given.items()):
         if isinstance(shape, Shape):
             check_prepared(shape, config)
         ready.append(shape if isinstance(shape, Shape) else prepare(as_mesh(shape, name), config, name=name))
-        told("shapes", i + 1, len(given))
-    known = _given(maps, names, ready) if maps is not None else {}
+        progress("shapes", i + 1, len(given))
+    known = _checked_maps(maps, names, ready) if maps is not None else {}
     ends = list(known) if maps is not None else _graph(graph, ready)
-    work = _Work(names, ready, config, rng, [scoring_samples(shape, rng) for shape in ready])
-    matches: list[Match | None] = []
-    evidence, points, whole = [], [], []
-    apart: dict[tuple[int, int], tuple[np.ndarray, Match | None]] = {}
+    store = _MemoryStore(names, ready, config, rng, [scoring_samples(shape, rng) for shape in ready])
+    parts: list[tuple[tuple[int, int], np.ndarray, Match | None]] = []
     for i, (a, b) in enumerate(ends):
-        one = known.get((a, b))
-        found = work.match(a, b) if one is None else None
-        file = as_map(found) if one is None else one
-        told("pairs", i + 1, len(ends))
+        given_map = (maps or {}).get((names[a], names[b]))
+        match_ab = None if (a, b) in known else store.match(a, b)
+        file = known[a, b] if match_ab is None else as_map(match_ab)
+        progress("pairs", i + 1, len(ends))
         if (check_map(file, name=f"map {names[a]} → {names[b]}", lost=True) < 0).any():
-            apart[a, b] = (file.target_to_source, found)
+            parts.append(((a, b), file.target_to_source, match_ab))
             continue
-        whole.append((a, b))
-        matches.append(found)
-        points.append([file.target_to_source, *_runners_up(file)])
-        told_of = found if one is None else (maps or {}).get((names[a], names[b]))
-        turned = isinstance(told_of, Match) and told_of.orientation == "reversed"
-        evidence.append(work.judge((a, b), points[-1], turned))
-    return _with_parts(work.agreed(whole, points, matches, evidence), apart)
-
-
-def _with_parts(found: Collection, apart: Mapping[tuple[int, int], tuple[np.ndarray, Match | None]]) -> Collection:
-    """The collection with the maps of parts, as they are."""
-    pairs = tuple((found.names[a], found.names[b]) for a, b in apart)
-    return replace(
-        found,
-        pairs=found.pairs + pairs,
-        maps=found.maps + tuple(points for points, _ in apart.values()),
-        matches=found.matches + tuple(match for _, match in apart.values()),
-        chances=found.chances + (float("nan"),) * len(apart),
-        parts=pairs,
+        told = given_map if match_ab is None else match_ab
+        store.add((a, b), file, match_ab, told.orientation == "reversed" if isinstance(told, Match) else None)
+    result = synchronize_store(store)
+    pairs = tuple((names[a], names[b]) for a, b in (*store.ends, *(pair for pair, _, _ in parts)))
+    return Collection(
+        names,
+        tuple(ready),
+        pairs,
+        (*(several[0][0] for several in store.candidates), *(points for _, points, _ in parts)),
+        (*store.matches, *(match_ab for _, _, match_ab in parts)),
+        (*result.repaired.probabilities.tolist(), *[float("nan")] * len(parts)),
+        {pairs[change.edge]: change.label(names) or "doubted" for change in result.repaired.replacements},
+        dict(zip(names, result.repaired.chirality.tolist(), strict=True)),
+        result.limit_shapes,
+        pairs[len(store.ends) :],
     )
 
 
-@dataclass(frozen=True, eq=False)
-class _Work:
-    """Shapes with what is needed to match and judge pairs of them."""
+@dataclass(eq=False)
+class _MemoryStore:
+    """A :class:`~kfmaps.collection.consistency.MapStore` of shapes and maps in memory."""
 
     names: tuple[str, ...]
     shapes: list[Shape]
     config: Config
     seed: int
-    probes: list[ShapeSamples]
+    samples: list[ShapeSamples]
+    ends: list[tuple[int, int]] = field(default_factory=list)
+    matches: list[Match | None] = field(default_factory=list)
+    candidates: list[list[Candidate]] = field(default_factory=list)
+    scores: list[list[ScoredMap]] = field(default_factory=list)
 
     def match(self, a: int, b: int) -> Match:
-        both = self.probes[a], self.probes[b]
-        return match(self.shapes[a], self.shapes[b], self.config, rng=self.seed, probes=both)
+        return match(*self._pair((a, b)), self.config, rng=self.seed, probes=(self.samples[a], self.samples[b]))
 
-    def judge(self, ends: tuple[int, int], maps: Sequence[np.ndarray], turned: bool) -> list[ScoredMap]:
-        across = reindexing(self.shapes[ends[0]], self.shapes[ends[1]])
-        within = [across.part_s.to_clean[points[across.part_t.to_original]] for points in maps]
-        both = self.probes[ends[0]], self.probes[ends[1]]
+    def add(self, ends: tuple[int, int], file: MapFile, match_ab: Match | None, reversed: bool | None) -> None:
+        """Take the map of a pair, scored."""
+        self.ends.append(ends)
+        self.matches.append(match_ab)
+        self.candidates.append(stored_candidates(file, reversed))
         with one_blas_thread():
-            return score_maps(within, across.source, across.target, both, [turned] * len(maps))
+            self.scores.append(score_stored(file, self._pair(ends), self._samples(ends), reversed))
 
-    def agreed(
-        self,
-        ends: list[tuple[int, int]],
-        points: list[list[np.ndarray]],
-        matches: list[Match | None],
-        evidence: list[list[ScoredMap]],
-    ) -> Collection:
-        """The collection, its wrong maps exchanged."""
+    def score(self) -> list[list[ScoredMap]]:
+        return self.scores
 
-        def along(way: CyclePath) -> np.ndarray:
-            steps = []
-            for step in way.steps:
-                one = points[step.edge][step.candidate]
-                basis = self.shapes[ends[step.edge][0]].basis
-                steps.append(one if step.forward else invert_map(one, basis, len(one)))
-            return compose_maps(steps)
+    def compose(self, asked: list[tuple[int, CyclePath]]) -> list[ScoredMap]:
+        with one_blas_thread():
+            return [
+                score_candidates([self._along(path)], self._pair(self.ends[i]), self._samples(self.ends[i]))[0]
+                for i, path in asked
+            ]
 
-        def turns(way: CyclePath) -> bool:
-            return sum(evidence[step.edge][step.candidate].reversed for step in way.steps) % 2 == 1
+    def replace(self, replacements: Sequence[Replacement]) -> None:
+        new = []
+        for change in replacements:
+            composition = None if change.path is None else self._along(change.path)
+            shapes, label = self._pair(self.ends[change.edge]), change.label(self.names)
+            candidates = self.candidates[change.edge]
+            made = refine_replacement(change, candidates, composition, shapes, self.config, label, self.seed)
+            new.append((change.edge, made))
+        for edge, made in new:
+            self.matches[edge] = made
+            self.candidates[edge] = [(made.target_to_source, made.orientation == "reversed")]
 
-        def compose(asked: list[tuple[int, CyclePath]]) -> list[ScoredMap]:
-            return [self.judge(ends[link], [along(way)], turns(way))[0] for link, way in asked]
+    def eigenvalues(self, count: int) -> np.ndarray:
+        return np.stack([shape.basis.eigenvalues[:count] for shape in self.shapes])
 
-        found = repair(len(self.names), ends, evidence, compose)
-        maps, matches, changes = [several[0] for several in points], list(matches), {}
-        for change in found.replacements:
-            pair = tuple(self.names[i] for i in ends[change.edge])
-            changes[pair] = self.described(change)
-            if change.kind == "none":
-                continue
-            way = change.path
-            better = points[change.edge][change.candidate] if way is None else along(way)
-            turned = evidence[change.edge][change.candidate].reversed if way is None else turns(way)
-            a, b = ends[change.edge]
-            matches[change.edge] = made = match_from_map(
-                self.shapes[a],
-                self.shapes[b],
-                better,
-                self.config,
-                origin=changes[pair],
-                orientation="reversed" if turned else "kept",
-                verdict="sure" if change.after >= SURE else "ambiguous",
-                confidence=change.after,
-                quality=change.score_after,
-                runners_up=(points[change.edge][0],),
-                rng=self.seed,
-            )
-            maps[change.edge] = made.target_to_source
-        links = [Edge(a, b, candidate_maps(several)) for (a, b), several in zip(ends, evidence, strict=True)]
-        values = np.stack([shape.basis.eigenvalues[: found.sync.latent.shape[1]] for shape in self.shapes])
-        return Collection(
-            self.names,
-            tuple(self.shapes),
-            tuple((self.names[a], self.names[b]) for a, b in ends),
-            tuple(maps),
-            tuple(matches),
-            tuple(found.probabilities.tolist()),
-            changes,
-            dict(zip(self.names, found.chirality.tolist(), strict=True)),
-            component_limit_shapes(found.sync, links, values, LATENT),
-        )
+    def _pair(self, ends: tuple[int, int]) -> tuple[Shape, Shape]:
+        return self.shapes[ends[0]], self.shapes[ends[1]]
 
-    def described(self, change: Replacement) -> str:
-        if change.kind == "runner-up":
-            return f"runner-up {change.candidate}"
-        if change.path is not None:
-            return f"composition through {', '.join(self.names[i] for i in change.path.through)}"
-        return "doubted"
+    def _samples(self, ends: tuple[int, int]) -> tuple[ShapeSamples, ShapeSamples]:
+        return self.samples[ends[0]], self.samples[ends[1]]
+
+    def _along(self, path: CyclePath) -> Candidate:
+        steps = []
+        for step in path.steps:
+            basis = None if step.forward else self.shapes[self.ends[step.edge][0]].basis
+            steps.append((self.candidates[step.edge][step.candidate], basis))
+        return compose_path(steps)
 
 
-def _given(
+def _checked_maps(
     maps: Mapping[tuple[str, str], Any], names: Sequence[str], shapes: Sequence[Shape]
 ) -> dict[tuple[int, int], MapFile]:
     found = {}
@@ -345,17 +308,12 @@ def _given(
     return found
 
 
-def _runners_up(file: MapFile) -> list[np.ndarray]:
-    others = file.extra.get("runners_up")
-    return [] if others is None else list(np.atleast_2d(np.asarray(others)))
-
-
 def _graph(kind: str, shapes: Sequence[Shape]) -> list[tuple[int, int]]:
     if kind == "all":
         return list(complete_graph(len(shapes)))
-    unlike = signature_distances(np.stack([signature(shape.basis) for shape in shapes]))
+    distances = signature_distances(np.stack([signature(shape.basis) for shape in shapes]))
     if kind == "near":
-        return list(nearest_neighbor_graph(unlike))
+        return list(nearest_neighbor_graph(distances))
     if kind == "star":
-        return list(star_graph(len(shapes), medoid(unlike)))
+        return list(star_graph(len(shapes), medoid(distances)))
     raise refuse("graph", "near, star or all", repr(kind), "choose one of them")

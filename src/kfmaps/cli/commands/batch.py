@@ -11,16 +11,14 @@ from rich.text import Text
 
 from kfmaps._arrays import InvalidInput, KfmapsWarning, check_count, refuse
 from kfmaps._threads import available_cores
-from kfmaps.batch.collection import BatchOutcome, match_collection
-from kfmaps.batch.consistent import Agreed
-from kfmaps.batch.graphing import graph_pairs
+from kfmaps.batch.consistent import ConsistentResult
+from kfmaps.batch.jobs import WorkerPool
 from kfmaps.batch.layout import Pair, choose_pairs, find_collection
-from kfmaps.batch.need import needed
-from kfmaps.batch.plan import Plan, make_plan, recommended
-from kfmaps.batch.settings import Settings
-from kfmaps.batch.spread import crew
-from kfmaps.batch.summary import summarised
-from kfmaps.batch.terminal import stage_lines, terminal_callback
+from kfmaps.batch.plan import GRAPHS, Plan, graph_pairs, make_plan, recommended
+from kfmaps.batch.progress import estimate, stage_lines, terminal_callback
+from kfmaps.batch.results import summarize
+from kfmaps.batch.run import BatchResult, run_batch
+from kfmaps.batch.run_spec import RunSpec
 from kfmaps.cli.terminal import Terminal
 from kfmaps.cli.words import UNIT, percent
 from kfmaps.io import atomic_output, read_mesh
@@ -44,15 +42,12 @@ def batch(
         Path | None,
         typer.Option(help="Two names a line; default: the folder's test_pairs.txt.", show_default=False),
     ] = None,
-    every: Annotated[bool, typer.Option("--all", help="Every shape to every other, both ways.")] = False,
-    star: Annotated[
-        str | None, typer.Option(help="This shape to all others.", metavar="SHAPE", show_default=False)
-    ] = None,
     graph: Annotated[
         str | None,
         typer.Option(
-            help="Choose pairs by the shapes: near (each with those most like it), star or all.",
-            metavar="near|star|all",
+            help="Choose pairs: near (each shape with those most like it), star (one with all others; star:SHAPE: "
+            "this one), all (every pair one way), both (every pair both ways).",
+            metavar=GRAPHS.replace(", ", "|").replace(" or ", "|"),
             show_default=False,
         ),
     ] = None,
@@ -61,25 +56,23 @@ def batch(
         typer.Option("--consistent", help="Make the maps agree over cycles: exchange those that others contradict."),
     ] = False,
     identity: Annotated[bool, typer.Option("--identity", help="Truth: vertex i is vertex i.")] = False,
-    truth_landmarks: Annotated[
+    landmarks: Annotated[
         str | None,
         typer.Option(
-            help="Landmarks: these lines of the truth, counted from 1.", metavar="201,1121,...", show_default=False
+            help="Landmarks: these lines of the truth, counted from 1; or none. Default: those that the folder has.",
+            metavar="201,1121,...|none",
+            show_default=False,
         ),
     ] = None,
-    landmarks: Annotated[bool, typer.Option(help="Whether to use landmarks that the folder has.")] = True,
     workers: Annotated[
-        int | None, typer.Option(min=1, help="Processes; default: one for each core.", show_default=False)
-    ] = None,
-    scheduler: Annotated[
         str | None,
-        typer.Option(help="Use the workers of this Dask scheduler.", metavar="ADDRESS", show_default=False),
-    ] = None,
-    cache: Annotated[
-        Path | None, typer.Option(help="Folder for prepared shapes; default: in the output.", show_default=False)
+        typer.Option(
+            help="Worker processes, or the address of a Dask scheduler; default: one for each core.",
+            metavar="N|ADDRESS",
+            show_default=False,
+        ),
     ] = None,
     retry_failed: Annotated[bool, typer.Option("--retry-failed", help="Try failed pairs again.")] = False,
-    worst: Annotated[int, typer.Option(min=0, help="Worst pairs shown as pictures in the summary.")] = 6,
     seed: Annotated[int, typer.Option(min=0, help="For everything that is drawn at random.")] = 0,
     quiet: Annotated[bool, typer.Option("-q", "--quiet", help="Say nothing.")] = False,
 ) -> None:
@@ -87,40 +80,35 @@ def batch(
 
     Stopped and started again with the same arguments it goes on where it was.
     """
-    if scheduler is not None and workers is not None:
-        raise refuse("--workers", "no --scheduler beside it", "both", "the scheduler has its own workers")
-    lines = _lines(truth_landmarks)
+    count, scheduler = _workers(workers)
+    lines, use_files = _lines(landmarks), landmarks is None
+    if graph is not None and pairs is not None:
+        raise refuse("pairs", "one of --graph and --pairs", "both", "leave one out")
     collection = find_collection(folder)
     console = Terminal(highlight=False)
+    progress = stage_lines(console, quiet)
+    listed = [] if graph is not None else choose_pairs(collection, file=pairs)
+    shapes = [Pair(name, name) for name in collection.shapes]
+    config = settings.config(recommended(collection, listed or shapes, bool(lines), use_files))
+    spec = RunSpec(config, seed, lines, use_files, identity)
     if graph is not None:
-        if pairs is not None or every or star is not None:
-            raise refuse("pairs", "one of --graph, --pairs, --all and --star", "several", "leave the others out")
-        config = settings.config(
-            recommended(collection, [Pair(n, n) for n in collection.shapes], bool(lines), landmarks)
-        )
-        made = Settings(config, seed, lines, landmarks, identity)
-        with stage_lines(console, quiet) as told, crew(workers, scheduler, told) as hands:
-            chosen = graph_pairs(collection, made, output, graph, hands, cache_folder=cache)
-    else:
-        chosen = choose_pairs(collection, file=pairs, every=every, star=star)
-        config = settings.config(recommended(collection, chosen, bool(lines), landmarks))
-        made = Settings(config, seed, lines, landmarks, identity)
-    plan = make_plan(collection, chosen, made, output, cache_folder=cache, retry_failed=retry_failed)
+        with WorkerPool(count, scheduler, progress) as pool:
+            listed = graph_pairs(collection, spec, output, graph, pool)
+    plan = make_plan(collection, listed, spec, output, retry_failed=retry_failed)
     if not (plan.folder / TOML).exists():
         with atomic_output(plan.folder / TOML) as temporary:
             temporary.write_text(settings_text(config), encoding="utf-8")
     if not quiet:
-        console.print(Text(_before(plan, workers, consistent)), soft_wrap=True)
-    with terminal_callback(console, quiet) as callback, stage_lines(console, quiet) as told:
-        outcome = match_collection(
+        console.print(Text(_before(plan, count, consistent)), soft_wrap=True)
+    with terminal_callback(console, quiet) as callback:
+        outcome = run_batch(
             plan,
-            workers=workers,
+            workers=count,
             scheduler=scheduler,
             name=folder.resolve().name,
-            worst=worst,
             callback=callback,
             consistent=consistent,
-            told=told,
+            progress=progress,
         )
     if not quiet:
         for line in _after(plan, outcome):
@@ -131,16 +119,23 @@ def batch(
         raise typer.Exit(FAILED)
 
 
+def _workers(text: str | None) -> tuple[int | None, str | None]:
+    """The number of ``--workers``, or the address of a scheduler."""
+    if text is None:
+        return None, None
+    return (check_count(int(text), "--workers"), None) if text.lstrip("-").isdecimal() else (None, text)
+
+
 def _lines(text: str | None) -> tuple[int, ...]:
-    """The numbers of ``--truth-landmarks``."""
-    words = [] if text is None else text.replace(",", " ").split()
-    if text is not None and not words:
-        raise refuse("--truth-landmarks", "line numbers", "none", "write them with commas between")
+    """The numbers of ``--landmarks``."""
+    words = [] if text in (None, "none") else text.replace(",", " ").split()
+    if text not in (None, "none") and not words:
+        raise refuse("--landmarks", "line numbers, or none", "nothing", "write them with commas between")
     try:
-        return tuple(check_count(int(word), "--truth-landmarks") for word in words)
+        return tuple(check_count(int(word), "--landmarks") for word in words)
     except ValueError as error:
-        wanted = "whole numbers from 1 on, with commas between"
-        raise refuse("--truth-landmarks", wanted, repr(text), "count lines from 1") from error
+        expected = "whole numbers from 1 on, with commas between"
+        raise refuse("--landmarks", expected, repr(text), "count lines from 1, or say none") from error
 
 
 def _before(plan: Plan, workers: int | None, consistent: bool) -> str:
@@ -154,8 +149,9 @@ def _before(plan: Plan, workers: int | None, consistent: bool) -> str:
         if vertices:
             left = {name for task in plan.todo for name in (task.pair.source, task.pair.target)}
             count = available_cores() if workers is None else workers
-            need = needed(len(left), len(plan.todo), vertices, plan.settings.config, count, consistent=consistent)
-            return f"{', '.join(told)}; {need.told()}"
+            need = estimate(len(left), len(plan.todo), vertices, plan.spec.config, count, consistent=consistent)
+            what = f"{len(plan.todo)} pairs of {len(left)} shapes of about {vertices:,} vertices"
+            return f"{', '.join(told)}; {what} need about {need} with {count} workers; machines differ"
     return ", ".join(told)
 
 
@@ -169,9 +165,9 @@ def _vertices(plan: Plan) -> int:
         return 0
 
 
-def _after(plan: Plan, outcome: BatchOutcome) -> list[str]:
+def _after(plan: Plan, outcome: BatchResult) -> list[str]:
     """What came of it."""
-    numbers = summarised(outcome.results)
+    numbers = summarize(outcome.results)
     lines = []
     if outcome.interrupted:
         left = len(plan.tasks) - len(outcome.results)
@@ -186,17 +182,15 @@ def _after(plan: Plan, outcome: BatchOutcome) -> list[str]:
         )
     verdicts = ", ".join(f"{count} {verdict}" for verdict, count in numbers.verdicts.items() if verdict)
     lines += [f"verdicts: {verdicts}"] if verdicts else []
-    lines += [] if outcome.agreed is None else _agreed(outcome.agreed)
+    lines += [] if outcome.consistent is None else _agreed(outcome.consistent)
     return lines + [str(path) for path in outcome.files]
 
 
-def _agreed(found: Agreed) -> list[str]:
+def _agreed(found: ConsistentResult) -> list[str]:
     """Which pairs were exchanged, for what and why."""
-    pairs = "1 pair" if found.exchanged == 1 else f"{found.exchanged} pairs"
-    lines = [
-        f"{pairs} exchanged, since others contradict them" if found.exchanged else "all maps agree: none exchanged"
-    ]
-    lines = lines if found.exchanged or not found.doubted else ["no pair exchanged"]
+    pairs = "1 pair" if found.replaced == 1 else f"{found.replaced} pairs"
+    lines = [f"{pairs} exchanged, since others contradict them" if found.replaced else "all maps agree: none exchanged"]
+    lines = lines if found.replaced or not found.doubted else ["no pair exchanged"]
     for r in found.results:
         if r.changed:
             errors = (

@@ -10,9 +10,9 @@ import typer
 
 from kfmaps._arrays import check_positive, refuse
 from kfmaps.batch.layout import Pair
-from kfmaps.batch.results import Result, all_results
-from kfmaps.batch.settings import read_settings
-from kfmaps.batch.summary import error_curve_of, summarised
+from kfmaps.batch.page import error_curve_of
+from kfmaps.batch.results import Result, all_results, summarize
+from kfmaps.batch.run_spec import read_settings
 from kfmaps.batch.work import map_path
 from kfmaps.cli.evaluation import known_truth
 from kfmaps.cli.words import UNIT, percent
@@ -166,7 +166,7 @@ def render_curves(
     curves = []
     for folder, name in zip(folders, names, strict=True):
         results = _results(folder)
-        mean = summarised(results).error_mean
+        mean = summarize(results).error_mean
         curve = error_curve_of(results, f"{name}, mean {percent(mean or 0)} %")
         if curve is None:
             raise refuse(f"{folder}", "pairs whose truth is known", "none", "run batch on shapes with truth")

@@ -116,7 +116,7 @@ def _everywhere(
     others: tuple[Path | None, ...],
 ) -> None:
     """Landmarks of one specimen on all of a collection."""
-    from kfmaps.batch.carried import landmarks_everywhere, write_landmarks_csv, write_tps
+    from kfmaps.batch.propagate_landmarks import propagate_landmarks, write_landmarks_csv, write_tps
 
     if collection is None or landmarks is None:
         missing = "--landmarks" if landmarks is None else "--collection"
@@ -127,7 +127,7 @@ def _everywhere(
         raise refuse(f"output {output}", "the extension .csv", output.suffix or "none", "rename it")
     for path in (output, *([] if tps is None else [tps])):
         check_output(path, force, (landmarks,))
-    found, missed = landmarks_everywhere(collection, landmarks, on)
+    found, missed = propagate_landmarks(collection, landmarks, on)
     write_landmarks_csv(output, found, force)
     if tps is not None:
         write_tps(tps, found, force)

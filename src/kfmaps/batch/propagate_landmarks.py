@@ -11,11 +11,10 @@ from pathlib import Path
 import numpy as np
 
 from kfmaps._arrays import refuse
-from kfmaps.batch.evidence import FOLDER as CONSISTENT
-from kfmaps.batch.exchange import exchanged_result, map_in_use
+from kfmaps.batch.consistent import CONSISTENT, map_in_use, replacement_result
 from kfmaps.batch.layout import Pair
 from kfmaps.batch.results import Result, all_results, read_result
-from kfmaps.batch.settings import read_settings
+from kfmaps.batch.run_spec import read_settings
 from kfmaps.collection.paths import MapPath, adjacency, best_paths
 from kfmaps.fmap.precise import vertex_point_map
 from kfmaps.geometry.mesh import Mesh
@@ -35,7 +34,7 @@ PAIRS = "pairs.csv"
 
 
 @dataclass(frozen=True, eq=False)
-class Carried:
+class PropagatedLandmarks:
     """The landmarks on one specimen.
 
     Attributes
@@ -58,7 +57,9 @@ class _Edge:
     chance: float
 
 
-def landmarks_everywhere(folder: Path, landmarks: Path, on: str | None = None) -> tuple[list[Carried], list[str]]:
+def propagate_landmarks(
+    folder: Path, landmarks: Path, on: str | None = None
+) -> tuple[list[PropagatedLandmarks], list[str]]:
     """The points of a CSV file (:func:`~kfmaps.io.named_points.read_named_points`) on every specimen of a run.
 
     Each map on the way carries them once: from the specimen with the landmarks along the paths whose maps are most
@@ -75,7 +76,7 @@ def landmarks_everywhere(folder: Path, landmarks: Path, on: str | None = None) -
 
     Returns
     -------
-    list of Carried
+    list of PropagatedLandmarks
         The specimen with the landmarks first, then in the order of how sure the ways are.
     list of str
         Specimens that no map leads to.
@@ -93,16 +94,16 @@ def landmarks_everywhere(folder: Path, landmarks: Path, on: str | None = None) -
     number = {name: i for i, name in enumerate(names)}
     ends = [(number[e.pair.source], number[e.pair.target]) for e in edges]
     meshes: dict[str, Mesh] = {}
-    found: dict[int, Carried] = {}
+    found: dict[int, PropagatedLandmarks] = {}
     for at, way in _ways(len(names), ends, edges, number[start]).items():
         if not way.edges:
             points = read_named_points(landmarks, _mesh(start, edges, meshes))
-            found[at] = Carried(start, replace(points, confidence=np.ones(len(points.names))), ())
+            found[at] = PropagatedLandmarks(start, replace(points, confidence=np.ones(len(points.names))), ())
             continue
         edge, before = edges[way.edges[-1]], found[way.shapes[-2]]
         points = _carried(edge, before.points, ends[way.edges[-1]][1] == way.shapes[-2], edges, meshes)
         through = (*before.through, before.specimen) if before.specimen != start else ()
-        found[at] = Carried(names[at], points, through)
+        found[at] = PropagatedLandmarks(names[at], points, through)
     return list(found.values()), [name for name in names if number[name] not in found]
 
 
@@ -157,7 +158,7 @@ def _edges(folder: Path) -> list[_Edge]:
         path = map_in_use(folder, pair.key)
         if result.status != "done" or not path.exists():
             continue
-        other = read_result(exchanged_result(folder, pair.key))
+        other = read_result(replacement_result(folder, pair.key))
         used = other if other is not None and other.status == "done" else result
         edges.append(_Edge(pair, path, _chance(used, agreed.get((pair.source, pair.target)))))
     return edges
@@ -211,7 +212,7 @@ def _named(found: MapFile, side: str, path: Path) -> str:
     return named
 
 
-def write_landmarks_csv(path: Path, carried: Sequence[Carried], force: bool = False) -> None:
+def write_landmarks_csv(path: Path, carried: Sequence[PropagatedLandmarks], force: bool = False) -> None:
     """One row a landmark and specimen: where it is in the specimen's own unit, on which triangle, how sure it is.
 
     Of one without a counterpart vertex and face are −1, and the other cells are empty.
@@ -235,7 +236,7 @@ def write_landmarks_csv(path: Path, carried: Sequence[Carried], force: bool = Fa
         temporary.write_text(text.getvalue(), encoding="utf-8", newline="")
 
 
-def write_tps(path: Path, carried: Sequence[Carried], force: bool = False) -> None:
+def write_tps(path: Path, carried: Sequence[PropagatedLandmarks], force: bool = False) -> None:
     """The landmarks as TPS (Rohlf), which geomorph and MorphoJ read: ``LM3=`` and a row each, then ``ID=``.
 
     One without a counterpart is ``NA NA NA``, geomorph's missing landmark.

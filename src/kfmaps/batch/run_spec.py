@@ -1,4 +1,4 @@
-"""What a run over a collection is defined by; one output folder holds results of one such definition."""
+"""What the results of a run depend on besides the shapes; an output folder holds results of one such specification."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ FILE = "settings.json"
 
 
 @dataclass(frozen=True)
-class Settings:
+class RunSpec:
     """Everything besides the shapes that results depend on.
 
     Attributes
@@ -43,9 +43,9 @@ class Settings:
     def __post_init__(self) -> None:
         check_count(self.seed, "seed", low=0)
         for line in self.landmark_lines:
-            check_count(line, "--truth-landmarks")
+            check_count(line, "--landmarks")
         if len(set(self.landmark_lines)) < len(self.landmark_lines):
-            raise refuse("--truth-landmarks", "each line once", "one twice", "leave it out")
+            raise refuse("--landmarks", "each line once", "one twice", "leave it out")
 
     def as_dict(self) -> dict[str, Any]:
         """As plain values, without the number of threads, which changes no result."""
@@ -72,18 +72,18 @@ def digest_of(values: Any, digits: int = 16) -> str:
     return hashlib.sha256(text.encode()).hexdigest()[:digits]
 
 
-def flattened(values: Any, name: str = "") -> dict[str, Any]:
+def _flatten(values: Any, name: str = "") -> dict[str, Any]:
     """Nested mappings as one, with dotted names."""
     if not isinstance(values, Mapping):
         return {name: values}
     flat: dict[str, Any] = {}
     for key, value in values.items():
-        flat |= flattened(value, f"{name}.{key}" if name else str(key))
+        flat |= _flatten(value, f"{name}.{key}" if name else str(key))
     return flat
 
 
-def claim(folder: Path, settings: Settings) -> None:
-    """Make ``folder`` the place of results with ``settings``, or find that it already is.
+def claim(folder: Path, spec: RunSpec) -> None:
+    """Make ``folder`` the place of results with this ``spec``, or find that it already is.
 
     Raises
     ------
@@ -91,16 +91,16 @@ def claim(folder: Path, settings: Settings) -> None:
         When it holds results of other settings, naming the differences.
     """
     path = folder / FILE
-    now = settings.as_dict()
+    now = spec.as_dict()
     if not path.exists():
-        content = json.dumps({"digest": settings.digest, **now}, indent=2) + "\n"
+        content = json.dumps({"digest": spec.digest, **now}, indent=2) + "\n"
         with atomic_output(path) as temporary:
             temporary.write_text(content, encoding="utf-8")
         return
     then = read_settings(folder)
-    if digest_of({k: v for k, v in then.items() if k != "digest"}) == settings.digest:
+    if digest_of({k: v for k, v in then.items() if k != "digest"}) == spec.digest:
         return
-    before, after = flattened(then), flattened(now)
+    before, after = _flatten(then), _flatten(now)
     changed = [
         f"{name} {before.get(name, 'unset')!r}, now {after.get(name, 'unset')!r}"
         for name in sorted((before.keys() | after.keys()) - {"digest"})

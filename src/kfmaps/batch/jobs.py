@@ -1,0 +1,314 @@
+"""The job runner: a function of many items on Dask workers, of this machine or of a running scheduler."""
+
+from __future__ import annotations
+
+import gc
+import logging
+import re
+import signal
+import socket
+import warnings
+from collections import deque
+from collections.abc import Callable, Generator, Iterator, Sequence
+from contextlib import ExitStack, closing, contextmanager, suppress
+from typing import TYPE_CHECKING, Any, TypeVar
+
+from kfmaps._arrays import MissingDependency, check_count, refuse
+from kfmaps._memory import check_memory
+from kfmaps._threads import available_cores
+
+if TYPE_CHECKING:
+    from distributed import Client
+
+Item = TypeVar("Item")
+Value = TypeVar("Value")
+ProgressCallback = Callable[[str, int, int], None]
+"""Called with what is being done, how much of it is done, and how much there is."""
+
+MAX_DEATHS = 3
+"""Workers that may die over one task before it is given up."""
+NO_WORKERS = "60s"
+"""How long a run goes on without any worker; one that was killed takes a few seconds to come back."""
+ONE_THREAD = dict.fromkeys(("OMP_NUM_THREADS", "MKL_NUM_THREADS", "OPENBLAS_NUM_THREADS"), 1)
+"""What a worker's environment is given. Dask's own list also has malloc return memory at once, which makes every
+large temporary array a round of page faults: a third of the time."""
+WORKER_BYTES = 120e6
+"""What a worker takes before it does anything."""
+TOO_LITTLE_MEMORY = "there may be too little memory for so many (--workers); the same command goes on where it was"
+MISSING_DASK = "collections need Dask ({}); install it with: pip install 'dask[distributed]' cryptography"
+
+
+class WorkerPool:
+    """Dask workers, started when they are first needed; a context that ends them.
+
+    Parameters
+    ----------
+    count : int, optional
+        Worker processes on this machine; by default one for each core.
+    scheduler : str, optional
+        Address of a running Dask scheduler, to use its workers instead.
+    progress : ProgressCallback, optional
+        For :meth:`map`.
+    log : callable, optional
+        Called with a line when a worker dies.
+    """
+
+    def __init__(
+        self,
+        count: int | None = None,
+        scheduler: str | None = None,
+        progress: ProgressCallback | None = None,
+        log: Callable[[str], None] | None = None,
+    ) -> None:
+        self.count, self.scheduler = count, scheduler
+        self.progress = progress or (lambda _what, _done, _of: None)
+        self.log = log or (lambda _line: None)
+        self._stack, self._client = ExitStack(), None
+        self._labels: dict[Any, str] = {}
+        self._deaths = 0
+
+    def __enter__(self) -> WorkerPool:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+    @property
+    def client(self) -> Client:
+        """The connection to the workers, which are started now if they were not."""
+        if self._client is None:
+            where = running_workers(self.scheduler) if self.scheduler else local_workers(self.count)
+            self._client = self._stack.enter_context(where)
+            self.n_threads = _n_threads(self._client)
+            self._client.subscribe_topic("all", self._note_event)
+        return self._client
+
+    def close(self) -> None:
+        """End the workers; they are started again when they are needed again."""
+        self._stack.close()
+        self._client = None
+        if self._deaths:
+            # The connection to a worker that died is closed by the garbage collector, which warns of it.
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore", ResourceWarning)
+                gc.collect()
+
+    def _note_event(self, event: tuple[float, Any]) -> None:
+        message = event[1]
+        if message.get("action") == "remove-worker" and not message.get("expected"):
+            self._deaths += 1
+            tasks = sorted(self._labels[key] for key in message.get("processing-tasks", ()) if key in self._labels)
+            self.log(f"a worker died ({message.get('worker')}) while it had: {', '.join(tasks) or 'nothing to do'}")
+
+    def imap(
+        self,
+        function: Callable[[Item], Value],
+        items: Sequence[Item],
+        *,
+        label: Callable[[Item], str] = str,
+        n_begun: Callable[[Item], int] | None = None,
+    ) -> Generator[tuple[int, Value | Exception]]:
+        """Yield the number of each item with its value, or with the exception that it ended in, as they finish.
+
+        Dask has as many tasks as can run at once, so there may be any number of them, and hands those of a worker
+        that died to another.
+
+        Parameters
+        ----------
+        function : callable
+        items : sequence
+        label : callable
+            Name of an item in the log.
+        n_begun : callable, optional
+            How often work on an item has begun. Dask blames every task that was with a worker that died; an item that
+            has not begun :data:`MAX_DEATHS` times is tried again.
+
+        Raises
+        ------
+        InvalidInput
+            When the scheduler or all workers are lost.
+        """
+        from distributed import CancelledError, KilledWorker, as_completed
+        from distributed.scheduler import NoWorkerError
+
+        client = self.client
+        finished = as_completed(with_results=True, raise_errors=False, loop=client.loop)
+        before = [n_begun(item) if n_begun else 0 for item in items]
+        waiting = deque(range(len(items)))
+        running: dict[Any, int] = {}
+        try:
+            while waiting or running:
+                while waiting and len(running) < self.n_threads:
+                    number = waiting.popleft()
+                    future = client.submit(function, items[number], pure=False)
+                    self._labels[future.key] = label(items[number])
+                    running[future] = number
+                    finished.add(future)
+                future, value = next(finished)
+                number = running.pop(future)
+                del self._labels[future.key]
+                error = value[1] if future.status == "error" else value if isinstance(value, CancelledError) else None
+                if isinstance(error, CancelledError):
+                    raise refuse("scheduler", "an answer", "none any more", "run the same command again to go on")
+                if isinstance(error, NoWorkerError):
+                    raise refuse("workers", "processes that stay alive", f"none for {NO_WORKERS}", TOO_LITTLE_MEMORY)
+                if isinstance(error, KilledWorker) and n_begun and n_begun(items[number]) - before[number] < MAX_DEATHS:
+                    waiting.append(number)
+                    continue
+                yield number, value if error is None else error
+        finally:
+            with suppress(Exception):  # a scheduler that is lost has nothing to cancel
+                client.cancel(list(running), force=True)
+
+    def map(self, what: str, function: Callable[[Item], Value], items: Sequence[Item]) -> list[Value]:
+        """Return the ``function`` of each item, in their order, and tell the progress.
+
+        Raises
+        ------
+        InvalidInput
+            When workers die over one item again and again.
+        """
+        values: dict[int, Value] = {}
+        if not items:
+            return []
+        self.progress(what, 0, len(items))
+        with closing(self.imap(function, items, label=lambda item: f"{what} {item}")) as results:
+            for number, value in results:
+                if isinstance(value, Exception):
+                    got = " ".join(f"{type(value).__name__}: {value}".split())[:200]
+                    raise refuse("workers", "processes that stay alive", got, TOO_LITTLE_MEMORY) from value
+                values[number] = value
+                self.progress(what, len(values), len(items))
+        return [values[number] for number in range(len(items))]
+
+
+def _n_threads(client: Client) -> int:
+    threads: Any = client.nthreads()
+    return sum(threads.values())
+
+
+def dask_setup(worker: Any) -> None:
+    """Called by Dask in each local worker process: leave Ctrl-C to the process that was started by the user."""
+    del worker
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+
+
+@contextmanager
+def local_workers(count: int | None = None) -> Iterator[Client]:
+    """Start worker processes on this machine, one task and one BLAS thread each, gone when the block ends.
+
+    They listen on the loopback address only and speak TLS with certificates made for this run: whoever can talk
+    to a Dask scheduler can run any code, and other users of the machine reach the loopback too.
+
+    Raises
+    ------
+    MissingDependency
+        When Dask is not installed.
+    """
+    count = available_cores() if count is None else check_count(count, "workers")
+    check_memory(WORKER_BYTES * count, "workers", f"{count:,} processes", "choose fewer; one for each core is best")
+    try:
+        import cryptography  # noqa: F401  (Dask's TLS)
+        from dask import config
+        from distributed import Client, LocalCluster
+        from distributed.security import Security
+    except ImportError as error:
+        raise MissingDependency(MISSING_DASK.format(error)) from error
+    settings = {
+        "distributed.scheduler.allowed-failures": MAX_DEATHS - 1,
+        "distributed.scheduler.no-workers-timeout": NO_WORKERS,
+        # A factorisation may keep a worker from answering for long; it is not dead.
+        "distributed.scheduler.worker-ttl": None,
+        # Dask's profiler keeps a thousand seconds of what a worker has been at: some 0.15 GB each.
+        "distributed.worker.profile.enabled": False,
+        "distributed.nanny.pre-spawn-environ": ONE_THREAD,
+    }
+    with ExitStack() as stack:
+        stack.enter_context(_quiet())
+        stack.enter_context(config.set(settings))
+        try:
+            cluster = LocalCluster(
+                n_workers=count,
+                threads_per_worker=1,
+                processes=True,
+                host="127.0.0.1",
+                protocol="tls://",
+                security=Security.temporary(),
+                dashboard_address=None,  # pyright: ignore[reportArgumentType]
+                # Without a dashboard there still is a small HTTP server, whose fixed port a second run would miss.
+                scheduler_kwargs={"dashboard_address": "127.0.0.1:0"},
+                memory_limit=0,  # a limit of our own would kill what the machine could still bear
+                silence_logs=logging.CRITICAL,
+                preload=[__name__],
+            )
+            client = Client(stack.enter_context(cluster), set_as_default=False)
+        except (RuntimeError, OSError, TimeoutError) as error:  # Dask's words for a process that ends as it starts
+            got = "some that ended as they started"
+            raise refuse("workers", "processes that stay alive", got, TOO_LITTLE_MEMORY) from error
+        yield stack.enter_context(client)
+
+
+@contextmanager
+def running_workers(address: str, timeout: float = 30.0) -> Iterator[Client]:
+    """Connect to a Dask scheduler that is running, at ``address`` such as ``tcp://host:8786``.
+
+    Raises
+    ------
+    MissingDependency
+        When Dask is not installed.
+    InvalidInput
+        When nobody answers within ``timeout`` seconds, or there is no worker.
+    """
+    try:
+        from distributed import Client
+        from distributed.security import Security
+    except ImportError as error:
+        raise MissingDependency(MISSING_DASK.format(error)) from error
+    name, remedy = f"scheduler {address}", "check the address and that its workers run"
+    parts = re.fullmatch(r"(?:([a-z]+)://)?\[?([^/\s\[\]]+)\]?:(\d{1,5})/?", address, re.ASCII)
+    if parts is None or not 0 < int(parts.group(3)) < 65536:  # Dask would try such a port for ever
+        raise refuse(name, "an address such as tcp://host:8786", "another", remedy)
+    secret = parts.group(1) == "tls"
+    if secret and Security().get_connection_args("client").get("ssl_context") is None:
+        raise refuse(name, "certificates in Dask's configuration", "none", "see Dask's pages on TLS")
+    # A client that cannot be made is not silent when it goes away; so it is made only where somebody answers.
+    if not _answers(parts.group(2), int(parts.group(3)), timeout, secret):
+        raise refuse(name, "a running Dask scheduler", "no answer", remedy)
+    with _quiet():
+        try:
+            client = Client(address, timeout=timeout, set_as_default=False)
+        except Exception as error:  # what answers may be anything, and Dask runs into whatever it says
+            got = " ".join(f"{type(error).__name__}: {error}".split())[:200]
+            raise refuse(name, "a running Dask scheduler", got, remedy) from error
+        with client:
+            try:
+                client.wait_for_workers(1, timeout=timeout)
+            except (OSError, TimeoutError) as error:
+                raise refuse(name, "at least one worker", "none", remedy) from error
+            yield client
+
+
+def _answers(host: str, port: int, timeout: float, secret: bool) -> bool:
+    """Whether somebody is there who begins as a scheduler does; for another Dask would wait for ever.
+
+    It speaks first, and begins with the length of what it says; where all is ``secret`` the client begins.
+    """
+    try:
+        with socket.create_connection((host, port), timeout) as connection:
+            return secret or 0 < int.from_bytes(connection.recv(8), "little") < 1 << 24
+    except (OSError, UnicodeError):
+        return False
+
+
+@contextmanager
+def _quiet() -> Iterator[None]:
+    """Hold back Dask's log of lost connections and restarted workers, which the run tells of in its own words."""
+    handlers = logging.getLogger("distributed").handlers
+    levels = [handler.level for handler in handlers]
+    for handler in handlers:
+        handler.setLevel(logging.CRITICAL)
+    try:
+        yield
+    finally:
+        for handler, level in zip(handlers, levels, strict=False):
+            handler.setLevel(level)

@@ -1,0 +1,86 @@
+"""What consistent maps say of the shapes: limit shapes, chirality, distances and principal components."""
+
+from __future__ import annotations
+
+import csv
+import io
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+
+from kfmaps.collection.consistency import Consistency
+from kfmaps.collection.differences import components, operators, shape_distances, variation
+from kfmaps.collection.pair_graph import medoid
+from kfmaps.io import atomic_output
+from kfmaps.shape import Shape
+
+SHAPES, DISTANCES, LATENT = "shapes.csv", "distances.csv", "latent.npz"
+N_COMPONENTS = 5
+KINDS = ("area", "conformal")
+
+
+def write_shape_statistics(
+    folder: Path, names: list[str], shape: Callable[[str], Shape], found: Consistency
+) -> list[str]:
+    """Write the tables and the limit shape of each component that pairs join; what could not be, in words."""
+    hands = found.repaired.chirality
+    hand = ["" if (hands == 1).all() else ("+" if h > 0 else "-") for h in hands]
+    parts = found.repaired.sync.component
+    for path in folder.glob(f"{Path(LATENT).stem}*.npz"):
+        path.unlink()
+    scores: list[dict[str, str]] = [{} for _ in names]
+    apart: list[list[str]] = []
+    for number, common in enumerate(found.limit_shapes):
+        own = [names[i] for i in common.members.tolist()]
+        values = found.eigenvalues[common.members]
+        matrices = {kind: operators(common.limit_shape, values, kind) for kind in KINDS}
+        pca = {kind: components(matrices[kind], N_COMPONENTS) for kind in KINDS}
+        distances = {kind: shape_distances(matrices[kind]) for kind in KINDS}
+        for kind in KINDS:
+            for i, row in zip(common.members.tolist(), pca[kind].scores, strict=True):
+                scores[i] |= {f"{kind}_{c + 1}": f"{x:.6g}" for c, x in enumerate(row)}
+        for i, j in zip(*np.triu_indices(len(own), 1), strict=True):
+            apart.append([own[i], own[j], *(f"{distances[kind][i, j]:.6g}" for kind in KINDS)])
+        middle = medoid(distances["area"])
+        basis = shape(own[middle]).basis
+        arrays = {"names": np.array(own), "maps": common.limit_shape.maps, "values": common.limit_shape.values}
+        arrays |= {f"explained_{kind}": pca[kind].parts for kind in KINDS}
+        arrays |= {f"variation_{kind}": variation(matrices[kind], common.limit_shape, middle, basis) for kind in KINDS}
+        path = limit_shape_path(folder, number)
+        with atomic_output(path, force=True) as temporary, open(temporary, "wb") as file:
+            np.savez(file, allow_pickle=False, middle=np.array(own[middle]), **arrays)
+    titles = [f"{kind}_{i + 1}" for kind in KINDS for i in range(N_COMPONENTS)]
+    titles = [title for title in titles if any(title in row for row in scores)]
+    rows = [[name, hand[i], int(parts[i]), *(scores[i].get(t, "") for t in titles)] for i, name in enumerate(names)]
+    _write_table(folder / SHAPES, ["shape", "hand", "part", *titles], rows)
+    if not found.limit_shapes:
+        (folder / DISTANCES).unlink(missing_ok=True)
+        return ["shapes that hang together, three or more, would have a common basis and principal components"]
+    _write_table(folder / DISTANCES, ["shape", "other", *KINDS], apart)
+    count, alone = len(np.unique(parts)), len(names) - sum(len(common.members) for common in found.limit_shapes)
+    if count == 1:
+        return []
+    line = f"no pair joins the {count} parts of the collection: {len(found.limit_shapes)} of them have a common basis"
+    return [line + " each" + (f"; {alone} shapes are in parts of fewer than three" if alone else "")]
+
+
+def limit_shape_path(folder: Path, number: int) -> Path:
+    """Return where the limit shape of a component lies: the largest has number 0."""
+    return folder / (LATENT if number == 0 else f"{Path(LATENT).stem}-{number + 1}.npz")
+
+
+def limit_shape_paths(folder: Path) -> list[Path]:
+    """Return where limit shapes lie, of the largest component first."""
+    found = []
+    while (path := limit_shape_path(folder, len(found))).exists():
+        found.append(path)
+    return found
+
+
+def _write_table(path: Path, titles: list[str], rows: list[list]) -> None:
+    text = io.StringIO(newline="")
+    csv.writer(text, lineterminator="\n").writerows([titles, *rows])
+    path.parent.mkdir(parents=True, exist_ok=True)
+    with atomic_output(path, force=True) as temporary:
+        temporary.write_text(text.getvalue(), encoding="utf-8", newline="")

@@ -1,0 +1,155 @@
+"""Make the maps of a collection agree over cycles: one algorithm for maps in memory and in a folder."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+
+from kfmaps.collection.differences import ComponentLimitShape, component_limit_shapes
+from kfmaps.collection.paths import compose_maps, invert_map
+from kfmaps.collection.repair import CyclePath, RepairResult, Replacement, repair
+from kfmaps.collection.scored_map import ScoredMap, candidate_maps, score_maps, with_better_score
+from kfmaps.collection.synchronization import Edge
+from kfmaps.config import Config
+from kfmaps.fmap.convert import to_points
+from kfmaps.geometry.basis import Basis
+from kfmaps.io import MapFile, check_map
+from kfmaps.matching.calibration import SURE
+from kfmaps.matching.match import Match, match_from_map
+from kfmaps.matching.quality import ShapeSamples
+from kfmaps.matching.reindexing import reindexing
+from kfmaps.shape import Shape
+
+N_LATENT = 15
+"""Latent functions of a limit shape: the higher ones are truncation more than shape."""
+
+Candidate = tuple[np.ndarray, bool]
+"""A source vertex for each target vertex, (n_t,), and whether it is a map to the target's mirror image."""
+
+
+class MapStore(Protocol):
+    """Shapes of a collection, by number, with the candidate maps of its pairs."""
+
+    @property
+    def names(self) -> Sequence[str]: ...
+
+    @property
+    def ends(self) -> Sequence[tuple[int, int]]:
+        """Source and target of each pair."""
+        ...
+
+    def score(self) -> list[list[ScoredMap]]:
+        """Score the candidates of each pair; the first is the one in use."""
+        ...
+
+    def compose(self, asked: list[tuple[int, CyclePath]]) -> list[ScoredMap]:
+        """Compose the candidates along paths around pairs, and score the compositions."""
+        ...
+
+    def replace(self, replacements: Sequence[Replacement]) -> None:
+        """Put other maps in the place of those in use."""
+        ...
+
+    def eigenvalues(self, count: int) -> np.ndarray:
+        """The first eigenvalues of each shape at unit area, (n, count)."""
+        ...
+
+
+@dataclass(frozen=True, eq=False)
+class Consistency:
+    """Result of :func:`synchronize_store`: the scores of all candidates, what was replaced, and limit shapes."""
+
+    scores: list[list[ScoredMap]]
+    repaired: RepairResult
+    limit_shapes: tuple[ComponentLimitShape, ...]
+    eigenvalues: np.ndarray
+
+
+def synchronize_store(store: MapStore) -> Consistency:
+    """Find which maps of a store are wrong, replace them, and return what the maps in use say of the shapes."""
+    scores = store.score()
+    repaired = repair(len(store.names), store.ends, scores, store.compose)
+    store.replace([change for change in repaired.replacements if change.kind != "none"])
+    edges = [Edge(a, b, candidate_maps(several)) for (a, b), several in zip(store.ends, scores, strict=True)]
+    values = store.eigenvalues(repaired.sync.latent.shape[1])
+    shapes = component_limit_shapes(repaired.sync, edges, values, N_LATENT)
+    return Consistency(scores, repaired, shapes, values)
+
+
+def stored_candidates(file: MapFile, reversed: bool | None = None) -> list[Candidate]:
+    """Return the map in use and its runners-up; ``reversed`` where the file does not tell."""
+    turned = _is_reversed(file) if reversed is None else reversed
+    others = file.extra.get("runners_up")
+    rows = [] if others is None else list(np.atleast_2d(np.asarray(others)))
+    return [(file.target_to_source, turned), *((row, turned) for row in rows)]
+
+
+def _is_reversed(file: MapFile) -> bool:
+    """Whether a map's file says that it is one to a mirror image."""
+    try:
+        return json.loads(str(file.extra.get("summary", "{}"))).get("orientation") == "reversed"
+    except (ValueError, AttributeError):
+        return False
+
+
+def score_stored(
+    file: MapFile, shapes: tuple[Shape, Shape], samples: tuple[ShapeSamples, ShapeSamples], reversed: bool | None = None
+) -> list[ScoredMap]:
+    """Score the candidates of a file. The map in use has the score of its raw map, where that is better.
+
+    Runners-up are not finished, and finishing does not aim at the score.
+    """
+    check_map(file, len(shapes[0].mesh.vertices), len(shapes[1].mesh.vertices))
+    maps = stored_candidates(file, reversed)
+    raw = file.extra.get("raw_functional_map")
+    if raw is None:
+        return score_candidates(maps, shapes, samples)
+    source, target = (shape.basis for shape in shapes)
+    points = to_points(np.asarray(raw)[: len(target.eigenvalues), : len(source.eigenvalues)], source, target, 1)
+    first, before, *others = score_candidates([maps[0], (points, maps[0][1]), *maps[1:]], shapes, samples)
+    return [with_better_score(first, before), *others]
+
+
+def score_candidates(
+    maps: Sequence[Candidate], shapes: tuple[Shape, Shape], samples: tuple[ShapeSamples, ShapeSamples]
+) -> list[ScoredMap]:
+    """Score candidates of one pair, on its cleaned shapes."""
+    across = reindexing(*shapes)
+    points = [across.part_s.to_clean[one[across.part_t.to_original]] for one, _ in maps]
+    return score_maps(points, across.source, across.target, samples, [turned for _, turned in maps])
+
+
+def compose_path(steps: Sequence[tuple[Candidate, Basis | None]]) -> Candidate:
+    """Compose the candidates of a path. One that is gone through backwards has the basis of its source beside it."""
+    points = [one if basis is None else invert_map(one, basis, len(one)) for (one, _), basis in steps]
+    return compose_maps(points), sum(turned for (_, turned), _ in steps) % 2 == 1
+
+
+def refine_replacement(
+    replacement: Replacement,
+    candidates: Sequence[Candidate],
+    composition: Candidate | None,
+    shapes: tuple[Shape, Shape],
+    config: Config,
+    label: str,
+    seed: int,
+) -> Match:
+    """Finish the map that replaces another as a match is finished; the replaced one is its first alternative."""
+    points, turned = candidates[replacement.candidate] if composition is None else composition
+    others = [row for i, (row, _) in enumerate(candidates) if i == 0 or i != replacement.candidate]
+    return match_from_map(
+        *shapes,
+        points,
+        config,
+        origin=label,
+        orientation="reversed" if turned else "kept",
+        verdict="sure" if replacement.after >= SURE else "ambiguous",
+        confidence=replacement.after,
+        quality=replacement.score_after,
+        runners_up=tuple(np.asarray(row) for row in others),
+        rng=seed,
+    )
