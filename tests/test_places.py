@@ -95,7 +95,7 @@ def test_a_fit_that_heals_more_than_it_harms_is_kept(pair: datasets.Pair) -> Non
     assert last.fit.improved > last.fit.worsened > MAX_WORSENED_AREA
     assert len(finish.held) == 2
     # A fit that lets sizes change changes distances: what it has changed is not held if it is kept.
-    finish.held, finish.stretch = [], 0.01
+    finish.held, finish.local_scaling = [], 0.01
     again = end(pair, finish, wrong)
     assert again.fit is not None
     assert again.fit.accepted
