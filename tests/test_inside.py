@@ -23,6 +23,7 @@ from kfmaps.geometry.geodesics import METHODS, geodesic_distance_pairs, geodesic
 from kfmaps.geometry.mesh import Mesh, surface_area
 from kfmaps.geometry.topology import topology
 from kfmaps.matching.match import match
+from kfmaps.registration.nonrigid_icp import NonRigid
 from kfmaps.shape import clean_shape, prepare
 
 GUARDS = (
@@ -255,3 +256,20 @@ def test_a_prepared_shape_keeps_every_vertex() -> None:
     )
     assert surface_area(within.mesh) == pytest.approx(1)
     assert surface_area(blob(300)) * scale**2 == pytest.approx(1)
+
+
+@pytest.mark.parametrize("side", [0, 1])
+def test_faces_that_name_a_vertex_twice_change_nothing(side: int) -> None:
+    """They come first, so that they shift the numbers of all other faces."""
+    clean = blob(300)
+    dirty = Mesh(clean.vertices, np.vstack([[[5, 5, 5], [7, 7, 8], [10, 11, 11]], clean.faces]))
+    config = replace(SMALL, finish=NonRigid(n_levels=2, steps=2))
+    marks = np.stack([np.arange(0, 300, 60)] * 2, axis=1)
+    plain = match(clean, clean, config, landmarks=marks)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", KfmapsWarning)
+        found = match(*((dirty, clean) if side == 0 else (clean, dirty)), config, landmarks=marks)
+    assert np.array_equal(found.target_to_source, plain.target_to_source)
+    corners = [one.precise().faces for one in (found, plain)]
+    faces = dirty.faces if side == 0 else clean.faces
+    assert np.array_equal(faces[corners[0]], clean.faces[corners[1]])

@@ -109,7 +109,7 @@ def clean_shape(shape: Shape) -> tuple[Shape, CleanedMesh]:
     """
     part = clean_mesh(shape.mesh, specks=True)
     if part.whole:
-        return shape, part
+        return (shape if part.mesh is shape.mesh else replace(shape, mesh=part.mesh)), part
     kept, basis = part.to_original, shape.basis
     local = None if shape.shot is None else shape.shot[kept]
     few = Basis(basis.eigenvalues, take(basis.functions, kept), take(basis.mass, kept))
