@@ -19,7 +19,7 @@ import kfmaps
 from kfmaps import datasets
 from kfmaps.fmap.precise import nearest_vertices
 from kfmaps.io import load_map, save_map
-from kfmaps.io.partial_map import counterparts
+from kfmaps.io.partial_map import find_counterparts
 from kfmaps.viz import automatic_view, position_colors, save_figure
 from kfmaps.viz.camera import following_view
 from kfmaps.viz.figures import transferred_colors
@@ -42,7 +42,7 @@ def main() -> None:
         found = load_map(path)
         if arguments.map is None:
             path.unlink()
-    ways = counterparts(found, whole, part)
+    ways = find_counterparts(found, whole, part)
     back = np.where(ways.source, nearest_vertices(ways.back, part), -1)
     seen = automatic_view(whole)
     colors = position_colors(part)

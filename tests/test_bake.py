@@ -6,6 +6,7 @@ import base64
 import io
 import json
 import struct
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -19,8 +20,9 @@ from kfmaps.fmap.precise import PointMap, vertex_point_map
 from kfmaps.geometry.closest_points import closest_points
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.io import MeshFile, grid_picture, read_mesh_file, write_textured
-from kfmaps.io.bake import bakeable, baked, pixels_of, png_of, sampled, texels_of
-from kfmaps.io.export import carried_uv
+from kfmaps.io.bake import bake_texture, can_bake, decode_picture, encode_png, find_texels, sample_picture
+from kfmaps.io.convert import as_map
+from kfmaps.io.export import transfer_uv
 from kfmaps.io.glb import format_glb
 from kfmaps.io.gltf import parse_gltf
 from kfmaps.io.record import Picture
@@ -50,7 +52,7 @@ def test_texels_are_where_the_triangle_is() -> None:
     """Against every texel's centre, one by one; together they have its area."""
     size = 64
     corners = np.array([[[0.1, 0.2], [0.8, 0.3], [0.4, 0.9]]])
-    face, texel, weights = texels_of(corners, size)
+    face, texel, weights = find_texels(corners, size)
     x, y = (texel % size + 0.5) / size, 1 - (texel // size + 0.5) / size
     np.testing.assert_allclose(np.einsum("qi,qij->qj", weights, corners[face]), np.stack([x, y], axis=1))
     assert weights.min() >= -1e-6
@@ -62,10 +64,10 @@ def test_texels_are_where_the_triangle_is() -> None:
 def test_colours_are_linear_between_texels_and_repeat() -> None:
     pixels = np.random.default_rng(0).random((4, 8, 3))
     centres = np.stack([(np.arange(8) + 0.5) / 8, np.full(8, 1 - 1.5 / 4)], axis=1)
-    np.testing.assert_allclose(sampled(pixels, centres), pixels[1])
+    np.testing.assert_allclose(sample_picture(pixels, centres), pixels[1])
     between = (centres[:-1] + centres[1:]) / 2
-    np.testing.assert_allclose(sampled(pixels, between), (pixels[1, :-1] + pixels[1, 1:]) / 2)
-    np.testing.assert_allclose(sampled(pixels, centres + np.array([2, -1])), sampled(pixels, centres))
+    np.testing.assert_allclose(sample_picture(pixels, between), (pixels[1, :-1] + pixels[1, 1:]) / 2)
+    np.testing.assert_allclose(sample_picture(pixels, centres + np.array([2, -1])), sample_picture(pixels, centres))
 
 
 def test_the_identity_gives_back_the_picture() -> None:
@@ -76,13 +78,13 @@ def test_the_identity_gives_back_the_picture() -> None:
     pixels = np.random.default_rng(1).integers(0, 256, (256, 256, 3)) / 255.0
     place = vertex_point_map(np.arange(60), shape.mesh)
     uv, uv_faces = shape.uv, shape.uv_faces
-    found = baked(shape, shape, pixels, uv, uv_faces, None, size=256)
-    _, texel, _ = texels_of(uv[uv_faces], 256)
+    found = bake_texture(shape, shape, pixels, uv, uv_faces, None, size=256)
+    _, texel, _ = find_texels(uv[uv_faces], 256)
     rows = found.reshape(-1, 3)
     np.testing.assert_array_equal(rows[texel], np.rint(255 * pixels.reshape(-1, 3))[texel])
     # With points in triangles every face lies over a seam here, and every texel finds itself on the surface.
-    carried = carried_uv(shape, shape.mesh, np.arange(60), place)
-    again = baked(shape, shape, pixels, *carried, place, size=256).reshape(-1, 3)
+    carried = transfer_uv(shape, shape.mesh, np.arange(60), place)
+    again = bake_texture(shape, shape, pixels, *carried, place, size=256).reshape(-1, 3)
     assert (np.abs(again[texel].astype(int) - rows[texel]) <= 1).mean() > 0.97
 
 
@@ -93,13 +95,13 @@ def test_a_picture_goes_around_a_seam_without_a_scar() -> None:
     place = PointMap(found.faces, found.weights)
     points = source.mesh.faces[found.faces, found.weights.argmax(axis=1)]
     target = own_atlas(mesh)
-    assert bakeable(target)
+    assert can_bake(target)
     assert target.uv is not None
     assert target.uv_faces is not None
     pixels = round_picture()
-    uv, uv_faces = carried_uv(source, mesh, points, place)
-    picture = baked(source, target, pixels, uv, uv_faces, place, size=512).reshape(-1, 3) / 255.0
-    face, texel, weights = texels_of(target.uv[target.uv_faces], 512)
+    uv, uv_faces = transfer_uv(source, mesh, points, place)
+    picture = bake_texture(source, target, pixels, uv, uv_faces, place, size=512).reshape(-1, 3) / 255.0
+    face, texel, weights = find_texels(target.uv[target.uv_faces], 512)
     at = np.einsum("qi,qij->qj", weights, mesh.vertices[mesh.faces[face]])
     angle = np.arctan2(at[:, 1], at[:, 0]) + np.pi
     true = np.stack([0.5 + 0.5 * np.cos(angle), 0.5 + 0.5 * np.sin(angle), 0.5 + 0.5 * at[:, 2]], axis=1)
@@ -120,11 +122,12 @@ def test_faces_outside_a_part_have_one_colour(tmp_path: Path) -> None:
     points = np.arange(n)
     away = source.mesh.vertices[:, 2] > 0.5
     points[away] = -1
-    write_textured(tmp_path / "b.glb", source, target, points, place=vertex_point_map(np.arange(n), source.mesh))
+    places = as_map(vertex_point_map(np.arange(n), source.mesh), source.mesh)
+    write_textured(tmp_path / "b.glb", source, target, replace(places, target_to_source=points))
     found = read_mesh_file(tmp_path / "b.glb").picture
     assert found is not None
-    picture = pixels_of(found)
-    face, texel, _ = texels_of(target.uv[target.uv_faces], len(picture))
+    picture = decode_picture(found)
+    face, texel, _ = find_texels(target.uv[target.uv_faces], len(picture))
     outside = away[source.mesh.faces].max(axis=1)[face]
     colours = picture.reshape(-1, 3)[texel]
     assert np.ptp(colours[outside], axis=0).max() == 0
@@ -137,7 +140,7 @@ def test_padding_is_the_nearest_colour() -> None:
     assert target.uv is not None
     blue = np.zeros((8, 8, 3))
     blue[:, :, 2] = 1.0
-    picture = baked(target, target, blue, target.uv, mesh.faces, size=64)
+    picture = bake_texture(target, target, blue, target.uv, mesh.faces, size=64)
     assert (picture == [0, 0, 255]).all()
 
 
@@ -145,21 +148,21 @@ def test_an_atlas_whose_faces_share_space_gets_the_sources_coordinates(tmp_path:
     source = globe()
     mesh = source.mesh
     stacked = MeshFile(mesh, None, np.array([[0.0, 0], [1, 0], [0, 1]]), np.tile([0, 1, 2], (len(mesh.faces), 1)))
-    assert not bakeable(stacked)
-    assert not bakeable(MeshFile(mesh))
+    assert not can_bake(stacked)
+    assert not can_bake(MeshFile(mesh))
     cells = own_atlas(mesh)
     assert cells.uv is not None
     assert cells.uv_faces is not None
     half = len(mesh.faces) // 2
     mirrored = np.concatenate([cells.uv_faces[:half], cells.uv_faces[: len(mesh.faces) - half]])
-    assert not bakeable(MeshFile(mesh, None, cells.uv, mirrored))
+    assert not can_bake(MeshFile(mesh, None, cells.uv, mirrored))
     flat = MeshFile(mesh, None, np.zeros((1, 2)), np.zeros_like(mesh.faces))
-    assert not bakeable(flat)
+    assert not can_bake(flat)
     with pytest.warns(KfmapsWarning, match="share"):
         write_textured(tmp_path / "b.glb", source, stacked, np.arange(len(mesh.vertices)))
     back = read_mesh_file(tmp_path / "b.glb")
     assert back.picture is not None
-    np.testing.assert_array_equal(np.rint(255 * pixels_of(back.picture)), grid_picture())
+    np.testing.assert_array_equal(np.rint(255 * decode_picture(back.picture)), grid_picture())
 
 
 def test_a_target_keeps_its_own_coordinates(tmp_path: Path) -> None:
@@ -167,7 +170,7 @@ def test_a_target_keeps_its_own_coordinates(tmp_path: Path) -> None:
     target = own_atlas(mesh)
     assert target.uv is not None
     assert target.uv_faces is not None
-    red = png_of(np.broadcast_to(np.array([1.0, 0, 0]), (4, 4, 3)))
+    red = encode_png(np.broadcast_to(np.array([1.0, 0, 0]), (4, 4, 3)))
     source = MeshFile(source.mesh, None, source.uv, source.uv_faces, red)
     points = np.linalg.norm(mesh.vertices[:, None] - source.mesh.vertices[None], axis=2).argmin(axis=1)
     for name in ("b.glb", "b.obj"):
@@ -176,7 +179,7 @@ def test_a_target_keeps_its_own_coordinates(tmp_path: Path) -> None:
         assert back.uv is not None
         assert back.uv_faces is not None
         np.testing.assert_allclose(back.uv[back.uv_faces], target.uv[target.uv_faces], atol=1e-6)
-    picture = pixels_of(Picture((tmp_path / "b.png").read_bytes(), "image/png"))
+    picture = decode_picture(Picture((tmp_path / "b.png").read_bytes(), "image/png"))
     assert picture.shape == (1024, 1024, 3)
     np.testing.assert_allclose(picture, np.broadcast_to([1.0, 0, 0], picture.shape))
 
@@ -196,14 +199,14 @@ def changed(data: bytes, edit: Any) -> bytes:
 @pytest.fixture(scope="module")
 def glb() -> bytes:
     shape = globe(30)
-    picture = png_of(grid_picture(32, 4))
+    picture = encode_png(grid_picture(32, 4))
     return format_glb(shape.mesh, uv=shape.uv, uv_faces=shape.uv_faces, picture=(picture.data, picture.kind))
 
 
 def test_a_texture_comes_in_as_it_went_out(glb: bytes, tmp_path: Path) -> None:
     found = parse_gltf(glb, "a.glb").picture
     assert found is not None
-    assert found.data == png_of(grid_picture(32, 4)).data
+    assert found.data == encode_png(grid_picture(32, 4)).data
     assert found.kind == "image/png"
 
     def elsewhere(tree: dict) -> None:
@@ -262,12 +265,12 @@ def test_a_picture_cut_short_is_refused(glb: bytes) -> None:
 
 def test_a_picture_that_is_none_is_refused() -> None:
     with pytest.raises(InvalidInput, match="PNG or JPEG"):
-        pixels_of(Picture(b"\x89PNG\r\n\x1a\nno more", "image/png"))
+        decode_picture(Picture(b"\x89PNG\r\n\x1a\nno more", "image/png"))
 
 
 def test_grey_pictures_have_three_channels() -> None:
 
     buffer = io.BytesIO()
     Image.fromarray(np.full((5, 7), 51, dtype=np.uint8)).save(buffer, format="png")
-    assert pixels_of(Picture(buffer.getvalue(), "image/png")).shape == (5, 7, 3)
-    np.testing.assert_allclose(pixels_of(Picture(buffer.getvalue(), "image/png")), 0.2)
+    assert decode_picture(Picture(buffer.getvalue(), "image/png")).shape == (5, 7, 3)
+    np.testing.assert_allclose(decode_picture(Picture(buffer.getvalue(), "image/png")), 0.2)

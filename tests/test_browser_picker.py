@@ -14,7 +14,8 @@ from kfmaps._arrays import InvalidInput
 from kfmaps.datasets import Pair, two_poses
 from kfmaps.geometry.mesh import Mesh, surface_area
 from kfmaps.io import MapFile, load_map, read_landmark_names, read_landmarks
-from kfmaps.viz.picker import Picker, picker_server
+from kfmaps.viz.document import forwarding_page
+from kfmaps.viz.picker import Picker, PickerServer
 from kfmaps.viz.runs import Progress
 
 pytestmark = needs_browser
@@ -46,7 +47,8 @@ def a_matcher(landmarks: np.ndarray, progress: Progress) -> MapFile:
 
 
 @pytest.fixture
-def picker(browser: Browser, pair: Pair, tmp_path: Path) -> Iterator[Browser]:
+def picker(browser: Browser, pair: Pair, tmp_path: Path, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Browser]:
+    """The page, opened as the command does: from a file that leads to the server's address."""
     setting = Picker(
         pair.source,
         pair.target,
@@ -55,10 +57,12 @@ def picker(browser: Browser, pair: Pair, tmp_path: Path) -> Iterator[Browser]:
         matcher=a_matcher,
         map_output=tmp_path / "m.npz",
     )
-    serving = picker_server(setting)
+    serving = PickerServer(setting)
     thread = threading.Thread(target=serving.server.serve_forever)
     thread.start()
-    browser.open(serving.server.address)
+    opened = tmp_path_factory.mktemp("opened") / "page.html"
+    opened.write_text(forwarding_page(serving.server.address), encoding="utf-8")
+    browser.open(opened.as_uri())
     yield browser
     browser.leave()
     serving.server.shutdown()

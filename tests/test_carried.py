@@ -13,7 +13,7 @@ from kfmaps import datasets
 from kfmaps.fmap.precise import PointMap, invert_precise_map, point_positions
 from kfmaps.geometry.mesh import Mesh, surface_area, unit_area
 from kfmaps.io import MapFile, MeshFile, load_map, read_mesh_file, read_values, save_map, write_mesh
-from kfmaps.io.export import carried_uv, projected_uv
+from kfmaps.io.export import projected_uv, transfer_uv
 from kfmaps.io.glb import format_glb
 from kfmaps.io.gltf import parse_gltf
 from kfmaps.io.provenance import sha256
@@ -108,7 +108,7 @@ def test_a_picture_travels_inside_a_glb_and_no_shape_is_named(made: types.Simple
 def test_the_texture_lies_where_the_points_do(made: types.SimpleNamespace) -> None:
     """Coordinates mixed in triangles, not those of vertices; a face over a seam keeps to one side of it."""
     source = made.pair.source
-    uv, uv_faces = carried_uv(MeshFile(source), made.pair.target, made.pair.truth, made.place)
+    uv, uv_faces = transfer_uv(MeshFile(source), made.pair.target, made.pair.truth, made.place)
     span = np.ptp(source.vertices, axis=0)
     exact = projected_uv(np.vstack([point_positions(made.place, source), source.vertices]))[: len(made.pair.truth)]
     assert span.max() > 0
@@ -123,7 +123,7 @@ def test_the_texture_lies_where_the_points_do(made: types.SimpleNamespace) -> No
         uv=np.vstack([projected_uv(source.vertices), projected_uv(source.vertices) + 10]),
         uv_faces=source.faces + n * up[:, None],
     )
-    uv, uv_faces = carried_uv(cut, made.pair.target, made.pair.truth, made.place)
+    uv, uv_faces = transfer_uv(cut, made.pair.target, made.pair.truth, made.place)
     reach = np.ptp(uv[uv_faces], axis=1).max(axis=1)
     assert reach.max() < 1  # the halves are 10 apart
 

@@ -15,7 +15,7 @@ from kfmaps.cli.partial_truth import PartTruth, true_overlap
 from kfmaps.fmap.precise import PointMap, invert_precise_map, nearest_vertices, point_positions
 from kfmaps.geometry.mesh import surface_area
 from kfmaps.io import MapFile, load_map, save_map, write_mesh
-from kfmaps.io.partial_map import counterparts
+from kfmaps.io.partial_map import find_counterparts
 
 NEAR = 0.02
 """In √area of the whole: the meshes of part and whole have nothing to do with each other."""
@@ -118,13 +118,13 @@ def test_points_of_a_part_are_on_the_whole(
 
 def test_of_a_list_without_overlap_the_distance_tells(made: types.SimpleNamespace) -> None:
     plain = MapFile(load_map(made.folder / "up.npz").target_to_source)
-    ways = counterparts(plain, made.part, made.whole)
+    ways = find_counterparts(plain, made.part, made.whole)
     np.testing.assert_array_equal(ways.target, made.common)
     assert ways.source.mean() > 0.5
     some = MapFile(
         np.where(made.whole.vertices[:, 1] > np.median(made.whole.vertices[:, 1]), plain.target_to_source, -1)
     )
-    fewer = counterparts(some, made.part, made.whole)
+    fewer = find_counterparts(some, made.part, made.whole)
     assert fewer.source.mean() < ways.source.mean()
     assert not fewer.complete
 

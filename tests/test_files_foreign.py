@@ -225,7 +225,7 @@ def test_gltf_of_more_copies_than_anybody_means_is_refused(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, vertices: int, parts: int, nodes: int
 ) -> None:
     """Nodes may show a mesh as often as they like; the file is refused before any copy is made."""
-    monkeypatch.setattr("kfmaps.io.gltf._numbers", lambda *_: pytest.fail("numbers were read"))
+    monkeypatch.setattr("kfmaps.io.gltf._Scene.numbers", lambda *_: pytest.fail("numbers were read"))
     told = refused(tmp_path / "a.gltf", copies(vertices, parts, nodes))
     assert "at most 4,000,000 vertices and corners that nodes repeat" in told
     assert "export each shape once" in told

@@ -7,16 +7,16 @@ import pytest
 
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.io import read_mesh_file
-from kfmaps.io.bake import png_of
+from kfmaps.io.bake import encode_png
 from kfmaps.io.export import write_morph, write_textured
-from kfmaps.io.obj import materials
+from kfmaps.io.obj import read_materials
 from kfmaps.io.record import MeshFile, Picture
 
 pytestmark = pytest.mark.filterwarnings("ignore:.*boundary loop")
 
 SHAPE = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nvt 1 1\n"
 FIRST, SECOND = "f 1/1 2/2 3/3\n", "f 2/2 4/4 3/3\n"
-RED, BLUE = (png_of(np.broadcast_to(np.array(color), (2, 3, 3))) for color in ([1.0, 0, 0], [0, 0, 1.0]))
+RED, BLUE = (encode_png(np.broadcast_to(np.array(color), (2, 3, 3))) for color in ([1.0, 0, 0], [0, 0, 1.0]))
 JPEG = b"\xff\xd8\xff and so on"
 
 
@@ -80,7 +80,7 @@ def test_pictures_that_are_not_there_or_not_as_they_are_count_as_none(tmp_path: 
     ],
 )
 def test_options_before_the_name(line: str, file: str | None) -> None:
-    assert materials(f"# m\nmap_Kd stray.png\nnewmtl my skin\nKd 1 1 1\n{line}\n") == {"my skin": file}
+    assert read_materials(f"# m\nmap_Kd stray.png\nnewmtl my skin\nKd 1 1 1\n{line}\n") == {"my skin": file}
 
 
 @pytest.fixture

@@ -27,7 +27,7 @@ from kfmaps._arrays import InvalidInput
 from kfmaps.datasets import sphere
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.io import MapFile, load_map, read_landmark_names, read_landmarks, write_landmarks, write_mesh
-from kfmaps.viz.picker import Picker, PickerServer, check_pairs, picker_server
+from kfmaps.viz.picker import Picker, PickerServer, check_pairs
 from kfmaps.viz.runs import Progress, Runs
 from kfmaps.viz.server import LOOPBACK, LocalServer, page_reply
 
@@ -47,9 +47,9 @@ class Answer:
 
 
 class Client:
-    def __init__(self, serving: PickerServer) -> None:
-        self.port = serving.server.port
-        self.path = f"/{serving.server.token}/"
+    def __init__(self, server: LocalServer) -> None:
+        self.port = server.port
+        self.path = f"/{server.token}/"
 
     def ask(
         self,
@@ -99,11 +99,11 @@ def serve(tmp_path: Path) -> Iterator[Serve]:
 
     def start(**changes: Any) -> Client:
         settings = {"names": ("a", "b"), "output": tmp_path / "pairs.txt"} | changes
-        serving = picker_server(Picker(SOURCE, TARGET, **settings))
+        serving = PickerServer(Picker(SOURCE, TARGET, **settings))
         thread = threading.Thread(target=serving.server.serve_forever)
         thread.start()
         running.append((serving, thread))
-        return Client(serving)
+        return Client(serving.server)
 
     yield start
     for serving, thread in running:
@@ -386,7 +386,7 @@ def test_defect_in_an_answer_is_told_and_the_server_goes_on(capsys: pytest.Captu
     with closing(LocalServer(routes)) as server:
         thread = threading.Thread(target=server.serve_forever)
         thread.start()
-        client = Client(PickerServer(server, Runs(lambda _, __: None)))
+        client = Client(server)
         answer = client.get("bad")
         assert (answer.status, answer.json["error"][:14]) == (500, "AttributeError")
         assert client.get().status == 200
@@ -398,7 +398,7 @@ def test_defect_in_an_answer_is_told_and_the_server_goes_on(capsys: pytest.Captu
 def test_port_that_is_taken_is_refused_in_words(serve: Serve, tmp_path: Path) -> None:
     port = serve().port
     with pytest.raises(InvalidInput, match=f"^port: wanted a free port of this machine, got {port}"):
-        picker_server(Picker(SOURCE, Mesh(TARGET.vertices, TARGET.faces), ("a", "b"), tmp_path / "p.txt"), port)
+        PickerServer(Picker(SOURCE, Mesh(TARGET.vertices, TARGET.faces), ("a", "b"), tmp_path / "p.txt"), port)
 
 
 @pytest.mark.usefixtures("interruptible")

@@ -31,7 +31,7 @@ from kfmaps.viz import (
     save_figure,
     true_views,
 )
-from kfmaps.viz.camera import LIKENESS, best_turn
+from kfmaps.viz.camera import LIKENESS, fit_rotation
 from kfmaps.viz.grids import LABEL
 
 THRESHOLDS = np.linspace(0, 0.25, 11)
@@ -187,7 +187,7 @@ def test_views_follow_the_truth_and_not_the_map() -> None:
     np.testing.assert_allclose(found.axes(), followed.axes(), atol=1e-6)
     back_for_front = np.asarray(KDTree(mesh.vertices).query(turned.vertices)[1])
     assert following_view(seen, mesh, mesh, back_for_front) is seen
-    turn, alike = best_turn(_centred(mesh.vertices[back_for_front]), _centred(mesh.vertices))
+    turn, alike = fit_rotation(_centred(mesh.vertices[back_for_front]), _centred(mesh.vertices))
     assert alike > LIKENESS, "the map alone says that the camera should go round"
     assert np.trace(turn) < 0
     figure = match_figure(mesh, turned, nonsense, view=seen, target_view=followed)

@@ -27,8 +27,8 @@ from kfmaps.io.provenance import mesh_path
 from kfmaps.matching.fit import Fit
 from kfmaps.matching.match import Match
 from kfmaps.viz.document import asset
-from kfmaps.viz.encode import json_block, packed, plain, quantised
-from kfmaps.viz.fields import alignment, area_distortion, nearest_reached
+from kfmaps.viz.encode import encode_floats, encode_integers, json_block, to_json
+from kfmaps.viz.fields import area_distortion, nearest_reached, rotation_by_map
 from kfmaps.viz.page import result_page
 from kfmaps.viz.result_pages import map_page, match_summary, signatures, vertex_errors
 
@@ -97,7 +97,7 @@ def pair() -> tuple[Mesh, Mesh, np.ndarray]:
 @pytest.mark.parametrize("largest", [0, 255, 256, 65535, 65536, 2**32 - 1])
 def test_whole_numbers_come_back(largest: int) -> None:
     numbers = np.array([[0, largest, largest // 2]])
-    record = packed(numbers)
+    record = encode_integers(numbers)
     assert np.array_equal(unpacked(record), numbers)
     assert len(base64.b64decode(record["base64"])) == 3 * (1 if largest < 256 else 2 if largest < 65536 else 4)
 
@@ -105,13 +105,13 @@ def test_whole_numbers_come_back(largest: int) -> None:
 def test_real_numbers_come_back_within_half_a_step() -> None:
     values = np.random.default_rng(0).normal(size=(50, 3)) * 7
     values[3, 1], values[4, 2] = np.nan, np.inf
-    back = unpacked(quantised(values))
+    back = unpacked(encode_floats(values))
     known = np.isfinite(values)
     span = np.ptp(values[known])
     assert np.abs(back - values)[known].max() <= span / 65534 / 2 * (1 + 1e-9)
     assert np.isnan(back[~known]).all()
-    assert np.array_equal(unpacked(quantised(np.full(4, 2.5))), np.full(4, 2.5))
-    assert np.isnan(unpacked(quantised(np.full(4, np.nan)))).all()
+    assert np.array_equal(unpacked(encode_floats(np.full(4, 2.5))), np.full(4, 2.5))
+    assert np.isnan(unpacked(encode_floats(np.full(4, np.nan)))).all()
 
 
 def test_json_block_holds_no_markup_and_means_the_same() -> None:
@@ -122,7 +122,7 @@ def test_json_block_holds_no_markup_and_means_the_same() -> None:
 
 
 def test_json_has_no_nan() -> None:
-    assert plain({"a": np.nan, "b": [float("inf")], "c": Path("x")}) == {"a": "nan", "b": ["inf"], "c": "x"}
+    assert to_json({"a": np.nan, "b": [float("inf")], "c": Path("x")}) == {"a": "nan", "b": ["inf"], "c": "x"}
 
 
 # Fields ---------------------------------------------------------------------------------------------------
@@ -166,9 +166,9 @@ def test_alignment_undoes_a_rotation_and_never_mirrors() -> None:
     turn = Rotation.from_euler("xyz", [100, 30, -70], degrees=True).as_matrix()
     target = Mesh(source.vertices @ turn.T + 5, source.faces)
     identity = np.arange(200)
-    assert np.allclose(alignment(source, target, identity), turn.T)
+    assert np.allclose(rotation_by_map(source, target, identity), turn.T)
     mirrored = Mesh(source.vertices * [-1, 1, 1], source.faces)
-    assert np.linalg.det(alignment(source, mirrored, identity)) == pytest.approx(1)
+    assert np.linalg.det(rotation_by_map(source, mirrored, identity)) == pytest.approx(1)
 
 
 # The page -------------------------------------------------------------------------------------------------

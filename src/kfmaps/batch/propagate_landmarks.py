@@ -21,12 +21,12 @@ from kfmaps.geometry.mesh import Mesh
 from kfmaps.io import MapFile, atomic_output, check_map, check_output, load_map, read_mesh
 from kfmaps.io.named_points import (
     NamedPoints,
-    carried_points,
-    chosen_points,
     read_named_points,
-    spread_points,
+    scatter_points,
+    select_points,
+    transfer_points,
 )
-from kfmaps.io.partial_map import counterparts, place_of
+from kfmaps.io.partial_map import find_counterparts, precise_points
 
 UNKNOWN = 0.5
 """Probability of a map of which nothing is known."""
@@ -132,10 +132,10 @@ def _carried(
     """Points carried over one map, with what is left of their confidence; those lost on the way stay lost."""
     known = load_map(edge.path)
     source, target = (_mesh(name, edges, meshes) for name in (edge.pair.source, edge.pair.target))
-    ways = counterparts(known, source, target, str(edge.path)) if (known.target_to_source < 0).any() else None
+    ways = find_counterparts(known, source, target, str(edge.path)) if (known.target_to_source < 0).any() else None
     if ways is None:
         check_map(known, len(source.vertices), len(target.vertices), str(edge.path))
-        place, some = place_of(known, source) or vertex_point_map(known.target_to_source, source), {}
+        place, some = precise_points(known, source) or vertex_point_map(known.target_to_source, source), {}
     else:
         place, some = ways.place, {"known": ways.target, "common": ways.source}
     trust = known.extra.get("local_confidence")
@@ -143,9 +143,9 @@ def _carried(
     there = before.vertices >= 0
     if not there.any():
         return before
-    points = carried_points(chosen_points(before, there), source, target, place, local, back=back, **some)
+    points = transfer_points(select_points(before, there), source, target, place, local, back=back, **some)
     rest = points.confidence * before.confidence[there] * edge.chance
-    return spread_points(replace(points, confidence=rest), before.names, there)
+    return scatter_points(replace(points, confidence=rest), before.names, there)
 
 
 def _edges(folder: Path) -> list[_Edge]:

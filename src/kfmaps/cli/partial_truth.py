@@ -17,7 +17,7 @@ from kfmaps.fmap.precise import PointMap, check_point_map_precise, point_positio
 from kfmaps.geometry.closest_points import closest_points
 from kfmaps.geometry.mesh import Mesh, boundary_vertices, unit_area, vertex_areas
 from kfmaps.io import MapFile, read_landmarks
-from kfmaps.io.partial_map import place_of
+from kfmaps.io.partial_map import precise_points
 from kfmaps.io.text import clean_text, parse_rows, read_bytes, table
 from kfmaps.matching.partial.match_partial import COMMON
 from kfmaps.matching.partial.overlap import covered
@@ -120,7 +120,7 @@ def part_accuracy(source: Mesh, target: Mesh, found: MapFile, truth: PartTruth, 
         When the map gives none of the points a counterpart.
     """
     points = found.target_to_source
-    place = place_of(found, source) or vertex_point_map(np.maximum(points, 0), source)
+    place = precise_points(found, source) or vertex_point_map(np.maximum(points, 0), source)
     if part == "target":
         known = points[truth.vertices] >= 0
         rows = truth.vertices[known]

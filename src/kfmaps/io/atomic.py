@@ -29,7 +29,7 @@ def remove_unfinished(folder: Path, older: float = 0.0) -> None:
 
 
 def check_output(path: str | Path, force: bool = False, reads: Iterable[str | Path | None] = ()) -> Path:
-    """The file that writing to ``path`` would make, links followed, when it may be written.
+    """Return the file that writing to ``path`` would make, links followed, when it may be written.
 
     Worth calling before long work, so that a name that cannot be written is found out early.
 
@@ -74,7 +74,7 @@ def check_output(path: str | Path, force: bool = False, reads: Iterable[str | Pa
 
 @contextmanager
 def atomic_output(path: str | Path, force: bool = False) -> Iterator[Path]:
-    """A temporary file to write, which takes the name ``path`` when the block ends well.
+    """Open a temporary file to write, which takes the name ``path`` when the block ends well.
 
     When the block raises, the temporary file is removed and ``path`` is as it was. The temporary file has
     the suffix of ``path`` and lies in the same folder, because a rename is atomic only within a file system.

@@ -21,8 +21,8 @@ TWICE = 0.02
 """Share of the covered texels that may lie in several faces: an atlas whose charts share space cannot be baked into."""
 
 
-def pixels_of(picture: Picture) -> np.ndarray:
-    """A PNG or JPEG file as (h, w, 3) float64 from 0 to 1; row 0 is the top.
+def decode_picture(picture: Picture) -> np.ndarray:
+    """Decode a PNG or JPEG file into (h, w, 3) float64 from 0 to 1; row 0 is the top.
 
     Raises
     ------
@@ -41,8 +41,8 @@ def pixels_of(picture: Picture) -> np.ndarray:
     return values[:, :, :3] if values.shape[2] >= 3 else np.repeat(values[:, :, :1], 3, axis=2)
 
 
-def png_of(pixels: np.ndarray) -> Picture:
-    """``(h, w, 3)``, uint8 or from 0 to 1, as a PNG file."""
+def encode_png(pixels: np.ndarray) -> Picture:
+    """Encode ``(h, w, 3)``, uint8 or from 0 to 1, as a PNG file."""
     from matplotlib.image import imsave
 
     buffer = io.BytesIO()
@@ -50,8 +50,9 @@ def png_of(pixels: np.ndarray) -> Picture:
     return Picture(buffer.getvalue(), "image/png")
 
 
-def sampled(pixels: np.ndarray, uv: np.ndarray) -> np.ndarray:
-    """Colours ``(q, 3)`` of a picture at ``uv (q, 2)``, linear between texels; it repeats beyond its borders.
+def sample_picture(pixels: np.ndarray, uv: np.ndarray) -> np.ndarray:
+    """Return the colours ``(q, 3)`` of a picture at ``uv (q, 2)``, linear between texels. It repeats beyond its
+    borders.
 
     (0, 0) is the lower left corner of the picture, and the centres of texels lie half a texel inside.
     """
@@ -65,8 +66,8 @@ def sampled(pixels: np.ndarray, uv: np.ndarray) -> np.ndarray:
     return (1 - t) * above + t * below
 
 
-def texels_of(corners: np.ndarray, size: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Texels whose centres lie in the triangles ``corners (f, 3, 2)`` of the unit square's picture.
+def find_texels(corners: np.ndarray, size: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Find the texels whose centres lie in the triangles ``corners (f, 3, 2)`` of the unit square's picture.
 
     Returns
     -------
@@ -100,31 +101,21 @@ def texels_of(corners: np.ndarray, size: int) -> tuple[np.ndarray, np.ndarray, n
     return face, texel, weights
 
 
-def charts(uv_faces: np.ndarray, count: int) -> np.ndarray:
-    """Numbers (f,) of the connected pieces of an atlas with ``count`` coordinates that faces ``(f, 3)`` lie in."""
-    return component_labels(count, uv_faces[:, [0, 1]].ravel(), uv_faces[:, [1, 2]].ravel())[1][uv_faces[:, 0]]
-
-
-def side_of(picture: np.ndarray) -> int:
-    """Side of the square picture that one of this size is baked into."""
-    return int(np.clip(max(picture.shape[:2]), SMALLEST, LARGEST))
-
-
-def bakeable(target: MeshFile, size: int = SMALLEST) -> bool:
-    """Whether the target has texture coordinates in which every face has room of its own."""
+def can_bake(target: MeshFile, size: int = SMALLEST) -> bool:
+    """Return whether the target has texture coordinates in which every face has room of its own."""
     if target.uv is None or target.uv_faces is None:
         return False
     corners = target.uv[target.uv_faces]
     u, v = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
     if np.abs(u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]).sum() / 2 > 1 + TWICE:
         return False  # more than the whole picture
-    _, texel, _ = texels_of(corners, size)
+    _, texel, _ = find_texels(corners, size)
     hits = np.bincount(texel)
     # Texels on an edge that two faces share count for both: those are few, and no more than one in each row of a face.
     return bool(len(texel) and np.count_nonzero(hits > 1) <= TWICE * np.count_nonzero(hits))
 
 
-def baked(
+def bake_texture(
     source: MeshFile,
     target: MeshFile,
     pixels: np.ndarray,
@@ -133,17 +124,17 @@ def baked(
     place: PointMap | None = None,
     size: int | None = None,
 ) -> np.ndarray:
-    """The source's picture in the target's atlas, (size, size, 3) uint8.
+    """Return the source's picture resampled into the target's atlas, (size, size, 3) uint8.
 
     Parameters
     ----------
     source, target : MeshFile
         The target with its own texture coordinates.
     pixels : (h, w, 3) float64
-        The source's picture, :func:`pixels_of`.
+        The source's picture, :func:`decode_picture`.
     uv, uv_faces : (m, 2) float64, (f_t, 3) int64
         Coordinates in the source's picture for the corners of the target's faces
-        (:func:`kfmaps.io.export.carried_uv`), in which lies what is inside a face.
+        (:func:`kfmaps.io.export.transfer_uv`), in which lies what is inside a face.
     place : PointMap, optional
         Points inside triangles. Faces over a seam of the source's texture, which no coordinates of three corners
         describe, are then worked out texel by texel: each takes the closest place on the source's surface.
@@ -158,13 +149,15 @@ def baked(
     """
     assert target.uv is not None
     assert target.uv_faces is not None
-    size = size or side_of(pixels)
-    face, texel, weights = texels_of(target.uv[target.uv_faces], size)
+    size = size or int(np.clip(max(pixels.shape[:2]), SMALLEST, LARGEST))
+    face, texel, weights = find_texels(target.uv[target.uv_faces], size)
     if len(face) == 0:
         raise refuse("target", "texture coordinates with room for its faces", "none", "export without them")
     where = np.einsum("qi,qij->qj", weights, uv[uv_faces[face]])
     if place is not None and source.uv is not None and source.uv_faces is not None:
-        chart = charts(source.uv_faces, len(source.uv))[place.faces][target.mesh.faces]
+        corners, n = source.uv_faces, len(source.uv)
+        charts = component_labels(n, corners[:, :2].ravel(), corners[:, 1:].ravel())[1][corners[:, 0]]  # of its faces
+        chart = charts[place.faces][target.mesh.faces]
         torn = (chart != chart[:, :1]).any(axis=1) | (uv_faces != target.mesh.faces).any(axis=1)
         single = (uv_faces == uv_faces[:, :1]).all(axis=1)  # faces outside a part have one colour
         seam = np.flatnonzero((torn & ~single)[face])
@@ -173,7 +166,7 @@ def baked(
         found = closest_points(points, source.mesh.vertices, source.mesh.faces)
         where[seam] = np.einsum("qi,qij->qj", found.weights, source.uv[source.uv_faces[found.faces]])
     picture = np.zeros((size * size, 3))
-    picture[texel] = sampled(pixels, where)
+    picture[texel] = sample_picture(pixels, where)
     covered = np.zeros(size * size, dtype=bool)
     covered[texel] = True
     bare = ~covered.reshape(size, size)

@@ -25,12 +25,12 @@ POLYGONS = ("triangle", "quad", "polygon")
 
 
 def is_file(value: Any) -> bool:
-    """Whether ``value`` names a file."""
+    """Return whether ``value`` names a file."""
     return isinstance(value, str | os.PathLike)
 
 
 def as_mesh(shape: Any, name: str = "shape") -> Mesh:
-    """``shape`` as a mesh, or as a point cloud where it has no faces; vertices keep their order and number.
+    """Return a shape as a mesh, or as a point cloud where it has no faces. Vertices keep their order and number.
 
     Parameters
     ----------
@@ -116,7 +116,7 @@ def _meshio(cells: Any) -> np.ndarray:
 
 
 def as_landmarks(landmarks: Any) -> Any:
-    """Landmarks from a file where ``landmarks`` names one, else as they are."""
+    """Return landmarks read from a file where ``landmarks`` names one, else as they are."""
     return read_landmarks(landmarks) if is_file(landmarks) else landmarks
 
 

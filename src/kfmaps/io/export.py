@@ -11,16 +11,17 @@ import numpy as np
 from scipy.spatial import KDTree
 
 from kfmaps._arrays import KfmapsWarning, check, refuse
-from kfmaps.fmap.precise import PointMap, check_point_map_precise, point_map_matrix, point_positions
+from kfmaps.fmap.precise import PointMap, point_positions
 from kfmaps.geometry.mesh import Mesh, surface_area
 from kfmaps.io.atomic import atomic_output
-from kfmaps.io.bake import bakeable, baked, pixels_of, png_of
+from kfmaps.io.bake import bake_texture, can_bake, decode_picture, encode_png
 from kfmaps.io.glb import format_glb
 from kfmaps.io.mapfile import check_map
 from kfmaps.io.meshes import write_mesh
 from kfmaps.io.obj import format_obj
-from kfmaps.io.partial_map import place_of
+from kfmaps.io.partial_map import precise_points
 from kfmaps.io.record import MeshFile, Picture
+from kfmaps.io.transfer import transfer
 
 PICTURES = (".png", ".jpg", ".jpeg")
 LOST = 0.62
@@ -30,7 +31,7 @@ _CHOICES = 8
 
 
 def projected_uv(vertices: np.ndarray) -> np.ndarray:
-    """Texture coordinates by looking along the shortest side of the bounding box.
+    """Return texture coordinates by looking along the shortest side of the bounding box.
 
     Parameters
     ----------
@@ -49,7 +50,7 @@ def projected_uv(vertices: np.ndarray) -> np.ndarray:
 
 
 def grid_picture(size: int = 1024, cells: int = 24) -> np.ndarray:
-    """A checkerboard whose colour tells where one is, with thin lines between the cells.
+    """Draw a checkerboard whose colour tells where one is, with thin lines between the cells.
 
     Returns
     -------
@@ -65,8 +66,8 @@ def grid_picture(size: int = 1024, cells: int = 24) -> np.ndarray:
     return np.rint(255 * (0.25 + 0.7 * hue) * shade[..., None]).astype(np.uint8)
 
 
-def carried_uv_faces(source: MeshFile, target: Mesh, target_to_source: np.ndarray) -> np.ndarray:
-    """For each corner of the target's faces a row of ``source.uv``, (f_t, 3) int64.
+def transfer_uv_faces(source: MeshFile, target: Mesh, target_to_source: np.ndarray) -> np.ndarray:
+    """Return a row of ``source.uv`` for each corner of the target's faces, (f_t, 3) int64.
 
     At a seam of the texture a source vertex has several coordinates. Each face takes those that lie
     closest together, so that no face stretches across the picture where one of the source would not.
@@ -92,31 +93,26 @@ def carried_uv_faces(source: MeshFile, target: Mesh, target_to_source: np.ndarra
     for block in np.split(seam, range(4096, len(seam), 4096)) if len(seam) else []:
         options = choices[corners[block]]  # (b, 3, k)
         a, b, c = (source.uv[options[:, i]] for i in range(3))
-        ab, bc, ca = (_squared(p, q) for p, q in ((a, b), (b, c), (c, a)))
+        ab, bc, ca = (((p[:, :, None] - q[:, None]) ** 2).sum(axis=-1) for p, q in ((a, b), (b, c), (c, a)))
         total = ab[:, :, :, None] + bc[:, None, :, :] + ca.transpose(0, 2, 1)[:, :, None, :]
         best = np.unravel_index(total.reshape(len(block), -1).argmin(axis=1), total.shape[1:])
         result[block] = np.stack([options[np.arange(len(block)), i, best[i]] for i in range(3)], axis=1)
     return result
 
 
-def _squared(p: np.ndarray, q: np.ndarray) -> np.ndarray:
-    """Squared distances of the points of p (b, k, 2) and q (b, k, 2), (b, k, k)."""
-    return ((p[:, :, None] - q[:, None, :]) ** 2).sum(axis=-1)
-
-
-def carried_uv(
+def transfer_uv(
     source: MeshFile, target: Mesh, target_to_source: np.ndarray, place: PointMap | None = None
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Texture coordinates of the target, ``uv`` (m, 2) and ``uv_faces`` (f_t, 3), from those of the source.
+    """Return texture coordinates of the target, ``uv`` (m, 2) and ``uv_faces`` (f_t, 3), from those of the source.
 
     With points inside triangles (``place``) each corner has the coordinates of its point; a face over a seam of the
-    texture keeps to one side of it. Without, they are those of the nearest vertices (:func:`carried_uv_faces`). A
+    texture keeps to one side of it. Without, they are those of the nearest vertices (:func:`transfer_uv_faces`). A
     source without coordinates has those of :func:`projected_uv`.
     """
     bare = source.uv is None or source.uv_faces is None
     uv = projected_uv(source.mesh.vertices) if source.uv is None or bare else source.uv
     corners_uv = source.mesh.faces if source.uv_faces is None or bare else source.uv_faces
-    snapped = target_to_source[target.faces] if bare else carried_uv_faces(source, target, target_to_source)
+    snapped = target_to_source[target.faces] if bare else transfer_uv_faces(source, target, target_to_source)
     if place is None:
         return uv, snapped
     exact = np.einsum("ti,tij->tj", place.weights, uv[corners_uv[place.faces]])
@@ -158,7 +154,6 @@ def write_textured(
     target: Mesh | MeshFile,
     target_to_source: Any,
     *,
-    place: PointMap | None = None,
     picture: str | Path | None = None,
     force: bool = False,
 ) -> list[Path]:
@@ -176,8 +171,6 @@ def write_textured(
         With its texture coordinates; without any they come from :func:`projected_uv`.
     target : Mesh or MeshFile
     target_to_source : (n_t,) int64 or MapFile
-    place : PointMap, optional
-        Points inside triangles; by default those of the map file.
     picture : str or Path, optional
         The source's texture, PNG or JPEG; by default its own, if its file holds one, or a coloured grid
         (:func:`grid_picture`).
@@ -207,21 +200,17 @@ def write_textured(
     points = check_map(target_to_source, len(source.mesh.vertices), len(mesh.vertices), lost=True)
     if picture is not None and not (Path(picture).is_file() and Path(picture).suffix.lower() in PICTURES):
         raise refuse(f"picture {picture}", f"a file {' '.join(PICTURES)}", "none", "check the name")
-    place = (
-        place_of(target_to_source, source.mesh)
-        if place is None
-        else check_point_map_precise(place, source.mesh, len(points))
-    )
+    place = precise_points(target_to_source, source.mesh)
     image = _picture(picture, source)
     lost = np.asarray(points < 0)
-    uv, uv_faces = carried_uv(source, mesh, np.where(lost, points.max(), points), place)
+    uv, uv_faces = transfer_uv(source, mesh, np.where(lost, points.max(), points), place)
     if lost.any():
         # All three corners in one place: the face has one colour of the picture, and the picture does not spread.
         faces = lost[mesh.faces].max(axis=1)
         uv, uv_faces = np.concatenate([uv, np.zeros((1, 2))]), np.where(faces[:, None], len(uv), uv_faces)
     if atlas.uv is not None and atlas.uv_faces is not None:
-        if bakeable(atlas):
-            image = png_of(baked(source, atlas, pixels_of(image), uv, uv_faces, place))
+        if can_bake(atlas):
+            image = encode_png(bake_texture(source, atlas, decode_picture(image), uv, uv_faces, place))
             uv, uv_faces = atlas.uv, atlas.uv_faces
         else:
             told = "several faces of the target share their place in its texture: it gets the source's coordinates"
@@ -255,7 +244,7 @@ def _picture(picture: str | Path | None, source: MeshFile) -> Picture:
     if picture is not None:
         kind = "image/png" if Path(picture).suffix.lower() == ".png" else "image/jpeg"
         return Picture(Path(picture).read_bytes(), kind)
-    return source.picture or png_of(grid_picture())
+    return source.picture or encode_png(grid_picture())
 
 
 def write_colored(
@@ -264,31 +253,29 @@ def write_colored(
     target: Mesh,
     target_to_source: Any,
     *,
-    place: PointMap | None = None,
-    faces_s: np.ndarray | None = None,
+    source: Mesh | None = None,
     force: bool = False,
 ) -> None:
     """Write the target (PLY, OFF, OBJ or GLB) with the colours (n_s, 3), sRGB from 0 to 1, of the source's vertices.
 
-    With points inside triangles, ``place`` on ``faces_s`` (f_s, 3), colours are mixed between the corners.
+    With the ``source`` colours are mixed between the corners of the points inside triangles that a map file has.
 
     Raises
     ------
     InvalidInput
         On a map that does not fit, and as :func:`write_mesh`.
     """
-    colors = np.asarray(colors)
+    colors = np.asarray(colors, dtype=np.float64)
     check(colors, "colors", shape=(None, 3), remedy="give one colour per source vertex")
-    points = check_map(target_to_source, len(colors), len(target.vertices), lost=True)
-    mixed = colors[points]
-    if place is not None and faces_s is not None:
-        mixed = np.clip(point_map_matrix(place, faces_s, len(colors)) @ colors, 0, 1)
-    mixed = np.where(points[:, None] < 0, LOST, mixed)
-    write_mesh(path, target, colors=mixed, force=force)
+    check_map(target_to_source, len(colors), len(target.vertices), lost=True)
+    if source is not None:
+        precise_points(target_to_source, source)
+    mixed = transfer(colors, target_to_source, None if source is None else source.faces, LOST)
+    write_mesh(path, target, colors=np.clip(mixed, 0, 1), force=force)
 
 
-def morphed(source: Mesh, target: Mesh, bent: np.ndarray) -> Mesh:
-    """The source's triangulation in the target's shape and place; ``bent`` (n_s, 3) as a map file has it."""
+def morph_mesh(source: Mesh, target: Mesh, bent: np.ndarray) -> Mesh:
+    """Return the source's triangulation in the target's shape and place; ``bent`` (n_s, 3) as a map file has it."""
     scale = np.sqrt(surface_area(target))
     return Mesh(bent * scale + target.vertices.mean(axis=0), source.faces)
 
@@ -299,7 +286,7 @@ def write_morph(path: str | Path, source: MeshFile, target: Mesh, bent: np.ndarr
     GLB and OBJ keep the source's texture.
     """
     check(np.asarray(bent), "bent", shape=(len(source.mesh.vertices), 3), remedy="check that the map is the source's")
-    moved = morphed(source.mesh, target, bent)
+    moved = morph_mesh(source.mesh, target, bent)
     if Path(path).suffix.lower() == ".obj" and source.picture and source.uv is not None and source.uv_faces is not None:
         _write_obj(Path(path), moved, source.uv, source.uv_faces, source.picture, source.picture.suffix, force)
         return

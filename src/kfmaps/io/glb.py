@@ -50,7 +50,7 @@ def format_glb(
     picture: tuple[bytes, str] | None = None,
     morph: np.ndarray | None = None,
 ) -> bytes:
-    """``mesh`` as GLB, positions in single precision.
+    """Write ``mesh`` as GLB, positions in single precision.
 
     Parameters
     ----------

@@ -45,7 +45,7 @@ class NamedPoints:
 
 
 def read_named_points(path: str | Path, mesh: Mesh) -> NamedPoints:
-    """Points of ``mesh`` from a CSV file: a row "name, vertex" (0-based) or "name, x, y, z" (in the mesh's unit) each.
+    """Read points of ``mesh`` from a CSV file: "name, vertex" (0-based) or "name, x, y, z" (in the mesh's unit) a row.
 
     The name may be left out; then it is the row's number, from 1. A first row of titles is skipped. Points in space go
     to the closest place on the surface.
@@ -90,7 +90,7 @@ def read_named_points(path: str | Path, mesh: Mesh) -> NamedPoints:
     return NamedPoints(names, place, found.points, nearest_vertices(place, mesh), known, found.distances)
 
 
-def carried_points(
+def transfer_points(
     given: NamedPoints,
     source: Mesh,
     target: Mesh,
@@ -101,7 +101,7 @@ def carried_points(
     known: np.ndarray | None = None,
     common: np.ndarray | None = None,
 ) -> NamedPoints:
-    """``given`` points of the source on the target, or (``back``) of the target on the source.
+    """Carry points of the source to the target, or (``back``) of the target to the source.
 
     ``place`` is a point of the source for each target vertex. Back is one look-up: between the corners of the face that
     a point lies in. Forth the source's points are sought among the images of the target's faces, flat between those
@@ -138,29 +138,32 @@ def carried_points(
     return NamedPoints(given.names, there, points, vertices, trust, found.distances)
 
 
-def chosen_points(given: NamedPoints, chosen: np.ndarray) -> NamedPoints:
-    """Those of the points that are ``chosen (q,)``."""
-    return NamedPoints(
-        tuple(name for name, one in zip(given.names, chosen, strict=True) if one),
-        PointMap(given.place.faces[chosen], given.place.weights[chosen]),
-        given.points[chosen],
-        given.vertices[chosen],
-        given.confidence[chosen],
-        given.apart[chosen],
-    )
+def select_points(given: NamedPoints, chosen: np.ndarray) -> NamedPoints:
+    """Return those of the points that are ``chosen (q,)``."""
+    names = tuple(name for name, one in zip(given.names, chosen, strict=True) if one)
+    place = PointMap(given.place.faces[chosen], given.place.weights[chosen])
+    return NamedPoints(names, place, *(values[chosen] for values in _columns(given)))
 
 
-def spread_points(given: NamedPoints, names: tuple[str, ...], chosen: np.ndarray) -> NamedPoints:
-    """The other way: ``given`` points in the places of those ``chosen``, all others and those at −1 without a place."""
+def scatter_points(given: NamedPoints, names: tuple[str, ...], chosen: np.ndarray) -> NamedPoints:
+    """Put points in the places of those ``chosen`` among all ``names``: the inverse of :func:`select_points`.
+
+    All others, and those with the vertex −1, have no place.
+    """
     there = given.vertices >= 0
     rows = np.flatnonzero(chosen)[there]
-    faces, vertices = (np.full(len(names), -1, dtype=np.int64) for _ in range(2))
-    weights, points = (np.full((len(names), 3), np.nan) for _ in range(2))
-    confidence, apart = (np.full(len(names), np.nan) for _ in range(2))
-    faces[rows], weights[rows] = given.place.faces[there], given.place.weights[there]
-    points[rows], vertices[rows] = given.points[there], given.vertices[there]
-    confidence[rows], apart[rows] = given.confidence[there], given.apart[there]
-    return NamedPoints(names, PointMap(faces, weights), points, vertices, confidence, apart)
+
+    def put(values: np.ndarray) -> np.ndarray:
+        result = np.full((len(names), *values.shape[1:]), -1 if values.dtype.kind == "i" else np.nan, values.dtype)
+        result[rows] = values[there]
+        return result
+
+    place = PointMap(put(given.place.faces), put(given.place.weights))
+    return NamedPoints(names, place, *map(put, _columns(given)))
+
+
+def _columns(given: NamedPoints) -> tuple[np.ndarray, ...]:
+    return given.points, given.vertices, given.confidence, given.apart
 
 
 def write_named_points(path: str | Path, points: NamedPoints, force: bool = False) -> None:

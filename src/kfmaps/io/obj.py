@@ -21,9 +21,9 @@ from kfmaps.io.text import (
     parse_rows,
     quoted,
     read_bytes,
+    split_words,
     table,
-    whole,
-    words,
+    whole_numbers,
 )
 
 _SKIPPED = frozenset(
@@ -88,7 +88,7 @@ def _split(text: bytes, name: str) -> _Lines:
     """Sort the lines by their first words, which are blanked."""
     text += b"\n\n"  # so that two letters follow each word
     letters = np.frombuffer(text, dtype=np.uint8).copy()
-    at, line = words(letters)
+    at, line = split_words(letters)
     leads = np.append(True, line[1:] != line[:-1])[: len(at)]
     at, line = at[leads], line[leads]
     ends = np.flatnonzero(letters == 10) + 1
@@ -139,7 +139,7 @@ def _vertices(rows: Rows, name: str) -> tuple[np.ndarray, np.ndarray | None]:
 def _corners(lines: _Lines, name: str) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Corners of each face, the line of each face, and (corners, 2) vertex and texture numbers (0: none)."""
     body, numbers = lines.of(_F)
-    at, line = words(body)
+    at, line = split_words(body)
     sizes = np.bincount(line, minlength=len(numbers))[: len(numbers)]
     check_lines(sizes < 3, numbers, name, "a face with three corners or more", lambda i: str(sizes[i]))
     slash = np.flatnonzero(np.frombuffer(body, dtype=np.uint8) == ord("/"))
@@ -148,7 +148,7 @@ def _corners(lines: _Lines, name: str) -> tuple[np.ndarray, np.ndarray, np.ndarr
     # A word with s slashes gives s + 1 numbers, or fewer when one is missing, never more.
     if slashes.max(initial=0) > 2 or len(rows.values) != len(at) + len(slash):
         raise refuse(f"{name}: faces", "corners like 1, 1/2, 1//3 or 1/2/3", "others", REPAIR)
-    values = whole(rows.values, f"{name}: faces", "whole vertex numbers")
+    values = whole_numbers(rows.values, f"{name}: faces", "whole vertex numbers")
     first = np.cumsum(slashes + 1) - (slashes + 1)
     second = np.where(slashes > 0, values[np.minimum(first + 1, len(values) - 1)], 0)
     return sizes, numbers, np.stack([values[first], second], axis=1)
@@ -189,15 +189,15 @@ def _picture(said: list[tuple[int, str, str]], faces: np.ndarray, name: str) -> 
     for _, word, rest in said:
         if word == "mtllib":
             for path in _libraries(rest, name):
-                pictures |= materials(read_bytes(path).decode("utf-8", "replace"))
+                pictures |= read_materials(read_bytes(path).decode("utf-8", "replace"))
     found = {pictures.get(used[i][1]) for i in np.unique(last)}
     picture = found.pop() if len(found) == 1 else None
     path = None if picture is None else _file(picture, name)
     return None if path is None else picture_in(read_bytes(path))
 
 
-def materials(text: str) -> dict[str, str | None]:
-    """The picture that each material of an MTL file names; ``None`` where it has none as it is."""
+def read_materials(text: str) -> dict[str, str | None]:
+    """Return the picture that each material of an MTL file names; ``None`` where it has none as it is."""
     found: dict[str, str | None] = {}
     current = None
     for line in text.splitlines():
@@ -245,7 +245,7 @@ def format_obj(
     uv_faces: np.ndarray | None = None,
     material: tuple[str, str] | None = None,
 ) -> bytes:
-    """``mesh`` as OBJ; every digit of the coordinates is kept.
+    """Write ``mesh`` as OBJ; every digit of the coordinates is kept.
 
     Parameters
     ----------

@@ -9,7 +9,7 @@ import numpy as np
 from kfmaps._arrays import refuse
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.io.record import MeshFile, bytes_of, fan, gathered, unit_colors
-from kfmaps.io.text import REPAIR, Rows, check_lines, clean_text, parse_rows, quoted, table, whole
+from kfmaps.io.text import REPAIR, Rows, check_lines, clean_text, parse_rows, quoted, table, whole_numbers
 
 _HEADER = re.compile(rb"\s*(ST)?(C?N?|NC)(4?n?)OFF(?![A-Za-z])[ \t]*(BINARY)?", re.ASCII)
 
@@ -37,7 +37,7 @@ def parse_off(data: bytes, name: str) -> MeshFile:
     rows = parse_rows(re.sub(rb"\S", b" ", text[: header.end()]) + text[header.end() :], name)
     if len(rows) == 0 or rows.counts[0] not in (2, 3):
         raise refuse(name, "the numbers of vertices, faces and edges after OFF", "none", REPAIR)
-    n, f = (int(c) for c in whole(rows.values[:2], f"{name}: counts"))
+    n, f = (int(c) for c in whole_numbers(rows.values[:2], f"{name}: counts"))
     have = len(rows) - 1
     if n < 0 or f < 0 or have != n + f:
         what = "the file is cut short or its counts are wrong: export it again"
@@ -61,16 +61,16 @@ def _faces(rows: Rows, name: str) -> np.ndarray:
     """The triangles of the face lines, (t, 3)."""
     if len(rows) == 0:
         return np.zeros((0, 3), dtype=np.int64)
-    sizes = whole(rows.values[rows.starts], f"{name}: corners of a face")
+    sizes = whole_numbers(rows.values[rows.starts], f"{name}: corners of a face")
     check_lines(sizes < 3, rows.lines, name, "faces with three corners or more", lambda i: str(sizes[i]))
     short, wanted = sizes >= rows.counts, "as many corners as the line says"
     check_lines(short, rows.lines, name, wanted, lambda i: f"{rows.counts[i] - 1} of {sizes[i]}")
     corners = rows.values[gathered(rows.starts + 1, sizes)]
-    return whole(corners, f"{name}: faces", "whole vertex numbers")[fan(sizes)]
+    return whole_numbers(corners, f"{name}: faces", "whole vertex numbers")[fan(sizes)]
 
 
 def format_off(mesh: Mesh, colors: np.ndarray | None = None) -> bytes:
-    """``mesh`` as OFF, or as COFF with 0-255 ``colors`` (n, 3); every digit of the coordinates is kept."""
+    """Write ``mesh`` as OFF, or as COFF with 0-255 ``colors`` (n, 3); every digit of the coordinates is kept."""
     lines = [f"{x!r} {y!r} {z!r}" for x, y, z in mesh.vertices.tolist()]
     if colors is not None:
         tints = (f" {r} {g} {b} 255" for r, g, b in bytes_of(colors).tolist())

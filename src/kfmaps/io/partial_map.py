@@ -13,8 +13,8 @@ from kfmaps.io.mapfile import MapFile, check_map
 from kfmaps.matching.partial.match_partial import COMMON
 
 
-def place_of(found: Any, source: Mesh) -> PointMap | None:
-    """The points inside triangles of a map file, where it has any; checked.
+def precise_points(found: Any, source: Mesh) -> PointMap | None:
+    """Return the points inside triangles of a map file, checked; ``None`` where it has none.
 
     Raises
     ------
@@ -47,12 +47,12 @@ class Counterparts:
 
     @property
     def complete(self) -> bool:
-        """Whether all have one."""
+        """Return whether all vertices have one."""
         return bool(self.target.all() and self.source.all())
 
 
-def counterparts(found: MapFile, source: Mesh, target: Mesh, name: str = "map") -> Counterparts:
-    """Of a map file between two surfaces.
+def find_counterparts(found: MapFile, source: Mesh, target: Mesh, name: str = "map") -> Counterparts:
+    """Find which vertices of two surfaces have a counterpart by a map file.
 
     A source vertex has a counterpart where ``overlap_source`` of the file says so. Of a file that does not tell it has
     one within half an edge of what the target's faces are mapped to; of one without −1 every vertex has.
@@ -64,7 +64,7 @@ def counterparts(found: MapFile, source: Mesh, target: Mesh, name: str = "map") 
     """
     points = check_map(found, len(source.vertices), len(target.vertices), name, lost=True)
     known = points >= 0
-    place = place_of(found, source) or vertex_point_map(np.where(known, points, points.max()), source)
+    place = precise_points(found, source) or vertex_point_map(np.where(known, points, points.max()), source)
     back = invert_precise_map(place, source, target, None if known.all() else known)
     return Counterparts(place, back, known, _reached(found, source, target, place, back, known))
 

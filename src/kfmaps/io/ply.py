@@ -10,7 +10,7 @@ from kfmaps._arrays import refuse
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.io.ply_data import CUT, Column, Element, Property, binary_columns, text_columns
 from kfmaps.io.record import MeshFile, bytes_of, fan, unit_colors
-from kfmaps.io.text import REPAIR, clean_text, parse_rows, quoted, whole
+from kfmaps.io.text import REPAIR, clean_text, parse_rows, quoted, whole_numbers
 
 _TYPES = {
     "char": "i1", "uchar": "u1", "short": "i2", "ushort": "u2", "int": "i4", "uint": "u4",
@@ -129,7 +129,7 @@ def _mesh_file(found: dict[str, dict[str, Column]], name: str) -> MeshFile:
             i = np.flatnonzero(column.sizes < 3)[0]
             got = f"{column.sizes[i]} in face {i}"
             raise refuse(name, "faces with three corners or more", got, REPAIR)
-        corners = whole(column.values.astype(np.float64), f"{name}: faces", "whole vertex numbers")
+        corners = whole_numbers(column.values.astype(np.float64), f"{name}: faces", "whole vertex numbers")
         faces = corners[fan(column.sizes)]
     elif face or "tristrips" in found:
         raise refuse(name, "the list vertex_indices of the element face", "another", "export plain faces")
@@ -150,7 +150,7 @@ def _colors(vertex: dict[str, Column], names: tuple[str, ...]) -> np.ndarray:
 
 
 def format_ply(mesh: Mesh, colors: np.ndarray | None = None) -> bytes:
-    """``mesh`` as binary PLY, coordinates in double precision, ``colors`` (n, 3) as bytes."""
+    """Write ``mesh`` as binary PLY, coordinates in double precision, ``colors`` (n, 3) as bytes."""
     layout = [("x", "<f8"), ("y", "<f8"), ("z", "<f8")]
     header = ["ply", "format binary_little_endian 1.0", f"element vertex {len(mesh.vertices)}"]
     header += [f"property double {axis}" for axis in "xyz"]

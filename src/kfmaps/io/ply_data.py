@@ -8,7 +8,7 @@ import numpy as np
 
 from kfmaps._arrays import refuse
 from kfmaps.io.record import gathered
-from kfmaps.io.text import REPAIR, Rows, check_lines, whole
+from kfmaps.io.text import REPAIR, Rows, check_lines, whole_numbers
 
 
 @dataclass(frozen=True)
@@ -41,7 +41,7 @@ CUT = "the file is cut short or its counts are wrong: export it again"
 
 
 def text_columns(element: Element, rows: Rows, name: str) -> dict[str, Column]:
-    """The columns of an element whose lines are ``rows``."""
+    """Return the columns of an element whose lines are ``rows``."""
     at, ends = rows.starts.copy(), rows.starts + rows.counts
 
     def step(lengths: np.ndarray | int) -> None:
@@ -57,7 +57,7 @@ def text_columns(element: Element, rows: Rows, name: str) -> dict[str, Column]:
         if item.count is None:
             columns[item.name] = Column(_typed(rows.values[first], item, name))
             continue
-        sizes = whole(rows.values[first], f"{name}: length of {item.name}")
+        sizes = whole_numbers(rows.values[first], f"{name}: length of {item.name}")
         check_lines(sizes < 0, rows.lines, name, f"{item.name} of 0 numbers or more", lambda i: str(sizes[i]))  # noqa: B023
         first = at
         step(sizes)
@@ -71,7 +71,7 @@ def _typed(values: np.ndarray, item: Property, name: str) -> np.ndarray:
     """``values`` from a text in the type that the header gives; fractions keep every digit of the text."""
     if item.kind.kind == "f":
         return values
-    numbers = whole(values, f"{name}: {item.name}")
+    numbers = whole_numbers(values, f"{name}: {item.name}")
     low, high = np.iinfo(item.kind).min, np.iinfo(item.kind).max
     if ((numbers < low) | (numbers > high)).any():
         got = f"{numbers.min()} to {numbers.max()}"
@@ -80,7 +80,7 @@ def _typed(values: np.ndarray, item: Property, name: str) -> np.ndarray:
 
 
 def binary_columns(element: Element, data: bytes, start: int, name: str) -> tuple[dict[str, Column], int]:
-    """The columns of an element that begins at byte ``start``, and where the next one begins."""
+    """Return the columns of an element that begins at byte ``start``, and where the next one begins."""
     smallest = sum((p.count or p.kind).itemsize for p in element.properties)
     if element.rows * smallest > len(data) - start:
         got = f"{len(data) - start} bytes"

@@ -46,12 +46,12 @@ class Rows:
         return len(self.counts)
 
     def part(self, first: int, last: int) -> Rows:
-        """Lines ``first`` to ``last - 1``; ``values`` stay those of the whole."""
+        """Return lines ``first`` to ``last - 1``; ``values`` stay those of the whole."""
         return Rows(self.values, self.counts[first:last], self.starts[first:last], self.lines[first:last])
 
 
 def read_bytes(path: str | Path) -> bytes:
-    """The content of a regular file that is not empty.
+    """Return the content of a regular file that is not empty.
 
     Raises
     ------
@@ -105,7 +105,7 @@ def read_csv(path: str | Path) -> list[tuple[int, list[str]]]:
 
 
 @contextmanager
-def complete(name: str, wanted: str) -> Iterator[None]:
+def complete_or_refuse(name: str, wanted: str) -> Iterator[None]:
     """Report whatever a reader runs into in a wrong structure as a file that is not complete.
 
     Raises
@@ -135,7 +135,7 @@ def is_number(word: str) -> bool:
 
 
 def clean_text(data: bytes, name: str, comment: bytes = b"#") -> bytes:
-    """``data`` with line ends made ``\\n`` and comments blanked; line numbers stay.
+    """Return ``data`` with line ends made ``\\n`` and comments blanked; line numbers stay.
 
     Raises
     ------
@@ -161,12 +161,12 @@ def _bad_number(text: bytes, name: str, numbers: np.ndarray | None) -> Exception
 
 
 def quoted(word: bytes) -> str:
-    """``word`` fit for a message: short, printable, in quotes."""
+    """Return ``word`` fit for a message: short, printable, in quotes."""
     return repr(word[:24].decode("ascii", "backslashreplace")) + ("..." if len(word) > 24 else "")
 
 
-def words(text: bytes | np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Where each word of ``text`` begins, and the line it stands on, from 0."""
+def split_words(text: bytes | np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return where each word of ``text`` begins, and the line it stands on, from 0."""
     letters = np.frombuffer(text, dtype=np.uint8) if isinstance(text, bytes) else text
     blank = _BLANK[letters]
     begins = ~blank
@@ -192,7 +192,7 @@ def parse_rows(text: bytes, name: str, line_numbers: np.ndarray | None = None) -
     InvalidInput
         Naming the first word that is not a number.
     """
-    at, line_of_word = words(text)
+    at, line_of_word = split_words(text)
     per_line = np.bincount(line_of_word)
     line = np.flatnonzero(per_line)
     counts = per_line[line]
@@ -221,8 +221,8 @@ def check_lines(bad: np.ndarray, lines: np.ndarray, name: str, wanted: str, got:
         raise refuse(f"{name}, line {lines[i]}", wanted, got(i), REPAIR)
 
 
-def whole(values: np.ndarray, name: str, wanted: str = "whole numbers") -> np.ndarray:
-    """``values`` as int64.
+def whole_numbers(values: np.ndarray, name: str, wanted: str = "whole numbers") -> np.ndarray:
+    """Return ``values`` as int64.
 
     Raises
     ------
@@ -236,7 +236,7 @@ def whole(values: np.ndarray, name: str, wanted: str = "whole numbers") -> np.nd
 
 
 def table(rows: Rows, columns: int | tuple[int, ...], name: str, wanted: str) -> np.ndarray:
-    """The numbers of ``rows``, which must all be equally many and one of ``columns``, (rows, columns).
+    """Return the numbers of ``rows``, which must all be equally many and one of ``columns``, (rows, columns).
 
     Raises
     ------

@@ -13,7 +13,7 @@ import numpy as np
 from kfmaps._arrays import refuse
 from kfmaps.io.atomic import atomic_output, check_output
 from kfmaps.io.mapfile import check_npy
-from kfmaps.io.text import REPAIR, check_lines, complete, is_number, read_bytes, read_csv, read_text
+from kfmaps.io.text import REPAIR, check_lines, complete_or_refuse, is_number, read_bytes, read_csv, read_text
 
 FORMATS = (".npy", ".csv", ".txt")
 MOST_LETTERS = 1 << 26
@@ -125,7 +125,7 @@ def _kind(cells: list[str]) -> type | None:
 
 
 def _npy(data: bytes, name: str) -> np.ndarray:
-    with complete(name, "a complete .npy file without objects"):
+    with complete_or_refuse(name, "a complete .npy file without objects"):
         check_npy(io.BytesIO(data), len(data), name)
         array = np.load(io.BytesIO(data), allow_pickle=False)
     if array.ndim == 0 or array.dtype.kind not in "biufcU":

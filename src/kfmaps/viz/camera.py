@@ -46,12 +46,12 @@ class View:
     up: np.ndarray
 
     def axes(self) -> np.ndarray:
-        """Rows right, up, towards (3, 3): ``points @ axes.T`` is picture coordinates and closeness."""
+        """Return the rows right, up, towards (3, 3): ``points @ axes.T`` is picture coordinates and closeness."""
         return np.stack([np.cross(self.up, self.towards), self.up, self.towards])
 
 
 def view(towards: ArrayLike, up: ArrayLike = (0, 1, 0)) -> View:
-    """The view from the direction ``towards`` (3,) with ``up`` (3,) upwards; their lengths do not matter.
+    """Return the view from the direction ``towards`` (3,) with ``up`` (3,) upwards. Their lengths do not matter.
 
     Raises
     ------
@@ -86,7 +86,7 @@ def _silhouette(points: np.ndarray, towards: np.ndarray) -> int:
 
 
 def broad_side(mesh: Mesh) -> View:
-    """The view straight onto the broad side of a shape.
+    """Return the view straight onto the broad side of a shape.
 
     The camera looks from the end of the file's axis z, x or y that shows most, or along the direction of
     least variance where that shows much more still, as on a shape that lies askew. Up is the file's y, or
@@ -110,7 +110,7 @@ def broad_side(mesh: Mesh) -> View:
 
 
 def automatic_view(mesh: Mesh) -> View:
-    """The view onto the :func:`broad_side` of a shape, a little from aside and from above."""
+    """Return the view onto the :func:`broad_side` of a shape, a little from aside and from above."""
     frame = broad_side(mesh).axes()
     yaw, pitch = np.deg2rad([YAW, PITCH])
     aside = np.cos(yaw) * frame[2] + np.sin(yaw) * frame[0]
@@ -118,28 +118,29 @@ def automatic_view(mesh: Mesh) -> View:
 
 
 def following_view(source_view: View, source: Mesh, target: Mesh, target_to_source: np.ndarray | None = None) -> View:
-    """The view that shows the target from the side of the body from which ``source_view`` shows the source.
+    """Return the view that shows the target from the side of the body from which ``source_view`` shows the source.
 
-    It is the same view, unless the shapes lie in different directions (:func:`turn_between`): then the camera turns
+    It is the same view, unless the shapes lie in different directions (:func:`rotation_between`): then the camera turns
     with them. A map that takes back for front is thereby seen to do so.
     """
-    turn = turn_between(source, target, target_to_source)
+    turn = rotation_between(source, target, target_to_source)
     return source_view if turn is None else View(turn @ source_view.towards, turn @ source_view.up)
 
 
-def carried_view(source_view: View, source: np.ndarray, target: np.ndarray) -> View:
-    """The same from corresponding places (q, 3) that are known to be true, so that they alone decide.
+def view_by_truth(source_view: View, source: np.ndarray, target: np.ndarray) -> View:
+    """Return the same view from corresponding places (q, 3) that are known to be true, so that they alone decide.
 
     It is the same view, unless the rotation that best carries the source onto the target turns by more than 45 degrees.
     """
-    turn, alike = best_turn(source - source.mean(axis=0), target - target.mean(axis=0))
+    turn, alike = fit_rotation(source - source.mean(axis=0), target - target.mean(axis=0))
     if alike < LIKENESS or np.rad2deg(Rotation.from_matrix(turn).magnitude()) <= SAME_VIEW:
         return source_view
     return View(turn @ source_view.towards, turn @ source_view.up)
 
 
-def best_turn(source: np.ndarray, target: np.ndarray) -> tuple[np.ndarray, float]:
-    """The rotation (3, 3) that best carries centred ``source`` (q, 3) onto ``target`` (Kabsch 1976), and how well.
+def fit_rotation(source: np.ndarray, target: np.ndarray) -> tuple[np.ndarray, float]:
+    """Return the rotation (3, 3) that best carries centred ``source`` (q, 3) onto ``target``, and how well (Kabsch
+    1976).
 
     How well is the correlation between both, from -1 to 1.
     """
@@ -149,8 +150,8 @@ def best_turn(source: np.ndarray, target: np.ndarray) -> tuple[np.ndarray, float
     return u @ np.diag(proper) @ vt, float(fit @ proper / max(size, 1e-300))
 
 
-def turn_between(source: Mesh, target: Mesh, target_to_source: np.ndarray | None = None) -> np.ndarray | None:
-    """The rotation (3, 3) from how the source lies to how the target lies; ``None`` where they lie alike.
+def rotation_between(source: Mesh, target: Mesh, target_to_source: np.ndarray | None = None) -> np.ndarray | None:
+    """Return the rotation (3, 3) from how the source lies to how the target lies; ``None`` where they lie alike.
 
     The map proposes one, and the same with the shape turned half round each of its axes, for the map may have taken
     back for front; without a map that can be believed the principal axes propose some. Which is right the shapes
@@ -164,10 +165,10 @@ def turn_between(source: Mesh, target: Mesh, target_to_source: np.ndarray | None
     if target_to_source is not None:
         known = np.asarray(target_to_source) >= 0
         if known.all():
-            first, alike = best_turn(a[target_to_source], b)
+            first, alike = fit_rotation(a[target_to_source], b)
         elif known.any():
             ends = a[np.asarray(target_to_source)[known]], b[known]
-            first, alike = best_turn(*(x - x.mean(axis=0) for x in ends))
+            first, alike = fit_rotation(*(x - x.mean(axis=0) for x in ends))
     if alike < LIKENESS:
         other = np.linalg.eigh(b.T @ b)[1]
         first = other @ np.diag([1, 1, np.sign(np.linalg.det(other @ axes.T))]) @ axes.T

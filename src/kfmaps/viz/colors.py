@@ -19,7 +19,7 @@ LIGHTNESS, LIGHTNESS_SPAN, CHROMA = 0.79, 0.10, 0.17
 
 
 def oklab_to_rgb(lab: np.ndarray) -> np.ndarray:
-    """sRGB in [0, 1] of OKLab colours (n, 3), cut off where a screen cannot show them (Ottosson 2020)."""
+    """Return sRGB in [0, 1] of OKLab colours (n, 3), cut off where a screen cannot show them (Ottosson 2020)."""
     cones = lab @ np.array(
         [
             [1, 1, 1],
@@ -39,7 +39,7 @@ def oklab_to_rgb(lab: np.ndarray) -> np.ndarray:
 
 
 def position_colors(mesh: Mesh) -> np.ndarray:
-    """A colour for each place of a shape, sRGB in [0, 1], (n, 3).
+    """Return a colour for each place of a shape, sRGB in [0, 1], (n, 3).
 
     Along the file's axis of the largest extent colours run from blue to yellow; the other two share green
     to magenta and dark to light, so that left and right and front and back differ (OKLab). Units, and where
@@ -58,7 +58,7 @@ def position_colors(mesh: Mesh) -> np.ndarray:
 
 
 def error_limit(errors: np.ndarray) -> float:
-    """Where the colours end: the 99th percentile, rounded up to one digit: 1, 2, 3, 4, 6 or 8."""
+    """Return the error at which colours end: the 99th percentile, rounded up to one digit (1, 2, 3, 4, 6 or 8)."""
     top = float(np.percentile(errors, 99))
     if not top > 0:
         return 0.01
@@ -67,12 +67,12 @@ def error_limit(errors: np.ndarray) -> float:
 
 
 def percent_ticks() -> FuncFormatter:
-    """Marks of an axis of errors, which has units of √area, as numbers of per cent."""
+    """Return the format of an axis of errors, which has units of √area, as per cent."""
     return FuncFormatter(lambda error, _: f"{100 * error:g}")
 
 
 def error_colors(errors: np.ndarray, limit: float | None = None) -> np.ndarray:
-    """White where the error is 0, through red, to the darkest at ``limit`` and above, sRGB (n, 3).
+    """Return colours of errors: white at 0, through red, to the darkest at ``limit`` and above, sRGB (n, 3).
 
     Parameters
     ----------

@@ -55,7 +55,7 @@ def document(template: str, *, title: str, data: Any, connect: bool = False) -> 
     title : str
         Any text; it is escaped.
     data : mapping
-        What :func:`kfmaps.viz.encode.plain` can turn into JSON; the script reads it as data only.
+        What :func:`kfmaps.viz.encode.to_json` can turn into JSON; the script reads it as data only.
     connect : bool
         Whether the page may send requests to its own server. A page for the disk may send none at all.
     """

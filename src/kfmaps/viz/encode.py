@@ -18,16 +18,16 @@ def _record(array: np.ndarray, name: str, code: str) -> dict[str, Any]:
     return {"type": name, "shape": list(array.shape), "base64": base64.b64encode(raw).decode("ascii")}
 
 
-def packed(numbers: np.ndarray) -> dict[str, Any]:
-    """Whole numbers from 0 up, in the smallest of one, two or four bytes each that holds them all."""
+def encode_integers(numbers: np.ndarray) -> dict[str, Any]:
+    """Encode whole numbers from 0 up, in the smallest of one, two or four bytes each that holds them all."""
     numbers = np.asarray(numbers)
     largest = int(numbers.max(initial=0))
     name, code = next((n, c) for n, c in _UNSIGNED if largest <= np.iinfo(c).max)
     return _record(numbers, name, code)
 
 
-def quantised(values: np.ndarray) -> dict[str, Any]:
-    """Real numbers as two-byte steps between their least and greatest: off by at most 1/131068 of that range.
+def encode_floats(values: np.ndarray) -> dict[str, Any]:
+    """Encode real numbers as two-byte steps between their least and greatest, off by 1/131068 of that range at most.
 
     NaN and infinities become one reserved code, which the page reads as "not known".
     """
@@ -41,17 +41,17 @@ def quantised(values: np.ndarray) -> dict[str, Any]:
     return {**_record(codes, "uint16", "<u2"), "low": low, "step": step}
 
 
-def plain(value: Any) -> Any:
-    """``value`` with NumPy's numbers and arrays, tuples and non-finite floats turned into what JSON has.
+def to_json(value: Any) -> Any:
+    """Return ``value`` with NumPy's numbers and arrays, tuples and non-finite floats turned into what JSON has.
 
     NaN and infinities become the strings ``"nan"``, ``"inf"`` and ``"-inf"``; anything unknown, its ``str``.
     """
     if isinstance(value, Mapping):
-        return {str(k): plain(v) for k, v in value.items()}
+        return {str(k): to_json(v) for k, v in value.items()}
     if isinstance(value, np.ndarray | np.generic):
-        return plain(value.tolist())
+        return to_json(value.tolist())
     if isinstance(value, list | tuple | set | frozenset):
-        return [plain(v) for v in value]
+        return [to_json(v) for v in value]
     if isinstance(value, float) and not math.isfinite(value):
         return str(value)
     if value is None or isinstance(value, bool | int | float | str):
@@ -60,10 +60,10 @@ def plain(value: Any) -> Any:
 
 
 def json_block(data: Any) -> str:
-    """JSON that is safe between ``<script>`` tags: no ``<``, ``>`` or ``&`` is left in it.
+    """Return JSON that is safe between ``<script>`` tags: no ``<``, ``>`` or ``&`` is left in it.
 
     A mesh called ``</script><script>`` is then only a name: those characters stand inside JSON strings alone,
     where their escaped form means the same.
     """
-    text = json.dumps(plain(data), ensure_ascii=True, allow_nan=False, separators=(",", ":"))
+    text = json.dumps(to_json(data), ensure_ascii=True, allow_nan=False, separators=(",", ":"))
     return text.replace("&", "\\u0026").replace("<", "\\u003c").replace(">", "\\u003e")

@@ -9,7 +9,7 @@ from scipy.spatial import KDTree
 
 from kfmaps.fmap.evaluate import geodesic_errors, truth_from_pairs
 from kfmaps.geometry.mesh import Mesh
-from kfmaps.viz.camera import View, automatic_view, carried_view
+from kfmaps.viz.camera import View, automatic_view, view_by_truth
 
 
 def vertex_errors(source: Mesh, maps: Sequence[np.ndarray], truth_s: np.ndarray, truth_t: np.ndarray) -> np.ndarray:
@@ -66,9 +66,9 @@ def painted_errors(
 def true_views(
     source: Mesh, target: Mesh, truth_s: np.ndarray, truth_t: np.ndarray, source_view: View | None = None
 ) -> tuple[View, View]:
-    """Views of source and target from the same side by the truth, however wrong a map may be.
+    """Return views of source and target from the same side by the truth, however wrong a map may be.
 
     A map with left and right swapped would have the camera go round to the back, where it looks right.
     """
     source_view = source_view or automatic_view(source)
-    return source_view, carried_view(source_view, source.vertices[truth_s], target.vertices[truth_t])
+    return source_view, view_by_truth(source_view, source.vertices[truth_s], target.vertices[truth_t])

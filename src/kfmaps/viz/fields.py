@@ -8,7 +8,7 @@ from scipy.sparse.csgraph import dijkstra
 from scipy.spatial import KDTree
 
 from kfmaps.geometry.mesh import Mesh, face_areas
-from kfmaps.viz.camera import best_turn
+from kfmaps.viz.camera import fit_rotation
 
 
 def area_distortion(source: Mesh, target: Mesh, target_to_source: np.ndarray) -> np.ndarray:
@@ -62,11 +62,11 @@ def nearest_reached(source: Mesh, target_to_source: np.ndarray) -> np.ndarray:
     return nearest
 
 
-def alignment(source: Mesh, target: Mesh, target_to_source: np.ndarray) -> np.ndarray:
+def rotation_by_map(source: Mesh, target: Mesh, target_to_source: np.ndarray) -> np.ndarray:
     """Return the rotation, (3, 3), that turns the target's vertices best onto their matches (Kabsch 1976)."""
     known = np.asarray(target_to_source) >= 0
     if not known.any():
         return np.eye(3)
     there = source.vertices[np.asarray(target_to_source)[known]]
     here = target.vertices[known] - target.vertices[known].mean(axis=0)
-    return best_turn(here, there - there.mean(axis=0))[0]
+    return fit_rotation(here, there - there.mean(axis=0))[0]

@@ -16,8 +16,8 @@ from kfmaps.shape import Shape, prepare
 from kfmaps.viz.runs import Progress
 
 
-class Tryout:
-    """``tryout(landmarks, progress)``: the map of the two shapes with these landmarks, ready to be saved.
+class InteractiveMatcher:
+    """``matcher(landmarks, progress)``: the map of the two shapes with these landmarks, ready to be saved.
 
     Parameters
     ----------

@@ -11,22 +11,22 @@ from kfmaps._arrays import check, check_count, refuse
 from kfmaps.cli.words import VERDICTS, verdict_text
 from kfmaps.geometry.mesh import Mesh, unit_area
 from kfmaps.io import check_map, projected_uv
-from kfmaps.viz.camera import broad_side, turn_between
+from kfmaps.viz.camera import broad_side, rotation_between
 from kfmaps.viz.colors import position_colors
 from kfmaps.viz.document import document
-from kfmaps.viz.encode import packed, quantised
-from kfmaps.viz.fields import alignment, area_distortion, nearest_reached
+from kfmaps.viz.encode import encode_floats, encode_integers
+from kfmaps.viz.fields import area_distortion, nearest_reached, rotation_by_map
 
 
 def shape_record(mesh: Mesh, name: str) -> dict[str, Any]:
-    """A mesh as the page reads it: name, positions (centred, unit area), faces."""
+    """Return a mesh as the page reads it: name, positions (centred, unit area), faces."""
     placed = unit_area(mesh).vertices
     placed = placed - (placed.min(axis=0) + placed.max(axis=0)) / 2
-    return {"name": name, "positions": quantised(placed), "faces": packed(mesh.faces)}
+    return {"name": name, "positions": encode_floats(placed), "faces": encode_integers(mesh.faces)}
 
 
 def source_record(mesh: Mesh, name: str, common: np.ndarray | None = None) -> dict[str, Any]:
-    """As :func:`shape_record`, with the colours and texture coordinates that a map carries over.
+    """Return :func:`shape_record` with the colours and texture coordinates that a map carries over.
 
     Grey where the vertices are not ``common`` (n_s,) to both shapes.
     """
@@ -34,22 +34,22 @@ def source_record(mesh: Mesh, name: str, common: np.ndarray | None = None) -> di
     colours = np.rint(255 * painted).astype(np.uint8)
     return {
         **shape_record(mesh, name),
-        "colours": packed(colours),
-        "plane": quantised(projected_uv(mesh.vertices)),
+        "colours": encode_integers(colours),
+        "plane": encode_floats(projected_uv(mesh.vertices)),
     }
 
 
 def map_record(source: Mesh, target: Mesh, target_to_source: np.ndarray, label: str) -> dict[str, Any]:
-    """A point map as the page reads it: the map, its links back from the source, its distortion of area.
+    """Return a point map as the page reads it: the map, its links back from the source, its distortion of area.
 
     A vertex without counterpart has the number after the source's last.
     """
     lost = target_to_source < 0
     return {
         "label": label,
-        "points": packed(np.where(lost, len(source.vertices), target_to_source)),
-        "nearest": packed(nearest_reached(source, target_to_source)),
-        "distortion": quantised(area_distortion(source, target, target_to_source)),
+        "points": encode_integers(np.where(lost, len(source.vertices), target_to_source)),
+        "nearest": encode_integers(nearest_reached(source, target_to_source)),
+        "distortion": encode_floats(area_distortion(source, target, target_to_source)),
     }
 
 
@@ -58,7 +58,7 @@ LOST = 160 / 255
 
 
 def verdict_record(summary: Mapping[str, Any]) -> dict[str, Any] | None:
-    """The verdict that ``summary`` names, in words; ``None`` where it names none."""
+    """Return the verdict that ``summary`` names, in words; ``None`` where it names none."""
     kind = summary.get("verdict")
     if not isinstance(kind, str) or kind not in VERDICTS:
         return None
@@ -67,17 +67,17 @@ def verdict_record(summary: Mapping[str, Any]) -> dict[str, Any] | None:
 
 
 def views_record(source: Mesh, target: Mesh, target_to_source: np.ndarray | None = None) -> dict[str, Any]:
-    """Where to look from: the source's camera axes, and the rotation from how the source lies to how the target lies.
+    """Return the source's camera axes, and the rotation from how the source lies to how the target lies.
 
-    The rotation is the shapes' own (:func:`~kfmaps.viz.camera.turn_between`), so that both are seen from
+    The rotation is the shapes' own (:func:`~kfmaps.viz.camera.rotation_between`), so that both are seen from
     the same side of the body whatever the map says.
     """
-    turn = turn_between(source, target, target_to_source)
+    turn = rotation_between(source, target, target_to_source)
     return {"frame": broad_side(source).axes().ravel(), "turn": (np.eye(3) if turn is None else turn).ravel()}
 
 
 def check_up(up: str | None) -> str | None:
-    """``up`` when it is an axis, or ``None``: found from the shape.
+    """Return ``up`` when it is an axis, or ``None``: found from the shape.
 
     Raises
     ------
@@ -99,7 +99,7 @@ def _fields(maps: int, n_t: int, **given: Any) -> dict[str, Any]:
         check(rows, name, shape=(None, n_t), finite=False, remedy="give one number per target vertex")
         if len(rows) not in (1, maps):
             raise refuse(name, f"one row, or one for each of {maps} maps", f"{len(rows)}", "leave some out")
-        fields[name] = [quantised(row) for row in rows]
+        fields[name] = [encode_floats(row) for row in rows]
     return fields
 
 
@@ -116,7 +116,10 @@ def _descriptors(descriptors: Any, source: Mesh, target: Mesh, most: int) -> lis
         raise refuse("descriptors", wanted, f"{pair[0].shape[1]} and {pair[1].shape[1]}", "compute both alike")
     count = pair[0].shape[1]
     chosen = np.unique(np.linspace(0, count - 1, min(count, most)).round().astype(int)) if count else []
-    return [{"number": int(j), "source": quantised(pair[0][:, j]), "target": quantised(pair[1][:, j])} for j in chosen]
+    return [
+        {"number": int(j), "source": encode_floats(pair[0][:, j]), "target": encode_floats(pair[1][:, j])}
+        for j in chosen
+    ]
 
 
 def result_page(
@@ -135,7 +138,7 @@ def result_page(
     up: str | None = None,
     common: np.ndarray | None = None,
 ) -> str:
-    """One HTML file that shows a map: it needs no network, no server and nothing beside it.
+    """Return one HTML file that shows a map: it needs no network, no server and nothing beside it.
 
     Parameters
     ----------
@@ -191,11 +194,11 @@ def result_page(
         "verdict": verdict_record(summary or {}),
         "source": source_record(source, names[0], common),
         "target": shape_record(target, names[1]),
-        "rotation": alignment(source, target, points[0]).ravel(),
+        "rotation": rotation_by_map(source, target, points[0]).ravel(),
         "maps": [map_record(source, target, m, label) for m, label in zip(points, labels, strict=True)],
         **_fields(len(points), len(target.vertices), errors=errors, confidence=confidence),
         "descriptors": _descriptors(descriptors, source, target, most_descriptors),
-        "matrix": None if matrix is None else quantised(matrix),
+        "matrix": None if matrix is None else encode_floats(matrix),
         "summary": summary or {},
     }
     return document("result.html.j2", title=f"{names[0]} → {names[1]}", data=data)

@@ -14,7 +14,7 @@ from kfmaps.fmap.confidence import local_confidence
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.io import MapFile, check_map, save_map, write_landmarks
 from kfmaps.viz.document import document
-from kfmaps.viz.encode import quantised
+from kfmaps.viz.encode import encode_floats
 from kfmaps.viz.page import check_up, map_record, shape_record, source_record, views_record
 from kfmaps.viz.runs import Progress, Runs
 from kfmaps.viz.server import LocalServer, Reply, json_reply, page_reply
@@ -27,7 +27,7 @@ LONGEST_NAME = 60
 
 
 def check_pairs(pairs: Any, source: Mesh, target: Mesh) -> np.ndarray:
-    """Landmarks (l, 2) int64, a vertex of ``source`` and one of ``target`` each.
+    """Return landmarks (l, 2) int64, a vertex of ``source`` and one of ``target`` each.
 
     Raises
     ------
@@ -54,7 +54,7 @@ def check_pairs(pairs: Any, source: Mesh, target: Mesh) -> np.ndarray:
 
 
 def check_names(names: Any, count: int) -> list[str]:
-    """One short text for each of ``count`` pairs; none is an empty one for each.
+    """Return one short text for each of ``count`` pairs; without any, an empty one for each.
 
     Raises
     ------
@@ -107,7 +107,7 @@ class Picker:
     up: str | None = None
 
     def page(self) -> str:
-        """The page, which speaks to the server it came from."""
+        """Return the page, which speaks to the server it came from."""
         data = {
             "kind": "picker",
             "up": check_up(self.up) or "auto",
@@ -124,29 +124,8 @@ class Picker:
         return document("picker.html.j2", title=title, data=data, connect=True)
 
 
-@dataclass(frozen=True, eq=False)
 class PickerServer:
-    """A picker being served.
-
-    Attributes
-    ----------
-    server : LocalServer
-        Not yet answering: call its ``serve_forever``.
-    runs : Runs
-        The matches started from the page.
-    """
-
-    server: LocalServer
-    runs: Runs
-
-    def close(self) -> None:
-        """Stop a running match and give the port back."""
-        self.runs.cancel(wait=2.0)
-        self.server.close()
-
-
-def picker_server(picker: Picker, port: int = 0) -> PickerServer:
-    """The server of ``picker``'s page: seven requests, two files to write, none to read.
+    """The server of a picker's page: seven requests, two files to write, none to read.
 
     Parameters
     ----------
@@ -154,74 +133,92 @@ def picker_server(picker: Picker, port: int = 0) -> PickerServer:
     port : int
         0 takes any free one.
 
+    Attributes
+    ----------
+    server : LocalServer
+        Not yet answering: call its ``serve_forever``.
+    runs : Runs
+        The matches started from the page.
+
     Raises
     ------
     InvalidInput
         When the port is taken.
     """
-    page = picker.page()
-    written: set[Path] = set()
-    maps: list[MapFile] = []
 
-    def work(pairs: np.ndarray, progress: Progress) -> dict[str, Any]:
-        assert picker.matcher is not None
-        found = picker.matcher(pairs, progress)
-        points = check_map(found, len(picker.source.vertices), len(picker.target.vertices), lost=True)
-        maps.append(found)
+    def __init__(self, picker: Picker, port: int = 0) -> None:
+        self.picker = picker
+        self.runs = Runs(self._work)
+        self._written: set[Path] = set()
+        self._maps: list[MapFile] = []
+        page = picker.page()
+        routes = {
+            ("GET", ""): lambda _: page_reply(page),
+            ("GET", "progress"): self._progress,
+            ("GET", "map"): self._last_map,
+            ("POST", "match"): self._match,
+            ("POST", "cancel"): self._cancel,
+            ("POST", "save"): self._save,
+            ("POST", "save-map"): self._save_map,
+        }
+        self.server = LocalServer(routes, port)
+
+    def close(self) -> None:
+        """Stop a running match and give the port back."""
+        self.runs.cancel(wait=2.0)
+        self.server.close()
+
+    def _work(self, pairs: np.ndarray, progress: Progress) -> dict[str, Any]:
+        """Match with landmarks, and keep the map; what the page shows of it."""
+        source, target, matcher = self.picker.source, self.picker.target, self.picker.matcher
+        assert matcher is not None
+        found = matcher(pairs, progress)
+        points = check_map(found, len(source.vertices), len(target.vertices), lost=True)
+        self._maps.append(found)
         label = f"{len(pairs)} landmark" + ("" if len(pairs) == 1 else "s")
-        sure = local_confidence(picker.source, picker.target, points)
-        return {**map_record(picker.source, picker.target, points, label), "confidence": quantised(sure)}
+        confidence = encode_floats(local_confidence(source, target, points))
+        return {**map_record(source, target, points, label), "confidence": confidence}
 
-    runs = Runs(work)
-
-    def pairs_of(request: Any) -> np.ndarray:
+    def _pairs(self, request: Any) -> np.ndarray:
         pairs = request.get("pairs") if isinstance(request, dict) else None
-        return check_pairs(pairs, picker.source, picker.target)
+        return check_pairs(pairs, self.picker.source, self.picker.target)
 
-    def saved(path: Path, request: Any, write: Callable[[bool], None], **told: Any) -> Reply:
+    def _write(self, path: Path, request: Any, write: Callable[[bool], None], **told: Any) -> Reply:
         # What this picker wrote itself it may replace; what was there before only when told to.
-        allowed = picker.force or path in written or request.get("overwrite") is True
+        allowed = self.picker.force or path in self._written or request.get("overwrite") is True
         if path.exists() and not allowed:
             return json_reply({"exists": str(path)}, 409)
         write(allowed)
-        written.add(path)
+        self._written.add(path)
         return json_reply({"saved": str(path), **told})
 
-    def save(request: Any) -> Reply:
-        pairs = pairs_of(request)
+    def _save(self, request: Any) -> Reply:
+        pairs, path = self._pairs(request), self.picker.output
         names = check_names(request.get("names"), len(pairs))
 
         def write(force: bool) -> None:
-            write_landmarks(picker.output, pairs, names=names, force=force)
+            write_landmarks(path, pairs, names=names, force=force)
 
-        return saved(picker.output, request, write, count=len(pairs))
+        return self._write(path, request, write, count=len(pairs))
 
-    def save_run(request: Any) -> Reply:
-        path, run = picker.map_output, request.get("run") if isinstance(request, dict) else None
-        if path is None or type(run) is not int or not 0 <= run < len(maps):
+    def _save_map(self, request: Any) -> Reply:
+        path, run = self.picker.map_output, request.get("run") if isinstance(request, dict) else None
+        if path is None or type(run) is not int or not 0 <= run < len(self._maps):
             raise refuse("map", "the number of a run that is done", repr(run), "match first")
-        return saved(path, request, lambda force: save_map(path, maps[run], force))
+        return self._write(path, request, lambda force: save_map(path, self._maps[run], force))
 
-    def match(request: Any) -> Reply:
-        if picker.matcher is None:
+    def _match(self, request: Any) -> Reply:
+        if self.picker.matcher is None:
             raise refuse("match", "a picker that can match", "one that cannot", "save and use kfmaps match")
-        return json_reply(asdict(runs.start(pairs_of(request))))
+        return json_reply(asdict(self.runs.start(self._pairs(request))))
 
-    def cancel(_: Any) -> Reply:
-        runs.cancel()
-        return json_reply(asdict(runs.status()))
+    def _progress(self, _: Any) -> Reply:
+        return json_reply(asdict(self.runs.status()))
 
-    def last_map(_: Any) -> Reply:
-        record = runs.result()
+    def _cancel(self, _: Any) -> Reply:
+        self.runs.cancel()
+        return self._progress(None)
+
+    def _last_map(self, _: Any) -> Reply:
+        record = self.runs.result()
         return json_reply({"error": "no match is done"}, 404) if record is None else json_reply(record)
-
-    routes = {
-        ("GET", ""): lambda _: page_reply(page),
-        ("GET", "progress"): lambda _: json_reply(asdict(runs.status())),
-        ("GET", "map"): last_map,
-        ("POST", "match"): match,
-        ("POST", "cancel"): cancel,
-        ("POST", "save"): save,
-        ("POST", "save-map"): save_run,
-    }
-    return PickerServer(LocalServer(routes, port), runs)

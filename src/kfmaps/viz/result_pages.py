@@ -20,7 +20,7 @@ from kfmaps.geometry.basis import laplace_basis
 from kfmaps.geometry.mesh import Mesh, unit_area
 from kfmaps.io import MapFile, check_map, match_map
 from kfmaps.matching.match import Match
-from kfmaps.viz.encode import plain
+from kfmaps.viz.encode import to_json
 from kfmaps.viz.errors import vertex_errors
 from kfmaps.viz.page import result_page
 
@@ -31,7 +31,7 @@ EIGENFUNCTIONS = 100
 
 
 def match_summary(match: Match) -> dict[str, Any]:
-    """What a page tells of a match, all of it fit for JSON: settings, energies, residuals, times, outcome.
+    """Return what a page tells of a match, fit for JSON: settings, energies, residuals, times, outcome.
 
     Residuals are divided by the first.
     """
@@ -66,7 +66,7 @@ def match_summary(match: Match) -> dict[str, Any]:
 def match_page(match: Match, source: Mesh, target: Mesh, names: tuple[str, str], **options: Any) -> str:
     """Return the page of a match with all that it knows: :func:`map_page`, which has the options."""
     found = match_map(match)
-    summary = json.dumps(plain(match_summary(match)))
+    summary = json.dumps(to_json(match_summary(match)))
     return map_page(replace(found, extra={**found.extra, "summary": summary}), source, target, names, **options)
 
 
@@ -140,7 +140,7 @@ def _json_of(text: Any) -> dict[str, Any]:
 
 
 def signatures(source: Mesh, target: Mesh) -> tuple[np.ndarray, np.ndarray]:
-    """Wave kernel signatures of both shapes at the same energies, (n_s, 12) and (n_t, 12), of unit area."""
+    """Return wave kernel signatures of both shapes at the same energies, (n_s, 12) and (n_t, 12), of unit area."""
     most = min(EIGENFUNCTIONS, len(source.vertices) - 1, len(target.vertices) - 1)
     bases = [laplace_basis(unit_area(mesh), most) for mesh in (source, target)]
     energies, sigma = wave_energies(SIGNATURES, *bases)

@@ -75,14 +75,14 @@ class Runs:
         return self.status()
 
     def status(self) -> Status:
-        """How the last run stands now."""
+        """Return how the last run stands now."""
         with self._lock:
             if self._status.state == "running":
                 return replace(self._status, seconds=time.monotonic() - self._began)
             return self._status
 
     def result(self) -> Any:
-        """What the last run that was done returned; ``None`` before."""
+        """Return what the last run that was done returned; ``None`` before."""
         with self._lock:
             return self._result
 

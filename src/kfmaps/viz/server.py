@@ -23,7 +23,7 @@ from tornado.httpserver import HTTPServer
 from tornado.web import Application, RequestHandler
 
 from kfmaps._arrays import InvalidInput, refuse
-from kfmaps.viz.encode import plain
+from kfmaps.viz.encode import to_json
 
 LOOPBACK = "127.0.0.1"
 LARGEST_REQUEST = 1 << 20
@@ -60,7 +60,7 @@ def page_reply(html: str) -> Reply:
 
 def json_reply(data: Any, status: int = 200) -> Reply:
     """Return the answer that is data for the page's script."""
-    return Reply(status, "application/json", json.dumps(plain(data), allow_nan=False).encode())
+    return Reply(status, "application/json", json.dumps(to_json(data), allow_nan=False).encode())
 
 
 Routes = Mapping[tuple[str, str], Callable[[Any], Reply]]

@@ -22,13 +22,13 @@ ENOUGH = 24000
 
 
 def is_watertight(faces: np.ndarray, count: int) -> bool:
-    """Whether each edge of the faces is run through as often one way as the other: nothing shows inside."""
+    """Return whether each edge of the faces is run through as often one way as the other: nothing shows inside."""
     forth = np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]])
     return np.array_equal(np.sort(forth @ [count, 1]), np.sort(forth @ [1, count]))
 
 
-def shades(normals: np.ndarray) -> np.ndarray:
-    """Brightness (...,) of surfaces with these unit normals (..., 3) in camera axes (Lambert's law)."""
+def shade(normals: np.ndarray) -> np.ndarray:
+    """Return the brightness (...,) of surfaces with unit normals (..., 3) in camera axes (Lambert's law)."""
     light = AMBIENT + SKY * normals[..., 1]
     for direction, strength in LIGHTS:
         cosine = normals @ (np.array(direction) / np.linalg.norm(direction))
@@ -36,8 +36,8 @@ def shades(normals: np.ndarray) -> np.ndarray:
     return light
 
 
-def divided(corners: np.ndarray) -> np.ndarray:
-    """Corner values (f, 3, d) of triangles made into those of four times as many, cut at mid-edge."""
+def subdivide(corners: np.ndarray) -> np.ndarray:
+    """Divide triangles with corner values (f, 3, d) into four each, cut at mid-edge."""
     a, b, c = corners.swapaxes(0, 1)
     ab, bc, ca = (a + b) / 2, (b + c) / 2, (c + a) / 2
     parts = [(a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca)]
@@ -102,12 +102,12 @@ def draw_surface(
     corners = corners * np.where(facing < 0, -1, 1)[:, None, None]
     parts = np.concatenate([points[faces], corners, colors[faces]], axis=2)
     while 0 < len(parts) < ENOUGH:
-        parts = divided(parts)
+        parts = subdivide(parts)
     places, corners, blend = parts[:, :, :3], parts[:, :, 3:6], parts[:, :, 6:].mean(axis=1)
     if shading:
         smooth = corners.mean(axis=1)
         smooth /= np.maximum(np.linalg.norm(smooth, axis=1, keepdims=True), 1e-12)
-        blend = blend * shades(smooth)[:, None]
+        blend = blend * shade(smooth)[:, None]
     blend = np.clip(blend, 0, 1)
     order = np.argsort(places[:, :, 2].mean(axis=1), kind="stable")
     # An edge in the face's own colour hides the seam that antialiasing leaves between neighbours.

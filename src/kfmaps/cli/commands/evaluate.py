@@ -58,7 +58,7 @@ def evaluate(
     """Print the geodesic error of a map, by the Princeton protocol, in per cent of √area."""
     from kfmaps.cli.evaluation import assessed, known_truth, write_curve
     from kfmaps.io import check_map, check_output, load_map
-    from kfmaps.io.partial_map import place_of
+    from kfmaps.io.partial_map import precise_points
     from kfmaps.io.provenance import map_mesh
 
     if curve is not None:
@@ -77,7 +77,7 @@ def evaluate(
     assert known is not None
     other = _target(target, found, map)
     check_map(found, len(shape.vertices), None if other is None else len(other.vertices), str(map), lost=True)
-    accuracy = assessed(shape, found.target_to_source, known, place=place_of(found, shape), target=other)
+    accuracy = assessed(shape, found.target_to_source, known, place=precise_points(found, shape), target=other)
     if curve is not None:
         write_curve(curve, accuracy.errors, map.stem, force)
     if json:

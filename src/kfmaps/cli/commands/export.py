@@ -23,7 +23,6 @@ from kfmaps.io import (
     write_values,
 )
 from kfmaps.io.export import write_morph
-from kfmaps.io.partial_map import place_of
 from kfmaps.io.provenance import mesh_path, warn_of_change
 from kfmaps.viz import position_colors
 
@@ -102,8 +101,7 @@ def export(
         write_textured(output, shape_s, shape_t, found, picture=picture, force=force)
     else:
         colors = position_colors(shape_s.mesh) if shape_s.colors is None else shape_s.colors
-        place = place_of(found, shape_s.mesh)
-        write_colored(output, colors, shape_t.mesh, found, place=place, faces_s=shape_s.mesh.faces, force=force)
+        write_colored(output, colors, shape_t.mesh, found, source=shape_s.mesh, force=force)
 
 
 def _shape(given: Path | None, found: MapFile, side: str, map: Path) -> MeshFile:

@@ -17,9 +17,9 @@ from kfmaps.io.mapfile import check_format
 from kfmaps.matching.match import default_config
 from kfmaps.settings.options import Chosen, with_settings
 from kfmaps.viz.document import forwarding_page
-from kfmaps.viz.interactive import Tryout
+from kfmaps.viz.interactive import InteractiveMatcher
 from kfmaps.viz.page import check_up
-from kfmaps.viz.picker import Picker, check_pairs, picker_server
+from kfmaps.viz.picker import Picker, PickerServer, check_pairs
 from kfmaps.viz.result_pages import open_page
 
 
@@ -72,9 +72,9 @@ def landmarks(
         return settings.config(default_config())
 
     chosen(pairs)  # what is wrong with the settings is said before the page opens
-    matcher = Tryout(*shapes, names, (source, target), chosen)
+    matcher = InteractiveMatcher(*shapes, names, (source, target), chosen)
     picker = Picker(*shapes, names, output, force, pairs, labels, matcher, map_output, up)
-    serving = picker_server(picker, port)
+    serving = PickerServer(picker, port)
     typer.echo(serving.server.address)
     typer.echo("Only this machine can reach it, and only with that address. Ctrl-C ends.")
     opened = None

@@ -12,8 +12,8 @@ import typer
 from kfmaps._arrays import KfmapsWarning, refuse
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.io import MapFile, Values, check_output, load_map, read_mesh, read_values, write_values
-from kfmaps.io.named_points import carried_points, read_named_points, write_named_points
-from kfmaps.io.partial_map import Counterparts, counterparts, place_of
+from kfmaps.io.named_points import read_named_points, transfer_points, write_named_points
+from kfmaps.io.partial_map import Counterparts, find_counterparts, precise_points
 from kfmaps.io.provenance import mesh_path, warn_of_change
 from kfmaps.io.transfer import transfer as transfer_values
 from kfmaps.io.transfer import transfer_back, transfer_by_functions
@@ -101,7 +101,7 @@ def transfer(
     faces = None
     if found.place is not None and given.array.dtype.kind == "f":
         shape = _shape(found, "source", source, map)
-        place_of(found, shape)
+        precise_points(found, shape)
         faces = shape.faces
     write_values(output, Values(transfer_values(given.array, found, faces, gone), given.columns), force)
 
@@ -148,7 +148,7 @@ def _both(found: MapFile, map: Path, given: tuple[Path | None, Path | None]) -> 
     for mesh, side in ((source, "source"), (target, "target")):
         if len(mesh.faces) == 0:
             raise refuse(side, "a surface with faces", "a point cloud", "carry values instead, not back")
-    return source, target, counterparts(found, source, target, str(map))
+    return source, target, find_counterparts(found, source, target, str(map))
 
 
 def _points(
@@ -165,4 +165,4 @@ def _points(
     confidence = None if trust is None else np.asarray(trust)
     named = read_named_points(values, target if back else source)
     some = {} if ways.complete else {"known": ways.target, "common": ways.source}
-    write_named_points(output, carried_points(named, source, target, ways.place, confidence, back=back, **some), force)
+    write_named_points(output, transfer_points(named, source, target, ways.place, confidence, back=back, **some), force)

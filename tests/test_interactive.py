@@ -13,7 +13,7 @@ from conftest import blob
 from kfmaps.cli.main import main
 from kfmaps.config import Config
 from kfmaps.io import write_mesh
-from kfmaps.viz.interactive import Tryout
+from kfmaps.viz.interactive import InteractiveMatcher
 
 MARKS = np.array([[3, 3], [50, 50], [120, 120], [9, 9]])
 
@@ -26,10 +26,10 @@ def test_shapes_are_prepared_once_and_the_settings_are_used() -> None:
         seen.append(pairs.tolist())
         return replace(CONFIG, refinement=None)
 
-    tryout = Tryout(mesh, mesh, ("a", "b"), (Path("a.off"), Path("b.off")), chosen)
+    matcher = InteractiveMatcher(mesh, mesh, ("a", "b"), (Path("a.off"), Path("b.off")), chosen)
     stages: list[str] = []
     for marks in (MARKS, MARKS[:3]):
-        found = tryout(marks, lambda stage, done: stages.append(stage) if done == 1 else None)
+        found = matcher(marks, lambda stage, done: stages.append(stage) if done == 1 else None)
         np.testing.assert_array_equal(found.target_to_source, np.arange(300))
         np.testing.assert_array_equal(found.extra["landmarks"], marks)
         assert (found.n_s, found.extra["source"]) == (300, str(Path("a.off").absolute()))
