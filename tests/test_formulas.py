@@ -11,11 +11,11 @@ from scipy.spatial import ConvexHull
 
 from conftest import blob, random_basis
 from kfmaps.descriptors.spectral import (
+    _spectral_range,
     heat_map,
     heat_signature,
     heat_times,
     normalize,
-    spectral_range,
     wave_energies,
     wave_map,
     wave_signature,
@@ -183,12 +183,12 @@ def test_pairs_are_searched_no_farther_than_they_need(monkeypatch):
     ],
 )
 def test_the_range_of_the_spectrum_starts_near_weyls_second_eigenvalue(values, low, high):
-    assert spectral_range(with_values(values)) == pytest.approx((low, high))
+    assert _spectral_range(with_values(values)) == pytest.approx((low, high))
 
 
 def test_the_range_is_common_to_both_shapes():
     a, b = with_values([0, 5, 900]), with_values([0, 9, 700])
-    assert spectral_range(a, b) == spectral_range(b, a) == pytest.approx((9, 700))
+    assert _spectral_range(a, b) == _spectral_range(b, a) == pytest.approx((9, 700))
 
 
 def test_heat_has_gone_from_the_last_function_first_and_from_the_lowest_last():

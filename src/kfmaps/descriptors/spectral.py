@@ -1,10 +1,9 @@
 """Heat and wave kernel signatures, landmark maps, and normalisations that treat both shapes alike.
 
-All are spectral, so they ask for a :class:`~kfmaps.geometry.basis.Basis` alone. Eigenvalues are those of a shape of
-unit
-area, where Weyl's law puts the j-th near 4πj whatever the shape: times and energies are chosen from that law and
-from the *upper* part of the spectrum, never from the first nonzero eigenvalue, which a floating speck or a thin
-bridge can make as small as it likes.
+All are spectral, so they need a :class:`~kfmaps.geometry.basis.Basis` alone, of a shape of unit area. There Weyl's law
+puts the j-th eigenvalue near 4πj whatever the shape. Times and energies are chosen from that law and from the *upper*
+part of the spectrum, never from the first nonzero eigenvalue, which a floating speck or a thin bridge can make as small
+as it likes.
 """
 
 from __future__ import annotations
@@ -22,11 +21,11 @@ NORMALISATIONS: tuple[Normalisation, ...] = ("none", "norm", "max", "row", "vari
 
 
 ZERO = 1e-3
-"""Eigenvalue up to which a function is the constant of a component, at unit area: its logarithm means nothing."""
+"""Eigenvalue, at unit area, up to which a function counts as the constant of a component."""
 
 
-def spectral_range(*bases: Basis) -> tuple[float, float]:
-    """Eigenvalues between which times and energies are spread, (low, high), common to all ``bases``.
+def _spectral_range(*bases: Basis) -> tuple[float, float]:
+    """Return the eigenvalues (low, high) between which times and energies are spread, common to all ``bases``.
 
     ``high`` is the smallest of the last eigenvalues. ``low`` is the largest of the second ones, but never outside
     [¼, 1] times ``4π``, Weyl's estimate of it on a unit area: a tiny second eigenvalue, from a speck or a long
@@ -39,24 +38,24 @@ def spectral_range(*bases: Basis) -> tuple[float, float]:
 
 
 def heat_times(count: int, *bases: Basis) -> np.ndarray:
-    """``(count,)`` diffusion times, logarithmic from ``4 ln 10 / λ_high`` to ``4 ln 10 / λ_low`` (Sun et al. 2009).
+    """Return diffusion times, (count,), common to all ``bases`` (Sun et al. 2009).
 
-    The spectral range is that of :func:`spectral_range`.
+    They are spread logarithmically from ``4 ln 10 / λ_high`` to ``4 ln 10 / λ_low``.
     """
     check_count(count, "number of times")
-    low, high = spectral_range(*bases)
+    low, high = _spectral_range(*bases)
     ends = 4 * np.log(10) / np.array([high, low])
     return np.geomspace(ends[0], ends[1], count) if count > 1 else np.array([np.sqrt(ends[0] * ends[1])])
 
 
 def wave_energies(count: int, *bases: Basis) -> tuple[np.ndarray, float]:
-    """``(count,)`` log-energies and their width σ (Aubry et al. 2011).
+    """Return logarithms of energies, (count,), and their width σ, common to all ``bases`` (Aubry et al. 2011).
 
-    Equally spaced in log λ; σ is seven spacings of a grid of ``count``, but at most a fifteenth of the range, so that
-    few energies still tell bands apart; both ends are moved in by 2σ as the authors do.
+    They are equally spaced in log λ. σ is seven spacings of a grid of ``count``, but at most a fifteenth of the range,
+    so that few energies still tell bands apart. Both ends are moved in by 2σ as the authors do.
     """
     check_count(count, "number of energies")
-    low, high = np.log(spectral_range(*bases))
+    low, high = np.log(_spectral_range(*bases))
     sigma = max(7 * (high - low) / max(count, 105), 1e-12)
     inside = np.linspace(low + 2 * sigma, high - 2 * sigma, count) if count > 1 else np.array([(low + high) / 2])
     return inside, float(sigma)
@@ -94,30 +93,82 @@ def _landmark_map(basis: Basis, landmarks: Sequence[int] | np.ndarray, weights: 
 
 
 def heat_signature(basis: Basis, times: Array) -> Array:
-    """Heat kernel signature ``Σ_j exp(-λ_j t) φ_j(x)²``, ``(n, t)`` (Sun, Ovsjanikov, Guibas 2009)."""
+    """Return the heat kernel signature ``Σ_j exp(-λ_j t) φ_j(x)²`` (Sun, Ovsjanikov and Guibas 2009).
+
+    Parameters
+    ----------
+    basis : Basis
+    times : (t,)
+        In units of the shape's area.
+
+    Returns
+    -------
+    (n, t)
+        Of the array library of the basis.
+    """
     return _signature(basis, _heat_weights(basis, times))
 
 
 def wave_signature(basis: Basis, energies: Array, sigma: float) -> Array:
-    """Wave kernel signature ``Σ_j exp(-(log λ_j - e)²/2σ²) φ_j(x)²``, ``(n, e)`` (Aubry, Schlickewei, Cremers 2011).
+    """Return the wave kernel signature ``Σ_j exp(-(log λ_j - e)²/2σ²) φ_j(x)²`` (Aubry, Schlickewei and Cremers 2011).
 
-    Not divided by the sum of its weights, as in the framework of Nogneng and Ovsjanikov (2017).
+    It is not divided by the sum of its weights, as in the framework of Nogneng and Ovsjanikov (2017).
+
+    Parameters
+    ----------
+    basis : Basis
+    energies : (e,)
+        Logarithms of eigenvalues; see :func:`wave_energies`.
+    sigma : float
+        Width in the logarithm.
+
+    Returns
+    -------
+    (n, e)
+        Of the array library of the basis.
     """
     return _signature(basis, _wave_weights(basis, energies, sigma))
 
 
 def heat_map(basis: Basis, landmarks: Sequence[int] | np.ndarray, times: Array) -> Array:
-    """Heat spread from each landmark, ``Σ_j exp(-λ_j t) φ_j(p) φ_j(x)``: ``(n, l·t)``, landmark by landmark."""
+    """Return the heat kernel from each landmark p, ``Σ_j exp(-λ_j t) φ_j(p) φ_j(x)``.
+
+    Parameters
+    ----------
+    basis : Basis
+    landmarks : (l,) int
+        Vertices.
+    times : (t,)
+
+    Returns
+    -------
+    (n, l·t)
+        Landmark by landmark.
+    """
     return _landmark_map(basis, landmarks, _heat_weights(basis, times))
 
 
 def wave_map(basis: Basis, landmarks: Sequence[int] | np.ndarray, energies: Array, sigma: float) -> Array:
-    """Wave kernel map of each landmark, ``Σ_j w_j(e) φ_j(p) φ_j(x)``: ``(n, l·e)``, landmark by landmark."""
+    """Return the wave kernel map of each landmark p, ``Σ_j exp(-(log λ_j - e)²/2σ²) φ_j(p) φ_j(x)``.
+
+    Parameters
+    ----------
+    basis : Basis
+    landmarks : (l,) int
+        Vertices.
+    energies : (e,)
+    sigma : float
+
+    Returns
+    -------
+    (n, l·e)
+        Landmark by landmark.
+    """
     return _landmark_map(basis, landmarks, _wave_weights(basis, energies, sigma))
 
 
 def check_landmarks(landmarks: Sequence[int] | np.ndarray, n: int, name: str = "landmarks") -> np.ndarray:
-    """``landmarks`` as ``(l,)`` int64 when they are distinct vertices of a shape with ``n``.
+    """Return ``landmarks`` as (l,) int64 if they are distinct vertices of a shape with ``n``.
 
     Raises
     ------
@@ -139,10 +190,11 @@ def check_landmarks(landmarks: Sequence[int] | np.ndarray, n: int, name: str = "
 
 
 def normalize(D_s: Array, D_t: Array, how: Normalisation, mass_s: Array, mass_t: Array) -> tuple[Array, Array]:
-    """Scale the descriptors ``(n_s, d)`` and ``(n_t, d)`` by the same numbers on both shapes.
+    """Scale descriptors by the same numbers on both shapes.
 
     Parameters
     ----------
+    D_s, D_t : (n_s, d), (n_t, d)
     how : str
         ``"none"``; ``"norm"``: each descriptor by its A-norm, the root of the mean of both shapes' squares (NO17,
         made symmetric); ``"max"``: each by its largest absolute value on both; ``"row"``: all by one number, the
@@ -151,6 +203,10 @@ def normalize(D_s: Array, D_t: Array, how: Normalisation, mass_s: Array, mass_t:
         that typical squared distances between vertices are 2.
     mass_s, mass_t : (n_s,), (n_t,)
         Vertex areas, for the norms and means.
+
+    Returns
+    -------
+    (n_s, d), (n_t, d)
     """
     xp = namespace(D_s, D_t)
     if how not in NORMALISATIONS:

@@ -1,4 +1,4 @@
-"""As-rigid-as-possible energy of a mesh that is bent (Sorkine and Alexa 2007).
+"""As-rigid-as-possible energy of a deformed mesh (Sorkine and Alexa 2007).
 
 With ``x̄`` the rest positions, ``x`` the bent ones, ``w`` cotangent weights and one rotation ``R_i`` a vertex,
 ``E(x, R) = ½ Σ_i Σ_j w_ij |(x_i − x_j) − R_i (x̄_i − x̄_j)|²``. For fixed rotations it is quadratic in ``x`` with the
@@ -29,7 +29,7 @@ ROOT_STEPS = 12
 
 @dataclass(frozen=True, eq=False)
 class ArapEnergy:
-    """What the energy needs of the rest shape; made by :func:`build_arap`.
+    """The operators of the rest shape that the energy is computed with; made by :func:`build_arap`.
 
     Attributes
     ----------
@@ -46,7 +46,7 @@ class ArapEnergy:
 
 
 def build_arap(mesh: Mesh) -> ArapEnergy:
-    """The energy of bending ``mesh``; the constants do not depend on its unit."""
+    """Return the as-rigid-as-possible energy with ``mesh`` as the rest shape, in any unit."""
     v, f = mesh.vertices, mesh.faces
     n = len(v)
     tails, heads, values = [], [], []
@@ -74,20 +74,35 @@ def build_arap(mesh: Mesh) -> ArapEnergy:
 
 
 def rotations(energy: ArapEnergy, x: np.ndarray) -> np.ndarray:
-    """The best rotation of each vertex, ``(n, 3, 3)``: ``R_i x̄`` is the rest shape turned as ``x (n, 3)`` is."""
+    """Return the best rotation of each vertex, (n, 3, 3), for deformed positions ``x (n, 3)``.
+
+    ``R_i`` takes the edges of the rest shape at vertex i as nearly as possible to those of ``x``.
+    """
     return nearest_rotations(edge_covariances(energy, x))
 
 
 def edge_covariances(energy: ArapEnergy, x: np.ndarray) -> np.ndarray:
-    """``Σ_j w_ij (x_i − x_j)(x̄_i − x̄_j)ᵀ`` of each vertex, ``(n, 3, 3)``."""
+    """Return ``Σ_j w_ij (x_i − x_j)(x̄_i − x̄_j)ᵀ`` of each vertex, (n, 3, 3), for positions ``x (n, 3)``."""
     return (energy.moments @ x).reshape(3, len(x), 3).transpose(1, 2, 0)
 
 
 def nearest_rotations(matrices: np.ndarray) -> np.ndarray:
-    """The rotation closest to each of ``matrices (n, 3, 3)``; never a reflection.
+    """Return the rotation closest to each of some matrices, never a reflection.
 
-    In closed form (Markley, Attitude determination using vector observations: a fast optimal matrix algorithm, 1993),
-    a tenth of the time of singular value decompositions. These do the few whose rotation is hardly determined.
+    The closed form takes a tenth of the time of singular value decompositions, which are used for the few matrices
+    whose rotation is hardly determined.
+
+    Parameters
+    ----------
+    matrices : (n, 3, 3) float64
+
+    Returns
+    -------
+    (n, 3, 3) float64
+
+    References
+    ----------
+    Markley, Attitude determination using vector observations: a fast optimal matrix algorithm (1993).
     """
     # One entry of all matrices lies together: (3, 3, n).
     m = np.moveaxis(matrices, 0, 2).copy()
@@ -137,20 +152,28 @@ def _times(a: np.ndarray, b: np.ndarray) -> np.ndarray:
 
 
 def arap_rhs(energy: ArapEnergy, turns: np.ndarray) -> np.ndarray:
-    """``b (n, 3)`` such that ``laplacian @ x = b`` at the least energy for the rotations ``turns (n, 3, 3)``."""
+    """Return ``b (n, 3)`` with ``laplacian @ x = b`` at the least energy for the rotations ``turns (n, 3, 3)``."""
     n = len(turns)
     return 0.5 * (energy.moments.T @ turns.transpose(2, 0, 1).reshape(3 * n, 3))
 
 
 def arap_energy(energy: ArapEnergy, x: np.ndarray, turns: np.ndarray | None = None) -> float:
-    """The energy of ``x (n, 3)``, at least 0; with the best rotations unless ``turns`` are given."""
+    """Return the energy of deformed positions, at least 0.
+
+    Parameters
+    ----------
+    energy : ArapEnergy
+    x : (n, 3) float64
+    turns : (n, 3, 3) float64, optional
+        Rotations of the vertices; the best ones when not given.
+    """
     turns = rotations(energy, x) if turns is None else turns
     sizes = np.sum(x * (energy.laplacian @ x)) + np.sum(energy.rest * (energy.laplacian @ energy.rest))
     return max(float(sizes - 2 * np.sum(x * arap_rhs(energy, turns))), 0.0)
 
 
 def arap_energy_per_vertex(energy: ArapEnergy, x: np.ndarray) -> np.ndarray:
-    """The share of each vertex ``(n,)`` in twice the energy of ``x (n, 3)``, with the best rotations."""
+    """Return the share of each vertex, (n,), in twice the energy of ``x (n, 3)``, with the best rotations."""
     edges = energy.laplacian.tocoo()
     off = edges.row != edges.col
     i, j, w = edges.row[off], edges.col[off], -edges.data[off]

@@ -1,4 +1,4 @@
-"""The Laplace-Beltrami basis of a shape: the functions that every map is written in."""
+"""The Laplace-Beltrami basis of a shape, which functional maps are written in."""
 
 from __future__ import annotations
 
@@ -91,15 +91,16 @@ class Basis:
 
 
 def eigenvalue_tolerance(basis: Basis) -> float:
-    """Below this an eigenvalue is zero, that of a component's constant: one machine gives 0, another 1e-12.
+    """Return the eigenvalue below which one counts as zero, that of a component's constant.
 
-    A millionth of ``4π / area``, Weyl's estimate of the distance between eigenvalues.
+    One machine gives 0, another 1e-12. It is a millionth of ``4π / area``, Weyl's estimate of the distance between
+    eigenvalues.
     """
     return 4e-6 * np.pi / float(to_numpy(basis.mass).sum())
 
 
 def cotangent_laplacian(mesh: Mesh) -> csc_array:
-    """Weak cotangent Laplacian (n, n), symmetric and positive semi-definite; rows sum to zero.
+    """Return the weak cotangent Laplacian (n, n), symmetric and positive semi-definite; rows sum to zero.
 
     The entry of an edge is minus half the sum of the cotangents of the angles opposite it (Pinkall and Polthier,
     Computing discrete minimal surfaces, 1993). Of a face with an angle below 1e-6, or so close to π, the edges count as
@@ -162,13 +163,13 @@ def laplace_basis(
     progress: Callable[[float], None] | None = None,
     tolerance: float = EXACT,
 ) -> Basis:
-    """The first ``k`` eigenfunctions of the Laplacian of a mesh or point cloud.
+    """Return the first ``k`` eigenfunctions of the Laplacian of a mesh or point cloud.
 
     Any triangles will do: boundaries (with natural, Neumann conditions), several components (one eigenvalue
     zero for each), faces without area, edges with more than two faces. Open edges that lie in one place are connected
     (:func:`kfmaps.geometry.clean.weld_vertices`), and points of a cloud in one place count as one: the first has the
-    mass, the others its functions. A vertex that no face uses takes part in nothing: its mass is zero, and its
-    functions are those of the used vertex nearest in space.
+    mass, the others its functions. A vertex that no face uses has no mass and the functions of the used vertex nearest
+    in space.
 
     Parameters
     ----------
@@ -192,6 +193,10 @@ def laplace_basis(
     tolerance : float
         Of the eigensolver; from 1e-6 on it is a looser kind of one, see
         :func:`~kfmaps.geometry.eigen.eigensolver.smallest_eigenpairs`.
+
+    Returns
+    -------
+    Basis
 
     Raises
     ------

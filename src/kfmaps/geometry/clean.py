@@ -1,8 +1,7 @@
-"""What the work is done on: each place of a surface once, and nothing that belongs to no surface.
+"""Cleaning: open edges at the same position are welded, unused vertices and specks are left out.
 
 Files cut surfaces along the seams of a texture, or leave every triangle on its own (flat shading, STL); they keep
-vertices that no face uses, and specks that float beside the surface. Inside, open edges that lie in one place are
-connected and the rest is left out; outside, every vertex keeps its number.
+vertices that no face uses, and specks that float beside the surface. A :class:`CleanedMesh` knows both numberings.
 """
 
 from __future__ import annotations
@@ -21,20 +20,20 @@ SPECK = 0.005
 
 @dataclass(frozen=True, eq=False)
 class CleanedMesh:
-    """A mesh of ``m`` vertices that stands for one of ``n``; made by :func:`clean_mesh`.
+    """A cleaned mesh of ``m`` vertices and the numbers of its ``n`` original ones; made by :func:`clean_mesh`.
 
     Attributes
     ----------
     mesh : Mesh
         Its faces name three vertices each. The very mesh that was given when there is nothing to leave out.
-    kept : (m,) int64
-        Their numbers outside, ascending. Of vertices in one place the first is kept.
-    number : (n,) int64
-        The vertex inside that each one outside counts as.
-    loose : (n,) bool
-        Which vertices outside belong to no surface: they count as the vertex nearest in space.
-    joined : int
-        How many vertices outside count as one with an earlier one.
+    to_original : (m,) int64
+        Original number of each vertex, ascending. Of welded vertices the first is kept.
+    to_clean : (n,) int64
+        The vertex that each original one counts as.
+    unreferenced : (n,) bool
+        Original vertices of no face: they count as the vertex nearest in space.
+    n_welded : int
+        How many original vertices count as one with an earlier one.
     specks : int
         Components left out.
     """
@@ -48,15 +47,15 @@ class CleanedMesh:
 
     @property
     def whole(self) -> bool:
-        """Whether all vertices are there, each for itself."""
+        """Whether every original vertex is there, each for itself."""
         return len(self.to_original) == len(self.to_clean)
 
 
 def weld_vertices(mesh: Mesh) -> np.ndarray:
-    """For each vertex the first of those that it is connected with by lying in one place, (n,) int64.
+    """Return for each vertex the first of those that it is welded with, (n,) int64.
 
-    Of a mesh these are the ends of open edges, those of one face only, that lie on other open edges: surfaces that
-    merely touch in a point stay apart. Of a point cloud they are all points in one place.
+    Of a mesh the ends of open edges are welded that lie exactly on other open edges: surfaces that merely touch in a
+    point stay apart. Of a point cloud all points at one position are welded.
     """
     n = len(mesh.vertices)
     if len(mesh.faces) == 0:
@@ -85,7 +84,7 @@ def weld_vertices(mesh: Mesh) -> np.ndarray:
 
 
 def clean_mesh(mesh: Mesh, specks: bool = False) -> CleanedMesh:
-    """``mesh`` with each place once, without faces that name a vertex twice and vertices that no other face uses.
+    """Return a mesh without welded vertices, faces that name a vertex twice, and vertices that no other face uses.
 
     Parameters
     ----------
@@ -93,6 +92,10 @@ def clean_mesh(mesh: Mesh, specks: bool = False) -> CleanedMesh:
         Its face numbers within range.
     specks : bool
         Whether to leave out components whose area is less than :data:`SPECK` of the largest one's.
+
+    Returns
+    -------
+    CleanedMesh
     """
     n = len(mesh.vertices)
     first = weld_vertices(mesh)
@@ -124,7 +127,7 @@ def clean_mesh(mesh: Mesh, specks: bool = False) -> CleanedMesh:
 
 
 def outer_faces(mesh: Mesh, part: CleanedMesh) -> np.ndarray:
-    """The face of ``mesh`` that each face inside is, (g,) int64; ``part`` is its inside, corners in the same order."""
+    """Return the face of ``mesh`` that each face of its cleaned mesh ``part`` is, (g,) int64."""
     if part.mesh.faces is mesh.faces:
         return np.arange(len(mesh.faces))
     within = part.to_clean[mesh.faces]

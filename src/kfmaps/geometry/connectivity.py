@@ -83,7 +83,14 @@ def boundary_edges(faces: np.ndarray, n: int) -> np.ndarray:
 
 @dataclass(frozen=True, eq=False)
 class VertexRings:
-    """The faces around each vertex: those of vertex ``i`` are ``faces[start[i]:start[i + 1]]``."""
+    """The faces around each vertex; made by :func:`vertex_rings`.
+
+    Attributes
+    ----------
+    start : (n + 1,) int64
+        The faces of vertex ``i`` are ``faces[start[i]:start[i + 1]]``.
+    faces : (3 f,) int64
+    """
 
     start: np.ndarray
     faces: np.ndarray

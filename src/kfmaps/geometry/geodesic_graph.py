@@ -84,17 +84,16 @@ def _first_windows(vertices: np.ndarray, faces: np.ndarray, corners: np.ndarray)
     return _Windows(source, corners, right, left, right_at, left_at, right_at, left_at)[seen]
 
 
-def _crossed(
-    vertices: np.ndarray, faces: np.ndarray, start: np.ndarray, twins: np.ndarray, windows: _Windows
-) -> tuple[_Windows, np.ndarray, np.ndarray, np.ndarray]:
-    """Unfold the faces behind the windows' edges: next windows, and (sources, vertices, distances) in sight."""
+def _corners_behind(start: np.ndarray, twins: np.ndarray, windows: _Windows) -> tuple[np.ndarray, np.ndarray]:
+    """The faces behind the windows' edges, by the corner opposite the edge, and the window that each is behind."""
     count = start[windows.edge + 1] - start[windows.edge]
     index = np.repeat(np.arange(len(count)), count)
     within = np.arange(len(index)) - np.repeat(np.cumsum(count) - count, count)
-    w = windows[index]
-    corner = twins[start[w.edge] + within]
-    face = corner // 3
-    apex = faces[face, corner % 3]
+    return index, twins[start[windows.edge[index]] + within]
+
+
+def _unfolded(vertices: np.ndarray, w: _Windows, apex: np.ndarray) -> np.ndarray:
+    """Where the vertices ``apex (w,)`` behind the windows' edges lie in the plane, (w, 2)."""
     edge = w.left_at - w.right_at
     length = np.linalg.norm(edge, axis=1)
     unit = edge / np.where(length > 0, length, 1)[:, None]
@@ -103,7 +102,17 @@ def _crossed(
     along = (to_right**2 - to_left**2 + length**2) / (2 * np.where(length > 0, length, 1))
     beyond = np.sqrt(np.maximum(to_right**2 - along**2, 0))
     outward = np.stack([unit[:, 1], -unit[:, 0]], axis=1)
-    at = w.right_at + along[:, None] * unit + beyond[:, None] * outward
+    return w.right_at + along[:, None] * unit + beyond[:, None] * outward
+
+
+def _crossed(
+    vertices: np.ndarray, faces: np.ndarray, start: np.ndarray, twins: np.ndarray, windows: _Windows
+) -> tuple[_Windows, np.ndarray, np.ndarray, np.ndarray]:
+    """Unfold the faces behind the windows' edges: next windows, and (sources, vertices, distances) in sight."""
+    index, corner = _corners_behind(start, twins, windows)
+    w, face = windows[index], corner // 3
+    apex = faces[face, corner % 3]
+    at = _unfolded(vertices, w, apex)
     after_low, before_high = _cross(w.low, at) >= 0, _cross(at, w.high) >= 0
     sight = after_low & before_high
     found = w.source[sight], apex[sight], np.linalg.norm(at[sight], axis=1)

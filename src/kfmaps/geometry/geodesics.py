@@ -83,7 +83,7 @@ def _heat(mesh: Mesh, sources: np.ndarray) -> np.ndarray:
 
 
 def geodesic_distances(mesh: Mesh, sources: ArrayLike, method: str = "unfolded") -> np.ndarray:
-    """Distances along the surface from each source to every vertex.
+    """Return distances along the surface from each source to every vertex.
 
     Parameters
     ----------
@@ -123,7 +123,7 @@ def geodesic_distances(mesh: Mesh, sources: ArrayLike, method: str = "unfolded")
 
 
 def geodesic_distance_pairs(mesh: Mesh, a: ArrayLike, b: ArrayLike, method: str = "unfolded") -> np.ndarray:
-    """Distance along the surface from vertex ``a[i]`` to vertex ``b[i]``, (q,), in the mesh's own unit.
+    """Return the distance along the surface from vertex ``a[i]`` to vertex ``b[i]``, in the mesh's own unit.
 
     No n × n matrix is held: sources are taken in blocks, each searched only as far as its pairs need, so that
     five thousand near pairs on five thousand vertices take less than a second.
@@ -232,7 +232,7 @@ def pairwise_geodesics(graph: csr_array, points: np.ndarray) -> np.ndarray:
 def farthest_geodesic(
     mesh: Mesh, count: int, rng: int | np.random.Generator = 0, first: int | None = None
 ) -> np.ndarray:
-    """Vertices spread evenly over the surface: each is the farthest from those before it.
+    """Return vertices spread evenly over the surface: each is the farthest from those before it.
 
     Distances run over edges and the diagonals of neighbouring faces (1.3 % error). Each new sample costs only
     the vertices that are nearer to it than to all before, so the whole costs little more than a few searches.

@@ -58,26 +58,26 @@ def unit_rows(vectors: np.ndarray) -> np.ndarray:
 
 
 def face_areas(mesh: Mesh) -> np.ndarray:
-    """Area of each face, (f,), in squared units of the vertices."""
+    """Return the area of each face, (f,) float64, in squared units of the vertices."""
     return 0.5 * np.linalg.norm(_face_vectors(mesh), axis=1)
 
 
 def face_normals(mesh: Mesh) -> np.ndarray:
-    """Unit normal of each face, (f, 3); zero for a face without area."""
+    """Return the unit normal of each face, (f, 3) float64; zero for a face without area."""
     return unit_rows(_face_vectors(mesh))
 
 
 def surface_area(mesh: Mesh) -> float:
-    """Sum of the face areas; of a point cloud that of the areas its points stand for, an estimate."""
+    """Return the sum of the face areas; of a point cloud an estimate (:func:`vertex_areas`)."""
     if len(mesh.faces) == 0 and len(mesh.vertices):
         return float(cloud_areas(mesh.vertices).sum())
     return float(face_areas(mesh).sum())
 
 
 def vertex_areas(mesh: Mesh) -> np.ndarray:
-    """A third of the area of the faces around each vertex, (n,) (barycentric lumped mass).
+    """Return a third of the area of the faces around each vertex, (n,) float64: the barycentric lumped mass.
 
-    Of a point cloud an estimate of the area that each point stands for
+    Of a point cloud it is an estimate of the area that each point stands for
     (:func:`kfmaps.geometry.point_cloud.cloud_areas`).
     """
     if len(mesh.faces) == 0 and len(mesh.vertices):
@@ -87,7 +87,7 @@ def vertex_areas(mesh: Mesh) -> np.ndarray:
 
 
 def vertex_normals(mesh: Mesh) -> np.ndarray:
-    """Unit area-weighted normal of each vertex, (n, 3); zero where no face meets the vertex."""
+    """Return the unit area-weighted normal of each vertex, (n, 3) float64; zero where no face meets the vertex."""
     vectors = _face_vectors(mesh)
     corners = mesh.faces.ravel()
     summed = [np.bincount(corners, np.repeat(v, 3), minlength=len(mesh.vertices)) for v in vectors.T]
@@ -102,23 +102,30 @@ def boundary_vertices(mesh: Mesh) -> np.ndarray:
 
 
 MIRROR = np.array([-1.0, 1.0, 1.0])
-"""What takes positions to those of the mirror image."""
+"""Factors of the coordinates that reflect positions in the plane x = 0."""
 
 
 def mirror_mesh(mesh: Mesh) -> Mesh:
-    """The mirror image, with the same vertices and its outside outside."""
+    """Return the mirror image in the plane x = 0, with the same vertices and faces that still look outward."""
     return Mesh(mesh.vertices * MIRROR, mesh.faces[:, ::-1])
 
 
 def unit_area(mesh: Mesh) -> Mesh:
-    """The mesh centred on its vertices' mean and scaled so that its area is 1.
+    """Return the mesh centred on its vertices' mean and scaled to area 1.
 
-    The area of a point cloud is estimated (:func:`surface_area`).
+    Parameters
+    ----------
+    mesh : Mesh
+        The area of a point cloud is estimated (:func:`surface_area`).
+
+    Returns
+    -------
+    Mesh
 
     Raises
     ------
     InvalidInput
-        When it has no area.
+        If it has no area.
     """
     centred = mesh.vertices - mesh.vertices.mean(axis=0)
     area = surface_area(mesh)

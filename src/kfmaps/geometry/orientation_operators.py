@@ -16,7 +16,7 @@ from kfmaps.geometry.mesh import Mesh
 
 
 def orientation_operators(mesh: Mesh, basis: Basis, functions: Array, threads: int | None = None) -> Array:
-    """Matrices of the operators ``Ω_w[g] = n · (∇w × ∇g)`` in a basis, one for each function w.
+    """Return the matrices of the operators ``Ω_w[g] = n · (∇w × ∇g)`` in a basis, one for each function w.
 
     Entry (i, j) of slice s is ``∫ φᵢ n · (∇wₛ × ∇φⱼ)``, w and φ linear on each face and the integral exact. It
     depends on the positions of the vertices through the basis alone: gradients and area cancel.
@@ -32,7 +32,7 @@ def orientation_operators(mesh: Mesh, basis: Basis, functions: Array, threads: i
         Of the mesh, k functions.
     functions : (n, r)
         One function a column, values at the vertices. The slices are linear in them: for functions with
-        coefficients c (k, r) in the basis, when r > k, combine ``orientation_slices(mesh, basis,
+        coefficients c (k, r) in the basis, when r > k, combine ``orientation_operators(mesh, basis,
         basis.functions)`` by c.
     threads : int, optional
         Python threads; every available core when not given.

@@ -1,4 +1,4 @@
-"""Point clouds: the Laplacian and the areas of the surface that they are taken from, and links along it."""
+"""Point clouds: Laplacian, areas, and edges between neighbours."""
 
 from __future__ import annotations
 
@@ -13,13 +13,13 @@ from kfmaps.geometry.connectivity import component_labels, unique_vertices
 from kfmaps.geometry.eigen.factorization import Sparse
 
 AROUND = 30
-"""Neighbours of a point that its piece of the surface is triangulated from."""
+"""Neighbours of a point that are triangulated with it."""
 NEIGHBOURS = 12
 """Neighbours that a point is linked to."""
 
 
 def cloud_laplacian(points: np.ndarray) -> tuple[Sparse, np.ndarray]:
-    """Weak Laplacian (n, n) and areas (n,) of ``points (n, 3)``, all in different places.
+    """Return the weak Laplacian (n, n) and the areas (n,) of ``points (n, 3)``, all at different positions.
 
     Every point's neighbours are triangulated in its tangent plane and the tufted Laplacian is built on all these
     triangles (Sharp and Crane 2020, section 5.7). The areas, in squared units of the points, are of the surface that
@@ -28,7 +28,7 @@ def cloud_laplacian(points: np.ndarray) -> tuple[Sparse, np.ndarray]:
     Raises
     ------
     InvalidInput
-        When the points lie on no surface: fewer than four, or on a line.
+        If the points lie on no surface: fewer than four, or on a line.
     """
     wanted = "points spread over a surface"
     if len(points) < 4:
@@ -44,14 +44,9 @@ def cloud_laplacian(points: np.ndarray) -> tuple[Sparse, np.ndarray]:
 
 
 def cloud_areas(points: np.ndarray) -> np.ndarray:
-    """The area that each of ``points (n, 3)`` stands for, (n,), in their squared units, by :func:`cloud_laplacian`.
+    """Return the area that each of ``points (n, 3)`` stands for, (n,), by :func:`cloud_laplacian`.
 
-    Of several points in one place the first has it all.
-
-    Raises
-    ------
-    InvalidInput
-        When the points lie on no surface.
+    Of several points at one position the first has it all.
     """
     kept = np.unique(unique_vertices(points))
     areas = np.zeros(len(points))

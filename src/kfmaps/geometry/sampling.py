@@ -1,4 +1,4 @@
-"""Some points of a shape that stand for all, each with the area closest to it: a quadrature for functions.
+"""Samples of a shape, each with the area closest to it: a quadrature for functions.
 
 Both choices work in the biharmonic embedding, which follows the surface and needs no mesh. Measured on a shape of
 80,000 vertices by ``‖ΦᵀA_qΦ − I‖₂`` for 100 functions, 10,000 samples: random ones 0.12, farthest points of a random
@@ -22,37 +22,49 @@ STRATA = 8
 """Coordinates of the embedding that strata are cut by."""
 POOL = 8_000
 """Vertices that :func:`spectral_samples` chooses from, at most (but four times as many as it is to choose)."""
-
-
 CROWDED = 0.15
 """Part of the area that half of the samples stand for, below which they crowd: on bodies it is 0.24 and more."""
 
 
 @dataclass(frozen=True, eq=False)
 class SampledBasis(Basis):
-    """A basis on some points of a shape, on which its functions are not quite orthonormal.
+    """A basis at the samples of a shape, where its functions are not quite orthonormal.
 
-    ``mass`` is the area that is closest to each point.
+    ``mass`` is the area that is closest to each sample.
     """
 
 
 @dataclass(frozen=True, eq=False)
 class SpectralSamples:
-    """Some vertices of a shape, ``(q,)``, and its basis on them."""
+    """Samples of a shape: their vertices, (q,) int64, and the basis at them."""
 
     vertices: np.ndarray
     basis: SampledBasis
 
 
 def spectral_samples(basis: Basis, count: int, rng: int | np.random.Generator = 0) -> SpectralSamples:
-    """Farthest points of a shape in its biharmonic embedding (Lipman et al. 2010), with the area closest to each.
+    """Return farthest points of a shape in its biharmonic embedding, with the area closest to each.
 
-    Needs no mesh, and spreads evenly over the surface whatever its triangulation. At most the vertices there
-    are; vertices that no face uses are passed over. Of a large shape they are the farthest of :data:`POOL`
-    stratified ones, so that their cost hardly grows with the mesh.
+    They spread evenly over the surface whatever its triangulation. Of a large shape they are the farthest of
+    :data:`POOL` stratified ones, so that their cost hardly grows with the mesh. The embedding stretches bridges, the
+    thinner the more: where the samples would crowd there (:data:`CROWDED`), they are the farthest of twice as many
+    stratified ones, which a bridge has no more of than its area is worth.
 
-    The embedding stretches bridges, the thinner the more. Where the samples would crowd there (:data:`CROWDED`), they
-    are the farthest of twice as many stratified ones, which a bridge has no more of than its area is worth.
+    Parameters
+    ----------
+    basis : Basis
+        Of a shape with n vertices. Those without area are passed over.
+    count : int
+        Fewer where there are no more vertices.
+    rng : seed or Generator
+
+    Returns
+    -------
+    SpectralSamples
+
+    References
+    ----------
+    Lipman, Rustamov and Funkhouser, Biharmonic distance (2010).
     """
     check_count(count, "sample count")
     candidates, embedding = _embedded(basis)
@@ -78,10 +90,10 @@ def _crowded(samples: SpectralSamples, count: int) -> bool:
 def stratified_samples(
     basis: Basis, count: int, rng: int | np.random.Generator = 0, kept: np.ndarray | None = None
 ) -> SpectralSamples:
-    """One random point from each of ``count`` compact regions of equal area, with the area closest to each.
+    """Return one random vertex from each of ``count`` compact regions of equal area, with the area closest to each.
 
-    Needs no mesh and takes time ``n log n`` whatever the count: made for thousands of samples. A vertex that
-    would be drawn twice counts once.
+    It takes time ``n log n`` whatever the count: made for thousands of samples. A vertex that would be drawn twice
+    counts once.
 
     Parameters
     ----------
@@ -90,7 +102,12 @@ def stratified_samples(
     count : int
     rng : seed or Generator
     kept : (l,) int64, optional
-        Vertices to be among the samples, beside the others. The samples come in ascending order.
+        Vertices to be among the samples, beside the others.
+
+    Returns
+    -------
+    SpectralSamples
+        In ascending order.
     """
     candidates, embedding, chosen = _strata(basis, count, rng)
     if kept is None:
@@ -106,7 +123,7 @@ def stratified_samples(
 def stratified_vertices(
     basis: Basis, count: int, rng: int | np.random.Generator = 0, kept: np.ndarray | None = None
 ) -> np.ndarray:
-    """The vertices of :func:`stratified_samples` alone, in a fraction of its time."""
+    """Return the vertices of :func:`stratified_samples` alone, (q,) int64, in a fraction of its time."""
     candidates, _, chosen = _strata(basis, count, rng)
     return candidates[chosen] if kept is None else np.union1d(candidates[chosen], kept)
 
@@ -133,10 +150,21 @@ def _embedded(basis: Basis) -> tuple[np.ndarray, np.ndarray]:
 def stratified(
     embedding: np.ndarray, mass: np.ndarray, count: int, rng: int | np.random.Generator | None
 ) -> np.ndarray:
-    """Systematic sampling by area along the leaves of a k-d tree, which follow each other in space.
+    """Sample points systematically by area, along the leaves of a k-d tree, which follow each other in space.
 
-    ``embedding (n, d)`` are places, of which the first eight coordinates count, ``mass (n,)`` their areas. Returns
-    numbers of rows in ascending order, ``count`` or, where one is drawn twice, fewer.
+    Parameters
+    ----------
+    embedding : (n, d) float64
+        Positions, of which the first :data:`STRATA` coordinates count.
+    mass : (n,) float64
+        Areas.
+    count : int
+    rng : seed or Generator
+
+    Returns
+    -------
+    (q,) int64
+        Rows in ascending order: ``count`` or, where one is drawn twice, fewer.
     """
     order = KDTree(embedding[:, :STRATA]).indices
     reached = np.cumsum(mass[order])

@@ -9,10 +9,18 @@ from scipy.sparse.csgraph import connected_components, dijkstra
 from kfmaps._arrays import check, refuse
 from kfmaps.geometry.clean import weld_vertices
 from kfmaps.geometry.connectivity import proper_faces
-from kfmaps.geometry.geodesic_graph import _cross, _crossed, _neighbours, _Windows, geodesic_graph
+from kfmaps.geometry.geodesic_graph import (
+    _corners_behind,
+    _cross,
+    _crossed,
+    _neighbours,
+    _unfolded,
+    _Windows,
+    geodesic_graph,
+)
 from kfmaps.geometry.mesh import Mesh, unit_rows
 
-LOOKS = 4
+VERTEX_SIGHT = 4
 """Edges that a straight line from a point to a vertex may cross."""
 DIRECT = 16
 """Edges that a straight line from one point to the other may cross: farther ones go over vertices, at 0.3 % more."""
@@ -23,20 +31,20 @@ BLOCK = 64
 def surface_point_distances(
     mesh: Mesh, faces_a: np.ndarray, weights_a: np.ndarray, faces_b: np.ndarray, weights_b: np.ndarray
 ) -> np.ndarray:
-    """Distance along the surface from point ``a[i]`` to point ``b[i]``, (q,), in the mesh's own unit.
+    """Return the distance along the surface from point ``a[i]`` to point ``b[i]``, in the mesh's own unit.
 
-    The shorter of the straight line from one to the other over up to :data:`DIRECT` unfolded edges, which is exact, and
-    the shortest path over vertices (:func:`kfmaps.geometry.geodesic_graph.geodesic_graph`) that both see in straight
-    lines.
+    It is the shorter of the straight line from one to the other over up to :data:`DIRECT` unfolded edges, which is
+    exact, and the shortest path over vertices (:func:`kfmaps.geometry.geodesic_graph.geodesic_graph`) that both see in
+    straight lines.
 
     Parameters
     ----------
     mesh : Mesh
         A surface.
     faces_a, faces_b : (q,) int
-        The faces that the points lie in, ...
+        The faces that the points lie in.
     weights_a, weights_b : (q, 3) float64
-        ... and their barycentric coordinates there.
+        Barycentric coordinates in them.
 
     Returns
     -------
@@ -78,11 +86,11 @@ def surface_point_distances(
         links.append((np.repeat(here, 3), corners.ravel(), away.ravel()))
         inside_ = np.flatnonzero(number[chosen] >= 0)
         windows = _views(mesh.vertices, inner, number[chosen[inside_]], points[inside_], inside_)
-        for depth in range(LOOKS if side else DIRECT):
+        for depth in range(VERTEX_SIGHT if side else DIRECT):
             if side == 0:
                 _met(straight, mesh.vertices, inner, start, twins, windows, number[sides[1][0]], sides[1][1])
             windows, *seen = _crossed(mesh.vertices, inner, start, twins, windows)
-            if depth < LOOKS:
+            if depth < VERTEX_SIGHT:
                 links.append((n + side * q + seen[0], seen[1], seen[2]))
             if side == 0:
                 near = np.minimum(_nearest(windows), np.inf)
@@ -139,25 +147,14 @@ def _met(
     weights: np.ndarray,
 ) -> None:
     """Lower ``best (q,)`` where the face behind a window is ``there (q,)`` and its point, ``weights``, is in sight."""
-    count = start[windows.edge + 1] - start[windows.edge]
-    index = np.repeat(np.arange(len(count)), count)
-    within = np.arange(len(index)) - np.repeat(np.cumsum(count) - count, count)
-    corner = twins[start[windows.edge[index]] + within]
+    index, corner = _corners_behind(start, twins, windows)
     hit = np.flatnonzero(corner // 3 == there[windows.source[index]])
     if len(hit) == 0:
         return
     w, corner = windows[index[hit]], corner[hit]
     face = faces[corner // 3]
     apex = face[np.arange(len(face)), corner % 3]
-    edge = w.left_at - w.right_at
-    length = np.maximum(np.linalg.norm(edge, axis=1), np.finfo(float).tiny)
-    along_edge = edge / length[:, None]
-    to_right = np.linalg.norm(vertices[apex] - vertices[w.right], axis=1)
-    to_left = np.linalg.norm(vertices[apex] - vertices[w.left], axis=1)
-    along = (to_right**2 - to_left**2 + length**2) / (2 * length)
-    beyond = np.sqrt(np.maximum(to_right**2 - along**2, 0))
-    outward = np.stack([along_edge[:, 1], -along_edge[:, 0]], axis=1)
-    at = w.right_at + along[:, None] * along_edge + beyond[:, None] * outward
+    at = _unfolded(vertices, w, apex)
     share = weights[w.source]
     place = np.zeros_like(at)
     for which, where in ((w.right, w.right_at), (w.left, w.left_at), (apex, at)):

@@ -1,4 +1,4 @@
-"""Kernels: inner products of lifted descriptors, ``k(X (n, d), Y (m, d)) -> (n, m)``.
+"""Kernels of descriptors, ``k(X (n, d), Y (m, d)) -> (n, m)``.
 
 Every kernel is a small frozen record. Any callable with that signature is a kernel too (scikit-learn's
 pairwise kernels, a function of your own): :func:`kernel_matrix` calls it and checks what comes back.
@@ -29,11 +29,11 @@ class Kernel(Protocol):
 
 
 @runtime_checkable
-class Adaptable(Protocol):
-    """A kernel that holds another and knows what that one sees, see :mod:`kfmaps.kernels.transformed`."""
+class _Resolvable(Protocol):
+    """A kernel of transformed descriptors; see :mod:`kfmaps.kernels.transformed`."""
 
     def resolved(self, samples: Array, sharpness: float) -> Kernel:
-        """The same with every automatic γ made a number."""
+        """Return the same kernel with every automatic γ made a number."""
         ...
 
 
@@ -41,7 +41,7 @@ KernelLike = Kernel | Callable[[Any, Any], Any]
 
 
 def squared_distances(X: Array, Y: Array) -> Array:
-    """``(n, m)`` squared Euclidean distances between rows, never negative."""
+    """Return the squared Euclidean distances (n, m) between rows of ``X (n, d)`` and ``Y (m, d)``, never negative."""
     xp = namespace(X, Y)
     # Distances do not see a common shift, rounding does: centring keeps small distances between far points.
     centre = xp.mean(Y, axis=0, keepdims=True)
@@ -51,7 +51,7 @@ def squared_distances(X: Array, Y: Array) -> Array:
 
 
 def distances(X: Array, Y: Array) -> Array:
-    """``(n, m)`` Euclidean distances between rows."""
+    """Return the Euclidean distances (n, m) between rows of ``X (n, d)`` and ``Y (m, d)``."""
     xp = namespace(X, Y)
     squares = squared_distances(X, Y)
     # What rounding leaves between equal rows is none. It is set to 1e-150, not to 0, where the root has no derivative.
@@ -65,7 +65,7 @@ def _ones(X: Array) -> Array:
 
 @dataclass(frozen=True)
 class Linear:
-    """``x·y``: no lifting. With it the method is that of Nogneng and Ovsjanikov (2017)."""
+    """``x·y``. With it the method is that of Nogneng and Ovsjanikov (2017)."""
 
     def __call__(self, X: Array, Y: Array, /) -> Array:
         return X @ Y.T
@@ -76,7 +76,7 @@ class Linear:
 
 @dataclass(frozen=True)
 class Polynomial:
-    """``(x·y + offset)^degree``: all products of up to ``degree`` descriptors; ``offset >= 0``."""
+    """``(x·y + offset)^degree`` with ``offset >= 0``: all products of up to ``degree`` descriptors."""
 
     degree: int = 2
     offset: float = 1.0
@@ -150,7 +150,7 @@ class Tanh:
 
 @dataclass(frozen=True)
 class Sum:
-    """``a(x, y) + b(x, y)``: the lifted vectors side by side."""
+    """``a(x, y) + b(x, y)``: the feature vectors side by side."""
 
     a: KernelLike
     b: KernelLike
@@ -164,7 +164,7 @@ class Sum:
 
 @dataclass(frozen=True)
 class Product:
-    """``a(x, y) · b(x, y)``: all products of one lifted entry of each."""
+    """``a(x, y) · b(x, y)``: all products of one feature of each."""
 
     a: KernelLike
     b: KernelLike
@@ -177,19 +177,26 @@ class Product:
 
 
 KERNELS = (Linear, Polynomial, Gaussian, Laplacian, Tanh, Sum, Product)
-"""Those that a settings file can name."""
+"""Kernels of plain descriptors; those of transformed ones are in :mod:`kfmaps.kernels.transformed`."""
 
 
 def kernel_matrix(kernel: KernelLike, X: Array, Y: Array) -> Array:
-    """Kernel matrix ``(n, m)`` between rows of ``X (n, d)`` and ``Y (m, d)``, checked.
+    """Return the kernel matrix between rows of descriptors, checked.
 
-    A callable that knows only NumPy works on any array library: it is handed NumPy arrays when it is not
-    one of the package's own records.
+    Parameters
+    ----------
+    kernel : Kernel or callable
+        A callable without ``diagonal`` is called with NumPy arrays, whatever the library of the descriptors.
+    X, Y : (n, d), (m, d)
+
+    Returns
+    -------
+    (n, m)
 
     Raises
     ------
     InvalidInput
-        When the kernel returns another shape, or NaN or infinite values.
+        If the kernel returns another shape, or NaN or infinite values.
     """
     with np.errstate(over="ignore", invalid="ignore"):  # what overflows is refused below, in words
         if isinstance(kernel, Kernel) or is_numpy(X):
@@ -210,7 +217,7 @@ def kernel_matrix(kernel: KernelLike, X: Array, Y: Array) -> Array:
 
 
 def kernel_diagonal(kernel: KernelLike, X: Array) -> Array:
-    """``(n,)`` values ``k(x, x)``, asked for row by row when the kernel has no ``diagonal``."""
+    """Return ``k(x, x)`` for the rows of ``X (n, d)``, (n,), row by row if the kernel has no ``diagonal``."""
     if isinstance(kernel, Kernel):
         return kernel.diagonal(X)
     xp = namespace(X)
@@ -220,24 +227,31 @@ def kernel_diagonal(kernel: KernelLike, X: Array) -> Array:
 
 
 def describe_kernel(kernel: KernelLike) -> str:
-    """The kernel's name for messages and tables."""
+    """Return the kernel's name for messages and tables."""
     if isinstance(kernel, Kernel):
         return repr(kernel)
     return getattr(kernel, "__name__", type(kernel).__name__)
 
 
 def resolve_kernel(kernel: KernelLike, samples: Array, sharpness: float = 1.0) -> KernelLike:
-    """The kernel with every automatic γ made a number.
+    """Return the kernel with every automatic γ made a number.
 
-    The rule looks only at descriptors: for the Gaussian ``γ = sharpness / median ‖x − y‖²`` and for the
-    Laplacian kernel ``γ = √sharpness / median ‖x − y‖``, over all pairs of different ``samples (q, d)``. So
-    ``sharpness`` is a number without unit that survives any scaling of the descriptors.
+    It is ``γ = sharpness / median ‖x − y‖²`` for the Gaussian and ``γ = √sharpness / median ‖x − y‖`` for the Laplacian
+    kernel, over all pairs of different samples.
+
+    Parameters
+    ----------
+    kernel : Kernel or callable
+    samples : (q, d)
+        Descriptors.
+    sharpness : float
+        A number without unit, so that scaling all descriptors does not change the kernel's values.
     """
     if isinstance(kernel, Sum | Product):
         return replace(
             kernel, a=resolve_kernel(kernel.a, samples, sharpness), b=resolve_kernel(kernel.b, samples, sharpness)
         )
-    if isinstance(kernel, Adaptable):
+    if isinstance(kernel, _Resolvable):
         return kernel.resolved(samples, sharpness)
     if not isinstance(kernel, Gaussian | Laplacian) or kernel.gamma is not None:
         return kernel

@@ -1,6 +1,6 @@
-"""Which rows of the descriptors the Nyström approximation is built from.
+"""Selection of the rows of descriptors that the Nyström approximation is built from.
 
-All return ``(count,)`` indices without repetition, fewer when the data run out of distinct rows.
+All return (count,) int64 rows without repetition, fewer where there are fewer distinct ones.
 Farthest points by geodesic distance are in :mod:`kfmaps.geometry.geodesics`.
 """
 
@@ -15,7 +15,7 @@ Rng = int | np.random.Generator | None
 
 
 def uniform(n: int, count: int, rng: Rng = 0) -> np.ndarray:
-    """``count`` of ``n`` rows, all subsets equally likely."""
+    """Return ``count`` of ``n`` rows, all subsets equally likely."""
     check_count(count, "sample count", high=n)
     return np.random.default_rng(rng).choice(n, size=count, replace=False)
 
@@ -25,11 +25,18 @@ POOL = 50_000
 
 
 def farthest_descriptors(X: Array, count: int, rng: Rng = 0, pool: int | None = POOL) -> np.ndarray:
-    """Farthest points in descriptor space (Gonzalez 1985; descriptor FPS of the paper, section 7.1).
+    """Return farthest points in descriptor space (Gonzalez 1985; descriptor FPS of the paper, section 7.1).
 
-    Starts at a random row of ``X (n, d)``, then takes the row farthest from all taken; stops early when
-    every row equals a taken one. Of more than ``pool`` rows (but at least ``4 count``) that many are drawn
-    first, so that the cost does not grow with n; ``None`` never does so.
+    The first is a random row, each next one the row farthest from all taken. It stops early when every row equals a
+    taken one.
+
+    Parameters
+    ----------
+    X : (n, d)
+    count : int
+    rng : seed or Generator
+    pool : int or None
+        Of more rows (but at least ``4 count``) that many are drawn first, so that the cost does not grow with n.
     """
     X = to_numpy(X)
     check_count(count, "sample count", high=len(X))
@@ -59,12 +66,22 @@ def farthest_descriptors(X: Array, count: int, rng: Rng = 0, pool: int | None = 
 def pivoted_cholesky(
     kernel: KernelLike, X: Array, count: int, *, randomised: bool = False, power: float = 1.0, rng: Rng = 0
 ) -> np.ndarray:
-    """Pivots of a partial Cholesky factorisation of the kernel matrix of ``X (n, d)``.
+    """Return the pivots of a partial Cholesky factorisation of the kernel matrix, in memory ``n × count``.
 
-    Greedy (largest residual diagonal; Fine and Scheinberg 2001) or, ``randomised``, drawn in proportion to
-    a ``power`` of it: 1 reduces the expected trace of the residual (RPCholesky; Chen, Epperly, Tropp and Webber 2023),
-    2 its expected squared Frobenius norm (Steinerberger 2024). Memory ``n × count``. Stops early when the residual is
-    spent. For a kernel that is not positive definite the negative part of the residual is passed over.
+    It stops early when the residual is spent. For a kernel that is not positive definite the negative part of the
+    residual is passed over.
+
+    Parameters
+    ----------
+    kernel : Kernel or callable
+    X : (n, d)
+    count : int
+    randomised : bool
+        Draw pivots in proportion to a power of the residual's diagonal (RPCholesky; Chen, Epperly, Tropp and Webber
+        2023), instead of taking the largest (Fine and Scheinberg 2001).
+    power : float
+        1 reduces the expected trace of the residual, 2 its expected squared Frobenius norm (Steinerberger 2024).
+    rng : seed or Generator
     """
     check_count(count, "sample count", high=X.shape[0])
     check_positive(power, "power")

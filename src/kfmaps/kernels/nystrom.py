@@ -43,7 +43,7 @@ class Nystrom:
         return int(self.whitener.shape[1])
 
     def features(self, X: Array, block: int = 8192) -> Array:
-        """``(n, r)`` features ``W`` of descriptors ``X (n, d)``, with ``W Wᵀ ≈ k(X, X)``."""
+        """Return the features ``W (n, r)`` of descriptors ``X (n, d)``, with ``W Wᵀ ≈ k(X, X)``."""
         check(
             X,
             "descriptors",
@@ -57,18 +57,30 @@ class Nystrom:
 
 
 def nystrom(kernel: KernelLike, samples: Array, rtol: float = 1e-12) -> Nystrom:
-    """Factor the kernel matrix of ``samples (q, d)``.
+    """Factor the kernel matrix of some samples.
 
-    ``R₀`` is numerically singular for smooth kernels, so eigenvalues below ``rtol`` times the largest are
-    dropped. Negative ones beyond that (an indefinite kernel such as tanh) are dropped with a
-    :class:`KfmapsWarning`, and with them all that are smaller than a fifth of the most negative one. Of those, a
-    point that is no sample has in ``k(P, S) V`` much of the negative part beside its own: divided by their roots it
-    would give features of any length, where it now has at most ``‖k(P, S)‖² / (λ_min / 5)``.
+    ``R₀`` is numerically singular for smooth kernels, so small eigenvalues are dropped. Negative ones beyond that (an
+    indefinite kernel such as tanh) are dropped with a :class:`KfmapsWarning`, and with them all that are smaller than a
+    fifth of the most negative one. Of those, a point that is no sample has in ``k(P, S) V`` much of the negative part
+    beside its own: divided by their roots it would give features of any length, where it now has at most
+    ``‖k(P, S)‖² / (λ_min / 5)``.
+
+    Parameters
+    ----------
+    kernel : Kernel or callable
+    samples : (q, d)
+        Descriptors.
+    rtol : float
+        Part of the largest eigenvalue below which others are dropped.
+
+    Returns
+    -------
+    Nystrom
 
     Raises
     ------
     InvalidInput
-        When no eigenvalue is positive, or the kernel returns a wrong shape or NaN.
+        If no eigenvalue is positive, or the kernel returns a wrong shape or NaN.
     """
     if not 0 <= rtol < 1:
         raise refuse("Nyström rtol", "a number from 0 to below 1", repr(rtol), "1e-12 is usual")

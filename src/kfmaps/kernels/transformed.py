@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
 from itertools import pairwise
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 
@@ -18,7 +18,27 @@ from kfmaps.kernels.kernels import Gaussian, KernelLike, describe_kernel, kernel
 
 
 @dataclass(frozen=True)
-class Metric:
+class _Transformed:
+    """A kernel of transformed descriptors."""
+
+    kernel: KernelLike = field(default_factory=Gaussian)
+
+    def transform(self, X: Array) -> Array:
+        raise NotImplementedError
+
+    def __call__(self, X: Array, Y: Array, /) -> Array:
+        return kernel_matrix(self.kernel, self.transform(X), self.transform(Y))
+
+    def diagonal(self, X: Array, /) -> Array:
+        return kernel_diagonal(self.kernel, self.transform(X))
+
+    def resolved(self, samples: Array, sharpness: float) -> Self:
+        """Return the same with every automatic γ of the inner kernel made a number."""
+        return replace(self, kernel=resolve_kernel(self.kernel, self.transform(samples), sharpness))
+
+
+@dataclass(frozen=True, repr=False)
+class Metric(_Transformed):
     """``kernel(M x, M y)``: distances and products in the metric ``MᵀM``.
 
     Attributes
@@ -31,7 +51,6 @@ class Metric:
         other descriptors. Checked by :func:`kfmaps.matching.features.resolve_kernel_width`.
     """
 
-    kernel: KernelLike = field(default_factory=Gaussian)
     matrix: tuple[float, ...] | tuple[tuple[float, ...], ...] = ()
     landmarks: int | None = None
 
@@ -42,31 +61,21 @@ class Metric:
         plain = values.tolist()
         object.__setattr__(self, "matrix", tuple(tuple(row) if values.ndim == 2 else row for row in plain))
 
-    def __call__(self, X: Array, Y: Array, /) -> Array:
-        return kernel_matrix(self.kernel, self.transform(X), self.transform(Y))
-
-    def diagonal(self, X: Array, /) -> Array:
-        return kernel_diagonal(self.kernel, self.transform(X))
-
     def transform(self, X: Array) -> Array:
-        """``(n, r)`` rows ``M x`` of descriptors ``X (n, d)``."""
+        """Return the rows ``M x``, (n, r), of descriptors ``X (n, d)``."""
         M = like(self.matrix, X)
         if X.shape[1] != M.shape[-1]:
             remedy = "match with as many descriptors and landmarks as it was learned with"
             raise refuse("descriptors", f"{M.shape[-1]}, as the metric has", str(X.shape[1]), remedy)
         return X * M[None, :] if M.ndim == 1 else X @ M.T
 
-    def resolved(self, samples: Array, sharpness: float) -> Metric:
-        """The same with every automatic γ of the inner kernel made a number."""
-        return replace(self, kernel=resolve_kernel(self.kernel, self.transform(samples), sharpness))
-
     def __repr__(self) -> str:
         size = " × ".join(str(n) for n in np.shape(self.matrix))
         return f"Metric({describe_kernel(self.kernel)}, {size})"
 
 
-@dataclass(frozen=True)
-class Network:
+@dataclass(frozen=True, repr=False)
+class Network(_Transformed):
     """``kernel`` of the rows ``(x, f(x))``: descriptors, and beside them what a small network makes of them.
 
     Attributes
@@ -78,7 +87,6 @@ class Network:
         The descriptors that the network sees; none means all.
     """
 
-    kernel: KernelLike = field(default_factory=Gaussian)
     layers: tuple[tuple[tuple[float, ...], ...], ...] = ()
     columns: tuple[int, ...] = ()
 
@@ -93,23 +101,13 @@ class Network:
         object.__setattr__(self, "layers", plain)
         object.__setattr__(self, "columns", tuple(int(c) for c in self.columns))
 
-    def __call__(self, X: Array, Y: Array, /) -> Array:
-        return kernel_matrix(self.kernel, self.transform(X), self.transform(Y))
-
-    def diagonal(self, X: Array, /) -> Array:
-        return kernel_diagonal(self.kernel, self.transform(X))
-
     def transform(self, X: Array) -> Array:
-        """``(n, d + out)`` rows ``(x, f(x))`` of descriptors ``X (n, d)``."""
+        """Return the rows ``(x, f(x))``, (n, d + out), of descriptors ``X (n, d)``."""
         seen = take(X, np.asarray(self.columns), axis=1) if self.columns else X
         if len(self.layers[0][0]) != seen.shape[1] + 1:
             got = f"{seen.shape[1]}"
             raise refuse("descriptors", f"{len(self.layers[0][0]) - 1}, as the network has", got, "as it was learned")
         return namespace(X).concat([X, forward(tuple(like(m, X) for m in self.layers), seen)], axis=1)
-
-    def resolved(self, samples: Array, sharpness: float) -> Network:
-        """The same with every automatic γ of the inner kernel made a number."""
-        return replace(self, kernel=resolve_kernel(self.kernel, self.transform(samples), sharpness))
 
     def __repr__(self) -> str:
         sizes = " → ".join(str(n) for n in [len(self.layers[0][0]) - 1, *(len(m) for m in self.layers)])
@@ -142,7 +140,7 @@ KERNELS: tuple[type, ...] = (*kernels.KERNELS, Metric, Network, Scaled)
 
 
 def descriptor_width(kernel: KernelLike) -> int | None:
-    """How many descriptors ``kernel`` takes; ``None`` when it takes any number."""
+    """Return how many descriptors ``kernel`` takes; ``None`` if it takes any number."""
     if isinstance(kernel, Metric):
         return int(np.shape(kernel.matrix)[-1])
     if isinstance(kernel, Network) and not kernel.columns:
@@ -152,18 +150,14 @@ def descriptor_width(kernel: KernelLike) -> int | None:
 
 
 def n_kernel_landmarks(kernel: KernelLike) -> int | None:
-    """Of how many landmarks the descriptors of ``kernel`` are; ``None`` when it does not say."""
+    """Return of how many landmarks the descriptors of ``kernel`` are; ``None`` if it does not say."""
     own = getattr(kernel, "landmarks", None)
     inside = [getattr(kernel, name) for name in ("kernel", "a", "b") if hasattr(kernel, name)]
-    return (
-        own
-        if own is not None
-        else next((found for found in map(n_kernel_landmarks, inside) if found is not None), None)
-    )
+    return next((found for found in (own, *map(n_kernel_landmarks, inside)) if found is not None), None)
 
 
 def forward(layers: tuple[Array, ...], X: Array) -> Array:
-    """``(n, out)`` outputs of a network for rows ``X (n, in)``; its ``layers`` as in :class:`Network`."""
+    """Return the outputs (n, out) of a network for rows ``X (n, in)``; its ``layers`` as in :class:`Network`."""
     xp = namespace(X)
     for i, matrix in enumerate(layers):
         X = (xp.tanh(X) if i else X) @ matrix[:, :-1].T + matrix[:, -1][None, :]

@@ -6,19 +6,17 @@ from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import ExitStack
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from scipy.linalg import eigh
 from scipy.sparse import csr_array, diags_array
-from scipy.sparse.linalg import ArpackError, LinearOperator, eigsh
 
 from kfmaps._arrays import NotConverged, blocks, check, check_count, check_positive, refuse
 from kfmaps._threads import available_cores, one_blas_thread
 from kfmaps.geometry.eigen.factorization import Map, Sparse, factorize, fill_order
 from kfmaps.geometry.eigen.lanczos import LOOSE, WIDTH, largest_eigenpairs
 
-METHODS = ("auto", "block", "arpack", "dense")
+METHODS = ("auto", "block", "dense")
 
 MASS_FLOOR = 1e-10
 """Least mass of a vertex, as a part of the mean: one without mass takes the value that its neighbours give it
@@ -51,7 +49,7 @@ THREADED = 50_000
 
 @dataclass(frozen=True, eq=False)
 class Eigenpairs:
-    """What :func:`smallest_eigenpairs` found.
+    """The result of :func:`smallest_eigenpairs`.
 
     Attributes
     ----------
@@ -81,7 +79,7 @@ def smallest_eigenpairs(
     ordering: str = "auto",
     progress: Callable[[float], None] | None = None,
 ) -> Eigenpairs:
-    """The ``k`` smallest eigenpairs of ``stiffness x = λ mass x``, by Lanczos on ``(stiffness + σ mass)⁻¹``.
+    """Return the ``k`` smallest eigenpairs of ``stiffness x = λ mass x``, by Lanczos on ``(stiffness + σ mass)⁻¹``.
 
     Every pair is checked against the tolerance before it is returned, and the block method looks for
     eigenvalues that it may have missed (repeated ones of identical components, clusters of spheres).
@@ -107,14 +105,18 @@ def smallest_eigenpairs(
     threads : int, optional
         Python threads for solves and tall products, from 50,000 rows; ``None`` takes every available core.
         BLAS is held to one.
-    method : {"auto", "block", "arpack", "dense"}
-        ``"block"``: own block Lanczos with full reorthogonalisation. ``"arpack"``: SciPy's ``eigsh`` on the
-        same factorisation. ``"dense"``: the whole spectrum, for a few hundred rows. ``"auto"``: dense
-        where the Krylov basis would not fit (``n ≤ max(400, 4k + 200)``), else block.
+    method : {"auto", "block", "dense"}
+        ``"block"``: own block Lanczos with full reorthogonalisation. ``"dense"``: the whole
+        spectrum, for a few hundred rows. ``"auto"``: dense where the Krylov basis would not fit
+        (``n ≤ max(400, 4k + 200)``), else block.
     ordering : {"auto", "metis", "mmd"}
         Ordering of the factorisation; METIS is faster on large meshes and comes with ``kfmaps[fast]``.
     progress : callable, optional
         Told about how much is done, from 0 to 1, as the blocks of the basis grow.
+
+    Returns
+    -------
+    Eigenpairs
 
     Raises
     ------
@@ -267,14 +269,6 @@ def _vectors(pencil: _Pencil, k: int, method: str, tolerance: float, rng: np.ran
     if method == "dense":
         inverse = pencil.inverse(np.eye(n))
         _, vectors = eigh((inverse + inverse.T) / 2, subset_by_index=(n - k, n - 1))
-        return _improved(pencil, vectors)
-    if method == "arpack":
-        make: Any = LinearOperator  # SciPy's stubs do not know that the class builds its own subclass
-        one = make((n, n), matvec=lambda x: pencil.inverse(x.reshape(n, 1))[:, 0], dtype=np.float64)
-        try:
-            _, vectors = eigsh(one, k=k, which="LA", v0=rng.normal(size=n), tol=0)
-        except ArpackError as error:
-            raise NotConverged(f"ARPACK: {error}") from error
         return _improved(pencil, vectors)
     found = largest_eigenpairs(pencil.inverse, n, k, tolerance=tolerance / 2, rng=rng, each=pencil.each)
     if found.stages == 1:

@@ -140,7 +140,7 @@ def _stage(
 ) -> tuple[np.ndarray, np.ndarray]:
     """One run from a random block in the complement of ``locked``; its converged values and vectors."""
     n, b = len(locked.vectors), WIDTH
-    limit = capacity(k)
+    limit = _capacity(k)
     loose = tolerance >= LOOSE
     basis = np.empty((n, limit + b), order="F", dtype=np.float32 if loose else np.float64)  # pages taken when written
     recent = np.zeros((n, 2 * b), order="F")  # the last two blocks, whatever the precision of the basis
@@ -203,7 +203,7 @@ def _steps(before: tuple[int, float] | None, now: tuple[int, float], k: int, tol
     return int(np.clip(np.ceil(missing), 1, max(1, 0.5 * k / WIDTH)))
 
 
-def capacity(k: int) -> int:
+def _capacity(k: int) -> int:
     """Most vectors that the Krylov basis may hold; about ``3k + 60`` are needed."""
     return (4 * k + 20 * WIDTH) // WIDTH * WIDTH
 
@@ -222,7 +222,7 @@ def largest_eigenpairs(
     Parameters
     ----------
     n, k : int
-        ``n`` above ``capacity(k)``.
+        ``n`` above ``_capacity(k)``.
     tolerance : float
         Bound on ``‖apply(x) − νx‖ / ν`` before the last, refining step.
 
