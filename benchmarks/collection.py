@@ -40,8 +40,9 @@ from kfmaps.batch.run import BatchResult, run_batch
 from kfmaps.batch.run_spec import RunSpec
 from kfmaps.batch.work import PairTask, load_prepared, map_path, true_vertices
 from kfmaps.cli.evaluation import assessed
-from kfmaps.collection.synchronization import N_FUNCTIONS, CandidateMap, Edge, nearest_orthogonal, synchronize
+from kfmaps.collection.synchronization import N_FUNCTIONS, CandidateMap, Edge, synchronize
 from kfmaps.config import BasisConfig, Config, DescriptorConfig, Search
+from kfmaps.fmap.constraints import nearest_orthogonal
 from kfmaps.fmap.refine import ZoomOut
 from kfmaps.geometry.coarsen import coarsen
 from kfmaps.geometry.mesh import Mesh

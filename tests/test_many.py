@@ -19,7 +19,8 @@ from kfmaps.collection.pair_graph import (
 from kfmaps.collection.paths import adjacency, best_path, compose_maps, invert_map
 from kfmaps.collection.repair import repair
 from kfmaps.collection.scored_map import ScoredMap, candidate_maps, with_better_score
-from kfmaps.collection.synchronization import CandidateMap, Edge, nearest_orthogonal, synchronize
+from kfmaps.collection.synchronization import CandidateMap, Edge, synchronize
+from kfmaps.fmap.constraints import nearest_orthogonal
 from kfmaps.geometry.basis import Basis
 
 GUARDS = ("kfmaps.collection",)

@@ -18,7 +18,8 @@ from kfmaps.collection.differences import (
     variation,
 )
 from kfmaps.collection.pair_graph import complete_graph
-from kfmaps.collection.synchronization import CandidateMap, Edge, nearest_orthogonal, synchronize
+from kfmaps.collection.synchronization import CandidateMap, Edge, synchronize
+from kfmaps.fmap.constraints import nearest_orthogonal
 from kfmaps.geometry.basis import Basis
 
 GUARDS = ("kfmaps.collection.differences", "kfmaps.collection.pair_graph", "kfmaps.collection.synchronization")

@@ -9,18 +9,14 @@ from scipy.sparse import csr_array
 from scipy.sparse.csgraph import breadth_first_order, minimum_spanning_tree
 from scipy.sparse.linalg import eigsh
 
+from kfmaps.fmap.constraints import nearest_orthogonal
+
 DENSE = 1500
 """Unknowns up to which eigenvectors are worked out densely."""
 MAX_LOG_ODDS = 4.0
 """Largest log-odds that a candidate's own evidence counts for."""
 
 Ends = Sequence[tuple[int, int]]
-
-
-def nearest_orthogonal(C: np.ndarray) -> np.ndarray:
-    """Return the orthogonal matrix that is nearest to ``C (k, k)``."""
-    left, _, right = np.linalg.svd(C)
-    return left @ right
 
 
 def spanning_tree_init(

@@ -17,7 +17,8 @@ import numpy as np
 
 from kfmaps._arrays import check_count, refuse
 from kfmaps.collection.pair_graph import bridges
-from kfmaps.collection.sync_init import MAX_LOG_ODDS, nearest_orthogonal, spanning_tree_init, spectral_init
+from kfmaps.collection.sync_init import MAX_LOG_ODDS, spanning_tree_init, spectral_init
+from kfmaps.fmap.constraints import nearest_orthogonal
 from kfmaps.geometry.connectivity import component_labels
 
 N_FUNCTIONS = 20
