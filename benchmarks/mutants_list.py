@@ -374,7 +374,7 @@ MUTANTS = tuple(
             "logits = np.append(log_odds + (residuals - limit) / spread, 0.0)",
             "test_many -k planted",
         ),
-        ("return left @ right\n", "return right @ left\n", "test_many -k that_agree_are", "collection/sync_init"),
+        ("return u @ vh\n", "return vh @ u\n", "test_many -k that_agree_are", "fmap/constraints"),
         (
             "further = round(cost - math.log(",
             "further = round(cost + math.log(",
