@@ -57,7 +57,7 @@ def main() -> None:
     rest_s, rest_t = (closed_mesh(body, body.box(), len(mesh.vertices), rng)[0] for mesh in (pair.source, pair.target))
     limb, middles, axis = axes(body, rest_t)
     truth = point_positions(PointMap(pair.truth_faces, pair.truth_weights), source)
-    bent = body.bent(rest_s, DANCE) / np.sqrt(surface_area(pair.target))
+    bent = body.bend(rest_s, DANCE) / np.sqrt(surface_area(pair.target))
     energy, area = build_arap(source), float(vertex_areas(source).sum())
     print(f"bending of the truth {arap_energy(energy, bent) / area:.4f}")
     found = match(pair.source, pair.target).target_to_source

@@ -42,7 +42,7 @@ for number in (1, 2, 3):
     pairs.append(kfmaps.learn.training_pair(source, target, config, landmarks=landmarks, truth=truth, samples=60))
 
 model = kfmaps.learn.Model(config, pairs[:2], ["gamma", "ard", "terms"])
-training = kfmaps.learn.TrainingOptions(epochs=8, batch=2, rate=0.1)
+training = kfmaps.learn.TrainingOptions(epochs=8, patience=6)
 state = kfmaps.learn.learn(model, pairs[:2], pairs[2:], training)
 learned = model.settings()
 print(learned.kernel, learned.weights, sep="\n")

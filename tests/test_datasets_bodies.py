@@ -5,7 +5,7 @@ import pytest
 
 from kfmaps import datasets
 from kfmaps._arrays import NotConverged
-from kfmaps.datasets import pairs, skeleton, surface
+from kfmaps.datasets import skeleton, surface
 from kfmaps.datasets.creature import CREATURE, WAVE
 from kfmaps.datasets.skeleton import Bend, Body
 from kfmaps.datasets.surface import closed_mesh
@@ -29,15 +29,15 @@ def test_field_is_negative_inside_and_its_gradient_is_its_derivative() -> None:
 def test_bending_nothing_is_the_identity_and_growing_all_is_a_similarity() -> None:
     body = Body(CREATURE)
     points, _ = closed_mesh(body, body.box(), 1500, np.random.default_rng(0))
-    np.testing.assert_allclose(body.bent(points, {}), points, atol=1e-12)
-    grown = body.bent(points, {limb.name: Bend(longer=2, thicker=2) for limb in CREATURE})
+    np.testing.assert_allclose(body.bend(points, {}), points, atol=1e-12)
+    grown = body.bend(points, {limb.name: Bend(longer=2, thicker=2) for limb in CREATURE})
     np.testing.assert_allclose(grown - grown[0], 2 * (points - points[0]), atol=1e-12)
 
 
 def test_only_the_bent_limb_and_what_it_carries_moves() -> None:
     body = Body(CREATURE)
     points, _ = closed_mesh(body, body.box(), 1500, np.random.default_rng(0))
-    moved = np.linalg.norm(body.bent(points, {"left arm": WAVE["left arm"]}) - points, axis=1)
+    moved = np.linalg.norm(body.bend(points, {"left arm": WAVE["left arm"]}) - points, axis=1)
     assert moved[points[:, 0] > 0.75].min() > 0.3
     away = (points[:, 0] < -0.3) | (points[:, 1] < 0.4)
     assert moved[away].max() < 0.01
@@ -84,8 +84,7 @@ def test_subdivided_meshes_are_as_good(count: int, monkeypatch: pytest.MonkeyPat
 
 def test_large_pairs_have_their_exact_truth(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(surface, "SCATTERED", 2000)
-    for module in (pairs, skeleton):
-        monkeypatch.setattr(module, "BLOCK", 4000)
+    monkeypatch.setattr(skeleton, "BLOCK", 4000)
     pair = datasets.two_poses(6001)
     assert (len(pair.source.vertices), len(pair.target.vertices)) == (6001, 4801)
     for mesh in (pair.source, pair.target):
@@ -101,8 +100,8 @@ def test_large_pairs_have_their_exact_truth(monkeypatch: pytest.MonkeyPatch) -> 
 def test_working_in_blocks_changes_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
     body = Body(CREATURE)
     points = np.random.default_rng(0).uniform(body.box()[0], body.box()[1], (2500, 3))
-    one = (*body(points), body.bent(points, WAVE))
+    one = (*body(points), body.bend(points, WAVE))
     monkeypatch.setattr(skeleton, "BLOCK", 999)
-    monkeypatch.setattr(skeleton, "ROOM", 999)
-    for a, b in zip(one, (*body(points), body.bent(points, WAVE)), strict=True):
+    monkeypatch.setattr(skeleton, "MAX_POINTS", 999)
+    for a, b in zip(one, (*body(points), body.bend(points, WAVE)), strict=True):
         np.testing.assert_allclose(a, b, atol=1e-12)

@@ -11,7 +11,7 @@ from dataclasses import replace
 import numpy as np
 
 from kfmaps._arrays import check_count, refuse
-from kfmaps.datasets.creature import CREATURE, DANCE, PROPORTIONS, SYMMETRIC, WAVE, grown
+from kfmaps.datasets.creature import CREATURE, DANCE, PROPORTIONS, SYMMETRIC, WAVE, with_proportions
 from kfmaps.datasets.pairs import Pair, largest_piece, posed_pair
 from kfmaps.datasets.skeleton import Body, Limb
 from kfmaps.datasets.surface import closed_mesh
@@ -28,24 +28,23 @@ __all__ = [
     "vase",
 ]
 
-LARGEST = 300_000
-"""Vertices of the largest mesh."""
+MAX_VERTICES = 300_000
+"""Number of vertices of the largest mesh."""
 
 Seed = int | np.random.Generator
 
 
 def _counts(vertices: int) -> tuple[int, int]:
-    """The source has as many as asked for, the target a fifth fewer."""
-    check_count(vertices, "vertices", low=1500, high=LARGEST)
+    """Return the number of vertices of source and target, a fifth fewer."""
+    check_count(vertices, "vertices", low=1500, high=MAX_VERTICES)
     return vertices, round(0.8 * vertices)
 
 
 def two_poses(vertices: int = 6000, rng: Seed = 0) -> Pair:
-    """A creature in two poses, meshed independently; no side of it is like the other.
+    """Return a creature in two poses, meshed independently; no side of it is like the other.
 
-    The poses bend it along its limbs, which changes lengths little: of the edges of one mesh, carried to
-    the other pose, four in five keep their length within 10 %; on average they keep it within 1 %. The
-    largest changes are at shoulders and hips.
+    The poses bend it along its limbs, which changes lengths little: of the edges of one mesh, in the
+    other pose, four in five keep their length within 10 %. The largest changes are at shoulders and hips.
 
     Parameters
     ----------
@@ -67,19 +66,19 @@ def two_poses(vertices: int = 6000, rng: Seed = 0) -> Pair:
 
 
 def non_isometric(vertices: int = 6000, rng: Seed = 0) -> Pair:
-    """The creature of :func:`two_poses`, and a relative with a fat belly, long legs and a short tail.
+    """Return the creature of :func:`two_poses`, and a relative with a fat belly, long legs and a short tail.
 
     Lengths differ by up to a half between the two, the area by a third. Parameters, result and errors as in
     :func:`two_poses`.
     """
     rng = np.random.default_rng(rng)
-    unbent, bent = grown({}, PROPORTIONS), grown(DANCE, PROPORTIONS)
+    unbent, bent = with_proportions({}, PROPORTIONS), with_proportions(DANCE, PROPORTIONS)
     counts = _counts(vertices)
     return posed_pair("non-isometric", Body(CREATURE), WAVE, bent, counts, rng, unbent_t=unbent)
 
 
 def partial(vertices: int = 6000, rng: Seed = 0, kept: float = 0.6) -> Pair:
-    """The creature of :func:`two_poses`, and a part of it in the other pose, cut off obliquely.
+    """Return the creature of :func:`two_poses`, and a part of it in the other pose, cut off obliquely.
 
     Parameters
     ----------
@@ -87,8 +86,7 @@ def partial(vertices: int = 6000, rng: Seed = 0, kept: float = 0.6) -> Pair:
         Of the source, from 1500 to 300000; the whole that the target is cut from has four fifths of them.
     rng : int or numpy.random.Generator
     kept : float
-        About how much of the target to keep, from 0.2 to 0.95. What the cut leaves apart from the largest
-        piece goes too.
+        Part of the target to keep, from 0.2 to 0.95; of what the cut leaves, only the largest piece.
 
     Returns
     -------
@@ -116,7 +114,7 @@ def partial(vertices: int = 6000, rng: Seed = 0, kept: float = 0.6) -> Pair:
 
 
 def symmetric_creature(vertices: int = 6000, rng: Seed = 0) -> Pair:
-    """Two poses of a creature whose right side is the mirror image of its left.
+    """Return two poses of a creature whose right side is the mirror image of its left.
 
     Lengths alone cannot tell the direct truth from ``mirrored``; only orientation can. The poses are not
     symmetric. Parameters, result and errors as in :func:`two_poses`.
@@ -126,8 +124,8 @@ def symmetric_creature(vertices: int = 6000, rng: Seed = 0) -> Pair:
     return posed_pair("symmetric creature", Body(SYMMETRIC), WAVE, DANCE, counts, rng, mirror=True)
 
 
-def _revolved(body: Body, vertices: int, rng: Seed) -> Mesh:
-    """The surface of revolution about the y axis of a body lying in the half-plane z = 0, x >= 0."""
+def _revolve(body: Body, vertices: int, rng: Seed) -> Mesh:
+    """Return the surface of revolution about the y axis of a body lying in the half-plane z = 0, x >= 0."""
 
     def field(points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         radius = np.maximum(np.hypot(points[:, 0], points[:, 2]), 1e-12)
@@ -141,19 +139,19 @@ def _revolved(body: Body, vertices: int, rng: Seed) -> Mesh:
 
 
 def vase(vertices: int = 5000, rng: Seed = 0) -> Mesh:
-    """A hollow vase, a surface of revolution about the y axis, with ``vertices`` (3000 to 300000) vertices.
+    """Return a hollow vase, a surface of revolution about the y axis, with ``vertices`` (3000 to 300000) vertices.
 
-    Turning it changes nothing, so no map between two of them is the right one.
+    Rotation about the axis changes nothing, so no map between two of them is the right one.
     """
-    check_count(vertices, "vertices", low=3000, high=LARGEST)
+    check_count(vertices, "vertices", low=3000, high=MAX_VERTICES)
     profile = ((0, 0), (0.30, 0.02), (0.52, 0.30), (0.55, 0.58), (0.36, 0.95), (0.28, 1.2), (0.42, 1.45))
     wall = Limb("wall", None, tuple((x, y, 0) for x, y in profile), (0.07,) * len(profile))
-    return _revolved(Body((wall,), segments=60), vertices, rng)
+    return _revolve(Body((wall,), segments=60), vertices, rng)
 
 
 def sphere(vertices: int = 2000, rng: Seed = 0) -> Mesh:
-    """The unit sphere with ``vertices`` (100 to 300000) evenly spread random vertices."""
-    check_count(vertices, "vertices", low=100, high=LARGEST)
+    """Return the unit sphere with ``vertices`` (100 to 300000) evenly spread random vertices."""
+    check_count(vertices, "vertices", low=100, high=MAX_VERTICES)
 
     def field(points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         radius = np.linalg.norm(points, axis=1)
@@ -165,11 +163,11 @@ def sphere(vertices: int = 2000, rng: Seed = 0) -> Mesh:
 
 
 def torus(vertices: int = 2000, rng: Seed = 0, tube: float = 0.4) -> Mesh:
-    """The torus (genus 1) of radius 1 about the y axis, with ``vertices`` (400 to 300000) vertices.
+    """Return the torus (genus 1) of radius 1 about the y axis, with ``vertices`` (400 to 300000) vertices.
 
     Its tube's radius is ``tube``, from 0.2 to 0.8.
     """
-    check_count(vertices, "vertices", low=400, high=LARGEST)
+    check_count(vertices, "vertices", low=400, high=MAX_VERTICES)
     if not 0.2 <= tube <= 0.8:
         raise refuse("tube", "a number from 0.2 to 0.8", repr(tube), "choose one in that range")
 

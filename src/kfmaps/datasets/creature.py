@@ -76,8 +76,8 @@ STRAIGHT_TAIL = Limb(
 )
 
 
-def mirrored(limb: Limb) -> Limb:
-    """A left limb's exact mirror image, named for the right."""
+def _mirror(limb: Limb) -> Limb:
+    """Return a left limb's exact mirror image, named for the right."""
     points = tuple((-x, y, z) for x, y, z in limb.points)
     parent = limb.parent and limb.parent.replace("left", "right")
     return Limb(limb.name.replace("left", "right"), parent, points, limb.radii)
@@ -86,7 +86,7 @@ def mirrored(limb: Limb) -> Limb:
 CREATURE = (*TRUNK, *LEFT, *RIGHT, TAIL)
 """No side like the other: every ear, arm, leg and foot has its own length and thickness."""
 
-SYMMETRIC = (*TRUNK, *LEFT, *(mirrored(limb) for limb in LEFT), STRAIGHT_TAIL)
+SYMMETRIC = (*TRUNK, *LEFT, *(_mirror(limb) for limb in LEFT), STRAIGHT_TAIL)
 """Its right side is the mirror image of its left."""
 
 WAVE = {
@@ -131,6 +131,6 @@ PROPORTIONS = {
 """(longer, thicker): a fat belly on long legs, large feet, a short tail."""
 
 
-def grown(pose: dict[str, Bend], proportions: dict[str, tuple[float, float]]) -> dict[str, Bend]:
-    """The ``pose`` taken by the creature with other proportions."""
+def with_proportions(pose: dict[str, Bend], proportions: dict[str, tuple[float, float]]) -> dict[str, Bend]:
+    """Return the ``pose`` of the creature with other proportions."""
     return {name: Bend(pose.get(name, Bend()).turns, *factors) for name, factors in proportions.items()}

@@ -16,7 +16,7 @@ from kfmaps.geometry.mesh import Mesh, face_areas
 
 @dataclass(frozen=True, eq=False)
 class Pair:
-    """Two meshes of one shape and which point of the source each target vertex truly is.
+    """Two meshes of one shape and the true correspondence.
 
     Attributes
     ----------
@@ -24,13 +24,13 @@ class Pair:
     source, target : Mesh
         Meshed independently: no vertex of one is meant to be a vertex of the other.
     truth : (n_t,) int64
-        For each target vertex the source vertex nearest to its exact place on the source.
+        For each target vertex the source vertex nearest to its exact position on the source.
     truth_faces : (n_t,) int64
-        The source face that the exact place lies on, ...
+        The source face with the exact position.
     truth_weights : (n_t, 3) float64
-        ... and its barycentric coordinates there: not negative, sum 1.
+        Barycentric coordinates of the exact position in that face: not negative, sum 1.
     mirrored : (n_t,) int64 or None
-        On a shape that is its own mirror image, the other truth: the one that swaps left and right.
+        On a shape that is its own mirror image, the truth that swaps left and right.
     """
 
     name: str
@@ -42,11 +42,10 @@ class Pair:
     mirrored: np.ndarray | None = None
 
 
-def nearest_vertex(reference: np.ndarray, posed: np.ndarray, points: np.ndarray, exact: np.ndarray) -> np.ndarray:
-    """For each of ``points`` the vertex whose ``posed`` place is nearest to ``exact``.
+def _nearest_vertex(reference: np.ndarray, posed: np.ndarray, points: np.ndarray, exact: np.ndarray) -> np.ndarray:
+    """Return for each of ``points`` the vertex whose ``posed`` position is nearest to ``exact``, (n,).
 
-    Only the six that are nearest on the ``reference`` are asked, where limbs that touch in the pose are
-    apart.
+    Candidates are the six nearest vertices of the ``reference``, where limbs that touch in the pose are apart.
     """
     near = np.asarray(KDTree(reference).query(points, k=6)[1])
     best = np.linalg.norm(posed[near] - exact[:, None], axis=2).argmin(axis=1)
@@ -64,7 +63,7 @@ def posed_pair(
     unbent_t: dict[str, Bend] | None = None,
     mirror: bool = False,
 ) -> Pair:
-    """One body in two poses, each meshed for itself.
+    """Return one body in two poses, each meshed for itself.
 
     Parameters
     ----------
@@ -77,39 +76,37 @@ def posed_pair(
     """
     box = body.box()
     points_s, faces_s = closed_mesh(body, box, counts[0], rng)
-    warp = None if unbent_t is None else lambda x: body.bent(x, unbent_t)
+    warp = None if unbent_t is None else lambda x: body.bend(x, unbent_t)
     points_t, faces_t = closed_mesh(body, box, counts[1], rng, warp=warp)
-    source = Mesh(body.bent(points_s, pose_s), faces_s)
-    target = Mesh(body.bent(points_t, pose_t), faces_t)
+    source = Mesh(body.bend(points_s, pose_s), faces_s)
+    target = Mesh(body.bend(points_t, pose_t), faces_t)
 
     def truth(points: np.ndarray) -> np.ndarray:
-        return nearest_vertex(points_s, source.vertices, points, body.bent(points, pose_s))
+        return _nearest_vertex(points_s, source.vertices, points, body.bend(points, pose_s))
 
     on_source = closest_points(points_t, points_s, faces_s)
     mirrored = truth(points_t * [-1, 1, 1]) if mirror else None
     return Pair(name, source, target, truth(points_t), on_source.faces, on_source.weights, mirrored)
 
 
-def pieces(faces: np.ndarray) -> np.ndarray:
-    """For each face the number of the piece it belongs to; pieces hang together over edges, (f,)."""
+def _components(faces: np.ndarray) -> np.ndarray:
+    """Return the component of each face, (f,); faces that share an edge are connected."""
     edges = np.sort(np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]), axis=1)
     _, edge = np.unique(edges, axis=0, return_inverse=True)
-    edge = edge.reshape(3, -1)
-    total = len(faces) + edge.max() + 1
     rows = np.tile(np.arange(len(faces)), 3)
-    return component_labels(total, rows, len(faces) + edge.ravel())[1][: len(faces)]
+    return component_labels(len(faces) + edge.max() + 1, rows, len(faces) + edge.ravel())[1][: len(faces)]
 
 
 def largest_piece(mesh: Mesh, keep: np.ndarray) -> tuple[Mesh, np.ndarray]:
-    """The largest connected part whose vertices are all in ``keep`` (n,) bool, and its vertices' old numbers.
+    """Return the largest connected part whose vertices are all in ``keep (n,)`` bool, and its vertices' old numbers.
 
     Where two corners of the rim would touch in one vertex, the faces around it go too, so that the part
     is a manifold with boundary.
     """
     faces = mesh.faces[keep[mesh.faces].all(axis=1)]
     while True:
-        piece = pieces(faces)
-        faces = faces[piece == np.bincount(piece, face_areas(Mesh(mesh.vertices, faces))).argmax()]
+        component = _components(faces)
+        faces = faces[component == np.bincount(component, face_areas(Mesh(mesh.vertices, faces))).argmax()]
         forth = np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]])
         code, back = forth @ [len(keep), 1], forth @ [1, len(keep)]
         rim = np.bincount(forth[~np.isin(code, back), 0], minlength=len(keep))

@@ -11,17 +11,15 @@ from scipy.spatial.transform import Rotation
 from kfmaps._arrays import blocks
 
 FILLET = 0.022
-"""How softly limbs melt into each other, in units of the body (about two high)."""
+"""Width of the fillet between limbs, in units of the body (about two high)."""
 SOFTNESS = 0.045
-"""How far around a limb its motion is felt, in the same units."""
+"""Distance over which the motions of two limbs blend, in the same units."""
 REACH = 12 * FILLET
 """A limb further away than this adds less than 1e-5 of FILLET to the field and is left out."""
-
-
 BLOCK = 50_000
-"""Points worked on together, which bounds the memory."""
-ROOM = 250_000
-"""Points that the field is asked for at once, at most."""
+"""Number of points computed together, which bounds the memory."""
+MAX_POINTS = 250_000
+"""Largest number of points whose field is computed at once."""
 
 
 @dataclass(frozen=True)
@@ -47,7 +45,7 @@ class Limb:
 
 @dataclass(frozen=True)
 class Bend:
-    """What a pose or a change of proportions does to one limb.
+    """A pose or a change of proportions of one limb.
 
     Attributes
     ----------
@@ -63,8 +61,8 @@ class Bend:
     thicker: float = 1.0
 
 
-def rounded(along: np.ndarray, radii: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """The samples mirrored at both ends, so that the radius is level there and the caps join smoothly."""
+def _with_level_ends(along: np.ndarray, radii: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Mirror the samples at both ends, so that the radius is level there and the caps join smoothly."""
     before, after = 2 * along[0] - along[1], 2 * along[-1] - along[-2]
     return np.concatenate([[before], along, [after]]), np.concatenate([radii[1:2], radii, radii[-2:-1]])
 
@@ -89,18 +87,18 @@ class Body:
             along = np.concatenate([[0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))])
             fine = np.linspace(0, along[-1], self.segments + 1)
             nodes.append(CubicSpline(along, points)(fine))
-            radii.append(PchipInterpolator(*rounded(along, np.array(limb.radii)))(fine))
+            radii.append(PchipInterpolator(*_with_level_ends(along, np.array(limb.radii)))(fine))
             places.append(np.interp(fine, along, np.arange(len(points))))
         self.nodes, self.radii, self.places = np.array(nodes), np.array(radii), np.array(places)
         """(limbs, segments + 1, ...): along each limb the position, radius and place among its points."""
 
     def box(self) -> np.ndarray:
-        """Lowest and highest corner of a box around the skin, (2, 3)."""
+        """Return the lowest and highest corner of a box around the skin, (2, 3)."""
         room = self.radii[:, :, None] + 2 * FILLET
         return np.array([(self.nodes - room).min(axis=(0, 1)), (self.nodes + room).max(axis=(0, 1))])
 
     def _distances(self, points: np.ndarray, limb: int) -> tuple[np.ndarray, np.ndarray]:
-        """Signed distance (n, segments) to each piece of a limb, and the place (0 to 1) of the foot on it."""
+        """Return the signed distance (n, segments) to each piece of a limb, and the foot on it from 0 to 1."""
         starts, steps = self.nodes[limb, :-1], np.diff(self.nodes[limb], axis=0)
         squares = (steps**2).sum(axis=1)
         along = points @ steps.T - (starts * steps).sum(axis=1)
@@ -112,11 +110,11 @@ class Body:
         return length - radius, place
 
     def __call__(self, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Value (n,), negative inside, and gradient (n, 3) of the smooth union of all limbs.
+        """Return value (n,), negative inside, and gradient (n, 3) of the smooth union of all limbs.
 
         Far from every limb the value is REACH and the gradient zero.
         """
-        if len(points) > ROOM:
+        if len(points) > MAX_POINTS:
             parts = [self(points[part]) for part in blocks(len(points), BLOCK)]
             return np.concatenate([v for v, _ in parts]), np.concatenate([g for _, g in parts])
         values = np.full((len(self.limbs), len(points)), REACH)
@@ -141,11 +139,10 @@ class Body:
         total = weights.sum(axis=0)
         return least - FILLET * np.log(total), np.einsum("ln,lni->ni", weights / total, gradients)
 
-    def motions(self, bends: dict[str, Bend]) -> tuple[np.ndarray, np.ndarray]:
-        """The affine motion ``x -> A x + b`` of every piece: A (pieces, 3, 3) and b (pieces, 3).
+    def _motions(self, bends: dict[str, Bend]) -> tuple[np.ndarray, np.ndarray]:
+        """Return the affine motion ``x -> A x + b`` of every piece: A (pieces, 3, 3) and b (pieces, 3).
 
-        Pieces hang together: each starts where the one before it ends, the first of a limb where its
-        parent carries it.
+        Each piece starts where the one before it ends, the first of a limb where its parent moves it.
         """
         index = {limb.name: i for i, limb in enumerate(self.limbs)}
         linear = np.zeros((len(self.limbs), self.segments, 3, 3))
@@ -175,11 +172,11 @@ class Body:
                 at = linear[i, s] @ nodes[s + 1] + offset[i, s]
         return linear.reshape(-1, 3, 3), offset.reshape(-1, 3)
 
-    def bent(self, points: np.ndarray, bends: dict[str, Bend]) -> np.ndarray:
-        """``points`` (n, 3) of the skin carried along by the limbs (linear blend skinning), (n, 3)."""
+    def bend(self, points: np.ndarray, bends: dict[str, Bend]) -> np.ndarray:
+        """Return ``points (n, 3)`` of the skin moved by the limbs (linear blend skinning), (n, 3)."""
         if len(points) > BLOCK:
-            return np.concatenate([self.bent(points[part], bends) for part in blocks(len(points), BLOCK)])
-        linear, offset = self.motions(bends)
+            return np.concatenate([self.bend(points[part], bends) for part in blocks(len(points), BLOCK)])
+        linear, offset = self._motions(bends)
         pieces = [self._distances(points, limb)[0] for limb in range(len(self.limbs))]
         distances = np.concatenate(pieces, axis=1)
         weights = np.exp((distances.min(axis=1, keepdims=True) - distances) / SOFTNESS)

@@ -8,6 +8,7 @@ import numpy as np
 from scipy.spatial import Delaunay, KDTree
 
 from kfmaps._arrays import NotConverged
+from kfmaps.geometry.mesh import unit_rows
 
 Field = Callable[[np.ndarray], tuple[np.ndarray, np.ndarray]]
 """``field(points (n, 3)) -> (values (n,), gradients (n, 3))``: negative inside, zero on the surface."""
@@ -18,24 +19,19 @@ Warp = Callable[[np.ndarray], np.ndarray]
 RELAXATIONS = 30
 ATTEMPTS = 5
 SCATTERED = 50_000
-"""Vertices up to which each finds its place by itself; larger meshes are subdivided smaller ones."""
+"""Vertices up to which points are spread one by one; larger meshes are subdivided smaller ones."""
 
 
-def unit(vectors: np.ndarray) -> np.ndarray:
-    """Rows scaled to length one."""
-    return vectors / np.linalg.norm(vectors, axis=1, keepdims=True)
-
-
-def on_surface(field: Field, points: np.ndarray, steps: int) -> tuple[np.ndarray, np.ndarray]:
-    """``points`` moved onto the surface by Newton steps along the gradient, and the unit normals there."""
+def _project(field: Field, points: np.ndarray, steps: int) -> tuple[np.ndarray, np.ndarray]:
+    """Move ``points`` onto the surface by Newton steps along the gradient; return them and the unit normals there."""
     for _ in range(steps):
         values, gradients = field(points)
         points = points - gradients * (values / (gradients**2).sum(axis=1))[:, None]
-    return points, unit(field(points)[1])
+    return points, unit_rows(field(points)[1])
 
 
-def scatter(field: Field, box: np.ndarray, count: int, rng: np.random.Generator) -> tuple[np.ndarray, float]:
-    """Random points near the surface, uniform in area, and an estimate of the area.
+def _scatter(field: Field, box: np.ndarray, count: int, rng: np.random.Generator) -> tuple[np.ndarray, float]:
+    """Return random points near the surface, uniform in area, and an estimate of the area.
 
     They are drawn uniformly from the thin layer |value| / |gradient| < width, whose volume is twice the
     width times the area.
@@ -55,24 +51,24 @@ def scatter(field: Field, box: np.ndarray, count: int, rng: np.random.Generator)
     return np.concatenate(kept)[:count], area
 
 
-def tangents(normals: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Two unit vectors (n, 3) that make a right-handed frame with each unit normal."""
+def _tangents(normals: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return two unit vectors (n, 3) that make a right-handed frame with each unit normal."""
     helper = np.eye(3)[np.abs(normals).argmin(axis=1)]
-    first = unit(np.cross(helper, normals))
+    first = unit_rows(np.cross(helper, normals))
     return first, np.cross(normals, first)
 
 
-def warped_normals(warp: Warp, points: np.ndarray, normals: np.ndarray) -> np.ndarray:
-    """Normals (n, 3) of the warped surface, as long as the factor by which area grows there."""
+def _warped_normals(warp: Warp, points: np.ndarray, normals: np.ndarray) -> np.ndarray:
+    """Return normals (n, 3) of the warped surface, as long as the factor by which area grows there."""
     step = 1e-4 * float(np.ptp(points, axis=0).max())
-    first, second = ((warp(points + step * t) - warp(points - step * t)) / (2 * step) for t in tangents(normals))
+    first, second = ((warp(points + step * t) - warp(points - step * t)) / (2 * step) for t in _tangents(normals))
     return np.cross(first, second)
 
 
-def spread(
+def _spread(
     field: Field, box: np.ndarray, count: int, rng: np.random.Generator, warp: Warp | None = None
 ) -> tuple[np.ndarray, np.ndarray]:
-    """``count`` points spread evenly over the surface: random ones that then push each other apart.
+    """Return ``count`` points spread evenly over the surface: random ones that then push each other apart.
 
     Parameters
     ----------
@@ -87,12 +83,12 @@ def spread(
     points, normals : (count, 3), (count, 3)
         On the surface before the deformation.
     """
-    points, area = scatter(field, box, count, rng)
-    points, normals = on_surface(field, points, 3)
+    points, area = _scatter(field, box, count, rng)
+    points, normals = _project(field, points, 3)
     scale = np.ones(count)
     for step in range(RELAXATIONS):
         if warp is not None and step % 5 == 0:
-            scale = np.linalg.norm(warped_normals(warp, points, normals), axis=1) ** -0.5
+            scale = np.linalg.norm(_warped_normals(warp, points, normals), axis=1) ** -0.5
         # The distance between neighbours in a hexagonal pattern with this many points to the area.
         spacing = scale * np.sqrt(2 / np.sqrt(3) * area / (scale**2).sum())
         found = KDTree(points).query(points, k=13)
@@ -101,12 +97,12 @@ def spread(
         push = np.clip(1 - distance / reach, 0, None) / np.maximum(distance, 1e-12)
         shift = (push[:, :, None] * (points[:, None] - points[near])).sum(axis=1)
         shift -= (shift * normals).sum(axis=1, keepdims=True) * normals
-        points, normals = on_surface(field, points + 0.35 * spacing[:, None] * shift, 1)
-    return on_surface(field, points, 2)
+        points, normals = _project(field, points + 0.35 * spacing[:, None] * shift, 1)
+    return _project(field, points, 2)
 
 
-def triangulate(points: np.ndarray, normals: np.ndarray) -> np.ndarray:
-    """The faces of the closed surface through ``points``, counter-clockwise seen from outside, (f, 3).
+def _triangulate(points: np.ndarray, normals: np.ndarray) -> np.ndarray:
+    """Return the faces of the closed surface through ``points``, counter-clockwise seen from outside, (f, 3).
 
     They are the boundary of the union of the Delaunay tetrahedra whose circumcentre is inside; the
     circumcentre's nearest surface points are the corners, so their normals tell inside from outside. For
@@ -135,7 +131,7 @@ def triangulate(points: np.ndarray, normals: np.ndarray) -> np.ndarray:
 
 
 def is_closed(faces: np.ndarray, count: int, genus: int = 0) -> bool:
-    """Whether ``faces`` are one closed oriented manifold of that genus using all ``count`` vertices."""
+    """Return whether ``faces`` are one closed oriented manifold of that genus using all ``count`` vertices."""
     half = np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]])
     forth = half[:, 0] * count + half[:, 1]
     back = half[:, 1] * count + half[:, 0]
@@ -146,18 +142,18 @@ def is_closed(faces: np.ndarray, count: int, genus: int = 0) -> bool:
     return once and paired and used and count - len(half) // 2 + len(faces) == 2 - 2 * genus
 
 
-def subdivided(field: Field, points: np.ndarray, faces: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray]:
-    """A closed mesh with every face cut in four, then the longest edges in two until there are ``count`` points.
+def _subdivide(field: Field, points: np.ndarray, faces: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray]:
+    """Cut every face in four, then the longest edges in two until there are ``count`` points.
 
     The new points lie on the surface itself, not on the faces.
     """
-    points, faces = _quartered(points, faces)
+    points, faces = _quarter(points, faces)
     if count > len(points):
-        points, faces = _halved(points, faces, count - len(points))
-    return on_surface(field, points, 3)[0], faces
+        points, faces = _halve(points, faces, count - len(points))
+    return _project(field, points, 3)[0], faces
 
 
-def _quartered(points: np.ndarray, faces: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def _quarter(points: np.ndarray, faces: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     a, b = faces.ravel(), faces[:, [1, 2, 0]].ravel()
     edges, number = np.unique(np.minimum(a, b) * len(points) + np.maximum(a, b), return_inverse=True)
     middles = 0.5 * (points[edges // len(points)] + points[edges % len(points)])
@@ -166,8 +162,8 @@ def _quartered(points: np.ndarray, faces: np.ndarray) -> tuple[np.ndarray, np.nd
     return np.concatenate([points, middles]), np.concatenate([corners, across])
 
 
-def _halved(points: np.ndarray, faces: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray]:
-    """The ``count`` longest edges, no two of them of one face, cut in two."""
+def _halve(points: np.ndarray, faces: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray]:
+    """Cut the ``count`` longest edges in two, no two of them of one face."""
     start, stop = faces.ravel(), faces[:, [1, 2, 0]].ravel()
     length = np.linalg.norm(points[start] - points[stop], axis=1)
     touched: set[int] = set()
@@ -201,7 +197,7 @@ def closed_mesh(
     warp: Warp | None = None,
     scattered: int | None = None,
 ) -> tuple[np.ndarray, np.ndarray]:
-    """``count`` points (count, 3) on the surface and the faces (f, 3) of a closed mesh through them.
+    """Return ``count`` points (count, 3) on the surface and the faces (f, 3) of a closed mesh through them.
 
     With a ``warp`` the points are given before that deformation, but spread and triangulated after it. More than
     ``scattered`` points (:data:`SCATTERED`, and at most that) are those of a mesh of a quarter as many, subdivided,
@@ -216,13 +212,13 @@ def closed_mesh(
     if count > min(SCATTERED, scattered or SCATTERED):
         fewer = (count + 3 * (2 - 2 * genus)) // 4
         points, faces = closed_mesh(field, box, fewer, rng, genus=genus, warp=warp, scattered=scattered)
-        return subdivided(field, points, faces, count)
+        return _subdivide(field, points, faces, count)
     for _ in range(ATTEMPTS):
-        points, normals = spread(field, box, count, rng, warp)
+        points, normals = _spread(field, box, count, rng, warp)
         if warp is None:
-            faces = triangulate(points, normals)
+            faces = _triangulate(points, normals)
         else:
-            faces = triangulate(warp(points), unit(warped_normals(warp, points, normals)))
+            faces = _triangulate(warp(points), unit_rows(_warped_normals(warp, points, normals)))
         if is_closed(faces, count, genus):
             return points, faces
     raise NotConverged(f"no closed mesh of genus {genus} through {count} points; ask for more vertices")

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import json as jsonlib
 import time
-from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -18,9 +17,7 @@ if TYPE_CHECKING:
     import numpy as np
     from rich.table import Table
 
-    from kfmaps.config import Config
     from kfmaps.datasets import Pair
-    from kfmaps.matching.match import Match
 
 SHAPES = ("two-poses", "non-isometric", "partial")
 
@@ -53,27 +50,29 @@ def demo(
     if shape not in SHAPES:
         raise refuse("--shape", "one of " + ", ".join(SHAPES), repr(shape), "choose one of them")
     if write is not None:
-        for path in written(write, shape, vertices, landmarks, seed, force):
+        for path in _write(write, shape, vertices, landmarks, seed, force):
             say(str(path))
         return
     picture_format(output)
     check_output(output, force)
-    found = compared(shape, vertices, landmarks, seed, quiet=json)
-    pair, ours = found.pair, found.rows[0]
-    title = f"{pair.name.capitalize()}, {ours.given}: mean geodesic error {percent(ours.error)} {UNIT}"
-    figure = match_figure(pair.source, pair.target, ours.points, errors=ours.errors, title=title)
+    pair, methods = _compare(shape, vertices, landmarks, seed, quiet=json)
+    first = methods[0]
+    title = f"{pair.name.capitalize()}, {first['given']}: mean geodesic error {percent(first['error'])} {UNIT}"
+    figure = match_figure(pair.source, pair.target, first["points"], errors=first["errors"], title=title)
     with atomic_output(output, force) as temporary:
         save_figure(figure, temporary)
+    sizes = {"source_vertices": len(pair.source.vertices), "target_vertices": len(pair.target.vertices)}
     if json:
-        typer.echo(jsonlib.dumps({**found.as_dict(), "output": str(output)}))
+        rows = [{name: v for name, v in row.items() if name not in ("points", "errors")} for row in methods]
+        typer.echo(jsonlib.dumps({"shape": pair.name, **sizes, "methods": rows, "output": str(output)}))
         return
     console = Terminal(highlight=False)
-    console.print(found.table())
+    console.print(_table(pair.name, sizes, methods))
     console.print(f"picture: {output}", markup=False)
 
 
-def written(folder: Path, shape: str, vertices: int, landmarks: int, seed: int, force: bool = False) -> list[Path]:
-    """The files of a pair: both shapes, line by line the truth, and some of it as landmarks."""
+def _write(folder: Path, shape: str, vertices: int, landmarks: int, seed: int, force: bool = False) -> list[Path]:
+    """Write both shapes, the truth line by line and some of it as landmarks; return the files."""
     import numpy as np
 
     from kfmaps.io import check_output, write_landmarks, write_mesh, write_vertex_numbers
@@ -92,7 +91,7 @@ def written(folder: Path, shape: str, vertices: int, landmarks: int, seed: int, 
 
 
 def _pair(shape: str, vertices: int, landmarks: int, seed: int) -> tuple[Pair, np.ndarray]:
-    """The shapes, and well spread vertices (l,) of the target."""
+    """Return the shapes, and vertices (l,) of the target far from each other."""
     import numpy as np
 
     from kfmaps import datasets
@@ -102,137 +101,72 @@ def _pair(shape: str, vertices: int, landmarks: int, seed: int) -> tuple[Pair, n
     return pair, farthest_geodesic(pair.target, landmarks, np.random.default_rng(seed))
 
 
-@dataclass(frozen=True, eq=False)
-class Row:
-    """What one method made of the pair.
+def _table(name: str, sizes: dict[str, int], methods: list[dict[str, Any]]) -> Table:
+    from rich.table import Table
 
-    Attributes
-    ----------
-    method, given : str
-        Its name, and what it was told of the truth.
-    points : (n_t,) int64
-        The refined map, and ...
-    errors : (n_t,) float64
-        ... its errors in units of √area.
-    raw_error : float or None
-        Mean error of the fit alone.
-    verdict : str
-    seconds : float
-    """
-
-    method: str
-    given: str
-    points: np.ndarray
-    errors: np.ndarray
-    raw_error: float | None
-    verdict: str
-    seconds: float
-
-    @property
-    def error(self) -> float:
-        """Mean of ``errors`` where there is a counterpart."""
-        return float(self.errors[self.points >= 0].mean())
+    n_s, n_t = sizes.values()
+    table = Table(
+        title=f"{name}: {n_s:,} and {n_t:,} vertices, meshed independently",
+        caption=f"mean geodesic error in {UNIT}; time without the eigenfunctions",
+        title_justify="left",
+        caption_justify="left",
+    )
+    for column in ("method", "given", "outcome"):
+        table.add_column(column)
+    for column in ("fit alone", "refined", "time"):
+        table.add_column(column, justify="right", no_wrap=True)
+    for row in methods:
+        numbers = percent(row["raw_error"]), percent(row["error"]), f"{row['seconds']:.1f} s"
+        table.add_row(row["method"], row["given"], row["verdict"], *numbers)
+    return table
 
 
-@dataclass(frozen=True, eq=False)
-class Comparison:
-    """The demonstration's shapes and what each method made of them, the automatic match first."""
+def _compare(
+    shape: str, vertices: int, landmarks: int, seed: int, *, quiet: bool = False
+) -> tuple[Pair, list[dict[str, Any]]]:
+    """Match a pair automatically, then with landmarks with a kernel and without (NO17).
 
-    pair: Pair
-    rows: tuple[Row, ...]
-
-    def as_dict(self) -> dict[str, Any]:
-        """Plain numbers; errors in units of √area."""
-        names = ("method", "given", "error", "raw_error", "verdict", "seconds")
-        return {
-            "shape": self.pair.name,
-            "source_vertices": len(self.pair.source.vertices),
-            "target_vertices": len(self.pair.target.vertices),
-            "methods": [{name: getattr(row, name) for name in names} for row in self.rows],
-        }
-
-    def table(self) -> Table:
-        """For people."""
-        from rich.table import Table
-
-        n_s, n_t = len(self.pair.source.vertices), len(self.pair.target.vertices)
-        table = Table(
-            title=f"{self.pair.name}: {n_s:,} and {n_t:,} vertices, meshed independently",
-            caption=f"mean geodesic error in {UNIT}; time without the eigenfunctions",
-            title_justify="left",
-            caption_justify="left",
-        )
-        for name in ("method", "given", "outcome"):
-            table.add_column(name)
-        for name in ("fit alone", "refined", "time"):
-            table.add_column(name, justify="right", no_wrap=True)
-        for row in self.rows:
-            numbers = percent(row.raw_error), percent(row.error), f"{row.seconds:.1f} s"
-            table.add_row(row.method, row.given, row.verdict, *numbers)
-        return table
-
-
-def compared(shape: str, vertices: int, landmarks: int, seed: int, *, quiet: bool = False) -> Comparison:
-    """Match a pair of the package's own shapes automatically, then with landmarks with a kernel and without (NO17).
-
-    The last two get the same eigenfunctions, landmarks and refinement, so that what differs is the fit.
+    The last two get the same eigenfunctions, landmarks and refinement, so that only the fit differs. Errors are in
+    units of √area, of the refined map and of the fit alone.
     """
     import numpy as np
 
     from kfmaps._threads import one_blas_thread
     from kfmaps.cli.progress import Stages
     from kfmaps.config import Config
-    from kfmaps.matching.match import default_config
+    from kfmaps.fmap.evaluate import geodesic_errors
+    from kfmaps.matching.match import default_config, match
     from kfmaps.shape import prepare
 
     with one_blas_thread(), Stages(quiet) as stages:
         stages("shapes", 0.0)
         pair, rows = _pair(shape, vertices, landmarks, seed)
         stages("shapes", 1.0)
-        pairs = np.stack([pair.truth[rows], rows], axis=1)
-        automatic, ours = default_config(), Config.single_fit()
-        # The same shapes for all: as many functions as the fits with landmarks need, which need more.
-        wanted = max(automatic.eigenfunctions, ours.eigenfunctions)
-        each = replace(automatic, descriptors=replace(automatic.descriptors, eigenfunctions=wanted))
-        shapes = [
-            prepare(mesh, each, name=side, progress=stages)
-            for side, mesh in (("source", pair.source), ("target", pair.target))
-        ]
-        told = f"{landmarks} landmarks from the truth"
-        without = replace(Config.no17(), refinement=ours.refinement)
-        methods = (
-            ("kernel", "no landmarks", automatic, None),
-            ("kernel", told, automatic if shape == "partial" else ours, pairs),
-            ("no kernel (NO17)", told, without, pairs),
-        )
-        found = tuple(_row(*method, pair, shapes, seed, stages) for method in methods)
-    return Comparison(pair, found)
-
-
-def _row(
-    method: str,
-    given: str,
-    config: Config,
-    landmarks: np.ndarray | None,
-    pair: Pair,
-    shapes: list[Any],
-    seed: int,
-    stages: Callable[[str, float], None],
-) -> Row:
-    import numpy as np
-
-    from kfmaps.fmap.evaluate import geodesic_errors
-    from kfmaps.matching.match import match
-
-    name = "automatic" if landmarks is None else method
-    start = time.perf_counter()
-    stages(name, 0.0)
-    found: Match = match(shapes[0], shapes[1], config, landmarks=landmarks, rng=seed)
-    stages(name, 1.0)
-    seconds = time.perf_counter() - start
-    known = found.target_to_source >= 0
-    errors = np.full(len(known), np.nan)
-    errors[known] = geodesic_errors(pair.source, found.target_to_source[known], pair.truth[known])
-    raw = found.raw_target_to_source
-    raw_error = None if raw is None else float(geodesic_errors(pair.source, raw, pair.truth).mean())
-    return Row(method, given, found.target_to_source, errors, raw_error, found.verdict, seconds)
+        automatic, single = default_config(), Config.single_fit()
+        # The same shapes for all: the fits with landmarks need more eigenfunctions.
+        size = max(automatic.eigenfunctions, single.eigenfunctions)
+        config = replace(automatic, descriptors=replace(automatic.descriptors, eigenfunctions=size))
+        sides = (("source", pair.source), ("target", pair.target))
+        source, target = (prepare(mesh, config, name=side, progress=stages) for side, mesh in sides)
+        pairs, given = np.stack([pair.truth[rows], rows], axis=1), f"{landmarks} landmarks from the truth"
+        no17 = replace(Config.no17(), refinement=single.refinement)
+        methods = []
+        for stage, method, config, marks in (
+            ("automatic", "kernel", automatic, None),
+            ("kernel", "kernel", automatic if shape == "partial" else single, pairs),
+            ("no kernel (NO17)", "no kernel (NO17)", no17, pairs),
+        ):
+            start = time.perf_counter()
+            stages(stage, 0.0)
+            result = match(source, target, config, landmarks=marks, rng=seed)
+            stages(stage, 1.0)
+            seconds = time.perf_counter() - start
+            points, raw = result.target_to_source, result.raw_target_to_source
+            known = points >= 0
+            errors = np.full(len(known), np.nan)
+            errors[known] = geodesic_errors(pair.source, points[known], pair.truth[known])
+            raw_error = None if raw is None else float(geodesic_errors(pair.source, raw, pair.truth).mean())
+            row = {"method": method, "given": "no landmarks" if marks is None else given}
+            row |= {"error": float(errors[known].mean()), "raw_error": raw_error, "verdict": result.verdict}
+            methods.append(row | {"seconds": seconds, "points": points, "errors": errors})
+    return pair, methods
