@@ -6,10 +6,6 @@ The scores of each pair, each composition and each replacement is a file of its 
 
 from __future__ import annotations
 
-import csv
-import io
-import os
-import platform
 import time
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -24,7 +20,7 @@ from kfmaps.batch.cache import file_digest, load_record, save_record
 from kfmaps.batch.jobs import WorkerPool
 from kfmaps.batch.plan import Plan
 from kfmaps.batch.results import FOLDER as RESULTS
-from kfmaps.batch.results import Result, read_result, write_result
+from kfmaps.batch.results import Result, read_result, write_result, write_rows
 from kfmaps.batch.run_spec import digest_of
 from kfmaps.batch.shape_statistics import write_shape_statistics
 from kfmaps.batch.work import (
@@ -32,8 +28,8 @@ from kfmaps.batch.work import (
     PairTask,
     capture_errors,
     load_prepared,
+    make_result,
     map_path,
-    now,
     pair_samples,
     recorded,
     true_vertices,
@@ -50,7 +46,7 @@ from kfmaps.collection.consistency import (
 )
 from kfmaps.collection.repair import CyclePath, Replacement
 from kfmaps.collection.scored_map import ScoredMap
-from kfmaps.io import atomic_output, load_map
+from kfmaps.io import load_map
 from kfmaps.shape import Shape
 
 CONSISTENT, EVIDENCE, PATHS = "consistent", "evidence", "paths"
@@ -334,16 +330,14 @@ def replace_map(job: _ReplaceTask) -> Result:
         truth = true_vertices(task, *(len(shape.mesh.vertices) for shape in shapes))
         values = recorded(task, found, shapes, truth, None, other)
     values["seconds"]["total"] = time.perf_counter() - begun
-    result = Result(
-        *(task.pair.source, task.pair.target, "failed" if caught.reason else "done", task.settings, inputs),
-        reason=caught.reason,
-        worker=f"{platform.node()}:{os.getpid()}",
-        finished=now(),
+    result = make_result(
+        task,
+        inputs,
+        caught,
         changed=job.label,
         why=change.reason(),
         error_before=job.before.error_mean,
         agreement=change.after,
-        notes=tuple(caught.notes),
         **values,
     )
     path.parent.mkdir(parents=True, exist_ok=True)
@@ -369,16 +363,11 @@ def _forget(plan: Plan, kept: set[str]) -> None:
 
 def _write_pairs(path: Path, store: _FolderStore, found: Consistency) -> None:
     """What the collection says of every pair."""
-    text = io.StringIO(newline="")
-    out = csv.writer(text, lineterminator="\n")
-    out.writerow(["source", "target", "candidates", "probability", "residual", "score", "changed", "why"])
+    rows: list[list[Any]] = [["source", "target", "candidates", "probability", "residual", "score", "changed", "why"]]
     changes = {change.edge: change for change in found.repaired.replacements}
     sync = found.repaired.sync
     for i, (task, maps) in enumerate(zip(store.tasks, found.scores, strict=True)):
-        change = changes.get(i)
         row = [task.pair.source, task.pair.target, len(maps), f"{sync.probabilities[i][0]:.6f}"]
         row += [f"{sync.residuals[i][0]:.6f}", f"{maps[0].score:.4f}"]
-        out.writerow([*row, *(("", "") if change is None else (change.label(store.names), change.reason()))])
-    path.parent.mkdir(parents=True, exist_ok=True)
-    with atomic_output(path, force=True) as temporary:
-        temporary.write_text(text.getvalue(), encoding="utf-8", newline="")
+        rows.append(row + ([changes[i].label(store.names), changes[i].reason()] if i in changes else ["", ""]))
+    write_rows(path, rows)

@@ -1,9 +1,8 @@
-"""Landmarks of one specimen on all specimens of a run, along the best ways over its maps."""
+"""Carry the landmarks of one specimen to all specimens of a run, along the most probable paths of its maps."""
 
 from __future__ import annotations
 
 import csv
-import io
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -13,12 +12,12 @@ import numpy as np
 from kfmaps._arrays import refuse
 from kfmaps.batch.consistent import CONSISTENT, map_in_use, replacement_result
 from kfmaps.batch.layout import Pair
-from kfmaps.batch.results import Result, all_results, read_result
+from kfmaps.batch.results import Result, all_results, read_result, write_rows
 from kfmaps.batch.run_spec import read_settings
 from kfmaps.collection.paths import MapPath, adjacency, best_paths
 from kfmaps.fmap.precise import vertex_point_map
 from kfmaps.geometry.mesh import Mesh
-from kfmaps.io import MapFile, atomic_output, check_map, check_output, load_map, read_mesh
+from kfmaps.io import atomic_output, check_map, check_output, load_map, read_mesh
 from kfmaps.io.named_points import (
     NamedPoints,
     read_named_points,
@@ -197,7 +196,9 @@ def _mesh(name: str, edges: Sequence[_Edge], known: dict[str, Mesh]) -> Mesh:
     if name not in known:
         edge = next(e for e in edges if name in (e.pair.source, e.pair.target))
         side = "source" if edge.pair.source == name else "target"
-        path = _named(load_map(edge.path), side, edge.path)
+        path = load_map(edge.path).extra.get(side)
+        if not isinstance(path, str) or not Path(path).exists():
+            raise refuse(str(edge.path), f"its {side} where it says", str(path), "put the mesh back, or match again")
         mesh = read_mesh(path)
         if len(mesh.faces) == 0:
             raise refuse(str(path), "a surface with faces", "a point cloud", "landmarks are carried between surfaces")
@@ -205,39 +206,28 @@ def _mesh(name: str, edges: Sequence[_Edge], known: dict[str, Mesh]) -> Mesh:
     return known[name]
 
 
-def _named(found: MapFile, side: str, path: Path) -> str:
-    named = found.extra.get(side)
-    if not isinstance(named, str) or not Path(named).exists():
-        raise refuse(str(path), f"its {side} where it says", str(named), "put the mesh back, or match again")
-    return named
-
-
 def write_landmarks_csv(path: Path, carried: Sequence[PropagatedLandmarks], force: bool = False) -> None:
-    """One row a landmark and specimen: where it is in the specimen's own unit, on which triangle, how sure it is.
+    """Write one row a landmark and specimen: where it is in the specimen's own unit, on which triangle, how sure it is.
 
     Of one without a counterpart vertex and face are −1, and the other cells are empty.
     """
     check_output(path, force)
-    text = io.StringIO(newline="")
-    out = csv.writer(text, lineterminator="\n")
     titles = ["name", "specimen", "x", "y", "z", "vertex", "face", "weight_1", "weight_2", "weight_3"]
-    out.writerow([*titles, "confidence", "through"])
+    rows: list[list[object]] = [[*titles, "confidence", "through"]]
     for one in carried:
         p = one.points
         for i, name in enumerate(p.names):
-            place = [repr(x) for x in p.points[i].tolist()]
-            weights = [f"{w:.9g}" for w in p.place.weights[i].tolist()]
-            known = f"{p.confidence[i]:.4f}"
+            place: list[str] = [repr(x) for x in p.points[i].tolist()]
+            weights, confidence = [f"{w:.9g}" for w in p.place.weights[i].tolist()], f"{p.confidence[i]:.4f}"
             if p.vertices[i] < 0:
-                place, weights, known = [""] * 3, [""] * 3, ""
-            row = [name, one.specimen, *place, int(p.vertices[i]), int(p.place.faces[i]), *weights, known]
-            out.writerow([*row, " ".join(one.through)])
-    with atomic_output(path, force) as temporary:
-        temporary.write_text(text.getvalue(), encoding="utf-8", newline="")
+                place, weights, confidence = [""] * 3, [""] * 3, ""
+            at = [int(p.vertices[i]), int(p.place.faces[i])]
+            rows.append([name, one.specimen, *place, *at, *weights, confidence, " ".join(one.through)])
+    write_rows(path, rows, force)
 
 
 def write_tps(path: Path, carried: Sequence[PropagatedLandmarks], force: bool = False) -> None:
-    """The landmarks as TPS (Rohlf), which geomorph and MorphoJ read: ``LM3=`` and a row each, then ``ID=``.
+    """Write the landmarks as TPS (Rohlf), which geomorph and MorphoJ read: ``LM3=`` and a row each, then ``ID=``.
 
     One without a counterpart is ``NA NA NA``, geomorph's missing landmark.
     """

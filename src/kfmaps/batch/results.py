@@ -107,16 +107,17 @@ def _table(results: Iterable[Result]) -> tuple[list[str], list[dict[str, Any]]]:
     return fixed + list(dict.fromkeys(name for row in rows for name in row if name.startswith("seconds_"))), rows
 
 
+def write_rows(path: Path, rows: Iterable[Iterable[Any]], force: bool = True) -> None:
+    """Write rows as CSV, whole or not at all."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    with atomic_output(path, force=force) as temporary, open(temporary, "w", encoding="utf-8", newline="") as file:
+        csv.writer(file, lineterminator="\n").writerows(rows)
+
+
 def write_csv(path: Path, results: Iterable[Result]) -> None:
     """One row a pair; empty where something is not known. Replaces an existing file."""
     columns, rows = _table(results)
-    with (
-        atomic_output(path, force=True) as temporary,
-        open(temporary, "w", encoding="utf-8", newline="") as file,
-    ):
-        writer = csv.DictWriter(file, columns, restval="", lineterminator="\n")
-        writer.writeheader()
-        writer.writerows(rows)
+    write_rows(path, [columns, *([row.get(name, "") for name in columns] for row in rows)])
 
 
 def write_parquet(path: Path, results: Iterable[Result]) -> None:

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import csv
-import io
 from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
 
+from kfmaps.batch.results import write_rows
 from kfmaps.collection.consistency import Consistency
 from kfmaps.collection.differences import components, operators, shape_distances, variation
 from kfmaps.collection.pair_graph import medoid
@@ -53,11 +52,11 @@ def write_shape_statistics(
     titles = [f"{kind}_{i + 1}" for kind in KINDS for i in range(N_COMPONENTS)]
     titles = [title for title in titles if any(title in row for row in scores)]
     rows = [[name, hand[i], int(parts[i]), *(scores[i].get(t, "") for t in titles)] for i, name in enumerate(names)]
-    _write_table(folder / SHAPES, ["shape", "hand", "part", *titles], rows)
+    write_rows(folder / SHAPES, [["shape", "hand", "part", *titles], *rows])
     if not found.limit_shapes:
         (folder / DISTANCES).unlink(missing_ok=True)
         return ["shapes that hang together, three or more, would have a common basis and principal components"]
-    _write_table(folder / DISTANCES, ["shape", "other", *KINDS], apart)
+    write_rows(folder / DISTANCES, [["shape", "other", *KINDS], *apart])
     count, alone = len(np.unique(parts)), len(names) - sum(len(common.members) for common in found.limit_shapes)
     if count == 1:
         return []
@@ -76,11 +75,3 @@ def limit_shape_paths(folder: Path) -> list[Path]:
     while (path := limit_shape_path(folder, len(found))).exists():
         found.append(path)
     return found
-
-
-def _write_table(path: Path, titles: list[str], rows: list[list]) -> None:
-    text = io.StringIO(newline="")
-    csv.writer(text, lineterminator="\n").writerows([titles, *rows])
-    path.parent.mkdir(parents=True, exist_ok=True)
-    with atomic_output(path, force=True) as temporary:
-        temporary.write_text(text.getvalue(), encoding="utf-8", newline="")

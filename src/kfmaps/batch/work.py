@@ -152,15 +152,8 @@ def match_pair(task: PairTask, source: Prepared, target: Prepared) -> Result:
                 raise InvalidInput(f"shape {part.name} could not be prepared: {part.reason}")
         values = _matched(task)
     values["seconds"]["total"] = time.perf_counter() - start
-    result = Result(
-        *(task.pair.source, task.pair.target, "failed" if caught.reason else "done", task.settings, task.inputs),
-        reason=caught.reason,
-        attempts=attempt,
-        worker=f"{platform.node()}:{os.getpid()}",
-        finished=now(),
-        notes=tuple(dict.fromkeys([*source.notes, *target.notes, *caught.notes])),
-        **values,
-    )
+    caught.notes[:0] = [*source.notes, *target.notes]
+    result = make_result(task, task.inputs, caught, attempts=attempt, **values)
     write_result(path, result)
     return result
 
@@ -168,14 +161,18 @@ def match_pair(task: PairTask, source: Prepared, target: Prepared) -> Result:
 def record_failure(task: PairTask, reason: str) -> Result:
     """Record that a pair cannot be matched, for a reason outside the work itself."""
     folder = Path(task.folder)
-    result = Result(
-        *(task.pair.source, task.pair.target, "failed", task.settings, task.inputs),
-        reason=reason,
-        attempts=attempts(folder, task.key),
-        finished=now(),
-    )
+    begun = attempts(folder, task.key)
+    result = make_result(task, task.inputs, _Captured(reason), attempts=begun, worker="")
     write_result(result_path(folder, task.key), result)
     return result
+
+
+def make_result(task: PairTask, inputs: str, caught: _Captured, **values: Any) -> Result:
+    """Return the result of a pair, failed where something went wrong, with the process and the time."""
+    pair, status = task.pair, "failed" if caught.reason else "done"
+    values = {"worker": f"{platform.node()}:{os.getpid()}", "finished": now(), **values}
+    notes = tuple(dict.fromkeys(caught.notes))
+    return Result(pair.source, pair.target, status, task.settings, inputs, reason=caught.reason, notes=notes, **values)
 
 
 @dataclass
