@@ -168,7 +168,7 @@ def judged_by_pyfm(job: Job) -> dict:
 
 def report(title: str, rows: list[dict]) -> None:
     errors = np.array([r["error"] for r in rows])
-    called = [sum(r["verdict"] == name for r in rows) for name in ("sure", "ambiguous", "poor")]
+    called = [sum(r["verdict"] == name for r in rows) for name in ("sure", "likely", "ambiguous", "unlikely")]
     wrong = sum(r["verdict"] == "sure" and r["error"] >= RIGHT for r in rows)
     print(
         f"{title:34} {len(rows):4} {errors.mean():7.2f} {np.median(errors):7.2f} {errors.max():7.2f}"
@@ -209,7 +209,7 @@ def main() -> None:
         return
     counts = [int(word) for word in arguments.landmarks.split(",")]
     everything: list[dict] = []
-    heads = ("pairs", "mean", "median", "worst", ">10", "sure", "ambig.", "poor", "sure, ≥8", "CPU s")
+    heads = ("pairs", "mean", "median", "worst", ">10", "sure", "likely", "ambig.", "unlik.", "sure, ≥8", "CPU s")
     print(f"{'mean error × 100':34} " + " ".join(heads))
     with ProcessPoolExecutor(arguments.workers) as pool:
         for kind, count in product(arguments.sets.split(","), counts):

@@ -22,7 +22,7 @@ import numpy as np
 from automatic import RIGHT
 from scipy.optimize import minimize
 
-from kfmaps.matching.calibration import SURE, TIE, excess_deformation, probability
+from kfmaps.matching.score import SCORE, excess_deformation, probability
 
 RIDGE = 0.3
 """Weight of the squares of the coefficients, of features with unit variance."""
@@ -44,7 +44,7 @@ def features(row: dict) -> list[float]:
     bent = row["bending"]
     return [
         row["quality"],
-        -math.exp(-max(margin(row), 0.0) / TIE),
+        -math.exp(-max(margin(row), 0.0) / SCORE.calibration.tie),
         0.0 if bent is None else excess_deformation(row["quality"], bent),
     ]
 
@@ -73,10 +73,11 @@ def table(kinds: np.ndarray, right: np.ndarray, p: np.ndarray) -> None:
     print("kind                      maps  right   sure  sure and wrong")
     for kind in (*dict.fromkeys(kinds), "all"):
         here = (kinds == kind) | (kind == "all")
-        sure = here & (p >= SURE)
+        sure = here & (p >= SCORE.calibration.sure)
         print(f"{kind:24} {here.sum():5} {(here & right).sum():6} {sure.sum():6} {(sure & ~right).sum():6}")
     near = np.isin(kinds, NEARLY_ISOMETRIC) & right
-    print(f"of the right maps between nearly isometric shapes {100 * (p[near] >= SURE).mean():.0f} % are sure")
+    share = 100 * (p[near] >= SCORE.calibration.sure).mean()
+    print(f"of the right maps between nearly isometric shapes {share:.0f} % are sure")
     for low, high in pairwise(BINS):
         here = (p >= low) & ((p < high) | (high == 1.0))
         if here.any():

@@ -30,13 +30,13 @@ from kfmaps.config import Partial
 from kfmaps.datasets.pairs import largest_piece
 from kfmaps.fmap.precise import PointMap, point_positions
 from kfmaps.geometry.mesh import Mesh, surface_area, unit_area
-from kfmaps.matching.partial.calibration import CLOSE, SURE
-from kfmaps.matching.partial.candidates import Candidate, make_candidate, plain_score
-from kfmaps.matching.partial.compare_alternatives import compare_alternatives, margin
-from kfmaps.matching.partial.place_part import AGAIN, BEAMS, distinct
+from kfmaps.matching.partial.alternatives import compare_alternatives, margin
+from kfmaps.matching.partial.candidates import PartCandidate, make_candidate, placement_evidence
+from kfmaps.matching.partial.place_part import AGAIN, BEAMS, scales_differ
 from kfmaps.matching.partial.registration import RegistrationTarget, registration_target
 from kfmaps.matching.partial.samples import PartSamples, part_samples
 from kfmaps.matching.partial.scale_search import SCALES, TRIALS, refine_placement, search_scale, try_scales
+from kfmaps.matching.score import SCORE, placement_score, select_distinct
 
 PAIRS = (
     "cuts cat cuts_cat_03", "cuts horse cuts_horse_08", "holes cat holes_cat_02", "PFAUST_M tr_reg_000 part_006",
@@ -47,7 +47,6 @@ PAIRS = (
 planes of the creatures with seed 0 cut lengthwise."""
 KINDS = {"cuts": "animals", "holes": "animals", "PFAUST_M": "people", "PFAUST_H": "people"}
 RIGHT, WRONG = 8.0, 10.0
-NONE = np.zeros((0, 2), dtype=np.int64)
 
 
 def generated(name: str, seed: int, vertices: int) -> tuple[Mesh, Mesh, np.ndarray]:
@@ -80,14 +79,14 @@ class Search:
     on: RegistrationTarget
     truth: np.ndarray
 
-    def error(self, one: Candidate) -> float:
-        return 100 * float(np.nanmean(np.linalg.norm(one.bend.places.points - self.truth, axis=1)))
+    def error(self, one: PartCandidate) -> float:
+        return 100 * float(np.nanmean(np.linalg.norm(one.registration.places.points - self.truth, axis=1)))
 
-    def contested(self, some: list[Candidate]) -> list[Candidate]:
-        return compare_alternatives(some, self.part, self.whole, self.on, NONE)
+    def contested(self, some: list[PartCandidate]) -> list[PartCandidate]:
+        return compare_alternatives(some, self.part, self.whole, self.on)
 
 
-def candidates(pair: str, data: Path) -> tuple[Search, list[tuple[str, Candidate]]]:
+def candidates(pair: str, data: Path) -> tuple[Search, list[tuple[str, PartCandidate]]]:
     """Everything that a search proposes before it looks for rivals."""
     kind, one, two = pair.split()
     whole, part, places = measured(Job(data, kind, one, two)) if kind in KINDS else generated(kind, int(one), int(two))
@@ -96,15 +95,13 @@ def candidates(pair: str, data: Path) -> tuple[Search, list[tuple[str, Candidate
     sides = part_samples(unit_area(part), settings.samples), part_samples(unit_area(whole), settings.whole_samples)
     search = Search(*sides, registration_target(sides[1].mesh, sides[1].on_boundary), places)
     scales = [*SCALES, ratio]
-    first = distinct(try_scales(*sides, scales, NONE))[: settings.candidates]
+    first = select_distinct(try_scales(*sides, scales), scales_differ, settings.candidates)
     pool = [("relaxation", one) for one in first]
     for trial in TRIALS[1:]:
-        pool += [("again", one) for one in try_scales(*sides, [one.scale for one in first[:AGAIN]], NONE, trial)]
-    beams = sorted(search_scale(*sides, scales, NONE), key=lambda one: -plain_score(one))[:BEAMS]
+        pool += [("again", one) for one in try_scales(*sides, [one.scale for one in first[:AGAIN]], trial)]
+    beams = sorted(search_scale(*sides, scales), key=lambda one: -placement_score(placement_evidence(one)))[:BEAMS]
     pool += [("beam", one) for one in beams]
-    return search, [
-        (origin, make_candidate(one, refine_placement(*sides, one, NONE), *sides, search.on)) for origin, one in pool
-    ]
+    return search, [(origin, make_candidate(refine_placement(*sides, one), *sides, search.on)) for origin, one in pool]
 
 
 POOLS: dict[str, Callable[[str, float], bool]] = {
@@ -121,7 +118,7 @@ def examples(pair: str, data: Path) -> list[dict[str, Any]]:
     """What the best shows had the search proposed only some pool of candidates, before it looks for rivals."""
     search, everything = candidates(pair, data)
     errors = [search.error(one) for _, one in everything]
-    known: dict[frozenset[int], tuple[list[Candidate], float]] = {}
+    known: dict[frozenset[int], tuple[list[PartCandidate], float]] = {}
     found = []
     for name, pool in POOLS.items():
         rows = [i for i, (origin, _) in enumerate(everything) if pool(origin, errors[i])]
@@ -132,8 +129,8 @@ def examples(pair: str, data: Path) -> list[dict[str, Any]]:
             known[frozenset(rows)] = last, search.error(last[0])
         last, error = known[frozenset(rows)]
         first = max(rows, key=lambda i: everything[i][1].score)
-        row = {"case": pair, "pool": name, "score": last[0].score, "bending": last[0].seen.deformation_energy}
-        row |= {"margin": margin([(one.score, one.places) for one in last]), "err": error}
+        row = {"case": pair, "pool": name, "score": last[0].score, "bending": last[0].evidence.deformation_energy}
+        row |= {"margin": margin(last), "err": error}
         found.append(row | {"first": errors[first], "all": [(one.score, search.error(one)) for one in last]})
     return found
 
@@ -149,13 +146,13 @@ def fitted(shown: np.ndarray, right: np.ndarray, weights: np.ndarray, ridge: flo
 
 
 def chances(b: np.ndarray, shown: np.ndarray) -> np.ndarray:
-    """Of ``shown (e, 2)``, scores and margins; as :func:`kfmaps.matching.partial.calibration.part_probability`."""
+    """Of ``shown (e, 2)``, scores and margins; as :func:`kfmaps.matching.score.probability`."""
     fits = 1 / (1 + np.exp(-np.clip((shown[:, 0] - b[0]) / b[1], -700, 700)))
-    return fits * (1 - 0.5 * np.exp(-shown[:, 1] / CLOSE))
+    return fits * (1 - 0.5 * np.exp(-shown[:, 1] / SCORE.part.calibration.tie))
 
 
 def told(name: str, chance: np.ndarray, error: np.ndarray) -> None:
-    sure, right = chance >= SURE, error < RIGHT
+    sure, right = chance >= SCORE.part.calibration.sure, error < RIGHT
     counts = len(error), right.sum(), (sure & right).sum(), (sure & (error > WRONG)).sum()
     print(f"{name:34s}" + "".join(f"{count:10d}" for count in counts))
 

@@ -34,11 +34,12 @@ from kfmaps.geometry.closest_points import closest_points
 from kfmaps.matching import match as matching
 from kfmaps.matching import registration_refine as mending
 from kfmaps.matching import search as choose
+from kfmaps.matching.score import SCORE
 from kfmaps.registration import alternating_registration as alternate
 from kfmaps.registration import nonrigid_icp as nonrigid
 
 RIGID = replace(alternate.FIT, local_scaling=0.0)
-ONCE = (matching, "TORN", 2.0)
+ONCE = (matching, "SCORE", replace(SCORE, max_torn_area=2.0))
 """More than all of the target is never torn."""
 UNPAIRED = (mending, "PAIRED", 0)
 CLOSEST = (

@@ -14,12 +14,10 @@ from kfmaps._arrays import NotConverged
 from kfmaps.fmap.convert import nearest, to_functional
 from kfmaps.geometry.mesh import MIRROR, Mesh, vertex_areas
 from kfmaps.matching import match as matching
-from kfmaps.matching import proxy_cache as copies
 from kfmaps.matching import ranking
 from kfmaps.matching import registration_refine as mending
 from kfmaps.matching import search as choose
-from kfmaps.matching.calibration import BENT, PER_SCORE
-from kfmaps.matching.candidates import W_STRAIN, Candidate, map_distance, paired_map, score_maps
+from kfmaps.matching.candidates import map_distance, paired_map, score_maps
 from kfmaps.matching.extremity_matching import (
     ExtremityMatch,
     complete_match,
@@ -28,12 +26,12 @@ from kfmaps.matching.extremity_matching import (
     unused_matches,
     vertices_of_match,
 )
-from kfmaps.matching.match import TEAR, TORN, better_match
-from kfmaps.matching.proxy_cache import ProxyCache
-from kfmaps.matching.quality import Quality, sample_for_scoring
-from kfmaps.matching.ranking import rerank_near_duplicates
+from kfmaps.matching.match import better_match
+from kfmaps.matching.quality import sample_for_scoring
+from kfmaps.matching.ranking import ProxyCache, rerank_near_duplicates
 from kfmaps.matching.registration_refine import refine_by_registration, repairable
 from kfmaps.matching.sample_pair import mirrored_pair, two_level_samples
+from kfmaps.matching.score import SCORE, Candidate, Quality
 from kfmaps.registration import alternating_registration as alternate
 from kfmaps.registration.alternating_registration import (
     RegistrationPair,
@@ -50,7 +48,7 @@ GUARDS = ("kfmaps.matching", "kfmaps.registration.alternating_registration", "kf
 @pytest.fixture(autouse=True)
 def alike(monkeypatch):
     """How bent shapes look is tested in test_looks.py, and takes seconds."""
-    monkeypatch.setattr(copies, "shot_pair", lambda on: SimpleNamespace(on=on))
+    monkeypatch.setattr(ranking, "shot_pair", lambda on: SimpleNamespace(on=on))
     for module in (ranking, mending):
         monkeypatch.setattr(module, "registered_shot_error", lambda *_what: 0.2)
 
@@ -185,19 +183,20 @@ def test_the_target_is_bent_and_the_source_where_that_is_asked_for(creatures, mo
         return alternate.AlternatingResult(C, on.source.mesh.vertices)
 
     def end():
-        found = refine_by_registration(
+        found, retries = refine_by_registration(
             ranked, on, ProxyCache.of(source, target, on), np.zeros((0, 2), dtype=np.int64), 1
         )
         assert len(found) == 1
-        return found[0]
+        return found[0], retries
 
     monkeypatch.setattr(mending, "alternating_registration", made)
     monkeypatch.setattr(mending, "match_extremities", lambda *_: [])
-    first = end()
+    first, retries = end()
     n_s, n_t = len(source.mesh.vertices), len(target.mesh.vertices)
     assert calls == [(True, n_t, True)]
-    (way,) = first.again  # nothing else was mended
-    other = way()
+    (way,) = retries  # nothing else was mended
+    assert isinstance(way, mending.SwappedRepair)
+    other = way.make()
     assert other is not None
     assert calls[1:] == [(False, n_s, False)]
     for one, backwards, count in ((first, True, n_t), (other, False, n_s)):
@@ -205,9 +204,9 @@ def test_the_target_is_bent_and_the_source_where_that_is_asked_for(creatures, mo
         assert len(np.asarray(one.registered_vertices)) == count
         np.testing.assert_array_equal(one.functional_map, ranked[0].functional_map)
     apart.append(False)
-    assert way() is None
+    assert way.make() is None
     apart.append(True)
-    assert end().registered_vertices is None
+    assert end()[0].registered_vertices is None
 
 
 def test_likely_pairings_are_begun_with_where_no_map_has_them(creatures, monkeypatch):
@@ -236,18 +235,17 @@ def test_likely_pairings_are_begun_with_where_no_map_has_them(creatures, monkeyp
     monkeypatch.setattr(mending, "alternating_registration", made)
     monkeypatch.setattr(mending, "vertices_of_match", tips_of)
     landmarks = np.zeros((0, 2), dtype=np.int64)
-    found = refine_by_registration(ranked, on, ProxyCache.of(source, target, on), landmarks, 1)
+    found, (other, _) = refine_by_registration(ranked, on, ProxyCache.of(source, target, on), landmarks, 1)
     names = {c.name for c in found}
-    (first,) = (c for c in found if c.again)
-    other = first.again[0]()
-    assert {first.name, other and other.name} == names
+    assert isinstance(other, Candidate)
+    assert {found[0].name, other.name} == names
     assert len(calls) == 2  # the truth has the best pairing itself
     assert asked == [f"{match_of_map(ranked[0].points, on.source, on.target)}", f"{mirror}"]
     np.testing.assert_array_equal(begun[1].T, paired_map(mirror, on, len(begun[1])))
     assert names == {"truth", f"{mirror}"}
     monkeypatch.setattr(mending, "match_of_map", lambda *_: None)
     assert f"{mirror}" not in {
-        c.name for c in refine_by_registration(ranked, on, ProxyCache.of(source, target, on), landmarks, 1)
+        c.name for c in refine_by_registration(ranked, on, ProxyCache.of(source, target, on), landmarks, 1)[0]
     }
     assert len(calls) == 5
 
@@ -284,12 +282,15 @@ def test_what_goes_astray_stays_as_it_was(creatures, monkeypatch):
     )
     monkeypatch.setattr(mending, "alternating_registration", lambda *_rest: astray)
     monkeypatch.setattr(mending, "match_extremities", lambda *_: [])
-    found = refine_by_registration(ranked, on, ProxyCache.of(source, target, on), np.zeros((0, 2), dtype=np.int64), 1)[
-        0
-    ]
+    nowhere = np.zeros((0, 2), dtype=np.int64)
+    (found,), retries = refine_by_registration(ranked, on, ProxyCache.of(source, target, on), nowhere, 1)
     assert found.functional_map is ranked[0].functional_map
     assert found.registered_vertices is None
-    assert [c.swapped for c in (way() for way in found.again) if c] == [False]
+    (way,) = retries
+    assert isinstance(way, mending.SwappedRepair)
+    made = way.make()
+    assert made is not None
+    assert not made.swapped
     # Looked at as closely as what it is compared with.
     assert found.deformation_energy is not None
     assert found.deformation_energy < 0.5
@@ -309,9 +310,8 @@ def test_what_goes_astray_one_way_is_mended_the_other(creatures, monkeypatch):
 
     monkeypatch.setattr(mending, "alternating_registration", made)
     monkeypatch.setattr(mending, "match_extremities", lambda *_: [])
-    found = refine_by_registration(ranked, on, ProxyCache.of(source, target, on), np.zeros((0, 2), dtype=np.int64), 1)[
-        0
-    ]
+    nowhere = np.zeros((0, 2), dtype=np.int64)
+    (found,) = refine_by_registration(ranked, on, ProxyCache.of(source, target, on), nowhere, 1)[0]
     np.testing.assert_array_equal(found.functional_map, C)
     assert not found.swapped
     assert found.registered_vertices is source.mesh.vertices
@@ -327,7 +327,7 @@ def test_what_is_not_mended_stays_and_stays_once():
     judgement = Quality(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     one = Candidate("a", np.eye(2), np.zeros(3, dtype=int), judgement, deformation_energy=0.15)
     ranked = [
-        replace(one, name=name, strain=-s / W_STRAIN, points=np.full(3, i))
+        replace(one, name=name, strain=-s / SCORE.w_strain, points=np.full(3, i))
         for i, (name, s) in enumerate(zip("abcd", (-1.0, -9.0, -4.0, -4.5), strict=True))
     ]
     near, rest = repairable(ranked, on_a_line(0.0, 1.0, 2.0, 3.0))
@@ -370,12 +370,14 @@ def test_a_map_that_hardly_differs_comes_first_where_it_bends_less(creatures):
     assert rerank_near_duplicates(ranked, [bad, far], on, of, 1, behind=1.0) == ranked
 
 
-def test_a_map_bends_unduly_or_not():
+def test_a_map_deforms_unduly_or_not():
     one = Candidate("a", np.eye(2), np.zeros(3, dtype=int), Quality(0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0))
-    usual = np.exp(BENT + PER_SCORE * one.quality.score)
-    assert choose.bends_unduly(replace(one, deformation_energy=usual * np.exp(choose.EXCESS_DEFORMATION + 0.01)))
-    assert not choose.bends_unduly(replace(one, deformation_energy=usual * np.exp(choose.EXCESS_DEFORMATION - 0.01)))
-    assert not choose.bends_unduly(one)
+    usual = np.exp(
+        SCORE.calibration.usual_log_deformation + SCORE.calibration.log_deformation_per_score * one.quality.score
+    )
+    assert choose.deforms_unduly(replace(one, deformation_energy=usual * np.exp(SCORE.excess_deformation + 0.01)))
+    assert not choose.deforms_unduly(replace(one, deformation_energy=usual * np.exp(SCORE.excess_deformation - 0.01)))
+    assert not choose.deforms_unduly(one)
 
 
 def test_of_maps_that_are_alike_the_one_that_bends_less_is_found(creatures, monkeypatch):
@@ -387,7 +389,7 @@ def test_of_maps_that_are_alike_the_one_that_bends_less_is_found(creatures, monk
     few = np.where(np.arange(len(best.points)) < 10, best.points[::-1], best.points)
     worse = replace(best.quality, distortion=best.quality.distortion + 0.05)
     alike = replace(best, name="alike", points=few, quality=worse, functional_map=C.copy())
-    assert choose.ALIKE < map_distance(best, alike, on.whole.source) < ranking.DISTINCT
+    assert SCORE.duplicate_distance < map_distance(best, alike, on.whole.source) < SCORE.distinct_distance
     bends = {"best": 0.12, "alike": 0.06}
     monkeypatch.setattr(choose, "candidates", lambda *_what, **_how: [best, alike])
     monkeypatch.setattr(
@@ -410,7 +412,7 @@ def test_the_match_that_is_worth_more_is_taken(creatures):
         return replace(one, scores=(score,), local_confidence=trust, seconds={}, verdict=f"{share}")
 
     known = replace(made(-9.0, 0.3), seconds=one.seconds)
-    for lost, taken in ((0.1 * TEAR, 0.1), (0.3 * TEAR, 0.3), (-1.0, 0.1)):
+    for lost, taken in ((0.1 * SCORE.w_torn, 0.1), (0.3 * SCORE.w_torn, 0.3), (-1.0, 0.1)):
         found = better_match(known, made(-9.0 - lost, 0.1))
         assert found.verdict == f"{taken}"
         assert found.seconds is one.seconds
@@ -422,24 +424,19 @@ def test_the_match_that_is_worth_more_is_taken(creatures):
 def test_a_match_finishes_all_ways_unless_it_is_hardly_torn(creatures, monkeypatch):
     source, target, truth = creatures
     C = np.asarray(to_functional(truth, source.basis.truncate(40), target.basis.truncate(40)))
-    other = choose.SearchResult(C, "other", None, "poor", quality=-9.0, scores=(-9.0,))
+    other = choose.SearchResult(C, "other", None, "unlikely", quality=-9.0, scores=(-9.0,))
     asked = []
-
-    def way(found):
-        return lambda least: asked.append(least) or found
-
-    ways = tuple(
-        way(one) for one in (replace(other, registered_vertices=target.mesh.vertices, swapped=True), other, None)
-    )
-    monkeypatch.setattr(matching, "search_map", lambda *_a, **_k: replace(other, initialization="one", again=ways))
+    ways: Any = (replace(other, registered_vertices=target.mesh.vertices, swapped=True), other, None)
+    monkeypatch.setattr(matching, "retry", lambda found, i, least: asked.append(least) or found.retries[i])
+    monkeypatch.setattr(matching, "search_map", lambda *_a, **_k: replace(other, initialization="one", retries=ways))
     monkeypatch.setattr(matching, "better_match", lambda a, b: replace(b, seconds=a.seconds))
     config = replace(kfmaps.Config(), finish=None)
-    for share, ends in ((0.5, "other"), (TORN, "one"), (None, "one")):
+    for share, ends in ((0.5, "other"), (SCORE.max_torn_area, "one"), (None, "one")):
         monkeypatch.setattr(matching, "torn_area_fraction", lambda _match, share=share: share)
         found = kfmaps.match(source, target, config)
         assert found.initialization == ends
         assert [f"another way, {i}" in found.seconds for i in (1, 2)] == 2 * [ends == "other"]
-    assert asked == 3 * [-9.0 - 0.5 * TEAR]
+    assert asked == 3 * [-9.0 - 0.5 * SCORE.w_torn]
 
 
 def test_a_search_tells_what_else_may_turn_out_better(creatures, monkeypatch):
@@ -447,17 +444,18 @@ def test_a_search_tells_what_else_may_turn_out_better(creatures, monkeypatch):
     source, target, _ = creatures
     judgement = Quality(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     one = Candidate("0", np.eye(5), np.zeros(2000, dtype=int), judgement, deformation_energy=0.15)
-    ranked = [replace(one, name=str(i), points=np.full(2000, i), strain=i / W_STRAIN) for i in range(5)]
-    twin = replace(one, name="twin", strain=0.5 / W_STRAIN)
-    ways = (lambda: ranked[2], lambda: twin, lambda: None)
-    ranked[0] = replace(ranked[0], again=ways)
-    monkeypatch.setattr(choose, "REPAIR_SCORE", np.inf)
-    monkeypatch.setattr(choose, "refine_by_registration", lambda *_: ranked)
+    ranked = [replace(one, name=str(i), points=np.full(2000, i), strain=i / SCORE.w_strain) for i in range(5)]
+    twin = replace(one, name="twin", strain=0.5 / SCORE.w_strain)
+    setting: Any = None
+    astray = mending.SwappedRepair(setting, twin, None, (0.0, 0.0))
+    monkeypatch.setattr(mending.SwappedRepair, "make", lambda _self: None)
+    monkeypatch.setattr(choose, "SCORE", replace(SCORE, repair_score=np.inf))
+    monkeypatch.setattr(choose, "refine_by_registration", lambda *_: (ranked, (ranked[2], twin, astray)))
     monkeypatch.setattr(choose, "rerank_near_duplicates", lambda *_: ranked)
     monkeypatch.setattr(choose, "alternative_maps", lambda maps, *_: tuple(range(len(maps))))
     monkeypatch.setattr(choose, "map_distance", lambda a, b, _: float(a.points[0] != b.points[0]))
     found = choose.search_map(source, target, kfmaps.Config())
-    made = [way(-np.inf) for way in found.again]
+    made = [choose.retry(found, i, -np.inf) for i in range(3)]
     best = [c.score for c in ranked]
     assert [m and (m.initialization, m.scores[:2]) for m in (found, *made)] == [
         ("0", (best[0], best[1])),
@@ -465,14 +463,14 @@ def test_a_search_tells_what_else_may_turn_out_better(creatures, monkeypatch):
         ("twin", (twin.score, best[1])),
         None,
     ]
-    assert [way(best[1]) and "more" for way in found.again] == [None, "more", None]
+    assert [choose.retry(found, i, best[1]) and "more" for i in range(3)] == [None, "more", None]
 
 
 def test_where_the_target_lies_leads_as_well(creatures):
     """Of a map found backwards the target is bent: what lies on each other is the same."""
     source, target, _ = creatures
     found = choose.SearchResult(
-        np.eye(5), "a", None, "poor", registered_vertices=target.mesh.vertices + 1.0, swapped=True
+        np.eye(5), "a", None, "unlikely", registered_vertices=target.mesh.vertices + 1.0, swapped=True
     )
     led = matching._guidance(found, [source, target])
     alone = matching._guidance(replace(found, registered_vertices=None), [source, target])

@@ -15,8 +15,7 @@ from kfmaps.fmap.descriptor_guidance import FLAT, descriptor_variance
 from kfmaps.fmap.evaluate import geodesic_errors
 from kfmaps.fmap.refine import ZoomOut
 from kfmaps.geometry.mesh import Mesh
-from kfmaps.matching.calibration import BENT, MIDDLE, MUCH, PER_SCORE, SLOPE, probability, verdict
-from kfmaps.matching.candidates import Candidate, candidates, perturb
+from kfmaps.matching.candidates import candidates, perturb
 from kfmaps.matching.extremities import Extremities
 from kfmaps.matching.kernel_inits import plan_fits
 from kfmaps.matching.match import match
@@ -24,6 +23,7 @@ from kfmaps.matching.quality import _near, map_quality, sample_for_scoring, subs
 from kfmaps.matching.ranking import distinct
 from kfmaps.matching.sample_cache import known
 from kfmaps.matching.sample_pair import two_level_samples
+from kfmaps.matching.score import SCORE, Candidate, excess_deformation, probability, verdict
 from kfmaps.matching.search import search_map
 from kfmaps.shape import mirror_image, prepare
 
@@ -217,31 +217,35 @@ def test_a_sphere_is_ambiguous():
 def test_no_map_between_unlike_shapes_is_called_sure(shape):
     """A body and a sphere: the best of all bad maps may be well ahead of the others."""
     found = match(shape, prepare(fibonacci_sphere(650, 0.4), SMALL), SMALL)
-    assert found.verdict in ("poor", "ambiguous")
+    assert found.verdict in ("likely", "ambiguous", "unlikely")
     assert found.confidence is not None
     assert found.confidence < 0.6
 
 
 def test_a_verdict_follows_the_score_and_the_margin():
-    good, bad = MIDDLE + 6, MIDDLE - 6
+    numbers = SCORE.calibration
+    middle = numbers.middle
+    good, bad = middle + 6, middle - 6
     assert verdict(good, 1.0) == "sure"
     assert verdict(good, 0.0) == "ambiguous"
-    assert verdict(bad, np.inf) == "poor"
-    assert probability(MIDDLE, np.inf) == pytest.approx(0.5)
+    assert verdict(bad, np.inf) == "unlikely"
+    assert verdict(middle + 0.1, np.inf) == verdict(middle + 2, np.inf) == "likely"
+    assert probability(middle, np.inf) == pytest.approx(0.5)
     assert probability(100.0, 0.0) == pytest.approx(0.5)
-    assert probability(MIDDLE + 1 / SLOPE, np.inf) == pytest.approx(1 / (1 + np.exp(-1)))
+    assert probability(middle + 1 / numbers.slope, np.inf) == pytest.approx(1 / (1 + np.exp(-1)))
     scores = [probability(s, 0.2) for s in np.linspace(-1e4, 1e4, 50)]
     margins = [probability(good, m) for m in np.linspace(0, 1, 20)]
     assert scores == sorted(scores)
     assert margins == sorted(margins)
     assert 0 <= scores[0] <= scores[-1] <= 1
-    usual = np.exp(BENT + PER_SCORE * good)
+    usual = np.exp(-excess_deformation(good, 1.0))
     bent = [probability(good, 1.0, usual * more) for more in np.geomspace(0.1, 10, 20)]
     assert bent == sorted(bent, reverse=True)
     assert bent[0] == pytest.approx(probability(good, 1.0), rel=0.01)
-    assert probability(100.0, np.inf, np.exp(BENT + 100 * PER_SCORE + MUCH)) == pytest.approx(0.5)
+    excess = np.exp(numbers.excess_middle - excess_deformation(100.0, 1.0))
+    assert probability(100.0, np.inf, excess) == pytest.approx(0.5)
     assert verdict(good, 1.0, usual) == "sure"
-    assert verdict(good, 1.0, 4 * usual) == "poor"
+    assert verdict(good, 1.0, 4 * usual) == "unlikely"
 
 
 def test_a_part_is_not_called_a_match():
@@ -249,7 +253,7 @@ def test_a_part_is_not_called_a_match():
     found = match(pair.source, pair.target, replace(Config(), threads=2, partial=Partial("none")))
     assert geodesic_errors(pair.source, found.target_to_source, pair.truth).mean() > 0.05
     assert found.verdict != "sure"
-    assert found.scores[0] < MIDDLE
+    assert found.scores[0] < SCORE.calibration.middle
     assert found.confidence is not None
     assert found.confidence < 0.1
 
@@ -268,7 +272,7 @@ def test_point_clouds_are_matched_without_orientation(shape):
     cloud = prepare(Mesh(blob(650, twist=0.4).vertices, np.zeros((0, 3), dtype=int)), SMALL)
     found = search_map(shape, cloud, SMALL)
     assert found.functional_map.ndim == 2
-    assert found.verdict in ("sure", "ambiguous", "poor")
+    assert found.verdict in ("sure", "likely", "ambiguous", "unlikely")
     with pytest.raises(InvalidInput, match="point cloud"):
         match(shape, cloud, replace(SMALL, search=Search(orientation="reversed")))
 

@@ -1,5 +1,7 @@
 """Where diagonal maps have led to a good one, fits, tips and kicks are left out, but never what it is mistaken for."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -7,9 +9,10 @@ from kfmaps import datasets
 from kfmaps.fmap.convert import to_points
 from kfmaps.matching import candidates as found_by
 from kfmaps.matching import search as chosen_by
-from kfmaps.matching.candidates import Candidate, candidates, early_exit
-from kfmaps.matching.quality import Quality, sample_for_scoring
+from kfmaps.matching.candidates import candidates, early_exit
+from kfmaps.matching.quality import sample_for_scoring
 from kfmaps.matching.sample_pair import two_level_samples
+from kfmaps.matching.score import SCORE, Candidate, Quality
 from kfmaps.matching.search import alternative_maps
 from kfmaps.shape import prepare
 from test_search import SMALL
@@ -45,7 +48,7 @@ def names(monkeypatch, pair, on, easy, landmarks=NONE, descriptors=None):
 
     original = found_by.refine_coarse
     with monkeypatch.context() as patch:
-        patch.setattr(found_by, "EARLY_EXIT_SCORE", easy)
+        patch.setattr(found_by, "SCORE", replace(SCORE, early_exit_score=easy))
         patch.setattr(found_by, "refine_coarse", rough)
         patch.setattr(found_by, "refine_fine", fine)
         candidates(pair[0], pair[1], SMALL, on, 0, landmarks=landmarks, descriptors=descriptors)

@@ -161,7 +161,7 @@ def test_without_landmarks(made: types.SimpleNamespace, tmp_path: Path) -> None:
     """The search says how sure it is; its runners-up are maps too."""
     words = ("--candidates", "2", "--zoom-stop", "80", "--json", "-o", tmp_path / "m.npz")
     told = json.loads(match(made, *words, landmarks=False).stdout)
-    assert told["verdict"] in ("sure", "ambiguous", "poor")
+    assert told["verdict"] in ("sure", "likely", "ambiguous", "unlikely")
     assert 0 <= told["confidence"] <= 1
     found = load_map(tmp_path / "m.npz")
     assert float(np.asarray(found.extra["confidence"])) == pytest.approx(told["confidence"])
@@ -176,7 +176,7 @@ def test_without_landmarks(made: types.SimpleNamespace, tmp_path: Path) -> None:
 def test_landmarks_take_part_in_the_search(made: types.SimpleNamespace, tmp_path: Path) -> None:
     words = ("--candidates", "2", "--zoom-stop", "80", "--landmarks", made.landmarks, "-o", tmp_path / "m.npz")
     told = json.loads(match(made, *words, "--json", landmarks=False).stdout)
-    assert told["verdict"] in ("sure", "ambiguous", "poor")
+    assert told["verdict"] in ("sure", "likely", "ambiguous", "unlikely")
     assert (told["landmarks"], told["doubted"]) == (6, [])
     assert len(told["scores"]) == 1 + told["runners_up"]
 

@@ -11,15 +11,13 @@ from kfmaps._arrays import InvalidInput
 from kfmaps.config import BasisConfig, Config, DescriptorConfig, Formulation, Search, Weights
 from kfmaps.kernels.kernels import Gaussian
 from kfmaps.kernels.transformed import Metric, n_kernel_landmarks
-from kfmaps.matching.candidates import Candidate
 from kfmaps.matching.features import pair_descriptors
 from kfmaps.matching.fit import fit
 from kfmaps.matching.learned_kernel import by_metric, drop_learned, learned_candidates, seen
 from kfmaps.matching.match import match
-from kfmaps.matching.proxy_cache import ProxyCache
-from kfmaps.matching.quality import Quality
-from kfmaps.matching.ranking import BEHIND, CLEAR, merge_alternatives
+from kfmaps.matching.ranking import ProxyCache, merge_alternatives
 from kfmaps.matching.sample_pair import two_level_samples
+from kfmaps.matching.score import SCORE, Candidate, Quality
 from kfmaps.matching.search import scoring_samples, search_map
 from kfmaps.shape import prepare
 
@@ -118,10 +116,10 @@ def test_only_what_is_clearly_better_comes_first(creature):
     def first(score, place):
         return [c.name for c in merge_alternatives(usual, [candidate("new", score, place, on)], on, copies)]
 
-    assert first(1.0 + 0.9 * CLEAR, far) == ["own", "new"]
-    assert first(1.0 + 1.1 * CLEAR, far) == ["new", "own"]
+    assert first(1.0 + 0.9 * SCORE.clear_margin, far) == ["own", "new"]
+    assert first(1.0 + 1.1 * SCORE.clear_margin, far) == ["new", "own"]
     assert first(9.0, 0) == ["own"]  # the same map
-    assert first(1.0 - 1.1 * BEHIND, far) == ["own"]
+    assert first(1.0 - 1.1 * SCORE.max_behind, far) == ["own"]
     assert merge_alternatives(usual, [], on, copies) is usual
 
 

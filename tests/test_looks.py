@@ -16,16 +16,15 @@ from kfmaps.datasets.pairs import Pair, posed_pair
 from kfmaps.datasets.skeleton import Bend, Body
 from kfmaps.fmap.convert import nearest, to_functional
 from kfmaps.geometry.mesh import Mesh, unit_area
-from kfmaps.matching import proxy_cache as copies
 from kfmaps.matching import ranking
 from kfmaps.matching import registration_refine as mending
 from kfmaps.matching import search as choose
-from kfmaps.matching.candidates import W_SHOT, W_STRAIN, map_distance, score_maps
-from kfmaps.matching.proxy_cache import ProxyCache
+from kfmaps.matching.candidates import map_distance, score_maps
 from kfmaps.matching.quality import sample_for_scoring
-from kfmaps.matching.ranking import DISTINCT, LOOKED, normalize_errors, reference_values, rerank_close
-from kfmaps.matching.registration_refine import HOPELESS, compared, refine_by_registration
+from kfmaps.matching.ranking import ProxyCache, normalize_errors, reference_values, rerank_close
+from kfmaps.matching.registration_refine import compared, refine_by_registration
 from kfmaps.matching.sample_pair import two_level_samples
+from kfmaps.matching.score import SCORE
 from kfmaps.matching.search import without_landmarks
 from kfmaps.registration import alternating_registration as alternate
 from kfmaps.registration import registered_shot as looks
@@ -135,9 +134,9 @@ def test_looks_and_strain_count_over_usual_ones(creatures):
     assert reference_values(some, min) == (-2.0, 0.2)
     assert reference_values(some, np.mean) == pytest.approx((-1.5, 0.23))
     assert reference_values(some[2:], min) == (0.0, 0.0)
-    assert normalize_errors(some[0], (-2.0, 0.2)).evidence == pytest.approx(one.evidence - W_STRAIN)
-    assert normalize_errors(some[1], (-2.0, 0.2)).evidence == pytest.approx(one.evidence - W_SHOT * 0.06)
-    assert normalize_errors(some[2], (-2.0, 0.2)).evidence == one.evidence
+    assert normalize_errors(some[0], (-2.0, 0.2)).score == pytest.approx(one.score - SCORE.w_strain)
+    assert normalize_errors(some[1], (-2.0, 0.2)).score == pytest.approx(one.score - SCORE.w_shot * 0.06)
+    assert normalize_errors(some[2], (-2.0, 0.2)).score == one.score
 
 
 def test_of_mended_maps_the_one_that_looks_right_comes_first(creatures, monkeypatch):
@@ -152,20 +151,18 @@ def test_of_mended_maps_the_one_that_looks_right_comes_first(creatures, monkeypa
     def stays(*_what):
         raise NotConverged("it fell apart")
 
-    monkeypatch.setattr(copies, "shot_pair", lambda on: SimpleNamespace(on=on))
+    monkeypatch.setattr(ranking, "shot_pair", lambda on: SimpleNamespace(on=on))
     monkeypatch.setattr(mending, "registered_shot_error", lambda *_what: 0.2)
     monkeypatch.setattr(mending, "alternating_registration", stays)
     nowhere = np.zeros((0, 2), dtype=np.int64)
-    assert [c.name for c in refine_by_registration([bad, good], on, ProxyCache.of(source, target, on), nowhere, 1)] == [
-        "bad",
-        "truth",
-    ]
+    ranked = refine_by_registration([bad, good], on, ProxyCache.of(source, target, on), nowhere, 1)[0]
+    assert [c.name for c in ranked] == ["bad", "truth"]
     made = alternate.AlternatingResult(good.functional_map, source.mesh.vertices)
     monkeypatch.setattr(mending, "alternating_registration", lambda C, *_what: replace(made, functional_map=C))
     monkeypatch.setattr(mending, "score_maps", lambda names, *_w: [bad if names[0][0] == "bad" else good])
     monkeypatch.setattr(mending, "score_registered", lambda c, *_what: replace(c, strain=0.0))
     monkeypatch.setattr(mending, "registered_shot_error", lambda C, *_what: 0.25 if C is bad.functional_map else 0.2)
-    found = refine_by_registration([bad, good], on, ProxyCache.of(source, target, on), nowhere, 1)
+    found = refine_by_registration([bad, good], on, ProxyCache.of(source, target, on), nowhere, 1)[0]
     assert [c.name for c in found] == ["truth", "bad"]
     assert [c.shot_error for c in found] == pytest.approx([0.0, 0.05])
 
@@ -181,7 +178,7 @@ def test_feet_that_touch_are_exchanged_by_another_map(knees):
     on: Any = SimpleNamespace(positions=unit_area(knees.source).vertices)
     right: Any = SimpleNamespace(points=knees.truth)
     wrong: Any = SimpleNamespace(points=exchanged(knees, 0.1))
-    assert choose.ALIKE < map_distance(right, wrong, on) < DISTINCT
+    assert SCORE.duplicate_distance < map_distance(right, wrong, on) < SCORE.distinct_distance
 
 
 def test_maps_are_alike_that_are_off_by_an_edge_here_and_there(knees):
@@ -193,7 +190,7 @@ def test_maps_are_alike_that_are_off_by_an_edge_here_and_there(knees):
     points[::10] = beside[points[::10]]
     right: Any = SimpleNamespace(points=knees.truth)
     off: Any = SimpleNamespace(points=points)
-    assert 0 < map_distance(right, off, on) < choose.ALIKE
+    assert 0 < map_distance(right, off, on) < SCORE.duplicate_distance
 
 
 def test_looks_decide_where_they_are_asked_for_but_bring_nothing_back(knees):
@@ -211,8 +208,8 @@ def test_looks_decide_where_they_are_asked_for_but_bring_nothing_back(knees):
         what = registered_shot_error(functional(exchanged(knees, height), source, target, 60), source, target, on)
         assert what is not None
         seen.append(what)
-    feet, legs, all_of_it = (W_SHOT * (bad - seen[0]) for bad in seen[1:])
-    assert feet < LOOKED < legs < HOPELESS < all_of_it
+    feet, legs, all_of_it = (SCORE.w_shot * (bad - seen[0]) for bad in seen[1:])
+    assert feet < SCORE.shot_margin < legs < SCORE.hopeless_margin < all_of_it
 
 
 @pytest.mark.parametrize(("margin", "again"), [(2.0, False), (0.5, True)])
@@ -226,12 +223,12 @@ def test_of_two_that_are_close_looks_decide(creatures, monkeypatch, margin, agai
     rest = replace(good, name="rest", quality=replace(quality, distortion=quality.distortion + 9))
     bent = []
     monkeypatch.setattr(ranking, "score_registered", lambda c, *_what: bent.append(c.name) or replace(c, strain=0.0))
-    monkeypatch.setattr(copies, "shot_pair", lambda on: SimpleNamespace(on=on))
+    monkeypatch.setattr(ranking, "shot_pair", lambda on: SimpleNamespace(on=on))
     monkeypatch.setattr(ranking, "registered_shot_error", lambda C, *_what: 0.25 if C is bad.functional_map else 0.2)
     found = rerank_close([bad, good, rest], ProxyCache.of(source, target, on), 1)
     assert [c.name for c in found] == ["truth", "bad", "rest"]
     assert [c.shot_error for c in found[:2]] == pytest.approx([0.0, 0.05])
-    assert found[0].score - found[1].score == pytest.approx(0.05 * W_SHOT - margin)
+    assert found[0].score - found[1].score == pytest.approx(0.05 * SCORE.w_shot - margin)
     assert found[2] is rest
     assert bent == (["bad", "truth"] if again else [])
 
@@ -244,7 +241,7 @@ def test_looks_are_asked_for_where_two_are_close(creatures, monkeypatch):
     monkeypatch.setattr(
         ranking, "with_bending", lambda near, *_rest: [replace(c, deformation_energy=0.15) for c in near]
     )
-    for margin, wanted in ((LOOKED + 0.2, 0), (LOOKED - 0.2, 1)):
+    for margin, wanted in ((SCORE.shot_margin + 0.2, 0), (SCORE.shot_margin - 0.2, 1)):
         quality = replace(one.quality, distortion=one.quality.distortion + margin / 6)
         other = replace(one, name="other", quality=quality, points=np.roll(one.points, 50))
         ranking.ranking([one, other], on, ProxyCache.of(source, target, on), 1)
@@ -254,7 +251,9 @@ def test_looks_are_asked_for_where_two_are_close(creatures, monkeypatch):
 def test_what_is_far_behind_is_not_looked_at(creatures):
     """And counts as the worst of those that are."""
     one = replace(one_of(creatures)[1], strain=0.0)
-    behind = [replace(one, strain=s / W_STRAIN) for s in (0.0, HOPELESS - 1, HOPELESS + 1)]
+    behind = [
+        replace(one, strain=s / SCORE.w_strain) for s in (0.0, SCORE.hopeless_margin - 1, SCORE.hopeless_margin + 1)
+    ]
     asked = []
 
     def looked_at(c):
@@ -264,7 +263,7 @@ def test_what_is_far_behind_is_not_looked_at(creatures):
     found = compared(behind, looked_at, 1)
     assert asked == [c.strain for c in behind[:2]]
     assert [c.strain for c in found] == [c.strain for c in behind]
-    worst = 0.2 + 0.1 * (HOPELESS - 1) / W_STRAIN
+    worst = 0.2 + 0.1 * (SCORE.hopeless_margin - 1) / SCORE.w_strain
     assert [c.shot_error for c in found] == pytest.approx([0.2, worst, worst])
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import partial
 from types import SimpleNamespace
 from typing import Any
 
@@ -14,28 +15,21 @@ from conftest import blob
 from kfmaps.fmap.convert import to_functional
 from kfmaps.geometry.mesh import MIRROR, unit_area
 from kfmaps.geometry.sampling import stratified_vertices
-from kfmaps.matching import calibration as verdict
 from kfmaps.matching import match as matching
-from kfmaps.matching import proxy_cache as copies
+from kfmaps.matching import ranking as ranks
 from kfmaps.matching import registration_refine as mending
 from kfmaps.matching import search as choose
-from kfmaps.matching.calibration import MIDDLE, SURE, TIE, probability
 from kfmaps.matching.candidates import score_maps
 from kfmaps.matching.landmark_evidence import (
     LEAD,
     LESS,
-    MISSED,
-    NEAR,
-    WELL,
-    WIDTH,
-    LandmarkEvidence,
     build_guidance,
-    landmark_support,
 )
-from kfmaps.matching.proxy_cache import ProxyCache
 from kfmaps.matching.quality import sample_for_scoring
+from kfmaps.matching.ranking import ProxyCache
 from kfmaps.matching.sample_pair import two_level_samples
-from kfmaps.matching.search import NON_ISOMETRIC_SCORE, SearchResult, backed_by, ignore_landmarks, near_isometric
+from kfmaps.matching.score import SCORE, landmark_support, probability, verdict
+from kfmaps.matching.search import SearchResult, backed_by, ignore_landmarks, near_isometric
 from kfmaps.registration import nonrigid_icp as nonrigid
 from kfmaps.registration.alternating_registration import (
     AlternatingResult,
@@ -58,13 +52,10 @@ NAMES = [("a", True)]
 """Of a single map, which SHOT has led."""
 
 
-def on_a_line(*places: float) -> tuple[LandmarkEvidence, np.ndarray]:
-    """Landmarks at these places of a source of length 1 with a hundred samples, and their areas: a third in front."""
+def on_a_line(*places: float) -> tuple[np.ndarray, np.ndarray]:
+    """Distances from landmarks at these places of a source of length 1 to a hundred samples, and the areas of these."""
     samples = (np.arange(100) + 0.5) / 100
-    nothing: Any = np.zeros((len(places), 0, 0))
-    return LandmarkEvidence(nothing, np.abs(np.array(places)[:, None] - samples), nothing, nothing), np.where(
-        samples < 0.5, 1, 2
-    )
+    return np.abs(np.array(places)[:, None] - samples), np.where(samples < 0.5, 1, 2)
 
 
 def spread_out(creatures: Any, count: int) -> np.ndarray:
@@ -83,7 +74,7 @@ def only_the_truth(creatures: Any, monkeypatch: pytest.MonkeyPatch) -> None:
     C = functional(creatures[2], creatures, 40)
     monkeypatch.setattr(choose, "candidates", lambda *a, **_m: score_maps(NAMES, C[None], None, a[3].whole, 1))
     monkeypatch.setattr(choose, "without_landmarks", lambda *_a, **_m: [])
-    monkeypatch.setattr(choose, "REPAIR_SCORE", -np.inf)
+    monkeypatch.setattr(choose, "SCORE", replace(SCORE, repair_score=-np.inf))
 
 
 @pytest.fixture(scope="module")
@@ -105,18 +96,18 @@ def given(creatures: Any, count: int) -> Any:
 
 
 def test_landmarks_back_a_map_as_far_as_they_reach() -> None:
-    far = 1 - NEAR - 1e-3
-    there, areas = on_a_line(NEAR, 0.5, far)
+    far = 1 - SCORE.landmark_radius - 1e-3
+    there, areas = on_a_line(SCORE.landmark_radius, 0.5, far)
     kept = np.zeros(3)
-    most = 1 / (1 + np.exp(-WELL / WIDTH))
+    most = 1 / (1 + np.exp(-SCORE.landmark_error_middle / SCORE.landmark_error_width))
     assert landmark_support(kept, there, areas) == pytest.approx(most)
     # The squared share of the area, not of the samples nor of the landmarks.
-    for place, samples in ((NEAR, np.arange(0, 40)), (far, np.arange(60, 100))):
+    for place, samples in ((SCORE.landmark_radius, np.arange(0, 40)), (far, np.arange(60, 100))):
         share = areas[samples].sum() / areas.sum()
         assert landmark_support(kept[:1], *on_a_line(place)) == pytest.approx(most * share**2)
-    many = landmark_support(np.zeros(50), *on_a_line(*[NEAR] * 50))
-    assert many == pytest.approx(landmark_support(kept[:1], *on_a_line(NEAR)))
-    shares = [landmark_support(kept[:i], *on_a_line(*(NEAR, 0.5, far)[:i])) for i in range(4)]
+    many = landmark_support(np.zeros(50), *on_a_line(*[SCORE.landmark_radius] * 50))
+    assert many == pytest.approx(landmark_support(kept[:1], *on_a_line(SCORE.landmark_radius)))
+    shares = [landmark_support(kept[:i], *on_a_line(*(SCORE.landmark_radius, 0.5, far)[:i])) for i in range(4)]
     assert shares[0] == 0.0
     assert (np.diff(shares) > 0.05).all()
 
@@ -124,34 +115,41 @@ def test_landmarks_back_a_map_as_far_as_they_reach() -> None:
 def test_what_landmarks_say_ends_where_they_are_missed() -> None:
     """Together, when the mean is no longer that of a right map; a single one has its say, but no more than that."""
     there, areas = on_a_line(0.2, 0.5, 0.8)
-    assert landmark_support(np.full(3, WELL), there, areas) == pytest.approx(0.5)
-    assert landmark_support(np.full(3, WELL + WIDTH), there, areas) == pytest.approx(1 / (1 + np.e))
-    assert landmark_support(np.array([0.0, 0.0, 3 * WELL]), there, areas) == pytest.approx(0.5)
-    offs = [landmark_support(np.full(3, off), there, areas) for off in np.linspace(0, MISSED, 20)]
+    assert landmark_support(np.full(3, SCORE.landmark_error_middle), there, areas) == pytest.approx(0.5)
+    assert landmark_support(
+        np.full(3, SCORE.landmark_error_middle + SCORE.landmark_error_width), there, areas
+    ) == pytest.approx(1 / (1 + np.e))
+    assert landmark_support(np.array([0.0, 0.0, 3 * SCORE.landmark_error_middle]), there, areas) == pytest.approx(0.5)
+    offs = [landmark_support(np.full(3, off), there, areas) for off in np.linspace(0, SCORE.max_landmark_error, 20)]
     assert offs == sorted(offs, reverse=True)
     several = on_a_line(*np.linspace(0, 1, 6))
-    said = [landmark_support(np.array([0.0, 0.0, 0.0, 0.0, 0.0, off]), *several) for off in (0.5 * MISSED, MISSED, 9.0)]
+    said = [
+        landmark_support(np.array([0.0, 0.0, 0.0, 0.0, 0.0, off]), *several)
+        for off in (0.5 * SCORE.max_landmark_error, SCORE.max_landmark_error, 9.0)
+    ]
     assert said[0] > 1.01 * said[1] == pytest.approx(1.01 * said[2])
-    assert said[2] == pytest.approx(1 / (1 + np.exp((MISSED / 6 - WELL) / WIDTH)))
+    assert said[2] == pytest.approx(
+        1 / (1 + np.exp((SCORE.max_landmark_error / 6 - SCORE.landmark_error_middle) / SCORE.landmark_error_width))
+    )
 
 
 def test_backing_takes_away_doubt() -> None:
-    bad, good = MIDDLE - 1, MIDDLE + 6
+    bad, good = SCORE.calibration.middle - 1, SCORE.calibration.middle + 6
     for score, margin, bending in ((bad, 0.5, None), (good, 0.0, 0.01), (good, np.inf, 10.0), (-1e5, 0.0, None)):
         before = probability(score, margin, bending)
         assert probability(score, margin, bending, 0.0) == before
         assert probability(score, margin, bending, 1.0) == pytest.approx(1.0)
         assert probability(score, margin, bending, 0.25) == pytest.approx(1 - 0.75 * (1 - before))
-    assert verdict.verdict(bad, np.inf) == "poor"
-    assert verdict.verdict(bad, 1.0, None, 0.5) == "poor"
-    assert verdict.verdict(bad, 1.0, None, 0.95) == "sure"
-    assert verdict.verdict(good, 0.0) == verdict.verdict(good, 0.0, None, 0.5) == "ambiguous"
-    assert verdict.verdict(good, 0.0, None, 0.85) == "sure"
+    assert verdict(bad, np.inf) == "unlikely"
+    assert verdict(bad, 1.0, None, 0.5) == "likely"
+    assert verdict(bad, 1.0, None, 0.95) == "sure"
+    assert verdict(good, 0.0) == verdict(good, 0.0, None, 0.5) == "ambiguous"
+    assert verdict(good, 0.0, None, 0.85) == "sure"
     # What would be sure without its rival is ambiguous, also where it is the landmarks that make it so.
     alone = probability(bad, np.inf)
-    enough = 1 - 0.9 * (1 - SURE) / (1 - alone)
-    assert probability(bad, 0.1 * TIE, None, enough) < SURE
-    assert verdict.verdict(bad, 0.1 * TIE, None, enough) == "ambiguous"
+    enough = 1 - 0.9 * (1 - SCORE.calibration.sure) / (1 - alone)
+    assert probability(bad, 0.1 * SCORE.calibration.tie, None, enough) < SCORE.calibration.sure
+    assert verdict(bad, 0.1 * SCORE.calibration.tie, None, enough) == "ambiguous"
 
 
 def test_a_map_is_backed_by_landmarks_that_have_not_led_it(creatures, slid) -> None:
@@ -162,37 +160,39 @@ def test_a_map_is_backed_by_landmarks_that_have_not_led_it(creatures, slid) -> N
     assert on.marks is not None
     assert (
         backed_by(right, on, 1)
-        == landmark_support(ignore_landmarks(right, on, 1).landmark_errors, on.marks, areas)
+        == landmark_support(ignore_landmarks(right, on, 1).landmark_errors, on.marks.distances, areas)
         > 0.3
     )
     # With landmarks in it the refinement would keep to them.
     led = choose.rerefine([wrong], on, 1)[0]
-    assert landmark_support(led.landmark_errors, on.marks, areas) > 0.3
+    assert landmark_support(led.landmark_errors, on.marks.distances, areas) > 0.3
     assert backed_by(wrong, on, 1) < 1e-3
     assert backed_by(right, replace(on, landmarks=None, marks=None), 1) == 0.0
 
 
 def test_a_search_says_that_landmarks_back_its_map(creatures, monkeypatch) -> None:
-    """As if its score were poor."""
+    """As if its score were low."""
     source, target, _ = creatures
     only_the_truth(creatures, monkeypatch)
-    monkeypatch.setattr(verdict, "MIDDLE", 0.0)
+    harder = replace(SCORE.calibration, middle=0.0)
+    monkeypatch.setattr(choose, "probability", partial(probability, numbers=harder))
+    monkeypatch.setattr(choose, "verdict", partial(verdict, numbers=harder))
     config = replace(kfmaps.Config(), threads=1)
     without, backed = (
         choose.search_map(source, target, config, landmarks=at) for at in (None, spread_out(creatures, 40))
     )
-    assert (without.verdict, backed.verdict) == ("poor", "sure")
+    assert (without.verdict, backed.verdict) == ("unlikely", "sure")
     assert without.confidence is not None
     assert without.confidence < 0.1
     assert backed.confidence is not None
-    assert backed.confidence > SURE
+    assert backed.confidence > SCORE.calibration.sure
 
 
 def test_a_landmark_that_the_map_keeps_is_doubted_no_longer(creatures, monkeypatch) -> None:
     """A rough map has missed two; the map that comes of it keeps the first, and has the second elsewhere indeed."""
     source, target, _ = creatures
     only_the_truth(creatures, monkeypatch)
-    monkeypatch.setattr(choose, "reject_landmarks", lambda missed: np.isin(missed, [missed.min(), missed.max()]))
+    monkeypatch.setattr(choose, "rejected_landmarks", lambda missed: np.isin(missed, [missed.min(), missed.max()]))
     at = spread_out(creatures, 10)
     at[1, 0] = np.linalg.norm(source.mesh.vertices - source.mesh.vertices[at[1, 0]], axis=1).argmax()
     found = choose.search_map(source, target, replace(kfmaps.Config(), threads=1), landmarks=at)
@@ -304,9 +304,9 @@ def test_landmarks_lead_less_where_shapes_differ_much(creatures, monkeypatch) ->
     source, target, _ = creatures
     asked = []
     monkeypatch.setattr(matching, "build_guidance", lambda *_a, lead, **_m: asked.append(lead))
-    found = SearchResult(np.eye(3), "a", None, "poor")
-    for quality in (None, NON_ISOMETRIC_SCORE, NON_ISOMETRIC_SCORE - 1):
-        assert near_isometric(replace(found, quality=quality)) == (quality != NON_ISOMETRIC_SCORE - 1)
+    found = SearchResult(np.eye(3), "a", None, "unlikely")
+    for quality in (None, SCORE.non_isometric_score, SCORE.non_isometric_score - 1):
+        assert near_isometric(replace(found, quality=quality)) == (quality != SCORE.non_isometric_score - 1)
         assert matching._guidance(replace(found, quality=quality), [source, target]) is None
     assert asked == [LEAD, LEAD, LESS]
 
@@ -314,7 +314,7 @@ def test_landmarks_lead_less_where_shapes_differ_much(creatures, monkeypatch) ->
 def test_what_is_mended_keeps_to_landmarks(creatures, monkeypatch) -> None:
     """Each way round, with those that are not doubted."""
     source, target, truth = creatures
-    monkeypatch.setattr(copies, "shot_pair", lambda on: SimpleNamespace(on=on))
+    monkeypatch.setattr(ranks, "shot_pair", lambda on: SimpleNamespace(on=on))
     monkeypatch.setattr(mending, "registered_shot_error", lambda *_what: 0.2)
     monkeypatch.setattr(mending, "match_extremities", lambda *_: [])
     on = two_level_samples(source, target, (sample_for_scoring(source, 200), sample_for_scoring(target, 200))).whole
@@ -333,8 +333,9 @@ def test_what_is_mended_keeps_to_landmarks(creatures, monkeypatch) -> None:
 
     monkeypatch.setattr(mending, "build_guidance", lead)
     monkeypatch.setattr(mending, "alternating_registration", made)
-    found = mending.refine_by_registration(ranked, on, ProxyCache.of(source, target, on), at, 1)[0]
-    found.again[0]()
+    (way,) = mending.refine_by_registration(ranked, on, ProxyCache.of(source, target, on), at, 1)[1]
+    assert isinstance(way, mending.SwappedRepair)
+    way.make()
     (t, s), (s_again, t_again) = begun
     for there, here in ((s, t), (s_again, t_again)):
         np.testing.assert_array_equal(np.stack([there, here], axis=1), at)
@@ -348,7 +349,7 @@ def test_ten_landmarks_make_a_match_no_worse(creatures, slid, monkeypatch) -> No
     at = spread_out(creatures, 10)
     errors = []
     for some in (at[:0], at):
-        found = SearchResult(slid, "a", None, "poor", landmarks=some, quality=NON_ISOMETRIC_SCORE - 1)
+        found = SearchResult(slid, "a", None, "unlikely", landmarks=some, quality=SCORE.non_isometric_score - 1)
         monkeypatch.setattr(matching, "search_map", lambda *_a, found=found, **_m: found)
         points = kfmaps.match(source, target, landmarks=at).target_to_source
         errors.append(kfmaps.geodesic_errors(source.mesh, points, truth))

@@ -1,6 +1,7 @@
 """Parts and wholes: what boundaries tell, distances that a cut lengthens, the part placed, bent and answered."""
 
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 import pytest
@@ -14,15 +15,15 @@ from kfmaps.fmap.precise import PointMap
 from kfmaps.geometry.mesh import Mesh, boundary_vertices, surface_area
 from kfmaps.io import load_map
 from kfmaps.matching.match import match
-from kfmaps.matching.partial.calibration import MIDDLE, SURE, part_probability, part_verdict
-from kfmaps.matching.partial.compare_alternatives import CLEAR
-from kfmaps.matching.partial.detect import OPEN, boundary_opening, detect_part
+from kfmaps.matching.partial.detect import boundary_opening, detect_part
 from kfmaps.matching.partial.relaxation_labeling import SLACK, consistency, distance_bounds
 from kfmaps.matching.partial.samples import part_samples
 from kfmaps.matching.partial.scale_search import SCALES
+from kfmaps.matching.score import SCORE, probability, verdict
 from kfmaps.shape import prepare
 from test_search import SMALL
 
+PART = SCORE.part.calibration
 GUARDS = ("kfmaps.fmap.evaluate", "kfmaps.matching.partial")
 
 AUTO = replace(SMALL, partial=Partial("auto", samples=100, whole_samples=300))
@@ -83,7 +84,7 @@ def test_boundaries_tell_which_is_a_part(pair):
     assert detect_part(pair.source, cloud).which == "none"
     # A pinhole is none: a face of many is left out.
     pinhole = Mesh(pair.source.vertices, pair.source.faces[1:])
-    assert 0.0 < boundary_opening(pinhole) < OPEN
+    assert 0.0 < boundary_opening(pinhole) < SCORE.part.min_opening
     assert detect_part(pair.source, pinhole).which == "none"
 
 
@@ -127,7 +128,7 @@ def test_a_part_in_another_unit_and_turned_is_placed(pair, found, truth):
     assert common.mean() > 0.95
     ours, true = found.overlap_source > 0.5, true_overlap(pair.source, pair.target, truth)
     assert (ours & true).sum() / (ours | true).sum() > 0.85
-    assert found.verdict != "poor"
+    assert found.verdict != "unlikely"
     for overlap in (found.overlap_source, found.overlap_target):
         assert overlap.min() >= 0.0
         assert overlap.max() <= 1.0
@@ -178,21 +179,26 @@ def test_whole_shapes_are_matched_as_if_nobody_had_thought_of_parts():
 
 
 def test_score_and_margin_speak_for_a_place():
-    middle = part_probability(MIDDLE + 1, 0.5)
-    assert 0 < part_probability(MIDDLE - 1, 0.5) < middle < part_probability(MIDDLE + 2, 0.5) < 1
-    assert part_probability(MIDDLE + 1, 0.0) < middle < part_probability(MIDDLE + 1, CLEAR)
-    assert part_probability(-1e6, 0.0) == pytest.approx(0.0)
+    chance = partial(probability, numbers=PART)
+    middle = chance(PART.middle + 1, 0.5)
+    assert 0 < chance(PART.middle - 1, 0.5) < middle < chance(PART.middle + 2, 0.5) < 1
+    assert chance(PART.middle + 1, 0.0) < middle < chance(PART.middle + 1, SCORE.part.max_margin)
+    assert chance(-1e6, 0.0) == pytest.approx(0.0)
     # Of two that are equal each is as likely, however good they are.
-    assert part_probability(1e6, 0.0) == part_probability(1e6, -1.0) == 0.5
-    assert part_probability(MIDDLE, 1e6) == pytest.approx(0.5)
+    assert chance(1e6, 0.0) == chance(1e6, -1.0) == 0.5
+    assert chance(PART.middle, 1e6) == pytest.approx(0.5)
 
 
-def test_a_close_rival_makes_a_verdict_ambiguous_and_never_poor():
-    assert part_verdict(MIDDLE + 9, CLEAR) == "sure"
-    assert part_verdict(MIDDLE + 9, 0.0) == "ambiguous"
-    assert part_verdict(MIDDLE - 0.01, CLEAR) == part_verdict(MIDDLE - 0.01, 0.0) == "poor"
-    for score, margin in ((MIDDLE + 1.0, 0.3), (MIDDLE + 5.0, 0.6), (MIDDLE + 1.5, 1.0), (MIDDLE + 0.1, CLEAR)):
-        assert (part_verdict(score, margin) == "sure") == (part_probability(score, margin) >= SURE)
+def test_a_close_rival_makes_a_verdict_ambiguous_and_never_unlikely():
+    word, most = partial(verdict, numbers=PART), SCORE.part.max_margin
+    good, bad = PART.middle + 9, PART.middle - 0.01
+    assert word(good, most) == "sure"
+    assert word(good, 0.0) == "ambiguous"
+    assert word(bad, most) == word(bad, 0.0) == "unlikely"
+    assert word(PART.middle + 0.3, most) == "likely"
+    for score, margin in ((1.0, 0.3), (5.0, 0.6), (1.5, 1.0), (0.1, most)):
+        chance = probability(PART.middle + score, margin, numbers=PART)
+        assert (word(PART.middle + score, margin) == "sure") == (chance >= PART.sure)
 
 
 def test_the_default_of_the_command_is_auto():

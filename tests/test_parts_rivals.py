@@ -1,21 +1,20 @@
 """Placings of a part that leave the one it has: on a sheet that half a turn lays on itself there is exactly one."""
 
 import numpy as np
-import pytest
 
 from kfmaps.geometry.mesh import Mesh
-from kfmaps.matching.partial.alternatives import BESIDE, ELSEWHERE, alternative_placements, apart
+from kfmaps.matching.partial.alternatives import SCALE_RATIOS, alternative_placements
 from kfmaps.matching.partial.beam_search import beam_search
 from kfmaps.matching.partial.relaxation_labeling import distance_bounds
 from kfmaps.matching.partial.samples import PartSamples
 from kfmaps.matching.partial.scale_search import TRIALS
+from kfmaps.matching.score import SCORE
 
 GUARDS = ("kfmaps.matching.partial",)
 
 HALF = 60
 OTHER = np.roll(np.arange(2 * HALF), HALF)
 """Where half a turn takes each point."""
-NONE = np.zeros((0, 2), dtype=np.int64)
 SCALE = 0.5
 
 
@@ -33,7 +32,7 @@ def sheet(marks=0, told=0.05):
         known = {
             radius / (scale * beside): own * np.float32(told if scale == 1.0 else 1.0)
             for radius in TRIALS[0].radii
-            for beside in BESIDE
+            for beside in SCALE_RATIOS
         }
         sides.append(PartSamples(mesh, each, between / np.float32(scale), endless, each < 0, marks, known))
     return points, *sides
@@ -41,34 +40,29 @@ def sheet(marks=0, told=0.05):
 
 def test_the_best_rival_is_the_other_way_that_distances_allow():
     points, part, whole = sheet()
-    measure = distance_bounds(part.distances, part.edge, SCALE)
-    first = beam_search(measure, part.edge, whole.distances, 0.05 * np.eye(2 * HALF, dtype=np.float32))[0]
+    measure = distance_bounds(part.distances, part.boundary_distance, SCALE)
+    first = beam_search(measure, part.boundary_distance, whole.distances, 0.05 * np.eye(2 * HALF, dtype=np.float32))[0]
     assert (first.match == np.arange(2 * HALF))[first.trust > 0].all()
-    found = alternative_placements(part, whole, SCALE, points, NONE, threads=1)
+    found = alternative_placements(part, whole, SCALE, points, threads=1)
     assert np.median(np.linalg.norm(points[found[0].placed.match] - points[OTHER], axis=1)) < 0.02
     assert found[0].placed.support > 0.9
-    assert {one.scale for one in found} == {SCALE * beside for beside in BESIDE}
-    fixed = alternative_placements(part, whole, SCALE, points, NONE, True, threads=1)
+    assert {one.scale for one in found} == {SCALE * beside for beside in SCALE_RATIOS}
+    fixed = alternative_placements(part, whole, SCALE, points, True, threads=1)
     assert {one.scale for one in fixed} == {SCALE}
     # And from there the rival is where it was before.
-    back = alternative_placements(part, whole, SCALE, points[OTHER], NONE, threads=1)
+    back = alternative_placements(part, whole, SCALE, points[OTHER], threads=1)
     assert np.median(np.linalg.norm(points[back[0].placed.match] - points, axis=1)) < 0.02
 
 
 def test_rivals_lie_elsewhere_and_have_the_scale_of_the_placing():
     points, part, whole = sheet()
-    for one in alternative_placements(part, whole, SCALE, points, NONE, threads=1):
-        assert one.scale in [SCALE * beside for beside in BESIDE]
-        assert np.median(np.linalg.norm(points[one.placed.match] - points, axis=1)) > ELSEWHERE
+    for one in alternative_placements(part, whole, SCALE, points, threads=1):
+        assert one.scale in [SCALE * beside for beside in SCALE_RATIOS]
+        assert np.median(np.linalg.norm(points[one.placed.match] - points, axis=1)) > SCORE.part.distinct_distance
 
 
 def test_a_landmark_allows_no_rival_that_moves_it():
     points, part, whole = sheet(marks=2)
-    for one in alternative_placements(part, whole, SCALE, points, np.array([[0, 0], [1, 1]]), threads=1):
+    for one in alternative_placements(part, whole, SCALE, points, threads=1):
         assert one.placed.match[:2].tolist() == [0, 1]
         assert one.placed.support < 0.9
-
-
-def test_distances_from_all_samples():
-    points, _, whole = sheet()
-    assert apart(points[:3], whole) == pytest.approx(np.linalg.norm(points[:3, None] - points[None], axis=2))

@@ -18,13 +18,14 @@ from kfmaps.geometry.sampling import spectral_samples
 from kfmaps.matching import candidates
 from kfmaps.matching import kernel_inits as fits
 from kfmaps.matching.batched_zoomout import batched_zoomout
-from kfmaps.matching.candidates import W_LANDMARK, refine_fine, rerefine, score_maps
+from kfmaps.matching.candidates import refine_fine, rerefine, score_maps
 from kfmaps.matching.fit import fit
 from kfmaps.matching.kernel_inits import FitSpec, fit_descriptor_set, sample_shapes
-from kfmaps.matching.landmark_evidence import heat_features, heat_guidance, landmark_errors, reject_landmarks
+from kfmaps.matching.landmark_evidence import heat_features, heat_guidance, landmark_errors
 from kfmaps.matching.match import match
 from kfmaps.matching.quality import sample_for_scoring, sample_surface
 from kfmaps.matching.sample_pair import descriptor_cost, drop_landmarks, sample_pair, two_level_samples
+from kfmaps.matching.score import SCORE, rejected_landmarks
 from kfmaps.matching.search import SearchResult, adapt_refinement, search_map
 from kfmaps.shape import prepare, sample_shape
 
@@ -103,7 +104,7 @@ def test_the_points_of_the_fits_come_from_the_seed(shape, other, monkeypatch):
         return sample_shapes(*arguments)
 
     monkeypatch.setattr(candidates, "sample_shapes", spy)
-    monkeypatch.setattr(candidates, "EARLY_EXIT_SCORE", np.inf)
+    monkeypatch.setattr(candidates, "SCORE", replace(SCORE, early_exit_score=np.inf))
     for seed in (7, 0):
         search_map(shape, other, SMALL, rng=seed)
     assert asked == [7, 0]
@@ -153,9 +154,9 @@ def test_guides_are_joined_in_proportion_to_their_weights(shape):
 
 def test_landmarks_are_doubted_when_most_of_the_others_are_met():
     near, far = 0.02, 0.9
-    assert reject_landmarks(np.array([near, near, far, near, near])).tolist() == [False, False, True, False, False]
-    assert not reject_landmarks(np.array([far, near])).any()
-    assert not reject_landmarks(np.array([far, far, near, near, far])).any()
+    assert rejected_landmarks(np.array([near, near, far, near, near])).tolist() == [False, False, True, False, False]
+    assert not rejected_landmarks(np.array([far, near])).any()
+    assert not rejected_landmarks(np.array([far, far, near, near, far])).any()
 
 
 def test_missed_is_the_distance_from_where_a_landmark_belongs(shape):
@@ -169,7 +170,7 @@ def test_missed_is_the_distance_from_where_a_landmark_belongs(shape):
     assert off[:2].max() < 0.1
     assert off[2] == pytest.approx(true, abs=0.1)
     one = score_maps([("", True)], np.eye(60)[None], None, on.whole)[0]
-    assert one.quality.score - one.score == pytest.approx(W_LANDMARK, rel=0.3)
+    assert one.quality.score - one.score == pytest.approx(SCORE.w_landmark, rel=0.3)
     less = drop_landmarks(on.whole, np.array([False, False, True]))
     assert rerefine([one], less)[0].landmark_errors.shape == (2,)
     assert len(refine_fine([one], less, less, 90)[0].landmark_errors) == 2

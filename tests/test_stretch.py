@@ -13,7 +13,8 @@ from kfmaps._arrays import InvalidInput
 from kfmaps.geometry.arap import build_arap, nearest_rotations, rotations
 from kfmaps.geometry.mesh import Mesh, unit_area, vertex_areas
 from kfmaps.matching import match as matching
-from kfmaps.matching.search import NON_ISOMETRIC_SCORE, STRETCH, SearchResult, adapt_registration
+from kfmaps.matching.score import SCORE
+from kfmaps.matching.search import STRETCH, SearchResult, adapt_registration
 from kfmaps.registration.local_scaling import LEAST, MOST, local_scaling
 from kfmaps.registration.nonrigid_icp import NonRigid
 
@@ -104,17 +105,17 @@ def test_a_stretch_is_an_area() -> None:
 
 
 def test_only_unlike_shapes_are_stretched_in_the_end(monkeypatch) -> None:
-    found = SearchResult(np.eye(3), "a", None, "poor", quality=NON_ISOMETRIC_SCORE - 1)
+    found = SearchResult(np.eye(3), "a", None, "unlikely", quality=SCORE.non_isometric_score - 1)
     assert adapt_registration(NonRigid(), found) == NonRigid(local_scaling=STRETCH)
     assert adapt_registration(NonRigid(local_scaling=0.2), found) == NonRigid(local_scaling=0.2)
     assert adapt_registration(None, found) is None
-    for like in (NON_ISOMETRIC_SCORE, None):
+    for like in (SCORE.non_isometric_score, None):
         assert adapt_registration(NonRigid(), replace(found, quality=like)) == NonRigid()
     pair = datasets.two_poses(1500, rng=1)
     config = kfmaps.Config()
     source, target = (kfmaps.prepare(mesh, config, name="a") for mesh in (pair.source, pair.target))
     seen, usual = [], matching.register_map
     monkeypatch.setattr(matching, "register_map", lambda *a: seen.append(a[3].finish.local_scaling) or usual(*a))
-    for quality in (NON_ISOMETRIC_SCORE + 1, NON_ISOMETRIC_SCORE - 1):
+    for quality in (SCORE.non_isometric_score + 1, SCORE.non_isometric_score - 1):
         matching.match_from_map(source, target, pair.truth, config, origin="a", quality=quality)
     assert seen == [0.0, STRETCH]

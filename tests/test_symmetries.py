@@ -6,7 +6,7 @@ import pytest
 from kfmaps import datasets
 from kfmaps.fmap.convert import to_functional
 from kfmaps.matching import self_maps as within
-from kfmaps.matching.candidates import refine_coarse, score_maps, select_distinct, symmetry_inits
+from kfmaps.matching.candidates import distinct_maps, refine_coarse, score_maps, symmetry_inits
 from kfmaps.matching.quality import map_quality, mirror_samples, sample_for_scoring, subsample
 from kfmaps.matching.sample_pair import two_level_samples
 from kfmaps.matching.search import scoring_samples
@@ -85,8 +85,8 @@ def test_a_map_is_compared_with_what_it_is_mistaken_for(pair, on, of_target):
     S = symmetries(on.target if of_target else on.source, 40)[0]
     right = score_maps([("truth", True)], C[None], None, on)[0]
     mirrored = score_maps([("mirrored", True)], (S @ C if of_target else C @ S)[None], None, on)[0]
-    assert len(select_distinct([right, mirrored], on.source, 0.12)) == 2
+    assert len(distinct_maps([right, mirrored], on.source, 0.12)) == 2
     starts = symmetry_inits([mirrored], on, 60)
     assert {start.uses_descriptors for start in starts} == {True}
     found = sorted(refine_coarse(starts, on, 60), key=lambda c: c.score, reverse=True)
-    assert len(select_distinct([right, found[0]], on.source, 0.08)) == 1
+    assert len(distinct_maps([right, found[0]], on.source, 0.08)) == 1

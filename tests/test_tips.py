@@ -10,7 +10,7 @@ from kfmaps._arrays import NotConverged
 from kfmaps.geometry.coarsen import CoarseProxy
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.matching.batched_zoomout import batched_zoomout
-from kfmaps.matching.candidates import W_STRAIN, Candidate, extremity_inits, paired_map, refine_coarse
+from kfmaps.matching.candidates import extremity_inits, paired_map, refine_coarse
 from kfmaps.matching.extremities import APART, extremities, gradient_cross
 from kfmaps.matching.extremity_matching import (
     FEWEST,
@@ -21,10 +21,10 @@ from kfmaps.matching.extremity_matching import (
     match_extremities,
     match_of_map,
 )
-from kfmaps.matching.proxy_cache import ProxyCache
-from kfmaps.matching.quality import Quality, mirror_samples, sample_for_scoring, subsample
-from kfmaps.matching.ranking import in_order, ranking
+from kfmaps.matching.quality import mirror_samples, sample_for_scoring, subsample
+from kfmaps.matching.ranking import ProxyCache, in_order, ranking
 from kfmaps.matching.sample_pair import two_level_samples
+from kfmaps.matching.score import SCORE, Candidate, Quality
 from kfmaps.matching.search import search_map
 from kfmaps.matching.self_maps import symmetries
 from kfmaps.registration.deformation_energy import (
@@ -233,11 +233,11 @@ def test_strain_is_of_all_places_and_not_of_the_worst(creature, probes):
 def test_what_is_bent_and_strained_less_is_the_likelier():
     judgement = Quality(1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0)
     one = Candidate("a", np.eye(2), np.zeros(3, dtype=int), judgement, deformation_energy=0.15)
-    assert replace(one, strain=0.1).evidence == pytest.approx(one.evidence - 0.1 * W_STRAIN)
-    assert replace(one, deformation_energy=0.3).evidence == pytest.approx(one.evidence - 5 * np.log(2))
+    assert replace(one, strain=0.1).score == pytest.approx(one.score - 0.1 * SCORE.w_strain)
+    assert replace(one, deformation_energy=0.3).score == pytest.approx(one.score - 5 * np.log(2))
     worse = replace(one, quality=replace(judgement, extremity_descriptor_error=0.25))
     assert worse.quality.score == one.quality.score
-    assert worse.evidence == pytest.approx(one.evidence - 2.0)
+    assert worse.score == pytest.approx(one.score - 2.0)
 
 
 def test_copies_have_no_loose_points(creature):

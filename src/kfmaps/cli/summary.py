@@ -191,7 +191,7 @@ def _rows(match: Match, found: dict[str, Any], accuracy: Accuracy | None) -> lis
 
 
 def _verdict(match: Match) -> str:
-    text = verdict_line(match.verdict, match.confidence)
+    text = verdict_line(match.verdict)
     return text if match.confidence is None else f"{text} (confidence {match.confidence:.2f})"
 
 

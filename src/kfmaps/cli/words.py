@@ -27,30 +27,21 @@ def in_words(seconds: float) -> str:
 VERDICTS = {
     "landmarks": "The landmarks settle which way round it goes.",
     "sure": "Right in all probability: of maps that score like this hardly any is wrong, and no other comes near.",
-    "ambiguous": "Another map is about as good. Compare the runners-up; a few landmarks decide.",
-    "poor": "No map that was found fits well. One shape may be a part of the other, or they differ too much.",
+    "likely": "More likely right than wrong, but not sure. Look at it before you rely on it.",
+    "ambiguous": "Another map is about as good. Compare the other maps; a few landmarks decide.",
+    "unlikely": "No map that was found fits well. One shape may be a part of the other, or they differ too much.",
     "unchecked": "One fit, compared with no other: without landmarks it may swap left and right.",
 }
 """What the verdict of a match means, wherever it is told; the confidence is the probability of being right."""
 LOUD = {
+    "likely": "look at it (kfmaps view); landmarks, or more of them, may help (kfmaps landmarks)",
     "ambiguous": "give landmarks (kfmaps landmarks), or look at the other maps (kfmaps view)",
-    "poor": "landmarks, or more of them, may help (kfmaps landmarks)",
+    "unlikely": "landmarks, or more of them, may help (kfmaps landmarks)",
 }
 """Verdicts that a terminal must not bury in a table, and what to do."""
 
 
-LIKELY = "More likely right than wrong, but the shapes differ too much to be sure. Look at it before you rely on it."
-"""Of a "poor" map with a confidence of one half and more."""
-
-
-def verdict_text(kind: str, confidence: float | None = None) -> str:
-    """What a verdict means; the name itself where it is not known."""
-    if kind == "poor" and isinstance(confidence, float) and confidence >= 0.5:
-        return LIKELY
-    return VERDICTS.get(kind, kind)
-
-
-def verdict_line(kind: str, confidence: float | None = None) -> str:
-    """A verdict for a terminal, in one line."""
-    text = verdict_text(kind, confidence)
+def verdict_line(kind: str) -> str:
+    """Return a verdict for a terminal, in one line; the name itself where it is not known."""
+    text = VERDICTS.get(kind, kind)
     return f"{kind.upper()}: {text} What to do: {LOUD[kind]}" if kind in LOUD else text

@@ -18,10 +18,10 @@ from kfmaps.config import Config
 from kfmaps.fmap.convert import to_points
 from kfmaps.geometry.basis import Basis
 from kfmaps.io import MapFile, check_map
-from kfmaps.matching.calibration import SURE
 from kfmaps.matching.match import Match, match_from_map
 from kfmaps.matching.quality import ShapeSamples
 from kfmaps.matching.reindexing import reindexing
+from kfmaps.matching.score import probability_word
 from kfmaps.shape import Shape
 
 N_LATENT = 15
@@ -147,7 +147,7 @@ def refine_replacement(
         config,
         origin=label,
         orientation="reversed" if turned else "kept",
-        verdict="sure" if replacement.after >= SURE else "ambiguous",
+        verdict=probability_word(replacement.after),
         confidence=replacement.after,
         quality=replacement.score_after,
         runners_up=tuple(np.asarray(row) for row in others),

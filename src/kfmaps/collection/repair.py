@@ -15,7 +15,7 @@ import numpy as np
 
 from kfmaps.collection.chirality import chirality
 from kfmaps.collection.paths import Adjacency, adjacency, best_path
-from kfmaps.collection.scored_map import MIN_ORIENTATION, ScoredMap, candidate_maps, is_same_map, with_better_score
+from kfmaps.collection.scored_map import ScoredMap, candidate_maps, is_same_map, with_better_score
 from kfmaps.collection.sync_init import MAX_LOG_ODDS
 from kfmaps.collection.synchronization import (
     N_FUNCTIONS,
@@ -25,6 +25,7 @@ from kfmaps.collection.synchronization import (
     map_residuals,
     synchronize,
 )
+from kfmaps.matching.score import SCORE
 
 DOUBT = 0.5
 """Probability of the map in use below which a composition is sought."""
@@ -235,7 +236,9 @@ class _Repair:
         if chances[best] < RIGHT:
             best = 0
         a, b = self.ends[edge]
-        contradicts = maps[0].reversed != bool(self.signs[a] != self.signs[b]) or maps[0].orientation < MIN_ORIENTATION
+        contradicts = (
+            maps[0].reversed != bool(self.signs[a] != self.signs[b]) or maps[0].orientation < SCORE.min_orientation
+        )
         composed = best >= self.given[edge]
         return Replacement(
             edge,

@@ -11,18 +11,14 @@ import numpy as np
 from kfmaps._arrays import to_numpy
 from kfmaps.collection.synchronization import MAX_LOG_ODDS, N_FUNCTIONS, CandidateMap
 from kfmaps.fmap.convert import to_functional
-from kfmaps.matching.calibration import probability
 from kfmaps.matching.candidates import AGAIN, refine_batch
 from kfmaps.matching.quality import ShapeSamples, map_quality, mirror_samples
 from kfmaps.matching.sample_pair import sample_pair
+from kfmaps.matching.score import SCORE, probability
 from kfmaps.shape import Shape
 
 SCORED_FUNCTIONS = 80
 """Functions of the maps that are scored, as many as the search scores by."""
-SAME = 0.1
-"""Distance ``‖C − C'‖² / k`` below which two maps are one."""
-MIN_ORIENTATION = -0.2
-"""Orientation below which a map turns the surface inside out."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,7 +30,7 @@ class ScoredMap:
     map : (k, k) float64
         Its functional map, source → target, of :data:`kfmaps.collection.synchronization.N_FUNCTIONS` functions.
     score : float
-        :attr:`kfmaps.matching.quality.Quality.score`.
+        :attr:`kfmaps.matching.score.Quality.score`.
     orientation : float
         1 where it is kept, -1 where it is reversed; of what the map claims to be.
     reversed : bool
@@ -84,13 +80,13 @@ def with_better_score(one: ScoredMap, other: ScoredMap) -> ScoredMap:
 
 def is_same_map(one: ScoredMap, other: ScoredMap) -> bool:
     """Whether two candidates of a pair are one map but for details."""
-    return one.reversed == other.reversed and float(((one.map - other.map) ** 2).sum()) / len(one.map) < SAME
+    return one.reversed == other.reversed and float(((one.map - other.map) ** 2).sum()) / len(one.map) < SCORE.same_map
 
 
 def candidate_maps(maps: Sequence[ScoredMap]) -> tuple[CandidateMap, ...]:
     """Return the maps of one pair as candidates.
 
-    The odds of the best are those that a search would give it (:mod:`kfmaps.matching.calibration`), at most ``e⁴``; the
+    The odds of the best are those that a search would give it (:mod:`kfmaps.matching.score`), at most ``e⁴``; the
     others are behind by as much as their scores are.
     """
     odds = [_odds(one) for one in maps]
@@ -104,4 +100,4 @@ def candidate_maps(maps: Sequence[ScoredMap]) -> tuple[CandidateMap, ...]:
 def _odds(one: ScoredMap) -> float:
     chance = min(max(probability(one.score, math.inf), 1e-12), 1 - 1e-12)
     own = math.log(chance) - math.log1p(-chance)
-    return own - 2 * MAX_LOG_ODDS if one.orientation < MIN_ORIENTATION else own
+    return own - 2 * MAX_LOG_ODDS if one.orientation < SCORE.min_orientation else own

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from itertools import product
 from typing import Any
 
@@ -23,9 +23,10 @@ from kfmaps.fmap.convert import nearest
 from kfmaps.matching.batched_zoomout import batched_zoomout
 from kfmaps.matching.extremity_matching import ExtremityMatch, extremity_cost, match_extremities, match_of_map
 from kfmaps.matching.kernel_inits import fit_descriptor_set, plan_fits, sample_shapes
-from kfmaps.matching.landmark_evidence import FAR, landmark_errors
-from kfmaps.matching.quality import Quality, ShapeSamples, map_quality
+from kfmaps.matching.landmark_evidence import landmark_errors
+from kfmaps.matching.quality import ShapeSamples, map_quality
 from kfmaps.matching.sample_pair import SamplePair, TwoLevelSamples
+from kfmaps.matching.score import SCORE, Candidate, select_distinct
 from kfmaps.matching.self_maps import self_maps
 from kfmaps.shape import Shape
 
@@ -51,95 +52,12 @@ STARTS = (6, 10, 20)
 shapes that are far from isometric; from many it keeps what is right."""
 N_PERTURBATIONS = 6
 """Maps that start from a random symmetry of the low functions."""
-TURNED, TURNED_APART = 3, 0.08
-"""Of the best rough maps, those that are composed with symmetries of the shapes, and how far apart they are."""
+TURNED = 3
+"""Of the best rough maps that differ, those that are composed with symmetries of the shapes."""
 FINALISTS, FEWER = 10, 6
 """Distinct rough maps that are refined further, and where one is :func:`early_exit`."""
-EARLY_EXIT_SCORE = -7.0
-"""Score of a rough map, apart from landmarks and the ends of limbs, from which it is: people have -4 to -10, animals
-of different kinds -8.5 and less."""
 MIN_FREQUENCY = 0.03
 """Frequency, the root of an eigenvalue at unit area, below which there is no wave: a sphere's first is 5."""
-MIN_MAP_DISTANCE = 0.04
-"""Mean distance, in units of √area, from which rough maps count as different: nearer than in the end."""
-W_EXTREMITIES = 8.0
-"""Weight of the descriptors at hands, feet, faces and tails, which no pose changes, beside those of the whole."""
-BEND, USUAL = 5.0, 0.15
-"""Weight of the logarithm of the bending energy over a usual one, ..."""
-W_STRAIN = 6.0
-"""Weight of the strain, where it is known; see :class:`kfmaps.registration.deformation_energy.DeformationEnergy`."""
-W_SHOT = 60.0
-"""Weight of :func:`kfmaps.registration.registered_shot.registered_shot_error`, where it is known; right and wrong
-maps differ by
-0.02 and more."""
-W_LANDMARK = 2.0
-"""What a landmark whose image is simply wrong costs."""
-
-
-@dataclass(frozen=True, eq=False)
-class Candidate:
-    """One refined map on the samples.
-
-    Attributes
-    ----------
-    name : str
-        Where it came from.
-    functional_map : (k, k) float64
-    points : (q_t,) int64
-        A source sample for each target sample.
-    quality : Quality
-    guided : bool
-        Whether descriptors had a say; a map that none speak for is only a rival.
-    missed : (l,) float64
-        How far the image of each landmark is from where it belongs, in units of √area.
-    bending : float or None
-        See :func:`kfmaps.registration.deformation_energy.deformation_energy`; ``None`` where it is not known.
-    strain : float or None
-        See :class:`kfmaps.registration.deformation_energy.DeformationEnergy`, over a usual one; known of the first
-        two of a close
-        call and of what was
-        mended.
-    mismatch : float or None
-        See :func:`kfmaps.registration.registered_shot.registered_shot_error`, over the least; known of the first two
-        where they
-        are close
-        and of what was mended.
-    bent : (n_s, 3) float64 or None
-        The source's vertices on the target, roughly, where both were bent and matched in turn.
-    backwards : bool
-        Whether it is the target that was bent, and ``bent (n_t, 3)`` are its vertices on the source.
-    again : tuple of callables
-        Each returns the same mended in another way, or ``None`` where that fails; which is best shows in the end.
-    """
-
-    name: str
-    functional_map: np.ndarray
-    points: np.ndarray
-    quality: Quality
-    uses_descriptors: bool = True
-    landmark_errors: np.ndarray = field(default_factory=lambda: np.zeros(0))
-    deformation_energy: float | None = None
-    strain: float | None = None
-    shot_error: float | None = None
-    registered_vertices: np.ndarray | None = None
-    swapped: bool = False
-    again: tuple[Callable[[], Candidate | None], ...] = ()
-
-    @property
-    def score(self) -> float:
-        """Of the map itself and of the landmarks, each of which costs no more than :data:`W_LANDMARK`.
-
-        In steps so small that only what is equal but for rounding becomes equal.
-        """
-        return round(self.evidence - W_LANDMARK * float(np.minimum(self.landmark_errors / FAR, 1.0).sum()), 9)
-
-    @property
-    def evidence(self) -> float:
-        """What the shapes say: quality, the ends of limbs and, where they are known, bending and looks."""
-        bent = 0.0 if self.deformation_energy is None else -BEND * math.log(self.deformation_energy / USUAL)
-        strained = 0.0 if self.strain is None else -W_STRAIN * self.strain
-        looks = 0.0 if self.shot_error is None else -W_SHOT * self.shot_error
-        return self.quality.score - W_EXTREMITIES * self.quality.extremity_descriptor_error + bent + strained + looks
 
 
 @dataclass(frozen=True, eq=False)
@@ -200,7 +118,7 @@ def candidates(
     found += refine_coarse(again, on.few, functions, config.threads)
     told(0.75)
     order = sorted(found, key=lambda c: c.score, reverse=True)
-    chosen = select_distinct(order, on.few.source, MIN_MAP_DISTANCE, FEWER if easy else FINALISTS)
+    chosen = distinct_maps(order, on.few.source, SCORE.rough_distance, FEWER if easy else FINALISTS)
     refined = refine_fine(chosen, on.few, on.whole, functions, config.threads)
     told(1.0)
     return refined
@@ -211,7 +129,7 @@ def early_exit(found: list[Candidate]) -> bool:
 
     Of two people they have; only what such a map is mistaken for is looked for then.
     """
-    return max((c.quality.score for c in found if c.uses_descriptors), default=-math.inf) >= EARLY_EXIT_SCORE
+    return max((c.quality.score for c in found if c.uses_descriptors), default=-math.inf) >= SCORE.early_exit_score
 
 
 def sign_inits(count: int, on: SamplePair, weights: Iterable[Weights] = WEIGHTS) -> list[Start]:
@@ -285,7 +203,7 @@ def symmetry_inits(found: list[Candidate], on: SamplePair, functions: int, threa
     Whatever else a search has missed, the best map is compared with these, so that it is not sure for want of a rival.
     """
     order = sorted(found, key=lambda c: c.score, reverse=True)
-    best = select_distinct(order, on.source, TURNED_APART, TURNED)
+    best = distinct_maps(order, on.source, SCORE.distinct_distance, TURNED)
     own, theirs = (self_maps(side, functions, threads) for side in (on.source, on.target))
     turned = []
     for i, candidate in enumerate(best):
@@ -408,17 +326,11 @@ def sample_points(C: np.ndarray, on: SamplePair) -> np.ndarray:
     return nearest(on.target.samples.basis.functions[:, :k_t], images, threads=1)
 
 
-def select_distinct(
+def distinct_maps(
     order: list[Candidate], source: ShapeSamples, distance: float, most: int | None = None
 ) -> list[Candidate]:
-    """The first of ``order``, then the first of those that are ``distance`` from it on average, and so on: ``most``."""
-    kept: list[Candidate] = []
-    for candidate in order:
-        if len(kept) == most:
-            break
-        if all(map_distance(candidate, other, source) > distance for other in kept):
-            kept.append(candidate)
-    return kept
+    """Return the first of ``order``, then the first that is ``distance`` from it on average, and so on."""
+    return select_distinct(order, lambda a, b: map_distance(a, b, source) > distance, most)
 
 
 def map_distance(a: Candidate, b: Candidate, source: ShapeSamples) -> float:

@@ -15,6 +15,7 @@ from kfmaps.fmap.descriptor_guidance import DescriptorGuidance
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.matching.extremities import Extremities, at_all_vertices
 from kfmaps.matching.quality import ShapeSamples
+from kfmaps.matching.score import select_distinct
 
 FEWEST = 3
 """Tips without which nothing is told apart."""
@@ -62,10 +63,7 @@ def unused_matches(likely: list[ExtremityMatch], known: list[ExtremityMatch], mo
 
     Two contradict each other where they take one tip, of either shape, to different ones.
     """
-    first: list[ExtremityMatch] = []
-    for one in likely:
-        if len(first) < most and all(one.contradicts(other) for other in first):
-            first.append(one)
+    first = select_distinct(likely, ExtremityMatch.contradicts, most)
     whole = [complete_match(one, likely) for one in first]
     return [one for one in whole if not any(one.within(other) for other in known)]
 

@@ -9,7 +9,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.special import expit
 
 from kfmaps._arrays import to_numpy
 from kfmaps.fmap.convert import nearest
@@ -19,22 +18,11 @@ from kfmaps.shape import Shape
 
 TIMES = (0.004, 0.02, 0.1)
 """Diffusion times at unit area of the functions around a landmark: a hand, a limb, half of a body."""
-FAR = 0.3
-"""Distance, in units of √area, from which an image is simply wrong."""
-MISSED = 0.3
-"""Distance of a landmark's image from which the landmark is doubted, ..."""
 LEAD, LESS = 1.0, 0.3
 """Weight of landmarks beside that of SHOT in the refinement on all vertices, and between shapes that differ much, where
 heat spreads otherwise from a landmark."""
 LIMBS = 0.8
 """The same of the tips of limbs."""
-KEPT = 0.6
-"""... if at least this part of all landmarks is nearer than :data:`MISSED`."""
-NEAR = 0.2
-"""Distance along the surface, in √area, up to which a landmark tells of a map, ..."""
-WELL, WIDTH = 0.055, 0.004
-"""... and the mean distance of images from where they belong up to which they speak for it, and how fast that ends:
-a map is right below 0.08, and its landmarks are a sample of its errors."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -108,27 +96,6 @@ def landmark_errors(C: np.ndarray, functions_s: np.ndarray, found: LandmarkEvide
     k_t, k_s = C.shape
     back = nearest(found.target[:, :k_t], functions_s[:, :k_s] @ C.T, threads=1)
     return found.distances[np.arange(len(back)), back]
-
-
-def reject_landmarks(distances: np.ndarray) -> np.ndarray:
-    """Which landmarks ``(l,)`` are contradicted by a map that keeps to most of them; none of fewer than three."""
-    wrong = distances > MISSED
-    few = len(distances) < 3 or (~wrong).mean() < KEPT
-    return np.zeros(len(distances), dtype=bool) if few else wrong
-
-
-def landmark_support(distances: np.ndarray, found: LandmarkEvidence, areas: np.ndarray) -> float:
-    """How far landmarks back a map that misses them by ``distances (l,)``, from 0 to 1.
-
-    The squared share of the source, whose samples have ``areas (q_s,)``, that lies within :data:`NEAR` of one, where
-    all together are missed by so little that the map is right there. Few landmarks, or many in one place, tell little;
-    one that is simply missed counts as :data:`MISSED`.
-    """
-    if len(distances) == 0:
-        return 0.0
-    told = (found.distances < NEAR).any(axis=0)
-    share = float(areas[told].sum() / areas.sum())
-    return share**2 * float(expit((WELL - float(np.minimum(distances, MISSED).mean())) / WIDTH))
 
 
 def build_guidance(

@@ -23,20 +23,19 @@ from kfmaps.matching.candidates import (
     FINE,
     FINE_FROM,
     FINE_STEP,
-    MIN_MAP_DISTANCE,
     STARTS,
-    Candidate,
     Start,
+    distinct_maps,
     refine_batch,
     refine_coarse,
     score_maps,
-    select_distinct,
     sign_inits,
 )
 from kfmaps.matching.features import pair_descriptors
 from kfmaps.matching.kernel_inits import LEARNED, FitSpec, fit_descriptor_set, sample_shapes
 from kfmaps.matching.quality import ShapeSamples
 from kfmaps.matching.sample_pair import SamplePair, TwoLevelSamples, descriptor_cost
+from kfmaps.matching.score import SCORE, Candidate
 from kfmaps.shape import Shape
 
 WEIGHTS = (12.0, 12.0)
@@ -96,7 +95,7 @@ def learned_candidates(
         for start in STARTS
     ]
     found = sorted(refine_coarse(starts, few, functions, config.threads), key=lambda c: c.score, reverse=True)
-    chosen = select_distinct(found, few.source, MIN_MAP_DISTANCE, FINALISTS)
+    chosen = distinct_maps(found, few.source, SCORE.rough_distance, FINALISTS)
     stop = min(FINE, functions)
     size = min(FINE_FROM, stop, *chosen[0].functional_map.shape)
     C = np.stack([c.functional_map[:size, :size] for c in chosen])

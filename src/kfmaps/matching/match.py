@@ -27,7 +27,8 @@ from kfmaps.matching.partial.match_partial import PartialMatch, match_partial, r
 from kfmaps.matching.postprocess import refine_map
 from kfmaps.matching.quality import ShapeSamples
 from kfmaps.matching.reindexing import VertexReindexing, reindexing
-from kfmaps.matching.search import SearchResult, adapt_refinement, adapt_registration, near_isometric, search_map
+from kfmaps.matching.score import SCORE, torn_score
+from kfmaps.matching.search import SearchResult, adapt_refinement, adapt_registration, near_isometric, retry, search_map
 from kfmaps.registration.accept import RegistrationReport, register_map
 from kfmaps.registration.alternating_registration import WEIGHT, position_normal_guidance
 from kfmaps.shape import Shape, mirror_image, prepare
@@ -35,11 +36,6 @@ from kfmaps.shape import Shape, mirror_image, prepare
 ONE_FIT = "one fit"
 CONTINUED = 80
 """Functions of a map that is finished from its points, as many as a search hands on."""
-BADLY, TEAR = 0.5, 25.0
-"""Confidence of a vertex around which distances are kept badly, and what the score loses where all of the target is so:
-with less than 20 a torn map of a dog and a cat stays, with more than 35 front and back of a gorilla may change."""
-TORN = 0.04
-"""The share from which other maps are tried at all."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,7 +51,7 @@ class Match:
         Carries coefficients of functions from source to target; of the refined map.
     eigenvalues_s, eigenvalues_t : (k_s,), (k_t,) float64
         Of the shapes at unit area, as many as ``functional_map`` has columns and rows.
-    verdict : "landmarks", "sure", "ambiguous", "poor" or "unchecked"
+    verdict : "landmarks", "sure", "likely", "ambiguous", "unlikely" or "unchecked"
     config : Config
     seconds : dict of str to float
         Per stage.
@@ -72,7 +68,7 @@ class Match:
         How well the map keeps distances around each target vertex, 0 to 1, 0 where nothing can be told; see
         :mod:`kfmaps.fmap.confidence`.
     confidence : float or None
-        Of a search, the probability that the map is right; see :mod:`kfmaps.matching.calibration`.
+        Of a search, the probability that the map is right; see :mod:`kfmaps.matching.score`.
     scores : tuple of float
         Of a search: of the map and of each runner-up, higher is better.
     runners_up : tuple of arrays (n_t,)
@@ -101,7 +97,7 @@ class Match:
     part_scale : float or None
         √area of the part over that of the whole, as found.
     quality : float or None
-        Of a search: the score of the map itself, :attr:`kfmaps.matching.quality.Quality.score`, 0 at best.
+        Of a search: the score of the map itself, :attr:`kfmaps.matching.score.Quality.score`, 0 at best.
     bending : float or None
         Of a search: how far the shapes must bend to follow it,
         :func:`kfmaps.registration.deformation_energy.deformation_energy`; 0 for a motion.
@@ -266,7 +262,7 @@ def match(
     if which != "none":
         with clock("parts"):
             part = match_partial(shapes[0], shapes[1], config, which, landmarks=marks, rng=seed, progress=progress)
-        if config.partial.which != "auto" or (not part.whole and part.verdict != "poor"):
+        if config.partial.which != "auto" or (not part.whole and part.verdict != "unlikely"):
             return _parted(part, why, across, shapes, config, clock)
         why = f"taken for whole: {why}, but " + ("each covers all of the other" if part.whole else "it fits nowhere")
     led = None
@@ -289,12 +285,12 @@ def match(
         # The adjoint, where a search has found the map: its candidates are refined one way.
         back = found.fit.back if found.initialization == ONE_FIT and found.fit is not None else found.functional_map.T
     ended = _refine_and_register(found, across, shapes, config, clock, led, back, seed)
-    for i, way in enumerate(found.again, 1):
-        if (torn_area_fraction(ended) or 0.0) <= TORN:
+    for i in range(len(found.retries)):
+        if (torn_area_fraction(ended) or 0.0) <= SCORE.max_torn_area:
             break
-        with clock(f"another way, {i}"):
+        with clock(f"another way, {i + 1}"):
             # With a lower score it would not be worth more even if nothing of it were torn.
-            told = way(final_score(ended))
+            told = retry(found, i, final_score(ended))
             if told is not None:
                 back = None if back is None else told.functional_map.T
                 ending = StageTimer(progress)
@@ -330,8 +326,8 @@ def better_match(one: Match, other: Match) -> Match:
 
 
 def final_score(match: Match) -> float:
-    """The score of a match that a search has found, less :data:`TEAR` times what is torn."""
-    return match.scores[0] - TEAR * (torn_area_fraction(match) or 0.0)
+    """The score of a match that a search has found, less the cost of its torn area."""
+    return torn_score(match.scores[0], torn_area_fraction(match))
 
 
 def torn_area_fraction(match: Match) -> float | None:
@@ -343,7 +339,7 @@ def torn_area_fraction(match: Match) -> float | None:
     if match.registration is None or match._reindexing is None:
         return None
     areas = vertex_areas(match._reindexing.outside[1].mesh)
-    return float(areas[match.local_confidence < BADLY].sum() / areas.sum())
+    return float(areas[match.local_confidence < SCORE.torn_confidence].sum() / areas.sum())
 
 
 def _parted(
@@ -406,7 +402,7 @@ def match_from_map(
     verdict, confidence, runners_up
         For the fields of the match.
     quality : float, optional
-        :attr:`kfmaps.matching.quality.Quality.score` of ``points``: where shapes differ much the refinement ends early.
+        :attr:`kfmaps.matching.score.Quality.score` of ``points``: where shapes differ much the refinement ends early.
 
     Raises
     ------

@@ -28,6 +28,7 @@ from kfmaps.geometry.orientation_operators import orientation_operators
 from kfmaps.geometry.sampling import stratified_vertices
 from kfmaps.matching.extremities import Extremities, extremities
 from kfmaps.matching.sample_cache import Known, Rows, known
+from kfmaps.matching.score import SCORE, Quality
 from kfmaps.registration.deformation_energy import coarse_copy
 from kfmaps.shape import Shape
 
@@ -43,8 +44,6 @@ OPERATORS = 50
 """Functions of the orientation operators that a probe keeps, also for fits."""
 TIMES = np.geomspace(0.005, 0.3, 8)
 """Diffusion times at unit area: from a fiftieth of the surface reached to most of it."""
-FLAT_HEAT = 0.02
-"""Spread of the logarithm of the heat kernel signature below which it is noise: a sphere has 0.0003, bodies 1."""
 WAVES = 10
 """Functions whose orientation operators are compared."""
 
@@ -98,56 +97,6 @@ class ShapeSamples:
         areas = to_numpy(basis.mass) / float(basis.mass.sum())
         return known(
             basis.functions, areas, self.distances, self.orientation, self.descriptors, self.heat, self.extremities
-        )
-
-
-@dataclass(frozen=True)
-class Quality:
-    """Measures of one map; see :func:`map_quality`.
-
-    Attributes
-    ----------
-    orientation : float
-        From 1, kept everywhere, to -1, reversed everywhere: correlation of the source's orientation operators,
-        carried over, with those of the target (Ren et al. 2018). 0 for point clouds.
-    distortion : float
-        Mean absolute change of geodesic distances, divided by the mean distance. 0 for an isometry.
-    stretch : float
-        The same for points closer than 0.2 √area on the shape that is mapped, so that tears count, wherever they are.
-    descriptors : float
-        Mean squared difference of SHOT between matched points, divided by that of random ones, from 0 to about 1;
-        mean of both directions. Less where the shapes have hardly any features.
-    heat : float
-        The same for the logarithm of the heat kernel signature, which knows thick from thin.
-    coverage : float
-        Part of the area that is the image of something, the smaller of both directions.
-    laplacian : float
-        ``‖C Λ_s − Λ_t C‖² / ‖C Λ_s‖²``; 1, as of unrelated shapes, for a map that carries constants alone.
-    ends : float
-        ``descriptors`` of points near the tips of limbs alone: hands, feet, faces and tails, which no pose bends. No
-        part of the score; see :attr:`kfmaps.matching.candidates.Candidate.evidence`. 0 where there are no tips.
-    """
-
-    orientation: float
-    distortion: float
-    local_distortion: float
-    descriptors: float
-    heat: float
-    coverage: float
-    laplacian: float
-    extremity_descriptor_error: float = 0.0
-
-    @property
-    def score(self) -> float:
-        """One number, higher is better; differences below 0.1 mean little. Weights: see research/score.md."""
-        return (
-            self.orientation
-            - 6.0 * self.distortion
-            - 10.0 * self.local_distortion
-            - 12.0 * self.descriptors
-            - 2.0 * self.heat
-            + self.coverage
-            - 2.0 * self.laplacian
         )
 
 
@@ -267,8 +216,8 @@ def map_quality(C: Array, source: ShapeSamples, target: ShapeSamples, points: np
         descriptors=0.5 * (_mean(squares_t, area_t) + _mean(squares_s, area_s)),
         heat=0.5
         * (
-            _mean(_squares(back, known_t.heat, known_s.heat, FLAT_HEAT), area_t)
-            + _mean(_squares(forth, known_s.heat, known_t.heat, FLAT_HEAT), area_s)
+            _mean(_squares(back, known_t.heat, known_s.heat, SCORE.min_heat_variance), area_t)
+            + _mean(_squares(forth, known_s.heat, known_t.heat, SCORE.min_heat_variance), area_s)
         ),
         coverage=float(min(covered)),
         laplacian=_ratio((commutator**2).sum(), ((C * values_s[None, :]) ** 2).sum(), (values_s**2).sum(), 1.0),

@@ -8,47 +8,88 @@ may be the best.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
+from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Any
 
 import numpy as np
 
 from kfmaps._threads import parallel
-from kfmaps.matching.candidates import MIN_MAP_DISTANCE, Candidate, map_distance, select_distinct
-from kfmaps.matching.proxy_cache import ProxyCache
+from kfmaps.geometry.coarsen import CoarseProxy
+from kfmaps.matching.candidates import distinct_maps, map_distance
 from kfmaps.matching.quality import ShapeSamples
 from kfmaps.matching.sample_pair import SamplePair
-from kfmaps.registration.deformation_energy import LONGER, FacingPair, deform, deformation_energy
-from kfmaps.registration.registered_shot import registered_shot_error
-from kfmaps.shape import Shape
+from kfmaps.matching.score import SCORE, Candidate
+from kfmaps.registration.deformation_energy import (
+    LONGER,
+    MORE,
+    FacingPair,
+    coarse_copy,
+    deform,
+    deformation_energy,
+    facing_pair,
+)
+from kfmaps.registration.registered_shot import ShotPair, registered_shot_error, shot_pair
+from kfmaps.shape import Shape, mirror_image
 
-DISTINCT = 0.08
-"""Mean distance, in units of √area, from which two maps count as different ones."""
-CLEAR = 0.3
-"""Margin of the score from which a rival, or a map to the mirror image, comes first."""
 BENT = 3
-"""Distinct maps that the source is bent for, ..."""
-BEHIND = 3.0
-"""... unless they are so far behind in the score."""
+"""Distinct maps that are registered."""
 CLOSER = 5
-"""Maps that may be closer to each other, rough ones' :data:`~kfmaps.matching.candidates.MIN_MAP_DISTANCE`, and are
-bent too."""
-LOOKED, CLOSE = 2.5, 1.0
-"""Margins below which it counts how the first two look when they are bent, and below which they are bent again and
-those that hardly differ are bent at all."""
+"""Maps that may be closer to each other and are registered too."""
+
+
+@dataclass(frozen=True, eq=False)
+class ProxyCache:
+    """Of two shapes, each made when it is first asked for; ``None`` where a shape has no faces to bend.
+
+    Attributes
+    ----------
+    source, target : Shape
+    coarse : pair of Copy or None
+        Of few points, as the probes have them.
+    mirrored : bool
+        Whether they are of the target's mirror image.
+    """
+
+    source: Shape
+    target: Shape
+    copies: tuple[CoarseProxy | None, CoarseProxy | None]
+    mirrored: bool = False
+
+    @classmethod
+    def of(cls, source: Shape, target: Shape, on: SamplePair) -> ProxyCache:
+        """Of the shapes as they are ``on`` a ground."""
+        return cls(source, target, (on.source.copy, on.target.copy), on.target.mirrored)
+
+    @cached_property
+    def image(self) -> Shape:
+        """The target, or its mirror image where that is meant."""
+        return mirror_image(self.target) if self.mirrored else self.target
+
+    @cached_property
+    def coarse(self) -> FacingPair | None:
+        """The coarse ones."""
+        a, b = self.copies
+        return None if a is None or b is None else facing_pair(a, b)
+
+    @cached_property
+    def fine(self) -> ShotPair | None:
+        """With :data:`~kfmaps.registration.deformation_energy.MORE` points, and how they look."""
+        a, b = coarse_copy(self.source, MORE), coarse_copy(self.target, MORE)
+        return None if a is None or b is None else shot_pair(facing_pair(a, b.mirrored() if self.mirrored else b))
 
 
 def ranking(found: list[Candidate], on: SamplePair, copies: ProxyCache, threads: int | None = None) -> list[Candidate]:
     """The distinct ones of ``found``, best first; the first few are judged by how far the source must bend as well."""
     ranked = distinct(found, on.source)
-    near = [c for c in ranked[:BENT] if c.score > ranked[0].score - BEHIND]
+    near = [c for c in ranked[:BENT] if c.score > ranked[0].score - SCORE.max_behind]
     tried = with_bending(near, copies, threads)
     if not tried:
         return ranked
     # As bad as the worst, so that none that was not tried comes first.
     worst = max(c.deformation_energy for c in tried if c.deformation_energy is not None)
     order = in_order([*tried, *(replace(c, deformation_energy=worst) for c in ranked[len(near) :])])
-    if len(near) > 1 and order[0].score - order[1].score < LOOKED:
+    if len(near) > 1 and order[0].score - order[1].score < SCORE.shot_margin:
         return rerank_close(order, copies, threads)
     return order
 
@@ -59,7 +100,7 @@ def rerank_near_duplicates(
     on: SamplePair,
     copies: ProxyCache,
     threads: int | None = None,
-    distance: float = MIN_MAP_DISTANCE,
+    distance: float = SCORE.rough_distance,
     behind: float = np.inf,
 ) -> list[Candidate]:
     """``ranked``, and between them the best of ``found`` that hardly differ from a better one: by ``distance``.
@@ -67,7 +108,7 @@ def rerank_near_duplicates(
     A map with one limb wrong is near the right one, and may come before it by chance: which of them is torn shows when
     both are bent. None that is farther ``behind`` before that.
     """
-    best = select_distinct(in_order(found), on.source, distance, CLOSER)
+    best = distinct_maps(in_order(found), on.source, distance, CLOSER)
     known = [c.functional_map for c in ranked]
     more = [c for c in best if c.score > best[0].score - behind and not any(c.functional_map is C for C in known)]
     return in_order([*ranked, *with_bending(more, copies, threads)])
@@ -90,11 +131,11 @@ def merge_alternatives(
     threads: int | None = None,
 ) -> list[Candidate]:
     """``ranked``, and the best of ``more`` that is none of them: first where it is clearly better, else a rival."""
-    others = [c for c in more if all(map_distance(c, one, on.source) > DISTINCT for one in ranked)]
-    if not others or max(c.quality.score for c in others) < ranked[0].quality.score - BEHIND:
+    others = [c for c in more if all(map_distance(c, one, on.source) > SCORE.distinct_distance for one in ranked)]
+    if not others or max(c.quality.score for c in others) < ranked[0].quality.score - SCORE.max_behind:
         return ranked
     new = ranking(others, on, copies, threads)[0]
-    if new.score > ranked[0].score + CLEAR:
+    if new.score > ranked[0].score + SCORE.clear_margin:
         return [new, *ranked]
     return [ranked[0], *sorted([*ranked[1:], new], key=lambda c: c.score, reverse=True)]
 
@@ -107,7 +148,7 @@ def rerank_close(order: list[Candidate], copies: ProxyCache, threads: int | None
     source, target, finer = copies.source, copies.target, copies.fine
     if finer is None:
         return order
-    close = order[0].score - order[1].score < CLOSE
+    close = order[0].score - order[1].score < SCORE.close_margin
 
     def look(found: Candidate) -> Candidate:
         found = score_registered(found, source, target, finer.on) if close else found
@@ -144,7 +185,7 @@ def normalize_errors(found: Candidate, usual: tuple[float, float]) -> Candidate:
 
 def distinct(found: list[Candidate], source: ShapeSamples) -> list[Candidate]:
     """The best of ``found``, then the best of those that differ from it, and so on."""
-    return select_distinct(in_order(found), source, DISTINCT)
+    return distinct_maps(in_order(found), source, SCORE.distinct_distance)
 
 
 def in_order(found: list[Candidate]) -> list[Candidate]:
@@ -154,6 +195,6 @@ def in_order(found: list[Candidate]) -> list[Candidate]:
     """
     order = sorted(found, key=lambda c: c.score, reverse=True)
     best = next((c for c in order if c.uses_descriptors), None)
-    if best is not None and best.score > order[0].score - CLEAR:
+    if best is not None and best.score > order[0].score - SCORE.clear_margin:
         order.insert(0, order.pop(next(i for i, c in enumerate(order) if c is best)))
     return order

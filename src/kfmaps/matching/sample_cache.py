@@ -9,11 +9,7 @@ import numpy as np
 from kfmaps._arrays import Array, to_numpy
 from kfmaps.fmap.descriptor_guidance import descriptor_variance
 from kfmaps.matching.extremities import Extremities
-
-NEAR = 0.2
-"""Distance, in units of √area, up to which points are neighbours whose distance a good map keeps."""
-LIMB = 0.3
-"""Distance, in units of √area, from a tip within which points are of hands, feet, faces and tails."""
+from kfmaps.matching.score import SCORE
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,11 +36,11 @@ class Known:
     areas : (q,) float64
         Of sum 1.
     ends : (q,) float64
-        Areas of those within :data:`LIMB` of a tip, of sum 1, and of all others 0; ``None`` where there are no tips.
+        Areas of those within ``extremity_radius`` of a tip, of sum 1, else 0; ``None`` without tips.
     mean : float
         Of all distances.
     short : (p,) int64
-        Which of the flattened distances are short: those up to :data:`NEAR`; with few points, to the nearest.
+        Which of the flattened distances are short: those up to ``local_radius``; with few points, to the nearest.
     short_mean : float
     orientation : float
         Norm of the operators; 0 where there are none.
@@ -73,7 +69,7 @@ def known(
 ) -> Known:
     """Of the arrays of a :class:`kfmaps.matching.quality.ShapeSamples`."""
     nearest_other = np.partition(distances, 1, axis=1)[:, 1] if len(distances) > 1 else np.ones(1)
-    short = np.flatnonzero(distances <= max(NEAR, float(nearest_other.max())))
+    short = np.flatnonzero(distances <= max(SCORE.local_radius, float(nearest_other.max())))
     return Known(
         np.asarray(to_numpy(functions), dtype=np.float32),
         areas,
@@ -90,5 +86,5 @@ def known(
 def _ends(areas: np.ndarray, tips: Extremities) -> np.ndarray | None:
     if len(tips.distances) == 0:
         return None
-    near = np.where(tips.unit * tips.distances.min(axis=0) < LIMB, areas, 0.0)
+    near = np.where(tips.unit * tips.distances.min(axis=0) < SCORE.extremity_radius, areas, 0.0)
     return near / near.sum() if near.any() else None

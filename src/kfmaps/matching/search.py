@@ -9,9 +9,7 @@ well, in which case the answer is "ambiguous".
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, field, replace
-from functools import partial
 from typing import Any
 
 import numpy as np
@@ -25,43 +23,33 @@ from kfmaps.fmap.convert import to_points
 from kfmaps.fmap.refine import CANDIDATES_PER_CALL, PAIRS, Refinement, ZoomOut
 from kfmaps.geometry.basis import Basis
 from kfmaps.geometry.sampling import SampledBasis, stratified_vertices
-from kfmaps.matching.calibration import excess_deformation, probability, verdict
-from kfmaps.matching.candidates import Candidate, candidates, map_distance, rerefine, score_maps, select_distinct
+from kfmaps.matching.candidates import candidates, distinct_maps, map_distance, rerefine, score_maps
 from kfmaps.matching.extremity_matching import ExtremityVertices, extremity_vertices
 from kfmaps.matching.fit import Fit, check_landmark_pairs
-from kfmaps.matching.landmark_evidence import (
-    MISSED,
-    LandmarkEvidence,
-    landmark_errors,
-    landmark_support,
-    reject_landmarks,
-)
+from kfmaps.matching.landmark_evidence import LandmarkEvidence, landmark_errors
 from kfmaps.matching.learned_kernel import drop_learned, learned_candidates, learned_kernel_applies
-from kfmaps.matching.proxy_cache import ProxyCache
 from kfmaps.matching.quality import ShapeSamples, sample_for_scoring, subsample
-from kfmaps.matching.ranking import CLEAR, CLOSE, DISTINCT, merge_alternatives, ranking, rerank_near_duplicates
-from kfmaps.matching.registration_refine import refine_by_registration
+from kfmaps.matching.ranking import ProxyCache, merge_alternatives, ranking, rerank_near_duplicates
+from kfmaps.matching.registration_refine import SwappedRepair, refine_by_registration
 from kfmaps.matching.sample_pair import POINTS as FEW
 from kfmaps.matching.sample_pair import SamplePair, TwoLevelSamples, drop_landmarks, mirrored_pair, two_level_samples
+from kfmaps.matching.score import (
+    SCORE,
+    Candidate,
+    excess_deformation,
+    landmark_support,
+    probability,
+    rejected_landmarks,
+    verdict,
+)
 from kfmaps.matching.self_maps import with_self_maps
 from kfmaps.registration.nonrigid_icp import NonRigid
 from kfmaps.shape import Shape, clean_shape
 
-MIRROR_MARGIN = 5.0
-"""Margin from which a map to the mirror image comes first though none was asked for; bones have 10, other maps none."""
-EXCESS_DEFORMATION = 0.55
-"""Excess of the bending (:func:`kfmaps.matching.calibration.excess_deformation`) from which a mirror image is tried."""
-ALIKE = 0.005
-"""Maps that are no farther than that from the best are bent too: of two legs that touch, it is as far from one to the
-other."""
-NON_ISOMETRIC_SCORE = -8.0
-"""Score below which two shapes differ so much that their high functions do not correspond, ..."""
 FEWER = 100
-"""... and the refinement ends with this many."""
+"""Functions at the end of the refinement of shapes that differ much: their high functions do not correspond."""
 STRETCH = 0.01
 """Area over which sizes may change evenly in the non-rigid fit of such shapes."""
-REPAIR_SCORE = -7.5
-"""Score below which they are bent and matched in turn."""
 SETTLED = 3
 """Maps to a mirror image that are worth a refinement of their own."""
 
@@ -73,38 +61,36 @@ class SearchResult:
     Attributes
     ----------
     functional_map : (k, k) float64
-    origin : str
+    initialization : str
         What the candidate started from.
     fit : Fit or None
         Of one fit without a search.
     verdict : str
-        "sure", "ambiguous" or "poor" of a search; "landmarks" or "unchecked" of one fit.
+        "sure", "likely", "ambiguous" or "unlikely" of a search; "landmarks" or "unchecked" of one fit.
     confidence : float or None
-        Probability that the map is right, see :mod:`kfmaps.matching.calibration`.
+        Probability that the map is right, see :func:`kfmaps.matching.score.probability`.
     scores : tuple of float
-        Of the map and of each runner-up, higher is better.
+        Of the map and of each alternative, higher is better.
     runners_up : tuple of arrays (n_t,)
         The distinct other maps, best first.
     landmarks : (l, 2) int64
-        Those that the map keeps to, ...
-    doubted : (d,) int64
-        ... and the numbers, from 0, of those given that it contradicts.
+        Those that the map keeps to.
+    rejected_landmarks : (d,) int64
+        The numbers, from 0, of those given that it contradicts.
     orientation : "kept" or "reversed"
         Whether it is a map to the target or to its mirror image.
     quality : float or None
         Score of the map of a search, apart from landmarks.
-    bending : float or None
-        How far the shapes bend to follow it; see :func:`kfmaps.registration.deformation_energy.deformation_energy`.
-    limbs : Limbs or None
-        Tips of limbs that lead the refinement, where the shapes differ so much that they should.
-    bent : (n_s, 3) float64 or None
-        The source's vertices roughly on the target, where the shapes differ so much that these lead it as well.
-    backwards : bool
-        Whether ``bent`` are the target's vertices on the source instead, (n_t, 3).
-    again : tuple of callables
-        Each returns another map between such shapes that may turn out to be the better one when both are finished: the
-        next that have been mended, and this one mended the other way round. Called with a score, it returns ``None``
-        where the other does not have more, or falls apart.
+    deformation_energy : float or None
+        See :func:`kfmaps.registration.deformation_energy.deformation_energy`.
+    extremities : ExtremityVertices or None
+        Extremities that guide the refinement, where the shapes differ so much that they should.
+    registered_vertices : (n_s, 3) float64 or None
+        The source's vertices roughly on the target, where the shapes differ so much that these guide it as well.
+    swapped : bool
+        Whether ``registered_vertices`` are the target's vertices on the source instead, (n_t, 3).
+    retries : tuple of Candidate or SwappedRepair
+        What may turn out better on all vertices; :func:`retry` makes a result of it.
     """
 
     functional_map: np.ndarray
@@ -122,7 +108,42 @@ class SearchResult:
     extremities: ExtremityVertices | None = None
     registered_vertices: np.ndarray | None = None
     swapped: bool = False
-    again: tuple[Callable[[float], SearchResult | None], ...] = ()
+    retries: tuple[Candidate | SwappedRepair, ...] = ()
+    _search: Search | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class Search:
+    """The state of a search.
+
+    Attributes
+    ----------
+    source, target : Shape
+    config : Config
+    pairs : (l, 2) int64
+        Landmarks as they were given.
+    evidence : LandmarkEvidence or None
+        Of all of them.
+    wrong : (l,) bool
+        Those that the best candidate contradicts.
+    samples : TwoLevelSamples
+    copies : ProxyCache
+    found, ranked : list of Candidate
+        All, and the distinct ones, best first.
+    orientation : "kept" or "reversed"
+    """
+
+    source: Shape
+    target: Shape
+    config: Config
+    pairs: np.ndarray
+    evidence: LandmarkEvidence | None
+    wrong: np.ndarray
+    samples: TwoLevelSamples
+    copies: ProxyCache
+    found: list[Candidate]
+    ranked: list[Candidate]
+    orientation: str
 
 
 def search_map(
@@ -145,14 +166,13 @@ def search_map(
     landmarks : (l, 2) whole numbers, optional
         Pairs "source vertex, target vertex". They steer the candidates and rank them; those that the best map
         contradicts while it keeps to most of the others are left out
-        (:func:`kfmaps.matching.landmark_evidence.reject_landmarks`).
+        (:func:`kfmaps.matching.score.rejected_landmarks`).
     descriptors : pair of arrays (n_s, d), (n_t, d), optional
     rng : seed or Generator
     progress : callable, optional
-    probes : pair of Probe, optional
+    probes : pair of ShapeSamples, optional
         Of :func:`scoring_samples` with the same ``rng``: spares the work where a shape is matched many times. Not
-        used with
-        landmarks, whose distances a probe knows too.
+        used with landmarks, whose distances they have too.
 
     Raises
     ------
@@ -161,111 +181,151 @@ def search_map(
     """
     if config.search is None:
         raise refuse("search", "settings of a search", "None", "use Config(), which has them")
-    taught = learned_kernel_applies(config, source, target)
+    learned = learned_kernel_applies(config, source, target)
     given = seed_of(rng)
     seed = _drawn(given)
     report = progress or (lambda _stage, _done: None)
     pairs = check_landmark_pairs(landmarks, source, target)
-    sides = ((source, pairs[:, 0]), (target, pairs[:, 1]))
+    samples = two_level_samples(source, target, _search_samples(source, target, config, pairs, seed, probes), pairs)
+    report("candidates", 0.1)
+    plain, part = drop_learned(config), 0.4 if len(pairs) else 0.8
+    more = {"descriptors": descriptors, "drawn": given}
+    first = lambda done: report("candidates", 0.1 + part * done)  # noqa: E731
+    found = candidates(source, target, plain, samples, seed, landmarks=pairs, report=first, **more)
+    if len(pairs):
+        second = lambda done: report("candidates", 0.5 + 0.4 * done)  # noqa: E731
+        found += without_landmarks(source, target, plain, samples, seed, report=second, **more)
+    state = _reject_landmarks(_rank(source, target, config, pairs, samples, found))
+    ranked, samples, retries = state.ranked, state.samples.whole, ()
+    if learned and (state.orientation == "kept" or config.search.orientation == "reversed"):
+        others = learned_candidates(source, target, config, state.samples, seed, given)
+        ranked = merge_alternatives(ranked, others, samples, state.copies, config.threads)
+    if _are_surfaces(samples) and ranked[0].quality.score < SCORE.repair_score:
+        ranked = rerank_near_duplicates(ranked, state.found, samples, state.copies, config.threads)
+        kept = pairs[~state.wrong]
+        ranked, retries = refine_by_registration(ranked, samples, state.copies, kept, config.threads, report)
+    state = replace(state, ranked=ranked)
+    return replace(_to_result(state, ranked[0], ranked[1:]), retries=retries, _search=state)
+
+
+def retry(result: SearchResult, number: int, least: float) -> SearchResult | None:
+    """Return the result of one of ``result.retries``; ``None`` where it fails or its score is not above ``least``."""
+    one, state = result.retries[number], result._search
+    made = one.make() if isinstance(one, SwappedRepair) else one
+    if state is None or made is None or made.score <= least:
+        return None
+    source = state.samples.whole.source
+    return _to_result(state, made, [c for c in state.ranked if map_distance(c, made, source) > SCORE.distinct_distance])
+
+
+def _search_samples(
+    source: Shape,
+    target: Shape,
+    config: Config,
+    pairs: np.ndarray,
+    seed: int,
+    probes: tuple[ShapeSamples, ShapeSamples] | None,
+) -> tuple[ShapeSamples, ShapeSamples]:
+    """Return the samples of both shapes: ``probes`` where they serve; without extremities where nobody wants them."""
     if probes is None or len(pairs):
+        sides = ((source, pairs[:, 0]), (target, pairs[:, 1]))
         made = parallel(
             lambda side: sample_for_scoring(side[0], rng=seed, threads=1, landmarks=side[1]), sides, config.threads
         )
         probes = made[0], made[1]
-    if not config.search.tips:
-        probes = (
-            replace(probes[0], extremities=probes[0].extremities.none()),
-            replace(probes[1], extremities=probes[1].extremities.none()),
-        )
-    report("candidates", 0.1)
-    on = two_level_samples(source, target, probes, pairs)
-    found = candidates(
-        source,
-        target,
-        drop_learned(config),
-        on,
-        seed,
-        landmarks=pairs,
-        descriptors=descriptors,
-        drawn=given,
-        report=lambda done: report("candidates", 0.1 + (0.4 if len(pairs) else 0.8) * done),
-    )
-    if len(pairs):
-        found += without_landmarks(
-            source,
-            target,
-            drop_learned(config),
-            on,
-            seed,
-            descriptors=descriptors,
-            drawn=given,
-            report=lambda done: report("candidates", 0.5 + 0.4 * done),
-        )
-    copies = ProxyCache.of(source, target, on.whole)
-    ranked = ranking(found, on.whole, copies, config.threads)
-    # Asked before a map is sought that bends less: on a left and a right bone it may bend a little less than unduly.
-    unduly = bends_unduly(ranked[0])
+    assert config.search is not None
+    if config.search.tips:
+        return probes
+    a, b = (replace(one, extremities=one.extremities.none()) for one in probes)
+    return a, b
+
+
+def _are_surfaces(on: SamplePair) -> bool:
+    return on.source.orientation is not None and on.target.orientation is not None
+
+
+def _rank(
+    source: Shape, target: Shape, config: Config, pairs: np.ndarray, samples: TwoLevelSamples, found: list[Candidate]
+) -> Search:
+    """Rank the candidates; those near the best are registered too, where that may change which comes first."""
+    whole, copies = samples.whole, ProxyCache.of(source, target, samples.whole)
+    ranked = ranking(found, whole, copies, config.threads)
+    # Asked before a map is sought that deforms less: on a left and a right bone it may be a little below the limit.
+    unduly = deforms_unduly(ranked[0])
     if ranked[0].deformation_energy is not None:
-        behind = np.inf if unduly else CLOSE
-        near = [c for c in found if map_distance(c, ranked[0], on.whole.source) <= DISTINCT]
-        near = rerank_near_duplicates(ranked, near, on.whole, copies, config.threads, ALIKE, behind)
-        ranked = select_distinct(near, on.whole.source, DISTINCT)
+        behind = np.inf if unduly else SCORE.close_margin
+        near = [c for c in found if map_distance(c, ranked[0], whole.source) <= SCORE.distinct_distance]
+        near = rerank_near_duplicates(ranked, near, whole, copies, config.threads, SCORE.duplicate_distance, behind)
+        ranked = distinct_maps(near, whole.source, SCORE.distinct_distance)
+    assert config.search is not None
     orientation = "reversed" if config.search.orientation == "reversed" else "kept"
-    surfaces = all(p.orientation is not None for p in probes)
+    wrong = np.zeros(len(pairs), dtype=bool)
+    state = Search(source, target, config, pairs, whole.marks, wrong, samples, copies, found, ranked, orientation)
+    return _choose_orientation(state, unduly)
+
+
+def _choose_orientation(state: Search, unduly: bool) -> Search:
+    """Compare with maps to the mirror image where that is asked for, or where the best map deforms ``unduly``."""
+    config, samples = state.config, state.samples
+    assert config.search is not None
     asked = config.search.orientation
-    if surfaces and (asked == "either" or (asked == "auto" and unduly)):
-        other = mirrored_pair(on.whole)
-        images, there = reversed_best(found, other, config.threads), ProxyCache.of(source, target, other)
-        turned_best = ranking(images, other, there, config.threads)
-        if turned_best and turned_best[0].score > ranked[0].score + (CLEAR if asked == "either" else MIRROR_MARGIN):
-            orientation, found, ranked, copies, on = "reversed", images, turned_best, there, replace(on, whole=other)
-    wrong, all_marks = np.zeros(len(pairs), dtype=bool), on.whole.marks
-    if len(pairs):
-        wrong = reject_landmarks(ignore_landmarks(ranked[0], on.whole, config.threads).landmark_errors)
-    if wrong.any():
-        rest = drop_landmarks(on.whole, wrong)
-        found = rerefine(found, rest, config.threads)
-        ranked = ranking(found, rest, copies, config.threads)
-        on = TwoLevelSamples(drop_landmarks(on.few, wrong), rest)
-    if taught and (orientation == "kept" or asked == "reversed"):
-        more = learned_candidates(source, target, config, on, seed, given)
-        ranked = merge_alternatives(ranked, more, on.whole, copies, config.threads)
-    if surfaces and ranked[0].quality.score < REPAIR_SCORE:
-        ranked = rerank_near_duplicates(ranked, found, on.whole, copies, config.threads)
-        ranked = refine_by_registration(ranked, on.whole, copies, pairs[~wrong], config.threads, report)
+    if not _are_surfaces(samples.whole) or not (asked == "either" or (asked == "auto" and unduly)):
+        return state
+    other = mirrored_pair(samples.whole)
+    images, copies = reversed_best(state.found, other, config.threads), ProxyCache.of(state.source, state.target, other)
+    ranked = ranking(images, other, copies, config.threads)
+    margin = SCORE.clear_margin if asked == "either" else SCORE.mirror_margin
+    if not ranked or ranked[0].score <= state.ranked[0].score + margin:
+        return state
+    samples = replace(samples, whole=other)
+    return replace(state, samples=samples, copies=copies, found=images, ranked=ranked, orientation="reversed")
 
-    most = config.search.runners_up
 
-    def told(best: Candidate, rest: list[Candidate]) -> SearchResult:
-        others = rest[:most]
-        margin = float(max(best.score - rest[0].score, 0.0) if rest else np.inf)
-        score, backed = best.quality.score, backed_by(best, on.whole, config.threads)
-        still = wrong & still_missed(best, on.whole, all_marks)
-        return SearchResult(
-            functional_map=best.functional_map,
-            initialization=best.name,
-            fit=None,
-            confidence=probability(score, margin, best.deformation_energy, backed),
-            verdict=verdict(score, margin, best.deformation_energy, backed),
-            scores=tuple(float(c.score) for c in (best, *others)),
-            runners_up=alternative_maps([c.functional_map for c in others], source.basis, target.basis, config.threads),
-            landmarks=pairs[~still],
-            rejected_landmarks=np.flatnonzero(still),
-            orientation=orientation,
-            quality=score,
-            deformation_energy=best.deformation_energy,
-            extremities=extremity_vertices(best.points, *probes) if score < NON_ISOMETRIC_SCORE else None,
-            registered_vertices=best.registered_vertices,
-            swapped=best.swapped,
-        )
+def _reject_landmarks(state: Search) -> Search:
+    """Leave out the landmarks that the best candidate contradicts, and refine and rank all without them."""
+    if len(state.pairs) == 0:
+        return state
+    whole, threads = state.samples.whole, state.config.threads
+    wrong = rejected_landmarks(ignore_landmarks(state.ranked[0], whole, threads).landmark_errors)
+    if not wrong.any():
+        return state
+    rest = drop_landmarks(whole, wrong)
+    found = rerefine(state.found, rest, threads)
+    samples = TwoLevelSamples(drop_landmarks(state.samples.few, wrong), rest)
+    ranked = ranking(found, rest, state.copies, threads)
+    return replace(state, wrong=wrong, samples=samples, found=found, ranked=ranked)
 
-    def another(way: Callable[[], Candidate | None], least: float) -> SearchResult | None:
-        made = way()
-        if made is None or made.score <= least:
-            return None
-        return told(made, [c for c in ranked if map_distance(c, made, on.whole.source) > DISTINCT])
 
-    return replace(told(ranked[0], ranked[1:]), again=tuple(partial(another, way) for way in ranked[0].again))
+def _to_result(state: Search, best: Candidate, rest: list[Candidate]) -> SearchResult:
+    """Return ``best`` as the result of a search; ``rest`` are its alternatives, best first."""
+    config, samples = state.config, state.samples.whole
+    assert config.search is not None
+    others = rest[: config.search.runners_up]
+    margin = float(max(best.score - rest[0].score, 0.0) if rest else np.inf)
+    score = best.quality.score
+    evidence = score, margin, best.deformation_energy, backed_by(best, samples, config.threads)
+    rejected = state.wrong & still_missed(best, samples, state.evidence)
+    bases, maps = (state.source.basis, state.target.basis), [c.functional_map for c in others]
+    extremities = None
+    if score < SCORE.non_isometric_score:
+        extremities = extremity_vertices(best.points, samples.source, samples.target)
+    return SearchResult(
+        functional_map=best.functional_map,
+        initialization=best.name,
+        fit=None,
+        confidence=probability(*evidence),
+        verdict=verdict(*evidence),
+        scores=tuple(float(c.score) for c in (best, *others)),
+        runners_up=alternative_maps(maps, *bases, config.threads),
+        landmarks=state.pairs[~rejected],
+        rejected_landmarks=np.flatnonzero(rejected),
+        orientation=state.orientation,
+        quality=score,
+        deformation_energy=best.deformation_energy,
+        extremities=extremities,
+        registered_vertices=best.registered_vertices,
+        swapped=best.swapped,
+    )
 
 
 def ignore_landmarks(found: Candidate, on: SamplePair, threads: int | None = None) -> Candidate:
@@ -281,16 +341,15 @@ def still_missed(best: Candidate, on: SamplePair, marks: LandmarkEvidence | None
     """
     if marks is None:
         return np.zeros(0, dtype=bool)
-    return landmark_errors(best.functional_map, on.source.samples.basis.functions, marks) > MISSED
+    return landmark_errors(best.functional_map, on.source.samples.basis.functions, marks) > SCORE.max_landmark_error
 
 
 def backed_by(best: Candidate, on: SamplePair, threads: int | None = None) -> float:
-    """:func:`kfmaps.matching.landmark_evidence.landmark_support` of the map by the landmarks, 0 without any."""
+    """:func:`kfmaps.matching.score.landmark_support` of the map by the landmarks, 0 without any."""
     if on.marks is None:
         return 0.0
-    return landmark_support(
-        ignore_landmarks(best, on, threads).landmark_errors, on.marks, to_numpy(on.source.samples.basis.mass)
-    )
+    errors = ignore_landmarks(best, on, threads).landmark_errors
+    return landmark_support(errors, on.marks.distances, to_numpy(on.source.samples.basis.mass))
 
 
 def without_landmarks(
@@ -333,7 +392,7 @@ def _drawn(seed: int) -> int:
 
 def near_isometric(found: SearchResult) -> bool:
     """Whether the shapes are so much alike that their high functions correspond; taken for granted without a search."""
-    return found.quality is None or found.quality >= NON_ISOMETRIC_SCORE
+    return found.quality is None or found.quality >= SCORE.non_isometric_score
 
 
 def adapt_refinement(refinement: Refinement | None, found: SearchResult) -> Refinement | None:
@@ -367,9 +426,9 @@ def reversed_best(found: list[Candidate], turned: SamplePair, threads: int | Non
     return sorted(images, key=lambda c: c.score, reverse=True)
 
 
-def bends_unduly(found: Candidate) -> bool:
+def deforms_unduly(found: Candidate) -> bool:
     """Whether it bends the shapes much more than right maps do: something is wrong that its score does not see."""
     return (
         found.deformation_energy is not None
-        and excess_deformation(found.quality.score, found.deformation_energy) > EXCESS_DEFORMATION
+        and excess_deformation(found.quality.score, found.deformation_energy) > SCORE.excess_deformation
     )

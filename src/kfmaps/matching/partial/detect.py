@@ -10,11 +10,7 @@ import numpy as np
 from kfmaps.geometry.clean import clean_mesh
 from kfmaps.geometry.connectivity import boundary_edges, component_labels
 from kfmaps.geometry.mesh import Mesh, surface_area
-
-OPEN = 0.01
-"""Opening from which something may be missing: of one round hole, a diameter of 0.11 √area."""
-MORE = 3.0
-"""How many times the other's opening that of a part is."""
+from kfmaps.matching.score import SCORE
 
 
 @dataclass(frozen=True)
@@ -52,8 +48,8 @@ def detect_part(source: Mesh, target: Mesh) -> PartDetection:
         "target": boundary_opening(target),
     }
     part, whole = sorted(openings, key=lambda name: -openings[name])
-    if openings[part] < OPEN:
+    if openings[part] < SCORE.part.min_opening:
         return PartDetection("none", "no boundary is long enough for a cut")
-    if openings[part] < MORE * openings[whole]:
+    if openings[part] < SCORE.part.opening_ratio * openings[whole]:
         return PartDetection("none", "both have open boundaries alike")
     return PartDetection(part, f"the {part} has long open boundaries, and the {whole} has not")

@@ -12,17 +12,13 @@ from kfmaps._progress import Progress
 from kfmaps.config import Config
 from kfmaps.fmap.confidence import local_confidence
 from kfmaps.fmap.precise import PointMap, nearest_vertices
-from kfmaps.matching.partial.calibration import part_probability, part_verdict
 from kfmaps.matching.partial.place_part import place_part
 from kfmaps.matching.partial.samples import scaled
+from kfmaps.matching.score import SCORE, probability, verdict
 from kfmaps.shape import Shape
 
 COMMON = 0.5
 """Probability from which a vertex has a counterpart."""
-WHOLE = 0.95
-"""Part of the area of both shapes from which, when it is common, neither is a part."""
-STRAY = 0.1
-"""Distance from where a landmark was said to be, in √area of the whole, from which it is doubted."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -117,7 +113,7 @@ def match_partial(
     place = found.overlap.on_whole if forward else found.overlap.on_part
     overlaps = (found.overlap.whole, found.overlap.part) if forward else (found.overlap.part, found.overlap.whole)
     points = np.where(overlaps[1] > COMMON, nearest_vertices(place, (whole if forward else part).mesh), -1)
-    at_scale = scaled(part.mesh, found.scale)
+    at_scale = scaled(part.mesh, found.registration.scale)
     here, there = (whole.mesh, at_scale) if forward else (at_scale, whole.mesh)
     trust = local_confidence(here, there, points, sized=True)
     masses = to_numpy(part.basis.mass), to_numpy(whole.basis.mass)
@@ -127,15 +123,15 @@ def match_partial(
         points,
         place,
         *overlaps,
-        slanted(points, source, target, found.scale if forward else 1 / found.scale),
+        slanted(points, source, target, found.registration.scale if forward else 1 / found.registration.scale),
         trust,
-        None if forward else found.bent.vertices,
-        found.scale,
-        part_verdict(found.score, found.margin),
-        part_probability(found.score, found.margin),
-        (found.score, *found.others),
-        np.flatnonzero(found.wrong > STRAY),
-        min(common) > WHOLE,
+        None if forward else found.registration.vertices,
+        found.registration.scale,
+        verdict(found.scores[0], found.margin, numbers=SCORE.part.calibration),
+        probability(found.scores[0], found.margin, numbers=SCORE.part.calibration),
+        found.scores,
+        np.flatnonzero(found.landmark_errors > SCORE.part.max_landmark_error),
+        min(common) > SCORE.part.whole_overlap,
     )
 
 

@@ -1,0 +1,435 @@
+"""Judge candidate maps without knowing the truth: evidence, weights, thresholds and the calibration.
+
+No single measure is enough. A mirrored map of a symmetric body distorts nothing, a map that swaps front and back *and*
+left and right even keeps orientation, and a map that collapses everything to one point is smooth. A score weighs the
+measures, and a logistic function turns it into the probability that the map is right: that its mean geodesic error is
+below 0.08 √area. Whole shapes and parts share the calibration. All numbers are fields of :data:`SCORE`.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, field
+from typing import TypeVar
+
+import numpy as np
+from scipy.special import expit
+
+T = TypeVar("T")
+
+
+@dataclass(frozen=True)
+class Calibration:
+    """Numbers that turn a score and its margin into a probability and a verdict.
+
+    Values for whole shapes come from `benchmarks/calibration.py` (research/verdict.md).
+    """
+
+    slope: float = 0.92
+    """Slope of the logistic function of the score."""
+    middle: float = -10.0
+    """Score at which half of all maps are right."""
+    tie: float = 0.4
+    """Margin at which the doubt that a different map casts has fallen to 1/e."""
+    usual_log_deformation: float = -3.6
+    """Logarithm of the deformation energy of right maps at a score of 0."""
+    log_deformation_per_score: float = -0.233
+    """Change of that logarithm with the score."""
+    excess_middle: float = 0.65
+    """Excess of the logarithm at which half of all maps are wrong: right near-isometric maps reach 0.38, maps of
+    bodies to their mirror images begin at 0.9."""
+    excess_width: float = 0.08
+    """Width of that logistic function."""
+    sure: float = 0.9
+    """Probability from which a map is called "sure"; wrong ones have had up to 0.83."""
+    likely: float = 0.5
+    """Probability from which a map is called "likely"."""
+
+
+@dataclass(frozen=True)
+class PartScoring:
+    """Numbers that parts are judged by; see research/parts.md for the shapes that they were chosen on."""
+
+    calibration: Calibration = field(
+        default_factory=lambda: Calibration(slope=1 / 0.43, middle=16.2, tie=1.3, sure=0.8)
+    )
+    """Fitted by `benchmarks/parts_verdict.py`."""
+    w_consistency: float = 4.0
+    """Weight of the consistency of all samples with their neighbours."""
+    w_similarity_rank: float = 1.0
+    """Weight of :attr:`PartEvidence.similarity_rank`."""
+    w_gap: float = 50.0
+    """Weight of the root mean squared distance between the surfaces, in √area of the whole."""
+    w_flipped: float = 4.0
+    """Weight of the share of the area whose normals contradict the whole's."""
+    w_deformation: float = 3.0
+    """Weight of the logarithm of the deformation energy. A half of a body laid on its other half, front to back, agrees
+    in all else; that it deforms by half as much again counts alike for stiff shapes and for soft ones."""
+    base_deformation: float = 0.005
+    """Deformation energy that any part shows, by its mesh alone."""
+    distinct_distance: float = 0.1
+    """Median distance between placed samples, in √area of the whole, from which two placements differ."""
+    max_margin: float = 3.0
+    """Margin from which more does not count."""
+    hopeless_margin: float = 5.0
+    """Score by which a placement is too far behind to be refined: refinement has gained at most 2.3."""
+    min_gain: float = 0.2
+    """Gain of the score below which a placement is refined no further."""
+    whole_overlap: float = 0.95
+    """Common share of the area of both shapes from which neither is a part."""
+    max_landmark_error: float = 0.1
+    """Error of a landmark, in √area of the whole, from which it is rejected."""
+    min_opening: float = 0.01
+    """Opening of the boundary, over the area, from which something may be missing: a round hole of 0.11 √area."""
+    opening_ratio: float = 3.0
+    """How many times the other's opening that of a part must be."""
+
+
+@dataclass(frozen=True)
+class Scoring:
+    """All numbers that maps are judged by. Distances are mean distances in √area unless said otherwise.
+
+    Weights were chosen on pairs of `FAUST_r`, `SHREC19_r` and generated shapes (research/score.md).
+    """
+
+    w_orientation: float = 1.0
+    """Weight of :attr:`Quality.orientation`; those of the other measures of a map follow."""
+    w_distortion: float = 6.0
+    w_local_distortion: float = 10.0
+    w_descriptors: float = 12.0
+    w_heat: float = 2.0
+    w_coverage: float = 1.0
+    w_laplacian: float = 2.0
+    w_extremities: float = 8.0
+    """Weight of the descriptor error at hands, feet, faces and tails, which no pose changes."""
+    w_deformation: float = 5.0
+    """Weight of the logarithm of the deformation energy over :attr:`usual_deformation`."""
+    usual_deformation: float = 0.15
+    """Deformation energy of a usual pair."""
+    w_strain: float = 6.0
+    """Weight of the strain over a usual one, where it is known."""
+    w_shot: float = 60.0
+    """Weight of the SHOT error after registration, where it is known; right and wrong maps differ by 0.02 and more."""
+    w_landmark: float = 2.0
+    """Cost of a landmark whose image is simply wrong."""
+    w_torn: float = 25.0
+    """Cost where all of the target is torn. With less than 20 a torn map of a dog and a cat stays, with more than 35
+    front and back of a gorilla may change."""
+    torn_confidence: float = 0.5
+    """Local confidence below which a vertex counts as torn."""
+    max_torn_area: float = 0.04
+    """Share of torn area from which alternatives are finished too."""
+
+    local_radius: float = 0.2
+    """Distance up to which points are neighbours whose distance a good map keeps."""
+    extremity_radius: float = 0.3
+    """Distance from an extremity within which descriptors count once more."""
+    min_heat_variance: float = 0.02
+    """Variance of the logarithm of the heat kernel signature below which it is noise: a sphere has 0.0003, bodies 1."""
+
+    max_landmark_error: float = 0.3
+    """Distance of a landmark's image from which it is simply wrong, and the landmark may be rejected."""
+    min_kept_landmarks: float = 0.6
+    """Share of landmarks that a map must keep to before the others are rejected."""
+    landmark_radius: float = 0.2
+    """Distance along the surface up to which a landmark supports a map."""
+    landmark_error_middle: float = 0.055
+    """Mean landmark error at which landmarks support a map by half: a map is right below 0.08."""
+    landmark_error_width: float = 0.004
+    """Width of that logistic function."""
+
+    rough_distance: float = 0.04
+    """Distance from which rough maps differ."""
+    distinct_distance: float = 0.08
+    """Distance from which finished maps differ."""
+    duplicate_distance: float = 0.005
+    """Distance up to which maps near the best are registered too: of two legs that touch, it is as far from one to the
+    other."""
+    twin_distance: float = 0.03
+    """Distance up to which two registered maps are one: a limb that lies elsewhere makes 0.05."""
+    early_exit_score: float = -7.0
+    """:attr:`Quality.score` of a rough map from which fits and perturbations are left out: people have −4 to −10,
+    animals of different kinds −8.5 and less."""
+    repair_score: float = -7.5
+    """:attr:`Quality.score` below which candidates are repaired by registration."""
+    non_isometric_score: float = -8.0
+    """:attr:`Quality.score` below which the high functions of two shapes do not correspond."""
+    clear_margin: float = 0.3
+    """Margin from which an alternative without descriptors, a learned map or a mirror image comes first."""
+    mirror_margin: float = 5.0
+    """Margin from which a map to the mirror image comes first unasked; bones have 10, other maps none."""
+    excess_deformation: float = 0.55
+    """Excess deformation (:func:`excess_deformation`) from which a mirror image is tried."""
+    max_behind: float = 3.0
+    """Margin behind which a candidate is not registered."""
+    shot_margin: float = 2.5
+    """Margin of the first two candidates below which their SHOT errors are compared."""
+    close_margin: float = 1.0
+    """Margin of the first two candidates below which they are registered again with more points."""
+    repairable_margin: float = 6.0
+    """Margin behind which a candidate is not repaired: repairs have gained up to 10."""
+    hopeless_margin: float = 5.0
+    """Margin behind which a repaired candidate loses whatever its SHOT error."""
+    min_orientation: float = -0.2
+    """:attr:`Quality.orientation` below which a map turns the surface inside out."""
+    same_map: float = 0.1
+    """Difference ``‖C − C'‖² / k`` below which two maps of a collection are one."""
+
+    calibration: Calibration = Calibration()
+    part: PartScoring = PartScoring()
+
+
+SCORE = Scoring()
+"""The numbers in use."""
+
+
+@dataclass(frozen=True)
+class Quality:
+    """Measures of one map on samples; made by :func:`kfmaps.matching.quality.map_quality`.
+
+    Attributes
+    ----------
+    orientation : float
+        From 1, kept everywhere, to -1, reversed everywhere: correlation of the source's orientation operators,
+        transferred, with those of the target (Ren et al. 2018). 0 for point clouds.
+    distortion : float
+        Mean absolute change of geodesic distances, divided by the mean distance. 0 for an isometry.
+    local_distortion : float
+        The same for points closer than :attr:`Scoring.local_radius`, so that tears count, wherever they are.
+    descriptors : float
+        Mean squared difference of SHOT between matched points, divided by that of random ones, from 0 to about 1;
+        mean of both directions. Less where the shapes have hardly any features.
+    heat : float
+        The same for the logarithm of the heat kernel signature, which knows thick from thin.
+    coverage : float
+        Share of the area that is the image of something, the smaller of both directions.
+    laplacian : float
+        ``‖C Λ_s − Λ_t C‖² / ‖C Λ_s‖²``; 1, as of unrelated shapes, for a map of constants alone.
+    extremity_descriptor_error : float
+        ``descriptors`` of points near extremities alone; no part of :attr:`score`. 0 where there are none.
+    """
+
+    orientation: float
+    distortion: float
+    local_distortion: float
+    descriptors: float
+    heat: float
+    coverage: float
+    laplacian: float
+    extremity_descriptor_error: float = 0.0
+
+    @property
+    def score(self) -> float:
+        """The score of the map alone, higher is better; differences below 0.1 mean little."""
+        return quality_score(self)
+
+
+@dataclass(frozen=True, eq=False)
+class Candidate:
+    """One refined map on the samples of a pair.
+
+    Attributes
+    ----------
+    name : str
+        Where it came from.
+    functional_map : (k, k) float64
+    points : (q_t,) int64
+        A source sample for each target sample.
+    quality : Quality
+    uses_descriptors : bool
+        A map that was refined without descriptors is only an alternative.
+    landmark_errors : (l,) float64
+        Distance of each landmark's image from where it belongs, in √area.
+    deformation_energy, strain, shot_error : float or None
+        See :mod:`kfmaps.registration.deformation_energy` and :mod:`kfmaps.registration.registered_shot`; ``None``
+        where they were not computed. The latter two are over those of a usual or of the best candidate.
+    registered_vertices : (n_s, 3) float64 or None
+        The source's vertices on the target, roughly; with ``swapped`` the target's (n_t, 3) on the source.
+    swapped : bool
+    """
+
+    name: str
+    functional_map: np.ndarray
+    points: np.ndarray
+    quality: Quality
+    uses_descriptors: bool = True
+    landmark_errors: np.ndarray = field(default_factory=lambda: np.zeros(0))
+    deformation_energy: float | None = None
+    strain: float | None = None
+    shot_error: float | None = None
+    registered_vertices: np.ndarray | None = None
+    swapped: bool = False
+
+    @property
+    def score(self) -> float:
+        """See :func:`candidate_score`."""
+        return candidate_score(self)
+
+
+@dataclass(frozen=True)
+class PartEvidence:
+    """Measures of one placement of a part.
+
+    Attributes
+    ----------
+    consistency : float
+        Of all samples with their neighbours, 0 to 1.
+    similarity_rank : float
+        Mean logarithm of the share of the whole's samples that resemble a sample more than its place does: 0 and less.
+    deformation_energy, gap, flipped_area : float
+        Of :class:`kfmaps.matching.partial.registration.PartRegistration`.
+    """
+
+    consistency: float
+    similarity_rank: float
+    deformation_energy: float = math.inf
+    gap: float = 0.0
+    flipped_area: float = 0.0
+
+
+def quality_score(quality: Quality, numbers: Scoring = SCORE) -> float:
+    """Return the score of a map alone, higher is better."""
+    return (
+        numbers.w_orientation * quality.orientation
+        - numbers.w_distortion * quality.distortion
+        - numbers.w_local_distortion * quality.local_distortion
+        - numbers.w_descriptors * quality.descriptors
+        - numbers.w_heat * quality.heat
+        + numbers.w_coverage * quality.coverage
+        - numbers.w_laplacian * quality.laplacian
+    )
+
+
+def candidate_score(candidate: Candidate, numbers: Scoring = SCORE) -> float:
+    """Return the score of a candidate: its map, extremities, registration and landmarks, each of bounded cost.
+
+    Rounded to nine digits, so that what is equal but for rounding errors is equal.
+    """
+    deformed, strained, differs = 0.0, 0.0, 0.0
+    if candidate.deformation_energy is not None:
+        deformed = -numbers.w_deformation * math.log(candidate.deformation_energy / numbers.usual_deformation)
+    if candidate.strain is not None:
+        strained = -numbers.w_strain * candidate.strain
+    if candidate.shot_error is not None:
+        differs = -numbers.w_shot * candidate.shot_error
+    extremities = numbers.w_extremities * candidate.quality.extremity_descriptor_error
+    evidence = quality_score(candidate.quality, numbers) - extremities + deformed + strained + differs
+    missed = float(np.minimum(candidate.landmark_errors / numbers.max_landmark_error, 1.0).sum())
+    return round(evidence - numbers.w_landmark * missed, 9)
+
+
+def torn_score(score: float, torn_area: float | None, numbers: Scoring = SCORE) -> float:
+    """Return the score of a finished map: that of its candidate less the cost of the share of torn area."""
+    return score - numbers.w_torn * (torn_area or 0.0)
+
+
+def placement_score(evidence: PartEvidence, numbers: PartScoring = SCORE.part) -> float:
+    """Return the part of :func:`part_score` that is known before registration."""
+    return numbers.w_consistency * evidence.consistency - numbers.w_similarity_rank * evidence.similarity_rank
+
+
+def part_score(evidence: PartEvidence, numbers: PartScoring = SCORE.part) -> float:
+    """Return the score of a placement of a part, higher is better."""
+    fits = placement_score(evidence, numbers) - numbers.w_gap * evidence.gap - numbers.w_flipped * evidence.flipped_area
+    stiff = -math.log(max(evidence.deformation_energy, 0.0) + numbers.base_deformation)
+    return fits + numbers.w_deformation * stiff
+
+
+def excess_deformation(score: float, deformation_energy: float, numbers: Calibration = SCORE.calibration) -> float:
+    """Return by how much the logarithm of the deformation energy exceeds that of right maps of such a ``score``."""
+    return math.log(deformation_energy) - numbers.usual_log_deformation - numbers.log_deformation_per_score * score
+
+
+def landmark_support(errors: np.ndarray, distances: np.ndarray, areas: np.ndarray, numbers: Scoring = SCORE) -> float:
+    """Return how far landmarks support a map, from 0 to 1.
+
+    The squared share of the source that lies within :attr:`Scoring.landmark_radius` of a landmark, times a logistic
+    function of the mean error. Few landmarks, or many in one place, tell little.
+
+    Parameters
+    ----------
+    errors : (l,)
+        Of the landmarks, in √area, by a map in which they had no say.
+    distances : (l, q_s)
+        From each of the source's landmarks to its samples.
+    areas : (q_s,)
+        Of these samples.
+    """
+    if len(errors) == 0:
+        return 0.0
+    covered = (distances < numbers.landmark_radius).any(axis=0)
+    share = float(areas[covered].sum() / areas.sum())
+    error = float(np.minimum(errors, numbers.max_landmark_error).mean())
+    return share**2 * float(expit((numbers.landmark_error_middle - error) / numbers.landmark_error_width))
+
+
+def rejected_landmarks(errors: np.ndarray, numbers: Scoring = SCORE) -> np.ndarray:
+    """Return which landmarks ``(l,)`` contradict a map that keeps to most of them; none of fewer than three."""
+    wrong = errors > numbers.max_landmark_error
+    few = len(errors) < 3 or (~wrong).mean() < numbers.min_kept_landmarks
+    return np.zeros(len(errors), dtype=bool) if few else wrong
+
+
+def probability(
+    score: float,
+    margin: float,
+    deformation_energy: float | None = None,
+    support: float = 0.0,
+    numbers: Calibration = SCORE.calibration,
+) -> float:
+    """Return the probability that a map is right.
+
+    Parameters
+    ----------
+    score : float
+        :attr:`Quality.score` of a whole shape, :func:`part_score` of a part.
+    margin : float
+        By how much the best different map is behind; where both are equal each is as likely.
+    deformation_energy : float, optional
+        Where it exceeds that of right maps much, something that the score does not see is wrong.
+    support : float
+        :func:`landmark_support`, which takes away doubt.
+    numbers : Calibration
+    """
+    fits = float(expit(numbers.slope * (score - numbers.middle)))
+    if deformation_energy is not None:
+        excess = excess_deformation(score, deformation_energy, numbers)
+        fits *= float(expit((numbers.excess_middle - excess) / numbers.excess_width))
+    alone = fits * (1.0 - 0.5 * math.exp(-max(margin, 0.0) / numbers.tie))
+    return alone + (1.0 - alone) * support
+
+
+def verdict(
+    score: float,
+    margin: float,
+    deformation_energy: float | None = None,
+    support: float = 0.0,
+    numbers: Calibration = SCORE.calibration,
+) -> str:
+    """Return "sure", "likely" or "unlikely" by the :func:`probability`, or "ambiguous".
+
+    "ambiguous" is a map that would be called more if no other map were as good.
+    """
+
+    margins = margin, math.inf
+    word, alone = (
+        probability_word(probability(score, one, deformation_energy, support, numbers), numbers) for one in margins
+    )
+    return word if word == alone else "ambiguous"
+
+
+def probability_word(chance: float, numbers: Calibration = SCORE.calibration) -> str:
+    """Return "sure", "likely" or "unlikely" for a probability."""
+    return "sure" if chance >= numbers.sure else "likely" if chance >= numbers.likely else "unlikely"
+
+
+def select_distinct(order: Iterable[T], differ: Callable[[T, T], bool], most: int | None = None) -> list[T]:
+    """Return the first of ``order``, then the first that differs from it, and so on: at most ``most``."""
+    kept: list[T] = []
+    for one in order:
+        if len(kept) == most:
+            break
+        if all(differ(one, other) for other in kept):
+            kept.append(one)
+    return kept
