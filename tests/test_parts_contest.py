@@ -69,7 +69,7 @@ def test_the_rival_of_a_lengthwise_half_is_looked_for(half, true):
     assert len(true) > 1
     assert error(half, true[0]) < 0.04
     assert all(error(half, one) > 0.15 for one in true[1:])
-    assert all(differ(true[0].points, one.points) for one in true[1:])
+    assert all(differ(true[0], one) for one in true[1:])
     assert margin(true) == pytest.approx(true[0].score - true[1].score)
 
 
