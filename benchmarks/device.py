@@ -18,7 +18,7 @@ from typing import Any
 import numpy as np
 
 from kfmaps import Config, Shape, datasets, match, prepare
-from kfmaps.matching.match import Match
+from kfmaps.matching.result import Match
 
 WAYS = {"one fit": Config.single_fit(), "automatic": Config()}
 
@@ -55,8 +55,8 @@ def compared(n: int, way: str, config: Config, options: argparse.Namespace) -> l
         if cpu >= 0.05 or stage == "all":
             rows.append({"vertices": n, "way": way, "stage": stage, "cpu": cpu, "device": other})
             print(f"{n:8} {way:9} {stage:24} {cpu:8.2f} {other:8.2f} {cpu / other:6.1f}")
-    scale = float(np.abs(ours.raw_functional_map).max())
-    difference = float(np.abs(theirs.raw_functional_map - ours.raw_functional_map).max()) / scale
+    scale = float(np.abs(ours.fit.raw_functional_map).max())
+    difference = float(np.abs(theirs.fit.raw_functional_map - ours.fit.raw_functional_map).max()) / scale
     others = float(np.mean(ours.target_to_source != theirs.target_to_source))
     rows.append({"vertices": n, "way": way, "difference": difference, "other_points": others})
     print(f"{n:8} {way:9} maps differ by {difference:.1e}, {100 * others:.2f} % of the points are others")

@@ -162,7 +162,7 @@ def searched(config: kfmaps.Config) -> Callable[[Task], dict]:
     def measured(task: Task) -> dict:
         found = kfmaps.match(task.source, task.target, config)
         error = task.error(found.target_to_source[task.judged])
-        return {"raw": error, "origin": found.initialization, "verdict": found.verdict}
+        return {"raw": error, "origin": found.score.initialization, "verdict": found.verdict}
 
     return measured
 

@@ -135,7 +135,7 @@ def run(job: Job) -> dict[str, object]:
         "name": name_of(job), "set": job.kind, "whole": job.whole, "part": job.part, "error": 100 * scored.errors.mean,
         "matched": scored.matched, "overlap": scored.overlap, "missing": scored.missing,
         "verdict": found.verdict, "confidence": found.confidence, "seconds": seconds,
-        "taken_for_part": found.overlap_target is not None, "score": found.scores[0], "gib": peak(),
+        "taken_for_part": found.partial.overlap_target is not None, "score": found.score.scores[0], "gib": peak(),
     }  # fmt: skip
 
 
@@ -175,7 +175,7 @@ def run_both(job: Job) -> dict[str, object] | None:
         )
     seconds = time.process_time() - begun
     rows = np.flatnonzero(true & (found.target_to_source >= 0))
-    ours = np.asarray(found.overlap_target) > COMMON
+    ours = np.asarray(found.partial.overlap_target) > COMMON
     error = float("nan")
     if len(rows):
         place = found.precise()
@@ -191,7 +191,7 @@ def run_both(job: Job) -> dict[str, object] | None:
         "overlap": float(areas[true & ours].sum() / areas[true | ours].sum()),
         "missing": 1 - float(areas[true].sum() / areas.sum()),
         "verdict": found.verdict, "confidence": found.confidence, "seconds": seconds,
-        "taken_for_part": True, "score": found.scores[0], "gib": peak(),
+        "taken_for_part": True, "score": found.score.scores[0], "gib": peak(),
     }  # fmt: skip
 
 

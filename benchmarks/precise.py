@@ -136,7 +136,9 @@ def row(name, source, target, truth, where, marks) -> dict:
     across, clock = found._reindexing, StageTimer()
     start = time.process_time()
     inner_points = across.part_s.to_clean[found.target_to_source][across.part_t.to_original]
-    doubted = np.zeros((0, 2), dtype=np.int64) if marks is None else np.delete(marks, found.rejected_landmarks, axis=0)
+    doubted = (
+        np.zeros((0, 2), dtype=np.int64) if marks is None else np.delete(marks, found.score.rejected_landmarks, axis=0)
+    )
     last = register_map(inner_points, across.source, across.target, config, clock, across.landmarks(doubted))
     spent = time.process_time() - start
     spectral = found.precise()

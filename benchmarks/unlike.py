@@ -6,11 +6,9 @@ Mean errors of whole matches without landmarks: as rigidly as possible throughou
 evenly (:mod:`kfmaps.registration.local_scaling`) while shapes are bent and matched in turn and in the last fit; with
 maps that
 begin with the likeliest pairings of the tips of limbs beside
-(:func:`kfmaps.matching.registration_refine.refine_by_registration`);
-with torn area
-counted where others may be less torn (:func:`kfmaps.matching.match.better_match`); and with parts that touch told apart
-in the
-end (:mod:`kfmaps.registration.contact_projection`), which is all that there is. DIR is as for
+(:func:`kfmaps.matching.registration_refine.refine_by_registration`); with torn area counted where others may be less
+torn (:func:`kfmaps.matching.finish.better_match`); and with parts that touch told apart in the end
+(:mod:`kfmaps.registration.contact_projection`), which is all that there is. DIR is as for
 benchmarks/automatic.py. The half
 ``report``, the default, has the pairs of that script, none of two shapes that settings were chosen on; ``choice`` has
 pairs of two such shapes. Three pairs of either set take about ten minutes.

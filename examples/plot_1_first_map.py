@@ -36,9 +36,9 @@ config = replace(
 )
 result = kfmaps.match(pair.source, pair.target, config, landmarks=landmarks)
 
-assert result.fit is not None  # a search may do without one; with landmarks there is
-assert result.raw_target_to_source is not None
-print(f"{result.fit.kernel}: {result.fit.rank} features, {result.fit.slices} slices after compression")
+assert result.fit.solution is not None  # a search may do without one; with landmarks there is
+assert result.fit.raw_target_to_source is not None
+print(f"{result.fit.kernel}: {result.fit.rank} features, {result.fit.n_operators} slices after compression")
 print(f"solver {result.fit.solution.status} after {result.fit.solution.steps} steps")
 print({stage: round(seconds, 2) for stage, seconds in result.seconds.items()})
 
@@ -47,7 +47,7 @@ print({stage: round(seconds, 2) for stage, seconds in result.seconds.items()})
 # the map sends it and where it belongs, divided by the square root of the source's area.
 
 errors = kfmaps.geodesic_errors(pair.source, result.target_to_source, pair.truth)
-raw_errors = kfmaps.geodesic_errors(pair.source, result.raw_target_to_source, pair.truth)
+raw_errors = kfmaps.geodesic_errors(pair.source, result.fit.raw_target_to_source, pair.truth)
 figure = match_figure(pair.source, pair.target, result.target_to_source, errors=errors)
 
 # %%

@@ -46,7 +46,7 @@ def gaussian(X, Y):
 theirs, ours = matched(gaussian), matched(kfmaps.Gaussian(gamma=0.15))
 difference = np.abs(theirs.functional_map - ours.functional_map).max()
 print(f"largest difference of the two functional maps: {difference:.1e}")
-print("named in the result:", theirs.fit and theirs.fit.kernel)
+print("named in the result:", theirs.fit.kernel)
 
 # %%
 # The rational quadratic kernel, a mixture of Gaussian kernels of every width, is one that the package does not have.
@@ -54,8 +54,7 @@ print("named in the result:", theirs.fit and theirs.fit.kernel)
 mixture = RationalQuadratic(length_scale=2.0, alpha=1.0)
 result = matched(mixture)
 errors = kfmaps.geodesic_errors(pair.source, result.target_to_source, pair.truth)
-rank = result.fit.rank if result.fit else 0
-print(f"rational quadratic: {rank} features, mean error x 100: {100 * errors.mean():.2f}")
+print(f"rational quadratic: {result.fit.rank} features, mean error x 100: {100 * errors.mean():.2f}")
 figure = match_figure(pair.source, pair.target, result.target_to_source, errors=errors)
 
 # %%

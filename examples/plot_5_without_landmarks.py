@@ -32,7 +32,7 @@ config = replace(
 result = kfmaps.match(pair.source, pair.target, config)
 
 print(f"verdict: {result.verdict}, confidence {result.confidence:.2f}")
-print("scores of the map and of the runners-up:", [round(float(score), 2) for score in result.scores])
+print("scores of the map and of the runners-up:", [round(float(score), 2) for score in result.score.scores])
 
 
 # %%

@@ -13,8 +13,8 @@ import kfmaps
 from kfmaps._arrays import NotConverged
 from kfmaps.fmap.convert import nearest, to_functional
 from kfmaps.geometry.mesh import MIRROR, Mesh, vertex_areas
+from kfmaps.matching import finish, ranking
 from kfmaps.matching import match as matching
-from kfmaps.matching import ranking
 from kfmaps.matching import registration_refine as mending
 from kfmaps.matching import search as choose
 from kfmaps.matching.candidates import map_distance, paired_map, score_maps
@@ -26,7 +26,7 @@ from kfmaps.matching.extremity_matching import (
     unused_matches,
     vertices_of_match,
 )
-from kfmaps.matching.match import better_match
+from kfmaps.matching.finish import better_match
 from kfmaps.matching.quality import sample_for_scoring
 from kfmaps.matching.ranking import ProxyCache, rerank_near_duplicates
 from kfmaps.matching.registration_refine import refine_by_registration, repairable
@@ -403,8 +403,8 @@ def test_of_maps_that_are_alike_the_one_that_bends_less_is_found(creatures, monk
 def test_the_match_that_is_worth_more_is_taken(creatures):
     """Of two that both have a fit, by score and torn area together; the one taken tells the seconds of the whole."""
     source, target, truth = creatures
-    one = matching.match_from_map(source, target, truth, origin="a", quality=-9.0)
-    assert one.registration is not None
+    one = finish.match_from_map(source, target, truth, origin="a", quality=-9.0)
+    assert one.registration.report is not None
 
     def made(score, share):
         order = np.cumsum(vertex_areas(target.mesh)) <= share * vertex_areas(target.mesh).sum()
@@ -434,7 +434,7 @@ def test_a_match_finishes_all_ways_unless_it_is_hardly_torn(creatures, monkeypat
     for share, ends in ((0.5, "other"), (SCORE.max_torn_area, "one"), (None, "one")):
         monkeypatch.setattr(matching, "torn_area_fraction", lambda _match, share=share: share)
         found = kfmaps.match(source, target, config)
-        assert found.initialization == ends
+        assert found.score.initialization == ends
         assert [f"another way, {i}" in found.seconds for i in (1, 2)] == 2 * [ends == "other"]
     assert asked == 3 * [-9.0 - 0.5 * SCORE.w_torn]
 
@@ -472,8 +472,8 @@ def test_where_the_target_lies_leads_as_well(creatures):
     found = choose.SearchResult(
         np.eye(5), "a", None, "unlikely", registered_vertices=target.mesh.vertices + 1.0, swapped=True
     )
-    led = matching._guidance(found, [source, target])
-    alone = matching._guidance(replace(found, registered_vertices=None), [source, target])
+    led = matching._search_guidance(found, (source, target))
+    alone = matching._search_guidance(replace(found, registered_vertices=None), (source, target))
     assert led is not None
     assert alone is not None
     lie = position_normal_guidance(source.mesh, Mesh(target.mesh.vertices + 1.0, target.mesh.faces))

@@ -192,11 +192,11 @@ def test_an_asymmetric_shape_is_matched_and_sure(shape, other):
     assert found.verdict == "sure"
     assert found.confidence is not None
     assert found.confidence > 0.6
-    assert list(found.scores[1:]) == sorted(found.scores[1:], reverse=True)
-    assert len(found.alternatives) == len(found.scores) - 1
+    assert list(found.score.scores[1:]) == sorted(found.score.scores[1:], reverse=True)
+    assert len(found.alternatives) == len(found.score.scores) - 1
     again = match(shape, other, SMALL)
     np.testing.assert_array_equal(found.target_to_source, again.target_to_source)
-    assert found.scores == again.scores
+    assert found.score.scores == again.score.scores
 
 
 def test_a_mirrored_shape_is_found_when_asked_for(shape):
@@ -253,7 +253,7 @@ def test_a_part_is_not_called_a_match():
     found = match(pair.source, pair.target, replace(Config(), threads=2, partial=Partial("none")))
     assert geodesic_errors(pair.source, found.target_to_source, pair.truth).mean() > 0.05
     assert found.verdict != "sure"
-    assert found.scores[0] < SCORE.calibration.middle
+    assert found.score.scores[0] < SCORE.calibration.middle
     assert found.confidence is not None
     assert found.confidence < 0.1
 
@@ -287,9 +287,9 @@ def test_candidates_can_be_traded_for_time():
 def test_no_landmarks_are_as_none_at_all(shape, other):
     without, empty = (match(shape, other, SMALL, landmarks=marks) for marks in (None, []))
     np.testing.assert_array_equal(without.target_to_source, empty.target_to_source)
-    assert (without.initialization, without.scores, without.verdict) == (
-        empty.initialization,
-        empty.scores,
+    assert (without.score.initialization, without.score.scores, without.verdict) == (
+        empty.score.initialization,
+        empty.score.scores,
         empty.verdict,
     )
 
@@ -297,8 +297,8 @@ def test_no_landmarks_are_as_none_at_all(shape, other):
 def test_a_match_of_a_search_has_no_fit_of_its_own(shape, other):
     found = match(shape, other, SMALL)
     assert found.config is SMALL
-    assert found.raw_target_to_source is None
-    assert found.fit is None
+    assert found.fit.raw_target_to_source is None
+    assert found.fit.solution is None
     assert found.initialization.startswith(("signs", "kicked", "SHOT", "tips", "turned"))
 
 

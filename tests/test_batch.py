@@ -84,7 +84,7 @@ def test_a_kept_probe_changes_no_bit(tmp_path: Path) -> None:
         np.testing.assert_array_equal(kept[name], value, err_msg=name)
     plain, quick = match(a, b, config, rng=3), match(a, b, config, rng=3, probes=(read, scoring_samples(b, 3)))
     np.testing.assert_array_equal(quick.target_to_source, plain.target_to_source)
-    assert quick.scores == plain.scores
+    assert quick.score.scores == plain.score.scores
     data = samples_path(entry, 3).read_bytes()
     samples_path(entry, 3).write_bytes(data[: len(data) // 2])
     assert load_record(samples_path(entry, 3), type(first)) is None

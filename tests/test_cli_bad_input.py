@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-import kfmaps.matching.match
+import kfmaps.shape
 from commandline import SMALL, run, shapes
 from kfmaps.io import mapfile
 
@@ -24,7 +24,7 @@ def no_work(monkeypatch: pytest.MonkeyPatch) -> None:
     def prepare(*_: object, **__: object) -> None:
         raise AssertionError("the work was begun")
 
-    monkeypatch.setattr(kfmaps.matching.match, "prepare", prepare)
+    monkeypatch.setattr(kfmaps.shape, "prepare", prepare)
 
 
 def complaint(made: types.SimpleNamespace, *words: object) -> str:

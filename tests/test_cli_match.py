@@ -240,6 +240,6 @@ def test_a_match_from_python_can_be_saved(made: types.SimpleNamespace, tmp_path:
     again = kfmaps.load_map(tmp_path / "m.npz")
     np.testing.assert_array_equal(again.target_to_source, made.truth)
     np.testing.assert_array_equal(again.functional_map, found.functional_map)
-    np.testing.assert_array_equal(again.extra["raw_target_to_source"], found.raw_target_to_source)
+    np.testing.assert_array_equal(again.extra["raw_target_to_source"], found.fit.raw_target_to_source)
     np.testing.assert_array_equal(again.extra["local_confidence"], found.local_confidence)
     assert from_dict(json.loads(again.config)) == config

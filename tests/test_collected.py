@@ -40,7 +40,7 @@ def test_given_maps_are_kept_but_for_the_wrong_one(shapes: dict[str, Shape]) -> 
     assert (found.maps[at] == np.arange(N)).mean() > 0.9
     match = found.matches[at]
     assert match is not None
-    assert match.initialization == found.replacements["s0", "s2"]
+    assert match.score.initialization == found.replacements["s0", "s2"]
     assert [m is None for m in found.matches].count(False) == 1
     assert min(found.probabilities) > 0.5
     assert set(found.chirality.values()) == {1}

@@ -45,7 +45,7 @@ def test_mean_errors_with_six_landmarks(faust: Path) -> None:
         whole = kfmaps.match(source, target, config, landmarks=landmarks)
         fewer = kfmaps.match(source, target, ten, landmarks=landmarks)
         for kind, points in (
-            ("raw", whole.raw_target_to_source),
+            ("raw", whole.fit.raw_target_to_source),
             ("refined", whole.target_to_source),
             ("ten", fewer.target_to_source),
         ):

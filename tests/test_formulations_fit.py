@@ -255,12 +255,12 @@ def test_a_search_fits_in_any_formulation(shape, other):
 def test_functions_are_carried_beyond_the_basis(shape, other, truth, marks):
     found = match(shape, other, replace(SMALL, refinement=ZoomOut(8, 30, 4)), landmarks=marks)
     f = shape.mesh.vertices
-    better, alone = found.transfer(f, 12), found.transfer(f, None)
+    better, alone = found.transfer(f, 12), found.transfer(f, 0)
     assert better.shape == (260, 3)
     assert np.linalg.norm(better - f[truth]) < np.linalg.norm(alone - f[truth])
     np.testing.assert_allclose(found.transfer(f[:, 0], 12), better[:, 0])
     with pytest.raises(InvalidInput, match="values"):
-        found.transfer(f[:-1])
+        found.transfer(f[:-1], 12)
     public = kfmaps.match(shape, other, replace(SMALL, refinement=ZoomOut(8, 30, 4)), landmarks=marks)
     np.testing.assert_array_equal(public.transfer(f, products=12), better)
     np.testing.assert_array_equal(public.transfer(f), f[public.target_to_source])

@@ -55,7 +55,7 @@ def test_a_metric_that_knows_nothing_changes_no_digit(creature):
     usual, found = (match(source, target, c) for c in (CONFIG, taught(nonsense)))
     np.testing.assert_array_equal(found.target_to_source, usual.target_to_source)
     np.testing.assert_array_equal(found.functional_map, usual.functional_map)
-    assert found.initialization == usual.initialization
+    assert found.score.initialization == usual.score.initialization
 
 
 def test_what_was_learned_stays_out_of_the_searchs_own_fits():

@@ -12,7 +12,7 @@ from kfmaps._arrays import InvalidInput
 from kfmaps.collection.paths import compose_maps, invert_map
 from kfmaps.collection.scored_map import score_maps
 from kfmaps.config import Search
-from kfmaps.matching.match import match_from_map
+from kfmaps.matching.finish import match_from_map
 from kfmaps.matching.search import scoring_samples
 from kfmaps.shape import Shape, mirror_image, prepare
 
@@ -50,7 +50,7 @@ def test_a_known_map_is_finished(shapes: list[Shape]) -> None:
         a, b, rough, LOCAL, origin="composition", confidence=0.9, verdict="sure", runners_up=(rough,)
     )
     assert (found.target_to_source == np.arange(N)).mean() > max((rough == np.arange(N)).mean(), 0.9)
-    assert (found.initialization, found.verdict, found.confidence) == ("composition", "sure", 0.9)
+    assert (found.score.initialization, found.verdict, found.confidence) == ("composition", "sure", 0.9)
     np.testing.assert_array_equal(found.alternatives[0], rough)
     turned = match_from_map(a, mirror_image(b), np.arange(N), LOCAL, origin="known", orientation="reversed")
     assert (turned.target_to_source == np.arange(N)).mean() > 0.9

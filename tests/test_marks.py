@@ -307,7 +307,7 @@ def test_landmarks_lead_less_where_shapes_differ_much(creatures, monkeypatch) ->
     found = SearchResult(np.eye(3), "a", None, "unlikely")
     for quality in (None, SCORE.non_isometric_score, SCORE.non_isometric_score - 1):
         assert near_isometric(replace(found, quality=quality)) == (quality != SCORE.non_isometric_score - 1)
-        assert matching._guidance(replace(found, quality=quality), [source, target]) is None
+        assert matching._search_guidance(replace(found, quality=quality), (source, target)) is None
     assert asked == [LEAD, LEAD, LESS]
 
 

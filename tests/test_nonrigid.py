@@ -156,12 +156,12 @@ def test_a_match_has_points_in_triangles(pair: datasets.Pair) -> None:
     marks = np.stack([pair.truth[::300], np.arange(len(pair.truth))[::300]], axis=1)
     found = kfmaps.match(pair.source, pair.target, config, landmarks=marks)
     place = found.precise()
-    assert found.registered_vertices is not None
-    assert found.registration is not None
-    assert found.registration.accepted
-    assert found.registration.reason is None
-    assert found.registration.loss is not None
-    assert found.registration.after == pytest.approx(found.local_confidence.mean())
+    assert found.registration.registered_vertices is not None
+    assert found.registration.report is not None
+    assert found.registration.report.accepted
+    assert found.registration.report.reason is None
+    assert found.registration.report.loss is not None
+    assert found.registration.report.after == pytest.approx(found.local_confidence.mean())
     np.testing.assert_allclose(place.weights.sum(axis=1), 1)
     assert (place.weights >= 0).all()
     corners = pair.source.faces[place.faces]
@@ -174,7 +174,7 @@ def test_a_match_has_points_in_triangles(pair: datasets.Pair) -> None:
     ]
     assert errors[0] < 0.75 * errors[1]
     target = unit_area(pair.target)
-    away = closest_points(found.registered_vertices, target.vertices, target.faces).distances
+    away = closest_points(found.registration.registered_vertices, target.vertices, target.faces).distances
     assert away.mean() < 2e-3
     spectral = np.linalg.norm(point_positions(plain.precise(), pair.source) - true, axis=1).mean()
     assert errors[0] < spectral < errors[1]
@@ -185,11 +185,11 @@ def test_a_whole_body_is_not_bent_onto_something_else(pair: datasets.Pair) -> No
     other = datasets.sphere(900, rng=0)
     config = replace(kfmaps.Config.single_fit(), threads=1)
     found = kfmaps.match(pair.source, other, config)
-    assert found.registered_vertices is None
-    assert found.registration is not None
-    assert not found.registration.accepted
-    assert found.registration.reason in ("gap", "harm")
-    assert found.registration.before == pytest.approx(found.local_confidence.mean())
+    assert found.registration.registered_vertices is None
+    assert found.registration.report is not None
+    assert not found.registration.report.accepted
+    assert found.registration.report.reason in ("gap", "harm")
+    assert found.registration.report.before == pytest.approx(found.local_confidence.mean())
     plain = kfmaps.match(pair.source, other, replace(config, finish=None))
     np.testing.assert_array_equal(found.target_to_source, plain.target_to_source)
     assert len(found.precise().faces) == len(other.vertices)

@@ -137,8 +137,8 @@ def test_a_part_in_another_unit_and_turned_is_placed(pair, found, truth):
 def test_the_other_way_round_vertices_without_counterpart_are_minus_one(pair, truth):
     """And where units are the same only one scale is tried."""
     back = match(pair.target, pair.source, replace(AUTO, partial=replace(AUTO.partial, units="same")))
-    assert back.part_scale == pytest.approx(np.sqrt(surface_area(pair.target) / surface_area(pair.source)))
-    assert back.overlap_target is not None
+    assert back.partial.scale == pytest.approx(np.sqrt(surface_area(pair.target) / surface_area(pair.source)))
+    assert back.partial.overlap_target is not None
     lost = back.target_to_source < 0
     assert (back.target_to_source[lost] == -1).all()
     true = true_overlap(pair.source, pair.target, truth)
@@ -173,7 +173,7 @@ def test_whole_shapes_are_matched_as_if_nobody_had_thought_of_parts():
     source, target = (prepare(blob(700, twist), AUTO) for twist in (0.0, 0.4))
     plain = match(source, target, replace(AUTO, partial=Partial("none")))
     auto = match(source, target, AUTO)
-    assert auto.overlap_source is None
+    assert auto.partial.overlap_source is None
     assert np.array_equal(auto.target_to_source, plain.target_to_source)
     assert np.array_equal(auto.functional_map, plain.functional_map)
 

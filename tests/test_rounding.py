@@ -123,7 +123,7 @@ def test_the_order_of_candidates_knows_no_rounding(shape):
 def test_a_search_ends_as_ever_whatever_zero_is(shape, first):
     found, usual = (match(s, s, SMALL) for s in (starting(shape, first), shape))
     np.testing.assert_array_equal(found.target_to_source, usual.target_to_source)
-    np.testing.assert_allclose(found.scores, usual.scores, atol=1e-6)
+    np.testing.assert_allclose(found.score.scores, usual.score.scores, atol=1e-6)
 
 
 def test_a_score_is_finite_where_every_sample_is_a_component_of_its_own():

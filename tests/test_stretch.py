@@ -12,7 +12,7 @@ from kfmaps import datasets
 from kfmaps._arrays import InvalidInput
 from kfmaps.geometry.arap import build_arap, nearest_rotations, rotations
 from kfmaps.geometry.mesh import Mesh, unit_area, vertex_areas
-from kfmaps.matching import match as matching
+from kfmaps.matching import finish
 from kfmaps.matching.score import SCORE
 from kfmaps.matching.search import STRETCH, SearchResult, adapt_registration
 from kfmaps.registration.local_scaling import LEAST, MOST, local_scaling
@@ -114,8 +114,8 @@ def test_only_unlike_shapes_are_stretched_in_the_end(monkeypatch) -> None:
     pair = datasets.two_poses(1500, rng=1)
     config = kfmaps.Config()
     source, target = (kfmaps.prepare(mesh, config, name="a") for mesh in (pair.source, pair.target))
-    seen, usual = [], matching.register_map
-    monkeypatch.setattr(matching, "register_map", lambda *a: seen.append(a[3].finish.local_scaling) or usual(*a))
+    seen, usual = [], finish.register_map
+    monkeypatch.setattr(finish, "register_map", lambda *a: seen.append(a[3].finish.local_scaling) or usual(*a))
     for quality in (SCORE.non_isometric_score + 1, SCORE.non_isometric_score - 1):
-        matching.match_from_map(source, target, pair.truth, config, origin="a", quality=quality)
+        finish.match_from_map(source, target, pair.truth, config, origin="a", quality=quality)
     assert seen == [0.0, STRETCH]

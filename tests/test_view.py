@@ -20,15 +20,16 @@ from kfmaps.cli.commands.view import view
 from kfmaps.config import Config
 from kfmaps.datasets import sphere
 from kfmaps.fmap.confidence import local_confidence
+from kfmaps.fmap.convert import nearest_reached
 from kfmaps.fmap.solvers import Solution
 from kfmaps.geometry.mesh import Mesh, unit_area, vertex_areas
 from kfmaps.io import MapFile, save_map, write_mesh, write_vertex_numbers
 from kfmaps.io.provenance import mesh_path
-from kfmaps.matching.fit import Fit
-from kfmaps.matching.match import Match
+from kfmaps.matching.result import Match
+from kfmaps.matching.result_groups import MatchFit, MatchScore
 from kfmaps.viz.document import asset
 from kfmaps.viz.encode import encode_floats, encode_integers, json_block, to_json
-from kfmaps.viz.fields import area_distortion, nearest_reached, rotation_by_map
+from kfmaps.viz.fields import area_distortion, rotation_by_map
 from kfmaps.viz.page import result_page
 from kfmaps.viz.result_pages import map_page, match_summary, signatures, vertex_errors
 
@@ -288,23 +289,20 @@ def a_match() -> Match:
     return Match(
         target_to_source=np.zeros(4, np.int64),
         functional_map=np.eye(2),
-        eigenvalues_s=np.arange(2.0),
-        eigenvalues_t=np.arange(2.0),
+        eigenvalues_source=np.arange(2.0),
+        eigenvalues_target=np.arange(2.0),
         verdict="landmarks",
         config=Config.single_fit(),
         seconds={"solve": 0.5},
-        initialization="one fit",
-        raw_functional_map=np.eye(2),
-        raw_target_to_source=np.zeros(4, np.int64),
-        fit=Fit(
-            functional_map=np.eye(2),
+        score=MatchScore(initialization="one fit"),
+        fit=MatchFit(
+            raw_functional_map=np.eye(2),
+            raw_target_to_source=np.zeros(4, np.int64),
             solution=Solution(np.eye(2), "converged", 2, residuals),
             energies={"laplacian": 1.5},
             rank=7,
-            slices=3,
+            n_operators=3,
             kernel="Gaussian(500)",
-            config=Config.single_fit(),
-            seconds={"solve": 0.5},
         ),
         local_confidence=np.ones(4),
     )
@@ -319,7 +317,7 @@ def test_summary_of_a_match_is_json() -> None:
     assert summary["settings"]["nystrom"]["samples"] == Config.single_fit().nystrom.samples
     assert "confidence" not in summary
     assert match_summary(replace(a_match(), confidence=0.25))["confidence"] == 0.25
-    assert "energies" not in match_summary(replace(a_match(), fit=None))
+    assert "energies" not in match_summary(replace(a_match(), fit=MatchFit()))
 
 
 def test_page_of_a_file_shows_what_the_file_holds(pair: tuple) -> None:

@@ -6,7 +6,6 @@ from kfmaps._arrays import InvalidInput as InvalidInput
 from kfmaps._arrays import KfmapsWarning as KfmapsWarning
 from kfmaps._arrays import MissingDependency as MissingDependency
 from kfmaps._arrays import NotConverged as NotConverged
-from kfmaps.api import Match as Match
 from kfmaps.api import geodesic_errors as geodesic_errors
 from kfmaps.api import match as match
 from kfmaps.api import prepare as prepare
@@ -52,6 +51,7 @@ from kfmaps.kernels.kernels import Tanh as Tanh
 from kfmaps.kernels.transformed import Metric as Metric
 from kfmaps.kernels.transformed import Network as Network
 from kfmaps.kernels.transformed import Scaled as Scaled
+from kfmaps.matching.result import Match as Match
 from kfmaps.registration.nonrigid_icp import NonRigid as NonRigid
 from kfmaps.shape import Shape as Shape
 

@@ -1,18 +1,13 @@
-"""The library's face: files, arrays and other libraries' objects go in, a match that draws and saves itself comes out.
+"""The functions of the package that take files, arrays and other libraries' meshes.
 
-:mod:`kfmaps.matching.match` computes with meshes alone; what a :class:`Match` here does beside holding data is short
-for
-functions of this floor, so the core knows neither files nor pictures.
+:mod:`kfmaps.matching.match` computes with meshes alone and knows neither files nor pictures.
 """
 
 from __future__ import annotations
 
-import base64
-import io
 from collections.abc import Callable
 from contextlib import nullcontext
-from dataclasses import dataclass, fields, replace
-from html import escape
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -23,111 +18,20 @@ from kfmaps.cli.evaluation import Truth, check_truth
 from kfmaps.cli.progress import Stages
 from kfmaps.config import Config
 from kfmaps.fmap import evaluate
-from kfmaps.fmap.precise import PointMap, invert_precise_map, nearest_vertices
+from kfmaps.fmap.precise import PointMap
 from kfmaps.geometry.mesh import Mesh
-from kfmaps.io import MapFile, atomic_output, check_map, load_map, save_map
+from kfmaps.io import MapFile, atomic_output, check_map, load_map
 from kfmaps.io import transfer as carried
 from kfmaps.io.convert import as_landmarks, as_map, as_mesh, is_file
 from kfmaps.matching import match as matching
+from kfmaps.matching.result import Match
 from kfmaps.shape import Shape
 from kfmaps.shape import prepare as prepared
-from kfmaps.viz.fields import nearest_reached
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 Reporter = Callable[[str, float], None]
-
-PICTURED = 60_000
-"""Vertices of both shapes together above which a notebook is shown words alone."""
-DPI = 72
-"""Of the picture in a notebook."""
-
-
-@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
-class Match(matching.Match):
-    # The fields of the record that it extends are described there.
-    __doc__ = f"""{str(matching.Match.__doc__).rstrip()}
-    source, target : Mesh
-        The two shapes as they were handed in; those of a :class:`Shape` have unit area.
-    """
-
-    source: Mesh
-    target: Mesh
-
-    def __repr__(self) -> str:
-        sure = "" if self.confidence is None else f", confidence {self.confidence:.2f}"
-        n_t, n_s = len(self.target.vertices), len(self.source.vertices)
-        k_t, k_s = self.functional_map.shape
-        return f"Match({n_t:,} target to {n_s:,} source vertices: {self.verdict}{sure}; C {k_t} × {k_s})"
-
-    def _repr_html_(self) -> str:
-        """What a notebook shows: the picture of :meth:`plot`, and the line of ``repr``."""
-        words = f"<code>{escape(repr(self))}</code>"
-        if len(self.source.vertices) + len(self.target.vertices) > PICTURED:
-            return words
-        buffer = io.BytesIO()
-        self.plot().savefig(buffer, format="png", dpi=DPI)
-        data = base64.b64encode(buffer.getvalue()).decode("ascii")
-        return f'<img alt="{escape(repr(self), quote=True)}" src="data:image/png;base64,{data}"><br>{words}'
-
-    def plot(self, **options: Any) -> Figure:
-        """The picture of the map: short for :func:`kfmaps.render`, which has the options."""
-        return render(self, **options)
-
-    def view(self, **options: Any) -> Path:
-        """The page of the map: short for :func:`kfmaps.view`, which has the options."""
-        return view(self, **options)
-
-    def save(self, path: str | Path, *, force: bool = False) -> None:
-        """Write the map (.npz, .mat, .txt, .vts): short for :func:`kfmaps.save_map`."""
-        save_map(path, _with_size(self), force)
-
-    def transfer(self, values: Any, products: int | None = None) -> np.ndarray:
-        """Carry ``values (n_s, ...)`` to the target's vertices, (n_t, ...): short for :func:`kfmaps.transfer`.
-
-        With ``products`` the values are functions, which the functional map carries instead of the points, and with it
-        products of that many of its first functions (:func:`kfmaps.fmap.transfer.transfer_functions`).
-        """
-        return transfer(values, self) if products is None else matching.Match.transfer(self, values, products)
-
-    def inverse(self) -> np.ndarray:
-        """A target vertex for each source vertex, (n_s,) int64.
-
-        Where the match has points inside triangles, the corner that is nearest to :meth:`precise_inverse`. Else one
-        that lands on it or, where none does, on the nearest source vertex (along the edges) that any lands on; of
-        several the one nearest to the middle of them all. Of a one-to-one map it is the inverse. −1 outside the part
-        that both shapes have.
-        """
-        known = np.flatnonzero(self.target_to_source >= 0)
-        points, n_s = self.target_to_source[known], len(self.source.vertices)
-        places = self.target.vertices[known]
-        if len(known) == 0:
-            return np.full(n_s, -1, dtype=np.int64)
-        if self.precise_map is not None and self.overlap_source is None:
-            return nearest_vertices(self.precise_inverse(), self.target)
-        count = np.bincount(points, minlength=n_s)
-        middle = np.stack([np.bincount(points, axis, minlength=n_s) for axis in places.T], axis=1)
-        middle /= np.maximum(count, 1)[:, None]
-        off = ((places - middle[points]) ** 2).sum(axis=1)
-        order = np.lexsort((off, points))
-        first = np.searchsorted(points[order], np.arange(n_s))
-        central = order[np.minimum(first, len(points) - 1)]
-        found = known[central[nearest_reached(self.source, points)]].astype(np.int64)
-        return found if self.overlap_source is None else np.where(self.overlap_source > 0.5, found, -1)
-
-    def precise_inverse(self) -> PointMap:
-        """A point inside a triangle of the target for each source vertex: the inverse of :meth:`precise`.
-
-        Of a match of parts it means something in the part alone that both shapes have (``overlap_source``).
-
-        Raises
-        ------
-        InvalidInput
-            When one of the shapes is a point cloud.
-        """
-        known = self.target_to_source >= 0
-        return invert_precise_map(self.precise(), self.source, self.target, None if known.all() else known)
 
 
 def match(
@@ -177,14 +81,11 @@ def match(
         shape if isinstance(shape, Shape) else as_mesh(shape, name)
         for shape, name in ((source, "source"), (target, "target"))
     ]
-    meshes = [shape.mesh if isinstance(shape, Shape) else shape for shape in shapes]
     marks = as_landmarks(landmarks)
     with _telling(progress) as report:
-        found = matching.match(
+        return matching.match(
             shapes[0], shapes[1], config, landmarks=marks, descriptors=descriptors, rng=rng, progress=report
         )
-    known = {field.name: getattr(found, field.name) for field in fields(found)}
-    return Match(**known, source=meshes[0], target=meshes[1])
 
 
 def prepare(
@@ -379,7 +280,7 @@ def view(
         "descriptors": descriptors,
         "up": up,
     }
-    if isinstance(found, matching.Match):
+    if isinstance(found, Match):
         html = match_page(found, *shapes, names, **given)
     else:
         html = map_page(as_map(found, shapes[0]), *shapes, names, **given)
@@ -399,7 +300,7 @@ def _with_size(found: Any, source: Mesh | None = None) -> MapFile:
     known = as_map(found, source)
     if not isinstance(found, Match):
         return known
-    return replace(known, extra={**known.extra, "n_s": np.int64(len(found.source.vertices))})
+    return replace(known, extra={**known.extra, "n_s": np.int64(found.n_source or 0)})
 
 
 def _check_config(config: Any) -> None:

@@ -13,12 +13,12 @@ from scipy.spatial import KDTree
 
 from kfmaps._arrays import KfmapsWarning, refuse, take
 from kfmaps._progress import Progress
-from kfmaps._threads import available_cores
+from kfmaps._threads import available_cores, parallel
 from kfmaps.config import Config
 from kfmaps.descriptors.shot import mirror_shot, shot
 from kfmaps.geometry.basis import Basis, laplace_basis
 from kfmaps.geometry.clean import CleanedMesh, clean_mesh
-from kfmaps.geometry.eigen.eigensolver import EXACT
+from kfmaps.geometry.eigen.eigensolver import EXACT, THREADED
 from kfmaps.geometry.mesh import Mesh, check_mesh, surface_area, unit_area, vertex_normals
 from kfmaps.geometry.mesh import mirror_mesh as mirrored_mesh
 from kfmaps.geometry.sampling import stratified_samples, stratified_vertices
@@ -242,3 +242,44 @@ def _tell(part: CleanedMesh, name: str) -> None:
     told += [f"{part.specks} specks are left out"] * bool(part.specks)
     if told:
         warnings.warn(f"{name}: {', '.join(told)} inside; the numbering is kept", KfmapsWarning, stacklevel=3)
+
+
+def check_prepared(shape: Shape, config: Config) -> None:
+    """Raise :class:`InvalidInput` when ``shape`` was prepared with other settings than ``config`` needs."""
+    remedy = "prepare it with the configuration that it is matched with"
+    have = shape.basis.functions.shape[1]
+    if have < config.eigenfunctions:
+        raise refuse(shape.name, f"a shape prepared with {config.eigenfunctions} eigenfunctions", f"{have}", remedy)
+    if shape.laplacian != config.basis.laplacian:
+        wanted = f"a shape prepared with the {config.basis.laplacian} Laplacian"
+        raise refuse(shape.name, wanted, f"the {shape.laplacian} one", remedy)
+    if config.descriptors.shot and len(shape.mesh.faces) and shape.shot_radius != config.descriptors.shot_radius:
+        wanted = f"a shape prepared with SHOT of radius {config.descriptors.shot_radius:g}"
+        got = "one without" if shape.shot_radius is None else f"radius {shape.shot_radius:g}"
+        raise refuse(shape.name, wanted, got, remedy)
+
+
+def prepare_both(
+    source: Mesh | Shape,
+    target: Mesh | Shape,
+    config: Config,
+    names: tuple[str, str] = ("source", "target"),
+    progress: Progress | None = None,
+) -> list[Shape]:
+    """Both shapes; side by side where they are small, since one small eigenproblem has no use for several cores.
+
+    What is a :class:`Shape` already is checked against ``config`` and handed on.
+    """
+    workers = config.threads or available_cores()
+    meshes = [part for part in (source, target) if isinstance(part, Mesh)]
+    aside = len(meshes) == 2 and max(len(mesh.vertices) for mesh in meshes) < THREADED
+    share = replace(config, threads=max(1, workers // 2)) if aside else config
+
+    def ready(part: Mesh | Shape, name: str) -> Shape:
+        if isinstance(part, Mesh):
+            return prepare(part, share, name=name, progress=progress)
+        check_prepared(part, config)
+        return part
+
+    both = ((source, names[0]), (target, names[1]))
+    return parallel(lambda item: ready(*item), both, min(workers, 2) if aside else 1)

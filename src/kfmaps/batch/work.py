@@ -27,8 +27,9 @@ from kfmaps.config import Config
 from kfmaps.fmap.evaluate import coverage, error_curve
 from kfmaps.geometry.mesh import Mesh, vertex_areas
 from kfmaps.io import read_mesh, read_vertex_numbers, save_map
-from kfmaps.matching.match import Match, match
+from kfmaps.matching.match import match
 from kfmaps.matching.quality import ShapeSamples
+from kfmaps.matching.result import Match
 from kfmaps.shape import Shape, prepare
 
 ATTEMPTS, MAPS = "attempts", "maps"
@@ -270,16 +271,16 @@ def recorded(
         "local_confidence": mean_confidence(found),
         "verdict": found.verdict,
         "orientation": found.orientation,
-        "solver": None if found.fit is None else str(found.fit.solution.status),
-        "solver_steps": None if found.fit is None else int(found.fit.solution.steps),
-        "rank": None if found.fit is None else int(found.fit.rank),
+        "solver": None if found.fit.solution is None else str(found.fit.solution.status),
+        "solver_steps": None if found.fit.solution is None else int(found.fit.solution.steps),
+        "rank": found.fit.rank,
         "seconds": seconds,
     }
 
 
 def _common(found: Match, shapes: tuple[Shape, Shape]) -> dict[str, float]:
     """How much of either shape's area both have; nothing of whole shapes."""
-    overlaps = {"common_s": found.overlap_source, "common_t": found.overlap_target}
+    overlaps = {"common_s": found.partial.overlap_source, "common_t": found.partial.overlap_target}
     told = zip(overlaps.items(), shapes, strict=True)
     return {
         name: float(np.average(overlap, weights=vertex_areas(shape.mesh)))

@@ -20,8 +20,8 @@ from kfmaps.config import as_dict
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.io import MapFile, match_map
 from kfmaps.io.provenance import sha256
-from kfmaps.matching.fit import Fit
-from kfmaps.matching.match import ONE_FIT, Match
+from kfmaps.matching.result import Match
+from kfmaps.matching.result_groups import ONE_FIT
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,9 +55,8 @@ class MatchRun:
 def summary(outcome: MatchRun) -> dict[str, Any]:
     """Plain values for JSON. Residuals are divided by the first; errors are in units of √area."""
     match = outcome.match
-    fit = match.fit
-    residuals = None if fit is None else relative_residuals(fit)
-    k_t, k_s = match.functional_map.shape
+    fit, solution, residuals = match.fit, match.fit.solution, match.fit.relative_residuals.tolist()
+    k_t, k_s = (None, None) if match.functional_map is None else match.functional_map.shape
     sides = {}
     for side, mesh, path in zip(("source", "target"), outcome.meshes, outcome.paths, strict=True):
         sides |= {side: str(path), f"{side}_vertices": len(mesh.vertices), f"{side}_faces": len(mesh.faces)}
@@ -66,47 +65,41 @@ def summary(outcome: MatchRun) -> dict[str, Any]:
         **sides,
         "landmarks": len(outcome.landmarks),
         "orientation": match.orientation,
-        "doubted": [int(number) for number in match.rejected_landmarks],
+        "doubted": match.score.rejected_landmarks.tolist(),
         "seed": outcome.seed,
         "map_rows": k_t,
         "map_columns": k_s,
-        "origin": match.initialization,
-        "fit_size": None if fit is None else fit.functional_map.shape[0],
-        "kernel": None if fit is None else fit.kernel,
-        "rank": None if fit is None else fit.rank,
-        "slices": None if fit is None else fit.slices,
-        "solver_status": None if fit is None else fit.solution.status,
-        "solver_steps": None if fit is None else fit.solution.steps,
-        "relative_residual": None if residuals is None or len(residuals) == 0 else float(residuals[-1]),
+        "origin": match.score.initialization,
+        "fit_size": None if solution is None else len(solution.value),
+        "kernel": fit.kernel or None,
+        "rank": fit.rank,
+        "slices": fit.n_operators,
+        "solver_status": None if solution is None else solution.status,
+        "solver_steps": None if solution is None else solution.steps,
+        "relative_residual": residuals[-1] if residuals else None,
         "verdict": match.verdict,
         "confidence": None if match.confidence is None else float(match.confidence),
         "local_confidence": mean_confidence(match),
-        "scores": [float(score) for score in match.scores],
+        "scores": [float(score) for score in match.score.scores],
         "runners_up": len(match.alternatives),
-        "partial": match.partial,
-        "partial_reason": match.partial_reason,
-        "part_scale": match.part_scale,
+        "partial": match.partial.which,
+        "partial_reason": match.partial.reason,
+        "part_scale": match.partial.scale,
         "without_counterpart": int((match.target_to_source < 0).sum()),
         "errors": None if outcome.accuracy is None else outcome.accuracy.as_dict(),
-        "weights": None if fit is None or fit.weights is None else fit.weights.tolist(),
-        "energies": None if fit is None else {name: float(value) for name, value in fit.energies.items()},
+        "weights": None if fit.weights is None else fit.weights.tolist(),
+        "energies": None if solution is None else {name: float(value) for name, value in fit.energies.items()},
         "times": {name: float(value) for name, value in outcome.seconds.items()},
-        "residuals": None if residuals is None else residuals.tolist(),
+        "residuals": None if solution is None else residuals,
         "settings": as_dict(match.config),
     }
 
 
-def relative_residuals(fit: Fit) -> np.ndarray:
-    """The solver's residuals, divided by the first."""
-    residuals = np.asarray(fit.solution.residuals, dtype=np.float64)
-    first = residuals[0] if len(residuals) and residuals[0] > 0 else 1.0
-    return residuals / first
-
-
 def mean_confidence(match: Match) -> float | None:
     """Mean of ``local_confidence`` over the target's vertices; ``None`` where it is known at none."""
-    known = match.local_confidence[np.isfinite(match.local_confidence)]
-    return None if len(known) == 0 else float(known.mean())
+    known = match.local_confidence
+    known = None if known is None else known[np.isfinite(known)]
+    return None if known is None or len(known) == 0 else float(known.mean())
 
 
 def map_file(outcome: MatchRun) -> MapFile:
@@ -143,8 +136,8 @@ def table(outcome: MatchRun, written: Path | None = None) -> Table:
 def _rows(match: Match, found: dict[str, Any], accuracy: Accuracy | None) -> list[tuple[str, str]]:
     """Names and values of the table."""
     rows = [("verdict", _verdict(match))]
-    if match.partial != "none" or match.partial_reason.startswith("taken for whole"):
-        rows.append(("parts", match.partial_reason))
+    if match.partial.which != "none" or match.partial.reason.startswith("taken for whole"):
+        rows.append(("parts", match.partial.reason))
     if found["without_counterpart"]:
         lost, n_t = found["without_counterpart"], len(match.target_to_source)
         rows.append(("no counterpart", f"{lost:,} of the target's {n_t:,} vertices: they are -1 in the map"))
@@ -164,14 +157,14 @@ def _rows(match: Match, found: dict[str, Any], accuracy: Accuracy | None) -> lis
         rows.append(
             ("doubted", f"landmark {numbers}, counted from 0: the map keeps to the others, and they had no say")
         )
-    if found["weights"] is not None:
+    if found["weights"] is not None and match.config is not None:
         per, least = (
             match.config.formulation.loss_per,
             sorted(enumerate(found["weights"]), key=lambda item: item[1])[:3],
         )
         told = ", ".join(f"{per} {number} {weight:.2f}" for number, weight in least)
         rows.append(("believed least", f"{told} (counted from 0; 1 is fully)"))
-    if match.fit is not None and match.initialization == ONE_FIT:
+    if match.score.initialization == ONE_FIT and match.fit.solution is not None:
         kernel = re.sub(r"\d+\.\d{5,}", lambda number: f"{float(number[0]):.4g}", found["kernel"])
         slices = f", {found['slices']} slices" if found["slices"] else ""
         status = found["solver_status"] + (f" in {found['solver_steps']} steps" if found["solver_steps"] else "")
@@ -183,7 +176,7 @@ def _rows(match: Match, found: dict[str, Any], accuracy: Accuracy | None) -> lis
             ("energy", ", ".join(energies)),
         ]
     else:
-        rows.append(("map", f"{size}, started from {match.initialization}"))
+        rows.append(("map", f"{size}, started from {match.score.initialization}"))
     rows += [
         ("time", f"{sum(found['times'].values()):.1f} s: " + ", ".join(f"{name} {t:.2f}" for name, t in spent)),
     ]

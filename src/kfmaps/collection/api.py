@@ -34,10 +34,11 @@ from kfmaps.collection.scored_map import ScoredMap
 from kfmaps.config import Config
 from kfmaps.io import MapFile, check_map
 from kfmaps.io.convert import as_map, as_mesh
-from kfmaps.matching.match import Match, check_prepared, match
+from kfmaps.matching.match import match
 from kfmaps.matching.quality import ShapeSamples
+from kfmaps.matching.result import Match
 from kfmaps.matching.search import scoring_samples
-from kfmaps.shape import Shape, prepare
+from kfmaps.shape import Shape, check_prepared, prepare
 
 ProgressCallback = Callable[[str, int, int], None]
 

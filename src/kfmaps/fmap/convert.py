@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 import numpy as np
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import dijkstra
+from scipy.spatial import KDTree
 
 from kfmaps._arrays import Array, namespace, refuse, take, to_numpy
 from kfmaps.fmap.approximate_nearest import N_PROBE
 from kfmaps.fmap.nearest import nearest
 from kfmaps.geometry.basis import Basis
+from kfmaps.geometry.mesh import Mesh
 
-__all__ = ["check_point_map", "nearest", "to_functional", "to_points"]
+__all__ = ["check_point_map", "nearest", "nearest_reached", "to_functional", "to_points"]
 
 
 def to_points(
@@ -68,3 +72,32 @@ def check_point_map(target_to_source: np.ndarray, n_s: int, n_t: int) -> np.ndar
         got = f"{int(points.min())} to {int(points.max())}"
         raise refuse("target_to_source", f"vertices 0 to {n_s - 1}", got, "is it a map to another shape, or 1-based?")
     return points.astype(np.int64)
+
+
+def nearest_reached(source: Mesh, target_to_source: np.ndarray) -> np.ndarray:
+    """Return the nearest vertex that some target vertex is mapped to for each source vertex, (n_s,).
+
+    Nearest along the edges, so that a point of an arm is not linked to the leg beside it; straight through
+    space for point clouds and for parts that no target vertex reaches.
+    """
+    n = len(source.vertices)
+    reached = np.unique(target_to_source)
+    reached = reached[reached >= 0]
+    if len(reached) == 0:
+        return np.arange(n)
+    nearest = np.full(n, -1, dtype=np.int64)
+    if len(source.faces):
+        ends = source.faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)
+        ends = np.unique(np.sort(ends, axis=1), axis=0)
+        ends = ends[ends[:, 0] != ends[:, 1]]
+        length = np.linalg.norm(source.vertices[ends[:, 0]] - source.vertices[ends[:, 1]], axis=1)
+        # A sparse graph reads 0 as "no edge": coincident vertices get the least length instead.
+        graph = coo_array((np.maximum(length, 1e-300), (ends[:, 0], ends[:, 1])), shape=(n, n)).tocsr()
+        result = dijkstra(graph, directed=False, indices=reached, min_only=True, return_predecessors=True)
+        found = np.isfinite(result[0])
+        nearest[found] = result[2][found]
+    nearest[reached] = reached
+    lost = nearest < 0
+    if lost.any():
+        nearest[lost] = reached[KDTree(source.vertices[reached]).query(source.vertices[lost])[1]]
+    return nearest

@@ -17,7 +17,7 @@ from kfmaps.fmap.precise import PointMap, check_point_map_precise, nearest_verti
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.io import MapFile, load_map, match_map, read_landmarks, read_mesh
 from kfmaps.io.record import fan
-from kfmaps.matching.match import Match
+from kfmaps.matching.result import Match
 
 SHAPES = "a Mesh, a file, (vertices, faces), or a mesh of trimesh, PyVista, meshio or Open3D"
 POLYGONS = ("triangle", "quad", "polygon")

@@ -23,7 +23,7 @@ from kfmaps.io.matfile import read_mat
 from kfmaps.io.text import REPAIR, read_bytes
 
 if TYPE_CHECKING:
-    from kfmaps.matching.match import Match
+    from kfmaps.matching.result import Match
 
 FORMATS = (".npz", ".txt", ".vts", ".mat")
 
@@ -152,25 +152,29 @@ def match_map(match: Match) -> MapFile:
     """What a match knows of its map, ready to be saved; the paths of the meshes are not among it."""
     from kfmaps.config import as_dict  # only here: reading a map needs no settings
 
-    extra: dict[str, Any] = {"raw_functional_map": match.raw_functional_map}
-    if match.raw_target_to_source is not None:
-        extra["raw_target_to_source"] = match.raw_target_to_source
-    if match.alternatives:
-        extra["runners_up"] = np.stack(match.alternatives)
-    if match.confidence is not None:
-        extra["confidence"] = np.float64(match.confidence)
-    if match.source_to_target is not None and match.functional_map_back is not None:
-        extra |= {"source_to_target": match.source_to_target, "map_back": match.functional_map_back}
-    extra["local_confidence"] = match.local_confidence
-    if match.precise_map is not None:
-        extra |= {"place_faces": match.precise_map.faces, "place_weights": match.precise_map.weights}
-    if match.registered_vertices is not None:
-        extra["bent"] = match.registered_vertices
-    if match.overlap_source is not None and match.overlap_target is not None:
-        extra |= {"overlap_source": match.overlap_source, "overlap_target": match.overlap_target}
-    config = json.dumps(as_dict(match.config))
+    extra: dict[str, Any] = {
+        "raw_functional_map": match.fit.raw_functional_map,
+        "raw_target_to_source": match.fit.raw_target_to_source,
+        "runners_up": np.stack(match.alternatives) if match.alternatives else None,
+        "confidence": None if match.confidence is None else np.float64(match.confidence),
+        "source_to_target": match.source_to_target,
+        "map_back": match.functional_map_back,
+        "local_confidence": match.local_confidence,
+        "place_faces": match.precise_map and match.precise_map.faces,
+        "place_weights": match.precise_map and match.precise_map.weights,
+        "bent": match.registration.registered_vertices,
+        "overlap_source": match.partial.overlap_source,
+        "overlap_target": match.partial.overlap_target,
+    }
+    extra = {name: value for name, value in extra.items() if value is not None}
+    config = "" if match.config is None else json.dumps(as_dict(match.config))
     return MapFile(
-        match.target_to_source, match.functional_map, match.eigenvalues_s, match.eigenvalues_t, config, extra
+        match.target_to_source,
+        match.functional_map,
+        match.eigenvalues_source,
+        match.eigenvalues_target,
+        config,
+        extra,
     )
 
 

@@ -77,6 +77,10 @@ class VertexReindexing:
         """A point map inside as one outside, (n_t,); −1 stays."""
         return np.where(target_to_source < 0, -1, self.part_s.to_original[target_to_source])[self.part_t.to_clean]
 
+    def points_within(self, target_to_source: np.ndarray) -> np.ndarray:
+        """Return a point map of the shapes as handed in, (n_t,), as one of the cleaned shapes."""
+        return self.part_s.to_clean[target_to_source[self.part_t.to_original]]
+
     def points_back(self, source_to_target: np.ndarray) -> np.ndarray:
         """A point map back inside as one outside, (n_s,)."""
         return self.part_t.to_original[source_to_target][self.part_s.to_clean]

@@ -3,9 +3,6 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import dijkstra
-from scipy.spatial import KDTree
 
 from kfmaps.geometry.mesh import Mesh, face_areas
 from kfmaps.viz.camera import fit_rotation
@@ -31,35 +28,6 @@ def area_distortion(source: Mesh, target: Mesh, target_to_source: np.ndarray) ->
     ratio = np.divide(there, here, out=np.full(n, np.nan), where=here > 0)
     ratio[np.unique(target.faces[lost[target.faces].any(axis=1)])] = np.nan
     return np.log2(np.clip(ratio, 2.0**-4, 2.0**4))
-
-
-def nearest_reached(source: Mesh, target_to_source: np.ndarray) -> np.ndarray:
-    """Return for each source vertex the nearest one that some target vertex lands on, (n_s,); itself if one does.
-
-    Nearest along the edges, so that a point of an arm is not linked to the leg beside it; straight through
-    space for point clouds and for parts that no target vertex reaches.
-    """
-    n = len(source.vertices)
-    reached = np.unique(target_to_source)
-    reached = reached[reached >= 0]
-    if len(reached) == 0:
-        return np.arange(n)
-    nearest = np.full(n, -1, dtype=np.int64)
-    if len(source.faces):
-        ends = source.faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)
-        ends = np.unique(np.sort(ends, axis=1), axis=0)
-        ends = ends[ends[:, 0] != ends[:, 1]]
-        length = np.linalg.norm(source.vertices[ends[:, 0]] - source.vertices[ends[:, 1]], axis=1)
-        # A sparse graph reads 0 as "no edge": coincident vertices get the least length instead.
-        graph = coo_array((np.maximum(length, 1e-300), (ends[:, 0], ends[:, 1])), shape=(n, n)).tocsr()
-        result = dijkstra(graph, directed=False, indices=reached, min_only=True, return_predecessors=True)
-        found = np.isfinite(result[0])
-        nearest[found] = result[2][found]
-    nearest[reached] = reached
-    lost = nearest < 0
-    if lost.any():
-        nearest[lost] = reached[KDTree(source.vertices[reached]).query(source.vertices[lost])[1]]
-    return nearest
 
 
 def rotation_by_map(source: Mesh, target: Mesh, target_to_source: np.ndarray) -> np.ndarray:

@@ -9,13 +9,14 @@ import numpy as np
 
 from kfmaps._arrays import check, check_count, refuse
 from kfmaps.cli.words import VERDICTS
+from kfmaps.fmap.convert import nearest_reached
 from kfmaps.geometry.mesh import Mesh, unit_area
 from kfmaps.io import check_map, projected_uv
 from kfmaps.viz.camera import broad_side, rotation_between
 from kfmaps.viz.colors import position_colors
 from kfmaps.viz.document import document
 from kfmaps.viz.encode import encode_floats, encode_integers
-from kfmaps.viz.fields import area_distortion, nearest_reached, rotation_by_map
+from kfmaps.viz.fields import area_distortion, rotation_by_map
 
 
 def shape_record(mesh: Mesh, name: str) -> dict[str, Any]:

@@ -12,14 +12,13 @@ from typing import Any
 
 import numpy as np
 
-from kfmaps.cli.summary import relative_residuals
 from kfmaps.config import as_dict
 from kfmaps.descriptors.spectral import wave_energies, wave_signature
 from kfmaps.fmap.confidence import local_confidence
 from kfmaps.geometry.basis import laplace_basis
 from kfmaps.geometry.mesh import Mesh, unit_area
 from kfmaps.io import MapFile, check_map, match_map
-from kfmaps.matching.match import Match
+from kfmaps.matching.result import Match
 from kfmaps.viz.encode import to_json
 from kfmaps.viz.errors import vertex_errors
 from kfmaps.viz.page import result_page
@@ -35,31 +34,28 @@ def match_summary(match: Match) -> dict[str, Any]:
 
     Residuals are divided by the first.
     """
-    k_t, k_s = match.functional_map.shape
+    fit, solution = match.fit, match.fit.solution
     outcome = {
         "verdict": match.verdict,
         "confidence": match.confidence,
-        "scores": list(match.scores),
-        "size of the map": f"{k_t} × {k_s}",
-        "started from": match.initialization,
-        "parts": match.partial_reason if match.partial != "none" else None,
+        "scores": list(match.score.scores),
+        "size of the map": None if match.functional_map is None else "{} × {}".format(*match.functional_map.shape),
+        "started from": match.score.initialization,
+        "parts": match.partial.reason if match.partial.which != "none" else None,
+        "solver": None if solution is None else solution.status,
+        "solver steps": None if solution is None else solution.steps,
+        "kernel": fit.kernel or None,
+        "features of the kernel": fit.rank,
+        "slices": fit.n_operators,
     }
     told: dict[str, Any] = {}
-    if match.fit is not None:
-        fit = match.fit
-        outcome |= {
-            "solver": fit.solution.status,
-            "solver steps": fit.solution.steps,
-            "kernel": fit.kernel,
-            "features of the kernel": fit.rank,
-            "slices": fit.slices,
-        }
-        told = {"energies": dict(fit.energies), "residuals": relative_residuals(fit).tolist()}
+    if solution is not None:
+        told = {"energies": dict(fit.energies), "residuals": fit.relative_residuals.tolist()}
     return {
         **{name: value for name, value in outcome.items() if value not in (None, [])},
         **told,
         "times": dict(match.seconds),
-        "settings": as_dict(match.config),
+        "settings": None if match.config is None else as_dict(match.config),
     }
 
 

@@ -161,7 +161,7 @@ def _compare(
             result = match(source, target, config, landmarks=marks, rng=seed)
             stages(stage, 1.0)
             seconds = time.perf_counter() - start
-            points, raw = result.target_to_source, result.raw_target_to_source
+            points, raw = result.target_to_source, result.fit.raw_target_to_source
             known = points >= 0
             errors = np.full(len(known), np.nan)
             errors[known] = geodesic_errors(pair.source, points[known], pair.truth[known])

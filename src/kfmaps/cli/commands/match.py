@@ -121,7 +121,7 @@ def run(
     from kfmaps.cli.progress import Stages
     from kfmaps.cli.summary import MatchRun
     from kfmaps.matching.match import match as matched
-    from kfmaps.matching.match import prepare_both
+    from kfmaps.shape import prepare_both
 
     seconds: dict[str, float] = {}
     with one_blas_thread(), Stages(quiet) as stages:

@@ -1,0 +1,217 @@
+"""Finish a map that a fit, a search or other maps have found: refine, register, and build the result."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Any, Literal
+
+import numpy as np
+
+from kfmaps._arrays import seed_of, to_numpy
+from kfmaps._progress import Progress
+from kfmaps._stage_timer import StageTimer
+from kfmaps.config import Config
+from kfmaps.fmap.convert import check_point_map, to_functional
+from kfmaps.fmap.descriptor_guidance import DescriptorGuidance
+from kfmaps.geometry.mesh import MIRROR, Mesh, vertex_areas
+from kfmaps.matching.landmark_evidence import build_guidance
+from kfmaps.matching.postprocess import refine_map
+from kfmaps.matching.reindexing import VertexReindexing, reindexing
+from kfmaps.matching.result import Match
+from kfmaps.matching.result_groups import ONE_FIT, MatchFit, MatchPart, MatchRegistration, MatchScore
+from kfmaps.matching.score import SCORE, torn_score
+from kfmaps.matching.search import SearchResult, adapt_refinement, adapt_registration
+from kfmaps.registration.accept import register_map
+from kfmaps.shape import Shape, check_prepared, mirror_image
+
+CONTINUED = 80
+"""Size of the functional map that :func:`match_from_map` starts from: that of a search's best candidate."""
+
+
+@dataclass(frozen=True, eq=False)
+class MatchTask:
+    """Two shapes to match and what every step of it needs.
+
+    Attributes
+    ----------
+    meshes : (Mesh, Mesh)
+        As they were handed in.
+    pair : VertexReindexing
+        The prepared shapes, as handed in and cleaned.
+    config : Config
+    landmarks : (l, 2) int64
+        In the numbers of ``meshes``.
+    seed : int
+    clock : StageTimer
+    part_reason : str
+        Why the shapes were taken for whole.
+    """
+
+    meshes: tuple[Mesh, Mesh]
+    pair: VertexReindexing
+    config: Config
+    landmarks: np.ndarray
+    seed: int
+    clock: StageTimer
+    part_reason: str = ""
+
+    def shapes(self, orientation: str) -> tuple[Shape, Shape]:
+        """Both cleaned shapes; the target mirrored where the map is to its mirror image."""
+        target = self.pair.target
+        return self.pair.source, mirror_image(target) if orientation == "reversed" else target
+
+    def result(self, points: np.ndarray, C: np.ndarray, trust: np.ndarray, **fields: Any) -> Match:
+        """Return the record of a map of the cleaned shapes, in the numbers of those that were handed in."""
+        k_t, k_s = C.shape
+        bases = [shape.basis.truncate(k) for shape, k in zip(self.pair.outside, (k_s, k_t), strict=True)]
+        return Match(
+            target_to_source=self.pair.points(points),
+            functional_map=C,
+            source=self.meshes[0],
+            target=self.meshes[1],
+            basis_source=bases[0],
+            basis_target=bases[1],
+            eigenvalues_source=to_numpy(bases[0].eigenvalues),
+            eigenvalues_target=to_numpy(bases[1].eigenvalues),
+            local_confidence=self.pair.trust(trust),
+            landmarks=self.landmarks,
+            config=self.config,
+            seed=self.seed,
+            seconds=self.clock.seconds,
+            _reindexing=self.pair,
+            **fields,
+        )
+
+
+def refine_and_register(task: MatchTask, found: SearchResult, guidance: DescriptorGuidance | None) -> Match:
+    """The match of a map that a search or a fit has ``found``: refined, registered, in the numbers handed in."""
+    pair, config, shapes = task.pair, task.config, task.shapes(found.orientation)
+    back = None
+    if config.formulation.directions == "both":
+        # The adjoint, where a search has found the map: its candidates are refined one way.
+        back = found.functional_map.T if found.fit is None or found.fit.back is None else found.fit.back
+    adapted = replace(
+        config, refinement=adapt_refinement(config.refinement, found), finish=adapt_registration(config.finish, found)
+    )
+    refined = refine_map(
+        found.functional_map,
+        *shapes,
+        adapted,
+        raw=found.initialization == ONE_FIT,
+        led=guidance,
+        back=back,
+        rng=task.seed,
+        progress=task.clock.report,
+    )
+    task.clock.seconds.update(refined.seconds)
+    final = register_map(refined.target_to_source, *shapes, adapted, task.clock, found.landmarks)
+    registered = final.registered_vertices
+    if registered is not None:
+        registered = pair.bent(registered * MIRROR if found.orientation == "reversed" else registered)
+    raw, backwards, one = refined.raw_target_to_source, refined.source_to_target, found.fit
+    single = {} if one is None else {name: getattr(one, name) for name in ("solution", "energies", "kernel", "rank")}
+    return task.result(
+        final.target_to_source,
+        refined.functional_map,
+        final.local_confidence,
+        verdict=found.verdict,
+        confidence=found.confidence,
+        orientation=found.orientation,
+        precise_map=None if final.precise_map is None else pair.place(final.precise_map),
+        alternatives=tuple(pair.points(points) for points in found.runners_up),
+        source_to_target=None if backwards is None else pair.points_back(backwards),
+        functional_map_back=refined.functional_map_back,
+        score=MatchScore(
+            found.scores, found.quality, found.deformation_energy, found.initialization, found.rejected_landmarks
+        ),
+        registration=MatchRegistration(registered, final.fit),
+        partial=MatchPart(reason=task.part_reason),
+        fit=MatchFit(
+            found.functional_map,
+            None if raw is None else pair.points(raw),
+            **single,
+            n_operators=None if one is None else one.slices,
+            weights=None if one is None else one.weights,
+        ),
+    )
+
+
+def match_from_map(
+    source: Shape,
+    target: Shape,
+    points: np.ndarray,
+    config: Config | None = None,
+    *,
+    origin: str,
+    orientation: Literal["kept", "reversed"] = "kept",
+    verdict: str = "unchecked",
+    confidence: float | None = None,
+    quality: float | None = None,
+    runners_up: tuple[np.ndarray, ...] = (),
+    rng: int | np.random.Generator | None = 0,
+    progress: Progress | None = None,
+) -> Match:
+    """A map that is known but for its details, finished as :func:`match` finishes the one that it has found.
+
+    Parameters
+    ----------
+    source, target : Shape
+    points : (n_t,) whole numbers
+        A source vertex for each target vertex: of a composition of other maps, say.
+    origin : str
+        Where it comes from, for :attr:`Match.initialization`.
+    orientation : "kept" or "reversed"
+        Whether it is a map to the target or to its mirror image.
+    verdict, confidence, runners_up
+        For the fields of the match.
+    quality : float, optional
+        :attr:`kfmaps.matching.quality.Quality.score` of ``points``: where shapes differ much the refinement ends early.
+
+    Raises
+    ------
+    InvalidInput
+        When the shapes were prepared otherwise, or the points are none of the source.
+    """
+    config = config or Config()
+    for shape in (source, target):
+        check_prepared(shape, config)
+    points = check_point_map(points, len(source.mesh.vertices), len(target.mesh.vertices))
+    none = np.zeros((0, 2), dtype=np.int64)
+    meshes = (source.mesh, target.mesh)
+    task = MatchTask(meshes, reindexing(source, target), config, none, seed_of(rng), StageTimer(progress))
+    shapes = task.shapes(orientation)
+    size = min(CONTINUED, *(len(shape.basis.eigenvalues) for shape in shapes))
+    bases = [shape.basis.truncate(size) for shape in shapes]
+    C = to_numpy(to_functional(task.pair.points_within(points), *bases))
+    found = SearchResult(C, origin, None, verdict, confidence, orientation=orientation, quality=quality)
+    result = refine_and_register(task, found, build_guidance(*shapes, found.landmarks))
+    return replace(result, alternatives=runners_up)
+
+
+def better_match(one: Match, other: Match) -> Match:
+    """The ``other`` of two matches of the same shapes where it is worth more, else ``one``; with its seconds.
+
+    Between shapes of other proportions distances nearby change everywhere; after the non-rigid fit they are kept badly
+    only where a limb is torn or has been sent elsewhere, which no score of the search tells so well. Without that fit
+    nothing can be told.
+    """
+    if torn_area_fraction(one) is None or torn_area_fraction(other) is None or final_score(other) <= final_score(one):
+        return one
+    return replace(other, seconds=one.seconds)
+
+
+def final_score(match: Match) -> float:
+    """The score of a match that a search has found, less the cost of its torn area."""
+    return torn_score(match.score.scores[0], torn_area_fraction(match))
+
+
+def torn_area_fraction(match: Match) -> float | None:
+    """The share of the target around which a match with a non-rigid fit keeps distances badly, from 0 to 1.
+
+    Where the fit was refused that of the map before it, which is more. ``None`` where none was made, before which
+    distances between shapes of other proportions are kept badly everywhere.
+    """
+    if match.registration.report is None or match._reindexing is None or match.local_confidence is None:
+        return None
+    areas = vertex_areas(match._reindexing.outside[1].mesh)
+    return float(areas[match.local_confidence < SCORE.torn_confidence].sum() / areas.sum())

@@ -1,0 +1,259 @@
+"""The result of a match: one record, whether it was just made, loaded from a file or made in a batch."""
+
+from __future__ import annotations
+
+import base64
+import io
+from dataclasses import dataclass, field
+from html import escape
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from kfmaps._arrays import check, refuse
+from kfmaps.config import Config
+from kfmaps.fmap.convert import nearest_reached
+from kfmaps.fmap.descriptor_guidance import descriptor_guidance
+from kfmaps.fmap.precise import PointMap, invert_precise_map, nearest_vertices, to_precise_map
+from kfmaps.fmap.refine import ZoomOut
+from kfmaps.fmap.transfer import transfer_functions
+from kfmaps.geometry.basis import Basis
+from kfmaps.geometry.mesh import Mesh
+from kfmaps.matching.reindexing import VertexReindexing
+from kfmaps.matching.result_groups import MatchFit, MatchPart, MatchRegistration, MatchScore, ShapeFile
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+MAX_PICTURED = 60_000
+"""Vertices of both shapes together above which a notebook shows text without a picture."""
+_UNKNOWN: Any = None
+"""Value of a field that a loaded map lacks. Its type is open, so that the fields of a fresh match need no checks."""
+DPI = 72
+"""Resolution of the picture in a notebook."""
+
+
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
+class Match:
+    """A map between two shapes with all that is known of it.
+
+    :func:`kfmaps.match`, :func:`kfmaps.load_map` and collections return it. A loaded map has ``None`` in the fields
+    that its file does not hold: always the meshes and the bases, and all but ``target_to_source`` where the file is a
+    list of vertices.
+
+    Attributes
+    ----------
+    target_to_source : (n_t,) int64
+        A source vertex for each target vertex, after refinement; −1 without a counterpart, which only parts have.
+    functional_map : (k_t, k_s) float64
+        Carries coefficients of functions from source to target, after refinement.
+    source, target : Mesh
+        The shapes as they were handed in; those of a :class:`Shape` have unit area.
+    basis_source, basis_target : Basis
+        The functions that ``functional_map`` is written in, (n_s, k_s) and (n_t, k_t), of the shapes at unit area.
+    eigenvalues_source, eigenvalues_target : (k_s,), (k_t,) float64
+        Of the bases; a file has these alone.
+    verdict : str
+        "landmarks", "sure", "likely", "ambiguous", "unlikely" or "unchecked".
+    confidence : float or None
+        Probability that the map is right, after a search (:mod:`kfmaps.matching.score`).
+    local_confidence : (n_t,) float64
+        How well distances around each target vertex are kept, 0 to 1 (:mod:`kfmaps.fmap.confidence`).
+    orientation : "kept" or "reversed"
+        Whether it is a map to the target or to its mirror image.
+    precise_map : PointMap or None
+        A point inside a triangle of the source for each target vertex, where the registration was accepted.
+    alternatives : tuple of arrays (n_t,)
+        The distinct other maps that a search found, best first.
+    source_to_target, functional_map_back : (n_s,) int64, (k_s, k_t) float64 or None
+        The map from source to target, where the formulation asks for both directions.
+    landmarks : (l, 2) int64
+        The pairs "source vertex, target vertex" that were given.
+    config : Config
+    seed : int
+    seconds : dict of str to float
+        Per stage.
+    score : MatchScore
+    registration : MatchRegistration
+    partial : MatchPart
+    fit : MatchFit
+    source_file, target_file : ShapeFile
+        Where the shapes came from.
+    """
+
+    target_to_source: np.ndarray
+    functional_map: np.ndarray = _UNKNOWN
+    source: Mesh = _UNKNOWN
+    target: Mesh = _UNKNOWN
+    basis_source: Basis = _UNKNOWN
+    basis_target: Basis = _UNKNOWN
+    eigenvalues_source: np.ndarray = _UNKNOWN
+    eigenvalues_target: np.ndarray = _UNKNOWN
+    verdict: str = "unchecked"
+    confidence: float | None = None
+    local_confidence: np.ndarray = _UNKNOWN
+    orientation: str = "kept"
+    precise_map: PointMap | None = None
+    alternatives: tuple[np.ndarray, ...] = ()
+    source_to_target: np.ndarray | None = None
+    functional_map_back: np.ndarray | None = None
+    landmarks: np.ndarray = field(default_factory=lambda: np.zeros((0, 2), dtype=np.int64))
+    config: Config = _UNKNOWN
+    seed: int = 0
+    seconds: dict[str, float] = field(default_factory=dict)
+    score: MatchScore = field(default_factory=MatchScore)
+    registration: MatchRegistration = field(default_factory=MatchRegistration)
+    partial: MatchPart = field(default_factory=MatchPart)
+    fit: MatchFit = field(default_factory=MatchFit)
+    source_file: ShapeFile = field(default_factory=ShapeFile)
+    target_file: ShapeFile = field(default_factory=ShapeFile)
+    _reindexing: VertexReindexing | None = None
+
+    @property
+    def n_source(self) -> int | None:
+        """Number of vertices of the source, where it is known."""
+        return self.source_file.n_vertices if self.source is None else len(self.source.vertices)
+
+    def __repr__(self) -> str:
+        n_s = "" if self.n_source is None else f"{self.n_source:,} "
+        sure = "" if self.confidence is None else f", confidence {self.confidence:.2f}"
+        size = "" if self.functional_map is None else "; C {} × {}".format(*self.functional_map.shape)
+        return f"Match({len(self.target_to_source):,} target to {n_s}source vertices: {self.verdict}{sure}{size})"
+
+    def _repr_html_(self) -> str:
+        """Return what a notebook shows: the picture of :meth:`plot`, and the line of ``repr``."""
+        words = f"<code>{escape(repr(self))}</code>"
+        if self.source is None or len(self.source.vertices) + len(self.target_to_source) > MAX_PICTURED:
+            return words
+        buffer = io.BytesIO()
+        self.plot().savefig(buffer, format="png", dpi=DPI)
+        data = base64.b64encode(buffer.getvalue()).decode("ascii")
+        return f'<img alt="{escape(repr(self), quote=True)}" src="data:image/png;base64,{data}"><br>{words}'
+
+    def plot(self, **options: Any) -> Figure:
+        """Draw the map; :func:`kfmaps.render` lists the options."""
+        from kfmaps import api
+
+        return api.render(self, **options)
+
+    def view(self, **options: Any) -> Path:
+        """Show the map in the browser; :func:`kfmaps.view` lists the options."""
+        from kfmaps import api
+
+        return api.view(self, **options)
+
+    def save(self, path: str | Path, *, force: bool = False) -> None:
+        """Write the map (.npz, .mat, .txt, .vts) as :func:`kfmaps.save_map` does."""
+        from kfmaps.io import save_map
+
+        save_map(path, self, force)
+
+    def transfer(self, values: Any, products: int | None = None) -> np.ndarray:
+        """Carry ``values (n_s, ...)`` from the source's vertices to the target's, (n_t, ...).
+
+        Target vertex ``j`` gets ``values[target_to_source[j]]``, as by :func:`kfmaps.transfer`; functions, labels and
+        colours alike.
+
+        Parameters
+        ----------
+        values : (n_s, ...) array
+        products : int, optional
+            Carry the values as functions by the functional map instead, together with the products of so many of its
+            first functions (:func:`kfmaps.fmap.transfer.transfer_functions`); 20, say, and 0 for no products.
+
+        Raises
+        ------
+        InvalidInput
+            When there is not one row per source vertex, or ``products`` is given for a map of parts or without bases.
+        """
+        if products is None:
+            from kfmaps import api
+
+            return api.transfer(values, self)
+        if self.partial.which != "none":
+            raise refuse("products", "a map of whole shapes", "a map of a part", "leave products out")
+        if self.functional_map is None or self.basis_source is None or self.basis_target is None:
+            raise refuse("products", "a match with its bases", "one from a file", "match the shapes again")
+        values = np.asarray(values, dtype=np.float64)
+        n = len(self.basis_source.mass)
+        check(values, "values", shape=(n, *(None,) * (values.ndim - 1)), remedy="give one row per source vertex")
+        return transfer_functions(
+            values, self.functional_map, self.basis_source, self.basis_target, None if products == 0 else products
+        )
+
+    def precise(self) -> PointMap:
+        """Return a point inside a triangle of the source for each target vertex.
+
+        It is that of the registration where it was accepted. Else it is the nearest point of the source's surface in
+        the spectral embedding (:func:`kfmaps.fmap.precise.to_precise_map`), computed with every call.
+
+        Raises
+        ------
+        InvalidInput
+            When one of the shapes is a point cloud, or a loaded map has no such points.
+        """
+        if self.precise_map is not None:
+            return self.precise_map
+        pair = self._reindexing
+        if pair is None or self.config is None or self.functional_map is None:
+            raise refuse("precise", "a match with its shapes", "one from a file", "match the shapes again")
+        for shape in (pair.source, pair.target):
+            if len(shape.mesh.faces) == 0:
+                raise refuse(shape.name, "a surface with triangles", "a point cloud", "use target_to_source")
+        refine, columns = self.config.refinement, None
+        bases = (pair.source.basis, pair.target.basis)
+        if isinstance(refine, ZoomOut) and refine.guidance and self.orientation != "reversed":
+            guidance = descriptor_guidance(pair.source.shot, pair.target.shot)
+            columns = guidance and guidance.embedding_columns(refine.guidance, *bases)
+        faces = pair.source.mesh.faces
+        return pair.place(to_precise_map(self.functional_map, *bases, faces, self.config.threads, columns))
+
+    def precise_inverse(self) -> PointMap:
+        """Return a point inside a triangle of the target for each source vertex: the inverse of :meth:`precise`.
+
+        Of a map of parts it has a meaning only in the part that both shapes have (``partial.overlap_source``).
+
+        Raises
+        ------
+        InvalidInput
+            When one of the shapes is a point cloud or not known.
+        """
+        source, target = self._meshes()
+        known = self.target_to_source >= 0
+        return invert_precise_map(self.precise(), source, target, None if known.all() else known)
+
+    def inverse(self) -> np.ndarray:
+        """Return a target vertex for each source vertex, (n_s,) int64; −1 outside the part that both shapes have.
+
+        With points inside triangles it is the corner nearest to :meth:`precise_inverse`. Else it is a target vertex
+        that is mapped to the source vertex or, where none is, to the nearest one along the edges that has one. Of
+        several, the one nearest to their mean is taken.
+
+        Raises
+        ------
+        InvalidInput
+            When the shapes are not known.
+        """
+        source, target = self._meshes()
+        known = np.flatnonzero(self.target_to_source >= 0)
+        points, n_s = self.target_to_source[known], len(source.vertices)
+        if len(known) == 0:
+            return np.full(n_s, -1, dtype=np.int64)
+        overlap = self.partial.overlap_source
+        if self.precise_map is not None and overlap is None:
+            return nearest_vertices(self.precise_inverse(), target)
+        positions = target.vertices[known]
+        count = np.bincount(points, minlength=n_s)
+        middle = np.stack([np.bincount(points, axis, minlength=n_s) for axis in positions.T], axis=1)
+        middle /= np.maximum(count, 1)[:, None]
+        order = np.lexsort((((positions - middle[points]) ** 2).sum(axis=1), points))
+        first = np.searchsorted(points[order], np.arange(n_s))
+        central = order[np.minimum(first, len(points) - 1)]
+        result = known[central[nearest_reached(source, points)]].astype(np.int64)
+        return result if overlap is None else np.where(overlap > 0.5, result, -1)
+
+    def _meshes(self) -> tuple[Mesh, Mesh]:
+        if self.source is None or self.target is None:
+            raise refuse("inverse", "a match with its shapes", "one from a file", "match the shapes again")
+        return self.source, self.target
