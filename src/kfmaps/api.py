@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from contextlib import nullcontext
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -21,6 +20,7 @@ from kfmaps.fmap import evaluate
 from kfmaps.fmap.precise import PointMap
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.io import MapFile, atomic_output, check_map, load_map
+from kfmaps.io import save_map as save_map
 from kfmaps.io import transfer as carried
 from kfmaps.io.convert import as_landmarks, as_map, as_mesh, is_file
 from kfmaps.matching import match as matching
@@ -143,7 +143,7 @@ def transfer(values: Any, found: Any, lost: Any = None, *, source: Any = None) -
         When the map names a vertex that has no value, or the source has another number of vertices.
     """
     mesh = None if source is None else _mesh(source, "source")
-    return carried(values, _with_size(found, mesh), None if mesh is None else mesh.faces, lost)
+    return carried(values, as_map(found, mesh), None if mesh is None else mesh.faces, lost)
 
 
 def geodesic_errors(source: Any, predicted: Any, true: Any, method: str = "unfolded") -> np.ndarray:
@@ -293,14 +293,6 @@ def view(
 
 def _mesh(shape: Any, name: str) -> Mesh:
     return shape.mesh if isinstance(shape, Shape) else as_mesh(shape, name)
-
-
-def _with_size(found: Any, source: Mesh | None = None) -> MapFile:
-    """A map that says how many vertices its source has, where that is known."""
-    known = as_map(found, source)
-    if not isinstance(found, Match):
-        return known
-    return replace(known, extra={**known.extra, "n_s": np.int64(found.n_source or 0)})
 
 
 def _check_config(config: Any) -> None:

@@ -165,6 +165,7 @@ def match_map(match: Match) -> MapFile:
         "bent": match.registration.registered_vertices,
         "overlap_source": match.partial.overlap_source,
         "overlap_target": match.partial.overlap_target,
+        "n_s": None if match.n_source is None else np.int64(match.n_source),
     }
     extra = {name: value for name, value in extra.items() if value is not None}
     config = "" if match.config is None else json.dumps(as_dict(match.config))

@@ -145,9 +145,9 @@ class Match:
 
     def save(self, path: str | Path, *, force: bool = False) -> None:
         """Write the map (.npz, .mat, .txt, .vts) as :func:`kfmaps.save_map` does."""
-        from kfmaps.io import save_map
+        from kfmaps import api
 
-        save_map(path, self, force)
+        api.save_map(path, self, force)
 
     def transfer(self, values: Any, products: int | None = None) -> np.ndarray:
         """Carry ``values (n_s, ...)`` from the source's vertices to the target's, (n_t, ...).
