@@ -18,9 +18,10 @@ from kfmaps.config import Config
 from kfmaps.fmap.convert import to_points
 from kfmaps.geometry.basis import Basis
 from kfmaps.io import MapFile, check_map
-from kfmaps.matching.match import Match, match_from_map
+from kfmaps.matching.finish import match_from_map
 from kfmaps.matching.quality import ShapeSamples
 from kfmaps.matching.reindexing import reindexing
+from kfmaps.matching.result import Match
 from kfmaps.matching.score import probability_word
 from kfmaps.shape import Shape
 

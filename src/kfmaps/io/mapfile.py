@@ -193,7 +193,7 @@ def save_map(path: str | Path, mapfile: MapFile | Match, force: bool = False) ->
         On an unknown extension, and as :func:`atomic_output`.
     """
     if not isinstance(mapfile, MapFile):
-        from kfmaps.matching.match import Match  # only here, as above
+        from kfmaps.matching.result import Match  # only here, as above
 
         if not isinstance(mapfile, Match):
             raise refuse("map", "a Match or a MapFile", type(mapfile).__name__, "give what kfmaps.match returned")
