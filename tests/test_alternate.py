@@ -30,6 +30,7 @@ from kfmaps.matching.finish import better_match
 from kfmaps.matching.quality import sample_for_scoring
 from kfmaps.matching.ranking import ProxyCache, rerank_near_duplicates
 from kfmaps.matching.registration_refine import refine_by_registration, repairable
+from kfmaps.matching.result_groups import MatchRegistration
 from kfmaps.matching.sample_pair import mirrored_pair, two_level_samples
 from kfmaps.matching.score import SCORE, Candidate, Quality
 from kfmaps.registration import alternating_registration as alternate
@@ -409,7 +410,8 @@ def test_the_match_that_is_worth_more_is_taken(creatures):
     def made(score, share):
         order = np.cumsum(vertex_areas(target.mesh)) <= share * vertex_areas(target.mesh).sum()
         trust = np.where(order, 0.4, 0.9)
-        return replace(one, scores=(score,), local_confidence=trust, seconds={}, verdict=f"{share}")
+        judged = replace(one.score, scores=(score,))
+        return replace(one, score=judged, local_confidence=trust, seconds={}, verdict=f"{share}")
 
     known = replace(made(-9.0, 0.3), seconds=one.seconds)
     for lost, taken in ((0.1 * SCORE.w_torn, 0.1), (0.3 * SCORE.w_torn, 0.3), (-1.0, 0.1)):
@@ -418,7 +420,7 @@ def test_the_match_that_is_worth_more_is_taken(creatures):
         assert found.seconds is one.seconds
     refused = replace(made(-9.0, 0.1), precise_map=None)
     assert better_match(known, refused).verdict == "0.1"
-    assert better_match(known, replace(refused, registration=None)) is known
+    assert better_match(known, replace(refused, registration=MatchRegistration())) is known
 
 
 def test_a_match_finishes_all_ways_unless_it_is_hardly_torn(creatures, monkeypatch):

@@ -19,6 +19,7 @@ import kfmaps
 from commandline import run
 from kfmaps.config import Config
 from kfmaps.matching import match as matching
+from kfmaps.matching.result_groups import MatchScore
 from kfmaps.viz.server import LocalServer
 
 GUARDS = ("kfmaps.matching.match",)
@@ -51,7 +52,7 @@ def answer(made: Path) -> matching.Match:
     found = matching.match(pair[0], pair[1], config, landmarks=kfmaps.read_landmarks(made / "pairs.txt"))
     rng = np.random.default_rng(0)
     rough = np.where(rng.random(len(found.target_to_source)) < 0.1, 0, found.target_to_source)
-    return replace(found, verdict="ambiguous", confidence=0.4, scores=(-1.0, -1.1), alternatives=(rough,))
+    return replace(found, verdict="ambiguous", confidence=0.4, score=MatchScore((-1.0, -1.1)), alternatives=(rough,))
 
 
 @pytest.fixture
