@@ -221,7 +221,7 @@ MUTANTS = tuple(
         ),
         ("scale = (size / total) ** 0.5 if total", "scale = size / total if total", f"{MATCH} -k orientation"),
         ("self.orientations[t], parity=-1)", "self.orientations[t])", f"{MATCH} -k orientation"),
-        ("size = inner(packed_s, packed_s) + inner(packed_t, packed_t)", "size = inner(packed_s, packed_s)", MATCH),
+        ("size = sum(inner(X, X) for X in packed)", "size = inner(packed[0], packed[0])", MATCH),
         (
             "for m, f in zip(mass, F, strict=True)) / 2",
             "for m, f in zip(mass, F, strict=True))",
@@ -243,8 +243,8 @@ MUTANTS = tuple(
             f"{MATCH} -k either_side",
         ),
         (
-            "(target, source, found.first_back), (source, target, found.first_forth)",
-            "(target, source, found.first_back), (target, source, found.first_back)",
+            "(target, source, pairs.first_back), (source, target, pairs.first_forth)",
+            "(target, source, pairs.first_back), (target, source, pairs.first_back)",
             f"{MATCH} -k either_side",
         ),
         (
@@ -253,7 +253,7 @@ MUTANTS = tuple(
             f"{MATCH} -k coverage",
         ),
         ("np.flatnonzero(distances <= max(SCORE", "np.flatnonzero(distances >= max(SCORE", "test_automatic -k short"),
-        ("max(there.spread + here.spread, 2 * flat)", "max(there.spread, 2 * flat)", f"{MATCH} -k random"),
+        ("max(one.variance + other.variance, 2 * flat)", "max(one.variance, 2 * flat)", f"{MATCH} -k random"),
         (
             "functions[:, :k_s] @ np.asarray(C.T,",
             "functions[:, :k_s] @ np.asarray(C,",
@@ -292,7 +292,7 @@ MUTANTS = tuple(
             "test_search -k many_maps",
         ),
         ("weighted @ phi + RIDGE * np.eye(k), weighted", "weighted @ phi, weighted", "test_search -k many_maps"),
-        ("scale = (wanted / total) ** 0.5", "scale = (wanted / total)", "test_search -k family"),
+        ("scale = (size / total) ** 0.5", "scale = (size / total)", "test_search -k family"),
         (
             "(0.5 * (found.source**2).sum(axis=1)[None, :]",
             "((found.source**2).sum(axis=1)[None, :]",
@@ -592,13 +592,13 @@ MUTANTS = tuple(
             "test_tips -k likelier",
         ),
         (
-            "tips.unit * tips.distances.min(axis=0) < SCORE",
-            "tips.distances.min(axis=0) < SCORE",
+            "ends.unit * ends.distances.min(axis=0) < SCORE",
+            "ends.distances.min(axis=0) < SCORE",
             "test_automatic -k its_definition_says",
         ),
         (
-            "extremity_descriptor_error=0.5 * (_mean(squares_t, known_t.ends)",
-            "ends=0.5 * (_mean(squares_t, known_t.areas)",
+            "extremity_descriptor_error=_both_means(local, ends)",
+            "extremity_descriptor_error=_both_means(local, areas)",
             "test_automatic -k its_definition_says",
         ),
         (
@@ -737,7 +737,7 @@ MUTANTS = tuple(
             "test_symmetries -k knows_them",
         ),
         ("np.argsort(_changed(begun, of), kind", "np.argsort(-_changed(begun, of), kind", "test_symmetries -k early"),
-        ("on.few, weights[:QUICK])", "on.few, weights)", "test_clear -k near_symmetries"),
+        ("few, weights[:QUICK])", "few, weights)", "test_clear -k near_symmetries"),
         (
             "rest[np.isinf(rest)] = over[np.isinf(rest)]",
             "rest[np.isinf(rest)] = 2 * over[np.isinf(rest)]",

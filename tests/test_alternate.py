@@ -17,7 +17,7 @@ from kfmaps.matching import finish, ranking
 from kfmaps.matching import match as matching
 from kfmaps.matching import registration_refine as mending
 from kfmaps.matching import search as choose
-from kfmaps.matching.candidates import map_distance, paired_map, score_maps
+from kfmaps.matching.candidates import map_distance, score_maps
 from kfmaps.matching.extremity_matching import (
     ExtremityMatch,
     complete_match,
@@ -27,6 +27,7 @@ from kfmaps.matching.extremity_matching import (
     vertices_of_match,
 )
 from kfmaps.matching.finish import better_match
+from kfmaps.matching.initial_maps import paired_map
 from kfmaps.matching.quality import sample_for_scoring
 from kfmaps.matching.ranking import ProxyCache, rerank_near_duplicates
 from kfmaps.matching.registration_refine import refine_by_registration, repairable

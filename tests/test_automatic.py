@@ -15,13 +15,11 @@ from kfmaps.fmap.descriptor_guidance import FLAT, descriptor_variance
 from kfmaps.fmap.evaluate import geodesic_errors
 from kfmaps.fmap.refine import ZoomOut
 from kfmaps.geometry.mesh import Mesh
-from kfmaps.matching.candidates import candidates, perturb
-from kfmaps.matching.extremities import Extremities
-from kfmaps.matching.kernel_inits import plan_fits
+from kfmaps.matching.candidates import candidates
+from kfmaps.matching.initial_maps import perturb, plan_fits
 from kfmaps.matching.match import match
-from kfmaps.matching.quality import _near, map_quality, sample_for_scoring, subsample
+from kfmaps.matching.quality import ShortDistances, map_quality, sample_for_scoring, subsample
 from kfmaps.matching.ranking import distinct
-from kfmaps.matching.sample_cache import known
 from kfmaps.matching.sample_pair import two_level_samples
 from kfmaps.matching.score import SCORE, Candidate, excess_deformation, probability, verdict
 from kfmaps.matching.search import search_map
@@ -108,15 +106,12 @@ def test_a_torn_map_is_stretched_more_than_a_shaken_one(shape):
     assert broken.local_distortion > whole.local_distortion + 0.1
 
 
-NO_TIPS = Extremities(np.zeros(0, dtype=np.int64), np.zeros(0), np.zeros((0, 5)), np.zeros((0, 0, 5)), 1.0)
-
-
 def test_stretch_counts_short_distances_alone():
     distances = np.abs(np.subtract.outer(*[np.array([0.0, 0.1, 0.2, 1.0, 1.1])] * 2))
     short = distances <= 0.2
-    of = known(np.ones((5, 1)), np.full(5, 0.2), distances, None, None, np.ones((5, 1)), NO_TIPS)
-    assert _near(np.where(short, 0.0, 5.0), of) == 0
-    assert _near(np.where(short, distances / 2, 0.0), of) == pytest.approx(0.5)
+    near = ShortDistances.of(distances)
+    assert near.change(np.where(short, 0.0, 5.0)) == 0
+    assert near.change(np.where(short, distances / 2, 0.0)) == pytest.approx(0.5)
 
 
 def test_quality_is_what_its_definition_says(shape, other):

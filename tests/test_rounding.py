@@ -25,8 +25,9 @@ from kfmaps.geometry.mesh import Mesh
 from kfmaps.geometry.sampling import spectral_samples, stratified_samples
 from kfmaps.kernels.kernels import Gaussian, Laplacian, resolve_kernel
 from kfmaps.matching.assemble import orientation_pair, principal_features
-from kfmaps.matching.candidates import perturb, score_maps
+from kfmaps.matching.candidates import score_maps
 from kfmaps.matching.features import Features
+from kfmaps.matching.initial_maps import perturb
 from kfmaps.matching.match import match
 from kfmaps.matching.quality import map_quality, sample_for_scoring, subsample
 from kfmaps.matching.ranking import distinct

@@ -15,12 +15,12 @@ from kfmaps.geometry.coarsen import coarsen
 from kfmaps.geometry.geodesics import geodesic_distances
 from kfmaps.geometry.mesh import Mesh, face_areas, unit_area, vertex_normals
 from kfmaps.geometry.sampling import spectral_samples
-from kfmaps.matching import candidates
-from kfmaps.matching import kernel_inits as fits
+from kfmaps.matching import candidates, initial_maps
 from kfmaps.matching.batched_zoomout import batched_zoomout
 from kfmaps.matching.candidates import refine_fine, rerefine, score_maps
+from kfmaps.matching.features import sample_pair_for_fit
 from kfmaps.matching.fit import fit
-from kfmaps.matching.kernel_inits import FitSpec, fit_descriptor_set, sample_shapes
+from kfmaps.matching.initial_maps import FIT_POINTS, FitSpec, fit_descriptor_set
 from kfmaps.matching.landmark_evidence import heat_features, heat_guidance, landmark_errors
 from kfmaps.matching.match import match
 from kfmaps.matching.quality import sample_for_scoring, sample_surface
@@ -87,9 +87,9 @@ def test_a_family_makes_the_maps_that_single_fits_make(shape, other):
         weights=replace(SMALL.weights, orientation=0.0),
     )
     none = np.zeros((0, 2), dtype=np.int64)
-    points = sample_shapes(shape, other, none, None)
+    points = sample_pair_for_fit(shape, other, FIT_POINTS, none)
     wanted = [FitSpec("SHOT and waves", k, 0.0) for k in (30, 12)]
-    maps = fit_descriptor_set("SHOT and waves", wanted, points, settings, (None, None), 3)
+    maps = fit_descriptor_set(wanted, points, settings, (None, None), 3)
     for chosen, C in zip(wanted, maps, strict=True):
         assert C.shape == (chosen.functions, chosen.functions)
         alone = fit(shape, other, replace(settings, basis=BasisConfig(functions=chosen.functions)), rng=3)
@@ -101,27 +101,27 @@ def test_the_points_of_the_fits_come_from_the_seed(shape, other, monkeypatch):
 
     def spy(*arguments):
         asked.append(arguments[-1])
-        return sample_shapes(*arguments)
+        return sample_pair_for_fit(*arguments)
 
-    monkeypatch.setattr(candidates, "sample_shapes", spy)
+    monkeypatch.setattr(initial_maps, "sample_pair_for_fit", spy)
     monkeypatch.setattr(candidates, "SCORE", replace(SCORE, early_exit_score=np.inf))
     for seed in (7, 0):
         search_map(shape, other, SMALL, rng=seed)
     assert asked == [7, 0]
-    monkeypatch.setattr(fits, "POINTS", 300)
     none = np.zeros((0, 2), dtype=np.int64)
     expected = sample_shape(shape, 300, none[:, 0], 7).shape.mesh.vertices
-    np.testing.assert_array_equal(sample_shapes(shape, other, none, None, 7).shapes[0].mesh.vertices, expected)
+    sampled = sample_pair_for_fit(shape, other, 300, none, None, 7)
+    np.testing.assert_array_equal(sampled.shapes[0].mesh.vertices, expected)
 
 
 def test_the_orientation_of_a_family_turns_its_maps(shape, other):
     none = np.zeros((0, 2), dtype=np.int64)
-    points = sample_shapes(shape, other, none, None)
+    points = sample_pair_for_fit(shape, other, FIT_POINTS, none)
     probes = sample_for_scoring(shape, 200), sample_for_scoring(other, 200)
     cubes = probes[0].orientation, probes[1].orientation
     assert cubes[1] is not None
     maps = [
-        fit_descriptor_set("waves", [FitSpec("waves", 20, w)], points, SMALL, c, 0)[0]
+        fit_descriptor_set([FitSpec("waves", 20, w)], points, SMALL, c, 0)[0]
         for w, c in ((1.0, cubes), (1.0, (cubes[0], -cubes[1])), (0.0, cubes))
     ]
     on = sample_pair(*probes)

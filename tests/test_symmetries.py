@@ -6,7 +6,8 @@ import pytest
 from kfmaps import datasets
 from kfmaps.fmap.convert import to_functional
 from kfmaps.matching import self_maps as within
-from kfmaps.matching.candidates import distinct_maps, refine_coarse, score_maps, symmetry_inits
+from kfmaps.matching.candidates import distinct_maps, refine_coarse, score_maps
+from kfmaps.matching.initial_maps import symmetry_inits
 from kfmaps.matching.quality import map_quality, mirror_samples, sample_for_scoring, subsample
 from kfmaps.matching.sample_pair import two_level_samples
 from kfmaps.matching.search import scoring_samples

@@ -10,7 +10,7 @@ from kfmaps._arrays import NotConverged
 from kfmaps.geometry.coarsen import CoarseProxy
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.matching.batched_zoomout import batched_zoomout
-from kfmaps.matching.candidates import extremity_inits, paired_map, refine_coarse
+from kfmaps.matching.candidates import refine_coarse
 from kfmaps.matching.extremities import APART, extremities, gradient_cross
 from kfmaps.matching.extremity_matching import (
     FEWEST,
@@ -21,6 +21,7 @@ from kfmaps.matching.extremity_matching import (
     match_extremities,
     match_of_map,
 )
+from kfmaps.matching.initial_maps import extremity_inits, paired_map
 from kfmaps.matching.quality import mirror_samples, sample_for_scoring, subsample
 from kfmaps.matching.ranking import ProxyCache, in_order, ranking
 from kfmaps.matching.sample_pair import two_level_samples

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -129,17 +130,9 @@ def assemble(
     features = kernel_features(source, target, descriptors, config, rng)
     multiplications, orientations, size = None, None, 0.0
     if weights.commutativity:
-        formed = (features.source, features.target)
-        if config.compression:
-            share = CONDENSATION * config.compression
-            formed = truncate_features(small[0], formed[0], small[1], formed[1], share)
-        packed_s, packed_t = (
-            multiplication_operators(b, F, threads=config.threads) for b, F in zip(small, formed, strict=True)
-        )
-        if config.compression:
-            packed_s, packed_t = truncate_operators(packed_s, packed_t, config.compression)
-        size = inner(packed_s, packed_s) + inner(packed_t, packed_t)
-        multiplications = (unpack_operators(packed_s), unpack_operators(packed_t))
+        packed = compressed_operators(small, features, config.compression, config.threads)
+        size = sum(inner(X, X) for X in packed)
+        multiplications = (unpack_operators(packed[0]), unpack_operators(packed[1]))
     if weights.orientation:
         strongest = principal_features(small, features, ORIENTATION_FEATURES)
         size = size or 2.0 * small[0].functions.shape[1]
@@ -147,6 +140,24 @@ def assemble(
         k = config.basis.functions
         orientations = orientation_pair(shapes, whole or shapes, bases, strongest, k, size, config.threads)
     return FitProblem(config, small, features.kernel, descriptors, features, multiplications, orientations)
+
+
+def compressed_operators(
+    bases: tuple[Basis, Basis], features: Features, rtol: float, threads: int | None = None
+) -> tuple[Array, Array]:
+    """Return packed multiplication operators of the features of both shapes, truncated to ``rtol`` unless it is 0."""
+    formed = features.source, features.target
+    if rtol:
+        formed = truncate_features(bases[0], formed[0], bases[1], formed[1], CONDENSATION * rtol)
+    packed_s, packed_t = (multiplication_operators(b, F, threads=threads) for b, F in zip(bases, formed, strict=True))
+    return truncate_operators(packed_s, packed_t, rtol) if rtol else (packed_s, packed_t)
+
+
+def scale_operators(pair: Sequence[Array], size: float) -> tuple[Array, Array]:
+    """Return operators of both shapes scaled so that their summed squared norm is ``size``."""
+    total = sum(inner(X, X) for X in pair)
+    scale = (size / total) ** 0.5 if total else 0.0
+    return pair[0] * scale, pair[1] * scale
 
 
 def orientation_pair(
@@ -169,9 +180,7 @@ def orientation_pair(
         if all_of_it is not shape:
             F, basis = all_of_it.basis.reconstruct(to_numpy(basis.project(F))), all_of_it.basis
         slices.append(like(orientation_operators(all_of_it.mesh, basis.truncate(k), F, threads), features.source))
-    total = sum(inner(X, X) for X in slices)
-    scale = (size / total) ** 0.5 if total else 0.0
-    return slices[0] * scale, slices[1] * scale
+    return scale_operators(slices, size)
 
 
 def principal_features(bases: tuple[Basis, Basis], features: Features, count: int) -> Features:

@@ -25,7 +25,7 @@ from kfmaps.kernels.kernels import KernelLike, Linear, resolve_kernel
 from kfmaps.kernels.landmark_selection import farthest_descriptors, pivoted_cholesky, uniform
 from kfmaps.kernels.nystrom import nystrom
 from kfmaps.kernels.transformed import n_kernel_landmarks as taught
-from kfmaps.shape import Shape
+from kfmaps.shape import Shape, sample_shape
 
 EVERY = 200
 """Energies of the signature and of each landmark in the layout "every-nth"."""
@@ -50,6 +50,42 @@ class Features:
     source: Array
     target: Array
     kernel: KernelLike
+
+
+@dataclass(frozen=True, eq=False)
+class SampledPair:
+    """Both shapes on the samples that fits are made from, the landmarks ``(l, 2)`` and given descriptors there."""
+
+    shapes: tuple[Shape, Shape]
+    landmarks: np.ndarray
+    descriptors: tuple[Any, Any] | None
+
+
+def sample_pair_for_fit(
+    source: Shape,
+    target: Shape,
+    count: int | None,
+    landmarks: np.ndarray,
+    descriptors: tuple[Any, Any] | None = None,
+    rng: int | np.random.Generator = 0,
+) -> SampledPair:
+    """Return ``count`` samples of both shapes, with the ``landmarks (l, 2)`` and the user's descriptors there."""
+    shapes = source, target
+    parts = [sample_shape(shape, count, landmarks[:, i], rng) for i, shape in enumerate(shapes)]
+    rows = None
+    if descriptors is not None:
+        given = [_given_descriptors(values, shape) for values, shape in zip(descriptors, shapes, strict=True)]
+        rows = given[0][parts[0].vertices], given[1][parts[1].vertices]
+    marks = np.stack([part.landmarks for part in parts], axis=1)
+    return SampledPair((parts[0].shape, parts[1].shape), marks, rows)
+
+
+def _given_descriptors(values: Any, shape: Shape) -> np.ndarray:
+    """Return descriptors of the user's own as numbers, checked."""
+    values = np.asarray(to_numpy(values) if hasattr(values, "shape") else values, dtype=np.float64)
+    n = len(shape.mesh.vertices)
+    check(values, f"descriptors of {shape.name}", shape=(n, None), remedy="give one row per vertex")
+    return values
 
 
 def pair_descriptors(
@@ -78,10 +114,7 @@ def pair_descriptors(
     whose = landmark_of_each(config, len(landmarks))
     if given is not None:
         for i, shape in enumerate((source, target)):
-            name = f"descriptors of {shape.name}"
-            values = np.asarray(to_numpy(given[i]), dtype=np.float64)
-            check(values, name, shape=(len(shape.mesh.vertices), None), remedy="give one row per vertex")
-            sides[i].append(like(values, bases[i].functions))
+            sides[i].append(like(_given_descriptors(given[i], shape), bases[i].functions))
     masses = [b.mass for b in bases]
     blocks = []
     if sides[0] and sides[1]:

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from kfmaps._arrays import check, refuse, seed_of, to_numpy
+from kfmaps._arrays import refuse, seed_of, to_numpy
 from kfmaps._progress import Progress
 from kfmaps._stage_timer import StageTimer
 from kfmaps._threads import one_blas_thread
@@ -20,10 +20,10 @@ from kfmaps.fmap.solvers import Solution
 from kfmaps.geometry.basis import Basis
 from kfmaps.kernels.kernels import describe_kernel
 from kfmaps.matching.assemble import assemble
-from kfmaps.matching.features import Descriptors, pair_descriptors
+from kfmaps.matching.features import Descriptors, pair_descriptors, sample_pair_for_fit
 from kfmaps.matching.robust_weights import robust_weights
 from kfmaps.matching.solve import solve_problem
-from kfmaps.shape import SampledShape, Shape, sample_shape
+from kfmaps.shape import Shape
 
 
 @dataclass(frozen=True, eq=False)
@@ -181,28 +181,12 @@ def fit_points(
     rng: int | np.random.Generator = 0,
 ) -> FitPoints:
     """The points that ``config.fit_samples`` leaves of both shapes, with the ``landmarks (l, 2)``, and descriptors."""
-    shapes = (source, target)
-    parts = [sample_shape(s, config.fit_samples, landmarks[:, i], rng) for i, s in enumerate(shapes)]
-    bases = [part.shape.basis for part in parts]
+    sampled = sample_pair_for_fit(source, target, config.fit_samples, landmarks, descriptors, rng)
+    small, bases = sampled.shapes, (sampled.shapes[0].basis, sampled.shapes[1].basis)
     if config.device != "cpu":
-        bases = [basis.to(config.device) for basis in bases]
-    marks = np.stack([part.landmarks for part in parts], axis=1)
-    if descriptors is not None:
-        descriptors = _on_samples(descriptors, parts, shapes)
-    small, on = (parts[0].shape, parts[1].shape), (bases[0], bases[1])
-    used = pair_descriptors(*small, on, config.descriptors, marks, descriptors)
+        bases = (bases[0].to(config.device), bases[1].to(config.device))
+    used = pair_descriptors(*small, bases, config.descriptors, sampled.landmarks, sampled.descriptors)
     if not config.formulation.weighs_data:
-        return FitPoints(small, on, used)
-    weighed = robust_weights(used, on, config)
-    return FitPoints(small, on, weighed.descriptors, weighed.weights)
-
-
-def _on_samples(given: tuple[Any, Any], parts: list[SampledShape], shapes: tuple[Shape, Shape]) -> tuple[Any, Any]:
-    """The rows of descriptors of the user's own that belong to the samples."""
-    rows = []
-    for values, part, shape in zip(given, parts, shapes, strict=True):
-        values = to_numpy(values) if hasattr(values, "shape") else np.asarray(values)
-        n = len(shape.mesh.vertices)
-        check(values, f"descriptors of {shape.name}", shape=(n, None), remedy="give one row per vertex")
-        rows.append(values[part.vertices])
-    return rows[0], rows[1]
+        return FitPoints(small, bases, used)
+    weighed = robust_weights(used, bases, config)
+    return FitPoints(small, bases, weighed.descriptors, weighed.weights)

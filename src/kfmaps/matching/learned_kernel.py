@@ -19,20 +19,9 @@ from kfmaps.config import Config
 from kfmaps.fmap.descriptor_guidance import descriptor_guidance
 from kfmaps.kernels.kernels import KernelLike
 from kfmaps.kernels.transformed import Metric, Network, descriptor_width, n_kernel_landmarks
-from kfmaps.matching.candidates import (
-    FINE,
-    FINE_FROM,
-    FINE_STEP,
-    STARTS,
-    Start,
-    distinct_maps,
-    refine_batch,
-    refine_coarse,
-    score_maps,
-    sign_inits,
-)
-from kfmaps.matching.features import pair_descriptors
-from kfmaps.matching.kernel_inits import LEARNED, FitSpec, fit_descriptor_set, sample_shapes
+from kfmaps.matching.candidates import by_score, distinct_maps, refine_coarse, refine_finely, score_maps
+from kfmaps.matching.features import pair_descriptors, sample_pair_for_fit
+from kfmaps.matching.initial_maps import FIT_POINTS, LEARNED, STARTS, FitSpec, Start, fit_descriptor_set, sign_inits
 from kfmaps.matching.quality import ShapeSamples
 from kfmaps.matching.sample_pair import SamplePair, TwoLevelSamples, descriptor_cost
 from kfmaps.matching.score import SCORE, Candidate
@@ -85,21 +74,19 @@ def learned_candidates(
     few, whole = (by_metric(ground, *rows) for ground in (on.few, on.whole))
     functions = min(len(source.basis.eigenvalues), len(target.basis.eigenvalues))
     starts = [s for s in sign_inits(min(config.search.signs, functions - 1), few) if s.weights[0] == WEIGHTS[0]]
-    points = sample_shapes(source, target, np.zeros((0, 2), dtype=np.int64), None, drawn)
-    cubes = on.whole.source.orientation, on.whole.target.orientation
+    none = np.zeros((0, 2), dtype=np.int64)
+    points = sample_pair_for_fit(source, target, FIT_POINTS, none, None, drawn)
+    operators = on.whole.source.orientation, on.whole.target.orientation
     fits = [FitSpec(LEARNED, min(k, config.basis.functions), ORIENTATION) for k in SIZES]
-    maps = fit_descriptor_set(LEARNED, fits, points, config, cubes, seed)
+    maps = fit_descriptor_set(fits, points, config, operators, seed)
     starts += [
         Start(f"{fit.name}, from {start}", C, start, WEIGHTS, True)
         for fit, C in zip(fits, maps, strict=True)
         for start in STARTS
     ]
-    found = sorted(refine_coarse(starts, few, functions, config.threads), key=lambda c: c.score, reverse=True)
+    found = by_score(refine_coarse(starts, few, functions, config.threads))
     chosen = distinct_maps(found, few.source, SCORE.rough_distance, FINALISTS)
-    stop = min(FINE, functions)
-    size = min(FINE_FROM, stop, *chosen[0].functional_map.shape)
-    C = np.stack([c.functional_map[:size, :size] for c in chosen])
-    refined = refine_batch(C, whole, (*range(size, stop, FINE_STEP), stop), WEIGHTS, (), config.threads)
+    refined = refine_finely(chosen, whole, functions, WEIGHTS, (), config.threads)
     names = [(c.name if c.name.startswith(LEARNED) else f"{LEARNED}, {c.name}", True) for c in chosen]
     return score_maps(names, *refined, on.whole, config.threads)
 

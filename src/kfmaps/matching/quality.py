@@ -1,12 +1,11 @@
-"""How good a map is, judged without the truth.
+"""Samples of a shape that maps are judged on, and the measures of a map on them, without knowing the truth.
 
-Several measures, none of which is enough alone: a mirrored map of a symmetric body distorts nothing, a map that
-swaps front and back *and* left and right even keeps orientation, and a map that collapses everything to one point
-is smooth. :func:`map_quality` works them out on a few hundred points of each shape; :attr:`Quality.score` weighs them.
+:func:`map_quality` measures a map on a few hundred points of each shape; :mod:`kfmaps.matching.score` weighs them.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -17,7 +16,7 @@ from kfmaps._arrays import Array, like, to_numpy
 from kfmaps.descriptors.shot import mirror_shot
 from kfmaps.descriptors.spectral import heat_signature
 from kfmaps.fmap.convert import nearest
-from kfmaps.fmap.descriptor_guidance import FLAT
+from kfmaps.fmap.descriptor_guidance import FLAT, descriptor_variance
 from kfmaps.fmap.refine import SampledBasis, SpectralSamples, spectral_samples
 from kfmaps.geometry.basis import Basis, eigenvalue_tolerance
 from kfmaps.geometry.coarsen import CoarseProxy, coarsen
@@ -27,7 +26,6 @@ from kfmaps.geometry.mesh import Mesh
 from kfmaps.geometry.orientation_operators import orientation_operators
 from kfmaps.geometry.sampling import stratified_vertices
 from kfmaps.matching.extremities import Extremities, extremities
-from kfmaps.matching.sample_cache import Known, Rows, known
 from kfmaps.matching.score import SCORE, Quality
 from kfmaps.registration.deformation_energy import coarse_copy
 from kfmaps.shape import Shape
@@ -49,12 +47,26 @@ WAVES = 10
 
 
 @dataclass(frozen=True, eq=False)
+class Rows:
+    """Descriptors ``(q, d)``, their squared lengths ``(q,)`` and :func:`descriptor_variance`."""
+
+    values: np.ndarray
+    squares: np.ndarray
+    variance: float
+
+    @classmethod
+    def of(cls, descriptors: np.ndarray, precision: type = np.float32) -> Rows:
+        values = np.asarray(descriptors, dtype=precision)
+        return cls(values, np.einsum("ij,ij->i", values, values), descriptor_variance(descriptors))
+
+
+@dataclass(frozen=True, eq=False)
 class ShapeSamples:
     """What judging maps needs of one shape; made by :func:`sample_for_scoring`.
 
     Attributes
     ----------
-    samples : Samples
+    samples : SpectralSamples
         Farthest points; the first ``c`` of them are farthest points too.
     distances : (c, c) float64
         Geodesic distances between the first points.
@@ -65,12 +77,11 @@ class ShapeSamples:
     heat : (q, t) float64
         Logarithm of the heat kernel signature at the samples, for fixed times.
     positions : (q, 3) float64
-    marks : (l, q) float64
+    landmark_distances : (l, q) float64
         Geodesic distances from landmarks to the samples.
-    tips : Tips
-        The tips of its limbs.
-    copy : Copy or None
-        A coarse copy that can be bent; ``None`` for a point cloud.
+    extremities : Extremities
+    copy : CoarseProxy or None
+        ``None`` for a point cloud.
     mirrored : bool
         Whether it is of the mirror image.
     turns : (m, k, k) float64 or None
@@ -91,13 +102,63 @@ class ShapeSamples:
     turns: np.ndarray | None = None
 
     @cached_property
-    def known(self) -> Known:
-        """What judging each of many maps would find again."""
-        basis = self.samples.basis
-        areas = to_numpy(basis.mass) / float(basis.mass.sum())
-        return known(
-            basis.functions, areas, self.distances, self.orientation, self.descriptors, self.heat, self.extremities
-        )
+    def functions(self) -> np.ndarray:
+        """The basis at the samples, (q, k) float32."""
+        return np.asarray(to_numpy(self.samples.basis.functions), dtype=np.float32)
+
+    @cached_property
+    def areas(self) -> np.ndarray:
+        """The share of the area that each sample stands for, (q,)."""
+        return to_numpy(self.samples.basis.mass) / float(self.samples.basis.mass.sum())
+
+    @cached_property
+    def extremity_areas(self) -> np.ndarray | None:
+        """The same of samples near extremities alone, of sum 1; ``None`` without extremities."""
+        ends = self.extremities
+        if len(ends.distances) == 0:
+            return None
+        near = np.where(ends.unit * ends.distances.min(axis=0) < SCORE.extremity_radius, self.areas, 0.0)
+        return near / near.sum() if near.any() else None
+
+    @cached_property
+    def mean_distance(self) -> float:
+        return float(self.distances.mean())
+
+    @cached_property
+    def short_distances(self) -> ShortDistances:
+        """Those up to :attr:`Scoring.local_radius`; with few points, to the nearest."""
+        return ShortDistances.of(self.distances)
+
+    @cached_property
+    def orientation_norm(self) -> float:
+        """Norm of the orientation operators; 0 where there are none."""
+        return 0.0 if self.orientation is None else float(np.linalg.norm(self.orientation))
+
+    @cached_property
+    def descriptor_rows(self) -> Rows | None:
+        return None if self.descriptors is None else Rows.of(self.descriptors)
+
+    @cached_property
+    def heat_rows(self) -> Rows:
+        return Rows.of(self.heat, np.float64)
+
+
+@dataclass(frozen=True, eq=False)
+class ShortDistances:
+    """Which of the flattened distances are short, ``at (p,)``, and their mean."""
+
+    at: np.ndarray
+    mean: float
+
+    @classmethod
+    def of(cls, distances: np.ndarray) -> ShortDistances:
+        nearest_other = np.partition(distances, 1, axis=1)[:, 1] if len(distances) > 1 else np.ones(1)
+        at = np.flatnonzero(distances <= max(SCORE.local_radius, float(nearest_other.max())))
+        return cls(at, float(distances.ravel()[at].mean()))
+
+    def change(self, change: np.ndarray) -> float:
+        """Return the mean of ``change`` where distances are short, over the mean of these."""
+        return float(change.ravel()[self.at].mean()) / self.mean if self.mean > 0 else 0.0
 
 
 def sample_for_scoring(
@@ -107,7 +168,7 @@ def sample_for_scoring(
     threads: int | None = None,
     landmarks: np.ndarray | None = None,
 ) -> ShapeSamples:
-    """Sample ``count`` points of ``shape`` and work out what :func:`map_quality` compares.
+    """Sample ``count`` points of ``shape`` and compute what :func:`map_quality` compares.
 
     ``landmarks (l,)``: vertices whose distances to the samples are wanted too.
     """
@@ -194,44 +255,40 @@ def mirror_samples(probe: ShapeSamples) -> ShapeSamples:
 
 
 def map_quality(C: Array, source: ShapeSamples, target: ShapeSamples, points: np.ndarray | None = None) -> Quality:
-    """Judge the functional map ``C (k, k)``, refined on the samples of both probes, without knowing the truth.
+    """Measure the functional map ``C (k, k)``, refined on the samples of both shapes, without knowing the truth.
 
     ``points``: the source sample of each target sample ``(q_t,)`` by ``C``, where they are known.
     """
     C = to_numpy(C)
     k_t, k_s = C.shape
-    known_s, known_t = source.known, target.known
-    found = _images(C, source, target, points)
+    pairs = _matched(C, source, target, points)
     values_s, values_t = (to_numpy(p.samples.basis.eigenvalues)[:k] for p, k in ((source, k_s), (target, k_t)))
-    distortion, stretch = _distortion(found, source, target)
+    distortion, local_distortion = _distortion(pairs, source, target)
     commutator = C * values_s[None, :] - values_t[:, None] * C
-    back, forth, area_s, area_t = found.back, found.forth, known_s.areas, known_t.areas
-    squares_t = _squares(back, known_t.descriptors, known_s.descriptors, FLAT)
-    squares_s = _squares(forth, known_s.descriptors, known_t.descriptors, FLAT)
-    covered = [area[np.bincount(at, minlength=len(area)) > 0].sum() for area, at in ((area_s, back), (area_t, forth))]
+    sides = (target, source, pairs.back), (source, target, pairs.forth)
+    local = [_squares(at, one.descriptor_rows, other.descriptor_rows, FLAT) for one, other, at in sides]
+    heat = [_squares(at, one.heat_rows, other.heat_rows, SCORE.min_heat_variance) for one, other, at in sides]
+    covered = [other.areas[np.bincount(at, minlength=len(other.areas)) > 0].sum() for _, other, at in sides]
+    areas, ends = [one.areas for one, *_ in sides], [one.extremity_areas for one, *_ in sides]
     return Quality(
         orientation=_orientation(C, source, target),
         distortion=distortion,
-        local_distortion=stretch,
-        descriptors=0.5 * (_mean(squares_t, area_t) + _mean(squares_s, area_s)),
-        heat=0.5
-        * (
-            _mean(_squares(back, known_t.heat, known_s.heat, SCORE.min_heat_variance), area_t)
-            + _mean(_squares(forth, known_s.heat, known_t.heat, SCORE.min_heat_variance), area_s)
-        ),
+        local_distortion=local_distortion,
+        descriptors=_both_means(local, areas),
+        heat=_both_means(heat, areas),
         coverage=float(min(covered)),
         laplacian=_ratio((commutator**2).sum(), ((C * values_s[None, :]) ** 2).sum(), (values_s**2).sum(), 1.0),
-        extremity_descriptor_error=0.5 * (_mean(squares_t, known_t.ends) + _mean(squares_s, known_s.ends)),
+        extremity_descriptor_error=_both_means(local, ends),
     )
 
 
 def map_distortion(C: Array, source: ShapeSamples, target: ShapeSamples, points: np.ndarray | None = None) -> float:
-    """:attr:`Quality.distortion` alone; the parameters are those of :func:`map_quality`."""
-    return _distortion(_images(to_numpy(C), source, target, points), source, target)[0]
+    """Return :attr:`Quality.distortion` alone; the parameters are those of :func:`map_quality`."""
+    return _distortion(_matched(to_numpy(C), source, target, points), source, target)[0]
 
 
 @dataclass(frozen=True, eq=False)
-class _Images:
+class _Matched:
     """The nearest sample on the other shape, of all samples and, among the first, of the first."""
 
     back: np.ndarray
@@ -240,24 +297,23 @@ class _Images:
     first_forth: np.ndarray
 
 
-def _images(C: np.ndarray, source: ShapeSamples, target: ShapeSamples, points: np.ndarray | None) -> _Images:
-    """Nearest neighbours in both directions, from one product in single precision."""
+def _matched(C: np.ndarray, source: ShapeSamples, target: ShapeSamples, points: np.ndarray | None) -> _Matched:
+    """Return nearest neighbours in both directions, from one product in single precision."""
     k_t, k_s = C.shape
-    carried = source.known.functions[:, :k_s] @ np.asarray(C.T, dtype=np.float32)
-    there = target.known.functions[:, :k_t]
-    half_s, half_t = (0.5 * np.einsum("ij,ij->i", x, x) for x in (carried, there))
-    score = carried @ there.T
+    images = source.functions[:, :k_s] @ np.asarray(C.T, dtype=np.float32)
+    embedding = target.functions[:, :k_t]
+    half_s, half_t = (0.5 * np.einsum("ij,ij->i", x, x) for x in (images, embedding))
+    score = images @ embedding.T
     c_s, c_t = len(source.distances), len(target.distances)
-    all_of_them = (c_s, c_t) == score.shape
-    first = None if all_of_them else score[:c_s, :c_t].copy()
+    first = None if (c_s, c_t) == score.shape else score[:c_s, :c_t].copy()
     back = (score.T - half_s).argmax(axis=1) if points is None else points
     score -= half_t
     forth = score.argmax(axis=1)
     if first is None:
-        return _Images(back, forth, back, forth)
+        return _Matched(back, forth, back, forth)
     first_back = (first.T - half_s[:c_s]).argmax(axis=1)
     first -= half_t[:c_t]
-    return _Images(back, forth, first_back, first.argmax(axis=1))
+    return _Matched(back, forth, first_back, first.argmax(axis=1))
 
 
 def _ratio(part: float, whole: float, scale: float, otherwise: float) -> float:
@@ -279,39 +335,36 @@ def _orientation(C: np.ndarray, source: ShapeSamples, target: ShapeSamples) -> f
     theirs = np.tensordot(C[:rows, 1:waves].T, target.orientation[:rows, :low, :low], axes=1)
     size = np.sqrt((ours**2).sum() * (theirs**2).sum())
     # Of a map that carries next to nothing but constants both are rounding, and so would their correlation be.
-    usual = np.linalg.norm(C) ** 3 * source.known.orientation * target.known.orientation
+    usual = np.linalg.norm(C) ** 3 * source.orientation_norm * target.orientation_norm
     return _ratio((ours * theirs).sum(), size, float(usual), 0.0)
 
 
-def _distortion(found: _Images, source: ShapeSamples, target: ShapeSamples) -> tuple[float, float]:
-    """Mean change of all distances and of the short ones, both divided by their mean."""
+def _distortion(pairs: _Matched, source: ShapeSamples, target: ShapeSamples) -> tuple[float, float]:
+    """Return the mean change of all distances and of the short ones, both divided by their mean."""
     near, far = [], 0.0
-    for here, there, at in ((target, source, found.first_back), (source, target, found.first_forth)):
-        change = there.distances[at[:, None], at]
-        change -= here.distances
+    for one, other, at in ((target, source, pairs.first_back), (source, target, pairs.first_forth)):
+        change = other.distances[at[:, None], at]
+        change -= one.distances
         np.abs(change, out=change)
         far += float(change.mean())
-        near.append(_near(change, here.known))
-    mean = source.known.mean + target.known.mean
+        near.append(one.short_distances.change(change))
+    mean = source.mean_distance + target.mean_distance
     return far / mean if mean > 0 else 0.0, float(np.mean(near))
 
 
-def _near(change: np.ndarray, of: Known) -> float:
-    """Mean of ``change`` where distances are short, over the mean of these."""
-    return float(change.ravel()[of.short].mean()) / of.short_mean if of.short_mean > 0 else 0.0
+def _squares(points: np.ndarray, one: Rows | None, other: Rows | None, flat: float) -> tuple[np.ndarray, float] | None:
+    """Return squared differences of descriptors of ``one`` from those of the ``points`` of the other.
 
-
-def _squares(points: np.ndarray, there: Rows | None, here: Rows | None, flat: float) -> tuple[np.ndarray, float] | None:
-    """Squared differences of the descriptors ``there`` from those ``here`` of the points that they are mapped to.
-
-    Beside them that of random points.
+    Beside them that of random points. ``flat``: variance below which descriptors are noise.
     """
-    if there is None or here is None:
+    if one is None or other is None:
         return None
-    both = np.einsum("ij,ij->i", there.values, here.values.take(points, axis=0))
-    return there.squares + here.squares[points] - 2.0 * both, max(there.spread + here.spread, 2 * flat)
+    both = np.einsum("ij,ij->i", one.values, other.values.take(points, axis=0))
+    squares = one.squares + other.squares[points] - 2.0 * both
+    return squares, max(one.variance + other.variance, 2 * flat)
 
 
-def _mean(squares: tuple[np.ndarray, float] | None, areas: np.ndarray | None) -> float:
-    """Of squared differences over that of random points, weighted with ``areas`` of sum 1; 0 where one is unknown."""
-    return 0.0 if squares is None or areas is None else float(squares[0] @ areas / squares[1])
+def _both_means(squares: list[tuple[np.ndarray, float] | None], areas: Sequence[np.ndarray | None]) -> float:
+    """Return the mean of both directions, weighted with ``areas`` of sum 1; an unknown one counts 0."""
+    known = [(s, a) for s, a in zip(squares, areas, strict=True) if s is not None and a is not None]
+    return 0.5 * sum(float(s[0] @ a / s[1]) for s, a in known)

@@ -16,7 +16,7 @@ import numpy as np
 
 from kfmaps._threads import parallel
 from kfmaps.geometry.coarsen import CoarseProxy
-from kfmaps.matching.candidates import distinct_maps, map_distance
+from kfmaps.matching.candidates import by_score, distinct_maps, map_distance
 from kfmaps.matching.quality import ShapeSamples
 from kfmaps.matching.sample_pair import SamplePair
 from kfmaps.matching.score import SCORE, Candidate
@@ -137,7 +137,7 @@ def merge_alternatives(
     new = ranking(others, on, copies, threads)[0]
     if new.score > ranked[0].score + SCORE.clear_margin:
         return [new, *ranked]
-    return [ranked[0], *sorted([*ranked[1:], new], key=lambda c: c.score, reverse=True)]
+    return [ranked[0], *by_score([*ranked[1:], new])]
 
 
 def rerank_close(order: list[Candidate], copies: ProxyCache, threads: int | None = None) -> list[Candidate]:
@@ -193,7 +193,7 @@ def in_order(found: list[Candidate]) -> list[Candidate]:
 
     A rival, which no descriptors speak for, comes first only when it is clearly better than every other candidate.
     """
-    order = sorted(found, key=lambda c: c.score, reverse=True)
+    order = by_score(found)
     best = next((c for c in order if c.uses_descriptors), None)
     if best is not None and best.score > order[0].score - SCORE.clear_margin:
         order.insert(0, order.pop(next(i for i, c in enumerate(order) if c is best)))

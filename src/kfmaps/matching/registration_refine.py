@@ -16,7 +16,7 @@ from kfmaps._arrays import NotConverged
 from kfmaps._progress import Done, Progress
 from kfmaps._threads import parallel
 from kfmaps.fmap.descriptor_guidance import DescriptorGuidance, descriptor_guidance
-from kfmaps.matching.candidates import FINE, TIP_FUNCTIONS, distinct_maps, paired_map, score_maps
+from kfmaps.matching.candidates import FINE, distinct_maps, score_maps
 from kfmaps.matching.extremity_matching import (
     ExtremityVertices,
     complete_match,
@@ -25,6 +25,7 @@ from kfmaps.matching.extremity_matching import (
     unused_matches,
     vertices_of_match,
 )
+from kfmaps.matching.initial_maps import EXTREMITY_FUNCTIONS, paired_map
 from kfmaps.matching.landmark_evidence import LESS, build_guidance
 from kfmaps.matching.quality import ShapeSamples
 from kfmaps.matching.ranking import BENT, ProxyCache, in_order, normalize_errors, reference_values, score_registered
@@ -165,7 +166,7 @@ def _begin(near: list[Candidate], on: SamplePair) -> list[tuple[Candidate, Extre
     known = [one and complete_match(one, likely) for one in found]
     begun = [(c, one and vertices_of_match(one, on.source, on.target)) for c, one in zip(near, known, strict=True)]
     for one in unused_matches(likely, [match for match in known if match], PAIRED):
-        C = paired_map(one, on, min(TIP_FUNCTIONS, len(near[0].functional_map)))
+        C = paired_map(one, on, min(EXTREMITY_FUNCTIONS, len(near[0].functional_map)))
         candidate = score_maps([(f"{one}", True)], C[None], None, on, 1)[0]
         begun.append((candidate, vertices_of_match(one, on.source, on.target)))
     return begun

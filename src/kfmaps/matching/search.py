@@ -23,7 +23,7 @@ from kfmaps.fmap.convert import to_points
 from kfmaps.fmap.refine import CANDIDATES_PER_CALL, PAIRS, Refinement, ZoomOut
 from kfmaps.geometry.basis import Basis
 from kfmaps.geometry.sampling import SampledBasis, stratified_vertices
-from kfmaps.matching.candidates import candidates, distinct_maps, map_distance, rerefine, score_maps
+from kfmaps.matching.candidates import by_score, candidates, distinct_maps, map_distance, rerefine, rescore
 from kfmaps.matching.extremity_matching import ExtremityVertices, extremity_vertices
 from kfmaps.matching.fit import Fit, check_landmark_pairs
 from kfmaps.matching.landmark_evidence import LandmarkEvidence, landmark_errors
@@ -358,8 +358,7 @@ def without_landmarks(
     """What is found without landmarks, judged with them: whoever gives some loses none of these maps."""
     bare = TwoLevelSamples(*(replace(ground, landmarks=None, marks=None) for ground in (on.few, on.whole)))
     found = candidates(source, target, config, bare, seed, **more)
-    maps, points = np.stack([c.functional_map for c in found]), np.stack([c.points for c in found])
-    return score_maps([(c.name, c.uses_descriptors) for c in found], maps, points, on.whole, config.threads)
+    return rescore(found, on.whole, config.threads)
 
 
 def alternative_maps(
@@ -419,11 +418,8 @@ def reversed_best(found: list[Candidate], turned: SamplePair, threads: int | Non
 
     Rivals are among ``found``, refined without a look at descriptors: those of an isometry that reverses orientation.
     """
-    names = [(c.name, True) for c in found]
-    maps, points = np.stack([c.functional_map for c in found]), np.stack([c.points for c in found])
-    images = sorted(score_maps(names, maps, points, turned, threads), key=lambda c: c.score, reverse=True)
-    images = rerefine(images[:SETTLED], turned, threads) + images[SETTLED:]
-    return sorted(images, key=lambda c: c.score, reverse=True)
+    images = by_score(rescore([replace(c, uses_descriptors=True) for c in found], turned, threads))
+    return by_score(rerefine(images[:SETTLED], turned, threads) + images[SETTLED:])
 
 
 def deforms_unduly(found: Candidate) -> bool:

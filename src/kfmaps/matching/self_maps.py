@@ -82,6 +82,6 @@ def symmetries(of: ShapeSamples, functions: int, threads: int | None = None) -> 
 
 def _changed(maps: np.ndarray, of: ShapeSamples) -> np.ndarray:
     """Mean change (m,) of the distances between the first points by each of the self-maps ``maps (m, k, k)``."""
-    first = of.known.functions[: len(of.distances)]
+    first = of.functions[: len(of.distances)]
     images = nearest_samples(np.asarray(maps, dtype=np.float32), first, first, None)
     return np.array([np.abs(of.distances[at[:, None], at] - of.distances).mean() for at in images])

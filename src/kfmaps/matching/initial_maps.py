@@ -1,0 +1,280 @@
+"""Initial maps of a search: sign choices, extremity matches, small kernel fits, near-symmetries and perturbations.
+
+Diagonal functional maps with every choice of signs of the low functions contain all symmetries of near-isometric bodies
+(MapTree, Ren et al. 2020). Kernel fits of samples start where the functions of two shapes differ by more than signs.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+from itertools import product
+from typing import Any
+
+import numpy as np
+from scipy.linalg import expm
+
+from kfmaps._arrays import inner, to_numpy
+from kfmaps._threads import parallel
+from kfmaps.config import Config, DescriptorConfig
+from kfmaps.fmap.multiplication_operators import unpack_operators
+from kfmaps.fmap.solvers import CG
+from kfmaps.geometry.basis import Basis
+from kfmaps.matching.assemble import (
+    ORIENTATION_FEATURES,
+    FitProblem,
+    compressed_operators,
+    principal_features,
+    scale_operators,
+)
+from kfmaps.matching.extremity_matching import ExtremityMatch, extremity_cost, match_extremities
+from kfmaps.matching.features import Descriptors, SampledPair, kernel_features, pair_descriptors, sample_pair_for_fit
+from kfmaps.matching.robust_weights import robust_weights
+from kfmaps.matching.sample_pair import SamplePair
+from kfmaps.matching.score import Candidate
+from kfmaps.matching.self_maps import self_maps
+from kfmaps.matching.solve import minimize_problem
+from kfmaps.shape import Shape
+
+Weights = tuple[float, ...]
+"""Of SHOT, of landmarks and of extremities."""
+WEIGHTS: tuple[Weights, ...] = ((0.0, 0.0), (12.0, 12.0), (4.0, 12.0))
+"""In the rough refinement of sign choices: none, so that symmetric maps are found too, much, and some."""
+FIT_WEIGHTS: tuple[Weights, ...] = ((4.0, 12.0), (12.0, 12.0))
+EXTREMITY_WEIGHTS: tuple[Weights, ...] = ((4.0, 12.0, 30.0),)
+EXTREMITY_FUNCTIONS = 12
+"""Functions of the map that an extremity match starts from."""
+STARTS = (6, 10, 20)
+"""Functions that the rough refinement of a fit starts from. From few it repairs maps that are wrong in part, also of
+shapes that are far from isometric; from many it keeps what is right."""
+MIN_FREQUENCY = 0.03
+"""Frequency, the root of an eigenvalue at unit area, below which there is no wave: a sphere's first is 5."""
+
+LEARNED = "learned"
+"""Descriptor set of fits with a learned kernel, see :mod:`kfmaps.matching.learned_kernel`."""
+FIT_POINTS = 2000
+"""Samples of each shape that a fit is made from."""
+SIZES = (20, 50, 20, 35, 50, 35)
+"""Functions of the fits of a descriptor set, in the order of how often each was right."""
+ORIENTATION = (0.1, 0.1, 1.0, 0.1, 1.0, 1.0)
+"""Their weights of orientation."""
+COMPRESSION = 1e-3
+NYSTROM = 200
+SOLVER = CG(rtol=1e-4, max_steps=200)
+
+
+@dataclass(frozen=True, eq=False)
+class Start:
+    """A rough map before its refinement: where it came from, and what takes part."""
+
+    name: str
+    functional_map: np.ndarray
+    functions: int
+    weights: Weights
+    uses_descriptors: bool
+    match: ExtremityMatch | None = None
+
+
+@dataclass(frozen=True)
+class FitSpec:
+    """Settings of one small fit."""
+
+    descriptor_set: str
+    functions: int
+    orientation: float
+
+    @property
+    def name(self) -> str:
+        return f"{self.descriptor_set}, {self.functions} functions, orientation {self.orientation:g}"
+
+
+def distinct_weights(weights: Iterable[Weights], pair: SamplePair) -> list[Weights]:
+    """Return the ``weights`` that differ where SHOT or landmarks may be unknown."""
+    known = (pair.shot is not None, pair.landmarks is not None, True)
+    return list(dict.fromkeys(tuple(w if k else 0.0 for w, k in zip(each, known, strict=False)) for each in weights))
+
+
+def sign_inits(count: int, pair: SamplePair, weights: Iterable[Weights] = WEIGHTS) -> list[Start]:
+    """Return diagonal maps with all signs of ``count`` functions after the constant one, with all ``weights``."""
+    if count == 0:
+        return []
+    signs = [np.array([1.0, *some]) for some in product((1, -1), repeat=count)]
+
+    def name(some: np.ndarray, weight: float) -> str:
+        return "signs " + "".join("+" if s > 0 else "-" for s in some[1:]) + f", weight {weight:g}"
+
+    return [
+        Start(name(some, w[0]), np.diag(some), count + 1, w, bool(w[0]) or pair.shot is None)
+        for w in distinct_weights(weights, pair)
+        for some in signs
+    ]
+
+
+def repeated_starts(
+    maps: Iterable[tuple[str, np.ndarray]], weights: Iterable[Weights], pair: SamplePair
+) -> list[Start]:
+    """Return starts of named ``maps`` from several sizes and with several ``weights``."""
+    return [
+        Start(f"{name}, from {start}, weight {w[0]:g}", C, start, w, True)
+        for name, C in maps
+        for start in STARTS
+        for w in distinct_weights(weights, pair)
+    ]
+
+
+def extremity_inits(functions: int, pair: SamplePair) -> list[Start]:
+    """Return maps that follow from matches of extremities (:mod:`kfmaps.matching.extremity_matching`)."""
+    size = min(EXTREMITY_FUNCTIONS, functions)
+    maps = [(match, paired_map(match, pair, size)) for match in match_extremities(pair.source, pair.target, pair.shot)]
+    return [
+        Start(f"{match}", C, len(C), w, True, match)
+        for w in distinct_weights(EXTREMITY_WEIGHTS, pair)
+        for match, C in maps
+    ]
+
+
+def paired_map(match: ExtremityMatch, pair: SamplePair, k: int) -> np.ndarray:
+    """Return the functional map (k, k) of the points that are alike by a match of extremities."""
+    points = extremity_cost(pair.source.extremities, pair.target.extremities, match, pair.shot).argmin(axis=1)
+    return np.asarray(pair.solver(k) @ pair.source.samples.basis.functions[points, :k], float)
+
+
+def symmetry_inits(best: list[Candidate], pair: SamplePair, functions: int, threads: int | None = None) -> list[Start]:
+    """Return the ``best`` candidates composed with near-symmetries of both shapes.
+
+    Whatever else a search has missed, the best map is compared with these, so that it is not sure for want of a rival.
+    """
+    own, theirs = (self_maps(side, functions, threads) for side in (pair.source, pair.target))
+    composed = []
+    for i, candidate in enumerate(best):
+        C = candidate.functional_map
+        for S, after in [*((S, False) for S in own), *((S, True) for S in theirs)]:
+            k = min(len(C), len(S))
+            composed.append((f"turned {i}", S[:k, :k] @ C[:k, :k] if after else C[:k, :k] @ S[:k, :k]))
+    return repeated_starts(composed, FIT_WEIGHTS, pair)
+
+
+def perturb(C: np.ndarray, eigenvalues: np.ndarray, rng: np.random.Generator) -> np.ndarray:
+    """Return ``C`` after a random rotation of the source's low functions that mixes mostly those of like frequency.
+
+    Of a shape with a continuous symmetry, whose eigenvalues come in pairs, that is about a random symmetry; of any
+    other it is a bad start, from which the refinement returns to the same map or strays to a worse one.
+    """
+    k = min(20, *C.shape)
+    values = np.sqrt(np.maximum(eigenvalues[:k], 0.0))
+    # Constants of many components have eigenvalues of rounding size: all are alike.
+    width = 0.02 * max(float(values[-1]), MIN_FREQUENCY)
+    alike = np.exp(-(((values[:, None] - values[None, :]) / width) ** 2))
+    generator = rng.normal(size=(k, k)) * alike * np.pi
+    rotation = expm((generator - generator.T) / 2)
+    # A simple eigenvalue leaves no rotation, only the choice of sign, which may flip too.
+    signs = np.where(rng.random(k) < 0.25, -1.0, 1.0)
+    signs[0] = 1.0
+    return C[:k, :k] @ (rotation * signs[None, :])
+
+
+def kernel_inits(
+    source: Shape,
+    target: Shape,
+    config: Config,
+    pair: SamplePair,
+    operators: tuple[np.ndarray | None, np.ndarray | None],
+    landmarks: np.ndarray,
+    descriptors: tuple[Any, Any] | None,
+    seed: int,
+    sampling_seed: int,
+) -> list[Start]:
+    """Return small kernel fits, each to be refined from several sizes and with several weights of the descriptors."""
+    fits = plan_fits(config, bool(len(source.mesh.faces) and len(target.mesh.faces)))
+    points = sample_pair_for_fit(source, target, FIT_POINTS, landmarks, descriptors, sampling_seed)
+
+    def starts(name: str) -> list[Start]:
+        members = [fit for fit in fits if fit.descriptor_set == name]
+        maps = fit_descriptor_set(members, points, config, operators, seed)
+        named = [(fit.name, C) for fit, C in zip(members, maps, strict=True)]
+        return repeated_starts(named, FIT_WEIGHTS, pair)
+
+    names = list(dict.fromkeys(fit.descriptor_set for fit in fits))
+    return [start for several in parallel(starts, names, config.threads) for start in several]
+
+
+def plan_fits(config: Config, surfaces: bool = True) -> list[FitSpec]:
+    """Return the fits of a search: small, quick, and different from each other.
+
+    Point clouds (not ``surfaces``) have neither SHOT nor orientation.
+    """
+    assert config.search is not None
+    sizes = [min(k, config.basis.functions) for k in SIZES]
+    names = ("SHOT", "SHOT and waves") if config.descriptors.shot and surfaces else ("waves",)
+    weights = ORIENTATION if surfaces else (0.0,) * 3
+    found = [FitSpec(name, k, weight) for k, weight in zip(sizes, weights, strict=False) for name in names]
+    return found[: config.search.candidates]
+
+
+def fit_descriptor_set(
+    fits: list[FitSpec],
+    points: SampledPair,
+    config: Config,
+    operators: tuple[np.ndarray | None, np.ndarray | None],
+    seed: int,
+) -> list[np.ndarray]:
+    """Return the functional maps of ``fits`` that share a descriptor set.
+
+    Descriptors, features and operators are computed once, for the largest size; a smaller fit takes leading blocks.
+    ``operators``: orientation operators ``(w, k, k)`` of the first functions of both shapes, k at least that size.
+    """
+    bases = points.shapes[0].basis, points.shapes[1].basis
+    asked = _descriptor_config(fits[0].descriptor_set, config.descriptors)
+    marks = points.landmarks if asked.landmark_map != "none" else points.landmarks[:0]
+    used = _weighed(pair_descriptors(*points.shapes, bases, asked, marks, points.descriptors), bases, config)
+    size = min(max(f.functions for f in fits), *(b.functions.shape[1] for b in bases))
+    low = (bases[0].truncate(size), bases[1].truncate(size))
+    # Both directions at once are for the answer; a candidate is refined one way.
+    small = replace(
+        config,
+        nystrom=replace(config.nystrom, samples=min(NYSTROM, config.nystrom.samples)),
+        exact=False,
+        solver=SOLVER,
+        preconditioner="sylvester",
+        formulation=replace(config.formulation, directions="one"),
+    )
+    features = kernel_features(*points.shapes, used, small, np.random.default_rng(seed))
+    packed = compressed_operators(low, features, max(config.compression, COMPRESSION), threads=1)
+    operators_of_features = [unpack_operators(p) for p in packed]
+    turning: list[np.ndarray] = []
+    known = [cube for cube in operators if cube is not None]
+    if len(known) == 2:
+        strongest = principal_features(low, features, ORIENTATION_FEATURES)
+        for basis, F, cube in zip(low, (strongest.source, strongest.target), known, strict=True):
+            coefficients = basis.project(F)[: len(cube)]
+            turning.append(np.tensordot(coefficients.T, cube[: len(coefficients)], axes=1))
+    maps = []
+    for fit in fits:
+        k = min(fit.functions, size)
+        blocks = (operators_of_features[0][:, :k, :k], operators_of_features[1][:, :k, :k])
+        orientations = None
+        if fit.orientation and turning:
+            orientations = scale_operators([X[:, :k, :k] for X in turning], sum(inner(X, X) for X in blocks))
+        settings = replace(small, weights=replace(config.weights, orientation=fit.orientation))
+        bases_k = (low[0].truncate(k), low[1].truncate(k))
+        problem = FitProblem(settings, bases_k, features.kernel, used, features, blocks, orientations)
+        maps.append(to_numpy(minimize_problem(problem, settings).solution.value))
+    return maps
+
+
+def _descriptor_config(name: str, base: DescriptorConfig) -> DescriptorConfig:
+    """Return the descriptors of a set."""
+    if name == LEARNED:
+        return replace(base, landmark_map="none")
+    both = replace(base, count=30)
+    if name == "SHOT":
+        return replace(both, signature="none", landmark_map="none")
+    return both if name == "SHOT and waves" else replace(both, shot=False)
+
+
+def _weighed(used: Descriptors, bases: tuple[Basis, Basis], config: Config) -> Descriptors:
+    """Return ``used``, weighed by a robust loss where the formulation has one and there is what it is taken over."""
+    asked = config.formulation
+    if not asked.weighs_data or (asked.loss_per == "landmark" and not (used.landmark >= 0).any()):
+        return used
+    return robust_weights(used, bases, config).descriptors
