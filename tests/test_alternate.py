@@ -435,7 +435,8 @@ def test_a_match_finishes_all_ways_unless_it_is_hardly_torn(creatures, monkeypat
     monkeypatch.setattr(matching, "better_match", lambda a, b: replace(b, seconds=a.seconds))
     config = replace(kfmaps.Config(), finish=None)
     for share, ends in ((0.5, "other"), (SCORE.max_torn_area, "one"), (None, "one")):
-        monkeypatch.setattr(matching, "torn_area_fraction", lambda _match, share=share: share)
+        for module in (matching, finish):
+            monkeypatch.setattr(module, "torn_area_fraction", lambda _match, share=share: share)
         found = kfmaps.match(source, target, config)
         assert found.score.initialization == ends
         assert [f"another way, {i}" in found.seconds for i in (1, 2)] == 2 * [ends == "other"]
