@@ -75,7 +75,7 @@ def measure(options: argparse.Namespace) -> list[dict[str, Any]]:
         refinement=None,
         nystrom=replace(Config.single_fit().nystrom, samples=options.rank),
     )
-    config = replace(config, basis=replace(config.basis, functions=k))
+    config = replace(config, basis=replace(config.basis, n_eigenfunctions=k))
     source, target = (prepare(mesh, config) for mesh in (pair.source, pair.target))
     bases = (source.basis.to(device), target.basis.to(device))
     used = pair_descriptors(source, target, bases, config.descriptors, pair.landmarks, None)

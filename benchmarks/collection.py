@@ -50,14 +50,14 @@ from kfmaps.geometry.sampling import stratified
 from kfmaps.io import load_map, save_map, write_mesh, write_vertex_numbers
 
 FULL = Config()
-QUICK = replace(FULL, search=Search(candidates=2, signs=3), finish=None)
+QUICK = replace(FULL, search=Search(candidates=2, n_sign_functions=3), registration=None)
 """A smaller search: what is measured is the collection, not the search."""
 PLAIN = replace(
     Config.single_fit(),
-    basis=BasisConfig(functions=40),
-    descriptors=DescriptorConfig(count=40, eigenfunctions=100, shot=True),
-    refinement=ZoomOut(start=40, stop=100, step=20, guidance=36.0),
-    finish=None,
+    basis=BasisConfig(n_eigenfunctions=40),
+    descriptors=DescriptorConfig(n_spectral=40, n_eigenfunctions=100, shot=True),
+    refinement=ZoomOut(start=40, stop=100, step=20, descriptor_weight=36.0),
+    registration=None,
 )
 """One fit and no search: what is measured is what a collection costs whatever its pairs cost."""
 EVERY = 200

@@ -78,9 +78,9 @@ def pyfm_model(pair: Pair, spectrum: tuple[Shape, Shape] | None = None) -> Any:
 def descriptors(pair: Pair, maps: bool) -> DescriptorConfig:
     """100 in all, or (``maps``) 100 and 100 for each landmark, as pyFM makes them."""
     if not maps:
-        return DescriptorConfig(shot=False, eigenfunctions=200)
+        return DescriptorConfig(shot=False, n_eigenfunctions=200)
     count = 100 * (1 + len(pair.landmarks))
-    return replace(DescriptorConfig(shot=False, eigenfunctions=200), count=count, signature_share=100.5 / count)
+    return replace(DescriptorConfig(shot=False, n_eigenfunctions=200), n_spectral=count, signature_share=100.5 / count)
 
 
 def fits(pair: Pair, shapes: tuple[Shape, Shape], threads: int, maps: bool) -> dict[str, Callable[[], np.ndarray]]:

@@ -46,7 +46,7 @@ LEARNED_ON = tuple(f"tr_reg_{i:03d}" for i in range(40))
 FAUST_LINES = np.array([201, 1121, 2041, 2961, 3881, 4801]) - 1
 JUDGED = 300
 """True correspondences of a pair at which errors are measured."""
-PLAIN = replace(kfmaps.Config.single_fit(), finish=None, threads=1)
+PLAIN = replace(kfmaps.Config.single_fit(), registration=None, threads=1)
 SEARCH = replace(kfmaps.Config(), threads=1)
 
 
@@ -169,8 +169,8 @@ def searched(config: kfmaps.Config) -> Callable[[Task], dict]:
 
 def settings_of(text: str) -> kfmaps.Config:
     if text.isdecimal():
-        return replace(PLAIN, refinement=None, descriptors=kfmaps.DescriptorConfig(count=int(text)))
-    return replace(read_settings(text, PLAIN), refinement=None, finish=None, search=None, threads=1)
+        return replace(PLAIN, refinement=None, descriptors=kfmaps.DescriptorConfig(n_spectral=int(text)))
+    return replace(read_settings(text, PLAIN), refinement=None, registration=None, search=None, threads=1)
 
 
 def run(data: Data, methods: dict[str, Callable[[Task], dict]], count: int, keep: Path | None) -> dict[str, dict]:
@@ -227,8 +227,8 @@ def epoch(data: Data) -> None:
 
     config = replace(
         PLAIN,
-        basis=kfmaps.BasisConfig(functions=50),
-        descriptors=kfmaps.DescriptorConfig(count=10, shot=False, eigenfunctions=200),
+        basis=kfmaps.BasisConfig(n_eigenfunctions=50),
+        descriptors=kfmaps.DescriptorConfig(n_spectral=10, shot=False, n_eigenfunctions=200),
     )
     names = [name for name in LEARNED_ON if data.cache is None or (data.cache / f"FAUST_r-{name}.npz").exists()][:12]
     pool = list(permutations(names, 2))
@@ -253,7 +253,7 @@ def epoch(data: Data) -> None:
 
 STARTS = {
     "as kfmaps learn": {},
-    "heat maps of landmarks": {"descriptors.landmark_map": "heat"},
+    "heat maps of landmarks": {"descriptors.landmark_descriptor": "heat"},
     "mask power 0.25": {"formulation.mask_power": 0.25},
     "mask power 1": {"formulation.mask_power": 1.0},
     "sharpness 2": {"sharpness": 2.0},
@@ -286,8 +286,8 @@ def starts(data: Data, names: list[str]) -> None:
             PLAIN,
             refinement=None,
             fit_samples=2500,
-            sharpness=5.0,
-            descriptors=kfmaps.DescriptorConfig(shot=True, eigenfunctions=200),
+            bandwidth_scale=5.0,
+            descriptors=kfmaps.DescriptorConfig(shot=True, n_eigenfunctions=200),
             weights=kfmaps.Weights(1000.0, 1.0, 300.0),
             formulation=kfmaps.Formulation(mask="resolvent"),
         )

@@ -428,7 +428,7 @@ MUTANTS = tuple(
             "zoom)",
             f"{MATCH} -k most_that",
         ),
-        ("solver=CG(rtol=1e-12, max_steps=10)", "solver=CG(rtol=1e-12, max_steps=11)", "test_pipeline -k paper"),
+        ("solver=CG(rtol=1e-12, max_iter=10)", "solver=CG(rtol=1e-12, max_iter=11)", "test_pipeline -k paper"),
         (
             "weights=Weights(descriptors=0.1, commutativity=0.0,",
             "weights=Weights(descriptors=0.1, commutativity=1.0,",

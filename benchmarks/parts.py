@@ -171,7 +171,7 @@ def run_both(job: Job) -> dict[str, object] | None:
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", kfmaps.KfmapsWarning)
         found = kfmaps.match(
-            parts[0], parts[1], replace(config, threads=1, partial=replace(config.partial, which="both"))
+            parts[0], parts[1], replace(config, threads=1, partial=replace(config.partial, part="both"))
         )
     seconds = time.process_time() - begun
     rows = np.flatnonzero(true & (found.target_to_source >= 0))

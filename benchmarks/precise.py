@@ -131,7 +131,7 @@ def jobs(data: Path | None, kind: str, count: int):
 
 def row(name, source, target, truth, where, marks) -> dict:
     config = replace(kfmaps.Config(), threads=1)
-    found = kfmaps.match(source, target, replace(config, finish=None), landmarks=marks)
+    found = kfmaps.match(source, target, replace(config, registration=None), landmarks=marks)
     assert found._reindexing is not None
     across, clock = found._reindexing, StageTimer()
     start = time.process_time()

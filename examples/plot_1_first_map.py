@@ -29,8 +29,8 @@ print(landmarks)
 
 config = replace(
     kfmaps.Config.single_fit(),
-    basis=kfmaps.BasisConfig(functions=60),
-    descriptors=kfmaps.DescriptorConfig(eigenfunctions=100, shot=False),
+    basis=kfmaps.BasisConfig(n_eigenfunctions=60),
+    descriptors=kfmaps.DescriptorConfig(n_eigenfunctions=100, shot=False),
     nystrom=kfmaps.NystromConfig(samples=200),
     refinement=kfmaps.ZoomOut(start=30, stop=100, step=5),
 )

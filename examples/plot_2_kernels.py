@@ -20,8 +20,8 @@ landmarks = [(int(pair.truth[v]), int(v)) for v in marked]
 
 base = replace(
     kfmaps.Config.single_fit(),
-    basis=kfmaps.BasisConfig(functions=60),
-    descriptors=kfmaps.DescriptorConfig(count=10, eigenfunctions=100, shot=False),
+    basis=kfmaps.BasisConfig(n_eigenfunctions=60),
+    descriptors=kfmaps.DescriptorConfig(n_spectral=10, n_eigenfunctions=100, shot=False),
     nystrom=kfmaps.NystromConfig(samples=200),
     refinement=None,
 )

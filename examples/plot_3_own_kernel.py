@@ -22,8 +22,8 @@ marked = farthest_descriptors(pair.target.vertices, 4)
 landmarks = [(int(pair.truth[v]), int(v)) for v in marked]
 base = replace(
     kfmaps.Config.single_fit(),
-    basis=kfmaps.BasisConfig(functions=50),
-    descriptors=kfmaps.DescriptorConfig(count=20, eigenfunctions=80, shot=False),
+    basis=kfmaps.BasisConfig(n_eigenfunctions=50),
+    descriptors=kfmaps.DescriptorConfig(n_spectral=20, n_eigenfunctions=80, shot=False),
     nystrom=kfmaps.NystromConfig(samples=150),
     refinement=None,
 )

@@ -40,8 +40,8 @@ print("shapes:", D_s.shape, D_t.shape)
 
 alone = replace(
     kfmaps.Config.single_fit(),
-    basis=kfmaps.BasisConfig(functions=50),
-    descriptors=kfmaps.DescriptorConfig(signature="none", landmark_map="none", eigenfunctions=80, shot=False),
+    basis=kfmaps.BasisConfig(n_eigenfunctions=50),
+    descriptors=kfmaps.DescriptorConfig(signature="none", landmark_descriptor="none", n_eigenfunctions=80, shot=False),
     nystrom=kfmaps.NystromConfig(samples=200),
     refinement=kfmaps.ZoomOut(start=30, stop=100, step=5),
 )
@@ -53,7 +53,7 @@ figure = match_figure(pair.source, pair.target, result.target_to_source, errors=
 # %%
 # Used beside the wave kernel signature.
 
-both = replace(alone, descriptors=kfmaps.DescriptorConfig(count=50, eigenfunctions=80, shot=False))
+both = replace(alone, descriptors=kfmaps.DescriptorConfig(n_spectral=50, n_eigenfunctions=80, shot=False))
 beside = kfmaps.match(source, target, both, descriptors=(D_s, D_t))
 errors_beside = kfmaps.geodesic_errors(pair.source, beside.target_to_source, pair.truth)
 

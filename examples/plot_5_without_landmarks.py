@@ -24,10 +24,10 @@ pair = kfmaps.datasets.symmetric_creature(vertices=2000)
 recommended = kfmaps.Config()
 config = replace(
     recommended,
-    basis=kfmaps.BasisConfig(functions=60),
-    descriptors=replace(recommended.descriptors, eigenfunctions=100),
+    basis=kfmaps.BasisConfig(n_eigenfunctions=60),
+    descriptors=replace(recommended.descriptors, n_eigenfunctions=100),
     search=kfmaps.Search(candidates=3),
-    refinement=kfmaps.ZoomOut(start=50, stop=100, step=5, guidance=36.0),
+    refinement=kfmaps.ZoomOut(start=50, stop=100, step=5, descriptor_weight=36.0),
 )
 result = kfmaps.match(pair.source, pair.target, config)
 

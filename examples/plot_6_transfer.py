@@ -20,8 +20,8 @@ marked = farthest_descriptors(pair.target.vertices, 6)
 landmarks = np.stack([pair.truth[marked], marked], axis=1)
 config = replace(
     kfmaps.Config.single_fit(),
-    basis=kfmaps.BasisConfig(functions=60),
-    descriptors=kfmaps.DescriptorConfig(eigenfunctions=100, shot=False),
+    basis=kfmaps.BasisConfig(n_eigenfunctions=60),
+    descriptors=kfmaps.DescriptorConfig(n_eigenfunctions=100, shot=False),
     nystrom=kfmaps.NystromConfig(samples=200),
     refinement=kfmaps.ZoomOut(start=30, stop=100, step=5),
 )

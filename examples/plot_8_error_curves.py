@@ -22,8 +22,8 @@ landmarks = [(int(pair.truth[v]), int(v)) for v in marked]
 def smaller(config):
     return replace(
         config,
-        basis=kfmaps.BasisConfig(functions=60),
-        descriptors=replace(config.descriptors, count=10, eigenfunctions=100),
+        basis=kfmaps.BasisConfig(n_eigenfunctions=60),
+        descriptors=replace(config.descriptors, n_spectral=10, n_eigenfunctions=100),
         nystrom=kfmaps.NystromConfig(samples=200),
         refinement=None,
     )

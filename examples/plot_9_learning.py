@@ -15,8 +15,8 @@ from kfmaps.kernels.landmark_selection import farthest_descriptors
 # Learning begins as this configuration, with ten descriptors and a map of 40 by 40.
 config = replace(
     kfmaps.Config.single_fit(),
-    basis=kfmaps.BasisConfig(functions=40),
-    descriptors=kfmaps.DescriptorConfig(count=10, eigenfunctions=60, shot=False),
+    basis=kfmaps.BasisConfig(n_eigenfunctions=40),
+    descriptors=kfmaps.DescriptorConfig(n_spectral=10, n_eigenfunctions=60, shot=False),
     nystrom=kfmaps.NystromConfig(samples=100),
     refinement=None,
 )

@@ -36,7 +36,7 @@ class FewRows:
 # The energy of a pair is made as :func:`kfmaps.match` does; the penalty joins it, with whatever else is asked.
 
 pair = kfmaps.datasets.two_poses(vertices=1500)
-config = replace(kfmaps.Config.single_fit(), basis=kfmaps.BasisConfig(functions=40), refinement=None)
+config = replace(kfmaps.Config.single_fit(), basis=kfmaps.BasisConfig(n_eigenfunctions=40), refinement=None)
 source, target = (kfmaps.prepare(mesh, config) for mesh in (pair.source, pair.target))
 marks = np.stack([pair.truth[::300], np.arange(len(pair.truth))[::300]], axis=1)
 points = fit_points(source, target, config, marks)

@@ -86,26 +86,26 @@ def timed_assembly(options: Options, config: Config) -> Assembled:
     """Return the energy of the generated pair."""
     data_set = DataSet("generated", vertices=options.timing_vertices)
     pair = ("poses-2-source", "poses-2-target")
-    source, target = (prepared(data_set, name, config.eigenfunctions) for name in pair)
+    source, target = (prepared(data_set, name, config.n_eigenfunctions) for name in pair)
     bases = (source.basis, target.basis)
     descriptors = pair_descriptors(source, target, bases, config.descriptors, data_set.landmarks(pair), None)
     # The same generator twice: both see the same samples.
     features = kernel_features(source, target, descriptors, config, np.random.default_rng(0))
     task = assemble(source, target, bases, descriptors, config, np.random.default_rng(0))
-    source_basis, target_basis = (basis.truncate(config.basis.functions) for basis in bases)
+    source_basis, target_basis = (basis.truncate(config.basis.n_eigenfunctions) for basis in bases)
     return Assembled(task.energy, (source_basis, target_basis), descriptors, features)
 
 
 def timings(options: Options, config: Config) -> list[dict[str, Any]]:
     """Return seconds of one application of the operator in each form, and the difference of its result to slices'."""
     exact = timed_assembly(options, config)
-    compressed = timed_assembly(options, replace(config, compression=recommended(100).compression))
+    compressed = timed_assembly(options, replace(config, operator_rtol=recommended(100).operator_rtol))
     rest = {n: w for n, w in exact.energy.weights.items() if n != "commutativity"}
     others = Energy({n: exact.energy.terms[n] for n in rest}, rest)
     slices, fewer = (cast(OperatorCommutativity, each.energy.terms["commutativity"]) for each in (exact, compressed))
     W_s, W_t = exact.features.source, exact.features.target
     source, target = exact.bases
-    size = config.basis.functions
+    size = config.basis.n_eigenfunctions
     one, C = np.eye(size), np.random.default_rng(0).standard_normal((size, size))
 
     def literal(C: np.ndarray) -> np.ndarray:

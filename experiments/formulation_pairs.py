@@ -39,10 +39,10 @@ Settings = Mapping[str, tuple[Formulation, Weights]]
 ZOOM = ZoomOut(30, 100, 10)
 CONFIG = replace(
     Config.single_fit(),
-    basis=BasisConfig(functions=50),
-    descriptors=DescriptorConfig(eigenfunctions=ZOOM.stop, shot=False),
+    basis=BasisConfig(n_eigenfunctions=50),
+    descriptors=DescriptorConfig(n_eigenfunctions=ZOOM.stop, shot=False),
     nystrom=NystromConfig(samples=200),
-    solver=CG(rtol=1e-4, max_steps=500),
+    solver=CG(rtol=1e-4, max_iter=500),
     fit_samples=1500,
     refinement=ZOOM,
     threads=1,
@@ -55,13 +55,13 @@ PLAIN = "least squares"
 FORMULATIONS: Settings = {
     PLAIN: (Formulation(), Weights()),
     "orthogonal": (Formulation(constraint="orthogonal"), Weights()),
-    "both directions": (Formulation(directions="both"), Weights()),
-    "robust, per descriptor": (Formulation(loss="huber", loss_per="descriptor"), Weights()),
-    "robust, per feature": (Formulation(loss="huber", loss_per="feature"), Weights()),
+    "both directions": (Formulation(bidirectional=True), Weights()),
+    "robust, per descriptor": (Formulation(loss="huber", loss_group="descriptor"), Weights()),
+    "robust, per feature": (Formulation(loss="huber", loss_group="feature"), Weights()),
     "sparse": (Formulation(sparsity=0.001), Weights()),
     "resolvent": (Formulation(mask="resolvent"), Weights()),
-    "coupled bases": (Formulation(bases="coupled"), Weights()),
-    "spatial": (Formulation(spatial=0.1), Weights()),
+    "coupled bases": (Formulation(coupled_bases=True), Weights()),
+    "spatial": (Formulation(transport_weight=0.1), Weights()),
     "orientation": (Formulation(), Weights(orientation=0.1)),
 }
 """What is compared; every other setting is that of :data:`CONFIG`."""
@@ -162,7 +162,7 @@ def compare_formulations(data_set: DataSet, names: Names, config: Config, formul
             for name, result in results.items():
                 C = to_numpy(result.solution.value)
                 refined = pair.refine(C) if result.back is None else pair.refine_both(C, to_numpy(result.back))[0]
-                row = {"formulation": name, "kernel": kernel, "descriptors": config.descriptors.count}
+                row = {"formulation": name, "kernel": kernel, "descriptors": config.descriptors.n_spectral}
                 rows.append(row | {"raw": pair.error(C), "refined": pair.error(refined)})
         return rows
 
@@ -185,7 +185,7 @@ def compare_directions(data_set: DataSet, names: Names, config: Config) -> Rows:
                 ("both at once", "refined"): there.refine_both(E, F),
             }
             for (name, stage), (forth, reverse) in maps.items():
-                row = {"maps": name, "stage": stage, "kernel": kernel, "descriptors": config.descriptors.count}
+                row = {"maps": name, "stage": stage, "kernel": kernel, "descriptors": config.descriptors.n_spectral}
                 rows.append(row | cycle(forth, reverse, there))
         return rows
 

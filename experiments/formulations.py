@@ -65,7 +65,7 @@ def measure(
         for pair in sorted(data_set.reported(count, options.seed, PEOPLE)):
             for n in counts:
                 config = formulation_pairs.CONFIG
-                config = replace(config, descriptors=replace(config.descriptors, count=n))
+                config = replace(config, descriptors=replace(config.descriptors, n_spectral=n))
                 jobs[data_set.name, " ".join(pair), n] = (data_set, pair, config, *arguments)
     rows: dict[str, Rows] = {}
     for (name, pair, _), values in options.map(function, jobs).items():

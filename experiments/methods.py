@@ -17,7 +17,7 @@ SEARCHED = {100: 0.1, 10: 0.3}
 
 def with_count(config: Config, count: int) -> Config:
     """Return the same settings with ``count`` spectral descriptors."""
-    return replace(config, descriptors=replace(config.descriptors, count=count))
+    return replace(config, descriptors=replace(config.descriptors, n_spectral=count))
 
 
 def paper(count: int) -> Config:
@@ -70,7 +70,7 @@ def converged(config: Config) -> Config:
 
     Slices lose 1e-4 of their squared norm: twice as fast, and errors of training pairs change by less than 1 %.
     """
-    return replace(config, solver=CG(rtol=1e-6, max_steps=1000), preconditioner="sylvester", compression=1e-4)
+    return replace(config, solver=CG(rtol=1e-6, max_iter=1000), preconditioner="sylvester", operator_rtol=1e-4)
 
 
 def recommended(count: int) -> Config:

@@ -108,7 +108,7 @@ def all_distances(data_set: DataSet, name: str) -> np.ndarray:
 
 def fit_pair(data_set: DataSet, pair: Pair, config: Config, landmarks: np.ndarray) -> tuple[Fit, PostprocessedMap]:
     """Fit a pair on one thread; return the fit and its point maps."""
-    source, target = (prepared(data_set, name, config.eigenfunctions, config.basis.laplacian) for name in pair)
+    source, target = (prepared(data_set, name, config.n_eigenfunctions, config.basis.laplacian) for name in pair)
     config = replace(config, threads=1)
     fitted = fit(source, target, config, landmarks=landmarks, rng=0)
     return fitted, refine_map(fitted.functional_map, source, target, config)
@@ -127,7 +127,7 @@ def prepared(data_set: DataSet, name: str, size: int, laplacian: Any = "robust")
     config = replace(
         base,
         basis=replace(base.basis, laplacian=laplacian),
-        descriptors=replace(base.descriptors, eigenfunctions=size),
+        descriptors=replace(base.descriptors, n_eigenfunctions=size),
         refinement=None,
         threads=1,
     )

@@ -56,8 +56,8 @@ def systems(data_set: DataSet, pair: Pair, count: int) -> list[dict[str, Any]]:
     """Return the rows of the table for ``count`` descriptors."""
     base = paper(count)
     # The framework's list gives exactly as many as wanted; evenly spread ones give each landmark one at least.
-    base = replace(base, descriptors=replace(base.descriptors, layout="every-nth"))
-    source, target = (prepared(data_set, name, base.eigenfunctions) for name in pair)
+    base = replace(base, descriptors=replace(base.descriptors, energy_sampling="every-nth"))
+    source, target = (prepared(data_set, name, base.n_eigenfunctions) for name in pair)
     bases = (source.basis, target.basis)
     used = pair_descriptors(source, target, bases, base.descriptors, data_set.landmarks(pair), None)
     large, small = ((bases[0].truncate(size), bases[1].truncate(size)) for size in (SIZE, WHOLE_SIZE))

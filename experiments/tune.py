@@ -1,6 +1,6 @@
 """Grid search over settings on training pairs (section 7.2 of the paper).
 
-    python experiments/tune.py --data DIR -o OUT --vary sharpness=0.1,0.3,1 --vary weights.laplacian=0.1,1,10
+    python experiments/tune.py --data DIR -o OUT --vary bandwidth_scale=0.1,0.3,1 --vary weights.laplacian=0.1,1,10
 
 Writes ``tune.csv``, the mean error of every combination, and ``tune.toml``, the best settings, which ``kfmaps match
 --config`` reads. ``kfmaps config`` prints the names of the settings. A run that was stopped continues from ``OUT``.
@@ -25,7 +25,7 @@ from kfmaps.io import read_text
 from kfmaps.settings.merge import preset, read_settings, with_assignments
 from kfmaps.settings.toml import settings_text
 
-DEFAULT = ("sharpness=0.1,0.3,1.0", "weights.laplacian=0.1,1.0,10.0")
+DEFAULT = ("bandwidth_scale=0.1,0.3,1.0", "weights.laplacian=0.1,1.0,10.0")
 
 
 def candidates(base: Config, axes: Sequence[str]) -> dict[str, Config]:

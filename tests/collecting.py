@@ -31,8 +31,8 @@ LANDMARKS = (1, 50, 120, 170)
 
 CONFIG = replace(
     Config.single_fit(),
-    basis=BasisConfig(functions=20),
-    descriptors=DescriptorConfig(count=20, eigenfunctions=40, shot=False),
+    basis=BasisConfig(n_eigenfunctions=20),
+    descriptors=DescriptorConfig(n_spectral=20, n_eigenfunctions=40, shot=False),
     nystrom=NystromConfig(samples=60),
     refinement=ZoomOut(start=10, stop=40, step=5),
 )

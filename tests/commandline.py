@@ -17,8 +17,9 @@ from kfmaps.cli.main import main
 from kfmaps.io import write_landmarks, write_mesh
 
 SMALL = (
-    *("--basis", "20", "--descriptors", "30", "--samples", "60", "--set", "descriptors.eigenfunctions=40"),
-    *("--zoom-start", "10", "--zoom-stop", "30", "--zoom-samples", "all"),
+    *("--set", "basis.n_eigenfunctions=20", "--set", "descriptors.n_spectral=30", "--set", "nystrom.samples=60"),
+    *("--set", "descriptors.n_eigenfunctions=40"),
+    *("--set", "refinement.start=10", "--set", "refinement.stop=30", "--set", "refinement.samples=all"),
 )
 """Settings that make a match of a few hundred vertices take a fraction of a second."""
 

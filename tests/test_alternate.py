@@ -433,7 +433,7 @@ def test_a_match_finishes_all_ways_unless_it_is_hardly_torn(creatures, monkeypat
     monkeypatch.setattr(matching, "retry", lambda found, i, least: asked.append(least) or found.retries[i])
     monkeypatch.setattr(matching, "search_map", lambda *_a, **_k: replace(other, initialization="one", retries=ways))
     monkeypatch.setattr(matching, "better_match", lambda a, b: replace(b, seconds=a.seconds))
-    config = replace(kfmaps.Config(), finish=None)
+    config = replace(kfmaps.Config(), registration=None)
     for share, ends in ((0.5, "other"), (SCORE.max_torn_area, "one"), (None, "one")):
         for module in (matching, finish):
             monkeypatch.setattr(module, "torn_area_fraction", lambda _match, share=share: share)

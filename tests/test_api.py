@@ -170,7 +170,7 @@ def test_the_inverse_is_finer_where_the_map_is() -> None:
     """Points inside triangles of the target: nearer to the truth than the vertices on which the target's land."""
     pair = kfmaps.datasets.two_poses(1500, rng=6)
     place = kfmaps.PointMap(pair.truth_faces, pair.truth_weights)
-    plain = kfmaps.match(pair.source, pair.target, replace(QUICK, finish=None))
+    plain = kfmaps.match(pair.source, pair.target, replace(QUICK, registration=None))
     coarse = replace(plain, target_to_source=pair.truth)
     fine = replace(coarse, precise_map=place)
     back = fine.precise_inverse()

@@ -35,11 +35,11 @@ GUARDS = (
 
 SMALL = replace(
     Config(),
-    basis=BasisConfig(functions=40),
-    descriptors=replace(Config().descriptors, eigenfunctions=90, shot_radius=0.15),
+    basis=BasisConfig(n_eigenfunctions=40),
+    descriptors=replace(Config().descriptors, n_eigenfunctions=90, shot_radius=0.15),
     nystrom=NystromConfig(samples=100),
     refinement=ZoomOut(50, 90, 10),
-    search=Search(candidates=2, signs=3),
+    search=Search(candidates=2, n_sign_functions=3),
     threads=2,
 )
 
@@ -196,7 +196,9 @@ def test_an_asymmetric_shape_is_matched_and_sure(shape, other):
 
 def test_a_mirrored_shape_is_found_when_asked_for(shape):
     image = prepare(reflected(blob(650, twist=0.4)), SMALL, name="image")
-    found = match(shape, image, replace(SMALL, search=Search(candidates=2, signs=3, orientation="reversed")))
+    found = match(
+        shape, image, replace(SMALL, search=Search(candidates=2, n_sign_functions=3, orientation="reversing"))
+    )
     moved = shape.mesh.vertices[found.target_to_source] * [1, 1, -1] - image.mesh.vertices
     # The two are centred on the mean of slightly different vertices.
     assert np.linalg.norm(moved - moved.mean(axis=0), axis=1).mean() < 0.04
@@ -269,7 +271,7 @@ def test_point_clouds_are_matched_without_orientation(shape):
     assert found.functional_map.ndim == 2
     assert found.verdict in ("sure", "likely", "ambiguous", "unlikely")
     with pytest.raises(InvalidInput, match="point cloud"):
-        match(shape, cloud, replace(SMALL, search=Search(orientation="reversed")))
+        match(shape, cloud, replace(SMALL, search=Search(orientation="reversing")))
 
 
 def test_candidates_can_be_traded_for_time():
@@ -336,7 +338,7 @@ def test_a_rival_needs_a_clear_margin(shape):
 
 
 def test_few_eigenfunctions_are_enough():
-    few = replace(SMALL, descriptors=replace(SMALL.descriptors, eigenfunctions=40), refinement=None)
+    few = replace(SMALL, descriptors=replace(SMALL.descriptors, n_eigenfunctions=40), refinement=None)
     a, b = (prepare(blob(n, twist), few) for n, twist in ((300, 0.0), (280, 0.4)))
     assert len(a.basis.eigenvalues) == 40
     assert match(a, b, few).functional_map.shape == (40, 40)

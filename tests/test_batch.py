@@ -70,7 +70,7 @@ def _arrays_of(record: Any, before: str = "") -> dict[str, Any]:
 
 
 def test_a_kept_probe_changes_no_bit(tmp_path: Path) -> None:
-    config = replace(CONFIG, search=Search(candidates=1, signs=2), threads=1)
+    config = replace(CONFIG, search=Search(candidates=1, n_sign_functions=2), threads=1)
     a, b = (prepare(bent(i, 300), config, name=str(i)) for i in (0, 1))
     entry = tmp_path / "a.npz"
     first = cached_samples(a, entry, 3)
@@ -106,14 +106,14 @@ def test_far_mirrored_points_are_sampled(folder: Path) -> None:
 def test_entries_depend_on_content_and_on_what_prepares(tmp_path: Path) -> None:
     a, b = touch(tmp_path / "a.off", "one"), touch(tmp_path / "b.off", "two")
     key = shape_key(file_digest(a), ".off", CONFIG)
-    larger = replace(CONFIG, refinement=None, descriptors=replace(CONFIG.descriptors, eigenfunctions=50))
+    larger = replace(CONFIG, refinement=None, descriptors=replace(CONFIG.descriptors, n_eigenfunctions=50))
     local = replace(CONFIG, descriptors=replace(CONFIG.descriptors, shot=True))
     cotangent = replace(CONFIG, basis=replace(CONFIG.basis, laplacian="cotangent"))
     for config in (larger, local, cotangent):
         assert shape_key(file_digest(a), ".off", config) != key
     assert shape_key(file_digest(b), ".off", CONFIG) != key
     assert shape_key(file_digest(a), ".obj", CONFIG) != key
-    assert shape_key(file_digest(a), ".off", replace(CONFIG, kernel=Linear(), sharpness=1.0)) == key
+    assert shape_key(file_digest(a), ".off", replace(CONFIG, kernel=Linear(), bandwidth_scale=1.0)) == key
 
 
 @pytest.fixture(scope="module")

@@ -17,8 +17,11 @@ from kfmaps.io import load_map, read_vertex_numbers, write_landmarks
 
 GUARDS = ("kfmaps.matching.memory",)
 
-SIZES = ("--basis", "20", "--descriptors", "20", "--set", "descriptors.eigenfunctions=40", "--samples", "60")
-ZOOM = ("--zoom-start", "10", "--zoom-stop", "40", "--zoom-step", "5")
+SIZES = (
+    *("--set", "basis.n_eigenfunctions=20", "--set", "descriptors.n_spectral=20"),
+    *("--set", "descriptors.n_eigenfunctions=40", "--set", "nystrom.samples=60"),
+)
+ZOOM = ("--set", "refinement.start=10", "--set", "refinement.stop=40", "--set", "refinement.step=5")
 MARKS = ("--landmarks", ",".join(map(str, LANDMARKS)))
 
 
@@ -139,7 +142,7 @@ def test_other_settings_are_refused(folder: Path, tmp_path: Path, capsys: pytest
         *MARKS,
     ]
     assert main([*words, "-q"]) == 0
-    assert main([*words, "--alpha", "2"]) == 2
+    assert main([*words, "--set", "weights.laplacian=2"]) == 2
     assert "config.weights.laplacian 1.0, now 2.0" in capsys.readouterr().err
 
 

@@ -112,14 +112,15 @@ def test_descriptors(case: str, made: types.SimpleNamespace) -> None:
     first, second, told = DESCRIPTORS[case]
     np.save(made.folder / "s.npy", first())
     np.save(made.folder / "t.npy", second())
-    words = ("--descriptors-source", made.folder / "s.npy", "--descriptors-target", made.folder / "t.npy")
+    words = ("--descriptors", made.folder / "s.npy", made.folder / "t.npy")
     assert told in complaint(made, *words)
 
 
-@pytest.mark.usefixtures("no_work")
-def test_descriptors_of_one_side(made: types.SimpleNamespace) -> None:
-    np.save(made.folder / "s.npy", np.ones((100, 2)))
-    assert complaint(made, "--descriptors-source", made.folder / "s.npy").startswith("--descriptors-target")
+def test_a_missing_file_is_told_before_an_existing_map(made: types.SimpleNamespace) -> None:
+    (made.folder / "m.npz").write_text("precious")
+    told = run("match", made.source, made.folder / "nope.ply", "-o", made.folder / "m.npz").error
+    assert "nope.ply: wanted a file, got nothing there" in told
+    assert "m.npz" not in told
 
 
 def test_kernel_that_overflows(made: types.SimpleNamespace) -> None:
@@ -132,8 +133,8 @@ def test_kernel_that_overflows(made: types.SimpleNamespace) -> None:
         "-q",
         "--kernel",
         "polynomial",
-        "--degree",
-        "4000",
+        "--set",
+        "kernel.degree=4000",
     )
     assert "Polynomial" in line
     assert "finite values" in line
@@ -141,7 +142,7 @@ def test_kernel_that_overflows(made: types.SimpleNamespace) -> None:
 
 @pytest.mark.usefixtures("no_work")
 def test_truth(made: types.SimpleNamespace) -> None:
-    assert "it is --truth SOURCE TARGET" in complaint(made, "--truth-source", made.truth_source)
+    assert "--truth" in complaint(made, "--truth-source", made.truth_source)
     short = made.folder / "short.vts"
     short.write_text("1\n2\n")
     assert "equal length" in complaint(made, "--truth", made.truth_source, short)
@@ -158,7 +159,7 @@ def test_device(device: str, made: types.SimpleNamespace) -> None:
 
 @pytest.mark.usefixtures("no_work")
 def test_settings(made: types.SimpleNamespace) -> None:
-    assert complaint(made, "--alpha", "-1").startswith("--alpha: ")
+    assert complaint(made, "--set", "weights.laplacian=-1").startswith("--set weights.laplacian: ")
     assert complaint(made, "--config", made.folder / "none.toml").startswith("--config ")
 
 

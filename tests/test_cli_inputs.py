@@ -35,7 +35,7 @@ def made(tmp_path: Path) -> types.SimpleNamespace:
     [
         (("match", "a.off", "b.off", "--landmarks", "pairs.txt", *SMALL, "-o"), "pairs.txt"),
         (("match", "a.off", "b.off", "--truth", "a.vts", "b.vts", *SMALL, "-o"), "b.vts"),
-        (("match", "a.off", "b.off", "--descriptors-source", "m.txt", *SMALL, "-o"), "m.txt"),
+        (("match", "a.off", "b.off", "--descriptors", "m.txt", "m.txt", *SMALL, "-o"), "m.txt"),
         (("transfer", "m.txt", "pairs.txt", "-o"), "m.txt"),
         (("transfer", "m.txt", "pairs.txt", "-o"), "pairs.txt"),
         (("export", "m.txt", "--source", "a.off", "--target", "b.off", "-o"), "m.txt"),
@@ -68,8 +68,8 @@ def test_what_is_read_is_not_replaced(
 @pytest.mark.parametrize(
     ("words", "told"),
     [
-        (("--descriptors", "1000000000"), "1,600 GB for 1,000,000,000 descriptors of 200 points"),
-        (("--set", "descriptors.count=1000000000"), "1,600 GB"),
+        (("--set", "descriptors.n_spectral=1000000000"), "1,600 GB for 1,000,000,000 descriptors of 200 points"),
+        (("--set", "descriptors.n_spectral=1000000000"), "1,600 GB"),
     ],
 )
 def test_numbers_out_of_proportion(made: types.SimpleNamespace, words: tuple[str, ...], told: str) -> None:
@@ -85,7 +85,7 @@ def test_demand(monkeypatch: pytest.MonkeyPatch) -> None:
         check_match_memory(config, 80_000, 80_000, 50)
     with pytest.raises(InvalidInput, match=r"got 80 GB for 500,000 descriptors of 20,000 points"):
         check_match_memory(
-            replace(Config.single_fit(), descriptors=DescriptorConfig(count=500_000, shot=False)),
+            replace(Config.single_fit(), descriptors=DescriptorConfig(n_spectral=500_000, shot=False)),
             80_000,
             80_000,
         )
@@ -100,8 +100,8 @@ def test_demand_of_a_match_from_python() -> None:
     sphere = kfmaps.datasets.sphere(100)
     config = replace(
         Config.single_fit(),
-        basis=kfmaps.BasisConfig(functions=5),
-        descriptors=DescriptorConfig(count=10**10, eigenfunctions=10, shot=False),
+        basis=kfmaps.BasisConfig(n_eigenfunctions=5),
+        descriptors=DescriptorConfig(n_spectral=10**10, n_eigenfunctions=10, shot=False),
         refinement=None,
     )
     with pytest.raises(InvalidInput, match="for 10,000,000,000 descriptors"):

@@ -28,7 +28,7 @@ from kfmaps.shape import prepare
 GUARDS = ("kfmaps.geometry.basis", "kfmaps.geometry.geodesics", "kfmaps.geometry.point_cloud")
 
 NO_FACES = np.zeros((0, 3), dtype=np.int64)
-SMALL = replace(Config.single_fit(), basis=BasisConfig(functions=30), refinement=ZoomOut(10, 40, 10))
+SMALL = replace(Config.single_fit(), basis=BasisConfig(n_eigenfunctions=30), refinement=ZoomOut(10, 40, 10))
 LINE = np.stack([np.linspace(0, 1, 300)] * 3, axis=1)
 
 

@@ -15,7 +15,7 @@ from kfmaps.shape import Shape, prepare
 GUARDS = ("kfmaps.collection",)
 
 N = 300
-LOCAL = replace(CONFIG, search=kfmaps.Search(candidates=1, signs=2), threads=1)
+LOCAL = replace(CONFIG, search=kfmaps.Search(candidates=1, n_sign_functions=2), threads=1)
 LOCAL = replace(LOCAL, descriptors=replace(LOCAL.descriptors, shot=True))
 
 

@@ -30,7 +30,7 @@ def test_mean_errors_with_six_landmarks(faust: Path) -> None:
     config = kfmaps.Config.single_fit()
     assert isinstance(config.refinement, kfmaps.ZoomOut)
     assert config.refinement.stop >= 150
-    ten = replace(config, refinement=None, descriptors=replace(config.descriptors, count=10))
+    ten = replace(config, refinement=None, descriptors=replace(config.descriptors, n_spectral=10))
     shapes: dict[str, kfmaps.Shape] = {}
     truths: dict[str, np.ndarray] = {}
     errors: dict[str, list[float]] = {"raw": [], "ten": [], "refined": []}

@@ -20,8 +20,8 @@ DEVICES = ["torch", *(["cuda"] if torch.cuda.is_available() else [])]
 
 CONFIG = replace(
     Config.single_fit(),
-    basis=BasisConfig(functions=30),
-    descriptors=DescriptorConfig(count=40, eigenfunctions=60, shot=False),
+    basis=BasisConfig(n_eigenfunctions=30),
+    descriptors=DescriptorConfig(n_spectral=40, n_eigenfunctions=60, shot=False),
     nystrom=NystromConfig(samples=80, rtol=1e-8),
     solver=CG(1e-10, 2000),
     refinement=ZoomOut(20, 60, 10, samples=200),
@@ -35,8 +35,8 @@ VARIANTS = {
     "no17": replace(CONFIG, kernel=Linear()),
     "orientation": replace(CONFIG, weights=Weights(orientation=0.3)),
     "orientation on samples": replace(CONFIG, weights=Weights(orientation=0.3), fit_samples=500),
-    "exact kernel": replace(CONFIG, exact=True, kernel=Laplacian(), preconditioner="sylvester"),
-    "shot, every-nth": replace(CONFIG, descriptors=replace(CONFIG.descriptors, shot=True, layout="every-nth")),
+    "exact kernel": replace(CONFIG, full_kernel=True, kernel=Laplacian(), preconditioner="sylvester"),
+    "shot, every-nth": replace(CONFIG, descriptors=replace(CONFIG.descriptors, shot=True, energy_sampling="every-nth")),
 }
 
 

@@ -10,7 +10,7 @@ import pytest
 
 import kfmaps
 from kfmaps.cli.main import COMMANDS
-from kfmaps.settings.catalogue import FLAGS
+from kfmaps.settings.options import OPTIONS
 
 ROOT = Path(__file__).parents[1]
 PAGES = sorted((ROOT / "docs").glob("*.md"))
@@ -84,7 +84,7 @@ def test_readme_names_every_command() -> None:
 
 
 def test_options_in_the_documents_exist() -> None:
-    known = set(FLAGS) | {"--preset", "--paper", "--config", "--set", "--seed"}
+    known = set(OPTIONS) | {"--preset", "--config", "--set", "--seed"}
     for flag in re.findall(r"(?<![\w-])--[a-z][a-z-]*", text("docs/settings.md")):
         assert flag in known, flag
 

@@ -47,8 +47,8 @@ def small(config: Config) -> Config:
     """The same settings at a size that takes a moment."""
     return replace(
         config,
-        basis=replace(config.basis, functions=20),
-        descriptors=replace(config.descriptors, eigenfunctions=40),
+        basis=replace(config.basis, n_eigenfunctions=20),
+        descriptors=replace(config.descriptors, n_eigenfunctions=40),
         nystrom=replace(config.nystrom, samples=30),
         refinement=None,
     )
@@ -366,7 +366,7 @@ def tiny(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Options:
     few = ("least squares", "both directions")
     chosen = {name: formulation_pairs.FORMULATIONS[name] for name in few}
     monkeypatch.setattr(formulation_pairs, "FORMULATIONS", chosen)
-    smaller = replace(formulation_pairs.CONFIG, nystrom=NystromConfig(30), basis=BasisConfig(functions=10))
+    smaller = replace(formulation_pairs.CONFIG, nystrom=NystromConfig(30), basis=BasisConfig(n_eigenfunctions=10))
     monkeypatch.setattr(formulation_pairs, "CONFIG", smaller)
     monkeypatch.setattr(formulation_pairs, "ZOOM", ZoomOut(10, 40, 10))
     monkeypatch.setattr(formulation_pairs, "WRONG_SHARES", (0.0, 0.3))
@@ -423,12 +423,12 @@ def test_experiment_writes_its_files(function: Callable[[Options], Result], tiny
 
 def test_grid_names_every_combination() -> None:
     found = tune.candidates(
-        Config.single_fit(), ["kernel.gamma=1.0,2.0", "weights.laplacian=0.1", "descriptors.count=10,50"]
+        Config.single_fit(), ["kernel.gamma=1.0,2.0", "weights.laplacian=0.1", "descriptors.n_spectral=10,50"]
     )
     assert len(found) == 4
-    chosen = found["kernel.gamma=2.0, weights.laplacian=0.1, descriptors.count=10"]
+    chosen = found["kernel.gamma=2.0, weights.laplacian=0.1, descriptors.n_spectral=10"]
     assert chosen.kernel == Gaussian(2.0)
-    assert (chosen.weights.laplacian, chosen.descriptors.count) == (0.1, 10)
+    assert (chosen.weights.laplacian, chosen.descriptors.n_spectral) == (0.1, 10)
     with pytest.raises(InvalidInput, match="gamma"):
         tune.candidates(Config.no17(), ["kernel.gamma=1"])
 

@@ -29,8 +29,8 @@ GUARDS = ("kfmaps.config", "kfmaps.descriptors.spectral", "kfmaps.fmap.terms", "
 K = 20
 CONFIG = replace(
     Config.single_fit(),
-    basis=BasisConfig(functions=K),
-    descriptors=DescriptorConfig(count=12, eigenfunctions=60, shot=True, shot_radius=0.15),
+    basis=BasisConfig(n_eigenfunctions=K),
+    descriptors=DescriptorConfig(n_spectral=12, n_eigenfunctions=60, shot=True, shot_radius=0.15),
     refinement=None,
     threads=1,
 )
@@ -54,11 +54,11 @@ def other() -> Shape:
 def test_a_shape_has_as_many_functions_as_the_most_that_anything_asks_for(basis, descriptors, stop):
     asked = replace(
         CONFIG,
-        basis=BasisConfig(functions=basis),
-        descriptors=replace(CONFIG.descriptors, eigenfunctions=descriptors),
+        basis=BasisConfig(n_eigenfunctions=basis),
+        descriptors=replace(CONFIG.descriptors, n_eigenfunctions=descriptors),
         refinement=None if stop is None else ZoomOut(stop=stop),
     )
-    assert asked.eigenfunctions == max(basis, descriptors, stop or 0)
+    assert asked.n_eigenfunctions == max(basis, descriptors, stop or 0)
 
 
 @pytest.mark.parametrize("weight", [0.25, 1.0, 9.0])
@@ -199,7 +199,7 @@ def test_confidence_follows_from_score_bending_and_margin(shape):
 
     Without tips, at which descriptors would count too.
     """
-    config = replace(CONFIG, search=Search(candidates=1, signs=2, tips=False))
+    config = replace(CONFIG, search=Search(candidates=1, n_sign_functions=2, match_extremities=False))
     found = search_map(shape, shape, config)
     assert found.quality is not None
     assert found.deformation_energy is not None

@@ -45,7 +45,7 @@ GUARDS = (
 
 N, R = 60, 9
 SIZES = [(6, 6), (7, 5), (5, 7)]
-TIGHT = MinimizeOptions(CG(rtol=1e-8, max_steps=500), max_outer_iter=20)
+TIGHT = MinimizeOptions(CG(rtol=1e-8, max_iter=500), max_outer_iter=20)
 
 
 def bases(k_t, k_s, seed=0):
@@ -97,7 +97,7 @@ def is_orthonormal(C):
 def test_orthogonal_minimiser_meets_constraint_and_first_order_condition(case):
     *_, E = case
     start = 0.0 * E.rhs() + 1.0
-    found = minimize_orthogonal(E, CG(rtol=1e-9, max_steps=500), E.rhs() + 0.1 * start)
+    found = minimize_orthogonal(E, CG(rtol=1e-9, max_iter=500), E.rhs() + 0.1 * start)
     assert found.status == "converged"
     assert is_orthonormal(found.value)
     # On the manifold the gradient is normal: G = C S with S symmetric (or S C, for more columns than rows).
@@ -114,11 +114,11 @@ def test_energy_never_rises_on_the_manifold(case):
     values = []
     C = E.rhs()
     for steps in (1, 2, 3, 5, 8, 13):
-        values.append(value(E, minimize_orthogonal(E, CG(rtol=0.0, max_steps=steps), C).value))
+        values.append(value(E, minimize_orthogonal(E, CG(rtol=0.0, max_iter=steps), C).value))
     assert value(E, nearest_orthogonal(C)) >= values[0]
     assert (np.diff(values) <= 1e-12 * values[0]).all()
     # and no orthonormal map near the last one is lower
-    last = minimize_orthogonal(E, CG(rtol=1e-9, max_steps=500), C).value
+    last = minimize_orthogonal(E, CG(rtol=1e-9, max_iter=500), C).value
     rng = np.random.default_rng(5)
     for _ in range(20):
         near = nearest_orthogonal(last + (last * 0.0 + 1.0) * float(rng.normal()) * 1e-2 + 1e-2 * E.rhs())
@@ -132,7 +132,7 @@ def test_orthogonal_agrees_with_procrustes(case):
     if k_t < k_s:
         pytest.skip("‖C P‖ depends on C when it has more columns than rows")
     term = descriptor_term(source, F_s, target, F_t)
-    found = minimize_orthogonal(term, CG(rtol=1e-12, max_steps=2000), term.rhs() + 0.3)
+    found = minimize_orthogonal(term, CG(rtol=1e-12, max_iter=2000), term.rhs() + 0.3)
     np.testing.assert_allclose(to_numpy(found.value), to_numpy(nearest_orthogonal(term.rhs())), atol=1e-6)
 
 

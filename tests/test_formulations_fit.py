@@ -25,26 +25,26 @@ GUARDS = ("kfmaps.fmap.bidirectional_zoomout", "kfmaps.fmap.full_kernel", "kfmap
 
 SMALL = replace(
     Config.single_fit(),
-    basis=BasisConfig(functions=12),
-    descriptors=DescriptorConfig(count=12, eigenfunctions=30, shot=False),
+    basis=BasisConfig(n_eigenfunctions=12),
+    descriptors=DescriptorConfig(n_spectral=12, n_eigenfunctions=30, shot=False),
     nystrom=NystromConfig(samples=40),
-    solver=CG(rtol=1e-6, max_steps=500),
+    solver=CG(rtol=1e-6, max_iter=500),
     refinement=None,
     threads=1,
 )
 FORMULATIONS = {
     "orthogonal": Formulation(constraint="orthogonal"),
-    "both": Formulation(directions="both"),
+    "both": Formulation(bidirectional=True),
     "robust landmarks": Formulation(loss="geman"),
-    "robust descriptors": Formulation(loss="huber", loss_per="descriptor"),
-    "robust features": Formulation(loss="huber", loss_per="feature", rounds=5),
+    "robust descriptors": Formulation(loss="huber", loss_group="descriptor"),
+    "robust features": Formulation(loss="huber", loss_group="feature", max_outer_iter=5),
     "sparse": Formulation(sparsity=0.05),
     "resolvent": Formulation(mask="resolvent"),
-    "coupled": Formulation(bases="coupled"),
-    "spatial": Formulation(spatial=0.1),
+    "coupled": Formulation(coupled_bases=True),
+    "spatial": Formulation(transport_weight=0.1),
     "all": Formulation(
         "orthogonal",
-        "both",
+        True,
         0.5,
         0.5,
         "huber",
@@ -52,9 +52,9 @@ FORMULATIONS = {
         1.0,
         0.02,
         "resolvent",
-        bases="coupled",
-        rounds=3,
-        spatial=0.1,
+        coupled_bases=True,
+        max_outer_iter=3,
+        transport_weight=0.1,
     ),
 }
 
@@ -110,7 +110,7 @@ def test_every_formulation_with_every_form_of_the_kernel(shape, other, marks, tr
         return
     found = fit(shape, other, with_(name, **more), landmarks=marks)
     assert np.isfinite(found.functional_map).all()
-    assert (found.back is not None) == (FORMULATIONS[name].directions == "both")
+    assert (found.back is not None) == (FORMULATIONS[name].bidirectional)
     if FORMULATIONS[name].constraint == "orthogonal":
         np.testing.assert_allclose(found.functional_map.T @ found.functional_map, np.eye(12), atol=1e-8)
     points = match(shape, other, with_(name, **more), landmarks=marks).target_to_source
@@ -131,7 +131,13 @@ def test_nothing_asked_is_what_was_before_to_the_last_digit(shape, other, marks)
     """Weights of zero, rounds, and a loss that is squared change no digit."""
     plain = fit(shape, other, SMALL, landmarks=marks).functional_map
     nothing = Formulation(
-        loss="squared", loss_per="feature", sparsity=0.0, rounds=3, loss_width=9.0, coupling=7.0, spatial_blur=3.0
+        loss="squared",
+        loss_group="feature",
+        sparsity=0.0,
+        max_outer_iter=3,
+        loss_scale=9.0,
+        coupling_weight=7.0,
+        transport_blur=3.0,
     )
     np.testing.assert_array_equal(
         fit(shape, other, replace(SMALL, formulation=nothing), landmarks=marks).functional_map, plain
@@ -139,13 +145,13 @@ def test_nothing_asked_is_what_was_before_to_the_last_digit(shape, other, marks)
 
 
 def test_weak_formulations_come_close_to_least_squares(shape, other, marks):
-    config = replace(SMALL, solver=CG(rtol=1e-10, max_steps=2000), kernel=Gaussian(1.0))
+    config = replace(SMALL, solver=CG(rtol=1e-10, max_iter=2000), kernel=Gaussian(1.0))
     plain = fit(shape, other, config, landmarks=marks).functional_map
     for weak in (
         Formulation(sparsity=1e-9),
-        Formulation(spatial=1e-9),
-        Formulation(directions="both", inverse=1e-9, adjoint=1e-9),
-        Formulation(loss="huber", loss_per="feature", loss_width=1e9),
+        Formulation(transport_weight=1e-9),
+        Formulation(bidirectional=True, inverse_weight=1e-9, adjoint_weight=1e-9),
+        Formulation(loss="huber", loss_group="feature", loss_scale=1e9),
     ):
         found = fit(shape, other, replace(config, formulation=weak), landmarks=marks).functional_map
         np.testing.assert_allclose(found, plain, atol=1e-5)
@@ -208,7 +214,7 @@ def test_wrong_landmarks_are_found_out(shape, other, truth, kernel):
     wrong = marks.copy()
     bad = np.array([2, 5, 8, 11, 14, 17])
     wrong[bad, 0] = marks[np.roll(bad, 1), 0]
-    config = replace(SMALL, kernel=kernel, descriptors=replace(SMALL.descriptors, count=60))
+    config = replace(SMALL, kernel=kernel, descriptors=replace(SMALL.descriptors, n_spectral=60))
     robust = replace(config, formulation=Formulation(loss="geman"))
     found = fit(shape, other, robust, landmarks=wrong)
     assert found.weights is not None
@@ -240,12 +246,12 @@ def test_a_search_fits_in_any_formulation(shape, other):
     config = Config()
     config = replace(
         config,
-        basis=BasisConfig(functions=12),
-        descriptors=replace(SMALL.descriptors, count=12),
+        basis=BasisConfig(n_eigenfunctions=12),
+        descriptors=replace(SMALL.descriptors, n_spectral=12),
         refinement=ZoomOut(10, 30, 10),
-        search=Search(candidates=1, signs=0),
+        search=Search(candidates=1, n_sign_functions=0),
         threads=1,
-        formulation=Formulation("orthogonal", "both"),
+        formulation=Formulation("orthogonal", True),
     )
     found = match(shape, other, config)
     assert found.source_to_target is not None
@@ -269,7 +275,7 @@ def test_functions_are_carried_beyond_the_basis(shape, other, truth, marks):
 def test_settings_that_contradict_each_other_are_refused():
     wrong: list[tuple[dict[str, Any], str]] = [
         ({"constraint": "unitary"}, "constraint"),
-        ({"directions": "both", "inverse": 0.0, "adjoint": 0.0}, "ties the two"),
+        ({"bidirectional": True, "inverse_weight": 0.0, "adjoint_weight": 0.0}, "ties the two"),
         ({"loss_width": 0.0}, "loss_width"),
         ({"sparsity": -1.0}, "sparsity"),
         ({"spatial": -1.0}, "spatial"),

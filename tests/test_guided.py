@@ -30,7 +30,7 @@ def symmetric():
 
 
 def run(C, basis, weight, led):
-    return ZoomOut(6, 40, 4, guidance=weight)(C, basis, basis, threads=1, guide=led).functional_map
+    return ZoomOut(6, 40, 4, descriptor_weight=weight)(C, basis, basis, threads=1, guide=led).functional_map
 
 
 def test_without_weight_or_guide_it_is_plain_zoomout(symmetric):
@@ -57,7 +57,7 @@ def test_descriptors_lead_from_the_wrong_signs_to_the_right_map(symmetric):
 def test_on_samples_of_large_shapes_the_guide_is_sampled_too():
     mesh = unit_area(blob(900))
     basis = laplace_basis(mesh, 50)
-    zoom = ZoomOut(6, 40, 8, samples=200, guidance=12.0)
+    zoom = ZoomOut(6, 40, 8, samples=200, descriptor_weight=12.0)
     wrong = np.diag([1.0, -1, 1, 1, 1, 1])
     found = zoom(wrong, basis, basis, threads=1, guide=descriptor_guidance(mesh.vertices, mesh.vertices))
     assert (found.target_to_source == np.arange(900)).mean() > 0.9
@@ -106,4 +106,4 @@ def test_bad_settings_are_refused():
     with pytest.raises(InvalidInput, match="as many on both"):
         descriptor_guidance(np.eye(4, 3), np.eye(4, 2))
     with pytest.raises(InvalidInput, match="guidance"):
-        ZoomOut(guidance=-1.0)
+        ZoomOut(descriptor_weight=-1.0)

@@ -39,8 +39,8 @@ GUARDS = (
 
 SMALL = replace(
     Config.single_fit(),
-    basis=BasisConfig(functions=20),
-    descriptors=DescriptorConfig(count=40, eigenfunctions=40, shot=False),
+    basis=BasisConfig(n_eigenfunctions=20),
+    descriptors=DescriptorConfig(n_spectral=40, n_eigenfunctions=40, shot=False),
     nystrom=NystromConfig(samples=60),
     refinement=ZoomOut(start=10, stop=40, step=10),
 )
@@ -263,7 +263,7 @@ def test_faces_that_name_a_vertex_twice_change_nothing(side: int) -> None:
     """They come first, so that they shift the numbers of all other faces."""
     clean = blob(300)
     dirty = Mesh(clean.vertices, np.vstack([[[5, 5, 5], [7, 7, 8], [10, 11, 11]], clean.faces]))
-    config = replace(SMALL, finish=NonRigid(n_levels=2, steps=2))
+    config = replace(SMALL, registration=NonRigid(n_levels=2, steps=2))
     marks = np.stack([np.arange(0, 300, 60)] * 2, axis=1)
     plain = match(clean, clean, config, landmarks=marks)
     with warnings.catch_warnings():

@@ -42,13 +42,13 @@ from kfmaps.learn.model import columns  # noqa: E402
 
 CONFIG = replace(
     Config.single_fit(),
-    basis=BasisConfig(functions=12),
-    descriptors=DescriptorConfig(count=10, eigenfunctions=30, shot=False),
+    basis=BasisConfig(n_eigenfunctions=12),
+    descriptors=DescriptorConfig(n_spectral=10, n_eigenfunctions=30, shot=False),
     nystrom=NystromConfig(samples=60),
-    compression=0.0,
+    operator_rtol=0.0,
     refinement=None,
 )
-EXACT = CG(rtol=1e-12, max_steps=500)
+EXACT = CG(rtol=1e-12, max_iter=500)
 SIZES = ((150, 0.0), (130, 0.9), (140, 2.0))
 QUICK = TrainingOptions(epochs=3, batch=2, patience=3, solver=CG(1e-8, 300), operator_rtol=0.0)
 
@@ -102,7 +102,7 @@ def test_what_is_learned_is_what_the_settings_say(parts, lessons):
 
 def test_it_begins_as_the_settings_it_was_given(lessons):
     model = Model(CONFIG, lessons[:1], ["gamma", "ard", "terms"])
-    kernel = resolve_kernel(CONFIG.kernel, lessons[0].samples.numpy(), CONFIG.sharpness)
+    kernel = resolve_kernel(CONFIG.kernel, lessons[0].samples.numpy(), CONFIG.bandwidth_scale)
     D = lessons[0].descriptors_s
     with torch.no_grad():
         np.testing.assert_allclose(model.kernel_matrix(D, D), kernel_matrix(kernel, D.numpy(), D.numpy()), rtol=1e-12)
@@ -209,12 +209,14 @@ def test_the_rate_falls_to_zero(lessons):
 
 
 def test_columns_of_every_kind():
-    config = DescriptorConfig(count=20)
+    config = DescriptorConfig(n_spectral=20)
     found = columns(config, 3, 20 + 352)
     assert found.kinds == ("signature", "landmark", "landmark", "landmark", "shot")
     assert found.blocks[-1] == tuple(range(20, 372))
     assert columns(replace(config, signature="none"), 0, 352).kinds == ("shot",)
-    assert columns(DescriptorConfig(count=20, layout="every-nth", shot=False), 3, 20).kinds == ("signature",)
+    assert columns(DescriptorConfig(n_spectral=20, energy_sampling="every-nth", shot=False), 3, 20).kinds == (
+        "signature",
+    )
 
 
 def test_it_learns_stops_and_resumes_alike(lessons, tmp_path):
@@ -250,11 +252,11 @@ def test_without_landmarks():
     """A kernel learned from descriptors alone serves the search, whose small fits have other descriptors."""
     config = replace(
         Config.single_fit(),
-        basis=BasisConfig(functions=20),
-        descriptors=DescriptorConfig(count=10, eigenfunctions=30, shot=True, shot_radius=0.3),
+        basis=BasisConfig(n_eigenfunctions=20),
+        descriptors=DescriptorConfig(n_spectral=10, n_eigenfunctions=30, shot=True, shot_radius=0.3),
         nystrom=NystromConfig(samples=40),
         refinement=None,
-        search=Search(candidates=1, signs=0),
+        search=Search(candidates=1, n_sign_functions=0),
     )
     source, target = (prepare(blob(n, twist), config, name="blob") for n, twist in SIZES[:2])
     each = training_pair(source, target, config, samples=30)
@@ -368,8 +370,10 @@ def test_a_file_never_runs_anything(tmp_path, capsys):
 
 
 WORDS = (
-    *("--basis", "12", "--descriptors", "10", "--set", "descriptors.eigenfunctions=30", "--samples", "60"),
-    *("--truth-landmarks", "6,121", "--training", "pairs=2", "--training", "held_out_pairs=1", "--refine", "none"),
+    *("--set", "basis.n_eigenfunctions=12", "--set", "descriptors.n_spectral=10"),
+    *("--set", "descriptors.n_eigenfunctions=30", "--set", "nystrom.samples=60"),
+    *("--truth-landmarks", "6,121", "--training", "pairs=2", "--training", "held_out_pairs=1"),
+    *("--set", "refinement=none"),
     *("--shapes", "blob*", "--held-out", "blob0,blob1"),
 )
 
@@ -411,9 +415,10 @@ def test_command(folder, monkeypatch):
 def test_command_without_truth(folder):
     for path in (folder / "data" / "corres").iterdir():
         path.unlink()
-    words = (str(folder / "data"), "-o", str(folder / "kernel.pt"), "--descriptors", "10", "--refine", "none")
-    small = ("--basis", "8", "--set", "descriptors.eigenfunctions=20", "--training", "pairs=1")
-    ran = run("learn", *words, *small, "--held-out", "none", "--training", "epochs=1", "--no-shot", "--learn", "gamma")
+    words = (str(folder / "data"), "-o", str(folder / "kernel.pt"), "--set", "descriptors.n_spectral=10")
+    small = ("--set", "refinement=none", "--set", "basis.n_eigenfunctions=8", "--set", "descriptors.shot=false")
+    small = (*small, "--set", "descriptors.n_eigenfunctions=20", "--training", "pairs=1")
+    ran = run("learn", *words, *small, "--held-out", "none", "--training", "epochs=1", "--learn", "gamma")
     assert ran.status == 0, ran.stderr
     learned = read_settings(folder / "kernel.pt", Config.single_fit())
     assert isinstance(learned.kernel, Gaussian)

@@ -34,7 +34,7 @@ from kfmaps.learn.energy import (  # noqa: E402
 from kfmaps.learn.model import bind  # noqa: E402
 
 N_S, N_T, K_S, K_T, D = 10, 9, 4, 3, 2
-EXACT = CG(rtol=1e-13, max_steps=500)
+EXACT = CG(rtol=1e-13, max_iter=500)
 
 
 def leaf(values):
@@ -168,7 +168,7 @@ def test_memory_does_not_grow_with_the_iterations(case):
             found = differentiable_minimum(energy, solver)
         return sum(kept), found.solution.steps
 
-    (few, short), (many, long) = held(CG(max_steps=1)), held(EXACT)
+    (few, short), (many, long) = held(CG(max_iter=1)), held(EXACT)
     assert short == 1
     assert long > 3
     assert few == many

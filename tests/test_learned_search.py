@@ -26,11 +26,11 @@ GUARDS = ("kfmaps.matching",)
 COUNT = 12 + 352
 CONFIG = replace(
     Config.single_fit(),
-    basis=BasisConfig(functions=30),
-    descriptors=DescriptorConfig(count=12, eigenfunctions=40, shot=True, shot_radius=0.12),
-    search=Search(candidates=1, signs=2, tips=False),
+    basis=BasisConfig(n_eigenfunctions=30),
+    descriptors=DescriptorConfig(n_spectral=12, n_eigenfunctions=40, shot=True, shot_radius=0.12),
+    search=Search(candidates=1, n_sign_functions=2, match_extremities=False),
     refinement=None,
-    finish=None,
+    registration=None,
     threads=1,
 )
 NONE = np.zeros((0, 2), dtype=np.int64)
@@ -46,7 +46,7 @@ def taught(matrix, marks=0, **more):
     """``CONFIG`` with a metric, and with other weights than the usual ones, as if all had been learned."""
     kernel = Metric(Gaussian(1.0), matrix, marks)
     weights, asked = Weights(1000.0, 1.0, 300.0), Formulation(mask="resolvent")
-    return replace(CONFIG, kernel=kernel, weights=weights, sharpness=5.0, formulation=asked, **more)
+    return replace(CONFIG, kernel=kernel, weights=weights, bandwidth_scale=5.0, formulation=asked, **more)
 
 
 def test_a_metric_that_knows_nothing_changes_no_digit(creature):

@@ -52,7 +52,7 @@ def test_a_known_map_is_finished(shapes: list[Shape]) -> None:
     assert (found.target_to_source == np.arange(N)).mean() > max((rough == np.arange(N)).mean(), 0.9)
     assert (found.score.initialization, found.verdict, found.confidence) == ("composition", "sure", 0.9)
     np.testing.assert_array_equal(found.alternatives[0], rough)
-    turned = match_from_map(a, mirror_image(b), np.arange(N), LOCAL, origin="known", orientation="reversed")
+    turned = match_from_map(a, mirror_image(b), np.arange(N), LOCAL, origin="known", orientation="reversing")
     assert (turned.target_to_source == np.arange(N)).mean() > 0.9
     with pytest.raises(InvalidInput, match="vertices 0 to 399"):
         match_from_map(a, b, rough + 1, LOCAL, origin="known")

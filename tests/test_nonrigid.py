@@ -167,7 +167,7 @@ def test_a_match_has_points_in_triangles(pair: datasets.Pair) -> None:
     corners = pair.source.faces[place.faces]
     assert (corners == found.target_to_source[:, None]).any(axis=1).all()
     true = np.einsum("ti,tij->tj", pair.truth_weights, pair.source.vertices[pair.source.faces[pair.truth_faces]])
-    plain = kfmaps.match(pair.source, pair.target, replace(config, finish=None), landmarks=marks)
+    plain = kfmaps.match(pair.source, pair.target, replace(config, registration=None), landmarks=marks)
     errors = [
         np.linalg.norm(point_positions(p, pair.source) - true, axis=1).mean()
         for p in (place, vertex_point_map(plain.target_to_source, pair.source))
@@ -190,7 +190,7 @@ def test_a_whole_body_is_not_bent_onto_something_else(pair: datasets.Pair) -> No
     assert not found.registration.report.accepted
     assert found.registration.report.reason in ("gap", "harm")
     assert found.registration.report.before == pytest.approx(found.local_confidence.mean())
-    plain = kfmaps.match(pair.source, other, replace(config, finish=None))
+    plain = kfmaps.match(pair.source, other, replace(config, registration=None))
     np.testing.assert_array_equal(found.target_to_source, plain.target_to_source)
     assert len(found.precise().faces) == len(other.vertices)
 

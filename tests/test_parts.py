@@ -136,7 +136,7 @@ def test_a_part_in_another_unit_and_turned_is_placed(pair, found, truth):
 
 def test_the_other_way_round_vertices_without_counterpart_are_minus_one(pair, truth):
     """And where units are the same only one scale is tried."""
-    back = match(pair.target, pair.source, replace(AUTO, partial=replace(AUTO.partial, units="same")))
+    back = match(pair.target, pair.source, replace(AUTO, partial=replace(AUTO.partial, scale="fixed")))
     assert back.partial.scale == pytest.approx(np.sqrt(surface_area(pair.target) / surface_area(pair.source)))
     assert back.partial.overlap_target is not None
     lost = back.target_to_source < 0
@@ -202,7 +202,7 @@ def test_a_close_rival_makes_a_verdict_ambiguous_and_never_unlikely():
 
 
 def test_the_default_of_the_command_is_auto():
-    assert Config().partial.which == "auto"
+    assert Config().partial.part == "auto"
 
 
 def test_only_what_a_detour_explains_is_forgiven():

@@ -1,6 +1,7 @@
 """The whole match: invariances, agreement of its forms, and what it refuses."""
 
 from dataclasses import replace
+from typing import get_args
 
 import numpy as np
 import pytest
@@ -9,11 +10,11 @@ from sklearn.metrics.pairwise import rbf_kernel
 from conftest import blob
 from kfmaps._arrays import InvalidInput, KfmapsWarning
 from kfmaps.config import (
-    SAMPLINGS,
     BasisConfig,
     Config,
     DescriptorConfig,
     NystromConfig,
+    Sampling,
     Weights,
     as_dict,
     from_dict,
@@ -34,11 +35,11 @@ GUARDS = ("kfmaps.config", "kfmaps.fmap.energy", "kfmaps.matching", "kfmaps.shap
 
 SMALL = replace(
     Config.single_fit(),
-    basis=BasisConfig(functions=20),
-    descriptors=DescriptorConfig(count=12, eigenfunctions=40, shot=False),
+    basis=BasisConfig(n_eigenfunctions=20),
+    descriptors=DescriptorConfig(n_spectral=12, n_eigenfunctions=40, shot=False),
     nystrom=NystromConfig(samples=60),
-    compression=0.0,
-    solver=CG(rtol=1e-8, max_steps=2000),
+    operator_rtol=0.0,
+    solver=CG(rtol=1e-8, max_iter=2000),
     refinement=ZoomOut(12, 40, 6),
     threads=1,
 )
@@ -122,9 +123,9 @@ def test_flipped_signs_of_eigenvectors_change_nothing(shape, other, marks, rng):
     np.testing.assert_allclose(found.functional_map, signs[:, None] * reference.functional_map, atol=1e-6)
 
 
-@pytest.mark.parametrize("sampling", SAMPLINGS)
+@pytest.mark.parametrize("sampling", get_args(Sampling))
 def test_operator_is_symmetric_positive_under_every_sampling(sampling, shape, other, marks):
-    small = replace(RAW, basis=BasisConfig(functions=6), nystrom=NystromConfig(samples=30, sampling=sampling))
+    small = replace(RAW, basis=BasisConfig(n_eigenfunctions=6), nystrom=NystromConfig(samples=30, sampling=sampling))
     energy = energy_of(shape, other, small, marks)
     matrix = dense_matrix(energy.apply, (6, 6), np.zeros((6, 6)))
     np.testing.assert_allclose(matrix, matrix.T, atol=1e-10 * np.abs(matrix).max())
@@ -133,10 +134,10 @@ def test_operator_is_symmetric_positive_under_every_sampling(sampling, shape, ot
 
 
 def test_linear_kernel_is_no17_and_the_exact_form_agrees(shape, other, marks, rng):
-    config = replace(RAW, kernel=Linear(), basis=BasisConfig(functions=8))
+    config = replace(RAW, kernel=Linear(), basis=BasisConfig(n_eigenfunctions=8))
     C = rng.normal(size=(8, 8))
     features = energy_of(shape, other, config, marks)
-    exact = energy_of(shape, other, replace(config, exact=True), marks)
+    exact = energy_of(shape, other, replace(config, full_kernel=True), marks)
     np.testing.assert_allclose(features.apply(C), exact.apply(C), rtol=1e-10, atol=1e-10)
     np.testing.assert_allclose(features.rhs(), exact.rhs(), rtol=1e-10, atol=1e-10)
     np.testing.assert_allclose(features.diagonal(), exact.diagonal(), rtol=1e-9, atol=1e-9)
@@ -145,21 +146,21 @@ def test_linear_kernel_is_no17_and_the_exact_form_agrees(shape, other, marks, rn
 def test_all_points_as_samples_equal_the_exact_kernel(rng):
     config = replace(
         RAW,
-        basis=BasisConfig(functions=6),
+        basis=BasisConfig(n_eigenfunctions=6),
         kernel=Gaussian(2.0),
-        descriptors=DescriptorConfig(count=4, eigenfunctions=12, shot=False),
+        descriptors=DescriptorConfig(n_spectral=4, n_eigenfunctions=12, shot=False),
         nystrom=NystromConfig(samples=200, sampling="uniform", rtol=1e-15),
     )
     a, b = (prepare(blob(100, twist), config) for twist in (0.0, 0.3))
     none = np.zeros((0, 2), dtype=int)
     C = rng.normal(size=(6, 6))
-    features, exact = energy_of(a, b, config, none), energy_of(a, b, replace(config, exact=True), none)
+    features, exact = energy_of(a, b, config, none), energy_of(a, b, replace(config, full_kernel=True), none)
     np.testing.assert_allclose(features.apply(C), exact.apply(C), rtol=1e-5, atol=1e-6)
     np.testing.assert_allclose(features.rhs(), exact.rhs(), rtol=1e-5, atol=1e-6)
 
 
 def test_conjugate_gradients_equal_the_dense_solve(shape, other, marks):
-    config = replace(RAW, basis=BasisConfig(functions=8))
+    config = replace(RAW, basis=BasisConfig(n_eigenfunctions=8))
     iterated = match(shape, other, config, landmarks=marks)
     direct = match(shape, other, replace(config, solver=Direct()), landmarks=marks)
     np.testing.assert_allclose(iterated.fit.raw_functional_map, direct.fit.raw_functional_map, atol=1e-5)
@@ -169,7 +170,7 @@ def test_conjugate_gradients_equal_the_dense_solve(shape, other, marks):
 
 def test_compression_hardly_changes_the_answer(shape, other, marks):
     whole = match(shape, other, RAW, landmarks=marks)
-    fewer = match(shape, other, replace(RAW, compression=1e-5), landmarks=marks)
+    fewer = match(shape, other, replace(RAW, operator_rtol=1e-5), landmarks=marks)
     assert fewer.fit.n_operators is not None
     assert whole.fit.n_operators is not None
     assert fewer.fit.n_operators < whole.fit.n_operators
@@ -199,7 +200,7 @@ def test_tanh_warns_that_it_is_not_positive_definite(shape, other, marks):
 
 
 def test_descriptors_of_the_users_own(shape, other):
-    config = replace(RAW, descriptors=DescriptorConfig(signature="none", landmark_map="none", shot=False))
+    config = replace(RAW, descriptors=DescriptorConfig(signature="none", landmark_descriptor="none", shot=False))
     found = match(shape, other, config, descriptors=(shape.mesh.vertices, other.mesh.vertices))
     moved = shape.mesh.vertices[found.target_to_source] - other.mesh.vertices
     assert np.linalg.norm(moved, axis=1).mean() < 0.06
@@ -234,8 +235,8 @@ def test_a_point_cloud_matches(shape):
 def test_paper_settings_do_ten_plain_steps(shape, other, marks):
     paper = replace(
         Config.paper(),
-        basis=BasisConfig(functions=15),
-        descriptors=replace(Config.paper().descriptors, eigenfunctions=40),
+        basis=BasisConfig(n_eigenfunctions=15),
+        descriptors=replace(Config.paper().descriptors, n_eigenfunctions=40),
     )
     found = match(shape, other, paper, landmarks=marks)
     assert found.fit.solution is not None
@@ -267,7 +268,7 @@ def test_bad_descriptors_and_kernels_are_refused(shape, other, marks):
         match(
             shape,
             other,
-            replace(RAW, descriptors=DescriptorConfig(signature="none", landmark_map="none", shot=False)),
+            replace(RAW, descriptors=DescriptorConfig(signature="none", landmark_descriptor="none", shot=False)),
         )
     for kernel in (lambda X, Y: np.ones((len(X), len(Y) + 1)), lambda X, Y: np.full((len(X), len(Y)), np.nan)):
         with pytest.raises(InvalidInput, match="kernel"):
@@ -276,7 +277,7 @@ def test_bad_descriptors_and_kernels_are_refused(shape, other, marks):
 
 def test_shapes_prepared_otherwise_are_refused(shape, other, marks):
     for config, wanted in (
-        (replace(SMALL, basis=BasisConfig(functions=50)), "50 eigenfunctions"),
+        (replace(SMALL, basis=BasisConfig(n_eigenfunctions=50)), "50 eigenfunctions"),
         (replace(SMALL, basis=replace(SMALL.basis, laplacian="cotangent")), "cotangent Laplacian"),
         (replace(SMALL, descriptors=replace(SMALL.descriptors, shot=True, shot_radius=0.2)), "SHOT of radius 0.2"),
     ):

@@ -47,7 +47,7 @@ class Pretended:
 
 def end(pair: datasets.Pair, finish: Any, points: np.ndarray | None = None) -> RegisteredMap:
     shapes: Any = [SimpleNamespace(mesh=unit_area(mesh)) for mesh in (pair.source, pair.target)]
-    config: Any = SimpleNamespace(finish=finish, refinement="some")
+    config: Any = SimpleNamespace(registration=finish, refinement="some")
     return register_map(pair.truth if points is None else points, shapes[0], shapes[1], config, StageTimer())
 
 

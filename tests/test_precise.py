@@ -124,7 +124,7 @@ def test_a_match_of_cut_meshes_has_places_outside() -> None:
     """The same places, whether the source's triangles hang together or not."""
     pair = datasets.two_poses(1500, rng=1)
     soup = Mesh(pair.source.vertices[pair.source.faces.ravel()], np.arange(3 * len(pair.source.faces)).reshape(-1, 3))
-    config = replace(kfmaps.Config.single_fit(), threads=1, finish=None)
+    config = replace(kfmaps.Config.single_fit(), threads=1, registration=None)
     one = kfmaps.match(pair.source, pair.target, config).precise()
     with pytest.warns(kfmaps.KfmapsWarning, match="seams"):
         many = kfmaps.match(soup, pair.target, config).precise()

@@ -49,10 +49,10 @@ FIRST = (0.0, 1e-15, -1e-17)
 K = 30
 SMALL = replace(
     Config(),
-    basis=BasisConfig(functions=30),
-    descriptors=replace(Config().descriptors, eigenfunctions=60, shot_radius=0.15),
+    basis=BasisConfig(n_eigenfunctions=30),
+    descriptors=replace(Config().descriptors, n_eigenfunctions=60, shot_radius=0.15),
     refinement=None,
-    search=Search(candidates=1, signs=2),
+    search=Search(candidates=1, n_sign_functions=2),
     threads=1,
 )
 
@@ -132,7 +132,7 @@ def test_a_score_is_finite_where_every_sample_is_a_component_of_its_own():
     rng = np.random.default_rng(0)
     corners = rng.normal(size=(60, 1, 3)) + 0.1 * rng.normal(size=(60, 3, 3))
     soup = Mesh(corners.reshape(-1, 3), np.arange(180).reshape(-1, 3))
-    config = replace(SMALL, descriptors=replace(SMALL.descriptors, eigenfunctions=30))
+    config = replace(SMALL, descriptors=replace(SMALL.descriptors, n_eigenfunctions=30))
     shape = prepare(soup, config)
     assert shape.basis.eigenvalues[-1] < eigenvalue_tolerance(shape.basis)
     judge = subsample(sample_for_scoring(shape, 60), 40)
@@ -175,7 +175,7 @@ def test_what_a_solver_returns_is_finite():
         calls.append(0)
         return x * np.arange(1.0, 5.0) * (1e-320 if len(calls) == 3 else 1.0)
 
-    found = solve(broken, np.ones(4), CG(rtol=1e-12, max_steps=9))
+    found = solve(broken, np.ones(4), CG(rtol=1e-12, max_iter=9))
     assert found.status == "breakdown"
     assert np.isfinite(found.value).all()
 

@@ -40,8 +40,8 @@ GUARDS = (
 
 CONFIG = replace(
     Config.single_fit(),
-    basis=BasisConfig(functions=30),
-    descriptors=DescriptorConfig(count=40, eigenfunctions=60, shot=False),
+    basis=BasisConfig(n_eigenfunctions=30),
+    descriptors=DescriptorConfig(n_spectral=40, n_eigenfunctions=60, shot=False),
     nystrom=NystromConfig(samples=80),
     refinement=None,
     threads=1,
@@ -311,7 +311,7 @@ def test_a_warm_start_spares_steps_and_changes_nothing(pair):
     source, target, truth = pair
     landmarks = np.stack([truth[[10, 700]], [10, 700]], axis=1)
     config = replace(CONFIG, solver=CG(1e-9, 2000), fit_samples=800)
-    near = fit(source, target, replace(config, sharpness=0.33), landmarks=landmarks)
+    near = fit(source, target, replace(config, bandwidth_scale=0.33), landmarks=landmarks)
     cold, warm = (
         fit(source, target, config, landmarks=landmarks, start=start) for start in (None, near.functional_map)
     )

@@ -33,11 +33,11 @@ GUARDS = ("kfmaps.fmap.descriptor_guidance", "kfmaps.geometry.coarsen", "kfmaps.
 
 SMALL = replace(
     Config(),
-    basis=BasisConfig(functions=40),
-    descriptors=replace(Config().descriptors, eigenfunctions=90, shot_radius=0.15),
+    basis=BasisConfig(n_eigenfunctions=40),
+    descriptors=replace(Config().descriptors, n_eigenfunctions=90, shot_radius=0.15),
     nystrom=NystromConfig(samples=100),
-    refinement=ZoomOut(50, 90, 10, guidance=36.0),
-    search=Search(candidates=2, signs=3),
+    refinement=ZoomOut(50, 90, 10, descriptor_weight=36.0),
+    search=Search(candidates=2, n_sign_functions=3),
     threads=2,
 )
 
@@ -72,7 +72,7 @@ def test_many_maps_at_once_are_refined_as_one_is(shape, other, weight):
     against = np.float32(weight) * descriptor_cost(led) if weight else None
     maps, points = batched_zoomout(starts, a.basis, b.basis, (6, 14, 22, 30), against, threads=2)
     for C, here, start in zip(maps, points, starts, strict=True):
-        one = ZoomOut(6, 30, 8, guidance=weight)(start, a.basis, b.basis, threads=1, guide=led)
+        one = ZoomOut(6, 30, 8, descriptor_weight=weight)(start, a.basis, b.basis, threads=1, guide=led)
         np.testing.assert_allclose(C, one.functional_map, atol=2e-3)
         assert (here != one.target_to_source).mean() < 0.02
 
@@ -81,8 +81,8 @@ def test_a_family_makes_the_maps_that_single_fits_make(shape, other):
     """Leading blocks of one large problem, against problems of their own; orientation is tried apart."""
     settings = replace(
         SMALL,
-        descriptors=replace(SMALL.descriptors, count=30),
-        compression=1e-9,
+        descriptors=replace(SMALL.descriptors, n_spectral=30),
+        operator_rtol=1e-9,
         solver=CG(rtol=1e-9),
         weights=replace(SMALL.weights, orientation=0.0),
     )
@@ -92,7 +92,7 @@ def test_a_family_makes_the_maps_that_single_fits_make(shape, other):
     maps = fit_descriptor_set(wanted, points, settings, (None, None), 3)
     for chosen, C in zip(wanted, maps, strict=True):
         assert C.shape == (chosen.functions, chosen.functions)
-        alone = fit(shape, other, replace(settings, basis=BasisConfig(functions=chosen.functions)), rng=3)
+        alone = fit(shape, other, replace(settings, basis=BasisConfig(n_eigenfunctions=chosen.functions)), rng=3)
         assert np.linalg.norm(C - alone.functional_map) < 0.03 * np.linalg.norm(C)
 
 
@@ -231,17 +231,17 @@ def test_a_large_shape_is_judged_on_a_coarse_copy(monkeypatch):
 def test_a_mirrored_shape_is_told_from_a_kept_one(shape, other):
     """Left and right bones: the answer says which one was found, and keeps orientation where either would do."""
     image = Mesh(blob(650, twist=0.4).vertices * [1.0, 1.0, -1.0], blob(650).faces[:, ::-1])
-    either = replace(SMALL, search=Search(candidates=2, signs=3, orientation="either"))
+    either = replace(SMALL, search=Search(candidates=2, n_sign_functions=3, orientation="either"))
     reversed_one = match(shape, prepare(image, SMALL, name="image"), either)
     moved = shape.mesh.vertices[reversed_one.target_to_source] * [1, 1, -1] - unit_area(image).vertices
-    assert reversed_one.orientation == "reversed"
+    assert reversed_one.orientation == "reversing"
     assert np.linalg.norm(moved - moved.mean(axis=0), axis=1).mean() < 0.04
-    assert search_map(shape, other, either).orientation == "kept"
-    assert search_map(shape, prepare(image, SMALL), SMALL).orientation == "kept"
+    assert search_map(shape, other, either).orientation == "preserving"
+    assert search_map(shape, prepare(image, SMALL), SMALL).orientation == "preserving"
 
 
 def test_a_refinement_of_unlike_shapes_ends_early():
-    zoom = ZoomOut(50, 200, 25, guidance=36.0)
+    zoom = ZoomOut(50, 200, 25, descriptor_weight=36.0)
 
     def found(quality):
         return SearchResult(np.eye(80), "signs", None, "sure", quality=quality)
@@ -251,5 +251,5 @@ def test_a_refinement_of_unlike_shapes_ends_early():
     assert adapt_refinement(None, found(-12.0)) is None
     early = adapt_refinement(zoom, found(-12.0))
     assert isinstance(early, ZoomOut)
-    assert (early.start, early.stop, early.guidance) == (50, 100, 36.0)
+    assert (early.start, early.stop, early.descriptor_weight) == (50, 100, 36.0)
     assert adapt_refinement(ZoomOut(20, 60, 5), found(-12.0)) == ZoomOut(20, 60, 5)

@@ -20,7 +20,7 @@ def test_cg_equals_a_dense_solve(rng):
     matrix, apply = system(rng)
     b = rng.normal(size=(4, 5))
     wanted = np.linalg.solve(matrix, b.ravel()).reshape(4, 5)
-    found = solve(apply, b, CG(rtol=1e-12, max_steps=500))
+    found = solve(apply, b, CG(rtol=1e-12, max_iter=500))
     assert found.status == "converged"
     np.testing.assert_allclose(found.value, wanted, rtol=1e-6)
     assert len(found.residuals) == found.steps + 1
@@ -33,8 +33,8 @@ def test_preconditioning_keeps_the_answer_and_saves_steps(rng):
     half = rng.normal(size=(60, 60)) / 60
     matrix = np.diag(scale) + np.sqrt(np.outer(scale, scale)) * (half @ half.T)
     b = rng.normal(size=60)
-    plain = solve(lambda x: matrix @ x, b, CG(rtol=1e-10, max_steps=5000))
-    better = solve(lambda x: matrix @ x, b, CG(rtol=1e-10, max_steps=5000), preconditioner=lambda r: r / scale)
+    plain = solve(lambda x: matrix @ x, b, CG(rtol=1e-10, max_iter=5000))
+    better = solve(lambda x: matrix @ x, b, CG(rtol=1e-10, max_iter=5000), preconditioner=lambda r: r / scale)
     np.testing.assert_allclose(better.value, plain.value, rtol=1e-5)
     assert better.steps < plain.steps / 3
 
@@ -42,7 +42,7 @@ def test_preconditioning_keeps_the_answer_and_saves_steps(rng):
 def test_the_same_on_every_array_library(asarray, rng):
     diagonal, b = rng.uniform(1, 9, size=(3, 4)), rng.normal(size=(3, 4))
     weights = asarray(diagonal)
-    found = solve(lambda C: weights * C, asarray(b), CG(rtol=1e-13, max_steps=50))
+    found = solve(lambda C: weights * C, asarray(b), CG(rtol=1e-13, max_iter=50))
     np.testing.assert_allclose(to_numpy(found.value), b / diagonal, rtol=1e-9)
 
 
@@ -54,14 +54,14 @@ def test_ten_steps_are_ten_steps(rng):
         calls.append(1)
         return apply(X)
 
-    found = solve(counted, rng.normal(size=(4, 5)), CG(rtol=0.0, max_steps=10))
+    found = solve(counted, rng.normal(size=(4, 5)), CG(rtol=0.0, max_iter=10))
     assert (found.status, found.steps, len(calls)) == ("step limit", 10, 10)
 
 
 def test_finite_termination_without_rounding():
     """n distinct eigenvalues take n steps."""
     values = np.repeat([1.0, 4.0, 9.0], 5)
-    found = solve(lambda x: values * x, np.ones(15), CG(rtol=1e-13, max_steps=100))
+    found = solve(lambda x: values * x, np.ones(15), CG(rtol=1e-13, max_iter=100))
     assert (found.status, found.steps) == ("converged", 3)
 
 
@@ -102,8 +102,8 @@ def test_dense_is_the_matrix(rng):
     "make",
     [
         lambda: CG(rtol=-1.0),
-        lambda: CG(rtol=0.0, max_steps=None),
-        lambda: CG(max_steps=0),
+        lambda: CG(rtol=0.0, max_iter=None),
+        lambda: CG(max_iter=0),
         lambda: Direct(0),
         lambda: solve(lambda x: x, np.ones(50), Direct(limit=10)),
     ],

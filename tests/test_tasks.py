@@ -45,7 +45,7 @@ def answer(made: Path) -> matching.Match:
     config = replace(
         Config.single_fit(),
         basis=kfmaps.BasisConfig(20),
-        descriptors=kfmaps.DescriptorConfig(20, eigenfunctions=40, shot=False),
+        descriptors=kfmaps.DescriptorConfig(20, n_eigenfunctions=40, shot=False),
         refinement=None,
     )
     pair = [kfmaps.read_mesh(made / name) for name in ("a.ply", "b.ply")]

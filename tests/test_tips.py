@@ -278,7 +278,7 @@ def test_the_probe_of_a_mirror_image_turns_the_other_way(probes):
 
 def test_tips_can_be_left_out(creature):
     assert SMALL.search is not None
-    plain = replace(SMALL, search=replace(SMALL.search, tips=False))
+    plain = replace(SMALL, search=replace(SMALL.search, match_extremities=False))
     source, target = creature[:2]
     names = search_map(source, target, plain, rng=0).initialization, search_map(source, target, SMALL, rng=0)
     assert not names[0].startswith("tips")
@@ -291,13 +291,13 @@ def test_a_creature_is_matched_to_a_mirror_image_in_another_pose_unasked():
     source, other = (prepare(mesh, SMALL, name="creature") for mesh in (pair.source, pair.target))
     mirrored = mirror_image(other)
     found = search_map(source, mirrored, SMALL, rng=0)
-    assert found.orientation == "reversed"
+    assert found.orientation == "reversing"
     assert found.verdict == "sure"
     assert SMALL.search is not None
-    kept = search_map(source, mirrored, replace(SMALL, search=replace(SMALL.search, orientation="kept")), rng=0)
-    assert kept.orientation == "kept"
+    kept = search_map(source, mirrored, replace(SMALL, search=replace(SMALL.search, orientation="preserving")), rng=0)
+    assert kept.orientation == "preserving"
     assert kept.verdict != "sure"
-    assert search_map(source, other, SMALL, rng=0).orientation == "kept"
+    assert search_map(source, other, SMALL, rng=0).orientation == "preserving"
 
 
 def test_that_a_copy_falls_apart_says_nothing_of_the_map(creature, probes, monkeypatch):

@@ -1,55 +1,219 @@
-"""Nested frozen records as plain dictionaries and back: one walk, led by the records' own type hints.
+"""Settings records: frozen dataclasses whose fields carry their documentation and bounds, and records as plain values.
 
-A field may hold a plain value, one record, or one of several records (a union); the last is written with its ``kind``,
-the record's name. New records therefore need no entry anywhere but in the union that they belong to.
+A field may hold a plain value, one record, or one of several records; the last is written with its ``kind``, the name
+of the record's class. The same metadata serves the checks, the settings files, the command's options and the manual.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
-from dataclasses import MISSING, dataclass, fields, is_dataclass, replace
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import MISSING, dataclass, field, fields, is_dataclass, replace
+from functools import lru_cache
+from inspect import cleandoc
+from numbers import Integral, Real
 from types import NoneType
-from typing import Any, Literal, get_args, get_origin, get_type_hints
+from typing import Any, Literal, TypeVar, dataclass_transform, get_args, get_origin, get_type_hints
+
+import numpy as np
 
 from kfmaps._arrays import refuse
 
 NOTHING = ("none", "all", "automatic")
-"""Words for ``None``, which TOML cannot say."""
+"""Words for ``None``, which TOML does not have."""
 
-NAMES = {bool: "true or false", int: "a whole number", float: "a number", str: "text"}
+Kinds = Mapping[Any, tuple[type, ...]]
+"""The record classes behind type hints that do not list them, such as a protocol."""
+
+T = TypeVar("T")
 
 
 @dataclass(frozen=True)
-class Place:
-    """Where in the tree the walk is.
+class Setting:
+    """One field of a settings record.
 
     Attributes
     ----------
-    label : str
-        With dots; "" at the top.
-    current, fresh : Any
-        What stands there now, and what is recommended there; ``None`` where nothing is.
+    name : str
+    hint : type
+        Its type.
+    default : Any
+        Its default value or what makes it; ``MISSING`` where there is none.
+    help : str
+        What it means, without the full stop.
+    above, low, high, below : float or None
+        Exclusive and inclusive bounds of a number.
+    none : str
+        The word for ``None`` in settings files.
+    option : str
+        The command's option that sets it; empty where there is none.
     """
 
-    label: str
-    current: Any
-    fresh: Any
+    name: str
+    hint: Any
+    default: Any
+    help: str = ""
+    above: float | None = None
+    low: float | None = None
+    high: float | None = None
+    below: float | None = None
+    none: str = "none"
+    option: str = ""
 
-    def inside(self, name: str) -> Place:
-        label = f"{self.label}.{name}" if self.label else name
-        return Place(label, getattr(self.current, name, None), getattr(self.fresh, name, None))
+    @property
+    def types(self) -> tuple[Any, ...]:
+        """The types that a value may have, ``None`` left out."""
+        hints = (self.hint,) if get_origin(self.hint) in (None, Literal, tuple) else get_args(self.hint)
+        return tuple(hint for hint in hints if hint is not NoneType)
+
+    @property
+    def optional(self) -> bool:
+        """Whether the value may be ``None``."""
+        return NoneType in get_args(self.hint)
+
+    @property
+    def choices(self) -> tuple[str, ...]:
+        """The words that it may be, where it is a word."""
+        return tuple(word for hint in self.types if get_origin(hint) is Literal for word in get_args(hint))
+
+    def records(self, kinds: Kinds) -> tuple[type, ...]:
+        """Return the record classes that a value may have."""
+        known = kinds.get(self.hint) or tuple(record for hint in self.types for record in kinds.get(hint, ()))
+        return known or tuple(hint for hint in self.types if isinstance(hint, type) and is_dataclass(hint))
+
+    def values(self, kinds: Kinds) -> str:
+        """Return its range or choices in words."""
+        records = self.records(kinds)
+        words = self.choices or tuple(record.__name__.lower() for record in records if len(records) + self.optional > 1)
+        if bool in self.types:
+            words = ("true", "false")
+        text = ", ".join(words) or self._span() or ("text" if str in self.types else "numbers")
+        return f"{text}, or {self.none}" if self.optional else text
+
+    def _span(self) -> str:
+        """The bounds in words."""
+        if self.above is not None:
+            return f"above {self.above:g}"
+        if self.high is not None or self.below is not None:
+            return f"{self.low:g} to {f'{self.high:g}' if self.high is not None else f'below {self.below:g}'}"
+        return "" if self.low is None else f"at least {self.low:g}"
+
+    def check(self, value: Any, label: str) -> None:
+        """Raise :class:`InvalidInput`, beginning with ``label``, when the field cannot have ``value``."""
+        if (value is None and self.optional) or self._fits(value):
+            return
+        remedy = "compare with `kfmaps config`"
+        if self.choices:
+            wanted, remedy = "one of " + ", ".join(self.choices), "choose one of them"
+        elif {int, float}.intersection(self.types):
+            span = self._span()
+            wanted = f"a {'whole ' if int in self.types else ''}number{span and f', {span}'}"
+        elif bool in self.types or str in self.types:
+            wanted = "true or false" if bool in self.types else "text"
+        else:
+            default = self.default() if callable(self.default) else self.default
+            example = f"{type(default).__name__}()" if is_dataclass(default) else ""
+            wanted = f"a record such as {example}" if example else "a record"
+            remedy = f"write {self.name}={example}" if example else remedy
+        raise refuse(label, wanted + (f", or {self.none}" if self.optional else ""), repr(value)[:80], remedy)
+
+    def _fits(self, value: Any) -> bool:
+        if self.choices:
+            return isinstance(value, str) and value in self.choices
+        if bool in self.types or isinstance(value, bool):
+            return bool in self.types and isinstance(value, bool | np.bool_)
+        for plain, number in ((int, Integral), (float, Real)):
+            if plain in self.types:
+                return isinstance(value, number) and math.isfinite(value) and self._inside(float(value))
+        if str in self.types:
+            return isinstance(value, str)
+        return any(_is_a(value, hint) for hint in self.types)
+
+    def _inside(self, value: float) -> bool:
+        return (
+            (self.above is None or value > self.above)
+            and (self.low is None or value >= self.low)
+            and (self.high is None or value <= self.high)
+            and (self.below is None or value < self.below)
+        )
 
 
-Unions = Mapping[Any, tuple[type, ...]]
-"""The records behind hints that do not list them themselves, such as a protocol."""
+def _is_a(value: Any, hint: Any) -> bool:
+    """Whether a value that is no plain one fits a type; a callable is one that is no class."""
+    origin = get_origin(hint)
+    if origin is tuple:
+        return isinstance(value, tuple)
+    if isinstance(hint, type) and is_dataclass(hint):
+        return isinstance(value, hint)
+    return callable(value) and not isinstance(value, type)
 
 
-def as_dict(value: Any, kinds: Mapping[str, type], name: Any = repr) -> Any:
-    """``value`` with every record in it as a dictionary of plain values, fit for JSON and TOML.
+def setting(default: Any, help: str = "", **bounds: Any) -> Any:
+    """Return a dataclass field with documentation and bounds.
+
+    Parameters
+    ----------
+    default : Any
+        The default value; a class or function makes it anew for each record.
+    help : str
+        What it means.
+    bounds
+        Further attributes of :class:`Setting`.
+    """
+    metadata = {"help": help, **bounds}
+    if callable(default):
+        return field(default_factory=default, metadata=metadata)
+    return field(default=default, metadata=metadata)
+
+
+@dataclass_transform(frozen_default=True)
+def settings_record(cls: type[T]) -> type[T]:
+    """Make ``cls`` a frozen dataclass that checks its fields and lists them in its documentation.
+
+    A class with a ``__post_init__`` of its own calls :func:`check_record` there.
+    """
+    if "__post_init__" not in vars(cls):
+        cls.__post_init__ = check_record  # pyright: ignore[reportAttributeAccessIssue]
+    text = [cleandoc(cls.__doc__ or ""), "", "Attributes", "----------"]
+    made: Any = dataclass(frozen=True)(cls)
+    for f in fields(made):
+        text += [f"{f.name} : {f.type}", f"    {f.metadata.get('help', '')}"]
+    made.__doc__ = "\n".join(text)
+    return made
+
+
+@lru_cache(maxsize=64)
+def settings_of(cls: type) -> Mapping[str, Setting]:
+    """Return the settings of a record class by name."""
+    hints, found = get_type_hints(cls), {}
+    for f in fields(cls):
+        default = f.default if f.default is not MISSING else f.default_factory
+        found[f.name] = Setting(f.name, hints[f.name], default, **f.metadata)
+    return found
+
+
+def check_record(record: Any) -> None:
+    """Raise :class:`InvalidInput` when a field of ``record`` has a wrong type or is out of bounds."""
+    for one in settings_of(type(record)).values():
+        one.check(getattr(record, one.name), f"{type(record).__name__}.{one.name}")
+
+
+def walk(cls: type, kinds: Kinds, path: str = "") -> Iterator[tuple[str, type, Setting]]:
+    """Yield ``(path, record class, setting)`` of everything below ``cls``; nested records of the same hint once."""
+    for one in settings_of(cls).values():
+        label = f"{path}.{one.name}" if path else one.name
+        records = one.records(kinds)
+        if len(records) != 1 or one.optional:
+            yield label, cls, one
+        for record in () if path else records:
+            yield from walk(record, kinds, label)
+
+
+def as_dict(value: Any, kinds: Mapping[str, type], name: Callable[[Any], str] = repr) -> Any:
+    """Return ``value`` with every record in it as a dictionary of plain values, fit for JSON and TOML.
 
     Records among ``kinds`` carry theirs under ``kind``. A callable becomes ``{"kind": "callable", "name": …}``, which
-    :func:`updated` refuses.
+    :func:`update` refuses.
     """
     if is_dataclass(value) and not isinstance(value, type):
         inside = {f.name: as_dict(getattr(value, f.name), kinds, name) for f in fields(value)}
@@ -57,11 +221,11 @@ def as_dict(value: Any, kinds: Mapping[str, type], name: Any = repr) -> Any:
         return {"kind": kind, **inside} if kind in kinds else inside
     if callable(value):
         return {"kind": "callable", "name": name(value)}
-    return value
+    return value.item() if isinstance(value, np.generic) else value
 
 
-def updated(record: Any, values: Mapping[str, Any], fresh: Any, unions: Unions) -> Any:
-    """``record`` with what ``values`` names replaced; strict on names and types.
+def update(record: T, values: Mapping[str, Any], fresh: Any, kinds: Kinds) -> T:
+    """Return ``record`` with what ``values`` names replaced.
 
     Kinds may be written in any case, a record may be named by its kind alone (``kernel = "laplacian"``), and
     ``"none"``, ``"all"`` and ``"automatic"`` stand for ``None`` where there can be none. A record of another kind than
@@ -72,48 +236,64 @@ def updated(record: Any, values: Mapping[str, Any], fresh: Any, unions: Unions) 
     InvalidInput
         On names that do not exist and values of the wrong type or out of range.
     """
-    return _changed(type(record), values, Place("", record, fresh), unions)
+    return _updated(type(record), values, record, fresh, "", kinds)
 
 
-def _changed(kind: type, values: Mapping[str, Any], place: Place, unions: Unions) -> Any:
-    """A record of ``kind`` with ``values``, the rest as it is at ``place``."""
-    hints, names = get_type_hints(kind), [f.name for f in fields(kind)]
-    changes = {}
-    for name, value in values.items():
-        if name not in names:
-            wanted = f"one of {', '.join(names)}" if names else "no setting"
-            raise refuse(place.label or "settings", wanted, repr(name), "check the spelling")
-        changes[name] = _value(value, hints[name], place.inside(name), unions)
-    if place.current is not None:
-        return replace(place.current, **changes)
-    for f in fields(kind):
-        if f.name not in changes and f.default is MISSING and f.default_factory is MISSING:
-            wanted = "a kernel" if hints[f.name] in unions else _wanted(hints[f.name])
-            raise refuse(f"{place.label}.{f.name}", wanted, "none", f"{kind.__name__.lower()} cannot do without")
-    return kind(**changes)
+def _updated(cls: type, values: Any, current: Any, fresh: Any, path: str, kinds: Kinds) -> Any:
+    """A record of class ``cls`` with ``values``, the rest as in ``current`` or by default."""
+    known, changes = settings_of(cls), {}
+    for name, value in _table(values, path).items():
+        if name not in known:
+            wanted = f"one of {', '.join(known)}" if known else "no setting"
+            remedy = "check the spelling; files of another version of kfmaps must be made anew"
+            raise refuse(path or "settings", wanted, repr(name), remedy)
+        now, then = getattr(current, name, None), getattr(fresh, name, None)
+        changes[name] = _value(known[name], value, now, then, f"{path}.{name}" if path else name, kinds)
+    if current is not None:
+        return replace(current, **changes)
+    for one in known.values():
+        if one.default is MISSING and one.name not in changes:
+            wanted = f"one of {one.values(kinds)}"
+            raise refuse(f"{path}.{one.name}", wanted, "none", f"{cls.__name__.lower()} cannot do without")
+    return cls(**changes)
 
 
-def _value(value: Any, hint: Any, place: Place, unions: Unions) -> Any:
-    if isinstance(hint, type) and is_dataclass(hint):
-        return _changed(hint, _table(value, place.label), place, unions)
-    if any(get_origin(option) is tuple for option in (hint, *get_args(hint))):
-        return _tuple(value, place.label)
-    options: tuple[Any, ...] = unions.get(hint) or get_args(hint) or (hint,)
-    if value is None or (NoneType in options and isinstance(value, str) and value.lower() in NOTHING):
-        if NoneType not in options:
-            raise refuse(place.label, _wanted(hint), "none", "give one")
+def _value(one: Setting, value: Any, current: Any, fresh: Any, label: str, kinds: Kinds) -> Any:
+    records = one.records(kinds)
+    if one.optional and (value is None or (isinstance(value, str) and value.lower() in NOTHING)):
         return None
-    if any(is_dataclass(option) for option in options):
-        return _one_of(value, options, place, unions)
-    if get_origin(hint) is Literal:
-        if value not in options:
-            raise refuse(place.label, "one of " + ", ".join(options), repr(value), "choose one of them")
-        return value
-    plain = next(option for option in options if option is not NoneType)
-    if plain is float and type(value) is int:
-        value = float(value)
-    if type(value) is not plain or (isinstance(value, float) and not math.isfinite(value)):
-        raise refuse(place.label, _wanted(hint), repr(value), "compare with `kfmaps config`")
+    if len(records) == 1 and not one.optional:
+        return _updated(records[0], value, current, fresh, label, kinds)
+    if records and not (value is None and not one.optional):
+        return _one_of(records, one, value, current, fresh, label, kinds)
+    if any(get_origin(hint) is tuple for hint in one.types):
+        return _tuple(value, label)
+    value = float(value) if type(value) is int and float in one.types else value
+    one.check(value, label)
+    return value
+
+
+def _one_of(
+    records: tuple[type, ...], one: Setting, value: Any, current: Any, fresh: Any, label: str, kinds: Kinds
+) -> Any:
+    """A record of one of several kinds."""
+    table = dict(_table({"kind": value} if isinstance(value, str) else value, label))
+    by_name = {record.__name__.lower(): record for record in records}
+    present = type(current).__name__.lower()
+    kind = table.pop("kind", present if present in by_name or len(records) > 1 else next(iter(by_name)))
+    if one.optional and kind == "none" and not table:
+        return None
+    if not isinstance(kind, str) or kind.lower() not in by_name:
+        got = "none" if kind == "nonetype" else repr(kind)
+        raise refuse(f"{label}.kind", "one of " + ", ".join(by_name), got, "choose one of them")
+    cls = by_name[kind.lower()]
+    begin = next((record for record in (current, fresh) if type(record) is cls), None)
+    return _updated(cls, table, begin, None, label, kinds)
+
+
+def _table(value: Any, label: str) -> Mapping[str, Any]:
+    if not isinstance(value, dict):
+        raise refuse(label, "a table of settings", repr(value), f"write [{label}] and one setting a line")
     return value
 
 
@@ -125,30 +305,3 @@ def _tuple(value: Any, label: str, depth: int = 0) -> tuple[Any, ...]:
     if any(not isinstance(item, tuple) and type(item) not in (int, float) for item in items):
         raise refuse(label, "a list of numbers, or of lists of them", repr(value)[:60], "write [1.0, 2.0]")
     return tuple(items)
-
-
-def _one_of(value: Any, options: tuple[Any, ...], place: Place, unions: Unions) -> Any:
-    """A record of one of several kinds."""
-    table = _table({"kind": value} if isinstance(value, str) else value, place.label)
-    kinds = {option.__name__.lower(): option for option in options if option is not NoneType}
-    present = type(place.current).__name__.lower()
-    named = table.get("kind", present if present in kinds or len(kinds) > 1 else next(iter(kinds)))
-    if NoneType in options and named == "none" and len(table) == 1:
-        return None
-    if not isinstance(named, str) or named.lower() not in kinds:
-        got = "none" if named == "nonetype" else repr(named)
-        raise refuse(f"{place.label}.kind", "one of " + ", ".join(kinds), got, "choose one of them")
-    kind = kinds[named.lower()]
-    begin = next((record for record in (place.current, place.fresh) if type(record) is kind), None)
-    inside = {name: entry for name, entry in table.items() if name != "kind"}
-    return _changed(kind, inside, replace(place, current=begin), unions)
-
-
-def _table(value: Any, label: str) -> Mapping[str, Any]:
-    if not isinstance(value, dict):
-        raise refuse(label, "a table of settings", repr(value), f"write [{label}] and one setting a line")
-    return value
-
-
-def _wanted(hint: Any) -> str:
-    return " or ".join(NAMES.get(option, "none") for option in get_args(hint) or (hint,))

@@ -140,7 +140,7 @@ def prepare(
     report = progress or (lambda _stage, _done: None)
     part = clean_mesh(check_mesh(mesh, name, cloud=True), specks=True)
     small = unit_area(part.mesh)
-    wanted = config.eigenfunctions
+    wanted = config.n_eigenfunctions
     if len(small.vertices) <= wanted:
         remedy = "lower the basis, descriptor and refinement sizes, or refine the mesh"
         raise refuse(name, f"more than {wanted} vertices, one for each eigenfunction", str(len(small.vertices)), remedy)
@@ -219,7 +219,9 @@ def mirror_image(shape: Shape) -> Shape:
         For a point cloud, which has no orientation.
     """
     if len(shape.mesh.faces) == 0:
-        raise refuse(shape.name, "a surface, which can be mirrored", "a point cloud", "leave orientation at 'kept'")
+        raise refuse(
+            shape.name, "a surface, which can be mirrored", "a point cloud", "leave orientation at 'preserving'"
+        )
     return replace(shape, mesh=mirrored_mesh(shape.mesh), shot=None if shape.shot is None else mirror_shot(shape.shot))
 
 

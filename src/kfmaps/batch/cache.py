@@ -48,7 +48,7 @@ def shape_key(content: str, suffix: str, config: Config) -> str:
             "content": content,
             "suffix": suffix.lower(),
             "laplacian": config.basis.laplacian,
-            "eigenfunctions": config.eigenfunctions,
+            "eigenfunctions": config.n_eigenfunctions,
             "shot": config.descriptors.shot_radius if config.descriptors.shot else None,
         },
         digits=32,

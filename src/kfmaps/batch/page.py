@@ -59,7 +59,7 @@ COLUMNS: tuple[Column, ...] = (
     ("confidence", lambda r: r.confidence, "{:.3g}".format),
     ("local confidence", lambda r: r.local_confidence, "{:.2f}".format),
     ("agreement", lambda r: r.agreement, "{:.3g}".format),
-    ("orientation", lambda r: r.orientation if r.orientation == "reversed" else None, str),
+    ("orientation", lambda r: r.orientation if r.orientation == "reversing" else None, str),
     ("of source", lambda r: r.common_s, "{:.0%}".format),
     ("of target", lambda r: r.common_t, "{:.0%}".format),
     ("exchanged for", lambda r: r.changed or None, str),

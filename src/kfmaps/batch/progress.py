@@ -108,7 +108,7 @@ def estimate(
     Maps that are made to agree in the end (``consistent``) are scored by what a search would know of the shapes.
     """
     searched = config.search is not None
-    shape = 8.0 * vertices * (config.eigenfunctions + SHOT_SIZE * config.descriptors.shot)
+    shape = 8.0 * vertices * (config.n_eigenfunctions + SHOT_SIZE * config.descriptors.shot)
     disk = shapes * (shape + SAMPLE_BYTES * (searched or consistent)) + pairs * MAP_BYTES * vertices
     each = max(SEARCH_SECONDS * vertices, MIN_SEARCH_SECONDS) if searched else FIT_SECONDS * vertices
     each += AGREE_SECONDS * vertices if consistent else 0.0

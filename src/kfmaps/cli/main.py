@@ -40,13 +40,6 @@ the first line of its documentation, said here too so that ``--help`` imports no
 USAGE_ERROR: type[Exception] = next(kind for kind in typer.BadParameter.__mro__ if kind.__name__ == "ClickException")
 """What Typer raises about unknown options and missing arguments; it has no public name in all versions."""
 
-RENAMED = {
-    "--truth-source": "--truth SOURCE TARGET",
-    "--truth-target": "--truth SOURCE TARGET",
-    "--rank": "--samples",
-}
-"""Options that have gone, and what does the same."""
-
 FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO, errno.EBADF)
 """What the system says when a stream takes no more."""
 
@@ -176,10 +169,9 @@ def _run(words: Sequence[str]) -> int:
     try:
         status = command.main(args=list(words), prog_name="kfmaps", standalone_mode=False)
     except USAGE_ERROR as error:
-        message = error.format_message()  # pyright: ignore[reportAttributeAccessIssue]
-        now = RENAMED.get(getattr(error, "option_name", ""))
-        message = f"there is no {error.option_name}, it is {now}" if now else message  # pyright: ignore
-        path = getattr(getattr(error, "ctx", None), "command_path", "kfmaps")
+        context = getattr(error, "ctx", None)
+        message = _other_option(error, context) or error.format_message()  # pyright: ignore[reportAttributeAccessIssue]
+        path = getattr(context, "command_path", "kfmaps")
         # Without a message it was a group without a command, and the help has been printed.
         return _failed(f"{message.rstrip('.')}; see {path} --help") if message else FAILURE
     except typer.Abort:
@@ -187,6 +179,17 @@ def _run(words: Sequence[str]) -> int:
     except SystemExit as leaving:
         return leaving.code if isinstance(leaving.code, int) else 0
     return status if isinstance(status, int) else 0
+
+
+def _other_option(error: Exception, context: Any) -> str:
+    """Name the settings that an unknown option may mean, where the command takes ``--set``."""
+    option = getattr(error, "option_name", None)
+    if option is None or all(parameter.name != "assign" for parameter in context.command.params):
+        return ""
+    from kfmaps.settings.merge import similar_settings
+
+    found = " or ".join(f"--set {path}=VALUE" for path in similar_settings(option))
+    return f"there is no option {option}; use {found}" if found else ""
 
 
 def _teller(otherwise: Callable[..., None]) -> Callable[..., None]:

@@ -150,7 +150,7 @@ def _rows(match: Match, found: dict[str, Any], accuracy: Accuracy | None) -> lis
     spent = sorted(found["times"].items(), key=lambda item: -item[1])
     size = f"{found['map_rows']} × {found['map_columns']}"
     rows.append(("landmarks", str(found["landmarks"]) if found["landmarks"] else "none"))
-    if found["orientation"] == "reversed":
+    if found["orientation"] == "reversing":
         rows.append(("orientation", "reversed: the target is matched as the mirror image of the source"))
     if found["doubted"]:
         numbers = ", ".join(str(number) for number in found["doubted"])
@@ -159,7 +159,7 @@ def _rows(match: Match, found: dict[str, Any], accuracy: Accuracy | None) -> lis
         )
     if found["weights"] is not None and match.config is not None:
         per, least = (
-            match.config.formulation.loss_per,
+            match.config.formulation.loss_group,
             sorted(enumerate(found["weights"]), key=lambda item: item[1])[:3],
         )
         told = ", ".join(f"{per} {number} {weight:.2f}" for number, weight in least)

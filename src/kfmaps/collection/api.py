@@ -210,7 +210,7 @@ def match_collection(
             parts.append(((a, b), file.target_to_source, match_ab))
             continue
         told = given_map if match_ab is None else match_ab
-        store.add((a, b), file, match_ab, told.orientation == "reversed" if isinstance(told, Match) else None)
+        store.add((a, b), file, match_ab, told.orientation == "reversing" if isinstance(told, Match) else None)
     result = synchronize_store(store)
     pairs = tuple((names[a], names[b]) for a, b in (*store.ends, *(pair for pair, _, _ in parts)))
     return Collection(
@@ -272,7 +272,7 @@ class _MemoryStore:
             new.append((change.edge, made))
         for edge, made in new:
             self.matches[edge] = made
-            self.candidates[edge] = [(made.target_to_source, made.orientation == "reversed")]
+            self.candidates[edge] = [(made.target_to_source, made.orientation == "reversing")]
 
     def eigenvalues(self, count: int) -> np.ndarray:
         return np.stack([shape.basis.eigenvalues[:count] for shape in self.shapes])

@@ -92,7 +92,7 @@ def stored_candidates(file: MapFile, reversed: bool | None = None) -> list[Candi
 def _is_reversed(file: MapFile) -> bool:
     """Whether a map's file says that it is one to a mirror image."""
     try:
-        return json.loads(str(file.extra.get("summary", "{}"))).get("orientation") == "reversed"
+        return json.loads(str(file.extra.get("summary", "{}"))).get("orientation") == "reversing"
     except (ValueError, AttributeError):
         return False
 
@@ -147,7 +147,7 @@ def refine_replacement(
         points,
         config,
         origin=label,
-        orientation="reversed" if turned else "kept",
+        orientation="reversing" if turned else "preserving",
         verdict=probability_word(replacement.after),
         confidence=replacement.after,
         quality=replacement.score_after,

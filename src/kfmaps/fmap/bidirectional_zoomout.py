@@ -57,7 +57,7 @@ def bidirectional_zoomout(
     if tuple(D.shape) != (C.shape[1], C.shape[0]):
         wanted = f"shape {(C.shape[1], C.shape[0])}"
         raise refuse("map back", wanted, f"shape {tuple(D.shape)}", "give the map from target to source")
-    guide = guide if zoom.guidance else None
+    guide = guide if zoom.descriptor_weight else None
     first = min(zoom.start, *C.shape)
     C = 0.5 * (C[:first, :first] + D[:first, :first].T)
     sizes = [*range(first, zoom.stop, zoom.step), zoom.stop]
@@ -97,7 +97,7 @@ def _points(
     beside = None
     if guide is not None:
         few = guide.at(source.choice_rows, target.mapped_rows)
-        beside = few.embedding_columns(zoom.guidance, source.choice, target.mapped)
+        beside = few.embedding_columns(zoom.descriptor_weight, source.choice, target.mapped)
     return to_points(C, source.choice, target.mapped, threads, beside)
 
 

@@ -57,7 +57,7 @@ def minimize_orthogonal(
     ----------
     energy : Term
     solver : CG
-        ``rtol``: stop when the tangent part of the gradient is below ``rtol ‖B‖``; ``max_steps`` as usual.
+        ``rtol``: stop when the tangent part of the gradient is below ``rtol ‖B‖``; ``max_iter`` as usual.
         ``Direct``, which has no counterpart here, means a tolerance of 1e-10.
     start : (k_t, k_s)
         Made orthonormal first.
@@ -72,8 +72,8 @@ def minimize_orthogonal(
         ``residuals`` are norms of the tangent part of the gradient; ``steps`` are steps along the manifold, each two
         applications of the operator or more. ``"breakdown"``: rounding lets no step lower the energy any more.
     """
-    settings = CG(rtol=1e-10, max_steps=5000) if isinstance(solver, Direct) else solver
-    limit = np.inf if settings.max_steps is None else settings.max_steps
+    settings = CG(rtol=1e-10, max_iter=5000) if isinstance(solver, Direct) else solver
+    limit = np.inf if settings.max_iter is None else settings.max_iter
     right = energy.rhs()
     check(start, "start", shape=tuple(right.shape), remedy="give a functional map of the size of the basis")
     size = inner(right, right) ** 0.5 or 1.0

@@ -11,8 +11,9 @@ from typing import Any
 
 import numpy as np
 
-from kfmaps._arrays import Array, check_count, namespace, refuse, take
+from kfmaps._arrays import Array, namespace, refuse, take
 from kfmaps._progress import Done
+from kfmaps._records import check_record, setting, settings_record
 from kfmaps.fmap.approximate_nearest import N_PROBE_FAST
 from kfmaps.fmap.convert import to_functional, to_points
 from kfmaps.fmap.descriptor_guidance import DescriptorGuidance
@@ -60,7 +61,7 @@ class Refined:
     history: tuple[int, ...]
 
 
-@dataclass(frozen=True)
+@settings_record
 class ICP:
     """Match, fit, take the nearest orthogonal matrix; ``steps`` times (Ovsjanikov et al. 2012).
 
@@ -68,10 +69,7 @@ class ICP:
     where every function goes, the matrix is a partial isometry.
     """
 
-    steps: int = 5
-
-    def __post_init__(self) -> None:
-        check_count(self.steps, "ICP steps")
+    steps: int = setting(5, "steps of ICP", low=1)
 
     def __call__(
         self,
@@ -103,46 +101,39 @@ class ICP:
         return Refined(C, points, tuple(changes))
 
 
-@dataclass(frozen=True)
+@settings_record
 class ZoomOut:
     """Point map and functional map in turn while the basis grows (Melzi et al. 2019).
 
-    Parameters
-    ----------
-    start : int
-        First size; a larger map is truncated to it, a smaller one starts at its own size.
-    stop : int
-        Last size; both bases need as many functions.
-    step : int
-        Growth per step.
-    samples : int or None
-        Points of the target that the steps before the last work on: the functional map is then fitted to them by
-        damped least squares, each weighted by the area that is closest to it, and of a source with more than
-        :data:`EACH` times as many points, or :data:`CANDIDATES_PER_CALL`, that many are there to be chosen. ``None``
-        takes all
-        points. The last step always does.
-    seed : int
-        For the choice of samples; that of a match (``rng``) is added to it.
-    guidance : float
-        Weight of the descriptors that guide the search for the nearest point, where :meth:`__call__` is given any:
-        mean squared difference of two random points, which in k functions is about 2 k. 0 is ZoomOut as published.
+    A functional map larger than ``start`` is truncated to it, a smaller one starts at its own size. Where there are
+    more than ``samples`` points of the target, the steps before the last work on so many: the functional map is fitted
+    to them by damped least squares, each weighted by the area that is closest to it, and of a source with more than
+    :data:`EACH` times as many points, or :data:`CANDIDATES_PER_CALL`, that many are there to be chosen.
+
+    ``descriptor_weight`` is the mean squared difference of two random points, which in k functions is about 2 k, and
+    has an effect only where :meth:`__call__` is given descriptors; 0 is ZoomOut as published.
     """
 
-    start: int = 20
-    stop: int = 150
-    step: int = 5
-    samples: int | None = None
-    seed: int = 0
-    guidance: float = 0.0
+    start: int = setting(20, "first size of ZoomOut", low=2)
+    stop: int = setting(150, "last size of ZoomOut; both bases need as many functions", low=2)
+    step: int = setting(5, "growth per step of ZoomOut", low=1)
+    samples: int | None = setting(
+        None, "points of the target that all steps of ZoomOut but the last work on", low=2, none="all"
+    )
+    seed: int = setting(0, "seed of the choice of these points; that of the match is added", low=0)
+    descriptor_weight: float = setting(0.0, "weight of SHOT in the search for the nearest point", low=0)
 
     def __post_init__(self) -> None:
-        check_count(self.start, "ZoomOut start", low=2)
-        check_count(self.stop, "ZoomOut stop", low=self.start)
-        check_count(self.step, "ZoomOut step")
-        if self.samples is not None:
-            check_count(self.samples, "ZoomOut samples", low=2)
-        if not 0 <= self.guidance < float("inf"):
-            raise refuse("ZoomOut guidance", "a finite number of at least zero", repr(self.guidance), "36 is usual")
+        check_record(self)
+        if self.stop < self.start:
+            raise refuse(
+                "ZoomOut.stop", f"at least {self.start}, the start", str(self.stop), "raise stop or lower start"
+            )
+
+    @property
+    def n_eigenfunctions(self) -> int:
+        """How many eigenfunctions both shapes need."""
+        return self.stop
 
     def __call__(
         self,
@@ -159,7 +150,7 @@ class ZoomOut:
             remedy = "compute more eigenfunctions or lower stop"
             raise refuse("ZoomOut stop", f"at most the {available} eigenfunctions at hand", str(self.stop), remedy)
         first = min(self.start, *C.shape)
-        guide = guide if self.guidance else None
+        guide = guide if self.descriptor_weight else None
         if tuple(C.shape) != (first, first) or guide is not None:
             points = None
         C = C[:first, :first]
@@ -183,7 +174,7 @@ class ZoomOut:
             exact: bool | None = None,
             **search: Any,
         ) -> np.ndarray:
-            beside = None if guide is None else guide.embedding_columns(self.guidance, source, target)
+            beside = None if guide is None else guide.embedding_columns(self.descriptor_weight, source, target)
             return to_points(C, source, target, threads, beside, exact, **search)
 
         # On samples the next step forgives a point in a thousand that is not quite the nearest.

@@ -13,7 +13,8 @@ from typing import Literal
 
 import numpy as np
 
-from kfmaps._arrays import Array, check_count, inner, like, namespace, refuse, to_numpy
+from kfmaps._arrays import Array, inner, like, namespace, refuse, to_numpy
+from kfmaps._records import check_record, setting, settings_record
 
 Status = Literal["converged", "step limit", "breakdown"]
 Operator = Callable[[Array], Array]
@@ -42,11 +43,11 @@ class Solution:
     residuals: np.ndarray
 
 
-@dataclass(frozen=True)
+@settings_record
 class CG:
     """Conjugate gradients on an array of any shape (figure 1 of the paper), optionally preconditioned.
 
-    Stops at ``‖r‖ <= rtol ‖b‖`` or after ``max_steps``. The paper's "10 iterations" is ``CG(max_steps=10)``.
+    Stops at ``‖r‖ <= rtol ‖b‖`` or after ``max_iter``. The paper's "10 iterations" is ``CG(max_iter=10)``.
     Unlike SciPy's, it keeps every residual and reports a breakdown instead of returning silently.
 
     Raises
@@ -55,26 +56,20 @@ class CG:
         When neither criterion could ever stop it.
     """
 
-    rtol: float = 1e-6
-    max_steps: int | None = 1000
+    rtol: float = setting(1e-6, "relative residual at which CG stops", low=0)
+    max_iter: int | None = setting(1000, "steps after which CG stops (max steps)", low=1)
 
     def __post_init__(self) -> None:
-        if not (np.isfinite(self.rtol) and self.rtol >= 0):
-            raise refuse("CG rtol", "a number of at least zero", repr(self.rtol), "1e-6 is usual")
-        if self.max_steps is not None:
-            check_count(self.max_steps, "CG max_steps")
-        elif self.rtol == 0:
-            raise refuse("CG", "a way to stop", "rtol 0 and no step limit", "set rtol or max_steps")
+        check_record(self)
+        if self.max_iter is None and self.rtol == 0:
+            raise refuse("CG", "a way to stop", "rtol 0 and no step limit", "set rtol or max_iter")
 
 
-@dataclass(frozen=True)
+@settings_record
 class Direct:
     """The dense system, column by column, solved by Cholesky or least squares: for tests and small bases."""
 
-    limit: int = 4000
-
-    def __post_init__(self) -> None:
-        check_count(self.limit, "Direct limit")
+    limit: int = setting(4000, "most unknowns that the dense solver takes", low=1)
 
 
 Solver = CG | Direct
@@ -110,7 +105,7 @@ def solve(
     r = b if x0 is None else b - apply(x0)
     size = inner(b, b) ** 0.5
     residuals = [inner(r, r) ** 0.5]
-    limit = np.inf if solver.max_steps is None else solver.max_steps
+    limit = np.inf if solver.max_iter is None else solver.max_iter
     status: Status = "step limit"
     p, rz = None, 0.0
     steps = 0

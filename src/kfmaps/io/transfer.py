@@ -135,8 +135,8 @@ def transfer_by_functions(
     if products > k_s:
         raise refuse("--products", f"at most the {k_s} functions that the map carries", str(products), "lower it")
     k = min(max(k_s, k_t), len(source.vertices) - 1, len(target.vertices) - 1)
-    plain = replace(Config.single_fit(), basis=BasisConfig(k), refinement=None, finish=None, threads=threads)
-    plain = replace(plain, descriptors=DescriptorConfig(signature="none", landmark_map="none", shot=False))
+    plain = replace(Config.single_fit(), basis=BasisConfig(k), refinement=None, registration=None, threads=threads)
+    plain = replace(plain, descriptors=DescriptorConfig(signature="none", landmark_descriptor="none", shot=False))
     across = reindexing(prepare(source, plain, name="source"), prepare(target, plain, name="target"))
     points = across.part_s.to_clean[found.target_to_source[across.part_t.to_original]]
     bases = across.source.basis.truncate(k_s), across.target.basis.truncate(k_t)

@@ -7,12 +7,13 @@ pairwise kernels, a function of your own): :func:`kernel_matrix` calls it and ch
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Any, Protocol, runtime_checkable
 
 import numpy as np
 
-from kfmaps._arrays import Array, check_count, check_positive, is_numpy, like, namespace, refuse, to_numpy
+from kfmaps._arrays import Array, is_numpy, like, namespace, refuse, to_numpy
+from kfmaps._records import setting, settings_record
 
 
 @runtime_checkable
@@ -74,17 +75,12 @@ class Linear:
         return namespace(X).sum(X * X, axis=1)
 
 
-@dataclass(frozen=True)
+@settings_record
 class Polynomial:
-    """``(x·y + offset)^degree`` with ``offset >= 0``: all products of up to ``degree`` descriptors."""
+    """``(x·y + offset)^degree``: all products of up to ``degree`` descriptors."""
 
-    degree: int = 2
-    offset: float = 1.0
-
-    def __post_init__(self) -> None:
-        check_count(self.degree, "Polynomial degree")
-        if not (np.isfinite(self.offset) and self.offset >= 0):
-            raise refuse("Polynomial offset", "a number of at least zero", repr(self.offset), "use 0 or 1")
+    degree: int = setting(2, "degree of the polynomial kernel", low=1)
+    offset: float = setting(1.0, "what is added to x·y", low=0)
 
     def __call__(self, X: Array, Y: Array, /) -> Array:
         return (X @ Y.T + self.offset) ** self.degree
@@ -93,15 +89,11 @@ class Polynomial:
         return (namespace(X).sum(X * X, axis=1) + self.offset) ** self.degree
 
 
-@dataclass(frozen=True)
+@settings_record
 class Gaussian:
     """``exp(-γ ‖x − y‖²)``; ``gamma=None`` is chosen from the descriptors by :func:`resolve_kernel`."""
 
-    gamma: float | None = None
-
-    def __post_init__(self) -> None:
-        if self.gamma is not None:
-            check_positive(self.gamma, "Gaussian gamma", "give a number above zero, or None for automatic")
+    gamma: float | None = setting(None, "γ, per squared unit of the descriptors", above=0, none="automatic")
 
     def __call__(self, X: Array, Y: Array, /) -> Array:
         return namespace(X, Y).exp(-_known(self) * squared_distances(X, Y))
@@ -110,15 +102,11 @@ class Gaussian:
         return _ones(X)
 
 
-@dataclass(frozen=True)
+@settings_record
 class Laplacian:
     """``exp(-γ ‖x − y‖)``, a sharper peak and longer tail than the Gaussian; ``gamma=None`` is automatic."""
 
-    gamma: float | None = None
-
-    def __post_init__(self) -> None:
-        if self.gamma is not None:
-            check_positive(self.gamma, "Laplacian gamma", "give a number above zero, or None for automatic")
+    gamma: float | None = setting(None, "γ, per unit of the descriptors", above=0, none="automatic")
 
     def __call__(self, X: Array, Y: Array, /) -> Array:
         return namespace(X, Y).exp(-_known(self) * distances(X, Y))
@@ -127,18 +115,15 @@ class Laplacian:
         return _ones(X)
 
 
-@dataclass(frozen=True)
+@settings_record
 class Tanh:
     """``tanh(scale·x·y + offset)``, the nonlinearity of neural networks.
 
     Not positive definite in general: the Nyström features keep its positive part and say so.
     """
 
-    scale: float = 1.0
-    offset: float = 0.0
-
-    def __post_init__(self) -> None:
-        check_positive(self.scale, "Tanh scale")
+    scale: float = setting(1.0, "factor of x·y", above=0)
+    offset: float = setting(0.0, "what is added to it")
 
     def __call__(self, X: Array, Y: Array, /) -> Array:
         return namespace(X, Y).tanh(self.scale * (X @ Y.T) + self.offset)
@@ -152,8 +137,8 @@ class Tanh:
 class Sum:
     """``a(x, y) + b(x, y)``: the feature vectors side by side."""
 
-    a: KernelLike
-    b: KernelLike
+    a: KernelLike = field(metadata={"help": "first kernel"})
+    b: KernelLike = field(metadata={"help": "second kernel"})
 
     def __call__(self, X: Array, Y: Array, /) -> Array:
         return kernel_matrix(self.a, X, Y) + kernel_matrix(self.b, X, Y)
@@ -166,8 +151,8 @@ class Sum:
 class Product:
     """``a(x, y) · b(x, y)``: all products of one feature of each."""
 
-    a: KernelLike
-    b: KernelLike
+    a: KernelLike = field(metadata={"help": "first kernel"})
+    b: KernelLike = field(metadata={"help": "second kernel"})
 
     def __call__(self, X: Array, Y: Array, /) -> Array:
         return kernel_matrix(self.a, X, Y) * kernel_matrix(self.b, X, Y)

@@ -6,22 +6,23 @@ descriptors, puts the network's outputs beside them and takes the Gaussian kerne
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from itertools import pairwise
 from typing import Any, Self
 
 import numpy as np
 
-from kfmaps._arrays import Array, check_count, check_positive, like, namespace, refuse, take
+from kfmaps._arrays import Array, check_count, like, namespace, refuse, take
+from kfmaps._records import setting, settings_record
 from kfmaps.kernels import kernels
 from kfmaps.kernels.kernels import Gaussian, KernelLike, describe_kernel, kernel_diagonal, kernel_matrix, resolve_kernel
 
 
-@dataclass(frozen=True)
+@settings_record
 class _Transformed:
     """A kernel of transformed descriptors."""
 
-    kernel: KernelLike = field(default_factory=Gaussian)
+    kernel: KernelLike = setting(Gaussian, "the kernel inside")
 
     def transform(self, X: Array) -> Array:
         raise NotImplementedError
@@ -37,22 +38,17 @@ class _Transformed:
         return replace(self, kernel=resolve_kernel(self.kernel, self.transform(samples), sharpness))
 
 
-@dataclass(frozen=True, repr=False)
+@settings_record
 class Metric(_Transformed):
     """``kernel(M x, M y)``: distances and products in the metric ``MᵀM``.
 
-    Attributes
-    ----------
-    kernel : Kernel
-    matrix : tuple of d numbers, or tuple of r tuples of d numbers
-        A weight for each descriptor ("automatic relevance determination", MacKay 1994), or the rows of ``M (r, d)``.
-    landmarks : int or None
-        Of how many landmarks these descriptors are, where that matters: as many descriptors of other landmarks are
-        other descriptors. Checked by :func:`kfmaps.matching.features.resolve_kernel_width`.
+    The matrix has a weight for each of the d descriptors ("automatic relevance determination", MacKay 1994), or the
+    rows of ``M (r, d)``. Descriptors of other landmarks are other descriptors: their number is checked by
+    :func:`kfmaps.matching.features.resolve_kernel_width`.
     """
 
-    matrix: tuple[float, ...] | tuple[tuple[float, ...], ...] = ()
-    landmarks: int | None = None
+    matrix: tuple[float, ...] | tuple[tuple[float, ...], ...] = setting((), "weights, or rows of M")
+    landmarks: int | None = setting(None, "landmarks that it was learned with", low=0)
 
     def __post_init__(self) -> None:
         if self.landmarks is not None:
@@ -74,21 +70,15 @@ class Metric(_Transformed):
         return f"Metric({describe_kernel(self.kernel)}, {size})"
 
 
-@dataclass(frozen=True, repr=False)
+@settings_record
 class Network(_Transformed):
     """``kernel`` of the rows ``(x, f(x))``: descriptors, and beside them what a small network makes of them.
 
-    Attributes
-    ----------
-    kernel : Kernel
-    layers : tuple of matrices (out, in + 1)
-        The last column is the bias; between layers stands tanh, after the last nothing.
-    columns : tuple of int
-        The descriptors that the network sees; none means all.
+    The last column of each matrix (out, in + 1) is the bias; between layers stands tanh, after the last nothing.
     """
 
-    layers: tuple[tuple[tuple[float, ...], ...], ...] = ()
-    columns: tuple[int, ...] = ()
+    layers: tuple[tuple[tuple[float, ...], ...], ...] = setting((), "matrices of the layers, biases last")
+    columns: tuple[int, ...] = setting((), "descriptors that the network sees; none: all")
 
     def __post_init__(self) -> None:
         plain = tuple(tuple(tuple(row) for row in _matrix(m, "Network layer", 2).tolist()) for m in self.layers)
@@ -114,15 +104,12 @@ class Network(_Transformed):
         return f"Network({describe_kernel(self.kernel)}, {sizes})"
 
 
-@dataclass(frozen=True)
+@settings_record
 class Scaled:
     """``factor · kernel(x, y)``: a share of a :class:`~kfmaps.kernels.kernels.Sum`."""
 
-    kernel: KernelLike = field(default_factory=Gaussian)
-    factor: float = 1.0
-
-    def __post_init__(self) -> None:
-        check_positive(self.factor, "Scaled factor")
+    kernel: KernelLike = setting(Gaussian, "the kernel inside")
+    factor: float = setting(1.0, "factor of the kernel inside", above=0)
 
     def __call__(self, X: Array, Y: Array, /) -> Array:
         return self.factor * kernel_matrix(self.kernel, X, Y)

@@ -151,7 +151,7 @@ class _Implicit(torch.autograd.Function):
 
 def differentiable_minimum(
     energy: Energy,
-    solver: CG = CG(rtol=1e-10, max_steps=2000),  # noqa: B008
+    solver: CG = CG(rtol=1e-10, max_iter=2000),  # noqa: B008
     start: torch.Tensor | None = None,
 ) -> Minimum:
     """Minimise an energy, with derivatives in all tensors that its terms and weights were made from.

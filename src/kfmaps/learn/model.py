@@ -55,9 +55,9 @@ class Columns:
 def columns(config: DescriptorConfig, landmarks: int, count: int) -> Columns:
     """Return the blocks of ``count`` descriptors: signature, one for each landmark, SHOT."""
     local = min(352, count) if config.shot else 0
-    blocks = landmarks if config.landmark_map != "none" and config.layout == "even" else 0
+    blocks = landmarks if config.landmark_descriptor != "none" and config.energy_sampling == "even" else 0
     share = 0.0 if config.signature == "none" else config.signature_share
-    each = max(1, int((1 - share) * config.count) // blocks) if blocks else 0
+    each = max(1, int((1 - share) * config.n_spectral) // blocks) if blocks else 0
     sizes = [("signature", count - local - each * blocks), *[("landmark", each)] * blocks, ("shot", local)]
     ends = np.cumsum([0, *[size for _, size in sizes]])
     groups = [(kind, tuple(range(a, b))) for (kind, _), a, b in zip(sizes, ends[:-1], ends[1:], strict=True) if b > a]
@@ -121,7 +121,7 @@ class Model(torch.nn.Module):
             # The middle kernel begins alone but for a hundredth, through which the others can grow.
             self._add("log_share", np.where(middle == 0, 0.0, np.log(0.01)), {"mixture"})
         else:
-            self.kernel = resolve_kernel(self.kernel, pairs[0].samples.numpy(), config.sharpness)
+            self.kernel = resolve_kernel(self.kernel, pairs[0].samples.numpy(), config.bandwidth_scale)
         self.terms = tuple(name for name in ("descriptors", "laplacian") if getattr(config.weights, name) > 0)
         self._add("log_terms", np.log([getattr(config.weights, name) for name in self.terms]), {"terms"})
         for kind, block in dict(zip(self.columns.kinds, self.columns.blocks, strict=True)).items():
@@ -138,7 +138,7 @@ class Model(torch.nn.Module):
             # The metric has another scale than the descriptors.
             with torch.no_grad():
                 transformed = [self.transform(pair.samples).numpy() for pair in pairs]
-                width = np.log(_automatic_gamma(self.kernel, transformed, config.sharpness))
+                width = np.log(_automatic_gamma(self.kernel, transformed, config.bandwidth_scale))
                 self.get_parameter("log_gamma").add_(width - gamma)
 
     def _add(self, name: str, values: Any, parts: set[str]) -> None:
@@ -198,7 +198,7 @@ class Model(torch.nn.Module):
         if "network" in self.parts:
             layers = tuple(values[name].tolist() for name in ("layer_0", "layer_1"))
             kernel = Network(kernel, layers, self.network_columns)
-        landmarks = self.columns.kinds.count("landmark") if self.config.descriptors.layout == "even" else None
+        landmarks = self.columns.kinds.count("landmark") if self.config.descriptors.energy_sampling == "even" else None
         if "ard" in self.parts:
             weights = [np.exp(values[f"log_weight_{kind}"]) for kind in self.columns.kinds]
             kernel = Metric(kernel, np.concatenate(weights).tolist(), landmarks)

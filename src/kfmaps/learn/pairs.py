@@ -124,7 +124,7 @@ def training_pair(
     InvalidInput
         When landmarks or truth do not fit the shapes, or the configuration has a term that cannot be learned with.
     """
-    if config.weights.orientation or config.exact:
+    if config.weights.orientation or config.full_kernel:
         got = "an orientation term" if config.weights.orientation else "the exact kernel"
         raise refuse("settings to learn from", "features and the terms of the paper", got, "leave it out")
     formulation = config.formulation
@@ -139,8 +139,8 @@ def training_pair(
     descriptors = pair_descriptors(parts[0].shape, parts[1].shape, bases, config.descriptors, rows, None)
     both = (descriptors.source, descriptors.target)
     chosen = np.concatenate([D[farthest_descriptors(D, min(samples // 2, len(D)), rng)] for D in both])
-    kernel = resolve_kernel(config.kernel, chosen, config.sharpness)
-    k = config.basis.functions
+    kernel = resolve_kernel(config.kernel, chosen, config.bandwidth_scale)
+    k = config.basis.n_eigenfunctions
     return TrainingPair(
         f"{source.name} {target.name}",
         bases[0].truncate(k).to("torch"),

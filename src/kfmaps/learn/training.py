@@ -63,7 +63,7 @@ class TrainingOptions:
     start_penalty: float = 0.0
     temperature: float = 0.03
     seconds: float = math.inf
-    solver: CG = field(default_factory=lambda: CG(rtol=1e-4, max_steps=500))
+    solver: CG = field(default_factory=lambda: CG(rtol=1e-4, max_iter=500))
     operator_rtol: float = 1e-3
     seed: int = 0
 

@@ -121,9 +121,9 @@ def assemble(
     ``bases`` are of at least the map's size and on the device of ``descriptors``. Where ``source`` and ``target`` are
     samples of shapes (:func:`kfmaps.shape.sample_shape`), ``whole`` are those shapes: orientation needs their faces.
     """
-    small = (bases[0].truncate(config.basis.functions), bases[1].truncate(config.basis.functions))
+    small = (bases[0].truncate(config.basis.n_eigenfunctions), bases[1].truncate(config.basis.n_eigenfunctions))
     weights = config.weights
-    if config.exact:
+    if config.full_kernel:
         if weights.orientation:
             raise refuse("orientation weight", "0 with the exact kernel", str(weights.orientation), "use features")
         return FitProblem(config, small, resolve_kernel_width(descriptors, config, rng), descriptors)
@@ -137,7 +137,7 @@ def assemble(
         strongest = principal_features(small, features, ORIENTATION_FEATURES)
         size = size or 2.0 * small[0].functions.shape[1]
         shapes = (source, target)
-        k = config.basis.functions
+        k = config.basis.n_eigenfunctions
         orientations = orientation_pair(shapes, whole or shapes, bases, strongest, k, size, config.threads)
     return FitProblem(config, small, features.kernel, descriptors, features, multiplications, orientations)
 

@@ -108,7 +108,7 @@ def pair_descriptors(
     given : pair of arrays (n_s, d), (n_t, d), optional
         Descriptors of the user's own, beside the computed ones.
     """
-    size = min(config.eigenfunctions, *(b.functions.shape[1] for b in bases))
+    size = min(config.n_eigenfunctions, *(b.functions.shape[1] for b in bases))
     small = (bases[0].truncate(size), bases[1].truncate(size))
     sides = [spectral_descriptors(i, small, config, landmarks[:, i]) for i in (0, 1)]
     whose = landmark_of_each(config, len(landmarks))
@@ -143,39 +143,39 @@ def spectral_descriptors(
     side: int, bases: tuple[Basis, ...], config: DescriptorConfig, landmarks: np.ndarray
 ) -> list[Array]:
     """Signature and landmark maps of shape ``side`` (0 or 1); energies are common to both ``bases``."""
-    marks = len(landmarks) if config.landmark_map != "none" else 0
+    marks = len(landmarks) if config.landmark_descriptor != "none" else 0
     with_signature = config.signature != "none"
     if marks == 0 and not with_signature:
         return []
-    if config.layout == "every-nth":
+    if config.energy_sampling == "every-nth":
         return [_every_nth(side, bases, config, landmarks)]
     on_signature, per_landmark = _shares(config, marks)
     parts = []
     if on_signature:
         parts.append(_family(config.signature, bases[side], bases, None, on_signature))
     if per_landmark and marks:
-        parts.append(_family(config.landmark_map, bases[side], bases, landmarks, per_landmark))
+        parts.append(_family(config.landmark_descriptor, bases[side], bases, landmarks, per_landmark))
     return parts
 
 
 def _shares(config: DescriptorConfig, marks: int) -> tuple[int, int]:
     """How many descriptors go to the signature and to each of ``marks`` landmarks."""
     if config.signature == "none":
-        return 0, max(1, config.count // marks)
+        return 0, max(1, config.n_spectral // marks)
     if marks == 0:
-        return config.count, 0
-    per_landmark = max(1, int((1 - config.signature_share) * config.count) // marks)
-    return max(config.count - per_landmark * marks, 0), per_landmark
+        return config.n_spectral, 0
+    per_landmark = max(1, int((1 - config.signature_share) * config.n_spectral) // marks)
+    return max(config.n_spectral - per_landmark * marks, 0), per_landmark
 
 
 def landmark_of_each(config: DescriptorConfig, landmarks: int) -> np.ndarray:
     """The landmark that each of the spectral descriptors is of, counted from 0, (d,); −1 for the signature."""
-    marks = landmarks if config.landmark_map != "none" else 0
+    marks = landmarks if config.landmark_descriptor != "none" else 0
     if marks == 0 and config.signature == "none":
         return np.zeros(0, dtype=np.int64)
-    if config.layout == "every-nth":
+    if config.energy_sampling == "every-nth":
         signature = 0 if config.signature == "none" else EVERY
-        return (_chosen(signature + EVERY * marks, config.count) - signature) // EVERY
+        return (_chosen(signature + EVERY * marks, config.n_spectral) - signature) // EVERY
     on_signature, per_landmark = _shares(config, marks)
     return np.concatenate([np.full(on_signature, -1), np.repeat(np.arange(marks), per_landmark)])
 
@@ -196,16 +196,16 @@ def _family(kind: str, basis: Basis, bases: tuple[Basis, ...], landmarks: np.nda
 
 
 def _every_nth(side: int, bases: tuple[Basis, ...], config: DescriptorConfig, landmarks: np.ndarray) -> Array:
-    whole = replace(config, layout="even", signature_share=1.0)
+    whole = replace(config, energy_sampling="even", signature_share=1.0)
     parts = (
         []
         if config.signature == "none"
-        else spectral_descriptors(side, bases, replace(whole, count=EVERY), landmarks[:0])
+        else spectral_descriptors(side, bases, replace(whole, n_spectral=EVERY), landmarks[:0])
     )
-    if len(landmarks) and config.landmark_map != "none":
-        parts.append(_family(config.landmark_map, bases[side], bases, landmarks, EVERY))
+    if len(landmarks) and config.landmark_descriptor != "none":
+        parts.append(_family(config.landmark_descriptor, bases[side], bases, landmarks, EVERY))
     everything = namespace(*parts).concat(parts, axis=1)
-    return take(everything, _chosen(everything.shape[1], config.count), axis=1)
+    return take(everything, _chosen(everything.shape[1], config.n_spectral), axis=1)
 
 
 def resolve_kernel_width(descriptors: Descriptors, config: Config, rng: np.random.Generator) -> KernelLike:
@@ -221,7 +221,7 @@ def resolve_kernel_width(descriptors: Descriptors, config: Config, rng: np.rando
         remedy = "give as many, or learn a kernel with as many (kfmaps learn --truth-landmarks, or without)"
         raise refuse("landmarks", f"{wanted}, as the kernel was learned with", str(given), remedy)
     rows = [_farthest_rows(D, 100, rng) for D in (descriptors.source, descriptors.target)]
-    return resolve_kernel(config.kernel, namespace(rows[0]).concat(rows), config.sharpness)
+    return resolve_kernel(config.kernel, namespace(rows[0]).concat(rows), config.bandwidth_scale)
 
 
 def kernel_features(

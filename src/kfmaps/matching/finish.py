@@ -91,7 +91,7 @@ def refine_and_register(task: MatchTask, found: SearchResult, guidance: Descript
         # The adjoint, where a search has found the map: its candidates are refined one way.
         back = found.functional_map.T if found.fit is None or found.fit.back is None else found.fit.back
     adapted = replace(
-        config, refinement=adapt_refinement(config.refinement, found), finish=adapt_registration(config.finish, found)
+        config, refinement=adapt_refinement(config.refinement, found), registration=adapt_registration(config.finish, found)
     )
     refined = refine_map(
         found.functional_map,

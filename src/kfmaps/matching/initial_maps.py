@@ -60,7 +60,7 @@ ORIENTATION = (0.1, 0.1, 1.0, 0.1, 1.0, 1.0)
 """Their weights of orientation."""
 COMPRESSION = 1e-3
 NYSTROM = 200
-SOLVER = CG(rtol=1e-4, max_steps=200)
+SOLVER = CG(rtol=1e-4, max_iter=200)
 
 
 @dataclass(frozen=True, eq=False)
@@ -233,10 +233,10 @@ def fit_descriptor_set(
     small = replace(
         config,
         nystrom=replace(config.nystrom, samples=min(NYSTROM, config.nystrom.samples)),
-        exact=False,
+        full_kernel=False,
         solver=SOLVER,
         preconditioner="sylvester",
-        formulation=replace(config.formulation, directions="one"),
+        formulation=replace(config.formulation, bidirectional="one"),
     )
     features = kernel_features(*points.shapes, used, small, np.random.default_rng(seed))
     packed = compressed_operators(low, features, max(config.compression, COMPRESSION), threads=1)
@@ -265,10 +265,10 @@ def fit_descriptor_set(
 def _descriptor_config(name: str, base: DescriptorConfig) -> DescriptorConfig:
     """Return the descriptors of a set."""
     if name == LEARNED:
-        return replace(base, landmark_map="none")
-    both = replace(base, count=30)
+        return replace(base, landmark_descriptor="none")
+    both = replace(base, n_spectral=30)
     if name == "SHOT":
-        return replace(both, signature="none", landmark_map="none")
+        return replace(both, signature="none", landmark_descriptor="none")
     return both if name == "SHOT and waves" else replace(both, shot=False)
 
 

@@ -43,7 +43,9 @@ def drop_learned(config: Config) -> Config:
         return config
     usual = Config()
     asked = replace(config.formulation, mask=usual.formulation.mask, mask_power=usual.formulation.mask_power)
-    return replace(config, kernel=usual.kernel, sharpness=usual.sharpness, weights=usual.weights, formulation=asked)
+    return replace(
+        config, kernel=usual.kernel, bandwidth_scale=usual.bandwidth_scale, weights=usual.weights, formulation=asked
+    )
 
 
 def learned_kernel_applies(config: Config, source: Shape, target: Shape) -> bool:
@@ -77,7 +79,7 @@ def learned_candidates(
     none = np.zeros((0, 2), dtype=np.int64)
     points = sample_pair_for_fit(source, target, FIT_POINTS, none, None, drawn)
     operators = on.whole.source.orientation, on.whole.target.orientation
-    fits = [FitSpec(LEARNED, min(k, config.basis.functions), ORIENTATION) for k in SIZES]
+    fits = [FitSpec(LEARNED, min(k, config.basis.n_eigenfunctions), ORIENTATION) for k in SIZES]
     maps = fit_descriptor_set(fits, points, config, operators, seed)
     starts += [
         Start(f"{fit.name}, from {start}", C, start, WEIGHTS, True)

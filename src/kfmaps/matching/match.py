@@ -105,8 +105,8 @@ def match(
     task = replace(task, part_reason=why)
     if config.search is None:
         return refine_and_register(task, _fit_once(task, marks, descriptors), None)
-    asked = config.search.orientation == "reversed"
-    shapes = task.shapes("reversed" if asked else "kept")
+    asked = config.search.orientation == "reversing"
+    shapes = task.shapes("reversing" if asked else "preserving")
     with task.clock("candidates"):
         found = search_map(
             *shapes,
@@ -123,7 +123,7 @@ def match(
 
 def _match_part(task: MatchTask, landmarks: np.ndarray | None) -> tuple[PartialMatch | None, str]:
     """The match of a part and a whole, or ``None`` where both are whole; and why."""
-    asked, shapes = task.config.partial.which, task.shapes("kept")
+    asked, shapes = task.config.partial.which, task.shapes("preserving")
     if asked == "none":
         return None, ""
     which, why = asked, "as asked for"
@@ -162,7 +162,7 @@ def _part_result(task: MatchTask, part: PartialMatch, why: str) -> Match:
 
 def _fit_once(task: MatchTask, landmarks: np.ndarray | None, descriptors: tuple[Any, Any] | None) -> SearchResult:
     """The map of one fit, without a search."""
-    shapes = task.shapes("kept")
+    shapes = task.shapes("preserving")
     one = fit(
         *shapes,
         task.config,

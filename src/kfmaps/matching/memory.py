@@ -26,7 +26,7 @@ def check_match_memory(config: Config, n_s: int, n_t: int, landmarks: int = 0) -
     """
     most = config.fit_samples or max(n_s, n_t)
     rows = min(n_s, most) + min(n_t, most)
-    count = max(config.descriptors.count, landmarks)
+    count = max(config.descriptors.n_spectral, landmarks)
     remedy = "lower descriptors.count (--descriptors); 100 are usual"
     check_memory(8.0 * rows * count, "settings", f"{count:,} descriptors of {rows:,} points", remedy)
     samples = min(config.nystrom.samples, n_s + n_t)

@@ -93,7 +93,7 @@ def refine_map(
         refine = config.refinement
         if back is not None:
             return _finished_both(C, like(back, C), (source, target), bases, config, points, clock, led)
-        if isinstance(refine, ZoomOut) and refine.guidance:
+        if isinstance(refine, ZoomOut) and refine.descriptor_weight:
             refine = partial(refine, guide=led or descriptor_guidance(source.shot, target.shot))
         with clock("refinement"):
             refined = refine(
@@ -124,7 +124,7 @@ def _finished_both(
 
     with clock("refinement"):
         if isinstance(refine, ZoomOut):
-            guiding = led or descriptor_guidance(shapes[0].shot, shapes[1].shot) if refine.guidance else None
+            guiding = led or descriptor_guidance(shapes[0].shot, shapes[1].shot) if refine.descriptor_weight else None
             forth, other = bidirectional_zoomout(refine, C, back, *bases, told, config.threads, guiding)
         else:
             assert isinstance(refine, ICP)

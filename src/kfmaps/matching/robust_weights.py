@@ -52,13 +52,13 @@ def robust_weights(descriptors: Descriptors, bases: tuple[Basis, Basis], config:
         When the loss is per landmark and there is none.
     """
     asked = config.formulation
-    if asked.loss_per == "landmark":
+    if asked.loss_group == "landmark":
         groups = descriptors.landmark
         if not (groups >= 0).any():
             raise refuse("loss per landmark", "landmarks with maps of their own", "none", "take it per descriptor")
     else:
         groups = np.arange(descriptors.source.shape[1])
-    k = min(FUNCTIONS, config.basis.functions)
+    k = min(FUNCTIONS, config.basis.n_eigenfunctions)
     small = [basis.truncate(k) for basis in bases]
     sides = (descriptors.source, descriptors.target)
     P = [basis.project(D) for basis, D in zip(small, sides, strict=True)]
@@ -72,9 +72,9 @@ def robust_weights(descriptors: Descriptors, bases: tuple[Basis, Basis], config:
     alone = Energy(
         {"laplacian": laplacian_term(small[0], small[1])}, {"laplacian": max(weights.laplacian / against, 1e-6)}
     )
-    how = MinimizeOptions(CG(rtol=1e-4, max_steps=500), max_outer_iter=asked.rounds, rtol=1e-3)
+    how = MinimizeOptions(CG(rtol=1e-4, max_iter=500), max_outer_iter=asked.max_outer_iter, rtol=1e-3)
     C = minimize(Objective(alone, {"data": (1.0, data)}), replace(how, max_outer_iter=1)).value
-    robust = replace(data, loss=Loss(asked.loss)).scaled(C, asked.loss_width)
+    robust = replace(data, loss=Loss(asked.loss)).scaled(C, asked.loss_scale)
     C = minimize(Objective(alone, {"data": (1.0, robust)}), how, C).value
     columns = robust.weights(C)
     columns = np.where(groups < 0, 1.0, columns / max(1.0, float(columns[groups >= 0].max())))

@@ -43,7 +43,6 @@ from kfmaps.matching.score import (
     verdict,
 )
 from kfmaps.matching.self_maps import with_self_maps
-from kfmaps.registration.nonrigid_icp import NonRigid
 from kfmaps.shape import Shape, clean_shape
 
 FEWER = 100
@@ -77,7 +76,7 @@ class SearchResult:
         Those that the map keeps to.
     rejected_landmarks : (d,) int64
         The numbers, from 0, of those given that it contradicts.
-    orientation : "kept" or "reversed"
+    orientation : "preserving" or "reversing"
         Whether it is a map to the target or to its mirror image.
     quality : float or None
         Score of the map of a search, apart from landmarks.
@@ -102,7 +101,7 @@ class SearchResult:
     runners_up: tuple[np.ndarray, ...] = ()
     landmarks: np.ndarray = field(default_factory=lambda: np.zeros((0, 2), dtype=np.int64))
     rejected_landmarks: np.ndarray = field(default_factory=lambda: np.zeros(0, dtype=np.int64))
-    orientation: str = "kept"
+    orientation: str = "preserving"
     quality: float | None = None
     deformation_energy: float | None = None
     extremities: ExtremityVertices | None = None
@@ -130,7 +129,7 @@ class Search:
     copies : ProxyCache
     found, ranked : list of Candidate
         All, and the distinct ones, best first.
-    orientation : "kept" or "reversed"
+    orientation : "preserving" or "reversing"
     """
 
     source: Shape
@@ -197,7 +196,7 @@ def search_map(
         found += without_landmarks(source, target, plain, samples, seed, report=second, **more)
     state = _reject_landmarks(_rank(source, target, config, pairs, samples, found))
     ranked, samples, retries = state.ranked, state.samples.whole, ()
-    if learned and (state.orientation == "kept" or config.search.orientation == "reversed"):
+    if learned and (state.orientation == "preserving" or config.search.orientation == "reversing"):
         others = learned_candidates(source, target, config, state.samples, seed, given)
         ranked = merge_alternatives(ranked, others, samples, state.copies, config.threads)
     if _are_surfaces(samples) and ranked[0].quality.score < SCORE.repair_score:
@@ -234,7 +233,7 @@ def _search_samples(
         )
         probes = made[0], made[1]
     assert config.search is not None
-    if config.search.tips:
+    if config.search.match_extremities:
         return probes
     a, b = (replace(one, extremities=one.extremities.none()) for one in probes)
     return a, b
@@ -258,7 +257,7 @@ def _rank(
         near = rerank_near_duplicates(ranked, near, whole, copies, config.threads, SCORE.duplicate_distance, behind)
         ranked = distinct_maps(near, whole.source, SCORE.distinct_distance)
     assert config.search is not None
-    orientation = "reversed" if config.search.orientation == "reversed" else "kept"
+    orientation = "reversing" if config.search.orientation == "reversing" else "preserving"
     wrong = np.zeros(len(pairs), dtype=bool)
     state = Search(source, target, config, pairs, whole.marks, wrong, samples, copies, found, ranked, orientation)
     return _choose_orientation(state, unduly)
@@ -278,7 +277,7 @@ def _choose_orientation(state: Search, unduly: bool) -> Search:
     if not ranked or ranked[0].score <= state.ranked[0].score + margin:
         return state
     samples = replace(samples, whole=other)
-    return replace(state, samples=samples, copies=copies, found=images, ranked=ranked, orientation="reversed")
+    return replace(state, samples=samples, copies=copies, found=images, ranked=ranked, orientation="reversing")
 
 
 def _reject_landmarks(state: Search) -> Search:
@@ -300,7 +299,7 @@ def _to_result(state: Search, best: Candidate, rest: list[Candidate]) -> SearchR
     """Return ``best`` as the result of a search; ``rest`` are its alternatives, best first."""
     config, samples = state.config, state.samples.whole
     assert config.search is not None
-    others = rest[: config.search.runners_up]
+    others = rest[: config.search.n_alternatives]
     margin = float(max(best.score - rest[0].score, 0.0) if rest else np.inf)
     score = best.quality.score
     evidence = score, margin, best.deformation_energy, backed_by(best, samples, config.threads)
@@ -406,9 +405,9 @@ def adapt_refinement(refinement: Refinement | None, found: SearchResult) -> Refi
     return replace(refinement, stop=stop, start=min(refinement.start, stop), step=min(refinement.step, 10))
 
 
-def adapt_registration(finish: NonRigid | None, found: SearchResult) -> NonRigid | None:
+def adapt_registration(finish: Any, found: SearchResult) -> Any:
     """The non-rigid fit that a found map deserves: of shapes that differ much it lets sizes change."""
-    if finish is None or finish.local_scaling or near_isometric(found):
+    if getattr(finish, "local_scaling", 1) or near_isometric(found):
         return finish
     return replace(finish, local_scaling=STRETCH)
 

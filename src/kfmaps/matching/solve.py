@@ -49,7 +49,7 @@ def solve_problem(task: FitProblem, config: Config, report: Progress, start: Any
         start = np.asarray(to_numpy(start) if hasattr(start, "shape") else start, dtype=np.float64)
         check(start, "start", shape=tuple(right.shape), remedy="give a functional map of the size of the basis")
         start = like(start, right)
-    limit = config.solver.max_steps if isinstance(config.solver, CG) else None
+    limit = config.solver.max_iter if isinstance(config.solver, CG) else None
 
     def told(step: int, relative: float) -> None:
         if limit is not None and isinstance(config.solver, CG):
@@ -73,18 +73,18 @@ def minimize_problem(
 ) -> Minimised:
     """What minimises what ``task`` and ``config.formulation`` ask, reached from ``start``."""
     asked = config.formulation
-    how = MinimizeOptions(config.solver, config.preconditioner, asked.rounds)
-    if asked.weighs_features or asked.bases == "coupled" or asked.spatial:
+    how = MinimizeOptions(config.solver, config.preconditioner, asked.max_outer_iter)
+    if asked.weighs_features or asked.coupled_bases or asked.transport_weight:
         start = minimize(Objective(task.energy), how, start, told).value
-    rotation = _rotation(task, start, config) if asked.bases == "coupled" and start is not None else None
+    rotation = _rotation(task, start, config) if asked.coupled_bases and start is not None else None
     forth = objective(task, config, start, rotation)
-    if asked.directions == "one":
+    if not asked.bidirectional:
         solution = minimize(forth, how, start, told)
         return Minimised(solution, None, forth.breakdown(solution.value))
     turned = None if rotation is None else CoupledBases(rotation.U_t, rotation.U_s, rotation.history)
     back = objective(task, config, None if start is None else start.T, turned, reverse=True)
     size = typical(task.energy)
-    tied = BidirectionalWeights(asked.inverse * size, asked.adjoint * size)
+    tied = BidirectionalWeights(asked.inverse_weight * size, asked.adjoint_weight * size)
     pair = fit_bidirectional(forth, back, tied, how, (start, None), told)
     return Minimised(pair.forth, pair.back.value, forth.breakdown(pair.forth.value))
 
@@ -105,15 +105,15 @@ def objective(
         # Features of a kernel differ in size by orders of magnitude: the loss is of their relative residuals.
         sizes = to_numpy(P[0] * P[0]).sum(axis=0) + to_numpy(P[1] * P[1]).sum(axis=0)
         data = RobustData(P[0], P[1], np.arange(len(sizes)), Loss(asked.loss), sizes=np.maximum(sizes, 1e-300))
-        data = data.scaled(plain, asked.loss_width)
+        data = data.scaled(plain, asked.loss_scale)
         energy = energy.without("descriptors")
         penalties["descriptors"] = (config.weights.descriptors, data)
     if asked.sparsity:
         penalties["sparsity"] = (asked.sparsity * typical(energy), sparse_penalty(energy.rhs()))
-    if asked.spatial:
+    if asked.transport_weight:
         assert plain is not None
-        moving = transport_penalty(plain, bases[0], bases[1], asked.spatial_blur)
-        penalties["spatial"] = (asked.spatial * typical(energy), moving)
+        moving = transport_penalty(plain, bases[0], bases[1], asked.transport_blur)
+        penalties["spatial"] = (asked.transport_weight * typical(energy), moving)
     if rotation is not None:
         U = (rotation.U_t, rotation.U_s)
         term = laplacian_term(*rotation.to_rotated(*bases), mask=asked.mask, power=asked.mask_power)
@@ -127,7 +127,7 @@ def objective(
 def _rotation(task: FitProblem, plain: Array, config: Config) -> CoupledBases:
     """Coupled bases that the least-squares map speaks for."""
     values = [basis.eigenvalues for basis in task.bases]
-    return couple_bases(values[0], values[1], plain, config.formulation.coupling, start=plain)
+    return couple_bases(values[0], values[1], plain, config.formulation.coupling_weight, start=plain)
 
 
 def typical(energy: Energy) -> float:

@@ -109,7 +109,7 @@ def register_map(
     clock: StageTimer,
     landmarks: np.ndarray | None = None,
 ) -> RegisteredMap:
-    """The map ``points (n_t,)`` made finer than vertices as ``config.finish`` says; ``landmarks (l, 2)`` hold softly.
+    """The map ``points (n_t,)`` made finer than vertices as ``config.registration`` says, held softly by ``landmarks``.
 
     A fit that does not bring the source to the target up to :data:`GAP` is left: so are parts. One that harms more of
     the target than :data:`MAX_WORSENED_AREA` (distances to the surroundings are kept clearly worse than before) is
@@ -122,7 +122,7 @@ def register_map(
         confidence = build_local_distortion(source.mesh, target.mesh)
         trust = confidence(points)
     surfaces = bool(len(source.mesh.faces) and len(target.mesh.faces))
-    finish = config.finish
+    finish = config.registration
     if finish is None or config.refinement is None or not surfaces:
         return RegisteredMap(points, None, None, trust)
     areas = vertex_areas(target.mesh)
@@ -150,7 +150,7 @@ def register_map(
     if (
         first.told.after is not None
         and first.told.worsened > MAX_WORSENED_AREA
-        and not (finish.local_scaling and first.told.accepted)
+        and not (getattr(finish, "local_scaling", 0) and first.told.accepted)
     ):
         held = np.clip(2 * (trust - first.trust) / DROP - 1, 0.0, 1.0)
         second = tried(held)

@@ -28,7 +28,7 @@ ROUNDS = 2
 """Fits, each followed by a refinement on the copies."""
 FIT = NonRigid(stiffness=5e-3, n_levels=2, steps=4, local_scaling=0.05)
 """Stiff, so that what is torn is not bent to fit; but limbs may be longer or thicker."""
-REFINE = ZoomOut(start=20, stop=100, step=20, guidance=36.0)
+REFINE = ZoomOut(start=20, stop=100, step=20, descriptor_weight=36.0)
 """On the copies; the high functions of shapes that differ much do not correspond."""
 WEIGHT = 10.0
 """Of where both lie beside SHOT."""

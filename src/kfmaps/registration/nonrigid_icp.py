@@ -21,7 +21,8 @@ from typing import Any
 import numpy as np
 from scipy.sparse import csr_array, diags_array
 
-from kfmaps._arrays import check_count, check_positive, refuse
+from kfmaps._arrays import refuse
+from kfmaps._records import setting, settings_record
 from kfmaps.fmap.convert import check_point_map
 from kfmaps.geometry.arap import arap_energy, build_arap, nearest_rotations, rotations
 from kfmaps.geometry.closest_points import ClosestPoints
@@ -55,7 +56,7 @@ DISC = 1e-3
 SLOPPY = 0.045
 """Distance from a landmark, in √area, from which its pull fades: a click that is off does no harm."""
 FIRMLY, LOOSELY = 30.0, 0.1
-"""Both for shapes of other proportions, whose maps are farther off than a click."""
+"""Both for other proportions, whose maps are farther off than a click."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -84,38 +85,20 @@ class Registration:
     gap: float
 
 
-@dataclass(frozen=True)
+@settings_record
 class NonRigid:
     """Settings of the non-rigid fit; callable as ``(source, target, target_to_source) -> Registered``.
 
-    Parameters
-    ----------
-    stiffness : float
-        Of the first level, in units of the area: details smaller than its root follow the target.
-    levels : int
-        Each has a third (``10^-½``) of the stiffness of the one before.
-    steps : int
-        Searches for closest points at each level.
-    evenness : float
-        Area over which rotations are averaged, so that limbs are not twisted; 0 leaves each vertex its own.
-    stretch : float
-        Area over which the rest shape may be stretched evenly, for shapes of other proportions; see
-        :mod:`kfmaps.registration.local_scaling`. 0 keeps its sizes.
+    Details smaller than the root of ``stiffness`` follow the target at the first level. Smoothing keeps limbs from
+    being twisted; 0 leaves each vertex its own rotation. See also
+    :mod:`kfmaps.registration.local_scaling`.
     """
 
-    stiffness: float = 2e-4
-    n_levels: int = 3
-    steps: int = 5
-    rotation_smoothing: float = 1e-3
-    local_scaling: float = 0.0
-
-    def __post_init__(self) -> None:
-        check_positive(self.stiffness, "stiffness of the non-rigid fit")
-        check_count(self.n_levels, "levels of the non-rigid fit")
-        check_count(self.steps, "steps of the non-rigid fit")
-        for value, name in ((self.rotation_smoothing, "evenness"), (self.local_scaling, "stretch")):
-            if value != 0:
-                check_positive(value, f"{name} of the non-rigid fit", "give 0 or a number above it")
+    stiffness: float = setting(2e-4, "stiffness of the first level, in units of area", above=0)
+    n_levels: int = setting(3, "levels, each a third (10^-1/2) as stiff as the one before", low=1)
+    steps: int = setting(5, "searches for closest points at each level", low=1)
+    rotation_smoothing: float = setting(1e-3, "area over which rotations are averaged", low=0)
+    local_scaling: float = setting(0.0, "area over which sizes may change evenly, for other proportions", low=0)
 
     def __call__(
         self,

@@ -3,59 +3,60 @@
 from __future__ import annotations
 
 import sys
-from dataclasses import MISSING, fields, is_dataclass
+from dataclasses import MISSING, is_dataclass
+from inspect import getdoc
 from pathlib import Path
 from typing import Any
 
-from kfmaps.config import RECORDS, Config
-from kfmaps.settings.catalogue import CATALOGUE, PRESETS, Setting
-from kfmaps.settings.merge import preset
+from kfmaps._records import Setting, walk
+from kfmaps.config import KINDS, Config
+from kfmaps.settings.merge import PRESETS, preset
+from kfmaps.settings.toml import text_of
 
 BEGIN, END = "<!-- begin: made by kfmaps.settings.document -->", "<!-- end -->"
 
 
-def default_of(setting: Setting, config: Config) -> str:
-    """What ``config`` has for a setting; for a record that it does not use, what that record begins with."""
-    section, name = setting.section, setting.field
-    current: Any = getattr(config, section) if section else config
-    if name == "kind":
-        return type(current).__name__.lower() if is_dataclass(current) else "none"
-    if setting.kinds and type(current).__name__ not in setting.kinds:
-        current = getattr(Config(), section)
-    if setting.kinds and type(current).__name__ not in setting.kinds:
-        begins = {kind: {f.name: f.default for f in fields(RECORDS[kind])}[name] for kind in setting.kinds}
-        told = {kind.lower(): _text(value, setting) for kind, value in begins.items() if value is not MISSING}
-        alike = len(set(told.values())) == 1
-        return next(iter(told.values())) if alike else ", ".join(f"{kind} {value}" for kind, value in told.items())
-    return _text(getattr(current, name), setting)
-
-
-def _text(value: Any, setting: Setting) -> str:
-    if value is None:
-        return "automatic" if setting.field == "gamma" else "all" if setting.field == "samples" else "none"
-    return str(value).lower() if isinstance(value, bool) else str(value)
+def value_in(config: Config, path: str, cls: type, one: Setting) -> str:
+    """Return what ``config`` has at ``path``, the default of the record ``cls`` where it has another or none."""
+    section = path.rpartition(".")[0]
+    record: Any = getattr(config, section) if section else config
+    value = getattr(record, one.name) if type(record) is cls else one.default
+    value = value() if isinstance(value, type) else value
+    if value is MISSING:
+        return ""
+    return type(value).__name__.lower() if is_dataclass(value) else text_of(value, one).strip('"')
 
 
 def tables() -> str:
-    """One table for each group of settings, the recommended and the paper's values side by side."""
+    """Return the presets, and a table for each section with the values of three of them side by side."""
+    configs = [preset(name) for name in PRESETS[:3]]
+    found: dict[str, list[tuple[str, type, Setting]]] = {"": []}
+    for row in walk(Config, KINDS):
+        found.setdefault(row[0].rpartition(".")[0], []).append(row)
     lines = []
-    for group, settings in CATALOGUE.items():
-        lines += ["", f"### {group}", "", "| setting | option | meaning | values | recommended | paper |"]
+    for section, rows in found.items():
+        lines += [
+            "",
+            f"### {section or 'At the top'}",
+            "",
+            f"| setting | meaning | values | {' | '.join(PRESETS[:3])} |",
+        ]
         lines.append("|---|---|---|---|---|---|")
-        for s in settings:
-            recommended, paper = default_of(s, Config()), default_of(s, preset("paper"))
-            single = default_of(s, Config.single_fit())
-            if single != recommended:
-                recommended += f"; single fit {single}"
-            flag = f"`{s.flag}`" if s.flag else ""
-            of = f" ({', '.join(kind.lower() for kind in s.kinds)})" if s.kinds else ""
-            lines.append(f"| `{s.path}` | {flag} | {s.meaning}{of} | {s.values} | {recommended} | {paper} |")
-    names = "\n".join(f"* `{name}`: {meaning}" for name, meaning in PRESETS.items())
-    return "\n".join([BEGIN, "", "### Presets", "", names, *lines, "", END])
+        several = len({cls for _, cls, _ in rows}) > 1
+        for path, cls, one in rows:
+            of = f" ({cls.__name__.lower()})" if several else ""
+            option = f", `{one.option}`" if one.option else ""
+            values = " | ".join(value_in(config, path, cls, one) for config in configs)
+            lines.append(f"| `{path}`{option} | {one.help}{of} | {one.values(KINDS)} | {values} |")
+    names = ["* `default`: what `kfmaps match` and `kfmaps.match` use, that is `Config()`"]
+    for name in PRESETS[1:]:
+        about = " ".join((getdoc(getattr(Config, name.replace("-", "_"))) or "").split())
+        names.append(f"* `{name}`: {about.partition('. ')[0].rstrip('.')}")
+    return "\n".join([BEGIN, "", "### Presets", "", *names, *lines, "", END])
 
 
 def updated(text: str) -> str:
-    """``text`` with the tables between its two marks made anew."""
+    """Return ``text`` with the tables between its two marks made anew."""
     before, _, rest = text.partition(BEGIN)
     return before + tables() + rest.partition(END)[2]
 

@@ -1,28 +1,34 @@
-"""Presets, a settings file, flags and ``--set`` laid over each other, the later over the earlier."""
+"""Presets, a settings file and ``NAME=VALUE`` texts laid over each other, the later over the earlier."""
 
 from __future__ import annotations
 
+import difflib
 import tomllib
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 from kfmaps._arrays import InvalidInput, refuse
-from kfmaps.config import Config, from_dict
-from kfmaps.settings.catalogue import FLAGS, PRESETS, Setting
+from kfmaps._records import walk
+from kfmaps.config import KINDS, Config, from_dict
 from kfmaps.settings.learned import SUFFIX, read_learned
-from kfmaps.settings.values import blamed
+
+PRESETS = (
+    *("default", "single-fit", "paper", "no17", "obcs12", "kovnatsky13", "pokrass13", "kovnatsky15", "kovnatsky16"),
+    *("eynard16", "huang17", "gasparetto17", "ren19"),
+)
+"""Methods of :class:`~kfmaps.config.Config` that make one; "default" is ``Config()``."""
 
 
 def preset(name: str) -> Config:
-    """The configuration of that name among ``PRESETS``."""
+    """Return the configuration of that name among :data:`PRESETS`."""
     if name not in PRESETS:
         raise refuse("--preset", "one of " + ", ".join(PRESETS), repr(name), "choose one of them")
     return Config() if name == "default" else getattr(Config, name.replace("-", "_"))()
 
 
 def read_settings(path: str | Path, base: Config | None = None) -> Config:
-    """``base``, by default ``Config()``, with the settings of a TOML file, or of a ``.pt`` file of ``kfmaps learn``.
+    """Return ``base``, by default ``Config()``, with those of a TOML file or a ``.pt`` file of ``kfmaps learn``.
 
     Raises
     ------
@@ -47,58 +53,83 @@ def read_settings(path: str | Path, base: Config | None = None) -> Config:
         raise InvalidInput(f"--config {path}: {error}") from error
 
 
-def with_flags(base: Config, flags: Mapping[str, Any]) -> Config:
-    """``base`` changed by options: ``{"--alpha": 0.5}``; those that are ``None`` were not given.
+def with_assignments(
+    base: Config, assignments: Sequence[str], options: Mapping[str, tuple[str, Any]] | None = None
+) -> Config:
+    """Return ``base`` changed by texts like ``"weights.laplacian=0.5"``; of two for one setting the later counts.
 
-    An option of one kind of record (``--degree``) chooses that kind.
+    Parameters
+    ----------
+    base : Config
+    assignments : sequence of str
+        Values are TOML; quotes around words may be left out.
+    options : mapping, optional
+        Paths and values by the option that gave them, applied before: ``{"--kernel": ("kernel", "laplacian")}``.
+
+    Raises
+    ------
+    InvalidInput
+        Beginning with the names of the assignments or options that are at fault.
     """
-    given = {flag: value for flag, value in flags.items() if value is not None}
-    paths = {flag: (FLAGS[flag].path, value) for flag, value in given.items()}
-    for section in ("kernel", "solver", "refinement", "finish", "search"):
-        inside = [FLAGS[flag] for flag in given if FLAGS[flag].section == section and FLAGS[flag].kinds]
-        if inside:
-            kind_flag = next((f for f, s in FLAGS.items() if s.path == f"{section}.kind"), "")
-            present = type(getattr(base, section)).__name__
-            implied = _kind(inside, kind_flag, given.get(kind_flag), present)
-            if implied:
-                paths = {f"{inside[0].flag} ({implied})": (f"{section}.kind", implied), **paths}
-    return blamed(base, paths) if paths else base
-
-
-def _kind(inside: list[Setting], kind_flag: str, explicit: str | None, present: str) -> str | None:
-    """The kind of record that options need; ``None`` when the present or explicitly chosen one is right."""
-    common = set(inside[0].kinds).intersection(*(s.kinds for s in inside[1:]))
-    if explicit is not None:
-        for setting in inside:
-            if explicit.lower() not in {kind.lower() for kind in setting.kinds}:
-                wanted = f"{kind_flag} {' or '.join(kind.lower() for kind in setting.kinds)}"
-                raise refuse(setting.flag, wanted, explicit, "leave one of the two out")
-        return None
-    if not common:
-        both = f"{inside[0].flag} and {inside[-1].flag}"
-        raise refuse(both, "options that go together", "options of different kinds", "leave one out")
-    if present in common:
-        return None
-    if len(common) > 1:
-        kinds = " or ".join(kind.lower() for kind in inside[0].kinds if kind in common)
-        raise refuse(inside[0].flag, f"a kernel that has it ({kinds})", present.lower(), f"add {kind_flag}")
-    return common.pop()
-
-
-def with_assignments(base: Config, assignments: Sequence[str]) -> Config:
-    """``base`` changed by texts like ``"weights.laplacian=0.5"``; of two for the same setting the later counts."""
-    given = {}
+    given = dict(options or {})
     for text in assignments:
-        path, sign, value = text.partition("=")
-        path, value = path.strip(), value.strip()
+        path, sign, value = (part.strip() for part in text.partition("="))
         if not sign or not path or not value:
             raise refuse("--set", "NAME=VALUE, such as weights.laplacian=0.5", repr(text), "see `kfmaps config`")
         given[f"--set {path}"] = (path, _literal(value))
-    return blamed(base, given) if given else base
+
+    def applied(labels: Sequence[str]) -> Config:
+        return from_dict(_nested(dict(given[label] for label in labels)), base)
+
+    def works(labels: Sequence[str]) -> bool:
+        try:
+            applied(labels)
+        except InvalidInput:
+            return False
+        return True
+
+    # All at once, since one value may be right only beside another.
+    try:
+        return applied(list(given)) if given else base
+    except InvalidInput as error:
+        guilty = [label for label in given if works([other for other in given if other != label])]
+        guilty = guilty or [label for label in given if not works([label])]
+        # A pair that contradicts each other is named whole; of several unrelated faults, the first.
+        raise InvalidInput(f"{', '.join(guilty[:2])}: {error}" if guilty else str(error)) from error
+
+
+def similar_settings(option: str) -> list[str]:
+    """Return the paths of the settings that a misspelt or removed ``option`` most likely means, at most three."""
+    words = [word for word in option.strip("-").split("-") if word not in ("no", "")]
+    scores = {}
+    for path, _, one in walk(Config, KINDS):
+        names = path.replace(".", "_").split("_")
+        score = (path == "_".join(words)) - 0.01 * len(names)
+        for word in words:
+            close = bool(difflib.get_close_matches(word, names, 1, 0.75))
+            score += 2 if any(name.startswith(word) for name in names) else max(1.5 * (word in one.help), close)
+        scores[path] = max(scores.get(path, 0.0), score)
+    best = max(scores.values())
+    return sorted((path for path in scores if scores[path] > max(0.9, best - 1.2)), key=lambda path: -scores[path])[:3]
+
+
+def _nested(assignments: Mapping[str, Any]) -> dict[str, Any]:
+    """``{"a.b": 1}`` as ``{"a": {"b": 1}}``."""
+    tree: dict[str, Any] = {}
+    for path, value in assignments.items():
+        *above, last = path.split(".")
+        branch: dict[str, Any] = tree
+        for name in above:
+            below: Any = branch.get(name)
+            if isinstance(below, str):  # a kind
+                below = {"kind": below}
+            branch[name] = branch = below if isinstance(below, dict) else {}
+        branch[last] = value
+    return tree
 
 
 def _literal(text: str) -> Any:
-    """A TOML value, or the text itself when it is none: quotes around words may be left out."""
+    """A TOML value, or the text itself when it is none."""
     try:
         return tomllib.loads(f"value = {text}")["value"]
     except (tomllib.TOMLDecodeError, RecursionError):

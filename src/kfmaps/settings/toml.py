@@ -3,52 +3,52 @@
 from __future__ import annotations
 
 import json
+from dataclasses import is_dataclass
 from typing import Any
 
-from kfmaps.config import Config, as_dict
-from kfmaps.settings.catalogue import SETTINGS
-
-_WORDS = {"kernel.gamma": "automatic", "refinement.samples": "all"}
-"""What ``None`` is called where "none" would mislead."""
+from kfmaps._arrays import refuse
+from kfmaps._records import Setting, as_dict, settings_of
+from kfmaps.config import KINDS, RECORDS, Config
+from kfmaps.kernels.kernels import describe_kernel
 
 
 def settings_text(config: Config, comments: bool = True) -> str:
-    """TOML from which :func:`~kfmaps.settings.merge.read_settings` makes ``config`` again, whatever the base.
+    """Return TOML from which :func:`~kfmaps.settings.merge.read_settings` makes ``config`` again, whatever the base.
 
     Parameters
     ----------
     config : Config
-        Of kernels that have a name; a callable of the user's own cannot be written.
     comments : bool
         Whether each line says what it means.
+
+    Raises
+    ------
+    InvalidInput
+        When its kernel or refinement is a callable of the user's own, which cannot be written.
     """
-    values = as_dict(config)
     head = ["# Settings of kfmaps match; give them with --config FILE.", ""] if comments else []
-    return "\n".join([*head, *_lines(values, "", comments)]) + "\n"
+    return "\n".join([*head, *_lines(config, "", comments)]) + "\n"
 
 
-def _lines(values: dict[str, Any], section: str, comments: bool) -> list[str]:
-    """The plain values of a table, then its sub-tables."""
-    known = {setting.path: setting for setting in SETTINGS}
-    lines, tables = [], []
-    for name, value in values.items():
-        path = f"{section}.{name}" if section else name
-        if isinstance(value, dict):
+def _lines(record: Any, section: str, comments: bool) -> list[str]:
+    """The plain values of a record, then the tables of the records in it."""
+    kind = type(record).__name__
+    lines, tables = [f'kind = "{kind}"'] if kind in RECORDS else [], []
+    for one in settings_of(type(record)).values():
+        value, path = getattr(record, one.name), f"{section}.{one.name}" if section else one.name
+        if is_dataclass(value):
             tables += ["", f"[{path}]", *_lines(value, path, comments)]
             continue
-        line = f"{name} = {_text(value, path)}"
-        setting = known.get(path if section.count(".") == 0 else f"kernel.{name}")
-        if comments and setting is None and value is None:
-            setting = known.get(f"{path}.kind")
-        lines.append(f"{line:<30} # {setting.meaning}: {setting.values}" if comments and setting else line)
+        if callable(value):
+            got = describe_kernel(value)
+            raise refuse(path, "a record that a settings file can name", got, "write one of kfmaps' own")
+        line = f"{one.name} = {text_of(value, one)}"
+        lines.append(f"{line:<30} # {one.help} ({one.values(KINDS)})" if comments and one.help else line)
     return lines + tables
 
 
-def _text(value: Any, path: str) -> str:
-    if value is None:
-        return json.dumps(_WORDS.get(path, "automatic" if path.endswith(".gamma") else "none"))
+def text_of(value: Any, one: Setting) -> str:
+    """Return a value as TOML."""
     if isinstance(value, tuple):
-        return f"[{', '.join(_text(item, path) for item in value)}]"
-    if isinstance(value, bool):
-        return "true" if value else "false"
-    return json.dumps(value, ensure_ascii=False) if isinstance(value, str) else repr(value)
+        return f"[{', '.join(text_of(item, one) for item in value)}]"
+    return json.dumps(one.none if value is None else as_dict(value, {}), ensure_ascii=False)

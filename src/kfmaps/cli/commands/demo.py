@@ -144,8 +144,8 @@ def _compare(
         stages("shapes", 1.0)
         automatic, single = default_config(), Config.single_fit()
         # The same shapes for all: the fits with landmarks need more eigenfunctions.
-        size = max(automatic.eigenfunctions, single.eigenfunctions)
-        config = replace(automatic, descriptors=replace(automatic.descriptors, eigenfunctions=size))
+        size = max(automatic.n_eigenfunctions, single.n_eigenfunctions)
+        config = replace(automatic, descriptors=replace(automatic.descriptors, n_eigenfunctions=size))
         sides = (("source", pair.source), ("target", pair.target))
         source, target = (prepare(mesh, config, name=side, progress=stages) for side, mesh in sides)
         pairs, given = np.stack([pair.truth[rows], rows], axis=1), f"{landmarks} landmarks from the truth"

@@ -188,10 +188,12 @@ def _start(landmarks: bool) -> Config:
 
     # SHOT tells what the signature cannot, and few strong descriptors want less commutativity and a sharper kernel.
     if not landmarks:
-        return replace(Config(), descriptors=DescriptorConfig(count=N_SPECTRAL_ALONE, shot=True, eigenfunctions=200))
-    start = replace(Config.single_fit(), descriptors=DescriptorConfig(shot=True, eigenfunctions=200))
+        return replace(
+            Config(), descriptors=DescriptorConfig(n_spectral=N_SPECTRAL_ALONE, shot=True, n_eigenfunctions=200)
+        )
+    start = replace(Config.single_fit(), descriptors=DescriptorConfig(shot=True, n_eigenfunctions=200))
     weights = Weights(descriptors=1000.0, commutativity=1.0, laplacian=300.0)
-    return replace(start, sharpness=5.0, weights=weights, formulation=Formulation(mask="resolvent"))
+    return replace(start, bandwidth_scale=5.0, weights=weights, formulation=Formulation(mask="resolvent"))
 
 
 def _draw(

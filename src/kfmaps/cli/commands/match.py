@@ -5,13 +5,12 @@ from __future__ import annotations
 import json as jsonlib
 import warnings
 from collections.abc import Callable
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from kfmaps._arrays import KfmapsWarning, refuse
+from kfmaps._arrays import KfmapsWarning, MissingDependency, refuse
 from kfmaps.settings.options import Chosen, with_settings
 
 if TYPE_CHECKING:
@@ -43,15 +42,15 @@ def match(
     force: Annotated[bool, typer.Option("--force", help="Replace an existing file.")] = False,
     json: Annotated[bool, typer.Option("--json", help="Print the summary for machines.")] = False,
     quiet: Annotated[bool, typer.Option("-q", "--quiet", help="Print no progress, summary or warnings.")] = False,
-    raw: Annotated[bool, typer.Option("--raw", help="Do not refine the map: the same as --refine none.")] = False,
     view: Annotated[bool, typer.Option("--view", help="Show the result in the browser.")] = False,
     seed: Annotated[int, typer.Option(help="For the choice of samples; the same seed, the same map.", min=0)] = 0,
-    descriptors_source: Annotated[
-        Path | None,
-        typer.Option(help="Your own descriptors, a row per vertex (.npy, .csv, .txt).", show_default=False),
-    ] = None,
-    descriptors_target: Annotated[
-        Path | None, typer.Option(help="The same for the target.", show_default=False)
+    descriptors: Annotated[
+        tuple[Path, Path] | None,
+        typer.Option(
+            help="Your own descriptors, a row per vertex (.npy, .csv, .txt).",
+            metavar="SOURCE TARGET",
+            show_default=False,
+        ),
     ] = None,
     truth: Annotated[
         tuple[Path, Path] | None, typer.Option(help=TRUTH, metavar="SOURCE TARGET", show_default=False)
@@ -63,7 +62,10 @@ def match(
     from kfmaps.io.mapfile import check_format
 
     check_format(output)
-    reads = (source, target, landmarks, descriptors_source, descriptors_target, *(truth or ()))
+    reads = (source, target, landmarks, *(descriptors or ()), *(truth or ()))
+    for path in reads:
+        if path is not None and not path.exists():
+            raise refuse(str(path), "a file", "nothing there", "check the path")
     check_output(output, force, reads)
     if quiet:
         warnings.simplefilter("ignore", KfmapsWarning)
@@ -73,12 +75,9 @@ def match(
     from kfmaps.io import read_landmarks, save_map
     from kfmaps.matching.match import default_config
     from kfmaps.matching.memory import check_match_memory
-    from kfmaps.settings.device import check_device
 
-    own_descriptors = descriptors_source is not None or descriptors_target is not None
-    config = settings.config(default_config(() if own_descriptors else None))
-    config = _unrefined(config, settings) if raw else config
-    check_device(config.device)
+    config = settings.config(default_config(descriptors))
+    _check_device(config.device)
     known = read_truth(truth)
     pairs = None if landmarks is None else read_landmarks(landmarks, one_based=one_based or None)
     meshes = _read(source, config), _read(target, config)
@@ -86,7 +85,7 @@ def match(
         _check_landmarks(pairs, meshes, (source, target))
     n_s, n_t = (len(mesh.vertices) for mesh in meshes)
     check_match_memory(config, n_s, n_t, 0 if pairs is None else len(pairs))
-    own = _own_descriptors((descriptors_source, descriptors_target), meshes)
+    own = None if descriptors is None else _own_descriptors(descriptors, meshes)
     if known is not None:
         check_truth(known, meshes[0], len(meshes[1].vertices))
 
@@ -149,8 +148,8 @@ def _read(path: Path, config: Config) -> Mesh:
     from kfmaps.io import read_mesh
 
     mesh = read_mesh(path, cloud=path.suffix.lower() == ".xyz")
-    if len(mesh.vertices) <= config.eigenfunctions:
-        wanted = f"more than {config.eigenfunctions} vertices, one for each eigenfunction"
+    if len(mesh.vertices) <= config.n_eigenfunctions:
+        wanted = f"more than {config.n_eigenfunctions} vertices, one for each eigenfunction"
         remedy = "lower the basis, descriptor and refinement sizes (see docs/settings.md), or refine the mesh"
         raise refuse(str(path), wanted, str(len(mesh.vertices)), remedy)
     return mesh
@@ -167,11 +166,20 @@ def _renamed(stages: Callable[[str, float], None], names: tuple[str, str]) -> Ca
     return told
 
 
-def _unrefined(config: Config, settings: Chosen) -> Config:
-    asked = settings.flags.get("--refine")
-    if asked is not None and asked.lower() != "none":
-        raise refuse("--raw", "no refinement", f"--refine {asked} beside it", "leave one of the two out")
-    return replace(config, refinement=None)
+def _check_device(device: str) -> None:
+    """Raise when no array can be made on ``device``, before minutes are spent on what leads up to it."""
+    if device == "cpu":
+        return
+    try:
+        import torch
+    except ImportError as error:
+        remedy = "install it with: pip install 'kfmaps[gpu]'"
+        raise MissingDependency(f"--device {device}: wanted PyTorch, got none; {remedy}") from error
+    try:
+        torch.empty(1, dtype=torch.float64, device="cpu" if device == "torch" else device)
+    except Exception as error:  # PyTorch reports what is not there by whatever it runs into
+        got = str(error).partition("\n")[0][:120] or type(error).__name__
+        raise refuse(f"--device {device}", "a device that PyTorch can use", got, "use cpu") from error
 
 
 def _check_landmarks(pairs: np.ndarray, meshes: tuple[Mesh, Mesh], paths: tuple[Path, Path]) -> None:
@@ -181,23 +189,15 @@ def _check_landmarks(pairs: np.ndarray, meshes: tuple[Mesh, Mesh], paths: tuple[
         check_landmarks(pairs[:, i], len(mesh.vertices), f"landmarks on {path}")
 
 
-def _own_descriptors(
-    files: tuple[Path | None, Path | None], meshes: tuple[Mesh, Mesh]
-) -> tuple[np.ndarray, np.ndarray] | None:
+def _own_descriptors(files: tuple[Path, Path], meshes: tuple[Mesh, Mesh]) -> tuple[np.ndarray, np.ndarray]:
     """The user's descriptors (n_s, d) and (n_t, d), checked."""
     import numpy as np
 
     from kfmaps._arrays import check
     from kfmaps.io import read_values
 
-    first, second = files
-    if first is None and second is None:
-        return None
-    if first is None or second is None:
-        missing = "--descriptors-source" if first is None else "--descriptors-target"
-        raise refuse(missing, "descriptors of both shapes", "those of one", "give both files")
     found = []
-    for file, mesh in zip((first, second), meshes, strict=True):
+    for file, mesh in zip(files, meshes, strict=True):
         values = read_values(file).array
         if values.dtype.kind not in "biuf":
             raise refuse(f"descriptors {file}", "numbers", f"{values.dtype}", "give one row of numbers per vertex")

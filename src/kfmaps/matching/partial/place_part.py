@@ -82,12 +82,12 @@ def place_part(
     """Place ``part`` on ``whole``, both at unit area.
 
     ``ratio``: √area of the part over that of the whole as they were given, one of the scales that are tried, and the
-    only one where ``settings.units`` says "same". ``landmarks (l, 2)``: vertices of the part and of the whole.
+    only one where ``settings.scale`` is "fixed". ``landmarks (l, 2)``: vertices of the part and of the whole.
     ``loose``: neither holds all of the other.
     """
     report = progress or (lambda _done: None)
     pairs = np.zeros((0, 2), dtype=np.int64) if landmarks is None else np.asarray(landmarks)
-    fixed = settings.units == "same"
+    fixed = settings.scale == "fixed"
     if fixed and ratio is None:
         raise refuse("units", "shapes whose sizes are known", "prepared ones without", "prepare them again")
     sides = (

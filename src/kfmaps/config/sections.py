@@ -1,0 +1,153 @@
+"""The parts of a configuration that have no code of their own."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from kfmaps._arrays import refuse
+from kfmaps._records import check_record, setting, settings_record
+from kfmaps.descriptors.spectral import Normalisation
+from kfmaps.fmap.losses import LossName
+from kfmaps.fmap.minimize import Constraint
+from kfmaps.fmap.terms import Mask
+
+Sampling = Literal["descriptor", "geodesic", "uniform", "cholesky", "random-cholesky", "squared-cholesky"]
+Signature = Literal["wave", "heat", "none"]
+
+
+@settings_record
+class BasisConfig:
+    """The Laplacian and its eigenfunctions."""
+
+    n_eigenfunctions: int = setting(100, "size of the functional map on both sides", low=2)
+    laplacian: Literal["robust", "cotangent"] = setting("robust", "the Laplacian; robust takes any triangles")
+
+
+@settings_record
+class DescriptorConfig:
+    """What is preserved.
+
+    Energies are either spread evenly over the numbers wanted or, as the framework of NO17 does ("every-nth"), there
+    are 200 for the signature and for each landmark in one list, from which every n-th is taken. SHOT is the descriptor
+    of Tombari et al. (2010). Normalisations: see :func:`kfmaps.descriptors.spectral.normalised`.
+    """
+
+    n_spectral: int = setting(100, "spectral descriptors in all, shared out between signature and landmarks", low=1)
+    signature: Signature = setting("wave", "signature of each point")
+    landmark_descriptor: Signature = setting("wave", "descriptor of the distance to each landmark")
+    signature_share: float = setting(
+        0.3, "part of n_spectral for the signature where there are landmarks", low=0, high=1
+    )
+    n_eigenfunctions: int = setting(150, "eigenfunctions that spectral descriptors are made from", low=2)
+    energy_sampling: Literal["even", "every-nth"] = setting("even", "energies: evenly spread, or each n-th of 200")
+    shot: bool = setting(True, "add the SHOT descriptor of the local surface")
+    shot_radius: float = setting(0.09, "radius of SHOT in √area", above=0)
+    shot_weight: float = setting(1.0, "weight of SHOT against 1 for all others together", above=0)
+    normalisation: Normalisation = setting("variance", "how descriptors are scaled, alike on both shapes")
+
+
+@settings_record
+class NystromConfig:
+    """The Nyström approximation of the kernel; see :func:`kfmaps.kernels.nystrom.nystrom`."""
+
+    samples: int = setting(400, 'samples of both shapes together, half from each (the paper\'s "rank")', low=2)
+    sampling: Sampling = setting("descriptor", "how samples are chosen")
+    rtol: float = setting(1e-12, "kernel eigenvalues below this part of the largest are dropped", low=0, below=1)
+
+
+@settings_record
+class Weights:
+    """Weights of the energy's terms; 0 leaves one out."""
+
+    descriptors: float = setting(100.0, "weight of descriptor preservation", low=0)
+    commutativity: float = setting(1.0, "weight of commutativity with multiplication by descriptors", low=0)
+    laplacian: float = setting(
+        1.0, "weight of Laplacian commutativity, the paper's alpha, for eigenvalues divided by the largest", low=0
+    )
+    orientation: float = setting(0.0, "weight of the term that tells a map from a mirrored one", low=0)
+
+
+@settings_record
+class Formulation:
+    """What is asked of the map beside least squares; by default nothing. See docs/formulations.md.
+
+    Inverse, adjoint, sparsity and transport weights are in units of the mean diagonal of the energy's operator.
+    Orthogonal maps keep areas (:mod:`kfmaps.fmap.constraints`); losses are those of :mod:`kfmaps.fmap.losses`.
+    """
+
+    constraint: Constraint = setting("none", "what the map must be")
+    bidirectional: bool = setting(False, "fit both maps at once, tied to each other")
+    inverse_weight: float = setting(0.1, "weight of each map being the other's inverse", low=0)
+    adjoint_weight: float = setting(0.1, "weight of each map being the other's adjoint", low=0)
+    loss: LossName = setting("squared", "loss of the data")
+    loss_group: Literal["landmark", "descriptor", "feature"] = setting(
+        "landmark", "whose residuals the loss is of; features are those of the kernel"
+    )
+    loss_scale: float = setting(1.0, "scale of the loss, in medians of the residuals of least squares", above=0)
+    sparsity: float = setting(0.0, "weight of the entries' absolute values, growing away from the diagonal", low=0)
+    mask: Mask = setting("squared", "how Laplacian commutativity weighs entries")
+    mask_power: float = setting(0.5, "power of the Laplacian in the resolvent", above=0)
+    coupled_bases: bool = setting(False, "ask for Laplacian commutativity and sparsity in coupled bases")
+    coupling_weight: float = setting(
+        1.0, "weight of the map against diagonal Laplacians in the choice of coupled bases", above=0
+    )
+    max_outer_iter: int = setting(20, "most iterations of reweighting and of both directions in turn", low=1)
+    transport_weight: float = setting(
+        0.0, "weight of agreement with the soft spatial map that moves the whole area of both shapes", low=0
+    )
+    transport_blur: float = setting(0.3, "softness of that map, in costs of a nearest point", above=0)
+
+    def __post_init__(self) -> None:
+        check_record(self)
+        if self.bidirectional and not (self.inverse_weight or self.adjoint_weight):
+            raise refuse(
+                "inverse_weight and adjoint_weight",
+                "one of them above zero",
+                "both 0",
+                "nothing ties the two directions",
+            )
+
+    @property
+    def weighs_data(self) -> bool:
+        """Whether landmarks or descriptors are weighed before the kernel."""
+        return self.loss != "squared" and self.loss_group != "feature"
+
+    @property
+    def weighs_features(self) -> bool:
+        """Whether features of the kernel are weighed."""
+        return self.loss != "squared" and self.loss_group == "feature"
+
+
+@settings_record
+class Search:
+    """How to find the map among many; see :mod:`kfmaps.matching.search`.
+
+    ``orientation``: "reversing" is a map to a mirror image. "auto" takes one only where a map that preserves
+    orientation would have to bend the source too much and the reversing one does not; "either" takes the one that fits
+    clearly better: for bones, shoes or hands, which are not their own mirror images.
+    """
+
+    candidates: int = setting(6, "small fits that are tried, each refined from three starts", low=1)
+    orientation: Literal["auto", "preserving", "reversing", "either"] = setting(
+        "auto", "whether the map preserves orientation or is one to a mirror image", option="--orientation"
+    )
+    n_alternatives: int = setting(3, "distinct other maps that are kept at most", low=0)
+    n_sign_functions: int = setting(5, "low functions whose signs are tried, 2^n maps", low=0, high=10)
+    match_extremities: bool = setting(True, "pair the tips of limbs in all likely ways, for unlike proportions")
+
+
+@settings_record
+class Partial:
+    """What of the shapes may be missing; see :mod:`kfmaps.matching.partial`.
+
+    ``part``: "both" means that each has something that the other lacks; "auto" compares their boundaries and, where
+    these differ, how one fits into the other.
+    """
+
+    part: Literal["auto", "none", "source", "target", "both"] = setting(
+        "auto", "which shape may be a part of the other", option="--partial"
+    )
+    scale: Literal["free", "fixed"] = setting("free", "fixed: both shapes are in the same units")
+    samples: int = setting(300, "points of the part that are matched first", low=20)
+    whole_samples: int = setting(1000, "points of the whole that they are matched with", low=20)
+    candidates: int = setting(3, "scales of the part that are followed up", low=1)
