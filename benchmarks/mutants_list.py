@@ -424,7 +424,7 @@ MUTANTS = tuple(
         ("rows = np.flatnonzero(chosen)[there]", "rows = np.flatnonzero(there)", "test_batch_carried -k part"),
         # config
         (
-            "self.descriptors.eigenfunctions if spectral else 0, zoom)",
+            "self.descriptors.n_eigenfunctions if spectral else 0, refined)",
             "zoom)",
             f"{MATCH} -k most_that",
         ),
