@@ -214,9 +214,8 @@ def test_columns_of_every_kind():
     assert found.kinds == ("signature", "landmark", "landmark", "landmark", "shot")
     assert found.blocks[-1] == tuple(range(20, 372))
     assert columns(replace(config, signature="none"), 0, 352).kinds == ("shot",)
-    assert columns(DescriptorConfig(n_spectral=20, energy_sampling="every-nth", shot=False), 3, 20).kinds == (
-        "signature",
-    )
+    nth = DescriptorConfig(n_spectral=20, energy_sampling="every-nth", shot=False)
+    assert columns(nth, 3, 20).kinds == ("signature",)
 
 
 def test_it_learns_stops_and_resumes_alike(lessons, tmp_path):
