@@ -115,7 +115,7 @@ def test_only_unlike_shapes_are_stretched_in_the_end(monkeypatch) -> None:
     config = kfmaps.Config()
     source, target = (kfmaps.prepare(mesh, config, name="a") for mesh in (pair.source, pair.target))
     seen, usual = [], finish.register_map
-    monkeypatch.setattr(finish, "register_map", lambda *a: seen.append(a[3].finish.local_scaling) or usual(*a))
+    monkeypatch.setattr(finish, "register_map", lambda *a: seen.append(a[3].registration.local_scaling) or usual(*a))
     for quality in (SCORE.non_isometric_score + 1, SCORE.non_isometric_score - 1):
         finish.match_from_map(source, target, pair.truth, config, origin="a", quality=quality)
     assert seen == [0.0, STRETCH]

@@ -250,8 +250,8 @@ def check_prepared(shape: Shape, config: Config) -> None:
     """Raise :class:`InvalidInput` when ``shape`` was prepared with other settings than ``config`` needs."""
     remedy = "prepare it with the configuration that it is matched with"
     have = shape.basis.functions.shape[1]
-    if have < config.eigenfunctions:
-        raise refuse(shape.name, f"a shape prepared with {config.eigenfunctions} eigenfunctions", f"{have}", remedy)
+    if have < config.n_eigenfunctions:
+        raise refuse(shape.name, f"a shape prepared with {config.n_eigenfunctions} eigenfunctions", f"{have}", remedy)
     if shape.laplacian != config.basis.laplacian:
         wanted = f"a shape prepared with the {config.basis.laplacian} Laplacian"
         raise refuse(shape.name, wanted, f"the {shape.laplacian} one", remedy)

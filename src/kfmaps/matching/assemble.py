@@ -130,7 +130,7 @@ def assemble(
     features = kernel_features(source, target, descriptors, config, rng)
     multiplications, orientations, size = None, None, 0.0
     if weights.commutativity:
-        packed = compressed_operators(small, features, config.compression, config.threads)
+        packed = compressed_operators(small, features, config.operator_rtol, config.threads)
         size = sum(inner(X, X) for X in packed)
         multiplications = (unpack_operators(packed[0]), unpack_operators(packed[1]))
     if weights.orientation:

@@ -74,7 +74,7 @@ def candidates(
     few, threads = samples.few, config.threads
     functions = min(len(source.basis.eigenvalues), len(target.basis.eigenvalues))
     marks = np.zeros((0, 2), dtype=np.int64) if landmarks is None else landmarks
-    signs, weights = min(config.search.signs, functions - 1), distinct_weights(WEIGHTS, few)
+    signs, weights = min(config.search.n_sign_functions, functions - 1), distinct_weights(WEIGHTS, few)
     found = refine_coarse(sign_inits(signs, few, weights[:QUICK]), few, functions, threads)
     report(0.3)
     # What the user says of landmarks and points is heard in the fits.

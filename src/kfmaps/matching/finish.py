@@ -58,7 +58,7 @@ class MatchTask:
     def shapes(self, orientation: str) -> tuple[Shape, Shape]:
         """Both cleaned shapes; the target mirrored where the map is to its mirror image."""
         target = self.pair.target
-        return self.pair.source, mirror_image(target) if orientation == "reversed" else target
+        return self.pair.source, mirror_image(target) if orientation == "reversing" else target
 
     def result(self, points: np.ndarray, C: np.ndarray, trust: np.ndarray, **fields: Any) -> Match:
         """Return the record of a map of the cleaned shapes, in the numbers of those that were handed in."""
@@ -87,11 +87,13 @@ def refine_and_register(task: MatchTask, found: SearchResult, guidance: Descript
     """The match of a map that a search or a fit has ``found``: refined, registered, in the numbers handed in."""
     pair, config, shapes = task.pair, task.config, task.shapes(found.orientation)
     back = None
-    if config.formulation.directions == "both":
+    if config.formulation.bidirectional:
         # The adjoint, where a search has found the map: its candidates are refined one way.
         back = found.functional_map.T if found.fit is None or found.fit.back is None else found.fit.back
     adapted = replace(
-        config, refinement=adapt_refinement(config.refinement, found), registration=adapt_registration(config.finish, found)
+        config,
+        refinement=adapt_refinement(config.refinement, found),
+        registration=adapt_registration(config.registration, found),
     )
     refined = refine_map(
         found.functional_map,
@@ -107,7 +109,7 @@ def refine_and_register(task: MatchTask, found: SearchResult, guidance: Descript
     final = register_map(refined.target_to_source, *shapes, adapted, task.clock, found.landmarks)
     registered = final.registered_vertices
     if registered is not None:
-        registered = pair.bent(registered * MIRROR if found.orientation == "reversed" else registered)
+        registered = pair.bent(registered * MIRROR if found.orientation == "reversing" else registered)
     raw, backwards, one = refined.raw_target_to_source, refined.source_to_target, found.fit
     single = {} if one is None else {name: getattr(one, name) for name in ("solution", "energies", "kernel", "rank")}
     return task.result(
@@ -143,7 +145,7 @@ def match_from_map(
     config: Config | None = None,
     *,
     origin: str,
-    orientation: Literal["kept", "reversed"] = "kept",
+    orientation: Literal["preserving", "reversing"] = "preserving",
     verdict: str = "unchecked",
     confidence: float | None = None,
     quality: float | None = None,
@@ -160,7 +162,7 @@ def match_from_map(
         A source vertex for each target vertex: of a composition of other maps, say.
     origin : str
         Where it comes from, for :attr:`Match.initialization`.
-    orientation : "kept" or "reversed"
+    orientation : "preserving" or "reversing"
         Whether it is a map to the target or to its mirror image.
     verdict, confidence, runners_up
         For the fields of the match.

@@ -204,7 +204,7 @@ def plan_fits(config: Config, surfaces: bool = True) -> list[FitSpec]:
     Point clouds (not ``surfaces``) have neither SHOT nor orientation.
     """
     assert config.search is not None
-    sizes = [min(k, config.basis.functions) for k in SIZES]
+    sizes = [min(k, config.basis.n_eigenfunctions) for k in SIZES]
     names = ("SHOT", "SHOT and waves") if config.descriptors.shot and surfaces else ("waves",)
     weights = ORIENTATION if surfaces else (0.0,) * 3
     found = [FitSpec(name, k, weight) for k, weight in zip(sizes, weights, strict=False) for name in names]
@@ -225,7 +225,7 @@ def fit_descriptor_set(
     """
     bases = points.shapes[0].basis, points.shapes[1].basis
     asked = _descriptor_config(fits[0].descriptor_set, config.descriptors)
-    marks = points.landmarks if asked.landmark_map != "none" else points.landmarks[:0]
+    marks = points.landmarks if asked.landmark_descriptor != "none" else points.landmarks[:0]
     used = _weighed(pair_descriptors(*points.shapes, bases, asked, marks, points.descriptors), bases, config)
     size = min(max(f.functions for f in fits), *(b.functions.shape[1] for b in bases))
     low = (bases[0].truncate(size), bases[1].truncate(size))
@@ -236,10 +236,10 @@ def fit_descriptor_set(
         full_kernel=False,
         solver=SOLVER,
         preconditioner="sylvester",
-        formulation=replace(config.formulation, bidirectional="one"),
+        formulation=replace(config.formulation, bidirectional=False),
     )
     features = kernel_features(*points.shapes, used, small, np.random.default_rng(seed))
-    packed = compressed_operators(low, features, max(config.compression, COMPRESSION), threads=1)
+    packed = compressed_operators(low, features, max(config.operator_rtol, COMPRESSION), threads=1)
     operators_of_features = [unpack_operators(p) for p in packed]
     turning: list[np.ndarray] = []
     known = [cube for cube in operators if cube is not None]
@@ -275,6 +275,6 @@ def _descriptor_config(name: str, base: DescriptorConfig) -> DescriptorConfig:
 def _weighed(used: Descriptors, bases: tuple[Basis, Basis], config: Config) -> Descriptors:
     """Return ``used``, weighed by a robust loss where the formulation has one and there is what it is taken over."""
     asked = config.formulation
-    if not asked.weighs_data or (asked.loss_per == "landmark" and not (used.landmark >= 0).any()):
+    if not asked.weighs_data or (asked.loss_group == "landmark" and not (used.landmark >= 0).any()):
         return used
     return robust_weights(used, bases, config).descriptors

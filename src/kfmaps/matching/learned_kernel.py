@@ -75,7 +75,9 @@ def learned_candidates(
         return []
     few, whole = (by_metric(ground, *rows) for ground in (on.few, on.whole))
     functions = min(len(source.basis.eigenvalues), len(target.basis.eigenvalues))
-    starts = [s for s in sign_inits(min(config.search.signs, functions - 1), few) if s.weights[0] == WEIGHTS[0]]
+    starts = [
+        s for s in sign_inits(min(config.search.n_sign_functions, functions - 1), few) if s.weights[0] == WEIGHTS[0]
+    ]
     none = np.zeros((0, 2), dtype=np.int64)
     points = sample_pair_for_fit(source, target, FIT_POINTS, none, None, drawn)
     operators = on.whole.source.orientation, on.whole.target.orientation

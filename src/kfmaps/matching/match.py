@@ -123,7 +123,7 @@ def match(
 
 def _match_part(task: MatchTask, landmarks: np.ndarray | None) -> tuple[PartialMatch | None, str]:
     """The match of a part and a whole, or ``None`` where both are whole; and why."""
-    asked, shapes = task.config.partial.which, task.shapes("preserving")
+    asked, shapes = task.config.partial.part, task.shapes("preserving")
     if asked == "none":
         return None, ""
     which, why = asked, "as asked for"

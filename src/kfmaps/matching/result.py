@@ -60,7 +60,7 @@ class Match:
         Probability that the map is right, after a search (:mod:`kfmaps.matching.score`).
     local_confidence : (n_t,) float64
         How well distances around each target vertex are kept, 0 to 1 (:mod:`kfmaps.fmap.confidence`).
-    orientation : "kept" or "reversed"
+    orientation : "preserving" or "reversing"
         Whether it is a map to the target or to its mirror image.
     precise_map : PointMap or None
         A point inside a triangle of the source for each target vertex, where the registration was accepted.
@@ -93,7 +93,7 @@ class Match:
     verdict: str = "unchecked"
     confidence: float | None = None
     local_confidence: np.ndarray = _UNKNOWN
-    orientation: str = "kept"
+    orientation: str = "preserving"
     precise_map: PointMap | None = None
     alternatives: tuple[np.ndarray, ...] = ()
     source_to_target: np.ndarray | None = None
@@ -203,9 +203,9 @@ class Match:
                 raise refuse(shape.name, "a surface with triangles", "a point cloud", "use target_to_source")
         refine, columns = self.config.refinement, None
         bases = (pair.source.basis, pair.target.basis)
-        if isinstance(refine, ZoomOut) and refine.guidance and self.orientation != "reversed":
+        if isinstance(refine, ZoomOut) and refine.descriptor_weight and self.orientation != "reversing":
             guidance = descriptor_guidance(pair.source.shot, pair.target.shot)
-            columns = guidance and guidance.embedding_columns(refine.guidance, *bases)
+            columns = guidance and guidance.embedding_columns(refine.descriptor_weight, *bases)
         faces = pair.source.mesh.faces
         return pair.place(to_precise_map(self.functional_map, *bases, faces, self.config.threads, columns))
 
