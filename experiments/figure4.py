@@ -49,7 +49,7 @@ class Panel:
 def settings(count: int, signature_only: bool) -> dict[str, Config]:
     """Return both methods with the same ``count`` descriptors, with or without landmark maps."""
     both = (obcs12_regularised(count), replace(literal(count), kernel=Gaussian(GAMMA)))
-    changes = {"layout": "every-nth", "landmark_map": "none" if signature_only else "wave"}
+    changes = {"energy_sampling": "every-nth", "landmark_descriptor": "none" if signature_only else "wave"}
     return {
         method: replace(config, descriptors=replace(config.descriptors, **changes))
         for method, config in zip(METHODS, both, strict=True)

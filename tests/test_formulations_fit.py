@@ -95,7 +95,7 @@ def with_(name, **more):
         {"kernel": Linear()},
         {"kernel": Polynomial(2)},
         {"device": "torch"},
-        {"exact": True},
+        {"full_kernel": True},
         {"solver": Direct()},
         {"weights": Weights(orientation=0.1)},
     ],
@@ -104,7 +104,7 @@ def with_(name, **more):
 def test_every_formulation_with_every_form_of_the_kernel(shape, other, marks, truth, name, more):
     if more == {"device": "torch"}:
         pytest.importorskip("torch")
-    if more == {"exact": True} and FORMULATIONS[name].weighs_features:
+    if more == {"full_kernel": True} and FORMULATIONS[name].weighs_features:
         with pytest.raises(InvalidInput, match="loss per feature"):
             with_(name, **more)
         return
@@ -235,8 +235,12 @@ def test_loss_per_landmark_needs_landmarks(shape, other):
 
 
 def test_every_layout_knows_its_landmarks(shape, other, marks):
-    for more in ({"layout": "every-nth"}, {"signature": "none"}, {"landmark_map": "heat", "count": 31}):
-        config = with_("robust landmarks", descriptors=replace(SMALL.descriptors, **{"count": 60, **more}))
+    for more in (
+        {"energy_sampling": "every-nth"},
+        {"signature": "none"},
+        {"landmark_descriptor": "heat", "n_spectral": 31},
+    ):
+        config = with_("robust landmarks", descriptors=replace(SMALL.descriptors, **{"n_spectral": 60, **more}))
         found = fit(shape, other, config, landmarks=marks)
         assert found.weights is not None
         assert found.weights.shape == (5,)
@@ -276,11 +280,11 @@ def test_settings_that_contradict_each_other_are_refused():
     wrong: list[tuple[dict[str, Any], str]] = [
         ({"constraint": "unitary"}, "constraint"),
         ({"bidirectional": True, "inverse_weight": 0.0, "adjoint_weight": 0.0}, "ties the two"),
-        ({"loss_width": 0.0}, "loss_width"),
+        ({"loss_scale": 0.0}, "loss_scale"),
         ({"sparsity": -1.0}, "sparsity"),
-        ({"spatial": -1.0}, "spatial"),
-        ({"spatial_blur": 0.0}, "spatial_blur"),
-        ({"rounds": 0}, "rounds"),
+        ({"transport_weight": -1.0}, "transport_weight"),
+        ({"transport_blur": 0.0}, "transport_blur"),
+        ({"max_outer_iter": 0}, "max_outer_iter"),
     ]
     for more, wanted in wrong:
         with pytest.raises(InvalidInput, match=wanted):

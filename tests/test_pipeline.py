@@ -333,12 +333,12 @@ def test_configuration_survives_the_round_trip(config):
         {"kernel": {"kind": "Nonsense"}},
         {"kernel": {"kind": "Gaussian", "width": 1}},
         {"kernel": {"kind": "callable", "name": "f"}},
-        {"basis": {"functions": 1}},
+        {"basis": {"n_eigenfunctions": 1}},
         {"nystrom": {"sampling": "nonsense"}},
         {"descriptors": {"normalisation": "nonsense"}},
         {"weights": {"laplacian": -1.0}},
         {"preconditioner": "nonsense"},
-        {"compression": 1.0},
+        {"operator_rtol": 1.0},
     ],
 )
 def test_impossible_settings_are_refused(values):

@@ -328,7 +328,7 @@ WRONG: list[tuple[list[str], str, str]] = [
     (["--set", "kernel.kind=ZoomOut"], "--set kernel.kind", "gaussian"),
     (["--set", "kernel=7"], "--set kernel", "a table"),
     (["--set", "refinement.kind=CG"], "--set refinement.kind", "icp"),
-    (["--set", "refinement.stop=90"], "--set refinement.stop", "icp, zoomout"),
+    (["--set", "refinement.stop=90"], "--set refinement.stop", "zoomout, icp"),
     (["--set", "basis.kind=BasisConfig"], "--set basis.kind", "n_eigenfunctions, laplacian"),
     (["--set", "solver=none"], "--set solver", "cg"),
 ]

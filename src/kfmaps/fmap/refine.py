@@ -6,8 +6,8 @@ need not be found again.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Any
+from dataclasses import dataclass, replace
+from typing import Any, Protocol
 
 import numpy as np
 
@@ -59,6 +59,25 @@ class Refined:
     functional_map: Array
     target_to_source: np.ndarray
     history: tuple[int, ...]
+
+
+class Refinement(Protocol):
+    """What improves a functional map and its point map: a record of this module or any callable of this signature.
+
+    Three attributes are used where it has them: ``n_eigenfunctions`` that both shapes need, ``descriptor_weight``
+    above 0, which asks for descriptors as the argument ``guide``, and ``limited(n)``, the same with at most n
+    eigenfunctions, for shapes that differ much.
+    """
+
+    def __call__(
+        self,
+        C: Array,
+        source: Basis,
+        target: Basis,
+        progress: Done | None = None,
+        threads: int | None = None,
+        points: np.ndarray | None = None,
+    ) -> Refined: ...
 
 
 @settings_record
@@ -134,6 +153,11 @@ class ZoomOut:
     def n_eigenfunctions(self) -> int:
         """How many eigenfunctions both shapes need."""
         return self.stop
+
+    def limited(self, n: int) -> ZoomOut:
+        """Return the same with at most ``n`` eigenfunctions at the end, in steps of at most 10."""
+        stop = min(self.stop, n)
+        return replace(self, stop=stop, start=min(self.start, stop), step=min(self.step, 10))
 
     def __call__(
         self,
@@ -219,6 +243,3 @@ def fit_functional_map(points: np.ndarray, source: Basis, target: Basis, k: int,
     identity = xp.eye(k, dtype=phi.dtype, device=phi.device)
     pulled = take(source.functions[:, :k], points)
     return (1 + ridge) * xp.linalg.solve(weighted @ phi + ridge * identity, weighted @ pulled)
-
-
-Refinement = ICP | ZoomOut

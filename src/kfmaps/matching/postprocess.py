@@ -16,7 +16,7 @@ from kfmaps.config import Config
 from kfmaps.fmap.bidirectional_zoomout import bidirectional_zoomout
 from kfmaps.fmap.convert import to_points
 from kfmaps.fmap.descriptor_guidance import DescriptorGuidance, descriptor_guidance
-from kfmaps.fmap.refine import ICP, ZoomOut
+from kfmaps.fmap.refine import ZoomOut
 from kfmaps.geometry.basis import Basis
 from kfmaps.shape import Shape
 
@@ -68,8 +68,10 @@ def refine_map(
     (:mod:`kfmaps.fmap.bidirectional_zoomout`), ICP
     each by itself.
     """
-    if isinstance(config.refinement, ZoomOut):
-        config = replace(config, refinement=replace(config.refinement, seed=config.refinement.seed + rng))
+    refine: Any = config.refinement
+    if hasattr(refine, "seed"):
+        refine = replace(refine, seed=refine.seed + rng)
+        config = replace(config, refinement=refine)
     clock = StageTimer(progress)
     bases = (source.basis, target.basis)
     if config.device != "cpu":
@@ -90,10 +92,9 @@ def refine_map(
                 source_to_target=to_points(back, bases[1], bases[0], threads=config.threads),
                 functional_map_back=to_numpy(back),
             )
-        refine = config.refinement
         if back is not None:
             return _finished_both(C, like(back, C), (source, target), bases, config, points, clock, led)
-        if isinstance(refine, ZoomOut) and refine.descriptor_weight:
+        if getattr(refine, "descriptor_weight", 0):
             refine = partial(refine, guide=led or descriptor_guidance(source.shot, target.shot))
         with clock("refinement"):
             refined = refine(
@@ -117,7 +118,7 @@ def _finished_both(
     led: DescriptorGuidance | None,
 ) -> PostprocessedMap:
     """Both maps refined; see :func:`refine_map`."""
-    refine = config.refinement
+    refine: Any = config.refinement
 
     def told(done: float) -> None:
         clock.report("refinement", done)
@@ -127,7 +128,6 @@ def _finished_both(
             guiding = led or descriptor_guidance(shapes[0].shot, shapes[1].shot) if refine.descriptor_weight else None
             forth, other = bidirectional_zoomout(refine, C, back, *bases, told, config.threads, guiding)
         else:
-            assert isinstance(refine, ICP)
             forth = refine(C, *bases, progress=told, threads=config.threads, points=points)
             other = refine(back, bases[1], bases[0], threads=config.threads)
     return PostprocessedMap(

@@ -16,7 +16,6 @@ from kfmaps.config import Config
 from kfmaps.fmap.convert import nearest_reached
 from kfmaps.fmap.descriptor_guidance import descriptor_guidance
 from kfmaps.fmap.precise import PointMap, invert_precise_map, nearest_vertices, to_precise_map
-from kfmaps.fmap.refine import ZoomOut
 from kfmaps.fmap.transfer import transfer_functions
 from kfmaps.geometry.basis import Basis
 from kfmaps.geometry.mesh import Mesh
@@ -203,9 +202,10 @@ class Match:
                 raise refuse(shape.name, "a surface with triangles", "a point cloud", "use target_to_source")
         refine, columns = self.config.refinement, None
         bases = (pair.source.basis, pair.target.basis)
-        if isinstance(refine, ZoomOut) and refine.descriptor_weight and self.orientation != "reversing":
+        weight = getattr(refine, "descriptor_weight", 0.0)
+        if weight and self.orientation != "reversing":
             guidance = descriptor_guidance(pair.source.shot, pair.target.shot)
-            columns = guidance and guidance.embedding_columns(refine.descriptor_weight, *bases)
+            columns = guidance and guidance.embedding_columns(weight, *bases)
         faces = pair.source.mesh.faces
         return pair.place(to_precise_map(self.functional_map, *bases, faces, self.config.threads, columns))
 

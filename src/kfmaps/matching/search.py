@@ -20,7 +20,7 @@ from kfmaps._threads import parallel
 from kfmaps.config import Config
 from kfmaps.fmap.approximate_nearest import N_PROBE_FAST
 from kfmaps.fmap.convert import to_points
-from kfmaps.fmap.refine import CANDIDATES_PER_CALL, PAIRS, Refinement, ZoomOut
+from kfmaps.fmap.refine import CANDIDATES_PER_CALL, PAIRS, Refinement
 from kfmaps.geometry.basis import Basis
 from kfmaps.geometry.sampling import SampledBasis, stratified_vertices
 from kfmaps.matching.candidates import by_score, candidates, distinct_maps, map_distance, rerefine, rescore
@@ -399,10 +399,8 @@ def adapt_refinement(refinement: Refinement | None, found: SearchResult) -> Refi
     Found on a gorilla and a woman, 5.2 instead of 8.5, and on cats and dogs, 10.5 instead of 10.9 on average, where
     people of other bodies lose nothing.
     """
-    if not isinstance(refinement, ZoomOut) or near_isometric(found):
-        return refinement
-    stop = min(refinement.stop, FEWER)
-    return replace(refinement, stop=stop, start=min(refinement.start, stop), step=min(refinement.step, 10))
+    limited = getattr(refinement, "limited", None)
+    return refinement if limited is None or near_isometric(found) else limited(FEWER)
 
 
 def adapt_registration(finish: Any, found: SearchResult) -> Any:
