@@ -105,5 +105,5 @@ def test_noise_does_not_guide():
 def test_bad_settings_are_refused():
     with pytest.raises(InvalidInput, match="as many on both"):
         descriptor_guidance(np.eye(4, 3), np.eye(4, 2))
-    with pytest.raises(InvalidInput, match="guidance"):
+    with pytest.raises(InvalidInput, match="descriptor_weight"):
         ZoomOut(descriptor_weight=-1.0)
