@@ -124,7 +124,7 @@ def test_refused(made: types.SimpleNamespace, tmp_path: Path) -> None:
     save_map(tmp_path / "plain.txt", MapFile(made.points))
     cases: list[tuple[tuple[object, ...], str]] = [
         ((), "--identity"),
-        (("--truth-source", made.truth_source), "it is --truth SOURCE TARGET"),
+        (("--truth-source", made.truth_source), "No such option"),
         ((*truth(made), "--identity"), "one truth"),
         (("--symmetric", made.truth_source), "--symmetric"),
         (("--truth", made.truth_source, short), "equal length"),

@@ -121,15 +121,15 @@ def test_a_gauge_grows_with_the_scale_and_knows_the_way_round_by_the_edge(pair):
 
 
 def test_a_part_in_another_unit_and_turned_is_placed(pair, found, truth):
-    assert found.overlap_target is not None
+    assert found.partial.overlap_target is not None
     errors = precise_errors(pair.source, found.precise(), truth.places)
     assert errors.mean() < 0.03
     common = found.target_to_source >= 0
     assert common.mean() > 0.95
-    ours, true = found.overlap_source > 0.5, true_overlap(pair.source, pair.target, truth)
+    ours, true = found.partial.overlap_source > 0.5, true_overlap(pair.source, pair.target, truth)
     assert (ours & true).sum() / (ours | true).sum() > 0.85
     assert found.verdict != "unlikely"
-    for overlap in (found.overlap_source, found.overlap_target):
+    for overlap in (found.partial.overlap_source, found.partial.overlap_target):
         assert overlap.min() >= 0.0
         assert overlap.max() <= 1.0
 
