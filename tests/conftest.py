@@ -5,6 +5,7 @@ from __future__ import annotations
 import importlib
 import importlib.util
 import os
+import pkgutil
 import signal
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -15,6 +16,7 @@ import pytest
 from scipy.spatial import ConvexHull
 
 import kfmaps
+from kfmaps import MissingDependency
 from kfmaps.geometry.basis import Basis, laplace_basis
 from kfmaps.geometry.mesh import Mesh, unit_area
 
@@ -111,3 +113,15 @@ def interruptible() -> Iterator[None]:
     before = signal.signal(signal.SIGINT, signal.default_int_handler)
     yield
     signal.signal(signal.SIGINT, before)
+
+
+def exists(name: str) -> bool:
+    """Whether a dotted name of the package is there; one that asks for a package that is not installed is."""
+    try:
+        return pkgutil.resolve_name(name) is not None
+    except MissingDependency:
+        return True
+    except AttributeError:
+        return False
+    except ModuleNotFoundError as error:
+        return not str(error.name).startswith("kfmaps")

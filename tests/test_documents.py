@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import pkgutil
 import re
 from pathlib import Path
 
 import pytest
 
 import kfmaps
+from conftest import exists
 from kfmaps.cli.main import COMMANDS
 from kfmaps.settings.options import OPTIONS
 
@@ -41,7 +41,7 @@ def test_links_and_paths_lead_somewhere(path: Path) -> None:
 @pytest.mark.parametrize("path", DOCUMENTS, ids=lambda path: f"{path.parent.name}-{path.stem}")
 def test_names_of_the_package_exist(path: Path) -> None:
     for name in re.findall(r"`(kfmaps(?:\.\w+)+)", path.read_text(encoding="utf-8")):
-        assert pkgutil.resolve_name(name) is not None
+        assert exists(name), name
 
 
 @pytest.mark.parametrize("path", DOCUMENTS, ids=lambda path: f"{path.parent.name}-{path.stem}")

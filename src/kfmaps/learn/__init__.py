@@ -6,19 +6,20 @@
 >>> kfmaps.match(source, target, model.settings())  # doctest: +SKIP
 """
 
+from typing import Any
+
 from kfmaps._arrays import MissingDependency
 
 try:
-    import torch as _torch  # noqa: F401
+    from kfmaps.learn.energy import Minimum, differentiable_minimum, nystrom_features, pair_energy
+    from kfmaps.learn.losses import LOSSES, functional_map, pair_loss, point_error
+    from kfmaps.learn.model import PARTS, Model
+    from kfmaps.learn.pairs import PairTruth, TrainingPair, training_pair
+    from kfmaps.learn.state import Epoch, State, learning_figure, load, save
+    from kfmaps.learn.training import TrainingOptions, learn
 except ModuleNotFoundError as error:
-    raise MissingDependency("kfmaps.learn needs PyTorch. Install it with: pip install 'kfmaps[learn]'.") from error
-
-from kfmaps.learn.energy import Minimum, differentiable_minimum, nystrom_features, pair_energy
-from kfmaps.learn.losses import LOSSES, functional_map, pair_loss, point_error
-from kfmaps.learn.model import PARTS, Model
-from kfmaps.learn.pairs import PairTruth, TrainingPair, training_pair
-from kfmaps.learn.state import Epoch, State, learning_figure, load, save
-from kfmaps.learn.training import TrainingOptions, learn
+    if error.name != "torch":
+        raise
 
 __all__ = [
     "LOSSES",
@@ -42,3 +43,10 @@ __all__ = [
     "save",
     "training_pair",
 ]
+
+
+def __getattr__(name: str) -> Any:
+    """Say what is missing when a name is asked for, so that the package itself can be imported without PyTorch."""
+    if name in __all__:
+        raise MissingDependency("kfmaps.learn needs PyTorch. Install it with: pip install 'kfmaps[learn]'.")
+    raise AttributeError(f"module 'kfmaps.learn' has no attribute {name!r}")
