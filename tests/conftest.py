@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import importlib
 import importlib.util
 import os
@@ -121,7 +122,8 @@ def exists(name: str) -> bool:
         return pkgutil.resolve_name(name) is not None
     except MissingDependency:
         return True
-    except AttributeError:
+    except (AttributeError, ModuleNotFoundError):
+        # A module whose own imports are missing looks as if it were not there.
+        with contextlib.suppress(ModuleNotFoundError):
+            return importlib.util.find_spec(name) is not None
         return False
-    except ModuleNotFoundError as error:
-        return not str(error.name).startswith("kfmaps")
