@@ -56,7 +56,7 @@ def searched(job: Job) -> list[tuple[str, float]]:
             found[:] = [c for c in found if error(c.functional_map) >= NEAR]
             return usual(found, *more) if wanted else []  # type: ignore[arg-type]
 
-        with patch.object(search, "from_symmetries", blind):
+        with patch.object(search, "symmetry_inits", blind):
             found = search_map(source, target, config)
         ends.append((found.verdict, error(found.functional_map)))
     return ends

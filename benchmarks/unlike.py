@@ -4,13 +4,12 @@
 
 Mean errors of whole matches without landmarks: as rigidly as possible throughout; with rest shapes that are stretched
 evenly (:mod:`kfmaps.registration.local_scaling`) while shapes are bent and matched in turn and in the last fit; with
-maps that
-begin with the likeliest pairings of the tips of limbs beside
+maps that begin with the likeliest pairings of the tips of limbs beside
 (:func:`kfmaps.matching.registration_refine.refine_by_registration`); with torn area counted where others may be less
 torn (:func:`kfmaps.matching.finish.better_match`); and with parts that touch told apart in the end
-(:mod:`kfmaps.registration.contact_projection`), which is all that there is. DIR is as for
-benchmarks/automatic.py. The half
-``report``, the default, has the pairs of that script, none of two shapes that settings were chosen on; ``choice`` has
+(:mod:`kfmaps.registration.contact_projection`), which is all that there is. DIR is as for benchmarks/automatic.py.
+The half ``report``, the default, has the pairs of that script, none of two shapes that settings were chosen on;
+``choice`` has
 pairs of two such shapes. Three pairs of either set take about ten minutes.
 """
 
@@ -42,7 +41,7 @@ ONCE = (matching, "SCORE", replace(SCORE, max_torn_area=2.0))
 UNPAIRED = (mending, "PAIRED", 0)
 CLOSEST = (
     nonrigid,
-    "landed",
+    "project_with_contact",
     lambda _points, body, x, target, _normals: closest_points(target.vertices, x, body.mesh.faces),
 )
 KINDS = {
