@@ -315,3 +315,21 @@ def test_numbers_as_fortran_writes_them(tmp_path: Path, suffix: str) -> None:
         mesh = read_mesh(tmp_path / f"a{suffix}")
     np.testing.assert_array_equal(mesh.vertices, [[1, -0.2, 0.5], [1, 0, 0], [0, 1, 0]])
     assert mesh.faces.tolist() == ([] if suffix == ".xyz" else [[0, 1, 2]])
+
+
+def test_a_vertex_without_a_position_is_put_between_its_neighbours(tmp_path: Path) -> None:
+    mesh = blob(1200, 3)
+    places = mesh.vertices.copy()
+    places[7] = np.nan
+    write = tmp_path / "scan.ply"
+    write.write_bytes(format_ply(Mesh(places, mesh.faces)))
+    with pytest.warns(KfmapsWarning, match=r"1 vertex has no position \(NaN\)"):
+        read = read_mesh(write)
+    around = np.setdiff1d(mesh.faces[(mesh.faces == 7).any(axis=1)], [7])
+    np.testing.assert_allclose(read.vertices[7], mesh.vertices[around].mean(axis=0))
+    rest = np.arange(len(places)) != 7
+    np.testing.assert_array_equal(read.vertices[rest], mesh.vertices[rest])
+    places[8:10] = np.nan  # more than one in a thousand
+    write.write_bytes(format_ply(Mesh(places, mesh.faces)))
+    with pytest.raises(InvalidInput, match="9 NaN or infinite"):
+        read_mesh(write)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import warnings
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -48,6 +49,8 @@ READERS = {
 }
 WRITERS = {".off": format_off, ".obj": format_obj, ".ply": format_ply, ".glb": format_glb}
 
+MAX_UNPLACED = 1e-3
+"""Fraction of vertices that may have NaN coordinates; surfaces extracted from CT volumes have one now and then."""
 LARGEST = 1e70
 """Coordinates beyond this overflow in areas and are refused; no unit makes them meaningful."""
 
@@ -75,6 +78,7 @@ def read_mesh(path: str | Path, *, cloud: bool = True) -> Mesh:
     Warns
     -----
     KfmapsWarning
+        About vertices without a position (NaN), at most one in a thousand, which are put between their neighbours.
         About several components, boundaries, non-manifold edges, inconsistent orientation, duplicated or
         unreferenced vertices, and faces without area. All of them are kept.
     """
@@ -90,6 +94,7 @@ def read_mesh_file(path: str | Path, *, cloud: bool = True) -> MeshFile:
         raise refuse(name, f"one of {known}", f"{path.suffix or 'no extension'}", "convert or rename the file")
     with np.errstate(all="ignore"):  # wild numbers are refused below
         found = reader(read_bytes(path), name)
+    found = _place_unplaced(found, name)
     places = found.mesh.vertices
     for what, values in (("vertices", places), ("colors", found.colors), ("texture", found.uv)):
         if values is not None:
@@ -100,6 +105,30 @@ def read_mesh_file(path: str | Path, *, cloud: bool = True) -> MeshFile:
     check_mesh(found.mesh, name, cloud=cloud)
     _warn_of_oddities(found.mesh, name)
     return found
+
+
+def _place_unplaced(found: MeshFile, name: str) -> MeshFile:
+    """Put vertices whose coordinates are NaN at the mean of their neighbours, where they are few and have some."""
+    vertices, faces = found.mesh.vertices, found.mesh.faces
+    bad = np.isnan(vertices).any(axis=1)
+    if not bad.any() or bad.mean() > MAX_UNPLACED:
+        return found
+    vertices = vertices.copy()
+    for v in np.flatnonzero(bad):
+        around = np.unique(faces[(faces == v).any(axis=1)])
+        around = around[~bad[around]]
+        if len(around) == 0:
+            return found
+        vertices[v] = found.mesh.vertices[around].mean(axis=0)
+    count = int(bad.sum())
+    which = "1 vertex has" if count == 1 else f"{count} vertices have"
+    where = "its neighbours" if count == 1 else "their neighbours"
+    warnings.warn(
+        f"{shown(name)}: {which} no position (NaN); put between {where}, the numbering stays",
+        KfmapsWarning,
+        stacklevel=4,
+    )
+    return replace(found, mesh=Mesh(vertices, faces))
 
 
 def _warn_of_oddities(mesh: Mesh, name: str) -> None:
