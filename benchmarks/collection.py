@@ -43,7 +43,7 @@ from kfmaps.cli.evaluation import assessed
 from kfmaps.collection.synchronization import N_FUNCTIONS, CandidateMap, Edge, synchronize
 from kfmaps.config import BasisConfig, Config, DescriptorConfig, Search
 from kfmaps.fmap.constraints import nearest_orthogonal
-from kfmaps.fmap.refine import ZoomOut
+from kfmaps.fmap.zoomout import ZoomOut
 from kfmaps.geometry.coarsen import coarsen
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.geometry.sampling import stratified

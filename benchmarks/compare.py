@@ -25,8 +25,8 @@ from kfmaps.config import Config, DescriptorConfig
 from kfmaps.fmap.convert import to_points
 from kfmaps.fmap.evaluate import geodesic_errors
 from kfmaps.fmap.preconditioners import sylvester
-from kfmaps.fmap.refine import ZoomOut
 from kfmaps.fmap.solvers import CG, solve
+from kfmaps.fmap.zoomout import ZoomOut
 from kfmaps.matching.assemble import assemble
 from kfmaps.matching.features import pair_descriptors
 from kfmaps.matching.fit import check_landmark_pairs

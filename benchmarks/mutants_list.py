@@ -189,7 +189,7 @@ MUTANTS = tuple(
         ),
         ("-0.5 * squares / size**2", "-0.4 * squares / size**2", "test_maps -k nearest"),
         ("scores -= 0.5 * np.einsum", "scores -= 0.4 * np.einsum", f"{FORMULAS} -k cells"),
-        ("k: int, ridge: float = 0.1", "k: int, ridge: float = 0.0", f"{FORMULAS} -k damping"),
+        ("_RIDGE = 0.1", "_RIDGE = 0.0", f"{FORMULAS} -k damping"),
         ("return (1 + ridge) * xp.linalg.solve", "return xp.linalg.solve", f"{FORMULAS} -k damping"),
         ("C = fit_functional_map(points, source, target, self.stop)", "pass", f"{FORMULAS} -k last_step"),
         ("C = C[:first, :first]", "C = C.T[:first, :first]", f"{FORMULAS} -k low_part"),
@@ -291,7 +291,7 @@ MUTANTS = tuple(
             'images[:, :, k] = -0.4 * np.einsum("mik,mik->mi"',
             "test_search -k many_maps",
         ),
-        ("weighted @ phi + RIDGE * np.eye(k), weighted", "weighted @ phi, weighted", "test_search -k many_maps"),
+        ("k, lambda weighted: weighted)", "k, lambda weighted: weighted, 10.0)", "test_search -k many_maps"),
         ("scale = (size / total) ** 0.5", "scale = (size / total)", "test_search -k family"),
         (
             "(0.5 * (found.source**2).sum(axis=1)[None, :]",

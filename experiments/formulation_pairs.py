@@ -18,11 +18,10 @@ from data_sets import DataSet
 from data_sets import Pair as Names
 from kfmaps._arrays import KfmapsWarning, to_numpy
 from kfmaps.config import BasisConfig, Config, DescriptorConfig, Formulation, NystromConfig, Weights
-from kfmaps.fmap.bidirectional_zoomout import bidirectional_zoomout
 from kfmaps.fmap.convert import to_points
-from kfmaps.fmap.refine import ZoomOut
 from kfmaps.fmap.solvers import CG
 from kfmaps.fmap.transfer import transfer_functions
+from kfmaps.fmap.zoomout import ZoomOut
 from kfmaps.geometry.basis import Basis
 from kfmaps.geometry.geodesics import geodesic_distances
 from kfmaps.geometry.sampling import stratified_samples
@@ -104,7 +103,7 @@ class Pair:
 
     def refine_both(self, C: np.ndarray, D: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Return the functional maps of both directions after bidirectional ZoomOut on samples."""
-        there, back = bidirectional_zoomout(ZOOM, C, D, *self.samples)
+        there, back = ZOOM.bidirectional(C, D, *self.samples)
         return to_numpy(there.functional_map), to_numpy(back.functional_map)
 
 

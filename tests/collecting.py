@@ -22,7 +22,7 @@ from kfmaps.batch.run import run_batch
 from kfmaps.batch.run_spec import RunSpec
 from kfmaps.batch.work import match_pair, prepare_shape
 from kfmaps.config import BasisConfig, Config, DescriptorConfig, NystromConfig
-from kfmaps.fmap.refine import ZoomOut
+from kfmaps.fmap.zoomout import ZoomOut
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.io import write_mesh, write_vertex_numbers
 

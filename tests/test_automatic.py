@@ -13,7 +13,7 @@ from kfmaps.descriptors.shot import shot
 from kfmaps.fmap.convert import nearest
 from kfmaps.fmap.descriptor_guidance import FLAT, descriptor_variance
 from kfmaps.fmap.evaluate import geodesic_errors
-from kfmaps.fmap.refine import ZoomOut
+from kfmaps.fmap.zoomout import ZoomOut
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.matching.candidates import candidates
 from kfmaps.matching.initial_maps import perturb, plan_fits

@@ -16,7 +16,7 @@ from kfmaps.config import BasisConfig, Config
 from kfmaps.fmap.confidence import local_confidence
 from kfmaps.fmap.convert import to_functional
 from kfmaps.fmap.evaluate import coverage, geodesic_errors
-from kfmaps.fmap.refine import ZoomOut
+from kfmaps.fmap.zoomout import ZoomOut
 from kfmaps.geometry.basis import laplace_basis
 from kfmaps.geometry.geodesic_graph import geodesic_graph
 from kfmaps.geometry.geodesics import geodesic_distances

@@ -7,8 +7,9 @@ import pytest
 
 from conftest import blob
 from kfmaps.config import BasisConfig, Config, DescriptorConfig, NystromConfig, Weights
-from kfmaps.fmap.refine import ICP, ZoomOut
+from kfmaps.fmap.refine import ICP
 from kfmaps.fmap.solvers import CG
+from kfmaps.fmap.zoomout import ZoomOut
 from kfmaps.geometry.mesh import unit_area
 from kfmaps.kernels.kernels import Laplacian, Linear
 from kfmaps.matching.match import match

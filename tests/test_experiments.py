@@ -28,7 +28,7 @@ from kernel_matrix import best_errors, gaussian_matrix, nystrom_error
 from kfmaps._arrays import InvalidInput
 from kfmaps.config import BasisConfig, Config, NystromConfig
 from kfmaps.fmap.evaluate import geodesic_errors
-from kfmaps.fmap.refine import ZoomOut
+from kfmaps.fmap.zoomout import ZoomOut
 from kfmaps.geometry.basis import Basis
 from kfmaps.kernels.kernels import Gaussian
 from kfmaps.settings.merge import read_settings

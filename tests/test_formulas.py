@@ -28,14 +28,14 @@ from kfmaps.fmap.descriptor_guidance import descriptor_guidance
 from kfmaps.fmap.losses import LOSSES, Loss
 from kfmaps.fmap.multiplication_operators import truncate_features, truncate_operators
 from kfmaps.fmap.nearest import nearest
-from kfmaps.fmap.refine import SampledBasis, ZoomOut, fit_functional_map
 from kfmaps.fmap.solvers import CG, solve
 from kfmaps.fmap.terms import laplacian_term
+from kfmaps.fmap.zoomout import ZoomOut, fit_functional_map
 from kfmaps.geometry import geodesics
 from kfmaps.geometry.basis import Basis
 from kfmaps.geometry.geodesics import geodesic_distance_pairs, geodesic_distances
 from kfmaps.geometry.mesh import Mesh, face_areas, surface_area, unit_area, vertex_areas
-from kfmaps.geometry.sampling import _embedded, spectral_samples
+from kfmaps.geometry.sampling import SampledBasis, _embedded, spectral_samples
 from kfmaps.kernels.kernels import Gaussian, Laplacian, resolve_kernel, squared_distances
 from kfmaps.kernels.landmark_selection import farthest_descriptors
 from kfmaps.kernels.nystrom import nystrom
@@ -51,6 +51,7 @@ GUARDS = (
     "kfmaps.fmap.multiplication_operators",
     "kfmaps.fmap.nearest",
     "kfmaps.fmap.refine",
+    "kfmaps.fmap.zoomout",
     "kfmaps.fmap.solvers",
     "kfmaps.fmap.terms",
     "kfmaps.geometry.basis",

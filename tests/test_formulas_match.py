@@ -13,8 +13,8 @@ from kfmaps._arrays import inner
 from kfmaps.config import BasisConfig, Config, DescriptorConfig, NystromConfig, Search
 from kfmaps.descriptors.spectral import heat_map, heat_signature
 from kfmaps.fmap.convert import to_points
-from kfmaps.fmap.refine import ZoomOut
 from kfmaps.fmap.terms import operator_term, value
+from kfmaps.fmap.zoomout import ZoomOut
 from kfmaps.kernels.kernels import Gaussian, squared_distances
 from kfmaps.matching.assemble import assemble, orientation_pair, principal_features
 from kfmaps.matching.features import Descriptors, Features, joint_samples, pair_descriptors

@@ -29,7 +29,7 @@ from kfmaps.fmap.terms import inverse_term
 from kfmaps.fmap.transfer import transfer_functions
 
 GUARDS = (
-    "kfmaps.fmap.bidirectional_zoomout",
+    "kfmaps.fmap.zoomout",
     "kfmaps.fmap.constraints",
     "kfmaps.fmap.coupled",
     "kfmaps.fmap.energy",

@@ -12,8 +12,9 @@ from kfmaps._arrays import InvalidInput
 from kfmaps.config import BasisConfig, Config, DescriptorConfig, Formulation, NystromConfig, Search, Weights
 from kfmaps.fmap.convert import nearest
 from kfmaps.fmap.evaluate import geodesic_errors
-from kfmaps.fmap.refine import ICP, ZoomOut
+from kfmaps.fmap.refine import ICP
 from kfmaps.fmap.solvers import CG, Direct
+from kfmaps.fmap.zoomout import ZoomOut
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.io import load_map, save_map
 from kfmaps.kernels.kernels import Gaussian, Linear, Polynomial
@@ -21,7 +22,7 @@ from kfmaps.matching.fit import fit
 from kfmaps.matching.match import match
 from kfmaps.shape import prepare
 
-GUARDS = ("kfmaps.fmap.bidirectional_zoomout", "kfmaps.fmap.full_kernel", "kfmaps.matching")
+GUARDS = ("kfmaps.fmap.zoomout", "kfmaps.fmap.full_kernel", "kfmaps.matching")
 
 SMALL = replace(
     Config.single_fit(),

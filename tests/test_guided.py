@@ -9,12 +9,12 @@ from conftest import blob
 from kfmaps._arrays import InvalidInput
 from kfmaps.fmap.convert import nearest
 from kfmaps.fmap.descriptor_guidance import descriptor_guidance
-from kfmaps.fmap.refine import ZoomOut
+from kfmaps.fmap.zoomout import ZoomOut
 from kfmaps.geometry.basis import laplace_basis
 from kfmaps.geometry.mesh import unit_area
 from kfmaps.geometry.sampling import spectral_samples
 
-GUARDS = ("kfmaps.fmap.descriptor_guidance", "kfmaps.fmap.refine")
+GUARDS = ("kfmaps.fmap.descriptor_guidance", "kfmaps.fmap.zoomout")
 
 
 @pytest.fixture(scope="module")

@@ -15,7 +15,7 @@ from kfmaps.config import BasisConfig, Config, DescriptorConfig, NystromConfig
 from kfmaps.descriptors.shot import shot
 from kfmaps.fmap.confidence import local_confidence
 from kfmaps.fmap.evaluate import coverage, geodesic_errors
-from kfmaps.fmap.refine import ZoomOut
+from kfmaps.fmap.zoomout import ZoomOut
 from kfmaps.geometry.basis import laplace_basis
 from kfmaps.geometry.clean import SPECK, clean_mesh, weld_vertices
 from kfmaps.geometry.geodesic_graph import geodesic_graph

@@ -8,15 +8,18 @@ from kfmaps._arrays import InvalidInput, to_numpy
 from kfmaps.fmap.convert import nearest, to_functional, to_points
 from kfmaps.fmap.evaluate import coverage, error_curve, geodesic_errors, summarize_errors, truth_from_pairs
 from kfmaps.fmap.nearest import LARGE
-from kfmaps.fmap.refine import ICP, ZoomOut, spectral_samples
+from kfmaps.fmap.refine import ICP
+from kfmaps.fmap.zoomout import ZoomOut
 from kfmaps.geometry.basis import Basis, laplace_basis
 from kfmaps.geometry.mesh import unit_area
+from kfmaps.geometry.sampling import spectral_samples
 
 GUARDS = (
     "kfmaps.fmap.convert",
     "kfmaps.fmap.evaluate",
     "kfmaps.fmap.nearest",
     "kfmaps.fmap.refine",
+    "kfmaps.fmap.zoomout",
     "kfmaps.geometry.basis",
 )
 

@@ -20,8 +20,9 @@ from kfmaps.config import (
     from_dict,
 )
 from kfmaps.fmap.energy import Energy
-from kfmaps.fmap.refine import ICP, ZoomOut
+from kfmaps.fmap.refine import ICP
 from kfmaps.fmap.solvers import CG, Direct, dense_matrix
+from kfmaps.fmap.zoomout import ZoomOut
 from kfmaps.geometry.basis import Basis
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.kernels.kernels import Gaussian, Linear, Polynomial, Product, Sum, Tanh

@@ -17,9 +17,10 @@ from kfmaps.fmap.multiplication_operators import (
     truncate_operators,
     unpack_operators,
 )
-from kfmaps.fmap.refine import ICP, ZoomOut, fit_functional_map
+from kfmaps.fmap.refine import ICP
 from kfmaps.fmap.solvers import CG, solve
 from kfmaps.fmap.terms import laplacian_term, operator_term, value
+from kfmaps.fmap.zoomout import ZoomOut, fit_functional_map
 from kfmaps.geometry.basis import Basis, eigenvalue_tolerance
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.geometry.sampling import spectral_samples, stratified_samples
@@ -39,6 +40,7 @@ GUARDS = (
     "kfmaps.fmap.confidence",
     "kfmaps.fmap.multiplication_operators",
     "kfmaps.fmap.refine",
+    "kfmaps.fmap.zoomout",
     "kfmaps.fmap.terms",
     "kfmaps.geometry.basis",
     "kfmaps.matching",

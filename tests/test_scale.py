@@ -13,8 +13,8 @@ from kfmaps.fmap.approximate_nearest import approximate_nearest
 from kfmaps.fmap.convert import to_functional, to_points
 from kfmaps.fmap.multiplication_operators import multiplication_operators, truncate_features
 from kfmaps.fmap.nearest import nearest
-from kfmaps.fmap.refine import ZoomOut
 from kfmaps.fmap.solvers import CG
+from kfmaps.fmap.zoomout import ZoomOut
 from kfmaps.geometry.basis import laplace_basis
 from kfmaps.geometry.geodesics import geodesic_distance_pairs
 from kfmaps.geometry.mesh import Mesh, unit_area
@@ -29,7 +29,7 @@ GUARDS = (
     "kfmaps.fmap.convert",
     "kfmaps.fmap.multiplication_operators",
     "kfmaps.fmap.nearest",
-    "kfmaps.fmap.refine",
+    "kfmaps.fmap.zoomout",
     "kfmaps.geometry.geodesics",
     "kfmaps.geometry.sampling",
     "kfmaps.kernels.landmark_selection",
@@ -268,9 +268,9 @@ def test_zoomout_chooses_from_some_of_a_large_source(pair, monkeypatch):
     source, target, truth = pair
     start = to_functional(truth, source.basis.truncate(10), target.basis.truncate(10))
     zoom = ZoomOut(10, 50, 10, samples=300)
-    monkeypatch.setattr("kfmaps.fmap.refine.EACH", 100)
+    monkeypatch.setattr("kfmaps.fmap.zoomout.CANDIDATES_PER_SAMPLE", 100)
     every = zoom(start, source.basis, target.basis)
-    monkeypatch.setattr("kfmaps.fmap.refine.CANDIDATES_PER_CALL", 1000)
+    monkeypatch.setattr("kfmaps.fmap.zoomout.MAX_CANDIDATES", 1000)
     some = zoom(start, source.basis, target.basis)
     errors = [geodesic_distance_pairs(source.mesh, m.target_to_source, truth).mean() for m in (every, some)]
     assert (every.target_to_source != some.target_to_source).any()

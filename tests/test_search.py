@@ -9,14 +9,13 @@ from conftest import blob
 from kfmaps.config import BasisConfig, Config, NystromConfig, Search
 from kfmaps.fmap.convert import nearest
 from kfmaps.fmap.descriptor_guidance import combine_guidance, descriptor_guidance
-from kfmaps.fmap.refine import ZoomOut
 from kfmaps.fmap.solvers import CG
+from kfmaps.fmap.zoomout import ZoomOut, batched_zoomout
 from kfmaps.geometry.coarsen import coarsen
 from kfmaps.geometry.geodesics import geodesic_distances
 from kfmaps.geometry.mesh import Mesh, face_areas, unit_area, vertex_normals
 from kfmaps.geometry.sampling import spectral_samples
 from kfmaps.matching import candidates, initial_maps
-from kfmaps.matching.batched_zoomout import batched_zoomout
 from kfmaps.matching.candidates import refine_fine, rerefine, score_maps
 from kfmaps.matching.features import sample_pair_for_fit
 from kfmaps.matching.fit import fit

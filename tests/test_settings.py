@@ -17,8 +17,9 @@ from commandline import run
 from kfmaps._arrays import InvalidInput
 from kfmaps._records import Setting, walk
 from kfmaps.config import KINDS, RECORDS, Config, Formulation, NystromConfig, Search, Weights, as_dict, from_dict
-from kfmaps.fmap.refine import ICP, ZoomOut
+from kfmaps.fmap.refine import ICP
 from kfmaps.fmap.solvers import CG, Direct
+from kfmaps.fmap.zoomout import ZoomOut
 from kfmaps.kernels.kernels import Gaussian, Laplacian, Linear, Polynomial, Product, Sum, Tanh
 from kfmaps.kernels.transformed import Metric, Network, Scaled
 from kfmaps.settings.document import updated

@@ -7,9 +7,9 @@ import pytest
 
 from kfmaps import datasets
 from kfmaps._arrays import NotConverged
+from kfmaps.fmap.zoomout import batched_zoomout
 from kfmaps.geometry.coarsen import CoarseProxy
 from kfmaps.geometry.mesh import Mesh
-from kfmaps.matching.batched_zoomout import batched_zoomout
 from kfmaps.matching.candidates import refine_coarse
 from kfmaps.matching.extremities import APART, extremities, gradient_cross
 from kfmaps.matching.extremity_matching import (

@@ -29,9 +29,9 @@ from kfmaps.fmap.evaluate import error_curve as error_curve
 from kfmaps.fmap.evaluate import summarize_errors as summarize_errors
 from kfmaps.fmap.precise import PointMap as PointMap
 from kfmaps.fmap.refine import ICP as ICP
-from kfmaps.fmap.refine import ZoomOut as ZoomOut
 from kfmaps.fmap.solvers import CG as CG
 from kfmaps.fmap.solvers import Direct as Direct
+from kfmaps.fmap.zoomout import ZoomOut as ZoomOut
 from kfmaps.geometry.basis import Basis as Basis
 from kfmaps.geometry.basis import laplace_basis as laplace_basis
 from kfmaps.geometry.geodesics import geodesic_distances as geodesic_distances

@@ -11,8 +11,9 @@ from kfmaps._arrays import refuse
 from kfmaps._records import check_record, setting, settings_record
 from kfmaps.config.sections import BasisConfig, DescriptorConfig, Formulation, NystromConfig, Partial, Search, Weights
 from kfmaps.fmap.minimize import Preconditioner
-from kfmaps.fmap.refine import ICP, Refinement, ZoomOut
+from kfmaps.fmap.refine import ICP, Refinement
 from kfmaps.fmap.solvers import CG, Solver
+from kfmaps.fmap.zoomout import ZoomOut
 from kfmaps.kernels.kernels import Gaussian, KernelLike, Linear, describe_kernel
 from kfmaps.kernels.transformed import KERNELS
 from kfmaps.registration.nonrigid_icp import NonRigid

@@ -44,6 +44,10 @@ class DescriptorGuidance:
             target=self.target if target is None else self.target[target],
         )
 
+    def swapped(self) -> DescriptorGuidance:
+        """Return the guide of maps the other way."""
+        return DescriptorGuidance(self.target, self.source)
+
     def embedding_columns(self, weight: float, source: Basis, target: Basis) -> tuple[Array, Array]:
         """Columns to put beside the functions, such that squared differences are ``weight`` on average at unit area.
 

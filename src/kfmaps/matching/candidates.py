@@ -15,7 +15,7 @@ import numpy as np
 from kfmaps._threads import parallel
 from kfmaps.config import Config
 from kfmaps.fmap.convert import nearest
-from kfmaps.matching.batched_zoomout import batched_zoomout
+from kfmaps.fmap.zoomout import batched_zoomout
 from kfmaps.matching.extremity_matching import ExtremityMatch, match_of_map
 from kfmaps.matching.initial_maps import (
     STARTS,

@@ -13,10 +13,9 @@ from kfmaps._progress import Progress
 from kfmaps._stage_timer import StageTimer
 from kfmaps._threads import one_blas_thread
 from kfmaps.config import Config
-from kfmaps.fmap.bidirectional_zoomout import bidirectional_zoomout
 from kfmaps.fmap.convert import to_points
 from kfmaps.fmap.descriptor_guidance import DescriptorGuidance, descriptor_guidance
-from kfmaps.fmap.refine import ZoomOut
+from kfmaps.fmap.zoomout import ZoomOut
 from kfmaps.geometry.basis import Basis
 from kfmaps.shape import Shape
 
@@ -65,7 +64,7 @@ def refine_map(
     ``raw`` asks for the point map before the refinement too. What guides a refinement that wants guidance is ``led``
     or, without it, SHOT, where both shapes have it. ``rng`` is added to the seed of ZoomOut's samples. With a
     map ``back (k_s, k_t)`` both are finished: ZoomOut refines them together
-    (:mod:`kfmaps.fmap.bidirectional_zoomout`), ICP
+    (:meth:`kfmaps.fmap.zoomout.ZoomOut.bidirectional`), ICP
     each by itself.
     """
     refine: Any = config.refinement
@@ -126,7 +125,7 @@ def _finished_both(
     with clock("refinement"):
         if isinstance(refine, ZoomOut):
             guiding = led or descriptor_guidance(shapes[0].shot, shapes[1].shot) if refine.descriptor_weight else None
-            forth, other = bidirectional_zoomout(refine, C, back, *bases, told, config.threads, guiding)
+            forth, other = refine.bidirectional(C, back, *bases, told, config.threads, guiding)
         else:
             forth = refine(C, *bases, progress=told, threads=config.threads, points=points)
             other = refine(back, bases[1], bases[0], threads=config.threads)

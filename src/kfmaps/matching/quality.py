@@ -17,14 +17,13 @@ from kfmaps.descriptors.shot import mirror_shot
 from kfmaps.descriptors.spectral import heat_signature
 from kfmaps.fmap.convert import nearest
 from kfmaps.fmap.descriptor_guidance import FLAT, descriptor_variance
-from kfmaps.fmap.refine import SampledBasis, SpectralSamples, spectral_samples
 from kfmaps.geometry.basis import Basis, eigenvalue_tolerance
 from kfmaps.geometry.coarsen import CoarseProxy, coarsen
 from kfmaps.geometry.geodesic_graph import geodesic_graph
 from kfmaps.geometry.geodesics import pairwise_geodesics
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.geometry.orientation_operators import orientation_operators
-from kfmaps.geometry.sampling import stratified_vertices
+from kfmaps.geometry.sampling import SampledBasis, SpectralSamples, spectral_samples, stratified_vertices
 from kfmaps.matching.extremities import Extremities, extremities
 from kfmaps.matching.score import SCORE, Quality
 from kfmaps.registration.deformation_energy import coarse_copy

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from kfmaps.fmap.descriptor_guidance import DescriptorGuidance, descriptor_guidance
-from kfmaps.matching.batched_zoomout import pseudo_inverse
+from kfmaps.fmap.zoomout import pseudo_inverse
 from kfmaps.matching.extremity_matching import ExtremityMatch, extremity_cost
 from kfmaps.matching.landmark_evidence import LandmarkEvidence, heat_features, heat_guidance
 from kfmaps.matching.quality import ShapeSamples, mirror_samples, subsample
@@ -42,7 +42,7 @@ class SamplePair:
     solvers: dict[int, np.ndarray] = field(default_factory=dict)
 
     def solver(self, k: int) -> np.ndarray:
-        """:func:`kfmaps.matching.batched_zoomout.pseudo_inverse` of the target, made once for all refinements."""
+        """:func:`kfmaps.fmap.zoomout.pseudo_inverse` of the target, made once for all refinements."""
         if k not in self.solvers:
             self.solvers[k] = pseudo_inverse(self.target.samples.basis, k)
         return self.solvers[k]
@@ -50,7 +50,7 @@ class SamplePair:
     def against(
         self, shot: float, landmarks: float = 0.0, tips: float = 0.0, paired: Sequence[ExtremityMatch | None] = ()
     ) -> np.ndarray | None:
-        """What speaks against pairs, with weights, for :func:`kfmaps.matching.batched_zoomout.batched_zoomout`.
+        """What speaks against pairs, with weights, for :func:`kfmaps.fmap.zoomout.batched_zoomout`.
 
         (q_t, q_s), or (m, q_t, q_s) when the tips of m maps are ``paired`` and count.
         """

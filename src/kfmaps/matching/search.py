@@ -20,7 +20,8 @@ from kfmaps._threads import parallel
 from kfmaps.config import Config
 from kfmaps.fmap.approximate_nearest import N_PROBE_FAST
 from kfmaps.fmap.convert import to_points
-from kfmaps.fmap.refine import CANDIDATES_PER_CALL, PAIRS, Refinement
+from kfmaps.fmap.refine import Refinement
+from kfmaps.fmap.zoomout import MAX_CANDIDATES, MAX_EXACT_PAIRS
 from kfmaps.geometry.basis import Basis
 from kfmaps.geometry.sampling import SampledBasis, stratified_vertices
 from kfmaps.matching.candidates import by_score, candidates, distinct_maps, map_distance, rerefine, rescore
@@ -365,14 +366,14 @@ def alternative_maps(
 ) -> tuple[np.ndarray, ...]:
     """Point maps ``(n_t,)`` of functional maps that are not finished.
 
-    Of a large source they name one of :data:`~kfmaps.fmap.refine.CANDIDATES_PER_CALL` of its vertices, which lie
+    Of a large source they name one of :data:`~kfmaps.fmap.zoomout.MAX_CANDIDATES` of its vertices, which lie
     nearer to
     each other than so few functions can tell: a quarter of the time.
     """
-    exact = False if len(source.mass) * len(target.mass) > PAIRS else None
+    exact = False if len(source.mass) * len(target.mass) > MAX_EXACT_PAIRS else None
     vertices, few = np.arange(len(source.mass)), source
-    if len(vertices) > CANDIDATES_PER_CALL:
-        vertices = stratified_vertices(source, CANDIDATES_PER_CALL, 0)
+    if len(vertices) > MAX_CANDIDATES:
+        vertices = stratified_vertices(source, MAX_CANDIDATES, 0)
         few = SampledBasis(source.eigenvalues, source.functions[vertices], source.mass[vertices])
     return tuple(vertices[to_points(C, few, target, threads, exact=exact, probes=N_PROBE_FAST)] for C in maps)
 

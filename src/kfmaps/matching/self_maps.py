@@ -14,7 +14,7 @@ from itertools import product
 
 import numpy as np
 
-from kfmaps.matching.batched_zoomout import batched_zoomout, nearest_samples
+from kfmaps.fmap.zoomout import batched_zoomout, nearest_samples
 from kfmaps.matching.quality import ShapeSamples, map_distortion
 
 SIGNS = 5

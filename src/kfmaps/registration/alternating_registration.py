@@ -16,7 +16,7 @@ from scipy.spatial import KDTree
 from kfmaps._arrays import to_numpy
 from kfmaps._progress import Done
 from kfmaps.fmap.descriptor_guidance import DescriptorGuidance, combine_guidance
-from kfmaps.fmap.refine import ZoomOut
+from kfmaps.fmap.zoomout import ZoomOut
 from kfmaps.geometry.basis import Basis
 from kfmaps.geometry.coarsen import CoarseProxy
 from kfmaps.geometry.mesh import Mesh, vertex_areas, vertex_normals
