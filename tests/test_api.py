@@ -80,7 +80,7 @@ def test_without_faces_it_is_a_point_cloud() -> None:
         (3, "got int"),
         ("no-such.off", "no-such.off"),
         ((V, F, F), "got tuple"),
-        ((V, "faces"), "faces: wanted whole numbers"),
+        ((V, "faces"), "faces: expected whole numbers"),
         ((V, F[:, :2]), "three vertex numbers"),
         ((V[:, :2], F), "shape"),
         (("a", F), "got tuple"),
@@ -195,7 +195,7 @@ def test_picture_and_page_of_a_map(shuffled: kfmaps.Match, tmp_path: Path) -> No
     kfmaps.view(tmp_path / "m.npz", (V, F), OTHER, output=tmp_path / "again.html", descriptors=False)
     kfmaps.render(tmp_path / "m.npz", MESH, OTHER, output=tmp_path / "pair.png")
     assert (tmp_path / "pair.png").read_bytes().startswith(b"\x89PNG")
-    with pytest.raises(InvalidInput, match="give source="):
+    with pytest.raises(InvalidInput, match="Give source="):
         kfmaps.render(shuffled.target_to_source)
     with pytest.raises(InvalidInput, match="equal length"):
         kfmaps.render(shuffled, truth=([0, 1], [0]))
@@ -206,20 +206,23 @@ def test_picture_and_page_of_a_map(shuffled: kfmaps.Match, tmp_path: Path) -> No
 @pytest.mark.parametrize(
     ("call", "told"),
     [
-        (lambda: kfmaps.match(MESH, MESH, "paper"), "config: wanted a Config, got str"),  # pyright: ignore
+        (lambda: kfmaps.match(MESH, MESH, "paper"), "config: expected a Config, got str"),  # pyright: ignore
         (lambda: kfmaps.prepare("a.off", 3), "config"),  # pyright: ignore
-        (lambda: kfmaps.laplace_basis("a.off", 5), "mesh: wanted a Mesh, got str"),  # pyright: ignore
-        (lambda: kfmaps.geodesic_distances((V, F), [0]), "mesh: wanted a Mesh, got tuple"),  # pyright: ignore
-        (lambda: kfmaps.geodesic_errors("no.off", ORDER, ORDER), "no.off: wanted a file"),
-        (lambda: kfmaps.geodesic_errors(MESH, ORDER, ORDER[:5]), "predicted and true vertices: wanted lists of equal"),
+        (lambda: kfmaps.laplace_basis("a.off", 5), "mesh: expected a Mesh, got str"),  # pyright: ignore
+        (lambda: kfmaps.geodesic_distances((V, F), [0]), "mesh: expected a Mesh, got tuple"),  # pyright: ignore
+        (lambda: kfmaps.geodesic_errors("no.off", ORDER, ORDER), "no.off: expected a file"),
+        (
+            lambda: kfmaps.geodesic_errors(MESH, ORDER, ORDER[:5]),
+            "predicted and true vertices: expected lists of",
+        ),
         (lambda: kfmaps.geodesic_errors(MESH, ORDER, ([0], [200])), "the truth's target vertices"),
-        (lambda: kfmaps.transfer(V, vertex_point_map(ORDER, MESH)), "a PointMap alone; give source="),
+        (lambda: kfmaps.transfer(V, vertex_point_map(ORDER, MESH)), "a PointMap alone. Give source="),
         (lambda: kfmaps.render(vertex_point_map(ORDER, MESH), Mesh(V), OTHER), "map"),
-        (lambda: kfmaps.coverage(ORDER, "a.off"), "source: wanted a Mesh"),  # pyright: ignore
-        (lambda: kfmaps.write_mesh("a.off", (V, F)), "mesh: wanted a Mesh"),  # pyright: ignore
-        (lambda: kfmaps.save_map("a.npz", ORDER), "map: wanted a Match"),  # pyright: ignore
-        (lambda: kfmaps.transfer(V, {"a": 1}), "map: wanted"),
-        (lambda: kfmaps.view({"a": 1}, MESH, MESH), "map: wanted"),
+        (lambda: kfmaps.coverage(ORDER, "a.off"), "source: expected a Mesh"),  # pyright: ignore
+        (lambda: kfmaps.write_mesh("a.off", (V, F)), "mesh: expected a Mesh"),  # pyright: ignore
+        (lambda: kfmaps.save_map("a.npz", ORDER), "map: expected a Match"),  # pyright: ignore
+        (lambda: kfmaps.transfer(V, {"a": 1}), "map: expected"),
+        (lambda: kfmaps.view({"a": 1}, MESH, MESH), "map: expected"),
     ],
 )
 def test_wrong_things_are_told_in_words(call: Any, told: str) -> None:

@@ -132,7 +132,7 @@ def test_other_settings_are_refused_by_name(tmp_path: Path) -> None:
     with pytest.raises(InvalidInput, match=r"config\.weights\.laplacian 1\.0, now 2\.0.*another output folder"):
         claim(tmp_path, RunSpec(changed))
     (tmp_path / "settings.json").write_text("{")
-    with pytest.raises(InvalidInput, match="remove it"):
+    with pytest.raises(InvalidInput, match="Remove it"):
         claim(tmp_path, RunSpec(CONFIG))
 
 

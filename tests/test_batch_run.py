@@ -330,7 +330,7 @@ def test_workers_that_end_as_they_start(error: Exception, monkeypatch: pytest.Mo
     monkeypatch.setattr("distributed.LocalCluster", fail)
     with pytest.raises(InvalidInput, match="ended as they started; there may be too little memory"), local_workers(2):
         pass
-    with pytest.raises(InvalidInput, match=r"workers: wanted what fits .* got 120,000,000 GB"), local_workers(10**9):
+    with pytest.raises(InvalidInput, match=r"workers: expected at most .* got 120,000,000 GB"), local_workers(10**9):
         pass
 
 
@@ -344,13 +344,13 @@ def test_workers_that_are_lost_on_the_way(tmp_path: Path, monkeypatch: pytest.Mo
 
     pool = WorkerPool()
     pool._client = Nobody()  # type: ignore[assignment]
-    with pytest.raises(InvalidInput, match="workers: wanted processes that answer, got some that ended"):
+    with pytest.raises(InvalidInput, match="workers: expected processes that answer, got some that ended"):
         check_workers(plan, pool)
     monkeypatch.setattr("kfmaps.batch.jobs.NO_WORKERS", "1s")
     with WorkerPool(1) as pool:
         cluster: Any = pool.client.cluster
         cluster.scale(0)
-        with pytest.raises(InvalidInput, match="workers: wanted processes that stay alive, got none for 1s"):
+        with pytest.raises(InvalidInput, match="workers: expected processes that stay alive, got none for 1s"):
             pool.map("numbers", abs, [-1, -2])
 
 

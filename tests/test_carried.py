@@ -86,7 +86,7 @@ def test_wrong_points_are_refused(made: types.SimpleNamespace, tmp_path: Path, t
     (tmp_path / "a.csv").write_text(text)
     ran = run("transfer", made.map, tmp_path / "a.csv", "--points", "-o", tmp_path / "b.csv")
     assert ran.status != 0
-    assert "wanted" in ran.stderr
+    assert "expected" in ran.stderr
     assert not (tmp_path / "b.csv").exists()
 
 

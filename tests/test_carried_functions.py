@@ -67,4 +67,4 @@ def test_what_cannot_be_is_said(made: types.SimpleNamespace, tmp_path: Path) -> 
         transfer_by_functions(ones, MapFile(part), source, target, 5)
     np.save(tmp_path / "x.npy", ones)
     ran = run("transfer", made.map, tmp_path / "x.npy", "-o", tmp_path / "y.npy", "--products", 5, "--back")
-    assert "leave one of them out" in ran.error
+    assert "Leave one of them out" in ran.error

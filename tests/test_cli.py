@@ -105,7 +105,7 @@ def test_usage_is_one_line(words: list[str], told: str) -> None:
 @pytest.mark.parametrize(
     ("raised", "told"),
     [
-        (InvalidInput("wanted\nthis"), "wanted this"),
+        (InvalidInput("expected\nthis"), "expected this"),
         (MissingDependency("no PyTorch"), "no PyTorch"),
         (NotConverged("not there yet"), "not there yet"),
         (MemoryError(), "not enough memory"),

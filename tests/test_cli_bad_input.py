@@ -73,7 +73,7 @@ LANDMARKS = {
     "repeated": ("0 0\n1 5\n2 5\n", "5 repeated"),
     "unequal number": ("0 0\n1\n", "two whole numbers"),
     "fractions": ("0 0\n1 1.5\n", "1.5"),
-    "words": ("left hand\n", "wanted numbers"),
+    "words": ("left hand\n", "expected numbers"),
     "none": ("# nothing\n", "no numbers"),
 }
 
@@ -119,7 +119,7 @@ def test_descriptors(case: str, made: types.SimpleNamespace) -> None:
 def test_a_missing_file_is_told_before_an_existing_map(made: types.SimpleNamespace) -> None:
     (made.folder / "m.npz").write_text("precious")
     told = run("match", made.source, made.folder / "nope.ply", "-o", made.folder / "m.npz").error
-    assert "nope.ply: wanted a file, got nothing there" in told
+    assert "nope.ply: expected a file, got nothing there" in told
     assert "m.npz" not in told
 
 

@@ -61,7 +61,7 @@ def test_what_is_read_is_not_replaced(
         link(made.folder / read, output)
     before = Path(read).read_bytes()
     told = run(*words, output, "--force").error
-    assert "wanted another file than those that are read" in told
+    assert "expected another file than those that are read" in told
     assert Path(read).read_bytes() == before
 
 
@@ -111,7 +111,7 @@ def test_demand_of_a_match_from_python() -> None:
 def test_memory() -> None:
     assert 1 << 28 < installed_memory() < 1 << 50
     check_memory(1e6, "a", "b", "c")
-    with pytest.raises(InvalidInput, match=r"a: wanted what fits into .*B of memory, got 1,000,000,000 GB for b; c"):
+    with pytest.raises(InvalidInput, match=r"a: expected at most .*B of memory, got 1,000,000,000 GB for b. C\."):
         check_memory(1e18, "a", "b", "c")
     assert [in_words(x) for x in (5, 1.5e3, 12e6, 999e6, 3.5e9, 2e13)] == [
         *("5 bytes", "1.5 kB", "12 MB", "999 MB", "3.5 GB", "20,000 GB")

@@ -63,7 +63,7 @@ def test_any_two_shapes_have_a_map(shapes: dict[str, Shape]) -> None:
         apart.map("s0", "s3")
     with pytest.raises(InvalidInput, match="three shapes or more"):
         apart.distances()
-    with pytest.raises(InvalidInput, match="check the spelling"):
+    with pytest.raises(InvalidInput, match="Check the spelling"):
         apart.map("s0", "nobody")
 
 

@@ -298,5 +298,5 @@ def test_vase_turned_is_the_vase(rounds: dict[str, Mesh]) -> None:
     ],
 )
 def test_bad_sizes_are_refused(make, name: str) -> None:
-    with pytest.raises(InvalidInput, match=f"^{name}: wanted"):
+    with pytest.raises(InvalidInput, match=f"^{name}: expected"):
         make()

@@ -52,7 +52,7 @@ def test_wrong_genus_is_reported() -> None:
 
     box = np.array([[-1.5, -1.5, -0.5], [1.5, 1.5, 0.5]])
     assert len(closed_mesh(ring, box, 400, np.random.default_rng(0), genus=1)[0]) == 400
-    with pytest.raises(NotConverged, match="ask for more vertices"):
+    with pytest.raises(NotConverged, match="Ask for more vertices"):
         closed_mesh(ring, box, 400, np.random.default_rng(0), genus=0)
 
 

@@ -206,7 +206,7 @@ def test_bad_energies_are_refused(case):
     source, target, W_s, W_t, _ = case
     term = laplacian_term(source, target)
     for weights in ({"a": -1.0}, {"a": np.nan}, {"a": 0.0}, {"b": 1.0}):
-        with pytest.raises(InvalidInput, match="wanted"):
+        with pytest.raises(InvalidInput, match="expected"):
             Energy({"a": term}, weights)
     with pytest.raises(InvalidInput, match="same number on both shapes"):
         descriptor_term(source, W_s, target, W_t[:, :-1])

@@ -25,7 +25,7 @@ def refused(path: Path, content: bytes | None = None) -> str:
     told = str(caught.value)
     assert "\n" not in told
     assert path.name in told
-    assert "wanted" in told
+    assert "expected" in told
     assert "got" in told
     return told
 
@@ -45,7 +45,7 @@ def test_device_and_impossible_name(tmp_path: Path) -> None:
     assert "a device" in refused(device)
     with pytest.raises(InvalidInput, match=r"a\.off"):
         read_mesh(tmp_path / "\0a.off")
-    with pytest.raises(InvalidInput, match="wanted"):
+    with pytest.raises(InvalidInput, match="expected"):
         read_mesh(tmp_path / ("a" * 5000 + ".off"))
 
 
@@ -85,8 +85,11 @@ BAD_OFF = {
     "fractional counts": (off(FOUR, "4.5 2 0"), "whole numbers, got 4.5"),
     "too few lines": (off(FOUR + "3 0 1 2\n"), "got 5 lines"),
     "too many lines": (off(FOUR + 3 * "3 0 1 2\n"), "got 7 lines"),
-    "a word": (off(FOUR + "3 0 1 two\n3 0 1 2\n"), "line 7: wanted numbers, got 'two'"),
-    "two coordinates": (off(FOUR.replace("1 1 0", "1 1") + "3 0 1 2\n3 0 1 2\n"), "line 5: wanted 3 numbers a vertex"),
+    "a word": (off(FOUR + "3 0 1 two\n3 0 1 2\n"), "line 7: expected numbers, got 'two'"),
+    "two coordinates": (
+        off(FOUR.replace("1 1 0", "1 1") + "3 0 1 2\n3 0 1 2\n"),
+        "5: expected 3 numbers a vertex",
+    ),
     "a colour without C": (off(FOUR.replace("\n", " 1 0 0\n") + 2 * "3 0 1 2\n"), "3 numbers a vertex"),
     "NaN": (off(FOUR.replace("1 1 0", "1 nan 0") + 2 * "3 0 1 2\n"), "NaN or infinite"),
     "infinity": (off(FOUR.replace("1 1 0", "1 -inf 0") + 2 * "3 0 1 2\n"), "NaN or infinite"),
@@ -95,13 +98,13 @@ BAD_OFF = {
     "out of range": (off(FOUR + "3 0 1 2\n3 0 1 4\n"), "from 0 to 3, got 4"),
     "negative": (off(FOUR + "3 0 1 2\n3 0 1 -1\n"), "from 0 to 3, got -1"),
     "half a vertex": (off(FOUR + "3 0 1 2\n3 0 1 0.5\n"), "whole vertex numbers, got 0.5"),
-    "too few corners": (off(FOUR + "3 0 1 2\n4 0 1 2\n"), "line 8: wanted as many corners"),
-    "an edge": (off(FOUR + "3 0 1 2\n2 0 1\n"), "line 8: wanted faces with three corners or more, got 2"),
+    "too few corners": (off(FOUR + "3 0 1 2\n4 0 1 2\n"), "line 8: expected as many corners"),
+    "an edge": (off(FOUR + "3 0 1 2\n2 0 1\n"), "line 8: expected faces with three corners or more, got 2"),
     "a negative size": (off(FOUR + "3 0 1 2\n-3 0 1 2\n"), "three corners or more, got -3"),
     "a huge size": (off(FOUR + "3 0 1 2\n4000000000 0 1 2\n"), "as many corners"),
     "an endless size": (off(FOUR + "3 0 1 2\ninf 0 1 2\n"), "corners of a face"),
     "zero area": (off("0 0 0\n" * 4 + 2 * "3 0 1 2\n"), "zero area"),
-    "no vertices": (off("", "0 0 0"), "wanted vertices, got none"),
+    "no vertices": (off("", "0 0 0"), "expected vertices, got none"),
 }
 
 
@@ -113,30 +116,30 @@ def test_off(tmp_path: Path, content: bytes, part: str) -> None:
 V = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 1\n"
 
 BAD_OBJ = {
-    "zero": ("f 0 1 2", "line 5: wanted numbers from 1 to 4"),
+    "zero": ("f 0 1 2", "line 5: expected numbers from 1 to 4"),
     "out of range": (
         "f 1 2 5",
         "1 to 4, or negative ones counted back from the last, got 5",
     ),
     "back beyond the first": ("f 1 2 -5", "got -5"),
-    "an edge": ("f 1 2 3\nf 1 2", "line 6: wanted a face with three corners or more, got 2"),
+    "an edge": ("f 1 2 3\nf 1 2", "line 6: expected a face with three corners or more, got 2"),
     "an empty face": ("f 1 2 3\nf", "three corners or more, got 0"),
     "half a number": ("f 1 2 2.5", "whole vertex numbers, got 2.5"),
-    "a word": ("f 1 2 x", "line 5: wanted numbers, got 'x'"),
+    "a word": ("f 1 2 x", "line 5: expected numbers, got 'x'"),
     "slashes at the end": ("f 1/ 2/ 3/", "corners like"),
     "slashes at the front": ("f /1 /2 /3", "corners like"),
     "three slashes": ("f 1/1/1/1 2/1/1/1 3/1/1/1", "corners like"),
     "texture out of range": ("vt 0 0\nf 1/1 2/1 3/2", "from 1 to 1"),
     "texture missing": ("f 1/1 2/1 3/1", "from 1 to 0"),
     "texture of one number": ("vt 0\nf 1/1 2/1 3/1", "vt u v"),
-    "texture NaN": ("vt 0 nan\nf 1/1 2/1 3/1", "texture: wanted finite"),
-    "two coordinates": ("v 1 2\nf 1 2 3", "line 5: wanted v x y z"),
-    "five numbers": ("v 1 2 3 4 5\nf 1 2 3", "line 5: wanted v x y z"),
-    "no coordinates": ("v\nf 1 2 3", "line 5: wanted v x y z, got no numbers"),
+    "texture NaN": ("vt 0 nan\nf 1/1 2/1 3/1", "texture: expected finite"),
+    "two coordinates": ("v 1 2\nf 1 2 3", "line 5: expected v x y z"),
+    "five numbers": ("v 1 2 3 4 5\nf 1 2 3", "line 5: expected v x y z"),
+    "no coordinates": ("v\nf 1 2 3", "line 5: expected v x y z, got no numbers"),
     "a weight": ("v 1 2 3 0.5\nf 1 2 3", "weight"),
     "NaN": ("v 1 nan 3\nf 1 2 5", "NaN or infinite"),
     "colour NaN": (V.replace("\n", " nan 0 0\n") + "f 5 6 7", "finite"),
-    "another word": ("hello\nf 1 2 3", "line 5: wanted a word of the OBJ format, got 'hello'"),
+    "another word": ("hello\nf 1 2 3", "line 5: expected a word of the OBJ format, got 'hello'"),
     "a long word": ("x" * 5000 + "\nf 1 2 3", "'xxxxxxxxxxxxxxxxxxxxxxxx'..."),
 }
 
@@ -175,7 +178,7 @@ BAD_PLY = {
     "other format": (ply("format binary_middle_endian 1.0\n" + XYZ), "a line of a PLY header"),
     "other version": (ply("format ascii 2.0\n" + XYZ), "a line of a PLY header"),
     "two formats": (ply(TEXT + TEXT + XYZ), "a line of a PLY header"),
-    "an unknown line": (ply(TEXT + "hello\n" + XYZ), "line 3: wanted a line of a PLY header, got 'hello'"),
+    "an unknown line": (ply(TEXT + "hello\n" + XYZ), "line 3: expected a line of a PLY header, got 'hello'"),
     "a property before an element": (ply(TEXT + "property float x\n"), "a line of a PLY header"),
     "a negative count": (ply(TEXT + XYZ.replace("3", "-3")), "a line of a PLY header"),
     "an unknown type": (ply(TEXT + XYZ.replace("float x", "real x")), "a type of PLY"),
@@ -224,12 +227,12 @@ def test_ply(tmp_path: Path, content: bytes, part: str) -> None:
 @pytest.mark.parametrize(
     ("content", "part"),
     [
-        ("1 2 3\n1 2\n", "line 2: wanted x y z, the same number of columns in every line, got 2 numbers"),
+        ("1 2 3\n1 2\n", "line 2: expected x y z, the same number of columns in every line, got 2 numbers"),
         ("1 2\n1 2\n", "line 1"),
         ("3\nwater\nO 0 0 0\n", "got 'water'"),
         ("1,2,3\n", "got '1,2,3'"),
         ("1 2 3\n1 2 inf\n", "NaN or infinite"),
-        ("# only a comment\n", "wanted vertices, got none"),
+        ("# only a comment\n", "expected vertices, got none"),
     ],
 )
 def test_xyz(tmp_path: Path, content: str, part: str) -> None:

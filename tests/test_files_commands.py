@@ -116,7 +116,7 @@ def test_transfer_of_too_few_values(folder: Path) -> None:
     words = (folder / "v.txt", "-o", folder / "w.npy")
     assert "source vertices from 0 to 9" in complaint("transfer", folder / "m.npz", *words)
     save_map(folder / "n.npz", MapFile(POINTS % 9, extra={"n_s": np.array(80)}))
-    assert "values: wanted 80 rows, one per source vertex, got 10" in complaint("transfer", folder / "n.npz", *words)
+    assert "values: expected 80 rows, one per source vertex, got 10" in complaint("transfer", folder / "n.npz", *words)
     assert not (folder / "w.npy").exists()
 
 
@@ -176,9 +176,9 @@ def test_exports_that_do_not_fit(folder: Path) -> None:
     swapped = ("--source", folder / "b.off", "--target", folder / "a.off")
     for more, name, part in (
         (source + target, "o.stl", "one of .obj .ply"),
-        (source, "o.obj", "give --target FILE"),
-        (swapped, "o.txt", "check that the map belongs"),
-        (swapped, "o.ply", "check that the map belongs"),
+        (source, "o.obj", "Give --target FILE"),
+        (swapped, "o.txt", "Check that the map belongs"),
+        (swapped, "o.ply", "Check that the map belongs"),
         ((), "none/o.txt", "existing folder"),
     ):
         assert part in complaint("export", folder / "m.npz", *more, "-o", folder / name)

@@ -102,7 +102,7 @@ def test_cut_stl(tmp_path: Path) -> None:
     for content in (BINARY_STL, text_stl()):
         last = len(content) - (len(b"endsolid ") if content.startswith(b"solid") else 0)
         for cut in (*range(1, 200, 7), *range(200, last, 97), *range(last - 60, last)):
-            assert "wanted" in refused(tmp_path / "a.stl", content[:cut]), cut
+            assert "expected" in refused(tmp_path / "a.stl", content[:cut]), cut
 
 
 @pytest.mark.parametrize(
@@ -111,14 +111,14 @@ def test_cut_stl(tmp_path: Path) -> None:
         (b"\x01" * 100, "100 bytes for 16843009 triangles"),
         (b"x", "got 1 bytes"),
         (BINARY_STL + b"x", "50 per triangle"),
-        (bytes(84), "wanted vertices, got none"),
-        (b"solid\nendsolid\n", "wanted vertices, got none"),
+        (bytes(84), "expected vertices, got none"),
+        (b"solid\nendsolid\n", "expected vertices, got none"),
         (text_stl().replace(b"endloop\n", b"", 1), "facets of three vertices"),
         (text_stl().replace(b"endsolid", b"solid", 1), "facets of three vertices"),
-        (text_stl().replace(b"vertex ", b"vertex x", 1), "wanted numbers"),
-        (re.sub(rb"vertex \S+", b"vertex nan", text_stl(), count=1), "wanted finite"),
+        (text_stl().replace(b"vertex ", b"vertex x", 1), "expected numbers"),
+        (re.sub(rb"vertex \S+", b"vertex nan", text_stl(), count=1), "expected finite"),
         (re.sub(rb"vertex \S+", b"vertex", text_stl(), count=1), "facets of three"),
-        (BINARY_STL[:96] + np.float32(np.nan).tobytes() + BINARY_STL[100:], "wanted finite"),
+        (BINARY_STL[:96] + np.float32(np.nan).tobytes() + BINARY_STL[100:], "expected finite"),
     ],
 )  # fmt: skip
 def test_bad_stl(tmp_path: Path, content: bytes, part: str) -> None:
@@ -228,7 +228,7 @@ def test_gltf_of_more_copies_than_anybody_means_is_refused(
     monkeypatch.setattr("kfmaps.io.gltf._Scene.numbers", lambda *_: pytest.fail("numbers were read"))
     told = refused(tmp_path / "a.gltf", copies(vertices, parts, nodes))
     assert "at most 4,000,000 vertices and corners that nodes repeat" in told
-    assert "export each shape once" in told
+    assert "Export each shape once" in told
 
 
 def test_gltf_that_does_not_fit_into_memory_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -267,7 +267,7 @@ def test_glb_colors_and_texture(tmp_path: Path) -> None:
 
 def test_cut_glb(tmp_path: Path) -> None:
     for cut in (*range(1, 60), *range(60, len(GLB), 61), len(GLB) - 1):
-        assert "wanted" in refused(tmp_path / "a.glb", GLB[:cut]), cut
+        assert "expected" in refused(tmp_path / "a.glb", GLB[:cut]), cut
 
 
 def primitive(tree: dict[str, Any]) -> dict[str, Any]:
@@ -281,23 +281,26 @@ def accessor(tree: dict[str, Any], **more: Any) -> None:
 @pytest.mark.parametrize(
     ("change", "part"),
     [
-        (lambda t: t["accessors"][0].pop("bufferView"), "export it without compression"),
+        (lambda t: t["accessors"][0].pop("bufferView"), "Export it without compression"),
         (
             lambda t: t["accessors"].append({"count": 10**12, "componentType": 5126, "type": "VEC3"}),
             "without compression",
         ),
-        (lambda t: accessor(t, sparse={}), "export it without compression"),
+        (lambda t: accessor(t, sparse={}), "Export it without compression"),
         (
             lambda t: t["bufferViews"][0].update(extensions={"EXT_meshopt_compression": {"buffer": 0}}),
-            "compressed data (EXT_meshopt_compression); export it without compression",
+            "compressed data (EXT_meshopt_compression). Export it without compression",
         ),
-        (lambda t: t.update(extensionsRequired=["KHR_draco_mesh_compression"]), "export it without compression"),
+        (lambda t: t.update(extensionsRequired=["KHR_draco_mesh_compression"]), "Export it without compression"),
         (lambda t: t.update(extensionsRequired=["EXT_mesh_gpu_instancing"]), "the extension EXT_mesh_gpu_instancing"),
-        (lambda t: accessor(t, componentType=5123), "export it unquantised"),
-        (lambda t: accessor(t, count=3), "mesh 0, part 0: wanted corners of faces from 0 to 2, for it has 3 vertices"),
+        (lambda t: accessor(t, componentType=5123), "Export it unquantised"),
+        (
+            lambda t: accessor(t, count=3),
+            "part 0: expected corners of faces from 0 to 2, for it has 3 vertices",
+        ),
         (lambda t: accessor(t, count=10**9), "complete glTF 2.0 file"),
         (lambda t: t["accessors"][primitive(t)["indices"]].update(componentType=5126), "unsigned vertex numbers"),
-        (lambda t: primitive(t).update(mode=6), "export it as triangles"),
+        (lambda t: primitive(t).update(mode=6), "Export it as triangles"),
         (lambda t: primitive(t).update(mode=1), "vertices, got none"),
         (lambda t: t.update(meshes=[]), "complete glTF 2.0 file"),
         (lambda t: t.pop("bufferViews"), "complete glTF 2.0 file"),

@@ -198,9 +198,9 @@ def test_point_clouds(columns: str) -> None:
 def test_a_numpy_that_stops_early_is_not_trusted(monkeypatch: pytest.MonkeyPatch, values: np.ndarray) -> None:
     """Some versions give what they could read instead of an error."""
     monkeypatch.setattr(np, "fromstring", lambda *_, **__: values)
-    with pytest.raises(InvalidInput, match="line 1: wanted numbers, got 'x'"):
+    with pytest.raises(InvalidInput, match="line 1: expected numbers, got 'x'"):
         parse_xyz(b"1 2 x", "a.xyz")
-    with pytest.raises(InvalidInput, match=r"a\.xyz: wanted numbers"):
+    with pytest.raises(InvalidInput, match=r"a\.xyz: expected numbers"):
         parse_xyz(b"1 2 3", "a.xyz")
 
 

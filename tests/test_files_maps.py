@@ -173,7 +173,7 @@ def lying_npz() -> bytes:
 @pytest.mark.parametrize(
     ("content", "part"),
     [
-        (npz(other=ONE), "wanted an array target_to_source, got other"),
+        (npz(other=ONE), "expected an array target_to_source, got other"),
         (npz(target_to_source=ONE - 2), "source vertices from 0 on, got -2"),
         (npz(target_to_source=ONE + 0.5), "got fractions"),
         (npz(target_to_source=np.full(4, 1e300)), "source vertices from 0 on"),
@@ -182,14 +182,17 @@ def lying_npz() -> bytes:
         (npz(target_to_source=ONE.reshape(2, 2)), "shape (any)"),
         (npz(target_to_source=np.array(["a"])), "an array of numbers"),
         (npz(target_to_source=ONE * 1j), "an array of numbers"),
-        (npz(target_to_source=ONE, functional_map=ONE), "functional_map: wanted shape"),
-        (npz(target_to_source=ONE, functional_map=np.full((2, 2), np.inf)), "functional_map: wanted finite"),
-        (npz(target_to_source=ONE, functional_map=np.eye(2), eigenvalues_s=ONE), "eigenvalues_s: wanted 2 numbers"),
-        (npz(target_to_source=ONE, functional_map=np.eye(2, 4), eigenvalues_t=ONE), "eigenvalues_t: wanted 2 numbers"),
-        (npz(target_to_source=ONE, config=ONE), "config: wanted text"),
+        (npz(target_to_source=ONE, functional_map=ONE), "functional_map: expected shape"),
+        (npz(target_to_source=ONE, functional_map=np.full((2, 2), np.inf)), "functional_map: expected finite"),
+        (npz(target_to_source=ONE, functional_map=np.eye(2), eigenvalues_s=ONE), "_s: expected 2 numbers"),
+        (
+            npz(target_to_source=ONE, functional_map=np.eye(2, 4), eigenvalues_t=ONE),
+            "_t: expected 2 numbers",
+        ),
+        (npz(target_to_source=ONE, config=ONE), "config: expected text"),
         (npz(target_to_source=ONE, **{"a b": ONE}), "names of letters"),
         (npz(target_to_source=ONE, labels=np.array(["a", "b"])), "extra labels"),
-        (lying_npz(), "target_to_source.npy: wanted data for shape"),
+        (lying_npz(), "target_to_source.npy: expected data for shape"),
         (b"PK\3\4", "complete .npz file"),
     ],
 )
@@ -227,7 +230,7 @@ def test_check_map() -> None:
     np.testing.assert_array_equal(check_map(MapFile(ONE), 4, 4), ONE)
     with pytest.raises(InvalidInput, match="from 0 to 2, got 3"):
         check_map(ONE, 3, 4)
-    with pytest.raises(InvalidInput, match=r"map: wanted shape \(5\), got shape \(4,\)"):
+    with pytest.raises(InvalidInput, match=r"map: expected shape \(5\), got shape \(4,\)"):
         check_map(ONE, 4, 5)
 
 
@@ -239,28 +242,28 @@ LEVELS = '{"a":' * 60 + "1" + "}" * 60
 @pytest.mark.parametrize(
     ("content", "part"),
     [
-        ({"runners_up": np.zeros((2, 3))}, "extra runners_up: wanted shape (any, 4), got shape (2, 3)"),
-        ({"runners_up": np.zeros((2, 2, 4))}, "extra runners_up: wanted shape (any, 4)"),
+        ({"runners_up": np.zeros((2, 3))}, "extra runners_up: expected shape (any, 4), got shape (2, 3)"),
+        ({"runners_up": np.zeros((2, 2, 4))}, "extra runners_up: expected shape (any, 4)"),
         ({"runners_up": np.full((1, 4), 0.5)}, "fractions"),
         ({"runners_up": np.full((1, 4), 9.0), "n_s": 5}, "vertex numbers from 0 to 4, got"),
         ({"runners_up": "text"}, "an array of numbers"),
-        ({"raw_target_to_source": ONE[:3]}, "extra raw_target_to_source: wanted shape (4), got shape (3,)"),
-        ({"landmarks": np.zeros((2, 3))}, "extra landmarks: wanted shape (any, 2)"),
-        ({"landmarks": np.full((2, 2), 7)}, "extra landmarks: wanted vertex numbers from 0 to 3, got"),
+        ({"raw_target_to_source": ONE[:3]}, "extra raw_target_to_source: expected shape (4), got shape (3,)"),
+        ({"landmarks": np.zeros((2, 3))}, "extra landmarks: expected shape (any, 2)"),
+        ({"landmarks": np.full((2, 2), 7)}, "extra landmarks: expected vertex numbers from 0 to 3, got"),
         ({"landmarks": "1 2"}, "an array of numbers"),
-        ({"confidence": np.zeros(3)}, "extra confidence: wanted one number"),
-        ({"confidence": np.nan}, "extra confidence: wanted one number"),
+        ({"confidence": np.zeros(3)}, "extra confidence: expected one number"),
+        ({"confidence": np.nan}, "extra confidence: expected one number"),
         ({"confidence": "high"}, "an array of numbers"),
-        ({"local_confidence": np.zeros(3)}, "extra local_confidence: wanted shape (4), got shape (3,)"),
+        ({"local_confidence": np.zeros(3)}, "extra local_confidence: expected shape (4), got shape (3,)"),
         ({"local_confidence": np.full(4, np.inf)}, "infinite"),
-        ({"raw_functional_map": np.zeros((2, 2, 2))}, "extra raw_functional_map: wanted shape (any, any)"),
-        ({"n_s": 2}, "target_to_source: wanted source vertices from 0 to 1, got 3"),
-        ({"source": ONE}, "extra source: wanted a path of at most 4096 letters, got an array"),
-        ({"source": "a" * 5000}, "extra source: wanted a path of at most 4096 letters, got 5000"),
-        ({"summary": DEEP}, "extra summary: wanted JSON of at most 50 levels"),
-        ({"summary": ONE}, "extra summary: wanted text"),
-        ({"config": DEEP}, "config: wanted JSON of at most 50 levels"),
-        ({"config": LEVELS}, "config: wanted JSON of at most 50 levels"),
+        ({"raw_functional_map": np.zeros((2, 2, 2))}, "extra raw_functional_map: expected shape (any, any)"),
+        ({"n_s": 2}, "target_to_source: expected source vertices from 0 to 1, got 3"),
+        ({"source": ONE}, "extra source: expected a path of at most 4096 letters, got an array"),
+        ({"source": "a" * 5000}, "extra source: expected a path of at most 4096 letters, got 5000"),
+        ({"summary": DEEP}, "extra summary: expected JSON of at most 50 levels"),
+        ({"summary": ONE}, "extra summary: expected text"),
+        ({"config": DEEP}, "config: expected JSON of at most 50 levels"),
+        ({"config": LEVELS}, "config: expected JSON of at most 50 levels"),
     ],
 )
 def test_arrays_of_another_kind_or_length(tmp_path: Path, content: dict[str, Any], part: str, suffix: str) -> None:

@@ -78,7 +78,7 @@ def test_mat_text_as_matlab_writes_it(order: str, mark: bytes, codec: str) -> No
     [
         (b"MATLAB 7.3 MAT-file" + bytes(200), "-v7"),
         (b"\x89HDF\r\n", "-v7"),
-        (b"hello", "check the extension"),
+        (b"hello", "Check the extension"),
         (HEAD + b"IM", "target_to_source"),
         (HEAD + b"IM" + bytes(4), "cut short or damaged"),
         (HEAD + b"IM" + element(9, bytes(8)), "cut short or damaged"),

@@ -31,7 +31,7 @@ def test_landmarks(tmp_path: Path) -> None:
     path.write_text("# source target\n\n 3 4 # the nose\r\n0\t17\n")
     np.testing.assert_array_equal(read_landmarks(path), [[3, 4], [0, 17]])
     assert read_landmarks(path).dtype == np.int64
-    with pytest.raises(InvalidInput, match=r"line 4: wanted vertex numbers from 1 on, got 0 17.*counted from 0"):
+    with pytest.raises(InvalidInput, match=r"line 4: expected vertex numbers from 1 on, got 0 17.*counted from 0"):
         read_landmarks(path, one_based=True)
     path.write_text("3 4")
     np.testing.assert_array_equal(read_landmarks(path, one_based=True), [[2, 3]])
@@ -54,13 +54,13 @@ def test_landmarks_round_trip(tmp_path: Path, one_based: bool) -> None:
     [
         (b"", "an empty file"),
         (b"# nothing\n", "no numbers"),
-        (b"1 2\n3\n", "line 2: wanted two whole numbers a line, source and target, got 1 numbers"),
+        (b"1 2\n3\n", "line 2: expected two whole numbers a line, source and target, got 1 numbers"),
         (b"1 2 3\n", "got 3 numbers"),
-        (b"1 2\n1,2\n", "line 2: wanted numbers, got '1,2'"),
+        (b"1 2\n1,2\n", "line 2: expected numbers, got '1,2'"),
         (b"1 2.5\n", "2.5"),
         (b"1 nan\n", "nan"),
         (b"1 1e300\n", "1e+300"),
-        (b"1 -2\n", "line 1: wanted vertex numbers from 0 on, got 1 -2"),
+        (b"1 -2\n", "line 1: expected vertex numbers from 0 on, got 1 -2"),
         (b"\xff\xfe1\0 \0", "binary"),
     ],
 )
@@ -162,20 +162,20 @@ def lying_npy() -> bytes:
         (".dat", b"1", "one of .npy .csv .txt"),
         (".txt", b"", "an empty file"),
         (".txt", b"\n# x\n", "a row for each source vertex, got none"),
-        (".txt", b"1 2\n3\n", "line 2: wanted 2 values as before, got 1"),
-        (".txt", b"1\n2\nx\n", "line 3: wanted numbers as before, got text"),
-        (".txt", b"x\n\n2\n", "line 3: wanted text as before, got numbers"),
-        (".csv", b"a,b\n1,2\n3,x\n", "line 3: wanted numbers as before"),
-        (".csv", b"1,2\n3\n", "line 2: wanted 2 values"),
+        (".txt", b"1 2\n3\n", "line 2: expected 2 values as before, got 1"),
+        (".txt", b"1\n2\nx\n", "line 3: expected numbers as before, got text"),
+        (".txt", b"x\n\n2\n", "line 3: expected text as before, got numbers"),
+        (".csv", b"a,b\n1,2\n3,x\n", "line 3: expected numbers as before"),
+        (".csv", b"1,2\n3\n", "line 2: expected 2 values"),
         (".csv", b'"a\n', "comma-separated values"),
         (".txt", b"\xff\xfe", "UTF-8"),
-        (".npy", npy(np.arange(9))[:-1], "wanted data for shape|complete .npy"),
+        (".npy", npy(np.arange(9))[:-1], "expected data for shape|complete .npy"),
         (".npy", b"hello", "complete .npy"),
         (".npy", npy(np.array([1, "a"], dtype=object), True), "complete .npy"),
         (".npy", pickle.dumps([1]), "complete .npy"),
         (".npy", npy(np.array(3.0)), "a row of numbers"),
         (".npy", npy(np.zeros(3, dtype="M8[s]")), "a row of numbers"),
-        (".npy", lying_npy(), "wanted data for shape"),
+        (".npy", lying_npy(), "expected data for shape"),
     ],
 )
 def test_bad_values(tmp_path: Path, suffix: str, content: bytes, part: str) -> None:
@@ -241,7 +241,7 @@ def test_landmarks_of_a_vts_file_count_from_one(tmp_path: Path) -> None:
     np.testing.assert_array_equal(read_landmarks(tmp_path / "a.vts"), pairs)
     (tmp_path / "a.vts").write_text("1 5\n8 3\n")
     np.testing.assert_array_equal(read_landmarks(tmp_path / "a.vts"), pairs)
-    with pytest.raises(InvalidInput, match="from 1 on, got 0 5; check the numbers; are they counted from 0"):
+    with pytest.raises(InvalidInput, match=r"from 1 on, got 0 5\. Check the numbers; are they counted from 0"):
         read_landmarks(tmp_path / "b.vts" if (tmp_path / "b.vts").write_text("0 5\n") else tmp_path)
     (tmp_path / "a.vts").write_text("# source target, counted from 0\n0 4\n7 2\n")  # as older versions wrote them
     np.testing.assert_array_equal(read_landmarks(tmp_path / "a.vts"), pairs)

@@ -231,7 +231,7 @@ def test_wrong_landmarks_are_found_out(shape, other, truth, kernel):
 
 
 def test_loss_per_landmark_needs_landmarks(shape, other):
-    with pytest.raises(InvalidInput, match="loss per landmark: wanted landmarks"):
+    with pytest.raises(InvalidInput, match="loss per landmark: expected landmarks"):
         fit(shape, other, with_("robust landmarks"))
 
 

@@ -163,19 +163,19 @@ def test_how_many_descriptors_a_kernel_takes():
     ],
 )
 def test_impossible_parameters_are_refused(make):
-    with pytest.raises(InvalidInput, match=r"wanted .* got .*"):
+    with pytest.raises(InvalidInput, match=r"expected .* got .*"):
         make()
 
 
 def test_bad_kernels_are_refused(rng):
     X = rng.normal(size=(4, 2))
-    with pytest.raises(InvalidInput, match=r"wanted shape \(4, 4\), got shape \(4, 3\)"):
+    with pytest.raises(InvalidInput, match=r"expected shape \(4, 4\), got shape \(4, 3\)"):
         kernel_matrix(lambda a, b: np.ones((len(a), len(b) - 1)), X, X)
     with pytest.raises(InvalidInput, match="NaN"):
         kernel_matrix(lambda a, b: np.full((len(a), len(b)), np.nan), X, X)
     with pytest.raises(InvalidInput, match="overflows"):
         kernel_matrix(Polynomial(400), 1e3 * X, X)
-    with pytest.raises(InvalidInput, match="resolved"):
+    with pytest.raises(InvalidInput, match="resolve_kernel"):
         kernel_matrix(Gaussian(), X, X)
 
 
@@ -213,5 +213,5 @@ def test_automatic_widths_inside_transforming_kernels(rng):
     ],
 )
 def test_transforming_kernels_refuse_what_does_not_fit(make):
-    with pytest.raises(InvalidInput, match="wanted"):
+    with pytest.raises(InvalidInput, match="expected"):
         make()

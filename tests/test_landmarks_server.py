@@ -223,7 +223,7 @@ def test_answers_are_not_kept_framed_or_sniffed(serve: Serve) -> None:
 def test_pairs_that_are_none_are_refused(serve: Serve, tmp_path: Path, pairs: Any) -> None:
     answer = serve().post("save", {"pairs": pairs})
     assert answer.status == 400
-    assert answer.json["error"].startswith("landmarks: wanted")
+    assert answer.json["error"].startswith("landmarks: expected")
     assert not (tmp_path / "pairs.txt").exists()
 
 
@@ -241,7 +241,7 @@ def test_requests_that_are_no_json_are_refused(serve: Serve, body: bytes, kind: 
     client = serve()
     answer = client.ask("POST", client.path + "save", body, {"Content-Type": kind})
     assert answer.status == 400
-    assert answer.json["error"].startswith("request: wanted")
+    assert answer.json["error"].startswith("request: expected")
 
 
 @pytest.mark.parametrize("length", ["9" * 5000, "1" + "0" * 18, str((1 << 20) + 1), "-1", "x", "5, 6", ""])
@@ -340,12 +340,12 @@ def test_match_reports_progress_and_gives_its_map(serve: Serve) -> None:
 
 def test_failure_of_a_match_is_told_in_words(serve: Serve) -> None:
     def refusing(_landmarks: np.ndarray, _progress: Progress) -> MapFile:
-        raise InvalidInput("landmarks: wanted <b>more</b>")
+        raise InvalidInput("landmarks: expected <b>more</b>")
 
     def short(_landmarks: np.ndarray, _progress: Progress) -> MapFile:
         return MapFile(np.arange(3))
 
-    for matcher, text in ((refusing, "<b>more</b>"), (short, "map: wanted shape (160)")):
+    for matcher, text in ((refusing, "<b>more</b>"), (short, "map: expected shape (160)")):
         client = serve(matcher=matcher)
         client.post("match", {"pairs": PAIRS})
         status = client.settled()
@@ -397,7 +397,7 @@ def test_defect_in_an_answer_is_told_and_the_server_goes_on(capsys: pytest.Captu
 
 def test_port_that_is_taken_is_refused_in_words(serve: Serve, tmp_path: Path) -> None:
     port = serve().port
-    with pytest.raises(InvalidInput, match=f"^port: wanted a free port of this machine, got {port}"):
+    with pytest.raises(InvalidInput, match=f"^port: expected a free port of this machine, got {port}"):
         PickerServer(Picker(SOURCE, Mesh(TARGET.vertices, TARGET.faces), ("a", "b"), tmp_path / "p.txt"), port)
 
 

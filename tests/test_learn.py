@@ -326,7 +326,7 @@ def test_other_kernels(kernel, shapes):
     [([], Gaussian()), (["wits"], Gaussian()), (["ard", "metric"], Gaussian()), (["gamma"], Linear())],
 )
 def test_what_cannot_be_learned(parts, kernel, lessons):
-    with pytest.raises(InvalidInput, match="wanted"):
+    with pytest.raises(InvalidInput, match="expected"):
         Model(replace(CONFIG, kernel=kernel), lessons, parts)
 
 
@@ -342,7 +342,7 @@ def test_pairs_must_be_alike(shapes, lessons):
     bad: list[dict[str, Any]] = [{"losses": {}}, {"losses": {"wits": 1.0}}, {"rate": 0.0}, {"epochs": 0}]
     bad += [{"start_penalty": -1}, {"seconds": 0.0}]
     for wrong in bad:
-        with pytest.raises(InvalidInput, match="wanted"):
+        with pytest.raises(InvalidInput, match="expected"):
             TrainingOptions(**wrong)
 
 
@@ -355,16 +355,16 @@ def test_a_file_never_runs_anything(tmp_path, capsys):
     file = tmp_path / "kernel.pt"
     torch.save({"format": 1, "settings": Harmful()}, file)
     for read in (load, lambda path: read_settings(path, Config.single_fit())):
-        with pytest.raises(InvalidInput, match="wanted a file that kfmaps learn wrote"):
+        with pytest.raises(InvalidInput, match="expected a file that kfmaps learn wrote"):
             read(file)
     assert "executed" not in capsys.readouterr().out
     file.write_bytes(b"nothing")
-    with pytest.raises(InvalidInput, match="wanted a file that kfmaps learn wrote"):
+    with pytest.raises(InvalidInput, match="expected a file that kfmaps learn wrote"):
         load(file)
     torch.save({"format": 99}, file)
     with pytest.raises(InvalidInput, match="another content"):
         load(file)
-    with pytest.raises(InvalidInput, match="wanted a file"):
+    with pytest.raises(InvalidInput, match="expected a file"):
         load(tmp_path / "missing.pt")
 
 

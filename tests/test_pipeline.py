@@ -256,7 +256,7 @@ def test_obcs12_leaves_commutativity_out():
     [[[0, 0], [0, 1]], [[0, 5], [1, 5]], [[-1, 0]], [[0, 360]], [[400, 0]], [[0.5, 1.0]], [[1, 2, 3]], [1, 2]],
 )
 def test_bad_landmarks_are_refused(landmarks, shape, other):
-    with pytest.raises(InvalidInput, match=r"landmarks.*wanted .* got"):
+    with pytest.raises(InvalidInput, match=r"landmarks.*expected .* got"):
         check_landmark_pairs(np.asarray(landmarks), shape, other)
 
 
@@ -343,7 +343,7 @@ def test_configuration_survives_the_round_trip(config):
     ],
 )
 def test_impossible_settings_are_refused(values):
-    with pytest.raises(InvalidInput, match=r"wanted .* got"):
+    with pytest.raises(InvalidInput, match=r"expected .* got"):
         from_dict(values)
 
 

@@ -109,5 +109,5 @@ def test_dense_is_the_matrix(rng):
     ],
 )
 def test_solvers_that_could_not_work_are_refused(make):
-    with pytest.raises(InvalidInput, match=r"wanted .* got .*"):
+    with pytest.raises(InvalidInput, match=r"expected .* got .*"):
         make()

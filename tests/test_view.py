@@ -257,7 +257,7 @@ def test_everything_of_two_7000_vertex_meshes_is_below_6_mb() -> None:
 def test_page_refuses_what_does_not_fit(pair: tuple, change: dict, name: str) -> None:
     source, target, points = pair
     arguments = {"source": source, "target": target, "target_to_source": points} | change
-    with pytest.raises(InvalidInput, match=f"^{name}: wanted"):
+    with pytest.raises(InvalidInput, match=f"^{name}: expected"):
         result_page(**arguments)
 
 
@@ -355,11 +355,11 @@ def test_view_writes_one_page(pair: tuple, tmp_path: Path) -> None:
     assert (unpacked(data["errors"][0]) == 0).all()
     with pytest.raises(InvalidInput, match="--force"):
         view(tmp_path / "m.npz", output=page)
-    with pytest.raises(InvalidInput, match="up: wanted x, y or z"):
+    with pytest.raises(InvalidInput, match="up: expected x, y or z"):
         view(tmp_path / "none.npz", output=tmp_path / "other.html", up="w")
     with pytest.raises(InvalidInput, match="equally many"):
         view(tmp_path / "m.npz", output=page, identity=True, force=True)
-    with pytest.raises(InvalidInput, match="truth of the target: wanted vertices from 0 to 239"):
+    with pytest.raises(InvalidInput, match="truth of the target: expected vertices from 0 to 239"):
         view(tmp_path / "m.npz", output=page, truth=(b, a), force=True)
 
 

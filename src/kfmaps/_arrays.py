@@ -27,9 +27,25 @@ class KfmapsWarning(UserWarning):
     """Something unusual that still gives a correct answer."""
 
 
-def refuse(name: str, wanted: str, got: str, remedy: str) -> InvalidInput:
-    """The one form that every complaint takes: name, what was wanted, what was got, what to do."""
-    return InvalidInput(shown(f"{name}: wanted {wanted}, got {got}; {remedy}"))
+def refuse(name: str, expected: str, got: str, remedy: str) -> InvalidInput:
+    """Return the error "`name`: expected …, got …. Do ….", the one form of every refusal.
+
+    Parameters
+    ----------
+    name : str
+        The argument, option or file.
+    expected, got : str
+        Noun phrases.
+    remedy : str
+        One or more sentences about what to do; the first letter and the last full stop are put right.
+    """
+    problem = f"{name}: expected {expected}, got {got}"
+    return InvalidInput(shown(f"{_sentence(problem, '')} {_sentence(remedy, remedy[:1].upper())}"))
+
+
+def _sentence(text: str, first: str) -> str:
+    """Return ``text`` with a full stop, unless it ends with a mark already, and with another first letter."""
+    return (first or text[:1]) + text[1:] + ("" if text.endswith((".", "?", "!")) else ".")
 
 
 def shown(text: str) -> str:
@@ -114,7 +130,7 @@ def check(
     Raises
     ------
     InvalidInput
-        Naming the array, what was wanted, what was got and ``remedy``.
+        Naming the array, what was expected, what was got and ``remedy``.
     """
     if shape is not None:
         fits = len(array.shape) == len(shape) and all(
@@ -145,5 +161,5 @@ def check_count(value: int, name: str, low: int = 1, high: int | None = None) ->
     whole = isinstance(value, int | np.integer) and not isinstance(value, bool)
     if not whole or value < low or (high is not None and value > high):
         span = f"at least {low}" if high is None else f"from {low} to {high}"
-        raise refuse(name, f"a whole number {span}", repr(value), "choose one in that range")
+        raise refuse(name, f"a whole number {span}", repr(value), "choose a number in that range")
     return int(value)

@@ -38,7 +38,7 @@ def check_memory(need: float, name: str, what: str, remedy: str) -> None:
     """
     have = installed_memory()
     if need > have:
-        raise refuse(name, f"what fits into {in_words(have)} of memory", f"{in_words(need)} for {what}", remedy)
+        raise refuse(name, f"at most {in_words(have)} of memory", f"{in_words(need)} for {what}", remedy)
 
 
 def in_words(size: float) -> str:

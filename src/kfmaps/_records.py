@@ -253,8 +253,8 @@ def _updated(cls: type, values: Any, current: Any, fresh: Any, path: str, kinds:
         return replace(current, **changes)
     for one in known.values():
         if one.default is MISSING and one.name not in changes:
-            wanted = f"one of {one.values(kinds)}"
-            raise refuse(f"{path}.{one.name}", wanted, "none", f"{cls.__name__.lower()} cannot do without")
+            wanted = f"a value ({one.values(kinds)})"
+            raise refuse(f"{path}.{one.name}", wanted, "none", f"give one: {cls.__name__} needs it")
     return cls(**changes)
 
 

@@ -251,13 +251,13 @@ def check_prepared(shape: Shape, config: Config) -> None:
     remedy = "prepare it with the configuration that it is matched with"
     have = shape.basis.functions.shape[1]
     if have < config.n_eigenfunctions:
-        raise refuse(shape.name, f"a shape prepared with {config.n_eigenfunctions} eigenfunctions", f"{have}", remedy)
+        raise refuse(shape.name, f"a shape with {config.n_eigenfunctions} eigenfunctions", f"one with {have}", remedy)
     if shape.laplacian != config.basis.laplacian:
         wanted = f"a shape prepared with the {config.basis.laplacian} Laplacian"
-        raise refuse(shape.name, wanted, f"the {shape.laplacian} one", remedy)
+        raise refuse(shape.name, wanted, f"one with the {shape.laplacian} one", remedy)
     if config.descriptors.shot and len(shape.mesh.faces) and shape.shot_radius != config.descriptors.shot_radius:
         wanted = f"a shape prepared with SHOT of radius {config.descriptors.shot_radius:g}"
-        got = "one without" if shape.shot_radius is None else f"radius {shape.shot_radius:g}"
+        got = "one without" if shape.shot_radius is None else f"one with radius {shape.shot_radius:g}"
         raise refuse(shape.name, wanted, got, remedy)
 
 

@@ -34,8 +34,8 @@ ONE_THREAD = dict.fromkeys(("OMP_NUM_THREADS", "MKL_NUM_THREADS", "OPENBLAS_NUM_
 large temporary array a round of page faults: a third of the time."""
 WORKER_BYTES = 120e6
 """What a worker takes before it does anything."""
-TOO_LITTLE_MEMORY = "there may be too little memory for so many (--workers); the same command goes on where it was"
-MISSING_DASK = "collections need Dask ({}); install it with: pip install 'dask[distributed]' cryptography"
+TOO_LITTLE_MEMORY = "memory may be short: the same command with fewer --workers goes on where it was"
+MISSING_DASK = "collections need Dask ({}). Install it with: pip install 'dask[distributed]' cryptography."
 
 
 class WorkerPool:

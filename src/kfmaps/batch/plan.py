@@ -103,7 +103,7 @@ def make_plan(
         fits = there is not None and (there.settings, there.inputs) == (task.settings, task.inputs)
         if there is not None and (there.source, there.target) != (task.pair.source, task.pair.target):
             got = f"{there.source} and {there.target}"
-            raise refuse(f"result {task.key}", f"of {task.pair}", got, "rename one of the shapes")
+            raise refuse(f"result {task.key}", f"the result of {task.pair}", got, "rename one of the shapes")
         if there is None or not fits or (retry_failed and there.status == "failed"):
             changed += there is not None and not fits
             todo.append(task)

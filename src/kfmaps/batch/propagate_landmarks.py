@@ -198,10 +198,20 @@ def _mesh(name: str, edges: Sequence[_Edge], known: dict[str, Mesh]) -> Mesh:
         side = "source" if edge.pair.source == name else "target"
         path = load_map(edge.path).extra.get(side)
         if not isinstance(path, str) or not Path(path).exists():
-            raise refuse(str(edge.path), f"its {side} where it says", str(path), "put the mesh back, or match again")
+            raise refuse(
+                str(edge.path),
+                f"its {side} at the path that it names",
+                f"no file {path}",
+                "put the mesh back, or match again",
+            )
         mesh = read_mesh(path)
         if len(mesh.faces) == 0:
-            raise refuse(str(path), "a surface with faces", "a point cloud", "landmarks are carried between surfaces")
+            raise refuse(
+                str(path),
+                "a surface with faces",
+                "a point cloud",
+                "carry landmarks between surfaces",
+            )
         known[name] = mesh
     return known[name]
 

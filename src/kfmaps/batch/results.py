@@ -132,7 +132,7 @@ def write_parquet(path: Path, results: Iterable[Result]) -> None:
         import pyarrow as pa
         from pyarrow import parquet
     except ImportError as error:
-        raise MissingDependency("Parquet needs pyarrow; install it with: pip install 'kfmaps[parquet]'") from error
+        raise MissingDependency("Parquet needs pyarrow. Install it with: pip install 'kfmaps[parquet]'.") from error
     columns, rows = _table(results)
     kinds = {"attempts": pa.int64(), "vertices_s": pa.int64(), "vertices_t": pa.int64(), "landmarks": pa.int64()}
     kinds |= {"solver_steps": pa.int64(), "rank": pa.int64()}

@@ -131,7 +131,7 @@ def prepare_shape(task: ShapeTask) -> Prepared:
     begin(Path(task.folder), task.key)
     with capture_errors() as caught, one_blas_thread():
         if file_digest(task.path) != task.content:
-            raise refuse(task.path, "the file of the run's start", "a changed one", "run the command again")
+            raise refuse(task.path, "the file as it was when the run began", "a changed one", "run the command again")
         save_shape(entry, prepare(read_shape_mesh(task.path), replace(task.config, threads=1), name=task.name))
     return Prepared(task.name, time.perf_counter() - start, caught.reason, tuple(caught.notes))
 

@@ -169,7 +169,7 @@ def assessed(
         predicted = truth_from_pairs(truth.source, target, target_to_source)
         predicted, true = predicted[::step], truth.source[::step]
         if not (predicted >= 0).any():
-            raise refuse("map", "a counterpart for some of the truth's points", "none", "nothing can be compared")
+            raise refuse("map", "a counterpart for some of the truth's points", "none", "take another map or truth")
         return summarize_errors(geodesic_errors(source, predicted[predicted >= 0], true[predicted >= 0]))
 
     swapped = None if truth.mirrored is None else errors(truth.mirrored, mirrored)

@@ -131,7 +131,7 @@ def part_accuracy(source: Mesh, target: Mesh, found: MapFile, truth: PartTruth, 
         known, said, true = _carried_on(source, target, points, place, truth)
         whole = target
     if not known.any():
-        raise refuse("map", "a counterpart for some of the truth's points", "none", "nothing can be compared")
+        raise refuse("map", "a counterpart for some of the truth's points", "none", "take another map or truth")
     errors = summarize_errors(precise_errors(whole, said, true))
     true_common = true_overlap(whole, source if part == "source" else target, truth)
     areas = vertex_areas(whole)

@@ -107,7 +107,7 @@ class Collection:
         if b not in ways and (source, target) in self.parts:
             return self.maps[self.pairs.index((source, target))]
         if b not in ways:
-            raise refuse("map", "shapes that maps join", f"{source} and {target}", "match more pairs")
+            raise refuse("map", "two shapes that maps connect", f"{source} and {target}", "match more pairs")
         steps = []
         for edge, here in zip(ways[b].edges, ways[b].shapes, strict=False):
             first, points = self.names.index(self.pairs[edge][0]), self.maps[edge]
@@ -123,7 +123,7 @@ class Collection:
             Where there is no common basis.
         """
         if not self.limit_shapes:
-            raise refuse("distances", "three shapes or more that maps join", "fewer", "match more pairs")
+            raise refuse("distances", "three shapes or more that maps connect", "fewer", "match more pairs")
         found = np.full((len(self.names),) * 2, np.nan)
         np.fill_diagonal(found, 0.0)
         for one in self.limit_shapes:

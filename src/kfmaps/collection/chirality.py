@@ -32,7 +32,7 @@ def chirality(count: int, ends: Sequence[tuple[int, int]], kept: Sequence[bool],
         Where pairs join shapes, the one with the lowest number has 1.
     """
     if len(ends) != len(kept):
-        raise refuse("pairs", "shapes and orientation of each", f"{len(ends)} and {len(kept)}", "give equally many")
+        raise refuse("pairs", "an orientation for each pair", f"{len(kept)} for {len(ends)} pairs", "give as many")
     weight = check(np.asarray(weights, dtype=np.float64), "weights", shape=(len(ends),), finite=True)
     if len(weight) and weight.min() < 0:
         raise refuse("weights", "numbers from 0 on", f"{weight.min():g}", "give probabilities")

@@ -79,7 +79,7 @@ def limit_shape(
     count, k = found.latent.shape[:2]
     if len(np.unique(found.component)) > 1:
         got = f"{len(np.unique(found.component))} parts that no pair joins"
-        raise refuse("collection", "shapes that hang together", got, "add pairs, or look at each part by itself")
+        raise refuse("collection", "shapes that maps connect", got, "add pairs, or look at each part by itself")
     values = check(np.asarray(eigenvalues), "eigenvalues", shape=(count, None), finite=True)[:, :k]
     size = k if size is None else check_count(size, "latent functions", 1, k)
     around: list[list[tuple[int, np.ndarray]]] = [[] for _ in range(count)]

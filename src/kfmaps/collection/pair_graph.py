@@ -89,7 +89,9 @@ def nearest_neighbor_graph(distances: np.ndarray, each: int = 4) -> Pairs:
     check(distances, "distances", shape=(count, count), finite=True)
     check_count(count, "shapes", low=2)
     if each < 2:
-        raise refuse("pairs of each shape", "2 or more, so that there are cycles", str(each), "or choose a star")
+        raise refuse(
+            "pairs of each shape", "2 or more, so that there are cycles", str(each), "raise it, or take a star"
+        )
     # Zero is no edge to SciPy: equal shapes are as near as can be all the same.
     apart = distances + 1e-9 * (1.0 + distances.max())
     tree = coo_array(minimum_spanning_tree(np.triu(apart, 1)))

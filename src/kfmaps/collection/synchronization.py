@@ -145,9 +145,9 @@ def synchronize(count: int, edges: Sequence[Edge], functions: int = N_FUNCTIONS)
     check_count(functions, "functions", low=2)
     for edge in edges:
         if not (0 <= edge.source < count and 0 <= edge.target < count and edge.source != edge.target):
-            raise refuse("pairs", f"two of the shapes 0 to {count - 1}", f"{edge.source} and {edge.target}", "check")
+            raise refuse("pairs", f"two of the shapes 0 to {count - 1}", f"{edge.source} and {edge.target}", "fix it")
         if not edge.candidates or any(min(c.map.shape) < functions for c in edge.candidates):
-            raise refuse("maps", f"{functions} functions or more", "fewer, or none", "take larger maps")
+            raise refuse("maps", f"{functions} functions or more", "smaller maps or none", "take larger maps")
     ends = [(edge.source, edge.target) for edge in edges]
     problem = _Problem(
         count,

@@ -104,7 +104,7 @@ class Formulation:
                 "inverse_weight and adjoint_weight",
                 "one of them above zero",
                 "both 0",
-                "nothing ties the two directions",
+                "raise one of them, which ties the two directions together",
             )
 
     @property

@@ -221,4 +221,4 @@ def closed_mesh(
             faces = _triangulate(warp(points), unit_rows(_warped_normals(warp, points, normals)))
         if is_closed(faces, count, genus):
             return points, faces
-    raise NotConverged(f"no closed mesh of genus {genus} through {count} points; ask for more vertices")
+    raise NotConverged(f"no closed mesh of genus {genus} through {count} points. Ask for more vertices.")

@@ -73,7 +73,7 @@ def descriptor_guidance(
         return None
     if source.shape[1] != target.shape[1]:
         got = f"{source.shape[1]} and {target.shape[1]}"
-        raise refuse("descriptors", "as many on both shapes", got, "compute both with the same settings")
+        raise refuse("descriptors", "equally many on both shapes", got, "compute both with the same settings")
     if not (_varied(source) or _varied(target)):
         return None
     sides = (source, target)

@@ -59,12 +59,12 @@ class Energy:
 
     def __post_init__(self) -> None:
         if set(self.terms) != set(self.weights):
-            raise refuse("Energy weights", f"names {sorted(self.terms)}", f"{sorted(self.weights)}", "name each")
+            raise refuse("Energy weights", f"names {sorted(self.terms)}", f"{sorted(self.weights)}", "weigh each term")
         for name, weight in self.weights.items():
             if not 0 <= weight < float("inf"):
                 raise refuse(f"weight of {name}", "a finite number of at least zero", repr(weight), "use 0 to omit")
         if not any(weight > 0 for weight in self.weights.values()):
-            raise refuse("Energy weights", "at least one above zero", "none", "nothing would determine the map")
+            raise refuse("Energy weights", "at least one above zero", "none", "raise one, or no map is best")
 
     def _active(self) -> list[tuple[float, Term]]:
         return [(self.weights[name], term) for name, term in self.terms.items() if self.weights[name] > 0]

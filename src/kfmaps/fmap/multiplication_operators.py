@@ -113,7 +113,7 @@ def truncate_operators(packed_s: Array, packed_t: Array, rtol: float) -> tuple[A
 
 def _check_rtol(rtol: float) -> None:
     if not 0 <= rtol < 1:
-        raise refuse("compression rtol", "a number from 0 to below 1", repr(rtol), "1e-6 is usual")
+        raise refuse("compression rtol", "a number from 0 to below 1", repr(rtol), "choose 1e-6, say")
 
 
 def _strongest(gram: Array, rtol: float) -> Array:

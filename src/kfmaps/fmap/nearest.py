@@ -67,7 +67,7 @@ def nearest(
     check(points, "points", shape=(None, None), finite=True)
     check(queries, "queries", shape=(None, points.shape[1]), finite=True, remedy="give both the same dimension")
     if points.shape[0] == 0:
-        raise refuse("points", "at least one", "none", "give some")
+        raise refuse("points", "at least one", "none", "give at least one")
     if is_numpy(queries):
         queries, points = _in_range(queries, points)
         if points.shape[1] <= TREE_DIMENSION and len(points) > LARGE:

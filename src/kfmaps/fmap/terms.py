@@ -275,5 +275,5 @@ def check_same_count(a: Array, b: Array) -> None:
             "descriptors",
             "the same number on both shapes",
             f"{a.shape[1]} and {b.shape[1]}",
-            "make them alike",
+            "compute both alike",
         )

@@ -80,14 +80,14 @@ class Basis:
             import torch
         except ImportError as error:
             raise MissingDependency(
-                f"device {device!r} needs PyTorch; install it with: pip install 'kfmaps[gpu]'"
+                f"device {device!r} needs PyTorch. Install it with: pip install 'kfmaps[gpu]'."
             ) from error
         try:
             where = "cpu" if device == "torch" else device
             return type(self)(*(torch.asarray(a, device=where) for a in arrays))
         except (RuntimeError, AssertionError, TypeError) as error:
             reason = str(error).splitlines()[0]
-            raise refuse("device", "one that PyTorch can use", f"{device!r} ({reason})", "use cpu") from error
+            raise refuse("device", "a device that PyTorch can use", f"{device!r} ({reason})", "use cpu") from error
 
 
 def eigenvalue_tolerance(basis: Basis) -> float:

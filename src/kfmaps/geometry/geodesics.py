@@ -51,7 +51,7 @@ def _indices(values: ArrayLike, n: int, name: str) -> np.ndarray:
         raise refuse(name, "a list of vertex numbers", got, "give whole numbers")
     if array.size and (array.min() < 0 or array.max() >= n):
         bad = int(array.min() if array.min() < 0 else array.max())
-        raise refuse(name, f"vertex numbers from 0 to {n - 1}", str(bad), "numbers start at 0")
+        raise refuse(name, f"vertex numbers from 0 to {n - 1}", str(bad), "count them from 0")
     return array.astype(np.int64)
 
 

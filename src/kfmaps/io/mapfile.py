@@ -141,7 +141,7 @@ def check_map(
     low, high = numbers.min(), numbers.max()
     if low == -1 and not lost:
         wanted, got = "a counterpart of every target vertex", f"{np.count_nonzero(numbers == -1)} without one"
-        raise refuse(name, wanted, got, "this needs a map between whole shapes")
+        raise refuse(name, wanted, got, "give a map between whole shapes")
     if low < -int(lost) or high >= (2**53 if n_s is None else n_s):
         wanted = "source vertices from 0 on" if n_s is None else f"source vertices from 0 to {n_s - 1}"
         raise refuse(name, wanted, f"{int(low if low < -int(lost) else high)}", remedy)

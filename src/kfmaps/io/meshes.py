@@ -147,7 +147,7 @@ def _warn_of_oddities(mesh: Mesh, name: str) -> None:
     ]
     told = ", ".join(f"{count} {one if count == 1 else many}" for count, one, many in odd if count)
     if told:
-        warnings.warn(f"{shown(name)}: {told}; all is kept as it is", KfmapsWarning, stacklevel=4)
+        warnings.warn(f"{shown(name)}: {told}. All is kept as it is.", KfmapsWarning, stacklevel=4)
 
 
 def write_mesh(path: str | Path, mesh: Mesh, *, colors: np.ndarray | None = None, force: bool = False) -> None:

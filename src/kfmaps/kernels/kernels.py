@@ -255,6 +255,6 @@ def _known(kernel: Gaussian | Laplacian) -> float:
             f"{type(kernel).__name__} gamma",
             "a number",
             "None (automatic)",
-            "call resolved(kernel, samples) first",
+            "call resolve_kernel(kernel, samples) first",
         )
     return kernel.gamma

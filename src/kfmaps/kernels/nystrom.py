@@ -83,7 +83,7 @@ def nystrom(kernel: KernelLike, samples: Array, rtol: float = 1e-12) -> Nystrom:
         If no eigenvalue is positive, or the kernel returns a wrong shape or NaN.
     """
     if not 0 <= rtol < 1:
-        raise refuse("Nyström rtol", "a number from 0 to below 1", repr(rtol), "1e-12 is usual")
+        raise refuse("Nyström rtol", "a number from 0 to below 1", repr(rtol), "choose 1e-12, say")
     xp = namespace(samples)
     values = kernel_matrix(kernel, samples, samples)
     eigenvalues, vectors = xp.linalg.eigh((values + values.T) / 2)

@@ -62,7 +62,7 @@ class Metric(_Transformed):
         M = like(self.matrix, X)
         if X.shape[1] != M.shape[-1]:
             remedy = "match with as many descriptors and landmarks as it was learned with"
-            raise refuse("descriptors", f"{M.shape[-1]}, as the metric has", str(X.shape[1]), remedy)
+            raise refuse("descriptors", f"{M.shape[-1]} columns, as the metric has", str(X.shape[1]), remedy)
         return X * M[None, :] if M.ndim == 1 else X @ M.T
 
     def __repr__(self) -> str:
@@ -87,7 +87,7 @@ class Network(_Transformed):
         for inner, outer in pairwise(plain):
             if len(outer[0]) != len(inner) + 1:
                 got = f"{len(outer[0])} columns after {len(inner)} rows"
-                raise refuse("Network layers", "a column for each row before it, and one for the bias", got, "add it")
+                raise refuse("Network layers", "a column for each row before it and for the bias", got, "add one")
         object.__setattr__(self, "layers", plain)
         object.__setattr__(self, "columns", tuple(int(c) for c in self.columns))
 
@@ -96,7 +96,9 @@ class Network(_Transformed):
         seen = take(X, np.asarray(self.columns), axis=1) if self.columns else X
         if len(self.layers[0][0]) != seen.shape[1] + 1:
             got = f"{seen.shape[1]}"
-            raise refuse("descriptors", f"{len(self.layers[0][0]) - 1}, as the network has", got, "as it was learned")
+            raise refuse(
+                "descriptors", f"{len(self.layers[0][0]) - 1} columns for the network", got, "compute them alike"
+            )
         return namespace(X).concat([X, forward(tuple(like(m, X) for m in self.layers), seen)], axis=1)
 
     def __repr__(self) -> str:

@@ -193,8 +193,8 @@ def differentiable_minimum(
 def _check(solution: Solution, name: str) -> Solution:
     if solution.status == "breakdown" and not np.isclose(solution.residuals[-1], 0.0):
         raise NotConverged(
-            f"{name}: wanted a positive definite energy of finite numbers, got a breakdown of conjugate gradients "
-            f"after {solution.steps} steps (residual {solution.residuals[-1]:.3g}); lower the learning rate, or "
-            "keep the weight of the Laplacian term above zero"
+            f"{name}: expected a positive definite energy of finite numbers, got a breakdown of conjugate gradients "
+            f"after {solution.steps} steps (residual {solution.residuals[-1]:.3g}). Lower the learning rate, or "
+            "keep the weight of the Laplacian term above zero."
         )
     return solution

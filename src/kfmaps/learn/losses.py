@@ -96,7 +96,7 @@ def pair_loss(
     total = torch.zeros((), dtype=C.dtype)
     for name, weight in weights.items():
         if name in ("geodesic", "supervised") and pair.truth is None:
-            raise refuse(f"loss {name}", "pairs whose truth is known", pair.name, "give it, or take another loss")
+            raise refuse(f"loss {name}", "pairs with a truth", f"{pair.name} without one", "take another loss")
         total = total + weight * values[name](pair.truth)
     return total
 
@@ -105,7 +105,7 @@ def check_losses(weights: Mapping[str, float]) -> None:
     """Refuse no losses at all and names that are not among :data:`LOSSES`."""
     unknown = sorted(set(weights) - set(LOSSES))
     if unknown or not weights:
-        raise refuse("losses", "some of " + ", ".join(LOSSES), ", ".join(unknown) or "none", "name them")
+        raise refuse("losses", "some of " + ", ".join(LOSSES), ", ".join(unknown) or "none", "choose among them")
 
 
 def point_error(model: Model, pair: TrainingPair, *, solver: CG, operator_rtol: float = 0.0) -> float:
@@ -121,7 +121,7 @@ def point_error(model: Model, pair: TrainingPair, *, solver: CG, operator_rtol: 
         See :func:`pair_energy`.
     """
     if pair.truth is None:
-        raise refuse("held-out pairs", "pairs whose truth is known", pair.name, "judge by the loss")
+        raise refuse("held-out pairs", "pairs with a truth", f"{pair.name} without one", "judge by the loss")
     with torch.no_grad():
         C = functional_map(model, pair, solver, operator_rtol)
         images = (pair.source.functions @ C.T).numpy()

@@ -110,7 +110,7 @@ class Model(torch.nn.Module):
         counts = {(pair.n_landmarks, pair.descriptors_s.shape[1]) for pair in pairs}
         if len(counts) != 1:
             got = f"{sorted(counts)}"
-            raise refuse("pairs", "equally many landmarks and descriptors on all", got, "give as many to each")
+            raise refuse("pairs", "equally many landmarks and descriptors on all pairs", got, "give as many to each")
         self.config, self.parts, self.kernel = config, tuple(parts), config.kernel
         self.columns = columns(config.descriptors, *counts.pop())
         gamma = float(np.log(np.median([pair.gamma for pair in pairs])))
@@ -218,7 +218,7 @@ class Model(torch.nn.Module):
 def _check_parts(parts: Sequence[str], kernel: KernelLike) -> None:
     unknown = [part for part in parts if part not in PARTS]
     if unknown or not parts:
-        raise refuse("what to learn", "some of " + ", ".join(PARTS), ", ".join(unknown) or "none", "name them")
+        raise refuse("what to learn", "some of " + ", ".join(PARTS), ", ".join(unknown) or "none", "choose among them")
     if "ard" in parts and "metric" in parts:
         raise refuse("what to learn", "weights or a metric", "both", "the metric holds weights already")
     if {"gamma", "mixture"} & set(parts) and not isinstance(kernel, Gaussian | Laplacian):

@@ -125,7 +125,7 @@ def training_pair(
         When landmarks or truth do not fit the shapes, or the configuration has a term that cannot be learned with.
     """
     if config.weights.orientation or config.full_kernel:
-        got = "an orientation term" if config.weights.orientation else "the exact kernel"
+        got = "an orientation term" if config.weights.orientation else "the full kernel"
         raise refuse("settings to learn from", "features and the terms of the paper", got, "leave it out")
     formulation = config.formulation
     if replace(Formulation(), mask=formulation.mask, mask_power=formulation.mask_power) != formulation:
@@ -164,7 +164,7 @@ def _truth(
         check(side, name, shape=true_s.shape, finite=False, remedy="give as many vertices on both")
         if side.ndim != 1 or len(side) < k or side.min() < 0 or side.max() >= n:
             got = f"shape {side.shape}" + (f", {side.min()} to {side.max()}" if side.size else "")
-            raise refuse(name, f"at least {k} vertices, 0 to {n - 1}", got, "take the lists of these shapes")
+            raise refuse(name, f"at least {k} vertices from 0 to {n - 1}", got, "take the lists of these shapes")
     functions_s, functions_t = (shape.basis.truncate(k).functions for shape in (source, target))
     functional_map = np.linalg.lstsq(functions_t[true_t], functions_s[true_s], rcond=None)[0]
     # The same lines for every pair of a collection: distances from them can be kept with the shape.

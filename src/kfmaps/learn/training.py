@@ -78,7 +78,7 @@ class TrainingOptions:
         if not self.seconds > 0:
             raise refuse("seconds", "a number above zero", repr(self.seconds), "leave it out for no limit")
         if not 0 <= self.start_penalty < float("inf"):
-            raise refuse("start_penalty", "a finite number of at least zero", repr(self.start_penalty), "0 is usual")
+            raise refuse("start_penalty", "a finite number of at least zero", repr(self.start_penalty), "choose 0, say")
 
 
 def learn(
@@ -265,6 +265,6 @@ def _check_finite(model: Model, name: str, loss: float, state: State) -> None:
 
 def _stopped(got: str, name: str, state: State) -> NotConverged:
     return NotConverged(
-        f"learning: wanted finite numbers, got “{got}” at the pair {name}, epoch {state.history[-1].number + 1}; "
-        f"the state of epoch {state.best_epoch.number}, the best so far, is kept: learn again with a lower rate"
+        f"learning: expected finite numbers, got {got} at the pair {name}, epoch {state.history[-1].number + 1}. "
+        f"The state of epoch {state.best_epoch.number}, the best so far, is kept. Learn again with a lower rate."
     )

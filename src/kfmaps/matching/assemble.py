@@ -125,7 +125,7 @@ def assemble(
     weights = config.weights
     if config.full_kernel:
         if weights.orientation:
-            raise refuse("orientation weight", "0 with the exact kernel", str(weights.orientation), "use features")
+            raise refuse("orientation weight", "0 with the full kernel", str(weights.orientation), "use features")
         return FitProblem(config, small, resolve_kernel_width(descriptors, config, rng), descriptors)
     features = kernel_features(source, target, descriptors, config, rng)
     multiplications, orientations, size = None, None, 0.0

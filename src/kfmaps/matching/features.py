@@ -219,7 +219,7 @@ def resolve_kernel_width(descriptors: Descriptors, config: Config, rng: np.rando
     wanted, given = taught(config.kernel), int(np.max(descriptors.landmark, initial=-1)) + 1
     if wanted is not None and wanted != given:
         remedy = "give as many, or learn a kernel with as many (kfmaps learn --truth-landmarks, or without)"
-        raise refuse("landmarks", f"{wanted}, as the kernel was learned with", str(given), remedy)
+        raise refuse("landmarks", f"{wanted} of them, as the kernel was learned with", str(given), remedy)
     rows = [_farthest_rows(D, 100, rng) for D in (descriptors.source, descriptors.target)]
     return resolve_kernel(config.kernel, namespace(rows[0]).concat(rows), config.bandwidth_scale)
 

@@ -26,8 +26,8 @@ def read_learned(path: str | Path) -> dict[str, Any]:
     try:
         import torch
     except ImportError as error:
-        remedy = "install it with: pip install 'kfmaps[learn]', or learn to a .toml file"
-        raise MissingDependency(f"{path}: wanted PyTorch to read it with, got none; {remedy}") from error
+        remedy = "Install it with: pip install 'kfmaps[learn]', or learn to a .toml file"
+        raise MissingDependency(f"{path} needs PyTorch. {remedy}.") from error
     try:
         # A file that asks for more than tensors and plain values is refused before anything of it runs.
         content = torch.load(Path(path), map_location="cpu", weights_only=True)

@@ -91,7 +91,7 @@ def export(
     elif suffix in MAPS:
         save_map(output, found, force)
     elif shape_s is None or shape_t is None:
-        raise refuse("export", "--source and --target for a shape", "not both", "name the two meshes")
+        raise refuse("export", "both --source and --target for a shape", "one of them, or none", "name the two meshes")
     elif morph:
         bent = found.extra.get("bent")
         if bent is None:

@@ -159,7 +159,7 @@ def _numbers(assignments: list[str]) -> dict[str, int | float]:
     for text in assignments:
         name, _, value = (part.strip() for part in text.partition("="))
         if name not in NUMBERS:
-            raise refuse(f"--training {text}", "one of " + ", ".join(NUMBERS), repr(name), "for instance epochs=5")
+            raise refuse(f"--training {text}", "one of " + ", ".join(NUMBERS), repr(name), "write epochs=5, say")
         numbers[name] = _number(f"--training {text}", value, type(NUMBERS[name]))
     for name in ("pairs", "held_out_pairs"):
         check_count(int(numbers[name]), f"--training {name}")
@@ -178,7 +178,7 @@ def _lines(text: str) -> tuple[int, ...]:
     """Return the numbers of --truth-landmarks, counted from 0."""
     words = text.split(",") if text else []
     if not all(word.strip().isdecimal() and int(word) > 0 for word in words):
-        raise refuse("--truth-landmarks", "lines of the truth, with commas", repr(text), "as 201,1121")
+        raise refuse("--truth-landmarks", "lines of the truth, with commas", repr(text), "write them as 201,1121")
     return tuple(int(word) - 1 for word in words)
 
 
@@ -251,7 +251,7 @@ def _preparation(
         counts = [len(side) for side in known or ()]
         if known and counts[0] != counts[1]:
             got = f"{counts[0]} and {counts[1]} lines"
-            raise refuse(f"truth of {pair.source} and {pair.target}", "equally many lines", got, "choose --shapes")
+            raise refuse(f"truth of {pair.source} and {pair.target}", "equally many lines", got, "give --shapes")
         if lines and (not known or max(lines) >= counts[0]):
             got = f"{counts[0]} lines" if known else "no truth"
             raise refuse("--truth-landmarks", f"a truth of {max(lines) + 1} lines", got, "choose other lines")

@@ -173,8 +173,8 @@ def _check_device(device: str) -> None:
     try:
         import torch
     except ImportError as error:
-        remedy = "install it with: pip install 'kfmaps[gpu]'"
-        raise MissingDependency(f"--device {device}: wanted PyTorch, got none; {remedy}") from error
+        remedy = "Install it with: pip install 'kfmaps[gpu]'"
+        raise MissingDependency(f"--device {device} needs PyTorch. {remedy}.") from error
     try:
         torch.empty(1, dtype=torch.float64, device="cpu" if device == "torch" else device)
     except Exception as error:  # PyTorch reports what is not there by whatever it runs into
@@ -207,7 +207,7 @@ def _own_descriptors(files: tuple[Path, Path], meshes: tuple[Mesh, Mesh]) -> tup
         found.append(values)
     if found[0].shape[1] != found[1].shape[1]:
         got = f"{found[0].shape[1]} and {found[1].shape[1]}"
-        raise refuse("descriptors", "as many columns on both shapes", got, "compute both alike")
+        raise refuse("descriptors", "equally many columns on both shapes", got, "compute both alike")
     return found[0], found[1]
 
 

@@ -122,7 +122,7 @@ def _everywhere(
         missing = "--landmarks" if landmarks is None else "--collection"
         raise refuse("transfer", "--collection and --landmarks together", f"no {missing}", "give both")
     if any(one is not None for one in others):
-        raise refuse("transfer", "--collection and --landmarks alone", "a map or mesh beside them", "leave it out")
+        raise refuse("transfer", "--collection and --landmarks alone", "a map or mesh beside them", "leave that out")
     if output.suffix.lower() != ".csv":
         raise refuse(f"output {output}", "the extension .csv", output.suffix or "none", "rename it")
     for path in (output, *([] if tps is None else [tps])):
@@ -147,7 +147,7 @@ def _both(found: MapFile, map: Path, given: tuple[Path | None, Path | None]) -> 
     source, target = (_shape(found, side, path, map) for side, path in zip(("source", "target"), given, strict=True))
     for mesh, side in ((source, "source"), (target, "target")):
         if len(mesh.faces) == 0:
-            raise refuse(side, "a surface with faces", "a point cloud", "carry values instead, not back")
+            raise refuse(side, "a surface with faces", "a point cloud", "leave --points and --back out")
     return source, target, find_counterparts(found, source, target, str(map))
 
 

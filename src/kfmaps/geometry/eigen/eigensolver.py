@@ -139,7 +139,7 @@ def smallest_eigenpairs(
     if method not in METHODS:
         raise refuse("method", f"one of {', '.join(METHODS)}", repr(method), "choose one of them")
     if mass.min() < 0 or not mass.sum() > 0:
-        raise refuse("mass", "none below zero, some above", f"least {mass.min():g}", "check the areas")
+        raise refuse("mass", "numbers of at least zero, not all zero", f"{mass.min():g}", "check the areas")
     idle = int(((mass == 0) & (matrix.diagonal() == 0)).sum())
     if idle:
         raise refuse("pencil", "a mass or a stiffness in every row", f"{idle} rows with neither", "leave them out")
@@ -310,7 +310,7 @@ def _checked(
     if len(bad):
         raise NotConverged(
             f"eigenpairs: {len(bad)} of {len(values)} have residuals above {tolerance:.0e}, the largest "
-            f"{residuals[bad].max():.1e}; look for parts without area, or for coordinates of very different size"
+            f"{residuals[bad].max():.1e}. Look for parts without area, or for coordinates of very different size."
         )
     order = np.argsort(values, kind="stable")
     return Eigenpairs(values[order], vectors[:, order], residuals[order])

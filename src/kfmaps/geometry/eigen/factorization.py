@@ -47,7 +47,7 @@ def fill_order(matrix: Sparse, ordering: str = "auto") -> np.ndarray | None:
     if find_spec("pymetis") is None:
         if ordering == "auto":
             return None
-        raise MissingDependency("ordering 'metis' needs pymetis; install it with: pip install 'kfmaps[fast]'")
+        raise MissingDependency("ordering 'metis' needs pymetis. Install it with: pip install 'kfmaps[fast]'.")
     import pymetis
 
     graph: Any = csr_array(matrix, copy=True)
@@ -91,7 +91,7 @@ def factorize(matrix: Sparse, ordered: bool, each: Map = map) -> Solve:
             options={"SymmetricMode": True},
         )
     except RuntimeError as error:
-        raise NotConverged(f"factorisation: {error}; the mesh has parts without area or stiffness") from error
+        raise NotConverged(f"factorisation: {error}. The mesh has parts without area or stiffness.") from error
 
     def solve(block: np.ndarray) -> np.ndarray:
         right = np.asfortranarray(block, dtype=matrix.dtype)
