@@ -59,7 +59,7 @@ def test_any_two_shapes_have_a_map(shapes: dict[str, Shape]) -> None:
     np.testing.assert_array_equal(found.map("s1", "s2"), np.arange(N))
     apart = kfmaps.match_collection(shapes, {("s0", "s1"): np.arange(N)}, config=LOCAL)
     assert apart.limit_shape is None
-    with pytest.raises(InvalidInput, match="shapes that maps join"):
+    with pytest.raises(InvalidInput, match="shapes that maps connect"):
         apart.map("s0", "s3")
     with pytest.raises(InvalidInput, match="three shapes or more"):
         apart.distances()
@@ -100,7 +100,7 @@ def test_maps_of_parts_stay_apart(shapes: dict[str, Shape]) -> None:
     assert found.probabilities[:-1] == pytest.approx(usual.probabilities)
     assert np.isnan(found.probabilities[-1])
     np.testing.assert_array_equal(found.map("s0", "s3"), part)
-    with pytest.raises(InvalidInput, match="shapes that maps join"):
+    with pytest.raises(InvalidInput, match="shapes that maps connect"):
         found.map("s1", "s3")
     assert found.limit_shape is None
     np.testing.assert_allclose(found.distances()[:3, :3], usual.distances(), atol=1e-9)

@@ -131,7 +131,7 @@ def test_a_kernel_knows_its_landmarks(creature):
     one = replace(taught([1.0] * COUNT, 3), search=None)
     assert n_kernel_landmarks(one.kernel) == 3
     assert fit(source, target, one, landmarks=marks).functional_map.shape == (30, 30)
-    with pytest.raises(InvalidInput, match="expected 3, as the kernel was learned with, got 0"):
+    with pytest.raises(InvalidInput, match="expected 3 of them, as the kernel was learned with, got 0"):
         fit(source, target, one)  # as many descriptors, of other things
     with pytest.raises(InvalidInput, match="Metric landmarks"):
         Metric(Gaussian(1.0), (1.0,), -1)

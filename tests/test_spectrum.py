@@ -264,7 +264,7 @@ def test_to_device(basis: Basis, monkeypatch: pytest.MonkeyPatch) -> None:
     torch = pytest.importorskip("torch")
     there = Basis(*(torch.asarray(a) for a in (basis.eigenvalues, basis.functions, basis.mass)))
     np.testing.assert_array_equal(there.to("numpy").functions, basis.functions)
-    with pytest.raises(InvalidInput, match="expected one that PyTorch can use"):
+    with pytest.raises(InvalidInput, match="expected a device that PyTorch can use"):
         basis.to("magic")
     monkeypatch.setitem(sys.modules, "torch", None)
     with pytest.raises(MissingDependency, match=r"kfmaps\[gpu\]"):
