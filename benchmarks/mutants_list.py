@@ -397,7 +397,7 @@ MUTANTS = tuple(
             "[problem.maps[i] for i in across]",
             "test_many -k long_cycles",
         ),
-        ("if low[v] > number[up]:", "if low[v] >= number[up]:", "test_many -k bridges"),
+        ("axis=0).T)[0] > parts", "axis=0).T)[0] >= parts", "test_many -k bridges"),
         ("gain = -signs * (signed @ signs)", "gain = signs * (signed @ signs)", "test_many -k hands"),
         (
             "inside = C.T @ (np.asarray(eigenvalues_t)[:, None] * C)",
@@ -412,8 +412,8 @@ MUTANTS = tuple(
         ("parts = sizes[:kept] ** 2 / whole", "parts = sizes[:kept] / whole", "test_many_differences -k component"),
         ("if made.score > least and residual < own[i]", "if residual < own[i]", "test_many -k loose"),
         (
-            "paths = two_step_paths(self.around, self.ends, self.maps, i)",
-            "paths = two_step_paths(self.around, self.ends, self.maps, i)[:0]",
+            "paths = _two_step_paths(self.around, self.ends, self.maps, i)",
+            "paths = _two_step_paths(self.around, self.ends, self.maps, i)[:0]",
             "test_many -k family",
         ),
         (
@@ -561,8 +561,8 @@ MUTANTS = tuple(
             "test_learned_search -k landmarks",
         ),
         (
-            "members = np.flatnonzero(found.component == part)",
-            "members = np.flatnonzero(found.component <= part)",
+            "members = np.flatnonzero(sync.component == number)",
+            "members = np.flatnonzero(sync.component <= number)",
             "test_many_differences -k alone",
         ),
         # unlike shapes, bent and matched in turn

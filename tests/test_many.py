@@ -272,8 +272,8 @@ def test_a_wrong_pair_is_exchanged_for_the_way_round_and_no_other() -> None:
     assert (change.edge, change.kind) == (pairs.index((1, 4)), "composition")
     assert change.path is not None
     assert len(change.path.through) == 1
-    assert change.before < 0.1 < 0.5 < change.after
-    assert change.residual_after < 1e-9 < change.residual_before
+    assert change.before.probability < 0.1 < 0.5 < change.after.probability
+    assert change.after.residual < 1e-9 < change.before.residual
     assert found.probabilities.min() > 0.5
 
 
@@ -341,7 +341,7 @@ def test_a_family_of_wrong_candidates_does_not_outvote_better_evidence() -> None
     changed = {pairs[c.edge] for c in found.replacements if c.kind == "composition"}
     assert changed == {(2, 5), (3, 5), (4, 5)}
     for change in found.replacements:
-        assert change.residual_after < 1e-6
+        assert change.after.residual < 1e-6
 
 
 def test_what_is_one_map_is_not_two_candidates() -> None:
@@ -366,8 +366,8 @@ def test_a_loose_map_is_exchanged_for_a_better_one_alone() -> None:
 
     (change,) = repair(6, pairs, maps, compose(-5.2)).replacements
     assert (change.edge, change.kind, change.improved) == (4, "composition", True)
-    assert change.residual_after < change.residual_before
-    assert change.before == change.after > 0.5
+    assert change.after.residual < change.before.residual
+    assert change.before.probability == change.after.probability > 0.5
     assert not repair(6, pairs, maps, compose(-5.9)).replacements  # hardly better
 
 

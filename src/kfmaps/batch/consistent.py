@@ -158,11 +158,8 @@ class _FolderStore:
         self.ends = [(number[task.pair.source], number[task.pair.target]) for task in tasks]
         self.replaced: list[Result] = []
 
-    def shape(self, name: str) -> Shape:
-        return load_prepared(self.shapes[name])
-
-    def score(self) -> list[list[ScoredMap]]:
-        return self.scores
+    def shape(self, number: int) -> Shape:
+        return load_prepared(self.shapes[self.names[number]])
 
     def compose(self, asked: list[tuple[int, CyclePath]]) -> list[ScoredMap]:
         made = []
@@ -181,9 +178,6 @@ class _FolderStore:
             jobs.append(_ReplaceTask(task, change, path, change.label(self.names), before))
         _forget(self.plan, {job.task.key for job in jobs})
         self.replaced = self.pool.map("replaced maps", replace_map, jobs)
-
-    def eigenvalues(self, count: int) -> np.ndarray:
-        return np.stack([self.shape(name).basis.eigenvalues[:count] for name in self.names])
 
     def _path(self, edge: int, path: CyclePath) -> _PathTask:
         return _PathTask(self.tasks[edge], tuple((self.tasks[s.edge], s.candidate, s.forward) for s in path.steps))
@@ -337,7 +331,7 @@ def replace_map(job: _ReplaceTask) -> Result:
         changed=job.label,
         why=change.reason(),
         error_before=job.before.error_mean,
-        agreement=change.after,
+        agreement=change.after.probability,
         **values,
     )
     path.parent.mkdir(parents=True, exist_ok=True)
@@ -366,7 +360,7 @@ def _write_pairs(path: Path, store: _FolderStore, found: Consistency) -> None:
     rows: list[list[Any]] = [["source", "target", "candidates", "probability", "residual", "score", "changed", "why"]]
     changes = {change.edge: change for change in found.repaired.replacements}
     sync = found.repaired.sync
-    for i, (task, maps) in enumerate(zip(store.tasks, found.scores, strict=True)):
+    for i, (task, maps) in enumerate(zip(store.tasks, store.scores, strict=True)):
         row = [task.pair.source, task.pair.target, len(maps), f"{sync.probabilities[i][0]:.6f}"]
         row += [f"{sync.residuals[i][0]:.6f}", f"{maps[0].score:.4f}"]
         rows.append(row + ([changes[i].label(store.names), changes[i].reason()] if i in changes else ["", ""]))

@@ -17,14 +17,7 @@ from kfmaps.batch.layout import Pair, ShapeFolder, choose_pairs
 from kfmaps.batch.results import FOLDER, Result, read_result, result_path
 from kfmaps.batch.run_spec import RunSpec, claim, digest_of
 from kfmaps.batch.work import PairTask, ShapeTask, load_prepared, prepare_shape
-from kfmaps.collection.pair_graph import (
-    complete_graph,
-    medoid,
-    nearest_neighbor_graph,
-    signature,
-    signature_distances,
-    star_graph,
-)
+from kfmaps.collection.pair_graph import complete_graph, medoid, signature, signature_distances, signature_graph
 from kfmaps.config import Config
 from kfmaps.io import atomic_output
 
@@ -161,9 +154,9 @@ def graph_pairs(
     if len(good) < 2:
         got = f"{len(good)}: {bad[0].reason}"
         raise refuse("collection", "two shapes that can be prepared", got, "check the meshes")
-    distances = signature_distances(np.stack(pool.map("likeness of shapes", _signature, good)))
-    middle = medoid(distances)
-    chosen = nearest_neighbor_graph(distances) if kind == "near" else star_graph(len(good), middle)
+    signatures = np.stack(pool.map("likeness of shapes", _signature, good))
+    chosen = signature_graph(kind, signatures)
+    middle = medoid(signature_distances(signatures)) if bad else 0
     pairs = [Pair(good[a].name, good[b].name) for a, b in chosen]
     pairs += [Pair(good[middle].name, done.name) for done in bad]
     with atomic_output(path, force=True) as temporary:

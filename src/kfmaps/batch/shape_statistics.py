@@ -9,7 +9,7 @@ import numpy as np
 
 from kfmaps.batch.results import write_rows
 from kfmaps.collection.consistency import Consistency
-from kfmaps.collection.differences import components, operators, shape_distances, variation
+from kfmaps.collection.differences import components, density, operators, shape_distances
 from kfmaps.collection.pair_graph import medoid
 from kfmaps.io import atomic_output
 from kfmaps.shape import Shape
@@ -20,7 +20,7 @@ KINDS = ("area", "conformal")
 
 
 def write_shape_statistics(
-    folder: Path, names: list[str], shape: Callable[[str], Shape], found: Consistency
+    folder: Path, names: list[str], shape: Callable[[int], Shape], found: Consistency
 ) -> list[str]:
     """Write the tables and the limit shape of each component that pairs join; what could not be, in words."""
     hands = found.repaired.chirality
@@ -42,10 +42,11 @@ def write_shape_statistics(
         for i, j in zip(*np.triu_indices(len(own), 1), strict=True):
             apart.append([own[i], own[j], *(f"{distances[kind][i, j]:.6g}" for kind in KINDS)])
         middle = medoid(distances["area"])
-        basis = shape(own[middle]).basis
+        basis = shape(int(common.members[middle])).basis
         arrays = {"names": np.array(own), "maps": common.limit_shape.maps, "values": common.limit_shape.values}
         arrays |= {f"explained_{kind}": pca[kind].parts for kind in KINDS}
-        arrays |= {f"variation_{kind}": variation(matrices[kind], common.limit_shape, middle, basis) for kind in KINDS}
+        for kind in KINDS:
+            arrays[f"variation_{kind}"] = density(matrices[kind], common.limit_shape, middle, basis).std(axis=0)
         path = limit_shape_path(folder, number)
         with atomic_output(path, force=True) as temporary, open(temporary, "wb") as file:
             np.savez(file, allow_pickle=False, middle=np.array(own[middle]), **arrays)

@@ -20,14 +20,7 @@ from kfmaps.collection.consistency import (
     synchronize_store,
 )
 from kfmaps.collection.differences import ComponentLimitShape, LimitShape, operators, shape_distances
-from kfmaps.collection.pair_graph import (
-    complete_graph,
-    medoid,
-    nearest_neighbor_graph,
-    signature,
-    signature_distances,
-    star_graph,
-)
+from kfmaps.collection.pair_graph import signature, signature_graph
 from kfmaps.collection.paths import adjacency, best_paths
 from kfmaps.collection.repair import CyclePath, Replacement
 from kfmaps.collection.scored_map import ScoredMap
@@ -198,7 +191,11 @@ def match_collection(
         ready.append(shape if isinstance(shape, Shape) else prepare(as_mesh(shape, name), config, name=name))
         progress("shapes", i + 1, len(given))
     known = _checked_maps(maps, names, ready) if maps is not None else {}
-    ends = list(known) if maps is not None else _graph(graph, ready)
+    ends = (
+        list(known)
+        if maps is not None
+        else list(signature_graph(graph, np.stack([signature(shape.basis) for shape in ready])))
+    )
     store = _MemoryStore(names, ready, config, rng, [scoring_samples(shape, rng) for shape in ready])
     parts: list[tuple[tuple[int, int], np.ndarray, Match | None]] = []
     for i, (a, b) in enumerate(ends):
@@ -252,9 +249,6 @@ class _MemoryStore:
         with one_blas_thread():
             self.scores.append(score_stored(file, self._pair(ends), self._samples(ends), reversed))
 
-    def score(self) -> list[list[ScoredMap]]:
-        return self.scores
-
     def compose(self, asked: list[tuple[int, CyclePath]]) -> list[ScoredMap]:
         with one_blas_thread():
             return [
@@ -274,8 +268,8 @@ class _MemoryStore:
             self.matches[edge] = made
             self.candidates[edge] = [(made.target_to_source, made.orientation == "reversing")]
 
-    def eigenvalues(self, count: int) -> np.ndarray:
-        return np.stack([shape.basis.eigenvalues[:count] for shape in self.shapes])
+    def shape(self, number: int) -> Shape:
+        return self.shapes[number]
 
     def _pair(self, ends: tuple[int, int]) -> tuple[Shape, Shape]:
         return self.shapes[ends[0]], self.shapes[ends[1]]
@@ -307,14 +301,3 @@ def _checked_maps(
     if not found:
         raise refuse("maps", "at least one", "none", "leave them out, and pairs are matched")
     return found
-
-
-def _graph(kind: str, shapes: Sequence[Shape]) -> list[tuple[int, int]]:
-    if kind == "all":
-        return list(complete_graph(len(shapes)))
-    distances = signature_distances(np.stack([signature(shape.basis) for shape in shapes]))
-    if kind == "near":
-        return list(nearest_neighbor_graph(distances))
-    if kind == "star":
-        return list(star_graph(len(shapes), medoid(distances)))
-    raise refuse("graph", "near, star or all", repr(kind), "choose one of them")

@@ -10,7 +10,8 @@ from numpy.typing import ArrayLike
 from kfmaps._arrays import check, refuse
 from kfmaps.geometry.connectivity import component_labels
 
-MAX_FLIPS = 100
+_MAX_FLIPS = 100
+"""Signs that are changed at most."""
 
 
 def chirality(count: int, ends: Sequence[tuple[int, int]], kept: Sequence[bool], weights: ArrayLike) -> np.ndarray:
@@ -40,36 +41,15 @@ def chirality(count: int, ends: Sequence[tuple[int, int]], kept: Sequence[bool],
     for (a, b), same, w in zip(ends, kept, weight, strict=True):
         signed[a, b] += w if same else -w
         signed[b, a] += w if same else -w
-    leading = np.linalg.eigh(signed + 1e-9 * np.eye(count))[1][:, -1] if count else np.zeros(0)
-    signs = np.where(leading < -1e-12, -1, 1).astype(np.int64)
-    # An eigenvector may live on one of several parts: each shape then asks its neighbours, from the surest on.
-    signs = _along(signed, signs, np.abs(leading) > 1e-6)
-    for _ in range(MAX_FLIPS):
+    part = component_labels(count, *np.nonzero(signed))[1]
+    signs, first = np.ones(count, dtype=np.int64), np.zeros(count, dtype=np.int64)
+    for own in (np.flatnonzero(part == number) for number in np.unique(part)):
+        leading = np.linalg.eigh(signed[np.ix_(own, own)])[1][:, -1]
+        signs[own], first[own] = np.where(leading < -1e-12, -1, 1), own[0]
+    for _ in range(_MAX_FLIPS):
         gain = -signs * (signed @ signs)
         worst = int(gain.argmax()) if count else 0
         if count == 0 or gain[worst] <= 1e-9 * (1.0 + np.abs(signed).max()):
             break
         signs[worst] *= -1
-    return _anchored(signed, signs)
-
-
-def _along(signed: np.ndarray, signs: np.ndarray, known: np.ndarray) -> np.ndarray:
-    """Signs of the shapes that are not ``known (n,)``, from those of their neighbours with the largest weight."""
-    signs, known = signs.copy(), known.copy()
-    while not known.all():
-        reach = np.where(known[None, :] & ~known[:, None], np.abs(signed), 0.0)
-        a, b = np.unravel_index(int(reach.argmax()), reach.shape)
-        if reach[a, b] == 0:
-            a = int(np.flatnonzero(~known)[0])
-        else:
-            signs[a] = int(np.sign(signed[a, b])) * signs[b]
-        known[a] = True
-    return signs
-
-
-def _anchored(signed: np.ndarray, signs: np.ndarray) -> np.ndarray:
-    """The lowest shape of each component has 1."""
-    a, b = np.nonzero(signed)
-    part = component_labels(len(signs), a, b)[1]
-    first = np.unique(part, return_index=True)[1]
-    return signs * signs[first[part]]
+    return signs * signs[first]

@@ -25,7 +25,7 @@ from kfmaps.matching.result import Match
 from kfmaps.matching.score import probability_word
 from kfmaps.shape import Shape
 
-N_LATENT = 15
+_N_LATENT = 15
 """Latent functions of a limit shape: the higher ones are truncation more than shape."""
 
 Candidate = tuple[np.ndarray, bool]
@@ -43,8 +43,13 @@ class MapStore(Protocol):
         """Source and target of each pair."""
         ...
 
-    def score(self) -> list[list[ScoredMap]]:
-        """Score the candidates of each pair; the first is the one in use."""
+    @property
+    def scores(self) -> list[list[ScoredMap]]:
+        """The scored candidates of each pair; the first is the one in use."""
+        ...
+
+    def shape(self, number: int) -> Shape:
+        """The prepared shape with this number."""
         ...
 
     def compose(self, asked: list[tuple[int, CyclePath]]) -> list[ScoredMap]:
@@ -55,30 +60,33 @@ class MapStore(Protocol):
         """Put other maps in the place of those in use."""
         ...
 
-    def eigenvalues(self, count: int) -> np.ndarray:
-        """The first eigenvalues of each shape at unit area, (n, count)."""
-        ...
-
 
 @dataclass(frozen=True, eq=False)
 class Consistency:
-    """Result of :func:`synchronize_store`: the scores of all candidates, what was replaced, and limit shapes."""
+    """Result of :func:`synchronize_store`.
 
-    scores: list[list[ScoredMap]]
+    Attributes
+    ----------
+    repaired : RepairResult
+        What was replaced, and how probable all maps are.
+    limit_shapes : tuple of ComponentLimitShape
+    eigenvalues : (n, k) float64
+        Of each shape at unit area, as many as the latent maps have rows.
+    """
+
     repaired: RepairResult
     limit_shapes: tuple[ComponentLimitShape, ...]
     eigenvalues: np.ndarray
 
 
 def synchronize_store(store: MapStore) -> Consistency:
-    """Find which maps of a store are wrong, replace them, and return what the maps in use say of the shapes."""
-    scores = store.score()
-    repaired = repair(len(store.names), store.ends, scores, store.compose)
+    """Find which maps of a store are wrong, replace them, and return what the maps in use tell of the shapes."""
+    repaired = repair(len(store.names), store.ends, store.scores, store.compose)
     store.replace([change for change in repaired.replacements if change.kind != "none"])
-    edges = [Edge(a, b, candidate_maps(several)) for (a, b), several in zip(store.ends, scores, strict=True)]
-    values = store.eigenvalues(repaired.sync.latent.shape[1])
-    shapes = component_limit_shapes(repaired.sync, edges, values, N_LATENT)
-    return Consistency(scores, repaired, shapes, values)
+    edges = [Edge(a, b, candidate_maps(several)) for (a, b), several in zip(store.ends, store.scores, strict=True)]
+    k = repaired.sync.latent.shape[1]
+    values = np.stack([store.shape(i).basis.eigenvalues[:k] for i in range(len(store.names))])
+    return Consistency(repaired, component_limit_shapes(repaired.sync, edges, values, _N_LATENT), values)
 
 
 def stored_candidates(file: MapFile, reversed: bool | None = None) -> list[Candidate]:
@@ -148,9 +156,9 @@ def refine_replacement(
         config,
         origin=label,
         orientation="reversing" if turned else "preserving",
-        verdict=probability_word(replacement.after),
-        confidence=replacement.after,
-        quality=replacement.score_after,
+        verdict=probability_word(replacement.after.probability),
+        confidence=replacement.after.probability,
+        quality=replacement.after.score,
         runners_up=tuple(np.asarray(row) for row in others),
         rng=seed,
     )

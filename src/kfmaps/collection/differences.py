@@ -11,18 +11,19 @@ Guibas and Ovsjanikov, Limit shapes, 2019, after Wang, Huang and Guibas 2014).
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from scipy.linalg import eigh
 
 from kfmaps._arrays import check, check_count, refuse, to_numpy
+from kfmaps.collection.pair_graph import signature_distances
 from kfmaps.collection.synchronization import Edge, SyncResult
 from kfmaps.geometry.basis import Basis
 
-RIGHT = 0.5
+_RIGHT = 0.5
 """Probability from which a candidate takes part in the common basis."""
-SETTLING = 30
+_N_ITERATIONS = 30
 """Iterations of the latent maps."""
 
 
@@ -48,13 +49,9 @@ class LimitShape:
 
 
 def limit_shape(
-    found: SyncResult,
-    edges: Sequence[Edge],
-    chosen: Sequence[int | None],
-    eigenvalues: np.ndarray,
-    size: int | None = None,
+    latent: np.ndarray, maps: Sequence[tuple[int, int, np.ndarray]], eigenvalues: np.ndarray, size: int | None = None
 ) -> LimitShape:
-    """A canonical latent basis for shapes whose maps agree.
+    """Return the canonical latent basis of shapes whose maps agree.
 
     Orthogonal maps know no areas. From them on each shape's map becomes the mean of what its neighbours' say, again
     and again, and keeps its own stretch: subspace iteration for the least of ``Σ ‖C Y_s − Y_t‖²`` under the condition
@@ -62,42 +59,41 @@ def limit_shape(
 
     Parameters
     ----------
-    found : Agreement
-    edges : sequence of Link
-    chosen : sequence of int or None
-        Of each edge the candidate that is right; ``None`` where none is known.
+    latent : (n, k, k)
+        Orthogonal maps of shapes that pairs join, see :class:`~kfmaps.collection.synchronization.SyncResult`.
+    maps : sequence of (int, int, array)
+        Source, target and functional map of the pairs whose map is right, of at least ``k`` functions.
     eigenvalues : (n, k)
-        Of each shape at unit area, at least as many as the agreement has functions.
+        Of each shape at unit area, at least ``k``.
     size : int, optional
         Latent functions; all by default.
+
+    Returns
+    -------
+    LimitShape
 
     Raises
     ------
     InvalidInput
-        When shapes are not joined by pairs.
+        When the eigenvalues do not fit, or there are fewer functions than ``size``.
     """
-    count, k = found.latent.shape[:2]
-    if len(np.unique(found.component)) > 1:
-        got = f"{len(np.unique(found.component))} parts that no pair joins"
-        raise refuse("collection", "shapes that maps connect", got, "add pairs, or look at each part by itself")
+    count, k = latent.shape[:2]
     values = check(np.asarray(eigenvalues), "eigenvalues", shape=(count, None), finite=True)[:, :k]
     size = k if size is None else check_count(size, "latent functions", 1, k)
     around: list[list[tuple[int, np.ndarray]]] = [[] for _ in range(count)]
-    for edge, choice in zip(edges, chosen, strict=True):
-        if choice is not None:
-            C = edge.candidates[choice].map[:k, :k]
-            around[edge.target].append((edge.source, C))
-            # Back by the inverse, as far as it is safe: the transpose would turn a stretch round.
-            around[edge.source].append((edge.target, np.linalg.pinv(C, rcond=0.2)))
-    maps = _normalised(found.latent)
-    for _ in range(SETTLING):
-        said = [np.mean([C @ maps[u] for u, C in near], axis=0) if near else maps[v] for v, near in enumerate(around)]
-        maps = _normalised((maps + np.stack(said)) / 2)
-    areas = (np.swapaxes(maps, 1, 2) @ maps).mean(axis=0)
-    gradients = (np.swapaxes(maps, 1, 2) @ (values[:, :, None] * maps)).mean(axis=0)
+    for source, target, C in maps:
+        around[target].append((source, C[:k, :k]))
+        # Back by the inverse, as far as it is safe: the transpose would turn a stretch round.
+        around[source].append((target, np.linalg.pinv(C[:k, :k], rcond=0.2)))
+    Y = _normalised(latent)
+    for _ in range(_N_ITERATIONS):
+        means = [np.mean([C @ Y[u] for u, C in near], axis=0) if near else Y[v] for v, near in enumerate(around)]
+        Y = _normalised((Y + np.stack(means)) / 2)
+    areas = (np.swapaxes(Y, 1, 2) @ Y).mean(axis=0)
+    gradients = (np.swapaxes(Y, 1, 2) @ (values[:, :, None] * Y)).mean(axis=0)
     means, functions = eigh(gradients, areas + 1e-9 * np.trace(areas) / k * np.eye(k))
-    maps = (maps @ functions)[:, :, :size]
-    return LimitShape(maps * _signs(maps), np.maximum(means[:size], 0.0))
+    Y = (Y @ functions)[:, :, :size]
+    return LimitShape(Y * _signs(Y), np.maximum(means[:size], 0.0))
 
 
 @dataclass(frozen=True, eq=False)
@@ -109,40 +105,41 @@ class ComponentLimitShape:
 
 
 def component_limit_shapes(
-    found: SyncResult, edges: Sequence[Edge], eigenvalues: np.ndarray, size: int
+    sync: SyncResult, edges: Sequence[Edge], eigenvalues: np.ndarray, size: int
 ) -> tuple[ComponentLimitShape, ...]:
-    """:func:`limit_shape` of each part of the collection that pairs join, by the candidates that are probably right.
+    """Return the :func:`limit_shape` of each connected component of three shapes or more, the largest first.
 
-    Parts of three shapes or more, the largest first; at most ``size`` functions. ``edges`` may lack the last candidates
-    of those that ``found`` is of, such as compositions.
+    Parameters
+    ----------
+    sync : SyncResult
+    edges : sequence of Edge
+        Those that were synchronized; they may lack their last candidates, such as compositions. Of each the most
+        probable candidate takes part, where it is probably right.
+    eigenvalues : (n, k)
+        Of each shape at unit area.
+    size : int
+        Latent functions at most.
+
+    Returns
+    -------
+    tuple of ComponentLimitShape
     """
-    k = found.latent.shape[1]
-    best = [int(chances[:-1].argmax()) for chances in found.probabilities]
-    chosen = [
-        b if b < len(edge.candidates) and chances[b] >= RIGHT else None
-        for b, chances, edge in zip(best, found.probabilities, edges, strict=True)
+    maps = [
+        (edge.source, edge.target, edge.candidates[best].map)
+        for edge, chances in zip(edges, sync.probabilities, strict=True)
+        if (best := int(chances[:-1].argmax())) < len(edge.candidates) and chances[best] >= _RIGHT
     ]
-    numbers, counts = np.unique(found.component, return_counts=True)
-    bases = []
-    for part in numbers[np.argsort(-counts, kind="stable")]:
-        members = np.flatnonzero(found.component == part)
+    numbers, counts = np.unique(sync.component, return_counts=True)
+    found = []
+    for number in numbers[np.argsort(-counts, kind="stable")]:
+        members = np.flatnonzero(sync.component == number)
         if len(members) < 3:
             continue
         place = {int(v): i for i, v in enumerate(members)}
-        inside = [i for i, edge in enumerate(edges) if edge.source in place]
-        own = [replace(edges[i], source=place[edges[i].source], target=place[edges[i].target]) for i in inside]
-        alone = SyncResult(
-            found.latent[members],
-            tuple(found.probabilities[i] for i in inside),
-            tuple(found.residuals[i] for i in inside),
-            found.limit,
-            np.zeros(len(members), dtype=np.int64),
-        )
-        values = np.asarray(eigenvalues)[members]
-        bases.append(
-            ComponentLimitShape(members, limit_shape(alone, own, [chosen[i] for i in inside], values, min(size, k)))
-        )
-    return tuple(bases)
+        own = [(place[a], place[b], C) for a, b, C in maps if a in place]
+        values, k = np.asarray(eigenvalues)[members], sync.latent.shape[1]
+        found.append(ComponentLimitShape(members, limit_shape(sync.latent[members], own, values, min(size, k))))
+    return tuple(found)
 
 
 def _normalised(maps: np.ndarray) -> np.ndarray:
@@ -198,11 +195,7 @@ def operators(shape: LimitShape, eigenvalues: np.ndarray, kind: str = "area") ->
 
 def shape_distances(matrices: np.ndarray) -> np.ndarray:
     """Frobenius distances between the shapes' ``matrices (n, m, m)``, per function: (n, n)."""
-    rows = matrices.reshape(len(matrices), -1)
-    squares = (rows**2).sum(axis=1)
-    found = np.sqrt(np.maximum(squares[:, None] + squares[None, :] - 2 * rows @ rows.T, 0.0) / matrices.shape[1])
-    np.fill_diagonal(found, 0.0)
-    return (found + found.T) / 2
+    return signature_distances(matrices.reshape(len(matrices), -1)) * np.sqrt(matrices.shape[1])
 
 
 @dataclass(frozen=True, eq=False)
@@ -248,10 +241,25 @@ def components(matrices: np.ndarray, count: int = 5) -> Components:
 
 
 def density(matrices: np.ndarray, shape: LimitShape, number: int, basis: Basis) -> np.ndarray:
-    """How large each specimen is at each vertex of shape ``number``, beside the mean: (n, vertices), a ratio, smooth.
+    """Return how large each shape is at each vertex of one of them, relative to the mean: (n, vertices).
 
-    ``ψᵀ D_v ψ / ψᵀ D̄ ψ`` with ``ψ`` the latent coordinates of the vertex' delta function. With
-    :func:`operators` of the kind "area" it is the density of area, at the resolution of the latent functions.
+    ``ψᵀ D_v ψ / ψᵀ D̄ ψ`` with ``ψ`` the latent coordinates of the vertex' delta function. With :func:`operators` of
+    the kind "area" it is the density of area, at the resolution of the latent functions; its standard deviation over
+    the shapes tells where they differ.
+
+    Parameters
+    ----------
+    matrices : (n, m, m)
+        See :func:`operators`.
+    shape : LimitShape
+    number : int
+        The shape whose vertices are asked for.
+    basis : Basis
+        Of that shape.
+
+    Returns
+    -------
+    (n, vertices) float64
     """
     own = shape.maps[number]
     functions = to_numpy(basis.functions)[:, : len(own)]
@@ -260,8 +268,3 @@ def density(matrices: np.ndarray, shape: LimitShape, number: int, basis: Basis) 
     whole = np.einsum("xi,ij,xj->x", at, matrices.mean(axis=0), at)
     each = np.stack([((at @ D) * at).sum(axis=1) for D in matrices])
     return each / np.maximum(whole, 1e-9 * whole.max())
-
-
-def variation(matrices: np.ndarray, shape: LimitShape, number: int, basis: Basis) -> np.ndarray:
-    """Where on shape ``number`` specimens differ: the standard deviation over them of :func:`density`, (vertices,)."""
-    return density(matrices, shape, number, basis).std(axis=0)

@@ -13,7 +13,6 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import minimum_spanning_tree
 
 from kfmaps._arrays import check, check_count, refuse, to_numpy
-from kfmaps.collection.paths import adjacency
 from kfmaps.descriptors.spectral import heat_signature
 from kfmaps.geometry.basis import Basis
 from kfmaps.geometry.connectivity import component_labels
@@ -114,50 +113,48 @@ def nearest_neighbor_graph(distances: np.ndarray, each: int = 4) -> Pairs:
     return tuple(sorted(chosen))
 
 
+def signature_graph(kind: str, signatures: np.ndarray) -> Pairs:
+    """Return the pairs of a graph of shapes with these ``signatures (n, d)``.
+
+    Parameters
+    ----------
+    kind : "near", "star" or "all"
+        :func:`nearest_neighbor_graph`, the :func:`star_graph` around the :func:`medoid`, or :func:`complete_graph`.
+
+    Raises
+    ------
+    InvalidInput
+        On another kind, and when there are fewer than two shapes.
+    """
+    if kind == "all":
+        return complete_graph(len(signatures))
+    if kind not in ("near", "star"):
+        raise refuse("graph", "near, star or all", repr(kind), "choose one of them")
+    distances = signature_distances(signatures)
+    return nearest_neighbor_graph(distances) if kind == "near" else star_graph(len(signatures), medoid(distances))
+
+
 def _bridge(count: int, pairs: set[tuple[int, int]]) -> tuple[tuple[int, int], np.ndarray] | None:
     """A pair without which the graph falls apart, where another could join its sides, and one side (n,) bool."""
-    if count < 3:
-        return None
-    pair = next(iter(sorted(bridges(count, pairs))), None)
+    pair = min(bridges(count, pairs), default=None) if count > 2 else None
     if pair is None:
         return None
-    rest = np.array(sorted(pairs - {pair}), dtype=np.int64).reshape(-1, 2)
-    part = component_labels(count, rest[:, 0], rest[:, 1])[1]
+    part = component_labels(count, *np.array(sorted(pairs - {pair}), dtype=np.int64).T)[1]
     return pair, part == part[pair[1]]
 
 
 def bridges(count: int, pairs: Iterable[tuple[int, int]]) -> set[tuple[int, int]]:
-    """Return those of the ``pairs`` of ``count`` shapes that lie on no cycle: the bridges of the graph.
+    """Return those of the ``pairs`` of ``count`` shapes that lie on no cycle: without one the graph has a part more.
 
-    Depth first with the lowest number that can be reached past the tree's edge (Tarjan 1974), without recursion. A pair
-    that is there twice is on a cycle of two.
+    A pair that is there twice is on a cycle of two.
     """
-    every = list(pairs)
-    neighbours = adjacency(count, every)
-    number, low = [-1] * count, [0] * count
-    found: set[tuple[int, int]] = set()
-    seen = 0
-    for root in range(count):
-        if number[root] >= 0:
-            continue
-        number[root] = low[root] = seen
-        seen += 1
-        stack = [(root, -1, iter(neighbours[root]))]
-        while stack:
-            v, by, others = stack[-1]
-            for w, link in others:
-                if number[w] < 0:
-                    number[w] = low[w] = seen
-                    seen += 1
-                    stack.append((w, link, iter(neighbours[w])))
-                    break
-                if link != by:
-                    low[v] = min(low[v], number[w])
-            else:
-                stack.pop()
-                if stack:
-                    up = stack[-1][0]
-                    low[up] = min(low[up], low[v])
-                    if low[v] > number[up]:
-                        found.add(every[by])
-    return found
+    ends = np.array(list(pairs), dtype=np.int64).reshape(-1, 2)
+    parts = component_labels(count, *ends.T)[0]
+    forest = minimum_spanning_tree(coo_array((np.ones(len(ends)), ends.T), shape=(count, count))).tocoo()
+    candidates = set(zip(forest.row.tolist(), forest.col.tolist(), strict=True))
+    every = [(int(a), int(b)) for a, b in ends]
+    return {
+        pair
+        for i, pair in enumerate(every)
+        if pair in candidates and component_labels(count, *np.delete(ends, i, axis=0).T)[0] > parts
+    }

@@ -27,19 +27,19 @@ from kfmaps.collection.synchronization import (
 )
 from kfmaps.matching.score import SCORE
 
-DOUBT = 0.5
+_DOUBT = 0.5
 """Probability of the map in use below which a composition is sought."""
-WRONG = 0.1
+_WRONG = 0.1
 """Probability of the map in use below which it is replaced."""
-RIGHT = 0.5
+_RIGHT = 0.5
 """Least probability of the map that replaces it."""
-MIN_PATH_PROBABILITY = 0.3
+_MIN_PATH_PROBABILITY = 0.3
 """Least probability that all maps of a path are right."""
-MIN_GAIN = 0.3
+_MIN_GAIN = 0.3
 """How much better a composition must score to replace a map that is right on the whole."""
-N_TWO_STEP = 3
+_N_TWO_STEP = 3
 """Paths of two steps by the maps in use that are tried for a doubted pair."""
-N_ROUNDS = 3
+_N_ROUNDS = 3
 """Rounds of compositions: a replaced map may open a path for others."""
 
 
@@ -61,6 +61,25 @@ class CyclePath:
 
 
 @dataclass(frozen=True)
+class MapEvidence:
+    """What is known of a candidate map.
+
+    Attributes
+    ----------
+    probability : float
+        That it is right, beside all other maps.
+    score : float
+        Its own evidence, :attr:`kfmaps.matching.score.Quality.score`.
+    residual : float
+        Its distance from what the rest of the collection says (:class:`SyncResult`).
+    """
+
+    probability: float
+    score: float
+    residual: float
+
+
+@dataclass(frozen=True)
 class Replacement:
     """What becomes of a pair whose map in use is improbable.
 
@@ -69,16 +88,12 @@ class Replacement:
     edge : int
     kind : "runner-up", "composition" or "none"
         What replaces the map; "none" where no candidate is probable, and the map stays.
+    before, after : MapEvidence
+        Of the map that was in use, and of the one that is.
     candidate : int
         The runner-up's number, from 1.
     path : CyclePath or None
         Of a composition.
-    before, after : float
-        Probability of the map that was in use, and of the one that is.
-    score_before, score_after : float
-        Own evidence of each, :attr:`kfmaps.matching.quality.Quality.score`.
-    residual_before, residual_after : float
-        Distance of each from what the rest of the collection says (:class:`SyncResult`).
     contradicts : bool
         Whether the map that was in use is of another orientation than it claims, or than the collection agrees on.
     improved : bool
@@ -87,31 +102,28 @@ class Replacement:
 
     edge: int
     kind: str
+    before: MapEvidence
+    after: MapEvidence
     candidate: int = 0
     path: CyclePath | None = None
-    before: float = 0.0
-    after: float = 0.0
-    score_before: float = 0.0
-    score_after: float = 0.0
-    residual_before: float = 0.0
-    residual_after: float = 0.0
     contradicts: bool = False
     improved: bool = False
 
     def label(self, names: Sequence[str]) -> str:
-        """What the map was replaced by, in words; empty where it stays."""
+        """Return what the map was replaced by, in words; empty where it stays."""
         if self.path is not None:
             return f"composition through {', '.join(names[i] for i in self.path.through)}"
         return f"runner-up {self.candidate}" if self.kind == "runner-up" else ""
 
     def reason(self) -> str:
-        """Why, in words."""
-        scores = f"score {self.score_before:.1f}, now {self.score_after:.1f}"
+        """Return why, in words."""
+        before, after = self.before, self.after
+        scores = f"score {before.score:.1f}, now {after.score:.1f}"
         if self.improved:
-            residuals = f"by {self.residual_before:.2f}, and this by {self.residual_after:.2f}"
+            residuals = f"by {before.residual:.2f}, and this by {after.residual:.2f}"
             return f"it strays from what other pairs say, {residuals}; {scores}"
-        other = "no other map is probable" if self.kind == "none" else f"this {self.after:.0%}"
-        parts = [f"other pairs leave it a probability of {self.before:.1%}, and {other}"]
+        other = "no other map is probable" if self.kind == "none" else f"this {after.probability:.0%}"
+        parts = [f"other pairs leave it a probability of {before.probability:.1%}, and {other}"]
         parts += ["it is of another orientation than it claims"] if self.contradicts else []
         parts += [scores] if self.kind != "none" else []
         return "; ".join(parts)
@@ -140,7 +152,7 @@ class RepairResult:
         """Probability of the map of each edge after the replacements, (e,)."""
         result = np.array([chances[0] for chances in self.sync.probabilities])
         for change in self.replacements:
-            result[change.edge] = change.after
+            result[change.edge] = change.after.probability
         return result
 
 
@@ -186,8 +198,8 @@ class _Repair:
 
     def run(self) -> RepairResult:
         tried: set[tuple[int, tuple[CycleStep, ...]]] = set()
-        for _ in range(N_ROUNDS):
-            doubted = [i for i, chances in enumerate(self.sync.probabilities) if chances[0] < DOUBT]
+        for _ in range(_N_ROUNDS):
+            doubted = [i for i, chances in enumerate(self.sync.probabilities) if chances[0] < _DOUBT]
             asked = [(i, path) for i, path in self._paths_around(doubted) if (i, path.steps) not in tried]
             if not asked:
                 break
@@ -210,8 +222,8 @@ class _Repair:
         found: dict[tuple[int, tuple[CycleStep, ...]], CyclePath] = {}
         for i in edges:
             likely = best_path(self.around, chances, *self.ends[i], without=i)
-            paths = two_step_paths(self.around, self.ends, self.maps, i)
-            if likely is not None and likely.probability >= MIN_PATH_PROBABILITY:
+            paths = _two_step_paths(self.around, self.ends, self.maps, i)
+            if likely is not None and likely.probability >= _MIN_PATH_PROBABILITY:
                 walk = zip(likely.edges, likely.shapes, strict=False)
                 steps = tuple(CycleStep(e, best[e], self.ends[e][0] == at) for e, at in walk)
                 paths.insert(0, CyclePath(steps, likely.shapes[1:-1]))
@@ -228,30 +240,26 @@ class _Repair:
         self.maps[edge].append(made)
         self.paths[edge].append(path)
 
+    def _evidence(self, edge: int, candidate: int) -> MapEvidence:
+        probability, residual = self.sync.probabilities[edge][candidate], self.sync.residuals[edge][candidate]
+        return MapEvidence(float(probability), self.maps[edge][candidate].score, float(residual))
+
     def _replacement(self, edge: int) -> Replacement | None:
-        maps, chances, residuals = self.maps[edge], self.sync.probabilities[edge], self.sync.residuals[edge]
-        if chances[0] >= WRONG:
+        """What replaces a map that is improbable; ``None`` for other maps."""
+        chances, given, (a, b) = self.sync.probabilities[edge], self.given[edge], self.ends[edge]
+        if chances[0] >= _WRONG:
             return None
         best = int(chances[:-1].argmax())
-        if chances[best] < RIGHT:
-            best = 0
-        a, b = self.ends[edge]
-        contradicts = (
-            maps[0].reversed != bool(self.signs[a] != self.signs[b]) or maps[0].orientation < SCORE.min_orientation
-        )
-        composed = best >= self.given[edge]
+        best = best if chances[best] >= _RIGHT else 0
+        first, composed = self.maps[edge][0], best >= given
         return Replacement(
             edge,
             "none" if best == 0 else "composition" if composed else "runner-up",
+            self._evidence(edge, 0),
+            self._evidence(edge, best),
             candidate=0 if composed else best,
-            path=self.paths[edge][best - self.given[edge]] if composed else None,
-            before=float(chances[0]),
-            after=float(chances[best]),
-            score_before=maps[0].score,
-            score_after=maps[best].score,
-            residual_before=float(residuals[0]),
-            residual_after=float(residuals[best]),
-            contradicts=contradicts,
+            path=self.paths[edge][best - given] if composed else None,
+            contradicts=first.reversed != (self.signs[a] != self.signs[b]) or first.orientation < SCORE.min_orientation,
         )
 
     def _improvements(self, done: Collection[int]) -> dict[int, Replacement]:
@@ -261,35 +269,25 @@ class _Repair:
         """
         own = np.array([residuals[0] for residuals in self.sync.residuals])
         limit = OUTLIER_FACTOR * float(np.median(own)) + 1e-9 if len(own) else 0.0
-        right = [chances[0] >= DOUBT for chances in self.sync.probabilities]
+        right = [chances[0] >= _DOUBT for chances in self.sync.probabilities]
         asked = self._paths_around([i for i in np.flatnonzero(own > limit).tolist() if i not in done and right[i]])
         found: dict[int, Replacement] = {}
+        size, latent = self.sync.latent.shape[1], self.sync.latent
         for (i, path), made in zip(asked, self.compose(asked) if asked else [], strict=True):
             a, b = self.ends[i]
-            size, latent = self.sync.latent.shape[1], self.sync.latent
             residual = float(map_residuals(made.map[None, :size, :size], latent[a], latent[b])[0])
-            first = self.maps[i][0]
-            least = found[i].score_after if i in found else first.score + MIN_GAIN
-            if made.score > least and residual < own[i] and made.reversed == first.reversed:
-                found[i] = Replacement(
-                    i,
-                    "composition",
-                    path=path,
-                    before=(probability := float(self.sync.probabilities[i][0])),
-                    after=probability,
-                    score_before=first.score,
-                    score_after=made.score,
-                    residual_before=float(own[i]),
-                    residual_after=residual,
-                    improved=True,
-                )
+            before = self._evidence(i, 0)
+            least = found[i].after.score if i in found else before.score + _MIN_GAIN
+            if made.score > least and residual < own[i] and made.reversed == self.maps[i][0].reversed:
+                after = MapEvidence(before.probability, made.score, residual)
+                found[i] = Replacement(i, "composition", before, after, path=path, improved=True)
         return found
 
 
-def two_step_paths(
+def _two_step_paths(
     around: Adjacency, ends: Sequence[tuple[int, int]], maps: Sequence[Sequence[ScoredMap]], edge: int
 ) -> list[CyclePath]:
-    """Return at most :data:`N_TWO_STEP` paths of two steps around an edge by the maps in use, of the best scores first.
+    """Return at most :data:`_N_TWO_STEP` paths of two steps around an edge, by the maps in use, best scores first.
 
     What most candidates say may be wrong together. These say what the maps say that a search thought best.
     """
@@ -305,7 +303,7 @@ def two_step_paths(
         steps = (CycleStep(first, 0, ends[first][0] == source), CycleStep(second, 0, ends[second][0] == middle))
         found.append((min(maps[first][0].score, maps[second][0].score), CyclePath(steps, (middle,))))
     found.sort(key=lambda item: -item[0])
-    return [path for _, path in found[:N_TWO_STEP]]
+    return [path for _, path in found[:_N_TWO_STEP]]
 
 
 def _synchronize(
