@@ -59,8 +59,9 @@ def match(
         come from the same settings of the basis, SHOT and the numbers of functions.
     config : Config, optional
         ``Config()`` when not given; ``Config.single_fit()``, one fit, with descriptors of the user's own.
-    landmarks : (l, 2) whole numbers, or a path, optional
-        Pairs "source vertex, target vertex", 0-based.
+    landmarks : (l, 2) whole numbers, a path, or a pair of paths, optional
+        Pairs "source vertex, target vertex", 0-based; or the landmarks of either shape, which are paired by name
+        (``.mrk.json``, ``.fcsv``, ``.tps``, ``.pts``, ``.csv``, ``.particles``).
     descriptors : pair of arrays (n_s, d), (n_t, d), optional
         Of the user's own, used beside those that the configuration names.
     rng : seed or Generator
@@ -81,7 +82,8 @@ def match(
         shape if isinstance(shape, Shape) else as_mesh(shape, name)
         for shape, name in ((source, "source"), (target, "target"))
     ]
-    marks = as_landmarks(landmarks)
+    meshes = [shape.mesh if isinstance(shape, Shape) else shape for shape in shapes]
+    marks = as_landmarks(landmarks, (source, target), meshes)
     with _telling(progress) as report:
         return matching.match(
             shapes[0], shapes[1], config, landmarks=marks, descriptors=descriptors, rng=rng, progress=report

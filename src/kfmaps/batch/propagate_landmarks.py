@@ -17,14 +17,9 @@ from kfmaps.batch.run_spec import read_settings
 from kfmaps.collection.paths import MapPath, adjacency, best_paths
 from kfmaps.fmap.precise import vertex_point_map
 from kfmaps.geometry.mesh import Mesh
-from kfmaps.io import atomic_output, check_map, check_output, load_map, read_mesh
-from kfmaps.io.named_points import (
-    NamedPoints,
-    read_named_points,
-    scatter_points,
-    select_points,
-    transfer_points,
-)
+from kfmaps.io import check_map, check_output, load_map, read_mesh
+from kfmaps.io.landmark_files import LandmarkSet, mesh_space, write_landmark_sets
+from kfmaps.io.named_points import NamedPoints, read_named_points, transfer_points
 from kfmaps.io.partial_map import find_counterparts, precise_points
 
 UNKNOWN = 0.5
@@ -59,7 +54,7 @@ class _Edge:
 def propagate_landmarks(
     folder: Path, landmarks: Path, on: str | None = None
 ) -> tuple[list[PropagatedLandmarks], list[str]]:
-    """The points of a CSV file (:func:`~kfmaps.io.named_points.read_named_points`) on every specimen of a run.
+    """The points of a file (:func:`~kfmaps.io.named_points.read_named_points`) on every specimen of a run.
 
     Each map on the way carries them once: from the specimen with the landmarks along the paths whose maps are most
     probably all right. The confidence of a point is that of the way times, at each step, how well distances around it
@@ -96,7 +91,8 @@ def propagate_landmarks(
     found: dict[int, PropagatedLandmarks] = {}
     for at, way in _ways(len(names), ends, edges, number[start]).items():
         if not way.edges:
-            points = read_named_points(landmarks, _mesh(start, edges, meshes))
+            mesh = _mesh(start, edges, meshes)
+            points = read_named_points(landmarks, mesh, specimen=start, space=mesh_space(_mesh_file(start, edges)))
             found[at] = PropagatedLandmarks(start, replace(points, confidence=np.ones(len(points.names))), ())
             continue
         edge, before = edges[way.edges[-1]], found[way.shapes[-2]]
@@ -139,12 +135,8 @@ def _carried(
         place, some = ways.place, {"known": ways.target, "common": ways.source}
     trust = known.extra.get("local_confidence")
     local = np.ones(len(target.vertices)) if trust is None else np.nan_to_num(np.asarray(trust))
-    there = before.vertices >= 0
-    if not there.any():
-        return before
-    points = transfer_points(select_points(before, there), source, target, place, local, back=back, **some)
-    rest = points.confidence * before.confidence[there] * edge.chance
-    return scatter_points(replace(points, confidence=rest), before.names, there)
+    points = transfer_points(before, source, target, place, local, back=back, **some)
+    return replace(points, confidence=points.confidence * before.confidence * edge.chance)
 
 
 def _edges(folder: Path) -> list[_Edge]:
@@ -194,16 +186,7 @@ def _start(names: Sequence[str], edges: Sequence[_Edge], on: str | None) -> str:
 def _mesh(name: str, edges: Sequence[_Edge], known: dict[str, Mesh]) -> Mesh:
     """The mesh of a specimen, from where its maps say that it lies."""
     if name not in known:
-        edge = next(e for e in edges if name in (e.pair.source, e.pair.target))
-        side = "source" if edge.pair.source == name else "target"
-        path = load_map(edge.path).extra.get(side)
-        if not isinstance(path, str) or not Path(path).exists():
-            raise refuse(
-                str(edge.path),
-                f"its {side} at the path that it names",
-                f"no file {path}",
-                "put the mesh back, or match again",
-            )
+        path = _mesh_file(name, edges)
         mesh = read_mesh(path)
         if len(mesh.faces) == 0:
             raise refuse(
@@ -214,6 +197,16 @@ def _mesh(name: str, edges: Sequence[_Edge], known: dict[str, Mesh]) -> Mesh:
             )
         known[name] = mesh
     return known[name]
+
+
+def _mesh_file(name: str, edges: Sequence[_Edge]) -> Path:
+    edge = next(e for e in edges if name in (e.pair.source, e.pair.target))
+    side = "source" if edge.pair.source == name else "target"
+    path = load_map(edge.path).extra.get(side)
+    if not isinstance(path, str) or not Path(path).exists():
+        expected = f"its {side} at the path that it names"
+        raise refuse(str(edge.path), expected, f"no file {path}", "put the mesh back, or match again")
+    return Path(path)
 
 
 def write_landmarks_csv(path: Path, carried: Sequence[PropagatedLandmarks], force: bool = False) -> None:
@@ -237,15 +230,5 @@ def write_landmarks_csv(path: Path, carried: Sequence[PropagatedLandmarks], forc
 
 
 def write_tps(path: Path, carried: Sequence[PropagatedLandmarks], force: bool = False) -> None:
-    """Write the landmarks as TPS (Rohlf), which geomorph and MorphoJ read: ``LM3=`` and a row each, then ``ID=``.
-
-    One without a counterpart is ``NA NA NA``, geomorph's missing landmark.
-    """
-    check_output(path, force)
-    lines = []
-    for one in carried:
-        lines.append(f"LM3={len(one.points.names)}")
-        lines += [" ".join("NA" if np.isnan(x) else f"{x:.9g}" for x in row) for row in one.points.points.tolist()]
-        lines.append(f"ID={' '.join(one.specimen.split())}")
-    with atomic_output(path, force) as temporary:
-        temporary.write_text("\n".join(lines) + "\n", encoding="utf-8")
+    """Write the landmarks as TPS, which geomorph and MorphoJ read; one without a counterpart is ``NA NA NA``."""
+    write_landmark_sets(path, [LandmarkSet(p.points.names, p.points.points, p.specimen) for p in carried], force)

@@ -6,7 +6,7 @@ Nothing is imported for it: an object is known by what it has.
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -16,6 +16,7 @@ from kfmaps._arrays import InvalidInput, refuse
 from kfmaps.fmap.precise import PointMap, check_point_map_precise, nearest_vertices
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.io import MapFile, load_map, match_map, read_landmarks, read_mesh
+from kfmaps.io.named_points import read_landmark_pairs
 from kfmaps.io.record import fan
 from kfmaps.matching.result import Match
 
@@ -115,9 +116,29 @@ def _meshio(cells: Any) -> np.ndarray:
     return np.concatenate(parts) if parts else np.zeros((0, 3), dtype=np.int64)
 
 
-def as_landmarks(landmarks: Any) -> Any:
-    """Return landmarks read from a file where ``landmarks`` names one, else as they are."""
-    return read_landmarks(landmarks) if is_file(landmarks) else landmarks
+def as_landmarks(landmarks: Any, shapes: Sequence[Any] = (), meshes: Sequence[Mesh] = ()) -> Any:
+    """Return landmarks as pairs of vertices where files hold them, else as they are.
+
+    Parameters
+    ----------
+    landmarks : path, pair of paths, or anything else
+        A file of pairs, or the landmarks of either shape (:func:`~kfmaps.io.landmark_files.read_landmark_sets`), of
+        which those count that both have by name.
+    shapes : sequence of two
+        What was handed in as the shapes; their files may name a coordinate system.
+    meshes : sequence of two Mesh
+
+    Raises
+    ------
+    InvalidInput
+        As :func:`~kfmaps.io.read_landmarks` and :func:`~kfmaps.io.named_points.read_landmark_pairs`.
+    """
+    if is_file(landmarks):
+        return read_landmarks(landmarks)
+    if isinstance(landmarks, tuple | list) and len(landmarks) == 2 and all(map(is_file, landmarks)):
+        files = [Path(shape) if is_file(shape) else None for shape in shapes]
+        return read_landmark_pairs(landmarks, meshes, files)[0]
+    return landmarks
 
 
 def as_map(found: Any, source: Mesh | None = None) -> MapFile:

@@ -1,20 +1,35 @@
-"""Named points, such as landmarks of a study, read from CSV and carried over a map in either direction."""
+"""Named points on surfaces, such as landmarks of a study, and their transfer over a map in either direction."""
 
 from __future__ import annotations
 
 import csv
 import io
+import warnings
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
-from kfmaps._arrays import refuse
+from kfmaps._arrays import KfmapsWarning, refuse
 from kfmaps.fmap.precise import PointMap, nearest_vertices, point_positions, vertex_point_map
-from kfmaps.geometry.closest_points import closest_points
+from kfmaps.geometry.closest_points import ClosestPoints, closest_points
 from kfmaps.geometry.mesh import Mesh, surface_area
 from kfmaps.io.atomic import atomic_output, check_output
-from kfmaps.io.text import REPAIR, is_number, read_csv
+from kfmaps.io.landmark_files import LandmarkSet, landmark_stem, mesh_space, read_landmark_sets, write_landmark_sets
+
+MAX_DISTANCE = 0.05
+"""Median distance of landmarks from the surface, in √area, beyond which they are refused."""
+NOTED_DISTANCE = 0.02
+"""Distance of one landmark from the surface, in √area, beyond which it is named."""
+FLIP = np.array([-1.0, -1.0, 1.0])
+"""From LPS to RAS and back."""
+MIRRORS = tuple(
+    np.array(signs) for signs in ((-1, 1, 1), (1, -1, 1), (1, 1, -1), (-1, 1, -1), (1, -1, -1), (-1, -1, -1))
+)
+"""Other changes of sign that happen between scanner and mesh; the first are reflections."""
+FACTORS = (0.001, 0.01, 0.1, 10.0, 25.4, 100.0, 1000.0)
+"""Units that are mixed up: micrometres to metres, and inches."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,50 +59,168 @@ class NamedPoints:
     apart: np.ndarray
 
 
-def read_named_points(path: str | Path, mesh: Mesh) -> NamedPoints:
-    """Read points of ``mesh`` from a CSV file: "name, vertex" (0-based) or "name, x, y, z" (in the mesh's unit) a row.
+def read_named_points(path: str | Path, mesh: Mesh, *, specimen: str = "", space: str = "") -> NamedPoints:
+    """Read landmarks of ``mesh`` from a file of :func:`~kfmaps.io.landmark_files.read_landmark_sets`.
 
-    The name may be left out; then it is the row's number, from 1. A first row of titles is skipped. Points in space go
-    to the closest place on the surface.
+    Parameters
+    ----------
+    path : str or Path
+    mesh : Mesh
+    specimen : str
+        Whose landmarks are taken from a file of several specimens.
+    space : "LPS", "RAS" or ""
+        The mesh's coordinate system, where it is known (:func:`~kfmaps.io.landmark_files.mesh_space`).
 
     Raises
     ------
     InvalidInput
-        On rows of another kind, names that are there twice, vertices that do not exist, and an empty file.
+        As :func:`~kfmaps.io.landmark_files.read_landmark_sets` and :func:`place_landmarks`, and when the specimen is
+        not in the file.
     """
-    name = str(path)
-    rows = [row for _, row in read_csv(path)]
-    if rows and not is_number(rows[0][-1]):
-        rows = rows[1:]
-    if not rows:
-        raise refuse(name, "a point a row", "none", 'write "name, vertex" or "name, x, y, z"')
-    width = len(rows[0])
-    if width not in (1, 2, 3, 4) or any(len(row) != width for row in rows):
-        got = f"rows of {', '.join(map(str, sorted({len(row) for row in rows})))} cells"
-        raise refuse(name, 'rows "name, vertex" or "name, x, y, z"', got, REPAIR)
-    named = width in (2, 4)
-    names = tuple(row[0] for row in rows) if named else tuple(str(i + 1) for i in range(len(rows)))
-    if len(set(names)) < len(names):
-        again = next(one for i, one in enumerate(names) if one in names[:i])
-        raise refuse(name, "each name once", f"{again!r} twice", "rename one")
-    cells = [row[1:] if named else row for row in rows]
-    bad = next((cell for row in cells for cell in row if not is_number(cell)), None)
-    if bad is not None:
-        raise refuse(name, "numbers after the name", repr(bad), REPAIR)
-    values = np.array(cells, dtype=np.float64)
-    if not np.isfinite(values).all():
-        raise refuse(name, "finite numbers", "NaN or infinite ones", REPAIR)
-    known = np.full(len(names), np.nan)
-    if values.shape[1] == 1:
-        n = len(mesh.vertices)
-        vertices = values[:, 0].astype(np.int64)
-        if (vertices != values[:, 0]).any() or vertices.min() < 0 or vertices.max() >= n:
-            raise refuse(name, f"vertices from 0 to {n - 1}", f"{values.min():g} to {values.max():g}", "count from 0")
+    return place_landmarks(choose_specimen(read_landmark_sets(path), specimen, str(path)), mesh, str(path), space=space)
+
+
+def choose_specimen(sets: list[LandmarkSet], specimen: str, name: str) -> LandmarkSet:
+    """Return the landmarks of ``specimen`` out of those of the file ``name``, or the only ones that it has.
+
+    Raises
+    ------
+    InvalidInput
+        When the file has several specimens and not this one.
+    """
+    own = next((one for one in sets if specimen and specimen in (one.specimen, Path(one.specimen).stem)), None)
+    if own is None and len(sets) > 1:
+        got = ", ".join(one.specimen for one in sets[:5])
+        remedy = "call the specimen as the scan's file is called"
+        raise refuse(name, f"the landmarks of {specimen or 'one specimen'}", f"those of {got}", remedy)
+    return own or sets[0]
+
+
+def place_landmarks(given: LandmarkSet, mesh: Mesh, name: str, *, space: str = "") -> NamedPoints:
+    """Put landmarks on the surface of a mesh: each goes to its closest point, missing ones stay without a place.
+
+    Where file and mesh name different coordinate systems, x and y change their sign. Where one of them names none and
+    the points lie on the surface only with the other sign, they are turned as well, with a warning.
+
+    Parameters
+    ----------
+    given : LandmarkSet
+    mesh : Mesh
+    name : str
+        How messages call the landmarks.
+    space : "LPS", "RAS" or ""
+        The mesh's coordinate system.
+
+    Raises
+    ------
+    InvalidInput
+        When a vertex does not exist, or half of the points lie farther from the surface than
+        :data:`MAX_DISTANCE`; the message says which unit or mirror image would fit.
+
+    Warns
+    -----
+    KfmapsWarning
+        Naming points that lie farther away than :data:`NOTED_DISTANCE`.
+    """
+    if given.vertices is not None:
+        n, vertices = len(mesh.vertices), given.vertices
+        if vertices.min() < 0 or vertices.max() >= n:
+            raise refuse(name, f"vertices from 0 to {n - 1}", f"{vertices.min()} to {vertices.max()}", "count from 0")
+        none = np.zeros(len(vertices))
         place = vertex_point_map(vertices, mesh)
-        return NamedPoints(names, place, mesh.vertices[vertices], vertices, known, np.zeros(len(names)))
-    found = closest_points(values, mesh.vertices, mesh.faces)
+        return NamedPoints(given.names, place, mesh.vertices[vertices], vertices, none + np.nan, none)
+    there = np.asarray(np.isfinite(given.points).all(axis=1))
+    if not there.any():
+        raise refuse(name, "landmarks with coordinates", "missing ones only", "place them first")
+    points = given.points[there]
+    if space and given.space and space != given.space:
+        points = points * FLIP
+    unit = float(np.sqrt(surface_area(mesh)))
+    found = closest_points(points, mesh.vertices, mesh.faces)
+    if np.median(found.distances) > MAX_DISTANCE * unit:
+        found = _explained(points, mesh, found, name, bool(space and given.space))
+    names = tuple(label for label, one in zip(given.names, there, strict=True) if one)
+    far = np.flatnonzero(found.distances > NOTED_DISTANCE * unit)
+    if len(far):
+        told = ", ".join(f"{names[i]} ({found.distances[i]:.3g})" for i in far[:5])
+        more = f" and {len(far) - 5} more" if len(far) > 5 else ""
+        warnings.warn(f"{name}: far from the surface, in its unit: {told}{more}", KfmapsWarning, stacklevel=3)
     place = PointMap(found.faces, found.weights)
-    return NamedPoints(names, place, found.points, nearest_vertices(place, mesh), known, found.distances)
+    known = np.full(len(names), np.nan)
+    placed = NamedPoints(names, place, found.points, nearest_vertices(place, mesh), known, found.distances)
+    return placed if there.all() else scatter_points(placed, given.names, there)
+
+
+def _explained(points: np.ndarray, mesh: Mesh, found: ClosestPoints, name: str, sure: bool) -> ClosestPoints:
+    """Closest points once x and y have changed their sign, if that is it; else the reason why landmarks are far away.
+
+    ``sure`` says that file and mesh name their coordinate systems.
+    """
+    unit = float(np.sqrt(surface_area(mesh)))
+
+    def distance(values: np.ndarray) -> float:
+        return float(np.median(closest_points(values, mesh.vertices, mesh.faces).distances)) / unit
+
+    wanted, got = (
+        "landmarks on the surface",
+        f"a median distance of {np.median(found.distances):.3g} (√area {unit:.3g})",
+    )
+    if distance(points * FLIP) < NOTED_DISTANCE:
+        if sure:
+            remedy = "they lie on it with x and y negated: LPS and RAS are mixed up in the mesh or in the landmarks"
+            raise refuse(name, wanted, got, remedy)
+        text = "x and y are negated, since the landmarks lie on the mesh that way (LPS and RAS)"
+        warnings.warn(f"{name}: {text}", KfmapsWarning, stacklevel=4)
+        return closest_points(points * FLIP, mesh.vertices, mesh.faces)
+    for signs in MIRRORS:
+        if distance(points * signs) < NOTED_DISTANCE:
+            axes = " and ".join(axis for axis, sign in zip("xyz", signs, strict=True) if sign < 0)
+            kind = "a mirror image of" if np.prod(signs) < 0 else "turned against"
+            remedy = f"they lie on it with {axes} negated: the mesh is {kind} what was digitized"
+            raise refuse(name, wanted, got, remedy)
+    for factor in FACTORS:
+        if distance(points * factor) < NOTED_DISTANCE:
+            raise refuse(name, wanted, got, f"they lie on it times {factor:g}: bring both to one unit")
+    raise refuse(name, wanted, got, "check that they belong to this mesh, in its unit and coordinate system")
+
+
+def read_landmark_pairs(
+    files: Sequence[str | Path], meshes: Sequence[Mesh], mesh_files: Sequence[Path | None]
+) -> tuple[np.ndarray, list[str]]:
+    """Read the landmarks of two shapes and pair them by name.
+
+    Parameters
+    ----------
+    files : (source, target) paths
+        As of :func:`read_named_points`.
+    meshes : (source, target) Mesh
+    mesh_files : (source, target) paths or None
+        Where the meshes came from: their names and coordinate systems count.
+
+    Returns
+    -------
+    (l, 2) int64
+        The vertices nearest to the landmarks.
+    list of str
+        Their names.
+
+    Raises
+    ------
+    InvalidInput
+        When they have no name in common, and as :func:`read_named_points`.
+    """
+    both = [
+        read_named_points(
+            path, mesh, specimen="" if file is None else file.stem, space="" if file is None else mesh_space(file)
+        )
+        for path, mesh, file in zip(files, meshes, mesh_files, strict=True)
+    ]
+    placed = [{name: v for name, v in zip(one.names, one.vertices.tolist(), strict=True) if v >= 0} for one in both]
+    names = [name for name in placed[0] if name in placed[1]]
+    if not names:
+        got = " and ".join(f"{', '.join(list(one)[:3])}, ..." for one in placed)
+        raise refuse("landmarks", "names that both shapes have", got, "label them alike")
+    return np.array([[one[name] for one in placed] for name in names], dtype=np.int64), names
 
 
 def transfer_points(
@@ -101,7 +234,7 @@ def transfer_points(
     known: np.ndarray | None = None,
     common: np.ndarray | None = None,
 ) -> NamedPoints:
-    """Carry points of the source to the target, or (``back``) of the target to the source.
+    """Carry points of the source to the target, or (``back``) of the target to the source; missing ones stay missing.
 
     ``place`` is a point of the source for each target vertex. Back is one look-up: between the corners of the face that
     a point lies in. Forth the source's points are sought among the images of the target's faces, flat between those
@@ -111,6 +244,14 @@ def transfer_points(
     Of a map of parts ``known (n_t,)`` and ``common (n_s,)`` say which vertices have a counterpart. A point has none
     where most of its face has none: its vertex is −1, its place and confidence are NaN.
     """
+    there = given.vertices >= 0
+    if not there.any():
+        return given
+    if not there.all():
+        some = transfer_points(
+            select_points(given, there), source, target, place, confidence, back=back, known=known, common=common
+        )
+        return scatter_points(some, given.names, there)
     images = point_positions(place, source)
     if back:
         at = np.einsum("qi,qij->qj", given.place.weights, images[target.faces[given.place.faces]])
@@ -166,23 +307,33 @@ def _columns(given: NamedPoints) -> tuple[np.ndarray, ...]:
     return given.points, given.vertices, given.confidence, given.apart
 
 
-def write_named_points(path: str | Path, points: NamedPoints, force: bool = False) -> None:
-    """Write points as CSV: name, nearest vertex, x, y, z in the mesh's unit, confidence.
+def write_named_points(path: str | Path, points: NamedPoints, force: bool = False, space: str = "") -> None:
+    """Write points: CSV with name, nearest vertex, x, y, z and confidence, or another format of landmark files.
+
+    Parameters
+    ----------
+    path : str or Path
+    points : NamedPoints
+    force : bool
+        Whether an existing file is replaced.
+    space : "LPS", "RAS" or ""
+        The mesh's coordinate system, for formats that name it.
 
     Raises
     ------
     InvalidInput
-        On another extension than .csv, and as :func:`atomic_output`.
+        On an extension that :func:`~kfmaps.io.landmark_files.write_landmark_sets` does not know.
     """
     if Path(path).suffix.lower() != ".csv":
-        raise refuse(f"output {path}", "the extension .csv", Path(path).suffix or "none", "rename it")
+        write_landmark_sets(path, [LandmarkSet(points.names, points.points, landmark_stem(path), space)], force)
+        return
     check_output(path, force)
     text = io.StringIO(newline="")
     out = csv.writer(text, lineterminator="\n")
     out.writerow(["name", "vertex", "x", "y", "z", "confidence"])
     for i, name in enumerate(points.names):
         known = points.confidence[i]
-        place = [repr(x) for x in points.points[i].tolist()]
+        place = ["NA" if np.isnan(x) else repr(x) for x in points.points[i].tolist()]
         out.writerow([name, int(points.vertices[i]), *place, "" if np.isnan(known) else f"{known:.3f}"])
     with atomic_output(path, force) as temporary:
         temporary.write_text(text.getvalue(), encoding="utf-8", newline="")

@@ -30,8 +30,12 @@ def match(
     target: Annotated[Path, typer.Argument(help="A mesh or point cloud.", metavar="TARGET", show_default=False)],
     settings: Chosen,
     landmarks: Annotated[
-        Path | None,
-        typer.Option(help='Pairs of vertices, "source target" a line, counted from 0.', show_default=False),
+        list[Path] | None,
+        typer.Option(
+            help='Pairs of vertices, "source target" a line, counted from 0; or, given twice, the landmarks of SOURCE '
+            "and of TARGET (.mrk.json, .fcsv, .tps, .pts, .csv).",
+            show_default=False,
+        ),
     ] = None,
     one_based: Annotated[
         bool, typer.Option("--one-based", help="The landmarks file counts from 1, as .vts does.")
@@ -62,7 +66,7 @@ def match(
     from kfmaps.io.mapfile import check_format
 
     check_format(output)
-    reads = (source, target, landmarks, *(descriptors or ()), *(truth or ()))
+    reads = (source, target, *(landmarks or ()), *(descriptors or ()), *(truth or ()))
     for path in reads:
         if path is not None and not path.exists():
             raise refuse(str(path), "a file", "nothing there", "check the path")
@@ -72,15 +76,15 @@ def match(
 
     from kfmaps.cli.evaluation import check_truth, read_truth
     from kfmaps.cli.summary import map_file, summary, table
-    from kfmaps.io import read_landmarks, save_map
+    from kfmaps.io import save_map
     from kfmaps.matching.match import default_config
     from kfmaps.matching.memory import check_match_memory
 
     config = settings.config(default_config(descriptors))
     _check_device(config.device)
     known = read_truth(truth)
-    pairs = None if landmarks is None else read_landmarks(landmarks, one_based=one_based or None)
     meshes = _read(source, config), _read(target, config)
+    pairs = _landmarks(landmarks, one_based, meshes, (source, target)) if landmarks else None
     if pairs is not None:
         _check_landmarks(pairs, meshes, (source, target))
     n_s, n_t = (len(mesh.vertices) for mesh in meshes)
@@ -180,6 +184,20 @@ def _check_device(device: str) -> None:
     except Exception as error:  # PyTorch reports what is not there by whatever it runs into
         got = str(error).partition("\n")[0][:120] or type(error).__name__
         raise refuse(f"--device {device}", "a device that PyTorch can use", got, "use cpu") from error
+
+
+def _landmarks(files: list[Path], one_based: bool, meshes: tuple[Mesh, Mesh], paths: tuple[Path, Path]) -> np.ndarray:
+    """Pairs of vertices from a file of pairs, or from the landmarks of either shape."""
+    from kfmaps.io import read_landmarks
+    from kfmaps.io.landmark_files import landmark_suffix
+    from kfmaps.io.named_points import read_landmark_pairs
+
+    if len(files) == 2:
+        return read_landmark_pairs(files, meshes, paths)[0]
+    if len(files) > 2 or landmark_suffix(files[0]):
+        remedy = "give --landmarks twice, first the source's and then the target's, or a file of pairs"
+        raise refuse("--landmarks", "one file of pairs, or one for each shape", f"{len(files)}", remedy)
+    return read_landmarks(files[0], one_based=one_based or None)
 
 
 def _check_landmarks(pairs: np.ndarray, meshes: tuple[Mesh, Mesh], paths: tuple[Path, Path]) -> None:

@@ -12,6 +12,7 @@ import typer
 from kfmaps._arrays import KfmapsWarning, refuse
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.io import MapFile, Values, check_output, load_map, read_mesh, read_values, write_values
+from kfmaps.io.landmark_files import check_landmark_format, mesh_space
 from kfmaps.io.named_points import read_named_points, transfer_points, write_named_points
 from kfmaps.io.partial_map import Counterparts, find_counterparts, precise_points
 from kfmaps.io.provenance import mesh_path, warn_of_change
@@ -38,7 +39,7 @@ def transfer(
     landmarks: Annotated[
         Path | None,
         typer.Option(
-            help='Of one specimen, to all of --collection: "name, vertex" or "name, x, y, z" a row (.csv).',
+            help="Of one specimen, to all of --collection (.mrk.json, .fcsv, .tps, .pts, .csv, .particles).",
             show_default=False,
         ),
     ] = None,
@@ -50,7 +51,7 @@ def transfer(
     ] = None,
     points: Annotated[
         bool,
-        typer.Option("--points", help='VALUES are points: "name, vertex" or "name, x, y, z" a row (.csv).'),
+        typer.Option("--points", help="VALUES are points (.mrk.json, .fcsv, .tps, .pts, .csv, .particles)."),
     ] = False,
     products: Annotated[
         int | None,
@@ -84,6 +85,7 @@ def transfer(
         raise refuse("--products", "values of the source", with_it, "leave one of them out")
     found = load_map(map)
     if points:
+        check_landmark_format(output, "output")
         _points(found, map, values, output, back, (source, target), force)
         return
     given = read_values(values)
@@ -163,6 +165,10 @@ def _points(
     source, target, ways = _both(found, map, given)
     trust = found.extra.get("local_confidence")
     confidence = None if trust is None else np.asarray(trust)
-    named = read_named_points(values, target if back else source)
+    paths = [mesh_path(path, found, side, map) for side, path in zip(("source", "target"), given, strict=True)]
+    here, there = paths[::-1] if back else paths
+    mesh, space = target if back else source, mesh_space(here)
+    named = read_named_points(values, mesh, specimen=here.stem, space=space)
     some = {} if ways.complete else {"known": ways.target, "common": ways.source}
-    write_named_points(output, transfer_points(named, source, target, ways.place, confidence, back=back, **some), force)
+    carried = transfer_points(named, source, target, ways.place, confidence, back=back, **some)
+    write_named_points(output, carried, force, mesh_space(there) or space)
