@@ -243,7 +243,7 @@ def test_difference_is_between_the_best_map_and_the_runner_up(page: Browser, pai
 
 
 def test_confidence_is_of_the_map_that_is_shown(browser: Browser, pair: Pair, tmp_path: Path) -> None:
-    """A part that is sent elsewhere is dark, the rest is bright; the runner-up, which is right, is bright all over."""
+    """A part that is sent elsewhere is dark, the rest is bright; the alternative, which is right, is bright all over."""
     side = pair.target.vertices[:, 0]
     part = side > np.quantile(side, 0.93)
     wrong = pair.truth.copy()
@@ -253,17 +253,17 @@ def test_confidence_is_of_the_map_that_is_shown(browser: Browser, pair: Pair, tm
     (tmp_path / "sure.html").write_text(html, encoding="utf-8")
     browser.open((tmp_path / "sure.html").as_uri())
     browser.mode("confidence")
-    assert (browser.text("legend-low"), browser.text("legend-high")) == ("0", "1")
-    assert "confidence" in browser.text("legend-text")
+    assert (browser.text("legend-low"), browser.text("legend-high")) == ("0 %", "100 %")
+    assert "local fit" in browser.text("legend-text")
     expected = {"0": wrong, "1": pair.truth}
     for chosen, points in expected.items():
         browser.run(CHOOSE_MAP, chosen)
         sure = local_confidence(pair.source, pair.target, points)
         for vertex in browser.visible("target", np.flatnonzero(part), 1) + browser.visible("target", np.arange(300), 2):
             browser.point("target", vertex)
-            begin = f"target {vertex} → source {points[vertex]}, confidence "
-            told = browser.until(lambda begin=begin: re.fullmatch(begin + "([0-9.e-]+)", browser.text("readout")))
-            assert float(told[1]) == pytest.approx(sure[vertex], abs=1e-3)
+            begin = f"target {vertex} → source {points[vertex]}, local fit "
+            told = browser.until(lambda begin=begin: re.fullmatch(begin + "([0-9]+) %", browser.text("readout")))
+            assert float(told[1]) == pytest.approx(100 * sure[vertex], abs=0.51)
         browser.painted()
         view = browser.picture(browser.element("#view-target"))
         # viridis: what is unsure is violet, what is sure is green to yellow
@@ -285,21 +285,20 @@ def test_picture_is_saved(page: Browser, tmp_path: Path) -> None:
         assert (np.ptp(half, axis=2) > 40).mean() > 0.02
 
 
-def test_verdict_comes_first_and_a_runner_up_says_that_it_is_one(page: Browser) -> None:
+def test_verdict_comes_first_and_an_alternative_says_that_it_is_one(page: Browser) -> None:
     assert page.element("#verdict").is_displayed()
-    assert page.text("verdict-name") == "Ambiguous, confidence 0.25."
+    assert page.text("verdict-name") == "Ambiguous, 25 %."
     above = "return document.getElementById('verdict').getBoundingClientRect().bottom"
     assert page.run(above) <= page.run("return document.getElementById('stage').getBoundingClientRect().top")
     best = page.text("facts")
-    assert best.startswith("mean error 10 % of √area · mean confidence 0.5")
-    assert not page.element("#runner-up").is_displayed()
+    assert best.startswith("mean error 10 % of √area · mean local fit 50 %")
+    assert not page.element("#alternative").is_displayed()
     page.run(CHOOSE_MAP, "1")
-    assert page.text("runner-up-name") == "Runner-up 1, not the answer."
-    assert "-1.63, that of the best map -1.5." in page.text("runner-up-text")
+    assert page.text("alternative-name") == "Alternative 1, not the answer."
     assert "error" not in page.text("facts"), "only the best map's is known"
-    assert page.text("title-target").endswith("(runner-up 1)")
+    assert page.text("title-target").endswith("(alternative 1)")
     page.run(CHOOSE_MAP, "0")
-    assert not page.element("#runner-up").is_displayed()
+    assert not page.element("#alternative").is_displayed()
     assert page.text("facts") == best
 
 

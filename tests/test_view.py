@@ -185,7 +185,7 @@ def test_page_holds_the_shapes_and_the_map(pair: tuple) -> None:
     moved = placed - unit_area(source).vertices
     assert np.abs(moved - moved[0]).max() < 1e-4
     assert np.array_equal(unpacked(data["source"]["faces"]), source.faces)
-    assert [m["label"] for m in data["maps"]] == ["Best", "Runner-up 1"]
+    assert [m["label"] for m in data["maps"]] == ["Best map", "Alternative 1"]
     assert np.array_equal(unpacked(data["maps"][0]["points"]), points)
     assert np.array_equal(unpacked(data["maps"][1]["points"]), points[::-1])
     back = unpacked(data["errors"][0])

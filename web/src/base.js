@@ -10,8 +10,13 @@ import { Surface } from "./surface.js";
 export const UNIT = "% of √area";
 export const percent = (value, digits = 3) => short(100 * value, digits);
 
-/** What the legend says of confidence. */
-export const CONFIDENCE = "confidence: how well distances to the surroundings are kept";
+export const share = (value) => `${Math.round(100 * value)} %`;
+
+/** A probability in words: neither 0 nor 100 %, which nothing is. */
+const probability = (p) => (p > 0.99 ? ">99 %" : p < 0.01 ? "<1 %" : share(p));
+
+/** What the legend says of the local fit. */
+export const LOCAL_FIT = "local fit: how well distances to the surroundings are kept";
 export const SIDES = ["source", "target"];
 export const byId = (id) => document.getElementById(id);
 
@@ -96,6 +101,17 @@ export class Legend {
     byId("legend-high").textContent = legend.high ?? "";
     byId("legend-text").textContent = legend.text ?? "";
   }
+}
+
+/** Puts the verdict of a map above the stage: `kind`, `text` and, where it is known, `confidence`. */
+export function showVerdict(verdict) {
+  byId("verdict").hidden = !verdict;
+  if (!verdict) return;
+  const { kind, text, confidence } = verdict;
+  byId("verdict").dataset.kind = kind;
+  byId("verdict-name").textContent = kind[0].toUpperCase() + kind.slice(1)
+    + (typeof confidence === "number" ? `, ${probability(confidence)}.` : ".");
+  byId("verdict-text").textContent = text;
 }
 
 export function say(text) {

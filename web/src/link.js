@@ -24,11 +24,6 @@ export class Link {
     return this.points[target] < this.sourceCount ? this.points[target] : -1;
   }
 
-  /** How many source vertices some target vertex lands on. */
-  reached() {
-    return new Set(this.points.filter((s) => s < this.sourceCount)).size;
-  }
-
   /** Target vertices of a source vertex, or of the nearest that has any: {from, targets}. */
   toTarget(source) {
     const from = this.nearest[source];

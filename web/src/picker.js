@@ -1,6 +1,6 @@
 // The landmark picker.
 import {
-  CONFIDENCE, Legend, SIDES, UNIT, byId, modeButtons, percent, say, setUp, typedVertex, viewTools,
+  LOCAL_FIT, Legend, SIDES, UNIT, byId, modeButtons, percent, say, setUp, showVerdict, typedVertex, viewTools,
 } from "./base.js";
 import { painted, pairColour, plain } from "./colours.js";
 import { attach } from "./controls.js";
@@ -21,6 +21,7 @@ export function startPicker(data) {
   const pairs = new Pairs(data.pairs, data.names);
   const links = []; // one for each run done
   const confidences = [];
+  const verdicts = [];
   const state = { mode: "plain", map: -1, selected: -1, hovered: null, running: false };
   const link = () => links[state.map];
 
@@ -54,10 +55,11 @@ export function startPicker(data) {
       const sure = confidences[state.map];
       shapes[1].show(painted(sure, "sequential", 0, 1));
       shapes[0].show(painted(link().pushed(sure), "sequential", 0, 1));
-      return { scale: "sequential", low: "0", high: "1", text: CONFIDENCE };
+      return { scale: "sequential", low: "0 %", high: "100 %", text: LOCAL_FIT };
     },
   };
   const show = () => {
+    showVerdict(verdicts[state.map]);
     legend.show(shows[link() ? state.mode : "plain"]());
     stage.draw();
   };
@@ -332,6 +334,7 @@ export function startPicker(data) {
   const addRun = (record) => {
     links.push(new Link(record, shapes[0].count));
     confidences.push(reals(record.confidence));
+    verdicts.push(record.verdict);
     state.map = links.length - 1;
     byId("map").append(element("option", record.label, { value: state.map }));
     byId("map").value = state.map;
@@ -345,7 +348,7 @@ export function startPicker(data) {
     update();
   });
   const modes = {
-    plain: "Plain", colours: "Map colours", texture: "Texture", change: "Change", confidence: "Confidence",
+    plain: "Plain", colours: "Map colours", texture: "Texture", change: "Change", confidence: "Local fit",
   };
   modeButtons(modes, state.mode, (mode) => {
     state.mode = mode;

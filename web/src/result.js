@@ -1,6 +1,7 @@
 // The page of a result.
 import {
-  CONFIDENCE, Legend, SIDES, UNIT, byId, modeButtons, percent, rotationOf, setUp, typedVertex, viewTools,
+  LOCAL_FIT, Legend, SIDES, UNIT, byId, modeButtons, percent, rotationOf, setUp, share, showVerdict, typedVertex,
+  viewTools,
 } from "./base.js";
 import { painted, plain, quantile, roundedUp } from "./colours.js";
 import { attach } from "./controls.js";
@@ -69,7 +70,7 @@ export function startResult(data) {
     distortion: () => field(link().distortion, "diverging", -2, 2,
       { low: "¼", high: "4", text: "area on the source / area on the target, both of unit area" }),
     difference: () => {
-      // Of the runner-up chosen, or of the first while the best map is.
+      // Of the alternative chosen, or of the first while the best map is shown.
       const other = linkOf(Math.max(state.map, 1));
       const apart = Float32Array.from(linkOf(0).points, (s, t) => shapes[0].apart(s, other.points[t]));
       const text = `between the matches of the best map and of ${other.label.toLowerCase()}, in ${UNIT}`;
@@ -77,8 +78,8 @@ export function startResult(data) {
     },
     confidence: () => {
       const values = confidence[state.map];
-      if (!values) return unknown("The confidence of this map is not known.");
-      return field(values, "sequential", 0, 1, { low: "0", high: "1", text: CONFIDENCE });
+      if (!values) return unknown("The local fit of this map is not known.");
+      return field(values, "sequential", 0, 1, { low: "0 %", high: "100 %", text: LOCAL_FIT });
     },
   };
   const show = () => {
@@ -91,7 +92,7 @@ export function startResult(data) {
     const error = errors[state.map]?.[target] ?? NaN;
     const sure = confidence[state.map]?.[target] ?? NaN;
     return (Number.isNaN(error) ? "" : `, error ${percent(error)} ${UNIT}`)
-      + (Number.isNaN(sure) ? "" : `, confidence ${short(sure, 3)}`);
+      + (Number.isNaN(sure) ? "" : `, local fit ${share(sure)}`);
   };
 
   /** The match of a vertex of side `i`: what to mark on either side and how to say it. */
@@ -148,38 +149,28 @@ export function startResult(data) {
     ...(errors.length && { error: "Error" }),
     ...(shapes.every((s) => s.faces.length) && { distortion: "Area distortion" }),
     ...(data.maps.length > 1 && { difference: "Difference" }),
-    ...(confidence.length && { confidence: "Confidence" }),
+    ...(confidence.length && { confidence: "Local fit" }),
   }, state.mode, (mode) => { state.mode = mode; show(); });
   const choices = (id, texts, set) => {
     texts.forEach((text, value) => byId(id).append(element("option", text, { value })));
     byId(id).addEventListener("change", () => { set(Number(byId(id).value)); show(); });
   };
-  const scores = data.summary.scores?.length === data.maps.length ? data.summary.scores : null;
-  const scored = (m, i) => (scores ? `${m.label} (score ${short(scores[i], 3)})` : m.label);
-  choices("map", data.maps.map(scored), (v) => {
+  choices("map", data.maps.map((m) => m.label), (v) => {
     state.map = v;
     tellMap();
   });
   choices("descriptor", data.descriptors.map((d) => String(d.number)), (v) => { state.descriptor = v; });
   byId("map-choice").hidden = data.maps.length < 2;
 
-  /** What is said of the map that is shown: figures of its own, and that it is a runner-up where it is one. */
+  /** What is said of the map that is shown: figures of its own, and that it is an alternative where it is one. */
   const tellMap = () => {
-    byId("facts").textContent = facts(link(), shapes[0].count, errors[state.map], confidence[state.map]);
-    byId("runner-up").hidden = state.map === 0;
-    byId("runner-up-name").textContent = `${link().label}, not the answer.`;
-    byId("runner-up-text").textContent = "Another map that could have been meant"
-      + (scores ? `; its score is ${short(scores[state.map], 3)}, that of the best map ${short(scores[0], 3)}.` : ".");
+    byId("facts").textContent = facts(errors[state.map], confidence[state.map]);
+    byId("alternative").hidden = state.map === 0;
+    byId("alternative-name").textContent = `${link().label}, not the answer.`;
     const which = state.map ? ` (${link().label.toLowerCase()})` : "";
     byId("title-target").textContent = `${names[1]} (target, ${shapes[1].count} vertices)${which}`;
   };
-  if (data.verdict) {
-    const { kind, text, confidence: sure } = data.verdict;
-    byId("verdict").hidden = false;
-    byId("verdict").dataset.kind = kind;
-    byId("verdict-name").textContent = kind[0].toUpperCase() + kind.slice(1) + (typeof sure === "number" ? `, confidence ${sure.toFixed(2)}.` : ".");
-    byId("verdict-text").textContent = text;
-  }
+  showVerdict(data.verdict);
   document.querySelectorAll(".best").forEach((place) => (place.textContent = data.maps.length > 1 ? " of the best map" : ""));
   tellMap();
   show();
@@ -194,15 +185,14 @@ export function startResult(data) {
   return { stage };
 }
 
-function facts(link, count, errors, confidence) {
+function facts(errors, confidence) {
   const mean = (values) => {
     const known = (values ?? []).filter((v) => !Number.isNaN(v));
     return known.length ? known.reduce((a, b) => a + b, 0) / known.length : NaN;
   };
-  const [error, sure] = [mean(errors), mean(confidence)];
+  const [error, fit] = [mean(errors), mean(confidence)];
   return [
     ...(Number.isNaN(error) ? [] : [`mean error ${percent(error)} ${UNIT}`]),
-    ...(Number.isNaN(sure) ? [] : [`mean confidence ${short(sure, 2)}`]),
-    `${Math.round((100 * link.reached()) / count)} % of the source's vertices are reached`,
+    ...(Number.isNaN(fit) ? [] : [`mean local fit ${share(fit)}`]),
   ].join(" · ");
 }

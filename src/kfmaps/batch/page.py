@@ -39,6 +39,7 @@ from kfmaps.cli.words import UNIT, in_words, percent
 from kfmaps.io import atomic_output, check_map, load_map, read_mesh
 from kfmaps.viz import Curve, curves_figure, match_figure, mean_curve, painted_errors, save_figure, true_views
 from kfmaps.viz.document import environment, policy
+from kfmaps.viz.figures import make_transparent
 from kfmaps.viz.matches import values_figure
 from kfmaps.viz.result_pages import map_page
 
@@ -228,13 +229,13 @@ def error_curve_of(results: Sequence[Result], label: str) -> Curve | None:
 def _svg(figure: Figure) -> str:
     buffer = io.BytesIO()
     with matplotlib.rc_context({"svg.fonttype": "none", "font.family": "sans-serif"}):  # text can be searched
-        save_figure(figure, buffer, "svg")
+        save_figure(make_transparent(figure), buffer, "svg")
     return _address("svg+xml", buffer.getvalue())
 
 
 def _png(figure: Figure) -> bytes:
     buffer = io.BytesIO()
-    save_figure(figure, buffer, "png")
+    save_figure(make_transparent(figure), buffer, "png")
     return buffer.getvalue()
 
 
@@ -323,7 +324,7 @@ def pair_picture(task: PairTask, limit: float = 0.1, path: Path | None = None) -
             errors = painted_errors(source, target, points, truth.source, truth.target)
             views = true_views(source, target, truth.source, truth.target)
     a, b = views
-    style = {"errors": errors, "limit": limit, "text": TEXT_SIZE, "view": a, "target_view": b}
+    style = {"errors": errors, "limit": limit, "text": TEXT_SIZE, "labels": False, "view": a, "target_view": b}
     return _png(match_figure(source, target, points, **style))
 
 

@@ -10,6 +10,7 @@ from matplotlib import rc_context
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
+from matplotlib.text import Text
 
 from kfmaps._arrays import refuse
 from kfmaps.viz.colors import ERROR_MAP, percent_ticks
@@ -17,6 +18,8 @@ from kfmaps.viz.colors import ERROR_MAP, percent_ticks
 FORMATS = ("png", "svg", "pdf")
 DPI = 160
 TEXT = "#333333"
+MIDDLE_GREY = "#7b8492"
+"""Text that can be read on a white and on a dark page: contrast 3.8 and 4.6."""
 LOST = 0.75
 """Grey of target vertices without a counterpart."""
 
@@ -62,6 +65,21 @@ def save_figure(figure: Figure, file: str | Path | IO[bytes], kind: str | None =
     # The salt makes the names inside an SVG the same each time.
     with rc_context({"svg.hashsalt": "kfmaps"}):
         figure.savefig(file, format=kind, dpi=dpi, metadata=metadata)
+
+
+def make_transparent(figure: Figure) -> Figure:
+    """Return ``figure`` without its white ground, its text and axes in a grey that light and dark pages allow."""
+    figure.patch.set_alpha(0)
+    for ax in figure.axes:
+        ax.patch.set_alpha(0)
+        ax.tick_params(color=MIDDLE_GREY, labelcolor=MIDDLE_GREY)
+        for line in ax.spines.values():
+            line.set_edgecolor(MIDDLE_GREY)
+        for line in (*ax.get_xgridlines(), *ax.get_ygridlines()):
+            line.set_alpha(0.35)
+    for text in figure.findobj(Text):
+        text.set_color(MIDDLE_GREY)
+    return figure
 
 
 def transferred_colors(colors: np.ndarray, target_to_source: np.ndarray) -> np.ndarray:

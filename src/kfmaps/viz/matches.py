@@ -35,6 +35,7 @@ def match_figure(
     view: View | None = None,
     target_view: View | None = None,
     text: float = 10.0,
+    labels: bool = True,
 ) -> Figure:
     """Draw source and target side by side, the source's colours carried over by the map, and the error.
 
@@ -56,6 +57,8 @@ def match_figure(
         Of the target; by default from the same side as the source, as far as the map tells.
     text : float
         Size of letters in points; larger for pictures that are shown small.
+    labels : bool
+        Whether each panel is named below it; a caption elsewhere can do so instead.
 
     Returns
     -------
@@ -78,7 +81,7 @@ def match_figure(
     ]
     width, height = 2 * PANEL, 4.4 + (0.4 if title else 0)
     wide = max(text / 10, 1.0)
-    room = 0.42 * wide
+    room = 0.42 * wide if labels else 0.08
     shown, end = None, 0.0
     if errors is not None:
         given = np.asarray(errors, dtype=np.float64)
@@ -94,7 +97,8 @@ def match_figure(
     for i, (label, mesh, painted, seen) in enumerate(panels):
         left, middle = (PANEL * i + 0.1) / width, PANEL * (i + 0.5) / width
         draw_surface(figure.add_axes((left, bottom, (PANEL - 0.2) / width, top - bottom)), mesh, painted, seen)
-        figure.text(middle, 0.15 / height, label, ha="center", va="bottom", color=TEXT, fontsize=text)
+        if labels:
+            figure.text(middle, 0.15 / height, label, ha="center", va="bottom", color=TEXT, fontsize=text)
     if shown is not None:
         place = (
             1 - 0.8 * wide / width,

@@ -184,7 +184,7 @@ def result_page(
     sizes = len(source.vertices), len(target.vertices)
     points = [check_map(target_to_source, *sizes, lost=True)]
     points += [check_map(m, *sizes, f"runner-up {i}") for i, m in enumerate(runners_up, 1)]
-    labels = ["Best"] + [f"Runner-up {i}" for i in range(1, len(points))]
+    labels = ["Best map"] + [f"Alternative {i}" for i in range(1, len(points))]
     matrix = None
     if functional_map is not None:
         matrix = check(np.asarray(functional_map, dtype=np.float64), "functional_map", shape=(None, None))
