@@ -243,7 +243,7 @@ def test_difference_is_between_the_best_map_and_the_runner_up(page: Browser, pai
 
 
 def test_confidence_is_of_the_map_that_is_shown(browser: Browser, pair: Pair, tmp_path: Path) -> None:
-    """A part that is sent elsewhere is dark, the rest is bright; the alternative, which is right, is bright all over."""
+    """A part that is sent elsewhere is dark, the rest bright; the alternative, which is right, is bright all over."""
     side = pair.target.vertices[:, 0]
     part = side > np.quantile(side, 0.93)
     wrong = pair.truth.copy()

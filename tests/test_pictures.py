@@ -5,13 +5,16 @@ import io
 import numpy as np
 import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
+from matplotlib.text import Text
 
 from kfmaps import viz as pictures
 from kfmaps._arrays import InvalidInput
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.viz import surfaces
 from kfmaps.viz.colors import oklab_to_rgb
+from kfmaps.viz.figures import make_transparent
 
 RED, BLUE = np.array([0.9, 0.1, 0.1]), np.array([0.1, 0.2, 0.9])
 FRONT = pictures.view((0, 0, 1))
@@ -282,7 +285,7 @@ def test_saved_by_extension_and_the_same_bytes_each_time(tmp_path, monkeypatch) 
 @pytest.mark.parametrize(
     ("make", "message"),
     [
-        (lambda _: pictures.picture_format("map.gif"), "rename"),
+        (lambda _: pictures.picture_format("map.gif"), "Rename"),
         (lambda _: pictures.picture_format("map"), "no extension"),
         (lambda _: pictures.save_figure(Figure(), io.BytesIO()), "no extension"),
         (lambda _: pictures.save_figure(Figure(), io.BytesIO(), "gif"), "png, svg, pdf"),
@@ -300,3 +303,19 @@ def test_saved_by_extension_and_the_same_bytes_each_time(tmp_path, monkeypatch) 
 def test_bad_input_is_refused(make, message: str) -> None:
     with pytest.raises(InvalidInput, match=message):
         make(blob())
+
+
+def test_a_transparent_figure_can_be_read_on_light_and_dark_pages() -> None:
+    figure = pictures.curves_figure([pictures.Curve("a", np.array([0.0, 0.1]), np.array([0.2, 1.0]))])
+    canvas = FigureCanvasAgg(make_transparent(figure))
+    canvas.draw()
+    pixels = np.asarray(canvas.buffer_rgba())
+    assert (pixels[..., 3] == 0).mean() > 0.5
+
+    def luminance(color) -> float:
+        rgb = np.array(to_rgb(color))
+        return float(np.where(rgb <= 0.04045, rgb / 12.92, ((rgb + 0.055) / 1.055) ** 2.4) @ [0.2126, 0.7152, 0.0722])
+
+    for text in figure.findobj(Text):
+        light = luminance(text.get_color()) + 0.05
+        assert min(1.05 / light, light / (luminance("#14181e") + 0.05)) > 3  # WCAG 2.1 for large text and graphics
