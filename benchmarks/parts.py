@@ -42,7 +42,7 @@ from kfmaps.geometry.geodesics import farthest_geodesic
 from kfmaps.geometry.mesh import Mesh, boundary_vertices, unit_area, vertex_areas
 from kfmaps.io import load_map
 from kfmaps.matching.partial.match_partial import COMMON
-from kfmaps.matching.partial.overlap import covered
+from kfmaps.matching.partial.registration import overlap_probability
 
 CHOSEN_ON = {"cat", "horse", *(f"tr_reg_{i:03d}" for i in range(20))}
 SETS = {"cuts": "SHREC16", "holes": "SHREC16", "PFAUST_M": "PFAUST_M", "PFAUST_H": "PFAUST_H"}
@@ -163,7 +163,7 @@ def run_both(job: Job) -> dict[str, object] | None:
     source, target = (
         Mesh(point_positions(truth.places, whole), part.faces) for truth, part in zip(truths, parts, strict=True)
     )
-    true, areas = covered(source, boundary_vertices(source), target)[0] > COMMON, vertex_areas(target)
+    true, areas = overlap_probability(source, boundary_vertices(source), target)[0] > COMMON, vertex_areas(target)
     if areas[true].sum() < COMMON_AT_LEAST * areas.sum():
         return None
     config = kfmaps.Config()

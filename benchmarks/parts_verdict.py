@@ -30,13 +30,11 @@ from kfmaps.config import Partial
 from kfmaps.datasets.pairs import largest_piece
 from kfmaps.fmap.precise import PointMap, point_positions
 from kfmaps.geometry.mesh import Mesh, surface_area, unit_area
-from kfmaps.matching.partial.alternatives import compare_alternatives, margin
-from kfmaps.matching.partial.candidates import PartCandidate, make_candidate, placement_evidence
-from kfmaps.matching.partial.place_part import AGAIN, BEAMS, scales_differ
-from kfmaps.matching.partial.registration import RegistrationTarget, registration_target
-from kfmaps.matching.partial.samples import PartSamples, part_samples
-from kfmaps.matching.partial.scale_search import SCALES, TRIALS, refine_placement, search_scale, try_scales
-from kfmaps.matching.score import SCORE, placement_score, select_distinct
+from kfmaps.matching.partial.candidates import PartCandidate, compare_alternatives, make_candidate, margin
+from kfmaps.matching.partial.place_part import candidate_placements
+from kfmaps.matching.partial.samples import PartPair, part_samples
+from kfmaps.matching.partial.scale_search import SCALES, TRIALS, refine_placement
+from kfmaps.matching.score import SCORE
 
 PAIRS = (
     "cuts cat cuts_cat_03", "cuts horse cuts_horse_08", "holes cat holes_cat_02", "PFAUST_M tr_reg_000 part_006",
@@ -74,16 +72,14 @@ def measured(job: Job) -> tuple[Mesh, Mesh, np.ndarray]:
 class Search:
     """A part and a whole as a search sees them, and the truth."""
 
-    part: PartSamples
-    whole: PartSamples
-    on: RegistrationTarget
+    pair: PartPair
     truth: np.ndarray
 
     def error(self, one: PartCandidate) -> float:
         return 100 * float(np.nanmean(np.linalg.norm(one.registration.places.points - self.truth, axis=1)))
 
     def contested(self, some: list[PartCandidate]) -> list[PartCandidate]:
-        return compare_alternatives(some, self.part, self.whole, self.on)
+        return compare_alternatives(some, self.pair)
 
 
 def candidates(pair: str, data: Path) -> tuple[Search, list[tuple[str, PartCandidate]]]:
@@ -93,15 +89,12 @@ def candidates(pair: str, data: Path) -> tuple[Search, list[tuple[str, PartCandi
     ratio = float(np.sqrt(surface_area(part) / surface_area(whole)))
     settings = Partial()
     sides = part_samples(unit_area(part), settings.samples), part_samples(unit_area(whole), settings.whole_samples)
-    search = Search(*sides, registration_target(sides[1].mesh, sides[1].on_boundary), places)
-    scales = [*SCALES, ratio]
-    first = select_distinct(try_scales(*sides, scales), scales_differ, settings.candidates)
-    pool = [("relaxation", one) for one in first]
-    for trial in TRIALS[1:]:
-        pool += [("again", one) for one in try_scales(*sides, [one.scale for one in first[:AGAIN]], trial)]
-    beams = sorted(search_scale(*sides, scales), key=lambda one: -placement_score(placement_evidence(one)))[:BEAMS]
+    search = Search(PartPair(*sides), places)
+    rough, beams = candidate_placements(search.pair, [*SCALES, ratio], settings.candidates)
+    first = TRIALS[0]
+    pool = [("relaxation" if one.params is first else "again", one) for one in rough]
     pool += [("beam", one) for one in beams]
-    return search, [(origin, make_candidate(refine_placement(*sides, one), *sides, search.on)) for origin, one in pool]
+    return search, [(origin, make_candidate(refine_placement(search.pair, one), search.pair)) for origin, one in pool]
 
 
 POOLS: dict[str, Callable[[str, float], bool]] = {

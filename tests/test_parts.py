@@ -114,8 +114,8 @@ def test_a_gauge_grows_with_the_scale_and_knows_the_way_round_by_the_edge(pair):
         distance_bounds(one.distances, one.boundary_distance, 0.5),
         distance_bounds(one.distances, one.boundary_distance, 1.0),
     )
-    assert large.far == pytest.approx(2 * small.far)
-    assert (large.low <= large.far).all()
+    assert large.upper == pytest.approx(2 * small.upper)
+    assert (large.lower <= large.upper).all()
     assert np.isfinite(one.boundary_distance).all()
     assert not np.isfinite(part_samples(pair.source, 60).boundary_distance).any()
 
@@ -207,7 +207,7 @@ def test_the_default_of_the_command_is_auto():
 
 def test_only_what_a_detour_explains_is_forgiven():
     part = distance_bounds(np.array([[0.0, 0.5], [0.5, 0.0]]), np.array([0.1, 0.1]), 1.0)
-    far, low = part.far[0, 1], part.low[0, 1]
+    far, low = part.upper[0, 1], part.lower[0, 1]
     assert low == pytest.approx(0.2)
     fits = [
         float(consistency(np.array([far]), np.array([low]), np.array([d]), (0.02, 0.1))[0]) for d in (0.5, 0.45, 0.55)

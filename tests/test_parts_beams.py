@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from kfmaps.matching.partial.beam_search import ANCHORS, APART, beam_search, differing, select_anchors
+from kfmaps.matching.partial.beam_search import ANCHORS, MIN_DISTANCE, beam_search, select_anchors, select_different
 from kfmaps.matching.partial.relaxation_labeling import distance_bounds
 
 GUARDS = ("kfmaps.matching.partial.beam_search", "kfmaps.matching.partial.relaxation_labeling")
@@ -27,10 +27,10 @@ def test_anchors_are_far_from_each_other_and_from_the_edge(plane):
     assert len(set(chosen.tolist())) == ANCHORS
     rng = np.random.default_rng(1)
     least = [
-        float((part.far[np.ix_(some, some)] + 9 * np.eye(ANCHORS)).min())
+        float((part.upper[np.ix_(some, some)] + 9 * np.eye(ANCHORS)).min())
         for some in (rng.permutation(len(own))[:ANCHORS] for _ in range(50))
     ]
-    assert float((part.far[np.ix_(chosen, chosen)] + 9 * np.eye(ANCHORS)).min()) > max(least)
+    assert float((part.upper[np.ix_(chosen, chosen)] + 9 * np.eye(ANCHORS)).min()) > max(least)
     plain = select_anchors(part, np.full(len(own), np.inf), ANCHORS)
     assert edge[chosen].mean() > edge[plain].mean()
     assert edge[chosen].min() > 2 * edge[plain].min()
@@ -50,7 +50,7 @@ def test_distances_alone_place_a_part(plane):
     assert between[first.match[anchors], own[anchors]].max() < 0.1
     assert first.support > 0.9
     assert [one.support for one in found] == sorted((one.support for one in found), reverse=True)
-    half = beam_search(distance_bounds(part.far, edge, 0.5), 0.5 * edge, between, alike)
+    half = beam_search(distance_bounds(part.upper, edge, 0.5), 0.5 * edge, between, alike)
     assert half[0].support < first.support
 
 
@@ -92,7 +92,7 @@ def test_a_landmark_stays_where_it_is(plane):
 def test_placings_that_hardly_differ_are_left_out():
     between = np.abs(np.linspace(0, 1, 11)[:, None] - np.linspace(0, 1, 11)[None])
     states = np.array([[0, 5, 9], [0, 5, 10], [3, 5, 9], [3, 8, 9]])
-    assert APART > 0.1
-    assert differing(states, between, 9).tolist() == [0, 2, 3]
-    assert differing(states, between, 2).tolist() == [0, 2]
-    assert differing(states, between, 9, mostly=True).tolist() == [0, 3]
+    assert MIN_DISTANCE > 0.1
+    assert select_different(states, between, 9).tolist() == [0, 2, 3]
+    assert select_different(states, between, 2).tolist() == [0, 2]
+    assert select_different(states, between, 9, half=True).tolist() == [0, 3]

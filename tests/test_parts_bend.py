@@ -5,14 +5,21 @@ import pytest
 
 from kfmaps.geometry.closest_points import closest_points
 from kfmaps.geometry.mesh import Mesh, boundary_vertices, surface_area, unit_area, vertex_normals
-from kfmaps.matching.partial.overlap import WIDTH, covered, overlap
-from kfmaps.matching.partial.registration import OUTSIDE, judged, register_part, registration_target, within
-from kfmaps.matching.partial.samples import scaled
+from kfmaps.matching.partial.registration import (
+    BEYOND,
+    OVERLAP_WIDTH,
+    find_overlap,
+    is_inside,
+    measure_registration,
+    overlap_probability,
+    register_part,
+    scale_mesh,
+)
+from kfmaps.matching.partial.samples import PartPair, PartSamples
 from kfmaps.registration.deformable import deformable_mesh
 
 GUARDS = (
     "kfmaps.geometry.closest_points",
-    "kfmaps.matching.partial.overlap",
     "kfmaps.matching.partial.registration",
     "kfmaps.matching.partial.samples",
     "kfmaps.registration.deformable",
@@ -34,6 +41,12 @@ def grid(x, y):
     a = (np.arange(len(x) - 1)[:, None] * len(y) + np.arange(len(y) - 1)).ravel()
     faces = np.concatenate([np.stack([a, a + len(y), a + 1], 1), np.stack([a + 1, a + len(y), a + len(y) + 1], 1)])
     return Mesh(hills(across, along), faces)
+
+
+def sampled(mesh, samples=()):
+    """A mesh with some samples, whose distances nothing here asks for."""
+    none = np.zeros(0)
+    return PartSamples(mesh, np.asarray(samples, dtype=np.int64), none, none, boundary_vertices(mesh))
 
 
 @pytest.fixture(scope="module")
@@ -58,11 +71,11 @@ def laid(shapes):
     places, trust = whole.vertices[own[samples]].copy(), np.ones(len(samples))
     places[::6] += [0.3, -0.2, 0.1]
     trust[::6] = 1e-6
-    on = registration_target(whole, boundary_vertices(whole))
-    normals = on.normals[own[samples]]
+    on = sampled(whole)
+    normals = on.surface.normals[own[samples]]
 
     def lay(factor=1.0, more=part):
-        return register_part(more, factor * size, on, samples, places, normals, trust)
+        return register_part(PartPair(sampled(more, samples), on), factor * size, places, normals, trust)
 
     return lay, on, part, size
 
@@ -85,12 +98,14 @@ def test_edges_tell_the_scale(shapes, laid, factor):
     """Where a part lies as it should, but was taken for smaller than it is, its edges are longer by as much."""
     _, half, _ = shapes
     _, on, part, size = laid
-    found = judged(half.vertices, deformable_mesh(scaled(part, factor * size)), factor * size, on)
+    found = measure_registration(half.vertices, deformable_mesh(scale_mesh(part, factor * size)), factor * size, on)
     assert found.edge_ratio == pytest.approx(1 / factor)
     assert found.gap < 1e-9
     # Of a uniform scaling each edge gains the square of what it became longer by: the same per area at any size.
     assert found.deformation_energy == pytest.approx(1.5 * (1 / factor - 1) ** 2, rel=0.6)
-    shifted = judged(half.vertices + 0.02 * on.normals[: len(half.vertices)], deformable_mesh(half), size, on)
+    shifted = measure_registration(
+        half.vertices + 0.02 * on.surface.normals[: len(half.vertices)], deformable_mesh(half), size, on
+    )
     assert shifted.gap == pytest.approx(0.02, rel=0.05)
 
 
@@ -103,16 +118,17 @@ def test_what_lies_beyond_the_whole_is_let_alone(shapes):
     """The whole onto its half: what has nothing to lie on is not drawn to its edge, and counts as outside."""
     whole, half, own = shapes
     size = float(np.sqrt(surface_area(half)))
-    on = registration_target(Mesh(half.vertices / size, half.faces), boundary_vertices(half))
-    found = register_part(whole, 1 / size, on, own, on.mesh.vertices, on.normals, np.ones(len(own)))
+    on = sampled(Mesh(half.vertices / size, half.faces))
+    pair = PartPair(sampled(whole, own), on)
+    found = register_part(pair, 1 / size, on.mesh.vertices, on.surface.normals, np.ones(len(own)))
     assert np.linalg.norm(found.vertices - whole.vertices / size, axis=1)[own].mean() < 0.04
     beyond = np.setdiff1d(np.arange(len(whole.vertices)), own)
     assert found.inside[own].mean() > 0.9
-    far = np.linalg.norm(found.vertices - found.places.points, axis=1)[beyond] > OUTSIDE
+    far = np.linalg.norm(found.vertices - found.places.points, axis=1)[beyond] > BEYOND
     assert far.mean() > 0.9
     assert not found.inside[beyond[far]].any()
     assert found.gap < 5e-3
-    common = overlap(found, on, boundary_vertices(whole))
+    common = find_overlap(found, pair)
     assert (common.part[own] > 0.5).mean() > 0.9
     assert (common.part[beyond[far]] == 0).all()
     assert (common.whole > 0.5).mean() > 0.9
@@ -120,12 +136,12 @@ def test_what_lies_beyond_the_whole_is_let_alone(shapes):
 
 def test_only_the_boundary_has_something_beyond_it(shapes):
     whole, _, _ = shapes
-    on = registration_target(whole, boundary_vertices(whole))
+    on = sampled(whole)
     middle = whole.vertices[len(whole.vertices) // 2] + np.array([0.0, 0.0, 0.2])
     edge = whole.vertices[whole.vertices[:, 0].argmax()]
     corner = whole.vertices[whole.faces[0]].mean(axis=0) + np.array([0.0, 0.0, 0.03])
-    asked = np.array([middle, corner, edge + 5 * OUTSIDE * X, edge + 0.2 * OUTSIDE * X])
-    assert within(closest_points(asked, whole.vertices, whole.faces), on).tolist() == [True, True, False, True]
+    asked = np.array([middle, corner, edge + 5 * BEYOND * X, edge + 0.2 * BEYOND * X])
+    assert is_inside(closest_points(asked, whole.vertices, whole.faces), on).tolist() == [True, True, False, True]
 
 
 def test_half_is_common_to_a_whole_and_its_half():
@@ -134,23 +150,23 @@ def test_half_is_common_to_a_whole_and_its_half():
     whole = grid(sides, sides)
     own = np.arange(20 * 41)
     half = Mesh(whole.vertices[own], whole.faces[(whole.faces < len(own)).all(axis=1)])
-    common, found = covered(half, boundary_vertices(half), whole)
+    common, found = overlap_probability(half, boundary_vertices(half), whole)
     np.testing.assert_allclose(common[own], 1.0)
-    assert 0.02 < sides[1] - sides[0] < 1.5 * WIDTH
+    assert 0.02 < sides[1] - sides[0] < 1.5 * OVERLAP_WIDTH
     assert common[len(own) :].max() < 0.2
     np.testing.assert_allclose(found.points[own], whole.vertices[own], atol=1e-9)
 
 
 def test_probability_falls_with_the_distance(shapes):
-    """A half at WIDTH, a sixteenth at twice that; and a quarter of it on the side that looks away."""
+    """A half at OVERLAP_WIDTH, a sixteenth at twice that; and a quarter of it on the side that looks away."""
     whole, _, _ = shapes
     flat = Mesh(whole.vertices * [1, 1, 0], whole.faces)
     inner = ~boundary_vertices(flat)
     for times, expected in ((0.0, 1.0), (1.0, 0.5), (2.0, 0.0625)):
-        common = covered(
-            Mesh(flat.vertices + np.array([0, 0, times * WIDTH]), flat.faces), boundary_vertices(flat), flat
+        common = overlap_probability(
+            Mesh(flat.vertices + np.array([0, 0, times * OVERLAP_WIDTH]), flat.faces), boundary_vertices(flat), flat
         )[0]
         np.testing.assert_allclose(common[inner], expected, atol=1e-6)
-    turned = covered(Mesh(flat.vertices, flat.faces[:, ::-1]), boundary_vertices(flat), flat)[0]
+    turned = overlap_probability(Mesh(flat.vertices, flat.faces[:, ::-1]), boundary_vertices(flat), flat)[0]
     np.testing.assert_allclose(turned, 0.25)
-    assert vertex_normals(scaled(flat, 2.0)).shape == flat.vertices.shape
+    assert vertex_normals(scale_mesh(flat, 2.0)).shape == flat.vertices.shape

@@ -11,18 +11,17 @@ from kfmaps import datasets
 from kfmaps.datasets.pairs import largest_piece
 from kfmaps.fmap.precise import PointMap, point_positions
 from kfmaps.geometry.mesh import surface_area, unit_area
-from kfmaps.matching.partial import alternatives as contest
-from kfmaps.matching.partial.alternatives import (
+from kfmaps.matching.partial import candidates as contest
+from kfmaps.matching.partial.candidates import (
     ROUNDS,
     compare_alternatives,
     differ,
+    make_candidate,
     margin,
     refine_candidate,
 )
-from kfmaps.matching.partial.candidates import make_candidate
-from kfmaps.matching.partial.registration import registration_target
 from kfmaps.matching.partial.relaxation_labeling import Assignment
-from kfmaps.matching.partial.samples import part_samples
+from kfmaps.matching.partial.samples import PartPair, part_samples
 from kfmaps.matching.partial.scale_search import TRIALS, Placement, shot_similarity
 from kfmaps.matching.score import SCORE
 
@@ -33,35 +32,36 @@ EMPTY: Any = None
 
 @pytest.fixture(scope="module")
 def half():
-    """Sides and ground of a creature and of its left half in another pose, and where the half belongs."""
+    """Samples of a creature and of its left half in another pose, and where the half belongs."""
     pair = datasets.symmetric_creature(1500, rng=0)
     across = pair.source.vertices[pair.truth] - pair.source.vertices[pair.mirrored]
     part, own = largest_piece(pair.target, across @ np.linalg.svd(across, full_matrices=False)[2][0] > 0)
     whole = unit_area(pair.source)
     places = point_positions(PointMap(pair.truth_faces[own], pair.truth_weights[own]), whole)
-    sides = part_samples(unit_area(part), 100), part_samples(whole, 300)
+    sides = PartPair(part_samples(unit_area(part), 100), part_samples(whole, 300))
     scale = float(np.sqrt(surface_area(part) / surface_area(pair.source)))
-    return *sides, registration_target(whole, sides[1].on_boundary), places, scale
+    return sides, places, scale
 
 
 def placed_at(half, places):
     """The candidate whose samples begin at ``places (q, 3)``."""
-    part, whole, on, _, scale = half
+    on, _, scale = half
+    whole = on.whole
     match = np.asarray(KDTree(whole.mesh.vertices[whole.samples]).query(places)[1])
-    alike = shot_similarity(part, whole, scale, TRIALS[0].radii, 1)
+    alike = shot_similarity(on, scale, TRIALS[0])
     rough = Placement(scale, TRIALS[0], Assignment(match, np.ones(len(match)), 1.0), alike)
-    return make_candidate(rough, part, whole, on)
+    return make_candidate(rough, on)
 
 
 @pytest.fixture(scope="module")
 def true(half):
     """The contest of the true placing alone."""
-    part, whole, on, places, _ = half
-    return compare_alternatives([placed_at(half, places[part.samples])], part, whole, on)
+    on, places, _ = half
+    return compare_alternatives([placed_at(half, places[on.part.samples])], on)
 
 
 def error(half, one):
-    return float(np.linalg.norm(one.registration.places.points - half[3], axis=1).mean())
+    return float(np.linalg.norm(one.registration.places.points - half[1], axis=1).mean())
 
 
 def test_the_rival_of_a_lengthwise_half_is_looked_for(half, true):
@@ -74,8 +74,7 @@ def test_the_rival_of_a_lengthwise_half_is_looked_for(half, true):
 
 
 def test_who_begins_on_the_wrong_half_comes_to_the_right_one(half, true):
-    part, whole, on, _, _ = half
-    found = compare_alternatives([placed_at(half, true[1].points)], part, whole, on)
+    found = compare_alternatives([placed_at(half, true[1].points)], half[0])
     assert error(half, found[0]) < 0.05
     assert error(half, found[1]) > 0.15
 
@@ -94,29 +93,27 @@ def again(one, *_rest):
 def test_rivals_are_polished_before_they_are_compared(monkeypatch):
     """The best at first, a copy of it, a rival that was hit by chance, and a third that is left behind."""
     monkeypatch.setattr(contest, "alternative_placements", lambda *_: [])
-    monkeypatch.setattr(contest, "_placed_again", again)
+    monkeypatch.setattr(contest, "_place_again", again)
     found: Any = [stub(9.9, 0.01), stub(10.0, 0.0, 0.05), stub(9.0, 1.0, 0.6), stub(8.0, 2.0), stub(7.0, 3.0, 9.0)]
-    last: Any = compare_alternatives(found, EMPTY, EMPTY, EMPTY)
+    last: Any = compare_alternatives(found, EMPTY)
     assert [one.points[0, 0] for one in last] == [1.0, 0.0, 2.0, 3.0]
     assert [one.times for one in last] == [ROUNDS[1], ROUNDS[0], ROUNDS[0], 0]
     assert last[0].score == pytest.approx(9.0 + 0.6 * ROUNDS[1])
     last = compare_alternatives(
         [stub(10.0, 0.0), stub(10.01 - SCORE.part.hopeless_margin, 1.0), stub(9.99 - SCORE.part.hopeless_margin, 2.0)],
         EMPTY,
-        EMPTY,
-        EMPTY,
     )
     assert [one.times for one in last] == [ROUNDS[0], ROUNDS[0], 0]
 
 
 def test_polishing_ends_where_nothing_is_gained(monkeypatch):
-    monkeypatch.setattr(contest, "_placed_again", again)
+    monkeypatch.setattr(contest, "_place_again", again)
     for gain, times in (
         (0.99 * SCORE.part.min_gain, ROUNDS[0]),
         (1.01 * SCORE.part.min_gain, ROUNDS[1]),
         (-1.0, ROUNDS[0]),
     ):
-        last: Any = refine_candidate(stub(1.0, 0.0, gain), EMPTY, EMPTY, EMPTY)
+        last: Any = refine_candidate(stub(1.0, 0.0, gain), EMPTY)
         assert last.times == times
 
 

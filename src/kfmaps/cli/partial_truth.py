@@ -20,7 +20,7 @@ from kfmaps.io import MapFile, read_landmarks
 from kfmaps.io.partial_map import precise_points
 from kfmaps.io.text import clean_text, parse_rows, read_bytes, table
 from kfmaps.matching.partial.match_partial import COMMON
-from kfmaps.matching.partial.overlap import covered
+from kfmaps.matching.partial.registration import overlap_probability
 
 Side = Literal["source", "target"]
 
@@ -175,7 +175,7 @@ def true_overlap(whole: Mesh, part: Mesh, truth: PartTruth) -> np.ndarray:
     if truth.dense:
         unit = unit_area(whole)
         bent = Mesh(point_positions(truth.places, unit), part.faces)
-        return covered(bent, boundary_vertices(part), unit)[0] > COMMON
+        return overlap_probability(bent, boundary_vertices(part), unit)[0] > COMMON
     listed = np.unique(whole.faces[truth.places.faces][truth.places.weights > 0.5])
     ends = whole.vertices[whole.faces]
     edge = float(np.linalg.norm(ends - np.roll(ends, 1, axis=1), axis=2).mean())

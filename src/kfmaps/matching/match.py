@@ -24,7 +24,7 @@ from kfmaps.matching.fit import check_landmark_pairs, fit
 from kfmaps.matching.landmark_evidence import LEAD, LESS, build_guidance
 from kfmaps.matching.memory import check_match_memory
 from kfmaps.matching.partial.detect import detect_part
-from kfmaps.matching.partial.match_partial import PartialMatch, match_partial, reason
+from kfmaps.matching.partial.match_partial import PartialMatch, describe_part, match_partial
 from kfmaps.matching.quality import ShapeSamples
 from kfmaps.matching.reindexing import reindexing
 from kfmaps.matching.result import Match
@@ -137,7 +137,7 @@ def _match_part(task: MatchTask, landmarks: np.ndarray | None) -> tuple[PartialM
             *shapes, task.config, which, landmarks=landmarks, rng=task.seed, progress=task.clock.report
         )
     if asked != "auto" or (not part.whole and part.verdict != "unlikely"):
-        return part, reason(part, why)
+        return part, describe_part(part, why)
     return None, f"taken for whole: {why}, but " + ("each covers all of the other" if part.whole else "it fits nowhere")
 
 

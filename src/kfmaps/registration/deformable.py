@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -128,6 +129,45 @@ def initial_deformation(
         terms = [DataTerm(weights * trust[points], places, rows)]
         x = descend(energy, START, solve, terms, x, turns, 8)
         x = descend(energy, START, solve, terms, x, rotations(energy, x), 8)
+    return x
+
+
+def descend_levels(
+    body: DeformableMesh,
+    x: np.ndarray,
+    levels: Sequence[float],
+    steps: int,
+    data: float,
+    terms: Callable[[np.ndarray, float], list[DataTerm]],
+    turns: Callable[[np.ndarray], np.ndarray],
+    progress: Callable[[float], None],
+) -> np.ndarray:
+    """Return the deformed vertices (n, 3) after non-rigid ICP, each level less stiff than the one before.
+
+    Parameters
+    ----------
+    body : DeformableMesh
+    x : (n, 3) float64
+        Where the vertices begin.
+    levels : sequence of float
+        Stiffness of each level, in units of area.
+    steps : int
+        Searches for closest points at each level.
+    data : float
+        Weight of the data terms beside that stiffness in the preconditioner.
+    terms : callable
+        Data terms at ``x`` and a stiffness.
+    turns : callable
+        Matrices (n, 3, 3) that turn the rest shape of each vertex's surroundings at ``x``.
+    progress : callable
+        Told how much is done, from 0 to 1.
+    """
+    for i, stiffness in enumerate(levels):
+        solve = body.solver(stiffness, data)
+        for step in range(steps):
+            found = terms(x, stiffness)
+            x = descend(body.energy, stiffness, solve, found, x, turns(x))
+            progress((i * steps + step + 1) / (len(levels) * steps))
     return x
 
 

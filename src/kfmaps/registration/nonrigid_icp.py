@@ -30,12 +30,13 @@ from kfmaps.geometry.coarsen import coarse_proxy, embedded_deformation, spread_v
 from kfmaps.geometry.eigen.factorization import factorize
 from kfmaps.geometry.mesh import Mesh, vertex_areas, vertex_normals
 from kfmaps.registration.contact_projection import project_with_contact
-from kfmaps.registration.data_terms import DataTerm, descend
+from kfmaps.registration.data_terms import DataTerm
 from kfmaps.registration.deformable import (
     ClosestPointQuery,
     DeformableMesh,
     closest_point_query,
     deformable_mesh,
+    descend_levels,
     initial_deformation,
 )
 from kfmaps.registration.local_scaling import local_scaling
@@ -209,18 +210,22 @@ class NonRigid:
         hold, fading = (FIRMLY, LOOSELY) if self.local_scaling else (HOLD, SLOPPY)
         stays = [] if held is None or not held.any() else [_stays(pair, points, held)]
         gap = 0.0
-        for level in levels:
-            stiffness = self.stiffness * DECLINE**level
-            solve = pair.body.solver(stiffness, 2.0)
-            for step in range(steps):
-                terms, gap = _closest_terms(pair, x)
-                terms += stays
-                if len(marks):
-                    terms.append(_marked(pair, marks, discs, x, hold * stiffness, fading))
-                turns = stretched(x, even(rotations(pair.body.energy, x)))
-                x = descend(pair.body.energy, stiffness, solve, terms, x, turns)
-                done = (level - levels[0]) * steps + step + 1
-                report(begun + (1 - begun) * done / (len(levels) * steps))
+
+        def terms(x: np.ndarray, stiffness: float) -> list[DataTerm]:
+            nonlocal gap
+            found, gap = _closest_terms(pair, x)
+            found += stays
+            if len(marks):
+                found.append(_marked(pair, marks, discs, x, hold * stiffness, fading))
+            return found
+
+        def turns(x: np.ndarray) -> np.ndarray:
+            return stretched(x, even(rotations(pair.body.energy, x)))
+
+        stiffness = [self.stiffness * DECLINE**level for level in levels]
+        x = descend_levels(
+            pair.body, x, stiffness, steps, 2.0, terms, turns, lambda done: report(begun + (1 - begun) * done)
+        )
         return x, gap
 
 

@@ -1,15 +1,38 @@
-"""A part registered from one placement of its samples, and what that shows without the truth."""
+"""Candidates: placements of a part that were registered, and the best against the best that puts the part elsewhere.
+
+A margin says nothing if no rival was a serious one. A half of a body that was cut lengthwise fits the other half nearly
+as well, turned front to back, and whichever of the two the search found first draws the others to it. So relaxation and
+the beam search run again, at the scale of the best placement and beside it, for the best that leave it: every sample
+pays for a place near the one that it has. Then the first few that differ are refined on equal terms.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
+from scipy.spatial import KDTree
 
-from kfmaps.matching.partial.registration import QUICK, PartRegistration, RegistrationTarget, register_part
-from kfmaps.matching.partial.samples import PartSamples
-from kfmaps.matching.partial.scale_search import Placement
-from kfmaps.matching.score import PartEvidence, part_score
+from kfmaps._threads import parallel
+from kfmaps.matching.partial.registration import PartRegistration, register_part
+from kfmaps.matching.partial.relaxation_labeling import Assignment
+from kfmaps.matching.partial.samples import PartPair
+from kfmaps.matching.partial.scale_search import (
+    TRIALS,
+    Placement,
+    place_all,
+    place_by_beams,
+    place_by_relaxation,
+    refine_placement,
+    shot_similarity,
+)
+from kfmaps.matching.score import SCORE, PartEvidence, part_score, select_distinct
+
+SCALE_RATIOS = (1.0, 1.1, 1 / 1.1)
+"""Scales that are tried, against that of the placement: a wrong one has a scale of its own."""
+ROUNDS = (2, 5)
+"""How often candidates are refined, at least and at most."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,26 +57,86 @@ class PartCandidate:
     score: float
 
 
-def make_candidate(
-    placement: Placement, part: PartSamples, whole: PartSamples, target: RegistrationTarget
-) -> PartCandidate:
+def make_candidate(placement: Placement, pair: PartPair) -> PartCandidate:
     """Register the part quickly by its placed samples."""
-    at = whole.samples[placement.placed.match]
+    at = pair.whole.samples[placement.placed.match]
+    points, normals = pair.whole.mesh.vertices[at], pair.whole.surface.normals[at]
     trust = np.maximum(placement.placed.trust, 0.01)
-    points, normals = target.mesh.vertices[at], target.normals[at]
-    found = register_part(part.mesh, placement.scale, target, part.samples, points, normals, trust, QUICK, 3)
+    found = register_part(pair, placement.scale, points, normals, trust, quick=True)
     evidence = replace(
-        placement_evidence(placement),
+        placement.evidence,
         deformation_energy=found.deformation_energy,
         gap=found.gap,
         flipped_area=found.flipped_area,
     )
-    return PartCandidate(placement, found, found.places.points[part.samples], evidence, part_score(evidence))
+    return PartCandidate(placement, found, found.places.points[pair.part.samples], evidence, part_score(evidence))
 
 
-def placement_evidence(placement: Placement) -> PartEvidence:
-    """Return what a placement shows before registration."""
-    match, alike = placement.placed.match, placement.alike
-    better = (alike > alike[np.arange(len(match)), match][:, None]).sum(axis=1)
-    rank = float(np.log((better + 1) / alike.shape[1]).mean())
-    return PartEvidence(placement.placed.support, rank)
+def compare_alternatives(found: Sequence[PartCandidate], pair: PartPair) -> list[PartCandidate]:
+    """Return the candidates, best first, after alternatives were sought and the best that differ were refined.
+
+    A placement that was found by chance is far from what it can be, and would lose against one that was not.
+    """
+    best = max(found, key=lambda one: one.score)
+    elsewhere = alternative_placements(pair, best.registration.scale, best.points)
+    likely = sorted(elsewhere, key=lambda one: -one.score)[:3]
+    more = [make_candidate(refine_placement(pair, one), pair) for one in likely]
+    order = sorted([*found, *more], key=lambda one: -one.score)
+    chosen = select_distinct(order, differ, 3)
+    rest = [one for one in order if all(differ(one, other) for other in chosen)]
+    least = chosen[0].score - SCORE.part.hopeless_margin
+    last = [refine_candidate(one, pair) if one.score > least else one for one in chosen]
+    return sorted([*last, *rest], key=lambda one: -one.score)
+
+
+def alternative_placements(pair: PartPair, scale: float, points: np.ndarray) -> list[Placement]:
+    """Return placements of the samples elsewhere than at ``points (q, 3)``, by relaxation and beam searches.
+
+    ``scale``: √area of the part over that of the whole. Samples that are landmarks stay.
+    """
+    off = np.linalg.norm(points[:, None] - pair.whole.mesh.vertices[pair.whole.samples][None], axis=2)
+    apart = SCORE.part.distinct_distance
+    # A place near the one that a sample has costs half a point, where its consistency is worth 2 at most.
+    cost = 0.5 * (off < apart).astype(np.float32)
+    cost[: pair.part.n_landmarks] = 0.0
+    each = np.arange(len(points))
+
+    def place(scale: float) -> list[Placement]:
+        similarity = shot_similarity(pair, scale, TRIALS[0])
+        left = similarity - cost
+        begun = [*place_by_beams(pair, scale, left), place_by_relaxation(pair, scale, left)]
+        placed = [place_all(pair, Placement(scale, TRIALS[0], one, similarity)) for one in begun]
+        return [one for one in placed if float(np.median(off[each, one.placed.match])) > apart]
+
+    scales = [scale * ratio for ratio in (SCALE_RATIOS[:1] if pair.fixed_scale else SCALE_RATIOS)]
+    return [one for some in parallel(place, scales, pair.threads) for one in some]
+
+
+def refine_candidate(one: PartCandidate, pair: PartPair) -> PartCandidate:
+    """Place and register the part anew from where it lies, until that makes it no better."""
+    for i in range(ROUNDS[1]):
+        before, one = one.score, _place_again(one, pair)
+        if i + 1 >= ROUNDS[0] and one.score < before + SCORE.part.min_gain:
+            break
+    return one
+
+
+def _place_again(one: PartCandidate, pair: PartPair) -> PartCandidate:
+    """Place and register the part once more, at the scale of its edges."""
+    match = np.asarray(KDTree(pair.whole.mesh.vertices[pair.whole.samples]).query(one.points)[1])
+    match[: pair.part.n_landmarks] = np.arange(pair.part.n_landmarks)
+    trust = np.maximum(one.registration.inside[pair.part.samples], 1e-3)
+    placed = Assignment(match, trust, one.placement.placed.support)
+    scale = one.placement.scale if pair.fixed_scale else one.registration.scale * one.registration.edge_ratio
+    return make_candidate(refine_placement(pair, replace(one.placement, scale=scale, placed=placed)), pair)
+
+
+def differ(one: PartCandidate, other: PartCandidate) -> bool:
+    """Return whether two candidates put the part elsewhere."""
+    return float(np.median(np.linalg.norm(one.points - other.points, axis=1))) > SCORE.part.distinct_distance
+
+
+def margin(found: Sequence[PartCandidate]) -> float:
+    """Return by how much the best of ``found``, which is first, precedes the best that differs, up to a maximum."""
+    others = [one.score for one in found if differ(one, found[0])]
+    return min(found[0].score - max(others), SCORE.part.max_margin) if others else SCORE.part.max_margin

@@ -13,7 +13,7 @@ from kfmaps.config import Config
 from kfmaps.fmap.confidence import local_confidence
 from kfmaps.fmap.precise import PointMap, nearest_vertices
 from kfmaps.matching.partial.place_part import place_part
-from kfmaps.matching.partial.samples import scaled
+from kfmaps.matching.partial.registration import scale_mesh
 from kfmaps.matching.score import SCORE, probability, verdict
 from kfmaps.shape import Shape
 
@@ -23,23 +23,23 @@ COMMON = 0.5
 
 @dataclass(frozen=True, eq=False)
 class PartialMatch:
-    """A match of shapes of which one is a part of the other, inside their border.
+    """A match of two cleaned shapes of which one is a part of the other.
 
     Attributes
     ----------
     part : "source", "target" or "both"
     target_to_source : (n_t,) int64
         −1 where a vertex has no counterpart.
-    place : PointMap
+    precise_map : PointMap
         For each target vertex; where it has no counterpart that is the nearest point that could be one.
     overlap_source, overlap_target : (n_s,), (n_t,) float64
         Probability to be in the common part.
     functional_map : (k_t, k_s) float64
         Of the map on the common part; as many functions of the part as have the whole's frequencies.
-    trust : (n_t,) float64
+    local_confidence : (n_t,) float64
         See :func:`kfmaps.fmap.confidence.local_confidence`.
-    bent : (n_s, 3) float64 or None
-        The source's vertices on the target at unit area, where the source is what was bent.
+    registered_vertices : (n_s, 3) float64 or None
+        The source's vertices on the target at unit area, where the source is the part.
     scale : float
         √area of the part over that of the whole.
     verdict : str
@@ -47,8 +47,10 @@ class PartialMatch:
         Probability that the map is right.
     scores : tuple of float
         Of the candidates, best first.
-    doubted : (l,) int64
+    rejected_landmarks : (l,) int64
         Numbers of landmarks that the map contradicts.
+    whole : bool
+        Whether the common part is most of both shapes.
     """
 
     part: str
@@ -66,11 +68,6 @@ class PartialMatch:
     rejected_landmarks: np.ndarray
     whole: bool
 
-    @property
-    def shares(self) -> tuple[float, float]:
-        """Means of the overlaps, for words."""
-        return float(self.overlap_source.mean()), float(self.overlap_target.mean())
-
 
 def match_partial(
     source: Shape,
@@ -82,10 +79,19 @@ def match_partial(
     rng: int = 0,
     progress: Progress | None = None,
 ) -> PartialMatch:
-    """Match two prepared shapes of which one is a part; ``landmarks (l, 2)`` are pairs "source, target".
+    """Match two prepared shapes of which one is a part.
 
-    With "both" each may have what the other lacks; what is bent is the one with the smaller area, or the target where
-    their units cannot be compared.
+    Parameters
+    ----------
+    source, target : Shape
+    config : Config
+    which : {"source", "target", "both"}
+        The part. With "both" each may have what the other lacks; the one with the smaller area is bent, or the target
+        where their units cannot be compared.
+    landmarks : (l, 2) int64, optional
+        Pairs "source vertex, target vertex".
+    rng : int
+    progress : callable, optional
 
     Raises
     ------
@@ -102,18 +108,17 @@ def match_partial(
     found = place_part(
         part.mesh,
         whole.mesh,
-        config.partial,
+        config,
         ratio=ratio if forward or ratio is None else 1 / ratio,
         landmarks=pairs,
-        loose=which == "both",
+        both_partial=which == "both",
         rng=rng,
-        threads=config.threads,
         progress=None if progress is None else lambda done: progress("parts", done),
     )
     place = found.overlap.on_whole if forward else found.overlap.on_part
     overlaps = (found.overlap.whole, found.overlap.part) if forward else (found.overlap.part, found.overlap.whole)
     points = np.where(overlaps[1] > COMMON, nearest_vertices(place, (whole if forward else part).mesh), -1)
-    at_scale = scaled(part.mesh, found.registration.scale)
+    at_scale = scale_mesh(part.mesh, found.registration.scale)
     here, there = (whole.mesh, at_scale) if forward else (at_scale, whole.mesh)
     trust = local_confidence(here, there, points, sized=True)
     masses = to_numpy(part.basis.mass), to_numpy(whole.basis.mass)
@@ -123,7 +128,7 @@ def match_partial(
         points,
         place,
         *overlaps,
-        slanted(points, source, target, found.registration.scale if forward else 1 / found.registration.scale),
+        _slanted_functional_map(points, source, target, found.registration.scale if forward else 1 / found.registration.scale),
         trust,
         None if forward else found.registration.vertices,
         found.registration.scale,
@@ -135,7 +140,7 @@ def match_partial(
     )
 
 
-def slanted(points: np.ndarray, source: Shape, target: Shape, ratio: float) -> np.ndarray:
+def _slanted_functional_map(points: np.ndarray, source: Shape, target: Shape, ratio: float) -> np.ndarray:
     """The functional map ``(k_t, k_s)`` of ``points (n_t,)``, −1 where there is none, of functions of like frequency.
 
     ``ratio``: √area of the target over that of the source. The part's eigenvalues below the whole's last are about as
@@ -152,9 +157,9 @@ def slanted(points: np.ndarray, source: Shape, target: Shape, ratio: float) -> n
     return weighted.T @ pulled
 
 
-def reason(found: PartialMatch, asked: str) -> str:
-    """One line for people: what was taken for a part, and why."""
+def describe_part(found: PartialMatch, reason: str) -> str:
+    """Return one line about what was taken for a part, with the ``reason``."""
     if found.part == "both":
-        shares = found.shares
-        return f"common: {shares[0]:.0%} of the source's vertices, {shares[1]:.0%} of the target's; {asked}"
-    return f"the {found.part} is a part, {found.scale**2:.0%} of the other's area; {asked}"
+        shares = found.overlap_source.mean(), found.overlap_target.mean()
+        return f"common: {shares[0]:.0%} of the source's vertices, {shares[1]:.0%} of the target's; {reason}"
+    return f"the {found.part} is a part, {found.scale**2:.0%} of the other's area; {reason}"

@@ -1,8 +1,8 @@
-"""The part bent onto the whole, as rigidly as possible: from samples that have a place to one for every vertex.
+"""Bend the part onto the whole, as rigidly as possible, and find what the two have in common.
 
-As :mod:`kfmaps.registration.nonrigid_icp`, but only the part looks for closest points: what lies beyond it on the
-whole must
-not pull. So it works for any cut, and the scale of the part follows from how long its edges become.
+The loop is that of :mod:`kfmaps.registration.nonrigid_icp`, but only the part looks for closest points: what lies
+beyond it on the whole must not pull. So it works for any cut, and the scale of the part follows from how long its edges
+become.
 """
 
 from __future__ import annotations
@@ -12,41 +12,26 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from kfmaps.fmap.precise import PointMap
 from kfmaps.geometry.arap import arap_energy, rotations
 from kfmaps.geometry.closest_points import ClosestPoints, closest_points
 from kfmaps.geometry.mesh import Mesh, surface_area, vertex_normals
-from kfmaps.matching.partial.samples import scaled
-from kfmaps.registration.data_terms import DataTerm, descend
+from kfmaps.matching.partial.samples import PartPair, PartSamples
+from kfmaps.registration.data_terms import DataTerm
 from kfmaps.registration.deformable import (
-    ClosestPointQuery,
     DeformableMesh,
     closest_point_query,
     deformable_mesh,
+    descend_levels,
     initial_deformation,
 )
 
-QUICK = (2e-3, 6e-4, 2e-4)
-"""Stiffness of the levels by which candidates are compared, ..."""
-FULL = (2e-3, 6e-4, 2e-4, 6e-5, 2e-5)
-"""... and of those by which the best is finished, in areas of the whole."""
-OUTSIDE = 0.01
+STIFFNESS = (2e-3, 6e-4, 2e-4, 6e-5, 2e-5)
+"""Stiffness of the levels, in areas of the whole; a quick registration has the first three."""
+BEYOND = 0.01
 """Distance from an edge of the whole, in its √area, at which a point counts as lying beyond it."""
-
-
-@dataclass(frozen=True, eq=False)
-class RegistrationTarget:
-    """A whole, at unit area, in which closest points are sought; made by :func:`registration_target`."""
-
-    mesh: Mesh
-    normals: np.ndarray
-    look: ClosestPointQuery
-    border: np.ndarray
-
-
-def registration_target(mesh: Mesh, border: np.ndarray) -> RegistrationTarget:
-    """``border (n,)``: its vertices that lie on the boundary."""
-    normals = vertex_normals(mesh)
-    return RegistrationTarget(mesh, normals, closest_point_query(mesh, normals), border)
+OVERLAP_WIDTH = 0.02
+"""Distance between the surfaces, in √area of the whole, at which a common point is as likely as not."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -60,17 +45,17 @@ class PartRegistration:
         The part at the scale that was found.
     scale : float
         √area of the part over that of the whole.
-    places : Places
+    places : ClosestPoints
         The closest point of the whole to each vertex.
     inside : (n,) bool
         False where that is beyond an edge of the whole.
-    bending : float
+    deformation_energy : float
         As-rigid-as-possible energy per area.
     gap : float
         Root of the mean squared distance from the whole.
-    folded : float
+    flipped_area : float
         Part of the area whose normals look elsewhere than the whole's.
-    longer : float
+    edge_ratio : float
         How much longer than at rest edges are, by the median.
     """
 
@@ -85,53 +70,60 @@ class PartRegistration:
     edge_ratio: float
 
 
+def scale_mesh(mesh: Mesh, scale: float) -> Mesh:
+    """Return ``mesh`` with all lengths times ``scale``."""
+    return Mesh(mesh.vertices * scale, mesh.faces)
+
+
 def register_part(
-    part: Mesh,
+    pair: PartPair,
     scale: float,
-    whole: RegistrationTarget,
-    samples: np.ndarray,
-    places: np.ndarray,
+    points: np.ndarray,
     normals: np.ndarray,
     trust: np.ndarray,
-    levels: tuple[float, ...] = FULL,
-    steps: int = 5,
-    progress: Callable[[float], None] | None = None,
+    quick: bool = False,
+    progress: Callable[[float], None] = lambda _done: None,
 ) -> PartRegistration:
-    """Bend ``part``, at unit area and times ``scale``; its vertices ``samples (q,)`` begin at ``places (q, 3)``.
+    """Bend the part onto the whole.
 
-    ``normals (q, 3)`` are the whole's there, ``trust (q,)`` how much each counts.
+    Parameters
+    ----------
+    pair : PartPair
+    scale : float
+        √area of the part over that of the whole.
+    points, normals : (q, 3) float64
+        Where the part's samples begin, and the normals of the whole there.
+    trust : (q,) float64
+        How much each counts.
+    quick : bool
+        Three levels of three steps, to compare candidates, instead of five of five.
+    progress : callable
+        Told about how much is done, from 0 to 1.
     """
-    rest = deformable_mesh(scaled(part, scale))
-    share = rest.areas.sum() * trust / trust.sum()
-    x = initial_deformation(rest, samples, places, normals, share)
-    for i, stiffness in enumerate(levels):
-        solve = rest.solver(stiffness, 1.0)
-        for step in range(steps):
-            found, there, agree = whole.look(x, vertex_normals(Mesh(x, rest.mesh.faces)))
-            counts = agree * within(found, whole)
-            x = descend(
-                rest.energy,
-                stiffness,
-                solve,
-                [DataTerm(rest.areas * counts, found.points, None, there)],
-                x,
-                rotations(rest.energy, x),
-            )
-            if progress is not None:
-                progress((i * steps + step + 1) / (len(levels) * steps))
-    return judged(x, rest, scale, whole)
+    rest, whole = deformable_mesh(scale_mesh(pair.part.mesh, scale)), pair.whole
+    x = initial_deformation(rest, pair.part.samples, points, normals, rest.areas.sum() * trust / trust.sum())
+
+    def terms(x: np.ndarray, _stiffness: float) -> list[DataTerm]:
+        found, there, agree = whole.surface(x, vertex_normals(Mesh(x, rest.mesh.faces)))
+        return [DataTerm(rest.areas * (agree * is_inside(found, whole)), found.points, None, there)]
+
+    def turns(x: np.ndarray) -> np.ndarray:
+        return rotations(rest.energy, x)
+
+    levels, steps = (STIFFNESS[:3], 3) if quick else (STIFFNESS, 5)
+    return measure_registration(descend_levels(rest, x, levels, steps, 1.0, terms, turns, progress), rest, scale, whole)
 
 
-def judged(x: np.ndarray, body: DeformableMesh, scale: float, whole: RegistrationTarget) -> PartRegistration:
-    """What a part, ``body`` at rest, shows with its vertices at ``x (n, 3)``."""
-    rest, energy, areas = body.mesh, body.energy, body.areas
+def measure_registration(x: np.ndarray, body: DeformableMesh, scale: float, whole: PartSamples) -> PartRegistration:
+    """Return what a part, ``body`` at rest, shows with its vertices at ``x (n, 3)``."""
+    rest, areas = body.mesh, body.areas
     found = closest_points(x, whole.mesh.vertices, whole.mesh.faces)
-    there = whole.normals[whole.mesh.faces[found.faces]].mean(axis=1)
+    there = whole.surface.normals[whole.mesh.faces[found.faces]].mean(axis=1)
     cosine = np.einsum("ij,ij->i", vertex_normals(Mesh(x, rest.faces)), there)
     ends = np.concatenate([rest.faces[:, [0, 1]], rest.faces[:, [1, 2]], rest.faces[:, [2, 0]]])
     before, after = (np.linalg.norm(y[ends[:, 0]] - y[ends[:, 1]], axis=1) for y in (rest.vertices, x))
     longer = np.divide(after, before, out=np.ones_like(after), where=before > 0)
-    inside = within(found, whole)
+    inside = is_inside(found, whole)
     on = areas * inside
     return PartRegistration(
         x,
@@ -139,19 +131,83 @@ def judged(x: np.ndarray, body: DeformableMesh, scale: float, whole: Registratio
         scale,
         found,
         inside,
-        arap_energy(energy, x) / float(surface_area(rest)),
+        arap_energy(body.energy, x) / float(surface_area(rest)),
         float(np.sqrt(np.average(found.distances**2, weights=on))) if on.any() else 1.0,
         float(areas[cosine < 0.3].sum() / areas.sum()),
         float(np.median(longer)),
     )
 
 
-def within(found: ClosestPoints, whole: RegistrationTarget) -> np.ndarray:
-    """Which places (q,) are no points of the whole's boundary that something beyond it is nearest to."""
-    return ~(on_border(found, whole.mesh.faces, whole.border) & (found.distances > OUTSIDE))
+def is_inside(found: ClosestPoints, whole: PartSamples) -> np.ndarray:
+    """Return which places (q,) are no points of the whole's boundary that something beyond it is nearest to."""
+    return ~(_at_boundary(found, whole.mesh.faces, whole.on_boundary) & (found.distances > BEYOND))
 
 
-def on_border(found: ClosestPoints, faces: np.ndarray, border: np.ndarray) -> np.ndarray:
-    """Which places (q,) on ``faces (m, 3)`` lie on an edge between vertices of the ``border (n,)``."""
+def _at_boundary(found: ClosestPoints, faces: np.ndarray, on_boundary: np.ndarray) -> np.ndarray:
+    """Which places (q,) on ``faces (m, 3)`` lie on an edge between vertices that are ``on_boundary (n,)``."""
     counts = found.weights > 1e-9
-    return np.asarray((border[faces[found.faces]] | ~counts).all(axis=1) & ~counts.all(axis=1))
+    return np.asarray((on_boundary[faces[found.faces]] | ~counts).all(axis=1) & ~counts.all(axis=1))
+
+
+@dataclass(frozen=True, eq=False)
+class Overlap:
+    """What a part and a whole have in common, by vertices, and where each lies on the other shape.
+
+    Attributes
+    ----------
+    part : (n_p,) float64
+        Probability to be on both.
+    whole : (n_w,) float64
+    on_whole : PointMap
+        For each vertex of the part.
+    on_part : PointMap
+        For each vertex of the whole; means something only where ``whole`` is above a half.
+    """
+
+    part: np.ndarray
+    whole: np.ndarray
+    on_whole: PointMap
+    on_part: PointMap
+
+
+def overlap_probability(
+    bent: Mesh, on_boundary: np.ndarray, whole: Mesh, normals: np.ndarray | None = None
+) -> tuple[np.ndarray, ClosestPoints]:
+    """Return how likely each vertex of a whole lies on a bent part, and the closest place on it.
+
+    Parameters
+    ----------
+    bent : Mesh
+        In the unit of the whole.
+    on_boundary : (n_p,) bool
+        Its vertices on the boundary.
+    whole : Mesh
+        At unit area.
+    normals : (n_w, 3), optional
+        Of the whole's vertices, where they are known.
+
+    Returns
+    -------
+    probability : (n_w,) float64
+    places : ClosestPoints
+    """
+    found, _, agree = closest_point_query(bent)(whole.vertices, vertex_normals(whole) if normals is None else normals)
+    # Beyond the part's edge the closest point lies on it: half the length of its edges is as near as vertices can tell.
+    corners = bent.vertices[bent.faces[found.faces]]
+    half = 0.5 * np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).mean(axis=1)
+    edge = _at_boundary(found, bent.faces, on_boundary)
+    width = np.where(edge, np.minimum(half, OVERLAP_WIDTH), OVERLAP_WIDTH)
+    return _half_at(found.distances, width) * np.where(agree > 0, 1.0, 0.25), found
+
+
+def find_overlap(bent: PartRegistration, pair: PartPair) -> Overlap:
+    """Return what a registered part and the whole have in common."""
+    mesh = Mesh(bent.vertices, bent.rest.faces)
+    common, found = overlap_probability(mesh, pair.part.on_boundary, pair.whole.mesh, pair.whole.surface.normals)
+    own = np.where(bent.inside, _half_at(bent.places.distances, OVERLAP_WIDTH), 0.0)
+    return Overlap(own, common, *(PointMap(places.faces, places.weights) for places in (bent.places, found)))
+
+
+def _half_at(distances: np.ndarray, width: np.ndarray | float) -> np.ndarray:
+    """1 at no distance, a half at ``width``."""
+    return np.exp2(-((distances / np.maximum(width, 1e-12)) ** 2))

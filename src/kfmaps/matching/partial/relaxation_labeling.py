@@ -15,34 +15,24 @@ from dataclasses import dataclass
 
 import numpy as np
 
-STEPS = 12
-"""Of the relaxation."""
 SLACK = (0.02, 0.1)
-"""Change of a distance that speaks against a pair altogether: at no distance, and per distance."""
-NARROW = (0.03, 0.08)
-"""The same when every sample chooses anew."""
-DETOUR = 0.5
-"""What a change that a detour around the boundary explains counts, against 1."""
-NEAR = 40
-"""Trusted samples that a sample is placed by."""
-TRUST = 0.3
-"""Consistency from which a sample is trusted."""
-MARK = 3.0
+"""Change of a distance that speaks against a pair altogether: at no distance, in √area, and per distance."""
+_LANDMARK_TRUST = 3.0
 """Trust in a landmark, where that of a sample is at most 1."""
 
 
 @dataclass(frozen=True)
 class RelaxationParams:
-    """One way to begin: what is compared, and how much is left open.
+    """How a relaxation begins.
 
     Attributes
     ----------
     radii : tuple of float
         Of SHOT, in √area of the whole.
     first : int
-        Samples that are placed at first, and ...
+        Samples that are placed at first.
     candidates : int
-        ... how many places each may have: few samples with many places find what descriptors alone do not.
+        Places that each may have: few samples with many places find what descriptors alone do not.
     reach : float
         Distance up to which pairs count, in √area of the whole.
     """
@@ -55,37 +45,14 @@ class RelaxationParams:
 
 @dataclass(frozen=True, eq=False)
 class DistanceBounds:
-    """Distances between the part's samples in the unit of the whole: as they are, and at least in the whole.
+    """Bounds ``(q, q)`` of the distances that the part's samples have on the whole, in its unit.
 
-    ``far (q, q)`` and ``low (q, q)``, the latter at most the former; infinite distances say nothing.
+    ``upper`` is the distance on the part, ``lower`` that of a path that may leave it; where they are infinite, as
+    between components, they say nothing.
     """
 
-    far: np.ndarray
-    low: np.ndarray
-
-
-def distance_bounds(distances: np.ndarray, edge: np.ndarray, scale: float) -> DistanceBounds:
-    """Of ``distances (q, q)`` and distances to the boundary ``edge (q,)``, times ``scale``."""
-    far = distances * np.float32(scale)
-    around = (edge[:, None] + edge[None, :]) * np.float32(scale)
-    return DistanceBounds(far, np.minimum(far, around))
-
-
-def consistency(
-    far: np.ndarray, low: np.ndarray, there: np.ndarray, slack: tuple[float, float], detour: float = DETOUR
-) -> np.ndarray:
-    """How well distances ``there`` on the whole fit those of the part, 0 to 1; the arrays are broadcast."""
-    with np.errstate(invalid="ignore"):
-        off = far - there
-        # Only what is shorter than on the part can be explained; one array after the other, since this is most of it.
-        explained = np.clip(off, 0, far - low)
-        explained *= 1 - detour
-        off -= explained
-        off /= slack[0] + slack[1] * far
-        off *= off
-        fits = np.subtract(1, off, out=off)
-    # Infinite distances say nothing; what they give is no number, or less than none.
-    return np.fmax(fits, 0, out=fits)
+    upper: np.ndarray
+    lower: np.ndarray
 
 
 @dataclass(frozen=True, eq=False)
@@ -97,7 +64,7 @@ class Assignment:
     match : (q,) int64
         Number of the whole's sample.
     trust : (q,) float64
-        0 for those that have no say.
+        0 for samples whose place is not to be relied on, up to 1, and more for landmarks.
     support : float
         Mean consistency of the pairs within reach, 0 to 1.
     """
@@ -107,28 +74,67 @@ class Assignment:
     support: float
 
 
-def relax(
-    part: DistanceBounds, whole: np.ndarray, alike: np.ndarray, trial: RelaxationParams, marks: int = 0
-) -> Assignment:
-    """The first few samples placed, by ``alike (q, m)``, the products of their descriptors with the whole's.
+def distance_bounds(distances: np.ndarray, boundary_distance: np.ndarray, scale: float) -> DistanceBounds:
+    """Return the bounds of ``distances (q, q)`` between samples ``boundary_distance (q,)`` away from the boundary."""
+    upper = distances * np.float32(scale)
+    around = (boundary_distance[:, None] + boundary_distance[None, :]) * np.float32(scale)
+    return DistanceBounds(upper, np.minimum(upper, around))
 
-    ``whole (m, m)`` are distances there. Rows of the first ``marks`` samples have one entry above all others.
+
+def consistency(
+    upper: np.ndarray, lower: np.ndarray, distances: np.ndarray, slack: tuple[float, float] = SLACK
+) -> np.ndarray:
+    """Return how well ``distances`` on the whole fit the bounds, 0 to 1; the arrays are broadcast.
+
+    A change that a way around the boundary explains counts half.
     """
-    n = min(max(trial.first, marks), len(alike))
-    k = min(trial.candidates, alike.shape[1])
-    far, low, alike = part.far[:n, :n], part.low[:n, :n], alike[:n]
-    candidates = np.argsort(-alike, axis=1, kind="stable")[:, :k]
-    speaks = np.take_along_axis(alike, candidates, 1)
+    with np.errstate(invalid="ignore"):
+        off = upper - distances
+        # One array after the other, since this is where most of the time goes.
+        explained = np.clip(off, 0, upper - lower)
+        explained *= 0.5
+        off -= explained
+        off /= slack[0] + slack[1] * upper
+        off *= off
+        fits = np.subtract(1, off, out=off)
+    # Infinite distances say nothing; what they give is no number, or less than none.
+    return np.fmax(fits, 0, out=fits)
+
+
+def relax(
+    bounds: DistanceBounds,
+    distances: np.ndarray,
+    similarity: np.ndarray,
+    params: RelaxationParams,
+    n_landmarks: int = 0,
+) -> Assignment:
+    """Place the first few samples by relaxation labelling.
+
+    Parameters
+    ----------
+    bounds : DistanceBounds
+    distances : (m, m) float
+        Between the whole's samples.
+    similarity : (q, m) float
+        Products of descriptors; rows of the first ``n_landmarks`` samples have one entry above all others.
+    params : RelaxationParams
+    n_landmarks : int
+    """
+    n = min(max(params.first, n_landmarks), len(similarity))
+    k = min(params.candidates, similarity.shape[1])
+    upper, lower, similarity = bounds.upper[:n, :n], bounds.lower[:n, :n], similarity[:n]
+    candidates = np.argsort(-similarity, axis=1, kind="stable")[:, :k]
+    speaks = np.take_along_axis(similarity, candidates, 1)
     speaks = speaks - speaks.max(axis=1, keepdims=True)
     prior = np.exp(speaks / 0.1)
     share = np.exp(speaks / 0.05)
     share /= share.sum(axis=1, keepdims=True)
     own, label = np.repeat(np.arange(n), k), candidates.ravel()
-    near = (far <= trial.reach) & ~np.eye(n, dtype=bool)
+    near = (upper <= params.reach) & ~np.eye(n, dtype=bool)
     pairs = np.ix_(own, own)
-    fits = consistency(far[pairs], low[pairs], whole[np.ix_(label, label)], SLACK) * near[pairs]
+    fits = consistency(upper[pairs], lower[pairs], distances[np.ix_(label, label)]) * near[pairs]
     backed = share
-    for _ in range(STEPS):
+    for _ in range(12):
         backed = (fits @ share.ravel().astype(fits.dtype)).reshape(n, k)
         share = prior * backed**2
         share /= share.sum(axis=1, keepdims=True) + 1e-12
@@ -138,46 +144,54 @@ def relax(
     each = np.arange(n)
     support = backed[each, best].astype(np.float64)
     middle = max(float(np.median(support)), 1e-12)
-    trust = np.where(support < 0.5 * middle, 0.0, np.minimum(support / middle, 1.0))
-    trust[:marks] = MARK
-    found = np.zeros(len(part.far), dtype=np.int64)
-    found[:n] = candidates[each, best]
-    trust = np.concatenate([trust, np.zeros(len(found) - n)])
-    return Assignment(found, trust, float((support / np.maximum(near.sum(axis=1), 1)).mean()))
+    trust, match = np.zeros(len(bounds.upper)), np.zeros(len(bounds.upper), dtype=np.int64)
+    trust[:n] = np.where(support < 0.5 * middle, 0.0, np.minimum(support / middle, 1.0))
+    trust[:n_landmarks] = _LANDMARK_TRUST
+    match[:n] = candidates[each, best]
+    return Assignment(match, trust, float((support / np.maximum(near.sum(axis=1), 1)).mean()))
 
 
 def reassign(
-    part: DistanceBounds, whole: np.ndarray, alike: np.ndarray, placed: Assignment, marks: int = 0
+    bounds: DistanceBounds,
+    distances: np.ndarray,
+    similarity: np.ndarray,
+    placed: Assignment,
+    n_landmarks: int = 0,
 ) -> Assignment:
-    """Every sample placed anew among all of the whole's, by its nearest trusted neighbours and its descriptor."""
-    q = len(alike)
+    """Place every sample anew among all of the whole's, by its 40 nearest trusted neighbours and its descriptor.
+
+    The parameters are those of :func:`relax`, with the assignment so far.
+    """
+    q = len(similarity)
     match, fit = np.zeros(q, dtype=np.int64), np.zeros(q)
     trusted = np.flatnonzero(placed.trust > 0)
     for i in range(q):
-        order = np.argsort(part.far[i, trusted], kind="stable")[: NEAR + 1]
-        near = trusted[order]
-        near = near[(near != i) & np.isfinite(part.far[i, near])]
+        near = trusted[np.argsort(bounds.upper[i, trusted], kind="stable")[:41]]
+        near = near[(near != i) & np.isfinite(bounds.upper[i, near])]
         if len(near) == 0:
-            match[i] = alike[i].argmax()
+            match[i] = similarity[i].argmax()
             continue
-        far, low = part.far[i, near], part.low[i, near]
-        fits = consistency(far, low, whole[:, placed.match[near]], NARROW)
-        weight = placed.trust[near] / (0.1 + far)
+        upper, lower = bounds.upper[i, near], bounds.lower[i, near]
+        fits = consistency(upper, lower, distances[:, placed.match[near]], (0.03, 0.08))
+        weight = placed.trust[near] / (0.1 + upper)
         share = fits @ (weight / weight.sum()).astype(fits.dtype)
-        match[i] = (share + alike[i] - alike[i].max()).argmax() if i >= marks else placed.match[i]
+        if i < n_landmarks:
+            match[i] = placed.match[i]
+        else:
+            match[i] = (share + similarity[i] - similarity[i].max()).argmax()
         fit[i] = share[match[i]]
-    trust = np.maximum(fit - TRUST, 0.0) / (1 - TRUST)
-    trust[:marks] = MARK
+    trust = np.maximum(fit - 0.3, 0.0) / (1 - 0.3)  # samples less consistent than that are not trusted
+    trust[:n_landmarks] = _LANDMARK_TRUST
     return Assignment(match, trust, float(fit.mean()))
 
 
-def stretch(part: DistanceBounds, whole: np.ndarray, placed: Assignment) -> float:
-    """How much longer distances are on the whole, as far as the boundary has no say in them."""
+def scale_change(bounds: DistanceBounds, distances: np.ndarray, placed: Assignment) -> float:
+    """Return how much longer distances are on the whole, as far as the boundary has no say in them."""
     trust = np.minimum(placed.trust, 1.0)
-    there = whole[np.ix_(placed.match, placed.match)]
-    known = (part.far > 0.04) & (trust[:, None] * trust[None, :] > 0.08) & np.isfinite(there)
-    sure = known & (part.low >= part.far) & (part.far < 0.4)
+    there = distances[np.ix_(placed.match, placed.match)]
+    known = (bounds.upper > 0.04) & (trust[:, None] * trust[None, :] > 0.08) & np.isfinite(there)
+    sure = known & (bounds.lower >= bounds.upper) & (bounds.upper < 0.4)
     if sure.sum() >= 400:
-        return float(np.median(there[sure] / part.far[sure]))
-    known &= part.far < 0.25
-    return float(np.quantile(there[known] / part.far[known], 0.6)) if known.any() else 1.0
+        return float(np.median(there[sure] / bounds.upper[sure]))
+    known &= bounds.upper < 0.25
+    return float(np.quantile(there[known] / bounds.upper[known], 0.6)) if known.any() else 1.0

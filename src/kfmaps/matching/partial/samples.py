@@ -1,8 +1,9 @@
-"""What matching parts needs of one shape: evenly spread samples, and the distances between them and to its edge."""
+"""Samples of a part and of the whole: their distances from each other and from the boundary, and SHOT at them."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from functools import cached_property
 
 import numpy as np
 from scipy.sparse.csgraph import dijkstra
@@ -13,18 +14,13 @@ from kfmaps.geometry.geodesic_graph import geodesic_graph
 from kfmaps.geometry.geodesics import farthest_geodesic
 from kfmaps.geometry.mesh import Mesh, boundary_vertices
 from kfmaps.geometry.sampling import stratified
-
-LARGE = 20_000
-"""Vertices from which distances are worked out on a coarse copy with ..."""
-COARSE = 8_000
-"""... that many."""
-DENSITY = 10_000
-"""Support points of SHOT on a surface of unit area: half of what a descriptor at every vertex deserves."""
+from kfmaps.matching.partial.relaxation_labeling import DistanceBounds, distance_bounds
+from kfmaps.registration.deformable import ClosestPointQuery, closest_point_query
 
 
 @dataclass(frozen=True, eq=False)
 class PartSamples:
-    """Samples of one shape; made by :func:`part_samples`. Lengths are in units of √area of the shape itself.
+    """Samples of one shape, in units of its own √area; made by :func:`part_samples`.
 
     Attributes
     ----------
@@ -34,12 +30,12 @@ class PartSamples:
         Vertices: landmarks, then farthest points, so that the first few are spread evenly too.
     distances : (q, q) float32
         Along the surface; infinite between components.
-    edge : (q,) float32
-        Distance to the boundary; infinite where there is none.
-    border : (n,) bool
-        The vertices of the boundary.
-    marks : int
-        How many landmarks there are.
+    boundary_distance : (q,) float32
+        Infinite where there is no boundary.
+    on_boundary : (n,) bool
+    n_landmarks : int
+    descriptors : dict
+        SHOT at the samples by its radius, as far as :meth:`shot` was asked for it.
     """
 
     mesh: Mesh
@@ -47,44 +43,61 @@ class PartSamples:
     distances: np.ndarray
     boundary_distance: np.ndarray
     on_boundary: np.ndarray
-    marks: int = 0
-    known: dict[float, np.ndarray] = field(default_factory=dict)
+    n_landmarks: int = 0
+    descriptors: dict[float, np.ndarray] = field(default_factory=dict)
 
-    def shot(self, radius: float, threads: int | None = None) -> np.ndarray:
-        """SHOT at the samples, (q, 352) float32, of a ``radius`` in √area of the shape; kept once it is worked out."""
-        if radius not in self.known:
-            found = shot(self.mesh, radius, at=self.samples, samples=DENSITY, threads=threads)
-            self.known[radius] = found.astype(np.float32)
-        return self.known[radius]
+    def shot(self, radius: float, threads: int | None = 1) -> np.ndarray:
+        """Return SHOT at the samples, (q, 352) float32, of a ``radius`` in √area of the shape."""
+        if radius not in self.descriptors:
+            # Half of the support points that a descriptor at every vertex deserves.
+            found = shot(self.mesh, radius, at=self.samples, samples=10_000, threads=threads)
+            self.descriptors[radius] = found.astype(np.float32)
+        return self.descriptors[radius]
+
+    @cached_property
+    def surface(self) -> ClosestPointQuery:
+        """The mesh with its normals, ready to search for closest points."""
+        return closest_point_query(self.mesh)
+
+
+@dataclass(frozen=True, eq=False)
+class PartPair:
+    """A part and the whole, whether the scale of the part is known, and the threads to place it with."""
+
+    part: PartSamples
+    whole: PartSamples
+    fixed_scale: bool = False
+    threads: int | None = None
+
+    def bounds(self, scale: float) -> DistanceBounds:
+        """Return the bounds of the part's distances on the whole at a ``scale``."""
+        return distance_bounds(self.part.distances, self.part.boundary_distance, scale)
 
 
 def part_samples(mesh: Mesh, count: int, landmarks: np.ndarray | None = None, rng: int = 0) -> PartSamples:
-    """``count`` samples of ``mesh``, which is at unit area, and the vertices ``landmarks (l,)``."""
-    marks = np.zeros(0, dtype=np.int64) if landmarks is None else np.asarray(landmarks, dtype=np.int64)
-    border = boundary_vertices(mesh)
+    """Return samples of one shape.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        At unit area.
+    count : int
+        Farthest points.
+    landmarks : (l,) int64, optional
+        Vertices that come first.
+    rng : int
+    """
+    chosen = np.zeros(0, dtype=np.int64) if landmarks is None else np.asarray(landmarks, dtype=np.int64)
+    n_landmarks = len(chosen)
     small, rows = mesh, np.arange(len(mesh.vertices))
-    if len(rows) > LARGE:
-        areas = np.full(len(rows), 1.0)
-        rows = np.union1d(stratified(mesh.vertices, areas, COARSE, rng), marks)
+    if len(rows) > 20_000:  # searches of all vertices would take most of the time
+        rows = np.union1d(stratified(mesh.vertices, np.ones(len(rows)), 8_000, rng), chosen)
         small = coarsen(mesh, rows)
-    used = np.unique(small.faces)
-    chosen = farthest_geodesic(small, min(count, len(used)), rng)
-    first = np.searchsorted(rows, marks)
-    chosen = np.concatenate([first, chosen[~np.isin(chosen, first)]])
-    graph = geodesic_graph(small, 1)
-    distances = dijkstra(graph, indices=chosen)
+    first = np.searchsorted(rows, chosen)
+    farthest = farthest_geodesic(small, min(count, len(np.unique(small.faces))), rng)
+    chosen = np.concatenate([first, farthest[~np.isin(farthest, first)]])
+    distances = dijkstra(geodesic_graph(small, 1), indices=chosen)
     on = np.flatnonzero(boundary_vertices(small))
-    edge = distances[:, on].min(axis=1) if len(on) else np.full(len(chosen), np.inf)
-    return PartSamples(
-        mesh,
-        rows[chosen],
-        distances[:, chosen].astype(np.float32),
-        edge.astype(np.float32),
-        border,
-        len(marks),
-    )
-
-
-def scaled(mesh: Mesh, scale: float) -> Mesh:
-    """``mesh`` with all lengths times ``scale``."""
-    return Mesh(mesh.vertices * scale, mesh.faces)
+    away = distances[:, on].min(axis=1) if len(on) else np.full(len(chosen), np.inf)
+    between = distances[:, chosen].astype(np.float32)
+    return PartSamples(mesh, rows[chosen], between, away.astype(np.float32), boundary_vertices(mesh), n_landmarks)

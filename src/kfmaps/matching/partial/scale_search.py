@@ -2,23 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from kfmaps._threads import parallel
 from kfmaps.matching.partial.beam_search import beam_search
-from kfmaps.matching.partial.relaxation_labeling import (
-    Assignment,
-    DistanceBounds,
-    RelaxationParams,
-    distance_bounds,
-    reassign,
-    relax,
-    stretch,
-)
-from kfmaps.matching.partial.samples import PartSamples
+from kfmaps.matching.partial.relaxation_labeling import Assignment, RelaxationParams, reassign, relax, scale_change
+from kfmaps.matching.partial.samples import PartPair
+from kfmaps.matching.score import PartEvidence, placement_score
 
 TRIALS = (
     RelaxationParams(),
@@ -28,14 +21,8 @@ TRIALS = (
 """The first tries all scales, the others the best of these."""
 SCALES = tuple(0.28 * 1.15**i for i in range(10))
 """√area of the part over that of the whole; SHOT and consistency tolerate a tenth more or less."""
-LARGER = tuple(SCALES[-1] * 1.15**i for i in range(1, 4))
+LARGER_SCALES = tuple(SCALES[-1] * 1.15**i for i in range(1, 4))
 """Further ones where what is registered is no part, but overlaps with one."""
-FOLLOWED = 3
-"""Scales whose beam searches are followed up."""
-LIMITS = (0.1, 1.6)
-"""Least and greatest scale."""
-ROUNDS = 3
-"""Reassignments before and after descriptors are computed at the scale that was found."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -46,97 +33,104 @@ class Placement:
     ----------
     scale : float
         √area of the part over that of the whole.
-    trial : RelaxationParams
+    params : RelaxationParams
+        Those that it began with.
     placed : Assignment
-    alike : (q, m) float32
+    similarity : (q, m) float32
         Products of descriptors.
     """
 
     scale: float
-    trial: RelaxationParams
+    params: RelaxationParams
     placed: Assignment
-    alike: np.ndarray
+    similarity: np.ndarray
+
+    @property
+    def evidence(self) -> PartEvidence:
+        """What the placement shows before registration."""
+        match = self.placed.match
+        own = self.similarity[np.arange(len(match)), match]
+        better = (self.similarity > own[:, None]).sum(axis=1)
+        rank = float(np.log((better + 1) / self.similarity.shape[1]).mean())
+        return PartEvidence(self.placed.support, rank)
+
+    @property
+    def score(self) -> float:
+        """The score of that evidence."""
+        return placement_score(self.evidence)
 
 
-def shot_similarity(
-    part: PartSamples, whole: PartSamples, scale: float, radii: tuple[float, ...], threads: int | None = None
-) -> np.ndarray:
+def shot_similarity(pair: PartPair, scale: float, params: RelaxationParams) -> np.ndarray:
     """Return mean products ``(q, m)`` of the SHOT of both, in balls of equal size; landmarks are settled."""
-    total = sum(part.shot(r / scale, threads) @ whole.shot(r, threads).T for r in radii)
-    alike = np.asarray(total, dtype=np.float32) / len(radii)
-    landmarks = np.arange(part.marks)
-    alike[landmarks] = -1.0
-    alike[landmarks, landmarks] = 2.0
-    return alike
+    total = sum(pair.part.shot(radius / scale) @ pair.whole.shot(radius).T for radius in params.radii)
+    similarity = np.asarray(total, dtype=np.float32) / len(params.radii)
+    landmarks = np.arange(pair.part.n_landmarks)
+    similarity[landmarks] = -1.0
+    similarity[landmarks, landmarks] = 2.0
+    return similarity
 
 
-def scaled_bounds(part: PartSamples, scale: float) -> DistanceBounds:
-    """Return the bounds of the part's distances at a ``scale``."""
-    return distance_bounds(part.distances, part.boundary_distance, scale)
-
-
-def place_by_beams(part: PartSamples, whole: PartSamples, scale: float, alike: np.ndarray) -> list[Assignment]:
-    """Return the placements of a few samples by a beam search at one ``scale``."""
-    away = part.boundary_distance * np.float32(scale)
-    return beam_search(scaled_bounds(part, scale), away, whole.distances, alike, part.marks)
+def place_by_beams(pair: PartPair, scale: float, similarity: np.ndarray) -> list[Assignment]:
+    """Return placements of a few samples at one ``scale`` by a beam search, best first."""
+    away = pair.part.boundary_distance * np.float32(scale)
+    return beam_search(pair.bounds(scale), away, pair.whole.distances, similarity, pair.part.n_landmarks)
 
 
 def place_by_relaxation(
-    part: PartSamples, whole: PartSamples, scale: float, alike: np.ndarray, trial: RelaxationParams
+    pair: PartPair, scale: float, similarity: np.ndarray, params: RelaxationParams = TRIALS[0]
 ) -> Assignment:
-    """Return the placement of the first samples by relaxation at one ``scale``."""
-    return relax(scaled_bounds(part, scale), whole.distances, alike, trial, part.marks)
+    """Return the placement of the first samples at one ``scale`` by relaxation."""
+    return relax(pair.bounds(scale), pair.whole.distances, similarity, params, pair.part.n_landmarks)
 
 
-def place_all(part: PartSamples, whole: PartSamples, one: Placement) -> Placement:
+def place_all(pair: PartPair, one: Placement) -> Placement:
     """Place all samples anew, at the same scale."""
-    bounds = scaled_bounds(part, one.scale)
-    return replace(one, placed=reassign(bounds, whole.distances, one.alike, one.placed, part.marks))
+    n_landmarks = pair.part.n_landmarks
+    placed = reassign(pair.bounds(one.scale), pair.whole.distances, one.similarity, one.placed, n_landmarks)
+    return replace(one, placed=placed)
 
 
-def try_scales(
-    part: PartSamples,
-    whole: PartSamples,
+def try_scales(pair: PartPair, scales: Sequence[float], params: RelaxationParams = TRIALS[0]) -> list[Placement]:
+    """Place the first samples at each of ``scales`` by relaxation, the best supported first."""
+    place = place_by_relaxation
+    found = _at_scales(pair, scales, params, lambda scale, alike: [place(pair, scale, alike, params)])
+    return [one for (one,) in found]
+
+
+def search_scale(pair: PartPair, scales: Sequence[float]) -> list[Placement]:
+    """Place all samples by beam searches at each of ``scales``; those of the three best scales, best first."""
+    found = _at_scales(pair, scales, TRIALS[0], lambda scale, alike: place_by_beams(pair, scale, alike))
+    return parallel(lambda one: place_all(pair, one), [one for some in found[:3] for one in some], pair.threads)
+
+
+def _at_scales(
+    pair: PartPair,
     scales: Sequence[float],
-    trial: RelaxationParams = TRIALS[0],
-    threads: int | None = None,
-) -> list[Placement]:
-    """Place the first samples at each of ``scales`` as ``trial`` says, the best supported first."""
-    for radius in trial.radii:
-        whole.shot(radius, threads)
+    params: RelaxationParams,
+    place: Callable[[float, np.ndarray], list[Assignment]],
+) -> list[list[Placement]]:
+    """The placements at each of ``scales``, the best supported first."""
+    for radius in params.radii:
+        pair.whole.shot(radius, pair.threads)
 
-    def place(scale: float) -> Placement:
-        alike = shot_similarity(part, whole, scale, trial.radii, 1)
-        return Placement(scale, trial, place_by_relaxation(part, whole, scale, alike, trial), alike)
+    def at(scale: float) -> list[Placement]:
+        similarity = shot_similarity(pair, scale, params)
+        return [Placement(scale, params, one, similarity) for one in place(scale, similarity)]
 
-    return sorted(parallel(place, list(scales), threads), key=lambda one: -one.placed.support)
-
-
-def search_scale(
-    part: PartSamples, whole: PartSamples, scales: Sequence[float], threads: int | None = None
-) -> list[Placement]:
-    """Place all samples by beam searches at each of ``scales``; those of the best scales, best first."""
-    trial = TRIALS[0]
-    for radius in trial.radii:
-        whole.shot(radius, threads)
-
-    def place(scale: float) -> list[Placement]:
-        alike = shot_similarity(part, whole, scale, trial.radii, 1)
-        return [Placement(scale, trial, one, alike) for one in place_by_beams(part, whole, scale, alike)]
-
-    found = sorted(parallel(place, list(scales), threads), key=lambda some: -some[0].placed.support)
-    likely = [one for some in found[:FOLLOWED] for one in some]
-    return parallel(lambda one: place_all(part, whole, one), likely, threads)
+    return sorted(parallel(at, list(scales), pair.threads), key=lambda some: -some[0].placed.support)
 
 
-def refine_placement(part: PartSamples, whole: PartSamples, one: Placement, fixed: bool = False) -> Placement:
-    """Place all samples, and find the scale with them unless it is ``fixed``."""
+def refine_placement(pair: PartPair, one: Placement) -> Placement:
+    """Place all samples, and find the scale with them unless it is known.
+
+    There are three reassignments before and three after descriptors are computed at the scale that was found.
+    """
     for repeated in range(2):
-        for _ in range(ROUNDS):
-            scale, one = one.scale, place_all(part, whole, one)
-            if not fixed:
-                longer = stretch(scaled_bounds(part, scale), whole.distances, one.placed)
-                one = replace(one, scale=float(np.clip(scale * longer, *LIMITS)))
-        if not repeated and not fixed:
-            one = replace(one, alike=shot_similarity(part, whole, one.scale, one.trial.radii, 1))
+        for _ in range(3):
+            scale, one = one.scale, place_all(pair, one)
+            if not pair.fixed_scale:
+                longer = scale_change(pair.bounds(scale), pair.whole.distances, one.placed)
+                one = replace(one, scale=float(np.clip(scale * longer, 0.1, 1.6)))
+        if not repeated and not pair.fixed_scale:
+            one = replace(one, similarity=shot_similarity(pair, one.scale, one.params))
     return one
