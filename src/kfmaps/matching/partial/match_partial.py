@@ -118,7 +118,8 @@ def match_partial(
     place = found.overlap.on_whole if forward else found.overlap.on_part
     overlaps = (found.overlap.whole, found.overlap.part) if forward else (found.overlap.part, found.overlap.whole)
     points = np.where(overlaps[1] > COMMON, nearest_vertices(place, (whole if forward else part).mesh), -1)
-    at_scale = scale_mesh(part.mesh, found.registration.scale)
+    scale = found.registration.scale
+    at_scale = scale_mesh(part.mesh, scale)
     here, there = (whole.mesh, at_scale) if forward else (at_scale, whole.mesh)
     trust = local_confidence(here, there, points, sized=True)
     masses = to_numpy(part.basis.mass), to_numpy(whole.basis.mass)
@@ -128,10 +129,10 @@ def match_partial(
         points,
         place,
         *overlaps,
-        _slanted_functional_map(points, source, target, found.registration.scale if forward else 1 / found.registration.scale),
+        _slanted_functional_map(points, source, target, scale if forward else 1 / scale),
         trust,
         None if forward else found.registration.vertices,
-        found.registration.scale,
+        scale,
         verdict(found.scores[0], found.margin, numbers=SCORE.part.calibration),
         probability(found.scores[0], found.margin, numbers=SCORE.part.calibration),
         found.scores,
