@@ -10,6 +10,7 @@ SOURCE = Path(__file__).parents[1] / "src" / "kfmaps"
 
 FLOORS = {
     "_arrays": 0,
+    "_errors": 0,
     "_threads": 0,
     "_progress": 0,
     "_memory": 1,

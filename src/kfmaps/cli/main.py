@@ -18,7 +18,7 @@ from typing import Annotated, Any
 import typer
 
 import kfmaps
-from kfmaps._arrays import InvalidInput, KfmapsWarning, MissingDependency, NotConverged, shown
+from kfmaps._errors import InvalidInput, KfmapsWarning, MissingDependency, NotConverged, shown
 
 COMMANDS = {
     "match": "Find for each vertex of the target the corresponding vertex of the source, and write the map.",
