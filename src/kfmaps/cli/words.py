@@ -14,6 +14,13 @@ def percent(error: float | None, digits: int = 2) -> str:
     return "" if error is None else f"{100 * error:.{digits}f}"
 
 
+def probability_text(probability: float) -> str:
+    """Return a probability as people read it: "97 %", ">99 %", "<1 %"."""
+    if probability > 0.99:
+        return ">99 %"
+    return "<1 %" if probability < 0.01 else f"{100 * probability:.0f} %"
+
+
 def in_words(seconds: float) -> str:
     """A duration, rounded to what one can tell: 40 s, 12 min, 3 h 20 min."""
     if seconds < 100:
