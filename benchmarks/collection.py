@@ -39,7 +39,7 @@ from kfmaps.batch.results import BAD, Result
 from kfmaps.batch.run import BatchResult, run_batch
 from kfmaps.batch.run_spec import RunSpec
 from kfmaps.batch.work import PairTask, load_prepared, map_path, true_vertices
-from kfmaps.cli.evaluation import assessed
+from kfmaps.cli.evaluation import assess
 from kfmaps.collection.synchronization import N_FUNCTIONS, CandidateMap, Edge, synchronize
 from kfmaps.config import BasisConfig, Config, DescriptorConfig, Search
 from kfmaps.fmap.constraints import nearest_orthogonal
@@ -156,7 +156,7 @@ def error_in_use(task: PairTask) -> float:
     source, target = load_prepared(task.source).mesh, load_prepared(task.target).mesh
     truth = true_vertices(task, len(source.vertices), len(target.vertices))
     assert truth is not None
-    return assessed(source, points, truth).errors.mean
+    return assess(source, points, truth).errors.mean
 
 
 def going_on(outcome: BatchResult) -> BatchResult:

@@ -20,7 +20,7 @@ from kfmaps.batch.plan import make_plan
 from kfmaps.batch.results import summarize
 from kfmaps.batch.run_spec import RunSpec
 from kfmaps.batch.work import attempts, map_path, match_pair, prepare_shape
-from kfmaps.cli.evaluation import Truth, assessed
+from kfmaps.cli.evaluation import Truth, assess
 from kfmaps.config import NystromConfig, Search
 from kfmaps.fmap.evaluate import geodesic_errors
 from kfmaps.geometry.mesh import Mesh
@@ -95,7 +95,7 @@ def test_far_mirrored_points_are_sampled(folder: Path) -> None:
     rng = np.random.default_rng(0)
     points, true, swapped = (rng.permutation(200) for _ in range(3))
     truth = Truth(np.arange(200), true, swapped)
-    every, some = (assessed(source, points, truth, mirrored=most) for most in (None, 60))
+    every, some = (assess(source, points, truth, mirrored=most) for most in (None, 60))
     assert every.mirrored is not None
     assert some.mirrored is not None
     assert every.errors.mean == some.errors.mean
@@ -308,8 +308,8 @@ def test_identity_and_pair_truth_agree_with_lists(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("change", "message"),
     [
-        (lambda f: touch(f / "corres" / "b1.vts", "1\n2\n"), "equally many lines"),
-        (lambda f: touch(f / "corres" / "b1.vts", "900\n" * 200), "mesh of 200"),
+        (lambda f: touch(f / "corres" / "b1.vts", "1\n2\n"), "files of equal length"),
+        (lambda f: touch(f / "corres" / "b1.vts", "900\n" * 200), "from 0 to 199"),
         (lambda f: (f / "corres" / "b1.vts").unlink(), "none for this pair"),
         (lambda f: [touch(f / "corres" / f"b{i}.vts", "1\n2\n") for i in range(2)], "line 170 of 2"),
     ],

@@ -13,7 +13,7 @@ from matplotlib.image import imread
 
 from commandline import run, shapes
 from conftest import fibonacci_sphere
-from kfmaps.cli.evaluation import THRESHOLDS, Truth, assessed
+from kfmaps.cli.evaluation import THRESHOLDS, Truth, assess
 from kfmaps.geometry.geodesics import geodesic_distances
 from kfmaps.geometry.mesh import surface_area, vertex_areas
 from kfmaps.io import MapFile, save_map, write_mesh
@@ -75,7 +75,7 @@ def test_mirrored_truth(made: types.SimpleNamespace, tmp_path: Path) -> None:
     swapped = rng.permutation(300)
     (tmp_path / "sym.vts").write_text("".join(f"{v + 1}\n" for v in swapped))
     told = numbers(made, *truth(made), "--symmetric", tmp_path / "sym.vts")
-    other = assessed(made.meshes[0], made.points, Truth(made.truth, swapped))
+    other = assess(made.meshes[0], made.points, Truth(made.truth, swapped))
     assert told["mirrored"]["mean"] == pytest.approx(other.errors.mean)
     assert told["mirrored"]["mean"] > told["mean"]
     words = ("--truth", made.truth_source, tmp_path / "sym.vts")

@@ -314,7 +314,7 @@ def _truth(truth: tuple[Any, Any], shapes: tuple[Mesh, Mesh]) -> Truth:
     if len(both) != 2 or len(both[0]) != len(both[1]) or len(both[0]) == 0:
         got = " and ".join(str(len(part)) for part in both)
         raise refuse("truth", "two lists of equal length", got, "give corresponding vertices")
-    return check_truth(Truth(both[0], both[1]), shapes[0], len(shapes[1].vertices))
+    return check_truth(Truth(both[0], both[1]), *(len(mesh.vertices) for mesh in shapes))
 
 
 def _shapes(found: Any, source: Any, target: Any) -> tuple[Mesh, Mesh]:

@@ -21,7 +21,7 @@ from kfmaps._threads import one_blas_thread
 from kfmaps.batch.cache import cached_samples, file_digest, load_shape, save_shape
 from kfmaps.batch.layout import Pair
 from kfmaps.batch.results import CURVE_ERRORS, Result, read_result, result_path, write_result
-from kfmaps.cli.evaluation import Accuracy, Truth, assessed
+from kfmaps.cli.evaluation import Accuracy, Truth, assess, check_truth, known_truth, read_vertex_lists
 from kfmaps.cli.summary import MatchRun, map_file, mean_confidence
 from kfmaps.config import Config
 from kfmaps.fmap.evaluate import coverage, error_curve
@@ -253,7 +253,7 @@ def recorded(
     sizes = len(source.mesh.vertices), len(target.mesh.vertices)
     start = time.perf_counter()
     points = found.target_to_source
-    accuracy = None if truth is None else assessed(source.mesh, points, truth, mirrored=MIRRORED_POINTS)
+    accuracy = None if truth is None else assess(source.mesh, points, truth, mirrored=MIRRORED_POINTS)
     reached = coverage(points, source.mesh)
     seconds = {**found.seconds, "evaluation": time.perf_counter() - start}
     marks = np.zeros((0, 2), dtype=np.int64) if landmarks is None else landmarks
@@ -312,23 +312,12 @@ def true_vertices(task: PairTask, n_s: int, n_t: int) -> Truth | None:
     InvalidInput
         When its files cannot be used or do not fit the shapes.
     """
-    if task.identity:
-        if n_s != n_t:
-            raise refuse("--identity", "equally many vertices", f"{n_s} and {n_t}", "leave it out")
-        return Truth(np.arange(n_s), np.arange(n_t))
-    if task.truth_map is not None:
-        numbers = _within(read_vertex_numbers(task.truth_map, one_based=True), n_t, task.truth_map)
-        if len(numbers) != n_s:
-            raise refuse(task.truth_map, f"{n_s} lines, one per source vertex", f"{len(numbers)}", "check the file")
-        return Truth(np.arange(n_s), numbers)
-    if task.truth is None:
-        return None
-    source, target = _two_lists(task.truth, n_s, n_t)
-    if task.mirrored is None:
-        return Truth(source, target)
-    mirrored = _within(read_vertex_numbers(task.mirrored), n_t, task.mirrored)
-    _same_length(task.truth[0], source, task.mirrored, mirrored)
-    return Truth(source, target, mirrored)
+    if task.truth_map is None:
+        return known_truth(task.truth, n_s, n_t, symmetric=task.mirrored, identity=task.identity)
+    numbers = read_vertex_numbers(task.truth_map, one_based=True)
+    if len(numbers) != n_s:
+        raise refuse(task.truth_map, f"{n_s} lines, one per source vertex", f"{len(numbers)}", "check the file")
+    return check_truth(Truth(np.arange(n_s), numbers), n_s, n_t)
 
 
 def landmark_pairs(task: PairTask, truth: Truth | None, n_s: int, n_t: int) -> np.ndarray | None:
@@ -349,25 +338,5 @@ def landmark_pairs(task: PairTask, truth: Truth | None, n_s: int, n_t: int) -> n
         rows = np.array(task.landmark_lines) - 1
         return np.stack([truth.source[rows], truth.target[rows]], axis=1)
     if task.landmarks is not None:
-        return np.stack(_two_lists(task.landmarks, n_s, n_t), axis=1)
+        return np.stack(read_vertex_lists(task.landmarks, (n_s, n_t)), axis=1)
     return None
-
-
-def _two_lists(paths: tuple[str, str], n_s: int, n_t: int) -> tuple[np.ndarray, np.ndarray]:
-    """Vertex lists of source and target, of equal length."""
-    a, b = (_within(read_vertex_numbers(path), n, path) for path, n in zip(paths, (n_s, n_t), strict=True))
-    _same_length(paths[0], a, paths[1], b)
-    return a, b
-
-
-def _same_length(path_a: str, a: np.ndarray, path_b: str, b: np.ndarray) -> None:
-    if len(a) != len(b):
-        got = f"{len(a)} in {path_a} and {len(b)} in {path_b}"
-        raise refuse("vertex lists", "equally many lines", got, "take both from one data set")
-
-
-def _within(numbers: np.ndarray, n: int, path: str) -> np.ndarray:
-    if numbers.max() >= n:
-        remedy = "check that the file belongs to the mesh"
-        raise refuse(path, f"vertices of a mesh of {n}", f"number {numbers.max()}, counted from 0", remedy)
-    return numbers

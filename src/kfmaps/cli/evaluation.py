@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import io
 import math
+from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
@@ -43,68 +44,95 @@ class Truth:
     mirrored: np.ndarray | None = None
 
 
-def read_truth(files: tuple[Path, Path] | None, symmetric: Path | None = None) -> Truth | None:
-    """The truth that the options ``--truth SOURCE TARGET`` and ``--symmetric`` name; ``None`` when they name none.
+def known_truth(
+    files: tuple[str | Path, str | Path] | None,
+    n_s: int,
+    n_t: int,
+    *,
+    symmetric: str | Path | None = None,
+    identity: bool = False,
+) -> Truth | None:
+    """Return the truth that options or a collection's files name; ``None`` when they name none.
 
     Parameters
     ----------
-    files : (Path, Path), optional
+    files : (path, path), optional
         Lists of vertices of source and target, line k of one corresponding to line k of the other.
-    symmetric : Path, optional
+    n_s, n_t : int
+        Vertices of the shapes.
+    symmetric : path, optional
         The same for the target with left and right swapped.
+    identity : bool
+        Vertex i corresponds to vertex i.
+
+    Returns
+    -------
+    Truth or None
 
     Raises
     ------
     InvalidInput
-        When half of it is missing, or the lists differ in length.
-    """
-    if files is None:
-        if symmetric is not None:
-            raise refuse("--symmetric", "--truth SOURCE TARGET beside it", "none", "give it")
-        return None
-    source = read_vertex_numbers(files[0])
-    others = []
-    for file in (files[1], symmetric):
-        others.append(None if file is None else read_vertex_numbers(file))
-        if others[-1] is not None and len(others[-1]) != len(source):
-            got = f"{len(source)} lines in {files[0]} and {len(others[-1])} in {file}"
-            raise refuse("truth", "files of equal length", got, "take both from one data set")
-    return Truth(source, others[0], others[1])
-
-
-def known_truth(
-    files: tuple[Path, Path] | None, identity: bool, source: Mesh, n_t: int, symmetric: Path | None = None
-) -> Truth | None:
-    """As :func:`read_truth`, or vertex i is vertex i where ``identity``; checked against both shapes.
-
-    Raises
-    ------
-    InvalidInput
-        When both are given, or they do not belong to the shapes.
+        When half of it is missing, more than one is given, or it does not fit the shapes.
     """
     if identity:
         if files is not None or symmetric is not None:
             raise refuse("--identity", "one truth", "files of the truth beside it", "leave one out")
-        if len(source.vertices) != n_t:
-            got = f"{len(source.vertices)} and {n_t}"
-            raise refuse("--identity", "equally many vertices", got, "give --truth SOURCE TARGET instead")
+        if n_s != n_t:
+            raise refuse("--identity", "equally many vertices", f"{n_s} and {n_t}", "name lists of vertices instead")
         return Truth(np.arange(n_t), np.arange(n_t))
-    truth = read_truth(files, symmetric)
-    return None if truth is None else check_truth(truth, source, n_t)
+    if files is None:
+        if symmetric is not None:
+            raise refuse("--symmetric", "--truth SOURCE TARGET beside it", "--symmetric alone", "give both")
+        return None
+    return Truth(*read_vertex_lists(files if symmetric is None else (*files, symmetric), (n_s, n_t, n_t)))
 
 
-def check_truth(truth: Truth, source: Mesh, n_t: int) -> Truth:
-    """``truth`` when its vertices are those of ``source`` and of a target with ``n_t`` vertices."""
-    n_s = len(source.vertices)
-    for numbers, n, name in (
-        (truth.source, n_s, "truth of the source"),
-        (truth.target, n_t, "truth of the target"),
-        (truth.mirrored, n_t, "mirrored truth of the target"),
-    ):
-        if numbers is not None and len(numbers) and int(numbers.max()) >= n:
-            remedy = "check that it belongs to the mesh, and whether it counts from 0 (.txt) or 1 (.vts)"
-            raise refuse(name, f"vertices from 0 to {n - 1}", str(int(numbers.max())), remedy)
+def read_vertex_lists(files: Sequence[str | Path], counts: Sequence[int]) -> list[np.ndarray]:
+    """Read lists of vertices, line k of one corresponding to line k of the others.
+
+    Parameters
+    ----------
+    files : sequence of path
+    counts : sequence of int
+        Vertices of the shape of each file.
+
+    Returns
+    -------
+    list of arrays (q,) int64
+
+    Raises
+    ------
+    InvalidInput
+        When they differ in length, or name vertices that the shapes do not have.
+    """
+    lists = [read_vertex_numbers(file) for file in files]
+    for file, numbers, count in zip(files, lists, counts, strict=False):
+        if len(numbers) != len(lists[0]):
+            got = f"{len(lists[0])} lines in {files[0]} and {len(numbers)} in {file}"
+            raise refuse("vertex lists", "files of equal length", got, "take both from one data set")
+        _check_range(numbers, count, str(file))
+    return lists
+
+
+def check_truth(truth: Truth, n_s: int, n_t: int) -> Truth:
+    """Return ``truth`` when its vertices are those of shapes with ``n_s`` and ``n_t`` vertices.
+
+    Raises
+    ------
+    InvalidInput
+        When they are not.
+    """
+    _check_range(truth.source, n_s, "truth of the source")
+    _check_range(truth.target, n_t, "truth of the target")
+    if truth.mirrored is not None:
+        _check_range(truth.mirrored, n_t, "mirrored truth of the target")
     return truth
+
+
+def _check_range(numbers: np.ndarray, count: int, name: str) -> None:
+    if len(numbers) and int(numbers.max()) >= count:
+        remedy = "check that it belongs to the mesh, and whether it counts from 0 (.txt) or 1 (.vts)"
+        raise refuse(name, f"vertices from 0 to {count - 1}", str(int(numbers.max())), remedy)
 
 
 @dataclass(frozen=True, eq=False)
@@ -141,7 +169,7 @@ def numbers_of(errors: Evaluation) -> dict[str, float | None]:
     return {name: value if math.isfinite(value := getattr(errors, name)) else None for name in names}
 
 
-def assessed(
+def assess(
     source: Mesh,
     target_to_source: np.ndarray,
     truth: Truth,
@@ -162,7 +190,7 @@ def assessed(
         When the map or the truth names vertices that the shapes do not have.
     """
     target_to_source = check_map(target_to_source, len(source.vertices), lost=True)
-    check_truth(truth, source, len(target_to_source))
+    check_truth(truth, len(source.vertices), len(target_to_source))
 
     def errors(target: np.ndarray, most: int | None = None) -> Evaluation:
         step = 1 if most is None else -(-len(target) // most)

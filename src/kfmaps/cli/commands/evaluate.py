@@ -56,7 +56,7 @@ def evaluate(
     force: Annotated[bool, typer.Option("--force", help="Replace an existing file.")] = False,
 ) -> None:
     """Print the geodesic error of a map, by the Princeton protocol, in per cent of √area."""
-    from kfmaps.cli.evaluation import assessed, known_truth, write_curve
+    from kfmaps.cli.evaluation import assess, known_truth, write_curve
     from kfmaps.io import check_map, check_output, load_map
     from kfmaps.io.partial_map import precise_points
     from kfmaps.io.provenance import map_mesh
@@ -73,11 +73,11 @@ def evaluate(
         raise refuse("truth", "--truth SOURCE TARGET, --truth-part or --identity", "none of them", "say what is true")
     found = load_map(map)
     shape = map_mesh(source, found, "source", map)
-    known = known_truth(truth, identity, shape, len(found.target_to_source), symmetric)
+    known = known_truth(truth, len(shape.vertices), len(found.target_to_source), symmetric=symmetric, identity=identity)
     assert known is not None
     other = _target(target, found, map)
     check_map(found, len(shape.vertices), None if other is None else len(other.vertices), str(map), lost=True)
-    accuracy = assessed(shape, found.target_to_source, known, place=precise_points(found, shape), target=other)
+    accuracy = assess(shape, found.target_to_source, known, place=precise_points(found, shape), target=other)
     if curve is not None:
         write_curve(curve, accuracy.errors, map.stem, force)
     if json:

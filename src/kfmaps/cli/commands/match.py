@@ -74,7 +74,7 @@ def match(
     if quiet:
         warnings.simplefilter("ignore", KfmapsWarning)
 
-    from kfmaps.cli.evaluation import check_truth, read_truth
+    from kfmaps.cli.evaluation import known_truth
     from kfmaps.cli.summary import map_file, summary, table
     from kfmaps.io import save_map
     from kfmaps.matching.match import default_config
@@ -82,7 +82,6 @@ def match(
 
     config = settings.config(default_config(descriptors))
     _check_device(config.device)
-    known = read_truth(truth)
     meshes = _read(source, config), _read(target, config)
     pairs = _landmarks(landmarks, one_based, meshes, (source, target)) if landmarks else None
     if pairs is not None:
@@ -90,8 +89,7 @@ def match(
     n_s, n_t = (len(mesh.vertices) for mesh in meshes)
     check_match_memory(config, n_s, n_t, 0 if pairs is None else len(pairs))
     own = None if descriptors is None else _own_descriptors(descriptors, meshes)
-    if known is not None:
-        check_truth(known, meshes[0], len(meshes[1].vertices))
+    known = known_truth(truth, n_s, n_t)
 
     outcome = run(meshes, (source, target), config, pairs, own, seed, quiet=quiet or json, truth=known)
     save_map(output, map_file(outcome), force)
@@ -120,7 +118,7 @@ def run(
     import numpy as np
 
     from kfmaps._threads import one_blas_thread
-    from kfmaps.cli.evaluation import assessed
+    from kfmaps.cli.evaluation import assess
     from kfmaps.cli.progress import Stages
     from kfmaps.cli.summary import MatchRun
     from kfmaps.matching.match import match as matched
@@ -138,7 +136,7 @@ def run(
         accuracy = None
         if truth is not None:
             stages("evaluation", 0.0)
-            accuracy = assessed(meshes[0], found.target_to_source, truth)
+            accuracy = assess(meshes[0], found.target_to_source, truth)
             stages("evaluation", 1.0)
     pairs = np.zeros((0, 2), dtype=np.int64) if landmarks is None else landmarks
     return MatchRun(found, meshes, paths, pairs, seed, {**seconds, **found.seconds}, accuracy)

@@ -81,7 +81,7 @@ def render_pair(
     source_mesh, target_mesh = (map_mesh(g, found, s, map) for g, s in ((source, "source"), (target, "target")))
     points = check_map(found, len(source_mesh.vertices), len(target_mesh.vertices), lost=True)
     errors, seen, seen_target = None, _view(towards, up), None
-    known = known_truth(truth, False, source_mesh, len(target_mesh.vertices))
+    known = known_truth(truth, len(source_mesh.vertices), len(target_mesh.vertices))
     if known is not None:
         errors = painted_errors(source_mesh, target_mesh, points, known.source, known.target)
         seen, seen_target = true_views(source_mesh, target_mesh, known.source, known.target, seen)

@@ -51,7 +51,7 @@ def view(
     paths = [mesh_path(given, found, side, map) for given, side in ((source, "source"), (target, "target"))]
     meshes = [map_mesh(path, found, side, map) for path, side in zip(paths, ("source", "target"), strict=True)]
     names = (paths[0].stem, paths[1].stem)
-    known = known_truth(truth, identity, meshes[0], len(meshes[1].vertices))
+    known = known_truth(truth, *(len(mesh.vertices) for mesh in meshes), identity=identity)
     pairs = None if known is None else (known.source, known.target)
     html = map_page(found, meshes[0], meshes[1], names, truth=pairs, descriptors=descriptors, up=up)
     if output is not None:
