@@ -48,6 +48,7 @@ from kfmaps.geometry.coarsen import coarsen
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.geometry.sampling import stratified
 from kfmaps.io import load_map, save_map, write_mesh, write_vertex_numbers
+from kfmaps.matching.result_groups import MatchFit
 
 FULL = Config()
 QUICK = replace(FULL, search=Search(candidates=2, n_sign_functions=3), registration=None)
@@ -144,8 +145,8 @@ def plant(tasks: tuple[PairTask, ...], wrong: float, note: Path) -> list[tuple[s
             path = map_path(Path(tasks[i].folder), tasks[i].pair.key)
             found = load_map(path)
             points = rng.permutation(found.target_to_source)
-            extra = {k: v for k, v in found.extra.items() if k not in ("raw_functional_map", "runners_up")}
-            save_map(path, replace(found, target_to_source=points, extra=extra), force=True)
+            planted_map = found.replaced(target_to_source=points, precise_map=None, alternatives=(), fit=MatchFit())
+            save_map(path, planted_map, force=True)
         note.write_text("done\n", encoding="utf-8")
     return [(tasks[i].pair.source, tasks[i].pair.target) for i in planted]
 

@@ -28,7 +28,6 @@ import numpy as np
 from kfmaps._arrays import InvalidInput
 from kfmaps.datasets import sphere
 from kfmaps.io import (
-    MapFile,
     Values,
     grid_picture,
     load_map,
@@ -45,6 +44,7 @@ from kfmaps.io import (
 from kfmaps.io.bake import encode_png
 from kfmaps.io.named_points import read_named_points
 from kfmaps.io.record import MeshFile
+from kfmaps.matching.result import Match
 from kfmaps.viz.picker import Picker, PickerServer
 from kfmaps.viz.server import LOOPBACK
 
@@ -75,9 +75,9 @@ def samples(folder: Path) -> dict[Path, Callable[[Path], Any]]:
     found |= {folder / "a.stl": read_mesh_file, folder / "a.xyz": read_mesh_file}
     write_landmarks(folder / "pairs.txt", np.arange(20).reshape(-1, 2), names=[f"point {i}" for i in range(10)])
     found[folder / "pairs.txt"] = lambda path: (read_landmarks(path), read_landmark_names(path))
-    extra: Any = {"n_s": np.int64(n), "confidence": np.float64(0.5), "summary": json.dumps({"a": 1})}
+    match = Match(np.arange(n), functional_map=rng.random((4, 4)), confidence=0.5, seconds={"solve": 1.0})
     for suffix in (".npz", ".mat", ".txt", ".vts"):
-        save_map(folder / f"map{suffix}", MapFile(np.arange(n), rng.random((4, 4)), extra=extra))
+        save_map(folder / f"map{suffix}", match)
         found[folder / f"map{suffix}"] = load_map
     for suffix in (".npy", ".csv", ".txt"):
         for name, array in (("numbers", rng.random((n, 2))), ("labels", np.array([f"l{i}" for i in range(n)]))):

@@ -36,17 +36,15 @@ def main() -> None:
     if arguments.map is not None and arguments.map.exists():
         found = load_map(arguments.map)
     else:
-        matched = kfmaps.match(whole, part)
-        path = arguments.map or arguments.output.with_suffix(".npz")
-        save_map(path, matched)
-        found = load_map(path)
-        if arguments.map is None:
-            path.unlink()
+        found = kfmaps.match(whole, part)
+        if arguments.map is not None:
+            save_map(arguments.map, found)
     ways = find_counterparts(found, whole, part)
     back = np.where(ways.source, nearest_vertices(ways.back, part), -1)
     seen = automatic_view(whole)
     colors = position_colors(part)
-    overlap = np.asarray(found.extra["overlap_source"])
+    overlap = found.partial.overlap_source
+    assert overlap is not None, "the map is none of a part"
     panels = (
         ("the part", part, colors, following_view(seen, whole, part, found.target_to_source)),
         ("the whole in the part's colours", whole, transferred_colors(colors, back), seen),

@@ -42,7 +42,7 @@ for name, kernel in kernels.items():
     result = kfmaps.match(source, target, replace(base, kernel=kernel), landmarks=landmarks)
     means[name] = kfmaps.geodesic_errors(pair.source, result.target_to_source, pair.truth).mean()
     fit = result.fit
-    assert fit.solution is not None  # without landmarks a search may do without
+    assert fit.status is not None  # without landmarks a search may do without
     print(f"{name:22} {fit.rank:3} features  mean error {100 * means[name]:.2f} % of √area  {fit.kernel}")
 
 # %%

@@ -17,7 +17,7 @@ from conftest import blob
 from kfmaps import InvalidInput, KfmapsWarning, Mesh
 from kfmaps.fmap.precise import vertex_point_map
 from kfmaps.geometry.mesh import surface_area
-from kfmaps.io import MapFile, write_landmarks
+from kfmaps.io import write_landmarks
 from kfmaps.io.convert import as_map, as_mesh
 
 GUARDS = ("kfmaps.matching.match",)
@@ -232,7 +232,7 @@ def test_wrong_things_are_told_in_words(call: Any, told: str) -> None:
 
 
 def test_a_map_may_be_handed_in_as_anything_that_is_one(shuffled: kfmaps.Match) -> None:
-    for given in (shuffled, MapFile(ORDER), ORDER, ORDER.tolist()):
+    for given in (shuffled, kfmaps.Match(ORDER), ORDER, ORDER.tolist()):
         np.testing.assert_array_equal(as_map(given).target_to_source, ORDER)
 
 
@@ -241,7 +241,7 @@ def test_each_call_takes_any_kind_of_map(shuffled: kfmaps.Match, tmp_path: Path)
     """A match, its file, the file's content, points inside triangles and a list of vertices: all mean the same."""
     shuffled.save(tmp_path / "m.npz")
     kfmaps.write_mesh(tmp_path / "a.off", MESH)
-    given = (shuffled, tmp_path / "m.npz", MapFile(ORDER), vertex_point_map(ORDER, MESH), ORDER, ORDER.tolist())
+    given = (shuffled, tmp_path / "m.npz", kfmaps.Match(ORDER), vertex_point_map(ORDER, MESH), ORDER, ORDER.tolist())
     moved = np.roll(ORDER, 1)
     pictures, errors = [], []
     for one in given:

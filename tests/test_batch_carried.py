@@ -6,7 +6,6 @@ import csv
 import itertools
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -40,8 +39,7 @@ def run(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Path]:
         truth = [read_vertex_numbers(folder / "corres" / f"{n}.vts") for n in (pair.source, pair.target)]
         points = np.empty_like(found.target_to_source)
         points[truth[1]] = truth[0]
-        extra = {k: v for k, v in found.extra.items() if not k.startswith("place_")}
-        save_map(path, replace(found, target_to_source=points, extra=extra), force=True)
+        save_map(path, found.replaced(target_to_source=points, precise_map=None), force=True)
     return folder, out
 
 
@@ -113,7 +111,7 @@ def without_tip(folder: Path, out: Path, *keys: str) -> Iterator[None]:
             mesh = read_mesh(folder / f"{target}.off")
             near = np.linalg.norm(mesh.vertices - mesh.vertices[marks(folder, target)[0]], axis=1)
             lost = np.where(near <= np.sort(near)[8], -1, found.target_to_source)
-            save_map(map_path(out, key), replace(found, target_to_source=lost), force=True)
+            save_map(map_path(out, key), found.replaced(target_to_source=lost), force=True)
         yield
     finally:
         for key, content in kept.items():
@@ -154,8 +152,7 @@ def test_maps_of_parts_are_gone_round(run: tuple[Path, Path], tmp_path: Path) ->
     found = load_map(map_path(out, "b0-b2"))
     points = np.empty_like(found.target_to_source)
     points[read_vertex_numbers(folder / "corres" / "b2.vts")] = read_vertex_numbers(folder / "corres" / "b0.vts")
-    extra = {k: v for k, v in found.extra.items() if not k.startswith("place_")}
-    save_map(map_path(out, "b0-b2"), replace(found, target_to_source=points, extra=extra), force=True)
+    save_map(map_path(out, "b0-b2"), found.replaced(target_to_source=points, precise_map=None), force=True)
     try:
         with without_tip(folder, out, "b0-b2"):
             carried, _ = propagate_landmarks(out, file, "b0")

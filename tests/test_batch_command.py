@@ -73,7 +73,8 @@ def _error_of_a_single_match(
     assert alone.functional_map is not None
     assert ours.functional_map is not None
     np.testing.assert_array_equal(alone.functional_map, ours.functional_map)
-    assert alone.extra.keys() == ours.extra.keys()
+    assert {*vars(alone)} == {*vars(ours)}
+    assert alone.score.scores == ours.score.scores
     return told["errors"]["mean"]
 
 

@@ -15,9 +15,9 @@ from chromium import NASTY, Browser, Keys, chromium, needs_browser
 from kfmaps.datasets import Pair, two_poses
 from kfmaps.fmap.confidence import local_confidence
 from kfmaps.geometry.mesh import Mesh
-from kfmaps.io import MapFile
+from kfmaps.matching.result import Match
 from kfmaps.viz.page import result_page
-from kfmaps.viz.result_pages import map_page
+from kfmaps.viz.result_pages import match_page
 
 pytestmark = needs_browser
 
@@ -248,8 +248,8 @@ def test_confidence_is_of_the_map_that_is_shown(browser: Browser, pair: Pair, tm
     part = side > np.quantile(side, 0.93)
     wrong = pair.truth.copy()
     wrong[part] = np.random.default_rng(0).permutation(wrong[part])
-    found = MapFile(wrong, extra={"runners_up": pair.truth[None]})
-    html = map_page(found, pair.source, pair.target, ("a", "b"), descriptors=False)
+    found = Match(wrong, alternatives=(pair.truth,))
+    html = match_page(found, pair.source, pair.target, ("a", "b"), descriptors=False)
     (tmp_path / "sure.html").write_text(html, encoding="utf-8")
     browser.open((tmp_path / "sure.html").as_uri())
     browser.mode("confidence")

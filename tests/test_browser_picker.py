@@ -10,10 +10,11 @@ import numpy as np
 import pytest
 
 from chromium import NASTY, Browser, Keys, chromium, needs_browser
+from kfmaps import Match
 from kfmaps._arrays import InvalidInput
 from kfmaps.datasets import Pair, two_poses
 from kfmaps.geometry.mesh import Mesh, surface_area
-from kfmaps.io import MapFile, load_map, read_landmark_names, read_landmarks
+from kfmaps.io import load_map, read_landmark_names, read_landmarks
 from kfmaps.viz.document import forwarding_page
 from kfmaps.viz.picker import Picker, PickerServer
 from kfmaps.viz.runs import Progress
@@ -37,13 +38,13 @@ GOING = threading.Event()
 GOING.set()
 
 
-def a_matcher(landmarks: np.ndarray, progress: Progress) -> MapFile:
+def a_matcher(landmarks: np.ndarray, progress: Progress) -> Match:
     """Sends every target vertex to the first landmark's source vertex."""
     if len(landmarks) > 2:
         raise InvalidInput("too many <b>landmarks</b>")
     progress("solve", 0.5)
     assert GOING.wait(60)
-    return MapFile(np.full(1200, landmarks[0, 0]))
+    return Match(np.full(1200, landmarks[0, 0]))
 
 
 @pytest.fixture

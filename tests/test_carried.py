@@ -2,7 +2,9 @@
 
 import json
 import types
+from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -12,11 +14,13 @@ from commandline import run
 from kfmaps import datasets
 from kfmaps.fmap.precise import PointMap, invert_precise_map, point_positions
 from kfmaps.geometry.mesh import Mesh, surface_area, unit_area
-from kfmaps.io import MapFile, MeshFile, load_map, read_mesh_file, read_values, save_map, write_mesh
+from kfmaps.io import MeshFile, load_map, read_mesh_file, read_values, save_map, write_mesh
 from kfmaps.io.export import projected_uv, transfer_uv
 from kfmaps.io.glb import format_glb
 from kfmaps.io.gltf import parse_gltf
-from kfmaps.io.provenance import sha256
+from kfmaps.io.provenance import with_files
+from kfmaps.matching.result import Match
+from kfmaps.matching.result_groups import MatchRegistration
 
 
 @pytest.fixture(scope="module")
@@ -27,17 +31,14 @@ def made(tmp_path_factory: pytest.TempPathFactory) -> types.SimpleNamespace:
     paths = {side: folder / f"{side}.ply" for side in ("source", "target")}
     write_mesh(paths["source"], pair.source)
     write_mesh(paths["target"], pair.target)
-    extra = {
-        "place_faces": pair.truth_faces,
-        "place_weights": pair.truth_weights,
-        "local_confidence": np.linspace(0, 1, len(pair.truth)),
-        "bent": 2 * pair.source.vertices,
-        "n_s": np.int64(len(pair.source.vertices)),
-        **{side: str(path) for side, path in paths.items()},
-        **{f"{side}_sha256": sha256(path) for side, path in paths.items()},
-    }
-    save_map(folder / "map.npz", MapFile(pair.truth, extra=extra))
     place = PointMap(pair.truth_faces, pair.truth_weights)
+    found = Match(
+        pair.truth,
+        precise_map=place,
+        local_confidence=np.linspace(0, 1, len(pair.truth)),
+        registration=MatchRegistration(2 * pair.source.vertices),
+    )
+    save_map(folder / "map.npz", with_files(found, (paths["source"], paths["target"]), (pair.source, pair.target)))
     return types.SimpleNamespace(folder=folder, pair=pair, place=place, paths=paths, map=folder / "map.npz")
 
 
@@ -130,8 +131,8 @@ def test_the_texture_lies_where_the_points_do(made: types.SimpleNamespace) -> No
 
 def test_a_changed_file_is_told(made: types.SimpleNamespace, tmp_path: Path) -> None:
     found = load_map(made.map)
-    extra = {**found.extra, "target_sha256": "0" * 64}
-    save_map(tmp_path / "map.npz", MapFile(found.target_to_source, extra=extra))
+    changed = replace(found.target_file, sha256="0" * 64)
+    save_map(tmp_path / "map.npz", found.replaced(target_file=changed))
     assert "has changed" in run("export", tmp_path / "map.npz", "-o", tmp_path / "b.ply").stderr
     assert "changed" not in run("export", made.map, "-o", tmp_path / "c.ply").stderr
     colors = read_mesh_file(tmp_path / "b.ply").colors
@@ -156,18 +157,19 @@ def test_map_files_keep_points_and_refuse_wrong_ones(made: types.SimpleNamespace
     found = load_map(made.map)
     for suffix in (".npz", ".mat"):
         save_map(tmp_path / f"m{suffix}", found)
-        place = load_map(tmp_path / f"m{suffix}").place
+        place = load_map(tmp_path / f"m{suffix}").precise_map
         assert place is not None
         np.testing.assert_array_equal(place.faces, made.place.faces)
         np.testing.assert_allclose(place.weights, made.place.weights)
-    for wrong in (
-        {"place_weights": made.place.weights * 2},
-        {"place_faces": made.place.faces[1:]},
-        {"source_sha256": "short"},
-        {"bent": np.zeros((3, 2))},
-    ):
+    wrong: list[dict[str, Any]] = [
+        {"precise_map": PointMap(made.place.faces, made.place.weights * 2)},
+        {"precise_map": PointMap(made.place.faces[1:], made.place.weights)},
+        {"registration": MatchRegistration(np.zeros((3, 2)))},
+    ]
+    for fields in wrong:
+        save_map(tmp_path / "wrong.npz", found.replaced(**fields), force=True)
         with pytest.raises(kfmaps.InvalidInput):
-            MapFile(found.target_to_source, extra={**found.extra, **wrong})
+            load_map(tmp_path / "wrong.npz")
 
 
 def test_glb_keeps_colours_and_shape() -> None:

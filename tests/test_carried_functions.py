@@ -10,8 +10,10 @@ from commandline import run
 from kfmaps import datasets
 from kfmaps._arrays import InvalidInput
 from kfmaps.geometry.mesh import Mesh
-from kfmaps.io import MapFile, save_map, write_mesh
+from kfmaps.io import save_map, write_mesh
+from kfmaps.io.provenance import with_files
 from kfmaps.io.transfer import transfer_by_functions
+from kfmaps.matching.result import Match
 
 
 @pytest.fixture(scope="module")
@@ -21,9 +23,9 @@ def made(tmp_path_factory: pytest.TempPathFactory) -> types.SimpleNamespace:
     paths = {side: folder / f"{side}.ply" for side in ("source", "target")}
     write_mesh(paths["source"], pair.source)
     write_mesh(paths["target"], pair.target)
-    extra = {"n_s": np.int64(len(pair.source.vertices)), **{side: str(path) for side, path in paths.items()}}
     small = np.eye(30)  # of the file's map only the size counts: its bases may have had other signs
-    found = MapFile(pair.truth, small, extra=extra)
+    found = Match(pair.truth, functional_map=small)
+    found = with_files(found, (paths["source"], paths["target"]), (pair.source, pair.target))
     save_map(folder / "map.npz", found)
     return types.SimpleNamespace(pair=pair, found=found, map=folder / "map.npz")
 
@@ -47,7 +49,7 @@ def test_a_permutation_of_the_target_permutes_what_is_carried(made: types.Simple
     plain = transfer_by_functions(values, made.found, source, target, 10)
     order = np.random.default_rng(0).permutation(len(target.vertices))
     place = np.argsort(order)
-    moved = MapFile(made.pair.truth[order], made.found.functional_map)
+    moved = Match(made.pair.truth[order], functional_map=made.found.functional_map)
     other = transfer_by_functions(values, moved, source, Mesh(target.vertices[order], place[target.faces]), 10)
     np.testing.assert_allclose(other, plain[order], atol=2e-3 * np.abs(plain).max())
 
@@ -64,7 +66,7 @@ def test_what_cannot_be_is_said(made: types.SimpleNamespace, tmp_path: Path) -> 
             transfer_by_functions(values, made.found, source, target, products)
     part = np.where(np.arange(len(target.vertices)) < 9, -1, made.pair.truth)
     with pytest.raises(InvalidInput, match="a map of the whole target"):
-        transfer_by_functions(ones, MapFile(part), source, target, 5)
+        transfer_by_functions(ones, Match(part), source, target, 5)
     np.save(tmp_path / "x.npy", ones)
     ran = run("transfer", made.map, tmp_path / "x.npy", "-o", tmp_path / "y.npy", "--products", 5, "--back")
     assert "Leave one of them out" in ran.error

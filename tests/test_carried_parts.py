@@ -14,8 +14,10 @@ from kfmaps.batch.results import Result
 from kfmaps.cli.partial_truth import PartTruth, true_overlap
 from kfmaps.fmap.precise import PointMap, invert_precise_map, nearest_vertices, point_positions
 from kfmaps.geometry.mesh import surface_area
-from kfmaps.io import MapFile, load_map, save_map, write_mesh
+from kfmaps.io import load_map, save_map, write_mesh
 from kfmaps.io.partial_map import find_counterparts
+from kfmaps.matching.result import Match
+from kfmaps.matching.result_groups import MatchPart, ShapeFile
 
 NEAR = 0.02
 """In √area of the whole: the meshes of part and whole have nothing to do with each other."""
@@ -31,13 +33,14 @@ def made(tmp_path_factory: pytest.TempPathFactory) -> types.SimpleNamespace:
     common = true_overlap(whole, part, PartTruth(np.arange(len(part.vertices)), place, True))
     write_mesh(folder / "whole.ply", whole)
     write_mesh(folder / "part.ply", part)
-    down = {"source": str(folder / "whole.ply"), "target": str(folder / "part.ply")}
-    up = {"source": down["target"], "target": down["source"]}
-    told = {"place_faces": place.faces, "place_weights": place.weights, "overlap_source": common.astype(float)}
-    save_map(folder / "down.npz", MapFile(pair.truth, extra={**down, **told}))
+    files = ShapeFile(str(folder / "whole.ply")), ShapeFile(str(folder / "part.ply"))
+    overlap = MatchPart(overlap_source=common.astype(float))
+    down = Match(pair.truth, precise_map=place, partial=overlap, source_file=files[0], target_file=files[1])
+    save_map(folder / "down.npz", down)
     back = invert_precise_map(place, whole, part)
     points = np.where(common, nearest_vertices(back, part), -1)
-    save_map(folder / "up.npz", MapFile(points, extra={**up, "place_faces": back.faces, "place_weights": back.weights}))
+    up = Match(points, precise_map=back, source_file=files[1], target_file=files[0])
+    save_map(folder / "up.npz", up)
     size = np.sqrt(surface_area(whole))
     return types.SimpleNamespace(
         folder=folder, whole=whole, part=part, common=common, true=point_positions(place, whole), size=size
@@ -117,13 +120,11 @@ def test_points_of_a_part_are_on_the_whole(
 
 
 def test_of_a_list_without_overlap_the_distance_tells(made: types.SimpleNamespace) -> None:
-    plain = MapFile(load_map(made.folder / "up.npz").target_to_source)
+    plain = Match(load_map(made.folder / "up.npz").target_to_source)
     ways = find_counterparts(plain, made.part, made.whole)
     np.testing.assert_array_equal(ways.target, made.common)
     assert ways.source.mean() > 0.5
-    some = MapFile(
-        np.where(made.whole.vertices[:, 1] > np.median(made.whole.vertices[:, 1]), plain.target_to_source, -1)
-    )
+    some = Match(np.where(made.whole.vertices[:, 1] > np.median(made.whole.vertices[:, 1]), plain.target_to_source, -1))
     fewer = find_counterparts(some, made.part, made.whole)
     assert fewer.source.mean() < ways.source.mean()
     assert not fewer.complete

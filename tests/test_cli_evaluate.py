@@ -16,7 +16,9 @@ from conftest import fibonacci_sphere
 from kfmaps.cli.evaluation import THRESHOLDS, Truth, assess
 from kfmaps.geometry.geodesics import geodesic_distances
 from kfmaps.geometry.mesh import surface_area, vertex_areas
-from kfmaps.io import MapFile, save_map, write_mesh
+from kfmaps.io import save_map, write_mesh
+from kfmaps.matching.result import Match
+from kfmaps.matching.result_groups import ShapeFile
 
 
 @pytest.fixture(scope="module")
@@ -26,7 +28,7 @@ def made(tmp_path_factory: pytest.TempPathFactory) -> types.SimpleNamespace:
     found.points = found.truth.copy()
     found.points[:50] = 7
     found.map = found.folder / "m.npz"
-    save_map(found.map, MapFile(found.points, extra={"source": "a.off", "target": "b.off"}))
+    save_map(found.map, Match(found.points, source_file=ShapeFile("a.off"), target_file=ShapeFile("b.off")))
     mesh = found.meshes[0]
     wrong = geodesic_distances(mesh, np.array([7]))[0][found.truth[:50]] / np.sqrt(surface_area(mesh))
     found.errors = np.concatenate([wrong, np.zeros(250)])
@@ -84,7 +86,7 @@ def test_mirrored_truth(made: types.SimpleNamespace, tmp_path: Path) -> None:
 
 
 def test_identity(made: types.SimpleNamespace, tmp_path: Path) -> None:
-    save_map(tmp_path / "i.txt", MapFile(np.arange(300)))
+    save_map(tmp_path / "i.txt", Match(np.arange(300)))
     told = json.loads(run("evaluate", tmp_path / "i.txt", "--source", made.source, "--identity", "--json").stdout)
     assert (told["mean"], told["exact"], told["auc"], told["coverage"]) == (0.0, 1.0, 1.0, pytest.approx(1.0))
 
@@ -106,7 +108,7 @@ def test_infinite_errors_are_null(tmp_path: Path) -> None:
     sphere = fibonacci_sphere(60)
     two = type(sphere)(np.vstack([sphere.vertices, sphere.vertices + 5]), np.vstack([sphere.faces, sphere.faces + 60]))
     write_mesh(tmp_path / "two.off", two)
-    save_map(tmp_path / "m.txt", MapFile(np.r_[60:120, 60:120]))
+    save_map(tmp_path / "m.txt", Match(np.r_[60:120, 60:120]))
     ran = run("evaluate", tmp_path / "m.txt", "--source", tmp_path / "two.off", "--identity", "--json")
     told = json.loads(ran.stdout)
     assert told["mean"] is None
@@ -121,7 +123,7 @@ def test_refused(made: types.SimpleNamespace, tmp_path: Path) -> None:
     large.write_text("".join(f"{v}\n" for v in range(2, 302)))
     sphere = tmp_path / "s.off"
     write_mesh(sphere, fibonacci_sphere(40))
-    save_map(tmp_path / "plain.txt", MapFile(made.points))
+    save_map(tmp_path / "plain.txt", Match(made.points))
     cases: list[tuple[tuple[object, ...], str]] = [
         ((), "--identity"),
         (("--truth-source", made.truth_source), "No such option"),

@@ -12,7 +12,6 @@ import pytest
 
 import kfmaps
 from commandline import SMALL, Ran, run, shapes
-from kfmaps.config import as_dict, from_dict
 from kfmaps.fmap.confidence import local_confidence
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.io import load_map, write_mesh
@@ -36,24 +35,21 @@ def test_map_of_a_shape_to_itself_moved(made: types.SimpleNamespace, tmp_path: P
     np.testing.assert_array_equal(found.target_to_source, made.truth)
     assert found.functional_map is not None
     assert found.functional_map.shape == (30, 30)
-    assert found.eigenvalues_s is not None
-    assert found.eigenvalues_t is not None
-    np.testing.assert_allclose(found.eigenvalues_s, found.eigenvalues_t, rtol=1e-6, atol=1e-6)
-    config = from_dict(json.loads(found.config))
+    np.testing.assert_allclose(found.eigenvalues_source, found.eigenvalues_target, rtol=1e-6, atol=1e-6)
+    config = found.config
     assert (config.basis.n_eigenfunctions, config.nystrom.samples) == (20, 60)
-    assert found.n_s == len(made.truth)
-    assert found.extra["source"] == str(made.source)
-    assert found.extra["target"] == str(made.target)
-    np.testing.assert_array_equal(found.extra["landmarks"], np.stack([made.truth[made.rows], made.rows], axis=1))
-    assert np.asarray(found.extra["raw_target_to_source"]).shape == made.truth.shape
-    assert np.asarray(found.extra["raw_functional_map"]).shape == (20, 20)
-    told = json.loads(str(found.extra["summary"]))
-    assert told["settings"] == json.loads(found.config) == as_dict(config)
-    assert set(told["energies"]) >= {"descriptors", "commutativity", "laplacian"}
-    assert all(value >= 0 for value in told["energies"].values())
-    assert len(told["residuals"]) == told["solver_steps"] + 1
-    assert told["residuals"][0] == 1.0
-    assert set(told["times"]) >= {"eigenfunctions of source", "eigenfunctions of target", "solve", "refinement"}
+    assert found.n_source == len(made.truth)
+    assert found.source_file.path == str(made.source)
+    assert found.target_file.path == str(made.target)
+    np.testing.assert_array_equal(found.landmarks, np.stack([made.truth[made.rows], made.rows], axis=1))
+    assert found.fit.raw_target_to_source is not None
+    assert found.fit.raw_target_to_source.shape == made.truth.shape
+    assert found.fit.raw_functional_map.shape == (20, 20)
+    assert set(found.fit.energies) >= {"descriptors", "commutativity", "laplacian"}
+    assert all(value >= 0 for value in found.fit.energies.values())
+    assert len(found.fit.residuals) - 1 == found.fit.steps
+    assert found.fit.residuals[0] == 1.0
+    assert set(found.seconds) >= {"eigenfunctions of source", "eigenfunctions of target", "solve", "refinement"}
 
 
 def test_summary_for_people(made: types.SimpleNamespace, tmp_path: Path) -> None:
@@ -82,11 +78,11 @@ def test_summary_for_machines(made: types.SimpleNamespace, tmp_path: Path) -> No
     ran = match(made, "-o", tmp_path / "m.npz", "--json", "--seed", "5", *truth)
     assert ran.stderr == ""
     told = json.loads(ran.stdout)
-    assert (told["source_vertices"], told["target_vertices"]) == (300, 300)
-    assert (told["landmarks"], told["seed"], told["verdict"]) == (6, 5, "landmarks")
-    assert (told["map_rows"], told["fit_size"]) == (30, 20)
-    assert told["solver_status"] == "converged"
-    assert 0 < told["rank"] <= 60
+    assert (told["source_file"]["n_vertices"], told["target_file"]["n_vertices"]) == (300, 300)
+    assert (told["n_landmarks"], told["seed"], told["verdict"]) == (6, 5, "landmarks")
+    assert told["map_size"] == [30, 30]
+    assert told["fit"]["status"] == "converged"
+    assert 0 < told["fit"]["rank"] <= 60
     assert told["errors"]["mean"] == 0.0
     assert told["errors"]["exact"] == 1.0
     assert told["output"] == str(tmp_path / "m.npz")
@@ -129,7 +125,7 @@ def test_one_based_landmarks(made: types.SimpleNamespace, tmp_path: Path) -> Non
     np.savetxt(other, pairs + 1, fmt="%d", header="source target")
     words = ("match", made.source, made.target, "--landmarks", other, *SMALL, "-q")
     assert run(*words, "--one-based", "-o", tmp_path / "m.npz").status == 0
-    np.testing.assert_array_equal(load_map(tmp_path / "m.npz").extra["landmarks"], pairs)
+    np.testing.assert_array_equal(load_map(tmp_path / "m.npz").landmarks, pairs)
 
 
 def test_raw_is_the_map_before_refinement(made: types.SimpleNamespace, tmp_path: Path) -> None:
@@ -137,8 +133,8 @@ def test_raw_is_the_map_before_refinement(made: types.SimpleNamespace, tmp_path:
     words = ("match", made.source, made.target, "--landmarks", made.landmarks, *SMALL[:-6], "-q")
     assert run(*words, "--set", "refinement=none", "-o", tmp_path / "raw.npz").status == 0
     raw, refined = load_map(tmp_path / "raw.npz"), load_map(tmp_path / "refined.npz")
-    assert from_dict(json.loads(raw.config)).refinement is None
-    np.testing.assert_array_equal(raw.target_to_source, refined.extra["raw_target_to_source"])
+    assert raw.config.refinement is None
+    np.testing.assert_array_equal(raw.target_to_source, refined.fit.raw_target_to_source)
 
 
 def test_own_descriptors(made: types.SimpleNamespace, tmp_path: Path) -> None:
@@ -152,7 +148,7 @@ def test_own_descriptors(made: types.SimpleNamespace, tmp_path: Path) -> None:
         made, *words, "--set", "descriptors.signature=none", "--json", "-o", tmp_path / "m.npz", landmarks=False
     )
     told = json.loads(ran.stdout)
-    assert (told["verdict"], told["landmarks"]) == ("unchecked", 0)
+    assert (told["verdict"], told["n_landmarks"]) == ("unchecked", 0)
     np.testing.assert_array_equal(load_map(tmp_path / "m.npz").target_to_source, made.truth)
 
 
@@ -163,13 +159,13 @@ def test_without_landmarks(made: types.SimpleNamespace, tmp_path: Path) -> None:
     assert told["verdict"] in ("sure", "likely", "ambiguous", "unlikely")
     assert 0 <= told["confidence"] <= 1
     found = load_map(tmp_path / "m.npz")
-    assert float(np.asarray(found.extra["confidence"])) == pytest.approx(told["confidence"])
-    assert len(np.atleast_2d(found.extra.get("runners_up", np.zeros((0, 300))))) == told["runners_up"]
-    assert len(told["scores"]) == 1 + told["runners_up"]
+    assert found.confidence == pytest.approx(told["confidence"])
+    assert len(found.alternatives) == told["n_alternatives"]
+    assert len(told["score"]["scores"]) == 1 + told["n_alternatives"]
     sure = local_confidence(made.meshes[0], made.meshes[1], found.target_to_source)
-    np.testing.assert_allclose(np.asarray(found.extra["local_confidence"]), sure, atol=1e-9)
-    assert told["local_confidence"] == pytest.approx(sure.mean())
-    assert "confidence" in told["times"]
+    np.testing.assert_allclose(found.local_confidence, sure, atol=1e-9)
+    assert told["mean_local_confidence"] == pytest.approx(sure.mean())
+    assert "confidence" in told["seconds"]
 
 
 def test_landmarks_take_part_in_the_search(made: types.SimpleNamespace, tmp_path: Path) -> None:
@@ -177,8 +173,8 @@ def test_landmarks_take_part_in_the_search(made: types.SimpleNamespace, tmp_path
     words = (*words, "--landmarks", made.landmarks)
     told = json.loads(match(made, *words, "--json", landmarks=False).stdout)
     assert told["verdict"] in ("sure", "likely", "ambiguous", "unlikely")
-    assert (told["landmarks"], told["doubted"]) == (6, [])
-    assert len(told["scores"]) == 1 + told["runners_up"]
+    assert (told["n_landmarks"], told["score"]["rejected_landmarks"]) == (6, [])
+    assert len(told["score"]["scores"]) == 1 + told["n_alternatives"]
 
 
 def test_same_seed_same_map(made: types.SimpleNamespace, tmp_path: Path) -> None:
@@ -186,7 +182,7 @@ def test_same_seed_same_map(made: types.SimpleNamespace, tmp_path: Path) -> None
     for name in ("a.npz", "b.npz"):
         match(made, *words, "--seed", "4", "-o", tmp_path / name)
     match(made, *words, "--seed", "5", "-o", tmp_path / "c.npz")
-    a, b, c = (np.asarray(load_map(tmp_path / f"{x}.npz").extra["raw_functional_map"]) for x in "abc")
+    a, b, c = (load_map(tmp_path / f"{x}.npz").fit.raw_functional_map for x in "abc")
     np.testing.assert_array_equal(a, b)
     assert np.abs(a - c).max() > 1e-8
 
@@ -241,6 +237,6 @@ def test_a_match_from_python_can_be_saved(made: types.SimpleNamespace, tmp_path:
     again = kfmaps.load_map(tmp_path / "m.npz")
     np.testing.assert_array_equal(again.target_to_source, made.truth)
     np.testing.assert_array_equal(again.functional_map, found.functional_map)
-    np.testing.assert_array_equal(again.extra["raw_target_to_source"], found.fit.raw_target_to_source)
-    np.testing.assert_array_equal(again.extra["local_confidence"], found.local_confidence)
-    assert from_dict(json.loads(again.config)) == config
+    np.testing.assert_array_equal(again.fit.raw_target_to_source, found.fit.raw_target_to_source)
+    np.testing.assert_array_equal(again.local_confidence, found.local_confidence)
+    assert again.config == config

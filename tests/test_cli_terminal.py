@@ -19,7 +19,8 @@ from commandline import SMALL, Ran, run, shapes
 from conftest import blob
 from kfmaps._arrays import InvalidInput, refuse, shown
 from kfmaps.cli.terminal import Terminal
-from kfmaps.io import MapFile, Values, atomic_output, check_output, save_map, write_mesh, write_values
+from kfmaps.io import Values, atomic_output, check_output, save_map, write_mesh, write_values
+from kfmaps.matching.result import Match
 
 EVIL = "\x1b[31m\x1b]0;title\x07\r\x08\x9b2J\u202egnp\n\x7f"
 """Colours, a window's title, a bell, back over the line, a screen cleared, right to left, a line, delete."""
@@ -160,9 +161,9 @@ def largest_file(size: int) -> Iterator[None]:
 
 NUMBERS = np.random.default_rng(0).random(5000)
 WRITERS: dict[str, Callable[[Path], object]] = {
-    "a.npz": lambda path: save_map(path, MapFile(np.arange(5000), extra={"x": NUMBERS})),
-    "a.mat": lambda path: save_map(path, MapFile(np.arange(5000), extra={"x": NUMBERS})),
-    "a.txt": lambda path: save_map(path, MapFile(np.arange(5000))),
+    "a.npz": lambda path: save_map(path, Match(np.arange(5000), local_confidence=NUMBERS)),
+    "a.mat": lambda path: save_map(path, Match(np.arange(5000), local_confidence=NUMBERS)),
+    "a.txt": lambda path: save_map(path, Match(np.arange(5000))),
     "a.npy": lambda path: write_values(path, Values(NUMBERS)),
     "a.csv": lambda path: write_values(path, Values(NUMBERS)),
     "a.ply": lambda path: write_mesh(path, blob(500)),

@@ -16,7 +16,9 @@ from kfmaps.cli.commands.export import export
 from kfmaps.cli.commands.info import info
 from kfmaps.cli.commands.transfer import transfer
 from kfmaps.geometry.mesh import Mesh, surface_area
-from kfmaps.io import MapFile, load_map, read_mesh_file, read_values, save_map, write_mesh
+from kfmaps.io import load_map, read_mesh_file, read_values, save_map, write_mesh
+from kfmaps.matching.result import Match
+from kfmaps.matching.result_groups import ShapeFile
 from kfmaps.viz import position_colors
 
 APP = typer.Typer()
@@ -40,7 +42,7 @@ def complaint(*words: object) -> str:
 def folder(tmp_path: Path) -> Path:
     write_mesh(tmp_path / "a.off", blob(80))
     write_mesh(tmp_path / "b.off", fibonacci_sphere(40))
-    save_map(tmp_path / "m.npz", MapFile(POINTS, np.eye(3)))
+    save_map(tmp_path / "m.npz", Match(POINTS, functional_map=np.eye(3)))
     return tmp_path
 
 
@@ -115,7 +117,7 @@ def test_transfer_of_too_few_values(folder: Path) -> None:
     np.savetxt(folder / "v.txt", np.zeros(10))
     words = (folder / "v.txt", "-o", folder / "w.npy")
     assert "source vertices from 0 to 9" in complaint("transfer", folder / "m.npz", *words)
-    save_map(folder / "n.npz", MapFile(POINTS % 9, extra={"n_s": np.array(80)}))
+    save_map(folder / "n.npz", Match(POINTS % 9, source_file=ShapeFile(n_vertices=80)))
     assert "values: expected 80 rows, one per source vertex, got 10" in complaint("transfer", folder / "n.npz", *words)
     assert not (folder / "w.npy").exists()
 
@@ -129,10 +131,10 @@ def test_export_as_a_map(folder: Path, suffix: str) -> None:
 @pytest.mark.parametrize("suffix", [".txt", ".csv", ".npy"])
 def test_export_the_functional_map(folder: Path, suffix: str) -> None:
     carrier = np.random.default_rng(3).normal(size=(4, 3))
-    save_map(folder / "c.npz", MapFile(POINTS, carrier))
+    save_map(folder / "c.npz", Match(POINTS, functional_map=carrier))
     assert run("export", folder / "c.npz", "--functional", "-o", folder / f"o{suffix}").exit_code == 0
     np.testing.assert_array_equal(read_values(folder / f"o{suffix}").array, carrier)
-    save_map(folder / "p.txt", MapFile(POINTS))
+    save_map(folder / "p.txt", Match(POINTS))
     assert "a point map alone" in complaint("export", folder / "p.txt", "--functional", "-o", folder / f"q{suffix}")
     assert "one of .txt .csv .npy" in complaint("export", folder / "c.npz", "--functional", "-o", folder / "q.vts")
 
@@ -140,7 +142,7 @@ def test_export_the_functional_map(folder: Path, suffix: str) -> None:
 @pytest.mark.parametrize("suffix", [".txt", ".csv", ".npy"])
 def test_export_the_confidence(folder: Path, suffix: str) -> None:
     sure = np.append(np.random.default_rng(4).random(len(POINTS) - 1), np.nan)
-    save_map(folder / "s.npz", MapFile(POINTS, extra={"local_confidence": sure}))
+    save_map(folder / "s.npz", Match(POINTS, local_confidence=sure))
     assert run("export", folder / "s.npz", "--confidence", "-o", folder / f"o{suffix}").exit_code == 0
     np.testing.assert_array_equal(np.ravel(read_values(folder / f"o{suffix}").array), sure)
     assert "got none" in complaint("export", folder / "m.npz", "--confidence", "-o", folder / f"q{suffix}")

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import io
+import json
 import pickle
 import tracemalloc
 import zipfile
+from dataclasses import fields, is_dataclass
 from pathlib import Path
 from typing import Any
 
@@ -16,48 +18,89 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from kfmaps._arrays import InvalidInput
-from kfmaps.io import MapFile, check_map, load_map, save_map
+from kfmaps.config import Config
+from kfmaps.fmap.precise import PointMap
+from kfmaps.io import check_map, load_map, save_map
+from kfmaps.kernels.kernels import Gaussian
+from kfmaps.matching.result import SHAPE_FIELDS, Match
+from kfmaps.matching.result_groups import MatchFit, MatchPart, MatchRegistration, MatchScore, ShapeFile
+from kfmaps.registration.accept import RegistrationReport
 
 
-def example(seed: int = 0, n_t: int = 50) -> MapFile:
+def example(seed: int = 0, n_t: int = 50) -> Match:
+    """A match with a value in every field that a file holds."""
     rng = np.random.default_rng(seed)
-    return MapFile(
+    weights = rng.random((n_t, 3))
+    return Match(
         rng.integers(0, 40, n_t),
-        rng.normal(size=(6, 5)),
-        np.sort(rng.random(5)),
-        np.sort(rng.random(6)),
-        '{"kernel": "gaußian γ"}',
-        {
-            "source": "a/b ü.off",
-            "runners_up": rng.integers(0, 40, (1, n_t)),
-            "confidence": np.array(0.25),
-            "local_confidence": np.append(rng.random(n_t - 1), np.nan),
-            "landmarks": rng.integers(0, min(40, n_t), (3, 2)),
-            "empty": "",
-        },
+        functional_map=rng.normal(size=(6, 5)),
+        eigenvalues_source=np.sort(rng.random(5)),
+        eigenvalues_target=np.sort(rng.random(6)),
+        verdict="likely",
+        confidence=0.25,
+        local_confidence=np.append(rng.random(n_t - 1), np.nan),
+        orientation="reversing",
+        precise_map=PointMap(rng.integers(0, 70, n_t), weights / weights.sum(axis=1, keepdims=True)),
+        alternatives=(rng.integers(0, 40, n_t),),
+        source_to_target=rng.integers(0, n_t, 40),
+        functional_map_back=rng.normal(size=(5, 6)),
+        landmarks=rng.integers(0, min(40, n_t), (3, 2)),
+        config=Config(kernel=Gaussian(0.25)),
+        seed=7,
+        seconds={"solve": 0.5},
+        score=MatchScore((1.5, -2.0), -1.0, 0.5, "signs ++, γ", np.array([1])),
+        registration=MatchRegistration(rng.normal(size=(40, 3)), RegistrationReport(0.1, 0.2, 0.3, reason="gap")),
+        partial=MatchPart("target", "a hole", 0.5, rng.random(40), rng.random(n_t)),
+        fit=MatchFit(
+            rng.normal(size=(4, 4)),
+            rng.integers(0, 40, n_t),
+            "converged",
+            2,
+            np.array([1.0, 0.5, 0.25]),
+            {"laplacian": 1.25},
+            "gaußian γ",
+            60,
+            30,
+            np.array([0.5, 1.0]),
+        ),
+        source_file=ShapeFile("a/b ü.off", "0" * 64, 40, 70),
+        target_file=ShapeFile("c.off", "1" * 64, n_t, 90),
     )
 
 
-def same(a: MapFile, b: MapFile) -> None:
-    for name in ("target_to_source", "functional_map", "eigenvalues_s", "eigenvalues_t"):
-        np.testing.assert_array_equal(getattr(a, name), getattr(b, name))
-    assert a.config == b.config
-    assert a.target_to_source.dtype == b.target_to_source.dtype == np.int64
-    assert {k for k, v in a.extra.items() if not (isinstance(v, str) and not v)} == set(b.extra)
-    for name, value in b.extra.items():
-        np.testing.assert_array_equal(a.extra[name], value)
+def plain(record: Any) -> Any:
+    """A record as dictionaries of lists, so that two can be compared."""
+    if is_dataclass(record):
+        return {f.name: plain(getattr(record, f.name, "none")) for f in fields(record)}
+    if isinstance(record, tuple):
+        return [plain(one) for one in record]
+    return record.tolist() if isinstance(record, np.ndarray) else record
 
 
 @pytest.mark.parametrize("suffix", [".npz", ".mat", ".NPZ"])
 def test_everything_comes_back(tmp_path: Path, suffix: str) -> None:
     save_map(tmp_path / f"m{suffix}", example())
-    same(example(), load_map(tmp_path / f"m{suffix}"))
-    bare = MapFile(np.arange(3))
-    save_map(tmp_path / f"m{suffix}", bare, force=True)
     found = load_map(tmp_path / f"m{suffix}")
-    np.testing.assert_array_equal(found.target_to_source, [0, 1, 2])
-    assert found.functional_map is None
-    assert (found.config, dict(found.extra)) == ("", {})
+    np.testing.assert_equal(plain(found), plain(example()))
+    assert found.target_to_source.dtype == found.landmarks.dtype == np.int64
+    assert found.score.rejected_landmarks.dtype == np.int64
+    save_map(tmp_path / f"m{suffix}", Match(np.arange(3)), force=True)
+    np.testing.assert_equal(plain(load_map(tmp_path / f"m{suffix}")), plain(Match(np.arange(3))))
+
+
+def test_every_field_of_a_match_is_in_its_file_or_said_to_be_missing(tmp_path: Path) -> None:
+    """A field that is added to the record must be written too."""
+    example_fields = plain(example())
+    assert [name for name, value in example_fields.items() if value == "none"] == list(SHAPE_FIELDS)
+    save_map(tmp_path / "m.npz", example())
+    found = load_map(tmp_path / "m.npz")
+    for name in SHAPE_FIELDS:
+        assert not hasattr(found, name)
+        with pytest.raises(InvalidInput, match=f"{name}: expected a match that has it.*Match the shapes again"):
+            getattr(found, name)
+    assert pickle.loads(pickle.dumps(found)).replaced(seed=8).seed == 8
+    with pytest.raises(AttributeError, match="no attribute 'basis'"):
+        found.basis  # type: ignore[attr-defined]  # noqa: B018
 
 
 @pytest.mark.parametrize(("suffix", "first"), [(".txt", 0), (".vts", 1)])
@@ -74,18 +117,21 @@ def test_npz_is_what_the_documentation_says(tmp_path: Path) -> None:
     with np.load(tmp_path / "m.npz", allow_pickle=False) as content:
         np.testing.assert_array_equal(content["target_to_source"], example().target_to_source)
         np.testing.assert_array_equal(content["functional_map"], example().functional_map)
-        assert str(content["config"]) == example().config
+        summary = json.loads(str(content["summary"]))
+    assert (summary["verdict"], summary["fit"]["energies"]) == ("likely", {"laplacian": 1.25})
+    assert summary["config"]["kernel"] == {"kind": "Gaussian", "gamma": 0.25}
+    assert summary["score"]["rejected_landmarks"] == [1]
 
 
 def test_mat_counts_from_one_in_columns_of_doubles(tmp_path: Path) -> None:
     save_map(tmp_path / "m.mat", example())
     content = scipy.io.loadmat(tmp_path / "m.mat")
     np.testing.assert_array_equal(content["target_to_source"], example().target_to_source[:, None] + 1)
-    np.testing.assert_array_equal(content["runners_up"], np.asarray(example().extra["runners_up"]) + 1)
-    np.testing.assert_array_equal(content["landmarks"], np.asarray(example().extra["landmarks"]) + 1)
-    np.testing.assert_array_equal(content["eigenvalues_s"][:, 0], example().eigenvalues_s)
+    np.testing.assert_array_equal(content["alternatives"], np.stack(example().alternatives) + 1)
+    np.testing.assert_array_equal(content["landmarks"], example().landmarks + 1)
+    np.testing.assert_array_equal(content["eigenvalues_source"][:, 0], example().eigenvalues_source)
     assert content["target_to_source"].dtype == np.float64
-    assert content["config"][0] == example().config
+    assert json.loads(content["summary"][0])["seed"] == 7
 
 
 @pytest.mark.parametrize("suffix", [".npz", ".mat", ".txt", ".vts"])
@@ -184,14 +230,19 @@ def lying_npz() -> bytes:
         (npz(target_to_source=ONE * 1j), "an array of numbers"),
         (npz(target_to_source=ONE, functional_map=ONE), "functional_map: expected shape"),
         (npz(target_to_source=ONE, functional_map=np.full((2, 2), np.inf)), "functional_map: expected finite"),
-        (npz(target_to_source=ONE, functional_map=np.eye(2), eigenvalues_s=ONE), "_s: expected 2 numbers"),
         (
-            npz(target_to_source=ONE, functional_map=np.eye(2, 4), eigenvalues_t=ONE),
-            "_t: expected 2 numbers",
+            npz(target_to_source=ONE, functional_map=np.eye(2), eigenvalues_source=ONE),
+            "_source: expected 2 numbers",
         ),
-        (npz(target_to_source=ONE, config=ONE), "config: expected text"),
-        (npz(target_to_source=ONE, **{"a b": ONE}), "names of letters"),
-        (npz(target_to_source=ONE, labels=np.array(["a", "b"])), "extra labels"),
+        (
+            npz(target_to_source=ONE, functional_map=np.eye(2, 4), eigenvalues_target=ONE),
+            "_target: expected 2 numbers",
+        ),
+        (
+            npz(target_to_source=ONE, config="{}"),
+            "a map of this version of kfmaps, got an older one (with config)",
+        ),
+        (npz(target_to_source=ONE, runners_up=ONE[None]), "got an older one (with runners_up). Match the shapes again"),
         (lying_npz(), "target_to_source.npy: expected data for shape"),
         (b"PK\3\4", "complete .npz file"),
     ],
@@ -200,18 +251,9 @@ def test_what_is_no_map(tmp_path: Path, content: bytes, part: str) -> None:
     assert part in refused(tmp_path / "m.npz", content)
 
 
-@pytest.mark.parametrize("n_s", ["4", np.zeros(2), np.nan, 0, True])
-def test_a_source_size_that_is_none(n_s: object) -> None:
-    assert MapFile(ONE, extra={"n_s": np.array([40.0])}).n_s == 40
-    assert MapFile(ONE).n_s is None
-    with pytest.raises(InvalidInput, match="one whole number above 0"):
-        MapFile(ONE, extra={"n_s": n_s})  # pyright: ignore[reportArgumentType]
-
-
-def test_names_that_cannot_be_kept() -> None:
-    for name in ("config", "file", "1a", "a" * 32, "_a", ""):
-        with pytest.raises(InvalidInput, match="names of letters"):
-            MapFile(ONE, extra={name: ONE})
+def test_other_arrays_beside_a_map_are_left_out(tmp_path: Path) -> None:
+    (tmp_path / "m.npz").write_bytes(npz(target_to_source=ONE, labels=np.array(["a", "b"]), **{"a b": ONE}))
+    np.testing.assert_equal(plain(load_map(tmp_path / "m.npz")), plain(Match(ONE)))
 
 
 @pytest.mark.parametrize(
@@ -227,7 +269,7 @@ def test_one_based_lists_do_not_hold_zero(tmp_path: Path) -> None:
 
 def test_check_map() -> None:
     np.testing.assert_array_equal(check_map([0, 2.0, 1], 3, 3), [0, 2, 1])
-    np.testing.assert_array_equal(check_map(MapFile(ONE), 4, 4), ONE)
+    np.testing.assert_array_equal(check_map(Match(ONE), 4, 4), ONE)
     with pytest.raises(InvalidInput, match="from 0 to 2, got 3"):
         check_map(ONE, 3, 4)
     with pytest.raises(InvalidInput, match=r"map: expected shape \(5\), got shape \(4,\)"):
@@ -236,34 +278,49 @@ def test_check_map() -> None:
 
 DEEP = "[" * 100_000
 LEVELS = '{"a":' * 60 + "1" + "}" * 60
+SIZED = json.dumps({"source_file": {"n_vertices": 5}})
+HALF = np.full((4, 3), 0.5)
 
 
 @pytest.mark.parametrize("suffix", [".npz", ".mat"])
 @pytest.mark.parametrize(
     ("content", "part"),
     [
-        ({"runners_up": np.zeros((2, 3))}, "extra runners_up: expected shape (any, 4), got shape (2, 3)"),
-        ({"runners_up": np.zeros((2, 2, 4))}, "extra runners_up: expected shape (any, 4)"),
-        ({"runners_up": np.full((1, 4), 0.5)}, "fractions"),
-        ({"runners_up": np.full((1, 4), 9.0), "n_s": 5}, "vertex numbers from 0 to 4, got"),
-        ({"runners_up": "text"}, "an array of numbers"),
-        ({"raw_target_to_source": ONE[:3]}, "extra raw_target_to_source: expected shape (4), got shape (3,)"),
-        ({"landmarks": np.zeros((2, 3))}, "extra landmarks: expected shape (any, 2)"),
-        ({"landmarks": np.full((2, 2), 7)}, "extra landmarks: expected vertex numbers from 0 to 3, got"),
+        ({"alternatives": np.zeros((2, 3)) + 1}, "alternatives: expected shape (any, 4), got shape (2, 3)"),
+        ({"alternatives": np.ones((2, 2, 4))}, "alternatives: expected shape (any, 4)"),
+        ({"alternatives": np.full((1, 4), 1.5)}, "fractions"),
+        ({"alternatives": np.full((1, 4), 9.0), "summary": SIZED}, "vertex numbers from 0 to 4, got"),
+        ({"alternatives": "text"}, "an array of numbers"),
+        ({"raw_target_to_source": ONE[1:]}, "raw_target_to_source: expected shape (4), got shape (3,)"),
+        ({"landmarks": np.ones((2, 3))}, "landmarks: expected shape (any, 2)"),
+        ({"landmarks": np.full((2, 2), 7)}, "landmarks: expected vertex numbers from 0 to 3, got"),
         ({"landmarks": "1 2"}, "an array of numbers"),
-        ({"confidence": np.zeros(3)}, "extra confidence: expected one number"),
-        ({"confidence": np.nan}, "extra confidence: expected one number"),
-        ({"confidence": "high"}, "an array of numbers"),
-        ({"local_confidence": np.zeros(3)}, "extra local_confidence: expected shape (4), got shape (3,)"),
+        ({"local_confidence": np.zeros(3)}, "local_confidence: expected shape (4), got shape (3,)"),
         ({"local_confidence": np.full(4, np.inf)}, "infinite"),
-        ({"raw_functional_map": np.zeros((2, 2, 2))}, "extra raw_functional_map: expected shape (any, any)"),
-        ({"n_s": 2}, "target_to_source: expected source vertices from 0 to 1, got 3"),
-        ({"source": ONE}, "extra source: expected a path of at most 4096 letters, got an array"),
-        ({"source": "a" * 5000}, "extra source: expected a path of at most 4096 letters, got 5000"),
-        ({"summary": DEEP}, "extra summary: expected JSON of at most 50 levels"),
-        ({"summary": ONE}, "extra summary: expected text"),
-        ({"config": DEEP}, "config: expected JSON of at most 50 levels"),
-        ({"config": LEVELS}, "config: expected JSON of at most 50 levels"),
+        ({"overlap_target": np.full(4, 1.5)}, "overlap_target: expected numbers from 0 to 1"),
+        ({"registered_vertices": np.zeros((4, 3)), "summary": SIZED}, "registered_vertices: expected shape (5, 3)"),
+        ({"precise_faces": ONE + 1}, "both precise_faces and precise_weights"),
+        ({"precise_faces": ONE + 1, "precise_weights": HALF}, "numbers with sum 1 in each row"),
+        ({"raw_functional_map": np.zeros((2, 2, 2))}, "raw_functional_map: expected shape (any, any)"),
+        (
+            {"summary": '{"source_file": {"n_vertices": 2}}'},
+            "expected source vertices from 0 to 1, got",
+        ),
+        ({"summary": DEEP}, "summary: expected a summary as JSON"),
+        ({"summary": LEVELS}, "summary: expected JSON of at most 50 levels"),
+        ({"summary": "made on a Monday"}, "summary: expected a summary as JSON"),
+        ({"summary": "[1]"}, "summary: expected the fields of a match as JSON, got list"),
+        ({"summary": ONE}, "summary: expected text"),
+        ({"summary": '{"seed": "7"}'}, "summary: seed: expected"),
+        ({"summary": '{"confidence": 1%s}' % ("0" * 400)}, "summary: confidence: expected"),
+        ({"summary": '{"precise_map": {"faces": [1]}}'}, "precise_map.faces: expected a value, got none"),
+        ({"summary": '{"score": 3}'}, "summary: score: expected a dictionary"),
+        ({"summary": '{"score": {"scores": [1, "a"]}}'}, "summary: score.scores: expected"),
+        (
+            {"summary": '{"registration": {"report": {"gap": 1}}}'},
+            "report.deformation_energy: expected a value",
+        ),
+        ({"summary": '{"registration": {"report": {"reason": "x"}}}'}, "expected"),
     ],
 )
 def test_arrays_of_another_kind_or_length(tmp_path: Path, content: dict[str, Any], part: str, suffix: str) -> None:
@@ -274,19 +331,24 @@ def test_arrays_of_another_kind_or_length(tmp_path: Path, content: dict[str, Any
         np.savez(file, **content)
     else:
         scipy.io.savemat(file, content, oned_as="column")
-    if suffix == ".mat" and ("got" in part or "letters" in part) and "shape" in part and "(3,)" not in part:
+    if suffix == ".mat" and "got" in part and "shape" in part and "(3,)" not in part:
         part = part.partition(", got")[0]
     told = refused(tmp_path / f"m{suffix}", file.getvalue())
     assert part in told
     assert len(told) < 400
 
 
-def test_what_a_map_says_in_its_own_words_is_kept() -> None:
-    found = MapFile(
-        ONE, config="by hand", extra={"summary": "made on a Monday", "weights": np.ones(3), "n_s": np.array(9)}
-    )
-    assert (found.config, found.extra["summary"], found.n_s) == ("by hand", "made on a Monday", 9)
-    assert MapFile(ONE, extra={"runners_up": ONE * 1.0}).extra["runners_up"].shape == (1, 4)  # pyright: ignore
+def test_a_summary_cannot_give_what_only_an_array_may(tmp_path: Path) -> None:
+    text = json.dumps({"functional_map": [1, 2], "source": 3, "other": 1})
+    (tmp_path / "m.npz").write_bytes(npz(target_to_source=ONE, summary=text))
+    np.testing.assert_equal(plain(load_map(tmp_path / "m.npz")), plain(Match(ONE)))
+
+
+def test_settings_that_only_the_users_code_has_are_missing(tmp_path: Path) -> None:
+    match = Match(ONE, config=Config(kernel=lambda X, Y: X @ Y.T))
+    save_map(tmp_path / "m.npz", match)
+    with pytest.raises(InvalidInput, match="config: expected a match that has it"):
+        load_map(tmp_path / "m.npz").config  # noqa: B018
 
 
 def zeros_npz(names: int, megabytes: int) -> bytes:

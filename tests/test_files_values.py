@@ -12,9 +12,9 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import array_shapes, arrays
 
+from kfmaps import Match
 from kfmaps._arrays import InvalidInput
 from kfmaps.io import (
-    MapFile,
     Values,
     read_landmarks,
     read_values,
@@ -86,7 +86,7 @@ def test_vertex_numbers(tmp_path: Path, suffix: str, one_based: bool) -> None:
 def test_transfer() -> None:
     values = np.arange(12.0).reshape(4, 3)
     np.testing.assert_array_equal(transfer(values, [3, 3, 0]), values[[3, 3, 0]])
-    np.testing.assert_array_equal(transfer(["a", "b"], MapFile(np.array([1, 0, 1]))), ["b", "a", "b"])
+    np.testing.assert_array_equal(transfer(["a", "b"], Match(np.array([1, 0, 1]))), ["b", "a", "b"])
     assert transfer(np.array([1, 2], dtype=np.int8), [0]).dtype == np.int8
     for values_s, points, part in ((values, [4], "got 4"), (values, [[0]], "shape"), (3.0, [0], "single value")):
         with pytest.raises(InvalidInput, match=part):

@@ -31,8 +31,8 @@ def test_shapes_are_prepared_once_and_the_settings_are_used() -> None:
     for marks in (MARKS, MARKS[:3]):
         found = matcher(marks, lambda stage, done: stages.append(stage) if done == 1 else None)
         np.testing.assert_array_equal(found.target_to_source, np.arange(300))
-        np.testing.assert_array_equal(found.extra["landmarks"], marks)
-        assert (found.n_s, found.extra["source"]) == (300, str(Path("a.off").absolute()))
+        np.testing.assert_array_equal(found.landmarks, marks)
+        assert (found.n_source, found.source_file.path) == (300, str(Path("a.off").absolute()))
     assert seen == [MARKS.tolist(), MARKS[:3].tolist()]
     assert [stages.count(f"eigenfunctions of {name}") for name in "ab"] == [1, 1]
     assert stages.count("descriptors") == 2

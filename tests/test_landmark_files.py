@@ -15,7 +15,7 @@ from conftest import blob
 from kfmaps._arrays import InvalidInput, KfmapsWarning
 from kfmaps.fmap.precise import vertex_point_map
 from kfmaps.geometry.mesh import Mesh
-from kfmaps.io import MapFile, load_map, save_map, write_mesh
+from kfmaps.io import load_map, save_map, write_mesh
 from kfmaps.io.landmark_files import (
     FORMATS,
     LandmarkSet,
@@ -27,6 +27,7 @@ from kfmaps.io.landmark_files import (
     write_landmark_sets,
 )
 from kfmaps.io.named_points import place_landmarks, read_landmark_pairs, read_named_points, transfer_points
+from kfmaps.matching.result import Match
 
 POINTS = np.array([[1.5, -2.25, 3.0], [np.nan] * 3, [0.1, 1e-7, 12345.678]])
 NAMES = ("nasion", "tip of the nose", "3")
@@ -255,7 +256,7 @@ def test_landmarks_of_two_shapes_are_paired_by_name(tmp_path: Path) -> None:
         *words, *(word for file in files for word in ("--landmarks", file)), "--set", "basis.n_eigenfunctions=20"
     )
     assert (done.status, done.stderr) == (0, "")
-    np.testing.assert_array_equal(load_map(tmp_path / "m.npz").extra["landmarks"], pairs)
+    np.testing.assert_array_equal(load_map(tmp_path / "m.npz").landmarks, pairs)
     assert "give --landmarks twice" in run(*words, "--force", "--landmarks", files[0]).stderr
     write_landmark_sets(tmp_path / "c.csv", [LandmarkSet(("z",), mesh.vertices[[10]])])
     with pytest.raises(InvalidInput, match="names that both shapes have"):
@@ -267,7 +268,7 @@ def test_points_are_carried_from_slicers_file_to_slicers_file(tmp_path: Path) ->
     other = Mesh(2 * mesh.vertices, mesh.faces)
     for name, shape in (("a", mesh), ("b", other)):
         write_mesh(tmp_path / f"{name}.off", shape)
-    save_map(tmp_path / "m.npz", MapFile(np.arange(600)))
+    save_map(tmp_path / "m.npz", Match(np.arange(600)))
     write_landmark_sets(tmp_path / "a.mrk.json", [on(mesh)])
     words = ["transfer", tmp_path / "m.npz", tmp_path / "a.mrk.json", "--points", "-o", tmp_path / "b.mrk.json"]
     done = run(*words, "--source", tmp_path / "a.off", "--target", tmp_path / "b.off")

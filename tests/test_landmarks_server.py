@@ -26,7 +26,8 @@ from commandline import run
 from kfmaps._arrays import InvalidInput
 from kfmaps.datasets import sphere
 from kfmaps.geometry.mesh import Mesh
-from kfmaps.io import MapFile, load_map, read_landmark_names, read_landmarks, write_landmarks, write_mesh
+from kfmaps.io import load_map, read_landmark_names, read_landmarks, write_landmarks, write_mesh
+from kfmaps.matching.result import Match
 from kfmaps.viz.picker import Picker, PickerServer, check_pairs
 from kfmaps.viz.runs import Progress, Runs
 from kfmaps.viz.server import LOOPBACK, LocalServer, page_reply
@@ -310,11 +311,11 @@ def test_a_folder_that_went_away_is_told_in_words(serve: Serve, tmp_path: Path) 
 def test_match_reports_progress_and_gives_its_map(serve: Serve) -> None:
     going, seen = threading.Event(), []
 
-    def matcher(landmarks: np.ndarray, progress: Progress) -> MapFile:
+    def matcher(landmarks: np.ndarray, progress: Progress) -> Match:
         seen.append(landmarks.tolist())
         progress("solve", 0.25)
         assert going.wait(60)
-        return MapFile(np.arange(160))
+        return Match(np.arange(160))
 
     client = serve(matcher=matcher)
     assert client.get("progress").json["state"] == "idle"
@@ -339,11 +340,11 @@ def test_match_reports_progress_and_gives_its_map(serve: Serve) -> None:
 
 
 def test_failure_of_a_match_is_told_in_words(serve: Serve) -> None:
-    def refusing(_landmarks: np.ndarray, _progress: Progress) -> MapFile:
+    def refusing(_landmarks: np.ndarray, _progress: Progress) -> Match:
         raise InvalidInput("landmarks: expected <b>more</b>")
 
-    def short(_landmarks: np.ndarray, _progress: Progress) -> MapFile:
-        return MapFile(np.arange(3))
+    def short(_landmarks: np.ndarray, _progress: Progress) -> Match:
+        return Match(np.arange(3))
 
     for matcher, text in ((refusing, "<b>more</b>"), (short, "map: expected shape (160)")):
         client = serve(matcher=matcher)
@@ -355,7 +356,7 @@ def test_failure_of_a_match_is_told_in_words(serve: Serve) -> None:
 
 
 def test_match_can_be_cancelled(serve: Serve) -> None:
-    def endless(_landmarks: np.ndarray, progress: Progress) -> MapFile:
+    def endless(_landmarks: np.ndarray, progress: Progress) -> Match:
         while True:
             progress("solve", 0.5)
             time.sleep(0.001)
@@ -476,7 +477,7 @@ def test_the_map_of_a_run_is_saved(serve: Serve, tmp_path: Path) -> None:
     """That of the run that is asked for; a file that was there before only after asking."""
     path = tmp_path / "m.npz"
     runs = iter((np.arange(160), np.arange(160)[::-1].copy()))
-    client = serve(matcher=lambda *_: MapFile(next(runs)), map_output=path)
+    client = serve(matcher=lambda *_: Match(next(runs)), map_output=path)
     assert client.post("save-map", {"run": 0}).status == 400
     for _ in range(2):
         client.post("match", {"pairs": PAIRS})

@@ -5,7 +5,6 @@ import hashlib
 import json
 import shutil
 import subprocess
-from dataclasses import replace
 from html.parser import HTMLParser
 from importlib.resources import files
 from pathlib import Path
@@ -21,17 +20,16 @@ from kfmaps.config import Config
 from kfmaps.datasets import sphere
 from kfmaps.fmap.confidence import local_confidence
 from kfmaps.fmap.convert import nearest_reached
-from kfmaps.fmap.solvers import Solution
 from kfmaps.geometry.mesh import Mesh, unit_area, vertex_areas
-from kfmaps.io import MapFile, save_map, write_mesh, write_vertex_numbers
+from kfmaps.io import save_map, write_mesh, write_vertex_numbers
 from kfmaps.io.provenance import mesh_path
 from kfmaps.matching.result import Match
-from kfmaps.matching.result_groups import MatchFit, MatchScore
+from kfmaps.matching.result_groups import MatchFit, MatchScore, ShapeFile
 from kfmaps.viz.document import asset
 from kfmaps.viz.encode import encode_floats, encode_integers, json_block, to_json
 from kfmaps.viz.fields import area_distortion, rotation_by_map
 from kfmaps.viz.page import result_page
-from kfmaps.viz.result_pages import map_page, match_summary, signatures, vertex_errors
+from kfmaps.viz.result_pages import match_page, match_summary, signatures, vertex_errors
 
 WEB = Path(__file__).parents[1] / "web"
 NO_FACES = np.zeros((0, 3), int)
@@ -285,7 +283,7 @@ def test_signatures_do_not_depend_on_pose_or_unit() -> None:
 
 
 def a_match() -> Match:
-    residuals = np.array([8.0, 4.0, 0.5])
+    residuals = np.array([1.0, 0.5, 0.0625])
     return Match(
         target_to_source=np.zeros(4, np.int64),
         functional_map=np.eye(2),
@@ -298,7 +296,9 @@ def a_match() -> Match:
         fit=MatchFit(
             raw_functional_map=np.eye(2),
             raw_target_to_source=np.zeros(4, np.int64),
-            solution=Solution(np.eye(2), "converged", 2, residuals),
+            status="converged",
+            steps=2,
+            residuals=residuals,
             energies={"laplacian": 1.5},
             rank=7,
             n_operators=3,
@@ -316,28 +316,25 @@ def test_summary_of_a_match_is_json() -> None:
     assert summary["energies"] == {"laplacian": 1.5}
     assert summary["settings"]["nystrom"]["samples"] == Config.single_fit().nystrom.samples
     assert "confidence" not in summary
-    assert match_summary(replace(a_match(), confidence=0.25))["confidence"] == 0.25
-    assert "energies" not in match_summary(replace(a_match(), fit=MatchFit()))
+    assert match_summary(a_match().replaced(confidence=0.25))["confidence"] == 0.25
+    assert "energies" not in match_summary(a_match().replaced(fit=MatchFit()))
 
 
 def test_page_of_a_file_shows_what_the_file_holds(pair: tuple) -> None:
     source, target, points = pair
-    extra = {
-        "runners_up": points[None, ::-1],
-        "local_confidence": np.linspace(0, 1, 240),
-        "confidence": np.array(0.5),
-        "summary": '{"times": {"solve": 2}}',
-    }
-    found = MapFile(points, config='{"exact": false}', extra=extra)
-    data = page_data(map_page(found, source, target, ("a", "b"), descriptors=False))
+    found = Match(
+        points,
+        alternatives=(points[::-1],),
+        local_confidence=np.linspace(0, 1, 240),
+        confidence=0.5,
+        seconds={"solve": 2.0},
+    )
+    data = page_data(match_page(found, source, target, ("a", "b"), descriptors=False))
     assert len(data["maps"]) == 2
-    assert data["summary"] == {"times": {"solve": 2}, "settings": {"exact": False}, "confidence": 0.5}
+    assert data["summary"] == {"verdict": "unchecked", "times": {"solve": 2}, "confidence": 0.5}
     known, other = (unpacked(row) for row in data["confidence"])
     np.testing.assert_allclose(known, np.linspace(0, 1, 240), atol=1e-4)
     np.testing.assert_allclose(other, local_confidence(source, target, points[::-1]), atol=1e-4)
-    note = MapFile(points, extra={"summary": "no json {"})
-    data = page_data(map_page(note, source, target, ("a", "b"), descriptors=False))
-    assert data["summary"] == {"note": "no json {"}
 
 
 def test_view_writes_one_page(pair: tuple, tmp_path: Path) -> None:
@@ -346,7 +343,7 @@ def test_view_writes_one_page(pair: tuple, tmp_path: Path) -> None:
     write_mesh(tmp_path / "b.off", target)
     write_vertex_numbers(tmp_path / "a.vts", points)
     write_vertex_numbers(tmp_path / "b.vts", np.arange(240))
-    save_map(tmp_path / "m.npz", MapFile(points, extra={"source": "gone/a.off", "target": "b.off"}))
+    save_map(tmp_path / "m.npz", Match(points, source_file=ShapeFile("gone/a.off"), target_file=ShapeFile("b.off")))
     page = tmp_path / "page.html"
     a, b = tmp_path / "a.vts", tmp_path / "b.vts"
     view(tmp_path / "m.npz", output=page, truth=(a, b), descriptors=False)
@@ -364,12 +361,12 @@ def test_view_writes_one_page(pair: tuple, tmp_path: Path) -> None:
 
 
 def test_mesh_is_where_the_map_says_or_asked_for(tmp_path: Path) -> None:
-    nameless = MapFile(np.zeros(1, int))
+    nameless = Match(np.zeros(1, int))
     assert mesh_path(Path("given.off"), nameless, "source", tmp_path / "m.npz") == Path("given.off")
     with pytest.raises(InvalidInput, match="--source FILE"):
         mesh_path(None, nameless, "source", tmp_path / "m.npz")
     with pytest.raises(InvalidInput, match="nothing at"):
-        mesh_path(None, MapFile(np.zeros(1, int), extra={"source": "no.off"}), "source", tmp_path / "m.npz")
+        mesh_path(None, Match(np.zeros(1, int), source_file=ShapeFile("no.off")), "source", tmp_path / "m.npz")
 
 
 # The bundle -----------------------------------------------------------------------------------------------

@@ -19,7 +19,7 @@ from kfmaps.config import Config
 from kfmaps.fmap import evaluate
 from kfmaps.fmap.precise import PointMap
 from kfmaps.geometry.mesh import Mesh
-from kfmaps.io import MapFile, atomic_output, check_map, load_map
+from kfmaps.io import atomic_output, check_map, load_map
 from kfmaps.io import save_map as save_map
 from kfmaps.io import transfer as carried
 from kfmaps.io.convert import as_landmarks, as_map, as_mesh, is_file
@@ -126,7 +126,7 @@ def transfer(values: Any, found: Any, lost: Any = None, *, source: Any = None) -
     ----------
     values : (n_s, ...) array
         Functions, labels, colours: anything with a row per source vertex.
-    found : Match, MapFile, path, PointMap, or (n_t,) whole numbers
+    found : Match, path, PointMap, or (n_t,) whole numbers
         The map.
     lost : optional
         What target vertices without a counterpart get; by default NaN, for whole numbers −1, for texts the empty one.
@@ -154,7 +154,7 @@ def geodesic_errors(source: Any, predicted: Any, true: Any, method: str = "unfol
     Parameters
     ----------
     source : as :func:`match` takes it
-    predicted : Match, MapFile, path, PointMap, or (q,) whole numbers
+    predicted : Match, path, PointMap, or (q,) whole numbers
         A map, for all target vertices, or a source vertex for each point that is evaluated. The points of a PointMap
         are not snapped to vertices.
     true : (q,) whole numbers, PointMap, or a tuple ((q,), (q,)) of whole numbers
@@ -203,7 +203,7 @@ def render(
 
     Parameters
     ----------
-    found : Match, MapFile, path, PointMap, or (n_t,) whole numbers
+    found : Match, path, PointMap, or (n_t,) whole numbers
     source, target : as :func:`match` takes them, optional
         By default those of the match, or those that the map's file names.
     output : path, optional
@@ -273,7 +273,7 @@ def view(
     Path
         The page: one file that needs no network.
     """
-    from kfmaps.viz.result_pages import map_page, match_page, open_page
+    from kfmaps.viz.result_pages import match_page, open_page
 
     shapes = _shapes(found, source, target)
     known = None if truth is None else _truth(truth, shapes)
@@ -282,10 +282,7 @@ def view(
         "descriptors": descriptors,
         "up": up,
     }
-    if isinstance(found, Match):
-        html = match_page(found, *shapes, names, **given)
-    else:
-        html = map_page(as_map(found, shapes[0]), *shapes, names, **given)
+    html = match_page(as_map(found, shapes[0]), *shapes, names, **given)
     if output is None:
         return open_page(html)[0]
     with atomic_output(output, force) as temporary:
@@ -327,9 +324,9 @@ def _shapes(found: Any, source: Any, target: Any) -> tuple[Mesh, Mesh]:
     for given, side in ((source, "source"), (target, "target")):
         if given is not None:
             meshes.append(_mesh(given, side))
-        elif isinstance(named, Match):
+        elif hasattr(named, side):
             meshes.append(getattr(named, side))
-        elif isinstance(named, MapFile):
+        elif isinstance(named, Match):
             meshes.append(map_mesh(None, named, side, beside))
         else:
             raise refuse(side, "the shape", "a map alone", f"give {side}=")

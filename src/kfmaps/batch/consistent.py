@@ -322,7 +322,7 @@ def replace_map(job: _ReplaceTask) -> Result:
         config = replace(task.config, threads=1)
         found = refine_replacement(change, _candidates(task), composition, shapes, config, job.label, task.seed)
         truth = true_vertices(task, *(len(shape.mesh.vertices) for shape in shapes))
-        values = recorded(task, found, shapes, truth, None, other)
+        values = recorded(task, found, shapes, truth, other)
     values["seconds"]["total"] = time.perf_counter() - begun
     result = make_result(
         task,

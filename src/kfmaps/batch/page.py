@@ -33,7 +33,7 @@ from kfmaps.viz import Curve, curves_figure, match_figure, mean_curve, painted_e
 from kfmaps.viz.document import environment, policy
 from kfmaps.viz.figures import make_transparent
 from kfmaps.viz.matches import values_figure
-from kfmaps.viz.result_pages import map_page
+from kfmaps.viz.result_pages import match_page
 
 PAGE = "summary.html"
 _PAGES = "pages"
@@ -345,7 +345,7 @@ def _write_pages(
             truth = true_vertices(task, len(source.vertices), len(target.vertices))
             pairs = None if truth is None else (truth.source, truth.target)
             with one_blas_thread():
-                html = map_page(
+                html = match_page(
                     load_map(path), source, target, (result.source, result.target), truth=pairs, descriptors=False
                 )
         except (InvalidInput, OSError):

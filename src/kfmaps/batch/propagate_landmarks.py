@@ -133,7 +133,7 @@ def _carried(
         place, some = precise_points(known, source) or vertex_point_map(known.target_to_source, source), {}
     else:
         place, some = ways.place, {"known": ways.target, "common": ways.source}
-    trust = known.extra.get("local_confidence")
+    trust = getattr(known, "local_confidence", None)
     local = np.ones(len(target.vertices)) if trust is None else np.nan_to_num(np.asarray(trust))
     points = transfer_points(before, source, target, place, local, back=back, **some)
     return replace(points, confidence=points.confidence * before.confidence * edge.chance)
@@ -202,8 +202,8 @@ def _mesh(name: str, edges: Sequence[_Edge], known: dict[str, Mesh]) -> Mesh:
 def _mesh_file(name: str, edges: Sequence[_Edge]) -> Path:
     edge = next(e for e in edges if name in (e.pair.source, e.pair.target))
     side = "source" if edge.pair.source == name else "target"
-    path = load_map(edge.path).extra.get(side)
-    if not isinstance(path, str) or not Path(path).exists():
+    path = getattr(load_map(edge.path), f"{side}_file").path
+    if not path or not Path(path).exists():
         expected = f"its {side} at the path that it names"
         raise refuse(str(edge.path), expected, f"no file {path}", "put the mesh back, or match again")
     return Path(path)

@@ -22,11 +22,12 @@ from kfmaps.batch.cache import cached_samples, file_digest, load_shape, save_sha
 from kfmaps.batch.layout import Pair
 from kfmaps.batch.results import CURVE_ERRORS, Result, read_result, result_path, write_result
 from kfmaps.cli.evaluation import Accuracy, Truth, assess, check_truth, known_truth, read_vertex_lists
-from kfmaps.cli.summary import MatchRun, map_file, mean_confidence
 from kfmaps.config import Config
 from kfmaps.fmap.evaluate import coverage, error_curve
 from kfmaps.geometry.mesh import Mesh, vertex_areas
 from kfmaps.io import read_mesh, read_vertex_numbers, save_map
+from kfmaps.io.map_summary import mean_confidence
+from kfmaps.io.provenance import with_files
 from kfmaps.matching.match import match
 from kfmaps.matching.quality import ShapeSamples
 from kfmaps.matching.result import Match
@@ -237,16 +238,11 @@ def _matched(task: PairTask) -> dict[str, Any]:
         probes = pair_samples(task, (source, target))
     found = match(source, target, replace(task.config, threads=1), landmarks=landmarks, rng=task.seed, probes=probes)
     path = map_path(Path(task.folder), task.key)
-    return recorded(task, found, (source, target), truth, landmarks, path)
+    return recorded(task, found, (source, target), truth, path)
 
 
 def recorded(
-    task: PairTask,
-    found: Match,
-    shapes: tuple[Shape, Shape],
-    truth: Truth | None,
-    landmarks: np.ndarray | None,
-    path: Path,
+    task: PairTask, found: Match, shapes: tuple[Shape, Shape], truth: Truth | None, path: Path
 ) -> dict[str, Any]:
     """Save the map of a pair to ``path``, and give the fields of its result."""
     source, target = shapes
@@ -256,23 +252,22 @@ def recorded(
     accuracy = None if truth is None else assess(source.mesh, points, truth, mirrored=MIRRORED_POINTS)
     reached = coverage(points, source.mesh)
     seconds = {**found.seconds, "evaluation": time.perf_counter() - start}
-    marks = np.zeros((0, 2), dtype=np.int64) if landmarks is None else landmarks
     paths = Path(task.source.path), Path(task.target.path)
-    outcome = MatchRun(found, (source.mesh, target.mesh), paths, marks, task.seed, dict(found.seconds), accuracy)
+    found = with_files(found, paths, (source.mesh, target.mesh))
     path.parent.mkdir(parents=True, exist_ok=True)
-    save_map(path, map_file(outcome), force=True)
+    save_map(path, found, force=True)
     return _errors(accuracy) | {
         "vertices_s": sizes[0],
         "vertices_t": sizes[1],
-        "landmarks": len(marks),
+        "landmarks": len(found.landmarks),
         "coverage": reached,
         **_common(found, shapes),
         "confidence": None if found.confidence is None else float(found.confidence),
         "local_confidence": mean_confidence(found),
         "verdict": found.verdict,
         "orientation": found.orientation,
-        "solver": None if found.fit.solution is None else str(found.fit.solution.status),
-        "solver_steps": None if found.fit.solution is None else int(found.fit.solution.steps),
+        "solver": found.fit.status,
+        "solver_steps": found.fit.steps,
         "rank": found.fit.rank,
         "seconds": seconds,
     }

@@ -16,11 +16,12 @@ from kfmaps.fmap.evaluate import Evaluation, precise_errors, summarize_errors
 from kfmaps.fmap.precise import PointMap, check_point_map_precise, point_positions, vertex_point_map
 from kfmaps.geometry.closest_points import closest_points
 from kfmaps.geometry.mesh import Mesh, boundary_vertices, unit_area, vertex_areas
-from kfmaps.io import MapFile, read_landmarks
+from kfmaps.io import read_landmarks
 from kfmaps.io.partial_map import precise_points
 from kfmaps.io.text import clean_text, parse_rows, read_bytes, table
 from kfmaps.matching.partial.match_partial import COMMON
 from kfmaps.matching.partial.registration import overlap_probability
+from kfmaps.matching.result import Match
 
 Side = Literal["source", "target"]
 
@@ -108,7 +109,7 @@ class PartAccuracy:
         return {**numbers_of(self.errors), "points": len(self.errors.errors), **finite}
 
 
-def part_accuracy(source: Mesh, target: Mesh, found: MapFile, truth: PartTruth, part: Side) -> PartAccuracy:
+def part_accuracy(source: Mesh, target: Mesh, found: Match, truth: PartTruth, part: Side) -> PartAccuracy:
     """Compare a map with the truth of its ``part``, "source" or "target".
 
     Of a target that is a part the errors are distances on the source between where its vertices go and belong; of a
@@ -146,11 +147,11 @@ def part_accuracy(source: Mesh, target: Mesh, found: MapFile, truth: PartTruth, 
     return PartAccuracy(errors, matched, share, missing)
 
 
-def common_vertices(found: MapFile, part: Side) -> np.ndarray | None:
+def common_vertices(found: Match, part: Side) -> np.ndarray | None:
     """The whole's vertices that the map says to be common; ``None`` where the file does not tell."""
     if part == "source":
         return found.target_to_source >= 0
-    values = found.extra.get("overlap_source")
+    values = found.partial.overlap_source
     return None if values is None else np.asarray(values) > COMMON
 
 

@@ -25,7 +25,7 @@ from kfmaps.collection.paths import adjacency, best_paths
 from kfmaps.collection.repair import CyclePath, Replacement
 from kfmaps.collection.scored_map import ScoredMap
 from kfmaps.config import Config
-from kfmaps.io import MapFile, check_map
+from kfmaps.io import check_map
 from kfmaps.io.convert import as_map, as_mesh
 from kfmaps.matching.match import match
 from kfmaps.matching.quality import ShapeSamples
@@ -241,7 +241,7 @@ class _MemoryStore:
     def match(self, a: int, b: int) -> Match:
         return match(*self._pair((a, b)), self.config, rng=self.seed, probes=(self.samples[a], self.samples[b]))
 
-    def add(self, ends: tuple[int, int], file: MapFile, match_ab: Match | None, reversed: bool | None) -> None:
+    def add(self, ends: tuple[int, int], file: Match, match_ab: Match | None, reversed: bool | None) -> None:
         """Take the map of a pair, scored."""
         self.ends.append(ends)
         self.matches.append(match_ab)
@@ -287,7 +287,7 @@ class _MemoryStore:
 
 def _checked_maps(
     maps: Mapping[tuple[str, str], Any], names: Sequence[str], shapes: Sequence[Shape]
-) -> dict[tuple[int, int], MapFile]:
+) -> dict[tuple[int, int], Match]:
     found = {}
     for (source, target), one in maps.items():
         for name in (source, target):

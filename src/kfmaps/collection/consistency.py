@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Protocol
@@ -17,7 +16,7 @@ from kfmaps.collection.synchronization import Edge
 from kfmaps.config import Config
 from kfmaps.fmap.convert import to_points
 from kfmaps.geometry.basis import Basis
-from kfmaps.io import MapFile, check_map
+from kfmaps.io import check_map
 from kfmaps.matching.finish import match_from_map
 from kfmaps.matching.quality import ShapeSamples
 from kfmaps.matching.reindexing import reindexing
@@ -89,24 +88,14 @@ def synchronize_store(store: MapStore) -> Consistency:
     return Consistency(repaired, component_limit_shapes(repaired.sync, edges, values, _N_LATENT), values)
 
 
-def stored_candidates(file: MapFile, reversed: bool | None = None) -> list[Candidate]:
+def stored_candidates(file: Match, reversed: bool | None = None) -> list[Candidate]:
     """Return the map in use and its runners-up; ``reversed`` where the file does not tell."""
-    turned = _is_reversed(file) if reversed is None else reversed
-    others = file.extra.get("runners_up")
-    rows = [] if others is None else list(np.atleast_2d(np.asarray(others)))
-    return [(file.target_to_source, turned), *((row, turned) for row in rows)]
-
-
-def _is_reversed(file: MapFile) -> bool:
-    """Whether a map's file says that it is one to a mirror image."""
-    try:
-        return json.loads(str(file.extra.get("summary", "{}"))).get("orientation") == "reversing"
-    except (ValueError, AttributeError):
-        return False
+    turned = file.orientation == "reversing" if reversed is None else reversed
+    return [(points, turned) for points in (file.target_to_source, *file.alternatives)]
 
 
 def score_stored(
-    file: MapFile, shapes: tuple[Shape, Shape], samples: tuple[ShapeSamples, ShapeSamples], reversed: bool | None = None
+    file: Match, shapes: tuple[Shape, Shape], samples: tuple[ShapeSamples, ShapeSamples], reversed: bool | None = None
 ) -> list[ScoredMap]:
     """Score the candidates of a file. The map in use has the score of its raw map, where that is better.
 
@@ -114,7 +103,7 @@ def score_stored(
     """
     check_map(file, len(shapes[0].mesh.vertices), len(shapes[1].mesh.vertices))
     maps = stored_candidates(file, reversed)
-    raw = file.extra.get("raw_functional_map")
+    raw = file.fit.raw_functional_map
     if raw is None:
         return score_candidates(maps, shapes, samples)
     source, target = (shape.basis for shape in shapes)

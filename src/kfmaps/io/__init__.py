@@ -14,7 +14,8 @@ from kfmaps.io.index_files import (
     write_landmarks,
     write_vertex_numbers,
 )
-from kfmaps.io.mapfile import MapFile, check_map, load_map, match_map, save_map
+from kfmaps.io.mapcontent import check_map
+from kfmaps.io.mapfile import load_map, save_map
 from kfmaps.io.meshes import read_mesh, read_mesh_file, write_mesh
 from kfmaps.io.record import MeshFile
 from kfmaps.io.text import read_text
@@ -22,7 +23,6 @@ from kfmaps.io.transfer import transfer
 from kfmaps.io.vertex_data import Values, read_values, write_values
 
 __all__ = [
-    "MapFile",
     "MeshFile",
     "Values",
     "atomic_output",
@@ -30,7 +30,6 @@ __all__ = [
     "check_output",
     "grid_picture",
     "load_map",
-    "match_map",
     "projected_uv",
     "read_landmark_names",
     "read_landmarks",

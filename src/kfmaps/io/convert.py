@@ -15,10 +15,11 @@ import numpy as np
 from kfmaps._arrays import InvalidInput, refuse
 from kfmaps.fmap.precise import PointMap, check_point_map_precise, nearest_vertices
 from kfmaps.geometry.mesh import Mesh
-from kfmaps.io import MapFile, load_map, match_map, read_landmarks, read_mesh
+from kfmaps.io import check_map, load_map, read_landmarks, read_mesh
 from kfmaps.io.named_points import read_landmark_pairs
 from kfmaps.io.record import fan
 from kfmaps.matching.result import Match
+from kfmaps.matching.result_groups import ShapeFile
 
 SHAPES = "a Mesh, a file, (vertices, faces), or a mesh of trimesh, PyVista, meshio or Open3D"
 POLYGONS = ("triangle", "quad", "polygon")
@@ -141,13 +142,13 @@ def as_landmarks(landmarks: Any, shapes: Sequence[Any] = (), meshes: Sequence[Me
     return landmarks
 
 
-def as_map(found: Any, source: Mesh | None = None) -> MapFile:
-    """Return a map of any kind as a :class:`~kfmaps.io.MapFile`.
+def as_map(found: Any, source: Mesh | None = None) -> Match:
+    """Return a map of any kind as a :class:`~kfmaps.Match`.
 
     Parameters
     ----------
-    found : Match, MapFile, path, PointMap, or (n_t,) whole numbers
-        A match; what :func:`kfmaps.load_map` returns; a file; points inside the source's triangles; or a source vertex
+    found : Match, path, PointMap, or (n_t,) whole numbers
+        A match; a file; points inside the source's triangles; or a source vertex
         for each target vertex.
     source : Mesh, optional
         Needed for a PointMap alone, whose triangles are the source's.
@@ -157,21 +158,18 @@ def as_map(found: Any, source: Mesh | None = None) -> MapFile:
     InvalidInput
         On anything else, a PointMap that does not fit the source, and as :func:`kfmaps.load_map`.
     """
-    if isinstance(found, MapFile):
-        return found
     if isinstance(found, Match):
-        return match_map(found)
+        return found
     if is_file(found):
         return load_map(Path(found))
     if isinstance(found, PointMap):
         if source is None:
             raise refuse("map", "the source of points inside its triangles", "a PointMap alone", "give source=")
         check_point_map_precise(found, source)
-        n_s: Any = np.int64(len(source.vertices))
-        extra = {"place_faces": found.faces, "place_weights": found.weights, "n_s": n_s}
-        return MapFile(nearest_vertices(found, source), extra=extra)
+        named = ShapeFile(n_vertices=len(source.vertices))
+        return Match(target_to_source=nearest_vertices(found, source), precise_map=found, source_file=named)
     try:
-        return MapFile(np.asarray(found))
+        return Match(target_to_source=check_map(np.asarray(found), lost=True))
     except (TypeError, ValueError) as error:
         wanted = "a Match, the file of a map, a PointMap, or a source vertex for each target vertex"
         raise refuse("map", wanted, type(found).__name__, "give what kfmaps.match returned") from error

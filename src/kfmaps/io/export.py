@@ -16,7 +16,7 @@ from kfmaps.geometry.mesh import Mesh, surface_area
 from kfmaps.io.atomic import atomic_output
 from kfmaps.io.bake import bake_texture, can_bake, decode_picture, encode_png
 from kfmaps.io.glb import format_glb
-from kfmaps.io.mapfile import check_map
+from kfmaps.io.mapcontent import check_map
 from kfmaps.io.meshes import write_mesh
 from kfmaps.io.obj import format_obj
 from kfmaps.io.partial_map import precise_points
@@ -170,7 +170,7 @@ def write_textured(
     source : MeshFile
         With its texture coordinates; without any they come from :func:`projected_uv`.
     target : Mesh or MeshFile
-    target_to_source : (n_t,) int64 or MapFile
+    target_to_source : (n_t,) int64 or Match
     picture : str or Path, optional
         The source's texture, PNG or JPEG; by default its own, if its file holds one, or a coloured grid
         (:func:`grid_picture`).

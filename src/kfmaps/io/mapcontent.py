@@ -1,10 +1,9 @@
-"""What the arrays and texts of a map file must be: one check, where a map comes in, so that none is needed after."""
+"""The arrays of a map file: which field of a match each one holds, and what it must be."""
 
 from __future__ import annotations
 
-import json
-import re
 from collections.abc import Mapping
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -12,121 +11,171 @@ import numpy as np
 from kfmaps._arrays import check, refuse
 from kfmaps.io.text import REPAIR
 
-DEEPEST = 50
-"""Levels of a JSON text; settings and summaries have five."""
-LONGEST_PATH = 4096
+Size = int | str | None
+"""Length of an axis: a number, the number of vertices of the source ("s") or target ("t"), or any."""
+
+
+@dataclass(frozen=True)
+class MapArray:
+    """One array of a map file.
+
+    Attributes
+    ----------
+    field : str
+        The field of :class:`kfmaps.Match` that it holds; a dot leads into a group of fields.
+    shape : tuple of Size
+    of : str
+        Whose numbers it holds: vertices of the source ("s") or target ("t"), one letter a column ("st"), or faces
+        ("f"). A .mat file counts them from 1. Empty for real numbers.
+    missing : bool
+        Whether −1 may stand for a vertex without counterpart, or NaN for an unknown number.
+    high : float
+        Greatest value of numbers that are at least 0; infinite where they are not bounded.
+    """
+
+    field: str
+    shape: tuple[Size, ...]
+    of: str = ""
+    missing: bool = False
+    high: float = np.inf
+
+    def check(self, value: Any, name: str, sizes: Mapping[str, int | None]) -> np.ndarray:
+        """Return ``value`` as int64 or float64 where it is what the field wants; ``sizes``: vertices of both shapes.
+
+        Raises
+        ------
+        InvalidInput
+            On another kind or shape, and on numbers out of range.
+        """
+        shape = tuple(sizes[size] if isinstance(size, str) else size for size in self.shape)
+        array = check(real(value, name), name, shape=shape, finite=not self.missing, remedy=REPAIR)
+        if self.of:
+            columns = [array] if len(self.of) == 1 else array.T
+            numbers = [_vertex_numbers(one, name, sizes.get(of)) for one, of in zip(columns, self.of, strict=True)]
+            return numbers[0] if len(numbers) == 1 else np.stack(numbers, axis=1)
+        if np.isinf(array).any():
+            raise refuse(name, "numbers, NaN where one is not known", "infinite ones", REPAIR)
+        if self.high < np.inf and array.size and (array.min() < 0 or array.max() > self.high):
+            raise refuse(name, f"numbers from 0 to {self.high:g}", f"{array.min():g} to {array.max():g}", REPAIR)
+        return array.astype(np.float64)
+
+
+ARRAYS = {
+    "target_to_source": MapArray("target_to_source", ("t",), "s", missing=True),
+    "functional_map": MapArray("functional_map", (None, None)),
+    "eigenvalues_source": MapArray("eigenvalues_source", (None,)),
+    "eigenvalues_target": MapArray("eigenvalues_target", (None,)),
+    "local_confidence": MapArray("local_confidence", ("t",), missing=True),
+    "alternatives": MapArray("alternatives", (None, "t"), "s"),
+    "landmarks": MapArray("landmarks", (None, 2), "st"),
+    "precise_faces": MapArray("precise_map.faces", ("t",), "f"),
+    "precise_weights": MapArray("precise_map.weights", ("t", 3), high=1 + 1e-6),
+    "source_to_target": MapArray("source_to_target", ("s",), "t"),
+    "functional_map_back": MapArray("functional_map_back", (None, None)),
+    "registered_vertices": MapArray("registration.registered_vertices", ("s", 3)),
+    "overlap_source": MapArray("partial.overlap_source", ("s",), high=1),
+    "overlap_target": MapArray("partial.overlap_target", ("t",), high=1),
+    "raw_functional_map": MapArray("fit.raw_functional_map", (None, None)),
+    "raw_target_to_source": MapArray("fit.raw_target_to_source", ("t",), "s"),
+}
+"""The arrays of a map file by name; all but the first may be left out."""
+
+OLDER = {"config", "eigenvalues_s", "eigenvalues_t", "n_s", "runners_up", "place_faces", "bent", "map_back"}
+"""Names in files of older versions, which are refused."""
 
 
 def real(value: Any, name: str) -> np.ndarray:
-    """``value`` as an array when it holds real numbers or truth values."""
+    """Return ``value`` as an array where it holds real numbers or truth values."""
     array = np.asarray(value)
     if array.dtype.kind not in "biuf":
         raise refuse(name, "an array of numbers", f"dtype {array.dtype}", REPAIR)
     return array
 
 
-def vertex_numbers(value: Any, name: str, n: int | None) -> np.ndarray:
-    """``value`` as int64 when it holds numbers of vertices of a shape of ``n``, or of any where that is not known."""
-    numbers = check(real(value, name), name, remedy=REPAIR)
-    if numbers.dtype.kind == "f" and (numbers != np.rint(numbers)).any():
-        raise refuse(name, "whole numbers of vertices", "fractions", REPAIR)
-    low, high = (numbers.min(), numbers.max()) if numbers.size else (0, 0)
-    if low < 0 or high >= (2**53 if n is None else n):
-        wanted = "vertex numbers from 0 on" if n is None else f"vertex numbers from 0 to {n - 1}"
-        raise refuse(name, wanted, f"{int(low if low < 0 else high)}", REPAIR)
-    return numbers.astype(np.int64)
+def check_map(
+    target_to_source: Any, n_s: int | None = None, n_t: int | None = None, name: str = "map", *, lost: bool = False
+) -> np.ndarray:
+    """Return ``target_to_source`` as (n_t,) int64 where it names a source vertex for every target vertex.
 
-
-def checked_extra(extra: Mapping[str, Any], n_t: int, n_s: int | None) -> dict[str, Any]:
-    """The further arrays and texts of a map, those with a known name in the kind and shape that their name says.
+    Parameters
+    ----------
+    target_to_source : array or Match
+    n_s, n_t : int, optional
+        Numbers of vertices of the source and target, when known.
+    name : str
+        How messages call it.
+    lost : bool
+        Whether −1 may stand for a vertex without counterpart.
 
     Raises
     ------
     InvalidInput
-        Naming the first that is another.
+        On another length or shape, fractions, and numbers out of range.
     """
-    found: dict[str, Any] = {}
-    for name, value in extra.items():
-        title = f"extra {name}"
-        match name:
-            case "raw_target_to_source":
-                found[name] = vertex_numbers(check(real(value, title), title, shape=(n_t,), remedy=REPAIR), title, n_s)
-            case "source_to_target":
-                found[name] = vertex_numbers(check(real(value, title), title, shape=(n_s,), remedy=REPAIR), title, n_t)
-            case "runners_up":
-                rows = real(value, title)
-                rows = rows[None] if rows.ndim == 1 else rows  # a .mat file does not tell one row from a list
-                found[name] = vertex_numbers(check(rows, title, shape=(None, n_t), remedy=REPAIR), title, n_s)
-            case "landmarks":
-                pairs = check(real(value, title), title, shape=(None, 2), remedy=REPAIR)
-                sides = [vertex_numbers(pairs[:, i], title, n) for i, n in enumerate((n_s, n_t))]
-                found[name] = np.stack(sides, axis=1)
-            case "confidence":
-                if real(value, title).size != 1 or not np.isfinite(np.asarray(value)).all():
-                    raise refuse(title, "one number", f"shape {np.shape(value)}", REPAIR)
-                found[name] = np.float64(np.asarray(value).item())
-            case "overlap_source" | "overlap_target":
-                n = n_s if name == "overlap_source" else n_t
-                values = check(real(value, title), title, shape=(n,), remedy=REPAIR).astype(np.float64)
-                if len(values) and (values.min() < 0 or values.max() > 1):
-                    raise refuse(title, "probabilities", f"{values.min():g} to {values.max():g}", REPAIR)
-                found[name] = values
-            case "local_confidence":
-                values = check(real(value, title), title, shape=(n_t,), finite=False, remedy=REPAIR).astype(np.float64)
-                if np.isinf(values).any():
-                    raise refuse(title, "numbers, NaN where it is not known", "infinite ones", REPAIR)
-                found[name] = values
-            case "raw_functional_map" | "map_back":
-                found[name] = check(real(value, title), title, shape=(None, None), remedy=REPAIR).astype(np.float64)
-            case "place_faces":
-                found[name] = vertex_numbers(check(real(value, title), title, shape=(n_t,), remedy=REPAIR), title, None)
-            case "place_weights":
-                weights = check(real(value, title), title, shape=(n_t, 3), remedy=REPAIR).astype(np.float64)
-                if len(weights) and (weights.min() < 0 or np.abs(weights.sum(axis=1) - 1).max() > 1e-6):
-                    raise refuse(title, "numbers of at least 0 with sum 1 in each row", "others", REPAIR)
-                found[name] = weights
-            case "bent":
-                rows = check(real(value, title), title, shape=(n_s, 3), remedy=REPAIR)
-                found[name] = rows.astype(np.float64)
-            case "source_sha256" | "target_sha256":
-                if not isinstance(value, str) or not re.fullmatch("[0-9a-f]{64}", value):
-                    raise refuse(title, "64 hexadecimal digits", _kind(value), REPAIR)
-                found[name] = value
-            case "source" | "target":
-                found[name] = _path(value, title)
-            case "summary":
-                found[name] = json_text(value, title)
-            case _:
-                found[name] = value if isinstance(value, str) else real(value, title)
+    remedy = "check that the map belongs to these two meshes, in this order"
+    numbers = real(getattr(target_to_source, "target_to_source", target_to_source), name)
+    check(numbers, name, shape=(n_t,), remedy=remedy)
+    if len(numbers) == 0:
+        raise refuse(name, "a whole number for each target vertex", "none", REPAIR)
+    if not lost and numbers.min() == -1:
+        wanted, got = "a counterpart of every target vertex", f"{np.count_nonzero(numbers == -1)} without one"
+        raise refuse(name, wanted, got, "this needs a map between whole shapes")
+    return _vertex_numbers(numbers, name, n_s, lost, "source vertices", remedy)
+
+
+def check_arrays(content: Mapping[str, Any], n_s: int | None, name: str) -> dict[str, Any]:
+    """Return the arrays of a map file, ``content``, by the field of a match that each one holds.
+
+    Parameters
+    ----------
+    content : mapping of str to arrays and texts
+        Names that no map file has are left out.
+    n_s : int or None
+        Number of vertices of the source, where it is known.
+    name : str
+        The file, for messages.
+
+    Raises
+    ------
+    InvalidInput
+        Naming the first array that is another than its name says.
+    """
+    title = f"{name}: target_to_source"
+    points = check_map(content["target_to_source"], n_s, name=title, lost=True)
+    sizes = {"s": n_s, "t": len(points)}
+    found: dict[str, Any] = {"target_to_source": points}
+    for key, kind in ARRAYS.items():
+        if key in content and key != "target_to_source":
+            found[kind.field] = kind.check(content[key], f"{name}: {key}", sizes)
+    if "alternatives" in found:
+        found["alternatives"] = tuple(found["alternatives"])
+    weights = found.get("precise_map.weights")
+    if (weights is None) != ("precise_map.faces" not in found):
+        raise refuse(f"{name}: precise_faces", "both precise_faces and precise_weights", "one of them", REPAIR)
+    if weights is not None and len(weights) and np.abs(weights.sum(axis=1) - 1).max() > 1e-6:
+        raise refuse(f"{name}: precise_weights", "numbers with sum 1 in each row", "others", REPAIR)
+    if "functional_map" in found:
+        for size, side in zip(found["functional_map"].shape, ("target", "source"), strict=True):
+            values = found.get(f"eigenvalues_{side}")
+            if values is not None and len(values) != size:
+                got = f"{len(values)} beside a map of shape {found['functional_map'].shape}"
+                raise refuse(f"{name}: eigenvalues_{side}", f"{size} numbers", got, REPAIR)
     return found
 
 
-def _path(value: Any, name: str) -> str:
-    if not isinstance(value, str) or "\0" in value or len(value) > LONGEST_PATH:
-        raise refuse(name, f"a path of at most {LONGEST_PATH} letters", _kind(value), REPAIR)
-    return value
-
-
-def json_text(value: Any, name: str) -> str:
-    """``value`` when it is a text, and not one of JSON that is nested without end; another text is a note."""
-    if not isinstance(value, str):
-        raise refuse(name, "text", _kind(value), REPAIR)
-    try:
-        level, depth = [json.loads(value)], 0
-    except RecursionError as error:
-        raise refuse(name, f"JSON of at most {DEEPEST} levels", "more", REPAIR) from error
-    except ValueError:
-        return value
-    while level:
-        below = [v for v in level if isinstance(v, dict | list)]
-        level = [x for v in below for x in (v.values() if isinstance(v, dict) else v)]
-        depth += 1
-        if depth > DEEPEST:
-            raise refuse(name, f"JSON of at most {DEEPEST} levels", "more", REPAIR)
-    return value
-
-
-def _kind(value: Any) -> str:
-    if isinstance(value, str):
-        return "a text with a NUL" if "\0" in value else f"{len(value)} letters"
-    return f"an array of {np.asarray(value).dtype}"
+def _vertex_numbers(
+    numbers: np.ndarray,
+    name: str,
+    n: int | None,
+    lost: bool = False,
+    what: str = "vertex numbers",
+    remedy: str = REPAIR,
+) -> np.ndarray:
+    """``numbers`` as int64 where they are vertices of a shape of ``n``, or of any where ``n`` is ``None``."""
+    if numbers.dtype.kind == "f" and not (numbers == np.rint(numbers)).all():
+        raise refuse(name, "a whole number for each vertex", "fractions", remedy)
+    low, high = (numbers.min(), numbers.max()) if numbers.size else (0, 0)
+    if low < -int(lost) or high >= (2**53 if n is None else n):
+        wanted = f"{what} from 0 on" if n is None else f"{what} from 0 to {n - 1}"
+        raise refuse(name, wanted, f"{int(low if low < -int(lost) else high)}", remedy)
+    return numbers.astype(np.int64)

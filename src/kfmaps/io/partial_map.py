@@ -9,8 +9,9 @@ import numpy as np
 
 from kfmaps.fmap.precise import PointMap, check_point_map_precise, invert_precise_map, point_positions, vertex_point_map
 from kfmaps.geometry.mesh import Mesh
-from kfmaps.io.mapfile import MapFile, check_map
+from kfmaps.io.mapcontent import check_map
 from kfmaps.matching.partial.match_partial import COMMON
+from kfmaps.matching.result import Match
 
 
 def precise_points(found: Any, source: Mesh) -> PointMap | None:
@@ -21,7 +22,7 @@ def precise_points(found: Any, source: Mesh) -> PointMap | None:
     InvalidInput
         When they are not on ``source``.
     """
-    place = found.place if isinstance(found, MapFile) else None
+    place = found.precise_map if isinstance(found, Match) else None
     return None if place is None else check_point_map_precise(place, source, len(found.target_to_source))
 
 
@@ -51,7 +52,7 @@ class Counterparts:
         return bool(self.target.all() and self.source.all())
 
 
-def find_counterparts(found: MapFile, source: Mesh, target: Mesh, name: str = "map") -> Counterparts:
+def find_counterparts(found: Match, source: Mesh, target: Mesh, name: str = "map") -> Counterparts:
     """Find which vertices of two surfaces have a counterpart by a map file.
 
     A source vertex has a counterpart where ``overlap_source`` of the file says so. Of a file that does not tell it has
@@ -70,9 +71,9 @@ def find_counterparts(found: MapFile, source: Mesh, target: Mesh, name: str = "m
 
 
 def _reached(
-    found: MapFile, source: Mesh, target: Mesh, place: PointMap, back: PointMap, known: np.ndarray
+    found: Match, source: Mesh, target: Mesh, place: PointMap, back: PointMap, known: np.ndarray
 ) -> np.ndarray:
-    overlap: Any = found.extra.get("overlap_source")
+    overlap = found.partial.overlap_source
     if overlap is not None and np.shape(overlap) == (len(source.vertices),):
         return np.asarray(overlap) > COMMON
     if known.all():

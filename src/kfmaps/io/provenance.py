@@ -8,8 +8,9 @@ from pathlib import Path
 
 from kfmaps._arrays import KfmapsWarning, refuse
 from kfmaps.geometry.mesh import Mesh
-from kfmaps.io.mapfile import MapFile
 from kfmaps.io.meshes import read_mesh
+from kfmaps.matching.result import Match
+from kfmaps.matching.result_groups import ShapeFile
 
 
 def sha256(path: str | Path) -> str:
@@ -21,14 +22,22 @@ def sha256(path: str | Path) -> str:
         return ""
 
 
-def warn_of_change(found: MapFile, side: str, path: Path) -> None:
+def with_files(match: Match, paths: tuple[Path, Path], meshes: tuple[Mesh, Mesh]) -> Match:
+    """Return the match with the files that its shapes, ``meshes``, were read from; paths become absolute."""
+    source, target = (
+        ShapeFile.of(mesh, str(path.absolute()), sha256(path)) for path, mesh in zip(paths, meshes, strict=True)
+    )
+    return match.replaced(source=meshes[0], target=meshes[1], source_file=source, target_file=target)
+
+
+def warn_of_change(found: Match, side: str, path: Path) -> None:
     """Warn (:class:`KfmapsWarning`) when the file of ``side`` is not the one that was matched."""
-    known = found.extra.get(f"{side}_sha256")
-    if isinstance(known, str) and known and sha256(path) not in ("", known):
+    known = getattr(found, f"{side}_file").sha256
+    if known and sha256(path) not in ("", known):
         warnings.warn(f"{path} has changed since the map was made", KfmapsWarning, stacklevel=2)
 
 
-def mesh_path(given: Path | None, found: MapFile, side: str, beside: Path) -> Path:
+def mesh_path(given: Path | None, found: Match, side: str, beside: Path) -> Path:
     """Return the file of the shape ``side``: as given, else as the map names it, there or beside the map.
 
     Raises
@@ -38,8 +47,8 @@ def mesh_path(given: Path | None, found: MapFile, side: str, beside: Path) -> Pa
     """
     if given is not None:
         return given
-    named = found.extra.get(side)
-    if not isinstance(named, str) or not named:
+    named = getattr(found, f"{side}_file").path
+    if not named:
         raise refuse(f"{side} mesh", "its file", "a map that does not name it", f"give --{side} FILE")
     for path in (Path(named), beside.parent / named, beside.parent / Path(named).name):
         if path.is_file():
@@ -47,7 +56,7 @@ def mesh_path(given: Path | None, found: MapFile, side: str, beside: Path) -> Pa
     raise refuse(f"{side} mesh", "the file that the map names", f"nothing at {named}", f"give --{side} FILE")
 
 
-def map_mesh(given: Path | None, found: MapFile, side: str, beside: Path) -> Mesh:
+def map_mesh(given: Path | None, found: Match, side: str, beside: Path) -> Mesh:
     """Return the shape ``side`` of a map, read from :func:`mesh_path`.
 
     What is odd about it was told when it was matched, and is not told again.

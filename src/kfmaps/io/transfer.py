@@ -12,9 +12,10 @@ from kfmaps.config import BasisConfig, Config, DescriptorConfig
 from kfmaps.fmap.precise import PointMap
 from kfmaps.fmap.transfer import transfer_functions
 from kfmaps.geometry.mesh import Mesh
-from kfmaps.io.mapfile import MapFile, check_map
+from kfmaps.io.mapcontent import check_map
 from kfmaps.io.partial_map import Counterparts
 from kfmaps.matching.reindexing import reindexing
+from kfmaps.matching.result import Match
 from kfmaps.shape import prepare
 
 N_FUNCTIONS = 100
@@ -28,7 +29,7 @@ def transfer(values_s: Any, target_to_source: Any, faces_s: np.ndarray | None = 
     ----------
     values_s : (n_s, ...) array
         Functions, labels, colours: anything with a row per source vertex.
-    target_to_source : (n_t,) int64 or MapFile
+    target_to_source : (n_t,) int64 or Match
         A source vertex for each target vertex.
     faces_s : (f_s, 3) int64, optional
         The source's faces: with those, functions (floating numbers) are mixed between the corners of the points inside
@@ -50,12 +51,12 @@ def transfer(values_s: Any, target_to_source: Any, faces_s: np.ndarray | None = 
     values = np.asarray(values_s)
     if values.ndim == 0:
         raise refuse("values", "a row for each source vertex", "a single value", "give an array")
-    mapfile = target_to_source if isinstance(target_to_source, MapFile) else None
-    if mapfile is not None and mapfile.n_s not in (None, len(values)):
-        wanted = f"{mapfile.n_s} rows, one per source vertex"
+    match = target_to_source if isinstance(target_to_source, Match) else None
+    if match is not None and match.n_source not in (None, len(values)):
+        wanted = f"{match.n_source} rows, one per source vertex"
         raise refuse("values", wanted, str(len(values)), "check that they are the source's")
     points = check_map(target_to_source, n_s=len(values), lost=True)
-    nearest, precise = np.maximum(points, 0), None if mapfile is None else mapfile.place
+    nearest, precise = np.maximum(points, 0), None if match is None else match.precise_map
     return fill_lost(_interpolate(values, precise, faces_s, nearest), points < 0, lost)
 
 
@@ -110,7 +111,7 @@ def transfer_back(values_t: np.ndarray, ways: Counterparts, target: Mesh, lost: 
 
 
 def transfer_by_functions(
-    values: np.ndarray, found: MapFile, source: Mesh, target: Mesh, products: int, threads: int | None = None
+    values: np.ndarray, found: Match, source: Mesh, target: Mesh, products: int, threads: int | None = None
 ) -> np.ndarray:
     """Carry functions ``values (n_s, ...)`` by the functional map and products of eigenfunctions, (n_t, ...) float64.
 
@@ -131,7 +132,7 @@ def transfer_by_functions(
     check_map(found, len(source.vertices), len(target.vertices), "the map")
     tail = (None,) * (values.ndim - 1)
     check(values, "values", shape=(len(source.vertices), *tail), remedy="give one row per source vertex")
-    k_t, k_s = (N_FUNCTIONS, N_FUNCTIONS) if found.functional_map is None else found.functional_map.shape
+    k_t, k_s = found.functional_map.shape if hasattr(found, "functional_map") else (N_FUNCTIONS, N_FUNCTIONS)
     if products > k_s:
         raise refuse("--products", f"at most the {k_s} functions that the map carries", str(products), "lower it")
     k = min(max(k_s, k_t), len(source.vertices) - 1, len(target.vertices) - 1)

@@ -14,11 +14,12 @@ from kfmaps.config import Config
 from kfmaps.fmap.convert import check_point_map, to_functional
 from kfmaps.fmap.descriptor_guidance import DescriptorGuidance
 from kfmaps.geometry.mesh import MIRROR, Mesh, vertex_areas
+from kfmaps.matching.fit import Fit
 from kfmaps.matching.landmark_evidence import build_guidance
 from kfmaps.matching.postprocess import refine_map
 from kfmaps.matching.reindexing import VertexReindexing, reindexing
 from kfmaps.matching.result import Match
-from kfmaps.matching.result_groups import ONE_FIT, MatchFit, MatchPart, MatchRegistration, MatchScore
+from kfmaps.matching.result_groups import ONE_FIT, MatchFit, MatchPart, MatchRegistration, MatchScore, ShapeFile
 from kfmaps.matching.score import SCORE, torn_score
 from kfmaps.matching.search import SearchResult, adapt_refinement, adapt_registration
 from kfmaps.registration.accept import register_map
@@ -78,6 +79,8 @@ class MatchTask:
             config=self.config,
             seed=self.seed,
             seconds=self.clock.seconds,
+            source_file=ShapeFile.of(self.meshes[0]),
+            target_file=ShapeFile.of(self.meshes[1]),
             _reindexing=self.pair,
             **fields,
         )
@@ -111,7 +114,6 @@ def refine_and_register(task: MatchTask, found: SearchResult, guidance: Descript
     if registered is not None:
         registered = pair.bent(registered * MIRROR if found.orientation == "reversing" else registered)
     raw, backwards, one = refined.raw_target_to_source, refined.source_to_target, found.fit
-    single = {} if one is None else {name: getattr(one, name) for name in ("solution", "energies", "kernel", "rank")}
     return task.result(
         final.target_to_source,
         refined.functional_map,
@@ -128,14 +130,18 @@ def refine_and_register(task: MatchTask, found: SearchResult, guidance: Descript
         ),
         registration=MatchRegistration(registered, final.fit),
         partial=MatchPart(reason=task.part_reason),
-        fit=MatchFit(
-            found.functional_map,
-            None if raw is None else pair.points(raw),
-            **single,
-            n_operators=None if one is None else one.slices,
-            weights=None if one is None else one.weights,
-        ),
+        fit=_fit_of(one, found.functional_map, None if raw is None else pair.points(raw)),
     )
+
+
+def _fit_of(one: Fit | None, C: np.ndarray, points: np.ndarray | None) -> MatchFit:
+    """Return the record of the fit ``one`` behind the map ``C``; empty where there was none."""
+    if one is None:
+        return MatchFit(C, points)
+    residuals = np.asarray(one.solution.residuals, dtype=np.float64)
+    residuals = residuals / (residuals[0] if len(residuals) and residuals[0] > 0 else 1.0)
+    status, steps = one.solution.status, one.solution.steps
+    return MatchFit(C, points, status, steps, residuals, one.energies, one.kernel, one.rank, one.slices, one.weights)
 
 
 def match_from_map(
@@ -213,7 +219,7 @@ def torn_area_fraction(match: Match) -> float | None:
     Where the fit was refused that of the map before it, which is more. ``None`` where none was made, before which
     distances between shapes of other proportions are kept badly everywhere.
     """
-    if match.registration.report is None or match._reindexing is None or match.local_confidence is None:
+    if match.registration.report is None or match._reindexing is None:
         return None
     areas = vertex_areas(match._reindexing.outside[1].mesh)
     return float(areas[match.local_confidence < SCORE.torn_confidence].sum() / areas.sum())

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import base64
 import io
-from dataclasses import dataclass, field
+from dataclasses import KW_ONLY, dataclass, field
 from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from kfmaps._arrays import check, refuse
+from kfmaps._arrays import InvalidInput, check, refuse
 from kfmaps.config import Config
 from kfmaps.fmap.convert import nearest_reached
 from kfmaps.fmap.descriptor_guidance import descriptor_guidance
@@ -27,19 +27,32 @@ if TYPE_CHECKING:
 
 MAX_PICTURED = 60_000
 """Vertices of both shapes together above which a notebook shows text without a picture."""
-_UNKNOWN: Any = None
-"""Value of a field that a loaded map lacks. Its type is open, so that the fields of a fresh match need no checks."""
+SHAPE_FIELDS = ("source", "target", "basis_source", "basis_target")
+"""Fields that no file holds."""
+_OPTIONAL = (
+    *SHAPE_FIELDS,
+    *("functional_map", "eigenvalues_source", "eigenvalues_target", "local_confidence", "config"),
+)
+"""Fields that a map from a file or from a list of vertices may lack; asking for one of them is an error then."""
 DPI = 72
 """Resolution of the picture in a notebook."""
 
 
-@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
+class NotKnown(InvalidInput, AttributeError):
+    """A match has no such field, because it came from a file or a list of vertices that does not hold it."""
+
+
+def _lacking() -> Any:
+    """Default of a field that a match may lack, of open type, so that the fields of a fresh match need no checks."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
 class Match:
     """A map between two shapes with all that is known of it.
 
-    :func:`kfmaps.match`, :func:`kfmaps.load_map` and collections return it. A loaded map has ``None`` in the fields
-    that its file does not hold: always the meshes and the bases, and all but ``target_to_source`` where the file is a
-    list of vertices.
+    :func:`kfmaps.match`, :func:`kfmaps.load_map` and collections return it. A file does not hold the meshes and the
+    bases, and a list of vertices holds ``target_to_source`` alone: asking a loaded match for another field is an
+    :class:`InvalidInput` that says so, and ``hasattr(match, "functional_map")`` tells beforehand.
 
     Attributes
     ----------
@@ -82,23 +95,24 @@ class Match:
     """
 
     target_to_source: np.ndarray
-    functional_map: np.ndarray = _UNKNOWN
-    source: Mesh = _UNKNOWN
-    target: Mesh = _UNKNOWN
-    basis_source: Basis = _UNKNOWN
-    basis_target: Basis = _UNKNOWN
-    eigenvalues_source: np.ndarray = _UNKNOWN
-    eigenvalues_target: np.ndarray = _UNKNOWN
+    _: KW_ONLY
+    functional_map: np.ndarray = field(default_factory=_lacking)
+    source: Mesh = field(default_factory=_lacking)
+    target: Mesh = field(default_factory=_lacking)
+    basis_source: Basis = field(default_factory=_lacking)
+    basis_target: Basis = field(default_factory=_lacking)
+    eigenvalues_source: np.ndarray = field(default_factory=_lacking)
+    eigenvalues_target: np.ndarray = field(default_factory=_lacking)
     verdict: str = "unchecked"
     confidence: float | None = None
-    local_confidence: np.ndarray = _UNKNOWN
+    local_confidence: np.ndarray = field(default_factory=_lacking)
     orientation: str = "preserving"
     precise_map: PointMap | None = None
     alternatives: tuple[np.ndarray, ...] = ()
     source_to_target: np.ndarray | None = None
     functional_map_back: np.ndarray | None = None
     landmarks: np.ndarray = field(default_factory=lambda: np.zeros((0, 2), dtype=np.int64))
-    config: Config = _UNKNOWN
+    config: Config = field(default_factory=_lacking)
     seed: int = 0
     seconds: dict[str, float] = field(default_factory=dict)
     score: MatchScore = field(default_factory=MatchScore)
@@ -109,21 +123,38 @@ class Match:
     target_file: ShapeFile = field(default_factory=ShapeFile)
     _reindexing: VertexReindexing | None = None
 
+    def __post_init__(self) -> None:
+        for name in _OPTIONAL:
+            if vars(self)[name] is None:
+                del vars(self)[name]
+
+    if not TYPE_CHECKING:  # type checkers should know the fields alone
+
+        def __getattr__(self, name: str) -> Any:
+            if name in _OPTIONAL:
+                got = "one from a file or a list of vertices, which does not hold it"
+                raise NotKnown(f"{name}: expected a match that has it, got {got}. Match the shapes again.")
+            raise AttributeError(f"Match has no attribute {name!r}")
+
+    def replaced(self, **changes: Any) -> Match:
+        """Return the match with other values in some fields; unlike ``dataclasses.replace``, loaded ones too."""
+        return Match(**{**vars(self), **changes})
+
     @property
     def n_source(self) -> int | None:
         """Number of vertices of the source, where it is known."""
-        return self.source_file.n_vertices if self.source is None else len(self.source.vertices)
+        return len(self.source.vertices) if hasattr(self, "source") else self.source_file.n_vertices
 
     def __repr__(self) -> str:
         n_s = "" if self.n_source is None else f"{self.n_source:,} "
         sure = "" if self.confidence is None else f", confidence {self.confidence:.2f}"
-        size = "" if self.functional_map is None else "; C {} × {}".format(*self.functional_map.shape)
+        size = "; C {} × {}".format(*self.functional_map.shape) if hasattr(self, "functional_map") else ""
         return f"Match({len(self.target_to_source):,} target to {n_s}source vertices: {self.verdict}{sure}{size})"
 
     def _repr_html_(self) -> str:
         """Return what a notebook shows: the picture of :meth:`plot`, and the line of ``repr``."""
         words = f"<code>{escape(repr(self))}</code>"
-        if self.source is None or len(self.source.vertices) + len(self.target_to_source) > MAX_PICTURED:
+        if not hasattr(self, "source") or len(self.source.vertices) + len(self.target_to_source) > MAX_PICTURED:
             return words
         buffer = io.BytesIO()
         self.plot().savefig(buffer, format="png", dpi=DPI)
@@ -172,8 +203,6 @@ class Match:
             return api.transfer(values, self)
         if self.partial.which != "none":
             raise refuse("products", "a map of whole shapes", "a map of a part", "leave products out")
-        if self.functional_map is None or self.basis_source is None or self.basis_target is None:
-            raise refuse("products", "a match with its bases", "one from a file", "match the shapes again")
         values = np.asarray(values, dtype=np.float64)
         n = len(self.basis_source.mass)
         check(values, "values", shape=(n, *(None,) * (values.ndim - 1)), remedy="give one row per source vertex")
@@ -195,7 +224,7 @@ class Match:
         if self.precise_map is not None:
             return self.precise_map
         pair = self._reindexing
-        if pair is None or self.config is None or self.functional_map is None:
+        if pair is None:
             raise refuse("precise", "a match with its shapes", "one from a file", "match the shapes again")
         for shape in (pair.source, pair.target):
             if len(shape.mesh.faces) == 0:
@@ -219,7 +248,7 @@ class Match:
         InvalidInput
             When one of the shapes is a point cloud or not known.
         """
-        source, target = self._meshes()
+        source, target = self.source, self.target
         known = self.target_to_source >= 0
         return invert_precise_map(self.precise(), source, target, None if known.all() else known)
 
@@ -235,7 +264,7 @@ class Match:
         InvalidInput
             When the shapes are not known.
         """
-        source, target = self._meshes()
+        source, target = self.source, self.target
         known = np.flatnonzero(self.target_to_source >= 0)
         points, n_s = self.target_to_source[known], len(source.vertices)
         if len(known) == 0:
@@ -252,8 +281,3 @@ class Match:
         central = order[np.minimum(first, len(points) - 1)]
         result = known[central[nearest_reached(source, points)]].astype(np.int64)
         return result if overlap is None else np.where(overlap > 0.5, result, -1)
-
-    def _meshes(self) -> tuple[Mesh, Mesh]:
-        if self.source is None or self.target is None:
-            raise refuse("inverse", "a match with its shapes", "one from a file", "match the shapes again")
-        return self.source, self.target

@@ -2,22 +2,34 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from typing import Any
 
 import numpy as np
 
-from kfmaps.fmap.solvers import Solution
+from kfmaps.geometry.mesh import Mesh
 from kfmaps.registration.accept import RegistrationReport
 
 _UNKNOWN: Any = None
-"""Value of a field that a loaded map lacks."""
+"""Value of a field that only a loaded match lacks; of open type, so that a fresh one needs no checks."""
 ONE_FIT = "one fit"
 """``score.initialization`` of a map that was fitted once, without a search."""
 
 
-@dataclass(frozen=True, eq=False)
-class MatchScore:
+class _Group:
+    """A group of fields that shows itself in one line: large arrays by their shapes."""
+
+    def __repr__(self) -> str:
+        told = []
+        for f in fields(self):  # pyright: ignore[reportArgumentType]
+            value = getattr(self, f.name)
+            large = isinstance(value, np.ndarray) and value.size > 6
+            told.append(f"{f.name}=" + (f"array{value.shape}" if large else " ".join(repr(value).split())))
+        return f"{type(self).__name__}({', '.join(told)})"
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class MatchScore(_Group):
     """How a search judged its map.
 
     Attributes
@@ -42,8 +54,8 @@ class MatchScore:
     rejected_landmarks: np.ndarray = field(default_factory=lambda: np.zeros(0, dtype=np.int64))
 
 
-@dataclass(frozen=True, eq=False)
-class MatchRegistration:
+@dataclass(frozen=True, eq=False, repr=False)
+class MatchRegistration(_Group):
     """What the non-rigid registration of the source onto the target gave.
 
     Attributes
@@ -59,8 +71,8 @@ class MatchRegistration:
     report: RegistrationReport | None = None
 
 
-@dataclass(frozen=True, eq=False)
-class MatchPart:
+@dataclass(frozen=True, eq=False, repr=False)
+class MatchPart(_Group):
     """Which shape is a part of the other.
 
     Attributes
@@ -82,18 +94,23 @@ class MatchPart:
     overlap_target: np.ndarray | None = None
 
 
-@dataclass(frozen=True, eq=False)
-class MatchFit:
+@dataclass(frozen=True, eq=False, repr=False)
+class MatchFit(_Group):
     """The map before its refinement, and how it was fitted.
 
     Attributes
     ----------
     raw_functional_map : (k, k) float64
-        What the refinement started from: the minimiser of one fit, or the best candidate of a search.
+        What the refinement started from: the minimiser of one fit, or the best candidate of a search. ``None`` where
+        a file does not hold it.
     raw_target_to_source : (n_t,) int64 or None
         Its point map; a search does not compute it.
-    solution : Solution or None
-        Status, steps and residuals of the solver. ``None``, as the rest of the record is empty, after a search.
+    status : str or None
+        "converged", "step limit" or "breakdown"; ``None``, as the rest of the record is empty, where no fit was made.
+    steps : int or None
+        Steps of the solver.
+    residuals : float64 array
+        Residual before the first step and after each, divided by the first; empty where none is known.
     energies : dict of str to float
         Weighted value of each term at the minimiser.
     kernel : str
@@ -108,18 +125,14 @@ class MatchFit:
 
     raw_functional_map: np.ndarray = _UNKNOWN
     raw_target_to_source: np.ndarray | None = None
-    solution: Solution | None = None
+    status: str | None = None
+    steps: int | None = None
+    residuals: np.ndarray = field(default_factory=lambda: np.zeros(0))
     energies: dict[str, float] = field(default_factory=dict)
     kernel: str = ""
     rank: int | None = None
     n_operators: int | None = None
     weights: np.ndarray | None = None
-
-    @property
-    def relative_residuals(self) -> np.ndarray:
-        """The solver's residuals divided by the first, (steps + 1,); empty without a solver."""
-        residuals = np.zeros(0) if self.solution is None else np.asarray(self.solution.residuals, dtype=np.float64)
-        return residuals / (residuals[0] if len(residuals) and residuals[0] > 0 else 1.0)
 
 
 @dataclass(frozen=True)
@@ -139,3 +152,8 @@ class ShapeFile:
     sha256: str = ""
     n_vertices: int | None = None
     n_faces: int | None = None
+
+    @classmethod
+    def of(cls, mesh: Mesh, path: str = "", sha256: str = "") -> ShapeFile:
+        """Return the record of a mesh that was read from ``path``."""
+        return cls(path, sha256, len(mesh.vertices), len(mesh.faces))

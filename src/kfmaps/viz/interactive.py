@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 
 from kfmaps.config import Config
 from kfmaps.geometry.mesh import Mesh
-from kfmaps.io import MapFile, match_map
+from kfmaps.io.provenance import with_files
 from kfmaps.matching.match import default_config, match
+from kfmaps.matching.result import Match
 from kfmaps.shape import Shape, prepare
 from kfmaps.viz.runs import Progress
 
@@ -45,7 +45,7 @@ class InteractiveMatcher:
         self._settings = settings
         self._shapes: dict[bool, tuple[Shape, Shape]] = {}
 
-    def __call__(self, landmarks: np.ndarray, progress: Progress) -> MapFile:
+    def __call__(self, landmarks: np.ndarray, progress: Progress) -> Match:
         some = len(landmarks) > 0
         config = self._settings(landmarks)
         if some not in self._shapes:
@@ -55,7 +55,5 @@ class InteractiveMatcher:
             )
             self._shapes[some] = (first, second)
         pairs = landmarks if some else None
-        found = match_map(match(*self._shapes[some], config, landmarks=pairs, progress=progress))
-        known = {"source": str(self._paths[0].absolute()), "target": str(self._paths[1].absolute())}
-        extra = {**found.extra, **known, "n_s": np.int64(len(self._meshes[0].vertices))}
-        return replace(found, extra={**extra, "landmarks": landmarks} if some else extra)
+        found = match(*self._shapes[some], config, landmarks=pairs, progress=progress)
+        return with_files(found, self._paths, self._meshes)

@@ -12,14 +12,15 @@ import numpy as np
 from kfmaps._arrays import refuse
 from kfmaps.fmap.confidence import local_confidence
 from kfmaps.geometry.mesh import Mesh
-from kfmaps.io import MapFile, check_map, save_map, write_landmarks
+from kfmaps.io import check_map, save_map, write_landmarks
+from kfmaps.matching.result import Match
 from kfmaps.viz.document import document
 from kfmaps.viz.encode import encode_floats
 from kfmaps.viz.page import check_up, map_record, shape_record, source_record, views_record
 from kfmaps.viz.runs import Progress, Runs
 from kfmaps.viz.server import LocalServer, Reply, json_reply, page_reply
 
-Matcher = Callable[[np.ndarray, Progress], MapFile]
+Matcher = Callable[[np.ndarray, Progress], Match]
 """(landmarks (l, 2), progress) to a map, with all that is to be saved of it."""
 
 LONGEST_NAME = 60
@@ -150,7 +151,7 @@ class PickerServer:
         self.picker = picker
         self.runs = Runs(self._work)
         self._written: set[Path] = set()
-        self._maps: list[MapFile] = []
+        self._maps: list[Match] = []
         page = picker.page()
         routes = {
             ("GET", ""): lambda _: page_reply(page),

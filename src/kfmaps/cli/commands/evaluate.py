@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
     from kfmaps.cli.evaluation import Accuracy
     from kfmaps.geometry.mesh import Mesh
-    from kfmaps.io import MapFile
+    from kfmaps.matching.result import Match
 
 CURVES = (".csv", ".png", ".svg", ".pdf")
 
@@ -137,7 +137,7 @@ def _evaluate_part(
     Terminal().print(table)
 
 
-def _target(given: Path | None, found: MapFile, map: Path) -> Mesh | None:
+def _target(given: Path | None, found: Match, map: Path) -> Mesh | None:
     """The target, as given or as the map names it; ``None`` where it does not, or the file is gone or another."""
     from kfmaps.io.provenance import map_mesh
 

@@ -10,7 +10,6 @@ import typer
 
 from kfmaps._arrays import refuse
 from kfmaps.io import (
-    MapFile,
     MeshFile,
     Values,
     check_map,
@@ -24,6 +23,7 @@ from kfmaps.io import (
 )
 from kfmaps.io.export import write_morph
 from kfmaps.io.provenance import mesh_path, warn_of_change
+from kfmaps.matching.result import Match
 from kfmaps.viz import position_colors
 
 SHAPES = (".obj", ".ply", ".off", ".glb")
@@ -80,11 +80,11 @@ def export(
     )
     _check(found, shape_s, shape_t)
     if functional:
-        if found.functional_map is None:
+        if not hasattr(found, "functional_map"):
             raise refuse(str(map), "a functional map", "a point map alone", "give the .npz file of a match")
         write_values(output, Values(found.functional_map), force)
     elif confidence:
-        values = found.extra.get("local_confidence")
+        values = getattr(found, "local_confidence", None)
         if values is None:
             raise refuse(str(map), "confidence per vertex", "none", "give the .npz or .mat file of a match")
         write_values(output, Values(np.asarray(values)), force)
@@ -93,7 +93,7 @@ def export(
     elif shape_s is None or shape_t is None:
         raise refuse("export", "both --source and --target for a shape", "one of them, or none", "name the two meshes")
     elif morph:
-        bent = found.extra.get("bent")
+        bent = found.registration.registered_vertices
         if bent is None:
             raise refuse(str(map), "a non-rigid fit for --morph", "none", "give the .npz file of a match that kept it")
         write_morph(output, shape_s, shape_t.mesh, np.asarray(bent), force)
@@ -104,14 +104,14 @@ def export(
         write_colored(output, colors, shape_t.mesh, found, source=shape_s.mesh, force=force)
 
 
-def _shape(given: Path | None, found: MapFile, side: str, map: Path) -> MeshFile:
+def _shape(given: Path | None, found: Match, side: str, map: Path) -> MeshFile:
     """The shape ``side``, by default the file that the map names."""
     path = mesh_path(given, found, side, map)
     warn_of_change(found, side, path)
     return read_mesh_file(path)
 
 
-def _check(found: MapFile, source: MeshFile | None, target: MeshFile | None) -> None:
+def _check(found: Match, source: MeshFile | None, target: MeshFile | None) -> None:
     n_s = None if source is None else len(source.mesh.vertices)
     n_t = None if target is None else len(target.mesh.vertices)
     check_map(found, n_s, n_t, lost=True)

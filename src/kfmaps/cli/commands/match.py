@@ -16,9 +16,10 @@ from kfmaps.settings.options import Chosen, with_settings
 if TYPE_CHECKING:
     import numpy as np
 
-    from kfmaps.cli.summary import MatchRun
+    from kfmaps.cli.evaluation import Accuracy
     from kfmaps.config import Config
     from kfmaps.geometry.mesh import Mesh
+    from kfmaps.matching.result import Match
 
 SIDES = ("source", "target")
 TRUTH = "True vertices of both, line k of one file to line k of the other (.vts counts from 1): prints errors."
@@ -75,7 +76,7 @@ def match(
         warnings.simplefilter("ignore", KfmapsWarning)
 
     from kfmaps.cli.evaluation import known_truth
-    from kfmaps.cli.summary import map_file, summary, table
+    from kfmaps.cli.summary import summary, table
     from kfmaps.io import save_map
     from kfmaps.matching.match import default_config
     from kfmaps.matching.memory import check_match_memory
@@ -91,16 +92,16 @@ def match(
     own = None if descriptors is None else _own_descriptors(descriptors, meshes)
     known = known_truth(truth, n_s, n_t)
 
-    outcome = run(meshes, (source, target), config, pairs, own, seed, quiet=quiet or json, truth=known)
-    save_map(output, map_file(outcome), force)
+    found, accuracy = run(meshes, (source, target), config, pairs, own, seed, quiet=quiet or json, truth=known)
+    save_map(output, found, force)
     if json:
-        typer.echo(jsonlib.dumps({**summary(outcome), "output": str(output)}))
+        typer.echo(jsonlib.dumps({**summary(found, accuracy), "output": str(output)}))
     elif not quiet:
         from kfmaps.cli.terminal import Terminal
 
-        Terminal().print(table(outcome, output))
+        Terminal().print(table(found, accuracy, output))
     if view:
-        _show(outcome, known)
+        _show(found, known)
 
 
 def run(
@@ -113,14 +114,12 @@ def run(
     *,
     quiet: bool = False,
     truth: Any = None,
-) -> MatchRun:
+) -> tuple[Match, Accuracy | None]:
     """Match two meshes and tell the stages; with ``truth`` the answer is set beside it."""
-    import numpy as np
-
     from kfmaps._threads import one_blas_thread
     from kfmaps.cli.evaluation import assess
     from kfmaps.cli.progress import Stages
-    from kfmaps.cli.summary import MatchRun
+    from kfmaps.io.provenance import with_files
     from kfmaps.matching.match import match as matched
     from kfmaps.shape import prepare_both
 
@@ -138,8 +137,8 @@ def run(
             stages("evaluation", 0.0)
             accuracy = assess(meshes[0], found.target_to_source, truth)
             stages("evaluation", 1.0)
-    pairs = np.zeros((0, 2), dtype=np.int64) if landmarks is None else landmarks
-    return MatchRun(found, meshes, paths, pairs, seed, {**seconds, **found.seconds}, accuracy)
+    found = with_files(found, paths, meshes)
+    return found.replaced(seconds={**seconds, **found.seconds}), accuracy
 
 
 def _read(path: Path, config: Config) -> Mesh:
@@ -227,11 +226,11 @@ def _own_descriptors(files: tuple[Path, Path], meshes: tuple[Mesh, Mesh]) -> tup
     return found[0], found[1]
 
 
-def _show(outcome: MatchRun, truth: Any) -> None:
+def _show(match: Match, truth: Any) -> None:
     from kfmaps.viz.result_pages import match_page, open_page
 
-    names = (outcome.paths[0].stem, outcome.paths[1].stem)
+    names = (Path(match.source_file.path).stem, Path(match.target_file.path).stem)
     known = None if truth is None else (truth.source, truth.target)
-    path, opened = open_page(match_page(outcome.match, *outcome.meshes, names, truth=known))
+    path, opened = open_page(match_page(match, match.source, match.target, names, truth=known))
     if not opened:
         typer.echo(f"no browser was found; open {path.as_uri()}", err=True)

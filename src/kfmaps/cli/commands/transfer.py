@@ -11,13 +11,14 @@ import typer
 
 from kfmaps._arrays import KfmapsWarning, refuse
 from kfmaps.geometry.mesh import Mesh
-from kfmaps.io import MapFile, Values, check_output, load_map, read_mesh, read_values, write_values
+from kfmaps.io import Values, check_output, load_map, read_mesh, read_values, write_values
 from kfmaps.io.landmark_files import check_landmark_format, mesh_space
 from kfmaps.io.named_points import read_named_points, transfer_points, write_named_points
 from kfmaps.io.partial_map import Counterparts, find_counterparts, precise_points
 from kfmaps.io.provenance import mesh_path, warn_of_change
 from kfmaps.io.transfer import transfer as transfer_values
 from kfmaps.io.transfer import transfer_back, transfer_by_functions
+from kfmaps.matching.result import Match
 
 
 def transfer(
@@ -101,7 +102,7 @@ def transfer(
         write_values(output, Values(transfer_by_functions(given.array, found, *sides, products), given.columns), force)
         return
     faces = None
-    if found.place is not None and given.array.dtype.kind == "f":
+    if found.precise_map is not None and given.array.dtype.kind == "f":
         shape = _shape(found, "source", source, map)
         precise_points(found, shape)
         faces = shape.faces
@@ -138,13 +139,13 @@ def _everywhere(
         warnings.warn(f"{text}; they have no landmarks", KfmapsWarning, stacklevel=2)
 
 
-def _shape(found: MapFile, side: str, given: Path | None, map: Path) -> Mesh:
+def _shape(found: Match, side: str, given: Path | None, map: Path) -> Mesh:
     path = mesh_path(given, found, side, map)
     warn_of_change(found, side, path)
     return read_mesh(path)
 
 
-def _both(found: MapFile, map: Path, given: tuple[Path | None, Path | None]) -> tuple[Mesh, Mesh, Counterparts]:
+def _both(found: Match, map: Path, given: tuple[Path | None, Path | None]) -> tuple[Mesh, Mesh, Counterparts]:
     """Both shapes and what of each has a counterpart, at vertices where the map has no points inside triangles."""
     source, target = (_shape(found, side, path, map) for side, path in zip(("source", "target"), given, strict=True))
     for mesh, side in ((source, "source"), (target, "target")):
@@ -154,7 +155,7 @@ def _both(found: MapFile, map: Path, given: tuple[Path | None, Path | None]) -> 
 
 
 def _points(
-    found: MapFile,
+    found: Match,
     map: Path,
     values: Path,
     output: Path,
@@ -163,7 +164,7 @@ def _points(
     force: bool,
 ) -> None:
     source, target, ways = _both(found, map, given)
-    trust = found.extra.get("local_confidence")
+    trust = getattr(found, "local_confidence", None)
     confidence = None if trust is None else np.asarray(trust)
     paths = [mesh_path(path, found, side, map) for side, path in zip(("source", "target"), given, strict=True)]
     here, there = paths[::-1] if back else paths

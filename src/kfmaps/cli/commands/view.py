@@ -12,7 +12,7 @@ from kfmaps.cli.terminal import say
 from kfmaps.io import atomic_output, check_output, load_map
 from kfmaps.io.provenance import map_mesh, mesh_path
 from kfmaps.viz.page import check_up
-from kfmaps.viz.result_pages import map_page, open_page
+from kfmaps.viz.result_pages import match_page, open_page
 
 
 def view(
@@ -53,7 +53,7 @@ def view(
     names = (paths[0].stem, paths[1].stem)
     known = known_truth(truth, *(len(mesh.vertices) for mesh in meshes), identity=identity)
     pairs = None if known is None else (known.source, known.target)
-    html = map_page(found, meshes[0], meshes[1], names, truth=pairs, descriptors=descriptors, up=up)
+    html = match_page(found, meshes[0], meshes[1], names, truth=pairs, descriptors=descriptors, up=up)
     if output is not None:
         with atomic_output(output, force) as temporary:
             temporary.write_text(html, encoding="utf-8")
