@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -297,7 +297,7 @@ def _checked_maps(
         file = as_map(one)
         sizes = len(shapes[a].mesh.vertices), len(shapes[b].mesh.vertices)
         points = check_map(file, *sizes, name=f"map {source} → {target}", lost=True)
-        found[a, b] = replace(file, target_to_source=points)
+        found[a, b] = file.replaced(target_to_source=points)
     if not found:
         raise refuse("maps", "at least one", "none", "leave them out, and pairs are matched")
     return found
