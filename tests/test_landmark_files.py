@@ -219,7 +219,7 @@ def test_coordinate_systems_are_brought_together() -> None:
         ([1, -1, -1], "with y and z negated: the mesh is turned"),
         ([0.001] * 3, "times 1000"),
         ([10] * 3, "times 0.1"),
-        ([1, 2, 3], "check that they belong to this mesh"),
+        ([1, 2, 3], "Check that they belong to this mesh"),
     ],
 )
 def test_landmarks_far_away_say_what_is_wrong(change: list[float], told: str) -> None:
@@ -257,7 +257,7 @@ def test_landmarks_of_two_shapes_are_paired_by_name(tmp_path: Path) -> None:
     )
     assert (done.status, done.stderr) == (0, "")
     np.testing.assert_array_equal(load_map(tmp_path / "m.npz").landmarks, pairs)
-    assert "give --landmarks twice" in run(*words, "--force", "--landmarks", files[0]).stderr
+    assert "Give --landmarks twice" in run(*words, "--force", "--landmarks", files[0]).stderr
     write_landmark_sets(tmp_path / "c.csv", [LandmarkSet(("z",), mesh.vertices[[10]])])
     with pytest.raises(InvalidInput, match="names that both shapes have"):
         read_landmark_pairs((files[0], tmp_path / "c.csv"), (mesh, mesh), (None, None))

@@ -167,7 +167,7 @@ def _explained(points: np.ndarray, mesh: Mesh, found: ClosestPoints, name: str, 
     )
     if distance(points * FLIP) < NOTED_DISTANCE:
         if sure:
-            remedy = "they lie on it with x and y negated: LPS and RAS are mixed up in the mesh or in the landmarks"
+            remedy = "They lie on it with x and y negated: LPS and RAS are mixed up in the mesh or in the landmarks"
             raise refuse(name, wanted, got, remedy)
         text = "x and y are negated, since the landmarks lie on the mesh that way (LPS and RAS)"
         warnings.warn(f"{name}: {text}", KfmapsWarning, stacklevel=4)
@@ -176,11 +176,11 @@ def _explained(points: np.ndarray, mesh: Mesh, found: ClosestPoints, name: str, 
         if distance(points * signs) < NOTED_DISTANCE:
             axes = " and ".join(axis for axis, sign in zip("xyz", signs, strict=True) if sign < 0)
             kind = "a mirror image of" if np.prod(signs) < 0 else "turned against"
-            remedy = f"they lie on it with {axes} negated: the mesh is {kind} what was digitized"
+            remedy = f"They lie on it with {axes} negated: the mesh is {kind} what was digitized"
             raise refuse(name, wanted, got, remedy)
     for factor in FACTORS:
         if distance(points * factor) < NOTED_DISTANCE:
-            raise refuse(name, wanted, got, f"they lie on it times {factor:g}: bring both to one unit")
+            raise refuse(name, wanted, got, f"They lie on it times {factor:g}. Bring both to one unit")
     raise refuse(name, wanted, got, "check that they belong to this mesh, in its unit and coordinate system")
 
 
