@@ -96,7 +96,9 @@ def propagate_landmarks(
             found[at] = PropagatedLandmarks(start, replace(points, confidence=np.ones(len(points.names))), ())
             continue
         edge, before = edges[way.edges[-1]], found[way.shapes[-2]]
-        points = _carried(edge, before.points, ends[way.edges[-1]][1] == way.shapes[-2], edges, meshes)
+        sides = (_mesh(name, edges, meshes) for name in (edge.pair.source, edge.pair.target))
+        back = ends[way.edges[-1]][1] == way.shapes[-2]
+        points = carry_points(edge.path, before.points, *sides, back=back, chance=edge.chance)
         through = (*before.through, before.specimen) if before.specimen != start else ()
         found[at] = PropagatedLandmarks(names[at], points, through)
     return list(found.values()), [name for name in names if number[name] not in found]
@@ -121,22 +123,37 @@ def _ways(count: int, ends: Sequence[tuple[int, int]], edges: Sequence[_Edge], s
     return ways | {at: way for at, way in further.items() if at not in ways}
 
 
-def _carried(
-    edge: _Edge, before: NamedPoints, back: bool, edges: Sequence[_Edge], meshes: dict[str, Mesh]
+def carry_points(
+    path: Path, points: NamedPoints, source: Mesh, target: Mesh, *, back: bool = False, chance: float = 1.0
 ) -> NamedPoints:
-    """Points carried over one map, with what is left of their confidence; those lost on the way stay lost."""
-    known = load_map(edge.path)
-    source, target = (_mesh(name, edges, meshes) for name in (edge.pair.source, edge.pair.target))
-    ways = find_counterparts(known, source, target, str(edge.path)) if (known.target_to_source < 0).any() else None
+    """Return points carried over the map in a file; those lost on the way stay lost.
+
+    Parameters
+    ----------
+    path : Path
+        Of the map from ``source`` to ``target``.
+    points : NamedPoints
+        On the source, or (``back``) on the target.
+    chance : float
+        Probability that the map is right. The confidence of a point is multiplied by it and by how well the map keeps
+        distances around the point.
+
+    Raises
+    ------
+    InvalidInput
+        When the map does not fit the meshes.
+    """
+    known = load_map(path)
+    ways = find_counterparts(known, source, target, str(path)) if (known.target_to_source < 0).any() else None
     if ways is None:
-        check_map(known, len(source.vertices), len(target.vertices), str(edge.path))
+        check_map(known, len(source.vertices), len(target.vertices), str(path))
         place, some = precise_points(known, source) or vertex_point_map(known.target_to_source, source), {}
     else:
         place, some = ways.place, {"known": ways.target, "common": ways.source}
     trust = getattr(known, "local_confidence", None)
     local = np.ones(len(target.vertices)) if trust is None else np.nan_to_num(np.asarray(trust))
-    points = transfer_points(before, source, target, place, local, back=back, **some)
-    return replace(points, confidence=points.confidence * before.confidence * edge.chance)
+    carried = transfer_points(points, source, target, place, local, back=back, **some)
+    return replace(carried, confidence=carried.confidence * points.confidence * chance)
 
 
 def _edges(folder: Path) -> list[_Edge]:

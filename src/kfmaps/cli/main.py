@@ -29,7 +29,7 @@ COMMANDS = {
     "transfer": "Carry functions, labels or named points over a map, or landmarks to all shapes of a collection.",
     "export": "Write the target with the source's texture or colours, or the map in another format.",
     "view": "Show a map in the browser, or write it as one page that needs no network.",
-    "landmarks": "Pick landmarks on a local page: click a point on one shape, then its match on the other.",
+    "landmarks": "Pick landmarks on a local page, or carry those of some specimens to all scans of a folder.",
     "batch": "Match many pairs in parallel: a table, every map and a summary page.",
     "render": "Figures for papers (PNG, SVG, PDF), drawn without a display.",
     "learn": "Learn a kernel from pairs of shapes, and write settings for kfmaps match --config.",

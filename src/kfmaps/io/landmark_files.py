@@ -231,8 +231,7 @@ def _note(one: LandmarkSet, i: int) -> str:
 
 def _read_fcsv(text: str, name: str) -> list[LandmarkSet]:
     """Fiducials of 3D Slicer before 5: CSV under a head of comments that names columns and coordinate system."""
-    space = RAS
-    columns: list[str] = FCSV_COLUMNS.split(",")
+    space, columns = RAS, [str(column) for column in FCSV_COLUMNS.split(",")]
     lines = text.splitlines()
     for line in lines:
         key, _, value = line.lstrip("# ").partition("=")

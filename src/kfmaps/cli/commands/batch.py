@@ -80,7 +80,7 @@ def batch(
 
     Stopped and started again with the same arguments it goes on where it was.
     """
-    count, scheduler = _workers(workers)
+    count, scheduler = parse_workers(workers)
     lines, use_files = _lines(landmarks), landmarks is None
     if graph is not None and pairs is not None:
         raise refuse("pairs", "one of --graph and --pairs", "both", "leave one out")
@@ -99,7 +99,7 @@ def batch(
         with atomic_output(plan.folder / TOML) as temporary:
             temporary.write_text(settings_text(config), encoding="utf-8")
     if not quiet:
-        console.print(Text(_before(plan, count, consistent)), soft_wrap=True)
+        console.print(Text(describe_plan(plan, count, consistent)), soft_wrap=True)
     with terminal_callback(console, quiet) as callback:
         outcome = run_batch(
             plan,
@@ -119,7 +119,7 @@ def batch(
         raise typer.Exit(FAILED)
 
 
-def _workers(text: str | None) -> tuple[int | None, str | None]:
+def parse_workers(text: str | None) -> tuple[int | None, str | None]:
     """The number of ``--workers``, or the address of a scheduler."""
     if text is None:
         return None, None
@@ -138,7 +138,7 @@ def _lines(text: str | None) -> tuple[int, ...]:
         raise refuse("--landmarks", expected, repr(text), "count lines from 1, or say none") from error
 
 
-def _before(plan: Plan, workers: int | None, consistent: bool) -> str:
+def describe_plan(plan: Plan, workers: int | None, consistent: bool) -> str:
     """What there is to do, and for many pairs what that needs."""
     shapes = len({name for task in plan.tasks for name in (task.pair.source, task.pair.target)})
     told = [f"{len(plan.tasks)} pairs of {shapes} shapes"]

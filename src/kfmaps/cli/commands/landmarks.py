@@ -1,16 +1,18 @@
-"""``kfmaps landmarks``: pairs of points picked by hand on a local web page."""
+"""``kfmaps landmarks``: pairs of points picked by hand on a local web page, and landmarks carried to many scans."""
 
 from __future__ import annotations
 
 import shutil
 import warnings
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import numpy as np
 import typer
+from typer.core import TyperGroup
 
 from kfmaps._arrays import KfmapsWarning
+from kfmaps.cli.commands._landmarks_transfer import transfer
 from kfmaps.config import Config
 from kfmaps.io import check_output, read_landmark_names, read_landmarks, read_mesh
 from kfmaps.io.mapfile import check_format
@@ -23,8 +25,26 @@ from kfmaps.viz.picker import Picker, PickerServer, check_pairs
 from kfmaps.viz.result_pages import open_page
 
 
+class _PickByDefault(TyperGroup):
+    """``kfmaps landmarks SOURCE TARGET`` is short for ``kfmaps landmarks pick SOURCE TARGET``."""
+
+    def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
+        if args and args[0] not in (*self.commands, *ctx.help_option_names):
+            args = ["pick", *args]
+        return super().parse_args(ctx, args)
+
+
+app = typer.Typer(
+    cls=_PickByDefault,
+    no_args_is_help=True,
+    help="Pick landmarks on a local page, or carry those of some specimens to all scans of a folder.",
+)
+app.command("transfer")(transfer)
+
+
+@app.command("pick")
 @with_settings
-def landmarks(
+def pick(
     source: Annotated[Path, typer.Argument(help="The source mesh.", show_default=False)],
     target: Annotated[Path, typer.Argument(help="The target mesh.", show_default=False)],
     settings: Chosen,

@@ -1,0 +1,317 @@
+"""Carry the landmarks of one or several specimens to all scans of a folder, and say how sure each position is."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+
+from kfmaps._arrays import refuse
+from kfmaps.batch.layout import Pair, ShapeFolder
+from kfmaps.batch.propagate_landmarks import carry_points
+from kfmaps.batch.results import Result
+from kfmaps.batch.work import map_path, read_shape_mesh
+from kfmaps.collection.procrustes import geometric_median, is_mirror_image
+from kfmaps.fmap.precise import PointMap, nearest_vertices, vertex_point_map
+from kfmaps.geometry.closest_points import closest_points
+from kfmaps.geometry.mesh import Mesh, surface_area
+from kfmaps.io import load_map
+from kfmaps.io.landmark_files import (
+    LPS,
+    RAS,
+    LandmarkSet,
+    check_names,
+    landmark_stem,
+    mesh_space,
+    read_landmark_sets,
+)
+from kfmaps.io.named_points import FLIP, NamedPoints, choose_specimen, place_landmarks, scatter_points, transfer_points
+
+MATCHES = "matches"
+"""Folder of the maps inside the output."""
+MIN_CONFIDENCE = 0.5
+"""Confidence below which a landmark is flagged."""
+MAX_SPREAD = 0.01
+"""Distance between the proposals of templates and their median, in √area, from which a landmark is flagged."""
+GOOD = ("sure", "likely", "landmarks", "unchecked")
+"""Verdicts of maps that carry landmarks."""
+
+
+@dataclass(frozen=True, eq=False)
+class Template:
+    """A specimen whose landmarks are given.
+
+    Attributes
+    ----------
+    specimen : str
+    file : Path
+        Of the landmarks.
+    mesh : Mesh
+    points : NamedPoints
+    space : "LPS", "RAS" or ""
+        The mesh's coordinate system, as far as mesh or landmarks name one.
+    """
+
+    specimen: str
+    file: Path
+    mesh: Mesh
+    points: NamedPoints
+    space: str
+
+
+@dataclass(frozen=True, eq=False)
+class SpecimenLandmarks:
+    """The landmarks of one specimen.
+
+    Attributes
+    ----------
+    specimen : str
+    points : NamedPoints
+        Vertices of −1 and NaN where a landmark is missing.
+    spread : (l,) float64
+        Largest distance of a template's proposal from the median, in the mesh's unit; NaN with one template.
+    rival : (l,) float64
+        Distance to where the best other map puts the landmark, in the mesh's unit; NaN where no other map is known.
+    flags : tuple of str
+        For each landmark why it should be looked at; empty for none.
+    results : tuple of Result
+        Of the maps that it rests on; empty for a template.
+    misfit : str
+        Why the specimen fits none of the others; empty where it does.
+    space : "LPS", "RAS" or ""
+    """
+
+    specimen: str
+    points: NamedPoints
+    spread: np.ndarray
+    rival: np.ndarray
+    flags: tuple[str, ...]
+    results: tuple[Result, ...] = ()
+    misfit: str = ""
+    space: str = ""
+
+    @property
+    def landmarks(self) -> LandmarkSet:
+        """The landmarks as files hold them."""
+        return LandmarkSet(self.points.names, self.points.points, self.specimen, self.space, notes=self.flags)
+
+
+def read_templates(files: Sequence[Path], scans: ShapeFolder) -> list[Template]:
+    """Read the landmarks of specimens that are among the scans; a file of several specimens holds as many templates.
+
+    A file belongs to the scan whose name it has, or begins with.
+
+    Raises
+    ------
+    InvalidInput
+        When a file belongs to no scan, two to one, the landmarks do not lie on it, or those of one specimen are a
+        mirror image of another's.
+    """
+    found: dict[str, Template] = {}
+    for file in files:
+        sets = read_landmark_sets(file)
+        for one in sets:
+            name = _scan_of(one.specimen if len(sets) > 1 else landmark_stem(file), scans, file)
+            if name in found:
+                raise refuse(str(file), f"one file of landmarks for {name}", "two", "leave one out")
+            path = scans.shapes[name]
+            mesh, space = read_shape_mesh(str(path)), mesh_space(path)
+            if len(mesh.faces) == 0:
+                raise refuse(str(path), "a surface with faces", "a point cloud", "Landmarks lie on surfaces")
+            given = choose_specimen([one], name, str(file))
+            points = place_landmarks(given, mesh, str(file), space=space)
+            found[name] = Template(name, file, mesh, points, space or _space(given, points))
+    templates = list(found.values())
+    first = templates[0]
+    names = tuple(dict.fromkeys(label for one in templates for label in one.points.names))
+    for one in templates[1:]:
+        if is_mirror_image(_by_name(one.points, names), _by_name(first.points, names)):
+            got = f"a mirror image of {first.file}'s"
+            remedy = "Left and right labels are swapped in one of them, or one of the scans is a mirror image"
+            raise refuse(str(one.file), "landmarks like those of the others", got, remedy)
+    return [replace(one, points=_all_names(one.points, names)) for one in templates]
+
+
+def template_pairs(templates: Sequence[Template], scans: ShapeFolder) -> list[Pair]:
+    """Return the pairs to match: from each template to every other scan, other templates too, which tests them."""
+    return [Pair(one.specimen, name) for one in templates for name in scans.shapes if name != one.specimen]
+
+
+def carry_templates(
+    templates: Sequence[Template], specimen: str, path: Path, results: Mapping[str, Result], folder: Path
+) -> SpecimenLandmarks:
+    """Return the landmarks of a scan: the geometric median of what the templates propose, on the surface.
+
+    Parameters
+    ----------
+    templates : sequence of Template
+    specimen : str
+    path : Path
+        Of its mesh.
+    results : mapping of a template's name to Result
+        Of the maps from the templates; those that are not good are left out where there are others.
+    folder : Path
+        Output of the run that made the maps.
+
+    Returns
+    -------
+    SpecimenLandmarks
+        The confidence of a landmark is the mean of the templates' confidences, times the fraction of templates
+        whose proposal lies near the median (:data:`MAX_SPREAD`).
+    """
+    names = templates[0].points.names
+    done = [one for one in templates if one.specimen in results and results[one.specimen].status == "done"]
+    good = [one for one in done if results[one.specimen].verdict in GOOD]
+    if not done:
+        reasons = [r.reason for r in results.values() if r.reason]
+        nothing = np.full(len(names), np.nan)
+        points = scatter_points(_nothing(), names, np.zeros(len(names), dtype=bool))
+        told = reasons[0] if reasons else "it was not matched"
+        return SpecimenLandmarks(specimen, points, nothing, nothing, ("",) * len(names), misfit=told)
+    mesh = read_shape_mesh(str(path))
+    unit = float(np.sqrt(surface_area(mesh)))
+    used = good or done
+    carried, rivals = [], []
+    for one in used:
+        file = map_path(folder, Pair(one.specimen, specimen).key)
+        chance = results[one.specimen].confidence
+        start = replace(one.points, confidence=np.ones(len(names)))
+        carried.append(carry_points(file, start, one.mesh, mesh, chance=1.0 if chance is None else chance))
+        rivals.append(_rival_distance(file, one, mesh, carried[-1]))
+    proposals = np.stack([points.points for points in carried])
+    median = geometric_median(proposals)
+    there = np.asarray(np.isfinite(median).all(axis=1))
+    close = closest_points(median[there], mesh.vertices, mesh.faces)
+    place = PointMap(close.faces, close.weights)
+    distances = np.linalg.norm(proposals - median, axis=2)
+    near = np.where(np.isnan(distances), np.nan, distances <= MAX_SPREAD * unit)
+    confidence = _mean(np.stack([points.confidence for points in carried])) * _mean(near)
+    placed = NamedPoints(
+        tuple(name for name, one in zip(names, there, strict=True) if one),
+        *(place, close.points, nearest_vertices(place, mesh), confidence[there], close.distances),
+    )
+    spread = np.full(len(names), np.nan)
+    if len(used) > 1:
+        spread[there] = np.nanmax(distances[:, there], axis=0)
+    rival = np.full(len(names), np.nan)
+    seen = np.isfinite(np.stack(rivals)).any(axis=0)
+    rival[seen] = np.nanmin(np.stack(rivals)[:, seen], axis=0)
+    flags = tuple(_flag(c, s / unit, n) for c, s, n in zip(confidence, spread, there, strict=True))
+    verdicts = tuple(results[one.specimen] for one in used)
+    misfit = ""
+    if not good:
+        best = max(verdicts, key=lambda r: r.confidence or 0.0)
+        misfit = f"its best map is {best.verdict} ({100 * (best.confidence or 0.0):.0f} %, from {best.source})"
+    points = scatter_points(placed, names, there)
+    reference = templates[0].points.points
+    if not misfit and is_mirror_image(points.points, reference):
+        misfit = (
+            "its landmarks are a mirror image of the templates': left and right are swapped, or the scan is mirrored"
+        )
+    space = mesh_space(path) or templates[0].space
+    return SpecimenLandmarks(specimen, points, spread, rival, flags, verdicts, misfit, space)
+
+
+def drop_unsure(one: SpecimenLandmarks, min_confidence: float) -> SpecimenLandmarks:
+    """Return the landmarks without those below a confidence, which become missing."""
+    keep = one.points.confidence >= min_confidence
+    kept = one.points
+    positions, vertices = kept.points.copy(), kept.vertices.copy()
+    positions[~keep], vertices[~keep] = np.nan, -1
+    return replace(one, points=replace(kept, points=positions, vertices=vertices))
+
+
+def given_landmarks(template: Template) -> SpecimenLandmarks:
+    """Return a template's own landmarks as those of a specimen: sure, and not flagged."""
+    none = np.full(len(template.points.names), np.nan)
+    points = replace(template.points, confidence=np.where(template.points.vertices >= 0, 1.0, np.nan))
+    return SpecimenLandmarks(template.specimen, points, none, none, ("",) * len(none), space=template.space)
+
+
+def template_errors(
+    templates: Sequence[Template], results: Mapping[tuple[str, str], Result], folder: Path
+) -> np.ndarray:
+    """Return how far each template's landmarks come to lie from those of each other one, (pairs, l); NaN for none."""
+    rows = []
+    for a in templates:
+        for b in templates:
+            result = results.get((a.specimen, b.specimen))
+            if a is b or result is None or result.status != "done":
+                continue
+            start = replace(a.points, confidence=np.ones(len(a.points.names)))
+            carried = carry_points(map_path(folder, Pair(a.specimen, b.specimen).key), start, a.mesh, b.mesh)
+            rows.append(np.linalg.norm(carried.points - b.points.points, axis=1))
+    return np.array(rows).reshape(-1, len(templates[0].points.names))
+
+
+def _mean(values: np.ndarray) -> np.ndarray:
+    """The mean over the first axis of what is not NaN; NaN where there is nothing."""
+    count = np.isfinite(values).sum(axis=0)
+    return np.where(count > 0, np.nansum(values, axis=0) / np.maximum(count, 1), np.nan)
+
+
+def _flag(confidence: float, spread: float, there: bool) -> str:
+    if not there:
+        return "no counterpart"
+    if spread > MAX_SPREAD:
+        return "templates disagree"
+    return "low confidence" if not confidence >= MIN_CONFIDENCE else ""
+
+
+def _rival_distance(file: Path, template: Template, mesh: Mesh, carried: NamedPoints) -> np.ndarray:
+    """How far from its place the other maps of a file put each landmark at least; NaN without other maps."""
+    distances = np.full(len(carried.names), np.nan)
+    for other in load_map(file).alternatives:
+        if (other >= 0).all():
+            place = vertex_point_map(other, template.mesh)
+            points = transfer_points(template.points, template.mesh, mesh, place).points
+            distances = np.fmin(distances, np.linalg.norm(points - carried.points, axis=1))
+    return distances
+
+
+def _scan_of(name: str, scans: ShapeFolder, file: Path) -> str:
+    """The scan that landmarks belong to: that of the same name, else the longest that their name begins with."""
+    for known in (name, Path(name).stem):
+        if known in scans.shapes:
+            return known
+    begins = [one for one in scans.shapes if name.startswith(one) and not name[len(one)].isalnum()]
+    if begins:
+        return max(begins, key=len)
+    shown = ", ".join(list(scans.shapes)[:5])
+    remedy = "Call the file of landmarks as the scan is called"
+    raise refuse(str(file), f"the name of a scan in {scans.folder} ({shown}, ...)", repr(name), remedy)
+
+
+def _space(given: LandmarkSet, placed: NamedPoints) -> str:
+    """The coordinate system of a mesh that names none: that of its landmarks, unless those were turned."""
+    if not given.space or given.vertices is not None:
+        return given.space
+    here, turned = (np.nansum(np.abs(placed.points - given.points * sign)) for sign in (1.0, FLIP))
+    return given.space if here <= turned else {LPS: RAS, RAS: LPS}[given.space]
+
+
+def _by_name(points: NamedPoints, names: Sequence[str]) -> np.ndarray:
+    where = dict(zip(points.names, points.points, strict=True))
+    return np.array([where.get(name, np.full(3, np.nan)) for name in names])
+
+
+def _all_names(points: NamedPoints, names: tuple[str, ...]) -> NamedPoints:
+    """Points in the order of ``names``; those that they lack have no place."""
+    check_names(points.names, "landmarks")
+    row = {name: i for i, name in enumerate(points.names)}
+    order = np.array([row[name] for name in names if name in row])
+    place = PointMap(points.place.faces[order], points.place.weights[order])
+    there = np.array([name in row for name in names])
+    chosen = NamedPoints(
+        tuple(name for name in names if name in row),
+        *(place, points.points[order], points.vertices[order], points.confidence[order], points.apart[order]),
+    )
+    return scatter_points(chosen, names, there)
+
+
+def _nothing() -> NamedPoints:
+    none = np.zeros(0)
+    place = PointMap(np.zeros(0, dtype=np.int64), np.zeros((0, 3)))
+    return NamedPoints((), place, np.zeros((0, 3)), np.zeros(0, dtype=np.int64), none, none)

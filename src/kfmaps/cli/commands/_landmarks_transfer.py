@@ -1,0 +1,160 @@
+"""``kfmaps landmarks transfer``: landmarks of one or several specimens on all scans of a folder."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import Annotated
+
+import numpy as np
+import typer
+from rich.text import Text
+
+from kfmaps._arrays import KfmapsWarning, refuse
+from kfmaps.batch.landmark_tables import write_study
+from kfmaps.batch.layout import find_collection
+from kfmaps.batch.plan import make_plan
+from kfmaps.batch.progress import stage_lines, terminal_callback
+from kfmaps.batch.run import run_batch
+from kfmaps.batch.run_spec import RunSpec
+from kfmaps.batch.transfer_landmarks import (
+    MATCHES,
+    SpecimenLandmarks,
+    Template,
+    carry_templates,
+    drop_unsure,
+    given_landmarks,
+    read_templates,
+    template_errors,
+    template_pairs,
+)
+from kfmaps.cli.commands.batch import INTERRUPTED, describe_plan, parse_workers
+from kfmaps.cli.terminal import Terminal
+from kfmaps.config import Config
+from kfmaps.settings.options import Chosen, with_settings
+
+SHOWN = 8
+"""Flagged landmarks and specimens that the summary names."""
+
+
+@with_settings
+def transfer(
+    scans: Annotated[Path, typer.Argument(help="A folder of meshes.", metavar="SCANS", show_default=False)],
+    given: Annotated[
+        list[Path],
+        typer.Option(
+            "--from",
+            help="Landmarks of a scan, called as the scan is: .mrk.json, .fcsv, .tps, .pts, .csv or .particles. "
+            "Several give the median of what each of them proposes.",
+            metavar="FILE [FILE ...]",
+            show_default=False,
+        ),
+    ],
+    output: Annotated[Path, typer.Option("-o", "--output", help="Folder for everything.", show_default=False)],
+    settings: Chosen,
+    more: Annotated[list[Path] | None, typer.Argument(hidden=True)] = None,
+    min_confidence: Annotated[
+        float | None,
+        typer.Option(help="Landmarks below it become missing (NA).", min=0.0, max=1.0, show_default=False),
+    ] = None,
+    keep: Annotated[
+        list[str] | None,
+        typer.Option(help="Keep this specimen though it fits none of the others.", metavar="NAME", show_default=False),
+    ] = None,
+    workers: Annotated[
+        str | None,
+        typer.Option(
+            help="Worker processes, or the address of a Dask scheduler; default: one for each core.",
+            metavar="N|ADDRESS",
+            show_default=False,
+        ),
+    ] = None,
+    quiet: Annotated[bool, typer.Option("-q", "--quiet", help="Say nothing.")] = False,
+) -> None:
+    """Carry the landmarks of one or several specimens to all scans of a folder.
+
+    Stopped and started again with the same arguments it goes on where it was.
+    """
+    count, scheduler = parse_workers(workers)
+    collection = find_collection(scans)
+    templates = read_templates([*given, *(more or ())], collection)
+    for name in keep or ():
+        if name not in collection.shapes:
+            raise refuse("--keep", f"the name of a scan in {scans}", repr(name), "check the spelling")
+    console = Terminal(highlight=False)
+    spec = RunSpec(settings.config(Config()), landmark_files=False)
+    plan = make_plan(collection, template_pairs(templates, collection), spec, output / MATCHES)
+    if not quiet:
+        console.print(Text(describe_plan(plan, count, False)), soft_wrap=True)
+    with terminal_callback(console, quiet) as callback:
+        outcome = run_batch(
+            plan,
+            workers=count,
+            scheduler=scheduler,
+            name=scans.resolve().name,
+            worst=0,
+            callback=callback,
+            progress=stage_lines(console, quiet),
+        )
+    if outcome.interrupted:
+        raise typer.Exit(INTERRUPTED)
+    results = {(r.source, r.target): r for r in outcome.results}
+    own = {one.specimen: given_landmarks(one) for one in templates}
+    study = []
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", KfmapsWarning)  # what is odd about the scans is in the results
+        for name, path in collection.shapes.items():
+            from_templates = {one.specimen: results[one.specimen, name] for one in templates if one.specimen != name}
+            study.append(own.get(name) or carry_templates(templates, name, path, from_templates, plan.folder))
+        errors = template_errors(templates, results, plan.folder)
+    said = [one for one in study if one.misfit]
+    study = [replace(one, misfit="") if one.specimen in (keep or ()) else one for one in study]
+    if min_confidence is not None:
+        study = [drop_unsure(one, min_confidence) for one in study]
+    files = write_study(output, study, templates)
+    lines = [*_summary(study, templates, errors), *_misfits(said, keep or ()), *(f"{file}" for file in files)]
+    (output / "summary.txt").write_text("\n".join(lines) + "\n", encoding="utf-8")
+    if not quiet:
+        for line in lines:
+            console.print(Text(line), soft_wrap=True)
+
+
+def _summary(study: Sequence[SpecimenLandmarks], templates: Sequence[Template], errors: np.ndarray) -> list[str]:
+    """What came of a study, in a few lines."""
+    carried = [one for one in study if one.results and not one.misfit]
+    names = templates[0].points.names
+    told = f"{len(names)} landmarks of {_count(len(templates), 'specimen')} carried to {_count(len(carried), 'other')}"
+    if carried:
+        sure = np.concatenate([one.points.confidence for one in carried])
+        told += f", median confidence {np.nanmedian(sure):.2f}" if np.isfinite(sure).any() else ""
+    lines = [told]
+    flagged = [(one, name, flag) for one in carried for name, flag in zip(names, one.flags, strict=True) if flag]
+    if flagged:
+        shown = "; ".join(f"{one.specimen} {name} ({flag})" for one, name, flag in flagged[:SHOWN])
+        more = f"; and {len(flagged) - SHOWN} more" if len(flagged) > SHOWN else ""
+        lines.append(f"{len(flagged)} of {len(names) * len(carried)} flagged: {shown}{more}")
+    elif carried:
+        lines.append("none flagged")
+    missing = sum(int((one.points.vertices < 0).sum()) for one in carried)
+    if missing:
+        lines.append(f"{missing} missing (NA)")
+    if np.isfinite(errors).any():
+        each = np.array([np.nanmean(column) if np.isfinite(column).any() else np.nan for column in errors.T])
+        worst = int(np.nanargmax(each))
+        text = f"the templates' landmarks, carried to each other, are off by {np.nanmean(errors):.3g} on average"
+        lines.append(f"{text} in the scans' unit; most {names[worst]} ({each[worst]:.3g})")
+    return lines
+
+
+def _misfits(study: Sequence[SpecimenLandmarks], keep: Sequence[str]) -> list[str]:
+    return [
+        f"{one.specimen} does not fit the others: {one.misfit}; "
+        + ("kept" if one.specimen in keep else f"left out (--keep {one.specimen} keeps it)")
+        for one in study
+    ]
+
+
+def _count(number: int, word: str) -> str:
+    return f"{number} {word}" if number == 1 else f"{number} {word}s"

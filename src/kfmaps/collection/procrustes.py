@@ -1,0 +1,181 @@
+"""Generalised Procrustes analysis of landmarks, principal components of their shapes, and robust means of points."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.interpolate import RBFInterpolator
+
+from kfmaps._arrays import check, refuse
+
+MAX_ROUNDS = 100
+TOLERANCE = 1e-12
+"""Relative change of the consensus at which the rounds end."""
+
+
+@dataclass(frozen=True, eq=False)
+class Procrustes:
+    """Specimens brought to one position, orientation and size.
+
+    Attributes
+    ----------
+    aligned : (s, l, 3) float64
+        Centred, of centroid size 1, turned to the consensus. Missing landmarks are those of the consensus.
+    consensus : (l, 3) float64
+        The mean of the aligned specimens, of centroid size 1.
+    centroid_sizes : (s,) float64
+        Root of the summed squared distances of the landmarks from their mean, in the unit of the points.
+    distances : (s,) float64
+        Procrustes distance of each specimen from the consensus.
+    """
+
+    aligned: np.ndarray
+    consensus: np.ndarray
+    centroid_sizes: np.ndarray
+    distances: np.ndarray
+
+
+def generalized_procrustes(points: np.ndarray) -> Procrustes:
+    """Return the generalised Procrustes analysis of landmarks (Gower 1975; Rohlf and Slice 1990), without reflections.
+
+    Parameters
+    ----------
+    points : (s, l, 3) float64
+        NaN for a missing landmark, which is put where the consensus has it and has no say in the alignment.
+
+    Raises
+    ------
+    InvalidInput
+        When a specimen has fewer than three landmarks, or a landmark is missing in all.
+    """
+    check(points, "landmarks", shape=(None, None, 3), finite=False)
+    there = np.asarray(np.isfinite(points).all(axis=2))
+    if (there.sum(axis=1) < 3).any() or not there.any(axis=0).all():
+        got = "a specimen with fewer" if (there.sum(axis=1) < 3).any() else "one that all specimens lack"
+        raise refuse("landmarks", "three landmarks in each specimen, each in one at least", got, "leave it out")
+    first = int(np.argmax(there.sum(axis=1)))
+    consensus = _unit(np.where(there[first][:, None], points[first], np.nanmean(points[first], axis=0)))
+    filled, aligned = points.copy(), points
+    for _ in range(MAX_ROUNDS):
+        aligned = np.stack([_aligned(one, seen, consensus) for one, seen in zip(points, there, strict=True)])
+        new = _unit(aligned.mean(axis=0))
+        change = np.abs(new - consensus).max()
+        consensus = new
+        if change < TOLERANCE:
+            break
+    for i, seen in enumerate(there):  # missing landmarks in the specimen's own frame, for its size
+        if not seen.all():
+            turn, scale, shift = similarity(consensus[seen], points[i][seen])
+            filled[i][~seen] = (scale * consensus @ turn + shift)[~seen]
+    sizes = np.sqrt(((filled - filled.mean(axis=1, keepdims=True)) ** 2).sum(axis=(1, 2)))
+    distances = np.sqrt(((aligned - consensus) ** 2).sum(axis=(1, 2)))
+    return Procrustes(aligned, consensus, sizes, distances)
+
+
+def similarity(points: np.ndarray, onto: np.ndarray, reflect: bool = False) -> tuple[np.ndarray, float, np.ndarray]:
+    """Return the rotation (3, 3), scale and shift (3,) that bring ``points (l, 3)`` nearest to ``onto`` (Umeyama 1991).
+
+    The points become ``scale * points @ rotation + shift``. With ``reflect`` reflections are allowed as well.
+    """
+    a, b = points - points.mean(axis=0), onto - onto.mean(axis=0)
+    left, values, right = np.linalg.svd(a.T @ b)
+    sign = np.ones(3)
+    if not reflect and np.linalg.det(left @ right) < 0:
+        sign[2] = -1
+    turn = (left * sign) @ right
+    scale = float((values * sign).sum() / (a**2).sum())
+    return turn, scale, onto.mean(axis=0) - scale * points.mean(axis=0) @ turn
+
+
+def is_mirror_image(points: np.ndarray, reference: np.ndarray) -> bool:
+    """Return whether landmarks (l, 3) fit the mirror image of others much better than the others themselves.
+
+    That happens where left and right labels are swapped, or where one of two scans is a mirror image. Landmarks that
+    lie nearly in a plane fit both.
+    """
+    seen = np.isfinite(points).all(axis=1) & np.isfinite(reference).all(axis=1)
+    if seen.sum() < 4:
+        return False
+    a, b = points[seen], reference[seen]
+    residuals = []
+    for reflect in (False, True):
+        turn, scale, shift = similarity(a, b, reflect)
+        residuals.append(float(((scale * a @ turn + shift - b) ** 2).sum()))
+    return residuals[1] < 0.5 * residuals[0]
+
+
+def _unit(points: np.ndarray) -> np.ndarray:
+    centred = points - points.mean(axis=0)
+    return centred / np.sqrt((centred**2).sum())
+
+
+def _aligned(points: np.ndarray, seen: np.ndarray, consensus: np.ndarray) -> np.ndarray:
+    """One specimen turned to the consensus and of centroid size 1, its missing landmarks those of the consensus."""
+    turn, scale, shift = similarity(points[seen], consensus[seen])
+    if seen.all():
+        return _unit(points) @ turn
+    placed = scale * points @ turn + shift
+    return _unit(np.where(seen[:, None], placed, consensus))
+
+
+@dataclass(frozen=True, eq=False)
+class PrincipalComponents:
+    """Principal components of shapes.
+
+    Attributes
+    ----------
+    scores : (s, c) float64
+    loadings : (c, l, 3) float64
+        Orthonormal directions; the largest coordinate of each is positive.
+    variances : (c,) float64
+        Variance of the scores, largest first.
+    """
+
+    scores: np.ndarray
+    loadings: np.ndarray
+    variances: np.ndarray
+
+
+def principal_components(aligned: np.ndarray) -> PrincipalComponents:
+    """Return the principal components of aligned shapes (s, l, 3): those with a variance above rounding."""
+    flat = aligned.reshape(len(aligned), -1)
+    left, values, right = np.linalg.svd(flat - flat.mean(axis=0), full_matrices=False)
+    count = int((values > 1e-10 * max(values.max(initial=0.0), 1e-300)).sum()) if len(flat) > 1 else 0
+    count = min(count, len(flat) - 1)
+    sign = np.array([np.sign(row[np.abs(row).argmax()]) for row in right[:count]]).reshape(-1)
+    scores = left[:, :count] * values[:count] * sign
+    variances = values[:count] ** 2 / max(len(flat) - 1, 1)
+    return PrincipalComponents(scores, (right[:count] * sign[:, None]).reshape(count, *aligned.shape[1:]), variances)
+
+
+def thin_plate_warp(points: np.ndarray, landmarks: np.ndarray, onto: np.ndarray) -> np.ndarray:
+    """Return ``points (n, 3)`` moved by the thin-plate spline that takes ``landmarks`` to ``onto`` (Bookstein 1989)."""
+    return RBFInterpolator(landmarks, onto, kernel="linear", degree=1)(points)
+
+
+def geometric_median(points: np.ndarray) -> np.ndarray:
+    """Return the point with the least sum of distances to given ones, by Weiszfeld's iteration.
+
+    Parameters
+    ----------
+    points : (t, l, 3) float64
+        ``t`` proposals for each of ``l`` points; NaN proposals do not count.
+
+    Returns
+    -------
+    (l, 3) float64
+        Of two proposals their mean; NaN where there is none.
+    """
+    there = np.asarray(np.isfinite(points).all(axis=2))
+    values = np.where(there[..., None], points, 0.0)
+    weight = there.astype(np.float64)
+    with np.errstate(invalid="ignore"):
+        median = (weight[..., None] * values).sum(axis=0) / np.asarray(weight.sum(axis=0))[:, None]
+    floor = 1e-9 * (np.abs(values).max(initial=0.0) + 1e-300)
+    for _ in range(MAX_ROUNDS):
+        distance = np.linalg.norm(values - median, axis=2)
+        pull = np.where(there, 1.0 / np.maximum(distance, floor), 0.0)
+        with np.errstate(invalid="ignore"):
+            median = (pull[..., None] * values).sum(axis=0) / pull.sum(axis=0)[:, None]
+    return median

@@ -1,0 +1,221 @@
+"""``kfmaps landmarks transfer``: from files of landmarks and a folder of scans to tables and statistics."""
+
+from __future__ import annotations
+
+import csv
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from collecting import bent
+from commandline import run
+from kfmaps._arrays import InvalidInput
+from kfmaps.batch.landmark_tables import write_study
+from kfmaps.batch.layout import find_collection
+from kfmaps.batch.results import Result
+from kfmaps.batch.transfer_landmarks import (
+    SpecimenLandmarks,
+    carry_templates,
+    drop_unsure,
+    given_landmarks,
+    read_templates,
+    template_errors,
+    template_pairs,
+)
+from kfmaps.batch.work import map_path
+from kfmaps.geometry.mesh import Mesh, surface_area
+from kfmaps.io import read_mesh, save_map, write_mesh
+from kfmaps.io.landmark_files import LandmarkSet, read_landmark_sets, write_landmark_sets
+from kfmaps.matching.result import Match
+
+N = 300
+AT = np.array([10, 100, 150, 220, 290])
+LABELS = tuple("abcde")
+
+
+@pytest.fixture
+def scans(tmp_path: Path) -> Path:
+    """Four poses, a, b, c, d, whose vertices correspond by number, and landmarks of each of them."""
+    folder = tmp_path / "scans"
+    folder.mkdir()
+    for i, name in enumerate("abcd"):
+        mesh = bent(i, N)
+        mesh = Mesh(10 * mesh.vertices + 40, mesh.faces)
+        write_mesh(folder / f"{name}.ply", mesh)
+        write_landmark_sets(tmp_path / f"{name}.mrk.json", [LandmarkSet(LABELS, mesh.vertices[AT], space="LPS")])
+    return folder
+
+
+def maps(folder: Path, pairs: list[tuple[str, str]], chance: float = 0.9) -> dict[tuple[str, str], Result]:
+    """True maps of pairs of scans, saved as a run saves them, and their results."""
+    (folder / "maps").mkdir(exist_ok=True)
+    found = {}
+    for a, b in pairs:
+        true = Match(np.arange(N), local_confidence=np.full(N, 0.8))
+        save_map(map_path(folder, f"{a}-{b}"), true, force=True)
+        found[a, b] = Result(a, b, "done", "", "", verdict="sure", confidence=chance)
+    return found
+
+
+def test_one_template_over_true_maps(scans: Path, tmp_path: Path) -> None:
+    (template,) = read_templates([tmp_path / "a.mrk.json"], find_collection(scans))
+    results = maps(tmp_path, [("a", "b")])
+    one = carry_templates([template], "b", scans / "b.ply", {"a": results["a", "b"]}, tmp_path)
+    np.testing.assert_allclose(one.points.points, read_mesh(scans / "b.ply").vertices[AT], atol=1e-9)
+    np.testing.assert_allclose(one.points.confidence, 0.9 * 0.8)
+    assert one.flags == ("",) * 5
+    assert np.isnan(one.spread).all()
+    assert np.isnan(one.rival).all()
+    assert (one.misfit, one.space) == ("", "LPS")
+    low = maps(tmp_path, [("a", "b")], chance=0.6)["a", "b"]
+    one = carry_templates([template], "b", scans / "b.ply", {"a": low}, tmp_path)
+    assert one.flags == ("low confidence",) * 5
+    gone = drop_unsure(one, 0.5).points
+    assert (gone.vertices == -1).all()
+    assert np.isnan(gone.points).all()
+    assert (drop_unsure(one, 0.4).points.vertices >= 0).all()
+
+
+def test_the_distance_to_the_best_other_map(scans: Path, tmp_path: Path) -> None:
+    (template,) = read_templates([tmp_path / "a.mrk.json"], find_collection(scans))
+    results = maps(tmp_path, [("a", "b")])
+    path = map_path(tmp_path, "a-b")
+    turned = np.stack([np.roll(np.arange(N), 7), np.arange(N)[::-1]])
+    save_map(path, Match(np.arange(N), alternatives=tuple(turned)), force=True)
+    one = carry_templates([template], "b", scans / "b.ply", {"a": results["a", "b"]}, tmp_path)
+    mesh = read_mesh(scans / "b.ply").vertices
+    elsewhere = [mesh[np.argsort(other)[AT]] for other in turned]
+    expected = np.min([np.linalg.norm(points - mesh[AT], axis=1) for points in elsewhere], axis=0)
+    np.testing.assert_allclose(one.rival, expected, rtol=1e-6)
+
+
+def test_three_templates_outvote_one_that_is_off(scans: Path, tmp_path: Path) -> None:
+    collection = find_collection(scans)
+    mesh = read_mesh(scans / "c.ply")
+    wrong = LandmarkSet(LABELS, np.vstack([mesh.vertices[[200]], mesh.vertices[AT[1:]]]))
+    write_landmark_sets(tmp_path / "c.mrk.json", [wrong], force=True)
+    templates = read_templates([tmp_path / f"{name}.mrk.json" for name in "abc"], collection)
+    results = maps(tmp_path, [(name, "d") for name in "abc"] + [("a", "b"), ("c", "b")])
+    one = carry_templates(templates, "d", scans / "d.ply", {n: results[n, "d"] for n in "abc"}, tmp_path)
+    surface = read_mesh(scans / "d.ply")
+    np.testing.assert_allclose(one.points.points, surface.vertices[AT], atol=1e-3)
+    assert one.flags == ("templates disagree", "", "", "", "")
+    np.testing.assert_allclose(one.points.confidence, [0.72 * 2 / 3, *[0.72] * 4])
+    far = np.linalg.norm(surface.vertices[200] - surface.vertices[AT[0]])
+    assert one.spread[0] == pytest.approx(far, rel=1e-3)
+    errors = template_errors(templates, results, tmp_path)
+    assert errors.shape == (2, 5)
+    np.testing.assert_allclose(errors[0], 0, atol=1e-9)
+    assert errors[1, 0] > 1
+    assert len(template_pairs(templates, collection)) == 9
+
+
+def test_landmarks_that_a_template_lacks_come_from_the_others(scans: Path, tmp_path: Path) -> None:
+    points = read_mesh(scans / "b.ply").vertices[AT]
+    points[1] = np.nan
+    write_landmark_sets(tmp_path / "b.fcsv", [LandmarkSet(LABELS[::-1], points[::-1], space="LPS")])
+    templates = read_templates([tmp_path / "a.mrk.json", tmp_path / "b.fcsv"], find_collection(scans))
+    assert [one.points.names for one in templates] == [LABELS, LABELS]
+    np.testing.assert_array_equal(templates[1].points.vertices, [10, -1, 150, 220, 290])
+    results = maps(tmp_path, [("a", "c"), ("b", "c")])
+    one = carry_templates(templates, "c", scans / "c.ply", {n: results[n, "c"] for n in "ab"}, tmp_path)
+    np.testing.assert_allclose(one.points.points, read_mesh(scans / "c.ply").vertices[AT], atol=1e-9)
+    assert one.flags == ("",) * 5
+
+
+def test_what_fits_none_is_left_out(scans: Path, tmp_path: Path) -> None:
+    templates = read_templates([tmp_path / "a.mrk.json"], find_collection(scans))
+    results = maps(tmp_path, [("a", name) for name in "bcd"])
+    results["a", "b"] = replace(results["a", "b"], verdict="unlikely", confidence=0.12)
+    results["a", "c"] = Result("a", "c", "failed", "", "", reason="too large")
+    study = [given_landmarks(templates[0])]
+    for name in "bcd":
+        path = scans / f"{name}.ply"
+        study.append(carry_templates(templates, name, path, {"a": results["a", name]}, tmp_path))
+    assert [one.misfit for one in study] == ["", "its best map is unlikely (12 %, from a)", "too large", ""]
+    write_study(tmp_path / "out", study, templates)
+    assert [one.specimen for one in read_landmark_sets(tmp_path / "out" / "landmarks.tps")] == ["a", "d"]
+    assert sorted(path.name for path in (tmp_path / "out" / "landmarks").iterdir()) == ["a.mrk.json", "d.mrk.json"]
+    with open(tmp_path / "out" / "specimens.csv", encoding="utf-8") as file:
+        rows = {row["specimen"]: row for row in csv.DictReader(file)}
+    assert [rows[name]["status"] for name in "abcd"] == ["template", "left out", "left out", "carried"]
+
+
+def test_a_map_that_swaps_left_and_right_is_recognized(scans: Path, tmp_path: Path) -> None:
+    """The landmarks of a symmetric shape, carried by a map that swaps its sides, are a mirror image."""
+    template = read_templates([tmp_path / "a.mrk.json"], find_collection(scans))[0]
+    results = maps(tmp_path, [("a", "b")])
+    mesh = read_mesh(scans / "b.ply")
+    center = mesh.vertices.mean(axis=0)
+    write_mesh(tmp_path / "m.ply", Mesh((mesh.vertices - center) * [1, 1, -1] + center, mesh.faces[:, ::-1]))
+    one = carry_templates([template], "b", tmp_path / "m.ply", {"a": results["a", "b"]}, tmp_path)
+    assert "mirror image" in one.misfit
+    points = read_mesh(tmp_path / "m.ply").vertices[AT]
+    write_landmark_sets(tmp_path / "m.tps", [LandmarkSet(LABELS, points, "m")])
+    write_mesh(scans / "m.ply", read_mesh(tmp_path / "m.ply"))
+    write_landmark_sets(tmp_path / "m.mrk.json", [LandmarkSet(LABELS, points)])
+    with pytest.raises(InvalidInput, match=r"a mirror image of .*a\.mrk\.json's"):
+        read_templates([tmp_path / "a.mrk.json", tmp_path / "m.mrk.json"], find_collection(scans))
+
+
+def test_names_of_templates(scans: Path, tmp_path: Path) -> None:
+    collection = find_collection(scans)
+    (tmp_path / "b_LM.mrk.json").write_bytes((tmp_path / "b.mrk.json").read_bytes())
+    assert read_templates([tmp_path / "b_LM.mrk.json"], collection)[0].specimen == "b"
+    with pytest.raises(InvalidInput, match="one file of landmarks for b"):
+        read_templates([tmp_path / "b.mrk.json", tmp_path / "b_LM.mrk.json"], collection)
+    (tmp_path / "x.mrk.json").write_bytes((tmp_path / "b.mrk.json").read_bytes())
+    with pytest.raises(InvalidInput, match="Call the file of landmarks as the scan is called"):
+        read_templates([tmp_path / "x.mrk.json"], collection)
+    sets = [LandmarkSet(LABELS, read_mesh(scans / f"{n}.ply").vertices[AT], n) for n in "ab"]
+    write_landmark_sets(tmp_path / "both.tps", sets)
+    assert [one.specimen for one in read_templates([tmp_path / "both.tps"], collection)] == ["a", "b"]
+
+
+def test_tables_and_statistics(scans: Path, tmp_path: Path) -> None:
+    collection = find_collection(scans)
+    templates = read_templates([tmp_path / f"{name}.mrk.json" for name in "abcd"], collection)
+    study: list[SpecimenLandmarks] = [given_landmarks(one) for one in templates]
+    study[3] = replace(study[3], flags=("", "look here", "", "", ""))
+    write_study(tmp_path / "out", study, templates)
+    out = tmp_path / "out"
+    for name in ("landmarks.csv", "landmarks_wide.csv"):
+        sets = read_landmark_sets(out / name)
+        assert [one.specimen for one in sets] == list("abcd")
+        for one in sets:
+            np.testing.assert_allclose(one.points, read_mesh(scans / f"{one.specimen}.ply").vertices[AT])
+    with open(out / "shape" / "pca_scores.csv", encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    points = read_mesh(scans / "b.ply").vertices[AT]
+    size = np.linalg.norm(points - points.mean(axis=0))
+    assert float(rows[1]["centroid_size"]) == pytest.approx(size)
+    first = [float(row["PC1"]) for row in rows]
+    assert abs(np.corrcoef(first, np.arange(4))[0, 1]) > 0.99  # they are bent more and more
+    extremes = [read_mesh(out / "shape" / f"PC1_{word}.ply") for word in ("minus", "plus")]
+    assert len(extremes[0].vertices) == N
+    assert surface_area(extremes[0]) != pytest.approx(surface_area(extremes[1]), rel=1e-3)
+    assert '"look here"' in (out / "landmarks" / "d.mrk.json").read_text()
+
+
+def test_the_command_goes_on_where_it_was(scans: Path, tmp_path: Path) -> None:
+    words = ["landmarks", "transfer", scans, "--from", tmp_path / "a.mrk.json", tmp_path / "b.mrk.json"]
+    more = ["-o", tmp_path / "out", "--workers", 1, "--set", "basis.n_eigenfunctions=30"]
+    done = run(*words, *more)
+    assert done.status == 0, done.stderr
+    assert "5 landmarks of 2 specimens carried to" in done.stdout
+    assert "the templates' landmarks, carried to each other, are off by" in done.stdout
+    times = {path: path.stat().st_mtime_ns for path in (tmp_path / "out" / "matches" / "maps").iterdir()}
+    assert len(times) == 6
+    again = run(*words, *more, "-q")
+    assert (again.status, again.stdout) == (0, "")
+    assert {path: path.stat().st_mtime_ns for path in times} == times
+    lines = (tmp_path / "out" / "summary.txt").read_text().splitlines()
+    assert lines[-1].endswith("procrustes.csv")
+    assert "the name of a scan" in run(*words, *more, "--keep", "z").stderr
+
+
+def test_a_picked_pair_of_meshes_needs_no_subcommand(scans: Path) -> None:
+    assert "expected a file" in run("landmarks", scans / "a.ply", scans / "none.ply", "--no-browser").stderr
+    assert "transfer" in run("landmarks", "--help").stdout
