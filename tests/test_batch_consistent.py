@@ -43,14 +43,21 @@ class Alone(WorkerPool):
         self.asked: list[str] = []
         self.left = stop_after
 
-    def map(self, what: str, function: Callable[[Any], Any], items: Sequence[Any]) -> list[Any]:
+    def map(
+        self, what: str, function: Callable[[Any], Any], items: Sequence[Any], *, failures: bool = False
+    ) -> list[Any]:
         found = []
         for item in items:
             if self.left is not None and self.left == 0:
                 raise KeyboardInterrupt
             self.left = None if self.left is None else self.left - 1
             self.asked.append(what)
-            found.append(function(item))
+            try:
+                found.append(function(item))
+            except InvalidInput as error:
+                if not failures:
+                    raise
+                found.append(error)
         return found
 
 

@@ -99,7 +99,7 @@ def load_record(path: Path, kind: type) -> Any:
 
 
 def _flatten(record: Any, before: str) -> dict[str, np.ndarray]:
-    """Arrays by dotted names; what is ``None`` is left out, and a dictionary of numbers is two arrays."""
+    """Arrays by dotted names; what is ``None`` is left out, a dictionary of numbers is two arrays."""
     arrays: dict[str, np.ndarray] = {}
     for field in fields(record):
         value, name = getattr(record, field.name), before + field.name
@@ -107,6 +107,10 @@ def _flatten(record: Any, before: str) -> dict[str, np.ndarray]:
             arrays |= _flatten(value, name + ".")
         elif isinstance(value, dict):
             arrays |= {f"{name}.keys": np.array(list(value)), f"{name}.values": np.array(list(value.values()))}
+        elif isinstance(value, tuple) and all(map(is_dataclass, value)):
+            arrays[f"{name}.count"] = np.array(len(value))
+            for i, one in enumerate(value):
+                arrays |= _flatten(one, f"{name}.{i}.")
         elif value is not None:
             arrays[name] = np.asarray(value)
     return arrays
@@ -118,7 +122,10 @@ def _restore(kind: Any, arrays: dict[str, np.ndarray], before: str) -> Any:
     for name, hint in get_type_hints(kind).items():
         path = before + name
         inner = next((part for part in (hint, *get_args(hint)) if is_dataclass(part)), None)
-        if inner is not None:
+        if inner is not None and get_origin(hint) is tuple:
+            numbers = range(int(arrays[f"{path}.count"]))
+            values[name] = tuple(_restore(inner, arrays, f"{path}.{i}.") for i in numbers)
+        elif inner is not None:
             there = inner is hint or any(key.startswith(f"{path}.") for key in arrays)
             values[name] = _restore(inner, arrays, f"{path}.") if there else None
         elif get_origin(hint) is dict:

@@ -1,20 +1,20 @@
 """Make the maps of a whole run agree over cycles; which are replaced, by what and why is written beside them.
 
 Nothing of the run itself is touched, so that the same evidence leads to the same end however often it is cut short.
-The scores of each pair, each composition and each replacement is a file of its own, with a digest of its inputs.
+The scores of each pair, each composition and each replacement are a file of their own, with a digest of its inputs.
 """
 
 from __future__ import annotations
 
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from kfmaps._arrays import refuse
+from kfmaps._arrays import InvalidInput, refuse
 from kfmaps._threads import one_blas_thread
 from kfmaps.batch.cache import file_digest, load_record, save_record
 from kfmaps.batch.jobs import WorkerPool
@@ -27,6 +27,7 @@ from kfmaps.batch.work import (
     MAPS,
     PairTask,
     capture_errors,
+    error_text,
     load_prepared,
     make_result,
     map_path,
@@ -50,10 +51,9 @@ from kfmaps.io import load_map
 from kfmaps.shape import Shape
 
 CONSISTENT, EVIDENCE, PATHS = "consistent", "evidence", "paths"
-TABLE = "pairs.csv"
-LAYOUT = 4
+_TABLE = "pairs.csv"
+_LAYOUT = 5
 """Raised when what is kept of a pair changes."""
-PART = "the map of a part stays as it is and takes no part in this: {} of {} vertices have no counterpart"
 
 
 @dataclass(frozen=True, eq=False)
@@ -118,13 +118,13 @@ def make_consistent(plan: Plan, results: Sequence[Result], pool: WorkerPool) -> 
     tasks = [task for task in plan.tasks if (task.pair.source, task.pair.target) in known]
     if not tasks:
         raise refuse("--consistent", "pairs that are matched", "none", "see why the pairs failed")
-    scored = pool.map("evidence of pairs", score_pair, tasks)
-    notes = [f"{task}: {reason}" for task, (_, reason) in zip(tasks, scored, strict=True) if reason]
-    both = [(task, maps) for task, (maps, reason) in zip(tasks, scored, strict=True) if not reason]
-    if not both:
-        _forget(plan, set())
+    scored = list(zip(tasks, pool.map("evidence of pairs", _score_pair, tasks, failures=True), strict=True))
+    notes = [f"{task}: {error_text(maps)}" for task, maps in scored if isinstance(maps, Exception)]
+    good = {task: maps for task, maps in scored if not isinstance(maps, Exception)}
+    if not good:
+        _remove_replacements(plan, set())
         return ConsistentResult(tuple(results), {}, (), tuple(notes))
-    store = _FolderStore(plan, [task for task, _ in both], [maps for _, maps in both], known, pool)
+    store = _FolderStore(plan, list(good), list(good.values()), known, pool)
     found = synchronize_store(store)
     changed = {(r.source, r.target): r for r in store.replaced if r.status == "done"}
     notes += [f"{r.source} → {r.target} stays as it was: {r.reason}" for r in store.replaced if r.status == "failed"]
@@ -134,7 +134,7 @@ def make_consistent(plan: Plan, results: Sequence[Result], pool: WorkerPool) -> 
         changed.get((r.source, r.target), replace(r, agreement=chance.get((r.source, r.target)))) for r in results
     )
     doubted = [c for c in found.repaired.replacements if c.kind == "none"]
-    _write_pairs(plan.folder / CONSISTENT / TABLE, store, found)
+    _write_pairs(plan.folder / CONSISTENT / _TABLE, store, found)
     notes += write_shape_statistics(plan.folder / CONSISTENT, store.names, store.shape, found)
     before = {key: known[key] for key in changed}
     return ConsistentResult(final, before, tuple(f"{store.tasks[c.edge]}: {c.reason()}" for c in doubted), tuple(notes))
@@ -162,12 +162,7 @@ class _FolderStore:
         return load_prepared(self.shapes[self.names[number]])
 
     def compose(self, asked: list[tuple[int, CyclePath]]) -> list[ScoredMap]:
-        made = []
-        for _, scored, reason in self.pool.map("compositions", compose, [self._path(*one) for one in asked]):
-            if scored is None:
-                raise refuse("composition", "maps that can be read", reason, "run the command again")
-            made.append(scored)
-        return made
+        return self.pool.map("compositions", _score_composition, [self._path(*one) for one in asked])
 
     def replace(self, replacements: Sequence[Replacement]) -> None:
         jobs = []
@@ -176,8 +171,8 @@ class _FolderStore:
             path = None if change.path is None else self._path(change.edge, change.path)
             before = self.results[task.pair.source, task.pair.target]
             jobs.append(_ReplaceTask(task, change, path, change.label(self.names), before))
-        _forget(self.plan, {job.task.key for job in jobs})
-        self.replaced = self.pool.map("replaced maps", replace_map, jobs)
+        _remove_replacements(self.plan, {job.task.key for job in jobs})
+        self.replaced = self.pool.map("replaced maps", _replace_map, jobs)
 
     def _path(self, edge: int, path: CyclePath) -> _PathTask:
         return _PathTask(self.tasks[edge], tuple((self.tasks[s.edge], s.candidate, s.forward) for s in path.steps))
@@ -214,90 +209,70 @@ class _ReplaceTask:
 
 
 @dataclass(frozen=True, eq=False)
-class _Kept:
+class _Evidence:
     """Scored maps of a pair on disk; of a composition with its ``points``."""
 
     inputs: str
-    maps: np.ndarray
-    scores: np.ndarray
-    orientations: np.ndarray
-    reversed: np.ndarray
+    maps: tuple[ScoredMap, ...]
     points: np.ndarray | None = None
 
-    def scored(self) -> list[ScoredMap]:
-        rows = zip(self.maps, self.scores, self.orientations, self.reversed, strict=True)
-        return [ScoredMap(C, float(score), float(turn), bool(back)) for C, score, turn, back in rows]
 
-
-def _keep(path: Path, inputs: str, scored: list[ScoredMap], points: np.ndarray | None = None) -> _Kept:
-    kept = _Kept(
-        inputs,
-        np.stack([one.map for one in scored]),
-        np.array([one.score for one in scored]),
-        np.array([one.orientation for one in scored]),
-        np.array([one.reversed for one in scored]),
-        points,
-    )
-    path.parent.mkdir(parents=True, exist_ok=True)
-    save_record(path, kept)
-    return kept
-
-
-def _kept(path: Path, inputs: str) -> _Kept | None:
-    kept = load_record(path, _Kept)
-    return kept if kept is not None and kept.inputs == inputs else None
+def _evidence(path: Path, inputs: str, make: Callable[[], tuple[list[ScoredMap], np.ndarray | None]]) -> _Evidence:
+    """What is kept at ``path`` of these ``inputs``, else what ``make`` returns, which is kept."""
+    found = load_record(path, _Evidence)
+    if found is None or found.inputs != inputs:
+        with one_blas_thread():
+            maps, points = make()
+        found = _Evidence(inputs, tuple(maps), points)
+        path.parent.mkdir(parents=True, exist_ok=True)
+        save_record(path, found)
+    return found
 
 
 def _map_digest(task: PairTask) -> str:
     """Digest of a pair's own map and all that it was made from."""
     path = map_path(Path(task.folder), task.key)
-    return digest_of([LAYOUT, task.settings, task.inputs, file_digest(path)], 32)
+    return digest_of([_LAYOUT, task.settings, task.inputs, file_digest(path)], 32)
 
 
-def score_pair(task: PairTask) -> tuple[list[ScoredMap], str]:
-    """Score the map of a pair and its runners-up, unless that is kept; or say why it cannot be done.
+def _score_pair(task: PairTask) -> list[ScoredMap]:
+    """Score the map of a pair and its runners-up, unless that is kept.
 
     Maps of parts take no part: neither cycles nor a common basis are defined where points have no counterpart.
     """
-    try:
-        inputs = _map_digest(task)
-        path = Path(task.folder) / CONSISTENT / EVIDENCE / f"{task.key}.npz"
-        kept = _kept(path, inputs)
-        if kept is None:
-            file = load_map(map_path(Path(task.folder), task.key))
-            lost = int((file.target_to_source < 0).sum())
-            if lost:
-                return [], PART.format(lost, len(file.target_to_source))
-            with one_blas_thread():
-                shapes = _shapes(task)
-                kept = _keep(path, inputs, score_stored(file, shapes, pair_samples(task, shapes)))
-        return kept.scored(), ""
-    except Exception as error:  # told of with the pair; one bad file must not end the run
-        return [], f"{type(error).__name__}: {error}"
+
+    def make() -> tuple[list[ScoredMap], None]:
+        file = load_map(map_path(Path(task.folder), task.key))
+        lost, n_t = int((file.target_to_source < 0).sum()), len(file.target_to_source)
+        if lost:
+            text = "the map of a part stays as it is and takes no part in this"
+            raise InvalidInput(f"{text}: {lost} of {n_t} vertices have no counterpart")
+        shapes = _shapes(task)
+        return score_stored(file, shapes, pair_samples(task, shapes)), None
+
+    path = Path(task.folder) / CONSISTENT / EVIDENCE / f"{task.key}.npz"
+    return list(_evidence(path, _map_digest(task), make).maps)
 
 
-def compose(job: _PathTask) -> tuple[np.ndarray | None, ScoredMap | None, str]:
-    """Compose the maps of a path and score the composition, unless that is kept; or say why it cannot be done."""
-    try:
-        inputs = digest_of([_map_digest(task) for task, _, _ in job.steps], 32)
-        kept = _kept(job.file, inputs)
-        if kept is None:
-            with one_blas_thread():
-                made = compose_path(
-                    [
-                        (_candidates(task)[number], None if forward else load_prepared(task.source).basis)
-                        for task, number, forward in job.steps
-                    ]
-                )
-                shapes = _shapes(job.task)
-                scored = score_candidates([made], shapes, pair_samples(job.task, shapes))
-                kept = _keep(job.file, inputs, scored, made[0])
-        return kept.points, kept.scored()[0], ""
-    except Exception as error:
-        return None, None, f"{type(error).__name__}: {error}"
+def _compose(job: _PathTask) -> _Evidence:
+    """Compose the maps of a path and score the composition, unless that is kept."""
+
+    def make() -> tuple[list[ScoredMap], np.ndarray]:
+        steps = [
+            (_candidates(task)[number], None if forward else load_prepared(task.source).basis)
+            for task, number, forward in job.steps
+        ]
+        made, shapes = compose_path(steps), _shapes(job.task)
+        return score_candidates([made], shapes, pair_samples(job.task, shapes)), made[0]
+
+    return _evidence(job.file, digest_of([_map_digest(task) for task, _, _ in job.steps], 32), make)
 
 
-def replace_map(job: _ReplaceTask) -> Result:
+def _score_composition(job: _PathTask) -> ScoredMap:
+    return _compose(job).maps[0]
+
+
+def _replace_map(job: _ReplaceTask) -> Result:
     """Finish, evaluate and save the map that replaces another unless that is done; a failure is recorded."""
     task, change, folder = job.task, job.change, Path(job.task.folder)
     path, other = replacement_result(folder, task.key), replacement_map(folder, task.key)
@@ -308,19 +283,15 @@ def replace_map(job: _ReplaceTask) -> Result:
         steps = [] if job.path is None else [[n, forward, _map_digest(t)] for t, n, forward in job.path.steps]
         inputs = digest_of([_map_digest(task), change.kind, change.candidate, steps])
         there = read_result(path)
-        if there is not None and (there.settings, there.inputs) == (task.settings, inputs) and other.exists():
+        if there is not None and there.is_of(task.settings, inputs) and other.exists():
             return there
         path.unlink(missing_ok=True)
         other.unlink(missing_ok=True)
-        composition = None
-        if job.path is not None:
-            points, scored, reason = compose(job.path)
-            if points is None or scored is None:
-                raise refuse(f"composition of {task.key}", "maps that can be read", reason, "run the command again")
-            composition = points, scored.reversed
+        made = None if job.path is None else _compose(job.path)
+        composition = None if made is None or made.points is None else (made.points, made.maps[0].reversed)
         shapes = _shapes(task)
-        config = replace(task.config, threads=1)
-        found = refine_replacement(change, _candidates(task), composition, shapes, config, job.label, task.seed)
+        config, candidates = replace(task.spec.config, threads=1), _candidates(task)
+        found = refine_replacement(change, candidates, composition, shapes, config, job.label, task.spec.seed)
         truth = true_vertices(task, *(len(shape.mesh.vertices) for shape in shapes))
         values = recorded(task, found, shapes, truth, other)
     values["seconds"]["total"] = time.perf_counter() - begun
@@ -347,7 +318,7 @@ def _candidates(task: PairTask) -> list[Candidate]:
     return stored_candidates(load_map(map_path(Path(task.folder), task.key)))
 
 
-def _forget(plan: Plan, kept: set[str]) -> None:
+def _remove_replacements(plan: Plan, kept: set[str]) -> None:
     """Remove replacements of maps that are not replaced any more, since others have been matched again."""
     for task in plan.tasks:
         if task.key not in kept:
@@ -361,7 +332,7 @@ def _write_pairs(path: Path, store: _FolderStore, found: Consistency) -> None:
     changes = {change.edge: change for change in found.repaired.replacements}
     sync = found.repaired.sync
     for i, (task, maps) in enumerate(zip(store.tasks, store.scores, strict=True)):
-        row = [task.pair.source, task.pair.target, len(maps), f"{sync.probabilities[i][0]:.6f}"]
-        row += [f"{sync.residuals[i][0]:.6f}", f"{maps[0].score:.4f}"]
-        rows.append(row + ([changes[i].label(store.names), changes[i].reason()] if i in changes else ["", ""]))
+        numbers = f"{sync.probabilities[i][0]:.6f}", f"{sync.residuals[i][0]:.6f}", f"{maps[0].score:.4f}"
+        why = (changes[i].label(store.names), changes[i].reason()) if i in changes else ("", "")
+        rows.append([task.pair.source, task.pair.target, len(maps), *numbers, *why])
     write_rows(path, rows)

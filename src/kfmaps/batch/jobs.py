@@ -160,22 +160,35 @@ class WorkerPool:
             with suppress(Exception):  # a scheduler that is lost has nothing to cancel
                 client.cancel(list(running), force=True)
 
-    def map(self, what: str, function: Callable[[Item], Value], items: Sequence[Item]) -> list[Value]:
+    def map(
+        self, what: str, function: Callable[[Item], Any], items: Sequence[Item], *, failures: bool = False
+    ) -> list[Any]:
         """Return the ``function`` of each item, in their order, and tell the progress.
+
+        Parameters
+        ----------
+        what : str
+            For the progress and the log.
+        function : callable
+        items : sequence
+        failures : bool
+            Whether exceptions are returned in the place of values, instead of raised.
 
         Raises
         ------
         InvalidInput
             When workers die over one item again and again.
         """
-        values: dict[int, Value] = {}
+        values: dict[int, Any] = {}
         if not items:
             return []
         self.progress(what, 0, len(items))
         with closing(self.imap(function, items, label=lambda item: f"{what} {item}")) as results:
             for number, value in results:
-                if isinstance(value, Exception):
-                    got = " ".join(f"{type(value).__name__}: {value}".split())[:200]
+                if isinstance(value, Exception) and not failures:
+                    if type(value).__name__ != "KilledWorker":
+                        raise value
+                    got = f"{MAX_DEATHS} that ended over {items[number]}"
                     raise refuse("workers", "processes that stay alive", got, TOO_LITTLE_MEMORY) from value
                 values[number] = value
                 self.progress(what, len(values), len(items))

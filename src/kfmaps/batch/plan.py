@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -21,7 +21,7 @@ from kfmaps.collection.pair_graph import complete_graph, medoid, signature, sign
 from kfmaps.config import Config
 from kfmaps.io import atomic_output
 
-GRAPH = "graph.json"
+_GRAPH = "graph.json"
 GRAPHS = "near, star, star:SHAPE, all or both"
 
 
@@ -60,22 +60,22 @@ def recommended(collection: ShapeFolder, pairs: Sequence[Pair], landmark_lines: 
 
 
 def make_plan(
-    collection: ShapeFolder,
-    pairs: Sequence[Pair],
-    spec: RunSpec,
-    output: str | Path,
-    *,
-    cache_folder: str | Path | None = None,
-    retry_failed: bool = False,
+    collection: ShapeFolder, pairs: Sequence[Pair], spec: RunSpec, output: str | Path, *, retry_failed: bool = False
 ) -> Plan:
-    """Work out the tasks, make the output folder and see what of them is done.
+    """Return what a run has to do. The output folder is made, and what is done already is read from it.
 
     Parameters
     ----------
-    cache_folder : path, optional
-        For prepared shapes; by default ``cache`` in ``output``.
+    collection : ShapeFolder
+    pairs : sequence of Pair
+    spec : RunSpec
+    output : path
     retry_failed : bool
         Whether pairs that failed are done again.
+
+    Returns
+    -------
+    Plan
 
     Raises
     ------
@@ -85,24 +85,22 @@ def make_plan(
     if spec.identity and (collection.truth or collection.maps):
         remedy = "leave --identity out, or move the files away"
         raise refuse("--identity", "a collection without files of correspondences", "one with such files", remedy)
-    folder, digest = _folder(output), cache(_digest)
-    shape_task = cache(_shape_tasks(collection, spec, folder, cache_folder, digest))
-    _folder(folder / FOLDER)
-    used = spec.digest
-    tasks = tuple(_pair_task(collection, pair, spec, used, folder, shape_task, digest) for pair in pairs)
+    make = _Tasks(collection, spec, output)
+    _make_folder(make.folder / FOLDER)
+    tasks = tuple(make.pair(pair) for pair in pairs)
     todo, results, changed = [], [], 0
     for task in tasks:
-        there = read_result(result_path(folder, task.key))
-        fits = there is not None and (there.settings, there.inputs) == (task.settings, task.inputs)
+        there = read_result(result_path(make.folder, task.key))
         if there is not None and (there.source, there.target) != (task.pair.source, task.pair.target):
             got = f"{there.source} and {there.target}"
             raise refuse(f"result {task.key}", f"the result of {task.pair}", got, "rename one of the shapes")
+        fits = there is not None and there.is_of(task.settings, task.inputs)
         if there is None or not fits or (retry_failed and there.status == "failed"):
             changed += there is not None and not fits
             todo.append(task)
         else:
             results.append(there)
-    return Plan(folder, spec, tasks, tuple(todo), tuple(results), changed)
+    return Plan(make.folder, spec, tasks, tuple(todo), tuple(results), changed)
 
 
 def graph_pairs(
@@ -111,19 +109,27 @@ def graph_pairs(
     output: str | Path,
     kind: str,
     pool: WorkerPool,
-    *,
-    cache_folder: str | Path | None = None,
 ) -> list[Pair]:
     """Choose pairs over a graph of the whole collection.
 
     Parameters
     ----------
+    collection : ShapeFolder
+    spec : RunSpec
+    output : path
+        Output folder of the run.
     kind : str
         "near": each shape with those that are most like it, about three pairs a shape, on cycles
         (:func:`kfmaps.collection.pair_graph.nearest_neighbor_graph`). "star": the one in the middle with all others;
         "star:SHAPE": this one. "all": every pair, one way; "both": both ways. What the shapes decide is kept in the
         output folder, so that it stays the same. A shape that cannot be prepared has one pair, with the middle one,
         which fails.
+    pool : WorkerPool
+        Prepares the shapes.
+
+    Returns
+    -------
+    list of Pair
 
     Raises
     ------
@@ -141,10 +147,10 @@ def graph_pairs(
         return choose_pairs(collection, every=True)
     if kind == "all":
         return [Pair(names[a], names[b]) for a, b in complete_graph(len(names))]
-    make_task = _shape_tasks(collection, spec, _folder(output), cache_folder, _digest)
-    tasks = [make_task(name) for name in names]
+    make = _Tasks(collection, spec, output)
+    tasks = [make.shape(name) for name in names]
     key = digest_of([kind, sorted((task.name, task.content) for task in tasks)], 32)
-    path = Path(output) / GRAPH
+    path = make.folder / _GRAPH
     kept = _read_graph(path, key)
     if kept is not None:
         return kept
@@ -178,6 +184,35 @@ def _read_graph(path: Path, key: str) -> list[Pair] | None:
         return None
 
 
+class _Tasks:
+    """The tasks of a run in an output folder, which is made and claimed for its specification."""
+
+    def __init__(self, collection: ShapeFolder, spec: RunSpec, output: str | Path) -> None:
+        self.collection, self.spec, self.folder = collection, spec, _make_folder(output)
+        claim(self.folder, spec)
+        self.cache_folder = _make_folder(self.folder / "cache")
+        self.shape, self.digest = cache(self._shape), cache(_digest)
+
+    def _shape(self, name: str) -> ShapeTask:
+        path = self.collection.shapes[name].resolve()
+        content = self.digest(path)
+        entry = self.cache_folder / f"{shape_key(content, path.suffix, self.spec.config)}.npz"
+        return ShapeTask(name, str(path), content, str(entry), str(self.folder), self.spec.config)
+
+    def pair(self, pair: Pair) -> PairTask:
+        collection, spec = self.collection, self.spec
+        source, target = self.shape(pair.source), self.shape(pair.target)
+        own = None if spec.identity else collection.maps.get(pair)
+        truth = _both(collection.truth, pair) if own is None and not spec.identity else None
+        mirrored = collection.mirrored.get(pair.target) if truth else None
+        use_files = spec.landmark_files and not spec.landmark_lines
+        landmarks = _both(collection.landmarks, pair) if use_files else None
+        files = [own, *(truth or ()), mirrored, *(landmarks or ())]
+        inputs = digest_of([source.content, target.content, *(self.digest(Path(f)) if f else None for f in files)])
+        mirrored, own = (None if path is None else str(path.resolve()) for path in (mirrored, own))
+        return PairTask(pair, str(self.folder), source, target, spec, inputs, truth, mirrored, own, landmarks)
+
+
 def _digest(path: Path) -> str:
     """The digest of a file; of one that cannot be read why, which is told with its pairs."""
     try:
@@ -186,26 +221,7 @@ def _digest(path: Path) -> str:
         return digest_of(str(error), 32)
 
 
-def _shape_tasks(
-    collection: ShapeFolder,
-    spec: RunSpec,
-    folder: Path,
-    cache_folder: str | Path | None,
-    digest: Callable[[Path], str],
-) -> Callable[[str], ShapeTask]:
-    claim(folder, spec)
-    shelf = _folder(cache_folder or folder / "cache")
-
-    def task(name: str) -> ShapeTask:
-        path = collection.shapes[name].resolve()
-        content = digest(path)
-        entry = shelf / f"{shape_key(content, path.suffix, spec.config)}.npz"
-        return ShapeTask(name, str(path), content, str(entry), str(folder), spec.config)
-
-    return task
-
-
-def _folder(path: str | Path) -> Path:
+def _make_folder(path: str | Path) -> Path:
     path = Path(path).resolve()
     try:
         path.mkdir(parents=True, exist_ok=True)
@@ -214,35 +230,7 @@ def _folder(path: str | Path) -> Path:
     return path
 
 
-def _pair_task(
-    collection: ShapeFolder,
-    pair: Pair,
-    spec: RunSpec,
-    used: str,
-    folder: Path,
-    shape_task: Callable[[str], ShapeTask],
-    digest: Callable[[Path], str],
-) -> PairTask:
-    source, target = shape_task(pair.source), shape_task(pair.target)
-    own = None if spec.identity else collection.maps.get(pair)
-    truth = _both(collection.truth, pair) if own is None and not spec.identity else None
-    mirrored = collection.mirrored.get(pair.target) if truth else None
-    use_files = spec.landmark_files and not spec.landmark_lines
-    landmarks = _both(collection.landmarks, pair) if use_files else None
-    files = [own, *(truth or ()), mirrored, *(landmarks or ())]
-    content = [source.content, target.content, *(digest(Path(f)) if f else None for f in files)]
-    return PairTask(
-        *(pair, str(folder), source, target, used, digest_of(content), spec.config, spec.seed),
-        truth=truth,
-        mirrored=str(mirrored.resolve()) if mirrored else None,
-        truth_map=str(own.resolve()) if own else None,
-        identity=spec.identity,
-        landmarks=landmarks,
-        landmark_lines=spec.landmark_lines,
-    )
-
-
-def _both(files, pair: Pair) -> tuple[str, str] | None:
+def _both(files: Mapping[str, Path], pair: Pair) -> tuple[str, str] | None:
     """The files of both shapes, when there are both."""
     if pair.source in files and pair.target in files:
         return str(files[pair.source].resolve()), str(files[pair.target].resolve())

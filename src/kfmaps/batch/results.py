@@ -60,6 +60,10 @@ class Result:
     curve: tuple[float, ...] = ()  # fraction of points with an error at or below each of CURVE_ERRORS
     notes: tuple[str, ...] = ()
 
+    def is_of(self, settings: str, inputs: str) -> bool:
+        """Return whether it was made with these settings from these files."""
+        return (self.settings, self.inputs) == (settings, inputs)
+
 
 CURVE_ERRORS = tuple(i / 400 for i in range(101))
 """Errors at which curves are kept: 0 to 0.25 in steps of 0.0025."""

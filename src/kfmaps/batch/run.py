@@ -13,18 +13,26 @@ from typing import Any
 import kfmaps
 from kfmaps._arrays import MissingDependency, refuse
 from kfmaps.batch.consistent import CONSISTENT, EVIDENCE, PATHS, ConsistentResult, make_consistent
-from kfmaps.batch.jobs import MAX_DEATHS, TOO_LITTLE_MEMORY, ProgressCallback, WorkerPool
+from kfmaps.batch.jobs import TOO_LITTLE_MEMORY, ProgressCallback, WorkerPool
 from kfmaps.batch.page import write_page
 from kfmaps.batch.plan import Plan
 from kfmaps.batch.progress import Callback, RunStatus, failure_line, log_to, remaining_seconds
 from kfmaps.batch.results import FOLDER, Result, all_results, result_path, write_csv, write_parquet
 from kfmaps.batch.run_spec import FILE
-from kfmaps.batch.work import MAPS, PairTask, Prepared, ShapeTask, attempts, match_pair, prepare_shape, record_failure
+from kfmaps.batch.work import (
+    MAPS,
+    PairTask,
+    Prepared,
+    ShapeTask,
+    attempts,
+    error_text,
+    match_pair,
+    prepare_shape,
+    record_failure,
+)
 from kfmaps.io import remove_unfinished
 
-A_DAY = 86400.0
 TABLE, COLUMNS = "results.csv", "results.parquet"
-DIED = f"{MAX_DEATHS} workers died while it was worked on; there may be too little memory"
 
 
 @dataclass(frozen=True)
@@ -141,7 +149,9 @@ def match_pairs(
     with closing(pool.imap(prepare_shape, shapes, n_begun=_attempts)) as values:
         for number, value in values:
             task = shapes[number]
-            prepared[task.entry] = value if isinstance(value, Prepared) else Prepared(task.name, reason=_reason(value))
+            prepared[task.entry] = (
+                value if isinstance(value, Prepared) else Prepared(task.name, reason=error_text(value))
+            )
             if prepared[task.entry].reason:
                 log(f"shape {task.name} could not be prepared: {prepared[task.entry].reason}")
             tell()
@@ -149,7 +159,7 @@ def match_pairs(
     label, n_begun = (lambda job: str(job[0])), (lambda job: _attempts(job[0]))
     with closing(pool.imap(_match, jobs, label=label, n_begun=n_begun)) as values:
         for number, value in values:
-            result = record_failure(plan.todo[number], _reason(value)) if isinstance(value, Exception) else value
+            result = record_failure(plan.todo[number], error_text(value)) if isinstance(value, Exception) else value
             if result.status == "failed":
                 log(failure_line(result))
             done.append(result)
@@ -163,10 +173,6 @@ def _match(job: tuple[PairTask, Prepared, Prepared]) -> Result:
 
 def _attempts(task: ShapeTask | PairTask) -> int:
     return attempts(Path(task.folder), task.key)
-
-
-def _reason(error: Exception) -> str:
-    return DIED if type(error).__name__ == "KilledWorker" else f"{type(error).__name__}: {error}"
 
 
 def _status(plan: Plan, pool: WorkerPool, shapes: int, prepared: list[Prepared], done: list[Result]) -> RunStatus:
@@ -230,19 +236,14 @@ def write_outputs(
 
 @contextmanager
 def _tidied(plan: Plan) -> Iterator[None]:
-    """Before and after the block, remove what workers that were killed have left half written.
-
-    In a cache elsewhere, which other runs may be writing to, only what nobody can be working on any more.
-    """
-    shelves = {Path(task.source.entry).parent for task in plan.tasks}
+    """Before and after the block, remove what workers that were killed have left half written."""
+    beside = plan.folder / CONSISTENT
+    parts = (top / part for top in (plan.folder, beside) for part in (FOLDER, MAPS))
+    folders = [plan.folder, plan.folder / "cache", beside, *parts, beside / EVIDENCE, beside / PATHS]
 
     def tidy() -> None:
-        beside = plan.folder / CONSISTENT
-        parts = (plan.folder, beside, *(top / part for top in (plan.folder, beside) for part in (FOLDER, MAPS)))
-        for folder in (*parts, beside / EVIDENCE, beside / PATHS):
+        for folder in folders:
             remove_unfinished(folder)
-        for shelf in shelves:
-            remove_unfinished(shelf, 0.0 if plan.folder in shelf.parents else A_DAY)
 
     tidy()
     try:

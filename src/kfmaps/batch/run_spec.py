@@ -6,6 +6,7 @@ import hashlib
 import json
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -60,7 +61,7 @@ class RunSpec:
             "config": config,
         }
 
-    @property
+    @cached_property
     def digest(self) -> str:
         """16 hexadecimal digits that stand for these settings."""
         return digest_of(self.as_dict())

@@ -8,7 +8,7 @@ import platform
 import time
 import warnings
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field, replace
 from datetime import UTC, datetime
 from pathlib import Path
@@ -19,8 +19,10 @@ import numpy as np
 from kfmaps._arrays import InvalidInput, KfmapsWarning, MissingDependency, NotConverged, refuse
 from kfmaps._threads import one_blas_thread
 from kfmaps.batch.cache import cached_samples, file_digest, load_shape, save_shape
+from kfmaps.batch.jobs import MAX_DEATHS
 from kfmaps.batch.layout import Pair
 from kfmaps.batch.results import CURVE_ERRORS, Result, read_result, result_path, write_result
+from kfmaps.batch.run_spec import RunSpec
 from kfmaps.cli.evaluation import Accuracy, Truth, assess, check_truth, known_truth, read_vertex_lists
 from kfmaps.config import Config
 from kfmaps.fmap.evaluate import coverage, error_curve
@@ -34,10 +36,11 @@ from kfmaps.matching.result import Match
 from kfmaps.shape import Shape, prepare
 
 ATTEMPTS, MAPS = "attempts", "maps"
-MIRRORED_POINTS = 500
+_MIRRORED_POINTS = 500
 """Points at which a map is compared with the mirrored truth."""
-EXPECTED = (InvalidInput, NotConverged, MissingDependency, OSError)
-"""What may go wrong with one shape or pair; of anything else the type is told as well."""
+_EXPECTED = (InvalidInput, NotConverged, MissingDependency, OSError)
+"""What may go wrong with one shape or pair."""
+_DIED = f"{MAX_DEATHS} workers died while it was worked on; there may be too little memory"
 
 
 @dataclass(frozen=True)
@@ -77,16 +80,12 @@ class PairTask:
     folder: str  # the output folder
     source: ShapeTask
     target: ShapeTask
-    settings: str  # digest of the specification, as of Result
+    spec: RunSpec
     inputs: str  # digest of the files, as of Result
-    config: Config
-    seed: int = 0
     truth: tuple[str, str] | None = None  # vertex lists of source and target
     mirrored: str | None = None  # vertex list of the target, left and right swapped
     truth_map: str | None = None  # truth of this pair alone, see ShapeFolder
-    identity: bool = False  # whether vertex i is vertex i
     landmarks: tuple[str, str] | None = None  # vertex lists of source and target
-    landmark_lines: tuple[int, ...] = ()  # lines of the truth, counted from 1, that serve as landmarks
 
     def __str__(self) -> str:
         return str(self.pair)
@@ -94,6 +93,11 @@ class PairTask:
     @property
     def key(self) -> str:
         return self.pair.key
+
+    @property
+    def settings(self) -> str:
+        """Digest of the specification, as of Result."""
+        return self.spec.digest
 
 
 def map_path(folder: Path, key: str) -> Path:
@@ -105,14 +109,11 @@ def begin(folder: Path, key: str) -> int:
     """Note that work on ``key`` begins, in a small file of its own that outlives a kill; which attempt it is."""
     content = json.dumps({"host": platform.node(), "process": os.getpid(), "time": now()})
     (folder / ATTEMPTS).mkdir(parents=True, exist_ok=True)
-    attempt = 1
     while True:
-        try:
-            with open(folder / ATTEMPTS / f"{key}.{attempt}", "x", encoding="utf-8") as file:
-                file.write(content)
+        attempt = attempts(folder, key) + 1
+        with suppress(FileExistsError), open(folder / ATTEMPTS / f"{key}.{attempt}", "x", encoding="utf-8") as file:
+            file.write(content)
             return attempt
-        except FileExistsError:
-            attempt += 1
 
 
 def attempts(folder: Path, key: str) -> int:
@@ -142,7 +143,7 @@ def match_pair(task: PairTask, source: Prepared, target: Prepared) -> Result:
     folder = Path(task.folder)
     path = result_path(folder, task.key)
     there = read_result(path)
-    if there is not None and (there.settings, there.inputs) == (task.settings, task.inputs):
+    if there is not None and there.is_of(task.settings, task.inputs):
         return there
     start = time.perf_counter()
     attempt = begin(folder, task.key)
@@ -193,11 +194,17 @@ def capture_errors() -> Iterator[_Captured]:
         warnings.simplefilter("always", KfmapsWarning)
         try:
             yield caught
-        except EXPECTED as error:
-            caught.reason = str(error) or type(error).__name__
         except Exception as error:
-            caught.reason = f"{type(error).__name__}: {error}"
+            caught.reason = error_text(error)
     caught.notes = [str(w.message) for w in told if issubclass(w.category, KfmapsWarning)]
+
+
+def error_text(error: Exception) -> str:
+    """Return what went wrong with a shape or pair, in one line; of what nobody expects with the type of the error."""
+    if type(error).__name__ == "KilledWorker":
+        return _DIED
+    text = str(error) if isinstance(error, _EXPECTED) else f"{type(error).__name__}: {error}"
+    return " ".join(text.split()) or type(error).__name__
 
 
 def now() -> str:
@@ -217,8 +224,8 @@ def pair_samples(task: PairTask, shapes: tuple[Shape, Shape]) -> tuple[ShapeSamp
     """Return what a search needs to know of both shapes, from the cache."""
     source, target = task.source, task.target
     return (
-        cached_samples(shapes[0], Path(source.entry), task.seed),
-        cached_samples(shapes[1], Path(target.entry), task.seed),
+        cached_samples(shapes[0], Path(source.entry), task.spec.seed),
+        cached_samples(shapes[1], Path(target.entry), task.spec.seed),
     )
 
 
@@ -234,9 +241,11 @@ def _matched(task: PairTask) -> dict[str, Any]:
     truth = true_vertices(task, *sizes)
     landmarks = landmark_pairs(task, truth, *sizes)
     probes = None
-    if task.config.search is not None and landmarks is None:
+    if task.spec.config.search is not None and landmarks is None:
         probes = pair_samples(task, (source, target))
-    found = match(source, target, replace(task.config, threads=1), landmarks=landmarks, rng=task.seed, probes=probes)
+    found = match(
+        source, target, replace(task.spec.config, threads=1), landmarks=landmarks, rng=task.spec.seed, probes=probes
+    )
     path = map_path(Path(task.folder), task.key)
     return recorded(task, found, (source, target), truth, path)
 
@@ -249,7 +258,7 @@ def recorded(
     sizes = len(source.mesh.vertices), len(target.mesh.vertices)
     start = time.perf_counter()
     points = found.target_to_source
-    accuracy = None if truth is None else assess(source.mesh, points, truth, mirrored=MIRRORED_POINTS)
+    accuracy = None if truth is None else assess(source.mesh, points, truth, mirrored=_MIRRORED_POINTS)
     reached = coverage(points, source.mesh)
     seconds = {**found.seconds, "evaluation": time.perf_counter() - start}
     paths = Path(task.source.path), Path(task.target.path)
@@ -308,7 +317,7 @@ def true_vertices(task: PairTask, n_s: int, n_t: int) -> Truth | None:
         When its files cannot be used or do not fit the shapes.
     """
     if task.truth_map is None:
-        return known_truth(task.truth, n_s, n_t, symmetric=task.mirrored, identity=task.identity)
+        return known_truth(task.truth, n_s, n_t, symmetric=task.mirrored, identity=task.spec.identity)
     numbers = read_vertex_numbers(task.truth_map, one_based=True)
     if len(numbers) != n_s:
         raise refuse(task.truth_map, f"{n_s} lines, one per source vertex", f"{len(numbers)}", "check the file")
@@ -323,14 +332,14 @@ def landmark_pairs(task: PairTask, truth: Truth | None, n_s: int, n_t: int) -> n
     InvalidInput
         When lines of a truth are asked for that it does not have, or the landmarks' files cannot be used.
     """
-    if task.landmark_lines:
+    if lines := task.spec.landmark_lines:
         if truth is None:
             raise refuse("--truth-landmarks", "true correspondences", "none for this pair", "leave it out")
-        highest = max(task.landmark_lines)
+        highest = max(lines)
         if highest > len(truth.source):
             got = f"line {highest} of {len(truth.source)}"
             raise refuse("--truth-landmarks", "lines of the truth", got, "choose others")
-        rows = np.array(task.landmark_lines) - 1
+        rows = np.array(lines) - 1
         return np.stack([truth.source[rows], truth.target[rows]], axis=1)
     if task.landmarks is not None:
         return np.stack(read_vertex_lists(task.landmarks, (n_s, n_t)), axis=1)
