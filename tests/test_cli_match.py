@@ -56,13 +56,13 @@ def test_summary_for_people(made: types.SimpleNamespace, tmp_path: Path) -> None
     ran = match(made, "-o", tmp_path / "m.npz", "--set", "kernel.gamma=0.25")
     shown = " ".join(ran.stdout.split())
     for text in (
-        "300 vertices",
-        "Gaussian(gamma=0.25)",
-        "features",
-        "converged in",
-        "energy",
-        "time",
-        "landmarks settle",
+        "matched a.off (300 vertices) → b.off (300 vertices)",
+        "verdict Landmarks. One fit, led by the landmarks",
+        "landmarks 6",
+        "Gaussian(gamma=0.25), ",
+        "features; converged in",
+        "time ",
+        "next kfmaps view ",
     ):
         assert text in shown, text
     assert "m.npz" in "".join(ran.stdout.split())
@@ -114,7 +114,9 @@ def test_odd_mesh_is_warned_about_and_matched(made: types.SimpleNamespace, tmp_p
 
 
 def test_text_output(made: types.SimpleNamespace, tmp_path: Path) -> None:
-    assert match(made, "-o", tmp_path / "m.txt").status == 0
+    ran = match(made, "-o", tmp_path / "m.txt")
+    assert ran.status == 0
+    assert f"m.txt --source {made.source} --target {made.target}".replace(" ", "") in "".join(ran.stdout.split())
     lines = (tmp_path / "m.txt").read_text().split()
     assert [int(word) for word in lines] == made.truth.tolist()
 

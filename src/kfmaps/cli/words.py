@@ -32,23 +32,23 @@ def in_words(seconds: float) -> str:
 
 
 VERDICTS = {
-    "landmarks": "The landmarks settle which way round it goes.",
-    "sure": "Right in all probability: of maps that score like this hardly any is wrong, and no other comes near.",
-    "likely": "More likely right than wrong, but not sure. Look at it before you rely on it.",
-    "ambiguous": "Another map is about as good. Compare the other maps; a few landmarks decide.",
-    "unlikely": "No map that was found fits well. One shape may be a part of the other, or they differ too much.",
-    "unchecked": "One fit, compared with no other: without landmarks it may swap left and right.",
+    "landmarks": "One fit, led by the landmarks and compared with no other map.",
+    "sure": "Very likely right.",
+    "likely": "Probably right. Look at it before you rely on it.",
+    "ambiguous": "Another map fits about as well. Compare the two.",
+    "unlikely": "Probably wrong: no map that was found fits well. The shapes may differ too much, or one is a part.",
+    "unchecked": "One fit, compared with no other map. Without landmarks it may swap left and right.",
 }
-"""What the verdict of a match means, wherever it is told; the confidence is the probability of being right."""
-LOUD = {
-    "likely": "look at it (kfmaps view); landmarks, or more of them, may help (kfmaps landmarks)",
-    "ambiguous": "give landmarks (kfmaps landmarks), or look at the other maps (kfmaps view)",
-    "unlikely": "landmarks, or more of them, may help (kfmaps landmarks)",
+"""What the verdict of a match means, on terminals and pages alike."""
+_WITHOUT_LANDMARKS = {
+    "likely": "If it is wrong, two or three landmarks help.",
+    "ambiguous": "Two or three landmarks decide.",
+    "unlikely": "Two or three landmarks may help.",
 }
-"""Verdicts that a terminal must not bury in a table, and what to do."""
+"""Advice that is given where there were no landmarks."""
 
 
-def verdict_line(kind: str) -> str:
-    """Return a verdict for a terminal, in one line; the name itself where it is not known."""
-    text = VERDICTS.get(kind, kind)
-    return f"{kind.upper()}: {text} What to do: {LOUD[kind]}" if kind in LOUD else text
+def verdict_text(verdict: str, n_landmarks: int) -> str:
+    """Return what a verdict means and what to do, for a match with so many landmarks; empty for an unknown verdict."""
+    advice = "" if n_landmarks else _WITHOUT_LANDMARKS.get(verdict, "")
+    return f"{VERDICTS.get(verdict, '')} {advice}".strip()

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from kfmaps._arrays import check, check_count, refuse
-from kfmaps.cli.words import VERDICTS
+from kfmaps.cli.words import VERDICTS, verdict_text
 from kfmaps.fmap.convert import nearest_reached
 from kfmaps.geometry.mesh import Mesh, unit_area
 from kfmaps.io import check_map, projected_uv
@@ -64,7 +64,7 @@ def verdict_record(summary: Mapping[str, Any]) -> dict[str, Any] | None:
     if not isinstance(kind, str) or kind not in VERDICTS:
         return None
     confidence = summary.get("confidence")
-    return {"kind": kind, "text": VERDICTS[kind], "confidence": confidence}
+    return {"kind": kind, "text": verdict_text(kind, summary.get("landmarks", 0)), "confidence": confidence}
 
 
 def views_record(source: Mesh, target: Mesh, target_to_source: np.ndarray | None = None) -> dict[str, Any]:

@@ -32,6 +32,7 @@ def match_summary(match: Match) -> dict[str, Any]:
     told = {
         "verdict": match.verdict,
         "confidence": match.confidence,
+        "landmarks": len(match.landmarks),
         "scores": list(match.score.scores),
         "size of the map": "{} × {}".format(*match.functional_map.shape) if hasattr(match, "functional_map") else None,
         "started from": match.score.initialization,
