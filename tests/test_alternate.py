@@ -37,9 +37,9 @@ from kfmaps.matching.score import SCORE, Candidate, Quality
 from kfmaps.registration import alternating_registration as alternate
 from kfmaps.registration.alternating_registration import (
     RegistrationPair,
+    _project_positions,
     alternating_registration,
     position_normal_guidance,
-    project_positions,
     registration_pair,
 )
 from kfmaps.registration.deformation_energy import MORE, coarse_copy
@@ -97,7 +97,7 @@ def test_each_fit_is_followed_by_a_refinement_that_it_takes_part_in(creatures, m
     C = to_functional(truth, source.basis.truncate(40), target.basis.truncate(40))
     told = []
     first = alternating_registration(C, both(source, target), None, told.append).functional_map
-    assert told == [(i + 1) / alternate.ROUNDS for i in range(alternate.ROUNDS)]
+    assert told == [(i + 1) / alternate._ROUNDS for i in range(alternate._ROUNDS)]
     monkeypatch.setattr(alternate, "WEIGHT", 0.0)
     without = alternating_registration(C, both(source, target), None).functional_map
     assert error(first, source, target, truth) < error(without, source, target, truth)
@@ -106,7 +106,7 @@ def test_each_fit_is_followed_by_a_refinement_that_it_takes_part_in(creatures, m
 def test_positions_are_spread_smoothly(creatures):
     source = creatures[0]
     on = both(source, source)
-    again = project_positions(on.copies[0].mesh.vertices, on.bases[0], source.basis)
+    again = _project_positions(on.copies[0].mesh.vertices, on.bases[0], source.basis)
     off = np.linalg.norm(again - source.mesh.vertices, axis=1)
     assert off.mean() < 0.01
 
@@ -165,7 +165,7 @@ def test_mending_tells_how_far_it_is(creatures, monkeypatch):
         lambda *what: told.append(what),
     )
     assert {stage for stage, _ in told} == {"bent and matched in turn"}
-    once = [*(0.9 * (i + 1) / alternate.ROUNDS for i in range(alternate.ROUNDS)), 1.0]
+    once = [*(0.9 * (i + 1) / alternate._ROUNDS for i in range(alternate._ROUNDS)), 1.0]
     shares = [done for _, done in told]
     assert shares == pytest.approx([0.0, *once])
 

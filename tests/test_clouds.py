@@ -21,7 +21,7 @@ from kfmaps.geometry.basis import laplace_basis
 from kfmaps.geometry.geodesic_graph import geodesic_graph
 from kfmaps.geometry.geodesics import geodesic_distances
 from kfmaps.geometry.mesh import Mesh, surface_area, unit_area, vertex_areas
-from kfmaps.geometry.point_cloud import NEIGHBOURS, cloud_edges
+from kfmaps.geometry.point_cloud import _NEIGHBOURS, cloud_edges
 from kfmaps.matching.quality import map_quality, sample_for_scoring
 from kfmaps.shape import prepare
 
@@ -97,7 +97,7 @@ def test_neighbours_are_linked_and_the_pieces_joined_by_the_shortest_tree() -> N
     points = clusters()
     a, b, length = cloud_edges(points)
     np.testing.assert_allclose(length, np.linalg.norm(points[a] - points[b], axis=1), rtol=1e-12)
-    near = NEIGHBOURS + 1
+    near = _NEIGHBOURS + 1
     bridges = sorted(length[len(points) * near :])
     piece = np.repeat([0, 1, 2], [300, 60, 60])
     gaps = [[cdist(points[piece == i], points[piece == j]).min() for j in range(3)] for i in range(3)]

@@ -10,7 +10,7 @@ from scipy.spatial.transform import Rotation
 from conftest import blob
 from kfmaps._arrays import InvalidInput
 from kfmaps.datasets import two_poses
-from kfmaps.fmap.confidence import RADIUS, local_confidence
+from kfmaps.fmap.confidence import _RADIUS, local_confidence
 from kfmaps.geometry.geodesic_graph import geodesic_graph
 from kfmaps.geometry.mesh import Mesh, unit_area
 
@@ -33,8 +33,8 @@ def test_it_is_what_its_definition_says() -> None:
     d_s, d_t = (dijkstra(geodesic_graph(unit_area(m), 0)) for m in (source, target))
     expected = np.empty(250)
     for i in range(250):
-        near = [j for j in samples if d_t[i, j] <= RADIUS]
-        change = sum(abs(min(d_s[points[i], points[j]], 2 * RADIUS) - d_t[i, j]) for j in near)
+        near = [j for j in samples if d_t[i, j] <= _RADIUS]
+        change = sum(abs(min(d_s[points[i], points[j]], 2 * _RADIUS) - d_t[i, j]) for j in near)
         whole = sum(d_t[i, j] for j in near)
         expected[i] = max(0.0, 1 - change / whole) if whole > 0 else 0.0
     np.testing.assert_allclose(local_confidence(source, target, points, samples), expected, atol=1e-9)

@@ -36,7 +36,7 @@ from kfmaps.geometry.basis import Basis
 from kfmaps.geometry.geodesics import geodesic_distance_pairs, geodesic_distances
 from kfmaps.geometry.mesh import Mesh, face_areas, surface_area, unit_area, vertex_areas
 from kfmaps.geometry.sampling import SampledBasis, _embedded, spectral_samples
-from kfmaps.kernels.kernels import Gaussian, Laplacian, resolve_kernel, squared_distances
+from kfmaps.kernels.kernels import Gaussian, Laplacian, _squared_distances, resolve_kernel
 from kfmaps.kernels.landmark_selection import farthest_descriptors
 from kfmaps.kernels.nystrom import nystrom
 
@@ -84,7 +84,7 @@ def split(basis: Basis, rows: np.ndarray, parts: int) -> tuple[Basis, np.ndarray
 def test_a_typical_pair_has_the_same_value_in_both_kernels_of_distance(sharpness, rng):
     """Of the median distance the Gaussian makes exp(−s), the Laplacian exp(−√s)."""
     X = rng.normal(size=(31, 5)) * 7
-    squares = np.median(squared_distances(X, X)[np.triu_indices(31, 1)])
+    squares = np.median(_squared_distances(X, X)[np.triu_indices(31, 1)])
     pair = np.array([[0.0] * 5, [np.sqrt(squares)] + [0.0] * 4])
     for kind, exponent in ((Gaussian(), sharpness), (Laplacian(), np.sqrt(sharpness))):
         kernel: Any = resolve_kernel(kind, X, sharpness)
@@ -128,7 +128,7 @@ def test_areas_of_samples_are_those_of_the_vertices_nearest_to_them(small_basis,
     samples = spectral_samples(uneven, 30, 0)
     candidates, embedding = _embedded(uneven)
     np.testing.assert_array_equal(candidates, np.arange(len(uneven.mass)))
-    gaps = squared_distances(embedding, embedding[samples.vertices])
+    gaps = _squared_distances(embedding, embedding[samples.vertices])
     areas = [uneven.mass[gaps.argmin(axis=1) == i].sum() for i in range(30)]
     np.testing.assert_allclose(samples.basis.mass, areas)
 
@@ -246,7 +246,7 @@ def test_descriptors_of_random_vertices_differ_by_two(rng):
         m_s, m_t = rng.random(60), 10 * rng.random(50)
         found = np.concatenate(normalize(D_s, D_t, "variance", m_s, m_t))
         weight = np.concatenate([m_s / m_s.sum(), m_t / m_t.sum()]) / 2
-        assert weight @ squared_distances(found, found) @ weight == pytest.approx(2)
+        assert weight @ _squared_distances(found, found) @ weight == pytest.approx(2)
 
 
 # Terms.
@@ -362,7 +362,7 @@ def test_a_guide_weighs_what_it_says_on_a_shape_of_any_size(area, rng):
     led = descriptor_guidance(*(rng.normal(size=(60, 5)) for _ in range(2)))
     assert led is not None
     both = np.concatenate(led.embedding_columns(12.0, source, target))
-    assert squared_distances(both, both).mean() * area == pytest.approx(12)
+    assert _squared_distances(both, both).mean() * area == pytest.approx(12)
 
 
 def test_cells_compare_points_of_any_length(rng):

@@ -15,10 +15,10 @@ from kfmaps.descriptors.spectral import heat_map, heat_signature
 from kfmaps.fmap.convert import to_points
 from kfmaps.fmap.terms import operator_term, value
 from kfmaps.fmap.zoomout import ZoomOut
-from kfmaps.kernels.kernels import Gaussian, squared_distances
+from kfmaps.kernels.kernels import Gaussian, _squared_distances
 from kfmaps.matching.assemble import assemble, orientation_pair, principal_features
 from kfmaps.matching.features import Descriptors, Features, joint_samples, pair_descriptors
-from kfmaps.matching.landmark_evidence import TIMES, heat_features
+from kfmaps.matching.landmark_evidence import _HEAT_TIMES, heat_features
 from kfmaps.matching.quality import map_quality, sample_for_scoring
 from kfmaps.matching.score import Candidate, probability
 from kfmaps.matching.search import search_map
@@ -74,7 +74,7 @@ def test_shot_counts_as_its_weight_says_in_squared_distances(shape, other, weigh
     told = np.mean(np.ptp(both[:, 12:], axis=0) > 0)
     assert told > 0.2
     for columns, expected in ((slice(None, 12), 2), (slice(12, None), 2 * weight * told)):
-        assert area @ squared_distances(both[:, columns], both[:, columns]) @ area == pytest.approx(expected, rel=1e-6)
+        assert area @ _squared_distances(both[:, columns], both[:, columns]) @ area == pytest.approx(expected, rel=1e-6)
 
 
 @pytest.mark.parametrize("sampling", ["descriptor", "geodesic", "uniform"])
@@ -188,8 +188,8 @@ def test_heat_around_a_landmark_is_that_of_its_time(shape):
     """Between two landmarks: what is left after twice the time is the heat kernel's, normalised."""
     marks = np.array([3, 90])
     found = heat_features(shape.basis, shape.basis, marks)
-    heat = heat_map(shape.basis, marks, np.array(TIMES)).reshape(500, 2, len(TIMES))
-    for i, time in enumerate(TIMES):
+    heat = heat_map(shape.basis, marks, np.array(_HEAT_TIMES)).reshape(500, 2, len(_HEAT_TIMES))
+    for i, time in enumerate(_HEAT_TIMES):
         own = heat_signature(shape.basis, np.array([time]))[:, 0]
         np.testing.assert_allclose(found[0, :, i], heat[:, 0, i] / np.sqrt(own[3] * own), rtol=1e-8, atol=1e-12)
 

@@ -10,7 +10,7 @@ import pytest
 
 from conftest import random_basis
 from kfmaps._arrays import InvalidInput, inner, to_numpy
-from kfmaps.fmap.constraints import minimize_orthogonal, nearest_orthogonal, tangent
+from kfmaps.fmap.constraints import _tangent, minimize_orthogonal, nearest_orthogonal
 from kfmaps.fmap.coupled import couple_bases
 from kfmaps.fmap.energy import Energy, descriptor_term, laplacian_term, operator_term, value
 from kfmaps.fmap.losses import LOSSES, Loss, RobustData, sparse_penalty
@@ -18,12 +18,12 @@ from kfmaps.fmap.minimize import (
     BidirectionalWeights,
     MinimizeOptions,
     Objective,
+    _solve_quadratic,
     fit_bidirectional,
     minimize,
-    solve_quadratic,
 )
 from kfmaps.fmap.multiplication_operators import multiplication_operators, unpack_operators
-from kfmaps.fmap.optimal_transport import costs, transport, transport_penalty
+from kfmaps.fmap.optimal_transport import _costs, _transport, transport_penalty
 from kfmaps.fmap.solvers import CG, Direct, solve
 from kfmaps.fmap.terms import inverse_term
 from kfmaps.fmap.transfer import transfer_functions
@@ -139,8 +139,8 @@ def test_orthogonal_agrees_with_procrustes(case):
 def test_tangent_is_a_projection(case):
     *_, E = case
     C, G = nearest_orthogonal(E.rhs()), E.apply(E.rhs()) + 1.0
-    once = tangent(C, G)
-    np.testing.assert_allclose(to_numpy(tangent(C, once)), to_numpy(once), atol=1e-9)
+    once = _tangent(C, G)
+    np.testing.assert_allclose(to_numpy(_tangent(C, once)), to_numpy(once), atol=1e-9)
     assert inner(G - once, once) == pytest.approx(0.0, abs=1e-8 * inner(G, G))
     step = 1e-6
     assert is_orthonormal(C)
@@ -238,7 +238,7 @@ def test_stationary_without_constraint(numbers):
     objective = Objective(E, {"sparsity": (0.3, sparse_penalty(E.rhs(), 0.1)), "data": (1.0, robust(numbers, "huber"))})
     C = minimize(objective, MinimizeOptions(CG(rtol=1e-10), max_outer_iter=20), 0 * E.rhs()).value
     for _ in range(100):
-        C = solve_quadratic(Objective(objective.majorizer(C)), MinimizeOptions(CG(rtol=1e-10)), C).value
+        C = _solve_quadratic(Objective(objective.majorizer(C)), MinimizeOptions(CG(rtol=1e-10)), C).value
     h = 1e-5
     for D in (E.rhs() / inner(E.rhs(), E.rhs()) ** 0.5, 0 * C + 1.0):
         slope = (objective.value(C + h * D) - objective.value(C - h * D)) / (2 * h)
@@ -386,12 +386,12 @@ def test_transport_is_what_it_minimises(asarray, blur):
         sides = divergence(p.sum(axis=1), a) + divergence(p.sum(axis=0), b)
         return (p * c).sum() + blur * divergence(p, a[:, None] * b) + 10 * blur * sides
 
-    found, told = transport(asarray(c), asarray(a), asarray(b), blur)
+    found, told = _transport(asarray(c), asarray(a), asarray(b), blur)
     plan = to_numpy(found)
     assert told == pytest.approx(whole(plan), rel=1e-6)
     for _ in range(5):
         assert whole(plan * np.exp(0.05 * rng.normal(size=plan.shape))) > told
-    turned, same = transport(asarray(c.T), asarray(b), asarray(a), blur)
+    turned, same = _transport(asarray(c.T), asarray(b), asarray(a), blur)
     np.testing.assert_allclose(to_numpy(turned).T, plan, atol=1e-5 * plan.max())
     assert same == pytest.approx(told, rel=1e-6)
 
@@ -403,7 +403,7 @@ def test_spatial_of_equal_shapes_is_nothing_but_blur(numbers):
     for blur in (1e-1, 1e-2, 1e-3):
         few = source.functions, source.functions
         mass = source.mass / source.mass.sum()
-        plan, value = transport(costs(np.eye(source.functions.shape[1]), *few), mass, mass, blur)
+        plan, value = _transport(_costs(np.eye(source.functions.shape[1]), *few), mass, mass, blur)
         values.append(value)
         assert (plan.argmax(axis=1) == np.arange(len(mass))).mean() > 0.9
     assert values[0] > 3 * values[1] > 9 * values[2] > 0

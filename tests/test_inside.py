@@ -17,9 +17,9 @@ from kfmaps.fmap.confidence import local_confidence
 from kfmaps.fmap.evaluate import coverage, geodesic_errors
 from kfmaps.fmap.zoomout import ZoomOut
 from kfmaps.geometry.basis import laplace_basis
-from kfmaps.geometry.clean import SPECK, clean_mesh, weld_vertices
+from kfmaps.geometry.clean import _MAX_SPECK_AREA, clean_mesh, weld_vertices
 from kfmaps.geometry.geodesic_graph import geodesic_graph
-from kfmaps.geometry.geodesics import METHODS, geodesic_distance_pairs, geodesic_distances
+from kfmaps.geometry.geodesics import _METHODS, geodesic_distance_pairs, geodesic_distances
 from kfmaps.geometry.mesh import Mesh, surface_area
 from kfmaps.geometry.topology import topology
 from kfmaps.matching.match import match
@@ -116,7 +116,7 @@ def test_cut_surfaces_are_the_surface_that_they_look_like(cut) -> None:
     np.testing.assert_allclose(np.bincount(was, other.mass), one.mass, rtol=1e-9)
     np.testing.assert_allclose(other.project(other.functions), np.eye(12), atol=1e-9)
     np.testing.assert_allclose(shot(pieces), shot(mesh)[was], atol=1e-6)
-    for method in METHODS:
+    for method in _METHODS:
         np.testing.assert_allclose(
             geodesic_distances(pieces, [3, 70], method),
             geodesic_distances(mesh, was[[3, 70]], method)[:, was],
@@ -213,7 +213,7 @@ def test_litter_is_not_trusted_and_covers_nothing() -> None:
 def test_specks_are_told_by_their_part_of_the_area() -> None:
     mesh = blob(300)
     for factor, specks in ((0.9, 1), (1.1, 0)):
-        size = np.sqrt(factor * SPECK * surface_area(mesh) / surface_area(TETRAHEDRON))
+        size = np.sqrt(factor * _MAX_SPECK_AREA * surface_area(mesh) / surface_area(TETRAHEDRON))
         part = clean_mesh(joined(placed(TETRAHEDRON, size), mesh), specks=True)
         assert (part.specks, part.unreferenced.sum()) == (specks, 4 * specks)
     leaves = joined(*(placed(TETRAHEDRON, 1.0, (3.0 * i, 0, 0)) for i in range(400)))

@@ -6,7 +6,7 @@ import pytest
 from kfmaps import datasets
 from kfmaps.geometry.closest_points import closest_among, closest_points
 from kfmaps.geometry.mesh import Mesh, unit_area, vertex_normals
-from kfmaps.registration.contact_projection import MIN_REST_DISTANCE, project_with_contact
+from kfmaps.registration.contact_projection import _REST_WEIGHT, project_with_contact
 from kfmaps.registration.deformable import deformable_mesh
 from kfmaps.registration.nonrigid_icp import NonRigid
 
@@ -65,7 +65,7 @@ def test_the_map_tells_parts_apart_that_lie_on_each_other(mine: int) -> None:
     assert (found.faces // len(one.faces) == mine).all()
     np.testing.assert_allclose(found.distances, 0.0015)
     # A part that the map has elsewhere altogether is not fetched from afar: what the fit has found back stays so.
-    far = x + np.repeat([[0, 0, 0], [0, 0, 3 * 1.1 * MIN_REST_DISTANCE]], n, axis=0)
+    far = x + np.repeat([[0, 0, 0], [0, 0, 3 * 1.1 * _REST_WEIGHT]], n, axis=0)
     there = project_with_contact(np.full(n, n), body, far, target, normals)
     assert (there.faces < len(one.faces)).all()
 

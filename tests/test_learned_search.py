@@ -13,7 +13,7 @@ from kfmaps.kernels.kernels import Gaussian
 from kfmaps.kernels.transformed import Metric, n_kernel_landmarks
 from kfmaps.matching.features import pair_descriptors
 from kfmaps.matching.fit import fit
-from kfmaps.matching.learned_kernel import by_metric, drop_learned, learned_candidates, seen
+from kfmaps.matching.learned_kernel import _in_metric, _transformed_descriptors, drop_learned, learned_candidates
 from kfmaps.matching.match import match
 from kfmaps.matching.ranking import ProxyCache, merge_alternatives
 from kfmaps.matching.sample_pair import two_level_samples
@@ -82,9 +82,9 @@ def test_candidates_of_the_metric(creature):
     source, target, truth = creature
     config = taught(discriminant(creature))
     on = two_level_samples(source, target, (scoring_samples(source), scoring_samples(target)), NONE)
-    rows = seen(source, target, config, on.whole.source, on.whole.target)
+    rows = _transformed_descriptors(source, target, config, on.whole.source, on.whole.target)
     assert rows is not None
-    ground = by_metric(on.whole, *rows)
+    ground = _in_metric(on.whole, *rows)
     assert ground.shot is not None
     assert on.whole.shot is not None
     assert ground.shot.shape == on.whole.shot.shape

@@ -29,7 +29,7 @@ from kfmaps.matching.search import without_landmarks
 from kfmaps.registration import alternating_registration as alternate
 from kfmaps.registration import registered_shot as looks
 from kfmaps.registration.deformation_energy import coarse_copy, facing_pair
-from kfmaps.registration.registered_shot import registered_shot_error, shot_difference, surface_samples
+from kfmaps.registration.registered_shot import _shot_difference, _surface_samples, registered_shot_error
 
 GUARDS = (
     "kfmaps.matching",
@@ -64,28 +64,28 @@ def functional(points, source, target, k=40):
 def test_differences_are_squared_and_from_what_lies_nearest(creatures, monkeypatch):
     mesh = creatures[0].mesh
     monkeypatch.setattr(looks, "shot", lambda _mesh, _radius, at, **_how: np.stack([at, at % 3], axis=1).astype(float))
-    here = surface_samples(mesh)
-    at = np.arange(0, len(mesh.vertices), looks.STEP)
+    here = _surface_samples(mesh)
+    at = np.arange(0, len(mesh.vertices), looks._SAMPLE_STEP)
     np.testing.assert_array_equal(here.descriptors[:, 0], at)
-    assert shot_difference(here, mesh) == 0
+    assert _shot_difference(here, mesh) == 0
     moved = replace(here, descriptors=here.descriptors + np.array([3.0, 4.0]))
-    assert shot_difference(moved, mesh) == pytest.approx(25.0)
+    assert _shot_difference(moved, mesh) == pytest.approx(25.0)
 
 
 def test_a_surface_looks_like_itself_wherever_its_vertices_are(creatures):
     mesh = creatures[0].mesh
     order = np.random.default_rng(0).permutation(len(mesh.vertices))
     again = Mesh(mesh.vertices[order], np.argsort(order)[mesh.faces])
-    assert shot_difference(surface_samples(mesh), again) == pytest.approx(0, abs=1e-6)
-    assert shot_difference(surface_samples(mesh), Mesh(mesh.vertices * [1.0, 1.0, -1.0], mesh.faces[:, ::-1])) > 0.1
+    assert _shot_difference(_surface_samples(mesh), again) == pytest.approx(0, abs=1e-6)
+    assert _shot_difference(_surface_samples(mesh), Mesh(mesh.vertices * [1.0, 1.0, -1.0], mesh.faces[:, ::-1])) > 0.1
 
 
 def test_the_sides_of_a_thin_part_are_not_taken_for_each_other(creatures):
     """Where two sheets lie close, it is the normals that tell which point lies on which."""
     mesh = creatures[0].mesh
     inside_out = Mesh(mesh.vertices, mesh.faces[:, ::-1])
-    apart = np.linalg.norm(surface_samples(mesh).places - surface_samples(inside_out).places, axis=1)
-    np.testing.assert_allclose(apart, 2 * alternate.NORMALS, rtol=1e-6)
+    apart = np.linalg.norm(_surface_samples(mesh).places - _surface_samples(inside_out).places, axis=1)
+    np.testing.assert_allclose(apart, 2 * alternate._NORMAL_WEIGHT, rtol=1e-6)
 
 
 def test_what_is_bent_as_a_wrong_map_says_looks_otherwise(creatures, at_rest):

@@ -38,7 +38,7 @@ from kfmaps.registration.alternating_registration import (
     swap_pair,
 )
 from kfmaps.registration.deformation_energy import coarse_copy
-from kfmaps.registration.nonrigid_icp import FIRMLY, HOLD, LOOSELY, SLOPPY, NonRigid, mesh_pair
+from kfmaps.registration.nonrigid_icp import _LANDMARK_PULL, _SCALED_LANDMARK_PULL, NonRigid, mesh_pair
 from kfmaps.shape import mirror_image
 
 GUARDS = (
@@ -260,9 +260,9 @@ def test_what_may_be_stretched_follows_landmarks_that_are_far_off(monkeypatch) -
     assert 1 - ways[100.0, near] < 0.7 * (1 - ways[0.0, near])
     assert ways[100.0, far] > 0.9
     assert ways[0.0, far] < 0.5
-    monkeypatch.setattr(nonrigid, "FIRMLY", HOLD)
+    monkeypatch.setattr(nonrigid, "_SCALED_LANDMARK_PULL[0]", _LANDMARK_PULL[0])
     assert 1 - followed(near, loose) > 1.3 * (1 - ways[100.0, near])
-    monkeypatch.setattr(nonrigid, "LOOSELY", SLOPPY)
+    monkeypatch.setattr(nonrigid, "_SCALED_LANDMARK_PULL[1]", _LANDMARK_PULL[1])
     assert followed(far, loose) < 0.5
 
 
@@ -273,11 +273,11 @@ def test_a_landmark_pulls_by_its_weight_and_less_from_afar() -> None:
     at = np.array([[3, 3], [200, 200]])
     discs = nonrigid._discs(pair, at)
     np.testing.assert_allclose(discs.sum(axis=0), 1.0)
-    for fading in (SLOPPY, LOOSELY):
+    for fading in (_LANDMARK_PULL[1], _SCALED_LANDMARK_PULL[1]):
         for off, left in ((0.0, 1.0), (fading, 0.25), (3 * fading, 0.01)):
             x = body.vertices + np.array([0.0, 0.0, off])
-            term = nonrigid._marked(pair, at, discs, x, FIRMLY, fading)
-            np.testing.assert_allclose(term.weights.sum(), 2 * FIRMLY * left)
+            term = nonrigid._marked(pair, at, discs, x, _SCALED_LANDMARK_PULL[0], fading)
+            np.testing.assert_allclose(term.weights.sum(), 2 * _SCALED_LANDMARK_PULL[0] * left)
             np.testing.assert_allclose(term.places - x, np.broadcast_to((0, 0, -off), x.shape), atol=1e-9)
 
 

@@ -7,7 +7,7 @@ from scipy.sparse.csgraph import dijkstra
 from conftest import blob
 from kfmaps.geometry import geodesics
 from kfmaps.geometry.geodesic_graph import geodesic_graph
-from kfmaps.geometry.geodesics import FULL_SEARCHES, NEARBY, farthest_geodesic, pairwise_geodesics
+from kfmaps.geometry.geodesics import _FULL_SEARCHES, _NEARBY, farthest_geodesic, pairwise_geodesics
 from kfmaps.geometry.mesh import Mesh, unit_area
 
 GUARDS = ("kfmaps.geometry.geodesics",)
@@ -27,8 +27,8 @@ def exact(graph, points):
 def test_near_points_are_exact_and_far_ones_hardly_farther(spread):
     graph = geodesic_graph(MESH, 1)
     true, found = exact(graph, spread), pairwise_geodesics(graph, spread)
-    known = true <= NEARBY
-    known[:FULL_SEARCHES] = known[:, :FULL_SEARCHES] = True
+    known = true <= _NEARBY
+    known[:_FULL_SEARCHES] = known[:, :_FULL_SEARCHES] = True
     np.testing.assert_allclose(found[known], true[known], rtol=1e-12)
     assert (found >= (1 - 1e-6) * true).all()  # paths over others are added in single precision
     over = (found - true)[~known] / true[~known]
@@ -48,7 +48,7 @@ def test_components_are_infinitely_far_and_none_is_forgotten(monkeypatch):
     n = len(MESH.vertices)
     both = Mesh(np.vstack([MESH.vertices, MESH.vertices + 5.0]), np.vstack([MESH.faces, MESH.faces + n]))
     points = np.concatenate([np.arange(0, n, 50), n + np.arange(0, n, 50)])
-    monkeypatch.setattr(geodesics, "FULL_SEARCHES", 10)
+    monkeypatch.setattr(geodesics, "_FULL_SEARCHES", 10)
     graph = geodesic_graph(both, 1)
     true, found = exact(graph, points), pairwise_geodesics(graph, points)
     np.testing.assert_array_equal(np.isinf(found), np.isinf(true))

@@ -16,7 +16,7 @@ from kfmaps.geometry.mesh import Mesh, boundary_vertices, surface_area
 from kfmaps.io import load_map
 from kfmaps.matching.match import match
 from kfmaps.matching.partial.detect import boundary_opening, detect_part
-from kfmaps.matching.partial.relaxation_labeling import SLACK, consistency, distance_bounds
+from kfmaps.matching.partial.relaxation_labeling import _SLACK, consistency, distance_bounds
 from kfmaps.matching.partial.samples import part_samples
 from kfmaps.matching.partial.scale_search import SCALES
 from kfmaps.matching.score import SCORE, probability, verdict
@@ -97,15 +97,15 @@ def test_only_edges_of_one_face_are_a_boundary(pair):
 
 def test_distances_that_may_pass_a_cut_may_be_shorter_on_the_whole():
     far, low = np.array([[0.5]]), np.array([[0.2]])
-    fits = [float(consistency(far, low, np.array([[d]]), SLACK)[0, 0]) for d in (0.5, 0.49, 0.47, 0.1, 0.51, 0.8)]
+    fits = [float(consistency(far, low, np.array([[d]]), _SLACK)[0, 0]) for d in (0.5, 0.49, 0.47, 0.1, 0.51, 0.8)]
     assert fits[0] == 1.0
     assert fits[0] > fits[1] > fits[2] > fits[3] == 0.0
     assert fits[4] < 1.0
     assert fits[5] == 0.0
     # Far from every boundary a shorter way counts against a pair in full, near one it hardly does.
-    inner = float(consistency(far, far, np.array([[0.47]]), SLACK)[0, 0])
+    inner = float(consistency(far, far, np.array([[0.47]]), _SLACK)[0, 0])
     assert inner < fits[2]
-    assert consistency(np.array([[np.inf]]), np.array([[np.inf]]), np.array([[1.0]]), SLACK)[0, 0] == 0.0
+    assert consistency(np.array([[np.inf]]), np.array([[np.inf]]), np.array([[1.0]]), _SLACK)[0, 0] == 0.0
 
 
 def test_a_gauge_grows_with_the_scale_and_knows_the_way_round_by_the_edge(pair):

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from kfmaps.matching.partial.beam_search import ANCHORS, MIN_DISTANCE, beam_search, select_anchors, select_different
+from kfmaps.matching.partial.beam_search import _ANCHORS, _MIN_DISTANCE, _select_anchors, _select_different, beam_search
 from kfmaps.matching.partial.relaxation_labeling import distance_bounds
 
 GUARDS = ("kfmaps.matching.partial.beam_search", "kfmaps.matching.partial.relaxation_labeling")
@@ -23,19 +23,19 @@ def plane():
 def test_anchors_are_far_from_each_other_and_from_the_edge(plane):
     _, own, between, edge = plane
     part = distance_bounds(between[np.ix_(own, own)], edge, 1.0)
-    chosen = select_anchors(part, edge, ANCHORS)
-    assert len(set(chosen.tolist())) == ANCHORS
+    chosen = _select_anchors(part, edge, _ANCHORS)
+    assert len(set(chosen.tolist())) == _ANCHORS
     rng = np.random.default_rng(1)
     least = [
-        float((part.upper[np.ix_(some, some)] + 9 * np.eye(ANCHORS)).min())
-        for some in (rng.permutation(len(own))[:ANCHORS] for _ in range(50))
+        float((part.upper[np.ix_(some, some)] + 9 * np.eye(_ANCHORS)).min())
+        for some in (rng.permutation(len(own))[:_ANCHORS] for _ in range(50))
     ]
-    assert float((part.upper[np.ix_(chosen, chosen)] + 9 * np.eye(ANCHORS)).min()) > max(least)
-    plain = select_anchors(part, np.full(len(own), np.inf), ANCHORS)
+    assert float((part.upper[np.ix_(chosen, chosen)] + 9 * np.eye(_ANCHORS)).min()) > max(least)
+    plain = _select_anchors(part, np.full(len(own), np.inf), _ANCHORS)
     assert edge[chosen].mean() > edge[plain].mean()
     assert edge[chosen].min() > 2 * edge[plain].min()
     assert chosen[0] == edge.argmax()
-    assert select_anchors(part, edge, ANCHORS, 3)[:3].tolist() == [0, 1, 2]
+    assert _select_anchors(part, edge, _ANCHORS, 3)[:3].tolist() == [0, 1, 2]
 
 
 def test_distances_alone_place_a_part(plane):
@@ -46,7 +46,7 @@ def test_distances_alone_place_a_part(plane):
     found = beam_search(part, edge, between, alike)
     first = found[0]
     anchors = np.flatnonzero(first.trust)
-    assert len(anchors) == ANCHORS
+    assert len(anchors) == _ANCHORS
     assert between[first.match[anchors], own[anchors]].max() < 0.1
     assert first.support > 0.9
     assert [one.support for one in found] == sorted((one.support for one in found), reverse=True)
@@ -92,7 +92,7 @@ def test_a_landmark_stays_where_it_is(plane):
 def test_placings_that_hardly_differ_are_left_out():
     between = np.abs(np.linspace(0, 1, 11)[:, None] - np.linspace(0, 1, 11)[None])
     states = np.array([[0, 5, 9], [0, 5, 10], [3, 5, 9], [3, 8, 9]])
-    assert MIN_DISTANCE > 0.1
-    assert select_different(states, between, 9).tolist() == [0, 2, 3]
-    assert select_different(states, between, 2).tolist() == [0, 2]
-    assert select_different(states, between, 9, half=True).tolist() == [0, 3]
+    assert _MIN_DISTANCE > 0.1
+    assert _select_different(states, between, 9).tolist() == [0, 2, 3]
+    assert _select_different(states, between, 2).tolist() == [0, 2]
+    assert _select_different(states, between, 9, half=True).tolist() == [0, 3]

@@ -6,11 +6,11 @@ import pytest
 from kfmaps.geometry.closest_points import closest_points
 from kfmaps.geometry.mesh import Mesh, boundary_vertices, surface_area, unit_area, vertex_normals
 from kfmaps.matching.partial.registration import (
-    BEYOND,
-    OVERLAP_WIDTH,
+    _BEYOND,
+    _OVERLAP_WIDTH,
+    _is_inside,
+    _measure_registration,
     find_overlap,
-    is_inside,
-    measure_registration,
     overlap_probability,
     register_part,
     scale_mesh,
@@ -98,12 +98,12 @@ def test_edges_tell_the_scale(shapes, laid, factor):
     """Where a part lies as it should, but was taken for smaller than it is, its edges are longer by as much."""
     _, half, _ = shapes
     _, on, part, size = laid
-    found = measure_registration(half.vertices, deformable_mesh(scale_mesh(part, factor * size)), factor * size, on)
+    found = _measure_registration(half.vertices, deformable_mesh(scale_mesh(part, factor * size)), factor * size, on)
     assert found.edge_ratio == pytest.approx(1 / factor)
     assert found.gap < 1e-9
     # Of a uniform scaling each edge gains the square of what it became longer by: the same per area at any size.
     assert found.deformation_energy == pytest.approx(1.5 * (1 / factor - 1) ** 2, rel=0.6)
-    shifted = measure_registration(
+    shifted = _measure_registration(
         half.vertices + 0.02 * on.surface.normals[: len(half.vertices)], deformable_mesh(half), size, on
     )
     assert shifted.gap == pytest.approx(0.02, rel=0.05)
@@ -124,7 +124,7 @@ def test_what_lies_beyond_the_whole_is_let_alone(shapes):
     assert np.linalg.norm(found.vertices - whole.vertices / size, axis=1)[own].mean() < 0.04
     beyond = np.setdiff1d(np.arange(len(whole.vertices)), own)
     assert found.inside[own].mean() > 0.9
-    far = np.linalg.norm(found.vertices - found.places.points, axis=1)[beyond] > BEYOND
+    far = np.linalg.norm(found.vertices - found.places.points, axis=1)[beyond] > _BEYOND
     assert far.mean() > 0.9
     assert not found.inside[beyond[far]].any()
     assert found.gap < 5e-3
@@ -140,8 +140,8 @@ def test_only_the_boundary_has_something_beyond_it(shapes):
     middle = whole.vertices[len(whole.vertices) // 2] + np.array([0.0, 0.0, 0.2])
     edge = whole.vertices[whole.vertices[:, 0].argmax()]
     corner = whole.vertices[whole.faces[0]].mean(axis=0) + np.array([0.0, 0.0, 0.03])
-    asked = np.array([middle, corner, edge + 5 * BEYOND * X, edge + 0.2 * BEYOND * X])
-    assert is_inside(closest_points(asked, whole.vertices, whole.faces), on).tolist() == [True, True, False, True]
+    asked = np.array([middle, corner, edge + 5 * _BEYOND * X, edge + 0.2 * _BEYOND * X])
+    assert _is_inside(closest_points(asked, whole.vertices, whole.faces), on).tolist() == [True, True, False, True]
 
 
 def test_half_is_common_to_a_whole_and_its_half():
@@ -152,19 +152,19 @@ def test_half_is_common_to_a_whole_and_its_half():
     half = Mesh(whole.vertices[own], whole.faces[(whole.faces < len(own)).all(axis=1)])
     common, found = overlap_probability(half, boundary_vertices(half), whole)
     np.testing.assert_allclose(common[own], 1.0)
-    assert 0.02 < sides[1] - sides[0] < 1.5 * OVERLAP_WIDTH
+    assert 0.02 < sides[1] - sides[0] < 1.5 * _OVERLAP_WIDTH
     assert common[len(own) :].max() < 0.2
     np.testing.assert_allclose(found.points[own], whole.vertices[own], atol=1e-9)
 
 
 def test_probability_falls_with_the_distance(shapes):
-    """A half at OVERLAP_WIDTH, a sixteenth at twice that; and a quarter of it on the side that looks away."""
+    """A half at _OVERLAP_WIDTH, a sixteenth at twice that; and a quarter of it on the side that looks away."""
     whole, _, _ = shapes
     flat = Mesh(whole.vertices * [1, 1, 0], whole.faces)
     inner = ~boundary_vertices(flat)
     for times, expected in ((0.0, 1.0), (1.0, 0.5), (2.0, 0.0625)):
         common = overlap_probability(
-            Mesh(flat.vertices + np.array([0, 0, times * OVERLAP_WIDTH]), flat.faces), boundary_vertices(flat), flat
+            Mesh(flat.vertices + np.array([0, 0, times * _OVERLAP_WIDTH]), flat.faces), boundary_vertices(flat), flat
         )[0]
         np.testing.assert_allclose(common[inner], expected, atol=1e-6)
     turned = overlap_probability(Mesh(flat.vertices, flat.faces[:, ::-1]), boundary_vertices(flat), flat)[0]

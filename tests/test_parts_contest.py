@@ -13,12 +13,12 @@ from kfmaps.fmap.precise import PointMap, point_positions
 from kfmaps.geometry.mesh import surface_area, unit_area
 from kfmaps.matching.partial import candidates as contest
 from kfmaps.matching.partial.candidates import (
-    ROUNDS,
+    _ROUNDS,
+    _differ,
+    _refine_candidate,
     compare_alternatives,
-    differ,
     make_candidate,
     margin,
-    refine_candidate,
 )
 from kfmaps.matching.partial.relaxation_labeling import Assignment
 from kfmaps.matching.partial.samples import PartPair, part_samples
@@ -69,7 +69,7 @@ def test_the_rival_of_a_lengthwise_half_is_looked_for(half, true):
     assert len(true) > 1
     assert error(half, true[0]) < 0.04
     assert all(error(half, one) > 0.15 for one in true[1:])
-    assert all(differ(true[0], one) for one in true[1:])
+    assert all(_differ(true[0], one) for one in true[1:])
     assert margin(true) == pytest.approx(true[0].score - true[1].score)
 
 
@@ -97,30 +97,30 @@ def test_rivals_are_polished_before_they_are_compared(monkeypatch):
     found: Any = [stub(9.9, 0.01), stub(10.0, 0.0, 0.05), stub(9.0, 1.0, 0.6), stub(8.0, 2.0), stub(7.0, 3.0, 9.0)]
     last: Any = compare_alternatives(found, EMPTY)
     assert [one.points[0, 0] for one in last] == [1.0, 0.0, 2.0, 3.0]
-    assert [one.times for one in last] == [ROUNDS[1], ROUNDS[0], ROUNDS[0], 0]
-    assert last[0].score == pytest.approx(9.0 + 0.6 * ROUNDS[1])
+    assert [one.times for one in last] == [_ROUNDS[1], _ROUNDS[0], _ROUNDS[0], 0]
+    assert last[0].score == pytest.approx(9.0 + 0.6 * _ROUNDS[1])
     last = compare_alternatives(
         [stub(10.0, 0.0), stub(10.01 - SCORE.part.hopeless_margin, 1.0), stub(9.99 - SCORE.part.hopeless_margin, 2.0)],
         EMPTY,
     )
-    assert [one.times for one in last] == [ROUNDS[0], ROUNDS[0], 0]
+    assert [one.times for one in last] == [_ROUNDS[0], _ROUNDS[0], 0]
 
 
 def test_polishing_ends_where_nothing_is_gained(monkeypatch):
     monkeypatch.setattr(contest, "_place_again", again)
     for gain, times in (
-        (0.99 * SCORE.part.min_gain, ROUNDS[0]),
-        (1.01 * SCORE.part.min_gain, ROUNDS[1]),
-        (-1.0, ROUNDS[0]),
+        (0.99 * SCORE.part.min_gain, _ROUNDS[0]),
+        (1.01 * SCORE.part.min_gain, _ROUNDS[1]),
+        (-1.0, _ROUNDS[0]),
     ):
-        last: Any = refine_candidate(stub(1.0, 0.0, gain), EMPTY)
+        last: Any = _refine_candidate(stub(1.0, 0.0, gain), EMPTY)
         assert last.times == times
 
 
 def test_only_candidates_that_differ_are_rivals():
     apart, most = SCORE.part.distinct_distance / np.sqrt(3), SCORE.part.max_margin
     here, near, elsewhere = stub(7.0, 0.0), stub(6.9, 0.01), stub(6.6, 1.0)
-    assert not differ(here, stub(0.0, 0.99 * apart))
-    assert differ(here, stub(0.0, 1.01 * apart))
+    assert not _differ(here, stub(0.0, 0.99 * apart))
+    assert _differ(here, stub(0.0, 1.01 * apart))
     assert margin([here]) == margin([here, near]) == margin([here, stub(2.0, 1.0)]) == most
     assert margin([here, near, elsewhere, stub(2.0, 1.0)]) == pytest.approx(0.4)

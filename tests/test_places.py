@@ -11,7 +11,7 @@ from kfmaps._stage_timer import StageTimer
 from kfmaps.fmap.precise import PointMap, point_positions, vertex_point_map
 from kfmaps.geometry.arap import build_arap, nearest_rotations, rotations
 from kfmaps.geometry.mesh import Mesh, unit_area, vertex_areas
-from kfmaps.registration.accept import GAP, MAX_WORSENED_AREA, RegisteredMap, register_map
+from kfmaps.registration.accept import _MAX_GAP, _MAX_WORSENED_AREA, RegisteredMap, register_map
 from kfmaps.registration.deformable import deformable_mesh
 from kfmaps.registration.nonrigid_icp import NonRigid, Registration, _evened, mesh_pair
 
@@ -70,7 +70,7 @@ def test_a_fit_that_harms_a_part_is_made_again_with_the_map_held_there(pair: dat
     assert last.fit is not None
     assert last.fit.accepted
     assert last.fit.pinned
-    assert last.fit.worsened <= MAX_WORSENED_AREA
+    assert last.fit.worsened <= _MAX_WORSENED_AREA
     np.testing.assert_array_equal(last.target_to_source, pair.truth)
 
 
@@ -78,7 +78,7 @@ def test_a_fit_that_harms_all_the_same_is_left(pair: datasets.Pair) -> None:
     last = end(pair, Pretended(pair, spot_of(pair, 0.05), stubborn=True))
     assert last.fit is not None
     assert last.fit.reason == "harm"
-    assert last.fit.worsened > MAX_WORSENED_AREA
+    assert last.fit.worsened > _MAX_WORSENED_AREA
     assert last.fit.loss == pytest.approx(last.fit.before - (last.fit.after or 0))
     assert last.precise_map is None
 
@@ -92,7 +92,7 @@ def test_a_fit_that_heals_more_than_it_harms_is_kept(pair: datasets.Pair) -> Non
     last = end(pair, finish, wrong)
     assert last.fit is not None
     assert last.fit.accepted
-    assert last.fit.improved > last.fit.worsened > MAX_WORSENED_AREA
+    assert last.fit.improved > last.fit.worsened > _MAX_WORSENED_AREA
     assert len(finish.held) == 2
     # A fit that lets sizes change changes distances: what it has changed is not held if it is kept.
     finish.held, finish.local_scaling = [], 0.01
@@ -107,7 +107,7 @@ def test_a_fit_that_heals_more_than_it_harms_is_kept(pair: datasets.Pair) -> Non
 
 
 def test_a_gap_speaks_first(pair: datasets.Pair) -> None:
-    finish = Pretended(pair, spot_of(pair, 0.05), gap=1.01 * GAP)
+    finish = Pretended(pair, spot_of(pair, 0.05), gap=1.01 * _MAX_GAP)
     last = end(pair, finish)
     assert last.fit is not None
     assert (last.fit.reason, last.fit.after, last.fit.accepted) == ("gap", None, False)

@@ -268,7 +268,7 @@ def test_zoomout_chooses_from_some_of_a_large_source(pair, monkeypatch):
     source, target, truth = pair
     start = to_functional(truth, source.basis.truncate(10), target.basis.truncate(10))
     zoom = ZoomOut(10, 50, 10, samples=300)
-    monkeypatch.setattr("kfmaps.fmap.zoomout.CANDIDATES_PER_SAMPLE", 100)
+    monkeypatch.setattr("kfmaps.fmap.zoomout._CANDIDATES_PER_SAMPLE", 100)
     every = zoom(start, source.basis, target.basis)
     monkeypatch.setattr("kfmaps.fmap.zoomout.MAX_CANDIDATES", 1000)
     some = zoom(start, source.basis, target.basis)

@@ -15,7 +15,7 @@ from kfmaps.geometry.mesh import Mesh, unit_area, vertex_areas
 from kfmaps.matching import finish
 from kfmaps.matching.score import SCORE
 from kfmaps.matching.search import STRETCH, SearchResult, adapt_registration
-from kfmaps.registration.local_scaling import LEAST, MOST, local_scaling
+from kfmaps.registration.local_scaling import _MAX_FACTOR, _MIN_FACTOR, local_scaling
 from kfmaps.registration.nonrigid_icp import NonRigid
 
 GUARDS = ("kfmaps.geometry.arap", "kfmaps.registration.local_scaling", "kfmaps.registration.nonrigid_icp")
@@ -70,8 +70,8 @@ def test_it_turns_along_and_keeps_to_its_bounds(ball) -> None:
     stretched = local_scaling(energy, areas, 0.02)
     found, turned = (stretched(y, rotations(energy, y)) for y in (x, x @ turn.T))
     np.testing.assert_allclose(turned, turn @ found, atol=1e-6)
-    assert np.linalg.svd(found, compute_uv=False).max() == pytest.approx(MOST)
-    for factor, bound in ((0.1, LEAST), (9.0, MOST)):
+    assert np.linalg.svd(found, compute_uv=False).max() == pytest.approx(_MAX_FACTOR)
+    for factor, bound in ((0.1, _MIN_FACTOR), (9.0, _MAX_FACTOR)):
         sized = stretched(factor * mesh.vertices, np.broadcast_to(EYE, found.shape))
         np.testing.assert_allclose(sized, np.broadcast_to(bound * EYE, found.shape), atol=1e-9)
 

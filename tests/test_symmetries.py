@@ -11,7 +11,7 @@ from kfmaps.matching.initial_maps import symmetry_inits
 from kfmaps.matching.quality import map_quality, mirror_samples, sample_for_scoring, subsample
 from kfmaps.matching.sample_pair import two_level_samples
 from kfmaps.matching.search import scoring_samples
-from kfmaps.matching.self_maps import KEPT, MOVED, self_maps, symmetries
+from kfmaps.matching.self_maps import _MAX_DISTORTION, _MIN_DISPLACEMENT, self_maps, symmetries
 from kfmaps.shape import prepare
 from test_search import SMALL
 
@@ -45,8 +45,8 @@ def test_a_body_is_nearly_its_own_mirror_image(on):
     assert len(found) >= 1
     first = map_quality(found[0], on.source, on.source)
     assert first.orientation < -0.9
-    assert first.distortion < 0.1 < KEPT
-    assert moved(found[0], on.source) > 0.15 > MOVED
+    assert first.distortion < 0.1 < _MAX_DISTORTION
+    assert moved(found[0], on.source) > 0.15 > _MIN_DISPLACEMENT
     # Done twice it is the identity.
     assert moved((found[0] @ found[0])[:15, :15], on.source) < 0.08
 

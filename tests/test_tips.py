@@ -11,7 +11,7 @@ from kfmaps.fmap.zoomout import batched_zoomout
 from kfmaps.geometry.coarsen import CoarseProxy
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.matching.candidates import refine_coarse
-from kfmaps.matching.extremities import APART, extremities, gradient_cross
+from kfmaps.matching.extremities import _MIN_DISTANCE, _gradient_cross, extremities
 from kfmaps.matching.extremity_matching import (
     FEWEST,
     ExtremityMatch,
@@ -29,8 +29,8 @@ from kfmaps.matching.score import SCORE, Candidate, Quality
 from kfmaps.matching.search import search_map
 from kfmaps.matching.self_maps import symmetries
 from kfmaps.registration.deformation_energy import (
-    LEAST,
-    MOST,
+    _MAX_ENERGY,
+    _MIN_ENERGY,
     coarse_copy,
     deform,
     deformation_energy,
@@ -68,7 +68,7 @@ def test_tips_are_far_from_everything_around_them_and_from_each_other(probes):
     for one in probes:
         between = one.distances[np.ix_(one.extremities.points, one.extremities.points)]
         assert len(one.extremities.points) >= 5
-        assert (between[~np.eye(len(between), dtype=bool)] >= APART).all()
+        assert (between[~np.eye(len(between), dtype=bool)] >= _MIN_DISTANCE).all()
         assert (np.diff(one.extremities.reach) <= 0).all()
         assert (one.extremities.reach > 1.0).all()
         assert one.extremities.distances[np.arange(len(between)), one.extremities.points] == pytest.approx(
@@ -101,12 +101,12 @@ def test_turn_is_the_sine_between_two_directions():
     )
     angle = 0.7
     slanted = sheet[:, 0] * np.cos(angle) + sheet[:, 1] * np.sin(angle)
-    found = gradient_cross(Mesh(sheet, faces), np.stack([sheet[:, 0], slanted]))
+    found = _gradient_cross(Mesh(sheet, faces), np.stack([sheet[:, 0], slanted]))
     assert found[0, 1] == pytest.approx(np.sin(angle))
     assert found[1, 0] == pytest.approx(-np.sin(angle))
-    mirrored = gradient_cross(Mesh(sheet, faces[:, ::-1]), np.stack([sheet[:, 0], slanted]))
+    mirrored = _gradient_cross(Mesh(sheet, faces[:, ::-1]), np.stack([sheet[:, 0], slanted]))
     assert mirrored == pytest.approx(-found)
-    assert not gradient_cross(Mesh(sheet, faces[:0]), np.stack([sheet[:, 0], slanted])).any()
+    assert not _gradient_cross(Mesh(sheet, faces[:0]), np.stack([sheet[:, 0], slanted])).any()
 
 
 def test_a_shape_is_told_from_its_mirror_image_by_turns_alone(probes):
@@ -211,8 +211,8 @@ def test_a_shape_bends_least_onto_itself(creature, probes):
     both = facing_pair(one.copy, one.copy)
     k = 40
     signs = np.diag(np.where(np.arange(k) % 2, -1.0, 1.0))
-    assert deformation_energy(np.eye(k), shape, shape, both) == LEAST
-    assert LEAST < 0.05 < deformation_energy(signs, shape, shape, both) <= MOST
+    assert deformation_energy(np.eye(k), shape, shape, both) == _MIN_ENERGY
+    assert _MIN_ENERGY < 0.05 < deformation_energy(signs, shape, shape, both) <= _MAX_ENERGY
 
 
 def test_limbs_of_different_lengths_leave_no_symmetry(probes):
@@ -225,8 +225,8 @@ def test_strain_is_of_all_places_and_not_of_the_worst(creature, probes):
     k = 40
     signs = np.diag(np.where(np.arange(k) % 2, -1.0, 1.0))
     kept, torn = (deform(C, shape, shape, both) for C in (np.eye(k), signs))
-    assert kept.strain == pytest.approx(np.log(LEAST), abs=1e-6)
-    assert kept.strain < torn.strain < np.log(MOST)
+    assert kept.strain == pytest.approx(np.log(_MIN_ENERGY), abs=1e-6)
+    assert kept.strain < torn.strain < np.log(_MAX_ENERGY)
     # The mean of logarithms is below the logarithm of the mean.
     assert torn.strain < np.log(torn.energy)
 
@@ -315,4 +315,4 @@ def test_that_a_copy_falls_apart_says_nothing_of_the_map(creature, probes, monke
     monkeypatch.setattr(NonRigid, "bent", falls)
     assert 0.3 < deform(signs, shape, shape, both).energy / usual.energy < 3.0
     failing = [True, True]
-    assert deform(signs, shape, shape, both).energy == MOST
+    assert deform(signs, shape, shape, both).energy == _MAX_ENERGY

@@ -20,8 +20,8 @@ from kfmaps._threads import parallel
 from kfmaps.geometry.clean import clean_mesh
 from kfmaps.geometry.mesh import Mesh, face_areas, unit_area, unit_rows, vertex_normals
 
-AZIMUTHS, ELEVATIONS, SHELLS = 8, 2, 2
-VOLUMES = AZIMUTHS * ELEVATIONS * SHELLS
+_AZIMUTHS, _ELEVATIONS, _SHELLS = 8, 2, 2
+_VOLUMES = _AZIMUTHS * _ELEVATIONS * _SHELLS
 
 Form = Literal["surface", "paper"]
 
@@ -77,10 +77,10 @@ def shot(
 ) -> np.ndarray:
     """Signature of histograms of orientations of every vertex, or of some.
 
-    The ball around a vertex is cut into 32 volumes: 8 in azimuth, 2 in elevation, 2 in distance. In each a
-    histogram counts the surface by the cosine between its normal and the vertical axis of the vertex's frame.
-    Every support point is shared linearly between neighbouring volumes and neighbouring bins (section 3.2 of the
-    paper), and the whole is scaled to unit length.
+    The ball around a vertex is cut into 32 volumes: 8 in azimuth, 2 in elevation, 2 in distance. In each a histogram
+    counts the surface by the cosine between its normal and the vertical axis of the vertex's frame. Every support point
+    is shared linearly between neighbouring volumes and neighbouring bins (section 3.2 of the paper), and the whole is
+    scaled to unit length.
 
     Parameters
     ----------
@@ -94,17 +94,17 @@ def shot(
     form : {"surface", "paper"}
         What is counted, and in which frame.
 
-        ``"surface"`` integrates over the surface, so that the triangulation hardly matters: support points inside
-        the faces, weighted by area; the vertical axis is the mean normal, the first axis the principal direction
-        across it, pointing to where the larger part of the area lies; the weight of a point fades over the last
-        tenth of the radius; square roots of the histograms are taken, so that Euclidean distances between
-        descriptors are Hellinger distances.
+        ``"surface"`` integrates over the surface, so that the triangulation hardly matters: support points inside the
+        faces, weighted by area; the vertical axis is the mean normal, the first axis the principal direction across it,
+        pointing to where the larger part of the area lies; the weight of a point fades over the last tenth of the
+        radius; square roots of the histograms are taken, so that Euclidean distances between descriptors are Hellinger
+        distances.
 
-        ``"paper"`` counts vertices and takes the frame from the eigenvectors of their covariance, each pointing
-        to where the larger number of vertices lies (section 3.1). It changes with the triangulation.
+        ``"paper"`` counts vertices and takes the frame from the eigenvectors of their covariance, each pointing to
+        where the larger number of vertices lies (section 3.1). It changes with the triangulation.
     samples : int
-        About how many support points ``"surface"`` uses on the whole mesh, whatever its resolution: large faces
-        are divided, and where there are more than twice as many faces, neighbouring ones are merged.
+        About how many support points ``"surface"`` uses on the whole mesh, whatever its resolution: large faces are
+        divided, and where there are more than twice as many faces, neighbouring ones are merged.
     at : (q,) int64, optional
         Vertices whose descriptors are wanted; all when not given.
     threads : int, optional
@@ -115,8 +115,8 @@ def shot(
     Returns
     -------
     (n, 32 · (bins + 1)) float64, or (q, 32 · (bins + 1))
-        Rows of unit length, without negative values. The volume varies slowest: azimuth, elevation, shell, then
-        bin. A row is zero where the ball has no other support point, or (``"surface"``) no mean normal.
+        Rows of unit length, without negative values. The volume varies slowest: azimuth, elevation, shell, then bin. A
+        row is zero where the ball has no other support point, or (``"surface"``) no mean normal.
 
     Raises
     ------
@@ -149,7 +149,7 @@ def shot(
     support = vertices if form == "paper" else _surface_support(mesh, normals, samples)
     tree = KDTree(support.points)
     centres = mesh.vertices if at is None else mesh.vertices[at]
-    result = np.empty((len(centres), VOLUMES * (bins + 1)))
+    result = np.empty((len(centres), _VOLUMES * (bins + 1)))
 
     done = 0
 
@@ -183,9 +183,9 @@ def mirror_shot(descriptors: np.ndarray) -> np.ndarray:
         If the number of columns is not a multiple of 32.
     """
     n, width = descriptors.shape
-    if width % VOLUMES:
-        raise refuse("descriptors", f"a multiple of {VOLUMES} columns", str(width), "hand in those of shot")
-    return descriptors.reshape(n, AZIMUTHS, -1)[:, ::-1].reshape(n, width)
+    if width % _VOLUMES:
+        raise refuse("descriptors", f"a multiple of {_VOLUMES} columns", str(width), "hand in those of shot")
+    return descriptors.reshape(n, _AZIMUTHS, -1)[:, ::-1].reshape(n, width)
 
 
 def _surface_support(mesh: Mesh, normals: np.ndarray, samples: int) -> _Support:
@@ -216,8 +216,8 @@ def _barycentres(m: int) -> list[np.ndarray]:
 def _merged(support: _Support, side: float) -> _Support:
     """One point for all that share a cubic cell and the side that their normals look to.
 
-    The cells are aligned with the principal axes of the whole and centred on its centroid, so that the answer
-    depends neither on the pose nor on the order of vertices nor on the signs of the axes.
+    The cells are aligned with the principal axes of the whole and centred on its centroid, so that the answer depends
+    neither on the pose nor on the order of vertices nor on the signs of the axes.
     """
     w = support.weights
     centred = support.points - w @ support.points / w.sum()
@@ -299,14 +299,14 @@ def _towards(pairs: _Pairs, axis: np.ndarray, fallback: np.ndarray) -> np.ndarra
 def _histograms(pairs: _Pairs, frames: np.ndarray, weight: np.ndarray, bins: int) -> np.ndarray:
     """Histograms with quadrilinear interpolation, (count, 32 · (bins + 1)).
 
-    In azimuth and cosine a pair is shared between two of many entries, in elevation and distance there are only
-    two: so this is a sparse matrix (azimuth, cosine) times a dense one (elevation, distance).
+    In azimuth and cosine a pair is shared between two of many entries, in elevation and distance there are only two: so
+    this is a sparse matrix (azimuth, cosine) times a dense one (elevation, distance).
     """
     i, count = pairs.i, pairs.count
     weight = weight * (np.abs(frames).max(axis=(1, 2)) > 0)[i]
     x, y, z = (pairs.along(frames[:, axis], pairs.offset) for axis in range(3))
     cosine = np.clip(pairs.along(frames[:, 2], pairs.normal), -1, 1)
-    turn = np.arctan2(y, x) * (AZIMUTHS / (2 * np.pi)) - 0.5
+    turn = np.arctan2(y, x) * (_AZIMUTHS / (2 * np.pi)) - 0.5
     sector = np.floor(turn)
     turn -= sector
     sector = sector.astype(np.int64)
@@ -317,21 +317,21 @@ def _histograms(pairs: _Pairs, frames: np.ndarray, weight: np.ndarray, bins: int
     parts = np.empty((len(i), 4))
     ahead = turn * step
     parts[:, 0], parts[:, 1], parts[:, 2], parts[:, 3] = 1 - turn - step + ahead, step - ahead, turn - ahead, ahead
-    start = i * AZIMUTHS
+    start = i * _AZIMUTHS
     for a in (0, 1):
         # Minus one is the last of eight, and eight the first.
-        row = (start + ((sector + a) & (AZIMUTHS - 1))) * (bins + 1) + first
+        row = (start + ((sector + a) & (_AZIMUTHS - 1))) * (bins + 1) + first
         rows[:, 2 * a], rows[:, 2 * a + 1] = row, row + 1
-    height = np.arccos(np.clip(z / pairs.distance, -1, 1)) * (ELEVATIONS / np.pi) - 0.5
-    depth = pairs.distance * SHELLS - 0.5
-    nodes = np.empty((len(i), ELEVATIONS * SHELLS))
-    inward = [np.maximum(1 - np.abs(depth - d), 0) for d in range(SHELLS)]
-    for e in range(ELEVATIONS):
+    height = np.arccos(np.clip(z / pairs.distance, -1, 1)) * (_ELEVATIONS / np.pi) - 0.5
+    depth = pairs.distance * _SHELLS - 0.5
+    nodes = np.empty((len(i), _ELEVATIONS * _SHELLS))
+    inward = [np.maximum(1 - np.abs(depth - d), 0) for d in range(_SHELLS)]
+    for e in range(_ELEVATIONS):
         across = np.maximum(1 - np.abs(height - e), 0) * weight
-        for d in range(SHELLS):
-            nodes[:, e * SHELLS + d] = across * inward[d]
+        for d in range(_SHELLS):
+            nodes[:, e * _SHELLS + d] = across * inward[d]
     starts = np.arange(0, 4 * len(i) + 1, 4, dtype=np.int32)
-    spread = csc_array((parts.ravel(), rows.ravel(), starts), shape=(count * AZIMUTHS * (bins + 1), len(i)))
+    spread = csc_array((parts.ravel(), rows.ravel(), starts), shape=(count * _AZIMUTHS * (bins + 1), len(i)))
     summed = spread @ nodes
-    summed = summed.reshape(count, AZIMUTHS, bins + 1, ELEVATIONS * SHELLS)
-    return summed.transpose(0, 1, 3, 2).reshape(count, VOLUMES * (bins + 1))
+    summed = summed.reshape(count, _AZIMUTHS, bins + 1, _ELEVATIONS * _SHELLS)
+    return summed.transpose(0, 1, 3, 2).reshape(count, _VOLUMES * (bins + 1))

@@ -9,7 +9,7 @@ as it likes.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Literal
+from typing import Literal, get_args
 
 import numpy as np
 
@@ -17,21 +17,20 @@ from kfmaps._arrays import Array, check, check_count, check_positive, like, name
 from kfmaps.geometry.basis import Basis
 
 Normalisation = Literal["none", "norm", "max", "row", "variance"]
-NORMALISATIONS: tuple[Normalisation, ...] = ("none", "norm", "max", "row", "variance")
 
 
-ZERO = 1e-3
+_ZERO = 1e-3
 """Eigenvalue, at unit area, up to which a function counts as the constant of a component."""
 
 
 def _spectral_range(*bases: Basis) -> tuple[float, float]:
     """Return the eigenvalues (low, high) between which times and energies are spread, common to all ``bases``.
 
-    ``high`` is the smallest of the last eigenvalues. ``low`` is the largest of the second ones, but never outside
-    [¼, 1] times ``4π``, Weyl's estimate of it on a unit area: a tiny second eigenvalue, from a speck or a long
-    thin shape, cannot stretch the range.
+    ``high`` is the smallest of the last eigenvalues. ``low`` is the largest of the second ones, but never outside [¼,
+    1] times ``4π``, Weyl's estimate of it on a unit area: a tiny second eigenvalue, from a speck or a long thin shape,
+    cannot stretch the range.
     """
-    high = max(min(float(to_numpy(b.eigenvalues)[-1]) for b in bases), 4 * ZERO)
+    high = max(min(float(to_numpy(b.eigenvalues)[-1]) for b in bases), 4 * _ZERO)
     second = max(float(to_numpy(b.eigenvalues)[min(1, len(to_numpy(b.eigenvalues)) - 1)]) for b in bases)
     low = float(np.clip(second, np.pi, 4 * np.pi))
     return min(low, high / 4), high
@@ -73,7 +72,7 @@ def _wave_weights(basis: Basis, energies: Array, sigma: float) -> Array:
     xp = namespace(basis.functions)
     check_positive(sigma, "sigma")
     energies = check(like(energies, basis.functions), "energies", shape=(None,))
-    positive = basis.eigenvalues > ZERO
+    positive = basis.eigenvalues > _ZERO
     logs = xp.log(xp.where(positive, basis.eigenvalues, xp.ones_like(basis.eigenvalues)))
     weights = xp.exp(-((logs[:, None] - energies[None, :]) ** 2) / (2 * sigma**2))
     return xp.where(positive[:, None], weights, xp.zeros_like(weights))
@@ -196,11 +195,11 @@ def normalize(D_s: Array, D_t: Array, how: Normalisation, mass_s: Array, mass_t:
     ----------
     D_s, D_t : (n_s, d), (n_t, d)
     how : str
-        ``"none"``; ``"norm"``: each descriptor by its A-norm, the root of the mean of both shapes' squares (NO17,
-        made symmetric); ``"max"``: each by its largest absolute value on both; ``"row"``: all by one number, the
-        largest row norm on both, so that every vertex lies in the unit ball; ``"variance"``: each first centred by
-        its mean over both shapes and divided by its standard deviation, then all by the square root of their number, so
-        that typical squared distances between vertices are 2.
+        ``"none"``; ``"norm"``: each descriptor by its A-norm, the root of the mean of both shapes' squares (NO17, made
+        symmetric); ``"max"``: each by its largest absolute value on both; ``"row"``: all by one number, the largest row
+        norm on both, so that every vertex lies in the unit ball; ``"variance"``: each first centred by its mean over
+        both shapes and divided by its standard deviation, then all by the square root of their number, so that typical
+        squared distances between vertices are 2.
     mass_s, mass_t : (n_s,), (n_t,)
         Vertex areas, for the norms and means.
 
@@ -209,8 +208,8 @@ def normalize(D_s: Array, D_t: Array, how: Normalisation, mass_s: Array, mass_t:
     (n_s, d), (n_t, d)
     """
     xp = namespace(D_s, D_t)
-    if how not in NORMALISATIONS:
-        raise refuse("normalisation", "one of " + ", ".join(NORMALISATIONS), repr(how), "choose one of them")
+    if how not in get_args(Normalisation):
+        raise refuse("normalisation", "one of " + ", ".join(get_args(Normalisation)), repr(how), "choose one of them")
     check(D_s, "source descriptors", shape=(mass_s.shape[0], None), remedy="give one row per source vertex")
     check(
         D_t,

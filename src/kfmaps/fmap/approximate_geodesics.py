@@ -1,10 +1,8 @@
 """Distances along the edges of a surface from a few vertices to all, on a coarse copy where it is large.
 
-Dijkstra's search takes half a microsecond a vertex and source. On a copy of :data:`POINTS` vertices it does
-not grow
-with the mesh; all vertices take the distance linearly from the corners of the triangle of the copy that they are
-closest to. Of 20,000 vertices confidences made of both (:mod:`kfmaps.fmap.confidence`) differ by 0.009 on
-average.
+Dijkstra's search takes half a microsecond a vertex and source. On a copy of 6,000 vertices it does not grow with the
+mesh; all vertices take the distance linearly from the corners of the triangle of the copy that they are closest to. Of
+20,000 vertices confidences made of both (:mod:`kfmaps.fmap.confidence`) differ by 0.009 on average.
 """
 
 from __future__ import annotations
@@ -20,13 +18,6 @@ from kfmaps.geometry.coarsen import CoarseProxy, coarse_proxy, spread_vertices
 from kfmaps.geometry.connectivity import VertexRings, vertex_rings
 from kfmaps.geometry.geodesic_graph import geodesic_graph
 from kfmaps.geometry.mesh import Mesh
-
-LARGE = 10_000
-"""Vertices above which a copy is made."""
-POINTS = 6_000
-"""Vertices of the copy."""
-SLACK = 0.03
-"""How much farther a search of a copy goes, so that all corners of the last triangles are reached."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,8 +52,8 @@ class CoarseInterpolation:
     weights: csr_array
 
     def distances(self, graph: csr_array, vertices: np.ndarray, limit: float) -> np.ndarray:
-        """As :class:`GraphDistances`: each source is a further vertex of the copy, joined to the triangles that it
-        lies at."""
+        """As :class:`GraphDistances`: each source is a further vertex of the copy, joined to the triangles that it lies
+        at."""
         m, q = len(self.copy.vertices), len(vertices)
         faces, source = self.around.around(self.copy.owner[vertices])
         ends = np.unique(np.repeat(source, 3) * m + self.copy.mesh.faces[faces].ravel())
@@ -71,7 +62,8 @@ class CoarseInterpolation:
         starts = np.concatenate([graph.indptr, graph.indptr[-1] + np.cumsum(np.bincount(source, minlength=q))])
         data = np.concatenate([graph.data, np.maximum(lengths, np.finfo(float).tiny)])
         joined = csr_array((data, np.concatenate([graph.indices, corner]), starts), shape=(m + q, m + q))
-        found = np.asarray(dijkstra(joined, indices=m + np.arange(q), limit=limit + SLACK))[:, :m]
+        # A little farther, so that all corners of the last triangles are reached.
+        found = np.asarray(dijkstra(joined, indices=m + np.arange(q), limit=limit + 0.03))[:, :m]
         found[np.isinf(found)] = 10 * limit  # infinite ones would make NaN of what they have no weight in
         return np.asarray(self.weights @ np.ascontiguousarray(found.T)).T
 
@@ -79,9 +71,9 @@ class CoarseInterpolation:
 def approximate_geodesics(mesh: Mesh) -> GraphDistances:
     """A surface of any size, or a point cloud."""
     n = len(mesh.vertices)
-    if n <= LARGE or len(mesh.faces) == 0:
+    if n <= 10_000 or len(mesh.faces) == 0:
         return GraphDistances(geodesic_graph(mesh, 0))
-    copy = coarse_proxy(mesh, spread_vertices(mesh, POINTS))
+    copy = coarse_proxy(mesh, spread_vertices(mesh, 6_000))
     few = copy.mesh
     around = vertex_rings(few.faces, len(few.vertices))
     places = closest_among(mesh.vertices, few.vertices, few.faces, *around.around(copy.owner))

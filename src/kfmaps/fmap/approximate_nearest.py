@@ -1,13 +1,12 @@
 """Nearest neighbours among very many points of a surface, approximately, in time that grows as their number does.
 
 In the 100 or 200 dimensions of a basis no tree prunes: the nearest point is seldom much nearer than those around it.
-Yet the points are those of a surface, so what is near to the query has near points around it. The points are
-shared out among :data:`N_COARSE_LISTS` patches, each to that of whose middle it is nearest, and patches are cut into
-cells of
-some 64. Each query names the patches nearest to it, then the nearest cells in these, and searches those. All of it is
-matrix products in single precision, of groups of queries that lie together with whatever any of them has named: so
-a query meets some two thousand middles and points, however many there are. Patches larger than the functions' waves
-would not do: beyond those all distances are alike. What is lost is in research/speed.md.
+Yet the points are those of a surface, so what is near to the query has near points around it. The points are shared out
+among at most 512 patches, each to that of whose middle it is nearest, and patches are cut into cells of some 64. Each
+query names the 8 patches nearest to it, then the nearest cells in these, and searches those. All of it is matrix
+products in single precision, of groups of queries that lie together with whatever any of them has named: so a query
+meets some two thousand middles and points, however many there are. Patches larger than the functions' waves would not
+do: beyond those all distances are alike. What is lost is in research/speed.md.
 
 Where a point is known that is not far from the answer, nothing needs to be named: the cells around that point's are
 searched, which are the same for all queries whose point lies in that cell.
@@ -21,33 +20,23 @@ from scipy.spatial import KDTree
 from kfmaps._arrays import blocks, check_count
 from kfmaps._threads import parallel
 
-LIST_SIZE = 64
-"""Points in a cell, about."""
-GROUP = 128
+_GROUP_SIZE = 128
 """Queries that are worked on together, at most."""
-N_COARSE_LISTS = 512
-"""Patches, at most."""
-COARSE_PROBE = 8
-"""Patches that a query names."""
 N_PROBE = 16
 """Cells that a query names."""
 N_PROBE_FAST = 4
 """Cells that a query names whose answer need not be quite the nearest: it misses one in 150, by little."""
-AROUND = 16
-"""Cells around that of a known point that are searched, itself among them."""
-LEADING = 9
-"""Leading columns, in falling weight, that say which rows lie together: the lowest functions of a basis."""
 
 
 def approximate_nearest(
     queries: np.ndarray,
     points: np.ndarray,
     *,
-    size: int = LIST_SIZE,
+    size: int = 64,
     probes: int = N_PROBE,
     threads: int | None = None,
     start: np.ndarray | None = None,
-    around: int = AROUND,
+    around: int = 16,
 ) -> np.ndarray:
     """Approximately nearest rows of ``points (p, d)`` to those of ``queries (q, d)``: ``(q,)`` int64.
 
@@ -55,8 +44,8 @@ def approximate_nearest(
     ----------
     queries : (q, d) float64
     points : (p, d) float64
-        At least one. Rows whose leading columns are alike should be alike: those of smooth functions on a surface,
-        the lowest first. Otherwise more is missed.
+        At least one. Rows whose leading columns are alike should be alike: those of smooth functions on a surface, the
+        lowest first. Otherwise more is missed.
     size : int
         Points in a cell, about. With ``p`` all points are compared, in single precision.
     probes : int
@@ -97,7 +86,7 @@ def approximate_nearest(
         return answer
     wider = _means(rows, edges[patches])
     # Few queries among many points lie far apart: groups of them would name everything.
-    members, bounds = _runs(queries, int(np.clip(GROUP * 16 * q / p, 1, GROUP)))
+    members, bounds = _runs(queries, int(np.clip(_GROUP_SIZE * 16 * q / p, 1, _GROUP_SIZE)))
     answer = np.empty(q, dtype=np.int64)
 
     def search(groups: slice) -> None:
@@ -107,7 +96,7 @@ def approximate_nearest(
             # Seen from the middle of the group, differences of nearly equal distances lose no digits.
             here = x.mean(axis=0)
             x -= here
-            cells = _inside(patches, _named(x, wider - here, COARSE_PROBE))
+            cells = _inside(patches, _named(x, wider - here, 8))
             cells = cells[_named(x, centres[cells] - here, probes)]
             found = _inside(edges, cells)
             answer[mine] = order[found[np.argmax(_scores(x, rows[found] - here), axis=1)]]
@@ -120,7 +109,7 @@ def _cells(
     points: np.ndarray, size: int, middle: np.ndarray, unit: float, threads: int | None
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """An order of ``points``, where each cell starts in it, and which cell each patch starts with (and the ends)."""
-    count = min(N_COARSE_LISTS, -(-len(points) // size))
+    count = min(512, -(-len(points) // size))
     order, starts = _runs(points, -(-len(points) // count))
     seeds = _single(points[order[(starts[:-1] + starts[1:]) // 2]], middle, unit)
 
@@ -154,7 +143,7 @@ def _pieces(labels: np.ndarray) -> np.ndarray:
     q = len(labels)
     starts = np.flatnonzero(np.diff(labels, prepend=-1))
     within = np.arange(q) - np.repeat(starts, np.diff(np.append(starts, q)))
-    return np.append(np.flatnonzero(within % (2 * GROUP) == 0), q)
+    return np.append(np.flatnonzero(within % (2 * _GROUP_SIZE) == 0), q)
 
 
 def _runs(rows: np.ndarray, size: int) -> tuple[np.ndarray, np.ndarray]:
@@ -163,7 +152,8 @@ def _runs(rows: np.ndarray, size: int) -> tuple[np.ndarray, np.ndarray]:
     if n == 0:
         return np.zeros(0, dtype=np.int64), np.zeros(1, dtype=np.int64)
     halvings = max(0, int(np.ceil(np.log2(n / size))))
-    leading = rows[:, :LEADING] / (1 + np.arange(min(LEADING, rows.shape[1])))
+    # The lowest functions of a basis say which rows lie together.
+    leading = rows[:, :9] / (1 + np.arange(min(9, rows.shape[1])))
     order = KDTree(leading, leafsize=-(-n // 2**halvings)).indices
     return order, np.unique(np.round(np.linspace(0, n, 2**halvings + 1)).astype(np.int64))
 

@@ -1,8 +1,8 @@
 """How far a map can be trusted at each vertex, judged without the truth: are distances to the surroundings kept?
 
 Going to the source and back with the nearest neighbours of one functional map tells next to nothing once the map is
-refined: right or wrong, nine vertices in ten come back to within an edge or two. What a wrong part of a map does
-change is distances. The comparison is in research/local-confidence.md, made by ``benchmarks/confidence.py``.
+refined: right or wrong, nine vertices in ten come back to within an edge or two. What a wrong part of a map does change
+is distances. The comparison is in research/local-confidence.md, made by ``benchmarks/confidence.py``.
 """
 
 from __future__ import annotations
@@ -18,11 +18,9 @@ from kfmaps.geometry.clean import CleanedMesh, clean_mesh
 from kfmaps.geometry.mesh import Mesh, unit_area, vertex_areas
 from kfmaps.geometry.sampling import stratified
 
-SAMPLES = 200
-"""Vertices of the target to which distances are compared."""
-RADIUS = 0.2
+_RADIUS = 0.2
 """How far a sample may be from a vertex to count as its surroundings, in √area: some twenty samples are that near."""
-BLOCK = 64
+_BLOCK = 64
 """Samples worked on together, which bounds the memory."""
 
 
@@ -32,8 +30,8 @@ def local_confidence(
     """How well the map keeps each target vertex's distances to its surroundings, (n_t,), from 0 to 1.
 
     With ``d_s``, ``d_t`` distances along edges of the shapes at unit area, ``T`` the map, and the sum over the samples
-    ``j`` with ``d_t(i, j) ≤ R = 0.2``, the confidence of vertex ``i`` is
-    ``max(0, 1 − Σ |min(d_s(T(i), T(j)), 2R) − d_t(i, j)| / Σ d_t(i, j))``.
+    ``j`` with ``d_t(i, j) ≤ R = 0.2``, the confidence of vertex ``i`` is ``max(0, 1 − Σ |min(d_s(T(i), T(j)), 2R) −
+    d_t(i, j)| / Σ d_t(i, j))``.
 
     An isometry has 1; distances along edges make 0.9 of it where the triangulations differ. It sees local errors and
     torn parts. It cannot see that a whole shape, or most of a limb, is mapped to its mirror image: that is for the
@@ -76,7 +74,7 @@ class LocalDistortion:
     samples : (q,) int64
         Vertices of the target, inside.
     near : tuple of (rows, columns, distances)
-        For each :data:`BLOCK` of samples, which of them is how far from which vertex of the target, where it is near.
+        For each 64 samples, which of them is how far from which vertex of the target, where it is near.
     """
 
     part_s: CleanedMesh
@@ -94,13 +92,13 @@ class LocalDistortion:
         points, lost = part_s.to_clean[points][part_t.to_original], lost[part_t.to_original]
         n = len(points)
         change, whole = np.zeros(n), np.zeros(n)
-        for part, near in zip(blocks(len(self.samples), BLOCK), self.near, strict=True):
-            there = self.reach_s(points[self.samples[part]], 2 * RADIUS)
+        for part, near in zip(blocks(len(self.samples), _BLOCK), self.near, strict=True):
+            there = self.reach_s(points[self.samples[part]], 2 * _RADIUS)
             rows, columns, here = near
             if lost.any():
                 kept = ~(lost[self.samples[part]][rows] | lost[columns])
                 rows, columns, here = rows[kept], columns[kept], here[kept]
-            moved = np.abs(np.minimum(there[rows, points[columns]], 2 * RADIUS) - here)
+            moved = np.abs(np.minimum(there[rows, points[columns]], 2 * _RADIUS) - here)
             change += np.bincount(columns, moved, minlength=n)
             whole += np.bincount(columns, here, minlength=n)
         # Vertices in one place are surroundings of no size.
@@ -121,10 +119,10 @@ def build_local_distortion(
     if samples is None:
         areas = vertex_areas(target)
         used = np.flatnonzero(areas > 0)
-        samples = used[stratified(target.vertices[used], areas[used], SAMPLES, rng=0)]
+        samples = used[stratified(target.vertices[used], areas[used], 200, rng=0)]
     reach_t, near = approximate_geodesics(target), []
-    for part in blocks(len(samples), BLOCK):
-        here = reach_t(samples[part], RADIUS)
-        rows, columns = np.nonzero(here <= RADIUS)
+    for part in blocks(len(samples), _BLOCK):
+        here = reach_t(samples[part], _RADIUS)
+        rows, columns = np.nonzero(here <= _RADIUS)
         near.append((rows, columns, here[rows, columns]))
     return LocalDistortion(part_s, part_t, approximate_geodesics(source), samples, tuple(near))

@@ -3,10 +3,10 @@
 A map between shapes keeps areas exactly when its functional map keeps inner products, ``CᵀC = I`` (Ovsjanikov et al.
 2012; a constraint of the fit in Kovnatsky et al., MADMM, 2016). Such matrices are the Stiefel manifold. The energy is
 minimised on it by preconditioned conjugate gradients in the tangent space with the polar factor for a retraction
-(Absil, Mahony and Sepulchre, Optimization algorithms on matrix manifolds, 2008, chapter 8). Where a step of these
-does not lower the energy enough, ``C ← polar(C − ∇E / L)`` is taken, which lowers it for every ``L`` that bounds the
-operator: the energy lies below ``⟨∇E, X − C⟩ + ½ L ‖X − C‖²``, which this step minimises over all orthonormal ``X``.
-So the energy never rises.
+(Absil, Mahony and Sepulchre, Optimization algorithms on matrix manifolds, 2008, chapter 8). Where a step of these does
+not lower the energy enough, ``C ← polar(C − ∇E / L)`` is taken, which lowers it for every ``L`` that bounds the
+operator: the energy lies below ``⟨∇E, X − C⟩ + ½ L ‖X − C‖²``, which this step minimises over all orthonormal ``X``. So
+the energy never rises.
 """
 
 from __future__ import annotations
@@ -19,11 +19,7 @@ from kfmaps._arrays import Array, check, inner, namespace
 from kfmaps.fmap.solvers import CG, Direct, Operator, Solution, Solver, Status
 from kfmaps.fmap.terms import Term
 
-SUFFICIENT = 1e-4
-"""Part of the decrease promised by the slope that a step must bring (Armijo's rule)."""
-ROUNDING = 1e-14
-"""Relative rise of the energy that counts as none."""
-HALVINGS = 12
+_MAX_HALVINGS = 12
 """Shorter steps that are tried before the polar step."""
 
 
@@ -33,10 +29,10 @@ def nearest_orthogonal(C: Array) -> Array:
     return u @ vh
 
 
-def tangent(C: Array, G: Array) -> Array:
+def _tangent(C: Array, G: Array) -> Array:
     """The part of ``G`` that is tangent to the orthonormal matrices at ``C``; both (k_t, k_s)."""
     if C.shape[0] < C.shape[1]:
-        return tangent(C.T, G.T).T
+        return _tangent(C.T, G.T).T
     product = C.T @ G
     return G - 0.5 * (C @ (product + product.T))
 
@@ -57,8 +53,8 @@ def minimize_orthogonal(
     ----------
     energy : Term
     solver : CG
-        ``rtol``: stop when the tangent part of the gradient is below ``rtol ‖B‖``; ``max_iter`` as usual.
-        ``Direct``, which has no counterpart here, means a tolerance of 1e-10.
+        ``rtol``: stop when the tangent part of the gradient is below ``rtol ‖B‖``; ``max_iter`` as usual. ``Direct``,
+        which has no counterpart here, means a tolerance of 1e-10.
     start : (k_t, k_s)
         Made orthonormal first.
     preconditioner : callable, optional
@@ -78,7 +74,7 @@ def minimize_orthogonal(
     check(start, "start", shape=tuple(right.shape), remedy="give a functional map of the size of the basis")
     size = inner(right, right) ** 0.5 or 1.0
     here = _At(energy, right, nearest_orthogonal(start))
-    gradient = tangent(here.C, here.gradient)
+    gradient = _tangent(here.C, here.gradient)
     residuals = [inner(gradient, gradient) ** 0.5]
     status: Status = "step limit"
     direction, before, bound = None, None, None
@@ -92,21 +88,21 @@ def minimize_orthogonal(
             break
         if steps >= limit:
             break
-        z = gradient if preconditioner is None else tangent(here.C, preconditioner(gradient))
+        z = gradient if preconditioner is None else _tangent(here.C, preconditioner(gradient))
         gz = inner(gradient, z)
         if direction is None or before is None or not gz > 0:
             direction = -z if gz > 0 else -gradient
         else:
             old_gradient, old_gz = before
             share = max(
-                0.0, (gz - inner(tangent(here.C, old_gradient), z)) / old_gz
+                0.0, (gz - inner(_tangent(here.C, old_gradient), z)) / old_gz
             )  # Polak and Ribière, kept positive
-            direction = -z + share * tangent(here.C, direction)
+            direction = -z + share * _tangent(here.C, direction)
             if not inner(gradient, direction) < 0:
                 direction = -z
         there = _line_search(energy, right, here, gradient, direction)
         if there is None:
-            bound = bound or 1.1 * largest_curvature(energy, here.C)
+            bound = bound or 1.1 * _largest_curvature(energy, here.C)
             there, bound = _polar_step(energy, right, here, bound)
             if there is None:
                 status = "breakdown"
@@ -115,7 +111,7 @@ def minimize_orthogonal(
         else:
             before = gradient, gz
         here = there
-        gradient = tangent(here.C, here.gradient)
+        gradient = _tangent(here.C, here.gradient)
         steps += 1
         residuals.append(inner(gradient, gradient) ** 0.5)
         if progress is not None:
@@ -147,10 +143,10 @@ def _line_search(energy: Term, right: Array, here: _At, gradient: Array, directi
     if not (curvature > 0 and np.isfinite(curvature) and slope < 0):
         return None
     step = -slope / curvature
-    for _ in range(HALVINGS):
+    for _ in range(_MAX_HALVINGS):
         there = _At(energy, right, nearest_orthogonal(here.C + step * direction))
-        # Near the minimum a step's decrease is lost in the rounding of the value.
-        if there.value <= here.value + SUFFICIENT * step * slope + ROUNDING * abs(here.value):
+        # Armijo's rule. Near the minimum a step's decrease is lost in the rounding of the value.
+        if there.value <= here.value + 1e-4 * step * slope + 1e-14 * abs(here.value):
             return there
         step *= 0.5
     return None
@@ -158,7 +154,7 @@ def _line_search(energy: Term, right: Array, here: _At, gradient: Array, directi
 
 def _polar_step(energy: Term, right: Array, here: _At, bound: float) -> tuple[_At | None, float]:
     """``polar(C − ∇E / L)`` and the ``L`` that lowered the energy; ``None`` where rounding lets none."""
-    for _ in range(HALVINGS):
+    for _ in range(_MAX_HALVINGS):
         there = _At(energy, right, nearest_orthogonal(here.C - here.gradient / bound))
         if there.value < here.value:
             return there, bound
@@ -166,7 +162,7 @@ def _polar_step(energy: Term, right: Array, here: _At, bound: float) -> tuple[_A
     return None, bound
 
 
-def largest_curvature(energy: Term, like: Array, steps: int = 20) -> float:
+def _largest_curvature(energy: Term, like: Array, steps: int = 20) -> float:
     """The largest eigenvalue of the energy's operator, from below, by the power method from ``like``."""
     x = like + 0.01 * namespace(like).ones_like(like)
     value = 0.0

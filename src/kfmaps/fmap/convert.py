@@ -28,13 +28,12 @@ def to_points(
 ) -> np.ndarray:
     """The point map ``target_to_source (n_t,)`` of a functional map ``C (k_t, k_s)``.
 
-    Rows of ``Φ_s Cᵀ`` are the images of the source's delta functions, rows of ``Φ_t`` the target's deltas; each of
-    the latter takes the closest of the former (Ovsjanikov et al. 2012). Bases larger than ``C`` are truncated.
-    ``beside``: further columns ``(n_s, d)`` and ``(n_t, d)`` to compare, see
-    :meth:`kfmaps.fmap.descriptor_guidance.DescriptorGuidance.embedding_columns`.
-    From about 10,000 points on each side the search is by cells, unless ``exact`` says otherwise, see
-    :func:`kfmaps.fmap.nearest.nearest`, and quicker with fewer ``probes`` or a map ``start (n_t,)`` that is
-    nearly right.
+    Rows of ``Φ_s Cᵀ`` are the images of the source's delta functions, rows of ``Φ_t`` the target's deltas; each of the
+    latter takes the closest of the former (Ovsjanikov et al. 2012). Bases larger than ``C`` are truncated. ``beside``:
+    further columns ``(n_s, d)`` and ``(n_t, d)`` to compare, see
+    :meth:`kfmaps.fmap.descriptor_guidance.DescriptorGuidance.embedding_columns`. From about 10,000 points on each side
+    the search is by cells, unless ``exact`` says otherwise, see :func:`kfmaps.fmap.nearest.nearest`, and quicker with
+    fewer ``probes`` or a map ``start (n_t,)`` that is nearly right.
     """
     k_t, k_s = C.shape
     source, target = source.truncate(k_s), target.truncate(k_t)
@@ -77,8 +76,8 @@ def check_point_map(target_to_source: np.ndarray, n_s: int, n_t: int) -> np.ndar
 def nearest_reached(source: Mesh, target_to_source: np.ndarray) -> np.ndarray:
     """Return the nearest vertex that some target vertex is mapped to for each source vertex, (n_s,).
 
-    Nearest along the edges, so that a point of an arm is not linked to the leg beside it; straight through
-    space for point clouds and for parts that no target vertex reaches.
+    Nearest along the edges, so that a point of an arm is not linked to the leg beside it; straight through space for
+    point clouds and for parts that no target vertex reaches.
     """
     n = len(source.vertices)
     reached = np.unique(target_to_source)

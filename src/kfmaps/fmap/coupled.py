@@ -49,8 +49,8 @@ def couple_bases(
 
     Minimises ``½ Σ off(U_xᵀ Λ_x U_x) / ‖Λ_x‖² − weight tr(U_tᵀ cross U_s) / Σσ(cross)`` over rotations, where ``off``
     is the sum of squares off the diagonal and the last term is, up to a constant, the squared difference of the
-    coefficients ``U_sᵀ p`` and ``U_tᵀ q`` of corresponding functions. ``off`` is a constant less the convex
-    ``Σ (uᵀΛu)²``; with that replaced by its tangent the minimiser in each rotation is a polar factor, so the objective
+    coefficients ``U_sᵀ p`` and ``U_tᵀ q`` of corresponding functions. ``off`` is a constant less the convex ``Σ
+    (uᵀΛu)²``; with that replaced by its tangent the minimiser in each rotation is a polar factor, so the objective
     falls in every step.
 
     Parameters

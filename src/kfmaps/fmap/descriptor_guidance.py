@@ -1,9 +1,9 @@
 """Descriptors that guide a refinement: they take part in its search for nearest neighbours.
 
 Between bodies the low functions leave several maps equally smooth: left for right, front for back, half of each.
-ZoomOut settles in whichever it starts closest to. With a few descriptors of each point beside its functions it
-slides into the map that they speak for, and as the functions become more these decide alone. Smooth Shells
-(Eisenberger et al. 2020) joins functions, coordinates and normals likewise.
+ZoomOut settles in whichever it starts closest to. With a few descriptors of each point beside its functions it slides
+into the map that they speak for, and as the functions become more these decide alone. Smooth Shells (Eisenberger et al.
+2020) joins functions, coordinates and normals likewise.
 """
 
 from __future__ import annotations
@@ -19,10 +19,6 @@ DIMENSIONS = 32
 """Principal directions of the descriptors that are kept: SHOT has 352, most of them noise."""
 FLAT = 0.05
 """Spread of SHOT below which its differences are the triangulation's: a sphere has 0.0005, bodies 0.2 to 0.3."""
-ROWS = 30_000
-"""Rows of descriptors that are worked on together."""
-TELLING = 10_000
-"""Rows of both shapes that tell the principal directions, about: at most twice as many."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -80,7 +76,7 @@ def descriptor_guidance(
     count = len(source) + len(target)
     mean = (source.sum(axis=0) + target.sum(axis=0)) / count
     # Of large shapes some rows tell the directions; and the mean is taken off what is left, so that none is copied.
-    some = np.vstack([side[:: max(1, count // TELLING)] for side in sides]) - mean
+    some = np.vstack([side[:: max(1, count // 10_000)] for side in sides]) - mean
     directions = np.linalg.eigh(some.T @ some)[1][:, ::-1][:, :dimensions]
     reduced = [side @ directions - mean @ directions for side in sides]
     unit = np.sqrt(2 * sum((part**2).sum() for part in reduced) / count)
@@ -97,7 +93,7 @@ def _varied(descriptors: np.ndarray) -> bool:
 def descriptor_variance(descriptors: np.ndarray) -> float:
     """Mean squared distance of the rows from their mean."""
     mean = descriptors.mean(axis=0)
-    squares = sum(float(((descriptors[rows] - mean) ** 2).sum()) for rows in blocks(len(descriptors), ROWS))
+    squares = sum(float(((descriptors[rows] - mean) ** 2).sum()) for rows in blocks(len(descriptors), 30_000))
     return squares / len(descriptors)
 
 

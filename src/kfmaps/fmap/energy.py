@@ -1,8 +1,8 @@
 """Quadratic energies of a functional map: ``½⟨C, A(C)⟩ − ⟨B, C⟩ + c`` for ``C`` of shape (k_t, k_s).
 
 Every term keeps its operator ``A`` (half the Hessian of the squared norm it stands for), right-hand side ``B``, the
-exact diagonal of ``A`` and the constant ``c``; :func:`value` of a term is half its squared residual norm. With
-features ``W`` (descriptors, or Nyström features of a kernel) and ``P̂ = Φᵀ A W``, ``Xⁱ = Φᵀ A diag(wᵢ) Φ``:
+exact diagonal of ``A`` and the constant ``c``; :func:`value` of a term is half its squared residual norm. With features
+``W`` (descriptors, or Nyström features of a kernel) and ``P̂ = Φᵀ A W``, ``Xⁱ = Φᵀ A diag(wᵢ) Φ``:
 
 =====================  ==============================  ==============================================
 term                   squared residual                source

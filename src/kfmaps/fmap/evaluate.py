@@ -48,8 +48,7 @@ def geodesic_errors(
     """Geodesic distance on ``source`` from each ``predicted`` to its ``true`` vertex, (q,), divided by √area.
 
     Distances are worked out for one block of vertices at a time: no n × n matrix is held. Points on different
-    components are at infinite distance. On a point cloud distances run along its neighbours, and the area is
-    estimated.
+    components are at infinite distance. On a point cloud distances run along its neighbours, and the area is estimated.
 
     Raises
     ------
@@ -70,8 +69,7 @@ def geodesic_errors(
 def precise_errors(source: Mesh, predicted: PointMap | np.ndarray, true: PointMap | np.ndarray) -> np.ndarray:
     """Geodesic distance on ``source`` from each ``predicted`` to its ``true`` point, (q,), divided by √area.
 
-    Points lie inside triangles (:class:`kfmaps.fmap.precise.PointMap`, not snapped) or are vertices (whole
-    numbers).
+    Points lie inside triangles (:class:`kfmaps.fmap.precise.PointMap`, not snapped) or are vertices (whole numbers).
 
     Raises
     ------
@@ -163,8 +161,8 @@ def error_curve(errors: np.ndarray, thresholds: np.ndarray) -> np.ndarray:
 def coverage(target_to_source: np.ndarray, source: Mesh) -> float:
     """Fraction of the source's area whose vertices are the image of some target vertex.
 
-    Those without counterpart, −1, reach none.
-    Connected vertices in one place count as one; those that belong to no face count for nothing.
+    Those without counterpart, −1, reach none. Connected vertices in one place count as one; those that belong to no
+    face count for nothing.
     """
     check_is_mesh(source, "source")
     part = clean_mesh(source)

@@ -98,8 +98,8 @@ def hadamard_term(
 ) -> HadamardCommutativity:
     """Commutativity for the exact kernel of the descriptors ``(n_s, d)`` and ``(n_t, d)``.
 
-    Every application costs ``n_s n_t`` kernel values and as many multiply-adds for each column of ``C``, in blocks
-    of ``block`` rows: the oracle for :func:`operator_term`, and what to use when no approximation will do.
+    Every application costs ``n_s n_t`` kernel values and as many multiply-adds for each column of ``C``, in blocks of
+    ``block`` rows: the oracle for :func:`operator_term`, and what to use when no approximation will do.
     """
     check_same_count(descriptors_s, descriptors_t)
     sides = ((source, descriptors_s), (target, descriptors_t))

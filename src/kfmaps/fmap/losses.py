@@ -1,9 +1,9 @@
 """What is not quadratic: robust losses of the data and sparsity, each by reweighted least squares.
 
-A *penalty* knows its value and a quadratic term that lies above it and touches it where the map is
-(:class:`Penalty`). Minimising the energy with that term in the penalty's place lowers the true objective, whatever
-else it is made of; :func:`kfmaps.fmap.minimize.minimize` does so until it falls no more. So a penalty goes
-together with every term, kernel, constraint and solver.
+A *penalty* knows its value and a quadratic term that lies above it and touches it where the map is (:class:`Penalty`).
+Minimising the energy with that term in the penalty's place lowers the true objective, whatever else it is made of;
+:func:`kfmaps.fmap.minimize.minimize` does so until it falls no more. So a penalty goes together with every term,
+kernel, constraint and solver.
 
 With ``e_g`` the squared residual of a group of data (a landmark, a descriptor, a feature) and a scale ``δ``:
 

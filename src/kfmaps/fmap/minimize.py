@@ -2,8 +2,8 @@
 
 Without penalties and constraint it is the linear system that it always was, solved once. A penalty
 (:mod:`kfmaps.fmap.losses`) is replaced by its quadratic majorizer, again and again; a constraint
-(:mod:`kfmaps.fmap.constraints`) takes the place of the linear solve. Both maps of a pair at once are minimised in
-turn (:func:`fit_bidirectional`). Every step starts where the last one ended and lowers the same objective, so it never
+(:mod:`kfmaps.fmap.constraints`) takes the place of the linear solve. Both maps of a pair at once are minimised in turn
+(:func:`fit_bidirectional`). Every step starts where the last one ended and lowers the same objective, so it never
 rises, whatever is combined.
 """
 
@@ -24,9 +24,7 @@ from kfmaps.fmap.solvers import Solution, Solver, solve
 from kfmaps.fmap.terms import Term
 
 Constraint = Literal["none", "orthogonal"]
-CONSTRAINTS: tuple[Constraint, ...] = ("none", "orthogonal")
 Preconditioner = Literal["none", "jacobi", "sylvester"]
-PRECONDITIONERS: tuple[Preconditioner, ...] = ("none", "jacobi", "sylvester")
 
 ProgressCallback = Callable[[int, float], None]
 
@@ -81,13 +79,13 @@ def minimize(
 ) -> Solution:
     """The minimiser of ``objective`` that is reached from ``start``.
 
-    Without a start it is the minimiser of the energy with the penalties' majorizers at zero, that is, about where
-    the energy alone is least; constrained, its nearest orthonormal map. ``residuals`` are of the last round.
+    Without a start it is the minimiser of the energy with the penalties' majorizers at zero, that is, about where the
+    energy alone is least; constrained, its nearest orthonormal map. ``residuals`` are of the last round.
     """
     if start is None and (objective.penalties or objective.constraint != "none"):
         zero = 0.0 * objective.energy.rhs()
-        start = solve_quadratic(Objective(objective.majorizer(zero)), how, None, progress).value
-    solution = solve_quadratic(
+        start = _solve_quadratic(Objective(objective.majorizer(zero)), how, None, progress).value
+    solution = _solve_quadratic(
         replace(objective, energy=objective.majorizer(start), penalties={}), how, start, progress
     )
     if not objective.penalties:
@@ -96,7 +94,7 @@ def minimize(
     steps = solution.steps
     for _ in range(how.max_outer_iter - 1):
         energy = objective.majorizer(solution.value)
-        solution = solve_quadratic(replace(objective, energy=energy, penalties={}), how, solution.value, progress)
+        solution = _solve_quadratic(replace(objective, energy=energy, penalties={}), how, solution.value, progress)
         steps += solution.steps
         now = objective.value(solution.value)
         if last - now <= how.rtol * abs(last):
@@ -105,7 +103,7 @@ def minimize(
     return replace(solution, steps=steps)
 
 
-def solve_quadratic(
+def _solve_quadratic(
     objective: Objective, how: MinimizeOptions, start: Array | None, progress: ProgressCallback | None = None
 ) -> Solution:
     """The minimiser of an objective without penalties: one linear solve, or one descent along the manifold."""

@@ -1,7 +1,7 @@
 """Multiplication operators of descriptors in a basis, built fast and compressed exactly.
 
-``Xⁱ = Φᵀ A diag(wᵢ) Φ`` is the operator that multiplies a function by the feature ``wᵢ`` (Nogneng and
-Ovsjanikov 2017). Being symmetric it is kept packed, ``(r, k(k+1)/2)``, until an energy term needs it.
+``Xⁱ = Φᵀ A diag(wᵢ) Φ`` is the operator that multiplies a function by the feature ``wᵢ`` (Nogneng and Ovsjanikov 2017).
+Being symmetric it is kept packed, ``(r, k(k+1)/2)``, until an energy term needs it.
 """
 
 from __future__ import annotations
@@ -18,11 +18,11 @@ def truncate_features(
 ) -> tuple[Array, Array]:
     """Rotate the features ``(n_s, r)``, ``(n_t, r)`` of both shapes jointly and drop those that matter least.
 
-    The commutativity energy is the same in every rotation of the features, as long as both shapes share it. The
-    squared norm of a feature's slice is at most ``Σ_p a_p h_p w_p²`` with the areas ``a`` and ``h_p = Σⱼ φⱼ(p)²``,
-    since it is a projection of multiplication by ``w``. In the eigenbasis of the Gram matrix with these weights the
-    features that are dropped have slices whose summed squared norm is at most ``rtol`` of the sum of all bounds,
-    which was 1.03 times the slices' own. So far fewer slices need to be formed at all.
+    The commutativity energy is the same in every rotation of the features, as long as both shapes share it. The squared
+    norm of a feature's slice is at most ``Σ_p a_p h_p w_p²`` with the areas ``a`` and ``h_p = Σⱼ φⱼ(p)²``, since it is
+    a projection of multiplication by ``w``. In the eigenbasis of the Gram matrix with these weights the features that
+    are dropped have slices whose summed squared norm is at most ``rtol`` of the sum of all bounds, which was 1.03 times
+    the slices' own. So far fewer slices need to be formed at all.
     """
     _check_rtol(rtol)
     xp = namespace(features_s, features_t)
@@ -39,8 +39,8 @@ def truncate_features(
 def multiplication_operators(basis: Basis, features: Array, block: int = 512, threads: int | None = None) -> Array:
     """Packed upper triangles ``(r, k(k+1)/2)`` of the operators of ``features (n, r)``.
 
-    Off-diagonal entries are multiplied by √2, so that inner products of rows are Frobenius inner products of
-    the operators. One matrix product per block of vertices; no n × k² array.
+    Off-diagonal entries are multiplied by √2, so that inner products of rows are Frobenius inner products of the
+    operators. One matrix product per block of vertices; no n × k² array.
     """
     n, k = basis.functions.shape
     check(features, "features", shape=(n, None), remedy="give one row per vertex")
@@ -102,9 +102,9 @@ def truncate_operators(packed_s: Array, packed_t: Array, rtol: float) -> tuple[A
     """Rotate the slices of both shapes jointly and drop those that carry next to nothing.
 
     The commutativity energy is the same in every rotation of the features, as long as both shapes share it. The
-    rotation of the joint singular value decomposition puts as much as possible into few slices; those beyond hold
-    at most ``rtol`` of the summed squared norm of all slices of both shapes, which is a bound on what leaving them
-    out can change in the operator. With ``rtol=0`` only null slices go.
+    rotation of the joint singular value decomposition puts as much as possible into few slices; those beyond hold at
+    most ``rtol`` of the summed squared norm of all slices of both shapes, which is a bound on what leaving them out can
+    change in the operator. With ``rtol=0`` only null slices go.
     """
     _check_rtol(rtol)
     kept = _strongest(packed_s @ packed_s.T + packed_t @ packed_t.T, rtol)

@@ -1,8 +1,7 @@
 """Nearest neighbours in the high dimension of functional maps: exact, or by cells where there are very many.
 
-The exact search is one matrix product and costs queries × points × dimensions;
-:mod:`kfmaps.fmap.approximate_nearest` is for
-large sets.
+The exact search is one matrix product and costs queries × points × dimensions; :mod:`kfmaps.fmap.approximate_nearest`
+is for large sets.
 """
 
 from __future__ import annotations
@@ -14,13 +13,10 @@ from kfmaps._arrays import Array, blocks, check, is_numpy, namespace, refuse, to
 from kfmaps._threads import available_cores, parallel
 from kfmaps.fmap.approximate_nearest import N_PROBE, approximate_nearest
 
-TREE_DIMENSION = 32
-"""Up to here a k-d tree beats the matrix product on large sets; beyond, space is too empty for it."""
-
-LARGE = 20_000
+_TREE_POINTS = 20_000
 """Points beyond which a k-d tree is built."""
 
-TIE = 1e-12
+_TIE = 1e-12
 """Relative difference below which two distances from the tree are compared anew."""
 
 EXACT_PAIRS = 10_000**2
@@ -70,7 +66,8 @@ def nearest(
         raise refuse("points", "at least one", "none", "give at least one")
     if is_numpy(queries):
         queries, points = _in_range(queries, points)
-        if points.shape[1] <= TREE_DIMENSION and len(points) > LARGE:
+        # In more dimensions space is too empty for a tree to beat the matrix product.
+        if points.shape[1] <= 32 and len(points) > _TREE_POINTS:
             return _by_tree(queries, points, threads)
         if exact is False or (exact is None and len(queries) * len(points) > EXACT_PAIRS):
             return approximate_nearest(queries, points, threads=threads, probes=probes, start=start)
@@ -92,7 +89,7 @@ def _by_tree(queries: np.ndarray, points: np.ndarray, threads: int | None) -> np
     tree, workers = KDTree(points), threads or available_cores()
     distance, found = map(np.asarray, tree.query(queries, k=2, workers=workers))
     answer = found[:, 0].astype(np.int64)
-    ties = np.flatnonzero(distance[:, 1] <= distance[:, 0] * (1 + TIE))
+    ties = np.flatnonzero(distance[:, 1] <= distance[:, 0] * (1 + _TIE))
     if len(ties) == 0:
         return answer
     # Each place once, so that points given over and over do not all come back for every query.
@@ -100,7 +97,7 @@ def _by_tree(queries: np.ndarray, points: np.ndarray, threads: int | None) -> np
     tree = KDTree(points[first])
     for part in blocks(len(ties), 256):
         rows = ties[part]
-        within = tree.query_ball_point(queries[rows], distance[rows, 0] * (1 + TIE), workers=workers)
+        within = tree.query_ball_point(queries[rows], distance[rows, 0] * (1 + _TIE), workers=workers)
         for i, several in zip(rows, within, strict=True):
             columns = first[np.sort(np.asarray(several, dtype=np.int64))]
             gap = points[columns] - queries[i]
@@ -126,10 +123,10 @@ def _exact(queries: Array, points: Array, block: int, threads: int | None) -> np
 def _screened(queries: np.ndarray, points: np.ndarray, block: int, threads: int | None) -> np.ndarray:
     """The exact search in float64, most of it done in float32 at twice the speed.
 
-    A product in float32 finds the best point and how far the second best is behind. Where that is more than the
-    errors of both can be (``γ = (d + 4) u`` times the sizes of the factors, Higham 2002, section 3.1), the best is the
-    best in exact arithmetic too; elsewhere, for a few per cent of the queries, all points within reach of the
-    errors are compared in float64.
+    A product in float32 finds the best point and how far the second best is behind. Where that is more than the errors
+    of both can be (``γ = (d + 4) u`` times the sizes of the factors, Higham 2002, section 3.1), the best is the best in
+    exact arithmetic too; elsewhere, for a few per cent of the queries, all points within reach of the errors are
+    compared in float64.
     """
     centre = points.mean(axis=0)
     points = points - centre

@@ -10,9 +10,9 @@ Both are had at once by
                                   + ρ KL(Π 1 | a_t) + ρ KL(Πᵀ 1 | a_s),
 
 unbalanced optimal transport between the target's points and the images of the source's (Chizat et al. 2018), found by
-scaling rows and columns in turn (Sinkhorn 1967). For a fixed Π it is quadratic in C; as a minimum of such functions
-it lies below each and touches that of its own Π: a penalty (:class:`kfmaps.fmap.losses.Penalty`), which goes
-together with every term, kernel, constraint and solver.
+scaling rows and columns in turn (Sinkhorn 1967). For a fixed Π it is quadratic in C; as a minimum of such functions it
+lies below each and touches that of its own Π: a penalty (:class:`kfmaps.fmap.losses.Penalty`), which goes together with
+every term, kernel, constraint and solver.
 """
 
 from __future__ import annotations
@@ -25,17 +25,6 @@ from kfmaps._arrays import Array, check_positive, namespace, to_numpy
 from kfmaps.fmap.terms import Preservation, Term
 from kfmaps.geometry.basis import Basis
 from kfmaps.geometry.sampling import stratified_samples
-
-POINTS = 500
-"""Points of each shape that the plan is made between."""
-STIFFNESS = 10.0
-"""``ρ / ε``: how dear it is to move less or more than a point's area, against a blurred plan."""
-MAX_SINKHORN_ITER = 300
-"""Of rows and columns, at most."""
-LARGE, TINY = 50.0, 1e-300
-"""A change of a logarithmic scaling that is put into the potentials at once, and what keeps logarithms finite."""
-SINKHORN_RTOL = 1e-7
-"""Change of a logarithmic scaling, in units of ε, below which no more follow."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -77,8 +66,8 @@ class TransportPenalty:
     def _solved(self, C: Array) -> tuple[Array, float]:
         """The plan at ``C`` and the value; those of the last map are kept, since both are asked for in turn."""
         if self._last.get("map") is not C:
-            cost = costs(C, self.functions_s, self.functions_t)
-            self._last.update(map=C, found=transport(cost, self.mass_t, self.mass_s, self.blur))
+            cost = _costs(C, self.functions_s, self.functions_t)
+            self._last.update(map=C, found=_transport(cost, self.mass_t, self.mass_s, self.blur))
         return self._last["found"]
 
 
@@ -93,15 +82,15 @@ def transport_penalty(C: Array, source: Basis, target: Basis, blur: float = 0.3)
         ``ε`` in units of the median cost of the nearest point at ``C``.
     """
     check_positive(blur, "blur")
-    few = [stratified_samples(b.truncate(k), POINTS).basis for b, k in ((source, C.shape[1]), (target, C.shape[0]))]
+    few = [stratified_samples(b.truncate(k), 500).basis for b, k in ((source, C.shape[1]), (target, C.shape[0]))]
     xp = namespace(C)
     mass_s, mass_t = (b.mass / xp.sum(b.mass) for b in few)
-    nearest = to_numpy(xp.min(costs(C, few[0].functions, few[1].functions), axis=1))
+    nearest = to_numpy(xp.min(_costs(C, few[0].functions, few[1].functions), axis=1))
     unit = max(float(np.median(nearest)), 1e-12)
     return TransportPenalty(few[0].functions, few[1].functions, mass_s, mass_t, blur * unit)
 
 
-def costs(C: Array, functions_s: Array, functions_t: Array) -> Array:
+def _costs(C: Array, functions_s: Array, functions_t: Array) -> Array:
     """``½‖φ_t(i) − C φ_s(j)‖²``, (m_t, m_s)."""
     xp = namespace(C)
     images = functions_s @ C.T
@@ -110,28 +99,30 @@ def costs(C: Array, functions_s: Array, functions_t: Array) -> Array:
     return xp.where(cost > 0, cost, xp.zeros_like(cost))
 
 
-def transport(cost: Array, a: Array, b: Array, blur: float, stiffness: float = STIFFNESS) -> tuple[Array, float]:
+def _transport(cost: Array, a: Array, b: Array, blur: float, stiffness: float = 10.0) -> tuple[Array, float]:
     """Unbalanced optimal transport for ``cost (m, n)`` between masses ``a (m,)`` and ``b (n,)``, and its value.
 
     Potentials ``f``, ``g`` of rows and columns are improved in turn; what the scalings have gathered is put into them
-    from time to time, so that nothing under- or overflows.
+    from time to time, so that nothing under- or overflows. ``stiffness`` is ``ρ / ε``: how dear it is to move less or
+    more than a point's area, against a blurred plan.
     """
     xp = namespace(cost)
+    tiny = 1e-300  # keeps logarithms finite
     damped = stiffness / (1.0 + stiffness)  # ρ / (ρ + ε)
     scaled = -cost / blur
     f = -damped * _log_sum(scaled + xp.log(b)[None, :], 1)
     g = -damped * _log_sum(scaled + (xp.log(a) + f)[:, None], 0)
     kernel = xp.exp(scaled + f[:, None] + g[None, :])
     up, vp = xp.zeros_like(a), xp.zeros_like(b)  # what is to be added to the potentials
-    for step in range(MAX_SINKHORN_ITER):
+    for step in range(300):
         # The new f is −damped · log(K (b eᵍ)), of which the kernel holds eᶠ and eᵍ already.
-        moved = -damped * xp.log(kernel @ (b * xp.exp(vp)) + TINY) - (1.0 - damped) * f
+        moved = -damped * xp.log(kernel @ (b * xp.exp(vp)) + tiny) - (1.0 - damped) * f
         change = float(xp.max(xp.abs(moved - up)))
         up = moved
-        vp = -damped * xp.log(kernel.T @ (a * xp.exp(up)) + TINY) - (1.0 - damped) * g
-        if change < SINKHORN_RTOL:
+        vp = -damped * xp.log(kernel.T @ (a * xp.exp(up)) + tiny) - (1.0 - damped) * g
+        if change < 1e-7:
             break
-        if step % 20 == 19 or change > LARGE:
+        if step % 20 == 19 or change > 50.0:
             f, g = f + up, g + vp
             kernel = xp.exp(scaled + f[:, None] + g[None, :])
             up, vp = xp.zeros_like(a), xp.zeros_like(b)

@@ -11,17 +11,13 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.sparse import csr_array
 
-from kfmaps._arrays import Array, check, namespace, refuse, to_numpy
+from kfmaps._arrays import Array, blocks, check, namespace, refuse, to_numpy
 from kfmaps._threads import parallel
 from kfmaps.fmap.nearest import EXACT_PAIRS, nearest
 from kfmaps.geometry.basis import Basis
 from kfmaps.geometry.closest_points import barycentric_weights, closest_points, closest_weights, first_minima
 from kfmaps.geometry.connectivity import VertexRings, vertex_rings
 from kfmaps.geometry.mesh import Mesh
-
-BLOCK = 256
-"""Queries compared with all vertices at once."""
-EDGES = ((0, 1), (0, 2), (1, 2))
 
 
 @dataclass(frozen=True, eq=False)
@@ -130,10 +126,10 @@ def nearest_surface_points(
     """For each of ``queries (q, d)`` the closest point of the triangles ``faces (f, 3)`` between ``points (p, d)``.
 
     For a point ``x = Σ w_i v_i`` of a triangle ``|q − x|² = Σ w_i |q − v_i|² − Σ_{i<j} w_i w_j |v_i − v_j|²``. The last
-    sum is at most the squared radius of the smallest ball around the triangle. So a triangle can only beat the
-    closest vertex when one of its corners is no farther, in squared distance, than that vertex and this radius
-    together, and only these few are looked at. All inner products follow from squared distances; those of the
-    triangles that float32 leaves in doubt are found again in float64.
+    sum is at most the squared radius of the smallest ball around the triangle. So a triangle can only beat the closest
+    vertex when one of its corners is no farther, in squared distance, than that vertex and this radius together, and
+    only these few are looked at. All inner products follow from squared distances; those of the triangles that float32
+    leaves in doubt are found again in float64.
 
     Exact as long as queries times points are at most ``EXACT_PAIRS``. Beyond (or with ``exact=False``) the nearest
     vertices are sought by cells, and only triangles of their neighbours are looked at.
@@ -141,7 +137,8 @@ def nearest_surface_points(
     check(queries, "queries", shape=(None, points.shape[1]))
     check(points, "points", shape=(None, None))
     around = vertex_rings(faces, len(points))
-    lengths = np.stack([((points[faces[:, j]] - points[faces[:, i]]) ** 2).sum(axis=1) for i, j in EDGES], axis=1)
+    edges = (points[faces[:, j]] - points[faces[:, i]] for i, j in ((0, 1), (0, 2), (1, 2)))
+    lengths = np.stack([(edge**2).sum(axis=1) for edge in edges], axis=1)
     if exact is False or (exact is None and len(queries) * len(points) > EXACT_PAIRS):
         return _among_neighbours(queries, points, faces, lengths, around, threads)
     middle = points.mean(axis=0)
@@ -168,7 +165,7 @@ def nearest_surface_points(
         candidates, entry = around.around(vertex)
         return candidates, rows.start + query[entry]
 
-    parts = parallel(search, [slice(a, min(a + BLOCK, len(queries))) for a in range(0, len(queries), BLOCK)], threads)
+    parts = parallel(search, blocks(len(queries), 256), threads)
     best = [_settled(queries, points, faces, lengths, *part) for part in parts]
     return PointMap(np.concatenate([b[0] for b in best]), np.concatenate([b[1] for b in best]))
 
@@ -235,8 +232,8 @@ def invert_precise_map(places: PointMap, source: Mesh, target: Mesh, known: np.n
     """The map the other way: a point on the target for each source vertex.
 
     The target's faces lie, flat between the images of their corners, on or near the source; each source vertex takes
-    the closest place on them. Where the map is one-to-one that is its inverse; parts that nothing is mapped to get
-    the nearest that something is. With ``known (n_t,)`` only faces whose corners all are known count.
+    the closest place on them. Where the map is one-to-one that is its inverse; parts that nothing is mapped to get the
+    nearest that something is. With ``known (n_t,)`` only faces whose corners all are known count.
 
     Raises
     ------

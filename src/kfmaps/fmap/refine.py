@@ -1,8 +1,7 @@
 """What a refinement is, and ICP; :mod:`kfmaps.fmap.zoomout` is the other.
 
-Refinements are frozen settings, callable as ``(C, source, target) -> Refined``.
-``points``, where given, is the point map of ``C`` itself (:func:`kfmaps.fmap.convert.to_points`), which then
-need not be found again.
+Refinements are frozen settings, callable as ``(C, source, target) -> Refined``. ``points``, where given, is the point
+map of ``C`` itself (:func:`kfmaps.fmap.convert.to_points`), which then need not be found again.
 """
 
 from __future__ import annotations
@@ -39,9 +38,9 @@ class Refined:
 class Refinement(Protocol):
     """What improves a functional map and its point map: a record of this module or any callable of this signature.
 
-    Three attributes are used where it has them: ``n_eigenfunctions`` that both shapes need, ``descriptor_weight``
-    above 0, which asks for descriptors as the argument ``guide``, and ``limited(n)``, the same with at most n
-    eigenfunctions, for shapes that differ much.
+    Three attributes are used where it has them: ``n_eigenfunctions`` that both shapes need, ``descriptor_weight`` above
+    0, which asks for descriptors as the argument ``guide``, and ``limited(n)``, the same with at most n eigenfunctions,
+    for shapes that differ much.
     """
 
     def __call__(
@@ -59,8 +58,8 @@ class Refinement(Protocol):
 class ICP:
     """Match, fit, take the nearest orthogonal matrix; ``steps`` times (Ovsjanikov et al. 2012).
 
-    Needs a square map; stops early when no point changes. Of a point map that reaches too few vertices to say
-    where every function goes, the matrix is a partial isometry.
+    Needs a square map; stops early when no point changes. Of a point map that reaches too few vertices to say where
+    every function goes, the matrix is a partial isometry.
     """
 
     steps: int = setting(5, "steps of ICP", low=1)

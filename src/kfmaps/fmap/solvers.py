@@ -1,8 +1,8 @@
 """Solvers for ``A(x) = b`` with ``A`` linear, self-adjoint and positive semi-definite.
 
-They know nothing of maps or meshes: ``apply`` is a function from an array to one of the same shape, and the
-inner product is the sum of elementwise products, so a matrix ``C`` is a vector like any other and no Kronecker
-system is ever formed.
+They know nothing of maps or meshes: ``apply`` is a function from an array to one of the same shape, and the inner
+product is the sum of elementwise products, so a matrix ``C`` is a vector like any other and no Kronecker system is ever
+formed.
 """
 
 from __future__ import annotations
@@ -47,8 +47,8 @@ class Solution:
 class CG:
     """Conjugate gradients on an array of any shape (figure 1 of the paper), optionally preconditioned.
 
-    Stops at ``‖r‖ <= rtol ‖b‖`` or after ``max_iter``. The paper's "10 iterations" is ``CG(max_iter=10)``.
-    Unlike SciPy's, it keeps every residual and reports a breakdown instead of returning silently.
+    Stops at ``‖r‖ <= rtol ‖b‖`` or after ``max_iter``. The paper's "10 iterations" is ``CG(max_iter=10)``. Unlike
+    SciPy's, it keeps every residual and reports a breakdown instead of returning silently.
 
     Raises
     ------

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Literal, Protocol
+from typing import Literal, Protocol, get_args
 
 from kfmaps._arrays import Array, check, check_positive, inner, namespace, refuse
 from kfmaps.geometry.basis import Basis, eigenvalue_tolerance
 
 Mask = Literal["squared", "resolvent"]
-MASKS: tuple[Mask, ...] = ("squared", "resolvent")
 
 
 class Term(Protocol):
@@ -67,7 +66,7 @@ class Preservation:
         return self.total
 
     def sides(self) -> tuple[Array, Array]:
-        return zeros(self.cross.shape[0], self.gram_s), self.gram_s
+        return _zeros(self.cross.shape[0], self.gram_s), self.gram_s
 
     def rotated_diagonal(self, U_t: Array, U_s: Array) -> Array:
         xp = namespace(self.cross)
@@ -89,8 +88,8 @@ def descriptor_term(source: Basis, features_s: Array, target: Basis, features_t:
 class OperatorCommutativity:
     """``½ Σᵢ ‖C X_sⁱ − X_tⁱ C‖²`` with the slices at hand; made by :func:`operator_term`.
 
-    ``parity`` is +1 for symmetric slices (multiplication by a function), −1 for antisymmetric ones (the
-    orientation operators). The slices lie in two layouts that turn one application into two matrix products.
+    ``parity`` is +1 for symmetric slices (multiplication by a function), −1 for antisymmetric ones (the orientation
+    operators). The slices lie in two layouts that turn one application into two matrix products.
     """
 
     left: Array  # (k_t · r, k_t): the target's slices, row a of slice i at a·r + i
@@ -177,7 +176,7 @@ class Elementwise:
 
     def sides(self) -> tuple[Array, Array]:
         k_t, k_s = self.weights.shape
-        return zeros(k_t, self.weights), zeros(k_s, self.weights)
+        return _zeros(k_t, self.weights), _zeros(k_s, self.weights)
 
     def rotated_diagonal(self, U_t: Array, U_s: Array) -> Array:
         return (U_t * U_t).T @ self.weights @ (U_s * U_s)
@@ -188,16 +187,16 @@ def laplacian_term(
 ) -> Elementwise:
     """Commutativity with the Laplacian: weights ``((λ_s,b − λ_t,a) / scale)²``.
 
-    ``scale=None`` takes the larger of the two last eigenvalues, so that the weights lie in [0, 1] and α means
-    the same at every basis size; ``scale=1`` is the paper's term as written.
+    ``scale=None`` takes the larger of the two last eigenvalues, so that the weights lie in [0, 1] and α means the same
+    at every basis size; ``scale=1`` is the paper's term as written.
 
     With ``mask="resolvent"`` it is commutativity with the resolvent ``(Δ^γ − i)⁻¹`` of the scaled Laplacian's power
-    ``γ``, a bounded operator: weights ``|1 / (λ_t,a^γ − i) − 1 / (λ_s,b^γ − i)|²``, again in [0, 1] (Ren, Panine,
-    Wonka and Ovsjanikov, Structured regularization of functional map computations, 2019).
+    ``γ``, a bounded operator: weights ``|1 / (λ_t,a^γ − i) − 1 / (λ_s,b^γ − i)|²``, again in [0, 1] (Ren, Panine, Wonka
+    and Ovsjanikov, Structured regularization of functional map computations, 2019).
     """
     xp = namespace(source.eigenvalues)
-    if mask not in MASKS:
-        raise refuse("mask", "one of " + ", ".join(MASKS), repr(mask), "choose one of them")
+    if mask not in get_args(Mask):
+        raise refuse("mask", "one of " + ", ".join(get_args(Mask)), repr(mask), "choose one of them")
     if scale is None:
         scale = max(float(xp.max(source.eigenvalues)), float(xp.max(target.eigenvalues)), eigenvalue_tolerance(source))
     if mask == "squared":
@@ -251,16 +250,16 @@ def inverse_term(back: Array) -> InverseConsistency:
 def adjoint_term(back: Array, ratio: float = 1.0) -> InverseConsistency:
     """``½‖C − ratio backᵀ‖²``: ``back`` is the adjoint of ``C`` in the areas (Huang and Ovsjanikov 2017).
 
-    In bases that are orthonormal in the area the adjoint is the transpose, and the map back of one that keeps areas
-    up to a constant factor ``ratio`` is its adjoint divided by it; shapes of unit area have 1.
+    In bases that are orthonormal in the area the adjoint is the transpose, and the map back of one that keeps areas up
+    to a constant factor ``ratio`` is its adjoint divided by it; shapes of unit area have 1.
     """
     xp = namespace(back)
     k_s, k_t = back.shape
     one = xp.eye(k_s, dtype=back.dtype, device=back.device)
-    return InverseConsistency(zeros(k_t, back), one, ratio * back.T, 0.5 * ratio**2 * inner(back, back))
+    return InverseConsistency(_zeros(k_t, back), one, ratio * back.T, 0.5 * ratio**2 * inner(back, back))
 
 
-def zeros(k: int, like: Array) -> Array:
+def _zeros(k: int, like: Array) -> Array:
     return namespace(like).zeros((k, k), dtype=like.dtype, device=like.device)
 
 

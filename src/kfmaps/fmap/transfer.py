@@ -61,7 +61,7 @@ def transfer_functions(
         check_positive(ridge, "ridge")
         if products > k_s:
             raise refuse("products", f"at most the {k_s} functions that the map carries", str(products), "lower it")
-        on_s, on_t = function_pairs(source.functions, products), function_pairs(images, products)
+        on_s, on_t = _function_pairs(source.functions, products), _function_pairs(images, products)
         # Of unit norm on the source, and the same divisor for the image.
         weights = source.mass[:, None]
         norms = xp.sqrt(xp.sum(weights * on_s * on_s, axis=0))
@@ -79,7 +79,7 @@ def transfer_functions(
     return found[:, 0] if single else found
 
 
-def function_pairs(functions: Array, count: int) -> Array:
+def _function_pairs(functions: Array, count: int) -> Array:
     """Products ``(n, m)`` of two of the columns 1 to ``count`` of ``functions``, the first (the constant) left out."""
     first, second = np.triu_indices(count - 1)
     return take(functions, first + 1, axis=1) * take(functions, second + 1, axis=1)

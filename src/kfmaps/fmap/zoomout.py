@@ -24,7 +24,7 @@ from kfmaps.fmap.refine import Refined
 from kfmaps.geometry.basis import Basis
 from kfmaps.geometry.sampling import SampledBasis, stratified_samples, stratified_vertices
 
-MAX_CANDIDATES, CANDIDATES_PER_SAMPLE = 8_000, 2
+MAX_CANDIDATES, _CANDIDATES_PER_SAMPLE = 8_000, 2
 """Source points that steps on samples choose from, at most: in all, and for each sample of the target."""
 MAX_EXACT_PAIRS = 2_000_000
 """Pairs of points above which steps on samples search approximately."""
@@ -49,7 +49,7 @@ class ZoomOut:
     A functional map larger than ``start`` is truncated to it, a smaller one starts at its own size. Where there are
     more than ``samples`` points of the target, the steps before the last work on so many: the functional map is fitted
     to them by damped least squares, each weighted by the area that is closest to it, and of a source with more than
-    :data:`CANDIDATES_PER_SAMPLE` times as many points, or :data:`MAX_CANDIDATES`, that many are there to be chosen.
+    twice as many points, or :data:`MAX_CANDIDATES`, that many are there to be chosen.
 
     ``descriptor_weight`` is the mean squared difference of two random points, which in k functions is about 2 k, and
     has an effect only where :meth:`__call__` is given descriptors; 0 is ZoomOut as published.
@@ -131,9 +131,9 @@ class ZoomOut:
     ) -> tuple[Refined, Refined]:
         """Refine the maps of both directions, each held close to the adjoint of the other.
 
-        The mean of the map forth and the adjoint of the map back is the next map, its adjoint the next map back
-        (Ren et al., Continuous and orientation-preserving correspondences via functional maps, 2018, couple the two
-        likewise; the mean is ours). Swapping the shapes and the maps swaps the answers.
+        The mean of the map forth and the adjoint of the map back is the next map, its adjoint the next map back (Ren et
+        al., Continuous and orientation-preserving correspondences via functional maps, 2018, couple the two likewise;
+        the mean is ours). Swapping the shapes and the maps swaps the answers.
 
         Parameters
         ----------
@@ -195,7 +195,7 @@ class ZoomOut:
     def _candidates(self, basis: Basis) -> _Points:
         """The points that a step on samples chooses images from."""
         assert self.samples is not None
-        count = min(MAX_CANDIDATES, CANDIDATES_PER_SAMPLE * self.samples)
+        count = min(MAX_CANDIDATES, _CANDIDATES_PER_SAMPLE * self.samples)
         if basis.functions.shape[0] <= count:
             return _Points(basis)
         vertices = stratified_vertices(basis, count, self.seed)
@@ -229,8 +229,8 @@ def fit_functional_map(points: np.ndarray, source: Basis, target: Basis, k: int,
     """Return the functional map ``(k, k)`` of a point map, on all points of ``target`` or on samples of it.
 
     On all points the basis is orthonormal and the map is the projection ``Φ_tᵀ A_t Φ_s[points]``. Samples are not
-    quite, so the map is theirs by least squares. Undamped that follows the noise of the points when they are few
-    for k; plain projection leaves the error of the quadrature: ``ridge`` stands between, and is undone in the size.
+    quite, so the map is theirs by least squares. Undamped that follows the noise of the points when they are few for k;
+    plain projection leaves the error of the quadrature: ``ridge`` stands between, and is undone in the size.
 
     Parameters
     ----------

@@ -1,7 +1,7 @@
 """As-rigid-as-possible energy of a deformed mesh (Sorkine and Alexa 2007).
 
-With ``x̄`` the rest positions, ``x`` the bent ones, ``w`` cotangent weights and one rotation ``R_i`` a vertex,
-``E(x, R) = ½ Σ_i Σ_j w_ij |(x_i − x_j) − R_i (x̄_i − x̄_j)|²``. For fixed rotations it is quadratic in ``x`` with the
+With ``x̄`` the rest positions, ``x`` the bent ones, ``w`` cotangent weights and one rotation ``R_i`` a vertex, ``E(x,
+R) = ½ Σ_i Σ_j w_ij |(x_i − x_j) − R_i (x̄_i − x̄_j)|²``. For fixed rotations it is quadratic in ``x`` with the
 Laplacian as its matrix; for fixed ``x`` each best rotation is a polar decomposition. It has no unit: a mesh of any size
 that is bent alike has the same energy.
 """
@@ -15,16 +15,6 @@ import numpy as np
 from scipy.sparse import coo_array, csr_array, diags_array
 
 from kfmaps.geometry.mesh import Mesh
-
-LEAST = 0.05
-"""Weight that every edge has at least: obtuse triangles make negative ones, with which the energy has no bottom."""
-SHARPEST = 20.0
-"""Cotangent of the sharpest corner that counts, so that no sliver outweighs all else."""
-DETERMINED = 0.02
-"""Product of the sums of two singular values each, of a matrix of norm 1, above which its rotation is well determined:
-errors of rounding grow with the inverse square; a rotation has 1.5, a round one of rank two 0.7."""
-ROOT_STEPS = 12
-"""Newton's steps for the sum of singular values: as many as the hardest above that need."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,10 +47,11 @@ def build_arap(mesh: Mesh) -> ArapEnergy:
         dot = np.einsum("ij,ij->i", u, w)
         cot = np.divide(dot, area, out=np.zeros_like(dot), where=area > 0)
         tails, heads = [*tails, b], [*heads, c]
-        values.append(0.5 * np.clip(cot, -1.0, SHARPEST))
+        values.append(0.5 * np.clip(cot, -1.0, 20.0))  # no sliver may outweigh all else
     half: Any = coo_array((np.concatenate(values), (np.concatenate(tails), np.concatenate(heads))), shape=(n, n))
     weights: Any = csr_array(half + half.T)
-    weights.data = np.maximum(weights.data, LEAST)
+    # Obtuse triangles make negative weights, with which the energy has no bottom.
+    weights.data = np.maximum(weights.data, 0.05)
     weights.setdiag(0)
     weights.eliminate_zeros()
     edges = weights.tocoo()
@@ -118,13 +109,14 @@ def nearest_rotations(matrices: np.ndarray) -> np.ndarray:
     # The sum of the singular values, the last with the sign of the determinant: the largest root of a quartic, which
     # Newton's steps from above approach without going beyond.
     root = np.full(len(det), np.sqrt(3.0))
-    for _ in range(ROOT_STEPS):
+    for _ in range(12):  # as many as the hardest of those that are determined need
         slope = 4.0 * (root * (root * root - 1.0) - 2.0 * det)
         value = ((root * root - 2.0) * root - 8.0 * det) * root + squares
         root = root - np.divide(value, slope, out=np.zeros_like(root), where=slope > 0)
     half = 0.5 * (root * root - 1.0)
     known = half * root - det
-    clear = known > DETERMINED
+    # Errors of rounding grow with the inverse square of this; a rotation has 1.5, a round matrix of rank two 0.7.
+    clear = known > 0.02
     inverse = np.divide(1.0, known, out=np.zeros_like(known), where=clear)
     turned = ((half + 1.0) * m + root * cofactors - _times(m, _times(m.transpose(1, 0, 2), m))) * inverse
     # One step of an iteration for the nearest orthogonal matrix takes away what rounding has left.

@@ -17,7 +17,7 @@ from kfmaps.geometry.eigen.factorization import Sparse
 from kfmaps.geometry.mesh import Mesh, check_is_mesh, vertex_areas
 from kfmaps.geometry.point_cloud import cloud_laplacian
 
-MIN_ANGLE_RATIO = 1e-6
+_MIN_ANGLE_RATIO = 1e-6
 """Angle below which a face counts as one with longer edges, and how much longer they are."""
 
 
@@ -116,7 +116,7 @@ def cotangent_laplacian(mesh: Mesh) -> csc_array:
         a, b = mesh.vertices[i] - mesh.vertices[tip], mesh.vertices[j] - mesh.vertices[tip]
         dot = (a * b).sum(axis=1)
         sine = np.linalg.norm(np.cross(a, b), axis=1)
-        wide = sine > MIN_ANGLE_RATIO * np.linalg.norm(a, axis=1) * np.linalg.norm(b, axis=1)
+        wide = sine > _MIN_ANGLE_RATIO * np.linalg.norm(a, axis=1) * np.linalg.norm(b, axis=1)
         halves.append(np.divide(dot, sine, out=np.zeros_like(dot), where=wide) / 2)
         thin |= ~wide
     if thin.any():
@@ -136,10 +136,10 @@ def _mollified(corners: np.ndarray) -> np.ndarray:
     """Half the cotangents at the ``corners`` (f, 3, 3) of faces, their edges made longer, (3, f)."""
     opposite = np.linalg.norm(np.roll(corners, -1, axis=1) - np.roll(corners, 1, axis=1), axis=2)
     longest = opposite.max(axis=1, keepdims=True)
-    order = -np.sort(-(opposite + MIN_ANGLE_RATIO * longest), axis=1).T  # Kahan's area of a triangle needs a ≥ b ≥ c
+    order = -np.sort(-(opposite + _MIN_ANGLE_RATIO * longest), axis=1).T  # Kahan's area of a triangle needs a ≥ b ≥ c
     a, b, c = order
     area = 0.25 * np.sqrt(np.maximum((a + (b + c)) * (c - (a - b)) * (c + (a - b)) * (a + (b - c)), 0))
-    squares = (opposite + MIN_ANGLE_RATIO * longest).T ** 2
+    squares = (opposite + _MIN_ANGLE_RATIO * longest).T ** 2
     above = np.roll(squares, 1, axis=0) + np.roll(squares, -1, axis=0) - squares
     return np.divide(above, 8 * area, out=np.zeros_like(above), where=area > 0)
 
@@ -165,8 +165,8 @@ def laplace_basis(
 ) -> Basis:
     """Return the first ``k`` eigenfunctions of the Laplacian of a mesh or point cloud.
 
-    Any triangles will do: boundaries (with natural, Neumann conditions), several components (one eigenvalue
-    zero for each), faces without area, edges with more than two faces. Open edges that lie in one place are connected
+    Any triangles will do: boundaries (with natural, Neumann conditions), several components (one eigenvalue zero for
+    each), faces without area, edges with more than two faces. Open edges that lie in one place are connected
     (:func:`kfmaps.geometry.clean.weld_vertices`), and points of a cloud in one place count as one: the first has the
     mass, the others its functions. A vertex that no face uses has no mass and the functions of the used vertex nearest
     in space.
@@ -175,14 +175,14 @@ def laplace_basis(
     ----------
     mesh : Mesh
         In any unit ``u``; shapes to be matched should have unit area (:func:`~kfmaps.geometry.mesh.unit_area`). The
-        eigenvalues come in ``1/u²``, the mass in ``u²``, the functions in ``1/u``. Without faces it is a cloud,
-        whose areas are estimated (:func:`kfmaps.geometry.point_cloud.cloud_laplacian`).
+        eigenvalues come in ``1/u²``, the mass in ``u²``, the functions in ``1/u``. Without faces it is a cloud, whose
+        areas are estimated (:func:`kfmaps.geometry.point_cloud.cloud_laplacian`).
     k : int
         From 1 to one less than the number of vertices in use.
     laplacian : {"robust", "cotangent"}
-        ``"robust"``: the intrinsic Delaunay Laplacian of the tufted cover, whose weights are never negative,
-        on triangles however bad (Sharp and Crane, A Laplacian for nonmanifold triangle meshes, 2020).
-        ``"cotangent"``: :func:`cotangent_laplacian` with barycentric areas. Clouds always take the robust one.
+        ``"robust"``: the intrinsic Delaunay Laplacian of the tufted cover, whose weights are never negative, on
+        triangles however bad (Sharp and Crane, A Laplacian for nonmanifold triangle meshes, 2020). ``"cotangent"``:
+        :func:`cotangent_laplacian` with barycentric areas. Clouds always take the robust one.
     rng : int or numpy.random.Generator
         Start vectors of the eigensolver. The same input gives the same basis; each function's entry of largest
         magnitude is positive, but signs, and bases of repeated eigenvalues, mean nothing.

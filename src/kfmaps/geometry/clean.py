@@ -14,7 +14,7 @@ from scipy.spatial import KDTree
 from kfmaps.geometry.connectivity import boundary_edges, component_labels, proper_faces, unique_vertices
 from kfmaps.geometry.mesh import Mesh, face_areas
 
-SPECK = 0.005
+_MAX_SPECK_AREA = 0.005
 """Area of a component, over that of the largest, below which it is a speck: what one of 200 samples stands for."""
 
 
@@ -91,7 +91,7 @@ def clean_mesh(mesh: Mesh, specks: bool = False) -> CleanedMesh:
     mesh : Mesh
         Its face numbers within range.
     specks : bool
-        Whether to leave out components whose area is less than :data:`SPECK` of the largest one's.
+        Whether to leave out components whose area is less than 0.5 % of the largest one's.
 
     Returns
     -------
@@ -144,5 +144,5 @@ def _no_speck(mesh: Mesh) -> tuple[np.ndarray, int]:
     count, label = component_labels(n, faces.ravel(), np.roll(faces, 1, axis=1).ravel())
     piece = label[faces[:, 0]]
     areas = np.bincount(piece, face_areas(mesh), minlength=count)
-    speck = areas < SPECK * areas.max(initial=0.0)
+    speck = areas < _MAX_SPECK_AREA * areas.max(initial=0.0)
     return ~speck[piece], int(speck[np.unique(piece)].sum())

@@ -61,7 +61,7 @@ def spread_vertices(mesh: Mesh, count: int, kept: np.ndarray | None = None) -> n
     return chosen if kept is None else np.union1d(chosen, kept)
 
 
-def voronoi_regions(mesh: Mesh, vertices: np.ndarray) -> np.ndarray:
+def _voronoi_regions(mesh: Mesh, vertices: np.ndarray) -> np.ndarray:
     """Return which of ``vertices (q,)`` is nearest to each vertex of ``mesh`` along edges, (n,); −1 if none is
     reached."""
     owner = np.asarray(dijkstra(geodesic_graph(mesh, 0), indices=vertices, min_only=True, return_predecessors=True)[2])
@@ -73,8 +73,8 @@ def voronoi_regions(mesh: Mesh, vertices: np.ndarray) -> np.ndarray:
 def coarsen(mesh: Mesh, vertices: np.ndarray, owner: np.ndarray | None = None) -> Mesh:
     """Return the triangulation of some vertices that is dual to the regions nearest to each.
 
-    Every vertex of the mesh belongs to the one of ``vertices`` that is nearest along edges. A face whose corners
-    belong to three becomes a face of these. With evenly spread vertices that is close to their geodesic Delaunay
+    Every vertex of the mesh belongs to the one of ``vertices`` that is nearest along edges. A face whose corners belong
+    to three becomes a face of these. With evenly spread vertices that is close to their geodesic Delaunay
     triangulation; thin parts with few of them may lose faces. A point cloud stays one.
 
     Parameters
@@ -82,7 +82,7 @@ def coarsen(mesh: Mesh, vertices: np.ndarray, owner: np.ndarray | None = None) -
     mesh : Mesh
     vertices : (q,) int64
     owner : (n,) int64, optional
-        :func:`voronoi_regions` of them, where they are known.
+        :func:`_voronoi_regions` of them, where they are known.
 
     Returns
     -------
@@ -91,7 +91,7 @@ def coarsen(mesh: Mesh, vertices: np.ndarray, owner: np.ndarray | None = None) -
     """
     if len(mesh.faces) == 0:
         return Mesh(mesh.vertices[vertices], mesh.faces)
-    found = (voronoi_regions(mesh, vertices) if owner is None else owner)[mesh.faces]
+    found = (_voronoi_regions(mesh, vertices) if owner is None else owner)[mesh.faces]
     a, b, c = found.T
     found = found[(found >= 0).all(axis=1) & (a != b) & (b != c) & (c != a)]
     # One face for each three, in the order of most of its originals, which rarely differ.
@@ -111,7 +111,7 @@ def coarse_proxy(mesh: Mesh, vertices: np.ndarray) -> CoarseProxy:
     owner = np.arange(len(vertices))
     coarse = mesh
     if len(vertices) < len(mesh.vertices):
-        owner = voronoi_regions(mesh, vertices)
+        owner = _voronoi_regions(mesh, vertices)
         coarse = coarsen(mesh, vertices, owner)
     used = np.unique(coarse.faces)
     if len(used) < len(vertices):  # thin parts may lose their faces

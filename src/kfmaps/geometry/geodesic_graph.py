@@ -7,23 +7,20 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.sparse import csr_array
 
-from kfmaps._arrays import check_count
+from kfmaps._arrays import blocks, check_count
 from kfmaps.geometry.clean import weld_vertices
 from kfmaps.geometry.connectivity import proper_faces
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.geometry.point_cloud import cloud_edges
-
-CHUNK = 200_000
-"""Corners unfolded together, which bounds the memory."""
 
 
 @dataclass(frozen=True, eq=False)
 class _Windows:
     """What source vertices see through edges, each source at the origin of the plane its faces lie in.
 
-    ``right`` and ``left`` (w,) are the ends of the edge, as seen from the source, ``right_at`` and ``left_at``
-    (w, 2) their places in the plane; ``low`` and ``high`` (w, 2) are the rays that bound the view through all
-    edges crossed so far, and ``edge`` (w,) is the corner, opposite the edge, in the face seen last.
+    ``right`` and ``left`` (w,) are the ends of the edge, as seen from the source, ``right_at`` and ``left_at`` (w, 2)
+    their places in the plane; ``low`` and ``high`` (w, 2) are the rays that bound the view through all edges crossed so
+    far, and ``edge`` (w,) is the corner, opposite the edge, in the face seen last.
     """
 
     source: np.ndarray
@@ -151,21 +148,21 @@ def _shortest(rows: np.ndarray, columns: np.ndarray, lengths: np.ndarray) -> tup
 def geodesic_graph(mesh: Mesh, depth: int = 4) -> csr_array:
     """Symmetric graph (n, n) whose shortest paths run along the surface; its weights are lengths.
 
-    It joins the ends of every edge and, for ``depth`` above 0, every two vertices that a straight line joins
-    across up to ``depth`` edges once the faces on its way are laid flat. Such lines lie on the surface, so no
-    path is shorter than the geodesic, and any that passes few faces between vertices is exact. Shortest paths
-    in the graph of all such lines are exact geodesics (the saddle vertex graph); the short ones come close.
+    It joins the ends of every edge and, for ``depth`` above 0, every two vertices that a straight line joins across up
+    to ``depth`` edges once the faces on its way are laid flat. Such lines lie on the surface, so no path is shorter
+    than the geodesic, and any that passes few faces between vertices is exact. Shortest paths in the graph of all such
+    lines are exact geodesics (the saddle vertex graph); the short ones come close.
 
-    Works on any triangles: boundaries, several components, edges with more than two faces, faces without
-    area, open edges in one place, whose ends are at no distance from each other. A vertex that no face uses is joined
-    to nothing. The points of a cloud are joined to their 12 nearest neighbours, and all to one piece.
+    Works on any triangles: boundaries, several components, edges with more than two faces, faces without area, open
+    edges in one place, whose ends are at no distance from each other. A vertex that no face uses is joined to nothing.
+    The points of a cloud are joined to their 12 nearest neighbours, and all to one piece.
 
     Parameters
     ----------
     mesh : Mesh
     depth : int
-        Edges that a line may cross: 0 for edges only (5 % longer than geodesics on even meshes), 1 for the
-        diagonals of neighbouring faces too, 4 for an error of 0.3 %. Entries per vertex: 6, 12, 35.
+        Edges that a line may cross: 0 for edges only (5 % longer than geodesics on even meshes), 1 for the diagonals of
+        neighbouring faces too, 4 for an error of 0.3 %. Entries per vertex: 6, 12, 35.
 
     Raises
     ------
@@ -190,8 +187,8 @@ def geodesic_graph(mesh: Mesh, depth: int = 4) -> csr_array:
         links.append((a, b, np.linalg.norm(v[a] - v[b], axis=1)))
         faces = f[proper_faces(f)]
         start, twins = _neighbours(faces) if depth else (np.zeros(1), np.zeros(0))
-        for chunk in range(0, 3 * len(faces) if depth else 0, CHUNK):
-            windows = _first_windows(v, faces, np.arange(chunk, min(chunk + CHUNK, 3 * len(faces))))
+        for chunk in blocks(3 * len(faces) if depth else 0, 200_000):  # which bounds the memory
+            windows = _first_windows(v, faces, np.arange(chunk.start, chunk.stop))
             for _ in range(depth):
                 windows, *found = _crossed(v, faces, start, twins, windows)
                 one_way = found[0] < found[1]  # the other end sees the same line

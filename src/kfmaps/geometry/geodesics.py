@@ -1,7 +1,7 @@
 """Distances along a surface.
 
-Measured against exact polyhedral distances (Mitchell, Mount and Papadimitriou) on remeshed humans of 5,000
-vertices, one thread; errors in per cent of the distance, "near" within three edge lengths:
+Measured against exact polyhedral distances (Mitchell, Mount and Papadimitriou) on remeshed humans of 5,000 vertices,
+one thread; errors in per cent of the distance, "near" within three edge lengths:
 
 ===========================  ========  =====  =====  ======
 method                       a source  mean   near   worst
@@ -29,18 +29,16 @@ from kfmaps.geometry.clean import clean_mesh, weld_vertices
 from kfmaps.geometry.geodesic_graph import geodesic_graph
 from kfmaps.geometry.mesh import Mesh, check_is_mesh
 
-METHODS = ("unfolded", "dijkstra", "heat")
+_METHODS = ("unfolded", "dijkstra", "heat")
 
-BLOCK = 64
-"""Sources worked on together: what bounds the memory of :func:`geodesic_distance_pairs`."""
 
-FULL_SEARCHES = 100
+_FULL_SEARCHES = 100
 """Points that :func:`pairwise_geodesics` searches all of the surface from."""
 
-NEARBY = 0.25
+_NEARBY = 0.25
 """Distance at unit area up to which it searches from the others: a fifth of a body."""
 
-SEARCHES = 64
+_SEARCHES = 64
 """Farthest samples whose regions are large enough that a whole search is faster than a spreading front."""
 
 
@@ -56,8 +54,8 @@ def _indices(values: ArrayLike, n: int, name: str) -> np.ndarray:
 
 
 def _graph(mesh: Mesh, method: str) -> csr_array:
-    if method not in METHODS:
-        raise refuse("method", f"one of {', '.join(METHODS)}", repr(method), "choose one of them")
+    if method not in _METHODS:
+        raise refuse("method", f"one of {', '.join(_METHODS)}", repr(method), "choose one of them")
     return geodesic_graph(mesh) if method == "unfolded" else geodesic_graph(mesh, 0)
 
 
@@ -88,17 +86,16 @@ def geodesic_distances(mesh: Mesh, sources: ArrayLike, method: str = "unfolded")
     Parameters
     ----------
     mesh : Mesh
-        Any triangles: boundaries, several components, branching edges and unused vertices do no harm. On a
-        point cloud the first two methods run on the graph of nearest neighbours (4 to 7 % error on humans,
-        more where limbs touch), ``"heat"`` on the cloud's own Laplacian.
+        Any triangles: boundaries, several components, branching edges and unused vertices do no harm. On a point cloud
+        the first two methods run on the graph of nearest neighbours (4 to 7 % error on humans, more where limbs touch),
+        ``"heat"`` on the cloud's own Laplacian.
     sources : (q,) int
         Vertex numbers.
     method : {"unfolded", "dijkstra", "heat"}
         ``"unfolded"``: shortest paths over edges and straight lines across up to four unfolded edges
         (:func:`~kfmaps.geometry.geodesic_graph.geodesic_graph`). ``"dijkstra"``: over edges alone. Both are never
-        shorter than
-        the geodesic, symmetric, and obey the triangle inequality. ``"heat"``: Crane, Weischedel and Wardetzky,
-        Geodesics in heat (2013), which does neither.
+        shorter than the geodesic, symmetric, and obey the triangle inequality. ``"heat"``: Crane, Weischedel and
+        Wardetzky, Geodesics in heat (2013), which does neither.
 
     Returns
     -------
@@ -125,8 +122,8 @@ def geodesic_distances(mesh: Mesh, sources: ArrayLike, method: str = "unfolded")
 def geodesic_distance_pairs(mesh: Mesh, a: ArrayLike, b: ArrayLike, method: str = "unfolded") -> np.ndarray:
     """Return the distance along the surface from vertex ``a[i]`` to vertex ``b[i]``, in the mesh's own unit.
 
-    No n × n matrix is held: sources are taken in blocks, each searched only as far as its pairs need, so that
-    five thousand near pairs on five thousand vertices take less than a second.
+    No n × n matrix is held: sources are taken in blocks, each searched only as far as its pairs need, so that five
+    thousand near pairs on five thousand vertices take less than a second.
 
     Parameters
     ----------
@@ -176,7 +173,7 @@ def geodesic_distance_pairs(mesh: Mesh, a: ArrayLike, b: ArrayLike, method: str 
 
 
 def _blocks(pairs: np.ndarray, a: np.ndarray, reach: np.ndarray) -> list[np.ndarray]:
-    """``pairs`` in groups of one :data:`BLOCK` of sources that need to be searched about equally far."""
+    """``pairs`` in groups of 64 sources that need to be searched about equally far."""
     if len(pairs) == 0:
         return []
     sources, row = np.unique(a[pairs], return_inverse=True)
@@ -184,7 +181,7 @@ def _blocks(pairs: np.ndarray, a: np.ndarray, reach: np.ndarray) -> list[np.ndar
     np.maximum.at(far, row, reach[pairs])
     rank = np.empty(len(sources), dtype=np.int64)
     rank[np.argsort(far, kind="stable")] = np.arange(len(sources))
-    group = rank[row] // BLOCK
+    group = rank[row] // 64  # which bounds the memory
     order = np.argsort(group, kind="stable")
     return np.split(pairs[order], np.flatnonzero(np.diff(group[order])) + 1)
 
@@ -192,9 +189,8 @@ def _blocks(pairs: np.ndarray, a: np.ndarray, reach: np.ndarray) -> list[np.ndar
 def pairwise_geodesics(graph: csr_array, points: np.ndarray) -> np.ndarray:
     """Return the distances between some points, in half of the time of a search from each over all of the surface.
 
-    Exact between each of the first :data:`FULL_SEARCHES` and all, and up to :data:`NEARBY`. Others are the lengths of
-    paths over one of the points, which are little longer for farthest points: of 300 on bodies by 0.3 %, of all
-    distances 0.04 %.
+    Exact between each of the first 100 and all, and up to a distance of 0.25. Others are the lengths of paths over one
+    of the points, which are little longer for farthest points: of 300 on bodies by 0.3 %, of all distances 0.04 %.
 
     Parameters
     ----------
@@ -208,15 +204,15 @@ def pairwise_geodesics(graph: csr_array, points: np.ndarray) -> np.ndarray:
     (c, c) float64
         Infinite between components.
     """
-    found = np.asarray(dijkstra(graph, indices=points[:FULL_SEARCHES]))[:, points]
-    if len(points) <= FULL_SEARCHES:
+    found = np.asarray(dijkstra(graph, indices=points[:_FULL_SEARCHES]))[:, points]
+    if len(points) <= _FULL_SEARCHES:
         return found
-    near = np.asarray(dijkstra(graph, indices=points[FULL_SEARCHES:], limit=NEARBY))[:, points]
-    near[:, :FULL_SEARCHES] = found[:, FULL_SEARCHES:].T
+    near = np.asarray(dijkstra(graph, indices=points[_FULL_SEARCHES:], limit=_NEARBY))[:, points]
+    near[:, :_FULL_SEARCHES] = found[:, _FULL_SEARCHES:].T
     found = np.concatenate([found, near])
     single = found.astype(np.float32)
-    over = np.stack([(one[:, None] + single[:, FULL_SEARCHES:]).min(axis=0) for one in single[FULL_SEARCHES:]])
-    rest = found[FULL_SEARCHES:, FULL_SEARCHES:]
+    over = np.stack([(one[:, None] + single[:, _FULL_SEARCHES:]).min(axis=0) for one in single[_FULL_SEARCHES:]])
+    rest = found[_FULL_SEARCHES:, _FULL_SEARCHES:]
     rest[np.isinf(rest)] = over[np.isinf(rest)]
     np.minimum(rest, rest.T.copy(), out=rest)
     if np.isinf(rest).any():
@@ -234,8 +230,8 @@ def farthest_geodesic(
 ) -> np.ndarray:
     """Return vertices spread evenly over the surface: each is the farthest from those before it.
 
-    Distances run over edges and the diagonals of neighbouring faces (1.3 % error). Each new sample costs only
-    the vertices that are nearer to it than to all before, so the whole costs little more than a few searches.
+    Distances run over edges and the diagonals of neighbouring faces (1.3 % error). Each new sample costs only the
+    vertices that are nearer to it than to all before, so the whole costs little more than a few searches.
 
     Parameters
     ----------
@@ -251,8 +247,7 @@ def farthest_geodesic(
     Returns
     -------
     (count,) int64
-        All different, none unused by faces. Every component is met before any is met twice, as far as
-        ``count`` goes.
+        All different, none unused by faces. Every component is met before any is met twice, as far as ``count`` goes.
 
     Raises
     ------
@@ -274,7 +269,7 @@ def farthest_geodesic(
     graph = geodesic_graph(mesh, 1)
     nearest = np.where(used, np.inf, -np.inf)
     while True:
-        if len(samples) <= SEARCHES:
+        if len(samples) <= _SEARCHES:
             nearest = np.minimum(nearest, dijkstra(graph, indices=samples[-1], limit=nearest.max()))
         else:
             _spread(graph, nearest, samples[-1])

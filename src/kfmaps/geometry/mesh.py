@@ -150,8 +150,8 @@ def check_mesh(mesh: Mesh, name: str = "mesh", *, cloud: bool = False) -> Mesh:
     Raises
     ------
     InvalidInput
-        On no vertices, NaN or infinite coordinates, no faces (unless ``cloud``), a vertex number out of
-        range, or zero area.
+        On no vertices, NaN or infinite coordinates, no faces (unless ``cloud``), a vertex number out of range, or zero
+        area.
     """
     n = len(mesh.vertices)
     if n == 0:

@@ -1,7 +1,7 @@
 """Orientation operators: antisymmetric matrices of functions, which change sign under a mirror.
 
-Ren, Poulenard, Wonka and Ovsjanikov, "Continuous and orientation-preserving correspondences via functional maps",
-ACM Transactions on Graphics 37(6), 2018.
+Ren, Poulenard, Wonka and Ovsjanikov, "Continuous and orientation-preserving correspondences via functional maps", ACM
+Transactions on Graphics 37(6), 2018.
 """
 
 from __future__ import annotations
@@ -18,11 +18,11 @@ from kfmaps.geometry.mesh import Mesh
 def orientation_operators(mesh: Mesh, basis: Basis, functions: Array, threads: int | None = None) -> Array:
     """Return the matrices of the operators ``Ω_w[g] = n · (∇w × ∇g)`` in a basis, one for each function w.
 
-    Entry (i, j) of slice s is ``∫ φᵢ n · (∇wₛ × ∇φⱼ)``, w and φ linear on each face and the integral exact. It
-    depends on the positions of the vertices through the basis alone: gradients and area cancel.
+    Entry (i, j) of slice s is ``∫ φᵢ n · (∇wₛ × ∇φⱼ)``, w and φ linear on each face and the integral exact. It depends
+    on the positions of the vertices through the basis alone: gradients and area cancel.
 
-    A functional map C that keeps orientation and carries wₛ to w'ₛ has ``C Ω_w = Ω_w' C``; one that reverses it
-    has ``C Ω_w = −Ω_w' C``.
+    A functional map C that keeps orientation and carries wₛ to w'ₛ has ``C Ω_w = Ω_w' C``; one that reverses it has ``C
+    Ω_w = −Ω_w' C``.
 
     Parameters
     ----------
@@ -31,9 +31,8 @@ def orientation_operators(mesh: Mesh, basis: Basis, functions: Array, threads: i
     basis : Basis
         Of the mesh, k functions.
     functions : (n, r)
-        One function a column, values at the vertices. The slices are linear in them: for functions with
-        coefficients c (k, r) in the basis, when r > k, combine ``orientation_operators(mesh, basis,
-        basis.functions)`` by c.
+        One function a column, values at the vertices. The slices are linear in them: for functions with coefficients c
+        (k, r) in the basis, when r > k, combine ``orientation_operators(mesh, basis, basis.functions)`` by c.
     threads : int, optional
         Python threads; every available core when not given.
 
@@ -75,9 +74,9 @@ def orientation_operators(mesh: Mesh, basis: Basis, functions: Array, threads: i
 def _edges(mesh: Mesh) -> tuple[np.ndarray, csr_array]:
     """Edges (e, 2), in ascending order, and a matrix (e, n) that takes w to their weights.
 
-    On a face (p, q, r), ``½ ∫ h dw∧dg − g dw∧dh`` is the sum over its edges, here p → q, of
-    ``(w_p + w_q − 2 w_r) / 12 · (h_p g_q − h_q g_p)``. An edge has the sum of its faces' weights, those of faces
-    that run through it backwards with the opposite sign.
+    On a face (p, q, r), ``½ ∫ h dw∧dg − g dw∧dh`` is the sum over its edges, here p → q, of ``(w_p + w_q − 2 w_r) / 12
+    · (h_p g_q − h_q g_p)``. An edge has the sum of its faces' weights, those of faces that run through it backwards
+    with the opposite sign.
     """
     p, q, r = (np.concatenate([np.roll(mesh.faces, -i, axis=1)[:, c] for i in range(3)]) for c in range(3))
     sign = np.where(p < q, 1.0, -1.0) / 12

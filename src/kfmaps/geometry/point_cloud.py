@@ -12,9 +12,7 @@ from kfmaps._arrays import refuse
 from kfmaps.geometry.connectivity import component_labels, unique_vertices
 from kfmaps.geometry.eigen.factorization import Sparse
 
-AROUND = 30
-"""Neighbours of a point that are triangulated with it."""
-NEIGHBOURS = 12
+_NEIGHBOURS = 12
 """Neighbours that a point is linked to."""
 
 
@@ -34,7 +32,7 @@ def cloud_laplacian(points: np.ndarray) -> tuple[Sparse, np.ndarray]:
     if len(points) < 4:
         raise refuse("point cloud", wanted, f"{len(points)} in different places", "check the file")
     try:
-        stiffness, mass = robust_laplacian.point_cloud_laplacian(points, n_neighbors=min(AROUND, len(points) - 1))
+        stiffness, mass = robust_laplacian.point_cloud_laplacian(points, n_neighbors=min(30, len(points) - 1))
     except RuntimeError as error:  # no triangle at all
         raise refuse("point cloud", wanted, "points on a line", "check the file") from error
     areas = mass.diagonal()
@@ -57,11 +55,11 @@ def cloud_areas(points: np.ndarray) -> np.ndarray:
 def cloud_edges(points: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Pairs of neighbouring ``points (n, 3)`` and their distances: ``(a (m,), b (m,), length (m,))``.
 
-    Each point is linked to its 12 nearest. What would then fall apart, as a cat's ears do, whose points are all
-    closer together than to the head, is joined by the shortest links that do so: a cloud is one piece.
+    Each point is linked to its 12 nearest. What would then fall apart, as a cat's ears do, whose points are all closer
+    together than to the head, is joined by the shortest links that do so: a cloud is one piece.
     """
     n = len(points)
-    length, index = KDTree(points).query(points, k=min(NEIGHBOURS + 1, n))  # each point is one of its own
+    length, index = KDTree(points).query(points, k=min(_NEIGHBOURS + 1, n))  # each point is one of its own
     length, index = np.reshape(length, (n, -1)), np.reshape(index, (n, -1))
     a, b, length = np.repeat(np.arange(n), index.shape[1]), index.ravel(), length.ravel()
     pieces, piece = component_labels(n, a, b)

@@ -16,13 +16,11 @@ from kfmaps._arrays import check_count, like, take, to_numpy
 from kfmaps.geometry.basis import Basis, eigenvalue_tolerance
 from kfmaps.kernels.landmark_selection import farthest_descriptors
 
-EMBEDDING = 40
-"""Functions of the biharmonic embedding, the constant among them."""
-STRATA = 8
+_STRATA_DIMENSIONS = 8
 """Coordinates of the embedding that strata are cut by."""
-POOL = 8_000
+_POOL_SIZE = 8_000
 """Vertices that :func:`spectral_samples` chooses from, at most (but four times as many as it is to choose)."""
-CROWDED = 0.15
+_MIN_HALF_AREA = 0.15
 """Part of the area that half of the samples stand for, below which they crowd: on bodies it is 0.24 and more."""
 
 
@@ -45,10 +43,10 @@ class SpectralSamples:
 def spectral_samples(basis: Basis, count: int, rng: int | np.random.Generator = 0) -> SpectralSamples:
     """Return farthest points of a shape in its biharmonic embedding, with the area closest to each.
 
-    They spread evenly over the surface whatever its triangulation. Of a large shape they are the farthest of
-    :data:`POOL` stratified ones, so that their cost hardly grows with the mesh. The embedding stretches bridges, the
-    thinner the more: where the samples would crowd there (:data:`CROWDED`), they are the farthest of twice as many
-    stratified ones, which a bridge has no more of than its area is worth.
+    They spread evenly over the surface whatever its triangulation. Of a large shape they are the farthest of 8,000
+    stratified ones, so that their cost hardly grows with the mesh. The embedding stretches bridges, the thinner the
+    more: where the samples would crowd there, they are the farthest of twice as many stratified ones, which a bridge
+    has no more of than its area is worth.
 
     Parameters
     ----------
@@ -69,8 +67,8 @@ def spectral_samples(basis: Basis, count: int, rng: int | np.random.Generator = 
     check_count(count, "sample count")
     candidates, embedding = _embedded(basis)
     pool = np.arange(len(candidates))
-    if len(pool) > max(POOL, 4 * count):
-        pool = stratified(embedding, to_numpy(basis.mass)[candidates], max(POOL, 4 * count), rng)
+    if len(pool) > max(_POOL_SIZE, 4 * count):
+        pool = stratified(embedding, to_numpy(basis.mass)[candidates], max(_POOL_SIZE, 4 * count), rng)
     chosen = pool[farthest_descriptors(embedding[pool], min(count, len(pool)), rng, None)]
     samples = _samples(basis, candidates, embedding, chosen)
     if not _crowded(samples, count):
@@ -84,7 +82,7 @@ def spectral_samples(basis: Basis, count: int, rng: int | np.random.Generator = 
 def _crowded(samples: SpectralSamples, count: int) -> bool:
     """Whether the half of the samples with the smallest areas has next to none of the area."""
     areas = np.sort(to_numpy(samples.basis.mass))
-    return len(areas) == count and float(areas[: count // 2].sum()) < CROWDED * float(areas.sum())
+    return len(areas) == count and float(areas[: count // 2].sum()) < _MIN_HALF_AREA * float(areas.sum())
 
 
 def stratified_samples(
@@ -139,7 +137,8 @@ def _embedded(basis: Basis) -> tuple[np.ndarray, np.ndarray]:
     """Vertices that have an area, and their places in the biharmonic embedding."""
     candidates = np.flatnonzero(to_numpy(basis.mass) > 0)
     values, functions = to_numpy(basis.eigenvalues), to_numpy(basis.functions)
-    positive = np.flatnonzero(values > eigenvalue_tolerance(basis))[: EMBEDDING - 1]
+    # 40 functions, the constant among them.
+    positive = np.flatnonzero(values > eigenvalue_tolerance(basis))[:39]
     if len(positive) == 0:  # more components than functions, which tell them apart
         return candidates, functions[candidates]
     positive = positive[values[positive] > 1e-6 * values[positive[-1]]]
@@ -155,7 +154,7 @@ def stratified(
     Parameters
     ----------
     embedding : (n, d) float64
-        Positions, of which the first :data:`STRATA` coordinates count.
+        Positions, of which the first 8 coordinates count.
     mass : (n,) float64
         Areas.
     count : int
@@ -166,7 +165,7 @@ def stratified(
     (q,) int64
         Rows in ascending order: ``count`` or, where one is drawn twice, fewer.
     """
-    order = KDTree(embedding[:, :STRATA]).indices
+    order = KDTree(embedding[:, :_STRATA_DIMENSIONS]).indices
     reached = np.cumsum(mass[order])
     drawn = (np.arange(count) + np.random.default_rng(rng).random(count)) / count
     return np.unique(order[np.searchsorted(reached / reached[-1], drawn).clip(max=len(order) - 1)])

@@ -6,7 +6,7 @@ import numpy as np
 from scipy.sparse import coo_array, csr_array
 from scipy.sparse.csgraph import connected_components, dijkstra
 
-from kfmaps._arrays import check, refuse
+from kfmaps._arrays import blocks, check, refuse
 from kfmaps.geometry.clean import weld_vertices
 from kfmaps.geometry.connectivity import proper_faces
 from kfmaps.geometry.geodesic_graph import (
@@ -20,12 +20,10 @@ from kfmaps.geometry.geodesic_graph import (
 )
 from kfmaps.geometry.mesh import Mesh, unit_rows
 
-VERTEX_SIGHT = 4
+_VERTEX_EDGES = 4
 """Edges that a straight line from a point to a vertex may cross."""
-DIRECT = 16
+_DIRECT_EDGES = 16
 """Edges that a straight line from one point to the other may cross: farther ones go over vertices, at 0.3 % more."""
-BLOCK = 64
-"""Points searched from together, which bounds the memory."""
 
 
 def surface_point_distances(
@@ -33,9 +31,8 @@ def surface_point_distances(
 ) -> np.ndarray:
     """Return the distance along the surface from point ``a[i]`` to point ``b[i]``, in the mesh's own unit.
 
-    It is the shorter of the straight line from one to the other over up to :data:`DIRECT` unfolded edges, which is
-    exact, and the shortest path over vertices (:func:`kfmaps.geometry.geodesic_graph.geodesic_graph`) that both see in
-    straight lines.
+    It is the shorter of the straight line from one to the other over up to 16 unfolded edges, which is exact, and the
+    shortest path over vertices (:func:`kfmaps.geometry.geodesic_graph.geodesic_graph`) that both see in straight lines.
 
     Parameters
     ----------
@@ -86,11 +83,11 @@ def surface_point_distances(
         links.append((np.repeat(here, 3), corners.ravel(), away.ravel()))
         inside_ = np.flatnonzero(number[chosen] >= 0)
         windows = _views(mesh.vertices, inner, number[chosen[inside_]], points[inside_], inside_)
-        for depth in range(VERTEX_SIGHT if side else DIRECT):
+        for depth in range(_VERTEX_EDGES if side else _DIRECT_EDGES):
             if side == 0:
                 _met(straight, mesh.vertices, inner, start, twins, windows, number[sides[1][0]], sides[1][1])
             windows, *seen = _crossed(mesh.vertices, inner, start, twins, windows)
-            if depth < VERTEX_SIGHT:
+            if depth < _VERTEX_EDGES:
                 links.append((n + side * q + seen[0], seen[1], seen[2]))
             if side == 0:
                 near = np.minimum(_nearest(windows), np.inf)
@@ -186,8 +183,8 @@ def _over_vertices(graph: csr_array, n: int, q: int, apart: np.ndarray) -> np.nd
     reach = 1.3 * apart + edge
     for attempt in range(4):
         left = left[np.argsort(reach[left], kind="stable")]
-        for part in range(0, len(left), BLOCK):
-            rows = left[part : part + BLOCK]
+        for part in blocks(len(left), 64):  # which bounds the memory
+            rows = left[part]
             limit = reach[rows].max() if attempt < 3 else np.inf
             found = dijkstra(graph, indices=n + rows, limit=limit)
             result[rows] = found[np.arange(len(rows)), n + q + rows]

@@ -15,24 +15,23 @@ from kfmaps.geometry.mesh import Mesh, face_areas
 class Topology:
     """Counts that describe a triangle mesh. Faces that name a vertex twice enter only ``degenerate_faces``.
 
-    Open edges that lie in one place count as connected (:func:`kfmaps.geometry.clean.weld_vertices`): a mesh cut
-    along seams, or into single triangles, is the surface that it looks like.
+    Open edges that lie in one place count as connected (:func:`kfmaps.geometry.clean.weld_vertices`): a mesh cut along
+    seams, or into single triangles, is the surface that it looks like.
 
     Attributes
     ----------
     components : int
         Connected pieces of surface, joined where they share a vertex.
     boundary_edges, boundary_loops : int
-        Edges of one face only, and the closed curves that they form. Where edges are non-manifold, an
-        open chain between two of them counts as a loop.
+        Edges of one face only, and the closed curves that they form. Where edges are non-manifold, an open chain
+        between two of them counts as a loop.
     euler_characteristic : int
         Vertices - edges + faces; vertices that no face uses do not count.
     orientable : bool
         Whether all faces can be turned to agree with their neighbours.
     genus : int or None
-        Handles, summed over the components, each boundary loop filled by a disc:
-        ``(2 components - loops - euler_characteristic) / 2``. None unless the surface is an orientable
-        manifold.
+        Handles, summed over the components, each boundary loop filled by a disc: ``(2 components - loops -
+        euler_characteristic) / 2``. None unless the surface is an orientable manifold.
     nonmanifold_edges : int
         Edges of three faces or more.
     nonmanifold_vertices : int

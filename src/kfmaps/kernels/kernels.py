@@ -1,7 +1,7 @@
 """Kernels of descriptors, ``k(X (n, d), Y (m, d)) -> (n, m)``.
 
-Every kernel is a small frozen record. Any callable with that signature is a kernel too (scikit-learn's
-pairwise kernels, a function of your own): :func:`kernel_matrix` calls it and checks what comes back.
+Every kernel is a small frozen record. Any callable with that signature is a kernel too (scikit-learn's pairwise
+kernels, a function of your own): :func:`kernel_matrix` calls it and checks what comes back.
 """
 
 from __future__ import annotations
@@ -41,7 +41,7 @@ class _Resolvable(Protocol):
 KernelLike = Kernel | Callable[[Any, Any], Any]
 
 
-def squared_distances(X: Array, Y: Array) -> Array:
+def _squared_distances(X: Array, Y: Array) -> Array:
     """Return the squared Euclidean distances (n, m) between rows of ``X (n, d)`` and ``Y (m, d)``, never negative."""
     xp = namespace(X, Y)
     # Distances do not see a common shift, rounding does: centring keeps small distances between far points.
@@ -51,10 +51,10 @@ def squared_distances(X: Array, Y: Array) -> Array:
     return xp.clip(squares, min=0.0)
 
 
-def distances(X: Array, Y: Array) -> Array:
+def _distances(X: Array, Y: Array) -> Array:
     """Return the Euclidean distances (n, m) between rows of ``X (n, d)`` and ``Y (m, d)``."""
     xp = namespace(X, Y)
-    squares = squared_distances(X, Y)
+    squares = _squared_distances(X, Y)
     # What rounding leaves between equal rows is none. It is set to 1e-150, not to 0, where the root has no derivative.
     return xp.sqrt(xp.where(squares > 1e-15 * xp.max(squares), squares, 1e-300 * xp.ones_like(squares)))
 
@@ -96,7 +96,7 @@ class Gaussian:
     gamma: float | None = setting(None, "γ, per squared unit of the descriptors", above=0, none="automatic")
 
     def __call__(self, X: Array, Y: Array, /) -> Array:
-        return namespace(X, Y).exp(-_known(self) * squared_distances(X, Y))
+        return namespace(X, Y).exp(-_known(self) * _squared_distances(X, Y))
 
     def diagonal(self, X: Array, /) -> Array:
         return _ones(X)
@@ -109,7 +109,7 @@ class Laplacian:
     gamma: float | None = setting(None, "γ, per unit of the descriptors", above=0, none="automatic")
 
     def __call__(self, X: Array, Y: Array, /) -> Array:
-        return namespace(X, Y).exp(-_known(self) * distances(X, Y))
+        return namespace(X, Y).exp(-_known(self) * _distances(X, Y))
 
     def diagonal(self, X: Array, /) -> Array:
         return _ones(X)
@@ -240,7 +240,7 @@ def resolve_kernel(kernel: KernelLike, samples: Array, sharpness: float = 1.0) -
         return kernel.resolved(samples, sharpness)
     if not isinstance(kernel, Gaussian | Laplacian) or kernel.gamma is not None:
         return kernel
-    squares = to_numpy(squared_distances(samples, samples))
+    squares = to_numpy(_squared_distances(samples, samples))
     # Between equal rows there is rounding, of the size of the rows.
     largest = float((to_numpy(samples) ** 2).sum(axis=1).max())
     positive = squares[squares > max(1e-12 * squares.max(), 1e-24 * largest)]

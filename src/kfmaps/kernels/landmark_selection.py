@@ -1,7 +1,7 @@
 """Selection of the rows of descriptors that the Nyström approximation is built from.
 
-All return (count,) int64 rows without repetition, fewer where there are fewer distinct ones.
-Farthest points by geodesic distance are in :mod:`kfmaps.geometry.geodesics`.
+All return (count,) int64 rows without repetition, fewer where there are fewer distinct ones. Farthest points by
+geodesic distance are in :mod:`kfmaps.geometry.geodesics`.
 """
 
 from __future__ import annotations
@@ -11,20 +11,16 @@ import numpy as np
 from kfmaps._arrays import Array, check_count, check_positive, to_numpy
 from kfmaps.kernels.kernels import KernelLike, kernel_diagonal, kernel_matrix
 
-Rng = int | np.random.Generator | None
+_Rng = int | np.random.Generator | None
 
 
-def uniform(n: int, count: int, rng: Rng = 0) -> np.ndarray:
+def uniform(n: int, count: int, rng: _Rng = 0) -> np.ndarray:
     """Return ``count`` of ``n`` rows, all subsets equally likely."""
     check_count(count, "sample count", high=n)
     return np.random.default_rng(rng).choice(n, size=count, replace=False)
 
 
-POOL = 50_000
-"""Rows that farthest points are chosen from, at most: a random choice of them where there are more."""
-
-
-def farthest_descriptors(X: Array, count: int, rng: Rng = 0, pool: int | None = POOL) -> np.ndarray:
+def farthest_descriptors(X: Array, count: int, rng: _Rng = 0, pool: int | None = 50_000) -> np.ndarray:
     """Return farthest points in descriptor space (Gonzalez 1985; descriptor FPS of the paper, section 7.1).
 
     The first is a random row, each next one the row farthest from all taken. It stops early when every row equals a
@@ -64,7 +60,7 @@ def farthest_descriptors(X: Array, count: int, rng: Rng = 0, pool: int | None = 
 
 
 def pivoted_cholesky(
-    kernel: KernelLike, X: Array, count: int, *, randomised: bool = False, power: float = 1.0, rng: Rng = 0
+    kernel: KernelLike, X: Array, count: int, *, randomised: bool = False, power: float = 1.0, rng: _Rng = 0
 ) -> np.ndarray:
     """Return the pivots of a partial Cholesky factorisation of the kernel matrix, in memory ``n × count``.
 

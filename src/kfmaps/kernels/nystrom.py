@@ -1,9 +1,9 @@
 """Nyström features of the joint kernel of both surfaces (section 6.2 of the paper).
 
-One set of samples, drawn from both surfaces, serves both: with ``R₀ = k(S, S) = V Λ Vᵀ`` the features are
-``W = k(P, S) V Λ^(-1/2)``, so that ``W_s W_tᵀ`` approximates the kernel between the surfaces and ``W_s W_sᵀ``
-that within one, all from a single positive semi-definite approximation. Whatever is computed from ``W`` as if it
-were a descriptor keeps the least-squares form, and with it the convergence of conjugate gradients.
+One set of samples, drawn from both surfaces, serves both: with ``R₀ = k(S, S) = V Λ Vᵀ`` the features are ``W = k(P, S)
+V Λ^(-1/2)``, so that ``W_s W_tᵀ`` approximates the kernel between the surfaces and ``W_s W_sᵀ`` that within one, all
+from a single positive semi-definite approximation. Whatever is computed from ``W`` as if it were a descriptor keeps the
+least-squares form, and with it the convergence of conjugate gradients.
 """
 
 from __future__ import annotations
@@ -15,9 +15,6 @@ import numpy as np
 
 from kfmaps._arrays import Array, KfmapsWarning, blocks, check, like, namespace, refuse, take, to_numpy
 from kfmaps.kernels.kernels import KernelLike, describe_kernel, kernel_matrix
-
-NEGATIVE = 0.2
-"""Part of the most negative eigenvalue's size below which positive ones of an indefinite kernel are dropped too."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -62,8 +59,8 @@ def nystrom(kernel: KernelLike, samples: Array, rtol: float = 1e-12) -> Nystrom:
     ``R₀`` is numerically singular for smooth kernels, so small eigenvalues are dropped. Negative ones beyond that (an
     indefinite kernel such as tanh) are dropped with a :class:`KfmapsWarning`, and with them all that are smaller than a
     fifth of the most negative one. Of those, a point that is no sample has in ``k(P, S) V`` much of the negative part
-    beside its own: divided by their roots it would give features of any length, where it now has at most
-    ``‖k(P, S)‖² / (λ_min / 5)``.
+    beside its own: divided by their roots it would give features of any length, where it now has at most ``‖k(P, S)‖² /
+    (λ_min / 5)``.
 
     Parameters
     ----------
@@ -94,7 +91,7 @@ def nystrom(kernel: KernelLike, samples: Array, rtol: float = 1e-12) -> Nystrom:
         raise refuse(f"kernel {describe_kernel(kernel)}", "a positive eigenvalue", f"{top:.3g} as the largest", remedy)
     negative = max(0.0, -float(spectrum[0])) / top
     indefinite = negative > max(rtol, 1e-10)
-    least = min(max(rtol, NEGATIVE * negative), 0.999) if indefinite else rtol  # the largest stays
+    least = min(max(rtol, 0.2 * negative), 0.999) if indefinite else rtol  # the largest stays
     keep = np.flatnonzero(spectrum > least * top)[::-1]
     if indefinite:
         warnings.warn(

@@ -1,8 +1,8 @@
 """Tips of limbs: what two bodies have in common, whatever their proportions and poses.
 
-Hands, feet, heads and tails are where the mean geodesic distance to the rest of the surface is locally largest
-(Hilaga et al. 2001). They are few and found on any body, and distances to them, together with the sense in which two of
-these grow around a point, tell all of its points apart, also its left from its right and its front from its back.
+Hands, feet, heads and tails are where the mean geodesic distance to the rest of the surface is locally largest (Hilaga
+et al. 2001). They are few and found on any body, and distances to them, together with the sense in which two of these
+grow around a point, tell all of its points apart, also its left from its right and its front from its back.
 """
 
 from __future__ import annotations
@@ -17,12 +17,8 @@ from scipy.sparse.csgraph import dijkstra
 from kfmaps.geometry.geodesic_graph import geodesic_graph
 from kfmaps.geometry.mesh import Mesh
 
-APART = 0.3
+_MIN_DISTANCE = 0.3
 """Distance, in units of √area, within which only the farthest point is a tip: fingers are part of a hand."""
-MOST = 7
-"""Tips of a shape that are kept, the farthest; five of a human, six or seven of animals."""
-SMOOTHING = 6
-"""Rounds of averaging over neighbours of the sense of rotation, which is constant on each triangle at first."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,8 +77,9 @@ def extremities(
     """
     far = distances @ (mass / mass.sum())
     mean = float(far @ (mass / mass.sum())) or 1.0
-    farthest = [i for i, near in enumerate(distances < APART) if far[i] >= far[near].max(initial=0.0)]
-    points = np.array(sorted(farthest, key=lambda i: -far[i])[:MOST], dtype=np.int64)
+    # At most seven: five of a human, six or seven of animals.
+    farthest = [i for i, near in enumerate(distances < _MIN_DISTANCE) if far[i] >= far[near].max(initial=0.0)]
+    points = np.array(sorted(farthest, key=lambda i: -far[i])[:7], dtype=np.int64)
     found = at_all_vertices(mesh, rows[points], mean, graph)
     return Extremities(points, far[points] / mean, found.distances[:, rows], found.turn[:, :, rows], mean)
 
@@ -92,10 +89,10 @@ def at_all_vertices(mesh: Mesh, vertices: np.ndarray, unit: float, graph: csr_ar
     found = dijkstra(geodesic_graph(mesh, 1) if graph is None else graph, indices=vertices)
     joined = np.isfinite(found)
     found = np.where(joined, found, found[joined].max(initial=0.0))
-    return Extremities(vertices, found.mean(axis=1) / unit, found / unit, gradient_cross(mesh, found), unit)
+    return Extremities(vertices, found.mean(axis=1) / unit, found / unit, _gradient_cross(mesh, found), unit)
 
 
-def gradient_cross(mesh: Mesh, functions: np.ndarray) -> np.ndarray:
+def _gradient_cross(mesh: Mesh, functions: np.ndarray) -> np.ndarray:
     """``n · (∇fᵢ × ∇fⱼ)`` at the vertices, (m, m, n), of ``functions (m, n)``, averaged over a few edges."""
     m, n = functions.shape
     found = np.zeros((m, m, n))
@@ -113,7 +110,7 @@ def gradient_cross(mesh: Mesh, functions: np.ndarray) -> np.ndarray:
     # Twice the corners of a face around each of its corners, once for those at its other ends: an average.
     around = csr_array(corner @ corner.T)
     around = csr_array(around / around.sum(axis=1).mean())
-    for _ in range(SMOOTHING):
+    for _ in range(6):
         both = around @ both
     values = both[:, :-1] / np.maximum(both[:, -1:], 1e-12 * max(float(both[:, -1].max()), 1e-300))
     for column, (i, j) in enumerate(pairs):

@@ -16,13 +16,11 @@ from kfmaps.fmap.descriptor_guidance import DIMENSIONS, DescriptorGuidance, comb
 from kfmaps.geometry.basis import Basis
 from kfmaps.shape import Shape
 
-TIMES = (0.004, 0.02, 0.1)
+_HEAT_TIMES = (0.004, 0.02, 0.1)
 """Diffusion times at unit area of the functions around a landmark: a hand, a limb, half of a body."""
 LEAD, LESS = 1.0, 0.3
 """Weight of landmarks beside that of SHOT in the refinement on all vertices, and between shapes that differ much, where
 heat spreads otherwise from a landmark."""
-LIMBS = 0.8
-"""The same of the tips of limbs."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -62,14 +60,14 @@ class LandmarkEvidence:
 def heat_features(points: Basis, basis: Basis, landmarks: np.ndarray) -> np.ndarray:
     """Correlation of heat from each landmark with heat from each of ``points``, (l, q, t), from about 0 to 1.
 
-    ``h_t(p, x) / √(h_t(p, p) h_t(x, x))`` for the heat kernel h at :data:`TIMES`: 1 at the landmark, nearly free of
-    pose and of how thick the body is there. ``points`` are some of the points of ``basis``, whose vertices ``landmarks
+    ``h_t(p, x) / √(h_t(p, p) h_t(x, x))`` for the heat kernel h at three times: 1 at the landmark, nearly free of pose
+    and of how thick the body is there. ``points`` are some of the points of ``basis``, whose vertices ``landmarks
     (l,)`` are.
     """
     values, phi = to_numpy(basis.eigenvalues), to_numpy(points.functions)
     here = to_numpy(basis.functions)[landmarks]
     found = []
-    for time in TIMES:
+    for time in _HEAT_TIMES:
         decay = np.exp(-values * time)
         own, theirs = (here**2) @ decay, (phi**2) @ decay
         found.append(((here * decay) @ phi.T) / np.sqrt(np.maximum(np.outer(own, theirs), 1e-300)))
@@ -90,8 +88,8 @@ def heat_guidance(functions_s: np.ndarray, functions_t: np.ndarray) -> Descripto
 def landmark_errors(C: np.ndarray, functions_s: np.ndarray, found: LandmarkEvidence) -> np.ndarray:
     """How far the image of each target landmark is from the source's, (l,), in units of √area.
 
-    ``functions_s (q_s, k)``: the source's basis at its samples. The other direction says less: the ends of limbs,
-    whose functions a map damps, have no image of their own there.
+    ``functions_s (q_s, k)``: the source's basis at its samples. The other direction says less: the ends of limbs, whose
+    functions a map damps, have no image of their own there.
     """
     k_t, k_s = C.shape
     back = nearest(found.target[:, :k_t], functions_s[:, :k_s] @ C.T, threads=1)
@@ -110,7 +108,7 @@ def build_guidance(
 
     ``shot``: its guide, where that is known; ``lead``: the weight of the landmarks beside it.
     """
-    local = combine_guidance([(1.0, shot or descriptor_guidance(source.shot, target.shot)), (LIMBS, limbs)])
+    local = combine_guidance([(1.0, shot or descriptor_guidance(source.shot, target.shot)), (0.8, limbs)])
     if len(landmarks) == 0:
         return local
     functions = [heat_features(s.basis, s.basis, at) for s, at in zip((source, target), landmarks.T, strict=True)]

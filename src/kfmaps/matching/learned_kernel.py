@@ -1,11 +1,10 @@
 """What a learned kernel adds to a search: candidates beside all others, of which one must be clearly better to count.
 
 A search goes as it would without: its fits, its judgement and its refinement know nothing of what was learned. Where
-the kernel was learned without landmarks, maps are made with it as well: small fits, and refinements in which points
-are compared in its metric instead of by principal components of SHOT. The best of these takes the place of what the
-search has found only where it is another map and clearly better
-(:func:`kfmaps.matching.ranking.merge_alternatives`); so what was
-learned on other bodies than those at hand changes no digit of a map that is right.
+the kernel was learned without landmarks, maps are made with it as well: small fits, and refinements in which points are
+compared in its metric instead of by principal components of SHOT. The best of these takes the place of what the search
+has found only where it is another map and clearly better (:func:`kfmaps.matching.ranking.merge_alternatives`); so what
+was learned on other bodies than those at hand changes no digit of a map that is right.
 """
 
 from __future__ import annotations
@@ -27,14 +26,8 @@ from kfmaps.matching.sample_pair import SamplePair, TwoLevelSamples, descriptor_
 from kfmaps.matching.score import SCORE, Candidate
 from kfmaps.shape import Shape
 
-WEIGHTS = (12.0, 12.0)
+_WEIGHTS = (12.0, 12.0)
 """Of the metric and of landmarks."""
-SIZES = (20, 50)
-"""Functions of the fits, ..."""
-ORIENTATION = 0.1
-"""... and their weight of orientation."""
-FINALISTS = 4
-"""Distinct rough maps that are refined further."""
 
 
 def drop_learned(config: Config) -> Config:
@@ -70,32 +63,32 @@ def learned_candidates(
 ) -> list[Candidate]:
     """Refined candidates by the kernel of ``config``, judged as all others are; none where it is of others."""
     assert config.search is not None
-    rows = seen(source, target, config, on.whole.source, on.whole.target)
+    rows = _transformed_descriptors(source, target, config, on.whole.source, on.whole.target)
     if rows is None:
         return []
-    few, whole = (by_metric(ground, *rows) for ground in (on.few, on.whole))
+    few, whole = (_in_metric(ground, *rows) for ground in (on.few, on.whole))
     functions = min(len(source.basis.eigenvalues), len(target.basis.eigenvalues))
     starts = [
-        s for s in sign_inits(min(config.search.n_sign_functions, functions - 1), few) if s.weights[0] == WEIGHTS[0]
+        s for s in sign_inits(min(config.search.n_sign_functions, functions - 1), few) if s.weights[0] == _WEIGHTS[0]
     ]
     none = np.zeros((0, 2), dtype=np.int64)
     points = sample_pair_for_fit(source, target, FIT_POINTS, none, None, drawn)
     operators = on.whole.source.orientation, on.whole.target.orientation
-    fits = [FitSpec(LEARNED, min(k, config.basis.n_eigenfunctions), ORIENTATION) for k in SIZES]
+    fits = [FitSpec(LEARNED, min(k, config.basis.n_eigenfunctions), 0.1) for k in (20, 50)]
     maps = fit_descriptor_set(fits, points, config, operators, seed)
     starts += [
-        Start(f"{fit.name}, from {start}", C, start, WEIGHTS, True)
+        Start(f"{fit.name}, from {start}", C, start, _WEIGHTS, True)
         for fit, C in zip(fits, maps, strict=True)
         for start in STARTS
     ]
     found = by_score(refine_coarse(starts, few, functions, config.threads))
-    chosen = distinct_maps(found, few.source, SCORE.rough_distance, FINALISTS)
-    refined = refine_finely(chosen, whole, functions, WEIGHTS, (), config.threads)
+    chosen = distinct_maps(found, few.source, SCORE.rough_distance, 4)
+    refined = refine_finely(chosen, whole, functions, _WEIGHTS, (), config.threads)
     names = [(c.name if c.name.startswith(LEARNED) else f"{LEARNED}, {c.name}", True) for c in chosen]
     return score_maps(names, *refined, on.whole, config.threads)
 
 
-def seen(
+def _transformed_descriptors(
     source: Shape, target: Shape, config: Config, probe_s: ShapeSamples, probe_t: ShapeSamples
 ) -> tuple[np.ndarray, np.ndarray] | None:
     """Transformed descriptors ``(q_s, r)``, ``(q_t, r)`` at the samples of both probes.
@@ -110,17 +103,17 @@ def seen(
     used = pair_descriptors(at[0], at[1], bases, config.descriptors, np.zeros((0, 2), dtype=np.int64), None)
     if descriptor_width(config.kernel) != used.source.shape[1]:
         return None
-    return transform_rows(config.kernel, to_numpy(used.source)), transform_rows(config.kernel, to_numpy(used.target))
+    return _transform_rows(config.kernel, to_numpy(used.source)), _transform_rows(config.kernel, to_numpy(used.target))
 
 
-def transform_rows(kernel: KernelLike, rows: np.ndarray) -> np.ndarray:
+def _transform_rows(kernel: KernelLike, rows: np.ndarray) -> np.ndarray:
     """``rows (n, d)`` as the innermost kernel sees them."""
     if isinstance(kernel, Metric | Network):
-        return transform_rows(kernel.kernel, np.asarray(kernel.transform(rows)))
+        return _transform_rows(kernel.kernel, np.asarray(kernel.transform(rows)))
     return rows
 
 
-def by_metric(on: SamplePair, source: np.ndarray, target: np.ndarray) -> SamplePair:
+def _in_metric(on: SamplePair, source: np.ndarray, target: np.ndarray) -> SamplePair:
     """The ground with points compared in the learned metric; rows of more samples than it has are left out."""
     rows = source[: len(on.source.positions)], target[: len(on.target.positions)]
     return replace(on, shot=None if (found := descriptor_guidance(*rows)) is None else descriptor_cost(found))

@@ -17,20 +17,10 @@ import numpy as np
 from kfmaps.fmap.zoomout import batched_zoomout, nearest_samples
 from kfmaps.matching.quality import ShapeSamples, map_distortion
 
-SIGNS = 5
-"""Functions after the constant one whose signs are tried."""
-STOP, STEP = 40, 4
-"""Functions at the end of the refinement, and how many more at each step."""
-KEPT = 0.12
+_MAX_DISTORTION = 0.12
 """Distortion up to which a self-map counts as a near-symmetry: bodies in any pose have 0.04 to 0.08, the next 0.2."""
-MOVED = 0.1
+_MIN_DISPLACEMENT = 0.1
 """Mean distance, in units of √area, by which it must move points; less is the identity."""
-APART = 0.08
-"""Mean distance between the images of two that count as different."""
-MOST = 2
-SOON, LIKELY = 14, 12
-"""Functions at which maps are told apart by distortion, and how many go on: those that become symmetries are among the
-best eight there."""
 
 
 def self_maps(of: ShapeSamples, functions: int, threads: int | None = None) -> list[np.ndarray]:
@@ -49,33 +39,35 @@ def with_self_maps(of: ShapeSamples, few: ShapeSamples) -> ShapeSamples:
 
 def _size(of: ShapeSamples, functions: int) -> int:
     """Functions of the self-maps."""
-    return min(STOP, functions, len(of.samples.vertices))
+    return min(40, functions, len(of.samples.vertices))
 
 
 def symmetries(of: ShapeSamples, functions: int, threads: int | None = None) -> list[np.ndarray]:
     """Functional maps ``(k, k)`` of a shape onto itself, other than the identity, that nearly keep distances.
 
-    At most :data:`MOST`, the best first; none of a shape without near-symmetries. ``functions``: as many as k may have.
+    At most two, the best first, whose images are 0.08 √area apart on average; none of a shape without near-symmetries.
+    ``functions``: as many as k may have.
     """
     stop = _size(of, functions)
-    count = min(SIGNS, stop - 1)
+    count = min(5, stop - 1)
     if count < 1:
         return []
     maps = np.stack([np.diag([1.0, *signs]) for signs in product((1.0, -1.0), repeat=count)])
     basis = of.samples.basis
-    soon = min(SOON, stop)
-    begun, _ = batched_zoomout(maps, basis, basis, (*range(count + 1, soon, STEP), soon), None, threads)
-    likely = np.sort(np.argsort(_changed(begun, of), kind="stable")[:LIKELY])
-    found, points = batched_zoomout(begun[likely], basis, basis, (*range(soon, stop, STEP), stop), None, threads)
+    soon = min(14, stop)
+    # Those that become symmetries are among the best eight at 14 functions.
+    begun, _ = batched_zoomout(maps, basis, basis, (*range(count + 1, soon, 4), soon), None, threads)
+    likely = np.sort(np.argsort(_changed(begun, of), kind="stable")[:12])
+    found, points = batched_zoomout(begun[likely], basis, basis, (*range(soon, stop, 4), stop), None, threads)
     judged = [map_distortion(C, of, of, at) for C, at in zip(found, points, strict=True)]
     kept: list[int] = []
     for i in np.argsort(judged, kind="stable"):
-        if judged[i] > KEPT or len(kept) == MOST:
+        if judged[i] > _MAX_DISTORTION or len(kept) == 2:
             break
         images = of.positions[points[i]]
         others = [of.positions, *(of.positions[points[j]] for j in kept)]
         off = [float(np.linalg.norm(images - other, axis=1).mean()) for other in others]
-        if off[0] > MOVED and all(one > APART for one in off[1:]):
+        if off[0] > _MIN_DISPLACEMENT and all(one > 0.08 for one in off[1:]):
             kept.append(int(i))
     return [found[i] for i in kept]
 

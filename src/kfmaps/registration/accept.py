@@ -14,16 +14,14 @@ from kfmaps.geometry.mesh import vertex_areas
 from kfmaps.registration.nonrigid_icp import Registration
 from kfmaps.shape import Shape
 
-GAP = 0.02
+_MAX_GAP = 0.02
 """Distance that may be left between the bent source and the target, in √area: right maps of one kind of body leave
 0.0006 to 0.003, right ones of a cat and a dog up to 0.0065, wrong ones up to 0.02 and a whole body on a part of one
 more."""
-DROP = 0.2
+_MIN_CHANGE = 0.2
 """Change of the confidence of a vertex that counts: such vertices are harmed, or healed, by a fit."""
-MAX_WORSENED_AREA = 0.006
+_MAX_WORSENED_AREA = 0.006
 """Share of the target's area that a right fit harms at most, fingertips mostly; above, what it harmed is held back."""
-MIN_IMPROVED_RATIO = 0.5
-"""Area healed over area harmed from which a fit is kept all the same: it mends more than it hides."""
 
 
 @dataclass(frozen=True)
@@ -41,7 +39,7 @@ class RegistrationReport:
     after : float or None
         ... and of the map that it ends with; ``None`` where the gap alone refused it.
     harmed, healed : float
-        Shares of the target's area in which the confidence falls and rises by more than :data:`DROP`.
+        Shares of the target's area in which the confidence falls and rises by more than 0.2.
     held : bool
         Whether the map was held fast where a first fit had harmed it.
     kept : bool
@@ -111,12 +109,11 @@ def register_map(
 ) -> RegisteredMap:
     """The map ``points (n_t,)`` made finer than vertices as ``config.registration`` says, held softly by ``landmarks``.
 
-    A fit that does not bring the source to the target up to :data:`GAP` is left: so are parts. One that harms more of
-    the target than :data:`MAX_WORSENED_AREA` (distances to the surroundings are kept clearly worse than before) is
-    made once more
-    with the map held fast there; one that lets sizes change, as between shapes of other proportions, only where it
-    would not be kept. Of the two the last is kept for which the evidence speaks: that harms little, or heals at least
-    half as much as it harms.
+    A fit that leaves a gap of more than 2 % of √area is left: so are parts. One that harms more than 0.6 % of the
+    target's area (distances to the surroundings are kept clearly worse than before) is made once more with the map held
+    fast there; one that lets sizes change, as between shapes of other proportions, only where it would not be kept. Of
+    the two the last is kept for which the evidence speaks: that harms little, or heals at least half as much as it
+    harms.
     """
     with clock("confidence"):
         confidence = build_local_distortion(source.mesh, target.mesh)
@@ -135,13 +132,13 @@ def register_map(
                 source.mesh, target.mesh, points, lambda done: clock.report(stage, done), landmarks=landmarks, held=held
             )
         told = RegistrationReport(found.gap, found.bending, float(trust.mean()), pinned=held is not None)
-        if found.gap > GAP:
+        if found.gap > _MAX_GAP:
             return _Tried(found, points, trust, told)
         vertices = nearest_vertices(PointMap(found.faces, found.weights), source.mesh)
         with clock("confidence after the fit"):
             after = confidence(vertices)
-        harmed, healed = (float(areas[change > DROP].sum()) for change in (trust - after, after - trust))
-        kept = harmed <= MAX_WORSENED_AREA or healed >= MIN_IMPROVED_RATIO * harmed
+        harmed, healed = (float(areas[change > _MIN_CHANGE].sum()) for change in (trust - after, after - trust))
+        kept = harmed <= _MAX_WORSENED_AREA or healed >= 0.5 * harmed
         told = replace(told, after=float(after.mean()), worsened=harmed, improved=healed)
         return _Tried(found, vertices, after, replace(told, accepted=kept, reason=None if kept else "harm"))
 
@@ -149,10 +146,10 @@ def register_map(
     # Where sizes may change distances do, rightly: what a fit that is kept has changed there is no reason to hold it.
     if (
         first.told.after is not None
-        and first.told.worsened > MAX_WORSENED_AREA
+        and first.told.worsened > _MAX_WORSENED_AREA
         and not (getattr(finish, "local_scaling", 0) and first.told.accepted)
     ):
-        held = np.clip(2 * (trust - first.trust) / DROP - 1, 0.0, 1.0)
+        held = np.clip(2 * (trust - first.trust) / _MIN_CHANGE - 1, 0.0, 1.0)
         second = tried(held)
         best = second if second.told.accepted or not first.told.accepted else first
     if not best.told.accepted:

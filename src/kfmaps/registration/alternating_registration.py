@@ -24,18 +24,16 @@ from kfmaps.geometry.sampling import SampledBasis
 from kfmaps.registration.nonrigid_icp import NonRigid
 from kfmaps.shape import Shape
 
-ROUNDS = 2
+_ROUNDS = 2
 """Fits, each followed by a refinement on the copies."""
 FIT = NonRigid(stiffness=5e-3, n_levels=2, steps=4, local_scaling=0.05)
 """Stiff, so that what is torn is not bent to fit; but limbs may be longer or thicker."""
-REFINE = ZoomOut(start=20, stop=100, step=20, descriptor_weight=36.0)
+_REFINE = ZoomOut(start=20, stop=100, step=20, descriptor_weight=36.0)
 """On the copies; the high functions of shapes that differ much do not correspond."""
 WEIGHT = 10.0
 """Of where both lie beside SHOT."""
-NORMALS = 0.3
+_NORMAL_WEIGHT = 0.3
 """Distance at unit area that counts as much as normals that differ by 1."""
-RIDGE = 1e-3
-"""Damping of the least squares that take positions from a copy to all vertices."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -88,18 +86,18 @@ def alternating_registration(
         Where a copy falls apart.
     """
     a, b = on.copies
-    k = min(*(len(basis.eigenvalues) for basis in on.bases), REFINE.stop)
-    refine = replace(REFINE, stop=k, start=min(REFINE.start, k))
+    k = min(*(len(basis.eigenvalues) for basis in on.bases), _REFINE.stop)
+    refine = replace(_REFINE, stop=k, start=min(_REFINE.start, k))
     here = led and led.at(a.vertices, b.vertices)
     found = refine(C, *on.bases, guide=here)
     bent = a.mesh.vertices
-    for i in range(ROUNDS):
+    for i in range(_ROUNDS):
         bent = FIT.vertices(a.mesh, b.mesh, found.target_to_source, landmarks=on.landmarks)
         lie = position_normal_guidance(Mesh(bent, a.mesh.faces), b.mesh)
         found = refine(found.functional_map, *on.bases, guide=combine_guidance([(1.0, here), (WEIGHT, lie)]))
         if report is not None:
-            report((i + 1) / ROUNDS)
-    return AlternatingResult(to_numpy(found.functional_map), project_positions(bent, on.bases[0], on.source.basis))
+            report((i + 1) / _ROUNDS)
+    return AlternatingResult(to_numpy(found.functional_map), _project_positions(bent, on.bases[0], on.source.basis))
 
 
 def position_normal_guidance(source: Mesh, target: Mesh) -> DescriptorGuidance:
@@ -116,14 +114,14 @@ def position_normal_guidance(source: Mesh, target: Mesh) -> DescriptorGuidance:
 
 def position_normals(mesh: Mesh) -> np.ndarray:
     """Positions and normals of its vertices, (n, 6), in units of length."""
-    return np.hstack([mesh.vertices, NORMALS * vertex_normals(mesh)])
+    return np.hstack([mesh.vertices, _NORMAL_WEIGHT * vertex_normals(mesh)])
 
 
-def project_positions(positions: np.ndarray, samples: SampledBasis, basis: Basis, k: int = 100) -> np.ndarray:
+def _project_positions(positions: np.ndarray, samples: SampledBasis, basis: Basis, k: int = 100) -> np.ndarray:
     """``positions (q, 3)`` at samples as smooth functions on all vertices, (n, 3), by damped least squares."""
     phi = to_numpy(samples.functions)[:, :k]
     weighted = (to_numpy(samples.mass)[:, None] * phi).T
-    found = np.linalg.solve(weighted @ phi + RIDGE * np.eye(phi.shape[1]), weighted @ positions)
+    found = np.linalg.solve(weighted @ phi + 1e-3 * np.eye(phi.shape[1]), weighted @ positions)
     return to_numpy(basis.functions)[:, : phi.shape[1]] @ found
 
 

@@ -1,8 +1,8 @@
 """Where the points of a target lie on a source that is bent onto it, also where a body touches itself.
 
 A hand that hangs at a thigh and the thigh are near in space, and the fit leaves some thousandths between the surfaces:
-the closest point of a hand's vertex may be on the thigh. Of what is nearly as close the normal tells the two apart
-and, where that does not, how far the place was at rest from where the map that the fit began with had the point.
+the closest point of a hand's vertex may be on the thigh. Of what is nearly as close the normal tells the two apart and,
+where that does not, how far the place was at rest from where the map that the fit began with had the point.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from kfmaps.geometry.closest_points import ClosestPoints, closest_among, closest
 from kfmaps.geometry.mesh import Mesh, vertex_normals
 from kfmaps.registration.deformable import NORMALS, DeformableMesh
 
-MIN_REST_DISTANCE = 0.05
+_REST_WEIGHT = 0.05
 """Distance in space, at unit area, that counts as much as places at rest that are 1 apart: a limb that the fit has
 found back, half a body from where the map had it, stays there unless another is as near."""
 
@@ -25,15 +25,12 @@ def project_with_contact(
     """The place of each vertex of ``target``, with its ``normals (n_t, 3)``, on ``body``, bent to ``x (n_s, 3)``.
 
     The closest place in space or, where it costs less, one at the vertex that is nearest by everything: squared
-    distance in space, in normals (those that differ by 1 count as :data:`~kfmaps.registration.deformable.NORMALS`),
-    and at
-    rest from the map's ``points (n_t,)`` (:data:`MIN_REST_DISTANCE`). On meshes as uneven as may be none costs more
-    than the
-    closest in space.
+    distance in space, in normals (those that differ by 1 count as 0.02), and at rest from the map's ``points (n_t,)``
+    (1 counts as 0.05). On meshes as uneven as may be none costs more than the closest in space.
     """
     faces, rest = body.mesh.faces, body.mesh.vertices
-    there = np.hstack([x, NORMALS * vertex_normals(Mesh(x, faces)), MIN_REST_DISTANCE * rest])
-    wanted = np.hstack([target.vertices, NORMALS * normals, MIN_REST_DISTANCE * rest[points]])
+    there = np.hstack([x, NORMALS * vertex_normals(Mesh(x, faces)), _REST_WEIGHT * rest])
+    wanted = np.hstack([target.vertices, NORMALS * normals, _REST_WEIGHT * rest[points]])
     closest = closest_points(target.vertices, x, faces)
     near = np.asarray(KDTree(there).query(wanted)[1])
     likely = closest_among(target.vertices, x, faces, *body.around.around(near))

@@ -10,15 +10,13 @@ import numpy as np
 
 from kfmaps.geometry.arap import ArapEnergy, arap_rhs
 
-NORMAL_FRACTION = 0.03
+_ALONG = 0.03
 """Weight of squared distances along the surface, against 1 along its normal."""
-PCG_STEPS = 3
-"""Steps of conjugate gradients for each set of closest points."""
 
 
 @dataclass(frozen=True, eq=False)
 class DataTerm:
-    """``Σ_q weights_q ‖P_q((rows x)_q − places_q)‖²``, ``P`` shortened to :data:`NORMAL_FRACTION` across ``normals``.
+    """``Σ_q weights_q ‖P_q((rows x)_q − places_q)‖²``, ``P`` shortened to 0.03 across ``normals``.
 
     ``rows`` is sparse ``(q, n_s)``, ``None`` for the vertices themselves; without normals ``P`` is the identity.
     """
@@ -42,7 +40,7 @@ class DataTerm:
         if self.normals is None:
             return self.weights[:, None] * z
         along = np.einsum("qi,qi->q", self.normals, z)
-        return self.weights[:, None] * (NORMAL_FRACTION * z + ((1 - NORMAL_FRACTION) * along)[:, None] * self.normals)
+        return self.weights[:, None] * (_ALONG * z + ((1 - _ALONG) * along)[:, None] * self.normals)
 
 
 def descend(
@@ -52,7 +50,7 @@ def descend(
     terms: list[DataTerm],
     x: np.ndarray,
     turns: np.ndarray,
-    steps: int = PCG_STEPS,
+    steps: int = 3,
 ) -> np.ndarray:
     """``x`` after a few steps of conjugate gradients on the quadratic energy for fixed rotations and terms.
 

@@ -18,16 +18,10 @@ from kfmaps.registration.data_terms import DataTerm, descend
 
 NORMALS = 0.02
 """Distance in space, at unit area, that counts as much as normals that differ by 1."""
-AGREEMENT = 0.3
+_MIN_COSINE = 0.3
 """Cosine between two normals from which a pair of closest points counts; fully at 1."""
-START = 1e-3
+_INITIAL_STIFFNESS = 1e-3
 """Stiffness of the first shape, which follows the map."""
-DIFFUSION = 2.5e-3
-"""Area over which rotations of the first shape are averaged, halved in each of ..."""
-INITIAL_STEPS = 3
-"""... so many rounds."""
-SMOOTH = 1e-4
-"""Area over which the map's images are averaged before anything is known of rotations."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -46,7 +40,7 @@ class ClosestPointQuery:
         found = closest_among(points, self.vertices, self.faces, *self.around.around(near))
         there = unit_rows(np.einsum("qi,qij->qj", found.weights, self.normals[self.faces[found.faces]]))
         cosine = np.einsum("qi,qi->q", there, normals)
-        return found, there, np.clip((cosine - AGREEMENT) / (1 - AGREEMENT), 0.0, 1.0)
+        return found, there, np.clip((cosine - _MIN_COSINE) / (1 - _MIN_COSINE), 0.0, 1.0)
 
 
 def closest_point_query(
@@ -116,19 +110,19 @@ def initial_deformation(
     gathered = rows.T @ np.hstack([weights[:, None] * places, weights[:, None] * normals])
     share = rows.T @ weights
     _take_along(body.mesh, share, gathered)
-    smooth = factorize(SMOOTH * energy.laplacian + diags_array(share), ordered=False)(gathered)
+    smooth = factorize(1e-4 * energy.laplacian + diags_array(share), ordered=False)(gathered)
     x, wanted = np.ascontiguousarray(smooth[:, :3]), unit_rows(smooth[:, 3:])
-    solve = body.solver(START, 1.0)
-    for round in range(INITIAL_STEPS):
+    solve = body.solver(_INITIAL_STIFFNESS, 1.0)
+    for round in range(3):
         agreement = np.einsum("ij,ij->i", vertex_normals(Mesh(x, body.mesh.faces)), wanted)
         trust = np.clip(agreement, 0.0, 1.0)
         held = body.areas * (trust + 1e-3)
         turns = rotations(energy, x).reshape(n, 9)
-        diffusion = factorize(DIFFUSION * 0.5**round * energy.laplacian + diags_array(held), ordered=False)
+        diffusion = factorize(2.5e-3 * 0.5**round * energy.laplacian + diags_array(held), ordered=False)
         turns = nearest_rotations(diffusion(held[:, None] * turns).reshape(n, 3, 3))
         terms = [DataTerm(weights * trust[points], places, rows)]
-        x = descend(energy, START, solve, terms, x, turns, 8)
-        x = descend(energy, START, solve, terms, x, rotations(energy, x), 8)
+        x = descend(energy, _INITIAL_STIFFNESS, solve, terms, x, turns, 8)
+        x = descend(energy, _INITIAL_STIFFNESS, solve, terms, x, rotations(energy, x), 8)
     return x
 
 

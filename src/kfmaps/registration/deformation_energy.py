@@ -22,28 +22,23 @@ from kfmaps.registration.deformable import closest_point_query, deformable_mesh
 from kfmaps.registration.nonrigid_icp import MeshPair, NonRigid, mesh_pair
 from kfmaps.shape import Shape
 
-POINTS, MORE = 1200, 3000
-"""Vertices of a coarse copy, and of one for a second look where two maps are close."""
-FEWEST = 12
+MORE = 3000
+"""Vertices of a coarse copy for a second look where two maps are close."""
+_MIN_FACES = 12
 """Faces below which there is nothing to bend."""
-FIT, LONGER = NonRigid(n_levels=2, steps=2, rotation_smoothing=0.0), NonRigid(n_levels=3, steps=3)
+_FIT, LONGER = NonRigid(n_levels=2, steps=2, rotation_smoothing=0.0), NonRigid(n_levels=3, steps=3)
 """The fits of both."""
-LEAST, MOST = 1e-2, 10.0
+_MIN_ENERGY, _MAX_ENERGY = 1e-2, 10.0
 """Energies below which maps are alike, as of two meshes of one shape, and above which nothing is left of the shape."""
-STILL = 1e-3
-"""Local energy that counts as none."""
-
-TINY = 1e-12
-"""Area of a vertex that has none."""
 
 
-def coarse_copy(shape: Shape, points: int = POINTS) -> CoarseProxy | None:
+def coarse_copy(shape: Shape, points: int = 1200) -> CoarseProxy | None:
     """A coarse copy of a shape with so many ``points``; ``None`` where it has no faces, or too few."""
-    if len(shape.mesh.faces) < FEWEST:
+    if len(shape.mesh.faces) < _MIN_FACES:
         return None
     n = len(shape.mesh.vertices)
     copy = coarse_proxy(shape.mesh, stratified_vertices(shape.basis, points, 0) if n > points else np.arange(n))
-    return None if len(copy.mesh.faces) < FEWEST else copy
+    return None if len(copy.mesh.faces) < _MIN_FACES else copy
 
 
 @dataclass(frozen=True)
@@ -53,8 +48,8 @@ class DeformationEnergy:
     Attributes
     ----------
     bending : float
-        As-rigid-as-possible energy per area, the geometric mean of both directions: 0 for a motion; of one where
-        the other copy falls apart, :data:`MOST` where both do.
+        As-rigid-as-possible energy per area, the geometric mean of both directions: 0 for a motion; of one where the
+        other copy falls apart, 10 where both do.
     strain : float
         Mean logarithm of the local energy per area: what is bent a little everywhere, as limbs that are turned front to
         back, shows in it; the few places where two bodies differ most, which have most of the energy, hardly.
@@ -89,16 +84,16 @@ def map_samples(C: np.ndarray, source: Shape, target: Shape, on: FacingPair) -> 
     return (on.there, nearest(rows, images, threads=1)), (on.back, nearest(images, rows, threads=1))
 
 
-def deform(C: np.ndarray, source: Shape, target: Shape, on: FacingPair, fit: NonRigid = FIT) -> DeformationEnergy:
+def deform(C: np.ndarray, source: Shape, target: Shape, on: FacingPair, fit: NonRigid = _FIT) -> DeformationEnergy:
     """Each shape bent onto the other as ``C (k_t, k_s)`` says."""
     there, back = (_bent(fit, *way) for way in map_samples(C, source, target, on))
     if there is None or back is None:
         # That a copy falls apart says nothing of the map.
-        return there or back or DeformationEnergy(MOST, math.log(MOST))
+        return there or back or DeformationEnergy(_MAX_ENERGY, math.log(_MAX_ENERGY))
     return DeformationEnergy(math.sqrt(there.energy * back.energy), (there.strain + back.strain) / 2)
 
 
-def deformation_energy(C: np.ndarray, source: Shape, target: Shape, on: FacingPair, fit: NonRigid = FIT) -> float:
+def deformation_energy(C: np.ndarray, source: Shape, target: Shape, on: FacingPair, fit: NonRigid = _FIT) -> float:
     """:attr:`Bent.energy` alone."""
     return deform(C, source, target, on, fit).energy
 
@@ -109,9 +104,10 @@ def _bent(fit: NonRigid, pair: MeshPair, points: np.ndarray) -> DeformationEnerg
     except NotConverged:
         return None
     energy, sizes = pair.body.energy, pair.body.areas
-    areas = np.maximum(sizes, TINY)
-    dense = np.log(np.maximum(arap_energy_per_vertex(energy, x) / areas, STILL))
+    areas = np.maximum(sizes, 1e-12)
+    # Local energies below 1e-3 count as none.
+    dense = np.log(np.maximum(arap_energy_per_vertex(energy, x) / areas, 1e-3))
     whole = whole_energy(energy, x) / float(sizes.sum())
     return DeformationEnergy(
-        min(max(whole, LEAST), MOST), max(float(np.average(dense, weights=areas)), math.log(LEAST))
+        min(max(whole, _MIN_ENERGY), _MAX_ENERGY), max(float(np.average(dense, weights=areas)), math.log(_MIN_ENERGY))
     )

@@ -19,20 +19,19 @@ from scipy.sparse import diags_array
 from kfmaps.geometry.arap import ArapEnergy, edge_covariances
 from kfmaps.geometry.eigen.factorization import factorize
 
-ROUND = 0.05
+_DAMPING = 0.05
 """Damping towards a change of size alike in all directions: flat surroundings say nothing of the third."""
-LEAST, MOST = 0.4, 2.5
+_MIN_FACTOR, _MAX_FACTOR = 0.4, 2.5
 """The smallest and largest factor."""
-TINY = 1e-300
 
 
 def local_scaling(energy: ArapEnergy, areas: np.ndarray, area: float) -> Callable[[np.ndarray, np.ndarray], np.ndarray]:
     """A function that puts the stretch of the surroundings, of about ``area``, into rotations.
 
     It takes the bent shape ``x (n, 3)`` and the rotations ``(n, 3, 3)`` of its vertices, and returns ``R_i S_i``, with
-    ``S_i`` symmetric, from :data:`LEAST` to :data:`MOST` in every direction: the linear map that takes the
-    surroundings' rest shape to their bent one in the sense of least squares, each vertex turned back by its rotation.
-    With no ``area`` it returns the rotations. ``areas (n,)`` are those of the vertices.
+    ``S_i`` symmetric, from 0.4 to 2.5 in every direction: the linear map that takes the surroundings' rest shape to
+    their bent one in the sense of least squares, each vertex turned back by its rotation. With no ``area`` it returns
+    the rotations. ``areas (n,)`` are those of the vertices.
     """
     if area == 0:
         return lambda _x, turns: turns
@@ -43,14 +42,14 @@ def local_scaling(energy: ArapEnergy, areas: np.ndarray, area: float) -> Callabl
         return np.asarray(diffuse(np.ascontiguousarray(matrices.reshape(n, 9)))).reshape(n, 3, 3)
 
     rest = averaged(edge_covariances(energy, energy.rest))
-    size = np.maximum(np.trace(rest, axis1=1, axis2=2), TINY)
-    inverse = np.linalg.inv(rest + (ROUND * size)[:, None, None] * np.eye(3))
+    size = np.maximum(np.trace(rest, axis1=1, axis2=2), 1e-300)
+    inverse = np.linalg.inv(rest + (_DAMPING * size)[:, None, None] * np.eye(3))
 
     def stretched(x: np.ndarray, turns: np.ndarray) -> np.ndarray:
         moved = averaged(turns.transpose(0, 2, 1) @ edge_covariances(energy, x))
-        scale = np.clip(np.trace(moved, axis1=1, axis2=2) / size, LEAST, MOST)
-        found = (moved + (ROUND * size * scale)[:, None, None] * np.eye(3)) @ inverse
+        scale = np.clip(np.trace(moved, axis1=1, axis2=2) / size, _MIN_FACTOR, _MAX_FACTOR)
+        found = (moved + (_DAMPING * size * scale)[:, None, None] * np.eye(3)) @ inverse
         values, axes = np.linalg.eigh(0.5 * (found + found.transpose(0, 2, 1)))
-        return turns @ (axes * np.clip(values, LEAST, MOST)[:, None, :] @ axes.transpose(0, 2, 1))
+        return turns @ (axes * np.clip(values, _MIN_FACTOR, _MAX_FACTOR)[:, None, :] @ axes.transpose(0, 2, 1))
 
     return stretched

@@ -41,23 +41,11 @@ from kfmaps.registration.deformable import (
 )
 from kfmaps.registration.local_scaling import local_scaling
 
-PROXY_FROM_VERTICES = 15_000
-"""Vertices above which the fit begins with coarse copies."""
-PROXY_VERTICES = 5_000
-"""Vertices of a copy: 1.4 % of √area apart, finer than what the first levels' stiffness lets bend. The last level has
-all vertices. Of 20,000 two poses ended alike, at 0.76 to 0.77, with copies of 4,000 to 8,000."""
-DECLINE = 10**-0.5
-"""Stiffness of a level over that of the one before."""
-LAST = 2
-"""Searches of a large mesh, at the last level: the others are its coarse copy's."""
-HOLD = 10.0
-"""Weight of a landmark over the stiffness of a level: softly enough that those 2 % of √area off do no harm."""
-DISC = 1e-3
-"""Area around a landmark that goes with it."""
-SLOPPY = 0.045
-"""Distance from a landmark, in √area, from which its pull fades: a click that is off does no harm."""
-FIRMLY, LOOSELY = 30.0, 0.1
-"""Both for other proportions, whose maps are farther off than a click."""
+_LANDMARK_PULL = (10.0, 0.045)
+"""Weight of a landmark over the stiffness of a level, and distance in √area from which its pull fades: one that is 2 %
+of √area off does no harm."""
+_SCALED_LANDMARK_PULL = (30.0, 0.1)
+"""The same where sizes may change, as between shapes of other proportions: maps are farther off than a click."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -91,8 +79,7 @@ class NonRigid:
     """Settings of the non-rigid fit; callable as ``(source, target, target_to_source) -> Registered``.
 
     Details smaller than the root of ``stiffness`` follow the target at the first level. Smoothing keeps limbs from
-    being twisted; 0 leaves each vertex its own rotation. See also
-    :mod:`kfmaps.registration.local_scaling`.
+    being twisted; 0 leaves each vertex its own rotation. See also :mod:`kfmaps.registration.local_scaling`.
     """
 
     stiffness: float = setting(2e-4, "stiffness of the first level, in units of area", above=0)
@@ -112,8 +99,8 @@ class NonRigid:
     ) -> Registration:
         """Bend ``source`` onto ``target``, beginning with the map ``target_to_source (n_t,)``.
 
-        ``landmarks (l, 2)``, pairs "source vertex, target vertex", are pulled together softly; so is each target
-        vertex with its image in the map, where ``held (n_t,)``, from 0 to 1, says that it shall stay.
+        ``landmarks (l, 2)``, pairs "source vertex, target vertex", are pulled together softly; so is each target vertex
+        with its image in the map, where ``held (n_t,)``, from 0 to 1, says that it shall stay.
 
         Raises
         ------
@@ -154,7 +141,7 @@ class NonRigid:
         points = check_point_map(target_to_source, len(source.vertices), len(target.vertices))
         marks = np.zeros((0, 2), dtype=np.int64) if landmarks is None else np.asarray(landmarks)
         x = None
-        if max(len(source.vertices), len(target.vertices)) > PROXY_FROM_VERTICES:
+        if max(len(source.vertices), len(target.vertices)) > 15_000:
             x = self._of_copies(source, target, points, lambda done: report(0.3 * done), marks, held)
         pair = mesh_pair(deformable_mesh(source), target)
         return pair, *self.bent(pair, points, x, report, marks, held)
@@ -168,9 +155,12 @@ class NonRigid:
         marks: np.ndarray,
         held: np.ndarray | None,
     ) -> np.ndarray:
-        """The source's vertices (n_s, 3) as they follow the fit of coarse copies of both."""
+        """The source's vertices (n_s, 3) as they follow the fit of coarse copies of both.
+
+        Vertices of a copy are 1.4 % of √area apart, finer than what the first levels' stiffness lets bend.
+        """
         a, b = (
-            coarse_proxy(mesh, spread_vertices(mesh, PROXY_VERTICES, marks[:, side]))
+            coarse_proxy(mesh, spread_vertices(mesh, 5_000, marks[:, side]))
             for side, mesh in enumerate((source, target))
         )
         report(0.1)
@@ -199,7 +189,7 @@ class NonRigid:
         """
         levels, steps, begun = range(self.n_levels), self.steps, 0.2
         if x is not None:
-            levels, steps, begun = range(self.n_levels)[-1:], min(self.steps, LAST), 0.3
+            levels, steps, begun = range(self.n_levels)[-1:], min(self.steps, 2), 0.3
         else:
             x = initial_deformation(pair.body, points, pair.target.vertices, pair.normals_t, pair.areas_t)
             report(begun)
@@ -207,7 +197,7 @@ class NonRigid:
         stretched = local_scaling(pair.body.energy, pair.body.areas, self.local_scaling)
         marks = np.zeros((0, 2), dtype=np.int64) if marks is None else marks
         discs = _discs(pair, marks)
-        hold, fading = (FIRMLY, LOOSELY) if self.local_scaling else (HOLD, SLOPPY)
+        hold, fading = _SCALED_LANDMARK_PULL if self.local_scaling else _LANDMARK_PULL
         stays = [] if held is None or not held.any() else [_stays(pair, points, held)]
         gap = 0.0
 
@@ -222,7 +212,7 @@ class NonRigid:
         def turns(x: np.ndarray) -> np.ndarray:
             return stretched(x, even(rotations(pair.body.energy, x)))
 
-        stiffness = [self.stiffness * DECLINE**level for level in levels]
+        stiffness = [self.stiffness * 10 ** (-0.5 * level) for level in levels]
         x = descend_levels(
             pair.body, x, stiffness, steps, 2.0, terms, turns, lambda done: report(begun + (1 - begun) * done)
         )
@@ -275,7 +265,7 @@ def _discs(pair: MeshPair, landmarks: np.ndarray) -> np.ndarray:
         return np.zeros((n, 0))
     points = np.zeros((n, count))
     points[landmarks[:, 0], np.arange(count)] = 1.0
-    diffuse = factorize(DISC * pair.body.energy.laplacian + diags_array(pair.body.areas), ordered=False)
+    diffuse = factorize(1e-3 * pair.body.energy.laplacian + diags_array(pair.body.areas), ordered=False)
     return pair.body.areas[:, None] * np.asarray(diffuse(points)).reshape(n, count)
 
 

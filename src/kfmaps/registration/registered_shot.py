@@ -20,9 +20,7 @@ from kfmaps.registration.deformation_energy import FacingPair, map_samples
 from kfmaps.registration.nonrigid_icp import MeshPair
 from kfmaps.shape import Shape
 
-RADIUS, SUPPORT = 0.2, 5000
-"""Of SHOT, in √area: a foot or a head and what it sits on; and from how many points of the surface."""
-STEP = 6
+_SAMPLE_STEP = 6
 """Of the copy at rest every so many vertices are looked at."""
 
 
@@ -34,13 +32,13 @@ class SurfaceSamples:
     descriptors: np.ndarray
 
 
-def surface_samples(mesh: Mesh) -> SurfaceSamples:
+def _surface_samples(mesh: Mesh) -> SurfaceSamples:
     """Of every few vertices of a ``mesh`` of unit area."""
-    at = np.arange(0, len(mesh.vertices), STEP)
+    at = np.arange(0, len(mesh.vertices), _SAMPLE_STEP)
     return SurfaceSamples(position_normals(mesh)[at], _descriptors(mesh, at))
 
 
-def shot_difference(seen: SurfaceSamples, other: Mesh) -> float:
+def _shot_difference(seen: SurfaceSamples, other: Mesh) -> float:
     """Mean squared difference of SHOT, from 0 to 2, from that of an ``other`` surface in the same place.
 
     Each point is compared with the vertex that lies nearest; the points of a copy are spread evenly and count alike.
@@ -50,7 +48,7 @@ def shot_difference(seen: SurfaceSamples, other: Mesh) -> float:
 
 
 def _descriptors(mesh: Mesh, at: np.ndarray) -> np.ndarray:
-    return shot(mesh, RADIUS, samples=SUPPORT, at=at, threads=1)
+    return shot(mesh, 0.2, samples=5000, at=at, threads=1)  # a foot or a head and what it sits on
 
 
 @dataclass(frozen=True, eq=False)
@@ -63,11 +61,11 @@ class ShotPair:
 
 def shot_pair(on: FacingPair) -> ShotPair:
     """Of copies of two shapes."""
-    return ShotPair(on, (surface_samples(on.copies[0].mesh), surface_samples(on.copies[1].mesh)))
+    return ShotPair(on, (_surface_samples(on.copies[0].mesh), _surface_samples(on.copies[1].mesh)))
 
 
 def registered_shot_error(C: np.ndarray, source: Shape, target: Shape, of: ShotPair) -> float | None:
-    """:func:`shot_difference` of each copy, bent onto the other as ``C (k_t, k_s)`` says; the mean of both directions.
+    """:func:`_shot_difference` of each copy, bent onto the other as ``C (k_t, k_s)`` says; the mean of both directions.
 
     Of one where the other falls apart, ``None`` where both do.
     """
@@ -82,4 +80,4 @@ def _mismatch(pair: MeshPair, points: np.ndarray, seen: SurfaceSamples) -> float
         x, _ = FIT.bent(pair, points)
     except NotConverged:
         return None
-    return shot_difference(seen, Mesh(x, pair.body.mesh.faces))
+    return _shot_difference(seen, Mesh(x, pair.body.mesh.faces))

@@ -16,32 +16,15 @@ from kfmaps._threads import available_cores, one_blas_thread
 from kfmaps.geometry.eigen.factorization import Map, Sparse, factorize, fill_order
 from kfmaps.geometry.eigen.lanczos import LOOSE, WIDTH, largest_eigenpairs
 
-METHODS = ("auto", "block", "dense")
-
-MASS_FLOOR = 1e-10
-"""Least mass of a vertex, as a part of the mean: one without mass takes the value that its neighbours give it
-(harmonic), and this much mass moves no eigenvalue by more than this part."""
-
-MENDED = 2
-"""Steps of subspace iteration for pairs that miss the tolerance: specks and caps make the Lanczos basis lose digits."""
-
-SOLVES = 1.25
+_SOLVES_PER_BLOCK = 1.25
 """Blocks that are solved for, with the search for missed pairs, over those of a Krylov basis of ``3k + 60`` vectors."""
 
 EXACT = 1e-10
 """Tolerance that is fallen back to where a loose one cannot be trusted."""
 
-SHIFT = 10.0
+_LOOSE_SHIFT = 10.0
 """Shift of a loose search, in units of the usual one."""
 
-SERVES = 1e-2
-"""What a solution in single precision may leave of the right-hand side; 3e-6 is usual at 80,000 rows."""
-
-AGREE = 1e-3
-"""Relative difference of eigenvalues up to which a loose search is trusted."""
-
-TOGETHER = 16
-"""Columns whose residuals are worked out together."""
 
 THREADED = 50_000
 """Rows from which threads pay."""
@@ -81,34 +64,33 @@ def smallest_eigenpairs(
 ) -> Eigenpairs:
     """Return the ``k`` smallest eigenpairs of ``stiffness x = λ mass x``, by Lanczos on ``(stiffness + σ mass)⁻¹``.
 
-    Every pair is checked against the tolerance before it is returned, and the block method looks for
-    eigenvalues that it may have missed (repeated ones of identical components, clusters of spheres).
-    The same input gives the same answer, whatever the number of threads.
+    Every pair is checked against the tolerance before it is returned, and the block method looks for eigenvalues that
+    it may have missed (repeated ones of identical components, clusters of spheres). The same input gives the same
+    answer, whatever the number of threads.
 
     Parameters
     ----------
     stiffness : (n, n) sparse
-        Symmetric, positive semi-definite, for example a weak Laplacian. It may have a null space of any
-        dimension (one per component), but no row that is zero together with its mass.
+        Symmetric, positive semi-definite, for example a weak Laplacian. It may have a null space of any dimension (one
+        per component), but no row that is zero together with its mass.
     mass : (n,)
         Diagonal of the mass, none below zero, some above.
     k : int
         From 1 to ``n``.
     tolerance : float
-        Bound on the residuals of :class:`Eigenpairs`, on top of what rounding ``stiffness @ x`` costs: that
-        matters on meshes with needle triangles, and from about a million vertices. From 1e-6 on it bounds what the
-        iteration itself is off, ``‖(L + σA)⁻¹Ax − νx‖ / ν`` in the norm of the mass, and works in single precision,
-        in half of the time and memory: at 1e-2 eigenvalues differ by 1e-7 and the span of the functions by 3e-3 at
-        most, as an angle; where that does not serve the pairs are found to 1e-10.
+        Bound on the residuals of :class:`Eigenpairs`, on top of what rounding ``stiffness @ x`` costs: that matters on
+        meshes with needle triangles, and from about a million vertices. From 1e-6 on it bounds what the iteration
+        itself is off, ``‖(L + σA)⁻¹Ax − νx‖ / ν`` in the norm of the mass, and works in single precision, in half of
+        the time and memory: at 1e-2 eigenvalues differ by 1e-7 and the span of the functions by 3e-3 at most, as an
+        angle; where that does not serve the pairs are found to 1e-10.
     rng : int or numpy.random.Generator
         Draws the start vectors.
     threads : int, optional
-        Python threads for solves and tall products, from 50,000 rows; ``None`` takes every available core.
-        BLAS is held to one.
+        Python threads for solves and tall products, from 50,000 rows; ``None`` takes every available core. BLAS is held
+        to one.
     method : {"auto", "block", "dense"}
-        ``"block"``: own block Lanczos with full reorthogonalisation. ``"dense"``: the whole
-        spectrum, for a few hundred rows. ``"auto"``: dense where the Krylov basis would not fit
-        (``n ≤ max(400, 4k + 200)``), else block.
+        ``"block"``: own block Lanczos with full reorthogonalisation. ``"dense"``: the whole spectrum, for a few hundred
+        rows. ``"auto"``: dense where the Krylov basis would not fit (``n ≤ max(400, 4k + 200)``), else block.
     ordering : {"auto", "metis", "mmd"}
         Ordering of the factorisation; METIS is faster on large meshes and comes with ``kfmaps[fast]``.
     progress : callable, optional
@@ -121,8 +103,8 @@ def smallest_eigenpairs(
     Raises
     ------
     InvalidInput
-        On arrays that do not fit together, NaN, a negative mass, a row without stiffness and mass, or ``k`` out
-        of range.
+        On arrays that do not fit together, NaN, a negative mass, a row without stiffness and mass, or ``k`` out of
+        range.
     NotConverged
         When a residual stays above the tolerance or the shifted matrix is singular.
     """
@@ -136,8 +118,8 @@ def smallest_eigenpairs(
     check(mass, "mass")
     check_count(k, "k", 1, n)
     check_positive(tolerance, "tolerance")
-    if method not in METHODS:
-        raise refuse("method", f"one of {', '.join(METHODS)}", repr(method), "choose one of them")
+    if method not in ("auto", "block", "dense"):
+        raise refuse("method", "one of auto, block, dense", repr(method), "choose one of them")
     if mass.min() < 0 or not mass.sum() > 0:
         raise refuse("mass", "numbers of at least zero, not all zero", f"{mass.min():g}", "check the areas")
     idle = int(((mass == 0) & (matrix.diagonal() == 0)).sum())
@@ -146,7 +128,8 @@ def smallest_eigenpairs(
     small = n <= max(400, 4 * k + 200)
     if method == "auto" or (method != "dense" and small):
         method = "dense" if small else "block"
-    floored = np.maximum(mass, MASS_FLOOR * mass.mean())
+    # A vertex without mass takes the value that its neighbours give it; this much mass moves no eigenvalue by more.
+    floored = np.maximum(mass, 1e-10 * mass.mean())
     with ExitStack() as stack:
         stack.enter_context(one_blas_thread())
         each = map
@@ -162,10 +145,10 @@ def smallest_eigenpairs(
             tolerance = EXACT
         pencil = _Pencil(matrix, floored, order is not None, each)
         if progress is not None:
-            pencil.solve = _counted(pencil.solve, (3 * k + 60) * SOLVES / WIDTH, progress)
+            pencil.solve = _counted(pencil.solve, (3 * k + 60) * _SOLVES_PER_BLOCK / WIDTH, progress)
         vectors = _vectors(pencil, k, method, tolerance, np.random.default_rng(rng))
         found = pencil.residuals(vectors)
-        for _ in range(MENDED):
+        for _ in range(2):  # specks and caps make the Lanczos basis lose digits
             if not len(_missed(pencil, vectors, *found, tolerance)):
                 break
             vectors = _improved(pencil, pencil.root[:, None] * vectors)
@@ -190,21 +173,22 @@ def _nearly(
     triangles, gives an operator with other eigenvalues than the quotients, in double precision, of its vectors.
     """
     try:
-        pencil = _Pencil(matrix, mass, order is not None, each, SHIFT, np.float32)
+        pencil = _Pencil(matrix, mass, order is not None, each, _LOOSE_SHIFT, np.float32)
         block = pencil.root[:, None] * rng.normal(size=(len(mass), 4))
         found = pencil.solve(block)
-        left = matrix @ found + (SHIFT * pencil.unit * mass)[:, None] * found - block
-        if not np.linalg.norm(left) <= SERVES * np.linalg.norm(block):
+        left = matrix @ found + (_LOOSE_SHIFT * pencil.unit * mass)[:, None] * found - block
+        # 3e-6 is usual at 80,000 rows.
+        if not np.linalg.norm(left) <= 1e-2 * np.linalg.norm(block):
             return None
         if progress is not None:
-            pencil.solve = _counted(pencil.solve, (2.4 * k + 60) * SOLVES / WIDTH, progress)
+            pencil.solve = _counted(pencil.solve, (2.4 * k + 60) * _SOLVES_PER_BLOCK / WIDTH, progress)
         found = largest_eigenpairs(pencil.inverse, len(mass), k, tolerance=tolerance, rng=rng, each=each)
     except NotConverged:
         return None
     vectors = found.vectors[:, :k] / pencil.root[:, None]
     values, residuals = pencil.residuals(vectors)
-    thought = 1 / found.values[:k] - SHIFT * pencil.unit
-    if not (np.abs(thought - values) <= AGREE * (values + pencil.unit)).all():
+    thought = 1 / found.values[:k] - _LOOSE_SHIFT * pencil.unit
+    if not (np.abs(thought - values) <= 1e-3 * (values + pencil.unit)).all():
         return None
     if found.stages > 1:
         vectors = _improved(pencil, found.vectors[:, :k])
@@ -252,7 +236,7 @@ class _Pencil:
 
     def residuals(self, vectors: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Rayleigh quotients and scaled residuals of the columns, a few of which at once fit the cache."""
-        found = [self._residuals(vectors[:, part]) for part in blocks(vectors.shape[1], TOGETHER)]
+        found = [self._residuals(vectors[:, part]) for part in blocks(vectors.shape[1], 16)]
         return np.concatenate([part[0] for part in found]), np.concatenate([part[1] for part in found])
 
     def _residuals(self, vectors: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

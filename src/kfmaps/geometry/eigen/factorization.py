@@ -18,7 +18,7 @@ Sparse = Any
 """A SciPy sparse array or matrix."""
 
 
-COLUMNS = 4
+_COLUMNS = 4
 """Right-hand sides that are solved at once. SuperLU reads the factor once for all of them; with fewer, threads spend
 together more than they save. They are split so with one thread too, at no cost: on some processors the last bits hang
 on how many there are."""
@@ -64,14 +64,13 @@ def factorize(matrix: Sparse, ordered: bool, each: Map = map) -> Solve:
     ----------
     matrix : (n, n) sparse
         Symmetric, float32 or float64, the precision of the factor. It is not pivoted: right when it is positive
-        definite, else to be checked by its solutions.
-        Then an ordering of ``A + Aᵀ`` serves, with half the factor that SciPy's default, made for
-        unsymmetric matrices, gives.
+        definite, else to be checked by its solutions. Then an ordering of ``A + Aᵀ`` serves, with half the factor that
+        SciPy's default, made for unsymmetric matrices, gives.
     ordered : bool
         Whether the rows are already in a :func:`fill_order`; else SuperLU finds one.
     each : callable
-        ``map``, or that of a thread pool, over which the blocks of right-hand sides are spread (SuperLU
-        releases the interpreter's lock).
+        ``map``, or that of a thread pool, over which the blocks of right-hand sides are spread (SuperLU releases the
+        interpreter's lock).
 
     Returns
     -------
@@ -95,10 +94,10 @@ def factorize(matrix: Sparse, ordered: bool, each: Map = map) -> Solve:
 
     def solve(block: np.ndarray) -> np.ndarray:
         right = np.asfortranarray(block, dtype=matrix.dtype)
-        parts = [right[:, start : start + COLUMNS] for start in range(0, right.shape[1], COLUMNS)]
+        parts = [right[:, start : start + _COLUMNS] for start in range(0, right.shape[1], _COLUMNS)]
         result = np.empty(right.shape, order="F")
         for i, part in enumerate(each(factor.solve, parts)):
-            result[:, i * COLUMNS : (i + 1) * COLUMNS] = part
+            result[:, i * _COLUMNS : (i + 1) * _COLUMNS] = part
         return result
 
     return solve

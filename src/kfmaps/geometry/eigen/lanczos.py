@@ -1,52 +1,41 @@
 """Block Lanczos iteration: the largest eigenpairs of a symmetric positive definite operator, such as an inverse.
 
-The operator meets a block of vectors at a time, so that one pass over a factor, and one over the Krylov basis,
-serve all of them. Every second block is orthogonalised against the whole basis (no ghost eigenvalues).
+The operator meets a block of vectors at a time, so that one pass over a factor, and one over the Krylov basis, serve
+all of them. Every second block is orthogonalised against the whole basis (no ghost eigenvalues).
 
-A block of ``b`` vectors sees at most ``b`` copies of a repeated eigenvalue, and tight clusters (spheres) late.
-So after the wanted pairs have converged they are locked and the iteration starts again at random in their
-orthogonal complement: whatever it finds there above the smallest wanted eigenvalue had been missed and joins
-them. Only when a restart finds nothing is the answer believed. Such a check takes a few blocks.
+A block of ``b`` vectors sees at most ``b`` copies of a repeated eigenvalue, and tight clusters (spheres) late. So after
+the wanted pairs have converged they are locked and the iteration starts again at random in their orthogonal complement:
+whatever it finds there above the smallest wanted eigenvalue had been missed and joins them. Only when a restart finds
+nothing is the answer believed. Such a check takes a few blocks.
 
-Inverses with a shift below all eigenvalues are meant. A shift among the wanted ones saves a quarter of the
-vectors, but the factor of an indefinite matrix, unpivoted, left residuals of 1e-8 at a hundred thousand rows.
+Inverses with a shift below all eigenvalues are meant. A shift among the wanted ones saves a quarter of the vectors, but
+the factor of an indefinite matrix, unpivoted, left residuals of 1e-8 at a hundred thousand rows.
 
-Golub and Underwood, The block Lanczos method for computing eigenvalues (1977); Grimes, Lewis and Simon, A shifted
-block Lanczos algorithm for solving sparse symmetric generalized eigenproblems (1994); Stathopoulos and Wu, A
-block orthogonalization procedure with constant synchronization requirements (2002).
+Golub and Underwood, The block Lanczos method for computing eigenvalues (1977); Grimes, Lewis and Simon, A shifted block
+Lanczos algorithm for solving sparse symmetric generalized eigenproblems (1994); Stathopoulos and Wu, A block
+orthogonalization procedure with constant synchronization requirements (2002).
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
-from kfmaps._arrays import NotConverged
+from kfmaps._arrays import NotConverged, blocks
+from kfmaps.geometry.eigen.factorization import Map
 
 WIDTH = 8
 """Vectors in a block. Wider ones need more vectors in all, narrower ones more passes over basis and factor."""
 
-ROWS = 16384
-"""Rows of the tall products that are worked on together: they fit the cache and can go to threads."""
 
-EQUAL = 1e-9
+_EQUAL_RTOL = 1e-9
 """Relative difference below which two eigenvalues count as copies of one."""
 
-DRIFT = 1e-10
-"""Loss of orthogonality after two steps from which no block goes without full orthogonalisation any more. It
-grows in a step by about the ratio of the largest eigenvalue to the smallest wanted one."""
 
-LOOSE, LOOSE_DRIFT = 1e-6, 1e-3
-"""Tolerance from which the basis is kept in single precision, and what it may lose then: a third of the time, and half
-of the memory."""
-
-MARGIN = 4
-"""Pairs beyond the wanted ones that converge with them: the check for missed ones ends sooner for it."""
-
-Map = Callable[..., Iterable[Any]]
+LOOSE = 1e-6
+"""Tolerance from which the basis is kept in single precision: a third of the time, and half of the memory."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,7 +48,7 @@ class ConvergedPairs:
 
 
 def _slices(n: int) -> Iterator[slice]:
-    return (slice(start, start + ROWS) for start in range(0, n, ROWS))
+    return iter(blocks(n, 16384))  # they fit the cache and can go to threads
 
 
 def _times(tall: np.ndarray, small: np.ndarray, each: Map) -> np.ndarray:
@@ -101,8 +90,8 @@ def _remove(block: np.ndarray, basis: np.ndarray, each: Map) -> float:
 def _normalise(block: np.ndarray, each: Map) -> tuple[np.ndarray, np.ndarray, float]:
     """``(Q, R, spread)`` with ``block = Q R``; the smaller the spread, the less orthonormal ``Q`` may be.
 
-    Directions below rounding are scaled up like the others: they turn into noise, which the next call
-    orthonormalises, so that the block keeps its width when the Krylov space is exhausted.
+    Directions below rounding are scaled up like the others: they turn into noise, which the next call orthonormalises,
+    so that the block keeps its width when the Krylov space is exhausted.
     """
     gram = block.T @ block
     size = np.sqrt(np.diag(gram))
@@ -165,7 +154,8 @@ def _stage(
         brief = sparing and size // b % 2 == 0
         against = [] if brief else [locked.vectors, basis[:, :size]]
         following, coupling, found = _orthonormal(new, against, each)
-        sparing &= found < (LOOSE_DRIFT if loose else DRIFT)
+        # Orthogonality lost in two steps grows in each by about the largest eigenvalue over the smallest wanted one.
+        sparing &= found < (1e-3 if loose else 1e-10)
         recent[:, :b], recent[:, b:] = block, following
         basis[:, size : size + b] = following
         projected[size : size + b, here] = coupling
@@ -175,12 +165,12 @@ def _stage(
             left_over = coupling @ rotation[here]
             residual = np.linalg.norm(left_over, axis=0)
             merged = -np.sort(-np.concatenate([locked.values, values]))
-            count = k if probing else k + MARGIN
+            count = k if probing else k + 4  # the check for missed ones ends sooner for these
             wanted = values >= merged[min(count, len(merged)) - 1]
             if probing:
                 # Only what improves on the locked pairs; and what may yet grow to do so has to settle too.
-                wanted &= values > locked.values[k - 1] * (1 + EQUAL)
-                wanted |= values + residual > merged[k - 1] * (1 + EQUAL)
+                wanted &= values > locked.values[k - 1] * (1 + _EQUAL_RTOL)
+                wanted |= values + residual > merged[k - 1] * (1 + _EQUAL_RTOL)
             good = residual <= tolerance * values
             if ((good | ~wanted).all() and len(merged) >= count) or size >= limit:
                 take = np.flatnonzero(good)
@@ -235,7 +225,7 @@ def largest_eigenpairs(
     while True:
         values, vectors = _stage(apply, locked, k, tolerance, rng, each)
         if len(locked.values) >= k:
-            if not (values > locked.values[k - 1] * (1 + EQUAL)).any():
+            if not (values > locked.values[k - 1] * (1 + _EQUAL_RTOL)).any():
                 return locked
         elif len(values) == 0:
             raise NotConverged(f"block Lanczos: {len(locked.values)} of {k} eigenpairs converged")

@@ -12,13 +12,13 @@ import numpy as np
 
 from kfmaps.matching.partial.relaxation_labeling import Assignment, DistanceBounds, consistency
 
-ANCHORS = 16
+_ANCHORS = 16
 """Samples that are placed."""
-MIN_DISTANCE = 0.12
+_MIN_DISTANCE = 0.12
 """Distance between two places of some anchor, in √area of the whole, from which placements differ."""
 
 
-def select_anchors(bounds: DistanceBounds, boundary_distance: np.ndarray, count: int, first: int = 0) -> np.ndarray:
+def _select_anchors(bounds: DistanceBounds, boundary_distance: np.ndarray, count: int, first: int = 0) -> np.ndarray:
     """Return samples far from each other and from the boundary, (count,) int64.
 
     They are farthest points by the smaller of the distance to those chosen and twice that to the boundary.
@@ -67,7 +67,7 @@ def beam_search(
     width : int
         Placements that are kept at each step.
     """
-    anchors = select_anchors(bounds, boundary_distance, ANCHORS, n_landmarks)
+    anchors = _select_anchors(bounds, boundary_distance, _ANCHORS, n_landmarks)
     m = min(400, similarity.shape[1])
     distances = distances[:m, :m]
     score = similarity[anchors, :m]
@@ -83,22 +83,22 @@ def beam_search(
         total = (pairs[:, None] + fits) * np.float32(2 / t) + single[:, None] + score[t]
         row, label = np.divmod(_largest(total, 20 * width), m)
         grown = np.concatenate([states[row], label[:, None]], axis=1)
-        kept = select_different(grown, distances, width)
+        kept = _select_different(grown, distances, width)
         row, label = row[kept], label[kept]
         states, pairs, single = grown[kept], pairs[row] + fits[row, label], single[row] + score[t, label]
     final = (2 * pairs / max(len(anchors) - 1, 1) + single) / len(anchors)
     order = np.argsort(-final, kind="stable")
     states, final = states[order], final[order]
     found = []
-    for i in select_different(states, distances, 12, half=True):
+    for i in _select_different(states, distances, 12, half=True):
         match, trust = np.zeros(len(similarity), dtype=np.int64), np.zeros(len(similarity))
         match[anchors], trust[anchors] = states[i], 1.0
         found.append(Assignment(match, trust, float(final[i])))
     return found
 
 
-def select_different(states: np.ndarray, distances: np.ndarray, most: int, half: bool = False) -> np.ndarray:
-    """Return the rows of ``states (b, t)``, best first, that differ from all better ones by :data:`MIN_DISTANCE`.
+def _select_different(states: np.ndarray, distances: np.ndarray, most: int, half: bool = False) -> np.ndarray:
+    """Return the rows of ``states (b, t)``, best first, that differ from all better ones by ``_MIN_DISTANCE``.
 
     They differ in at least one of their places or, with ``half``, in half of them.
     """
@@ -107,7 +107,7 @@ def select_different(states: np.ndarray, distances: np.ndarray, most: int, half:
     while len(kept) < most and len(left):
         kept.append(int(left[0]))
         off = distances[states[left[0]], states[left[1:]]]
-        left = left[1:][(np.median(off, axis=1) if half else off.max(axis=1)) > MIN_DISTANCE]
+        left = left[1:][(np.median(off, axis=1) if half else off.max(axis=1)) > _MIN_DISTANCE]
     return np.array(kept, dtype=np.int64)
 
 

@@ -29,9 +29,9 @@ from kfmaps.matching.partial.scale_search import (
 )
 from kfmaps.matching.score import SCORE, PartEvidence, part_score, select_distinct
 
-SCALE_RATIOS = (1.0, 1.1, 1 / 1.1)
+_SCALE_RATIOS = (1.0, 1.1, 1 / 1.1)
 """Scales that are tried, against that of the placement: a wrong one has a scale of its own."""
-ROUNDS = (2, 5)
+_ROUNDS = (2, 5)
 """How often candidates are refined, at least and at most."""
 
 
@@ -78,18 +78,18 @@ def compare_alternatives(found: Sequence[PartCandidate], pair: PartPair) -> list
     A placement that was found by chance is far from what it can be, and would lose against one that was not.
     """
     best = max(found, key=lambda one: one.score)
-    elsewhere = alternative_placements(pair, best.registration.scale, best.points)
+    elsewhere = _alternative_placements(pair, best.registration.scale, best.points)
     likely = sorted(elsewhere, key=lambda one: -one.score)[:3]
     more = [make_candidate(refine_placement(pair, one), pair) for one in likely]
     order = sorted([*found, *more], key=lambda one: -one.score)
-    chosen = select_distinct(order, differ, 3)
-    rest = [one for one in order if all(differ(one, other) for other in chosen)]
+    chosen = select_distinct(order, _differ, 3)
+    rest = [one for one in order if all(_differ(one, other) for other in chosen)]
     least = chosen[0].score - SCORE.part.hopeless_margin
-    last = [refine_candidate(one, pair) if one.score > least else one for one in chosen]
+    last = [_refine_candidate(one, pair) if one.score > least else one for one in chosen]
     return sorted([*last, *rest], key=lambda one: -one.score)
 
 
-def alternative_placements(pair: PartPair, scale: float, points: np.ndarray) -> list[Placement]:
+def _alternative_placements(pair: PartPair, scale: float, points: np.ndarray) -> list[Placement]:
     """Return placements of the samples elsewhere than at ``points (q, 3)``, by relaxation and beam searches.
 
     ``scale``: √area of the part over that of the whole. Samples that are landmarks stay.
@@ -108,15 +108,15 @@ def alternative_placements(pair: PartPair, scale: float, points: np.ndarray) -> 
         placed = [place_all(pair, Placement(scale, TRIALS[0], one, similarity)) for one in begun]
         return [one for one in placed if float(np.median(off[each, one.placed.match])) > apart]
 
-    scales = [scale * ratio for ratio in (SCALE_RATIOS[:1] if pair.fixed_scale else SCALE_RATIOS)]
+    scales = [scale * ratio for ratio in (_SCALE_RATIOS[:1] if pair.fixed_scale else _SCALE_RATIOS)]
     return [one for some in parallel(place, scales, pair.threads) for one in some]
 
 
-def refine_candidate(one: PartCandidate, pair: PartPair) -> PartCandidate:
+def _refine_candidate(one: PartCandidate, pair: PartPair) -> PartCandidate:
     """Place and register the part anew from where it lies, until that makes it no better."""
-    for i in range(ROUNDS[1]):
+    for i in range(_ROUNDS[1]):
         before, one = one.score, _place_again(one, pair)
-        if i + 1 >= ROUNDS[0] and one.score < before + SCORE.part.min_gain:
+        if i + 1 >= _ROUNDS[0] and one.score < before + SCORE.part.min_gain:
             break
     return one
 
@@ -131,12 +131,12 @@ def _place_again(one: PartCandidate, pair: PartPair) -> PartCandidate:
     return make_candidate(refine_placement(pair, replace(one.placement, scale=scale, placed=placed)), pair)
 
 
-def differ(one: PartCandidate, other: PartCandidate) -> bool:
+def _differ(one: PartCandidate, other: PartCandidate) -> bool:
     """Return whether two candidates put the part elsewhere."""
     return float(np.median(np.linalg.norm(one.points - other.points, axis=1))) > SCORE.part.distinct_distance
 
 
 def margin(found: Sequence[PartCandidate]) -> float:
     """Return by how much the best of ``found``, which is first, precedes the best that differs, up to a maximum."""
-    others = [one.score for one in found if differ(one, found[0])]
+    others = [one.score for one in found if _differ(one, found[0])]
     return min(found[0].score - max(others), SCORE.part.max_margin) if others else SCORE.part.max_margin

@@ -119,14 +119,14 @@ def place_part(
 
 def candidate_placements(pair: PartPair, scales: list[float], count: int) -> tuple[list[Placement], list[Placement]]:
     """Return rough placements by relaxation, at the ``count`` likeliest scales and more, and by beam searches."""
-    first = select_distinct(try_scales(pair, scales), scales_differ, count)
+    first = select_distinct(try_scales(pair, scales), _scales_differ, count)
     rough = [*first]
     for params in TRIALS[1:]:
         rough += try_scales(pair, [one.scale for one in first[:2]], params)
     return rough, sorted(search_scale(pair, scales), key=lambda one: -one.score)[:4]
 
 
-def scales_differ(one: Placement, other: Placement) -> bool:
+def _scales_differ(one: Placement, other: Placement) -> bool:
     """Return whether the scales of two placements differ by more than the steps between those that are tried."""
     return max(one.scale / other.scale, other.scale / one.scale) > _MIN_SCALE_RATIO
 

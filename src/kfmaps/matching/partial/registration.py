@@ -26,11 +26,11 @@ from kfmaps.registration.deformable import (
     initial_deformation,
 )
 
-STIFFNESS = (2e-3, 6e-4, 2e-4, 6e-5, 2e-5)
+_STIFFNESS = (2e-3, 6e-4, 2e-4, 6e-5, 2e-5)
 """Stiffness of the levels, in areas of the whole; a quick registration has the first three."""
-BEYOND = 0.01
+_BEYOND = 0.01
 """Distance from an edge of the whole, in its √area, at which a point counts as lying beyond it."""
-OVERLAP_WIDTH = 0.02
+_OVERLAP_WIDTH = 0.02
 """Distance between the surfaces, in √area of the whole, at which a common point is as likely as not."""
 
 
@@ -105,16 +105,18 @@ def register_part(
 
     def terms(x: np.ndarray, _stiffness: float) -> list[DataTerm]:
         found, there, agree = whole.surface(x, vertex_normals(Mesh(x, rest.mesh.faces)))
-        return [DataTerm(rest.areas * (agree * is_inside(found, whole)), found.points, None, there)]
+        return [DataTerm(rest.areas * (agree * _is_inside(found, whole)), found.points, None, there)]
 
     def turns(x: np.ndarray) -> np.ndarray:
         return rotations(rest.energy, x)
 
-    levels, steps = (STIFFNESS[:3], 3) if quick else (STIFFNESS, 5)
-    return measure_registration(descend_levels(rest, x, levels, steps, 1.0, terms, turns, progress), rest, scale, whole)
+    levels, steps = (_STIFFNESS[:3], 3) if quick else (_STIFFNESS, 5)
+    return _measure_registration(
+        descend_levels(rest, x, levels, steps, 1.0, terms, turns, progress), rest, scale, whole
+    )
 
 
-def measure_registration(x: np.ndarray, body: DeformableMesh, scale: float, whole: PartSamples) -> PartRegistration:
+def _measure_registration(x: np.ndarray, body: DeformableMesh, scale: float, whole: PartSamples) -> PartRegistration:
     """Return what a part, ``body`` at rest, shows with its vertices at ``x (n, 3)``."""
     rest, areas = body.mesh, body.areas
     found = closest_points(x, whole.mesh.vertices, whole.mesh.faces)
@@ -123,7 +125,7 @@ def measure_registration(x: np.ndarray, body: DeformableMesh, scale: float, whol
     ends = np.concatenate([rest.faces[:, [0, 1]], rest.faces[:, [1, 2]], rest.faces[:, [2, 0]]])
     before, after = (np.linalg.norm(y[ends[:, 0]] - y[ends[:, 1]], axis=1) for y in (rest.vertices, x))
     longer = np.divide(after, before, out=np.ones_like(after), where=before > 0)
-    inside = is_inside(found, whole)
+    inside = _is_inside(found, whole)
     on = areas * inside
     return PartRegistration(
         x,
@@ -138,9 +140,9 @@ def measure_registration(x: np.ndarray, body: DeformableMesh, scale: float, whol
     )
 
 
-def is_inside(found: ClosestPoints, whole: PartSamples) -> np.ndarray:
+def _is_inside(found: ClosestPoints, whole: PartSamples) -> np.ndarray:
     """Return which places (q,) are no points of the whole's boundary that something beyond it is nearest to."""
-    return ~(_at_boundary(found, whole.mesh.faces, whole.on_boundary) & (found.distances > BEYOND))
+    return ~(_at_boundary(found, whole.mesh.faces, whole.on_boundary) & (found.distances > _BEYOND))
 
 
 def _at_boundary(found: ClosestPoints, faces: np.ndarray, on_boundary: np.ndarray) -> np.ndarray:
@@ -196,7 +198,7 @@ def overlap_probability(
     corners = bent.vertices[bent.faces[found.faces]]
     half = 0.5 * np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).mean(axis=1)
     edge = _at_boundary(found, bent.faces, on_boundary)
-    width = np.where(edge, np.minimum(half, OVERLAP_WIDTH), OVERLAP_WIDTH)
+    width = np.where(edge, np.minimum(half, _OVERLAP_WIDTH), _OVERLAP_WIDTH)
     return _half_at(found.distances, width) * np.where(agree > 0, 1.0, 0.25), found
 
 
@@ -204,7 +206,7 @@ def find_overlap(bent: PartRegistration, pair: PartPair) -> Overlap:
     """Return what a registered part and the whole have in common."""
     mesh = Mesh(bent.vertices, bent.rest.faces)
     common, found = overlap_probability(mesh, pair.part.on_boundary, pair.whole.mesh, pair.whole.surface.normals)
-    own = np.where(bent.inside, _half_at(bent.places.distances, OVERLAP_WIDTH), 0.0)
+    own = np.where(bent.inside, _half_at(bent.places.distances, _OVERLAP_WIDTH), 0.0)
     return Overlap(own, common, *(PointMap(places.faces, places.weights) for places in (bent.places, found)))
 
 

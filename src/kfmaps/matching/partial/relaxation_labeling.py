@@ -15,7 +15,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-SLACK = (0.02, 0.1)
+_SLACK = (0.02, 0.1)
 """Change of a distance that speaks against a pair altogether: at no distance, in √area, and per distance."""
 _LANDMARK_TRUST = 3.0
 """Trust in a landmark, where that of a sample is at most 1."""
@@ -82,7 +82,7 @@ def distance_bounds(distances: np.ndarray, boundary_distance: np.ndarray, scale:
 
 
 def consistency(
-    upper: np.ndarray, lower: np.ndarray, distances: np.ndarray, slack: tuple[float, float] = SLACK
+    upper: np.ndarray, lower: np.ndarray, distances: np.ndarray, slack: tuple[float, float] = _SLACK
 ) -> np.ndarray:
     """Return how well ``distances`` on the whole fit the bounds, 0 to 1; the arrays are broadcast.
 
