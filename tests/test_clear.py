@@ -90,7 +90,7 @@ def test_maps_passed_over_of_large_shapes_name_few_vertices(monkeypatch, pair):
     C = np.linalg.lstsq(target.basis.functions[:, :k], source.basis.functions[truth, :k], rcond=None)[0]
     whole = to_points(C, source.basis, target.basis)
     np.testing.assert_array_equal(alternative_maps([C], source.basis, target.basis)[0], whole)
-    monkeypatch.setattr(chosen_by, "CANDIDATES_PER_CALL", 500)
+    monkeypatch.setattr(chosen_by, "MAX_CANDIDATES", 500)
     few = alternative_maps([C], source.basis, target.basis)[0]
     assert len(np.unique(few)) <= 500
     off = np.linalg.norm(source.mesh.vertices[few] - source.mesh.vertices[whole], axis=1)

@@ -123,7 +123,7 @@ def test_orderings_agree(shape: tuple[csr_array, np.ndarray]) -> None:
 
 def test_threads_change_no_bit(shape: tuple[csr_array, np.ndarray], monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(eigensolver, "THREADED", 0)
-    monkeypatch.setattr(_lanczos, "ROWS", 128)
+    monkeypatch.setattr(_lanczos, "_ROWS", 128)
     one, three = (smallest_eigenpairs(*shape, 30, threads=t, method="block") for t in (1, 3))
     np.testing.assert_array_equal(one.values, three.values)
     np.testing.assert_array_equal(one.vectors, three.vectors)

@@ -90,8 +90,8 @@ def test_a_large_mesh_is_fitted_as_well_with_a_copy_first(pair: datasets.Pair, m
         return np.linalg.norm(places - truth, axis=1), found.gap
 
     whole, gap = off()
-    monkeypatch.setattr(nonrigid, "PROXY_FROM_VERTICES", 2000)
-    monkeypatch.setattr(nonrigid, "PROXY_VERTICES", 1500)
+    monkeypatch.setattr(nonrigid, "_PROXY_FROM", 2000)
+    monkeypatch.setattr(nonrigid, "_PROXY_VERTICES", 1500)
     quick, quick_gap = off()
     assert quick.mean() < 1.1 * whole.mean() < 0.6 * np.linalg.norm(source.vertices[start] - truth, axis=1).mean()
     assert quick_gap < 1.1 * gap

@@ -260,9 +260,9 @@ def test_what_may_be_stretched_follows_landmarks_that_are_far_off(monkeypatch) -
     assert 1 - ways[100.0, near] < 0.7 * (1 - ways[0.0, near])
     assert ways[100.0, far] > 0.9
     assert ways[0.0, far] < 0.5
-    monkeypatch.setattr(nonrigid, "_SCALED_LANDMARK_PULL[0]", _LANDMARK_PULL[0])
+    monkeypatch.setattr(nonrigid, "_SCALED_LANDMARK_PULL", (_LANDMARK_PULL[0], _SCALED_LANDMARK_PULL[1]))
     assert 1 - followed(near, loose) > 1.3 * (1 - ways[100.0, near])
-    monkeypatch.setattr(nonrigid, "_SCALED_LANDMARK_PULL[1]", _LANDMARK_PULL[1])
+    monkeypatch.setattr(nonrigid, "_SCALED_LANDMARK_PULL", _LANDMARK_PULL)
     assert followed(far, loose) < 0.5
 
 

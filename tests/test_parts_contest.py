@@ -92,7 +92,7 @@ def again(one, *_rest):
 
 def test_rivals_are_polished_before_they_are_compared(monkeypatch):
     """The best at first, a copy of it, a rival that was hit by chance, and a third that is left behind."""
-    monkeypatch.setattr(contest, "alternative_placements", lambda *_: [])
+    monkeypatch.setattr(contest, "_alternative_placements", lambda *_: [])
     monkeypatch.setattr(contest, "_place_again", again)
     found: Any = [stub(9.9, 0.01), stub(10.0, 0.0, 0.05), stub(9.0, 1.0, 0.6), stub(8.0, 2.0), stub(7.0, 3.0, 9.0)]
     last: Any = compare_alternatives(found, EMPTY)

@@ -16,8 +16,8 @@ GUARDS = ("kfmaps.fmap.approximate_geodesics", "kfmaps.fmap.confidence")
 
 
 def coarser(monkeypatch: pytest.MonkeyPatch, points: int) -> None:
-    monkeypatch.setattr(module, "LARGE", 1000)
-    monkeypatch.setattr(module, "POINTS", points)
+    monkeypatch.setattr(module, "_LARGE", 1000)
+    monkeypatch.setattr(module, "_COPY_VERTICES", points)
 
 
 def test_distances_are_nearly_those_of_all_edges(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -53,7 +53,7 @@ def test_a_body_is_nearly_its_own_mirror_image(on):
 
 def test_those_that_change_distances_early_are_none(monkeypatch, on):
     some = symmetries(on.source, 100)
-    monkeypatch.setattr(within, "LIKELY", 99)
+    monkeypatch.setattr(within, "_MAX_CANDIDATES", 99)
     for one, other in zip(some, symmetries(on.source, 100), strict=True):
         np.testing.assert_array_equal(one, other)
     same, lost = np.eye(10), np.diag([1.0] + [0.0] * 9)

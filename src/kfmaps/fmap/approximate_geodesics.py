@@ -19,6 +19,9 @@ from kfmaps.geometry.connectivity import VertexRings, vertex_rings
 from kfmaps.geometry.geodesic_graph import geodesic_graph
 from kfmaps.geometry.mesh import Mesh
 
+_LARGE, _COPY_VERTICES = 10_000, 6_000
+"""Vertices above which a copy is made, and vertices of the copy."""
+
 
 @dataclass(frozen=True, eq=False)
 class GraphDistances:
@@ -71,9 +74,9 @@ class CoarseInterpolation:
 def approximate_geodesics(mesh: Mesh) -> GraphDistances:
     """A surface of any size, or a point cloud."""
     n = len(mesh.vertices)
-    if n <= 10_000 or len(mesh.faces) == 0:
+    if n <= _LARGE or len(mesh.faces) == 0:
         return GraphDistances(geodesic_graph(mesh, 0))
-    copy = coarse_proxy(mesh, spread_vertices(mesh, 6_000))
+    copy = coarse_proxy(mesh, spread_vertices(mesh, _COPY_VERTICES))
     few = copy.mesh
     around = vertex_rings(few.faces, len(few.vertices))
     places = closest_among(mesh.vertices, few.vertices, few.faces, *around.around(copy.owner))

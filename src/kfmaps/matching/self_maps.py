@@ -19,6 +19,8 @@ from kfmaps.matching.quality import ShapeSamples, map_distortion
 
 _MAX_DISTORTION = 0.12
 """Distortion up to which a self-map counts as a near-symmetry: bodies in any pose have 0.04 to 0.08, the next 0.2."""
+_MAX_CANDIDATES = 12
+"""Self-maps of 14 functions, least distorted first, that are refined further: symmetries are among the best eight."""
 _MIN_DISPLACEMENT = 0.1
 """Mean distance, in units of √area, by which it must move points; less is the identity."""
 
@@ -55,9 +57,8 @@ def symmetries(of: ShapeSamples, functions: int, threads: int | None = None) -> 
     maps = np.stack([np.diag([1.0, *signs]) for signs in product((1.0, -1.0), repeat=count)])
     basis = of.samples.basis
     soon = min(14, stop)
-    # Those that become symmetries are among the best eight at 14 functions.
     begun, _ = batched_zoomout(maps, basis, basis, (*range(count + 1, soon, 4), soon), None, threads)
-    likely = np.sort(np.argsort(_changed(begun, of), kind="stable")[:12])
+    likely = np.sort(np.argsort(_changed(begun, of), kind="stable")[:_MAX_CANDIDATES])
     found, points = batched_zoomout(begun[likely], basis, basis, (*range(soon, stop, 4), stop), None, threads)
     judged = [map_distortion(C, of, of, at) for C, at in zip(found, points, strict=True)]
     kept: list[int] = []

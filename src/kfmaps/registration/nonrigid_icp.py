@@ -41,6 +41,9 @@ from kfmaps.registration.deformable import (
 )
 from kfmaps.registration.local_scaling import local_scaling
 
+_PROXY_FROM, _PROXY_VERTICES = 15_000, 5_000
+"""Vertices above which the fit begins with coarse copies, and vertices of a copy: 1.4 % of √area apart, finer than what
+the first levels' stiffness lets bend."""
 _LANDMARK_PULL = (10.0, 0.045)
 """Weight of a landmark over the stiffness of a level, and distance in √area from which its pull fades: one that is 2 %
 of √area off does no harm."""
@@ -141,7 +144,7 @@ class NonRigid:
         points = check_point_map(target_to_source, len(source.vertices), len(target.vertices))
         marks = np.zeros((0, 2), dtype=np.int64) if landmarks is None else np.asarray(landmarks)
         x = None
-        if max(len(source.vertices), len(target.vertices)) > 15_000:
+        if max(len(source.vertices), len(target.vertices)) > _PROXY_FROM:
             x = self._of_copies(source, target, points, lambda done: report(0.3 * done), marks, held)
         pair = mesh_pair(deformable_mesh(source), target)
         return pair, *self.bent(pair, points, x, report, marks, held)
@@ -155,12 +158,9 @@ class NonRigid:
         marks: np.ndarray,
         held: np.ndarray | None,
     ) -> np.ndarray:
-        """The source's vertices (n_s, 3) as they follow the fit of coarse copies of both.
-
-        Vertices of a copy are 1.4 % of √area apart, finer than what the first levels' stiffness lets bend.
-        """
+        """The source's vertices (n_s, 3) as they follow the fit of coarse copies of both."""
         a, b = (
-            coarse_proxy(mesh, spread_vertices(mesh, 5_000, marks[:, side]))
+            coarse_proxy(mesh, spread_vertices(mesh, _PROXY_VERTICES, marks[:, side]))
             for side, mesh in enumerate((source, target))
         )
         report(0.1)

@@ -22,6 +22,9 @@ _SOLVES_PER_BLOCK = 1.25
 EXACT = 1e-10
 """Tolerance that is fallen back to where a loose one cannot be trusted."""
 
+_MAX_LOOSE_RESIDUAL = 1e-2
+"""What a solution in single precision may leave of the right-hand side; 3e-6 is usual at 80,000 rows."""
+
 _LOOSE_SHIFT = 10.0
 """Shift of a loose search, in units of the usual one."""
 
@@ -177,8 +180,7 @@ def _nearly(
         block = pencil.root[:, None] * rng.normal(size=(len(mass), 4))
         found = pencil.solve(block)
         left = matrix @ found + (_LOOSE_SHIFT * pencil.unit * mass)[:, None] * found - block
-        # 3e-6 is usual at 80,000 rows.
-        if not np.linalg.norm(left) <= 1e-2 * np.linalg.norm(block):
+        if not np.linalg.norm(left) <= _MAX_LOOSE_RESIDUAL * np.linalg.norm(block):
             return None
         if progress is not None:
             pencil.solve = _counted(pencil.solve, (2.4 * k + 60) * _SOLVES_PER_BLOCK / WIDTH, progress)

@@ -30,6 +30,9 @@ WIDTH = 8
 """Vectors in a block. Wider ones need more vectors in all, narrower ones more passes over basis and factor."""
 
 
+_ROWS = 16384
+"""Rows of the tall products that are worked on together: they fit the cache and can go to threads."""
+
 _EQUAL_RTOL = 1e-9
 """Relative difference below which two eigenvalues count as copies of one."""
 
@@ -48,7 +51,7 @@ class ConvergedPairs:
 
 
 def _slices(n: int) -> Iterator[slice]:
-    return iter(blocks(n, 16384))  # they fit the cache and can go to threads
+    return iter(blocks(n, _ROWS))
 
 
 def _times(tall: np.ndarray, small: np.ndarray, each: Map) -> np.ndarray:
