@@ -167,7 +167,7 @@ def test_wrong_matrices_do_not_pass(shape: tuple[csr_array, np.ndarray]) -> None
         ({"k": 901}, "from 1 to 900"),
         ({"mass": np.ones(3)}, r"mass \(3,\)"),
         ({"mass": np.full(900, np.nan)}, "NaN"),
-        ({"mass": -np.ones(900)}, "below zero"),
+        ({"mass": -np.ones(900)}, "at least zero"),
         ({"method": "magic"}, "magic"),
         ({"ordering": "magic"}, "magic"),
         ({"tolerance": 0.0}, "tolerance"),

@@ -58,9 +58,7 @@ def test_what_single_precision_is_too_little_for_is_found_exactly(monkeypatch: p
     loose = smallest_eigenpairs(csr_array(rough), mass, 40, tolerance=1e-2, method="block")
     exact = smallest_eigenpairs(csr_array(rough), mass, 40, method="block")
     assert np.array_equal(loose.values, exact.values)
-    monkeypatch.setattr(
-        pencil, "_MAX_LOOSE_RESIDUAL", np.inf
-    )
+    monkeypatch.setattr(pencil, "_MAX_LOOSE_RESIDUAL", np.inf)
     again = smallest_eigenpairs(csr_array(rough), mass, 40, tolerance=1e-2, method="block")
     assert np.array_equal(again.values, exact.values)
 
