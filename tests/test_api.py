@@ -264,3 +264,58 @@ def test_warnings_of_a_file_reach_the_caller(tmp_path: Path) -> None:
     kfmaps.write_mesh(tmp_path / "torn.off", Mesh(V, F[3:]))
     with pytest.warns(KfmapsWarning, match="boundary"):
         as_mesh(tmp_path / "torn.off")
+
+
+# Notebooks ------------------------------------------------------------------------------------------------
+
+
+def test_zoomout_grows_a_map_to_all_functions(shuffled: kfmaps.Match) -> None:
+    """From a small true map to the true points, as the same refinement does inside a match."""
+    a, b = (kfmaps.laplace_basis(mesh, 60) for mesh in (shuffled.source, shuffled.target))
+    C = kfmaps.to_functional(ORDER, a.truncate(20), b.truncate(20))
+    found = kfmaps.zoomout(C, a, b)
+    np.testing.assert_array_equal(found.target_to_source, ORDER)
+    assert found.functional_map.shape == (60, 60)
+    same = kfmaps.ZoomOut(start=20, stop=60, step=5)(C, a, b)
+    np.testing.assert_array_equal(found.functional_map, same.functional_map)
+    assert kfmaps.zoomout(C, a, b, start=10, stop=30, step=10).history == (10, 20, 30)
+    for wrong, part in (
+        ((C, MESH, b), "source: expected a Basis"),
+        ((np.eye(61), a, b), "at most 60 × 60"),
+    ):
+        with pytest.raises(kfmaps.InvalidInput, match=part):
+            kfmaps.zoomout(*wrong)
+
+
+def test_error_curves_in_one_line() -> None:
+    """The line of a name has the fraction of its errors within each threshold; what has no counterpart is in none."""
+    figure = kfmaps.plot_curve({"ours": [0.0, 0.1], "theirs": np.array([0.05, np.nan, np.nan, 0.2])}, limit=0.5)
+    ours, theirs = figure.axes[0].lines
+    assert (ours.get_label(), theirs.get_label()) == ("ours", "theirs")
+    steps = np.asarray(ours.get_xdata())
+    assert steps[-1] == 0.5
+    np.testing.assert_array_equal(ours.get_ydata(), np.where(steps >= 0.1, 1.0, 0.5))
+    np.testing.assert_array_equal(theirs.get_ydata(), 0.25 * (steps >= 0.05) + 0.25 * (steps >= 0.2))
+    assert figure._repr_png_()[1:4] == b"PNG"  # type: ignore[attr-defined]
+    for wrong in ({}, {"ours": []}):
+        with pytest.raises(kfmaps.InvalidInput):
+            kfmaps.plot_curve(wrong)
+
+
+@pytest.mark.filterwarnings("ignore::kfmaps.KfmapsWarning")
+def test_a_truth_may_be_an_array(shuffled: kfmaps.Match, monkeypatch: pytest.MonkeyPatch) -> None:
+    seen = []
+    monkeypatch.setattr("kfmaps.viz.painted_errors", lambda *args: seen.append(args[3:]) or np.zeros(200))
+    truth = np.where(np.arange(200) < 50, -1, ORDER)
+    shuffled.plot(truth=truth)
+    shuffled.plot(truth=(ORDER[50:], np.arange(50, 200)))
+    for one, other in zip(*seen, strict=True):
+        np.testing.assert_array_equal(one, other)
+    with pytest.raises(kfmaps.InvalidInput, match=r"truth: expected shape \(200\)"):
+        shuffled.plot(truth=ORDER[:9])
+
+
+def test_a_loaded_map_without_shapes_says_what_to_give(shuffled: kfmaps.Match, tmp_path: Path) -> None:
+    shuffled.save(tmp_path / "m.npz")
+    with pytest.raises(kfmaps.InvalidInput, match="Give source="):
+        kfmaps.load_map(tmp_path / "m.npz").plot()

@@ -19,6 +19,7 @@ from kfmaps._arrays import InvalidInput
 from kfmaps.cli.commands.render import app
 from kfmaps.fmap.evaluate import geodesic_errors
 from kfmaps.geometry.mesh import Mesh
+from kfmaps.io import load_map
 from kfmaps.viz import (
     Curve,
     Panel,
@@ -239,7 +240,7 @@ def test_every_kind_of_figure(output: Path, render: Callable[..., Path], kind: s
 def test_a_pair_with_its_error(output: Path, render: Callable[..., Path]) -> None:
     settings = (output / "maps" / "b0-b1.npz", "--from", 1, 0, 0, "--up", 0, 0, 1)
     plain = render("pair", *settings, name="plain.png")
-    (truth,) = {p.parent for p in Path(str(np.load(settings[0])["source"])).parent.glob("corres/*.vts")}
+    (truth,) = {p.parent for p in Path(load_map(settings[0]).source_file.path).parent.glob("corres/*.vts")}
     lists = (truth / "b0.vts", truth / "b1.vts")
     with_error = render("pair", *settings, "--truth", *lists, "--limit", 10, name="error.png")
     from matplotlib.image import imread

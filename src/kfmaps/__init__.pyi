@@ -12,6 +12,7 @@ from kfmaps.api import prepare as prepare
 from kfmaps.api import render as render
 from kfmaps.api import transfer as transfer
 from kfmaps.api import view as view
+from kfmaps.api import zoomout as zoomout
 from kfmaps.collection.api import Collection as Collection
 from kfmaps.collection.api import match_collection as match_collection
 from kfmaps.config import BasisConfig as BasisConfig
@@ -54,6 +55,7 @@ from kfmaps.kernels.transformed import Scaled as Scaled
 from kfmaps.matching.result import Match as Match
 from kfmaps.registration.nonrigid_icp import NonRigid as NonRigid
 from kfmaps.shape import Shape as Shape
+from kfmaps.viz.curves import plot_curve as plot_curve
 
 __version__: str
 __all__: list[str]

@@ -18,6 +18,9 @@ from kfmaps.cli.progress import Stages
 from kfmaps.config import Config
 from kfmaps.fmap import evaluate
 from kfmaps.fmap.precise import PointMap
+from kfmaps.fmap.refine import Refined
+from kfmaps.fmap.zoomout import ZoomOut
+from kfmaps.geometry.basis import Basis
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.io import atomic_output, check_map, load_map
 from kfmaps.io import save_map as save_map
@@ -189,13 +192,67 @@ def geodesic_errors(source: Any, predicted: Any, true: Any, method: str = "unfol
     return errors
 
 
+def zoomout(
+    C: Any,
+    source: Any,
+    target: Any,
+    *,
+    start: int | None = None,
+    stop: int | None = None,
+    step: int = 5,
+    samples: int | None = None,
+    threads: int | None = None,
+) -> Refined:
+    """Refine a functional map by ZoomOut: point map and functional map in turn while the basis grows.
+
+    Parameters
+    ----------
+    C : (k_t, k_s) array
+        Carries coefficients of functions from source to target.
+    source, target : Basis or Shape
+        From :func:`kfmaps.laplace_basis` or :func:`kfmaps.prepare`, with at least ``stop`` functions.
+    start, stop : int, optional
+        First and last size of the map; by default that of ``C`` and all functions that both bases have.
+    step : int
+        Growth of the size from one step to the next.
+    samples : int, optional
+        Points of the target that all steps but the last work on; by default all.
+    threads : int, optional
+
+    Returns
+    -------
+    Refined
+        ``functional_map (stop, stop)`` and ``target_to_source (n_t,)``.
+
+    Raises
+    ------
+    InvalidInput
+        When a basis has too few functions, or ``C`` is larger than a basis.
+
+    References
+    ----------
+    Melzi et al., ZoomOut: Spectral upsampling for efficient shape correspondence, 2019.
+    """
+    bases = [shape.basis if isinstance(shape, Shape) else shape for shape in (source, target)]
+    for basis, name in zip(bases, ("source", "target"), strict=True):
+        if not isinstance(basis, Basis):
+            got = f"a {type(basis).__name__}"
+            raise refuse(name, "a Basis or a Shape", got, "give kfmaps.laplace_basis(mesh, k) or kfmaps.prepare(mesh)")
+    k_s, k_t = (basis.functions.shape[1] for basis in bases)
+    C = check(np.asarray(C, dtype=np.float64), "C", shape=(None, None), remedy="give a functional map (k_t, k_s)")
+    if C.shape[0] > k_t or C.shape[1] > k_s:
+        raise refuse("C", f"at most {k_t} × {k_s} entries", f"{C.shape[0]} × {C.shape[1]}", "compute more functions")
+    refine = ZoomOut(min(C.shape) if start is None else start, min(k_s, k_t) if stop is None else stop, step, samples)
+    return refine(C, bases[0], bases[1], threads=threads)
+
+
 def render(
     found: Any,
     source: Any = None,
     target: Any = None,
     *,
     output: str | Path | None = None,
-    truth: tuple[Any, Any] | None = None,
+    truth: Any = None,
     force: bool = False,
     **options: Any,
 ) -> Figure:
@@ -208,8 +265,9 @@ def render(
         By default those of the match, or those that the map's file names.
     output : path, optional
         Written there as well: .png, .svg or .pdf.
-    truth : ((q,), (q,)) whole numbers, optional
-        Corresponding vertices of source and target.
+    truth : (n_t,) whole numbers or a tuple ((q,), (q,)) of them, optional
+        The true source vertex of each target vertex, −1 where there is none; or corresponding vertices of the source
+        and of the target.
     force : bool
         Whether an existing file is replaced.
     **options
@@ -247,7 +305,7 @@ def view(
     target: Any = None,
     *,
     output: str | Path | None = None,
-    truth: tuple[Any, Any] | None = None,
+    truth: Any = None,
     names: tuple[str, str] = ("source", "target"),
     descriptors: bool = True,
     up: str | None = None,
@@ -306,7 +364,12 @@ def _telling(progress: bool | Reporter | None) -> Any:
     return nullcontext(progress or None)
 
 
-def _truth(truth: tuple[Any, Any], shapes: tuple[Mesh, Mesh]) -> Truth:
+def _truth(truth: Any, shapes: tuple[Mesh, Mesh]) -> Truth:
+    """Corresponding vertices of both shapes, of a truth as :func:`render` takes it."""
+    if not isinstance(truth, tuple):
+        points = check_map(truth, *(len(mesh.vertices) for mesh in shapes), "truth", lost=True)
+        known = np.flatnonzero(points >= 0)
+        truth = points[known], known
     both = [check(np.asarray(part), "truth", shape=(None,), remedy="give vertex numbers") for part in truth]
     if len(both) != 2 or len(both[0]) != len(both[1]) or len(both[0]) == 0:
         got = " and ".join(str(len(part)) for part in both)
@@ -327,7 +390,7 @@ def _shapes(found: Any, source: Any, target: Any) -> tuple[Mesh, Mesh]:
         elif hasattr(named, side):
             meshes.append(getattr(named, side))
         elif isinstance(named, Match):
-            meshes.append(map_mesh(None, named, side, beside))
+            meshes.append(map_mesh(None, named, side, beside, f"give {side}="))
         else:
             raise refuse(side, "the shape", "a map alone", f"give {side}=")
     return meshes[0], meshes[1]

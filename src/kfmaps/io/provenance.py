@@ -37,7 +37,7 @@ def warn_of_change(found: Match, side: str, path: Path) -> None:
         warnings.warn(f"{path} has changed since the map was made", KfmapsWarning, stacklevel=2)
 
 
-def mesh_path(given: Path | None, found: Match, side: str, beside: Path) -> Path:
+def mesh_path(given: Path | None, found: Match, side: str, beside: Path, remedy: str = "") -> Path:
     """Return the file of the shape ``side``: as given, else as the map names it, there or beside the map.
 
     Raises
@@ -49,19 +49,19 @@ def mesh_path(given: Path | None, found: Match, side: str, beside: Path) -> Path
         return given
     named = getattr(found, f"{side}_file").path
     if not named:
-        raise refuse(f"{side} mesh", "its file", "a map that does not name it", f"give --{side} FILE")
+        raise refuse(f"{side} mesh", "its file", "a map that does not name it", remedy or f"give --{side} FILE")
     for path in (Path(named), beside.parent / named, beside.parent / Path(named).name):
         if path.is_file():
             return path
-    raise refuse(f"{side} mesh", "the file that the map names", f"nothing at {named}", f"give --{side} FILE")
+    raise refuse(f"{side} mesh", "the file that the map names", f"nothing at {named}", remedy or f"give --{side} FILE")
 
 
-def map_mesh(given: Path | None, found: Match, side: str, beside: Path) -> Mesh:
+def map_mesh(given: Path | None, found: Match, side: str, beside: Path, remedy: str = "") -> Mesh:
     """Return the shape ``side`` of a map, read from :func:`mesh_path`.
 
     What is odd about it was told when it was matched, and is not told again.
     """
-    path = mesh_path(given, found, side, beside)
+    path = mesh_path(given, found, side, beside, remedy)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", KfmapsWarning)
         return read_mesh(path)

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -12,12 +13,15 @@ from matplotlib.ticker import PercentFormatter
 
 from kfmaps._arrays import check, refuse
 from kfmaps.cli.words import UNIT
+from kfmaps.fmap.evaluate import error_curve
 from kfmaps.viz.colors import percent_ticks
-from kfmaps.viz.figures import TEXT
+from kfmaps.viz.figures import TEXT, NotebookFigure
 
 # Okabe and Ito (2008): told apart without colour vision; the dashes do it in grey too.
 COLORS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#000000", "#56B4E9")
 DASHES = ("solid", "dashed", "dashdot", "dotted")
+N_THRESHOLDS = 251
+"""Points of a curve of :func:`plot_curve`."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,6 +57,41 @@ def mean_curve(label: str, thresholds: np.ndarray, curves: np.ndarray) -> Curve:
     return Curve(label, np.asarray(thresholds, dtype=np.float64), curves.mean(axis=0), *band)
 
 
+def plot_curve(errors: Mapping[str, Any], *, limit: float = 0.25, title: str | None = None) -> Figure:
+    """Plot the fraction of points that lie within an error of the truth, one curve for each map.
+
+    Parameters
+    ----------
+    errors : mapping of str to (q,) arrays
+        Errors by the name of their curve, as :func:`kfmaps.geodesic_errors` returns them. A point without a counterpart
+        (NaN) is within no error.
+    limit : float
+        Error at which the axis ends, as a fraction of √area.
+    title : str, optional
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+
+    Raises
+    ------
+    InvalidInput
+        When there is no curve, or one has no errors.
+
+    Examples
+    --------
+    >>> figure = plot_curve({"ours": [0.0, 0.01, 0.02], "theirs": [0.0, 0.05, 0.2]})
+    """
+    thresholds = np.linspace(0.0, limit, N_THRESHOLDS)
+    curves = []
+    for name, values in errors.items():
+        array = np.asarray(values, dtype=np.float64)
+        if array.ndim != 1 or len(array) == 0:
+            raise refuse(f"errors of {name}", "a list of numbers", f"shape {array.shape}", "give one error a point")
+        curves.append(Curve(name, thresholds, error_curve(np.where(np.isnan(array), np.inf, array), thresholds)))
+    return curves_figure(curves, title=title)
+
+
 def curves_figure(curves: Sequence[Curve], *, title: str | None = None, size: tuple[float, float] = (5, 3.9)) -> Figure:
     """Draw error curves in one set of axes, each with its band.
 
@@ -75,7 +114,7 @@ def curves_figure(curves: Sequence[Curve], *, title: str | None = None, size: tu
     """
     if not curves:
         raise refuse("curves", "at least one", "none", "give a run whose truth is known")
-    figure = Figure(figsize=size, facecolor="white", layout="constrained")
+    figure = NotebookFigure(figsize=size, facecolor="white", layout="constrained")
     ax = figure.subplots()
     for i, curve in enumerate(curves):
         color, dash = COLORS[i % len(COLORS)], DASHES[i % len(DASHES)]

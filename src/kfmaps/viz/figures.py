@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 from pathlib import Path
 from typing import IO
 
@@ -17,11 +18,21 @@ from kfmaps.viz.colors import ERROR_MAP, percent_ticks
 
 FORMATS = ("png", "svg", "pdf")
 DPI = 160
+_NOTEBOOK_DPI = 100
 TEXT = "#333333"
 MIDDLE_GREY = "#7b8492"
 """Text that can be read on a white and on a dark page: contrast 3.8 and 4.6."""
 LOST = 0.75
 """Grey of target vertices without a counterpart."""
+
+
+class NotebookFigure(Figure):
+    """A figure that a notebook shows by itself, also where pyplot was never imported."""
+
+    def _repr_png_(self) -> bytes:
+        buffer = io.BytesIO()
+        self.savefig(buffer, format="png", dpi=_NOTEBOOK_DPI)
+        return buffer.getvalue()
 
 
 def picture_format(path: str | Path) -> str:

@@ -13,7 +13,7 @@ from kfmaps.geometry.mesh import Mesh, surface_area
 from kfmaps.io import check_map
 from kfmaps.viz.camera import View, automatic_view, following_view
 from kfmaps.viz.colors import position_colors
-from kfmaps.viz.figures import TEXT, transferred_colors
+from kfmaps.viz.figures import TEXT, NotebookFigure, transferred_colors
 from kfmaps.viz.surfaces import draw_surface
 
 LABEL, TITLE = 0.3, 0.45
@@ -92,7 +92,7 @@ def grid_figure(
     columns = min(check_count(columns, "columns"), len(cells))
     rows = -(-len(cells) // columns)
     width, height = columns * panel, rows * tall + (TITLE if title else 0)
-    figure = Figure(figsize=(width, height), facecolor="white")
+    figure = NotebookFigure(figsize=(width, height), facecolor="white")
     for i, (text, mesh, painted, seen) in enumerate(cells):
         left, bottom = i % columns * panel / width, (rows - 1 - i // columns) * tall / height
         place = (left + 0.06 * panel / width, bottom + LABEL / height, 0.88 * panel / width, (tall - LABEL) / height)

@@ -13,7 +13,7 @@ from kfmaps.geometry.mesh import Mesh
 from kfmaps.io import check_map
 from kfmaps.viz.camera import View, automatic_view, following_view
 from kfmaps.viz.colors import error_colors, error_limit, position_colors
-from kfmaps.viz.figures import LOST, TEXT, add_error_bar, transferred_colors
+from kfmaps.viz.figures import LOST, TEXT, NotebookFigure, add_error_bar, transferred_colors
 from kfmaps.viz.surfaces import draw_surface
 
 PANEL = 3.4
@@ -92,7 +92,7 @@ def match_figure(
         panels.append(("error on the target", target, painted, view_t))
         width += PANEL + 0.7 * wide
 
-    figure = Figure(figsize=(width, height), facecolor="white")
+    figure = NotebookFigure(figsize=(width, height), facecolor="white")
     bottom, top = room / height, 1 - (0.45 if title else 0.08) / height
     for i, (label, mesh, painted, seen) in enumerate(panels):
         left, middle = (PANEL * i + 0.1) / width, PANEL * (i + 0.5) / width
@@ -131,7 +131,7 @@ def values_figure(mesh: Mesh, values: Mapping[str, np.ndarray], view: View | Non
     """
     seen = automatic_view(mesh) if view is None else view
     width, height = _BAR_PANEL * len(values), 4.4
-    figure = Figure(figsize=(width, height), facecolor="white")
+    figure = NotebookFigure(figsize=(width, height), facecolor="white")
     for i, (title, given) in enumerate(values.items()):
         each = check(np.asarray(given, dtype=np.float64), title, shape=(len(mesh.vertices),), finite=True)
         limit = error_limit(each)
