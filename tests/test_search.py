@@ -15,7 +15,7 @@ from kfmaps.geometry.coarsen import coarsen
 from kfmaps.geometry.geodesics import geodesic_distances
 from kfmaps.geometry.mesh import Mesh, face_areas, unit_area, vertex_normals
 from kfmaps.geometry.sampling import spectral_samples
-from kfmaps.matching import candidates, initial_maps
+from kfmaps.matching import candidates, initial_maps, search
 from kfmaps.matching.candidates import refine_fine, rerefine, score_maps
 from kfmaps.matching.features import sample_pair_for_fit
 from kfmaps.matching.fit import fit
@@ -227,8 +227,11 @@ def test_a_large_shape_is_judged_on_a_coarse_copy(monkeypatch):
     assert change < 0.2
 
 
-def test_a_mirrored_shape_is_told_from_a_kept_one(shape, other):
-    """Left and right bones: the answer says which one was found, and keeps orientation where either would do."""
+def test_a_mirrored_shape_is_told_from_a_kept_one(shape, other, monkeypatch):
+    """Left and right bones: the answer says which one was found, and keeps orientation where either would do.
+
+    Unasked, a congruent mirror image is found; one that is better, but not clearly, makes the map ambiguous.
+    """
     image = Mesh(blob(650, twist=0.4).vertices * [1.0, 1.0, -1.0], blob(650).faces[:, ::-1])
     either = replace(SMALL, search=Search(candidates=2, n_sign_functions=3, orientation="either"))
     reversed_one = match(shape, prepare(image, SMALL, name="image"), either)
@@ -236,7 +239,15 @@ def test_a_mirrored_shape_is_told_from_a_kept_one(shape, other):
     assert reversed_one.orientation == "reversing"
     assert np.linalg.norm(moved - moved.mean(axis=0), axis=1).mean() < 0.04
     assert search_map(shape, other, either).orientation == "preserving"
-    assert search_map(shape, prepare(image, SMALL), SMALL).orientation == "preserving"
+    mirrored = prepare(image, SMALL)
+    assert search_map(shape, mirrored, SMALL).orientation == "reversing"
+    assert search_map(shape, other, SMALL).verdict == "sure"
+    monkeypatch.setattr(search, "SCORE", replace(SCORE, congruent_energy=0.0, mirror_margin=100.0))
+    kept = search_map(shape, mirrored, SMALL)
+    assert (kept.orientation, kept.verdict) == ("preserving", "ambiguous")
+    moved = shape.mesh.vertices[kept.runners_up[0]] * [1, 1, -1] - unit_area(image).vertices
+    assert kept.scores[1] > kept.scores[0] + SCORE.mirror_gain
+    assert np.linalg.norm(moved - moved.mean(axis=0), axis=1).mean() < 0.06
 
 
 def test_a_refinement_of_unlike_shapes_ends_early():

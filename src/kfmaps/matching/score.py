@@ -159,6 +159,10 @@ class Scoring:
     """Margin from which an alternative without descriptors, a learned map or a mirror image comes first."""
     mirror_margin: float = 5.0
     """Margin from which a map to the mirror image comes first unasked; bones have 10, other maps none."""
+    mirror_gain: float = 1.0
+    """Margin from which a map to the mirror image is registered and, if it keeps it, makes the other ambiguous."""
+    congruent_energy: float = 0.011
+    """Deformation energy below which shapes are congruent; the least that is measured is 0.01."""
     excess_deformation: float = 0.55
     """Excess deformation (:func:`excess_deformation`) from which a mirror image is tried."""
     max_behind: float = 3.0

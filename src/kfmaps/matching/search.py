@@ -37,6 +37,7 @@ from kfmaps.matching.sample_pair import SamplePair, TwoLevelSamples, drop_landma
 from kfmaps.matching.score import (
     SCORE,
     Candidate,
+    candidate_score,
     excess_deformation,
     landmark_support,
     probability,
@@ -131,6 +132,8 @@ class Search:
     found, ranked : list of Candidate
         All, and the distinct ones, best first.
     orientation : "preserving" or "reversing"
+    mirrored : Candidate or None
+        A map to the mirror image that nobody asked for and that scores better, though not clearly.
     """
 
     source: Shape
@@ -144,6 +147,7 @@ class Search:
     found: list[Candidate]
     ranked: list[Candidate]
     orientation: str
+    mirrored: Candidate | None = None
 
 
 def search_map(
@@ -265,20 +269,30 @@ def _rank(
 
 
 def _choose_orientation(state: Search, unduly: bool) -> Search:
-    """Compare with maps to the mirror image where that is asked for, or where the best map deforms ``unduly``."""
+    """Compare with maps to the mirror image where that is asked for, or where one may fit better.
+
+    Unasked, maps to the mirror image are registered only where the best map deforms ``unduly`` or where one of them has
+    a better score before registration. One that is clearly better replaces the best map, and so does one that is better
+    and moves the shape as a whole. Any other that is better is kept beside the best map, and makes it ambiguous.
+    """
     config, samples = state.config, state.samples
     assert config.search is not None
     asked = config.search.orientation
-    if not _are_surfaces(samples.whole) or not (asked == "either" or (asked == "auto" and unduly)):
+    if not _are_surfaces(samples.whole) or asked not in ("either", "auto"):
         return state
     other = mirrored_pair(samples.whole)
     images, copies = reversed_best(state.found, other, config.threads), ProxyCache.of(state.source, state.target, other)
-    ranked = ranking(images, other, copies, config.threads)
-    margin = SCORE.clear_margin if asked == "either" else SCORE.mirror_margin
-    if not ranked or ranked[0].score <= state.ranked[0].score + margin:
+    plain = candidate_score(replace(state.ranked[0], deformation_energy=None, strain=None, shot_error=None))
+    if not images or (asked == "auto" and not unduly and images[0].score < plain + SCORE.mirror_gain):
         return state
-    samples = replace(samples, whole=other)
-    return replace(state, samples=samples, copies=copies, found=images, ranked=ranked, orientation="reversing")
+    ranked = ranking(images, other, copies, config.threads)
+    better, energy = ranked[0].score - state.ranked[0].score, ranked[0].deformation_energy
+    congruent = energy is not None and energy < SCORE.congruent_energy
+    margin = SCORE.mirror_gain if congruent else SCORE.mirror_margin
+    if better > (SCORE.clear_margin if asked == "either" else margin):
+        samples = replace(samples, whole=other)
+        return replace(state, samples=samples, copies=copies, found=images, ranked=ranked, orientation="reversing")
+    return replace(state, mirrored=ranked[0]) if asked == "auto" and better > SCORE.mirror_gain else state
 
 
 def _reject_landmarks(state: Search) -> Search:
@@ -300,6 +314,7 @@ def _to_result(state: Search, best: Candidate, rest: list[Candidate]) -> SearchR
     """Return ``best`` as the result of a search; ``rest`` are its alternatives, best first."""
     config, samples = state.config, state.samples.whole
     assert config.search is not None
+    rest = rest if state.mirrored is None else [state.mirrored, *rest]
     others = rest[: config.search.n_alternatives]
     margin = float(max(best.score - rest[0].score, 0.0) if rest else np.inf)
     score = best.quality.score
