@@ -70,23 +70,19 @@ def approximate_nearest(
         cell = np.searchsorted(edges, rank[start], side="right") - 1
         near = _nearest_cells(centres, min(around, len(centres)), threads)
         members = np.argsort(cell, kind="stable")
-        groups = _pieces(cell[members])
+        bounds = _pieces(cell[members])
 
-        def settle(part: slice) -> None:
-            for low, high in zip(groups[part.start : part.stop], groups[part.start + 1 : part.stop + 1], strict=True):
-                mine = members[low:high]
-                x = _single(queries[mine], middle, unit)
-                here = x.mean(axis=0)
-                x -= here
-                found = _inside(edges, near[cell[mine[0]]])
-                answer[mine] = order[found[np.argmax(_scores(x, rows[found] - here), axis=1)]]
+        def cells(_x: np.ndarray, _here: np.ndarray, first: int) -> np.ndarray:
+            return near[cell[first]]
+    else:
+        wider = _means(rows, edges[patches])
+        # Few queries among many points lie far apart: groups of them would name everything.
+        members, bounds = _runs(queries, int(np.clip(_GROUP_SIZE * 16 * q / p, 1, _GROUP_SIZE)))
 
-        answer = np.empty(q, dtype=np.int64)
-        parallel(settle, blocks(len(groups) - 1, 64), threads)
-        return answer
-    wider = _means(rows, edges[patches])
-    # Few queries among many points lie far apart: groups of them would name everything.
-    members, bounds = _runs(queries, int(np.clip(_GROUP_SIZE * 16 * q / p, 1, _GROUP_SIZE)))
+        def cells(x: np.ndarray, here: np.ndarray, _first: int) -> np.ndarray:
+            some = _inside(patches, _named(x, wider - here, 8))
+            return some[_named(x, centres[some] - here, probes)]
+
     answer = np.empty(q, dtype=np.int64)
 
     def search(groups: slice) -> None:
@@ -96,9 +92,7 @@ def approximate_nearest(
             # Seen from the middle of the group, differences of nearly equal distances lose no digits.
             here = x.mean(axis=0)
             x -= here
-            cells = _inside(patches, _named(x, wider - here, 8))
-            cells = cells[_named(x, centres[cells] - here, probes)]
-            found = _inside(edges, cells)
+            found = _inside(edges, cells(x, here, mine[0]))
             answer[mine] = order[found[np.argmax(_scores(x, rows[found] - here), axis=1)]]
 
     parallel(search, blocks(len(bounds) - 1, 64), threads)

@@ -90,16 +90,7 @@ def minimize_orthogonal(
             break
         z = gradient if preconditioner is None else _tangent(here.C, preconditioner(gradient))
         gz = inner(gradient, z)
-        if direction is None or before is None or not gz > 0:
-            direction = -z if gz > 0 else -gradient
-        else:
-            old_gradient, old_gz = before
-            share = max(
-                0.0, (gz - inner(_tangent(here.C, old_gradient), z)) / old_gz
-            )  # Polak and Ribière, kept positive
-            direction = -z + share * _tangent(here.C, direction)
-            if not inner(gradient, direction) < 0:
-                direction = -z
+        direction = _next_direction(here.C, gradient, z, gz, direction, before)
         there = _line_search(energy, right, here, gradient, direction)
         if there is None:
             bound = bound or 1.1 * _largest_curvature(energy, here.C)
@@ -117,6 +108,18 @@ def minimize_orthogonal(
         if progress is not None:
             progress(steps, residuals[-1] / size)
     return Solution(here.C, status, steps, np.asarray(residuals))
+
+
+def _next_direction(
+    C: Array, gradient: Array, z: Array, gz: float, direction: Array | None, before: tuple[Array, float] | None
+) -> Array:
+    """The conjugate direction (Polak and Ribière, kept positive); the preconditioned gradient ``z`` to begin with."""
+    if direction is None or before is None or not gz > 0:
+        return -z if gz > 0 else -gradient
+    old_gradient, old_gz = before
+    share = max(0.0, (gz - inner(_tangent(C, old_gradient), z)) / old_gz)
+    direction = -z + share * _tangent(C, direction)
+    return direction if inner(gradient, direction) < 0 else -z
 
 
 class _At:

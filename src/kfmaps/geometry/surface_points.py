@@ -56,15 +56,7 @@ def surface_point_distances(
     q, n = len(faces_a), len(mesh.vertices)
     first = weld_vertices(mesh)
     faces = first[mesh.faces]
-    sides = []
-    for name, chosen, weights in (("a", faces_a, weights_a), ("b", faces_b, weights_b)):
-        chosen = np.asarray(chosen)
-        check(np.asarray(weights), f"weights of {name}", shape=(q, 3), remedy="give three per point")
-        if chosen.shape != (q,) or (q and (chosen.min() < 0 or chosen.max() >= len(faces))):
-            got = f"shape {chosen.shape}" if chosen.shape != (q,) else f"{chosen.min()} to {chosen.max()}"
-            raise refuse(f"faces of {name}", f"{q} numbers from 0 to {len(faces) - 1}", got, "check the mesh")
-        weights = np.clip(np.asarray(weights, dtype=np.float64), 0, None)
-        sides.append((chosen.astype(np.int64), weights / weights.sum(axis=1, keepdims=True)))
+    sides = [_checked("a", faces_a, weights_a, q, len(faces)), _checked("b", faces_b, weights_b, q, len(faces))]
     if q == 0:
         return np.zeros(0)
     # Faces that name a vertex twice are lines: crossing them leads nowhere.
@@ -94,6 +86,17 @@ def surface_point_distances(
                 windows = windows[near < 1.5 * _limit(straight, places)[windows.source]]
     graph = _joined(geodesic_graph(mesh), links, n + 2 * q)
     return np.minimum(straight, _over_vertices(graph, n, q, np.linalg.norm(places[0] - places[1], axis=1)))
+
+
+def _checked(name: str, chosen: np.ndarray, weights: np.ndarray, q: int, n_faces: int) -> tuple[np.ndarray, np.ndarray]:
+    """The faces (q,) and barycentric coordinates (q, 3) of the points ``name``, when they fit the mesh."""
+    chosen = np.asarray(chosen)
+    check(np.asarray(weights), f"weights of {name}", shape=(q, 3), remedy="give three per point")
+    if chosen.shape != (q,) or (q and (chosen.min() < 0 or chosen.max() >= n_faces)):
+        got = f"shape {chosen.shape}" if chosen.shape != (q,) else f"{chosen.min()} to {chosen.max()}"
+        raise refuse(f"faces of {name}", f"{q} numbers from 0 to {n_faces - 1}", got, "check the mesh")
+    weights = np.clip(np.asarray(weights, dtype=np.float64), 0, None)
+    return chosen.astype(np.int64), weights / weights.sum(axis=1, keepdims=True)
 
 
 def _limit(straight: np.ndarray, places: list[np.ndarray]) -> np.ndarray:

@@ -114,15 +114,7 @@ def topology(mesh: Mesh) -> Topology:
     _, loop = component_labels(fans, fan[rim], fan[following[rim]])
     loops = len(np.unique(loop[fan[rim]]))
 
-    # Orientable: the double cover by (face, side) falls into twice as many pieces as the faces.
-    pieces, _ = component_labels(f, one // 3, two // 3)
-    sides, _ = component_labels(
-        2 * f,
-        np.concatenate([one // 3, one // 3 + f]),
-        np.concatenate([two // 3 + f * against, two // 3 + f * ~against]),
-    )
-    orientable = sides == 2 * pieces
-
+    orientable = _is_orientable(f, one // 3, two // 3, against)
     characteristic = len(used) - len(start) + f
     nonmanifold_edges = int((sharing > 2).sum())
     manifold = f > 0 and nonmanifold_edges == 0 and nonmanifold_vertices == 0
@@ -140,3 +132,13 @@ def topology(mesh: Mesh) -> Topology:
         unreferenced_vertices=int((np.bincount(mesh.faces.ravel(), minlength=n) == 0).sum()),
         duplicated_vertices=int((unique_vertices(mesh.vertices) != np.arange(n)).sum()),
     )
+
+
+def _is_orientable(f: int, one: np.ndarray, two: np.ndarray, against: np.ndarray) -> bool:
+    """Whether the double cover of ``f`` faces by (face, side) falls into twice as many pieces as the faces.
+
+    ``one (e,)`` and ``two (e,)`` are neighbours, oriented ``against (e,)`` each other or alike.
+    """
+    pieces, _ = component_labels(f, one, two)
+    ends = np.concatenate([one, one + f]), np.concatenate([two + f * against, two + f * ~against])
+    return component_labels(2 * f, *ends)[0] == 2 * pieces

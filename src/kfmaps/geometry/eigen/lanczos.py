@@ -167,15 +167,10 @@ def _stage(
             values, rotation = np.linalg.eigh(projected[:size, :size])
             left_over = coupling @ rotation[here]
             residual = np.linalg.norm(left_over, axis=0)
-            merged = -np.sort(-np.concatenate([locked.values, values]))
             count = k if probing else k + 4  # the check for missed ones ends sooner for these
-            wanted = values >= merged[min(count, len(merged)) - 1]
-            if probing:
-                # Only what improves on the locked pairs; and what may yet grow to do so has to settle too.
-                wanted &= values > locked.values[k - 1] * (1 + _EQUAL_RTOL)
-                wanted |= values + residual > merged[k - 1] * (1 + _EQUAL_RTOL)
+            wanted = _wanted(locked.values, values, residual, k, count)
             good = residual <= tolerance * values
-            if ((good | ~wanted).all() and len(merged) >= count) or size >= limit:
+            if ((good | ~wanted).all() and len(locked.values) + size >= count) or size >= limit:
                 take = np.flatnonzero(good)
                 # Ritz vectors after one more step of the operator, for nothing: its image is in the basis.
                 small = np.vstack([rotation[:, take], left_over[:, take] / values[take]])
@@ -185,6 +180,17 @@ def _stage(
             before = (size, worst)
         block = following
         size += b
+
+
+def _wanted(locked: np.ndarray, values: np.ndarray, residual: np.ndarray, k: int, count: int) -> np.ndarray:
+    """Which of the ``values`` must have converged for the ``count`` largest to be known."""
+    merged = -np.sort(-np.concatenate([locked, values]))
+    wanted = values >= merged[min(count, len(merged)) - 1]
+    if len(locked) >= k:
+        # Only what improves on the locked pairs; and what may yet grow to do so has to settle too.
+        wanted &= values > locked[k - 1] * (1 + _EQUAL_RTOL)
+        wanted |= values + residual > merged[k - 1] * (1 + _EQUAL_RTOL)
+    return wanted
 
 
 def _steps(before: tuple[int, float] | None, now: tuple[int, float], k: int, tolerance: float) -> int:
