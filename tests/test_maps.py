@@ -7,7 +7,7 @@ from conftest import blob, random_basis
 from kfmaps._arrays import InvalidInput, to_numpy
 from kfmaps.fmap.convert import nearest, to_functional, to_points
 from kfmaps.fmap.evaluate import coverage, error_curve, geodesic_errors, summarize_errors, truth_from_pairs
-from kfmaps.fmap.nearest import LARGE
+from kfmaps.fmap.nearest import _TREE_POINTS
 from kfmaps.fmap.refine import ICP
 from kfmaps.fmap.zoomout import ZoomOut
 from kfmaps.geometry.basis import Basis, laplace_basis
@@ -70,7 +70,10 @@ def test_nearest_on_large_sets_equals_the_product(rng):
 
 @pytest.mark.parametrize("size", [1.0, 2.0**-660, 2.0**660])
 def test_nearest_on_large_sets_prefers_the_first_of_equals_at_any_scale(rng, size):
-    lattice = size * rng.integers(0, 12, (LARGE + 5000, 5)).astype(float)  # most points many times, most queries tied
+    # Most points many times, most queries tied.
+    lattice = size * rng.integers(0, 12, (_TREE_POINTS + 5000, 5)).astype(
+        float
+    )  # most points many times, most queries tied
     queries = size * (rng.integers(0, 12, (100, 5)) + rng.choice([0.0, 0.5], (100, 5)))
     squares = ((queries[:, None] / size - lattice / size) ** 2).sum(axis=2)
     np.testing.assert_array_equal(nearest(queries, lattice), np.argmin(squares, axis=1))
