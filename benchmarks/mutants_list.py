@@ -680,8 +680,8 @@ MUTANTS = tuple(
             "test_looks -k squared",
         ),
         (
-            "score_maps([(c.name, c.uses_descriptors) for c in found], maps",
-            "score_maps([], maps[:0]",
+            "[(c.name, c.uses_descriptors) for c in found], maps, points",
+            "[], maps[:0], points",
             "test_looks -k without_landmarks",
         ),
         (

@@ -54,6 +54,7 @@ def example(seed: int = 0, n_t: int = 50) -> Match:
         fit=MatchFit(
             rng.normal(size=(4, 4)),
             rng.integers(0, 40, n_t),
+            4,
             "converged",
             2,
             np.array([1.0, 0.5, 0.25]),

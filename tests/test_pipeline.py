@@ -25,6 +25,7 @@ from kfmaps.fmap.solvers import CG, Direct, dense_matrix
 from kfmaps.fmap.zoomout import ZoomOut
 from kfmaps.geometry.basis import Basis
 from kfmaps.geometry.mesh import Mesh
+from kfmaps.io import load_map
 from kfmaps.kernels.kernels import Gaussian, Linear, Polynomial, Product, Sum, Tanh
 from kfmaps.matching.assemble import assemble
 from kfmaps.matching.features import pair_descriptors
@@ -350,3 +351,19 @@ def test_weights_reach_the_energy(shape, other, marks, rng):
     assert energy.weights == {"descriptors": 2.0, "commutativity": 3.0, "laplacian": 5.0, "orientation": 7.0}
     parts = energy.breakdown(C)
     assert min(parts.values()) > 0
+
+
+def test_energies_of_a_match_are_those_of_its_fit(shape, other, marks):
+    """At the minimiser the energy that is assembled anew has the values of the fit, and elsewhere greater ones."""
+    found = match(shape, other, SMALL, landmarks=marks)
+    values = found.energies(found.fit.raw_functional_map)
+    assert values == pytest.approx(found.fit.energies)
+    assert sum(found.energies(np.eye(20)).values()) > sum(values.values())
+    with pytest.raises(InvalidInput, match="functional map"):
+        found.energies(np.eye(5))
+
+
+def test_energies_need_the_shapes(shape, other, marks, tmp_path):
+    match(shape, other, SMALL, landmarks=marks).save(tmp_path / "m.npz")
+    with pytest.raises(InvalidInput, match="energies: expected a match of whole shapes"):
+        load_map(tmp_path / "m.npz").energies()

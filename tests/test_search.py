@@ -89,7 +89,7 @@ def test_a_family_makes_the_maps_that_single_fits_make(shape, other):
     points = sample_pair_for_fit(shape, other, FIT_POINTS, none)
     wanted = [FitSpec("SHOT and waves", k, 0.0) for k in (30, 12)]
     maps = fit_descriptor_set(wanted, points, settings, (None, None), 3)
-    for chosen, C in zip(wanted, maps, strict=True):
+    for chosen, C in zip(wanted, (made.functional_map for made in maps), strict=True):
         assert C.shape == (chosen.functions, chosen.functions)
         alone = fit(shape, other, replace(settings, basis=BasisConfig(n_eigenfunctions=chosen.functions)), rng=3)
         assert np.linalg.norm(C - alone.functional_map) < 0.03 * np.linalg.norm(C)
@@ -120,7 +120,7 @@ def test_the_orientation_of_a_family_turns_its_maps(shape, other):
     cubes = probes[0].orientation, probes[1].orientation
     assert cubes[1] is not None
     maps = [
-        fit_descriptor_set([FitSpec("waves", 20, w)], points, SMALL, c, 0)[0]
+        fit_descriptor_set([FitSpec("waves", 20, w)], points, SMALL, c, 0)[0].functional_map
         for w, c in ((1.0, cubes), (1.0, (cubes[0], -cubes[1])), (0.0, cubes))
     ]
     on = sample_pair(*probes)
@@ -263,3 +263,20 @@ def test_a_refinement_of_unlike_shapes_ends_early():
     assert isinstance(early, ZoomOut)
     assert (early.start, early.stop, early.descriptor_weight) == (50, 100, 36.0)
     assert adapt_refinement(ZoomOut(20, 60, 5), found(-12.0)) == ZoomOut(20, 60, 5)
+
+
+def test_a_candidate_knows_the_fit_that_it_began_with(shape, other, monkeypatch):
+    """All that began with small kernel fits have theirs, whatever was refined and scored since; no other has one."""
+    monkeypatch.setattr(candidates, "SCORE", replace(SCORE, early_exit_score=np.inf))
+    found = search_map(shape, other, SMALL, rng=0)
+    state = found._search
+    assert state is not None
+    began = {c.name: c.fit for c in state.found}
+    fitted = {name: one for name, one in began.items() if name.startswith(("SHOT", "waves"))}
+    assert fitted
+    assert {name for name, one in began.items() if one is not None} == set(fitted)
+    for name, one in fitted.items():
+        size = int(name.split(", ")[1].split()[0])
+        assert one.functional_map.shape == (size, size)
+        assert set(one.energies) >= {"laplacian", "descriptors", "commutativity"}
+    assert found.fit is began[found.initialization]

@@ -17,6 +17,7 @@ from kfmaps.config import Config
 from kfmaps.fmap.convert import nearest
 from kfmaps.fmap.zoomout import batched_zoomout
 from kfmaps.matching.extremity_matching import ExtremityMatch, match_of_map
+from kfmaps.matching.fit import Fit
 from kfmaps.matching.initial_maps import (
     STARTS,
     WEIGHTS,
@@ -121,7 +122,9 @@ def refine_coarse(starts: list[Start], pair: SamplePair, functions: int, threads
         maps = np.stack([start.functional_map[:size, :size] for start in members])
         matches = [start.match for start in members]
         refined = refine_batch(maps, pair, (*range(size, stop, ROUGH_STEP), stop), weights, matches, threads)
-        found += score_maps([(s.name, s.uses_descriptors) for s in members], *refined, pair, threads)
+        found += score_maps(
+            [(s.name, s.uses_descriptors) for s in members], *refined, pair, threads, [s.fit for s in members]
+        )
     return found
 
 
@@ -137,7 +140,7 @@ def refine_fine(
             matches = [match_of_map(c.points, few.source, few.target) for c in members] if weights[2:] else []
             refined = refine_finely(members, pair, functions, weights, matches, threads)
             uses = bool(weights[0]) or pair.shot is None
-            found += score_maps([(c.name, uses) for c in members], *refined, pair, threads)
+            found += score_maps([(c.name, uses) for c in members], *refined, pair, threads, [c.fit for c in members])
     return found
 
 
@@ -166,7 +169,9 @@ def rerefine(found: list[Candidate], pair: SamplePair, threads: int | None = Non
         if members:
             weights = distinct_weights((AGAIN if uses else WEIGHTS[0],), pair)[0]
             refined = refine_batch(maps[members], pair, (max(size // 2, 2), size), weights, (), threads)
-            out += score_maps([(found[i].name, uses) for i in members], *refined, pair, threads)
+            out += score_maps(
+                [(found[i].name, uses) for i in members], *refined, pair, threads, [found[i].fit for i in members]
+            )
     return out
 
 
@@ -189,11 +194,12 @@ def score_maps(
     points: np.ndarray | None,
     pair: SamplePair,
     threads: int | None = None,
+    fits: Sequence[Fit | None] | None = None,
 ) -> list[Candidate]:
     """Return candidates of ``maps (m, k, k)`` with their quality.
 
     ``names``: of each and whether it uses descriptors; ``points (m, q_t)``: a source sample for each target sample,
-    sought where they are ``None``.
+    sought where they are ``None``; ``fits``: the kernel fit that each began with.
     """
     functions = pair.source.samples.basis.functions
 
@@ -201,7 +207,8 @@ def score_maps(
         C = maps[i]
         at = points[i] if points is not None else sample_points(C, pair)
         errors = np.zeros(0) if pair.marks is None else landmark_errors(C, functions, pair.marks)
-        return Candidate(names[i][0], C, at, map_quality(C, pair.source, pair.target, at), names[i][1], errors)
+        quality = map_quality(C, pair.source, pair.target, at)
+        return Candidate(names[i][0], C, at, quality, names[i][1], errors, fit=fits[i] if fits else None)
 
     return parallel(judge, range(len(maps)), threads)
 
@@ -209,7 +216,9 @@ def score_maps(
 def rescore(found: list[Candidate], pair: SamplePair, threads: int | None = None) -> list[Candidate]:
     """Return the same maps scored on another pair of samples."""
     maps, points = np.stack([c.functional_map for c in found]), np.stack([c.points for c in found])
-    return score_maps([(c.name, c.uses_descriptors) for c in found], maps, points, pair, threads)
+    return score_maps(
+        [(c.name, c.uses_descriptors) for c in found], maps, points, pair, threads, [c.fit for c in found]
+    )
 
 
 def sample_points(C: np.ndarray, pair: SamplePair) -> np.ndarray:

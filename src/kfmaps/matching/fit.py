@@ -19,10 +19,10 @@ from kfmaps.descriptors.spectral import check_landmarks
 from kfmaps.fmap.solvers import Solution
 from kfmaps.geometry.basis import Basis
 from kfmaps.kernels.kernels import describe_kernel
-from kfmaps.matching.assemble import assemble
+from kfmaps.matching.assemble import FitProblem, assemble
 from kfmaps.matching.features import Descriptors, pair_descriptors, sample_pair_for_fit
 from kfmaps.matching.robust_weights import robust_weights
-from kfmaps.matching.solve import solve_problem
+from kfmaps.matching.solve import Minimised, solve_problem
 from kfmaps.shape import Shape
 
 
@@ -158,17 +158,27 @@ def fit(
             )
         with clock("solve"):
             found = solve_problem(task, config, clock.report, start)
+    return fit_of_problem(task, found, clock.seconds, points.weights)
+
+
+def fit_of_problem(
+    problem: FitProblem,
+    found: Minimised,
+    seconds: dict[str, float] | None = None,
+    weights: np.ndarray | None = None,
+) -> Fit:
+    """Return the record of what minimises a problem; see :class:`Fit` for the fields."""
     return Fit(
         functional_map=to_numpy(found.solution.value),
         solution=found.solution,
         energies=found.energies,
-        rank=task.rank,
-        slices=task.slices,
-        kernel=describe_kernel(task.kernel),
-        config=config,
-        seconds=clock.seconds,
+        rank=problem.rank,
+        slices=problem.slices,
+        kernel=describe_kernel(problem.kernel),
+        config=problem.config,
+        seconds=seconds or {},
         back=None if found.back is None else to_numpy(found.back),
-        weights=points.weights,
+        weights=weights,
     )
 
 

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 from scipy.linalg import expm
 
-from kfmaps._arrays import inner, to_numpy
+from kfmaps._arrays import inner
 from kfmaps._threads import parallel
 from kfmaps.config import Config, DescriptorConfig
 from kfmaps.fmap.multiplication_operators import unpack_operators
@@ -29,6 +29,7 @@ from kfmaps.matching.assemble import (
 )
 from kfmaps.matching.extremity_matching import ExtremityMatch, extremity_cost, match_extremities
 from kfmaps.matching.features import Descriptors, SampledPair, kernel_features, pair_descriptors, sample_pair_for_fit
+from kfmaps.matching.fit import Fit, fit_of_problem
 from kfmaps.matching.robust_weights import robust_weights
 from kfmaps.matching.sample_pair import SamplePair
 from kfmaps.matching.score import Candidate
@@ -73,6 +74,7 @@ class Start:
     weights: Weights
     uses_descriptors: bool
     match: ExtremityMatch | None = None
+    fit: Fit | None = None
 
 
 @dataclass(frozen=True)
@@ -111,12 +113,12 @@ def sign_inits(count: int, pair: SamplePair, weights: Iterable[Weights] = WEIGHT
 
 
 def repeated_starts(
-    maps: Iterable[tuple[str, np.ndarray]], weights: Iterable[Weights], pair: SamplePair
+    maps: Iterable[tuple[str, np.ndarray, Fit | None]], weights: Iterable[Weights], pair: SamplePair
 ) -> list[Start]:
-    """Return starts of named ``maps`` from several sizes and with several ``weights``."""
+    """Return starts of ``maps``, each with its name and fit, from several sizes and with several ``weights``."""
     return [
-        Start(f"{name}, from {start}, weight {w[0]:g}", C, start, w, True)
-        for name, C in maps
+        Start(f"{name}, from {start}, weight {w[0]:g}", C, start, w, True, fit=fit)
+        for name, C, fit in maps
         for start in STARTS
         for w in distinct_weights(weights, pair)
     ]
@@ -150,7 +152,7 @@ def symmetry_inits(best: list[Candidate], pair: SamplePair, functions: int, thre
         C = candidate.functional_map
         for S, after in [*((S, False) for S in own), *((S, True) for S in theirs)]:
             k = min(len(C), len(S))
-            composed.append((f"turned {i}", S[:k, :k] @ C[:k, :k] if after else C[:k, :k] @ S[:k, :k]))
+            composed.append((f"turned {i}", S[:k, :k] @ C[:k, :k] if after else C[:k, :k] @ S[:k, :k], None))
     return repeated_starts(composed, FIT_WEIGHTS, pair)
 
 
@@ -190,8 +192,8 @@ def kernel_inits(
 
     def starts(name: str) -> list[Start]:
         members = [fit for fit in fits if fit.descriptor_set == name]
-        maps = fit_descriptor_set(members, points, config, operators, seed)
-        named = [(fit.name, C) for fit, C in zip(members, maps, strict=True)]
+        made = fit_descriptor_set(members, points, config, operators, seed)
+        named = [(spec.name, fit.functional_map, fit) for spec, fit in zip(members, made, strict=True)]
         return repeated_starts(named, FIT_WEIGHTS, pair)
 
     names = list(dict.fromkeys(fit.descriptor_set for fit in fits))
@@ -217,8 +219,8 @@ def fit_descriptor_set(
     config: Config,
     operators: tuple[np.ndarray | None, np.ndarray | None],
     seed: int,
-) -> list[np.ndarray]:
-    """Return the functional maps of ``fits`` that share a descriptor set.
+) -> list[Fit]:
+    """Return the ``fits`` that share a descriptor set.
 
     Descriptors, features and operators are computed once, for the largest size; a smaller fit takes leading blocks.
     ``operators``: orientation operators ``(w, k, k)`` of the first functions of both shapes, k at least that size.
@@ -248,7 +250,7 @@ def fit_descriptor_set(
         for basis, F, cube in zip(low, (strongest.source, strongest.target), known, strict=True):
             coefficients = basis.project(F)[: len(cube)]
             turning.append(np.tensordot(coefficients.T, cube[: len(coefficients)], axes=1))
-    maps = []
+    made = []
     for fit in fits:
         k = min(fit.functions, size)
         blocks = (operators_of_features[0][:, :k, :k], operators_of_features[1][:, :k, :k])
@@ -258,8 +260,8 @@ def fit_descriptor_set(
         settings = replace(small, weights=replace(config.weights, orientation=fit.orientation))
         bases_k = (low[0].truncate(k), low[1].truncate(k))
         problem = FitProblem(settings, bases_k, features.kernel, used, features, blocks, orientations)
-        maps.append(to_numpy(minimize_problem(problem, settings).solution.value))
-    return maps
+        made.append(fit_of_problem(problem, minimize_problem(problem, settings)))
+    return made
 
 
 def _descriptor_config(name: str, base: DescriptorConfig) -> DescriptorConfig:

@@ -75,17 +75,17 @@ def learned_candidates(
     points = sample_pair_for_fit(source, target, FIT_POINTS, none, None, drawn)
     operators = on.whole.source.orientation, on.whole.target.orientation
     fits = [FitSpec(LEARNED, min(k, config.basis.n_eigenfunctions), 0.1) for k in (20, 50)]
-    maps = fit_descriptor_set(fits, points, config, operators, seed)
+    made = fit_descriptor_set(fits, points, config, operators, seed)
     starts += [
-        Start(f"{fit.name}, from {start}", C, start, _WEIGHTS, True)
-        for fit, C in zip(fits, maps, strict=True)
+        Start(f"{spec.name}, from {start}", fit.functional_map, start, _WEIGHTS, True, fit=fit)
+        for spec, fit in zip(fits, made, strict=True)
         for start in STARTS
     ]
     found = by_score(refine_coarse(starts, few, functions, config.threads))
     chosen = distinct_maps(found, few.source, SCORE.rough_distance, 4)
     refined = refine_finely(chosen, whole, functions, _WEIGHTS, (), config.threads)
     names = [(c.name if c.name.startswith(LEARNED) else f"{LEARNED}, {c.name}", True) for c in chosen]
-    return score_maps(names, *refined, on.whole, config.threads)
+    return score_maps(names, *refined, on.whole, config.threads, [c.fit for c in chosen])
 
 
 def _transformed_descriptors(

@@ -153,7 +153,7 @@ def repair(
     size = min(FINE, len(found.functional_map))
     C = found.functional_map[:size, :size]
     C = (C.T if swapped else C)[None]
-    new = score_maps([(old.name, old.uses_descriptors)], C, None, setting.samples, 1)[0]
+    new = score_maps([(old.name, old.uses_descriptors)], C, None, setting.samples, 1, [old.fit])[0]
     new = score_registered(new, source, target, setting.proxies.on)
     progress(1.0)
     return replace(new, registered_vertices=found.registered_vertices, swapped=swapped)

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from kfmaps._arrays import InvalidInput, check, refuse
+from kfmaps._arrays import InvalidInput, check, like, refuse
 from kfmaps.config import Config
 from kfmaps.fmap.convert import nearest_reached
 from kfmaps.fmap.descriptor_guidance import descriptor_guidance
@@ -19,8 +19,11 @@ from kfmaps.fmap.precise import PointMap, invert_precise_map, nearest_vertices, 
 from kfmaps.fmap.transfer import transfer_functions
 from kfmaps.geometry.basis import Basis
 from kfmaps.geometry.mesh import Mesh
+from kfmaps.matching.assemble import assemble
+from kfmaps.matching.fit import fit_points
 from kfmaps.matching.reindexing import VertexReindexing
 from kfmaps.matching.result_groups import MatchFit, MatchPart, MatchRegistration, MatchScore, ShapeFile
+from kfmaps.shape import mirror_image
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -209,6 +212,38 @@ class Match:
         return transfer_functions(
             values, self.functional_map, self.basis_source, self.basis_target, None if products == 0 else products
         )
+
+    def energies(self, functional_map: Any = None) -> dict[str, float]:
+        """Return the weighted value of each term of the energy that ``config`` asks for.
+
+        The energy is assembled anew, which takes about as long as one fit. It knows the landmarks that the map keeps
+        to; descriptors that were handed to :func:`kfmaps.match` are not in it.
+
+        Parameters
+        ----------
+        functional_map : (k_t, k_s) array, optional
+            Where the energy is evaluated; by default at that of the match. Of a larger map the block of the first
+            ``config.basis.n_eigenfunctions`` counts.
+
+        Raises
+        ------
+        InvalidInput
+            When the match came from a file, is one of a part, or the map is too small.
+        """
+        pair, config = self._reindexing, self.config
+        if pair is None or self.partial.which != "none":
+            got = "one from a file" if pair is None else "one of a part"
+            raise refuse("energies", "a match of whole shapes with their bases", got, "match the shapes again")
+        shapes = pair.source, mirror_image(pair.target) if self.orientation == "reversing" else pair.target
+        kept = np.delete(self.landmarks, self.score.rejected_landmarks, axis=0)
+        points = fit_points(*shapes, config, pair.landmarks(kept), rng=self.seed)
+        problem = assemble(
+            *points.shapes, points.bases, points.descriptors, config, np.random.default_rng(self.seed), shapes
+        )
+        k, C = config.basis.n_eigenfunctions, self.functional_map if functional_map is None else functional_map
+        C = np.asarray(C, dtype=np.float64)[:k, :k]
+        check(C, "functional map", shape=(k, k), remedy="give a map of as many functions as the energy has")
+        return problem.energy.breakdown(like(C, problem.energy.rhs()))
 
     def precise(self) -> PointMap:
         """Return a point inside a triangle of the source for each target vertex.

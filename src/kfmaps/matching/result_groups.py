@@ -96,7 +96,11 @@ class MatchPart(_Group):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class MatchFit(_Group):
-    """The map before its refinement, and how it was fitted.
+    """The map before its refinement, and the kernel fit that it came from.
+
+    A search compares candidates of several kinds. Where its map began with the signs of eigenfunctions or with matched
+    extremities, as of most near-isometric pairs, no kernel fit was made of it: the fields from ``size`` on are empty.
+    :meth:`Match.energies` evaluates the energy at any map.
 
     Attributes
     ----------
@@ -105,8 +109,10 @@ class MatchFit(_Group):
         a file does not hold it.
     raw_target_to_source : (n_t,) int64 or None
         Its point map; a search does not compute it.
+    size : int or None
+        Number of eigenfunctions that the fit was made with. A search fits less than ``raw_functional_map`` has.
     status : str or None
-        "converged", "step limit" or "breakdown"; ``None``, as the rest of the record is empty, where no fit was made.
+        "converged", "step limit" or "breakdown".
     steps : int or None
         Steps of the solver.
     residuals : float64 array
@@ -125,6 +131,7 @@ class MatchFit(_Group):
 
     raw_functional_map: np.ndarray = _UNKNOWN
     raw_target_to_source: np.ndarray | None = None
+    size: int | None = None
     status: str | None = None
     steps: int | None = None
     residuals: np.ndarray = field(default_factory=lambda: np.zeros(0))

@@ -11,10 +11,13 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
-from typing import TypeVar
+from typing import TYPE_CHECKING, TypeVar
 
 import numpy as np
 from scipy.special import expit
+
+if TYPE_CHECKING:
+    from kfmaps.matching.fit import Fit
 
 T = TypeVar("T")
 
@@ -251,6 +254,8 @@ class Candidate:
     registered_vertices : (n_s, 3) float64 or None
         The source's vertices on the target, roughly; with ``swapped`` the target's (n_t, 3) on the source.
     swapped : bool
+    fit : Fit or None
+        The kernel fit that it began with; ``None`` where it began with signs, extremities or another candidate.
     """
 
     name: str
@@ -264,6 +269,7 @@ class Candidate:
     shot_error: float | None = None
     registered_vertices: np.ndarray | None = None
     swapped: bool = False
+    fit: Fit | None = None
 
     @property
     def score(self) -> float:

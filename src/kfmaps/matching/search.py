@@ -65,7 +65,7 @@ class SearchResult:
     initialization : str
         What the candidate started from.
     fit : Fit or None
-        Of one fit without a search.
+        The kernel fit that the map began with, if any.
     verdict : str
         "sure", "likely", "ambiguous" or "unlikely" of a search; "landmarks" or "unchecked" of one fit.
     confidence : float or None
@@ -327,7 +327,7 @@ def _to_result(state: Search, best: Candidate, rest: list[Candidate]) -> SearchR
     return SearchResult(
         functional_map=best.functional_map,
         initialization=best.name,
-        fit=None,
+        fit=best.fit,
         confidence=probability(*evidence),
         verdict=verdict(*evidence),
         scores=tuple(float(c.score) for c in (best, *others)),

@@ -40,6 +40,7 @@ def match_summary(match: Match) -> dict[str, Any]:
         "solver": fit.status,
         "solver steps": fit.steps,
         "kernel": fit.kernel,
+        "eigenfunctions of the fit": fit.size,
         "features of the kernel": fit.rank,
         "operators": fit.n_operators,
         "energies": dict(fit.energies),
