@@ -170,7 +170,8 @@ def test_match_shows_progress_its_map_and_its_errors(picker: Browser, pair: Pair
     apart = np.linalg.norm(pair.source.vertices[8] - pair.source.vertices[3]) / np.sqrt(surface_area(pair.source))
     assert off == [0, pytest.approx(apart, rel=0.06)]  # shown with two digits
     picker.mode("confidence")  # of a map that sends everything to one point: none
-    assert "confidence" in picker.text("legend-text")
+    assert "local fit" in picker.text("legend-text")
+    assert picker.element("#verdict").is_displayed()
     picker.painted()
     view = picker.picture(picker.element("#view-target"))
     violet = (view[..., 2] - view[..., 1] > 30) & (view[..., 2] - view[..., 0] > 15)

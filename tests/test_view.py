@@ -20,11 +20,13 @@ from kfmaps.config import Config
 from kfmaps.datasets import sphere
 from kfmaps.fmap.confidence import local_confidence
 from kfmaps.fmap.convert import nearest_reached
+from kfmaps.fmap.precise import PointMap
 from kfmaps.geometry.mesh import Mesh, unit_area, vertex_areas
 from kfmaps.io import save_map, write_mesh, write_vertex_numbers
 from kfmaps.io.provenance import mesh_path
 from kfmaps.matching.result import Match
 from kfmaps.matching.result_groups import MatchFit, MatchScore, ShapeFile
+from kfmaps.viz.colors import position_colors
 from kfmaps.viz.document import asset
 from kfmaps.viz.encode import encode_floats, encode_integers, json_block, to_json
 from kfmaps.viz.fields import area_distortion, rotation_by_map
@@ -398,3 +400,14 @@ def test_bundle_is_built_from_the_sources() -> None:
 def test_static_files_are_in_the_package() -> None:
     names = {f.name for f in files("kfmaps.viz").joinpath("static").iterdir()}
     assert {"viewer.js", "viewer.css", "viewer.LICENSE.txt"} <= names
+
+
+def test_colours_are_mixed_inside_triangles_where_the_map_has_points_there(pair: tuple) -> None:
+    source, target, _ = pair
+    faces = np.arange(len(target.vertices)) % len(source.faces)
+    weights = np.tile([0.5, 0.3, 0.2], (len(faces), 1))
+    found = Match(target_to_source=source.faces[faces, 0], precise_map=PointMap(faces, weights))
+    data = page_data(result_page(source, target, found))
+    expected = np.einsum("j,tjc->tc", [0.5, 0.3, 0.2], position_colors(source)[source.faces[faces]])
+    assert np.abs(unpacked(data["maps"][0]["colours"]) - 255 * expected).max() <= 0.5
+    assert "colours" not in page_data(result_page(source, target, found.target_to_source))["maps"][0]

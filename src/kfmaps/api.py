@@ -285,13 +285,14 @@ def render(
     from kfmaps.viz import match_figure, painted_errors, picture_format, save_figure, true_views
 
     shapes = _shapes(found, source, target)
-    points = check_map(as_map(found, shapes[0]), len(shapes[0].vertices), len(shapes[1].vertices), lost=True)
+    drawn = as_map(found, shapes[0])
+    points = check_map(drawn, len(shapes[0].vertices), len(shapes[1].vertices), lost=True)
     if truth is not None:
         known = _truth(truth, shapes)
         options.setdefault("errors", painted_errors(*shapes, points, known.source, known.target))
         seen = true_views(*shapes, known.source, known.target, options.get("view"))
         options = {"view": seen[0], "target_view": seen[1], **options}
-    figure = match_figure(*shapes, points, **options)
+    figure = match_figure(*shapes, drawn, **options)
     if output is not None:
         kind = picture_format(output)
         with atomic_output(output, force) as temporary:

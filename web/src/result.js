@@ -26,6 +26,13 @@ export function startResult(data) {
   const linkOf = (map) => (links[map] ??= new Link(data.maps[map], shapes[0].count));
   const link = () => linkOf(state.map);
 
+  /** Colours, or places in the pattern, on the target: mixed inside triangles where the map has points there. */
+  const carried = (kind) => {
+    const [own, read, width] = kind === "plane" ? [plane, reals, 2] : [colours, numbers, 3];
+    const exact = data.maps[state.map][kind];
+    return exact ? read(exact) : link().carried(own, width);
+  };
+
   const rotation = rotationOf(data.rotation);
   const reset = viewTools(stage, data.views, () => (byId("aligned").checked ? rotation : null));
   byId("aligned").addEventListener("change", reset);
@@ -45,12 +52,13 @@ export function startResult(data) {
   const shows = {
     colours: () => {
       shapes[0].show(colours);
-      shapes[1].show(link().carried(colours, 3));
-      return { text: `Each point of ${names[1]} has the colour of its match on ${names[0]}.` };
+      shapes[1].show(carried("colours"));
+      const grey = link().points.some((s) => s >= shapes[0].count) ? " Grey points have no match." : "";
+      return { text: `Each point of ${names[1]} has the colour of its match on ${names[0]}.${grey}` };
     },
     texture: () => {
       shapes[0].show(colours, plane);
-      shapes[1].show(link().carried(colours, 3), link().carried(plane, 2));
+      shapes[1].show(carried("colours"), carried("plane"));
       return { text: `The pattern lies on ${names[0]} and is carried to ${names[1]} by the map.` };
     },
     descriptor: () => {

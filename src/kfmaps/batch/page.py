@@ -314,7 +314,8 @@ def _picture(task: PairTask, limit: float, path: Path) -> bytes:
     """The PNG of a map: source, target in the source's colours, and the error, up to ``limit``, where it is known."""
     source, target = _quiet_mesh(task.source.path), _quiet_mesh(task.target.path)
     sizes = len(source.vertices), len(target.vertices)
-    points = check_map(load_map(path), *sizes, lost=True)
+    found = load_map(path)
+    points = check_map(found, *sizes, lost=True)
     truth = true_vertices(task, *sizes)
     errors, views = None, (None, None)
     if truth is not None:
@@ -322,7 +323,7 @@ def _picture(task: PairTask, limit: float, path: Path) -> bytes:
             errors = painted_errors(source, target, points, truth.source, truth.target)
             views = true_views(source, target, truth.source, truth.target)
     style = {"errors": errors, "limit": limit, "text": _TEXT_SIZE, "labels": False}
-    return _png(match_figure(source, target, points, view=views[0], target_view=views[1], **style))
+    return _png(match_figure(source, target, found, view=views[0], target_view=views[1], **style))
 
 
 def _write_pages(

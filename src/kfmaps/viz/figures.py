@@ -6,7 +6,6 @@ import io
 from pathlib import Path
 from typing import IO
 
-import numpy as np
 from matplotlib import rc_context
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Normalize
@@ -91,11 +90,6 @@ def make_transparent(figure: Figure) -> Figure:
     for text in figure.findobj(Text):
         text.set_color(MIDDLE_GREY)
     return figure
-
-
-def transferred_colors(colors: np.ndarray, target_to_source: np.ndarray) -> np.ndarray:
-    """Return the source's ``colors (n_s, 3)`` at the target's vertices (n_t, 3), grey where there is no counterpart."""
-    return np.where(target_to_source[:, None] < 0, LOST, np.asarray(colors)[target_to_source])
 
 
 def add_error_bar(

@@ -11,9 +11,11 @@ from matplotlib.figure import Figure
 from kfmaps._arrays import check_count, refuse
 from kfmaps.geometry.mesh import Mesh, surface_area
 from kfmaps.io import check_map
+from kfmaps.io.transfer import transfer
+from kfmaps.matching.result import Match
 from kfmaps.viz.camera import View, automatic_view, following_view
 from kfmaps.viz.colors import position_colors
-from kfmaps.viz.figures import TEXT, NotebookFigure, transferred_colors
+from kfmaps.viz.figures import LOST, TEXT, NotebookFigure
 from kfmaps.viz.surfaces import draw_surface
 
 LABEL, TITLE = 0.3, 0.45
@@ -29,13 +31,13 @@ class Panel:
     label : str
         Any text.
     mesh : Mesh
-    target_to_source : (n_t,) int64
+    target_to_source : (n_t,) int64 or Match
         A source vertex for each of its vertices.
     """
 
     label: str
     mesh: Mesh
-    target_to_source: np.ndarray
+    target_to_source: np.ndarray | Match
 
 
 def grid_figure(
@@ -81,7 +83,7 @@ def grid_figure(
         sizes = len(source.vertices), len(item.mesh.vertices)
         points = check_map(item.target_to_source, *sizes, f"map to {item.label}", lost=True)
         seen = following_view(view, source, item.mesh, points)
-        cells.append((item.label, item.mesh, transferred_colors(colors, points), seen))
+        cells.append((item.label, item.mesh, transfer(colors, item.target_to_source, source.faces, LOST), seen))
 
     # All shapes at one scale, that of equal areas, in panels that hold the largest.
     half = np.max([_half(mesh, seen) / _scale(mesh) for _, mesh, _, seen in cells], axis=0) * 1.03

@@ -11,9 +11,11 @@ from kfmaps._arrays import check
 from kfmaps.cli.words import UNIT
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.io import check_map
+from kfmaps.io.transfer import transfer
+from kfmaps.matching.result import Match
 from kfmaps.viz.camera import View, automatic_view, following_view
 from kfmaps.viz.colors import error_colors, error_limit, position_colors
-from kfmaps.viz.figures import LOST, TEXT, NotebookFigure, add_error_bar, transferred_colors
+from kfmaps.viz.figures import LOST, TEXT, NotebookFigure, add_error_bar
 from kfmaps.viz.surfaces import draw_surface
 
 PANEL = 3.4
@@ -26,7 +28,7 @@ EACH = "give one per target vertex"
 def match_figure(
     source: Mesh,
     target: Mesh,
-    target_to_source: np.ndarray,
+    target_to_source: np.ndarray | Match,
     *,
     errors: np.ndarray | None = None,
     limit: float | None = None,
@@ -42,8 +44,9 @@ def match_figure(
     Parameters
     ----------
     source, target : Mesh
-    target_to_source : (n_t,)
-        A source vertex for each target vertex; −1 where it has no counterpart, which is grey.
+    target_to_source : (n_t,) or Match
+        A source vertex for each target vertex; −1 where it has no counterpart, which is grey. Colours are mixed
+        inside triangles where a match has points there.
     errors : (n_t,), optional
         Geodesic errors in units of √area; given, a third panel shows them on the target with a colour bar.
     limit : float, optional
@@ -77,7 +80,7 @@ def match_figure(
     view_t = following_view(view_s, source, target, carried) if target_view is None else target_view
     panels = [
         ("source", source, colors, view_s),
-        ("target, coloured by the map", target, transferred_colors(colors, carried), view_t),
+        ("target, coloured by the map", target, transfer(colors, target_to_source, source.faces, LOST), view_t),
     ]
     width, height = 2 * PANEL, 4.4 + (0.4 if title else 0)
     wide = max(text / 10, 1.0)

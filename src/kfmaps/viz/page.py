@@ -12,6 +12,8 @@ from kfmaps.cli.words import VERDICTS, verdict_text
 from kfmaps.fmap.convert import nearest_reached
 from kfmaps.geometry.mesh import Mesh, unit_area
 from kfmaps.io import check_map, projected_uv
+from kfmaps.io.transfer import transfer
+from kfmaps.matching.result import Match
 from kfmaps.viz.camera import broad_side, rotation_between
 from kfmaps.viz.colors import position_colors
 from kfmaps.viz.document import document
@@ -31,13 +33,23 @@ def source_record(mesh: Mesh, name: str, common: np.ndarray | None = None) -> di
 
     Grey where the vertices are not ``common`` (n_s,) to both shapes.
     """
-    painted = position_colors(mesh) if common is None else np.where(common[:, None], position_colors(mesh), LOST)
-    colours = np.rint(255 * painted).astype(np.uint8)
-    return {
-        **shape_record(mesh, name),
-        "colours": encode_integers(colours),
-        "plane": encode_floats(projected_uv(mesh.vertices)),
-    }
+    return {**shape_record(mesh, name), **_painted(_source_colors(mesh, common), projected_uv(mesh.vertices))}
+
+
+def _source_colors(mesh: Mesh, common: np.ndarray | None) -> np.ndarray:
+    return position_colors(mesh) if common is None else np.where(common[:, None], position_colors(mesh), LOST)
+
+
+def _painted(colors: np.ndarray, plane: np.ndarray) -> dict[str, Any]:
+    return {"colours": encode_integers(np.rint(255 * colors).astype(np.uint8)), "plane": encode_floats(plane)}
+
+
+def _transferred(match: Match, source: Mesh, common: np.ndarray | None) -> dict[str, Any]:
+    """What :func:`source_record` paints, mixed inside triangles at the target's vertices; empty without such points."""
+    if match.precise_map is None:
+        return {}
+    given = (_source_colors(source, common), LOST), (projected_uv(source.vertices), 0.0)
+    return _painted(*(transfer(values, match, source.faces, lost) for values, lost in given))
 
 
 def map_record(source: Mesh, target: Mesh, target_to_source: np.ndarray, label: str) -> dict[str, Any]:
@@ -126,7 +138,7 @@ def _descriptors(descriptors: Any, source: Mesh, target: Mesh, most: int) -> lis
 def result_page(
     source: Mesh,
     target: Mesh,
-    target_to_source: np.ndarray,
+    target_to_source: np.ndarray | Match,
     *,
     functional_map: np.ndarray | None = None,
     errors: np.ndarray | None = None,
@@ -145,8 +157,9 @@ def result_page(
     ----------
     source, target : Mesh
         Surfaces, or point clouds.
-    target_to_source : (n_t,) int
-        A source vertex for each target vertex; −1 where there is none, which is grey.
+    target_to_source : (n_t,) int or Match
+        A source vertex for each target vertex; −1 where there is none, which is grey. Colours and the pattern are mixed
+        inside triangles where a match has points there.
     functional_map : (k_t, k_s), optional
         Shown as a picture.
     errors : (n_t,) or (1 + c, n_t), optional
@@ -188,6 +201,9 @@ def result_page(
     matrix = None
     if functional_map is not None:
         matrix = check(np.asarray(functional_map, dtype=np.float64), "functional_map", shape=(None, None))
+    maps = [map_record(source, target, m, label) for m, label in zip(points, labels, strict=True)]
+    if isinstance(target_to_source, Match):
+        maps[0] |= _transferred(target_to_source, source, common)
     data = {
         "kind": "result",
         "up": up or "auto",
@@ -196,7 +212,7 @@ def result_page(
         "source": source_record(source, names[0], common),
         "target": shape_record(target, names[1]),
         "rotation": rotation_by_map(source, target, points[0]).ravel(),
-        "maps": [map_record(source, target, m, label) for m, label in zip(points, labels, strict=True)],
+        "maps": maps,
         **_fields(len(points), len(target.vertices), errors=errors, confidence=confidence),
         "descriptors": _descriptors(descriptors, source, target, most_descriptors),
         "matrix": None if matrix is None else encode_floats(matrix),

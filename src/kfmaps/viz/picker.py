@@ -16,7 +16,7 @@ from kfmaps.io import check_map, save_map, write_landmarks
 from kfmaps.matching.result import Match
 from kfmaps.viz.document import document
 from kfmaps.viz.encode import encode_floats
-from kfmaps.viz.page import check_up, map_record, shape_record, source_record, views_record
+from kfmaps.viz.page import check_up, map_record, shape_record, source_record, verdict_record, views_record
 from kfmaps.viz.runs import Progress, Runs
 from kfmaps.viz.server import LocalServer, Reply, json_reply, page_reply
 
@@ -178,7 +178,8 @@ class PickerServer:
         self._maps.append(found)
         label = f"{len(pairs)} landmark" + ("" if len(pairs) == 1 else "s")
         confidence = encode_floats(local_confidence(source, target, points))
-        return {**map_record(source, target, points, label), "confidence": confidence}
+        told = {"verdict": found.verdict, "confidence": found.confidence, "landmarks": len(pairs)}
+        return {**map_record(source, target, points, label), "confidence": confidence, "verdict": verdict_record(told)}
 
     def _pairs(self, request: Any) -> np.ndarray:
         pairs = request.get("pairs") if isinstance(request, dict) else None

@@ -32,7 +32,7 @@ def match_summary(match: Match) -> dict[str, Any]:
     told = {
         "verdict": match.verdict,
         "confidence": match.confidence,
-        "landmarks": len(match.landmarks),
+        "landmarks": len(match.landmarks) or None,
         "scores": list(match.score.scores),
         "size of the map": "{} × {}".format(*match.functional_map.shape) if hasattr(match, "functional_map") else None,
         "started from": match.score.initialization,
@@ -81,7 +81,7 @@ def match_page(
     return result_page(
         source,
         target,
-        match.target_to_source,
+        match,
         functional_map=getattr(match, "functional_map", None),
         errors=None if truth is None else vertex_errors(source, maps, *truth),
         confidence=_confidences(source, target, maps, getattr(match, "local_confidence", None)),

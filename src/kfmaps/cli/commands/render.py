@@ -88,7 +88,7 @@ def render_pair(
     figure = match_figure(
         source_mesh,
         target_mesh,
-        points,
+        found,
         errors=errors,
         limit=None if limit is None else check_positive(limit, "--limit") / 100,
         title=_plain(title),
@@ -136,10 +136,10 @@ def render_grid(
         if centre is None:
             centre = map_mesh(None, found, "source", path)
         mesh = map_mesh(None, found, "target", path)
-        points = check_map(found, len(centre.vertices), len(mesh.vertices), str(path), lost=True)
+        check_map(found, len(centre.vertices), len(mesh.vertices), str(path), lost=True)
         told = errors and result.error_mean is not None
         panels.append(
-            Panel(f"{result.target}  {percent(result.error_mean, 1)} %" if told else result.target, mesh, points)
+            Panel(f"{result.target}  {percent(result.error_mean, 1)} %" if told else result.target, mesh, found)
         )
     assert centre is not None
     figure = grid_figure(centre, panels, label=source, columns=columns, title=title, view=_view(towards, up))
