@@ -29,6 +29,8 @@ from kfmaps.io.landmark_files import (
 from kfmaps.io.named_points import place_landmarks, read_landmark_pairs, read_named_points, transfer_points
 from kfmaps.matching.result import Match
 
+GUARDS = ("kfmaps.io.landmark_files", "kfmaps.io.named_points")
+
 POINTS = np.array([[1.5, -2.25, 3.0], [np.nan] * 3, [0.1, 1e-7, 12345.678]])
 NAMES = ("nasion", "tip of the nose", "3")
 

@@ -18,6 +18,8 @@ from kfmaps.collection.procrustes import (
     thin_plate_warp,
 )
 
+GUARDS = ("kfmaps.collection.procrustes",)
+
 
 @pytest.fixture
 def shapes() -> np.ndarray:
