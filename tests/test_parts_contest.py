@@ -124,3 +124,16 @@ def test_only_candidates_that_differ_are_rivals():
     assert _differ(here, stub(0.0, 1.01 * apart))
     assert margin([here]) == margin([here, near]) == margin([here, stub(2.0, 1.0)]) == most
     assert margin([here, near, elsewhere, stub(2.0, 1.0)]) == pytest.approx(0.4)
+
+
+def test_a_small_part_needs_a_larger_margin():
+    """A smooth patch fits everywhere: what a margin says goes with the area, and no rival at all says little."""
+    full, most = np.sqrt(SCORE.part.full_area), SCORE.part.max_margin
+    best, rival = stub(9.0, 0.0), stub(8.0, 1.0)
+    for scale, share in ((1.0, 1.0), (full, 1.0), (full / 2, 1 / 4)):
+        best.registration.scale = scale
+        assert margin([best, rival]) == pytest.approx(share)
+        assert margin([best]) == pytest.approx(share * most)
+        assert margin([best, stub(-99.0, 1.0)]) == most
+        assert margin([best, rival], 1) == pytest.approx(1.0)
+        assert margin([best], 1) == most

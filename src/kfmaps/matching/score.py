@@ -54,9 +54,7 @@ class Calibration:
 class PartScoring:
     """Numbers that parts are judged by; see research/parts.md for the shapes that they were chosen on."""
 
-    calibration: Calibration = field(
-        default_factory=lambda: Calibration(slope=1 / 0.43, middle=16.2, tie=1.3, sure=0.8)
-    )
+    calibration: Calibration = field(default_factory=lambda: Calibration(slope=1 / 0.43, middle=16.2, tie=1.3))
     """Fitted by `benchmarks/parts_verdict.py`."""
     w_consistency: float = 4.0
     """Weight of the consistency of all samples with their neighbours."""
@@ -75,6 +73,8 @@ class PartScoring:
     """Median distance between placed samples, in √area of the whole, from which two placements differ."""
     max_margin: float = 3.0
     """Margin from which more does not count."""
+    full_area: float = 0.25
+    """Area of the part, over that of the whole, from which a margin counts in full (research/parts.md)."""
     hopeless_margin: float = 5.0
     """Score by which a placement is too far behind to be refined: refinement has gained at most 2.3."""
     min_gain: float = 0.2

@@ -136,7 +136,15 @@ def _differ(one: PartCandidate, other: PartCandidate) -> bool:
     return float(np.median(np.linalg.norm(one.points - other.points, axis=1))) > SCORE.part.distinct_distance
 
 
-def margin(found: Sequence[PartCandidate]) -> float:
-    """Return by how much the best of ``found``, which is first, precedes the best that differs, up to a maximum."""
+def margin(found: Sequence[PartCandidate], n_landmarks: int = 0) -> float:
+    """Return by how much the best of ``found``, which is first, precedes the best that differs, up to a maximum.
+
+    The less of the whole a part covers, the more places it fits by chance: below :attr:`PartScoring.full_area` a margin
+    counts in proportion to the area, unless landmarks fix the place. Without any other candidate that differs it is the
+    maximum before that.
+    """
     others = [one.score for one in found if _differ(one, found[0])]
-    return min(found[0].score - max(others), SCORE.part.max_margin) if others else SCORE.part.max_margin
+    share = 1.0 if n_landmarks else min(found[0].registration.scale ** 2 / SCORE.part.full_area, 1.0)
+    if not others:
+        return SCORE.part.max_margin * share
+    return min((found[0].score - max(others)) * share, SCORE.part.max_margin)

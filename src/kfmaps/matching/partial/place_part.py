@@ -114,7 +114,7 @@ def place_part(
     last = _register_fully(found[0].registration, pair, pairs, lambda done: report(0.75 + 0.25 * done))
     ends = last.vertices[pairs[:, 0]] - whole.vertices[pairs[:, 1]]
     scores = tuple(one.score for one in found)
-    return PlacedPart(last, find_overlap(last, pair), scores, margin(found), np.linalg.norm(ends, axis=1))
+    return PlacedPart(last, find_overlap(last, pair), scores, margin(found, len(pairs)), np.linalg.norm(ends, axis=1))
 
 
 def candidate_placements(pair: PartPair, scales: list[float], count: int) -> tuple[list[Placement], list[Placement]]:
