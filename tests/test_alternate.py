@@ -42,21 +42,21 @@ from kfmaps.registration.alternating_registration import (
     position_normal_guidance,
     registration_pair,
 )
-from kfmaps.registration.deformation_energy import MORE, coarse_copy
+from kfmaps.registration.evidence import FINE_VERTICES, coarse_copy, proxy_pair
 
-GUARDS = ("kfmaps.matching", "kfmaps.registration.alternating_registration", "kfmaps.registration.deformation_energy")
+GUARDS = ("kfmaps.matching", "kfmaps.registration.alternating_registration", "kfmaps.registration.evidence")
 
 
 @pytest.fixture(autouse=True)
 def alike(monkeypatch):
     """How bent shapes look is tested in test_looks.py, and takes seconds."""
-    monkeypatch.setattr(ranking, "shot_pair", lambda on: SimpleNamespace(on=on))
+    monkeypatch.setattr(ranking, "proxy_pair", lambda *pair, **_shot: proxy_pair(*pair))
     for module in (ranking, mending):
         monkeypatch.setattr(module, "registered_shot_error", lambda *_what: 0.2)
 
 
 def both(source, target) -> RegistrationPair:
-    a, b = coarse_copy(source, MORE), coarse_copy(target, MORE)
+    a, b = coarse_copy(source, FINE_VERTICES), coarse_copy(target, FINE_VERTICES)
     assert a is not None
     assert b is not None
     return registration_pair(source, target, (a, b))
@@ -141,7 +141,7 @@ def test_copies_are_made_once_and_of_the_image_that_is_meant(creatures):
     assert kept.image is target
     assert image.coarse is not None
     assert image.fine is not None
-    for one, other in ((kept.coarse, image.coarse), (kept.fine.on, image.fine.on)):
+    for one, other in ((kept.coarse, image.coarse), (kept.fine, image.fine)):
         (a, b), (c, d) = one.copies, other.copies
         np.testing.assert_array_equal(c.mesh.vertices, a.mesh.vertices)
         np.testing.assert_array_equal(d.mesh.vertices, b.mesh.vertices * MIRROR)

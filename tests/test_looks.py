@@ -27,15 +27,19 @@ from kfmaps.matching.sample_pair import two_level_samples
 from kfmaps.matching.score import SCORE
 from kfmaps.matching.search import without_landmarks
 from kfmaps.registration import alternating_registration as alternate
-from kfmaps.registration import registered_shot as looks
-from kfmaps.registration.deformation_energy import coarse_copy, facing_pair
-from kfmaps.registration.registered_shot import _shot_difference, _surface_samples, registered_shot_error
+from kfmaps.registration import evidence as looks
+from kfmaps.registration.evidence import (
+    _shot_difference,
+    _surface_samples,
+    coarse_copy,
+    proxy_pair,
+    registered_shot_error,
+)
 
 GUARDS = (
     "kfmaps.matching",
     "kfmaps.registration.alternating_registration",
-    "kfmaps.registration.deformation_energy",
-    "kfmaps.registration.registered_shot",
+    "kfmaps.registration.evidence",
 )
 
 
@@ -51,10 +55,10 @@ def knees() -> Pair:
 
 @pytest.fixture(scope="module")
 def at_rest(creatures):
-    source, target = (coarse_copy(shape) for shape in creatures[:2])
-    assert source is not None
-    assert target is not None
-    return looks.shot_pair(facing_pair(source, target))
+    a, b = (coarse_copy(shape) for shape in creatures[:2])
+    assert a is not None
+    assert b is not None
+    return proxy_pair(creatures[0], creatures[1], (a, b), with_shot=True)
 
 
 def functional(points, source, target, k=40):
@@ -84,7 +88,9 @@ def test_the_sides_of_a_thin_part_are_not_taken_for_each_other(creatures):
     """Where two sheets lie close, it is the normals that tell which point lies on which."""
     mesh = creatures[0].mesh
     inside_out = Mesh(mesh.vertices, mesh.faces[:, ::-1])
-    apart = np.linalg.norm(_surface_samples(mesh).places - _surface_samples(inside_out).places, axis=1)
+    apart = np.linalg.norm(
+        _surface_samples(mesh).position_normals - _surface_samples(inside_out).position_normals, axis=1
+    )
     np.testing.assert_allclose(apart, 2 * alternate._NORMAL_WEIGHT, rtol=1e-6)
 
 
@@ -93,7 +99,7 @@ def test_what_is_bent_as_a_wrong_map_says_looks_otherwise(creatures, at_rest):
     v = source.mesh.vertices - source.mesh.vertices.mean(axis=0)
     about = nearest(v, v * [-1.0, -1.0, 1.0], threads=1)
     right, wrong = functional(truth, source, target), functional(about[truth], source, target)
-    good, bad = (registered_shot_error(C, source, target, at_rest) for C in (right, wrong))
+    good, bad = (registered_shot_error(C, at_rest) for C in (right, wrong))
     assert good is not None
     assert bad is not None
     assert good < 0.8 * bad
@@ -103,12 +109,12 @@ def test_both_directions_count_unless_one_falls_apart(creatures, at_rest, monkey
     source, target, truth = creatures
     C = functional(truth, source, target)
     told: dict[bool, float | None] = {True: 0.1, False: 0.3}
-    monkeypatch.setattr(looks, "_mismatch", lambda way, *_rest: told[way is at_rest.on.there])
-    assert registered_shot_error(C, source, target, at_rest) == pytest.approx(0.2)
+    monkeypatch.setattr(looks, "_bent_shot_error", lambda way, *_rest: told[way is at_rest.forth])
+    assert registered_shot_error(C, at_rest) == pytest.approx(0.2)
     told[False] = None
-    assert registered_shot_error(C, source, target, at_rest) == pytest.approx(0.1)
+    assert registered_shot_error(C, at_rest) == pytest.approx(0.1)
     told[True] = None
-    assert registered_shot_error(C, source, target, at_rest) is None
+    assert registered_shot_error(C, at_rest) is None
 
 
 def test_a_copy_that_falls_apart_is_not_looked_at(creatures, at_rest, monkeypatch):
@@ -119,7 +125,7 @@ def test_a_copy_that_falls_apart_is_not_looked_at(creatures, at_rest, monkeypatc
             raise NotConverged("it fell apart")
 
     monkeypatch.setattr(looks, "FIT", Broken())
-    assert registered_shot_error(functional(truth, source, target), source, target, at_rest) is None
+    assert registered_shot_error(functional(truth, source, target), at_rest) is None
 
 
 def one_of(creatures):
@@ -151,7 +157,7 @@ def test_of_mended_maps_the_one_that_looks_right_comes_first(creatures, monkeypa
     def stays(*_what):
         raise NotConverged("it fell apart")
 
-    monkeypatch.setattr(ranking, "shot_pair", lambda on: SimpleNamespace(on=on))
+    monkeypatch.setattr(ranking, "proxy_pair", lambda *pair, **_shot: proxy_pair(*pair))
     monkeypatch.setattr(mending, "registered_shot_error", lambda *_what: 0.2)
     monkeypatch.setattr(mending, "alternating_registration", stays)
     nowhere = np.zeros((0, 2), dtype=np.int64)
@@ -202,10 +208,10 @@ def test_looks_decide_where_they_are_asked_for_but_bring_nothing_back(knees):
     a, b = coarse_copy(source), coarse_copy(target)
     assert a is not None
     assert b is not None
-    on = looks.shot_pair(facing_pair(a, b))
+    on = proxy_pair(source, target, (a, b), with_shot=True)
     seen = []
     for height in (0.0, 0.1, 0.7, 3.0):
-        what = registered_shot_error(functional(exchanged(knees, height), source, target, 60), source, target, on)
+        what = registered_shot_error(functional(exchanged(knees, height), source, target, 60), on)
         assert what is not None
         seen.append(what)
     feet, legs, all_of_it = (SCORE.w_shot * (bad - seen[0]) for bad in seen[1:])
@@ -223,7 +229,7 @@ def test_of_two_that_are_close_looks_decide(creatures, monkeypatch, margin, agai
     rest = replace(good, name="rest", quality=replace(quality, distortion=quality.distortion + 9))
     bent = []
     monkeypatch.setattr(ranking, "score_registered", lambda c, *_what: bent.append(c.name) or replace(c, strain=0.0))
-    monkeypatch.setattr(ranking, "shot_pair", lambda on: SimpleNamespace(on=on))
+    monkeypatch.setattr(ranking, "proxy_pair", lambda *pair, **_shot: proxy_pair(*pair))
     monkeypatch.setattr(ranking, "registered_shot_error", lambda C, *_what: 0.25 if C is bad.functional_map else 0.2)
     found = rerank_close([bad, good, rest], ProxyCache.of(source, target, on), 1)
     assert [c.name for c in found] == ["truth", "bad", "rest"]

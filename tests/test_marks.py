@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import replace
 from functools import partial
-from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -37,14 +36,14 @@ from kfmaps.registration.alternating_registration import (
     registration_pair,
     swap_pair,
 )
-from kfmaps.registration.deformation_energy import coarse_copy
+from kfmaps.registration.evidence import coarse_copy, proxy_pair
 from kfmaps.registration.nonrigid_icp import _LANDMARK_PULL, _SCALED_LANDMARK_PULL, NonRigid, mesh_pair
 from kfmaps.shape import mirror_image
 
 GUARDS = (
     "kfmaps.matching",
     "kfmaps.registration.alternating_registration",
-    "kfmaps.registration.deformation_energy",
+    "kfmaps.registration.evidence",
     "kfmaps.registration.nonrigid_icp",
 )
 
@@ -314,7 +313,7 @@ def test_landmarks_lead_less_where_shapes_differ_much(creatures, monkeypatch) ->
 def test_what_is_mended_keeps_to_landmarks(creatures, monkeypatch) -> None:
     """Each way round, with those that are not doubted."""
     source, target, truth = creatures
-    monkeypatch.setattr(ranks, "shot_pair", lambda on: SimpleNamespace(on=on))
+    monkeypatch.setattr(ranks, "proxy_pair", lambda *pair, **_shot: proxy_pair(*pair))
     monkeypatch.setattr(mending, "registered_shot_error", lambda *_what: 0.2)
     monkeypatch.setattr(mending, "match_extremities", lambda *_: [])
     on = two_level_samples(source, target, (sample_for_scoring(source, 200), sample_for_scoring(target, 200))).whole

@@ -28,19 +28,12 @@ from kfmaps.matching.sample_pair import two_level_samples
 from kfmaps.matching.score import SCORE, Candidate, Quality
 from kfmaps.matching.search import search_map
 from kfmaps.matching.self_maps import symmetries
-from kfmaps.registration.deformation_energy import (
-    _MAX_ENERGY,
-    _MIN_ENERGY,
-    coarse_copy,
-    deform,
-    deformation_energy,
-    facing_pair,
-)
+from kfmaps.registration.evidence import _MAX_ENERGY, _MIN_ENERGY, coarse_copy, deform, proxy_pair
 from kfmaps.registration.nonrigid_icp import NonRigid
 from kfmaps.shape import mirror_image, prepare
 from test_search import SMALL
 
-GUARDS = ("kfmaps.matching", "kfmaps.registration.deformation_energy")
+GUARDS = ("kfmaps.matching", "kfmaps.registration.evidence")
 
 
 @pytest.fixture(scope="module")
@@ -208,11 +201,11 @@ def test_each_map_may_have_evidence_of_its_own(on):
 
 def test_a_shape_bends_least_onto_itself(creature, probes):
     shape, one = creature[0], probes[0]
-    both = facing_pair(one.copy, one.copy)
+    both = proxy_pair(shape, shape, (one.copy, one.copy))
     k = 40
     signs = np.diag(np.where(np.arange(k) % 2, -1.0, 1.0))
-    assert deformation_energy(np.eye(k), shape, shape, both) == _MIN_ENERGY
-    assert _MIN_ENERGY < 0.05 < deformation_energy(signs, shape, shape, both) <= _MAX_ENERGY
+    assert deform(np.eye(k), both).energy == _MIN_ENERGY
+    assert _MIN_ENERGY < 0.05 < deform(signs, both).energy <= _MAX_ENERGY
 
 
 def test_limbs_of_different_lengths_leave_no_symmetry(probes):
@@ -221,10 +214,10 @@ def test_limbs_of_different_lengths_leave_no_symmetry(probes):
 
 def test_strain_is_of_all_places_and_not_of_the_worst(creature, probes):
     shape, one = creature[0], probes[0]
-    both = facing_pair(one.copy, one.copy)
+    both = proxy_pair(shape, shape, (one.copy, one.copy))
     k = 40
     signs = np.diag(np.where(np.arange(k) % 2, -1.0, 1.0))
-    kept, torn = (deform(C, shape, shape, both) for C in (np.eye(k), signs))
+    kept, torn = (deform(C, both) for C in (np.eye(k), signs))
     assert kept.strain == pytest.approx(np.log(_MIN_ENERGY), abs=1e-6)
     assert kept.strain < torn.strain < np.log(_MAX_ENERGY)
     # The mean of logarithms is below the logarithm of the mean.
@@ -302,9 +295,10 @@ def test_a_creature_is_matched_to_a_mirror_image_in_another_pose_unasked():
 
 def test_that_a_copy_falls_apart_says_nothing_of_the_map(creature, probes, monkeypatch):
     """The other direction is believed then; only a map of which both fail has the most."""
-    shape, both = creature[0], facing_pair(probes[0].copy, probes[0].copy)
+    shape = creature[0]
+    both = proxy_pair(shape, shape, (probes[0].copy, probes[0].copy))
     signs = np.diag(np.where(np.arange(40) % 2, -1.0, 1.0))
-    usual, fit = deform(signs, shape, shape, both), NonRigid.bent
+    usual, fit = deform(signs, both), NonRigid.bent
     failing = [True, False]
 
     def falls(self, *what):
@@ -313,6 +307,6 @@ def test_that_a_copy_falls_apart_says_nothing_of_the_map(creature, probes, monke
         return fit(self, *what)
 
     monkeypatch.setattr(NonRigid, "bent", falls)
-    assert 0.3 < deform(signs, shape, shape, both).energy / usual.energy < 3.0
+    assert 0.3 < deform(signs, both).energy / usual.energy < 3.0
     failing = [True, True]
-    assert deform(signs, shape, shape, both).energy == _MAX_ENERGY
+    assert deform(signs, both).energy == _MAX_ENERGY

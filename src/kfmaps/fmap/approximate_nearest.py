@@ -64,6 +64,7 @@ def approximate_nearest(
     order, edges, patches = _cells(points, check_count(size, "cell size"), middle, unit, threads)
     rows = np.concatenate([_single(points[order[part]], middle, unit) for part in blocks(p, 65536)])
     centres = _means(rows, edges)
+    near = cell = wider = np.zeros(0, dtype=np.int64)
     if start is not None:
         rank = np.empty(p, dtype=np.int64)
         rank[order] = np.arange(p)
@@ -71,17 +72,10 @@ def approximate_nearest(
         near = _nearest_cells(centres, min(around, len(centres)), threads)
         members = np.argsort(cell, kind="stable")
         bounds = _pieces(cell[members])
-
-        def cells(_x: np.ndarray, _here: np.ndarray, first: int) -> np.ndarray:
-            return near[cell[first]]
     else:
         wider = _means(rows, edges[patches])
         # Few queries among many points lie far apart: groups of them would name everything.
         members, bounds = _runs(queries, int(np.clip(_GROUP_SIZE * 16 * q / p, 1, _GROUP_SIZE)))
-
-        def cells(x: np.ndarray, here: np.ndarray, _first: int) -> np.ndarray:
-            some = _inside(patches, _named(x, wider - here, 8))
-            return some[_named(x, centres[some] - here, probes)]
 
     answer = np.empty(q, dtype=np.int64)
 
@@ -92,7 +86,12 @@ def approximate_nearest(
             # Seen from the middle of the group, differences of nearly equal distances lose no digits.
             here = x.mean(axis=0)
             x -= here
-            found = _inside(edges, cells(x, here, mine[0]))
+            if start is not None:
+                cells = near[cell[mine[0]]]
+            else:
+                cells = _inside(patches, _named(x, wider - here, 8))
+                cells = cells[_named(x, centres[cells] - here, probes)]
+            found = _inside(edges, cells)
             answer[mine] = order[found[np.argmax(_scores(x, rows[found] - here), axis=1)]]
 
     parallel(search, blocks(len(bounds) - 1, 64), threads)

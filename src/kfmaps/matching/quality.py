@@ -26,7 +26,7 @@ from kfmaps.geometry.orientation_operators import orientation_operators
 from kfmaps.geometry.sampling import SampledBasis, SpectralSamples, spectral_samples, stratified_vertices
 from kfmaps.matching.extremities import Extremities, extremities
 from kfmaps.matching.score import SCORE, Quality
-from kfmaps.registration.deformation_energy import coarse_copy
+from kfmaps.registration.evidence import coarse_copy
 from kfmaps.shape import Shape
 
 POINTS = 1000

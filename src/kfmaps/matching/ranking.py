@@ -1,7 +1,7 @@
 """The order of candidates: by their scores, and the first few by how far they bend the shapes and how these look then.
 
 The score is intrinsic, and a map that swaps front and back together with left and right may come first by it. What
-bending says (:mod:`kfmaps.registration.deformation_energy`) costs too much for all, and so it is asked of those that
+bending says (:mod:`kfmaps.registration.evidence`) costs too much for all, and so it is asked of those that
 may be the best.
 """
 
@@ -20,16 +20,15 @@ from kfmaps.matching.candidates import by_score, distinct_maps, map_distance
 from kfmaps.matching.quality import ShapeSamples
 from kfmaps.matching.sample_pair import SamplePair
 from kfmaps.matching.score import SCORE, Candidate
-from kfmaps.registration.deformation_energy import (
-    LONGER,
-    MORE,
-    FacingPair,
+from kfmaps.registration.evidence import (
+    FINE_VERTICES,
+    PATIENT,
+    ProxyPair,
     coarse_copy,
     deform,
-    deformation_energy,
-    facing_pair,
+    proxy_pair,
+    registered_shot_error,
 )
-from kfmaps.registration.registered_shot import ShotPair, registered_shot_error, shot_pair
 from kfmaps.shape import Shape, mirror_image
 
 BENT = 3
@@ -67,16 +66,18 @@ class ProxyCache:
         return mirror_image(self.target) if self.mirrored else self.target
 
     @cached_property
-    def coarse(self) -> FacingPair | None:
+    def coarse(self) -> ProxyPair | None:
         """The coarse ones."""
         a, b = self.copies
-        return None if a is None or b is None else facing_pair(a, b)
+        return None if a is None or b is None else proxy_pair(self.source, self.image, (a, b))
 
     @cached_property
-    def fine(self) -> ShotPair | None:
-        """With :data:`~kfmaps.registration.deformation_energy.MORE` points, and how they look."""
-        a, b = coarse_copy(self.source, MORE), coarse_copy(self.target, MORE)
-        return None if a is None or b is None else shot_pair(facing_pair(a, b.mirrored() if self.mirrored else b))
+    def fine(self) -> ProxyPair | None:
+        """Finer ones, with SHOT."""
+        a, b = coarse_copy(self.source, FINE_VERTICES), coarse_copy(self.target, FINE_VERTICES)
+        if a is None or b is None:
+            return None
+        return proxy_pair(self.source, self.image, (a, b.mirrored() if self.mirrored else b), with_shot=True)
 
 
 def ranking(found: list[Candidate], on: SamplePair, copies: ProxyCache, threads: int | None = None) -> list[Candidate]:
@@ -118,8 +119,8 @@ def with_bending(found: list[Candidate], copies: ProxyCache, threads: int | None
     """``found`` with how far the coarse copies must bend; none where a shape has no copy to bend."""
     if not found or copies.coarse is None:
         return []
-    source, target, both = copies.source, copies.target, copies.coarse
-    energies = parallel(lambda c: deformation_energy(c.functional_map, source, target, both), found, threads)
+    pair = copies.coarse
+    energies = parallel(lambda c: deform(c.functional_map, pair).energy, found, threads)
     return [replace(c, deformation_energy=energy) for c, energy in zip(found, energies, strict=True)]
 
 
@@ -145,14 +146,14 @@ def rerank_close(order: list[Candidate], copies: ProxyCache, threads: int | None
 
     A map that swaps front and back may come first by a margin that leaves no doubt to the score.
     """
-    source, target, finer = copies.source, copies.target, copies.fine
+    finer = copies.fine
     if finer is None:
         return order
     close = order[0].score - order[1].score < SCORE.close_margin
 
     def look(found: Candidate) -> Candidate:
-        found = score_registered(found, source, target, finer.on) if close else found
-        return replace(found, shot_error=registered_shot_error(found.functional_map, source, target, finer))
+        found = score_registered(found, finer) if close else found
+        return replace(found, shot_error=registered_shot_error(found.functional_map, finer))
 
     found = parallel(look, order[:2], threads)
     # Nothing is added for looks: the best is compared with maps that nobody has looked at.
@@ -160,9 +161,9 @@ def rerank_close(order: list[Candidate], copies: ProxyCache, threads: int | None
     return in_order([normalize_errors(c, middle) for c in found]) + order[2:]
 
 
-def score_registered(found: Candidate, source: Shape, target: Shape, on: FacingPair) -> Candidate:
+def score_registered(found: Candidate, pair: ProxyPair) -> Candidate:
     """With what its map says when the copies are bent with more patience."""
-    one = deform(found.functional_map, source, target, on, LONGER)
+    one = deform(found.functional_map, pair, PATIENT)
     return replace(found, deformation_energy=one.energy, strain=one.strain, shot_error=None)
 
 

@@ -37,7 +37,7 @@ from kfmaps.registration.alternating_registration import (
     registration_pair,
     swap_pair,
 )
-from kfmaps.registration.registered_shot import ShotPair, registered_shot_error
+from kfmaps.registration.evidence import ProxyPair, registered_shot_error
 from kfmaps.shape import Shape
 
 FIRST = 2
@@ -55,7 +55,7 @@ class RepairSetting:
     source: Shape
     target: Shape
     pair: RegistrationPair
-    proxies: ShotPair
+    proxies: ProxyPair
     samples: SamplePair
     landmarks: np.ndarray
     shot: DescriptorGuidance | None
@@ -105,7 +105,7 @@ def refine_by_registration(
     if finer is None:
         return ranked, ()
     source, target = copies.source, copies.image
-    pair = registration_pair(source, target, finer.on.copies, landmarks)
+    pair = registration_pair(source, target, finer.copies, landmarks)
     setting = RepairSetting(source, target, pair, finer, on, landmarks, descriptor_guidance(source.shot, target.shot))
     near, rest = repairable(ranked, on.source)
     begun = _begin(near, on)
@@ -154,7 +154,7 @@ def repair(
     C = found.functional_map[:size, :size]
     C = (C.T if swapped else C)[None]
     new = score_maps([(old.name, old.uses_descriptors)], C, None, setting.samples, 1, [old.fit])[0]
-    new = score_registered(new, source, target, setting.proxies.on)
+    new = score_registered(new, setting.proxies)
     progress(1.0)
     return replace(new, registered_vertices=found.registered_vertices, swapped=swapped)
 
@@ -185,13 +185,12 @@ def _best_repair(
     if not begun or new.quality.score >= old.quality.score:
         return new
     other = repair(setting, old, extremities, swapped=False)
-    states = [new, score_registered(old, setting.source, setting.target, setting.proxies.on)]
+    states = [new, score_registered(old, setting.proxies)]
     return max([*states, *([] if other is None else [other])], key=lambda c: c.score)
 
 
 def _with_shot_error(setting: RepairSetting, one: Candidate) -> Candidate:
-    error = registered_shot_error(one.functional_map, setting.source, setting.target, setting.proxies)
-    return replace(one, shot_error=error)
+    return replace(one, shot_error=registered_shot_error(one.functional_map, setting.proxies))
 
 
 def compared(

@@ -40,7 +40,7 @@ class MatchScore(_Group):
         Score of the map by itself, 0 at best (:attr:`kfmaps.matching.score.Quality.score`).
     deformation_energy : float or None
         How far the shapes must deform to follow the map; 0 for a rigid motion
-        (:func:`kfmaps.registration.deformation_energy.deformation_energy`).
+        (:class:`kfmaps.registration.evidence.DeformationEnergy`).
     initialization : str
         What the map started from: "one fit", or the name of a candidate of the search.
     rejected_landmarks : (d,) int64

@@ -40,8 +40,8 @@ class Calibration:
     log_deformation_per_score: float = -0.233
     """Change of that logarithm with the score."""
     excess_middle: float = 0.65
-    """Excess of the logarithm at which half of all maps are wrong: right near-isometric maps reach 0.38, maps of
-    bodies to their mirror images begin at 0.9."""
+    """Excess of the logarithm at which half of all maps are wrong: right near-isometric maps reach 0.38, maps of bodies
+    to their mirror images begin at 0.9."""
     excess_width: float = 0.08
     """Width of that logistic function."""
     sure: float = 0.9
@@ -205,8 +205,8 @@ class Quality:
     local_distortion : float
         The same for points closer than :attr:`Scoring.local_radius`, so that tears count, wherever they are.
     descriptors : float
-        Mean squared difference of SHOT between matched points, divided by that of random ones, from 0 to about 1;
-        mean of both directions. Less where the shapes have hardly any features.
+        Mean squared difference of SHOT between matched points, divided by that of random ones, from 0 to about 1; mean
+        of both directions. Less where the shapes have hardly any features.
     heat : float
         The same for the logarithm of the heat kernel signature, which knows thick from thin.
     coverage : float
@@ -249,8 +249,8 @@ class Candidate:
     landmark_errors : (l,) float64
         Distance of each landmark's image from where it belongs, in √area.
     deformation_energy, strain, shot_error : float or None
-        See :mod:`kfmaps.registration.deformation_energy` and :mod:`kfmaps.registration.registered_shot`; ``None``
-        where they were not computed. The latter two are over those of a usual or of the best candidate.
+        See :mod:`kfmaps.registration.evidence`; ``None`` where they were not computed. The latter two are over those of
+        a usual or of the best candidate.
     registered_vertices : (n_s, 3) float64 or None
         The source's vertices on the target, roughly; with ``swapped`` the target's (n_t, 3) on the source.
     swapped : bool

@@ -83,7 +83,7 @@ class SearchResult:
     quality : float or None
         Score of the map of a search, apart from landmarks.
     deformation_energy : float or None
-        See :func:`kfmaps.registration.deformation_energy.deformation_energy`.
+        See :class:`kfmaps.registration.evidence.DeformationEnergy`.
     extremities : ExtremityVertices or None
         Extremities that guide the refinement, where the shapes differ so much that they should.
     registered_vertices : (n_s, 3) float64 or None
