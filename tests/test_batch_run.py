@@ -316,6 +316,22 @@ def test_what_killed_workers_left_is_taken_away(tmp_path: Path) -> None:
     assert not left[1].exists()
 
 
+def test_what_other_runs_are_writing_to_a_shared_cache_stays(tmp_path: Path) -> None:
+    """``cache`` may be a link to a folder that several runs share."""
+    shelf = tmp_path / "shelf"
+    shelf.mkdir()
+    (tmp_path / "out").mkdir()
+    (tmp_path / "out" / "cache").symlink_to(shelf)
+    plan = plan_of(write_collection(tmp_path / "c", 2), tmp_path / "out")
+    assert Path(plan.tasks[0].source.entry).parent == shelf.resolve()
+    old, new = (shelf / f".unfinished-{name}.npz" for name in ("old", "new"))
+    for path in (old, new):
+        path.write_text("half")
+    os.utime(old, (0, 0))
+    with _tidied(plan):
+        assert (old.exists(), new.exists()) == (False, True)
+
+
 @pytest.mark.parametrize("error", [RuntimeError("Nanny failed to start."), OSError("gone"), TimeoutError()])
 def test_workers_that_end_as_they_start(error: Exception, monkeypatch: pytest.MonkeyPatch) -> None:
     def fail(*_: object, **__: object) -> None:

@@ -32,6 +32,7 @@ from kfmaps.batch.work import (
 )
 from kfmaps.io import remove_unfinished
 
+_A_DAY = 86400.0
 TABLE, COLUMNS = "results.csv", "results.parquet"
 
 
@@ -236,14 +237,19 @@ def write_outputs(
 
 @contextmanager
 def _tidied(plan: Plan) -> Iterator[None]:
-    """Before and after the block, remove what workers that were killed have left half written."""
+    """Before and after the block, remove what workers that were killed have left half written.
+
+    In a cache that is a link to another folder, which other runs may be writing to, only what is older than a day.
+    """
     beside = plan.folder / CONSISTENT
     parts = (top / part for top in (plan.folder, beside) for part in (FOLDER, MAPS))
-    folders = [plan.folder, plan.folder / "cache", beside, *parts, beside / EVIDENCE, beside / PATHS]
+    folders = [plan.folder, beside, *parts, beside / EVIDENCE, beside / PATHS]
 
     def tidy() -> None:
         for folder in folders:
             remove_unfinished(folder)
+        cache = (plan.folder / "cache").resolve()
+        remove_unfinished(cache, 0.0 if plan.folder in cache.parents else _A_DAY)
 
     tidy()
     try:

@@ -6,6 +6,7 @@ import os
 import secrets
 import shutil
 import stat
+import time
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
@@ -19,11 +20,12 @@ STREAMS = ("/dev/std", "/dev/fd/", "/proc/")
 """Names of what the process has open; a file put in the place of one would not be where its output goes."""
 
 
-def remove_unfinished(folder: Path) -> None:
-    """Remove what a process that was killed left half written in ``folder``."""
+def remove_unfinished(folder: Path, older: float = 0.0) -> None:
+    """Remove what a process that was killed left half written in ``folder``, ``older`` than so many seconds."""
     for path in folder.glob(f"{UNFINISHED}*"):
         with suppress(OSError):  # somebody else has removed it
-            path.unlink()
+            if time.time() - path.stat().st_mtime >= older:
+                path.unlink()
 
 
 def check_output(path: str | Path, force: bool = False, reads: Iterable[str | Path | None] = ()) -> Path:
