@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import itertools
+import json
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -74,8 +75,10 @@ def test_the_command_writes_csv_and_tps(
 ) -> None:
     folder, out = run
     file = landmark_file(tmp_path / "m.csv", marks(folder, "b2"))
-    words = ["transfer", "--collection", str(out), "--landmarks", str(file), "-o", str(tmp_path / "all.csv")]
-    assert main([*words, "--on", "b2.off", "--tps", str(tmp_path / "all.tps")]) == 0
+    words = ["transfer", "--collection", str(out), "--landmarks", str(file), "-o"]
+    for name in ("all.csv", "all.tps"):
+        assert main([*words, str(tmp_path / name), "--on", "b2.off", "--json"]) == 0
+        assert json.loads(capsys.readouterr().out) == {"output": [str(tmp_path / name)]}
     with open(tmp_path / "all.csv", encoding="utf-8", newline="") as table:
         rows = list(csv.DictReader(table))
     assert len(rows) == 12
@@ -92,9 +95,10 @@ def test_the_command_writes_csv_and_tps(
     assert set(ids) == {"ID=b0", "ID=b1", "ID=b2", "ID=b3"}
     first = np.array([[float(x) for x in line.split()] for line in blocks[0].split("\n")[:3]])
     np.testing.assert_allclose(first, read_mesh(folder / "b2.off").vertices[marks(folder, "b2")], atol=1e-6)
-    assert main([*words, "--force"]) == 2
+    words += [str(tmp_path / "all.csv"), "--force"]
+    assert main(words) == 2
     assert "--on" in capsys.readouterr().err
-    assert main([*words, "--force", "--on", "nobody"]) == 2
+    assert main([*words, "--on", "nobody"]) == 2
     assert main(["transfer", "--landmarks", str(file), "-o", str(tmp_path / "x.csv")]) == 2
     assert "no --collection" in capsys.readouterr().err
     assert main(["transfer", "-o", str(tmp_path / "x.csv")]) == 2

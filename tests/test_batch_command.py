@@ -54,6 +54,10 @@ def test_a_run_and_another_that_finds_it_done(folder: Path, tmp_path: Path, caps
     assert (out / "summary.html").read_text(encoding="utf-8").count("data:image/png") == 6
     assert main([*words, "--graph", "both", "-q"]) == 0
     assert capsys.readouterr().out == ""
+    assert main([*words, "--graph", "both", "--json", "--require", "sure"]) == 3  # single fits are not judged
+    told = json.loads(capsys.readouterr().out)
+    assert (told["done"], told["failed"], told["left"], told["verdicts"]) == (6, 0, 0, {"landmarks": 6})
+    assert str(out / "results.csv") in told["output"]
 
 
 def _error_of_a_single_match(

@@ -9,7 +9,9 @@ import signal
 import subprocess
 import sys
 import warnings
+from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import pytest
 import typer
@@ -19,6 +21,7 @@ from commandline import run, shapes, start
 from kfmaps._arrays import InvalidInput, KfmapsWarning, MissingDependency, NotConverged
 from kfmaps.cli import main as cli
 from kfmaps.cli.main import COMMANDS
+from kfmaps.cli.options import COMMON, meets
 
 HEAVY = ("numpy", "scipy", "matplotlib", "torch", "trimesh", "robust_laplacian", "potpourri3d", "distributed")
 
@@ -79,12 +82,38 @@ def test_list_imports_nothing_heavy() -> None:
     assert not loaded & set(HEAVY)
 
 
-def test_a_command_has_few_options() -> None:
-    """At most ten of its own and ten for settings; all else is said with --set."""
-    help = run("match", "--help").stdout
-    own, settings = help.split("─ Settings ─")
-    assert own.count(" --") <= 12  # --help and -h beside them
-    assert settings.count(" --") <= 10
+def leaves(command: Any, name: str = "") -> Iterator[tuple[str, Any]]:
+    """Every command and subcommand with its words."""
+    if not hasattr(command, "commands"):
+        yield name.strip(), command
+        return
+    for inner, one in command.commands.items():
+        yield from leaves(one, f"{name} {inner}")
+
+
+LEAVES = dict(leaves(typer.main.get_command(cli.application())))
+
+
+@pytest.mark.parametrize("name", LEAVES)
+def test_a_command_has_few_options(name: str) -> None:
+    """At most ten of its own, beside those of every command and ten for settings; all else is said with --set."""
+    panels = [getattr(p, "rich_help_panel", None) for p in LEAVES[name].params if p.opts[0].startswith("-")]
+    assert panels.count(None) <= 10 + 1  # --help
+    assert panels.count("Settings") <= 10
+    assert set(panels) <= {None, "Settings", COMMON}
+
+
+@pytest.mark.parametrize("name", LEAVES)
+def test_every_command_speaks_json(name: str) -> None:
+    assert any("--json" in p.opts for p in LEAVES[name].params)
+
+
+def test_required_verdicts() -> None:
+    assert [meets(word, "likely") for word in ("sure", "likely", "ambiguous", "unlikely")] == [True, True, False, False]
+    assert [meets(word, "sure") for word in ("sure", "likely", "landmarks", "unchecked", "")] == [True] + 4 * [False]
+    assert meets("unlikely", None)
+    assert "--require: expected sure or likely" in run("match", "a.off", "b.off", "--require", "good").error
+    assert "--require: expected sure or likely" in run("batch", "a", "-o", "b", "--require", "good").error
 
 
 @pytest.mark.parametrize(

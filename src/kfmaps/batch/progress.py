@@ -3,34 +3,32 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
 
-from rich.console import Console
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, TaskID, TextColumn, TimeElapsedColumn
 from rich.text import Text
 
-from kfmaps.batch.jobs import ProgressCallback
 from kfmaps.batch.results import Result
+from kfmaps.cli.terminal import Terminal
 from kfmaps.cli.words import in_words
 from kfmaps.config import Config
 
-LOG = "run.log"
-LINE_SECONDS = 30.0
+_LOG = "run.log"
+_LINE_SECONDS = 30.0
 """Seconds between lines where there is no terminal."""
-SHOT_SIZE = 352
+_SHOT_SIZE = 352
 """Numbers of SHOT at each vertex."""
-SAMPLE_BYTES, MAP_BYTES = 6e6, 230.0
+_SAMPLE_BYTES, _MAP_BYTES = 6e6, 230.0
 """Disk: what a search keeps of one shape, whatever its size; a map's file for each target vertex."""
-WORKER_BYTES, VERTEX_BYTES = 0.22e9, 42e3
+_WORKER_BYTES, _VERTEX_BYTES = 0.22e9, 42e3
 """Memory of a worker, and for each vertex of a shape: 0.43 GB was measured with 5,000."""
-PREPARE_SECONDS, SEARCH_SECONDS, FIT_SECONDS, AGREE_SECONDS = 0.6e-3, 1.8e-3, 0.5e-3, 0.18e-3
+_PREPARE_SECONDS, _SEARCH_SECONDS, _FIT_SECONDS, _AGREE_SECONDS = 0.6e-3, 1.8e-3, 0.5e-3, 0.18e-3
 """CPU seconds for each vertex: of a shape, and of a pair by a search, by one fit, and to make the maps agree. Measured
 on shapes of 5,000 vertices; machines differ."""
-MIN_SEARCH_SECONDS = 2.0
+_MIN_SEARCH_SECONDS = 2.0
 
 
 @dataclass(frozen=True)
@@ -108,12 +106,12 @@ def estimate(
     Maps that are made to agree in the end (``consistent``) are scored by what a search would know of the shapes.
     """
     searched = config.search is not None
-    shape = 8.0 * vertices * (config.n_eigenfunctions + SHOT_SIZE * config.descriptors.shot)
-    disk = shapes * (shape + SAMPLE_BYTES * (searched or consistent)) + pairs * MAP_BYTES * vertices
-    each = max(SEARCH_SECONDS * vertices, MIN_SEARCH_SECONDS) if searched else FIT_SECONDS * vertices
-    each += AGREE_SECONDS * vertices if consistent else 0.0
-    total = pairs * each + shapes * PREPARE_SECONDS * vertices
-    memory = workers * (WORKER_BYTES + VERTEX_BYTES * vertices)
+    shape = 8.0 * vertices * (config.n_eigenfunctions + _SHOT_SIZE * config.descriptors.shot)
+    disk = shapes * (shape + _SAMPLE_BYTES * (searched or consistent)) + pairs * _MAP_BYTES * vertices
+    each = max(_SEARCH_SECONDS * vertices, _MIN_SEARCH_SECONDS) if searched else _FIT_SECONDS * vertices
+    each += _AGREE_SECONDS * vertices if consistent else 0.0
+    total = pairs * each + shapes * _PREPARE_SECONDS * vertices
+    memory = workers * (_WORKER_BYTES + _VERTEX_BYTES * vertices)
     return Estimate(disk, memory, total / max(min(workers, pairs), 1))
 
 
@@ -125,7 +123,7 @@ def log_to(folder: Path) -> Callable[[str], None]:
     """Return a function that appends a line with the time to the log of an output folder."""
 
     def log(line: str) -> None:
-        with open(folder / LOG, "a", encoding="utf-8") as file:
+        with open(folder / _LOG, "a", encoding="utf-8") as file:
             file.write(f"{datetime.now(UTC).isoformat(timespec='seconds')} {' '.join(line.split())}\n")
 
     return log
@@ -136,69 +134,56 @@ def failure_line(result: Result) -> str:
     return f"failed: {result.source} → {result.target}: {result.reason}"
 
 
-@contextmanager
-def terminal_callback(console: Console, quiet: bool = False) -> Iterator[Callback | None]:
-    """A callback for a run: bars on a terminal, now and then a line elsewhere, ``None`` when ``quiet``."""
-    if quiet:
-        yield None
-    elif console.is_terminal:
-        with _bars(console) as callback:
-            yield callback
-    else:
-        yield _lines(console)
+class RunReport:
+    """Reports of a run: bars on a terminal, now and then a line elsewhere, nothing where ``quiet``.
 
+    A context: while it lasts, :meth:`status` is a :data:`Callback` and :meth:`stage` a
+    :data:`~kfmaps.batch.jobs.ProgressCallback`.
+    """
 
-@contextmanager
-def _bars(console: Console) -> Iterator[Callback]:
-    columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
-    with Progress(*columns, TextColumn("{task.fields[note]}", markup=False), console=console) as progress:
-        shapes = progress.add_task("shapes", total=None, note="")
-        pairs = progress.add_task("pairs ", total=None, note="")
+    def __init__(self, quiet: bool = False) -> None:
+        self._quiet, self._console = quiet, Terminal(highlight=False)
+        self._draws = self._console.is_terminal and not quiet
+        columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
+        note = TextColumn("{task.fields[note]}", markup=False)
+        self._bars = Progress(*columns, note, console=self._console)
+        self._tasks: dict[str, TaskID] = {}
+        self._begun, self._last = time.monotonic(), -float("inf")
 
-        def callback(status: RunStatus, result: Result | None) -> None:
-            progress.update(shapes, total=status.shapes, completed=status.shapes_done)
-            note = (f"{status.failed} failed, " if status.failed else "") + status.time_left()
-            progress.update(pairs, total=status.pairs, completed=status.pairs_done, note=note)
-            if result is not None and result.status == "failed":
-                progress.console.print(Text(failure_line(result)), soft_wrap=True)
+    def __enter__(self) -> RunReport:
+        if self._draws:
+            self._bars.start()
+        return self
 
-        yield callback
+    def __exit__(self, *_: object) -> None:
+        if self._draws:
+            self._bars.stop()
 
+    def say(self, line: str) -> None:
+        """Print a line."""
+        if not self._quiet:
+            self._console.print(Text(line), soft_wrap=True)
 
-def _lines(console: Console) -> Callback:
-    begun = time.monotonic()
-    due = _due()
+    def stage(self, what: str, done: int, of: int) -> None:
+        """Tell how much of a stage is done."""
+        self._tell(what, done, of, "", f"{what} {done}/{of}")
 
-    def callback(status: RunStatus, result: Result | None) -> None:
+    def status(self, status: RunStatus, result: Result | None) -> None:
+        """Tell how the run stands, and the reason where the ``result`` that has just come is a failure."""
         if result is not None and result.status == "failed":
-            console.print(Text(failure_line(result)), soft_wrap=True)
-        if due(status.pairs_done == status.pairs):
-            console.print(Text(f"{in_words(time.monotonic() - begun)}: {status}"), soft_wrap=True)
+            self.say(failure_line(result))
+        failed = f"{status.failed} failed, " if status.failed else ""
+        line = f"{in_words(time.monotonic() - self._begun)}: {status}"
+        if self._draws:
+            self._tell("shapes", status.shapes_done, status.shapes, "", "")
+        self._tell("pairs", status.pairs_done, status.pairs, failed + status.time_left(), line)
 
-    return callback
-
-
-def stage_lines(console: Console, quiet: bool = False) -> ProgressCallback | None:
-    """A callback for :class:`~kfmaps.batch.jobs.WorkerPool` that prints a line now and then; ``None`` if ``quiet``."""
-    due = _due()
-
-    def progress(what: str, done: int, of: int) -> None:
-        if due(done == of):
-            console.print(Text(f"{what} {done}/{of}"), soft_wrap=True)
-
-    return None if quiet else progress
-
-
-def _due() -> Callable[[bool], bool]:
-    """Whether it is time for a line: at the end, at first, and every :data:`LINE_SECONDS`."""
-    last = -float("inf")
-
-    def due(ended: bool) -> bool:
-        nonlocal last
+    def _tell(self, name: str, done: int, of: int, note: str, line: str) -> None:
         now = time.monotonic()
-        if ended or now - last >= LINE_SECONDS:
-            last = now
-            return True
-        return False
-
-    return due
+        if self._draws:
+            if name not in self._tasks:
+                self._tasks[name] = self._bars.add_task(name, note="")
+            self._bars.update(self._tasks[name], total=of, completed=done, note=note)
+        elif done == of or now - self._last >= _LINE_SECONDS:
+            self._last = now
+            self.say(line)

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-import sys
+import json
 from collections.abc import Iterable
+from pathlib import Path
 from typing import Any
 
 from rich.console import Console, ConsoleOptions, ConsoleRenderable, RenderHook, RenderResult
@@ -41,6 +42,17 @@ def _printable(segments: Iterable[Segment]) -> Iterable[Segment]:
         yield Segment(lines, style, control)
 
 
-def say(text: str, error: bool = False) -> None:
-    """One line on standard output, or on standard error."""
-    print(shown(text), file=sys.stderr if error else sys.stdout)
+def say(text: str) -> None:
+    """Print one line on standard output."""
+    print(shown(text))
+
+
+def print_json(values: Any) -> None:
+    """Print one line of JSON on standard output; paths as text."""
+    print(json.dumps(values, default=str))
+
+
+def report_files(*paths: Path | None, as_json: bool) -> None:
+    """Print the written files as JSON where that was asked for, else nothing."""
+    if as_json:
+        print_json({"output": [path for path in paths if path is not None]})

@@ -10,13 +10,12 @@ from typing import Annotated
 
 import numpy as np
 import typer
-from rich.text import Text
 
 from kfmaps._arrays import KfmapsWarning, refuse
 from kfmaps.batch.landmark_tables import write_study
 from kfmaps.batch.layout import find_collection
 from kfmaps.batch.plan import make_plan
-from kfmaps.batch.progress import stage_lines, terminal_callback
+from kfmaps.batch.progress import RunReport
 from kfmaps.batch.run import run_batch
 from kfmaps.batch.run_spec import RunSpec
 from kfmaps.batch.transfer_landmarks import (
@@ -31,7 +30,8 @@ from kfmaps.batch.transfer_landmarks import (
     template_pairs,
 )
 from kfmaps.cli.commands.batch import INTERRUPTED, describe_plan, parse_workers
-from kfmaps.cli.terminal import Terminal
+from kfmaps.cli.options import Json, Quiet, Workers
+from kfmaps.cli.terminal import print_json
 from kfmaps.config import Config
 from kfmaps.settings.options import Chosen, with_settings
 
@@ -41,7 +41,7 @@ SHOWN = 8
 
 @with_settings
 def transfer(
-    scans: Annotated[Path, typer.Argument(help="A folder of meshes.", metavar="SCANS", show_default=False)],
+    scans: Annotated[Path, typer.Argument(help="A folder of meshes.", metavar="SCANS")],
     given: Annotated[
         list[Path],
         typer.Option(
@@ -49,29 +49,20 @@ def transfer(
             help="Landmarks of a scan, called as the scan is: .mrk.json, .fcsv, .tps, .pts, .csv or .particles. "
             "Several give the median of what each of them proposes.",
             metavar="FILE [FILE ...]",
-            show_default=False,
         ),
     ],
-    output: Annotated[Path, typer.Option("-o", "--output", help="Folder for everything.", show_default=False)],
+    output: Annotated[Path, typer.Option("-o", "--output", help="Folder for everything.")],
     settings: Chosen,
     more: Annotated[list[Path] | None, typer.Argument(hidden=True)] = None,
     min_confidence: Annotated[
-        float | None,
-        typer.Option(help="Landmarks below it become missing (NA).", min=0.0, max=1.0, show_default=False),
+        float | None, typer.Option(help="Landmarks below it become missing (NA).", min=0.0, max=1.0)
     ] = None,
     keep: Annotated[
-        list[str] | None,
-        typer.Option(help="Keep this specimen though it fits none of the others.", metavar="NAME", show_default=False),
+        list[str] | None, typer.Option(help="Keep this specimen though it fits none of the others.", metavar="NAME")
     ] = None,
-    workers: Annotated[
-        str | None,
-        typer.Option(
-            help="Worker processes, or the address of a Dask scheduler; default: one for each core.",
-            metavar="N|ADDRESS",
-            show_default=False,
-        ),
-    ] = None,
-    quiet: Annotated[bool, typer.Option("-q", "--quiet", help="Say nothing.")] = False,
+    workers: Workers = None,
+    json: Json = False,
+    quiet: Quiet = False,
 ) -> None:
     """Carry the landmarks of one or several specimens to all scans of a folder.
 
@@ -83,20 +74,18 @@ def transfer(
     for name in keep or ():
         if name not in collection.shapes:
             raise refuse("--keep", f"the name of a scan in {scans}", repr(name), "check the spelling")
-    console = Terminal(highlight=False)
     spec = RunSpec(settings.config(Config()), landmark_files=False)
     plan = make_plan(collection, template_pairs(templates, collection), spec, output / MATCHES)
-    if not quiet:
-        console.print(Text(describe_plan(plan, count, False)), soft_wrap=True)
-    with terminal_callback(console, quiet) as callback:
+    with RunReport(quiet or json) as report:
+        report.say(describe_plan(plan, count, False))
         outcome = run_batch(
             plan,
             workers=count,
             scheduler=scheduler,
             name=scans.resolve().name,
             worst=0,
-            callback=callback,
-            progress=stage_lines(console, quiet),
+            callback=report.status,
+            progress=report.stage,
         )
     if outcome.interrupted:
         raise typer.Exit(INTERRUPTED)
@@ -116,9 +105,10 @@ def transfer(
     files = write_study(output, study, templates)
     lines = [*_summary(study, templates, errors), *_misfits(said, keep or ()), *(f"{file}" for file in files)]
     (output / "summary.txt").write_text("\n".join(lines) + "\n", encoding="utf-8")
-    if not quiet:
-        for line in lines:
-            console.print(Text(line), soft_wrap=True)
+    for line in lines:
+        report.say(line)
+    if json:
+        print_json({"summary": lines[: -len(files)], "output": files})
 
 
 def _summary(study: Sequence[SpecimenLandmarks], templates: Sequence[Template], errors: np.ndarray) -> list[str]:

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import warnings
+from dataclasses import asdict
 from pathlib import Path
 from typing import Annotated
 
 import typer
-from rich.text import Text
 
 from kfmaps._arrays import InvalidInput, KfmapsWarning, check_count, refuse
 from kfmaps._threads import available_cores
@@ -15,108 +15,101 @@ from kfmaps.batch.consistent import ConsistentResult
 from kfmaps.batch.jobs import WorkerPool
 from kfmaps.batch.layout import Pair, choose_pairs, find_collection
 from kfmaps.batch.plan import GRAPHS, Plan, graph_pairs, make_plan, recommended
-from kfmaps.batch.progress import estimate, stage_lines, terminal_callback
+from kfmaps.batch.progress import RunReport, estimate
 from kfmaps.batch.results import summarize
 from kfmaps.batch.run import BatchResult, run_batch
 from kfmaps.batch.run_spec import RunSpec
-from kfmaps.cli.terminal import Terminal
+from kfmaps.cli.options import UNSURE, Identity, Json, Quiet, Require, Workers, check_required, meets
+from kfmaps.cli.terminal import print_json
 from kfmaps.cli.words import UNIT, percent
 from kfmaps.io import atomic_output, read_mesh
 from kfmaps.settings.options import Chosen, with_settings
 from kfmaps.settings.toml import settings_text
 
-TOML = "settings.toml"
+_TOML = "settings.toml"
 """In the output folder, for ``kfmaps match --config``."""
-MANY = 20
+_MANY = 20
 """Pairs from which it is told before what they need."""
-FAILED, INTERRUPTED = 1, 130
+_FAILED, INTERRUPTED = 1, 130
 """Exit status when a pair failed, and after Ctrl-C."""
 
 
 @with_settings
 def batch(
-    folder: Annotated[Path, typer.Argument(help="A folder of shapes.", metavar="DIR", show_default=False)],
-    output: Annotated[Path, typer.Option("-o", "--output", help="Folder for everything.", show_default=False)],
+    folder: Annotated[Path, typer.Argument(help="A folder of shapes.", metavar="DIR")],
+    output: Annotated[Path, typer.Option("-o", "--output", help="Folder for everything.")],
     settings: Chosen,
-    pairs: Annotated[
-        Path | None,
-        typer.Option(help="Two names a line; default: the folder's test_pairs.txt.", show_default=False),
-    ] = None,
+    pairs: Annotated[Path | None, typer.Option(help="Two names a line; default: the folder's test_pairs.txt.")] = None,
     graph: Annotated[
         str | None,
         typer.Option(
             help="Choose pairs: near (each shape with those most like it), star (one with all others; star:SHAPE: "
             "this one), all (every pair one way), both (every pair both ways).",
             metavar=GRAPHS.replace(", ", "|").replace(" or ", "|"),
-            show_default=False,
         ),
     ] = None,
     consistent: Annotated[
         bool,
         typer.Option("--consistent", help="Make the maps agree over cycles: exchange those that others contradict."),
     ] = False,
-    identity: Annotated[bool, typer.Option("--identity", help="Truth: vertex i is vertex i.")] = False,
+    identity: Identity = False,
     landmarks: Annotated[
         str | None,
         typer.Option(
             help="Landmarks: these lines of the truth, counted from 1; or none. Default: those that the folder has.",
             metavar="201,1121,...|none",
-            show_default=False,
         ),
     ] = None,
-    workers: Annotated[
-        str | None,
-        typer.Option(
-            help="Worker processes, or the address of a Dask scheduler; default: one for each core.",
-            metavar="N|ADDRESS",
-            show_default=False,
-        ),
-    ] = None,
+    workers: Workers = None,
     retry_failed: Annotated[bool, typer.Option("--retry-failed", help="Try failed pairs again.")] = False,
     seed: Annotated[int, typer.Option(min=0, help="For everything that is drawn at random.")] = 0,
-    quiet: Annotated[bool, typer.Option("-q", "--quiet", help="Say nothing.")] = False,
+    require: Require = None,
+    json: Json = False,
+    quiet: Quiet = False,
 ) -> None:
     """Match many pairs in parallel: a table, every map and a summary page.
 
     Stopped and started again with the same arguments it goes on where it was.
     """
+    check_required(require)
     count, scheduler = parse_workers(workers)
     lines, use_files = _lines(landmarks), landmarks is None
     if graph is not None and pairs is not None:
         raise refuse("pairs", "one of --graph and --pairs", "both", "leave one out")
     collection = find_collection(folder)
-    console = Terminal(highlight=False)
-    progress = stage_lines(console, quiet)
     listed = [] if graph is not None else choose_pairs(collection, file=pairs)
     shapes = [Pair(name, name) for name in collection.shapes]
     config = settings.config(recommended(collection, listed or shapes, bool(lines), use_files))
     spec = RunSpec(config, seed, lines, use_files, identity)
-    if graph is not None:
-        with WorkerPool(count, scheduler, progress) as pool:
-            listed = graph_pairs(collection, spec, output, graph, pool)
-    plan = make_plan(collection, listed, spec, output, retry_failed=retry_failed)
-    if not (plan.folder / TOML).exists():
-        with atomic_output(plan.folder / TOML) as temporary:
-            temporary.write_text(settings_text(config), encoding="utf-8")
-    if not quiet:
-        console.print(Text(describe_plan(plan, count, consistent)), soft_wrap=True)
-    with terminal_callback(console, quiet) as callback:
+    with RunReport(quiet or json) as report:
+        if graph is not None:
+            with WorkerPool(count, scheduler, report.stage) as pool:
+                listed = graph_pairs(collection, spec, output, graph, pool)
+        plan = make_plan(collection, listed, spec, output, retry_failed=retry_failed)
+        if not (plan.folder / _TOML).exists():
+            with atomic_output(plan.folder / _TOML) as temporary:
+                temporary.write_text(settings_text(config), encoding="utf-8")
+        report.say(describe_plan(plan, count, consistent))
         outcome = run_batch(
             plan,
             workers=count,
             scheduler=scheduler,
             name=folder.resolve().name,
-            callback=callback,
+            callback=report.status,
             consistent=consistent,
-            progress=progress,
+            progress=report.stage,
         )
-    if not quiet:
-        for line in _after(plan, outcome):
-            console.print(Text(line), soft_wrap=True)
+    for line in _describe_outcome(plan, outcome):
+        report.say(line)
+    if json:
+        left = len(plan.tasks) - len(outcome.results)
+        print_json({**asdict(summarize(outcome.results)), "left": left, "output": outcome.files})
     if outcome.interrupted:
         raise typer.Exit(INTERRUPTED)
     if any(result.status == "failed" for result in outcome.results):
-        raise typer.Exit(FAILED)
+        raise typer.Exit(_FAILED)
+    if not all(meets(result.verdict, require) for result in outcome.results):
+        raise typer.Exit(UNSURE)
 
 
 def parse_workers(text: str | None) -> tuple[int | None, str | None]:
@@ -144,7 +137,7 @@ def describe_plan(plan: Plan, workers: int | None, consistent: bool) -> str:
     told = [f"{len(plan.tasks)} pairs of {shapes} shapes"]
     told += [f"{len(plan.results)} done already"] if plan.results else []
     told += [f"{plan.changed} to do again since their files have changed"] if plan.changed else []
-    if len(plan.todo) >= MANY:
+    if len(plan.todo) >= _MANY:
         vertices = _vertices(plan)
         if vertices:
             left = {name for task in plan.todo for name in (task.pair.source, task.pair.target)}
@@ -165,7 +158,7 @@ def _vertices(plan: Plan) -> int:
         return 0
 
 
-def _after(plan: Plan, outcome: BatchResult) -> list[str]:
+def _describe_outcome(plan: Plan, outcome: BatchResult) -> list[str]:
     """What came of it."""
     numbers = summarize(outcome.results)
     lines = []
@@ -182,11 +175,11 @@ def _after(plan: Plan, outcome: BatchResult) -> list[str]:
         )
     verdicts = ", ".join(f"{count} {verdict}" for verdict, count in numbers.verdicts.items() if verdict)
     lines += [f"verdicts: {verdicts}"] if verdicts else []
-    lines += [] if outcome.consistent is None else _agreed(outcome.consistent)
+    lines += [] if outcome.consistent is None else _describe_consistent(outcome.consistent)
     return lines + [str(path) for path in outcome.files]
 
 
-def _agreed(found: ConsistentResult) -> list[str]:
+def _describe_consistent(found: ConsistentResult) -> list[str]:
     """Which pairs were exchanged, for what and why."""
     pairs = "1 pair" if found.replaced == 1 else f"{found.replaced} pairs"
     lines = [f"{pairs} exchanged, since others contradict them" if found.replaced else "all maps agree: none exchanged"]

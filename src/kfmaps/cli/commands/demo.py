@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json as jsonlib
 import time
 from dataclasses import replace
 from pathlib import Path
@@ -11,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from kfmaps._arrays import refuse
+from kfmaps.cli.options import Force, Json
 from kfmaps.cli.words import UNIT, percent
 
 if TYPE_CHECKING:
@@ -36,21 +36,22 @@ def demo(
             help="Match nothing: write the shapes into this folder, to try the other commands on "
             "(a.ply, b.ply, their truth a.vts, b.vts, landmarks pairs.txt).",
             metavar="FOLDER",
-            show_default=False,
         ),
     ] = None,
-    json: Annotated[bool, typer.Option("--json", help="Print the numbers for machines.")] = False,
-    force: Annotated[bool, typer.Option("--force", help="Replace an existing file.")] = False,
+    json: Json = False,
+    force: Force = False,
 ) -> None:
     """Make two poses of a shape, match them, print the error beside that without a kernel, draw a picture."""
-    from kfmaps.cli.terminal import Terminal, say
+    from kfmaps.cli.terminal import Terminal, print_json, report_files, say
     from kfmaps.io import atomic_output, check_output
     from kfmaps.viz import match_figure, picture_format, save_figure
 
     if shape not in SHAPES:
         raise refuse("--shape", "one of " + ", ".join(SHAPES), repr(shape), "choose one of them")
     if write is not None:
-        for path in _write(write, shape, vertices, landmarks, seed, force):
+        paths = _write(write, shape, vertices, landmarks, seed, force)
+        report_files(*paths, as_json=json)
+        for path in () if json else paths:
             say(str(path))
         return
     picture_format(output)
@@ -64,7 +65,7 @@ def demo(
     sizes = {"source_vertices": len(pair.source.vertices), "target_vertices": len(pair.target.vertices)}
     if json:
         rows = [{name: v for name, v in row.items() if name not in ("points", "errors")} for row in methods]
-        typer.echo(jsonlib.dumps({"shape": pair.name, **sizes, "methods": rows, "output": str(output)}))
+        print_json({"shape": pair.name, **sizes, "methods": rows, "output": output})
         return
     console = Terminal(highlight=False)
     console.print(_table(pair.name, sizes, methods))

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import json as jsonlib
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from kfmaps._arrays import InvalidInput, refuse
+from kfmaps.cli.options import Force, Identity, Json, MapFile, SourceMesh, TruthLists
 
 if TYPE_CHECKING:
     from rich.table import Table
@@ -21,42 +21,28 @@ CURVES = (".csv", ".png", ".svg", ".pdf")
 
 
 def evaluate(
-    map: Annotated[Path, typer.Argument(help="A map (.npz, .txt, .vts, .mat).", metavar="MAP", show_default=False)],
-    source: Annotated[
-        Path | None, typer.Option(help="The source mesh; default: the one the map names.", show_default=False)
-    ] = None,
-    target: Annotated[
-        Path | None, typer.Option(help="The target mesh, to check that the map belongs to it.", show_default=False)
-    ] = None,
-    truth: Annotated[
-        tuple[Path, Path] | None,
-        typer.Option(
-            help="True vertices of source and target, line k of one file to line k of the other (.vts counts from 1).",
-            metavar="SOURCE TARGET",
-            show_default=False,
-        ),
-    ] = None,
+    map: MapFile,
+    source: SourceMesh = None,
+    target: Annotated[Path | None, typer.Option(help="The target mesh, to check that the map belongs to it.")] = None,
+    truth: TruthLists = None,
     symmetric: Annotated[
-        Path | None,
-        typer.Option(help="True vertices of the target with left and right swapped.", show_default=False),
+        Path | None, typer.Option(help="True vertices of the target with left and right swapped.")
     ] = None,
     truth_part: Annotated[
         Path | None,
         typer.Option(
-            help="The truth of a part: .baryc_gt (triangle of the whole, weights), or lines 'whole part' from 0.",
-            show_default=False,
+            help="The truth of a part: .baryc_gt (triangle of the whole, weights), or lines 'whole part' from 0."
         ),
     ] = None,
     part: Annotated[str, typer.Option(help="With --truth-part: which shape is the part, source or target.")] = "target",
-    identity: Annotated[bool, typer.Option("--identity", help="Truth: vertex i is vertex i.")] = False,
-    curve: Annotated[
-        Path | None, typer.Option(help="Write the error curve (.csv, .png, .svg, .pdf).", show_default=False)
-    ] = None,
-    json: Annotated[bool, typer.Option("--json", help="Print the numbers for machines: fractions of √area.")] = False,
-    force: Annotated[bool, typer.Option("--force", help="Replace an existing file.")] = False,
+    identity: Identity = False,
+    curve: Annotated[Path | None, typer.Option(help="Write the error curve (.csv, .png, .svg, .pdf).")] = None,
+    json: Json = False,
+    force: Force = False,
 ) -> None:
     """Print the geodesic error of a map, by the Princeton protocol, in per cent of √area."""
     from kfmaps.cli.evaluation import assess, known_truth, write_curve
+    from kfmaps.cli.terminal import Terminal, print_json
     from kfmaps.io import check_map, check_output, load_map
     from kfmaps.io.partial_map import precise_points
     from kfmaps.io.provenance import map_mesh
@@ -81,10 +67,8 @@ def evaluate(
     if curve is not None:
         write_curve(curve, accuracy.errors, map.stem, force)
     if json:
-        typer.echo(jsonlib.dumps(accuracy.as_dict()))
+        print_json(accuracy.as_dict())
         return
-    from kfmaps.cli.terminal import Terminal
-
     Terminal().print(_table(accuracy))
 
 
@@ -103,7 +87,7 @@ def _evaluate_part(
 
     from kfmaps.cli.evaluation import write_curve
     from kfmaps.cli.partial_truth import part_accuracy, read_part_truth
-    from kfmaps.cli.terminal import Terminal
+    from kfmaps.cli.terminal import Terminal, print_json
     from kfmaps.cli.words import UNIT, percent
     from kfmaps.io import check_map, load_map
     from kfmaps.io.provenance import map_mesh
@@ -120,7 +104,7 @@ def _evaluate_part(
     if curve is not None:
         write_curve(curve, accuracy.errors, map.stem, force)
     if json:
-        typer.echo(jsonlib.dumps(accuracy.as_dict()))
+        print_json(accuracy.as_dict())
         return
     table = Table(caption=f"errors in {UNIT} of the whole, points inside triangles", caption_justify="left")
     table.add_column("")

@@ -9,6 +9,8 @@ import numpy as np
 import typer
 
 from kfmaps._arrays import refuse
+from kfmaps.cli.options import Force, Json, MapFile, SourceMesh, TargetMesh
+from kfmaps.cli.terminal import report_files
 from kfmaps.io import (
     MeshFile,
     Values,
@@ -32,23 +34,19 @@ MATRICES = (".txt", ".csv", ".npy")
 
 
 def export(
-    map: Annotated[Path, typer.Argument(help="A map (.npz, .txt, .vts, .mat).", metavar="MAP", show_default=False)],
+    map: MapFile,
     output: Annotated[
         Path,
         typer.Option(
             "-o",
             "--output",
             help="OBJ (texture, MTL and picture), GLB (texture inside), PLY, OFF (colours), .txt, .vts, .mat, .npz.",
-            show_default=False,
         ),
     ],
-    source: Annotated[
-        Path | None, typer.Option(help="The source mesh; default: the one the map names.", show_default=False)
-    ] = None,
-    target: Annotated[Path | None, typer.Option(help="The same for the target.", show_default=False)] = None,
+    source: SourceMesh = None,
+    target: TargetMesh = None,
     picture: Annotated[
-        Path | None,
-        typer.Option(help="The source's texture (PNG, JPEG); default: its own, or a grid.", show_default=False),
+        Path | None, typer.Option(help="The source's texture (PNG, JPEG); default: its own, or a grid.")
     ] = None,
     functional: Annotated[
         bool, typer.Option("--functional", help="Write the functional map C alone (.txt, .csv, .npy).")
@@ -59,7 +57,8 @@ def export(
     morph: Annotated[
         bool, typer.Option("--morph", help="Write the source in the target's shape (GLB: as a morph target).")
     ] = False,
-    force: Annotated[bool, typer.Option("--force", help="Replace existing files.")] = False,
+    json: Json = False,
+    force: Force = False,
 ) -> None:
     """Write the target with the source's texture or colours, or the map in another format."""
     suffix = output.suffix.lower()
@@ -102,6 +101,7 @@ def export(
     else:
         colors = position_colors(shape_s.mesh) if shape_s.colors is None else shape_s.colors
         write_colored(output, colors, shape_t.mesh, found, source=shape_s.mesh, force=force)
+    report_files(output, as_json=json)
 
 
 def _shape(given: Path | None, found: Match, side: str, map: Path) -> MeshFile:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json as jsonlib
 import warnings
 from dataclasses import asdict
 from pathlib import Path
@@ -14,7 +13,8 @@ from rich.table import Table
 from rich.text import Text
 
 from kfmaps._arrays import InvalidInput, KfmapsWarning, shown
-from kfmaps.cli.terminal import Terminal
+from kfmaps.cli.options import Json
+from kfmaps.cli.terminal import Terminal, print_json
 from kfmaps.geometry.mesh import surface_area
 from kfmaps.geometry.topology import topology
 from kfmaps.io import MeshFile, read_mesh_file
@@ -72,14 +72,14 @@ def _rows(facts: dict[str, Any]) -> list[tuple[str, str]]:
 
 
 def info(
-    meshes: Annotated[list[Path], typer.Argument(help="Meshes or point clouds.", metavar="MESH", show_default=False)],
-    json: Annotated[bool, typer.Option("--json", help="Print it for machines, one line for each file.")] = False,
+    meshes: Annotated[list[Path], typer.Argument(help="Meshes or point clouds.", metavar="MESH")],
+    json: Json = False,
 ) -> None:
     """Show what is in files: vertices, faces, components, area, genus, defects."""
     if len(meshes) == 1:
         facts = _facts(meshes[0])
         if json:
-            print(jsonlib.dumps(facts))
+            print_json(facts)
         else:
             table = Table(title=Text(shown(str(meshes[0]))), show_header=False)
             for name, value in _rows(facts):
@@ -94,7 +94,7 @@ def info(
             refused.append(str(error))
     if json:
         for facts in known:
-            print(jsonlib.dumps(facts))
+            print_json(facts)
     elif known:
         Terminal().print(_overview(known))
     if refused:  # the others have been shown

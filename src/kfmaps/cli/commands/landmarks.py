@@ -13,6 +13,8 @@ from typer.core import TyperGroup
 
 from kfmaps._arrays import KfmapsWarning
 from kfmaps.cli.commands._landmarks_transfer import transfer
+from kfmaps.cli.options import Json, UpAxis
+from kfmaps.cli.terminal import print_json
 from kfmaps.config import Config
 from kfmaps.io import check_output, read_landmark_names, read_landmarks, read_mesh
 from kfmaps.io.mapfile import check_format
@@ -45,30 +47,23 @@ app.command("transfer")(transfer)
 @app.command("pick")
 @with_settings
 def pick(
-    source: Annotated[Path, typer.Argument(help="The source mesh.", show_default=False)],
-    target: Annotated[Path, typer.Argument(help="The target mesh.", show_default=False)],
+    source: Annotated[Path, typer.Argument(help="The source mesh.")],
+    target: Annotated[Path, typer.Argument(help="The target mesh.")],
     settings: Chosen,
     output: Annotated[
         Path | None,
         typer.Option(
-            "-o",
-            "--output",
-            help="Where the page saves them; default: landmarks.txt, or the file of --landmarks.",
-            show_default=False,
+            "-o", "--output", help="Where the page saves them; default: landmarks.txt, or the file of --landmarks."
         ),
     ] = None,
-    landmarks: Annotated[
-        Path | None, typer.Option("--landmarks", help="Pairs to begin with.", show_default=False)
-    ] = None,
+    landmarks: Annotated[Path | None, typer.Option("--landmarks", help="Pairs to begin with.")] = None,
     map_output: Annotated[
         Path, typer.Option("--map", help="Where the page saves the map of a run: .npz, .mat, .txt or .vts.")
     ] = Path("map.npz"),
-    up: Annotated[
-        str | None,
-        typer.Option(help="The axis that points upwards: x, y or z; default: found.", show_default=False),
-    ] = None,
+    up: UpAxis = None,
     port: Annotated[int, typer.Option(help="Of this machine; 0 takes a free one.", min=0, max=65535)] = 0,
     browser: Annotated[bool, typer.Option("--browser/--no-browser", help="Open the page.")] = True,
+    json: Json = False,
     force: Annotated[bool, typer.Option("--force", help="Save over an existing file without asking.")] = False,
 ) -> None:
     """Pick landmarks on a local page: click a point on one shape, then its match on the other.
@@ -95,17 +90,21 @@ def pick(
     matcher = InteractiveMatcher(*shapes, names, (source, target), chosen)
     picker = Picker(*shapes, names, output, force, pairs, labels, matcher, map_output, up)
     serving = PickerServer(picker, port)
-    typer.echo(serving.server.address)
-    typer.echo("Only this machine can reach it, and only with that address. Ctrl-C ends.")
+    if json:
+        print_json({"address": serving.server.address, "output": [output, map_output]})
+    else:
+        typer.echo(serving.server.address)
+        typer.echo("Only this machine can reach it, and only with that address. Ctrl-C ends.")
     opened = None
     try:
         if browser:  # by a file: the browser's command line, with a name in it, is there for all users to see
             opened, found = open_page(forwarding_page(serving.server.address))
-            if not found:
+            if not found and not json:
                 typer.echo("No browser was found; open the address yourself.")
         serving.server.serve_forever()
     except KeyboardInterrupt:
-        typer.echo("Ended.")
+        if not json:
+            typer.echo("Ended.")
     finally:
         serving.close()
         if opened is not None:

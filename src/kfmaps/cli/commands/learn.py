@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from kfmaps._arrays import check_count, refuse
+from kfmaps.cli.options import Identity, Json, Quiet
 from kfmaps.settings.options import Chosen, with_settings
 
 if TYPE_CHECKING:
@@ -55,26 +56,22 @@ def learn(
     ],
     settings: Chosen,
     parts: Annotated[
-        str,
-        typer.Option("--learn", metavar="NAMES", help=f"What to learn: {PARTS}. Default: {WITH_TRUTH[0]}."),
+        str, typer.Option("--learn", metavar="NAMES", help=f"What to learn: {PARTS}. Default: {WITH_TRUTH[0]}.")
     ] = "",
     losses: Annotated[
-        str,
-        typer.Option("--loss", metavar="NAMES", help=f"NAME or NAME=WEIGHT: {LOSSES}. Default: {WITH_TRUTH[1]}."),
+        str, typer.Option("--loss", metavar="NAMES", help=f"NAME or NAME=WEIGHT: {LOSSES}. Default: {WITH_TRUTH[1]}.")
     ] = "",
     shapes: Annotated[str, typer.Option(metavar="PATTERNS", help="Shapes to learn from, as a?,b*.")] = "*",
     held_out: Annotated[
         str,
         typer.Option(
-            metavar="PATTERNS",
-            help="Shapes to stop by; default: the last quarter. none: learn from all, to the end.",
+            metavar="PATTERNS", help="Shapes to stop by; default: the last quarter. none: learn from all, to the end."
         ),
     ] = "",
     truth_landmarks: Annotated[
-        str,
-        typer.Option(help="Landmarks: these lines of the truth, counted from 1.", metavar="201,1121,..."),
+        str, typer.Option(help="Landmarks: these lines of the truth, counted from 1.", metavar="201,1121,...")
     ] = "",
-    identity: Annotated[bool, typer.Option("--identity", help="Truth: vertex i is vertex i.")] = False,
+    identity: Identity = False,
     training: Annotated[
         list[str] | None,
         typer.Option(
@@ -82,7 +79,8 @@ def learn(
         ),
     ] = None,
     force: Annotated[bool, typer.Option("--force", help="Replace existing files and start anew.")] = False,
-    quiet: Annotated[bool, typer.Option("-q", "--quiet", help="Print nothing.")] = False,
+    json: Json = False,
+    quiet: Quiet = False,
 ) -> None:
     """Learn a kernel from pairs of shapes, and write settings for kfmaps match --config.
 
@@ -95,6 +93,7 @@ def learn(
     from kfmaps import learn as library  # its absence of PyTorch comes before any work
     from kfmaps.batch.layout import find_collection
     from kfmaps.cli.progress import Stages
+    from kfmaps.cli.terminal import print_json
     from kfmaps.io import check_output
     from kfmaps.settings.toml import settings_text
 
@@ -105,7 +104,7 @@ def learn(
     lines = _lines(truth_landmarks)
     requested = settings.config(_start(bool(lines)))
     config = replace(requested, fit_samples=min(requested.fit_samples or MAX_SAMPLES, MAX_SAMPLES))
-    with Stages(quiet) as stages:
+    with Stages(quiet or json) as stages:
         folder = find_collection(data)
         drawn, judges = _draw(folder, shapes, held_out, numbers)
         prepare = _preparation(folder, config, lines, identity, int(numbers["seed"]))
@@ -138,8 +137,18 @@ def learn(
             _write(output, best, state, judged, ", ".join(options.losses))
 
         state = library.learn(model, pairs, held_out_pairs, options, state=state, on_epoch=write, progress=stages)
-    if not quiet:
-        first, best = state.history[0], state.best_epoch
+    first, best = state.history[0], state.best_epoch
+    if json:
+        print_json(
+            {
+                "before": first.held_out,
+                "best": best.held_out,
+                "epoch": best.number,
+                "kernel": repr(model.settings().kernel),
+                "output": [output, state_file, output.with_suffix(".png")],
+            }
+        )
+    elif not quiet:
         print(f"held-out pairs: {first.held_out:.5f} before, {best.held_out:.5f} after epoch {best.number}")
         print(f"kernel: {model.settings().kernel!r}", f"settings: {output}", f"state: {state_file}", sep="\n")
 

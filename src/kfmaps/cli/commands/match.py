@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json as jsonlib
 import warnings
 from collections.abc import Callable
 from pathlib import Path
@@ -11,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from kfmaps._arrays import KfmapsWarning, MissingDependency, refuse
+from kfmaps.cli.options import UNSURE, Force, Json, Quiet, Require, TruthLists, check_required, meets
 from kfmaps.settings.options import Chosen, with_settings
 
 if TYPE_CHECKING:
@@ -22,20 +22,18 @@ if TYPE_CHECKING:
     from kfmaps.matching.result import Match
 
 SIDES = ("source", "target")
-TRUTH = "True vertices of both, line k of one file to line k of the other (.vts counts from 1): prints errors."
 
 
 @with_settings
 def match(
-    source: Annotated[Path, typer.Argument(help="A mesh or point cloud.", metavar="SOURCE", show_default=False)],
-    target: Annotated[Path, typer.Argument(help="A mesh or point cloud.", metavar="TARGET", show_default=False)],
+    source: Annotated[Path, typer.Argument(help="A mesh or point cloud.", metavar="SOURCE")],
+    target: Annotated[Path, typer.Argument(help="A mesh or point cloud.", metavar="TARGET")],
     settings: Chosen,
     landmarks: Annotated[
         list[Path] | None,
         typer.Option(
             help='Pairs of vertices, "source target" a line, counted from 0; or, given twice, the landmarks of SOURCE '
-            "and of TARGET (.mrk.json, .fcsv, .tps, .pts, .csv).",
-            show_default=False,
+            "and of TARGET (.mrk.json, .fcsv, .tps, .pts, .csv)."
         ),
     ] = None,
     one_based: Annotated[
@@ -44,22 +42,17 @@ def match(
     output: Annotated[
         Path, typer.Option("-o", "--output", help="The map: .npz or .mat (everything), .txt or .vts (vertices).")
     ] = Path("map.npz"),
-    force: Annotated[bool, typer.Option("--force", help="Replace an existing file.")] = False,
-    json: Annotated[bool, typer.Option("--json", help="Print the summary for machines.")] = False,
-    quiet: Annotated[bool, typer.Option("-q", "--quiet", help="Print no progress, summary or warnings.")] = False,
+    force: Force = False,
+    json: Json = False,
+    quiet: Quiet = False,
     view: Annotated[bool, typer.Option("--view", help="Show the result in the browser.")] = False,
     seed: Annotated[int, typer.Option(help="For the choice of samples; the same seed, the same map.", min=0)] = 0,
     descriptors: Annotated[
         tuple[Path, Path] | None,
-        typer.Option(
-            help="Your own descriptors, a row per vertex (.npy, .csv, .txt).",
-            metavar="SOURCE TARGET",
-            show_default=False,
-        ),
+        typer.Option(help="Your own descriptors, a row per vertex (.npy, .csv, .txt).", metavar="SOURCE TARGET"),
     ] = None,
-    truth: Annotated[
-        tuple[Path, Path] | None, typer.Option(help=TRUTH, metavar="SOURCE TARGET", show_default=False)
-    ] = None,
+    truth: TruthLists = None,
+    require: Require = None,
 ) -> None:
     """Find for each vertex of the target the corresponding vertex of the source, and write the map."""
     # What can be refused without work is refused first, so that no minutes are lost.
@@ -67,6 +60,7 @@ def match(
     from kfmaps.io.mapfile import check_format
 
     check_format(output)
+    check_required(require)
     reads = (source, target, *(landmarks or ()), *(descriptors or ()), *(truth or ()))
     for path in reads:
         if path is not None and not path.exists():
@@ -77,6 +71,7 @@ def match(
 
     from kfmaps.cli.evaluation import known_truth
     from kfmaps.cli.summary import summary, table
+    from kfmaps.cli.terminal import Terminal, print_json
     from kfmaps.io import save_map
     from kfmaps.matching.match import default_config
     from kfmaps.matching.memory import check_match_memory
@@ -95,13 +90,13 @@ def match(
     found, accuracy = run(meshes, (source, target), config, pairs, own, seed, quiet=quiet or json, truth=known)
     save_map(output, found, force)
     if json:
-        typer.echo(jsonlib.dumps({**summary(found, accuracy), "output": str(output)}))
+        print_json({**summary(found, accuracy), "output": output})
     elif not quiet:
-        from kfmaps.cli.terminal import Terminal
-
         Terminal().print(table(found, accuracy, output))
     if view:
         _show(found, known)
+    if not meets(found.verdict, require):
+        raise typer.Exit(UNSURE)
 
 
 def run(

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Annotated
 
 import typer
+from matplotlib.figure import Figure
 
 from kfmaps._arrays import check_positive, refuse
 from kfmaps.batch.layout import Pair
@@ -15,6 +16,8 @@ from kfmaps.batch.results import Result, all_results, summarize
 from kfmaps.batch.run_spec import read_settings
 from kfmaps.batch.work import map_path
 from kfmaps.cli.evaluation import known_truth
+from kfmaps.cli.options import Force, Json, MapFile, SourceMesh, TargetMesh, TruthLists
+from kfmaps.cli.terminal import report_files
 from kfmaps.cli.words import UNIT, percent
 from kfmaps.io import atomic_output, check_map, check_output, load_map
 from kfmaps.io.provenance import map_mesh
@@ -33,46 +36,31 @@ from kfmaps.viz import (
 
 app = typer.Typer(help="Figures for papers (PNG, SVG, PDF), drawn without a display.", no_args_is_help=True)
 
-Output = Annotated[Path, typer.Option("-o", "--output", help="The figure: .png, .svg or .pdf.", show_default=False)]
-Force = Annotated[bool, typer.Option("--force", help="Replace an existing file.")]
+Output = Annotated[Path, typer.Option("-o", "--output", help="The figure: .png, .svg or .pdf.")]
 Dpi = Annotated[float, typer.Option(help="Dots per inch, of the surfaces in SVG and PDF too.", min=20, max=2400)]
-Title = Annotated[str | None, typer.Option(help="Written above.", show_default=False)]
+Title = Annotated[str | None, typer.Option(help="Written above.")]
 From = Annotated[
     tuple[float, float, float] | None,
-    typer.Option("--from", help="Look at the source from this direction.", metavar="X Y Z", show_default=False),
+    typer.Option("--from", help="Look at the source from this direction.", metavar="X Y Z"),
 ]
 Up = Annotated[
-    tuple[float, float, float] | None,
-    typer.Option(help="What is up in the picture; with --from.", metavar="X Y Z", show_default=False),
+    tuple[float, float, float] | None, typer.Option(help="What is up in the picture; with --from.", metavar="X Y Z")
 ]
 
 
 @app.command("pair")
 def render_pair(
-    map: Annotated[Path, typer.Argument(help="A map (.npz, .txt, .vts, .mat).", show_default=False)],
+    map: MapFile,
     output: Output,
-    source: Annotated[
-        Path | None, typer.Option(help="The source mesh; default: the one the map names.", show_default=False)
-    ] = None,
-    target: Annotated[
-        Path | None, typer.Option(help="The target mesh; default: the one the map names.", show_default=False)
-    ] = None,
-    truth: Annotated[
-        tuple[Path, Path] | None,
-        typer.Option(
-            help="True vertices of source and target, line k of one file to line k of the other (.vts counts from 1): "
-            "shows the error too.",
-            metavar="SOURCE TARGET",
-            show_default=False,
-        ),
-    ] = None,
-    limit: Annotated[
-        float | None, typer.Option(help=f"Error at which its colours end, in {UNIT}.", show_default=False)
-    ] = None,
+    source: SourceMesh = None,
+    target: TargetMesh = None,
+    truth: TruthLists = None,
+    limit: Annotated[float | None, typer.Option(help=f"Error at which its colours end, in {UNIT}.")] = None,
     title: Title = None,
     towards: From = None,
     up: Up = None,
     dpi: Dpi = 300,
+    json: Json = False,
     force: Force = False,
 ) -> None:
     """One map: the source, the target in the source's colours, and the error when the truth is given."""
@@ -95,24 +83,24 @@ def render_pair(
         view=seen,
         target_view=seen_target,
     )
-    with atomic_output(output, force) as temporary:
-        save_figure(figure, temporary, dpi=dpi)
+    _save(figure, output, dpi, json, force)
 
 
 @app.command("grid")
 def render_grid(
-    folder: Annotated[Path, typer.Argument(help="Output folder of kfmaps batch.", show_default=False)],
-    source: Annotated[str, typer.Option(help="The shape whose colours are carried to all.", show_default=False)],
+    folder: Annotated[Path, typer.Argument(help="Output folder of kfmaps batch.")],
+    source: Annotated[str, typer.Option(help="The shape whose colours are carried to all.")],
     output: Output,
     targets: Annotated[
-        str | None, typer.Option(help="Names with commas between; default: all it was matched to.", show_default=False)
+        str | None, typer.Option(help="Names with commas between; default: all it was matched to.")
     ] = None,
-    columns: Annotated[int | None, typer.Option(help="Default: a balanced figure.", show_default=False)] = None,
+    columns: Annotated[int | None, typer.Option(help="Default: a balanced figure.")] = None,
     errors: Annotated[bool, typer.Option(help=f"Mean error ({UNIT}) beside each name, where known.")] = True,
     title: Title = None,
     towards: From = None,
     up: Up = None,
     dpi: Dpi = 300,
+    json: Json = False,
     force: Force = False,
 ) -> None:
     """A collection: one source, and its colours on every target that it was matched to."""
@@ -143,19 +131,17 @@ def render_grid(
         )
     assert centre is not None
     figure = grid_figure(centre, panels, label=source, columns=columns, title=title, view=_view(towards, up))
-    with atomic_output(output, force) as temporary:
-        save_figure(figure, temporary, dpi=dpi)
+    _save(figure, output, dpi, json, force)
 
 
 @app.command("curves")
 def render_curves(
-    folders: Annotated[list[Path], typer.Argument(help="Output folders of kfmaps batch.", show_default=False)],
+    folders: Annotated[list[Path], typer.Argument(help="Output folders of kfmaps batch.")],
     output: Output,
-    labels: Annotated[
-        str | None, typer.Option(help="Names with commas between; default: the folders'.", show_default=False)
-    ] = None,
+    labels: Annotated[str | None, typer.Option(help="Names with commas between; default: the folders'.")] = None,
     title: Title = None,
     dpi: Dpi = 300,
+    json: Json = False,
     force: Force = False,
 ) -> None:
     """Error curves of whole runs, each the mean of its pairs, in one figure."""
@@ -171,14 +157,19 @@ def render_curves(
         if curve is None:
             raise refuse(f"{folder}", "pairs whose truth is known", "none", "run batch on shapes with truth")
         curves.append(curve)
-    with atomic_output(output, force) as temporary:
-        save_figure(curves_figure(curves, title=title), temporary, dpi=dpi)
+    _save(curves_figure(curves, title=title), output, dpi, json, force)
 
 
 def _check(output: Path, force: bool, reads: Iterable[Path | None] = ()) -> None:
     """Whether the figure can be written, before anything is read."""
     picture_format(output)
     check_output(output, force, reads)
+
+
+def _save(figure: Figure, output: Path, dpi: float, json: bool, force: bool) -> None:
+    with atomic_output(output, force) as temporary:
+        save_figure(figure, temporary, dpi=dpi)
+    report_files(output, as_json=json)
 
 
 def _results(folder: Path) -> list[Result]:

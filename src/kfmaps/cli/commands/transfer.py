@@ -10,6 +10,8 @@ import numpy as np
 import typer
 
 from kfmaps._arrays import KfmapsWarning, refuse
+from kfmaps.cli.options import Force, Json, SourceMesh, TargetMesh
+from kfmaps.cli.terminal import report_files
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.io import Values, check_output, load_map, read_mesh, read_values, write_values
 from kfmaps.io.landmark_files import check_landmark_format, mesh_space
@@ -22,91 +24,82 @@ from kfmaps.matching.result import Match
 
 
 def transfer(
-    output: Annotated[
-        Path,
-        typer.Option("-o", "--output", help="A row for each target vertex (.npy, .csv, .txt).", show_default=False),
-    ],
-    map: Annotated[
-        Path | None, typer.Argument(help="A map (.npz, .txt, .vts, .mat).", metavar="MAP", show_default=False)
-    ] = None,
+    output: Annotated[Path, typer.Option("-o", "--output", help="A row for each target vertex (.npy, .csv, .txt).")],
+    map: Annotated[Path | None, typer.Argument(help="A map (.npz, .txt, .vts, .mat).", metavar="MAP")] = None,
     values: Annotated[
-        Path | None,
-        typer.Argument(help="A row for each source vertex (.npy, .csv, .txt).", metavar="VALUES", show_default=False),
+        Path | None, typer.Argument(help="A row for each source vertex (.npy, .csv, .txt).", metavar="VALUES")
     ] = None,
     collection: Annotated[
-        Path | None,
-        typer.Option(help="Instead of MAP: the output folder of kfmaps batch.", metavar="OUT", show_default=False),
+        Path | None, typer.Option(help="Instead of MAP: the output folder of kfmaps batch.", metavar="OUT")
     ] = None,
     landmarks: Annotated[
         Path | None,
-        typer.Option(
-            help="Of one specimen, to all of --collection (.mrk.json, .fcsv, .tps, .pts, .csv, .particles).",
-            show_default=False,
-        ),
+        typer.Option(help="Of one specimen, to all of --collection (.mrk.json, .fcsv, .tps, .pts, .csv, .particles)."),
     ] = None,
-    on: Annotated[
-        str | None, typer.Option(help="The specimen that --landmarks are on.", metavar="SHAPE", show_default=False)
-    ] = None,
-    tps: Annotated[
-        Path | None, typer.Option(help="Write all landmarks as TPS too (geomorph, MorphoJ).", show_default=False)
-    ] = None,
+    on: Annotated[str | None, typer.Option(help="The specimen that --landmarks are on.", metavar="SHAPE")] = None,
     points: Annotated[
-        bool,
-        typer.Option("--points", help="VALUES are points (.mrk.json, .fcsv, .tps, .pts, .csv, .particles)."),
+        bool, typer.Option("--points", help="VALUES are points (.mrk.json, .fcsv, .tps, .pts, .csv, .particles).")
     ] = False,
     products: Annotated[
         int | None,
         typer.Option(
             min=2,
             metavar="NUMBER",
-            show_default=False,
             help="Carry VALUES by the functional map, with products of so many eigenfunctions, not by points; 20 say.",
         ),
     ] = None,
     back: Annotated[bool, typer.Option("--back", help="From the target to the source.")] = False,
-    source: Annotated[
-        Path | None, typer.Option(help="The source mesh; default: the one the map names.", show_default=False)
-    ] = None,
-    target: Annotated[Path | None, typer.Option(help="The same for the target.", show_default=False)] = None,
+    source: SourceMesh = None,
+    target: TargetMesh = None,
     lost: Annotated[
-        float | None,
-        typer.Option(help="For vertices without counterpart; default: NaN, -1 of whole numbers.", show_default=False),
+        float | None, typer.Option(help="For vertices without counterpart; default: NaN, -1 of whole numbers.")
     ] = None,
-    force: Annotated[bool, typer.Option("--force", help="Replace an existing file.")] = False,
+    json: Json = False,
+    force: Force = False,
 ) -> None:
     """Carry functions, labels or named points over a map, or landmarks to all shapes of a collection."""
     if collection is not None or landmarks is not None:
-        _everywhere(collection, landmarks, on, output, tps, force, (map, values, source, target))
-        return
-    if map is None or values is None:
+        _everywhere(collection, landmarks, on, output, force, (map, values, source, target))
+    elif map is None or values is None:
         raise refuse("transfer", "MAP and VALUES, or --collection and --landmarks", "neither", "give two of them")
-    check_output(output, force, (map, values, source, target))
-    if products is not None and (points or back):
-        with_it = "--points" if points else "--back"
-        raise refuse("--products", "values of the source", with_it, "leave one of them out")
-    found = load_map(map)
-    if points:
-        check_landmark_format(output, "output")
-        _points(found, map, values, output, back, (source, target), force)
-        return
-    given = read_values(values)
-    gone: float | int | None = lost
-    if lost is not None and given.array.dtype.kind in "iu" and lost == int(lost):
-        gone = int(lost)
+    else:
+        check_output(output, force, (map, values, source, target))
+        if products is not None and (points or back):
+            with_it = "--points" if points else "--back"
+            raise refuse("--products", "values of the source", with_it, "leave one of them out")
+        found = load_map(map)
+        if points:
+            check_landmark_format(output, "output")
+            _points(found, map, values, output, back, (source, target), force)
+        else:
+            write_values(output, _carried(found, map, values, (source, target), back, products, lost), force)
+    report_files(output, as_json=json)
+
+
+def _carried(
+    found: Match,
+    map: Path,
+    values: Path,
+    given: tuple[Path | None, Path | None],
+    back: bool,
+    products: int | None,
+    lost: float | None,
+) -> Values:
+    """The values of a file on the other shape."""
+    read = read_values(values)
+    gone = int(lost) if lost is not None and read.array.dtype.kind in "iu" and lost == int(lost) else lost
     if back:
-        _, mesh, ways = _both(found, map, (source, target))
-        write_values(output, Values(transfer_back(given.array, ways, mesh, gone), given.columns), force)
-        return
+        _, mesh, ways = _both(found, map, given)
+        return Values(transfer_back(read.array, ways, mesh, gone), read.columns)
     if products is not None:
-        sides = _shape(found, "source", source, map), _shape(found, "target", target, map)
-        write_values(output, Values(transfer_by_functions(given.array, found, *sides, products), given.columns), force)
-        return
+        sides = (_shape(found, side, path, map) for side, path in zip(("source", "target"), given, strict=True))
+        return Values(transfer_by_functions(read.array, found, *sides, products), read.columns)
     faces = None
-    if found.precise_map is not None and given.array.dtype.kind == "f":
-        shape = _shape(found, "source", source, map)
+    if found.precise_map is not None and read.array.dtype.kind == "f":
+        shape = _shape(found, "source", given[0], map)
         precise_points(found, shape)
         faces = shape.faces
-    write_values(output, Values(transfer_values(given.array, found, faces, gone), given.columns), force)
+    return Values(transfer_values(read.array, found, faces, gone), read.columns)
 
 
 def _everywhere(
@@ -114,7 +107,6 @@ def _everywhere(
     landmarks: Path | None,
     on: str | None,
     output: Path,
-    tps: Path | None,
     force: bool,
     others: tuple[Path | None, ...],
 ) -> None:
@@ -126,14 +118,12 @@ def _everywhere(
         raise refuse("transfer", "--collection and --landmarks together", f"no {missing}", "give both")
     if any(one is not None for one in others):
         raise refuse("transfer", "--collection and --landmarks alone", "a map or mesh beside them", "leave that out")
-    if output.suffix.lower() != ".csv":
-        raise refuse(f"output {output}", "the extension .csv", output.suffix or "none", "rename it")
-    for path in (output, *([] if tps is None else [tps])):
-        check_output(path, force, (landmarks,))
+    write = {".csv": write_landmarks_csv, ".tps": write_tps}.get(output.suffix.lower())
+    if write is None:
+        raise refuse(f"output {output}", "the extension .csv or .tps", output.suffix or "none", "rename it")
+    check_output(output, force, (landmarks,))
     found, missed = propagate_landmarks(collection, landmarks, on)
-    write_landmarks_csv(output, found, force)
-    if tps is not None:
-        write_tps(tps, found, force)
+    write(output, found, force)
     if missed:
         text = f"no map leads to {', '.join(missed[:5])}{' and others' if len(missed) > 5 else ''}"
         warnings.warn(f"{text}; they have no landmarks", KfmapsWarning, stacklevel=2)

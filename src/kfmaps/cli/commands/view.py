@@ -8,7 +8,8 @@ from typing import Annotated
 import typer
 
 from kfmaps.cli.evaluation import known_truth
-from kfmaps.cli.terminal import say
+from kfmaps.cli.options import Force, Identity, Json, MapFile, SourceMesh, TargetMesh, TruthLists, UpAxis
+from kfmaps.cli.terminal import report_files, say
 from kfmaps.io import atomic_output, check_output, load_map
 from kfmaps.io.provenance import map_mesh, mesh_path
 from kfmaps.viz.page import check_up
@@ -16,32 +17,16 @@ from kfmaps.viz.result_pages import match_page, open_page
 
 
 def view(
-    map: Annotated[Path, typer.Argument(help="A map (.npz, .txt, .vts, .mat).", show_default=False)],
-    source: Annotated[
-        Path | None, typer.Option(help="The source mesh; default: the one the map names.", show_default=False)
-    ] = None,
-    target: Annotated[
-        Path | None, typer.Option(help="The target mesh; default: the one the map names.", show_default=False)
-    ] = None,
-    output: Annotated[
-        Path | None,
-        typer.Option("-o", "--output", help="Write this HTML file; do not open it.", show_default=False),
-    ] = None,
-    truth: Annotated[
-        tuple[Path, Path] | None,
-        typer.Option(
-            help="True vertices of source and target, line k of one file to line k of the other (.vts counts from 1).",
-            metavar="SOURCE TARGET",
-            show_default=False,
-        ),
-    ] = None,
-    identity: Annotated[bool, typer.Option("--identity", help="Truth: vertex i is vertex i.")] = False,
+    map: MapFile,
+    source: SourceMesh = None,
+    target: TargetMesh = None,
+    output: Annotated[Path | None, typer.Option("-o", "--output", help="Write this HTML file; do not open it.")] = None,
+    truth: TruthLists = None,
+    identity: Identity = False,
     descriptors: Annotated[bool, typer.Option(help="Work out descriptors to show.")] = True,
-    up: Annotated[
-        str | None,
-        typer.Option(help="The axis that points upwards: x, y or z; default: found.", show_default=False),
-    ] = None,
-    force: Annotated[bool, typer.Option("--force", help="Replace an existing file.")] = False,
+    up: UpAxis = None,
+    json: Json = False,
+    force: Force = False,
 ) -> None:
     """Show a map in the browser, or write it as one page that needs no network."""
     check_up(up)
@@ -57,6 +42,9 @@ def view(
     if output is not None:
         with atomic_output(output, force) as temporary:
             temporary.write_text(html, encoding="utf-8")
+        report_files(output, as_json=json)
         return
     path, opened = open_page(html)
-    say(str(path) if opened else f"no browser was found; open {path.as_uri()}")
+    report_files(path, as_json=json)
+    if not json:
+        say(str(path) if opened else f"no browser was found; open {path.as_uri()}")

@@ -1,0 +1,70 @@
+"""Options that several commands share, each written once."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from kfmaps._errors import refuse
+
+COMMON = "Output"
+"""Panel of the options that every command may have."""
+
+_REQUIRED = ("sure", "likely")
+"""Verdicts that can be required, best first."""
+UNSURE = 3
+"""Exit status when a verdict is worse than the required one."""
+
+
+def _common(*names: str, help: str) -> Any:
+    return typer.Option(*names, help=help, rich_help_panel=COMMON)
+
+
+Force = Annotated[bool, _common("--force", help="Replace existing files.")]
+Json = Annotated[bool, _common("--json", help="Print the outcome as JSON, and nothing else.")]
+Quiet = Annotated[bool, _common("-q", "--quiet", help="Print no progress, summary or warnings.")]
+
+MapFile = Annotated[Path, typer.Argument(help="A map (.npz, .txt, .vts, .mat).", metavar="MAP")]
+SourceMesh = Annotated[Path | None, typer.Option("--source", help="The source mesh; default: the one the map names.")]
+TargetMesh = Annotated[Path | None, typer.Option("--target", help="The target mesh; default: the one the map names.")]
+TruthLists = Annotated[
+    tuple[Path, Path] | None,
+    typer.Option(
+        help="True vertices of both, line k of one file to line k of the other (.vts counts from 1): shows the errors.",
+        metavar="SOURCE TARGET",
+    ),
+]
+Identity = Annotated[bool, typer.Option("--identity", help="Truth: vertex i is vertex i.")]
+UpAxis = Annotated[str | None, typer.Option(help="The axis that points upwards: x, y or z; default: found.")]
+Workers = Annotated[
+    str | None,
+    typer.Option(
+        help="Worker processes, or the address of a Dask scheduler; default: one for each core.", metavar="N|ADDRESS"
+    ),
+]
+Require = Annotated[
+    str | None,
+    typer.Option(
+        help=f"Exit with status {UNSURE} where a verdict is worse; the map is written all the same.",
+        metavar="|".join(_REQUIRED),
+    ),
+]
+
+
+def check_required(verdict: str | None) -> None:
+    """Check the value of ``--require``.
+
+    Raises
+    ------
+    InvalidInput
+        When it is no verdict that can be required.
+    """
+    if verdict is not None and verdict not in _REQUIRED:
+        raise refuse("--require", " or ".join(_REQUIRED), repr(verdict), "choose one of them")
+
+
+def meets(verdict: str, required: str | None) -> bool:
+    """Return whether a verdict is at least the required one; a single fit, which is not judged, is not."""
+    return required is None or verdict in _REQUIRED[: _REQUIRED.index(required) + 1]
