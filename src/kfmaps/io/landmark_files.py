@@ -133,7 +133,7 @@ def mesh_space(path: str | Path) -> str:
             head = file.read(4096)
     except (OSError, ValueError):
         return ""
-    found = re.search(rb"SPACE=(LPS|RAS)", head)
+    found = re.search(rb"SPACE\b.{1,24}?(LPS|RAS)\b", head, re.DOTALL)
     return "" if found is None else found[1].decode("ascii")
 
 

@@ -21,6 +21,7 @@ from kfmaps.io.ply import format_ply, parse_ply
 from kfmaps.io.record import MeshFile, checked_colors
 from kfmaps.io.stl import parse_stl
 from kfmaps.io.text import clean_text, parse_rows, read_bytes, table
+from kfmaps.io.vtk import parse_vtk, parse_vtp
 
 
 def parse_xyz(data: bytes, name: str) -> MeshFile:
@@ -43,6 +44,8 @@ READERS = {
     ".obj": parse_obj,
     ".ply": parse_ply,
     ".stl": parse_stl,
+    ".vtk": parse_vtk,
+    ".vtp": parse_vtp,
     ".glb": parse_gltf,
     ".gltf": parse_gltf,
     ".xyz": parse_xyz,
@@ -58,9 +61,9 @@ LARGEST = 1e70
 def read_mesh(path: str | Path, *, cloud: bool = True) -> Mesh:
     """Read a mesh or point cloud.
 
-    Formats are OFF (COFF, NOFF, STOFF), OBJ, PLY (text, binary), STL, glTF, GLB, and ``.xyz`` for point
-    clouds, told apart by the extension. Vertices keep their order and number and nothing is merged, except
-    in STL, which has no shared vertices (see :func:`kfmaps.io.stl.parse_stl`). Polygons become fans
+    Formats are OFF (COFF, NOFF, STOFF), OBJ, PLY (text, binary), STL, polygonal data of VTK (``.vtk``, ``.vtp``), glTF,
+    GLB, and ``.xyz`` for point clouds, told apart by the extension. Vertices keep their order and number and nothing
+    is merged, except in STL, which has no shared vertices (see :func:`kfmaps.io.stl.parse_stl`). Polygons become fans
     of triangles.
 
     Parameters
