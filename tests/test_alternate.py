@@ -385,10 +385,10 @@ def test_a_map_deforms_unduly_or_not():
 def test_of_maps_that_are_alike_the_one_that_bends_less_is_found(creatures, monkeypatch):
     """And none of them is taken for a rival of the other."""
     source, target, truth = creatures
-    on = two_level_samples(source, target, (sample_for_scoring(source, 200), sample_for_scoring(target, 200)))
+    on = two_level_samples(source, target, (sample_for_scoring(source), sample_for_scoring(target)))
     C = np.asarray(to_functional(truth, source.basis.truncate(40), target.basis.truncate(40)))
     best = score_maps([("best", True)], C[None], None, on.whole, 1)[0]
-    few = np.where(np.arange(len(best.points)) < 10, best.points[::-1], best.points)
+    few = np.where(np.arange(len(best.points)) < len(best.points) // 20, best.points[::-1], best.points)
     worse = replace(best.quality, distortion=best.quality.distortion + 0.05)
     alike = replace(best, name="alike", points=few, quality=worse, functional_map=C.copy())
     assert SCORE.duplicate_distance < map_distance(best, alike, on.whole.source) < SCORE.distinct_distance
