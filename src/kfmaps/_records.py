@@ -47,6 +47,8 @@ class Setting:
         The word for ``None`` in settings files.
     option : str
         The command's option that sets it; empty where there is none.
+    python : bool
+        Whether only Python code can set it, since it holds objects that a settings file cannot name.
     """
 
     name: str
@@ -59,6 +61,7 @@ class Setting:
     below: float | None = None
     none: str = "none"
     option: str = ""
+    python: bool = False
 
     @property
     def types(self) -> tuple[Any, ...]:
@@ -108,6 +111,8 @@ class Setting:
         elif {int, float}.intersection(self.types):
             span = self._span()
             wanted = f"a {'whole ' if int in self.types else ''}number{span and f', {span}'}"
+        elif any(get_origin(hint) is tuple for hint in self.types):
+            wanted, remedy = "a tuple", f"write {self.name}=(...,)"
         elif bool in self.types or str in self.types:
             wanted = "true or false" if bool in self.types else "text"
         else:
@@ -176,6 +181,7 @@ def settings_record(cls: type[T]) -> type[T]:
         cls.__post_init__ = check_record  # pyright: ignore[reportAttributeAccessIssue]
     text = [cleandoc(cls.__doc__ or ""), "", "Attributes", "----------"]
     made: Any = dataclass(frozen=True)(cls)
+    made.is_settings_record = True
     for f in fields(made):
         text += [f"{f.name} : {f.type}", f"    {f.metadata.get('help', '')}"]
     made.__doc__ = "\n".join(text)
@@ -201,6 +207,8 @@ def check_record(record: Any) -> None:
 def walk(cls: type, kinds: Kinds, path: str = "") -> Iterator[tuple[str, type, Setting]]:
     """Yield ``(path, record class, setting)`` of everything below ``cls``; nested records of the same hint once."""
     for one in settings_of(cls).values():
+        if one.python:
+            continue
         label = f"{path}.{one.name}" if path else one.name
         records = one.records(kinds)
         if len(records) != 1 or one.optional:
@@ -212,16 +220,19 @@ def walk(cls: type, kinds: Kinds, path: str = "") -> Iterator[tuple[str, type, S
 def as_dict(value: Any, kinds: Mapping[str, type], name: Callable[[Any], str] = repr) -> Any:
     """Return ``value`` with every record in it as a dictionary of plain values, fit for JSON and TOML.
 
-    Records among ``kinds`` carry theirs under ``kind``. A callable becomes ``{"kind": "callable", "name": …}``, which
-    :func:`update` refuses.
+    Records among ``kinds`` carry theirs under ``kind``. An object of the user's own becomes
+    ``{"kind": "callable", "name": …}``, which :func:`update` refuses.
     """
-    if is_dataclass(value) and not isinstance(value, type):
+    kind = type(value).__name__
+    if type(value) is kinds.get(kind) or getattr(type(value), "is_settings_record", False):
         inside = {f.name: as_dict(getattr(value, f.name), kinds, name) for f in fields(value)}
-        kind = type(value).__name__
         return {"kind": kind, **inside} if kind in kinds else inside
-    if callable(value):
-        return {"kind": "callable", "name": name(value)}
-    return value.item() if isinstance(value, np.generic) else value
+    if isinstance(value, tuple):
+        return tuple(as_dict(one, kinds, name) for one in value)
+    if isinstance(value, np.generic):
+        return value.item()
+    plain = value is None or isinstance(value, str | int | float | list | dict)
+    return value if plain else {"kind": "callable", "name": name(value)}
 
 
 def update(record: T, values: Mapping[str, Any], fresh: Any, kinds: Kinds) -> T:

@@ -24,7 +24,8 @@ class Config:
     """Settings of a match. ``Config()`` is what :func:`kfmaps.match` uses; :meth:`single_fit` makes no search.
 
     ``kernel`` is a record of :mod:`kfmaps.kernels` or any callable that gives (n, m) values for (n, d) and (m, d)
-    arrays; ``refinement`` and ``registration`` too may be callables of the user's own.
+    arrays; ``refinement`` and ``registration`` too may be callables of the user's own. Each of ``terms`` is called with
+    both shapes and returns a term (:class:`kfmaps.matching.assemble.TermFactory`).
     """
 
     basis: BasisConfig = setting(BasisConfig, "eigenfunctions of the functional map")
@@ -34,6 +35,7 @@ class Config:
     nystrom: NystromConfig = setting(NystromConfig, "the approximation of the kernel")
     full_kernel: bool = setting(False, "the exact kernel in row blocks (equations 8 and 10 to 12), no Nyström; slow")
     weights: Weights = setting(Weights, "weights of the terms")
+    terms: tuple[Any, ...] = setting((), "further terms, callables (source, target) -> term", python=True)
     formulation: Formulation = setting(Formulation, "what is asked beside least squares")
     operator_rtol: float = setting(
         1e-3, "part of the multiplication operators' squared norm that may be left out", low=0, below=1
@@ -55,6 +57,9 @@ class Config:
 
     def __post_init__(self) -> None:
         check_record(self)
+        for one in self.terms:
+            if not callable(one) or isinstance(one, type):
+                raise refuse("Config.terms", "callables of two shapes", repr(one)[:60], "see docs/extend.md")
         if self.formulation.weighs_features:
             if self.full_kernel:
                 got, remedy = "the full kernel, which has none", "take it per descriptor"

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import Any, Literal
 
 from kfmaps._arrays import refuse
 from kfmaps._records import check_record, setting, settings_record
@@ -44,6 +44,13 @@ class DescriptorConfig:
     shot_radius: float = setting(0.09, "radius of SHOT in √area", above=0)
     shot_weight: float = setting(1.0, "weight of SHOT against 1 for all others together", above=0)
     normalisation: Normalisation = setting("variance", "how descriptors are scaled, alike on both shapes")
+    extra: tuple[Any, ...] = setting((), "further descriptors, objects with compute(shape) -> (n, d)", python=True)
+
+    def __post_init__(self) -> None:
+        check_record(self)
+        for one in self.extra:
+            if not callable(getattr(one, "compute", None)):
+                raise refuse("DescriptorConfig.extra", "objects with compute(shape)", repr(one)[:60], "add that method")
 
 
 @settings_record

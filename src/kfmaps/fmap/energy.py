@@ -31,6 +31,7 @@ from kfmaps.fmap.terms import OperatorCommutativity as OperatorCommutativity
 from kfmaps.fmap.terms import Preservation as Preservation
 from kfmaps.fmap.terms import Term as Term
 from kfmaps.fmap.terms import adjoint_term as adjoint_term
+from kfmaps.fmap.terms import complete_term as complete_term
 from kfmaps.fmap.terms import descriptor_term as descriptor_term
 from kfmaps.fmap.terms import inverse_term as inverse_term
 from kfmaps.fmap.terms import laplacian_term as laplacian_term

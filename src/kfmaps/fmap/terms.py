@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Literal, Protocol, get_args
+from typing import Any, Literal, Protocol, get_args
 
 from kfmaps._arrays import Array, check, check_positive, inner, namespace, refuse
 from kfmaps.geometry.basis import Basis, eigenvalue_tolerance
@@ -42,6 +42,51 @@ class Term(Protocol):
 def value(term: Term, C: Array) -> float:
     """Half the squared residual of ``term`` at ``C``."""
     return 0.5 * inner(C, term.apply(C)) - inner(term.rhs(), C) + term.constant()
+
+
+@dataclass(frozen=True, eq=False)
+class CompletedTerm:
+    """A term of the user's own with what preconditioners need beside it; made by :func:`complete_term`.
+
+    Nothing is known of its operator in other bases: it has no one-sided parts, and its diagonal there is the mean.
+    """
+
+    term: Any
+
+    def apply(self, C: Array) -> Array:
+        return self.term.apply(C)
+
+    def rhs(self) -> Array:
+        return self.term.rhs()
+
+    def diagonal(self) -> Array:
+        return self.term.diagonal()
+
+    def constant(self) -> float:
+        return self.term.constant()
+
+    def sides(self) -> tuple[Array, Array]:
+        B = self.term.rhs()
+        return _zeros(B.shape[0], B), _zeros(B.shape[1], B)
+
+    def rotated_diagonal(self, U_t: Array, U_s: Array) -> Array:
+        xp, diagonal = namespace(U_t), self.term.diagonal()
+        mean = float(xp.mean(diagonal))
+        return xp.full((U_t.shape[1], U_s.shape[1]), mean, dtype=diagonal.dtype, device=diagonal.device)
+
+
+def complete_term(term: Any) -> Term:
+    """Return a term that has ``apply``, ``rhs``, ``diagonal`` and ``constant`` as a whole :class:`Term`.
+
+    Raises
+    ------
+    InvalidInput
+        When one of these four methods is missing.
+    """
+    missing = [name for name in ("apply", "rhs", "diagonal", "constant") if not hasattr(term, name)]
+    if missing:
+        raise refuse("term", "an object with apply, rhs, diagonal and constant", f"no {missing[0]}", "add that method")
+    return term if hasattr(term, "rotated_diagonal") and hasattr(term, "sides") else CompletedTerm(term)
 
 
 @dataclass(frozen=True, eq=False)

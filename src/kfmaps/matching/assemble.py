@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Any, Protocol
 
 import numpy as np
 
@@ -13,6 +14,7 @@ from kfmaps.config import Config
 from kfmaps.fmap.energy import (
     Energy,
     Term,
+    complete_term,
     descriptor_term,
     hadamard_term,
     kernel_descriptor_term,
@@ -37,6 +39,17 @@ ORIENTATION_FEATURES = 40
 """Features whose orientation operators are formed: the strongest of the joint singular value decomposition."""
 
 
+class TermFactory(Protocol):
+    """Makes a term of the energy for two shapes; one of :attr:`kfmaps.Config.terms`.
+
+    It is called with both prepared shapes, on the points that the fit is made from, and their bases truncated to the
+    size of the map. It returns a term (:class:`kfmaps.fmap.terms.Term`), one of the package's own or an object with
+    ``apply``, ``rhs``, ``diagonal`` and ``constant``. Its attribute ``weight`` is that in the energy, by default 1.
+    """
+
+    def __call__(self, source: Shape, target: Shape) -> Term: ...
+
+
 @dataclass(frozen=True, eq=False)
 class FitProblem:
     """What two shapes tell a map between them, in either direction; made by :func:`assemble`.
@@ -44,6 +57,8 @@ class FitProblem:
     Attributes
     ----------
     config : Config
+    shapes : pair of Shape
+        On the points that the fit is made from.
     bases : pair of Basis
         As large as the map, on the device of the work.
     kernel : kernel
@@ -56,6 +71,7 @@ class FitProblem:
     """
 
     config: Config
+    shapes: tuple[Shape, Shape]
     bases: tuple[Basis, Basis]
     kernel: KernelLike
     descriptors: Descriptors
@@ -104,7 +120,14 @@ class FitProblem:
             terms["commutativity"] = operator_term(self.multiplications[s], self.multiplications[t])
         if self.orientations is not None:
             terms["orientation"] = operator_term(self.orientations[s], self.orientations[t], parity=-1)
-        return Energy(terms, {name: getattr(weights, name) for name in terms})
+        energy = Energy(terms, {name: getattr(weights, name) for name in terms})
+        pair = [replace(shape, basis=basis) for shape, basis in zip(self.shapes, small, strict=True)]
+        more = {}
+        for one in self.config.terms:
+            name = term_name(one)
+            name = name if name not in (*terms, *more) else f"{name} {len(more) + 1}"
+            more[name] = (float(getattr(one, "weight", 1.0)), complete_term(one(pair[s], pair[t])))
+        return energy.joined(more)
 
 
 def assemble(
@@ -122,11 +145,11 @@ def assemble(
     samples of shapes (:func:`kfmaps.shape.sample_shape`), ``whole`` are those shapes: orientation needs their faces.
     """
     small = (bases[0].truncate(config.basis.n_eigenfunctions), bases[1].truncate(config.basis.n_eigenfunctions))
-    weights = config.weights
+    weights, shapes = config.weights, (source, target)
     if config.full_kernel:
         if weights.orientation:
             raise refuse("orientation weight", "0 with the full kernel", str(weights.orientation), "use features")
-        return FitProblem(config, small, resolve_kernel_width(descriptors, config, rng), descriptors)
+        return FitProblem(config, shapes, small, resolve_kernel_width(descriptors, config, rng), descriptors)
     features = kernel_features(source, target, descriptors, config, rng)
     multiplications, orientations, size = None, None, 0.0
     if weights.commutativity:
@@ -136,10 +159,14 @@ def assemble(
     if weights.orientation:
         strongest = principal_features(small, features, ORIENTATION_FEATURES)
         size = size or 2.0 * small[0].functions.shape[1]
-        shapes = (source, target)
         k = config.basis.n_eigenfunctions
         orientations = orientation_pair(shapes, whole or shapes, bases, strongest, k, size, config.threads)
-    return FitProblem(config, small, features.kernel, descriptors, features, multiplications, orientations)
+    return FitProblem(config, shapes, small, features.kernel, descriptors, features, multiplications, orientations)
+
+
+def term_name(factory: Any) -> str:
+    """Return the name of a term of the user's own in tables of energies: that of its function or class."""
+    return getattr(factory, "__name__", type(factory).__name__)
 
 
 def compressed_operators(

@@ -80,6 +80,26 @@ def sample_pair_for_fit(
     return SampledPair((parts[0].shape, parts[1].shape), marks, rows)
 
 
+def user_descriptors(
+    source: Shape, target: Shape, config: DescriptorConfig, given: tuple[Any, Any] | None
+) -> tuple[Any, Any] | None:
+    """Return the descriptors of both shapes that were ``given`` and those that ``config.extra`` computes.
+
+    Raises
+    ------
+    InvalidInput
+        When one has not a row per vertex, or another number of columns on either shape.
+    """
+    if not config.extra:
+        return given
+    blocks = [given] if given is not None else []
+    blocks += [(one.compute(source), one.compute(target)) for one in config.extra]
+    sides = [[_given_descriptors(block[i], shape) for block in blocks] for i, shape in enumerate((source, target))]
+    for D_s, D_t in zip(*sides, strict=True):
+        check(D_t, f"descriptors of {target.name}", shape=(None, D_s.shape[1]), remedy="compute as many on both shapes")
+    return np.concatenate(sides[0], axis=1), np.concatenate(sides[1], axis=1)
+
+
 def _given_descriptors(values: Any, shape: Shape) -> np.ndarray:
     """Return descriptors of the user's own as numbers, checked."""
     values = np.asarray(to_numpy(values) if hasattr(values, "shape") else values, dtype=np.float64)

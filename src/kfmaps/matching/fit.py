@@ -20,7 +20,7 @@ from kfmaps.fmap.solvers import Solution
 from kfmaps.geometry.basis import Basis
 from kfmaps.kernels.kernels import describe_kernel
 from kfmaps.matching.assemble import FitProblem, assemble
-from kfmaps.matching.features import Descriptors, pair_descriptors, sample_pair_for_fit
+from kfmaps.matching.features import Descriptors, pair_descriptors, sample_pair_for_fit, user_descriptors
 from kfmaps.matching.robust_weights import robust_weights
 from kfmaps.matching.solve import Minimised, solve_problem
 from kfmaps.shape import Shape
@@ -191,6 +191,7 @@ def fit_points(
     rng: int | np.random.Generator = 0,
 ) -> FitPoints:
     """The points that ``config.fit_samples`` leaves of both shapes, with the ``landmarks (l, 2)``, and descriptors."""
+    descriptors = user_descriptors(source, target, config.descriptors, descriptors)
     sampled = sample_pair_for_fit(source, target, config.fit_samples, landmarks, descriptors, rng)
     small, bases = sampled.shapes, (sampled.shapes[0].basis, sampled.shapes[1].basis)
     if config.device != "cpu":

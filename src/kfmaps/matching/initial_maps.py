@@ -259,7 +259,7 @@ def fit_descriptor_set(
             orientations = scale_operators([X[:, :k, :k] for X in turning], sum(inner(X, X) for X in blocks))
         settings = replace(small, weights=replace(config.weights, orientation=fit.orientation))
         bases_k = (low[0].truncate(k), low[1].truncate(k))
-        problem = FitProblem(settings, bases_k, features.kernel, used, features, blocks, orientations)
+        problem = FitProblem(settings, points.shapes, bases_k, features.kernel, used, features, blocks, orientations)
         made.append(fit_of_problem(problem, minimize_problem(problem, settings)))
     return made
 

@@ -15,7 +15,6 @@ from kfmaps._threads import one_blas_thread
 from kfmaps.config import Config
 from kfmaps.fmap.convert import to_points
 from kfmaps.fmap.descriptor_guidance import DescriptorGuidance, descriptor_guidance
-from kfmaps.fmap.zoomout import ZoomOut
 from kfmaps.geometry.basis import Basis
 from kfmaps.shape import Shape
 
@@ -123,7 +122,7 @@ def _finished_both(
         clock.report("refinement", done)
 
     with clock("refinement"):
-        if isinstance(refine, ZoomOut):
+        if hasattr(refine, "bidirectional"):
             guiding = led or descriptor_guidance(shapes[0].shot, shapes[1].shot) if refine.descriptor_weight else None
             forth, other = refine.bidirectional(C, back, *bases, told, config.threads, guiding)
         else:

@@ -26,6 +26,7 @@ from kfmaps.geometry.basis import Basis
 from kfmaps.geometry.sampling import SampledBasis, stratified_vertices
 from kfmaps.matching.candidates import by_score, candidates, distinct_maps, map_distance, rerefine, rescore
 from kfmaps.matching.extremity_matching import ExtremityVertices, extremity_vertices
+from kfmaps.matching.features import user_descriptors
 from kfmaps.matching.fit import Fit, check_landmark_pairs
 from kfmaps.matching.landmark_evidence import LandmarkEvidence, landmark_errors
 from kfmaps.matching.learned_kernel import drop_learned, learned_candidates, learned_kernel_applies
@@ -193,7 +194,7 @@ def search_map(
     samples = two_level_samples(source, target, _search_samples(source, target, config, pairs, seed, probes), pairs)
     report("candidates", 0.1)
     plain, part = drop_learned(config), 0.4 if len(pairs) else 0.8
-    more = {"descriptors": descriptors, "drawn": given}
+    more = {"descriptors": user_descriptors(source, target, config.descriptors, descriptors), "drawn": given}
     first = lambda done: report("candidates", 0.1 + part * done)  # noqa: E731
     found = candidates(source, target, plain, samples, seed, landmarks=pairs, report=first, **more)
     if len(pairs):

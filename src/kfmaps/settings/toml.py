@@ -36,10 +36,12 @@ def _lines(record: Any, section: str, comments: bool) -> list[str]:
     lines, tables = [f'kind = "{kind}"'] if kind in RECORDS else [], []
     for one in settings_of(type(record)).values():
         value, path = getattr(record, one.name), f"{section}.{one.name}" if section else one.name
+        if one.python and not value:
+            continue
         if is_dataclass(value):
             tables += ["", f"[{path}]", *_lines(value, path, comments)]
             continue
-        if callable(value):
+        if one.python or callable(value):
             got = describe_kernel(value)
             raise refuse(path, "a record that a settings file can name", got, "write one of kfmaps' own")
         line = f"{one.name} = {text_of(value, one)}"
