@@ -34,7 +34,6 @@ from kfmaps.registration.alternating_registration import (
     AlternatingResult,
     alternating_registration,
     registration_pair,
-    swap_pair,
 )
 from kfmaps.registration.evidence import coarse_copy, proxy_pair
 from kfmaps.registration.nonrigid_icp import _LANDMARK_PULL, _SCALED_LANDMARK_PULL, NonRigid, mesh_pair
@@ -216,7 +215,7 @@ def test_copies_know_the_landmarks_nearest_to_them(creatures) -> None:
     np.testing.assert_array_equal(image.landmarks, on.landmarks)
     there = image.copies[1].mesh.vertices[image.landmarks[:, 1]]
     assert np.linalg.norm(there - target.mesh.vertices[at[:, 1]] * MIRROR, axis=1).max() < 0.1
-    back = swap_pair(on)
+    back = on.swapped()
     again = registration_pair(target, source, (b, a), at[:, ::-1])
     np.testing.assert_array_equal(back.landmarks, again.landmarks)
     assert back.landmarks[0].tolist() == on.landmarks[0].tolist()[::-1]

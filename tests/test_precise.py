@@ -13,12 +13,11 @@ from kfmaps.fmap.precise import (
     check_point_map_precise,
     nearest_surface_points,
     nearest_vertices,
-    point_map_matrix,
     point_positions,
     vertex_point_map,
 )
 from kfmaps.geometry.clean import clean_mesh, outer_faces
-from kfmaps.geometry.closest_points import closest_weights
+from kfmaps.geometry.closest_points import barycentric_matrix, closest_weights
 from kfmaps.geometry.mesh import Mesh
 
 GUARDS = ("kfmaps.fmap.precise", "kfmaps.geometry.clean", "kfmaps.geometry.closest_points")
@@ -80,7 +79,7 @@ def test_maps_of_vertices_and_of_points_agree() -> None:
     np.testing.assert_allclose(point_positions(places, mesh), mesh.vertices[points])
     inner = PointMap(places.faces, rng.dirichlet(np.ones(3), 300))
     np.testing.assert_allclose(
-        point_map_matrix(inner, mesh.faces, len(mesh.vertices)) @ mesh.vertices,
+        barycentric_matrix(inner.faces, inner.weights, mesh.faces, len(mesh.vertices)) @ mesh.vertices,
         point_positions(inner, mesh),
         atol=1e-12,
     )

@@ -13,7 +13,7 @@ import numpy as np
 from scipy.sparse import csr_array
 from scipy.sparse.csgraph import dijkstra
 
-from kfmaps.geometry.closest_points import closest_among
+from kfmaps.geometry.closest_points import barycentric_matrix, closest_among
 from kfmaps.geometry.coarsen import CoarseProxy, coarse_proxy, spread_vertices
 from kfmaps.geometry.connectivity import VertexRings, vertex_rings
 from kfmaps.geometry.geodesic_graph import geodesic_graph
@@ -80,6 +80,5 @@ def approximate_geodesics(mesh: Mesh) -> GraphDistances:
     few = copy.mesh
     around = vertex_rings(few.faces, len(few.vertices))
     places = closest_among(mesh.vertices, few.vertices, few.faces, *around.around(copy.owner))
-    rows = (places.weights.ravel(), few.faces[places.faces].ravel(), 3 * np.arange(n + 1))
-    weights = csr_array(rows, shape=(n, len(few.vertices)))
+    weights = barycentric_matrix(places.faces, places.weights, few.faces, len(few.vertices))
     return GraphDistances(geodesic_graph(few, 0), CoarseInterpolation(mesh.vertices, copy, around, weights))

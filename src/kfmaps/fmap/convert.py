@@ -35,12 +35,7 @@ def to_points(
     the search is by cells, unless ``exact`` says otherwise, see :func:`kfmaps.fmap.nearest.nearest`, and quicker with
     fewer ``probes`` or a map ``start (n_t,)`` that is nearly right.
     """
-    k_t, k_s = C.shape
-    source, target = source.truncate(k_s), target.truncate(k_t)
-    images, places = source.functions @ C.T, target.functions
-    if beside is not None:
-        xp = namespace(images)
-        images, places = xp.concat([images, beside[0]], axis=1), xp.concat([places, beside[1]], axis=1)
+    images, places = embed(C, source, target, beside)
     # A vertex that no face uses has no area and the values of a neighbour: it is nobody's image.
     used = np.flatnonzero(to_numpy(source.mass) > 0)
     if len(used) == images.shape[0]:
@@ -48,6 +43,31 @@ def to_points(
     if start is not None:
         start = np.minimum(np.searchsorted(used, start), len(used) - 1)
     return used[nearest(places, take(images, used), threads=threads, exact=exact, start=start, probes=probes)]
+
+
+def embed(
+    C: Array, source: Basis, target: Basis, extra_columns: tuple[Array, Array] | None = None
+) -> tuple[Array, Array]:
+    """Return the points of both shapes in the spectral embedding of the target, where nearest ones correspond.
+
+    Parameters
+    ----------
+    C : (k_t, k_s)
+    source, target : Basis
+        Truncated to the size of ``C``.
+    extra_columns : pair of (n_s, d) and (n_t, d), optional
+        Further columns to compare; see :meth:`kfmaps.fmap.descriptor_guidance.DescriptorGuidance.embedding_columns`.
+
+    Returns
+    -------
+    source, target : (n_s, k_t + d), (n_t, k_t + d)
+    """
+    k_t, k_s = C.shape
+    images, places = source.truncate(k_s).functions @ C.T, target.truncate(k_t).functions
+    if extra_columns is None:
+        return images, places
+    xp = namespace(images)
+    return xp.concat([images, extra_columns[0]], axis=1), xp.concat([places, extra_columns[1]], axis=1)
 
 
 def to_functional(target_to_source: np.ndarray, source: Basis, target: Basis) -> Array:

@@ -121,7 +121,7 @@ def _rotated(basis: Basis, U: Array) -> Basis:
 
 @dataclass(frozen=True, eq=False)
 class RotatedTerm:
-    """A term of the map as it is in coupled bases, ``C ↦ term(U_tᵀ C U_s)``; made by :func:`rotate_term`."""
+    """A term of the map between the bases rotated by ``U_t`` and ``U_s``, ``C ↦ term(U_tᵀ C U_s)``."""
 
     term: Term
     U_t: Array
@@ -147,14 +147,9 @@ class RotatedTerm:
         return self.term.rotated_diagonal(self.U_t.T @ U_t, self.U_s.T @ U_s)
 
 
-def rotate_term(term: Term, U_t: Array, U_s: Array) -> RotatedTerm:
-    """``term`` of the map between the bases rotated by ``U_t`` and ``U_s``, as a term of the map itself."""
-    return RotatedTerm(term, U_t, U_s)
-
-
 @dataclass(frozen=True, eq=False)
 class RotatedPenalty:
-    """A penalty of the map as it is in coupled bases; made by :func:`rotate_penalty`."""
+    """A penalty of the map between the bases rotated by ``U_t`` and ``U_s``."""
 
     penalty: Penalty
     U_t: Array
@@ -165,8 +160,3 @@ class RotatedPenalty:
 
     def majorizer(self, C: Array) -> Term:
         return RotatedTerm(self.penalty.majorizer(self.U_t.T @ C @ self.U_s), self.U_t, self.U_s)
-
-
-def rotate_penalty(penalty: Penalty, U_t: Array, U_s: Array) -> RotatedPenalty:
-    """``penalty`` of the map between the bases rotated by ``U_t`` and ``U_s``, as a penalty of the map itself."""
-    return RotatedPenalty(penalty, U_t, U_s)

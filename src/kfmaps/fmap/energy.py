@@ -26,9 +26,8 @@ from kfmaps.fmap.full_kernel import HadamardCommutativity as HadamardCommutativi
 from kfmaps.fmap.full_kernel import hadamard_term as hadamard_term
 from kfmaps.fmap.full_kernel import kernel_descriptor_term as kernel_descriptor_term
 from kfmaps.fmap.terms import Elementwise as Elementwise
-from kfmaps.fmap.terms import InverseConsistency as InverseConsistency
+from kfmaps.fmap.terms import GramTerm as GramTerm
 from kfmaps.fmap.terms import OperatorCommutativity as OperatorCommutativity
-from kfmaps.fmap.terms import Preservation as Preservation
 from kfmaps.fmap.terms import Term as Term
 from kfmaps.fmap.terms import adjoint_term as adjoint_term
 from kfmaps.fmap.terms import complete_term as complete_term

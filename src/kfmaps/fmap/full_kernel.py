@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from kfmaps._arrays import Array, blocks, namespace, number
-from kfmaps.fmap.terms import Preservation, check_same_count, rotate_gram
+from kfmaps.fmap.terms import GramTerm, check_same_count, rotate_gram
 from kfmaps.geometry.basis import Basis
 from kfmaps.kernels.kernels import KernelLike, kernel_matrix
 
@@ -17,7 +17,7 @@ def kernel_descriptor_term(
     target: Basis,
     descriptors_t: Array,
     block: int = 1024,
-) -> Preservation:
+) -> GramTerm:
     """The same for a whole kernel (equation 8), in row blocks: no (n_s, n_t) matrix is ever held."""
     check_same_count(descriptors_s, descriptors_t)
     sides = ((source, descriptors_s), (target, descriptors_t))
@@ -31,7 +31,7 @@ def kernel_descriptor_term(
         )
 
     trace = number(namespace(descriptors_t).linalg.trace(sandwich(1, 1)))
-    return Preservation(sandwich(0, 0), sandwich(1, 0), 0.5 * trace)
+    return GramTerm(sandwich(0, 0), sandwich(1, 0), 0.5 * trace)
 
 
 @dataclass(frozen=True, eq=False)

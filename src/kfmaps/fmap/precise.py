@@ -9,10 +9,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.sparse import csr_array
 
-from kfmaps._arrays import Array, blocks, check, namespace, refuse, to_numpy
+from kfmaps._arrays import Array, blocks, check, refuse, to_numpy
 from kfmaps._threads import parallel
+from kfmaps.fmap.convert import embed
 from kfmaps.fmap.nearest import EXACT_PAIRS, nearest
 from kfmaps.geometry.basis import Basis
 from kfmaps.geometry.closest_points import barycentric_weights, closest_points, closest_weights, first_minima
@@ -57,17 +57,6 @@ def check_point_map_precise(places: PointMap, source: Mesh, n_t: int | None = No
     return PointMap(faces.astype(np.int64), weights)
 
 
-def point_corners(places: PointMap, faces_s: np.ndarray) -> np.ndarray:
-    """The source vertices around each point, (n_t, 3)."""
-    return faces_s[places.faces]
-
-
-def point_map_matrix(places: PointMap, faces_s: np.ndarray, n_s: int) -> csr_array:
-    """Sparse ``(n_t, n_s)`` that takes functions on the source's vertices to the target's, linear in each face."""
-    n = len(places.faces)
-    return csr_array((places.weights.ravel(), faces_s[places.faces].ravel(), 3 * np.arange(n + 1)), shape=(n, n_s))
-
-
 def point_positions(places: PointMap, source: Mesh) -> np.ndarray:
     """Where the points lie in space, (n_t, 3), in the source's unit."""
     return np.einsum("ti,tij->tj", places.weights, source.vertices[source.faces[places.faces]])
@@ -110,13 +99,7 @@ def to_precise_map(
 
     As :func:`kfmaps.fmap.convert.to_points`, with triangles between the rows of ``Φ_s Cᵀ``.
     """
-    k_t, k_s = C.shape
-    source, target = source.truncate(k_s), target.truncate(k_t)
-    images, places = source.functions @ C.T, target.functions
-    if beside is not None:
-        xp = namespace(images)
-        images, places = xp.concat([images, beside[0]], axis=1), xp.concat([places, beside[1]], axis=1)
-    queries, points = (np.asarray(to_numpy(x), dtype=np.float64) for x in (places, images))
+    points, queries = (np.asarray(to_numpy(x), dtype=np.float64) for x in embed(C, source, target, beside))
     return nearest_surface_points(queries, points, faces_s, threads)
 
 

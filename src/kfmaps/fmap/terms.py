@@ -90,39 +90,54 @@ def complete_term(term: Any) -> Term:
 
 
 @dataclass(frozen=True, eq=False)
-class Preservation:
-    """``½‖C P_s − P_t‖²`` through Gram matrices; made by :func:`descriptor_term` or :func:`kernel_descriptor_term`."""
+class GramTerm:
+    """``½⟨C, gram_t C + C gram_s⟩ − ⟨cross, C⟩ + total``, a term of one or two Gram matrices.
+
+    Attributes
+    ----------
+    gram_s : (k_s, k_s)
+    cross : (k_t, k_s)
+    total : float
+    gram_t : (k_t, k_t) or None
+        ``None`` stands for zeros.
+    """
 
     gram_s: Array
     cross: Array
     total: float
+    gram_t: Array | None = None
 
     def apply(self, C: Array) -> Array:
-        return C @ self.gram_s
+        return C @ self.gram_s if self.gram_t is None else self.gram_t @ C + C @ self.gram_s
 
     def rhs(self) -> Array:
         return self.cross
 
     def diagonal(self) -> Array:
-        xp = namespace(self.cross)
-        return xp.broadcast_to(xp.linalg.diagonal(self.gram_s)[None, :], self.cross.shape)
+        diagonal = namespace(self.cross).linalg.diagonal
+        return self._sum(diagonal(self.gram_s), None if self.gram_t is None else diagonal(self.gram_t))
 
     def constant(self) -> float:
         return self.total
 
     def sides(self) -> tuple[Array, Array]:
-        return _zeros(self.cross.shape[0], self.gram_s), self.gram_s
+        return _zeros(self.cross.shape[0], self.gram_s) if self.gram_t is None else self.gram_t, self.gram_s
 
     def rotated_diagonal(self, U_t: Array, U_s: Array) -> Array:
-        xp = namespace(self.cross)
-        return xp.broadcast_to(rotate_gram(self.gram_s, U_s)[None, :], (U_t.shape[1], U_s.shape[1]))
+        of_t = None if self.gram_t is None else rotate_gram(self.gram_t, U_t)
+        return self._sum(rotate_gram(self.gram_s, U_s), of_t)
+
+    def _sum(self, of_s: Array, of_t: Array | None) -> Array:
+        if of_t is None:
+            return namespace(of_s).broadcast_to(of_s[None, :], self.cross.shape)
+        return of_t[:, None] + of_s[None, :]
 
 
-def descriptor_term(source: Basis, features_s: Array, target: Basis, features_t: Array) -> Preservation:
+def descriptor_term(source: Basis, features_s: Array, target: Basis, features_t: Array) -> GramTerm:
     """Preservation of the features ``(n_s, r)`` and ``(n_t, r)``."""
     check_same_count(features_s, features_t)
     coefficients_s, coefficients_t = source.project(features_s), target.project(features_t)
-    return Preservation(
+    return GramTerm(
         coefficients_s @ coefficients_s.T,
         coefficients_t @ coefficients_s.T,
         0.5 * inner(coefficients_t, coefficients_t),
@@ -257,51 +272,21 @@ def laplacian_term(
     return Elementwise(real * real + imaginary * imaginary)
 
 
-@dataclass(frozen=True, eq=False)
-class InverseConsistency:
-    """``½⟨C, gram_t C + C gram_s⟩ − ⟨cross, C⟩ + total``; made by :func:`inverse_term` and :func:`adjoint_term`."""
-
-    gram_t: Array
-    gram_s: Array
-    cross: Array
-    total: float
-
-    def apply(self, C: Array) -> Array:
-        return self.gram_t @ C + C @ self.gram_s
-
-    def rhs(self) -> Array:
-        return self.cross
-
-    def diagonal(self) -> Array:
-        xp = namespace(self.cross)
-        return xp.linalg.diagonal(self.gram_t)[:, None] + xp.linalg.diagonal(self.gram_s)[None, :]
-
-    def constant(self) -> float:
-        return self.total
-
-    def sides(self) -> tuple[Array, Array]:
-        return self.gram_t, self.gram_s
-
-    def rotated_diagonal(self, U_t: Array, U_s: Array) -> Array:
-        return rotate_gram(self.gram_t, U_t)[:, None] + rotate_gram(self.gram_s, U_s)[None, :]
-
-
-def inverse_term(back: Array) -> InverseConsistency:
+def inverse_term(back: Array) -> GramTerm:
     """``½‖C back − I‖² + ½‖back C − I‖²`` for a map ``back (k_s, k_t)`` the other way (Eynard et al. 2016)."""
     k_s, k_t = back.shape
-    return InverseConsistency(back.T @ back, back @ back.T, 2.0 * back.T, 0.5 * (k_s + k_t))
+    return GramTerm(back @ back.T, 2.0 * back.T, 0.5 * (k_s + k_t), back.T @ back)
 
 
-def adjoint_term(back: Array, ratio: float = 1.0) -> InverseConsistency:
+def adjoint_term(back: Array, ratio: float = 1.0) -> GramTerm:
     """``½‖C − ratio backᵀ‖²``: ``back`` is the adjoint of ``C`` in the areas (Huang and Ovsjanikov 2017).
 
     In bases that are orthonormal in the area the adjoint is the transpose, and the map back of one that keeps areas up
     to a constant factor ``ratio`` is its adjoint divided by it; shapes of unit area have 1.
     """
     xp = namespace(back)
-    k_s, k_t = back.shape
-    one = xp.eye(k_s, dtype=back.dtype, device=back.device)
-    return InverseConsistency(_zeros(k_t, back), one, ratio * back.T, 0.5 * ratio**2 * inner(back, back))
+    one = xp.eye(back.shape[0], dtype=back.dtype, device=back.device)
+    return GramTerm(one, ratio * back.T, 0.5 * ratio**2 * inner(back, back))
 
 
 def _zeros(k: int, like: Array) -> Array:

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import igl
 import numpy as np
+from scipy.sparse import csr_array
 
 from kfmaps._arrays import check, refuse
 
@@ -137,6 +138,23 @@ def barycentric_weights(s: np.ndarray, t: np.ndarray) -> np.ndarray:
     """Return the weights (m, 3) of the corners of ``a + s u + t v``, not negative and with sum 1."""
     weights = np.clip(np.stack([1 - s - t, s, t], axis=1), 0, 1)
     return weights / weights.sum(axis=1, keepdims=True)
+
+
+def barycentric_matrix(face_of: np.ndarray, weights: np.ndarray, faces: np.ndarray, n: int) -> csr_array:
+    """Return the sparse ``(q, n)`` that takes values at vertices to points inside triangles.
+
+    Parameters
+    ----------
+    face_of : (q,) int64
+        The face that each point lies in.
+    weights : (q, 3) float64
+        Its barycentric coordinates.
+    faces : (f, 3) int64
+    n : int
+        Number of vertices.
+    """
+    q = len(face_of)
+    return csr_array((weights.ravel(), faces[face_of].ravel(), 3 * np.arange(q + 1)), shape=(q, n))
 
 
 def first_minima(values: np.ndarray, owner: np.ndarray) -> np.ndarray:

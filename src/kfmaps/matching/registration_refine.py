@@ -35,7 +35,6 @@ from kfmaps.registration.alternating_registration import (
     RegistrationPair,
     alternating_registration,
     registration_pair,
-    swap_pair,
 )
 from kfmaps.registration.evidence import ProxyPair, registered_shot_error
 from kfmaps.shape import Shape
@@ -143,8 +142,8 @@ def repair(
     limbs = extremities and extremities.guide(source.mesh, target.mesh)
     guidance = build_guidance(source, target, setting.landmarks, limbs, setting.shot, LESS)
     if swapped:
-        C, where = C.T, swap_pair(where)
-        guidance = guidance and DescriptorGuidance(guidance.target, guidance.source)
+        C, where = C.T, where.swapped()
+        guidance = guidance and guidance.swapped()
     try:
         found = alternating_registration(C, where, guidance, lambda part: progress(0.9 * part))
     except NotConverged:

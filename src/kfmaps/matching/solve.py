@@ -11,7 +11,7 @@ import numpy as np
 from kfmaps._arrays import Array, KfmapsWarning, check, like, to_numpy
 from kfmaps._progress import Progress
 from kfmaps.config import Config
-from kfmaps.fmap.coupled import CoupledBases, couple_bases, rotate_penalty, rotate_term
+from kfmaps.fmap.coupled import CoupledBases, RotatedPenalty, RotatedTerm, couple_bases
 from kfmaps.fmap.energy import Energy, laplacian_term
 from kfmaps.fmap.losses import Loss, Penalty, RobustData, sparse_penalty
 from kfmaps.fmap.minimize import (
@@ -117,10 +117,10 @@ def objective(
     if rotation is not None:
         U = (rotation.U_t, rotation.U_s)
         term = laplacian_term(*rotation.to_rotated(*bases), mask=asked.mask, power=asked.mask_power)
-        energy = Energy({**energy.terms, "laplacian": rotate_term(term, *U)}, energy.weights)
+        energy = Energy({**energy.terms, "laplacian": RotatedTerm(term, *U)}, energy.weights)
         if "sparsity" in penalties:
             weight, penalty = penalties["sparsity"]
-            penalties["sparsity"] = (weight, rotate_penalty(penalty, *U))
+            penalties["sparsity"] = (weight, RotatedPenalty(penalty, *U))
     return Objective(energy, penalties, asked.constraint)
 
 

@@ -46,6 +46,11 @@ class RegistrationPair:
     bases: tuple[SampledBasis, SampledBasis]
     landmarks: np.ndarray
 
+    def swapped(self) -> RegistrationPair:
+        """Return the same for maps the other way."""
+        (a, b), (on_a, on_b) = self.copies, self.bases
+        return RegistrationPair(self.target, self.source, (b, a), (on_b, on_a), self.landmarks[:, ::-1])
+
 
 @dataclass(frozen=True, eq=False)
 class AlternatingResult:
@@ -67,12 +72,6 @@ def registration_pair(
     ]
     bases = _sampled(source.basis, copies[0]), _sampled(target.basis, copies[1])
     return RegistrationPair(source, target, copies, bases, np.stack(near, axis=1))
-
-
-def swap_pair(on: RegistrationPair) -> RegistrationPair:
-    """The same copies for maps the other way."""
-    a, b = on.copies
-    return RegistrationPair(on.target, on.source, (b, a), (on.bases[1], on.bases[0]), on.landmarks[:, ::-1])
 
 
 def alternating_registration(

@@ -16,7 +16,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from scipy.sparse import csr_array, diags_array
@@ -25,7 +24,7 @@ from kfmaps._arrays import refuse
 from kfmaps._records import setting, settings_record
 from kfmaps.fmap.convert import check_point_map
 from kfmaps.geometry.arap import arap_energy, build_arap, nearest_rotations, rotations
-from kfmaps.geometry.closest_points import ClosestPoints
+from kfmaps.geometry.closest_points import barycentric_matrix
 from kfmaps.geometry.coarsen import coarse_proxy, embedded_deformation, spread_vertices
 from kfmaps.geometry.eigen.factorization import factorize
 from kfmaps.geometry.mesh import Mesh, vertex_areas, vertex_normals
@@ -285,19 +284,13 @@ def _closest_terms(pair: MeshPair, x: np.ndarray) -> tuple[list[DataTerm], float
     normals = vertex_normals(bent)
     forth, there, agree_s = pair.look_t(x, normals)
     back, _, agree_t = closest_point_query(bent, normals, pair.body.around)(pair.target.vertices, pair.normals_t)
+    rows = barycentric_matrix(back.faces, back.weights, bent.faces, len(x))
     terms = [
         DataTerm(pair.body.areas * agree_s, forth.points, None, there),
-        DataTerm(pair.areas_t * agree_t, pair.target.vertices, _rows(pair, back), pair.normals_t),
+        DataTerm(pair.areas_t * agree_t, pair.target.vertices, rows, pair.normals_t),
     ]
     squares = [
         np.average(places.distances**2, weights=areas)
         for places, areas in ((forth, pair.body.areas), (back, pair.areas_t))
     ]
     return terms, float(np.sqrt(np.mean(squares)))
-
-
-def _rows(pair: MeshPair, places: ClosestPoints) -> Any:
-    """Sparse ``(q, n_s)``: what takes the source's vertices to ``places`` on it."""
-    q = len(places.faces)
-    corners = pair.body.mesh.faces[places.faces].ravel()
-    return csr_array((places.weights.ravel(), corners, 3 * np.arange(q + 1)), shape=(q, len(pair.body.mesh.vertices)))
