@@ -1,6 +1,6 @@
 """SHOT: how the surface around each vertex is bent, direction by direction, in a frame of its own.
 
-Unlike heat and wave signatures it tells left from right: a mirrored shape has others (:func:`mirror_mesh`).
+Unlike heat and wave signatures it tells left from right: a mirrored shape has others (:func:`mirror_shot`).
 
 Tombari, Salti and Di Stefano, "Unique signatures of histograms for local surface description", ECCV 2010.
 """
@@ -75,7 +75,7 @@ def shot(
     threads: int | None = None,
     progress: Callable[[float], None] | None = None,
 ) -> np.ndarray:
-    """Signature of histograms of orientations of every vertex, or of some.
+    """Return the signature of histograms of orientations (SHOT) of every vertex, or of some.
 
     The ball around a vertex is cut into 32 volumes: 8 in azimuth, 2 in elevation, 2 in distance. In each a histogram
     counts the surface by the cosine between its normal and the vertical axis of the vertex's frame. Every support point
@@ -165,9 +165,9 @@ def shot(
 
 
 def mirror_shot(descriptors: np.ndarray) -> np.ndarray:
-    """What :func:`shot` would give on the mirror image of the shape: the azimuths in reverse order.
+    """Return what :func:`shot` would give on the mirror image of the shape: the azimuths in reverse order.
 
-    Matching ``shot(mesh)`` with ``mirrored(shot(mesh))`` finds a left-right symmetry.
+    Matching ``shot(mesh)`` with ``mirror_shot(shot(mesh))`` finds a left-right symmetry.
 
     Parameters
     ----------

@@ -31,7 +31,7 @@ class GraphDistances:
     ----------
     graph : sparse (m, m)
         Of the edges of the surface or its copy.
-    near : Near or None
+    near : CoarseInterpolation or None
         How the surface lies on the copy; ``None`` where there is none.
     """
 
@@ -39,7 +39,7 @@ class GraphDistances:
     near: CoarseInterpolation | None = None
 
     def __call__(self, vertices: np.ndarray, limit: float) -> np.ndarray:
-        """Distances (q, n) from ``vertices (q,)``; infinite, or at least larger than ``limit``, beyond that."""
+        """Return distances (q, n) from ``vertices (q,)``; infinite, or at least larger than ``limit``, beyond that."""
         if self.near is None:
             return dijkstra(self.graph, indices=vertices, limit=limit)
         return self.near.distances(self.graph, vertices, limit)
@@ -55,8 +55,10 @@ class CoarseInterpolation:
     weights: csr_array
 
     def distances(self, graph: csr_array, vertices: np.ndarray, limit: float) -> np.ndarray:
-        """As :class:`GraphDistances`: each source is a further vertex of the copy, joined to the triangles that it lies
-        at."""
+        """Return the distances (q, n) of :class:`GraphDistances`.
+
+        Each source is a further vertex of the copy, joined to the triangles that it lies at.
+        """
         m, q = len(self.copy.vertices), len(vertices)
         faces, source = self.around.around(self.copy.owner[vertices])
         ends = np.unique(np.repeat(source, 3) * m + self.copy.mesh.faces[faces].ravel())
@@ -72,7 +74,7 @@ class CoarseInterpolation:
 
 
 def approximate_geodesics(mesh: Mesh) -> GraphDistances:
-    """A surface of any size, or a point cloud."""
+    """Return what finds distances along the edges of ``mesh``, a surface of any size or a point cloud."""
     n = len(mesh.vertices)
     if n <= _LARGE or len(mesh.faces) == 0:
         return GraphDistances(geodesic_graph(mesh, 0))

@@ -38,14 +38,13 @@ def approximate_nearest(
     start: np.ndarray | None = None,
     around: int = 16,
 ) -> np.ndarray:
-    """Approximately nearest rows of ``points (p, d)`` to those of ``queries (q, d)``: ``(q,)`` int64.
+    """Return for each query a point that is nearly the closest, (q,) int64.
 
     Parameters
     ----------
-    queries : (q, d) float64
-    points : (p, d) float64
-        At least one. Rows whose leading columns are alike should be alike: those of smooth functions on a surface, the
-        lowest first. Otherwise more is missed.
+    queries, points : (q, d), (p, d) float64
+        At least one point. Rows whose leading columns are alike should be alike: those of smooth functions on a
+        surface, the lowest first. Otherwise more is missed.
     size : int
         Points in a cell, about. With ``p`` all points are compared, in single precision.
     probes : int
@@ -53,9 +52,9 @@ def approximate_nearest(
     threads : int, optional
         Python threads; ``None`` takes every core.
     start : (q,) int, optional
-        For each query a point not far from the nearest: only the cells around it are searched, ...
+        For each query a point not far from the nearest: only the cells around it are searched.
     around : int
-        ... so many of them.
+        How many cells these are.
     """
     p, q = len(points), len(queries)
     probes = check_count(probes, "probes")

@@ -27,7 +27,7 @@ _BLOCK = 64
 def local_confidence(
     source: Mesh, target: Mesh, target_to_source: np.ndarray, samples: np.ndarray | None = None, *, sized: bool = False
 ) -> np.ndarray:
-    """How well the map keeps each target vertex's distances to its surroundings, (n_t,), from 0 to 1.
+    """Return how well a map keeps each target vertex's distances to its surroundings, (n_t,), from 0 to 1.
 
     With ``d_s``, ``d_t`` distances along edges of the shapes at unit area, ``T`` the map, and the sum over the samples
     ``j`` with ``d_t(i, j) ≤ R = 0.2``, the confidence of vertex ``i`` is ``max(0, 1 − Σ |min(d_s(T(i), T(j)), 2R) −
@@ -35,7 +35,7 @@ def local_confidence(
 
     An isometry has 1; distances along edges make 0.9 of it where the triangulations differ. It sees local errors and
     torn parts. It cannot see that a whole shape, or most of a limb, is mapped to its mirror image: that is for the
-    verdict and the runners-up to say.
+    verdict and the alternatives to say.
 
     Parameters
     ----------
@@ -68,11 +68,11 @@ class LocalDistortion:
 
     Attributes
     ----------
-    part_s, part_t : Inside
-    reach_s : Reach
-        Distances on the source, inside.
+    part_s, part_t : CleanedMesh
+    reach_s : GraphDistances
+        Of the cleaned source.
     samples : (q,) int64
-        Vertices of the target, inside.
+        Vertices of the cleaned target.
     near : tuple of (rows, columns, distances)
         For each 64 samples, which of them is how far from which vertex of the target, where it is near.
     """
@@ -109,7 +109,10 @@ class LocalDistortion:
 def build_local_distortion(
     source: Mesh, target: Mesh, samples: np.ndarray | None = None, *, sized: bool = False
 ) -> LocalDistortion:
-    """Of two shapes; the parameters and errors are those of :func:`local_confidence`."""
+    """Return what :func:`local_confidence` needs of two shapes, whatever the map.
+
+    The parameters and errors are those of :func:`local_confidence`.
+    """
     part_s, part_t = clean_mesh(source, specks=True), clean_mesh(target, specks=True)
     if samples is not None and not part_t.whole:
         samples = np.unique(part_t.to_clean[samples[~part_t.unreferenced[samples]]])

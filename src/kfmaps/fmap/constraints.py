@@ -24,7 +24,7 @@ _MAX_HALVINGS = 12
 
 
 def nearest_orthogonal(C: Array) -> Array:
-    """The polar factor of ``C (k_t, k_s)``: the nearest map with orthonormal columns (rows, if ``k_t < k_s``)."""
+    """Return the polar factor of ``C (k_t, k_s)``: the nearest map with orthonormal columns (rows if ``k_t < k_s``)."""
     u, _, vh = namespace(C).linalg.svd(C, full_matrices=False)
     return u @ vh
 
@@ -44,7 +44,7 @@ def minimize_orthogonal(
     preconditioner: Operator | None = None,
     progress: Callable[[int, float], None] | None = None,
 ) -> Solution:
-    """The minimiser of ``energy`` among orthonormal maps that is reached from ``start``.
+    """Minimise an energy among orthonormal maps, from a start.
 
     The problem is not convex: another start may lead to another minimum. The energy never rises from
     ``nearest_orthogonal(start)`` on.

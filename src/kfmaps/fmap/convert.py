@@ -26,14 +26,23 @@ def to_points(
     start: np.ndarray | None = None,
     probes: int = N_PROBE,
 ) -> np.ndarray:
-    """The point map ``target_to_source (n_t,)`` of a functional map ``C (k_t, k_s)``.
+    """Return the point map ``target_to_source (n_t,)`` of a functional map.
 
     Rows of ``Φ_s Cᵀ`` are the images of the source's delta functions, rows of ``Φ_t`` the target's deltas; each of the
-    latter takes the closest of the former (Ovsjanikov et al. 2012). Bases larger than ``C`` are truncated. ``beside``:
-    further columns ``(n_s, d)`` and ``(n_t, d)`` to compare, see
-    :meth:`kfmaps.fmap.descriptor_guidance.DescriptorGuidance.embedding_columns`. From about 10,000 points on each side
-    the search is by cells, unless ``exact`` says otherwise, see :func:`kfmaps.fmap.nearest.nearest`, and quicker with
-    fewer ``probes`` or a map ``start (n_t,)`` that is nearly right.
+    latter takes the closest of the former (Ovsjanikov et al. 2012).
+
+    Parameters
+    ----------
+    C : (k_t, k_s)
+    source, target : Basis
+        Of at least that many functions.
+    threads : int, optional
+    beside : pair of (n_s, d) and (n_t, d), optional
+        Further columns to compare; see :func:`embed`.
+    exact, start, probes
+        As for :func:`kfmaps.fmap.nearest.nearest`: from about 10,000 points on each side the search is approximate
+        unless ``exact`` says otherwise, and quicker with fewer ``probes`` or a map ``start (n_t,)`` that is nearly
+        right.
     """
     images, places = embed(C, source, target, beside)
     # A vertex that no face uses has no area and the values of a neighbour: it is nobody's image.
@@ -71,13 +80,25 @@ def embed(
 
 
 def to_functional(target_to_source: np.ndarray, source: Basis, target: Basis) -> Array:
-    """The functional map ``C (k_t, k_s)`` of a point map: ``Φ_tᵀ A_t Φ_s[target_to_source]``."""
+    """Return the functional map ``C (k_t, k_s)`` of a point map: ``Φ_tᵀ A_t Φ_s[target_to_source]``.
+
+    Parameters
+    ----------
+    target_to_source : (n_t,) int
+    source, target : Basis
+    """
     rows = check_point_map(target_to_source, source.functions.shape[0], target.functions.shape[0])
     return target.project(take(source.functions, rows))
 
 
 def check_point_map(target_to_source: np.ndarray, n_s: int, n_t: int) -> np.ndarray:
-    """``target_to_source`` as int64 when it gives each of ``n_t`` vertices one of ``n_s``."""
+    """Return ``target_to_source`` as int64 when it gives each of ``n_t`` vertices one of ``n_s``.
+
+    Raises
+    ------
+    InvalidInput
+        On another shape, numbers that are not whole, or vertices that do not exist.
+    """
     points = np.asarray(target_to_source)
     if points.shape != (n_t,) or not np.issubdtype(points.dtype, np.integer):
         got = f"{points.dtype} of shape {points.shape}"
@@ -98,6 +119,12 @@ def nearest_reached(source: Mesh, target_to_source: np.ndarray) -> np.ndarray:
 
     Nearest along the edges, so that a point of an arm is not linked to the leg beside it; straight through space for
     point clouds and for parts that no target vertex reaches.
+
+    Parameters
+    ----------
+    source : Mesh
+    target_to_source : (n_t,) int
+        −1 where a vertex has no counterpart.
     """
     n = len(source.vertices)
     reached = np.unique(target_to_source)

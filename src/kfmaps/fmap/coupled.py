@@ -28,11 +28,14 @@ class CoupledBases:
     history: np.ndarray
 
     def to_rotated(self, source: Basis, target: Basis) -> tuple[Basis, Basis]:
-        """The coupled bases; their "eigenvalues" are the diagonals of the rotated Laplacians, Dirichlet energies."""
+        """Return the coupled bases.
+
+        Their "eigenvalues" are the diagonals of the rotated Laplacians, Dirichlet energies.
+        """
         return _rotated(source, self.U_s), _rotated(target, self.U_t)
 
     def from_rotated(self, C: Array) -> Array:
-        """A map ``C`` between the coupled bases as one between the original ones."""
+        """Return a map ``C`` between the coupled bases as one between the original ones."""
         return self.U_t @ C @ self.U_s.T
 
 

@@ -33,7 +33,7 @@ class DescriptorGuidance:
     target: np.ndarray
 
     def at(self, source: np.ndarray | None, target: np.ndarray | None) -> DescriptorGuidance:
-        """The guide of some vertices ``(q,)`` of each shape; ``None`` keeps all."""
+        """Return the guidance of some vertices ``(q,)`` of each shape; ``None`` keeps all."""
         return replace(
             self,
             source=self.source if source is None else self.source[source],
@@ -41,13 +41,13 @@ class DescriptorGuidance:
         )
 
     def swapped(self) -> DescriptorGuidance:
-        """Return the guide of maps the other way."""
+        """Return the guidance of maps the other way."""
         return DescriptorGuidance(self.target, self.source)
 
     def embedding_columns(self, weight: float, source: Basis, target: Basis) -> tuple[Array, Array]:
-        """Columns to put beside the functions, such that squared differences are ``weight`` on average at unit area.
+        """Return columns to put beside the functions, whose squared differences are ``weight`` on average at unit area.
 
-        Of random points they are about 2 k in k functions, so that descriptors matter much while k is small.
+        Of random points those of k functions are about 2 k, so that descriptors matter much while k is small.
         """
         scale = np.sqrt(weight / float(target.mass.sum()))
         return like(scale * self.source, source.functions), like(scale * self.target, target.functions)
@@ -56,9 +56,19 @@ class DescriptorGuidance:
 def descriptor_guidance(
     source: np.ndarray | None, target: np.ndarray | None, dimensions: int = DIMENSIONS
 ) -> DescriptorGuidance | None:
-    """The first principal components of SHOT ``(n_s, d)`` and ``(n_t, d)``, common to both shapes.
+    """Return the first principal components of descriptors, common to both shapes.
 
-    ``None`` where one shape has no descriptors, or both have nothing but noise in them.
+    Parameters
+    ----------
+    source, target : (n_s, d), (n_t, d) or None
+        SHOT, mostly.
+    dimensions : int
+        Components; of SHOT's 352 most are noise.
+
+    Returns
+    -------
+    DescriptorGuidance or None
+        ``None`` where one shape has no descriptors, or both have nothing but noise in them.
 
     Raises
     ------
@@ -91,14 +101,20 @@ def _varied(descriptors: np.ndarray) -> bool:
 
 
 def descriptor_variance(descriptors: np.ndarray) -> float:
-    """Mean squared distance of the rows from their mean."""
+    """Return the mean squared distance of the rows of ``descriptors (n, d)`` from their mean."""
     mean = descriptors.mean(axis=0)
     squares = sum(float(((descriptors[rows] - mean) ** 2).sum()) for rows in blocks(len(descriptors), 30_000))
     return squares / len(descriptors)
 
 
 def combine_guidance(guides: list[tuple[float, DescriptorGuidance | None]]) -> DescriptorGuidance | None:
-    """One guide of several with weights, relative to the first that there is; its own weight is kept as 1."""
+    """Return one guidance of several with weights, relative to the first that there is; ``None`` where there is none.
+
+    Parameters
+    ----------
+    guides : list of (float, DescriptorGuidance or None)
+        The combined guidance has the unit of the first.
+    """
     present = [(w, g) for w, g in guides if g is not None and w > 0]
     if not present:
         return None

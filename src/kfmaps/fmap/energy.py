@@ -40,7 +40,7 @@ from kfmaps.fmap.terms import value as value
 
 @dataclass(frozen=True, eq=False)
 class Energy:
-    """A named weighted sum of terms, itself a :class:`DataTerm`; terms of weight zero are left out.
+    """A named weighted sum of terms, itself a :class:`~kfmaps.fmap.terms.Term`; terms of weight zero are left out.
 
     Parameters
     ----------
@@ -89,21 +89,21 @@ class Energy:
         return _total(weight * term.rotated_diagonal(U_t, U_s) for weight, term in self._active())
 
     def joined(self, more: Mapping[str, tuple[float, Term]]) -> Energy:
-        """The energy with further terms, ``{name: (weight, term)}``."""
+        """Return the energy with further terms, ``{name: (weight, term)}``."""
         return Energy(
             {**self.terms, **{name: term for name, (_, term) in more.items()}},
             {**self.weights, **{name: weight for name, (weight, _) in more.items()}},
         )
 
     def without(self, name: str) -> Energy:
-        """The energy without the term of that name, if it has one."""
+        """Return the energy without the term of that name, if it has one."""
         return Energy(
             {other: term for other, term in self.terms.items() if other != name},
             {other: weight for other, weight in self.weights.items() if other != name},
         )
 
     def breakdown(self, C: Array) -> dict[str, float]:
-        """Weighted value of each term at ``C``; they add up to ``value(self, C)``."""
+        """Return the weighted value of each term at ``C``; they add up to ``value(self, C)``."""
         return {name: weight * value(self.terms[name], C) if weight else 0.0 for name, weight in self.weights.items()}
 
 

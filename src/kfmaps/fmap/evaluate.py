@@ -45,10 +45,18 @@ def geodesic_errors(
     true: np.ndarray,
     method: str = "unfolded",
 ) -> np.ndarray:
-    """Geodesic distance on ``source`` from each ``predicted`` to its ``true`` vertex, (q,), divided by √area.
+    """Return the geodesic distance from each predicted to its true vertex, (q,), divided by √area of the source.
 
     Distances are worked out for one block of vertices at a time: no n × n matrix is held. Points on different
     components are at infinite distance. On a point cloud distances run along its neighbours, and the area is estimated.
+
+    Parameters
+    ----------
+    source : Mesh
+    predicted, true : (q,) int
+        Vertices of the source.
+    method : {"unfolded", "dijkstra", "heat"}
+        See :func:`kfmaps.geometry.geodesics.geodesic_distances`.
 
     Raises
     ------
@@ -67,9 +75,13 @@ def geodesic_errors(
 
 
 def precise_errors(source: Mesh, predicted: PointMap | np.ndarray, true: PointMap | np.ndarray) -> np.ndarray:
-    """Geodesic distance on ``source`` from each ``predicted`` to its ``true`` point, (q,), divided by √area.
+    """Return the geodesic distance from each predicted to its true point, (q,), divided by √area of the source.
 
-    Points lie inside triangles (:class:`kfmaps.fmap.precise.PointMap`, not snapped) or are vertices (whole numbers).
+    Parameters
+    ----------
+    source : Mesh
+    predicted, true : PointMap or (q,) int
+        Points inside triangles, which are not snapped, or vertices.
 
     Raises
     ------
@@ -108,9 +120,14 @@ class Smoothness:
 
 
 def smoothness(source: Mesh, target: Mesh, places: PointMap | np.ndarray) -> Smoothness:
-    """Whether the map tears, folds or leaves parts out; ``places`` a point or a vertex for each target vertex.
+    """Return whether a map tears, folds or leaves parts out.
 
-    Lengths are compared at equal areas of the shapes, in space.
+    Parameters
+    ----------
+    source, target : Mesh
+        Lengths are compared in space, at equal areas.
+    places : PointMap or (n_t,) int
+        A point or a vertex of the source for each target vertex.
     """
     if not isinstance(places, PointMap):
         places = vertex_point_map(
@@ -134,7 +151,14 @@ def smoothness(source: Mesh, target: Mesh, places: PointMap | np.ndarray) -> Smo
 
 
 def summarize_errors(errors: np.ndarray, auc_limit: float = 0.25) -> Evaluation:
-    """Mean, median, worst, and area under the curve of ``errors (q,)``; the curve ends at ``auc_limit``."""
+    """Return mean, median, worst, and area under the curve of errors.
+
+    Parameters
+    ----------
+    errors : (q,) float
+    auc_limit : float
+        Where the curve ends.
+    """
     errors = np.asarray(errors, dtype=float)
     check(errors, "errors", shape=(None,), finite=False)
     if errors.size == 0:
@@ -153,16 +177,21 @@ def summarize_errors(errors: np.ndarray, auc_limit: float = 0.25) -> Evaluation:
 
 
 def error_curve(errors: np.ndarray, thresholds: np.ndarray) -> np.ndarray:
-    """Fraction of ``errors (q,)`` at or below each of ``thresholds (t,)``: (t,), from 0 to 1."""
+    """Return the fraction of ``errors (q,)`` at or below each of ``thresholds (t,)``, (t,), from 0 to 1."""
     ordered = np.sort(np.asarray(errors, dtype=float))
     return np.searchsorted(ordered, np.asarray(thresholds, dtype=float), side="right") / len(ordered)
 
 
 def coverage(target_to_source: np.ndarray, source: Mesh) -> float:
-    """Fraction of the source's area whose vertices are the image of some target vertex.
+    """Return the fraction of the source's area whose vertices are the image of some target vertex.
 
-    Those without counterpart, −1, reach none. Connected vertices in one place count as one; those that belong to no
-    face count for nothing.
+    Connected vertices in one place count as one; those that belong to no face count for nothing.
+
+    Parameters
+    ----------
+    target_to_source : (n_t,) int
+        −1, no counterpart, reaches none.
+    source : Mesh
     """
     check_is_mesh(source, "source")
     part = clean_mesh(source)
@@ -175,9 +204,13 @@ def coverage(target_to_source: np.ndarray, source: Mesh) -> float:
 
 
 def truth_from_pairs(truth_s: np.ndarray, truth_t: np.ndarray, target_to_source: np.ndarray) -> np.ndarray:
-    """Where the map sends the target's end of each true pair: ``target_to_source[truth_t]``, checked.
+    """Return where a map sends the target's end of each true pair: ``target_to_source[truth_t]``, checked.
 
-    ``truth_s`` and ``truth_t``, (q,), are corresponding vertices, line k of one file to line k of the other.
+    Parameters
+    ----------
+    truth_s, truth_t : (q,) int
+        Corresponding vertices, line k of one file to line k of the other.
+    target_to_source : (n_t,) int
     """
     if len(truth_s) != len(truth_t):
         got = f"{len(truth_s)} and {len(truth_t)}"

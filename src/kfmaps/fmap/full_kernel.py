@@ -18,7 +18,16 @@ def kernel_descriptor_term(
     descriptors_t: Array,
     block: int = 1024,
 ) -> GramTerm:
-    """The same for a whole kernel (equation 8), in row blocks: no (n_s, n_t) matrix is ever held."""
+    """Return the preservation of the features of a whole kernel (equation 8).
+
+    Parameters
+    ----------
+    kernel : Kernel or callable
+    source, target : Basis
+    descriptors_s, descriptors_t : (n_s, d), (n_t, d)
+    block : int
+        Rows of one block: no (n_s, n_t) matrix is held.
+    """
     check_same_count(descriptors_s, descriptors_t)
     sides = ((source, descriptors_s), (target, descriptors_t))
     weighted = [basis.functions * basis.mass[:, None] for basis, _ in sides]
@@ -96,10 +105,11 @@ def hadamard_term(
     descriptors_t: Array,
     block: int = 512,
 ) -> HadamardCommutativity:
-    """Commutativity for the exact kernel of the descriptors ``(n_s, d)`` and ``(n_t, d)``.
+    """Return the commutativity with the operators of a whole kernel (equations 10 to 12).
 
     Every application costs ``n_s n_t`` kernel values and as many multiply-adds for each column of ``C``, in blocks of
-    ``block`` rows: the oracle for :func:`operator_term`, and what to use when no approximation will do.
+    ``block`` rows: what :func:`~kfmaps.fmap.terms.operator_term` is tested with, and for when no approximation will do.
+    The parameters are those of :func:`kernel_descriptor_term`.
     """
     check_same_count(descriptors_s, descriptors_t)
     sides = ((source, descriptors_s), (target, descriptors_t))

@@ -38,11 +38,11 @@ class Penalty(Protocol):
     """A function of C that lies below a quadratic one which touches it; all arrays have shape (k_t, k_s)."""
 
     def value(self, C: Array) -> float:
-        """At least zero."""
+        """Return the penalty at ``C``, at least zero."""
         ...
 
     def majorizer(self, C: Array) -> Term:
-        """A term that, up to a constant, is never below ``value(X)`` and equals it at ``X = C``."""
+        """Return a term that, up to a constant, is never below ``value(X)`` and equals it at ``X = C``."""
         ...
 
 
@@ -65,7 +65,7 @@ class Loss:
         check_positive(self.delta, "loss delta")
 
     def value(self, e: np.ndarray) -> np.ndarray:
-        """ρ of the squared residuals ``e (g,)``."""
+        """Return ρ of the squared residuals ``e (g,)``."""
         d = self.delta
         if self.name == "squared":
             return e
@@ -76,7 +76,7 @@ class Loss:
         return d * d * e / (d * d + e)
 
     def weights(self, e: np.ndarray) -> np.ndarray:
-        """ρ' of the squared residuals ``e (g,)``."""
+        """Return ρ' of the squared residuals ``e (g,)``."""
         d = self.delta
         if self.name == "squared":
             return np.ones_like(e)
@@ -116,17 +116,17 @@ class RobustData:
     sizes: np.ndarray | None = None
 
     def residuals(self, C: Array) -> np.ndarray:
-        """Squared residuals ``e / s`` of the groups ``0, 1, …``, (g,)."""
+        """Return the squared residuals ``e / s`` of the groups ``0, 1, …``, (g,)."""
         return self._relative(self._grouped(self._columns(C)))
 
     def scaled(self, C: Array, width: float) -> RobustData:
-        """The same with ``delta`` at ``width`` times the median residual of the groups at ``C``."""
+        """Return the same with ``delta`` at ``width`` times the median residual of the groups at ``C``."""
         e = self.residuals(C)
         delta = width * float(np.sqrt(np.median(e))) if len(e) else 1.0
         return replace(self, loss=Loss(self.loss.name, max(delta, 1e-150)))
 
     def weights(self, C: Array) -> np.ndarray:
-        """The weight of each column at ``C``, (r,), from 0 to 1 but for "l21"."""
+        """Return the weight of each column at ``C``, (r,), from 0 to 1 but for "l21"."""
         weights = np.append(self.loss.weights(self.residuals(C)), 1.0)
         return weights[np.where(self.groups < 0, len(weights) - 1, self.groups)]
 
@@ -185,10 +185,10 @@ class Sparse:
 
 
 def sparse_penalty(example: Array, smoothing: float = 1e-3) -> Sparse:
-    """Sparsity of maps of the shape of ``example (k_t, k_s)``, with weights that grow from the diagonal.
+    """Return the sparsity of maps of the shape of ``example (k_t, k_s)``, with weights that grow from the diagonal.
 
-    From 0 on the line between the two corners to 1 in the others, the distance in parts of the size (Pokrass et al.,
-    Sparse modeling of intrinsic correspondences, 2013, whose weights grow likewise).
+    They are 0 on the line between the two corners and 1 in the others (Pokrass et al., Sparse modeling of intrinsic
+    correspondences, 2013, whose weights grow likewise). ``smoothing`` rounds the L1 norm at zero.
     """
     k_t, k_s = example.shape
     check_positive(smoothing, "smoothing")

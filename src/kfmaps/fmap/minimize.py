@@ -45,16 +45,16 @@ class Objective:
     constraint: Constraint = "none"
 
     def value(self, C: Array) -> float:
-        """The objective at ``C``, whether or not that meets the constraint."""
+        """Return the objective at ``C``, whether or not that meets the constraint."""
         return value(self.energy, C) + sum(weight * p.value(C) for weight, p in self.penalties.values())
 
     def breakdown(self, C: Array) -> dict[str, float]:
-        """Weighted value of each term and penalty at ``C``; they add up to :meth:`value`."""
+        """Return the weighted value of each term and penalty at ``C``; they add up to :meth:`value`."""
         parts = {name: weight * p.value(C) for name, (weight, p) in self.penalties.items()}
         return {**self.energy.breakdown(C), **parts}
 
     def majorizer(self, C: Array) -> Energy:
-        """The energy with each penalty's majorizer at ``C``; the energy itself without any."""
+        """Return the energy with each penalty's majorizer at ``C``; the energy itself without any."""
         if not self.penalties:
             return self.energy
         return self.energy.joined({name: (weight, p.majorizer(C)) for name, (weight, p) in self.penalties.items()})
@@ -64,8 +64,15 @@ class Objective:
 class MinimizeOptions:
     """How an objective is minimised.
 
-    ``solver`` and ``preconditioner`` are of each quadratic step; there are at most ``rounds`` of them, and none after
-    one that lowered the objective by less than ``settled`` of itself.
+    Attributes
+    ----------
+    solver : CG or Direct
+        Of each quadratic step.
+    preconditioner : {"none", "jacobi", "sylvester"}
+    max_outer_iter : int
+        Most quadratic steps.
+    rtol : float
+        Relative decrease of the objective below which no step follows.
     """
 
     solver: Solver
@@ -77,10 +84,22 @@ class MinimizeOptions:
 def minimize(
     objective: Objective, how: MinimizeOptions, start: Array | None = None, progress: ProgressCallback | None = None
 ) -> Solution:
-    """The minimiser of ``objective`` that is reached from ``start``.
+    """Minimise an objective from a start.
 
-    Without a start it is the minimiser of the energy with the penalties' majorizers at zero, that is, about where the
-    energy alone is least; constrained, its nearest orthonormal map. ``residuals`` are of the last round.
+    Parameters
+    ----------
+    objective : Objective
+    how : MinimizeOptions
+    start : (k_t, k_s), optional
+        By default the minimiser of the energy with the penalties' majorizers at zero, that is, about where the energy
+        alone is least; constrained, its nearest orthonormal map.
+    progress : callable, optional
+        Called after each step of the solver with its number and the relative residual.
+
+    Returns
+    -------
+    Solution
+        ``residuals`` are of the last quadratic step.
     """
     if start is None and (objective.penalties or objective.constraint != "none"):
         zero = 0.0 * objective.energy.rhs()
@@ -145,12 +164,19 @@ def fit_bidirectional(
     start: tuple[Array | None, Array | None] = (None, None),
     progress: ProgressCallback | None = None,
 ) -> BidirectionalSolution:
-    """Both directions at once: the sum of both objectives and, of the maps ``C`` forth and ``D`` back,
+    """Minimise both directions at once, ``C`` forth and ``D`` back.
 
-    ``½ inverse (‖C D − I‖² + ‖D C − I‖²) + ½ adjoint ‖D − Cᵀ‖²``
+    The objective is the sum of both and ``½ inverse (‖C D − I‖² + ‖D C − I‖²) + ½ adjoint ‖D − Cᵀ‖²`` (Eynard et al.,
+    Coupled functional maps, 2016; Huang and Ovsjanikov, Adjoint map representation, 2017). It is quadratic in each map;
+    they are minimised in turn, from the uncoupled ones, until the sum hardly falls.
 
-    (Eynard et al., Coupled functional maps, 2016; Huang and Ovsjanikov, Adjoint map representation, 2017). It is
-    quadratic in each map; they are minimised in turn, from the uncoupled ones, until the sum hardly falls.
+    Parameters
+    ----------
+    forth, back : Objective
+    coupling : BidirectionalWeights
+    how : MinimizeOptions
+    start : pair of (k_t, k_s) and (k_s, k_t), or None each
+    progress : callable, optional
     """
     one = minimize(forth, how, start[0], progress)
     other = minimize(back, how, start[1], progress)

@@ -16,13 +16,24 @@ from kfmaps.geometry.basis import Basis
 def truncate_features(
     source: Basis, features_s: Array, target: Basis, features_t: Array, rtol: float
 ) -> tuple[Array, Array]:
-    """Rotate the features ``(n_s, r)``, ``(n_t, r)`` of both shapes jointly and drop those that matter least.
+    """Rotate the features of both shapes jointly and drop those that matter least.
 
     The commutativity energy is the same in every rotation of the features, as long as both shapes share it. The squared
-    norm of a feature's slice is at most ``Σ_p a_p h_p w_p²`` with the areas ``a`` and ``h_p = Σⱼ φⱼ(p)²``, since it is
-    a projection of multiplication by ``w``. In the eigenbasis of the Gram matrix with these weights the features that
-    are dropped have slices whose summed squared norm is at most ``rtol`` of the sum of all bounds, which was 1.03 times
-    the slices' own. So far fewer slices need to be formed at all.
+    norm of a feature's operator is at most ``Σ_p a_p h_p w_p²`` with the areas ``a`` and ``h_p = Σⱼ φⱼ(p)²``, since it
+    is a projection of multiplication by ``w``. In the eigenbasis of the Gram matrix with these weights the features
+    that are dropped have operators whose summed squared norm is at most ``rtol`` of the sum of all bounds, which was
+    1.03 times the operators' own. So far fewer operators need to be formed at all.
+
+    Parameters
+    ----------
+    source, target : Basis
+    features_s, features_t : (n_s, r), (n_t, r)
+    rtol : float
+        From 0 to below 1.
+
+    Returns
+    -------
+    features_s, features_t : (n_s, r'), (n_t, r')
     """
     _check_rtol(rtol)
     xp = namespace(features_s, features_t)
@@ -37,10 +48,18 @@ def truncate_features(
 
 
 def multiplication_operators(basis: Basis, features: Array, block: int = 512, threads: int | None = None) -> Array:
-    """Packed upper triangles ``(r, k(k+1)/2)`` of the operators of ``features (n, r)``.
+    """Return the packed upper triangles ``(r, k(k+1)/2)`` of the multiplication operators of features.
 
     Off-diagonal entries are multiplied by √2, so that inner products of rows are Frobenius inner products of the
     operators. One matrix product per block of vertices; no n × k² array.
+
+    Parameters
+    ----------
+    basis : Basis
+    features : (n, r)
+    block : int
+        Vertices of one product.
+    threads : int, optional
     """
     n, k = basis.functions.shape
     check(features, "features", shape=(n, None), remedy="give one row per vertex")
@@ -85,7 +104,7 @@ def _fill_products(phi: np.ndarray, old: np.ndarray | None) -> np.ndarray:
 
 
 def unpack_operators(packed: Array) -> Array:
-    """The operators ``(r, k, k)`` of packed rows ``(r, k(k+1)/2)``."""
+    """Return the operators ``(r, k, k)`` of packed rows ``(r, k(k+1)/2)``."""
     xp = namespace(packed)
     k = int(np.sqrt(2 * packed.shape[1] + 0.25) - 0.5)
     if k * (k + 1) // 2 != packed.shape[1]:
@@ -99,12 +118,17 @@ def unpack_operators(packed: Array) -> Array:
 
 
 def truncate_operators(packed_s: Array, packed_t: Array, rtol: float) -> tuple[Array, Array]:
-    """Rotate the slices of both shapes jointly and drop those that carry next to nothing.
+    """Rotate the operators of both shapes jointly and drop those that carry next to nothing.
 
-    The commutativity energy is the same in every rotation of the features, as long as both shapes share it. The
-    rotation of the joint singular value decomposition puts as much as possible into few slices; those beyond hold at
-    most ``rtol`` of the summed squared norm of all slices of both shapes, which is a bound on what leaving them out can
-    change in the operator. With ``rtol=0`` only null slices go.
+    The rotation of the joint singular value decomposition puts as much as possible into few operators; those beyond
+    hold at most ``rtol`` of the summed squared norm of all operators of both shapes, which bounds what leaving them out
+    can change in the energy. With ``rtol=0`` only null operators go.
+
+    Parameters
+    ----------
+    packed_s, packed_t : (r, k_s(k_s+1)/2), (r, k_t(k_t+1)/2)
+    rtol : float
+        From 0 to below 1.
     """
     _check_rtol(rtol)
     kept = _strongest(packed_s @ packed_s.T + packed_t @ packed_t.T, rtol)

@@ -32,7 +32,7 @@ def nearest(
     start: np.ndarray | None = None,
     probes: int = N_PROBE,
 ) -> np.ndarray:
-    """For each row of ``queries (q, d)`` the index of the closest row of ``points (p, d)``: ``(q,)`` int64.
+    """Return for each query the closest of some points, (q,) int64.
 
     Exact in the arrays' precision, of equally close points the first, as long as the pairs are at most
     :data:`EXACT_PAIRS` or the arrays are not NumPy's. Blocks of matrix products over Python threads on NumPy, in
@@ -41,18 +41,17 @@ def nearest(
 
     Parameters
     ----------
-    queries : (q, d)
-    points : (p, d)
+    queries, points : (q, d), (p, d)
     block : int
         Rows of one matrix product.
     threads : int, optional
         Python threads; ``None`` takes every core.
     exact : bool, optional
-        ``True`` never searches by cells; ``False`` does so on NumPy arrays of any size in many dimensions.
+        ``True`` never searches approximately; ``False`` does so on NumPy arrays of any size in many dimensions.
     start : (q,) int, optional
-        Points not far from the answers, ...
+        Points not far from the answers, for an approximate search.
     probes : int
-        ... and cells that each query names: both count in a search by cells alone
+        Cells that each query names in an approximate search
         (:func:`kfmaps.fmap.approximate_nearest.approximate_nearest`).
 
     Raises

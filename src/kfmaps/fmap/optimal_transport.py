@@ -48,7 +48,7 @@ class TransportPenalty:
     _last: dict = field(default_factory=dict, repr=False)
 
     def plan(self, C: Array) -> Array:
-        """``Π (m_t, m_s)``: how much area of each source point goes to each target point."""
+        """Return ``Π (m_t, m_s)``: how much area of each source point goes to each target point."""
         return self._solved(C)[0]
 
     def value(self, C: Array) -> float:
@@ -72,12 +72,13 @@ class TransportPenalty:
 
 
 def transport_penalty(C: Array, source: Basis, target: Basis, blur: float = 0.3) -> TransportPenalty:
-    """The penalty for maps near to ``C (k_t, k_s)``.
+    """Return the penalty for maps near to ``C``.
 
     Parameters
     ----------
+    C : (k_t, k_s)
     source, target : Basis
-        Of at least that many functions.
+        Of at least that many functions; 500 points of each take part.
     blur : float
         ``ε`` in units of the median cost of the nearest point at ``C``.
     """

@@ -27,9 +27,9 @@ class PointMap:
     Attributes
     ----------
     faces : (n_t,) int64
-        The source face that it lies on, ...
+        The source face that it lies on.
     weights : (n_t, 3) float64
-        ... and its barycentric coordinates there: not negative, sum 1.
+        Its barycentric coordinates there: not negative, sum 1.
     """
 
     faces: np.ndarray
@@ -37,7 +37,14 @@ class PointMap:
 
 
 def check_point_map_precise(places: PointMap, source: Mesh, n_t: int | None = None) -> PointMap:
-    """``places`` when they lie on faces of ``source``, one for each of ``n_t`` target vertices where that is given.
+    """Return a point map when it lies on faces of the source.
+
+    Parameters
+    ----------
+    places : PointMap
+    source : Mesh
+    n_t : int, optional
+        Number of target vertices, where it is to be checked.
 
     Raises
     ------
@@ -58,19 +65,24 @@ def check_point_map_precise(places: PointMap, source: Mesh, n_t: int | None = No
 
 
 def point_positions(places: PointMap, source: Mesh) -> np.ndarray:
-    """Where the points lie in space, (n_t, 3), in the source's unit."""
+    """Return where the points of a map lie in space, (n_t, 3), in the source's unit."""
     return np.einsum("ti,tij->tj", places.weights, source.vertices[source.faces[places.faces]])
 
 
 def nearest_vertices(places: PointMap, source: Mesh) -> np.ndarray:
-    """The corner that is nearest to each point, ``target_to_source (n_t,)``."""
+    """Return the corner of its face that is nearest to each point, ``target_to_source (n_t,)``."""
     corners = source.faces[places.faces]
     away = np.linalg.norm(source.vertices[corners] - point_positions(places, source)[:, None], axis=2)
     return corners[np.arange(len(corners)), away.argmin(axis=1)].astype(np.int64)
 
 
 def vertex_point_map(target_to_source: np.ndarray, source: Mesh) -> PointMap:
-    """A map of vertices as a map of points: each in a corner of some face that has it.
+    """Return a map of vertices as a map of points: each in a corner of some face that has it.
+
+    Parameters
+    ----------
+    target_to_source : (n_t,) int
+    source : Mesh
 
     Raises
     ------
@@ -95,9 +107,17 @@ def to_precise_map(
     threads: int | None = None,
     beside: tuple[Array, Array] | None = None,
 ) -> PointMap:
-    """The closest points of the source's surface in the embedding of ``C (k_t, k_s)``, for all target vertices.
+    """Return the closest points of the source's surface in the spectral embedding, for all target vertices.
 
-    As :func:`kfmaps.fmap.convert.to_points`, with triangles between the rows of ``Φ_s Cᵀ``.
+    Parameters
+    ----------
+    C : (k_t, k_s)
+    source, target : Basis
+    faces_s : (f, 3) int64
+        Of the source, triangles between the rows of ``Φ_s Cᵀ``.
+    threads : int, optional
+    beside : pair of (n_s, d) and (n_t, d), optional
+        As for :func:`kfmaps.fmap.convert.to_points`.
     """
     points, queries = (np.asarray(to_numpy(x), dtype=np.float64) for x in embed(C, source, target, beside))
     return nearest_surface_points(queries, points, faces_s, threads)
@@ -106,7 +126,7 @@ def to_precise_map(
 def nearest_surface_points(
     queries: np.ndarray, points: np.ndarray, faces: np.ndarray, threads: int | None = None, exact: bool | None = None
 ) -> PointMap:
-    """For each of ``queries (q, d)`` the closest point of the triangles ``faces (f, 3)`` between ``points (p, d)``.
+    """Return the closest point of some triangles to each query, in any dimension.
 
     For a point ``x = Σ w_i v_i`` of a triangle ``|q − x|² = Σ w_i |q − v_i|² − Σ_{i<j} w_i w_j |v_i − v_j|²``. The last
     sum is at most the squared radius of the smallest ball around the triangle. So a triangle can only beat the closest
@@ -114,8 +134,14 @@ def nearest_surface_points(
     only these few are looked at. All inner products follow from squared distances; those of the triangles that float32
     leaves in doubt are found again in float64.
 
-    Exact as long as queries times points are at most ``EXACT_PAIRS``. Beyond (or with ``exact=False``) the nearest
-    vertices are sought by cells, and only triangles of their neighbours are looked at.
+    Parameters
+    ----------
+    queries, points : (q, d), (p, d)
+    faces : (f, 3) int64
+    threads : int, optional
+    exact : bool, optional
+        By default while queries times points are at most ``EXACT_PAIRS``. Otherwise the nearest vertices are sought
+        approximately, and only triangles of their neighbours are looked at.
     """
     check(queries, "queries", shape=(None, points.shape[1]))
     check(points, "points", shape=(None, None))
@@ -212,11 +238,19 @@ def _among_neighbours(
 
 
 def invert_precise_map(places: PointMap, source: Mesh, target: Mesh, known: np.ndarray | None = None) -> PointMap:
-    """The map the other way: a point on the target for each source vertex.
+    """Return the map the other way: a point on the target for each source vertex.
 
     The target's faces lie, flat between the images of their corners, on or near the source; each source vertex takes
     the closest place on them. Where the map is one-to-one that is its inverse; parts that nothing is mapped to get the
-    nearest that something is. With ``known (n_t,)`` only faces whose corners all are known count.
+    nearest that something is.
+
+    Parameters
+    ----------
+    places : PointMap
+        For each target vertex.
+    source, target : Mesh
+    known : (n_t,) bool, optional
+        Only faces whose corners all are known count.
 
     Raises
     ------

@@ -14,15 +14,15 @@ from kfmaps.fmap.solvers import Operator
 
 
 def jacobi(diagonal: Array) -> Operator:
-    """Division by the diagonal; entries that the energy does not see are left as they are."""
+    """Return the division by the diagonal ``(k_t, k_s)``; entries that the energy does not see are left as they are."""
     safe = _safe(diagonal)
     return lambda r: r / safe
 
 
 def sylvester(energy: Energy) -> Operator:
-    """Division by the exact diagonal of the operator in the eigenbases of its two one-sided parts.
+    """Return the division by the exact diagonal of the operator in the eigenbases of its two one-sided parts.
 
-    Costs two eigendecompositions and the diagonal, once, and four k × k products an application.
+    It costs two eigendecompositions and the diagonal, once, and four k × k products an application.
     """
     S_t, S_s = energy.sides()
     xp = namespace(S_t, S_s)

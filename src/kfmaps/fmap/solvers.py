@@ -139,7 +139,7 @@ def solve(
 
 
 def dense_matrix(apply: Operator, shape: tuple[int, ...], example: Array) -> np.ndarray:
-    """The matrix of ``apply`` on arrays of ``shape``, flattened in row-major order; for small sizes."""
+    """Return the matrix of ``apply`` on arrays of ``shape``, flattened in row-major order; for small sizes."""
     size = int(np.prod(shape))
     columns = np.empty((size, size))
     for j in range(size):

@@ -15,32 +15,32 @@ class Term(Protocol):
     """A quadratic term; all arrays have shape (k_t, k_s)."""
 
     def apply(self, C: Array) -> Array:
-        """``A(C)``: linear, self-adjoint, positive semi-definite."""
+        """Return ``A(C)``: linear, self-adjoint, positive semi-definite."""
         ...
 
     def rhs(self) -> Array:
-        """``B``."""
+        """Return ``B``."""
         ...
 
     def diagonal(self) -> Array:
-        """The exact diagonal of ``A``."""
+        """Return the exact diagonal of ``A``."""
         ...
 
     def constant(self) -> float:
-        """``c``, with which the value is half the squared residual and never negative."""
+        """Return ``c``, with which the value is half the squared residual and never negative."""
         ...
 
     def sides(self) -> tuple[Array, Array]:
-        """``S_t`` (k_t, k_t) and ``S_s`` (k_s, k_s) of the part ``S_t C + C S_s`` of ``A``; zeros for none."""
+        """Return ``S_t`` (k_t, k_t) and ``S_s`` (k_s, k_s) of the part ``S_t C + C S_s`` of ``A``; zeros for none."""
         ...
 
     def rotated_diagonal(self, U_t: Array, U_s: Array) -> Array:
-        """The exact diagonal of ``C ↦ U_tᵀ A(U_t C U_sᵀ) U_s`` for orthogonal ``U_t``, ``U_s``."""
+        """Return the exact diagonal of ``C ↦ U_tᵀ A(U_t C U_sᵀ) U_s`` for orthogonal ``U_t``, ``U_s``."""
         ...
 
 
 def value(term: Term, C: Array) -> float:
-    """Half the squared residual of ``term`` at ``C``."""
+    """Return half the squared residual of a term at ``C (k_t, k_s)``."""
     return 0.5 * inner(C, term.apply(C)) - inner(term.rhs(), C) + term.constant()
 
 
@@ -134,7 +134,13 @@ class GramTerm:
 
 
 def descriptor_term(source: Basis, features_s: Array, target: Basis, features_t: Array) -> GramTerm:
-    """Preservation of the features ``(n_s, r)`` and ``(n_t, r)``."""
+    """Return the preservation of features, ``½‖C Φ_s⁺ W_s − Φ_t⁺ W_t‖²``.
+
+    Parameters
+    ----------
+    source, target : Basis
+    features_s, features_t : (n_s, r), (n_t, r)
+    """
     check_same_count(features_s, features_t)
     coefficients_s, coefficients_t = source.project(features_s), target.project(features_t)
     return GramTerm(
@@ -194,7 +200,13 @@ class OperatorCommutativity:
 
 
 def operator_term(slices_s: Array, slices_t: Array, parity: int = 1) -> OperatorCommutativity:
-    """Commutativity with the operators ``slices_s (r, k_s, k_s)`` and ``slices_t (r, k_t, k_t)``.
+    """Return the commutativity with operators, ``½ Σᵢ ‖C X_sⁱ − X_tⁱ C‖²``.
+
+    Parameters
+    ----------
+    slices_s, slices_t : (r, k_s, k_s), (r, k_t, k_t)
+    parity : {1, -1}
+        Whether they are symmetric (multiplication by a function) or antisymmetric (orientation operators).
 
     Raises
     ------
@@ -245,14 +257,21 @@ class Elementwise:
 def laplacian_term(
     source: Basis, target: Basis, scale: float | None = None, mask: Mask = "squared", power: float = 0.5
 ) -> Elementwise:
-    """Commutativity with the Laplacian: weights ``((λ_s,b − λ_t,a) / scale)²``.
+    """Return the commutativity with the Laplacian: weights ``((λ_s,b − λ_t,a) / scale)²``.
 
-    ``scale=None`` takes the larger of the two last eigenvalues, so that the weights lie in [0, 1] and α means the same
-    at every basis size; ``scale=1`` is the paper's term as written.
+    With the mask "resolvent" it is commutativity with the resolvent ``(Δ^γ − i)⁻¹`` of the scaled Laplacian's power
+    ``γ``, a bounded operator: weights ``|1 / (λ_t,a^γ − i) − 1 / (λ_s,b^γ − i)|²``, in [0, 1] (Ren, Panine, Wonka and
+    Ovsjanikov, Structured regularization of functional map computations, 2019).
 
-    With ``mask="resolvent"`` it is commutativity with the resolvent ``(Δ^γ − i)⁻¹`` of the scaled Laplacian's power
-    ``γ``, a bounded operator: weights ``|1 / (λ_t,a^γ − i) − 1 / (λ_s,b^γ − i)|²``, again in [0, 1] (Ren, Panine, Wonka
-    and Ovsjanikov, Structured regularization of functional map computations, 2019).
+    Parameters
+    ----------
+    source, target : Basis
+    scale : float, optional
+        By default the larger of the two last eigenvalues, so that the weights lie in [0, 1] and α means the same at
+        every basis size; 1 is the paper's term as written.
+    mask : {"squared", "resolvent"}
+    power : float
+        ``γ``.
     """
     xp = namespace(source.eigenvalues)
     if mask not in get_args(Mask):
@@ -273,16 +292,22 @@ def laplacian_term(
 
 
 def inverse_term(back: Array) -> GramTerm:
-    """``½‖C back − I‖² + ½‖back C − I‖²`` for a map ``back (k_s, k_t)`` the other way (Eynard et al. 2016)."""
+    """Return ``½‖C back − I‖² + ½‖back C − I‖²`` for a map ``back (k_s, k_t)`` the other way (Eynard et al. 2016)."""
     k_s, k_t = back.shape
     return GramTerm(back @ back.T, 2.0 * back.T, 0.5 * (k_s + k_t), back.T @ back)
 
 
 def adjoint_term(back: Array, ratio: float = 1.0) -> GramTerm:
-    """``½‖C − ratio backᵀ‖²``: ``back`` is the adjoint of ``C`` in the areas (Huang and Ovsjanikov 2017).
+    """Return ``½‖C − ratio backᵀ‖²``, which ties a map to the adjoint of one the other way (Huang and Ovsjanikov 2017).
 
     In bases that are orthonormal in the area the adjoint is the transpose, and the map back of one that keeps areas up
-    to a constant factor ``ratio`` is its adjoint divided by it; shapes of unit area have 1.
+    to a constant factor is its adjoint divided by it.
+
+    Parameters
+    ----------
+    back : (k_s, k_t)
+    ratio : float
+        That factor; shapes of unit area have 1.
     """
     xp = namespace(back)
     one = xp.eye(back.shape[0], dtype=back.dtype, device=back.device)
@@ -294,7 +319,7 @@ def _zeros(k: int, like: Array) -> Array:
 
 
 def rotate_gram(gram: Array, U: Array) -> Array:
-    """The diagonal of ``Uᵀ gram U``."""
+    """Return the diagonal of ``Uᵀ gram U``."""
     return namespace(gram).sum(U * (gram @ U), axis=0)
 
 

@@ -23,7 +23,7 @@ def transfer_functions(
     products: int | None = 20,
     ridge: float = 0.1,
 ) -> Array:
-    """The images ``(n_t, d)`` on the target of functions ``values (n_s, d)`` on the source.
+    """Return the images ``(n_t, d)`` on the target of functions on the source.
 
     Parameters
     ----------
@@ -32,15 +32,11 @@ def transfer_functions(
     source, target : Basis
         Of at least that many functions.
     products : int or None
-        How many of the first functions are multiplied with each other; none gives ``Φ_t C Φ_sᵀ A_s f``, what the
+        How many of the first functions are multiplied with each other; ``None`` gives ``Φ_t C Φ_sᵀ A_s f``, what the
         functional map alone carries. The constant, with which a product is nothing new, is left out.
     ridge : float
         Damping of the products' coefficients against unit norm of each product: they are far from independent, and
         their images are not exact.
-
-    Returns
-    -------
-    (n_t, d) or (n_t,)
 
     Raises
     ------

@@ -43,15 +43,15 @@ class Basis:
     mass: Array
 
     def project(self, f: Array) -> Array:
-        """Coefficients (k, d) of the functions ``f`` (n, d): ``Φᵀ A f``."""
+        """Return the coefficients (k, d) of the functions ``f`` (n, d): ``Φᵀ A f``."""
         return self.functions.T @ (self.mass[:, None] * f)
 
     def reconstruct(self, c: Array) -> Array:
-        """Functions (n, d) that have the coefficients ``c`` (k, d): ``Φ c``."""
+        """Return the functions (n, d) that have the coefficients ``c`` (k, d): ``Φ c``."""
         return self.functions @ c
 
     def truncate(self, k: int) -> Basis:
-        """The basis of the first ``k`` functions, of the same kind.
+        """Return the basis of the first ``k`` functions, of the same kind.
 
         Raises
         ------
@@ -62,7 +62,7 @@ class Basis:
         return replace(self, eigenvalues=self.eigenvalues[:k], functions=self.functions[:, :k])
 
     def to(self, device: str) -> Basis:
-        """The basis as PyTorch tensors on ``device``, or as NumPy arrays for ``"cpu"`` and ``"numpy"``.
+        """Return the basis as PyTorch tensors on ``device``, or as NumPy arrays for ``"cpu"`` and ``"numpy"``.
 
         It stays of its kind. ``"torch"`` is PyTorch on the CPU.
 

@@ -53,7 +53,7 @@ def cloud_areas(points: np.ndarray) -> np.ndarray:
 
 
 def cloud_edges(points: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Pairs of neighbouring ``points (n, 3)`` and their distances: ``(a (m,), b (m,), length (m,))``.
+    """Return pairs of neighbouring ``points (n, 3)`` and their distances: ``(a (m,), b (m,), length (m,))``.
 
     Each point is linked to its 12 nearest. What would then fall apart, as a cat's ears do, whose points are all closer
     together than to the head, is joined by the shortest links that do so: a cloud is one piece.

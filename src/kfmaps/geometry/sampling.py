@@ -121,7 +121,10 @@ def stratified_samples(
 def stratified_vertices(
     basis: Basis, count: int, rng: int | np.random.Generator = 0, kept: np.ndarray | None = None
 ) -> np.ndarray:
-    """Return the vertices of :func:`stratified_samples` alone, (q,) int64, in a fraction of its time."""
+    """Return the vertices of :func:`stratified_samples` alone, (q,) int64, in a fraction of its time.
+
+    The parameters are those of :func:`stratified_samples`.
+    """
     candidates, _, chosen = _strata(basis, count, rng)
     return candidates[chosen] if kept is None else np.union1d(candidates[chosen], kept)
 

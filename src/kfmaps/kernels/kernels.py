@@ -25,7 +25,7 @@ class Kernel(Protocol):
         ...
 
     def diagonal(self, X: Array, /) -> Array:
-        """``(n,)`` values ``k(x, x)``."""
+        """Return the values ``k(x, x)``, (n,), of rows of ``X (n, d)``."""
         ...
 
 

@@ -120,7 +120,7 @@ class Scaled:
         return self.factor * kernel_diagonal(self.kernel, X)
 
     def resolved(self, samples: Array, sharpness: float) -> Scaled:
-        """The same with every automatic γ of the inner kernel made a number."""
+        """Return the same with every automatic γ of the inner kernel made a number."""
         return replace(self, kernel=resolve_kernel(self.kernel, samples, sharpness))
 
 

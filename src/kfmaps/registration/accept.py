@@ -32,19 +32,19 @@ class RegistrationReport:
     ----------
     gap : float
         Root of the mean squared distance of the bent source and the target, in both directions, in units of √area.
-    bending : float
+    deformation_energy : float
         As-rigid-as-possible energy per area: 0 for a motion.
     before : float
-        Confidence, averaged over the target's vertices, of the map that the fit began with, ...
+        Confidence, averaged over the target's vertices, of the map that the fit began with.
     after : float or None
-        ... and of the map that it ends with; ``None`` where the gap alone refused it.
-    harmed, healed : float
+        The same of the map that it ends with; ``None`` where the gap alone refused it.
+    worsened, improved : float
         Shares of the target's area in which the confidence falls and rises by more than 0.2.
-    held : bool
-        Whether the map was held fast where a first fit had harmed it.
-    kept : bool
+    pinned : bool
+        Whether the map was held fast where a first fit had worsened it.
+    accepted : bool
         Whether the match has taken the fit's points.
-    why : "gap", "harm" or None
+    reason : "gap", "harm" or None
         What spoke against it.
     """
 
@@ -66,20 +66,20 @@ class RegistrationReport:
 
 @dataclass(frozen=True, eq=False)
 class RegisteredMap:
-    """Points inside triangles; made by :func:`register_map`.
+    """A map after the non-rigid fit; made by :func:`register_map`.
 
     Attributes
     ----------
     target_to_source : (n_t,) int64
-        The source vertex that is nearest to each point; those that were given where no fit was made or kept.
-    place : PointMap or None
+        The source vertex nearest to each point; those that were given where no fit was made or kept.
+    precise_map : PointMap or None
         ``None`` where no fit was made or kept.
-    bent : (n_s, 3) float64 or None
-        The source's vertices on the target, at unit area, where the non-rigid fit was kept.
-    trust : (n_t,) float64
+    registered_vertices : (n_s, 3) float64 or None
+        The source's vertices on the target, at unit area, where the fit was kept.
+    local_confidence : (n_t,) float64
         :func:`kfmaps.fmap.confidence.local_confidence` of the map.
-    fit : Bend or None
-        What the non-rigid fit tells of the map, kept or not; ``None`` where none was made.
+    fit : RegistrationReport or None
+        What the fit tells of the map, kept or not; ``None`` where none was made.
     """
 
     target_to_source: np.ndarray
@@ -107,13 +107,28 @@ def register_map(
     clock: StageTimer,
     landmarks: np.ndarray | None = None,
 ) -> RegisteredMap:
-    """The map ``points (n_t,)`` made finer than vertices as ``config.registration`` says, held softly by ``landmarks``.
+    """Register the source onto the target as a map says, and keep what the fit's own evidence speaks for.
 
-    A fit that leaves a gap of more than 2 % of √area is left: so are parts. One that harms more than 0.6 % of the
+    A fit that leaves a gap of more than 2 % of √area is refused: so are parts. One that worsens more than 0.6 % of the
     target's area (distances to the surroundings are kept clearly worse than before) is made once more with the map held
     fast there; one that lets sizes change, as between shapes of other proportions, only where it would not be kept. Of
-    the two the last is kept for which the evidence speaks: that harms little, or heals at least half as much as it
-    harms.
+    the two the last is kept for which the evidence speaks: that worsens little, or improves at least half as much as it
+    worsens.
+
+    Parameters
+    ----------
+    points : (n_t,) int64
+        The map.
+    source, target : Shape
+    config : Config
+        Its ``registration``, which is left out where that or the refinement is ``None``.
+    clock : StageTimer
+    landmarks : (l, 2) int64, optional
+        Pairs "source vertex, target vertex", which hold softly.
+
+    Returns
+    -------
+    RegisteredMap
     """
     with clock("confidence"):
         confidence = build_local_distortion(source.mesh, target.mesh)

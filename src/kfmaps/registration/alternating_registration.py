@@ -54,8 +54,14 @@ class RegistrationPair:
 
 @dataclass(frozen=True, eq=False)
 class AlternatingResult:
-    """What :func:`alternating_registration` returns: a functional map ``(k, k)`` and the source's vertices, ``(n_s,
-    3)``, bent."""
+    """What :func:`alternating_registration` returns.
+
+    Attributes
+    ----------
+    functional_map : (k, k)
+    registered_vertices : (n_s, 3)
+        The source's, on the target.
+    """
 
     functional_map: np.ndarray
     registered_vertices: np.ndarray
@@ -64,7 +70,15 @@ class AlternatingResult:
 def registration_pair(
     source: Shape, target: Shape, copies: tuple[CoarseProxy, CoarseProxy], landmarks: np.ndarray | None = None
 ) -> RegistrationPair:
-    """The copies of two shapes to alternate on, with the vertices there that are nearest to ``landmarks (l, 2)``."""
+    """Return what an alternating registration of two shapes works on.
+
+    Parameters
+    ----------
+    source, target : Shape
+    copies : pair of CoarseProxy
+    landmarks : (l, 2) int64, optional
+        Vertices of the shapes, of which the nearest of the copies are taken.
+    """
     marks = np.zeros((0, 2), dtype=np.int64) if landmarks is None else landmarks
     near = [
         KDTree(shape.mesh.vertices[copy.vertices]).query(shape.mesh.vertices[at])[1]
@@ -77,7 +91,16 @@ def registration_pair(
 def alternating_registration(
     C: np.ndarray, on: RegistrationPair, led: DescriptorGuidance | None, report: Done | None = None
 ) -> AlternatingResult:
-    """The map ``C (k_t, k_s)`` between unlike shapes mended; ``led`` guides it on all vertices.
+    """Improve a map between unlike shapes by registrations and refinements in turn.
+
+    Parameters
+    ----------
+    C : (k_t, k_s)
+    on : RegistrationPair
+    led : DescriptorGuidance or None
+        Guides the refinements, for all vertices.
+    report : callable, optional
+        Told how much is done, from 0 to 1.
 
     Raises
     ------
@@ -100,7 +123,7 @@ def alternating_registration(
 
 
 def position_normal_guidance(source: Mesh, target: Mesh) -> DescriptorGuidance:
-    """Positions and normals of two surfaces that lie on each other.
+    """Return guidance by positions and normals of two surfaces that lie on each other.
 
     Positions of two random points differ by 1 on average, normals by about as much.
     """
@@ -112,7 +135,7 @@ def position_normal_guidance(source: Mesh, target: Mesh) -> DescriptorGuidance:
 
 
 def position_normals(mesh: Mesh) -> np.ndarray:
-    """Positions and normals of its vertices, (n, 6), in units of length."""
+    """Return positions and weighted normals of the vertices of a mesh, (n, 6), in units of length."""
     return np.hstack([mesh.vertices, _NORMAL_WEIGHT * vertex_normals(mesh)])
 
 

@@ -22,11 +22,23 @@ found back, half a body from where the map had it, stays there unless another is
 def project_with_contact(
     points: np.ndarray, body: DeformableMesh, x: np.ndarray, target: Mesh, normals: np.ndarray
 ) -> ClosestPoints:
-    """The place of each vertex of ``target``, with its ``normals (n_t, 3)``, on ``body``, bent to ``x (n_s, 3)``.
+    """Return the place of each vertex of the target on the bent source.
 
-    The closest place in space or, where it costs less, one at the vertex that is nearest by everything: squared
-    distance in space, in normals (those that differ by 1 count as 0.02), and at rest from the map's ``points (n_t,)``
-    (1 counts as 0.05). On meshes as uneven as may be none costs more than the closest in space.
+    It is the closest place in space or, where it costs less, one at the vertex that is nearest by everything: squared
+    distance in space, in normals (those that differ by 1 count as 0.02), and at rest from the map's points (1 counts as
+    0.05). On meshes as uneven as may be none costs more than the closest in space.
+
+    Parameters
+    ----------
+    points : (n_t,) int64
+        The map that the registration began with.
+    body : DeformableMesh
+        The source.
+    x : (n_s, 3) float64
+        Its vertices, bent.
+    target : Mesh
+    normals : (n_t, 3) float64
+        Of the target's vertices.
     """
     faces, rest = body.mesh.faces, body.mesh.vertices
     there = np.hstack([x, NORMALS * vertex_normals(Mesh(x, faces)), _REST_WEIGHT * rest])

@@ -27,12 +27,12 @@ class DataTerm:
     normals: np.ndarray | None = None
 
     def at(self, x: np.ndarray) -> np.ndarray:
-        """The matrix of the term on ``x (n_s, 3)``."""
+        """Return the matrix of the term times ``x (n_s, 3)``."""
         inside = self._shortened(x if self.rows is None else self.rows @ x)
         return inside if self.rows is None else self.rows.T @ inside
 
     def right(self) -> np.ndarray:
-        """The right-hand side, (n_s, 3)."""
+        """Return the right-hand side, (n_s, 3)."""
         inside = self._shortened(self.places)
         return inside if self.rows is None else self.rows.T @ inside
 
@@ -52,9 +52,22 @@ def descend(
     turns: np.ndarray,
     steps: int = 3,
 ) -> np.ndarray:
-    """``x`` after a few steps of conjugate gradients on the quadratic energy for fixed rotations and terms.
+    """Return ``x`` after a few steps of conjugate gradients on the quadratic energy for fixed rotations and terms.
 
     Every step lowers that energy, so that none needs to be exact.
+
+    Parameters
+    ----------
+    energy : ArapEnergy
+    stiffness : float
+        Its weight, in units of area.
+    solve : callable
+        The preconditioner.
+    terms : list of DataTerm
+    x : (n, 3) float64
+    turns : (n, 3, 3) float64
+        Matrices that turn the rest shape of each vertex's surroundings.
+    steps : int
     """
 
     def apply(z: np.ndarray) -> np.ndarray:

@@ -35,7 +35,20 @@ class ClosestPointQuery:
     tree: KDTree
 
     def __call__(self, points: np.ndarray, normals: np.ndarray) -> tuple[ClosestPoints, np.ndarray, np.ndarray]:
-        """Places of ``points (q, 3)`` with ``normals``, the normals there, and how well they agree, 0 to 1."""
+        """Find the closest points of the surface with like normals.
+
+        Parameters
+        ----------
+        points, normals : (q, 3) float64
+
+        Returns
+        -------
+        found : ClosestPoints
+        normals : (q, 3) float64
+            Of the surface there.
+        agreement : (q,) float64
+            Of the normals, 0 to 1.
+        """
         near = self.tree.query(np.hstack([points, NORMALS * normals]))[1]
         found = closest_among(points, self.vertices, self.faces, *self.around.around(near))
         there = unit_rows(np.einsum("qi,qij->qj", found.weights, self.normals[self.faces[found.faces]]))
@@ -46,8 +59,16 @@ class ClosestPointQuery:
 def closest_point_query(
     mesh: Mesh, normals: np.ndarray | None = None, around: VertexRings | None = None
 ) -> ClosestPointQuery:
-    """A :class:`ClosestPointQuery` at ``mesh``, whose ``normals (n, 3)`` and rings are worked out where they are not
-    given."""
+    """Return a mesh ready to search for closest points with like normals.
+
+    Parameters
+    ----------
+    mesh : Mesh
+    normals : (n, 3) float64, optional
+        Of its vertices, where they are known.
+    around : VertexRings, optional
+        Its rings, where they are known.
+    """
     normals = vertex_normals(mesh) if normals is None else normals
     around = vertex_rings(mesh.faces, len(mesh.vertices)) if around is None else around
     return ClosestPointQuery(
@@ -62,10 +83,10 @@ class DeformableMesh:
     Attributes
     ----------
     mesh : Mesh
-    energy : Rigidity
+    energy : ArapEnergy
     areas : (n,) float64
         Of the vertices.
-    around : Rings
+    around : VertexRings
     solvers : dict or None
         What :meth:`solver` has made, to be found again; ``None`` keeps nothing, since the factors of a large mesh are
         large.
@@ -78,7 +99,7 @@ class DeformableMesh:
     solvers: dict[tuple[float, float], Solve] | None = None
 
     def solver(self, stiffness: float, data: float) -> Solve:
-        """Solves with ``stiffness L + data A``: a preconditioner, factorised once for all steps of a level."""
+        """Return what solves with ``stiffness L + data A``: a preconditioner, factorised once for a level."""
         kept, key = self.solvers, (stiffness, data)
         if kept is not None and key in kept:
             return kept[key]
@@ -89,7 +110,7 @@ class DeformableMesh:
 
 
 def deformable_mesh(mesh: Mesh, solvers: dict[tuple[float, float], Solve] | None = None) -> DeformableMesh:
-    """``mesh`` at rest."""
+    """Return ``mesh`` as a surface at rest; a dictionary of ``solvers`` keeps their factors."""
     return DeformableMesh(
         mesh, build_arap(mesh), vertex_areas(mesh), vertex_rings(mesh.faces, len(mesh.vertices)), solvers
     )
@@ -98,12 +119,20 @@ def deformable_mesh(mesh: Mesh, solvers: dict[tuple[float, float], Solve] | None
 def initial_deformation(
     body: DeformableMesh, points: np.ndarray, places: np.ndarray, normals: np.ndarray, weights: np.ndarray
 ) -> np.ndarray:
-    """The first shape, ``(n, 3)``: where the places say, but where these fold it, as the surroundings do.
+    """Return where the vertices begin, (n, 3): as given places say, but where these fold the surface, as the
+    surroundings do.
 
-    Each of the vertices ``points (q,)`` goes to the mean, by ``weights (q,)``, of those of ``places (q, 3)`` that are
-    its own, and the vertices between them smoothly. Where the normals of that shape disagree with ``normals (q, 3)``
-    the placing is folded or twisted: there vertices have no say, and rotations are carried over from the surroundings
-    by diffusion.
+    Each vertex goes to the weighted mean of the places that are its own, and the vertices between them smoothly. Where
+    the normals of that shape disagree with those given the placing is folded or twisted: there vertices have no say,
+    and rotations are carried over from the surroundings by diffusion.
+
+    Parameters
+    ----------
+    body : DeformableMesh
+    points : (q,) int64
+        Vertices that have places.
+    places, normals : (q, 3) float64
+    weights : (q,) float64
     """
     n, energy = len(body.areas), body.energy
     rows = csr_array((np.ones(len(points)), points, np.arange(len(points) + 1)), shape=(len(points), n))

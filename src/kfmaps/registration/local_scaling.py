@@ -26,12 +26,19 @@ _MIN_FACTOR, _MAX_FACTOR = 0.4, 2.5
 
 
 def local_scaling(energy: ArapEnergy, areas: np.ndarray, area: float) -> Callable[[np.ndarray, np.ndarray], np.ndarray]:
-    """A function that puts the stretch of the surroundings, of about ``area``, into rotations.
+    """Return a function that puts the stretch of the surroundings into rotations.
 
     It takes the bent shape ``x (n, 3)`` and the rotations ``(n, 3, 3)`` of its vertices, and returns ``R_i S_i``, with
     ``S_i`` symmetric, from 0.4 to 2.5 in every direction: the linear map that takes the surroundings' rest shape to
-    their bent one in the sense of least squares, each vertex turned back by its rotation. With no ``area`` it returns
-    the rotations. ``areas (n,)`` are those of the vertices.
+    their bent one in the sense of least squares, each vertex turned back by its rotation.
+
+    Parameters
+    ----------
+    energy : ArapEnergy
+    areas : (n,) float64
+        Of the vertices.
+    area : float
+        About that of the surroundings; with 0 the function returns the rotations.
     """
     if area == 0:
         return lambda _x, turns: turns

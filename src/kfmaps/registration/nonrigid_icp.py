@@ -59,9 +59,9 @@ class Registration:
     vertices : (n_s, 3) float64
         The source's, where they lie on the target.
     faces : (n_t,) int64
-        The source face that each target vertex lies on, ...
+        The source face that each target vertex lies on.
     weights : (n_t, 3) float64
-        ... and the barycentric coordinates of its place there
+        The barycentric coordinates of its place there
         (:func:`kfmaps.registration.contact_projection.project_with_contact`).
     bending : float
         As-rigid-as-possible energy per area (:func:`kfmaps.geometry.arap.arap_energy`): 0 for a motion.
@@ -78,7 +78,7 @@ class Registration:
 
 @settings_record
 class NonRigid:
-    """Settings of the non-rigid fit; callable as ``(source, target, target_to_source) -> Registered``.
+    """Settings of the non-rigid fit; callable as ``(source, target, target_to_source) -> Registration``.
 
     Details smaller than the root of ``stiffness`` follow the target at the first level. Smoothing keeps limbs from
     being twisted; 0 leaves each vertex its own rotation. See also :mod:`kfmaps.registration.local_scaling`.
@@ -99,10 +99,19 @@ class NonRigid:
         landmarks: np.ndarray | None = None,
         held: np.ndarray | None = None,
     ) -> Registration:
-        """Bend ``source`` onto ``target``, beginning with the map ``target_to_source (n_t,)``.
+        """Bend a source onto a target, beginning with a map.
 
-        ``landmarks (l, 2)``, pairs "source vertex, target vertex", are pulled together softly; so is each target vertex
-        with its image in the map, where ``held (n_t,)``, from 0 to 1, says that it shall stay.
+        Parameters
+        ----------
+        source, target : Mesh
+            At unit area.
+        target_to_source : (n_t,) int64
+        progress : callable, optional
+            Told how much is done, from 0 to 1.
+        landmarks : (l, 2) int64, optional
+            Pairs "source vertex, target vertex", which are pulled together softly.
+        held : (n_t,) float64, optional
+            From 0 to 1, how much each target vertex shall stay with its image in the map.
 
         Raises
         ------
@@ -123,7 +132,7 @@ class NonRigid:
         landmarks: np.ndarray | None = None,
         held: np.ndarray | None = None,
     ) -> np.ndarray:
-        """:attr:`Registered.vertices` alone, without the search for where the target's vertices lie."""
+        """Return :attr:`Registration.vertices` alone, without the search for where the target's vertices lie."""
         return self._bent(source, target, target_to_source, progress, landmarks, held)[1]
 
     def _bent(
@@ -182,9 +191,10 @@ class NonRigid:
         marks: np.ndarray | None = None,
         held: np.ndarray | None = None,
     ) -> tuple[np.ndarray, float]:
-        """The source's vertices (n_s, 3) on the target, and the gap; of two surfaces that are ready for it.
+        """Return the source's vertices (n_s, 3) on the target, and the gap, of two surfaces that are ready for it.
 
-        With ``x (n_s, 3)``, where the source lies nearly, only the last level is done.
+        With ``x (n_s, 3)``, where the source lies nearly, only the last level is done. The other parameters are those
+        of :meth:`__call__`.
         """
         levels, steps, begun = range(self.n_levels), self.steps, 0.2
         if x is not None:
@@ -234,7 +244,7 @@ class MeshPair:
 
 
 def mesh_pair(body: DeformableMesh, target: Mesh, look_t: ClosestPointQuery | None = None) -> MeshPair:
-    """A surface at rest and the one that it is to be bent onto; ``look_t`` where it is there already."""
+    """Return a surface at rest and the one that it is to be bent onto; ``look_t`` where it is there already."""
     return MeshPair(body, target, vertex_areas(target), closest_point_query(target) if look_t is None else look_t)
 
 

@@ -25,7 +25,7 @@ on how many there are."""
 
 
 def fill_order(matrix: Sparse, ordering: str = "auto") -> np.ndarray | None:
-    """Order of the rows, (n,), in which a factor of ``matrix`` stays small; ``None`` leaves it to SuperLU.
+    """Return an order of the rows, (n,), in which a factor stays small; ``None`` leaves it to SuperLU.
 
     Parameters
     ----------

@@ -216,14 +216,20 @@ def largest_eigenpairs(
     rng: np.random.Generator,
     each: Map = map,
 ) -> ConvergedPairs:
-    """At least the ``k`` largest eigenpairs of the operator ``apply``, (n, b) -> (n, b).
+    """Return at least the ``k`` largest eigenpairs of an operator.
 
     Parameters
     ----------
+    apply : callable
+        (n, b) -> (n, b).
     n, k : int
         ``n`` above ``_capacity(k)``.
     tolerance : float
         Bound on ``‖apply(x) − νx‖ / ν`` before the last, refining step.
+    rng : numpy.random.Generator
+        Draws the start vectors.
+    each : callable
+        ``map``, or that of a thread pool.
 
     Raises
     ------
