@@ -16,7 +16,7 @@ from collecting import CONFIG, LANDMARKS, done, touch, write_collection
 from kfmaps._arrays import InvalidInput
 from kfmaps.batch.layout import Pair, find_collection
 from kfmaps.batch.plan import make_plan
-from kfmaps.batch.propagate_landmarks import propagate_landmarks, write_landmarks_csv, write_tps
+from kfmaps.batch.propagate_landmarks import propagate_landmarks, write_propagated
 from kfmaps.batch.results import result_path
 from kfmaps.batch.run_spec import RunSpec
 from kfmaps.batch.work import map_path
@@ -136,8 +136,8 @@ def test_what_only_a_part_leads_to_has_the_landmarks_that_it_has(run: tuple[Path
             assert np.isnan(one.points.points[0]).all() == lost
             assert np.isnan(one.points.confidence[0]) == lost
             assert (one.points.confidence[1:] > 0).all()
-        write_landmarks_csv(tmp_path / "all.csv", found)
-        write_tps(tmp_path / "all.tps", found)
+        write_propagated(tmp_path / "all.csv", found)
+        write_propagated(tmp_path / "all.tps", found)
     with open(tmp_path / "all.csv", encoding="utf-8", newline="") as table:
         gone = [row for row in csv.DictReader(table) if row["vertex"] == "-1"]
     assert [(row["specimen"], row["name"]) for row in gone] == [("b2", "tip"), ("b3", "tip")]

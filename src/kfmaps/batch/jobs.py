@@ -85,6 +85,9 @@ class WorkerPool:
 
     def close(self) -> None:
         """End the workers; they are started again when they are needed again."""
+        if self._client is not None:
+            with suppress(Exception):  # else the scheduler tells a client that has gone of its going
+                self._client.unsubscribe_topic("all")
         self._stack.close()
         self._client = None
         if self._deaths:

@@ -7,7 +7,7 @@ import csv
 import io
 import json
 import warnings
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from importlib.resources import files
 from pathlib import Path
 from typing import Any
@@ -44,7 +44,8 @@ _MAX_NAMED = 60
 _TEMPLATES = environment("kfmaps.batch")
 _TEMPLATES.filters |= {"percent": percent, "in_words": in_words}
 
-_COLUMNS = (
+_Column = tuple[str, Callable[[Result], Any], Callable[[Any], str]]
+_COLUMNS: tuple[_Column, ...] = (
     ("mean", lambda r: r.error_mean, percent),
     ("median", lambda r: r.error_median, percent),
     ("max", lambda r: r.error_max, percent),

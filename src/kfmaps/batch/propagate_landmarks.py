@@ -226,15 +226,28 @@ def _mesh_file(name: str, edges: Sequence[_Edge]) -> Path:
     return Path(path)
 
 
-def write_landmarks_csv(path: Path, carried: Sequence[PropagatedLandmarks], force: bool = False) -> None:
-    """Write one row a landmark and specimen: where it is in the specimen's own unit, on which triangle, how sure it is.
+def write_propagated(path: Path, propagated: Sequence[PropagatedLandmarks], force: bool = False) -> None:
+    """Write the landmarks of all specimens.
 
-    Of one without a counterpart vertex and face are −1, and the other cells are empty.
+    As ``.csv`` a row a landmark and specimen: where it is in the specimen's own unit, on which triangle, how sure it
+    is. Of one without a counterpart vertex and face are −1, and the other cells are empty. As ``.tps`` as
+    :func:`~kfmaps.io.landmark_files.write_landmark_sets` does.
+
+    Parameters
+    ----------
+    path : Path
+    propagated : sequence of PropagatedLandmarks
+    force : bool
+        Whether an existing file may be replaced.
     """
+    if path.suffix.lower() != ".csv":
+        sets = [LandmarkSet(one.points.names, one.points.points, one.specimen) for one in propagated]
+        write_landmark_sets(path, sets, force)
+        return
     check_output(path, force)
     titles = ["name", "specimen", "x", "y", "z", "vertex", "face", "weight_1", "weight_2", "weight_3"]
     rows: list[list[object]] = [[*titles, "confidence", "through"]]
-    for one in carried:
+    for one in propagated:
         p = one.points
         for i, name in enumerate(p.names):
             place: list[str] = [repr(x) for x in p.points[i].tolist()]
@@ -244,8 +257,3 @@ def write_landmarks_csv(path: Path, carried: Sequence[PropagatedLandmarks], forc
             at = [int(p.vertices[i]), int(p.place.faces[i])]
             rows.append([name, one.specimen, *place, *at, *weights, confidence, " ".join(one.through)])
     write_rows(path, rows, force)
-
-
-def write_tps(path: Path, carried: Sequence[PropagatedLandmarks], force: bool = False) -> None:
-    """Write the landmarks as TPS, which geomorph and MorphoJ read; one without a counterpart is ``NA NA NA``."""
-    write_landmark_sets(path, [LandmarkSet(p.points.names, p.points.points, p.specimen) for p in carried], force)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import warnings
+from collections.abc import Sequence
 from dataclasses import asdict
 from pathlib import Path
 from typing import Annotated
@@ -19,6 +20,7 @@ from kfmaps.batch.progress import RunReport, estimate
 from kfmaps.batch.results import summarize
 from kfmaps.batch.run import BatchResult, run_batch
 from kfmaps.batch.run_spec import RunSpec
+from kfmaps.batch.work import PairTask
 from kfmaps.cli.options import UNSURE, Identity, Json, Quiet, Require, Workers, check_required, meets
 from kfmaps.cli.terminal import print_json
 from kfmaps.cli.words import UNIT, percent
@@ -132,23 +134,24 @@ def _lines(text: str | None) -> tuple[int, ...]:
 
 
 def describe_plan(plan: Plan, workers: int | None, consistent: bool) -> str:
-    """What there is to do, and for many pairs what that needs."""
-    shapes = len({name for task in plan.tasks for name in (task.pair.source, task.pair.target)})
-    told = [f"{len(plan.tasks)} pairs of {shapes} shapes"]
-    told += [f"{len(plan.results)} done already"] if plan.results else []
-    told += [f"{plan.changed} to do again since their files have changed"] if plan.changed else []
-    if len(plan.todo) >= _MANY:
-        vertices = _vertices(plan)
-        if vertices:
-            left = {name for task in plan.todo for name in (task.pair.source, task.pair.target)}
-            count = available_cores() if workers is None else workers
-            need = estimate(len(left), len(plan.todo), vertices, plan.spec.config, count, consistent=consistent)
-            what = f"{len(plan.todo)} pairs of {len(left)} shapes of about {vertices:,} vertices"
-            return f"{', '.join(told)}; {what} need about {need} with {count} workers; machines differ"
-    return ", ".join(told)
+    """Return what there is to do, and for many pairs what that needs."""
+    parts = [f"{len(plan.tasks)} pairs of {_n_shapes(plan.tasks)} shapes"]
+    parts += [f"{len(plan.results)} done already"] if plan.results else []
+    parts += [f"{plan.changed} to do again since their files have changed"] if plan.changed else []
+    if len(plan.todo) >= _MANY and (vertices := _n_vertices(plan)):
+        count = available_cores() if workers is None else workers
+        sizes = _n_shapes(plan.todo), len(plan.todo), vertices
+        need = estimate(*sizes, plan.spec.config, count, consistent=consistent)
+        workers_text = "1 worker" if count == 1 else f"{count} workers"
+        parts.append(f"about {need} for shapes of {vertices:,} vertices and {workers_text}; machines differ")
+    return ", ".join(parts)
 
 
-def _vertices(plan: Plan) -> int:
+def _n_shapes(tasks: Sequence[PairTask]) -> int:
+    return len({name for task in tasks for name in (task.pair.source, task.pair.target)})
+
+
+def _n_vertices(plan: Plan) -> int:
     """Of the first shape that is to be matched; 0 where it cannot be read, which is told with its pairs."""
     try:
         with warnings.catch_warnings():

@@ -92,7 +92,7 @@ def _carried(
         _, mesh, ways = _both(found, map, given)
         return Values(transfer_back(read.array, ways, mesh, gone), read.columns)
     if products is not None:
-        sides = (_shape(found, side, path, map) for side, path in zip(("source", "target"), given, strict=True))
+        sides = _shape(found, "source", given[0], map), _shape(found, "target", given[1], map)
         return Values(transfer_by_functions(read.array, found, *sides, products), read.columns)
     faces = None
     if found.precise_map is not None and read.array.dtype.kind == "f":
@@ -111,19 +111,18 @@ def _everywhere(
     others: tuple[Path | None, ...],
 ) -> None:
     """Landmarks of one specimen on all of a collection."""
-    from kfmaps.batch.propagate_landmarks import propagate_landmarks, write_landmarks_csv, write_tps
+    from kfmaps.batch.propagate_landmarks import propagate_landmarks, write_propagated
 
     if collection is None or landmarks is None:
         missing = "--landmarks" if landmarks is None else "--collection"
         raise refuse("transfer", "--collection and --landmarks together", f"no {missing}", "give both")
     if any(one is not None for one in others):
         raise refuse("transfer", "--collection and --landmarks alone", "a map or mesh beside them", "leave that out")
-    write = {".csv": write_landmarks_csv, ".tps": write_tps}.get(output.suffix.lower())
-    if write is None:
+    if output.suffix.lower() not in (".csv", ".tps"):
         raise refuse(f"output {output}", "the extension .csv or .tps", output.suffix or "none", "rename it")
     check_output(output, force, (landmarks,))
     found, missed = propagate_landmarks(collection, landmarks, on)
-    write(output, found, force)
+    write_propagated(output, found, force)
     if missed:
         text = f"no map leads to {', '.join(missed[:5])}{' and others' if len(missed) > 5 else ''}"
         warnings.warn(f"{text}; they have no landmarks", KfmapsWarning, stacklevel=2)
