@@ -159,7 +159,7 @@ def test_a_graph_of_pairs_that_agree(folder: Path, tmp_path: Path, capsys: pytes
     told = capsys.readouterr().out
     assert "3 pairs of 3 shapes" in told
     assert "evidence of pairs 3/3" in told
-    assert "all maps agree: none exchanged" in told
+    assert "all maps agree: none replaced" in told
     with open(out / "results.csv", encoding="utf-8", newline="") as file:
         assert all(float(row["agreement"]) > 0.5 for row in csv.DictReader(file))
     assert {p.name for p in (out / "consistent").iterdir()} >= {

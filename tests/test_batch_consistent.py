@@ -1,4 +1,4 @@
-"""Batches whose maps are made to agree: what is exchanged, kept, written, and found again after a kill."""
+"""Batches whose maps are made to agree: what is replaced, kept, written, and found again after a kill."""
 
 from __future__ import annotations
 
@@ -83,7 +83,7 @@ def rows(path: Path) -> list[dict[str, str]]:
         return list(csv.DictReader(file))
 
 
-def test_the_wrong_map_is_exchanged_and_no_other(run: tuple[Plan, list[Result]]) -> None:
+def test_the_wrong_map_is_replaced_and_no_other(run: tuple[Plan, list[Result]]) -> None:
     plan, results = run
     before = {p: p.read_bytes() for p in (plan.folder / "maps").iterdir()}
     found = make_consistent(plan, results, Alone())
@@ -151,7 +151,7 @@ def test_specimens_are_told_of(run: tuple[Plan, list[Result]]) -> None:
     assert page.count("data:image/png;base64,") == 4  # before, now, where they differ, and the worst
 
 
-def test_pairs_that_match_again_are_not_exchanged_any_more(run: tuple[Plan, list[Result]]) -> None:
+def test_pairs_that_match_again_are_not_replaced_any_more(run: tuple[Plan, list[Result]]) -> None:
     plan, results = run
     make_consistent(plan, results, Alone())
     path = map_path(plan.folder, "b1-b3")

@@ -111,9 +111,9 @@ def test_columns_of_which_nothing_is_known_are_left_out() -> None:
     assert '<th class="n">mean' not in page
     assert "<th>verdict</th>" in page
     assert "geodesic" not in page
-    changed = [replace(some_results()[0], changed="runner-up 1", why="<why>", error_before=0.4, agreement=0.99)]
+    changed = [replace(some_results()[0], changed="alternative 1", why="<why>", error_before=0.4, agreement=0.99)]
     page = summary_page("c", changed, {}, {}, 1, pages={("a", "b"): "pages/a-b.html"}, doubted=["<x> → y"])
-    assert "Exchanged maps" in page
+    assert "Replaced maps" in page
     assert "&lt;why&gt;" in page
     assert "40.00" in page
     assert "&lt;x&gt; → y" in page

@@ -88,7 +88,7 @@ def named(path: Path, vertices: np.ndarray) -> None:
 
 def read(path: Path) -> np.ndarray:
     rows = [line.split(",") for line in path.read_text(encoding="utf-8").splitlines()[1:]]
-    return np.array([[float(cell) for cell in row[1:5]] for row in rows])
+    return np.array([[float("nan" if cell == "NA" else cell) for cell in row[1:5]] for row in rows])
 
 
 @pytest.mark.parametrize(("map", "more"), [("down.npz", ()), ("up.npz", ("--back",))])

@@ -248,7 +248,7 @@ def test_compositions_of_maps_that_agree_are_the_maps() -> None:
     np.testing.assert_array_equal(invert_map(a, basis, 30)[a], np.arange(30))
 
 
-def test_a_wrong_pair_is_exchanged_for_the_way_round_and_no_other() -> None:
+def test_a_wrong_pair_is_replaced_for_the_way_round_and_no_other() -> None:
     latent, pairs = rotations(6, size=20), complete_graph(6)
     bad = nearest_orthogonal(np.random.default_rng(5).normal(size=(20, 20)))
     maps = [[ScoredMap(bad if p == (1, 4) else latent[p[1]] @ latent[p[0]].T, -5.0, 0.9)] for p in pairs]
@@ -277,13 +277,13 @@ def test_a_wrong_pair_is_exchanged_for_the_way_round_and_no_other() -> None:
     assert found.probabilities.min() > 0.5
 
 
-def test_a_right_runner_up_comes_before_a_way_round() -> None:
+def test_a_right_alternative_comes_before_a_way_round() -> None:
     latent, pairs = rotations(6, size=20), complete_graph(6)
     bad = nearest_orthogonal(np.random.default_rng(5).normal(size=(20, 20)))
     maps = [[ScoredMap(latent[b] @ latent[a].T, -5.0, 0.9)] for a, b in pairs]
     maps[2] = [ScoredMap(bad, -4.8, 0.9), *maps[2]]
     (change,) = repair(6, pairs, maps, lambda ways: [ScoredMap(bad, -30.0, 0.0) for _ in ways]).replacements
-    assert (change.edge, change.kind, change.candidate) == (2, "runner-up", 1)
+    assert (change.edge, change.kind, change.candidate) == (2, "alternative", 1)
 
 
 def test_what_turns_inside_out_contradicts_itself() -> None:
@@ -314,7 +314,7 @@ def test_hands_agree_with_most() -> None:
 
 
 def test_a_family_of_wrong_candidates_does_not_outvote_better_evidence() -> None:
-    """One shape's pairs share a wrong map among their runners-up; only two of four have the right one at all."""
+    """One shape's pairs share a wrong map among their alternatives; only two of four have the right one at all."""
     latent, pairs = rotations(6, size=20), complete_graph(6)
     flip = nearest_orthogonal(np.random.default_rng(9).normal(size=(20, 20)))
     odd = nearest_orthogonal(np.random.default_rng(5).normal(size=(20, 20)))
@@ -353,7 +353,7 @@ def test_what_is_one_map_is_not_two_candidates() -> None:
     assert with_better_score(one, ScoredMap(C, -1.0, 0.9, True)) is one
 
 
-def test_a_loose_map_is_exchanged_for_a_better_one_alone() -> None:
+def test_a_loose_map_is_replaced_for_a_better_one_alone() -> None:
     latent, pairs = rotations(6, size=20), complete_graph(6)
     rng = np.random.default_rng(3)
     maps = [[ScoredMap(latent[b] @ latent[a].T + 0.005 * rng.normal(size=(20, 20)), -5.0, 0.9)] for a, b in pairs]
@@ -372,7 +372,7 @@ def test_a_loose_map_is_exchanged_for_a_better_one_alone() -> None:
 
 
 def test_left_and_right_specimens_are_told_apart() -> None:
-    """A pair that claims to keep orientation against all others is exchanged for its runner-up, which reverses it."""
+    """A pair that claims to keep orientation against all others is replaced by its alternative, which reverses it."""
     latent, pairs = rotations(6, size=20), complete_graph(6)
     side = np.array([1, 1, -1, 1, -1, -1])
     bad = nearest_orthogonal(np.random.default_rng(2).normal(size=(20, 20)))
@@ -382,4 +382,4 @@ def test_left_and_right_specimens_are_told_apart() -> None:
     found = repair(6, pairs, maps, lambda ways: [ScoredMap(bad, -30.0, 0.0) for _ in ways])
     np.testing.assert_array_equal(found.chirality, side)
     (change,) = found.replacements
-    assert (change.edge, change.kind, change.candidate, change.contradicts) == (at, "runner-up", 1, True)
+    assert (change.edge, change.kind, change.candidate, change.contradicts) == (at, "alternative", 1, True)

@@ -236,7 +236,7 @@ def _map_digest(task: PairTask) -> str:
 
 
 def _score_pair(task: PairTask) -> list[ScoredMap]:
-    """Score the map of a pair and its runners-up, unless that is kept.
+    """Score the map of a pair and its alternatives, unless that is kept.
 
     Maps of parts take no part: neither cycles nor a common basis are defined where points have no counterpart.
     """

@@ -57,7 +57,7 @@ _COLUMNS: tuple[_Column, ...] = (
     ("orientation", lambda r: r.orientation if r.orientation == "reversing" else None, str),
     ("of source", lambda r: r.common_s, "{:.0%}".format),
     ("of target", lambda r: r.common_t, "{:.0%}".format),
-    ("exchanged for", lambda r: r.changed or None, str),
+    ("replaced by", lambda r: r.changed or None, str),
     ("time (s)", lambda r: r.seconds.get("total"), "{:.1f}".format),
 )
 """Title, value to sort by and text of the columns of all pairs. A column of which nothing is known is left out."""
@@ -90,8 +90,8 @@ def write_page(
     pages = _write_pages(plan.folder, tasks, shown)
     changed, specimens = {}, None
     if consistent is not None:
-        exchanged = [r for r in consistent.results if r.changed and (r.source, r.target) in consistent.before]
-        changed = _pictures(tasks, exchanged, worst, fitting_limit(consistent.results), consistent.before)
+        replaced = [r for r in consistent.results if r.changed and (r.source, r.target) in consistent.before]
+        changed = _pictures(tasks, replaced, worst, fitting_limit(consistent.results), consistent.before)
         specimens = _specimens(plan)
     page = summary_page(
         name,

@@ -64,7 +64,7 @@ def propagate_landmarks(
     Parameters
     ----------
     folder : Path
-        Output of ``kfmaps batch``; maps that were exchanged are used in the place of the old.
+        Output of ``kfmaps batch``; replaced maps are used.
     on : str, optional
         The specimen that the landmarks are on; where all maps start from one, that.
 

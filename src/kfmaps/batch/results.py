@@ -50,7 +50,7 @@ class Result:
     agreement: float | None = None  # probability that the map is right beside all others, where they were made to agree
     common_s: float | None = None  # part of the source's area that both have, where one is a part of the other
     common_t: float | None = None
-    changed: str = ""  # what replaces a map that others contradict: "runner-up 1", "composition through A, B"
+    changed: str = ""  # what replaces a map that others contradict: "alternative 1", "composition through A, B"
     why: str = ""  # for what reason
     error_before: float | None = None  # mean error of the map that was replaced
     solver: str = ""

@@ -54,7 +54,7 @@ class Collection:
     probabilities : tuple of float
         Probability of each map beside all others; NaN of maps of parts.
     replacements : dict of (str, str) to str
-        Of each pair whose map others contradict: what it was exchanged for, or "doubted".
+        Of each pair whose map others contradict: what replaced it, or "doubted".
     chirality : dict of str to int
         1 and -1: shapes that are mirror images of each other's kind.
     limit_shapes : tuple of ComponentLimitShape

@@ -89,7 +89,7 @@ def synchronize_store(store: MapStore) -> Consistency:
 
 
 def stored_candidates(file: Match, reversed: bool | None = None) -> list[Candidate]:
-    """Return the map in use and its runners-up; ``reversed`` where the file does not tell."""
+    """Return the map in use and its alternatives; ``reversed`` where the file does not tell."""
     turned = file.orientation == "reversing" if reversed is None else reversed
     return [(points, turned) for points in (file.target_to_source, *file.alternatives)]
 
@@ -99,7 +99,7 @@ def score_stored(
 ) -> list[ScoredMap]:
     """Score the candidates of a file. The map in use has the score of its raw map, where that is better.
 
-    Runners-up are not finished, and finishing does not aim at the score.
+    Alternatives are not finished, and finishing does not aim at the score.
     """
     check_map(file, len(shapes[0].mesh.vertices), len(shapes[1].mesh.vertices))
     maps = stored_candidates(file, reversed)

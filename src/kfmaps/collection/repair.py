@@ -86,12 +86,12 @@ class Replacement:
     Attributes
     ----------
     edge : int
-    kind : "runner-up", "composition" or "none"
+    kind : "alternative", "composition" or "none"
         What replaces the map; "none" where no candidate is probable, and the map stays.
     before, after : MapEvidence
         Of the map that was in use, and of the one that is.
     candidate : int
-        The runner-up's number, from 1.
+        The alternative's number, from 1.
     path : CyclePath or None
         Of a composition.
     contradicts : bool
@@ -113,7 +113,7 @@ class Replacement:
         """Return what the map was replaced by, in words; empty where it stays."""
         if self.path is not None:
             return f"composition through {', '.join(names[i] for i in self.path.through)}"
-        return f"runner-up {self.candidate}" if self.kind == "runner-up" else ""
+        return f"alternative {self.candidate}" if self.kind == "alternative" else ""
 
     def reason(self) -> str:
         """Return why, in words."""
@@ -172,7 +172,7 @@ def repair(
     ends : sequence of (int, int)
         Source and target of each pair.
     maps : sequence of sequences of ScoredMap
-        Of each pair the map in use and its runners-up.
+        Of each pair the map in use and its alternatives.
     compose : callable
         Makes and scores compositions, all that one round asks for at once.
 
@@ -254,7 +254,7 @@ class _Repair:
         first, composed = self.maps[edge][0], best >= given
         return Replacement(
             edge,
-            "none" if best == 0 else "composition" if composed else "runner-up",
+            "none" if best == 0 else "composition" if composed else "alternative",
             self._evidence(edge, 0),
             self._evidence(edge, best),
             candidate=0 if composed else best,

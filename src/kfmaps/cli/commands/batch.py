@@ -183,10 +183,10 @@ def _describe_outcome(plan: Plan, outcome: BatchResult) -> list[str]:
 
 
 def _describe_consistent(found: ConsistentResult) -> list[str]:
-    """Which pairs were exchanged, for what and why."""
-    pairs = "1 pair" if found.replaced == 1 else f"{found.replaced} pairs"
-    lines = [f"{pairs} exchanged, since others contradict them" if found.replaced else "all maps agree: none exchanged"]
-    lines = lines if found.replaced or not found.doubted else ["no pair exchanged"]
+    """Which maps were replaced, by what and why."""
+    maps = "1 map" if found.replaced == 1 else f"{found.replaced} maps"
+    lines = [f"{maps} replaced, since others contradict them" if found.replaced else "all maps agree: none replaced"]
+    lines = lines if found.replaced or not found.doubted else ["no map replaced"]
     for r in found.results:
         if r.changed:
             errors = (
