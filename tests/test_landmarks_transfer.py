@@ -9,12 +9,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from collecting import bent
+from collecting import CONFIG, bent
 from commandline import run
 from kfmaps._arrays import InvalidInput
 from kfmaps.batch.landmark_tables import write_study
-from kfmaps.batch.layout import find_collection
+from kfmaps.batch.layout import Pair, find_collection
+from kfmaps.batch.plan import make_plan
 from kfmaps.batch.results import Result
+from kfmaps.batch.run_spec import RunSpec
 from kfmaps.batch.transfer_landmarks import (
     SpecimenLandmarks,
     carry_templates,
@@ -24,10 +26,11 @@ from kfmaps.batch.transfer_landmarks import (
     template_errors,
     template_pairs,
 )
-from kfmaps.batch.work import map_path
+from kfmaps.batch.work import landmark_pairs, map_path
 from kfmaps.geometry.mesh import Mesh, surface_area
 from kfmaps.io import read_mesh, save_map, write_mesh
 from kfmaps.io.landmark_files import LandmarkSet, read_landmark_sets, write_landmark_sets
+from kfmaps.io.named_points import read_given_landmarks
 from kfmaps.matching.result import Match
 
 N = 300
@@ -219,3 +222,25 @@ def test_the_command_goes_on_where_it_was(scans: Path, tmp_path: Path) -> None:
 def test_a_picked_pair_of_meshes_needs_no_subcommand(scans: Path) -> None:
     assert "expected a file" in run("landmarks", scans / "a.ply", scans / "none.ply", "--no-browser").stderr
     assert "transfer" in run("landmarks", "--help").stdout
+
+
+def test_a_run_takes_landmarks_of_other_programs(scans: Path, tmp_path: Path) -> None:
+    (scans / "landmarks").mkdir()
+    for name in "ab":
+        (scans / "landmarks" / f"{name}.mrk.json").write_bytes((tmp_path / f"{name}.mrk.json").read_bytes())
+    collection = find_collection(scans)
+    assert sorted(collection.landmarks) == ["a", "b"]
+    plan = make_plan(collection, [Pair("a", "b")], RunSpec(CONFIG), tmp_path / "out")
+    (task,) = plan.tasks
+    pairs = landmark_pairs(task, None, read_mesh(scans / "a.ply"), read_mesh(scans / "b.ply"))
+    np.testing.assert_array_equal(pairs, np.stack([AT, AT], axis=1))
+
+
+def test_landmarks_of_one_shape_alone_are_no_pairs(scans: Path, tmp_path: Path) -> None:
+    words = ["landmarks", scans / "a.ply", scans / "b.ply", "--no-browser", "--landmarks", tmp_path / "a.mrk.json"]
+    assert "Give --landmarks twice" in run(*words).stderr
+    files = [tmp_path / "a.mrk.json", tmp_path / "b.mrk.json"]
+    meshes = [read_mesh(scans / "a.ply"), read_mesh(scans / "b.ply")]
+    pairs, names = read_given_landmarks(files, meshes, (None, None))
+    assert names == list(LABELS)
+    np.testing.assert_array_equal(pairs, np.stack([AT, AT], axis=1))

@@ -10,6 +10,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from kfmaps._arrays import refuse
+from kfmaps.io.landmark_files import landmark_stem, landmark_suffix
 from kfmaps.io.meshes import READERS
 from kfmaps.io.text import read_text
 
@@ -89,7 +90,8 @@ def find_collection(folder: str | Path) -> ShapeFolder:
 
     Shapes lie in the folder itself or, when it has none, in ``shapes/``, ``off/``, ``meshes/``, ``ply/`` or
     ``obj/``. Truth lies in ``corres/`` (or ``groundtruth/``) as ``NAME.vts`` and ``NAME.sym.vts``, or per pair as
-    ``A_B.map``; landmarks in ``landmarks/NAME.txt`` (counted from 0) or ``NAME.vts`` (counted from 1); pairs in
+    ``A_B.map``; landmarks in ``landmarks/NAME.txt`` (counted from 0) or ``NAME.vts`` (counted from 1), or in other
+    programs' formats (:mod:`kfmaps.io.landmark_files`); pairs in
     ``test_pairs.txt``.
 
     Raises
@@ -117,7 +119,7 @@ def find_collection(folder: str | Path) -> ShapeFolder:
         truth={name: lists[name] for name in shapes if name in lists},
         mirrored={name: mirrored[name] for name in shapes if name in mirrored},
         maps=_pair_truth([p for p in found if p.suffix == ".map"], shapes),
-        landmarks={p.stem: p for p in _files(folder / LANDMARK_FOLDER) if p.stem in shapes and _is_list(p)},
+        landmarks={name: p for p in _files(folder / LANDMARK_FOLDER) if (name := _landmark_owner(p)) in shapes},
         pairs=pairs if pairs.is_file() else None,
     )
 
@@ -128,8 +130,9 @@ def _files(folder: Path) -> list[Path]:
     return sorted(p for p in folder.iterdir() if p.is_file() and not p.name.startswith("."))
 
 
-def _is_list(path: Path) -> bool:
-    return path.suffix in (".txt", ".vts")
+def _landmark_owner(path: Path) -> str:
+    """The shape that a file of landmarks is called after; empty for another file."""
+    return landmark_stem(path) if path.suffix in (".txt", ".vts") or landmark_suffix(path) else ""
 
 
 def _shapes(folder: Path) -> dict[str, Path]:

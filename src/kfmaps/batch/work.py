@@ -28,7 +28,9 @@ from kfmaps.config import Config
 from kfmaps.fmap.evaluate import coverage, error_curve
 from kfmaps.geometry.mesh import Mesh, vertex_areas
 from kfmaps.io import read_mesh, read_vertex_numbers, save_map
+from kfmaps.io.landmark_files import landmark_suffix
 from kfmaps.io.map_summary import mean_confidence
+from kfmaps.io.named_points import read_landmark_pairs
 from kfmaps.io.provenance import with_files
 from kfmaps.matching.match import match
 from kfmaps.matching.quality import ShapeSamples
@@ -85,7 +87,7 @@ class PairTask:
     truth: tuple[str, str] | None = None  # vertex lists of source and target
     mirrored: str | None = None  # vertex list of the target, left and right swapped
     truth_map: str | None = None  # truth of this pair alone, see ShapeFolder
-    landmarks: tuple[str, str] | None = None  # vertex lists of source and target
+    landmarks: tuple[str, str] | None = None  # vertex lists of source and target, or landmarks with names
 
     def __str__(self) -> str:
         return str(self.pair)
@@ -239,7 +241,7 @@ def _matched(task: PairTask) -> dict[str, Any]:
     source, target = load_prepared(task.source), load_prepared(task.target)
     sizes = len(source.mesh.vertices), len(target.mesh.vertices)
     truth = true_vertices(task, *sizes)
-    landmarks = landmark_pairs(task, truth, *sizes)
+    landmarks = landmark_pairs(task, truth, source.mesh, target.mesh)
     probes = None
     if task.spec.config.search is not None and landmarks is None:
         probes = pair_samples(task, (source, target))
@@ -324,7 +326,7 @@ def true_vertices(task: PairTask, n_s: int, n_t: int) -> Truth | None:
     return check_truth(Truth(np.arange(n_s), numbers), n_s, n_t)
 
 
-def landmark_pairs(task: PairTask, truth: Truth | None, n_s: int, n_t: int) -> np.ndarray | None:
+def landmark_pairs(task: PairTask, truth: Truth | None, source: Mesh, target: Mesh) -> np.ndarray | None:
     """The pair's landmarks (l, 2), 0-based, or ``None``.
 
     Raises
@@ -341,6 +343,9 @@ def landmark_pairs(task: PairTask, truth: Truth | None, n_s: int, n_t: int) -> n
             raise refuse("--truth-landmarks", "lines of the truth", got, "choose others")
         rows = np.array(lines) - 1
         return np.stack([truth.source[rows], truth.target[rows]], axis=1)
-    if task.landmarks is not None:
-        return np.stack(read_vertex_lists(task.landmarks, (n_s, n_t)), axis=1)
-    return None
+    if task.landmarks is None:
+        return None
+    if any(map(landmark_suffix, task.landmarks)):
+        files = Path(task.source.path), Path(task.target.path)
+        return read_landmark_pairs(task.landmarks, (source, target), files)[0]
+    return np.stack(read_vertex_lists(task.landmarks, (len(source.vertices), len(target.vertices))), axis=1)

@@ -16,7 +16,15 @@ from kfmaps.fmap.precise import PointMap, nearest_vertices, point_positions, ver
 from kfmaps.geometry.closest_points import ClosestPoints, closest_points
 from kfmaps.geometry.mesh import Mesh, surface_area
 from kfmaps.io.atomic import atomic_output, check_output
-from kfmaps.io.landmark_files import LandmarkSet, landmark_stem, mesh_space, read_landmark_sets, write_landmark_sets
+from kfmaps.io.index_files import read_landmark_names, read_landmarks
+from kfmaps.io.landmark_files import (
+    LandmarkSet,
+    landmark_stem,
+    landmark_suffix,
+    mesh_space,
+    read_landmark_sets,
+    write_landmark_sets,
+)
 
 MAX_DISTANCE = 0.05
 """Median distance of landmarks from the surface, in √area, beyond which they are refused."""
@@ -221,6 +229,29 @@ def read_landmark_pairs(
         got = " and ".join(f"{', '.join(list(one)[:3])}, ..." for one in placed)
         raise refuse("landmarks", "names that both shapes have", got, "label them alike")
     return np.array([[one[name] for one in placed] for name in names], dtype=np.int64), names
+
+
+def read_given_landmarks(
+    files: Sequence[Path],
+    meshes: Sequence[Mesh],
+    mesh_files: Sequence[Path | None],
+    one_based: bool | None = None,
+) -> tuple[np.ndarray, list[str]]:
+    """Read one file of pairs of vertices, or two files with the landmarks of either shape; pairs (l, 2) and names.
+
+    Raises
+    ------
+    InvalidInput
+        On another number of files, the landmarks of one shape alone, and as :func:`~kfmaps.io.read_landmarks` and
+        :func:`read_landmark_pairs`.
+    """
+    if len(files) == 2:
+        return read_landmark_pairs(files, meshes, mesh_files)
+    if len(files) != 1 or landmark_suffix(files[0]):
+        got = "those of one shape" if len(files) == 1 else f"{len(files)} files"
+        remedy = "Give --landmarks twice, first the source's and then the target's, or a file of pairs"
+        raise refuse("landmarks", "a file of pairs, or a file for each shape", got, remedy)
+    return read_landmarks(files[0], one_based=one_based), read_landmark_names(files[0])
 
 
 def transfer_points(

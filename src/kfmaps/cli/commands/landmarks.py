@@ -16,8 +16,9 @@ from kfmaps.cli.commands._landmarks_transfer import transfer
 from kfmaps.cli.options import Json, UpAxis
 from kfmaps.cli.terminal import print_json
 from kfmaps.config import Config
-from kfmaps.io import check_output, read_landmark_names, read_landmarks, read_mesh
+from kfmaps.io import check_output, read_mesh
 from kfmaps.io.mapfile import check_format
+from kfmaps.io.named_points import read_given_landmarks
 from kfmaps.matching.match import default_config
 from kfmaps.settings.options import Chosen, with_settings
 from kfmaps.viz.document import forwarding_page
@@ -56,7 +57,10 @@ def pick(
             "-o", "--output", help="Where the page saves them; default: landmarks.txt, or the file of --landmarks."
         ),
     ] = None,
-    landmarks: Annotated[Path | None, typer.Option("--landmarks", help="Pairs to begin with.")] = None,
+    landmarks: Annotated[
+        list[Path] | None,
+        typer.Option("--landmarks", help="Pairs to begin with; given twice, the landmarks of SOURCE and of TARGET."),
+    ] = None,
     map_output: Annotated[
         Path, typer.Option("--map", help="Where the page saves the map of a run: .npz, .mat, .txt or .vts.")
     ] = Path("map.npz"),
@@ -71,16 +75,19 @@ def pick(
     The settings are those of the matches that are run from the page.
     """
     check_up(up)
-    output = output or landmarks or Path("landmarks.txt")
+    begun = landmarks or []
+    output = output or (begun[0] if len(begun) == 1 else Path("landmarks.txt"))
     check_format(map_output)
     for path in (output, map_output):
         # The page asks before it replaces a file, that of the landmarks it began with too; the shapes it never does.
-        check_output(path, True, (source, target) if path is output else (source, target, landmarks, output))
+        check_output(path, True, (source, target) if path is output else (source, target, *begun, output))
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", KfmapsWarning)  # what is odd about them says kfmaps match, once
         shapes = read_mesh(source), read_mesh(target)
-    pairs = check_pairs([] if landmarks is None else read_landmarks(landmarks).tolist(), *shapes)
-    labels = [] if landmarks is None else read_landmark_names(landmarks)
+    known, labels = np.zeros((0, 2), dtype=np.int64), []
+    if begun:
+        known, labels = read_given_landmarks(begun, shapes, (source, target))
+    pairs = check_pairs(known.tolist(), *shapes)
     names = (source.stem, target.stem)
 
     def chosen(_: np.ndarray) -> Config:

@@ -73,13 +73,16 @@ def match(
     from kfmaps.cli.summary import summary, table
     from kfmaps.cli.terminal import Terminal, print_json
     from kfmaps.io import save_map
+    from kfmaps.io.named_points import read_given_landmarks
     from kfmaps.matching.match import default_config
     from kfmaps.matching.memory import check_match_memory
 
     config = settings.config(default_config(descriptors))
     _check_device(config.device)
     meshes = _read(source, config), _read(target, config)
-    pairs = _landmarks(landmarks, one_based, meshes, (source, target)) if landmarks else None
+    pairs = None
+    if landmarks:
+        pairs = read_given_landmarks(landmarks, meshes, (source, target), one_based or None)[0]
     if pairs is not None:
         _check_landmarks(pairs, meshes, (source, target))
     n_s, n_t = (len(mesh.vertices) for mesh in meshes)
@@ -176,20 +179,6 @@ def _check_device(device: str) -> None:
     except Exception as error:  # PyTorch reports what is not there by whatever it runs into
         got = str(error).partition("\n")[0][:120] or type(error).__name__
         raise refuse(f"--device {device}", "a device that PyTorch can use", got, "use cpu") from error
-
-
-def _landmarks(files: list[Path], one_based: bool, meshes: tuple[Mesh, Mesh], paths: tuple[Path, Path]) -> np.ndarray:
-    """Pairs of vertices from a file of pairs, or from the landmarks of either shape."""
-    from kfmaps.io import read_landmarks
-    from kfmaps.io.landmark_files import landmark_suffix
-    from kfmaps.io.named_points import read_landmark_pairs
-
-    if len(files) == 2:
-        return read_landmark_pairs(files, meshes, paths)[0]
-    if len(files) > 2 or landmark_suffix(files[0]):
-        remedy = "give --landmarks twice, first the source's and then the target's, or a file of pairs"
-        raise refuse("--landmarks", "one file of pairs, or one for each shape", f"{len(files)}", remedy)
-    return read_landmarks(files[0], one_based=one_based or None)
 
 
 def _check_landmarks(pairs: np.ndarray, meshes: tuple[Mesh, Mesh], paths: tuple[Path, Path]) -> None:
