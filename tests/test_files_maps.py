@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 import json
 import pickle
+import re
 import tracemalloc
 import zipfile
 from dataclasses import fields, is_dataclass
@@ -21,6 +22,8 @@ from kfmaps._arrays import InvalidInput
 from kfmaps.config import Config
 from kfmaps.fmap.precise import PointMap
 from kfmaps.io import check_map, load_map, save_map
+from kfmaps.io.map_summary import summarize
+from kfmaps.io.mapcontent import ARRAYS
 from kfmaps.kernels.kernels import Gaussian
 from kfmaps.matching.result import SHAPE_FIELDS, Match
 from kfmaps.matching.result_groups import MatchFit, MatchPart, MatchRegistration, MatchScore, ShapeFile
@@ -50,7 +53,7 @@ def example(seed: int = 0, n_t: int = 50) -> Match:
         seconds={"solve": 0.5},
         score=MatchScore((1.5, -2.0), -1.0, 0.5, "signs ++, γ", np.array([1])),
         registration=MatchRegistration(rng.normal(size=(40, 3)), RegistrationReport(0.1, 0.2, 0.3, reason="gap")),
-        partial=MatchPart("target", "a hole", 0.5, rng.random(40), rng.random(n_t)),
+        partial=MatchPart("target", "a hole", 0.5, True, rng.random(40), rng.random(n_t)),
         fit=MatchFit(
             rng.normal(size=(4, 4)),
             rng.integers(0, 40, n_t),
@@ -102,6 +105,13 @@ def test_every_field_of_a_match_is_in_its_file_or_said_to_be_missing(tmp_path: P
     assert pickle.loads(pickle.dumps(found)).replaced(seed=8).seed == 8
     with pytest.raises(AttributeError, match="no attribute 'basis'"):
         found.basis  # type: ignore[attr-defined]  # noqa: B018
+
+
+def test_the_manual_names_what_a_file_holds() -> None:
+    text = (Path(__file__).parents[1] / "docs" / "files.md").read_text(encoding="utf-8")
+    named = set(re.findall(r"`(\w+)`", text))
+    assert set(ARRAYS) <= named
+    assert set(summarize(example())) <= named
 
 
 @pytest.mark.parametrize(("suffix", "first"), [(".txt", 0), (".vts", 1)])

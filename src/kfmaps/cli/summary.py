@@ -50,7 +50,7 @@ def _rows(match: Match, accuracy: Accuracy | None, written: Path | None) -> list
         ("matched", " → ".join(_shape(mesh, Path(file.path).name) for mesh, file in sides)),
         ("verdict", f"{match.verdict.capitalize()}{chance}. {verdict_text(match.verdict, n_landmarks)}"),
     ]
-    if match.partial.which != "none" or match.partial.reason.startswith("taken for whole"):
+    if match.partial.suspected:
         rows.append(("parts", match.partial.reason))
     if lost := int((match.target_to_source < 0).sum()):
         n_t = len(match.target_to_source)

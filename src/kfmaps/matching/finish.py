@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Any, Literal
 
 import numpy as np
@@ -44,7 +44,7 @@ class MatchTask:
         In the numbers of ``meshes``.
     seed : int
     clock : StageTimer
-    part_reason : str
+    partial : MatchPart
         Why the shapes were taken for whole.
     """
 
@@ -54,7 +54,7 @@ class MatchTask:
     landmarks: np.ndarray
     seed: int
     clock: StageTimer
-    part_reason: str = ""
+    partial: MatchPart = field(default_factory=MatchPart)
 
     def shapes(self, orientation: str) -> tuple[Shape, Shape]:
         """Both cleaned shapes; the target mirrored where the map is to its mirror image."""
@@ -129,7 +129,7 @@ def refine_and_register(task: MatchTask, found: SearchResult, guidance: Descript
             found.scores, found.quality, found.deformation_energy, found.initialization, found.rejected_landmarks
         ),
         registration=MatchRegistration(registered, final.fit),
-        partial=MatchPart(reason=task.part_reason),
+        partial=task.partial,
         fit=_fit_of(one, found.functional_map, None if raw is None else pair.points(raw)),
     )
 

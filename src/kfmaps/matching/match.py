@@ -102,7 +102,7 @@ def match(
     part, why = _match_part(task, marks)
     if part is not None:
         return _part_result(task, part, why)
-    task = replace(task, part_reason=why)
+    task = replace(task, partial=why)
     if config.search is None:
         return refine_and_register(task, _fit_once(task, marks, descriptors), None)
     asked = config.search.orientation == "reversing"
@@ -121,29 +121,30 @@ def match(
     return _try_others(task, found, best)
 
 
-def _match_part(task: MatchTask, landmarks: np.ndarray | None) -> tuple[PartialMatch | None, str]:
-    """The match of a part and a whole, or ``None`` where both are whole; and why."""
+def _match_part(task: MatchTask, landmarks: np.ndarray | None) -> tuple[PartialMatch | None, MatchPart]:
+    """The match of a part and a whole, or ``None`` where both are whole; and what the match says of it."""
     asked, shapes = task.config.partial.part, task.shapes("preserving")
     if asked == "none":
-        return None, ""
+        return None, MatchPart()
     which, why = asked, "as asked for"
     if which == "auto":
         seen = detect_part(shapes[0].mesh, shapes[1].mesh)
         which, why = seen.which, seen.reason
     if which == "none":
-        return None, why
+        return None, MatchPart(reason=why)
     with task.clock("parts"):
         part = match_partial(
             *shapes, task.config, which, landmarks=landmarks, rng=task.seed, progress=task.clock.report
         )
     if asked != "auto" or (not part.whole and part.verdict != "unlikely"):
-        return part, describe_part(part, why)
-    return None, f"taken for whole: {why}, but " + ("each covers all of the other" if part.whole else "it fits nowhere")
+        overlaps = task.pair.overlap(part.overlap_source, part.overlap_target)
+        return part, MatchPart(part.part, describe_part(part, why), part.scale, True, *overlaps)
+    but = "each covers all of the other" if part.whole else "it fits nowhere"
+    return None, MatchPart(reason=f"taken for whole: {why}, but {but}", suspected=True)
 
 
-def _part_result(task: MatchTask, part: PartialMatch, why: str) -> Match:
+def _part_result(task: MatchTask, part: PartialMatch, partial: MatchPart) -> Match:
     """The match of a part and a whole."""
-    overlaps = task.pair.overlap(part.overlap_source, part.overlap_target)
     registered = part.registered_vertices
     score = MatchScore(part.scores, None, None, "a part bent onto the other", part.rejected_landmarks)
     return task.result(
@@ -155,7 +156,7 @@ def _part_result(task: MatchTask, part: PartialMatch, why: str) -> Match:
         confidence=part.confidence,
         score=score,
         registration=MatchRegistration(None if registered is None else task.pair.bent(registered)),
-        partial=MatchPart(part.part, why, part.scale, *overlaps),
+        partial=partial,
         fit=MatchFit(part.functional_map),
     )
 

@@ -83,6 +83,8 @@ class MatchPart(_Group):
         Why, in words; empty where nobody asked.
     scale : float or None
         √area of the part over that of the whole, as found.
+    suspected : bool
+        Whether a part was looked for; with ``which`` of "none" both shapes were taken for whole in the end.
     overlap_source, overlap_target : (n_s,), (n_t,) float64 or None
         Probability of each vertex to be in the part that both shapes have; ``None`` where both were taken for whole.
     """
@@ -90,6 +92,7 @@ class MatchPart(_Group):
     which: str = "none"
     reason: str = ""
     scale: float | None = None
+    suspected: bool = False
     overlap_source: np.ndarray | None = None
     overlap_target: np.ndarray | None = None
 

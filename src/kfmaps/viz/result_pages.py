@@ -36,7 +36,7 @@ def match_summary(match: Match) -> dict[str, Any]:
         "scores": list(match.score.scores),
         "size of the map": "{} × {}".format(*match.functional_map.shape) if hasattr(match, "functional_map") else None,
         "started from": match.score.initialization,
-        "parts": match.partial.reason if match.partial.which != "none" else None,
+        "parts": match.partial.reason if match.partial.suspected else None,
         "solver": fit.status,
         "solver steps": fit.steps,
         "kernel": fit.kernel,
