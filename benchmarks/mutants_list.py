@@ -745,7 +745,7 @@ MUTANTS = tuple(
             "test_symmetries -k knows_them",
         ),
         ("np.argsort(_changed(begun, of), kind", "np.argsort(-_changed(begun, of), kind", "test_symmetries -k early"),
-        ("few, weights[:QUICK])", "few, weights)", "test_clear -k near_symmetries"),
+        ("few, weights[:_QUICK])", "few, weights)", "test_clear -k near_symmetries"),
         (
             "rest[np.isinf(rest)] = over[np.isinf(rest)]",
             "rest[np.isinf(rest)] = 2 * over[np.isinf(rest)]",

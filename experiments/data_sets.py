@@ -180,7 +180,7 @@ def _draw(pairs: list[Pair], count: int | None, seed: int) -> list[Pair]:
 
 
 @lru_cache(maxsize=8)
-def _generated(kind: str, number: int, vertices: int) -> datasets.Pair:
+def _generated(kind: str, number: int, vertices: int) -> datasets.ExamplePair:
     return GENERATORS[kind](vertices, rng=number)
 
 

@@ -15,7 +15,7 @@ from kfmaps.batch.layout import Pair, choose_pairs, find_collection, natural
 from kfmaps.batch.plan import recommended
 from kfmaps.batch.progress import remaining_seconds
 from kfmaps.batch.run_spec import RunSpec, claim
-from kfmaps.cli.words import in_words
+from kfmaps.cli.words import format_seconds
 from kfmaps.config import Config
 from kfmaps.kernels.kernels import Linear
 
@@ -178,7 +178,7 @@ def test_remaining_time_is_honest_on_uneven_work() -> None:
 
 
 def test_durations_in_words() -> None:
-    assert [in_words(s) for s in (7.4, 99, 130, 12000)] == ["7 s", "99 s", "2 min", "3 h 20 min"]
+    assert [format_seconds(s) for s in (7.4, 99, 130, 12000)] == ["7 s", "99 s", "2 min", "3 h 20 min"]
 
 
 def test_long_names_have_files_all_the_same(tmp_path: Path) -> None:
@@ -212,9 +212,9 @@ def test_numbers_beside_a_gltf_belong_to_it(tmp_path: Path) -> None:
 @pytest.mark.parametrize("deep", ["[" * 100_000, '{"a":' * 100_000])
 def test_deep_results_and_settings(tmp_path: Path, deep: str) -> None:
     from kfmaps.batch.results import read_result
-    from kfmaps.batch.run_spec import read_settings
+    from kfmaps.batch.run_spec import read_run_spec
 
     assert read_result(touch(tmp_path / "r.json", deep)) is None
     touch(tmp_path / "settings.json", deep)
     with pytest.raises(InvalidInput, match="settings of a run"):
-        read_settings(tmp_path)
+        read_run_spec(tmp_path)

@@ -12,7 +12,7 @@ from PIL import Image
 from scipy.spatial import KDTree
 
 from chromium import NASTY, Browser, Keys, chromium, needs_browser
-from kfmaps.datasets import Pair, two_poses
+from kfmaps.datasets import ExamplePair, two_poses
 from kfmaps.fmap.confidence import local_confidence
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.matching.result import Match
@@ -31,12 +31,12 @@ def browser(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Browser]:
 
 
 @pytest.fixture(scope="module")
-def pair() -> Pair:
+def pair() -> ExamplePair:
     return two_poses(1500)
 
 
 @pytest.fixture
-def page(browser: Browser, pair: Pair, tmp_path: Path) -> Browser:
+def page(browser: Browser, pair: ExamplePair, tmp_path: Path) -> Browser:
     """The page of the true map, everything switched on, opened from the disk."""
     rng = np.random.default_rng(0)
     html = result_page(
@@ -83,7 +83,7 @@ def test_names_and_settings_are_only_text(page: Browser) -> None:
     assert page.complaints() == []
 
 
-def test_pointing_at_the_target_shows_its_match(page: Browser, pair: Pair) -> None:
+def test_pointing_at_the_target_shows_its_match(page: Browser, pair: ExamplePair) -> None:
     for vertex in page.visible("target", np.arange(0, len(pair.truth), 7), 4):
         page.point("target", vertex)
         page.until(lambda v=vertex: page.text("readout").startswith(f"target {v} → source {pair.truth[v]},"))
@@ -91,7 +91,7 @@ def test_pointing_at_the_target_shows_its_match(page: Browser, pair: Pair) -> No
         assert page.run("return kfmaps.marks('target')") == [vertex]
 
 
-def test_pointing_at_the_source_shows_all_that_land_there(page: Browser, pair: Pair) -> None:
+def test_pointing_at_the_source_shows_all_that_land_there(page: Browser, pair: ExamplePair) -> None:
     count = np.bincount(pair.truth, minlength=len(pair.source.vertices))
     for vertex in page.visible("source", np.flatnonzero(count >= 2), 3):
         landing = np.flatnonzero(pair.truth == vertex)
@@ -101,21 +101,21 @@ def test_pointing_at_the_source_shows_all_that_land_there(page: Browser, pair: P
         assert sorted(page.run("return kfmaps.marks('target')")) == landing.tolist()
 
 
-def test_a_source_point_that_nothing_reaches_shows_the_nearest_that_is(page: Browser, pair: Pair) -> None:
+def test_a_source_point_that_nothing_reaches_shows_the_nearest_that_is(page: Browser, pair: ExamplePair) -> None:
     missed = np.setdiff1d(np.arange(len(pair.source.vertices)), pair.truth)
     page.point("source", page.visible("source", missed, 1)[0])
     told = page.until(lambda: re.search(r"← target (\d+).*nearest that has one is (\d+)", page.text("readout")))
     assert pair.truth[int(told[1])] == int(told[2])
 
 
-def test_runner_up_has_its_own_matches(page: Browser, pair: Pair) -> None:
+def test_runner_up_has_its_own_matches(page: Browser, pair: ExamplePair) -> None:
     page.run(CHOOSE_MAP, "1")
     vertex = page.visible("target", np.arange(len(pair.truth)), 1)[0]
     page.point("target", vertex, click=True)
     page.until(lambda: page.text("pinned") == f"target {vertex} → source {np.roll(pair.truth, 1)[vertex]}")
 
 
-def test_colours_and_texture_are_carried_by_the_map(browser: Browser, pair: Pair, tmp_path: Path) -> None:
+def test_colours_and_texture_are_carried_by_the_map(browser: Browser, pair: ExamplePair, tmp_path: Path) -> None:
     views = {}
     identity = np.arange(len(pair.source.vertices))
     for name, points in (("same", identity), ("other", identity[::-1].copy())):
@@ -168,7 +168,7 @@ def test_everything_can_be_reached_by_keyboard_and_has_a_name(page: Browser) -> 
     assert "from 1 to 0.01 in 2 steps" in page.element(".chart").accessible_name
 
 
-def test_a_vertex_can_be_named_by_number_and_taken_in_the_middle(page: Browser, pair: Pair) -> None:
+def test_a_vertex_can_be_named_by_number_and_taken_in_the_middle(page: Browser, pair: ExamplePair) -> None:
     page.element("#goto-target").send_keys("17", Keys.ENTER)
     page.until(lambda: page.text("pinned").startswith(f"target 17 → source {pair.truth[17]}"))
     page.element("#goto-target").send_keys(Keys.BACKSPACE * 2, "999999", Keys.ENTER)
@@ -223,7 +223,7 @@ def test_errors_have_a_scale_with_its_unit(page: Browser) -> None:
     assert (page.text("legend-low"), page.text("legend-high")) == ("0", "20")
 
 
-def test_difference_is_between_the_best_map_and_the_runner_up(page: Browser, pair: Pair, tmp_path: Path) -> None:
+def test_difference_is_between_the_best_map_and_the_runner_up(page: Browser, pair: ExamplePair, tmp_path: Path) -> None:
     half = pair.truth.copy()
     upper = pair.target.vertices[:, 1] > np.median(pair.target.vertices[:, 1])
     half[upper] = half[upper][::-1]
@@ -242,7 +242,7 @@ def test_difference_is_between_the_best_map_and_the_runner_up(page: Browser, pai
     assert bottom[len(bottom) // 2 :].mean() < 0.001
 
 
-def test_confidence_is_of_the_map_that_is_shown(browser: Browser, pair: Pair, tmp_path: Path) -> None:
+def test_confidence_is_of_the_map_that_is_shown(browser: Browser, pair: ExamplePair, tmp_path: Path) -> None:
     """A part that is sent elsewhere is dark, the rest bright; the alternative, which is right, is bright all over."""
     side = pair.target.vertices[:, 0]
     part = side > np.quantile(side, 0.93)
@@ -302,7 +302,7 @@ def test_verdict_comes_first_and_an_alternative_says_that_it_is_one(page: Browse
     assert page.text("facts") == best
 
 
-def test_both_are_seen_from_the_same_side_of_the_body(browser: Browser, pair: Pair, tmp_path: Path) -> None:
+def test_both_are_seen_from_the_same_side_of_the_body(browser: Browser, pair: ExamplePair, tmp_path: Path) -> None:
     """However the target lies, and whatever the map says: a map that takes back for front is seen to do so."""
     lying = Mesh(pair.source.vertices[:, [0, 2, 1]] * [1, -1, 1], pair.source.faces)  # a quarter round x
     turned = pair.source.vertices * [-1, 1, -1]

@@ -12,7 +12,7 @@ import pytest
 from chromium import NASTY, Browser, Keys, chromium, needs_browser
 from kfmaps import Match
 from kfmaps._arrays import InvalidInput
-from kfmaps.datasets import Pair, two_poses
+from kfmaps.datasets import ExamplePair, two_poses
 from kfmaps.geometry.mesh import Mesh, surface_area
 from kfmaps.io import load_map, read_landmark_names, read_landmarks
 from kfmaps.viz.document import forwarding_page
@@ -29,7 +29,7 @@ def browser(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Browser]:
 
 
 @pytest.fixture(scope="module")
-def pair() -> Pair:
+def pair() -> ExamplePair:
     return two_poses(1500)
 
 
@@ -48,7 +48,9 @@ def a_matcher(landmarks: np.ndarray, progress: Progress) -> Match:
 
 
 @pytest.fixture
-def picker(browser: Browser, pair: Pair, tmp_path: Path, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Browser]:
+def picker(
+    browser: Browser, pair: ExamplePair, tmp_path: Path, tmp_path_factory: pytest.TempPathFactory
+) -> Iterator[Browser]:
     """The page, opened as the command does: from a file that leads to the server's address."""
     setting = Picker(
         pair.source,
@@ -101,7 +103,7 @@ def add(picker: Browser, source: int, target: int) -> None:
     picker.element("#add-target").send_keys(str(target), Keys.ENTER)
 
 
-def test_pairs_are_clicked_undone_dragged_deleted_and_saved(picker: Browser, pair: Pair, tmp_path: Path) -> None:
+def test_pairs_are_clicked_undone_dragged_deleted_and_saved(picker: Browser, pair: ExamplePair, tmp_path: Path) -> None:
     s = spread(picker, "source", pair.source, 4)
     t = spread(picker, "target", pair.target, 4)
     picker.point("source", s[0], click=True)
@@ -152,7 +154,7 @@ def test_existing_file_is_replaced_after_asking(picker: Browser, tmp_path: Path)
     assert read_landmarks(tmp_path / "pairs.txt").tolist() == [[7, 9]]
 
 
-def test_match_shows_progress_its_map_and_its_errors(picker: Browser, pair: Pair) -> None:
+def test_match_shows_progress_its_map_and_its_errors(picker: Browser, pair: ExamplePair) -> None:
     add(picker, 3, 5)
     add(picker, 8, 6)
     GOING.clear()
@@ -182,7 +184,7 @@ def test_match_shows_progress_its_map_and_its_errors(picker: Browser, pair: Pair
     assert picker.complaints() == []
 
 
-def test_change_is_white_where_nothing_moved_and_red_where_it_did(picker: Browser, pair: Pair) -> None:
+def test_change_is_white_where_nothing_moved_and_red_where_it_did(picker: Browser, pair: ExamplePair) -> None:
     far = int(np.linalg.norm(pair.source.vertices - pair.source.vertices[3], axis=1).argmax())
     coloured = []
     for number, source in enumerate((3, 3, far), 1):

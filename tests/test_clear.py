@@ -58,10 +58,10 @@ def names(monkeypatch, pair, on, easy, landmarks=NONE, descriptors=None):
 def test_a_clear_map_is_compared_with_near_symmetries_alone(monkeypatch, pair, on):
     tried, finalists = names(monkeypatch, pair, on, -np.inf)
     assert tried == {"signs", "turned", 0.0, 12.0}
-    assert finalists <= found_by.FEWER
+    assert finalists <= found_by._FEWER
     tried, finalists = names(monkeypatch, pair, on, np.inf)
     assert {"signs", "turned", "kicked", 0.0, 4.0, 12.0} < tried
-    assert finalists > found_by.FEWER
+    assert finalists > found_by._FEWER
 
 
 def test_what_the_user_says_is_heard(monkeypatch, pair, on):

@@ -21,7 +21,7 @@ from commandline import run, shapes, start
 from kfmaps._arrays import InvalidInput, KfmapsWarning, MissingDependency, NotConverged
 from kfmaps.cli import main as cli
 from kfmaps.cli.main import COMMANDS
-from kfmaps.cli.options import COMMON, meets
+from kfmaps.cli.options import _COMMON, meets
 
 HEAVY = ("numpy", "scipy", "matplotlib", "torch", "trimesh", "robust_laplacian", "potpourri3d", "distributed")
 
@@ -100,7 +100,7 @@ def test_a_command_has_few_options(name: str) -> None:
     panels = [getattr(p, "rich_help_panel", None) for p in LEAVES[name].params if p.opts[0].startswith("-")]
     assert panels.count(None) <= 10 + 1  # --help
     assert panels.count("Settings") <= 10
-    assert set(panels) <= {None, "Settings", COMMON}
+    assert set(panels) <= {None, "Settings", _COMMON}
 
 
 @pytest.mark.parametrize("name", LEAVES)

@@ -10,7 +10,7 @@ import pytest
 from matplotlib.image import imread
 
 from commandline import run
-from kfmaps.cli.commands.demo import SHAPES
+from kfmaps.cli.commands.demo import _SHAPES
 from kfmaps.config import Config, Search
 from kfmaps.io import read_landmarks, read_mesh, read_vertex_numbers
 
@@ -62,7 +62,7 @@ def test_nothing_is_replaced(folder: Path) -> None:
 @pytest.mark.parametrize(
     ("words", "told"),
     [
-        (["--shape", "cube"], ", ".join(SHAPES)),
+        (["--shape", "cube"], ", ".join(_SHAPES)),
         (["--vertices", "10"], "1500 to 300000"),
         (["-o", "demo.bmp"], ".png"),
         (["--landmarks", "0"], "--landmarks"),

@@ -13,7 +13,7 @@ import pytest
 import kfmaps
 from commandline import SMALL, run, shapes
 from kfmaps._arrays import InvalidInput
-from kfmaps._memory import check_memory, in_words, installed_memory
+from kfmaps._memory import check_memory, format_bytes, installed_memory
 from kfmaps.config import Config, DescriptorConfig, NystromConfig
 from kfmaps.io import write_vertex_numbers
 from kfmaps.matching.memory import check_match_memory
@@ -113,6 +113,6 @@ def test_memory() -> None:
     check_memory(1e6, "a", "b", "c")
     with pytest.raises(InvalidInput, match=r"a: expected at most .*B of memory, got 1,000,000,000 GB for b. C\."):
         check_memory(1e18, "a", "b", "c")
-    assert [in_words(x) for x in (5, 1.5e3, 12e6, 999e6, 3.5e9, 2e13)] == [
+    assert [format_bytes(x) for x in (5, 1.5e3, 12e6, 999e6, 3.5e9, 2e13)] == [
         *("5 bytes", "1.5 kB", "12 MB", "999 MB", "3.5 GB", "20,000 GB")
     ]

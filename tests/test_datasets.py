@@ -9,7 +9,7 @@ from scipy.spatial import KDTree
 from kfmaps import datasets
 from kfmaps._arrays import InvalidInput
 from kfmaps.datasets.creature import CREATURE, SYMMETRIC
-from kfmaps.datasets.pairs import Pair, largest_piece
+from kfmaps.datasets.pairs import ExamplePair, largest_piece
 from kfmaps.datasets.skeleton import Body
 from kfmaps.datasets.surface import closed_mesh
 from kfmaps.geometry.closest_points import closest_points
@@ -21,7 +21,7 @@ PAIRS = ("two_poses", "non_isometric", "partial", "symmetric_creature")
 
 
 @pytest.fixture(scope="module")
-def pairs() -> dict[str, Pair]:
+def pairs() -> dict[str, ExamplePair]:
     return {name: getattr(datasets, name)(2500, rng=7) for name in PAIRS}
 
 
@@ -59,13 +59,13 @@ def smallest_angles(mesh: Mesh) -> np.ndarray:
     return np.rad2deg(np.arccos(np.clip(cosine, -1, 1))).min(axis=1)
 
 
-def exact_places(pair: Pair) -> np.ndarray:
+def exact_places(pair: ExamplePair) -> np.ndarray:
     """Where each target vertex truly is on the source, (n_t, 3)."""
     corners = pair.source.vertices[pair.source.faces[pair.truth_faces]]
     return (corners * pair.truth_weights[:, :, None]).sum(axis=1)
 
 
-def length_ratios(pair: Pair) -> np.ndarray:
+def length_ratios(pair: ExamplePair) -> np.ndarray:
     """Length on the source over length on the target of each target edge."""
     e, places = edges(pair.target.faces), exact_places(pair)
     there = np.linalg.norm(np.diff(pair.target.vertices[e], axis=1), axis=2)
@@ -79,7 +79,7 @@ def path_lengths(mesh: Mesh, starts: np.ndarray) -> np.ndarray:
     return dijkstra(graph, directed=False, indices=starts)
 
 
-def facing(pair: Pair, point_map: np.ndarray) -> float:
+def facing(pair: ExamplePair, point_map: np.ndarray) -> float:
     """Share of the target's area whose image on the source is not turned inside out.
 
     Not all of it even under the truth: where neighbours go to one vertex, a triangle has no side.
@@ -91,7 +91,7 @@ def facing(pair: Pair, point_map: np.ndarray) -> float:
 
 
 @pytest.mark.parametrize("name", PAIRS)
-def test_closed_oriented_genus_zero(pairs: dict[str, Pair], name: str) -> None:
+def test_closed_oriented_genus_zero(pairs: dict[str, ExamplePair], name: str) -> None:
     pair = pairs[name]
     for mesh in (pair.source,) if name == "partial" else (pair.source, pair.target):
         assert len(rim(mesh.faces)) == 0
@@ -109,7 +109,7 @@ def test_round_shapes_are_closed(rounds: dict[str, Mesh], name: str, expected: i
 
 
 @pytest.mark.parametrize("name", PAIRS)
-def test_triangles_are_well_shaped(pairs: dict[str, Pair], name: str) -> None:
+def test_triangles_are_well_shaped(pairs: dict[str, ExamplePair], name: str) -> None:
     for mesh in (pairs[name].source, pairs[name].target):
         angles = smallest_angles(mesh)
         assert np.percentile(angles, 1) > 15
@@ -134,7 +134,7 @@ def test_same_seed_same_shape_other_seed_other_shape() -> None:
 
 
 @pytest.mark.parametrize("name", PAIRS)
-def test_truth_is_the_vertex_nearest_to_the_exact_place(pairs: dict[str, Pair], name: str) -> None:
+def test_truth_is_the_vertex_nearest_to_the_exact_place(pairs: dict[str, ExamplePair], name: str) -> None:
     pair = pairs[name]
     assert pair.truth.shape == pair.truth_faces.shape == (len(pair.target.vertices),)
     np.testing.assert_allclose(pair.truth_weights.sum(axis=1), 1)
@@ -150,20 +150,20 @@ def test_truth_is_the_vertex_nearest_to_the_exact_place(pairs: dict[str, Pair], 
 
 
 @pytest.mark.parametrize("name", ["two_poses", "symmetric_creature", "partial"])
-def test_poses_are_nearly_isometric(pairs: dict[str, Pair], name: str) -> None:
+def test_poses_are_nearly_isometric(pairs: dict[str, ExamplePair], name: str) -> None:
     ratios = length_ratios(pairs[name])
     assert abs(ratios.mean() - 1) < 0.02
     assert ratios.std() < 0.13
     assert np.mean((ratios > 0.8) & (ratios < 1.25)) > 0.93
 
 
-def test_other_proportions_are_not_isometric(pairs: dict[str, Pair]) -> None:
+def test_other_proportions_are_not_isometric(pairs: dict[str, ExamplePair]) -> None:
     low, high = np.percentile(length_ratios(pairs["non_isometric"]), [5, 95])
     assert low < 0.75
     assert high > 1.15
 
 
-def test_meshes_are_independent(pairs: dict[str, Pair]) -> None:
+def test_meshes_are_independent(pairs: dict[str, ExamplePair]) -> None:
     pair = pairs["two_poses"]
     largest = pair.truth_weights.max(axis=1)
     assert (largest > 0.99).mean() < 0.02, "target vertices are source vertices"
@@ -172,7 +172,7 @@ def test_meshes_are_independent(pairs: dict[str, Pair]) -> None:
     assert abs(largest.mean() - 11 / 18) < 0.03
 
 
-def test_poses_differ_by_more_than_a_rigid_motion(pairs: dict[str, Pair]) -> None:
+def test_poses_differ_by_more_than_a_rigid_motion(pairs: dict[str, ExamplePair]) -> None:
     pair = pairs["two_poses"]
     a, b = exact_places(pair), pair.target.vertices
     a, b = a - a.mean(axis=0), b - b.mean(axis=0)
@@ -192,7 +192,7 @@ def test_creature_has_no_mirror_image_in_itself() -> None:
         assert max(ratio, 1 / ratio) > 1.2, part
 
 
-def test_symmetric_creature_has_two_truths(pairs: dict[str, Pair]) -> None:
+def test_symmetric_creature_has_two_truths(pairs: dict[str, ExamplePair]) -> None:
     pair = pairs["symmetric_creature"]
     assert pair.mirrored is not None
     body = Body(SYMMETRIC)
@@ -211,7 +211,7 @@ def test_symmetric_creature_has_two_truths(pairs: dict[str, Pair]) -> None:
     assert np.median(aside) > 0.2
 
 
-def test_asymmetric_truth_keeps_paths_and_orientation(pairs: dict[str, Pair]) -> None:
+def test_asymmetric_truth_keeps_paths_and_orientation(pairs: dict[str, ExamplePair]) -> None:
     pair = pairs["two_poses"]
     assert pair.mirrored is None
     starts = np.random.default_rng(1).choice(len(pair.truth), 12, replace=False)
@@ -223,7 +223,7 @@ def test_asymmetric_truth_keeps_paths_and_orientation(pairs: dict[str, Pair]) ->
 
 
 @pytest.mark.parametrize("name", ["two_poses", "non_isometric", "symmetric_creature"])
-def test_the_skin_does_not_touch_itself(pairs: dict[str, Pair], name: str) -> None:
+def test_the_skin_does_not_touch_itself(pairs: dict[str, ExamplePair], name: str) -> None:
     for mesh in (pairs[name].source, pairs[name].target):
         normals = vertex_normals(mesh)
         near = KDTree(mesh.vertices).query_pairs(0.1, output_type="ndarray")

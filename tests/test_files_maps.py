@@ -22,7 +22,7 @@ from kfmaps._arrays import InvalidInput
 from kfmaps.config import Config
 from kfmaps.fmap.precise import PointMap
 from kfmaps.io import check_map, load_map, save_map
-from kfmaps.io.map_summary import summarize
+from kfmaps.io.map_summary import summarize_match
 from kfmaps.io.mapcontent import ARRAYS
 from kfmaps.kernels.kernels import Gaussian
 from kfmaps.matching.result import SHAPE_FIELDS, Match
@@ -111,7 +111,7 @@ def test_the_manual_names_what_a_file_holds() -> None:
     text = (Path(__file__).parents[1] / "docs" / "files.md").read_text(encoding="utf-8")
     named = set(re.findall(r"`(\w+)`", text))
     assert set(ARRAYS) <= named
-    assert set(summarize(example())) <= named
+    assert set(summarize_match(example())) <= named
 
 
 @pytest.mark.parametrize(("suffix", "first"), [(".txt", 0), (".vts", 1)])
@@ -386,7 +386,7 @@ def test_sizes_are_looked_at_before_memory_is_taken(
     tmp_path: Path, suffix: str, packed: Any, sizes: tuple[int, int], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Kilobytes of file that unpack to much more than a map has: refused with a small part of it unpacked."""
-    monkeypatch.setattr("kfmaps.io.mapfile.LARGEST", 1 << 20)
+    monkeypatch.setattr("kfmaps.io.mapfile._LARGEST", 1 << 20)
     content = packed(*sizes)
     assert len(content) < 1 << 17
     tracemalloc.start()

@@ -25,7 +25,7 @@ from kfmaps.fmap.approximate_nearest import approximate_nearest
 from kfmaps.fmap.confidence import local_confidence
 from kfmaps.fmap.convert import to_points
 from kfmaps.fmap.descriptor_guidance import descriptor_guidance
-from kfmaps.fmap.losses import LOSSES, Loss
+from kfmaps.fmap.losses import _LOSSES, Loss
 from kfmaps.fmap.multiplication_operators import truncate_features, truncate_operators
 from kfmaps.fmap.nearest import nearest
 from kfmaps.fmap.solvers import CG, solve
@@ -287,7 +287,7 @@ def test_compression_drops_as_much_as_its_tolerance_allows_and_no_more(strong, r
 
 @pytest.mark.parametrize("delta", [0.1, 3.0])
 def test_losses_start_at_zero_and_have_no_steps(delta):
-    for name in LOSSES:
+    for name in _LOSSES:
         loss = Loss(name, delta)
         e = np.linspace(0, 4 * delta**2, 4001)
         assert loss.value(e[:1])[0] == pytest.approx(0, abs=3e-3 * delta**2)

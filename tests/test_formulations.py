@@ -13,7 +13,7 @@ from kfmaps._arrays import InvalidInput, inner, to_numpy
 from kfmaps.fmap.constraints import _tangent, minimize_orthogonal, nearest_orthogonal
 from kfmaps.fmap.coupled import couple_bases
 from kfmaps.fmap.energy import Energy, descriptor_term, laplacian_term, operator_term, value
-from kfmaps.fmap.losses import LOSSES, Loss, RobustData, sparse_penalty
+from kfmaps.fmap.losses import _LOSSES, Loss, RobustData, sparse_penalty
 from kfmaps.fmap.minimize import (
     BidirectionalWeights,
     MinimizeOptions,
@@ -148,7 +148,7 @@ def test_tangent_is_a_projection(case):
     np.testing.assert_allclose(to_numpy(nearest_orthogonal(moved)), to_numpy(moved), atol=5e-12)
 
 
-@pytest.mark.parametrize("name", LOSSES)
+@pytest.mark.parametrize("name", _LOSSES)
 def test_loss_weight_is_its_slope_and_it_is_concave(name):
     loss = Loss(name, 0.7)
     e = np.linspace(1e-2, 5, 400)
@@ -176,13 +176,13 @@ def penalties(case):
     *_, E = case
     return {
         "relative": relative(case),
-        **{name: robust(case, name) for name in LOSSES},
+        **{name: robust(case, name) for name in _LOSSES},
         "sparse": sparse_penalty(E.rhs(), 1e-2),
         "spatial": transport_penalty(E.rhs() / inner(E.rhs(), E.rhs()) ** 0.5, case[0], case[1]),
     }
 
 
-@pytest.mark.parametrize("name", [*LOSSES, "sparse", "relative", "spatial"])
+@pytest.mark.parametrize("name", [*_LOSSES, "sparse", "relative", "spatial"])
 def test_majorizer_touches_from_above(case, name):
     penalty = penalties(case)[name]
     *_, E = case

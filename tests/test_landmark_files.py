@@ -17,7 +17,7 @@ from kfmaps.fmap.precise import vertex_point_map
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.io import load_map, save_map, write_mesh
 from kfmaps.io.landmark_files import (
-    FORMATS,
+    _FORMATS,
     LandmarkSet,
     landmark_stem,
     landmark_suffix,
@@ -40,7 +40,7 @@ def touch(path: Path, text: str) -> Path:
     return path
 
 
-@pytest.mark.parametrize("suffix", FORMATS)
+@pytest.mark.parametrize("suffix", _FORMATS)
 def test_what_is_written_is_read_back(tmp_path: Path, suffix: str) -> None:
     given = LandmarkSet(NAMES, POINTS, "one", "RAS", notes=("", "", "doubtful, see there"))
     write_landmark_sets(tmp_path / f"one{suffix}", [given])
@@ -52,7 +52,7 @@ def test_what_is_written_is_read_back(tmp_path: Path, suffix: str) -> None:
     assert read.space == ("RAS" if suffix in (".mrk.json", ".json", ".fcsv") else "")
     with pytest.raises(InvalidInput, match="exist"):
         write_landmark_sets(tmp_path / f"one{suffix}", [given])
-    if FORMATS[suffix][2]:
+    if _FORMATS[suffix][2]:
         write_landmark_sets(tmp_path / f"two{suffix}", [given, LandmarkSet(NAMES, POINTS + 1, "two")])
         both = read_landmark_sets(tmp_path / f"two{suffix}")
         assert [one.specimen for one in both] == ["one", "two"]

@@ -435,8 +435,8 @@ def test_command_refuses(folder):
 
 
 def test_help_names_what_the_library_has():
-    assert learn_command.PARTS.split(", ") == list(PARTS_OF_MODEL)
-    assert learn_command.LOSSES.split(", ") == list(LOSSES)
+    assert learn_command._PARTS.split(", ") == list(PARTS_OF_MODEL)
+    assert learn_command._LOSSES.split(", ") == list(LOSSES)
     own = {field.name: field.default for field in fields(TrainingOptions)}
     assert {name: own[name] for name in learn_command.NUMBERS if name in own} == {
         name: value for name, value in learn_command.NUMBERS.items() if name not in ("pairs", "held_out_pairs", "rank")

@@ -27,8 +27,8 @@ torch = pytest.importorskip("torch")
 from kfmaps.learn import losses  # noqa: E402
 from kfmaps.learn.energy import (  # noqa: E402
     differentiable_minimum,
+    feature_operators,
     nystrom_features,
-    operators,
     pair_energy,
 )
 from kfmaps.learn.model import bind  # noqa: E402
@@ -65,8 +65,10 @@ def minimum(parts, weights, bases):
 
 TERMS = {
     "descriptors": lambda s, t, F, G: descriptor_term(s, F, t, G),
-    "slices": lambda s, t, F, G: operator_term(operators(s, F), operators(t, G)),
-    "antisymmetric slices": lambda s, t, F, G: operator_term(_skew(operators(s, F)), _skew(operators(t, G)), -1),
+    "slices": lambda s, t, F, G: operator_term(feature_operators(s, F), feature_operators(t, G)),
+    "antisymmetric slices": lambda s, t, F, G: operator_term(
+        _skew(feature_operators(s, F)), _skew(feature_operators(t, G)), -1
+    ),
     "kernel descriptors": lambda s, t, F, G: kernel_descriptor_term(Gaussian(0.3), s, F, t, G, block=5),
     "hadamard": lambda s, t, F, G: hadamard_term(Gaussian(0.3), s, F, t, G, block=5),
     "elementwise": lambda s, t, F, G: Elementwise(t.project(G**2)[:, :1] ** 2 + s.project(F**2)[:, :1].T ** 2),

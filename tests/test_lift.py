@@ -16,11 +16,11 @@ GUARDS = ("kfmaps.geometry.arap", "kfmaps.geometry.coarsen", "kfmaps.registratio
 
 
 @pytest.fixture(scope="module")
-def pair() -> datasets.Pair:
+def pair() -> datasets.ExamplePair:
     return datasets.two_poses(3000, rng=3)
 
 
-def test_every_vertex_belongs_to_the_nearest_of_the_copy(pair: datasets.Pair) -> None:
+def test_every_vertex_belongs_to_the_nearest_of_the_copy(pair: datasets.ExamplePair) -> None:
     mesh = unit_area(pair.source)
     copy = coarse_proxy(mesh, spread_vertices(mesh, 600, np.array([7, 2000])))
     assert 550 < len(copy.vertices) < 620
@@ -32,13 +32,13 @@ def test_every_vertex_belongs_to_the_nearest_of_the_copy(pair: datasets.Pair) ->
     np.testing.assert_allclose(away[copy.owner, np.arange(len(mesh.vertices))], away.min(axis=0))
 
 
-def test_a_small_mesh_is_its_own_copy(pair: datasets.Pair) -> None:
+def test_a_small_mesh_is_its_own_copy(pair: datasets.ExamplePair) -> None:
     copy = coarse_proxy(pair.source, spread_vertices(pair.source, 3000))
     assert copy.mesh is pair.source
     np.testing.assert_array_equal(copy.owner, np.arange(3000))
 
 
-def test_vertices_that_nothing_reaches_belong_to_the_nearest_in_space(pair: datasets.Pair) -> None:
+def test_vertices_that_nothing_reaches_belong_to_the_nearest_in_space(pair: datasets.ExamplePair) -> None:
     mesh = unit_area(pair.source)
     loose = mesh.vertices[[5, 100]] + 1e-4
     with_loose = Mesh(np.vstack([mesh.vertices, loose]), mesh.faces)
@@ -48,7 +48,7 @@ def test_vertices_that_nothing_reaches_belong_to_the_nearest_in_space(pair: data
         assert copy.owner[vertex] == away.argmin()
 
 
-def test_a_motion_of_the_copy_is_that_of_the_mesh(pair: datasets.Pair) -> None:
+def test_a_motion_of_the_copy_is_that_of_the_mesh(pair: datasets.ExamplePair) -> None:
     mesh = unit_area(pair.source)
     copy = coarse_proxy(mesh, spread_vertices(mesh, 600))
     turn = nearest_rotations(np.random.default_rng(0).normal(size=(1, 3, 3)))[0]
@@ -57,7 +57,7 @@ def test_a_motion_of_the_copy_is_that_of_the_mesh(pair: datasets.Pair) -> None:
     np.testing.assert_allclose(moved, mesh.vertices @ turn.T + 1.0, atol=1e-12)
 
 
-def test_a_mesh_bends_as_its_copy_does(pair: datasets.Pair) -> None:
+def test_a_mesh_bends_as_its_copy_does(pair: datasets.ExamplePair) -> None:
     """Lifted from a coarse copy a smooth bending is met far more closely than the copy is coarse."""
     mesh = unit_area(pair.source)
     copy = coarse_proxy(mesh, spread_vertices(mesh, 600))
@@ -75,7 +75,9 @@ def test_a_mesh_bends_as_its_copy_does(pair: datasets.Pair) -> None:
     assert off.max() < 0.5 * snapped.max()
 
 
-def test_a_large_mesh_is_fitted_as_well_with_a_copy_first(pair: datasets.Pair, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_large_mesh_is_fitted_as_well_with_a_copy_first(
+    pair: datasets.ExamplePair, monkeypatch: pytest.MonkeyPatch
+) -> None:
     source, target = unit_area(pair.source), unit_area(pair.target)
     truth = source.vertices[pair.truth]
     slid = truth + 0.03 * np.sin(7 * truth[:, [1, 2, 0]])

@@ -12,7 +12,7 @@ import pytest
 import kfmaps
 from kfmaps._arrays import NotConverged
 from kfmaps.datasets.creature import SYMMETRIC, WAVE
-from kfmaps.datasets.pairs import Pair, posed_pair
+from kfmaps.datasets.pairs import ExamplePair, posed_pair
 from kfmaps.datasets.skeleton import Bend, Body
 from kfmaps.fmap.convert import nearest, to_functional
 from kfmaps.geometry.mesh import Mesh, unit_area
@@ -44,7 +44,7 @@ GUARDS = (
 
 
 @pytest.fixture(scope="module")
-def knees() -> Pair:
+def knees() -> ExamplePair:
     """A creature that is the same on both sides, its feet nearly touching, and at rest."""
     inwards = {
         f"{side} leg": Bend(((0, 0, turn), (0, 0, 0), (0, 0, 0))) for side, turn in (("left", -12), ("right", 12))

@@ -17,7 +17,7 @@ from kfmaps.collection.pair_graph import (
     star_graph,
 )
 from kfmaps.collection.paths import adjacency, best_path, compose_maps, invert_map
-from kfmaps.collection.repair import repair
+from kfmaps.collection.repair import repair_maps
 from kfmaps.collection.scored_map import ScoredMap, candidate_maps, with_better_score
 from kfmaps.collection.synchronization import CandidateMap, Edge, synchronize
 from kfmaps.fmap.constraints import nearest_orthogonal
@@ -266,7 +266,7 @@ def test_a_wrong_pair_is_replaced_for_the_way_round_and_no_other() -> None:
             assert pairs[number] == (1, 4)
         return made
 
-    found = repair(6, pairs, maps, compose)
+    found = repair_maps(6, pairs, maps, compose)
     assert {number for number, _ in asked} == {pairs.index((1, 4))}
     (change,) = found.replacements
     assert (change.edge, change.kind) == (pairs.index((1, 4)), "composition")
@@ -282,7 +282,7 @@ def test_a_right_alternative_comes_before_a_way_round() -> None:
     bad = nearest_orthogonal(np.random.default_rng(5).normal(size=(20, 20)))
     maps = [[ScoredMap(latent[b] @ latent[a].T, -5.0, 0.9)] for a, b in pairs]
     maps[2] = [ScoredMap(bad, -4.8, 0.9), *maps[2]]
-    (change,) = repair(6, pairs, maps, lambda ways: [ScoredMap(bad, -30.0, 0.0) for _ in ways]).replacements
+    (change,) = repair_maps(6, pairs, maps, lambda ways: [ScoredMap(bad, -30.0, 0.0) for _ in ways]).replacements
     assert (change.edge, change.kind, change.candidate) == (2, "alternative", 1)
 
 
@@ -337,7 +337,7 @@ def test_a_family_of_wrong_candidates_does_not_outvote_better_evidence() -> None
             made.append(ScoredMap(C, -8.8, 0.9))
         return made
 
-    found = repair(6, pairs, maps, compose)
+    found = repair_maps(6, pairs, maps, compose)
     changed = {pairs[c.edge] for c in found.replacements if c.kind == "composition"}
     assert changed == {(2, 5), (3, 5), (4, 5)}
     for change in found.replacements:
@@ -364,11 +364,11 @@ def test_a_loose_map_is_replaced_for_a_better_one_alone() -> None:
     def compose(score: float):
         return lambda ways: [ScoredMap(latent[b] @ latent[a].T, score, 0.9) for _ in ways]
 
-    (change,) = repair(6, pairs, maps, compose(-5.2)).replacements
+    (change,) = repair_maps(6, pairs, maps, compose(-5.2)).replacements
     assert (change.edge, change.kind, change.improved) == (4, "composition", True)
     assert change.after.residual < change.before.residual
     assert change.before.probability == change.after.probability > 0.5
-    assert not repair(6, pairs, maps, compose(-5.9)).replacements  # hardly better
+    assert not repair_maps(6, pairs, maps, compose(-5.9)).replacements  # hardly better
 
 
 def test_left_and_right_specimens_are_told_apart() -> None:
@@ -379,7 +379,7 @@ def test_left_and_right_specimens_are_told_apart() -> None:
     maps = [[ScoredMap(latent[b] @ latent[a].T, -5.0, 0.9, bool(side[a] != side[b]))] for a, b in pairs]
     at = pairs.index((1, 4))
     maps[at] = [ScoredMap(bad, -4.9, 0.9, False), *maps[at]]
-    found = repair(6, pairs, maps, lambda ways: [ScoredMap(bad, -30.0, 0.0) for _ in ways])
+    found = repair_maps(6, pairs, maps, lambda ways: [ScoredMap(bad, -30.0, 0.0) for _ in ways])
     np.testing.assert_array_equal(found.chirality, side)
     (change,) = found.replacements
     assert (change.edge, change.kind, change.candidate, change.contradicts) == (at, "alternative", 1, True)

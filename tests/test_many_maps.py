@@ -10,7 +10,7 @@ import pytest
 from collecting import CONFIG, bent
 from kfmaps._arrays import InvalidInput
 from kfmaps.collection.paths import compose_maps, invert_map
-from kfmaps.collection.scored_map import score_maps
+from kfmaps.collection.scored_map import score_pair_maps
 from kfmaps.config import Search
 from kfmaps.matching.finish import match_from_map
 from kfmaps.matching.search import scoring_samples
@@ -31,12 +31,14 @@ def test_the_true_map_is_judged_best(shapes: list[Shape]) -> None:
     a, b = shapes[:2]
     probes = scoring_samples(a), scoring_samples(b)
     rng = np.random.default_rng(0)
-    true, random, shifted = score_maps([np.arange(N), rng.integers(0, N, N), np.roll(np.arange(N), 5)], a, b, probes)
+    true, random, shifted = score_pair_maps(
+        [np.arange(N), rng.integers(0, N, N), np.roll(np.arange(N), 5)], a, b, probes
+    )
     assert true.orientation > 0.8
     assert true.score > max(random.score, shifted.score) + 1
     mirrored = mirror_image(b)
     probes = probes[0], scoring_samples(mirrored)
-    turned, back = score_maps([np.arange(N)] * 2, a, mirrored, probes, [False, True])
+    turned, back = score_pair_maps([np.arange(N)] * 2, a, mirrored, probes, [False, True])
     assert turned.orientation < 0
     assert (turned.reversed, back.reversed) == (False, True)
     assert back.score == pytest.approx(true.score, abs=0.1)

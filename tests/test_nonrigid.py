@@ -29,7 +29,7 @@ def turn(rng: np.random.Generator) -> np.ndarray:
 
 
 @pytest.fixture(scope="module")
-def pair() -> datasets.Pair:
+def pair() -> datasets.ExamplePair:
     return datasets.two_poses(1500, rng=3)
 
 
@@ -121,7 +121,7 @@ def test_bending_is_its_definition_and_pull_its_slope() -> None:
     assert arap_energy(energy, x) <= arap_energy(energy, x, R)  # the best rotations are the best
 
 
-def test_a_moved_copy_is_found(pair: datasets.Pair) -> None:
+def test_a_moved_copy_is_found(pair: datasets.ExamplePair) -> None:
     """From a map that is wrong by several edges: the fit knows nothing but closest points and rigidity."""
     rng = np.random.default_rng(4)
     source = unit_area(pair.source)
@@ -136,7 +136,7 @@ def test_a_moved_copy_is_found(pair: datasets.Pair) -> None:
     assert np.linalg.norm(places - source.vertices, axis=1).mean() < 3e-3
 
 
-def test_sliding_and_a_folded_limb_are_mended(pair: datasets.Pair) -> None:
+def test_sliding_and_a_folded_limb_are_mended(pair: datasets.ExamplePair) -> None:
     """A smooth wrong map: every target vertex slides, and around one end the map is the mirror image."""
     source, target = unit_area(pair.source), unit_area(pair.target)
     truth = source.vertices[pair.truth]
@@ -150,7 +150,7 @@ def test_sliding_and_a_folded_limb_are_mended(pair: datasets.Pair) -> None:
     assert after < 0.6 * before
 
 
-def test_a_match_has_points_in_triangles(pair: datasets.Pair) -> None:
+def test_a_match_has_points_in_triangles(pair: datasets.ExamplePair) -> None:
     """Closer to the truth than its vertices; ``target_to_source`` is the nearest corner."""
     config = replace(kfmaps.Config.single_fit(), threads=1)
     marks = np.stack([pair.truth[::300], np.arange(len(pair.truth))[::300]], axis=1)
@@ -180,7 +180,7 @@ def test_a_match_has_points_in_triangles(pair: datasets.Pair) -> None:
     assert errors[0] < spectral < errors[1]
 
 
-def test_a_whole_body_is_not_bent_onto_something_else(pair: datasets.Pair) -> None:
+def test_a_whole_body_is_not_bent_onto_something_else(pair: datasets.ExamplePair) -> None:
     """A sphere's shape is no pose of a body: the map stays as it was, its points found in the embedding."""
     other = datasets.sphere(900, rng=0)
     config = replace(kfmaps.Config.single_fit(), threads=1)
@@ -195,7 +195,7 @@ def test_a_whole_body_is_not_bent_onto_something_else(pair: datasets.Pair) -> No
     assert len(found.precise().faces) == len(other.vertices)
 
 
-def test_what_cannot_be_bent_is_refused(pair: datasets.Pair) -> None:
+def test_what_cannot_be_bent_is_refused(pair: datasets.ExamplePair) -> None:
     cloud = Mesh(pair.source.vertices, np.zeros((0, 3)))
     with pytest.raises(InvalidInput, match="point cloud"):
         NonRigid()(cloud, pair.target, pair.truth)
@@ -204,7 +204,7 @@ def test_what_cannot_be_bent_is_refused(pair: datasets.Pair) -> None:
             make()
 
 
-def test_a_component_that_nothing_is_mapped_to_goes_with_what_is_beside_it(pair: datasets.Pair) -> None:
+def test_a_component_that_nothing_is_mapped_to_goes_with_what_is_beside_it(pair: datasets.ExamplePair) -> None:
     """A lost finger of a coarse copy, an eye: it once made the fit fail, and a right map count as the worst."""
     body = unit_area(pair.source)
     eye = datasets.sphere(100, rng=0)

@@ -17,7 +17,7 @@ from kfmaps.viz.colors import oklab_to_rgb
 from kfmaps.viz.figures import make_transparent
 
 RED, BLUE = np.array([0.9, 0.1, 0.1]), np.array([0.1, 0.2, 0.9])
-FRONT = pictures.view((0, 0, 1))
+FRONT = pictures.view_from((0, 0, 1))
 
 
 def ball(rings: int = 14, center: tuple = (0.0, 0.0, 0.0), radius: float = 1.0) -> Mesh:
@@ -97,7 +97,7 @@ def test_near_hides_far() -> None:
     picture = drawn(both, colors, shading=False)
     np.testing.assert_allclose(picture[100, 100], BLUE, atol=0.01)
     np.testing.assert_allclose(picture[100, 30], RED, atol=0.01)
-    behind = drawn(both, colors, pictures.view((0, 0, -1)), shading=False)
+    behind = drawn(both, colors, pictures.view_from((0, 0, -1)), shading=False)
     np.testing.assert_allclose(behind[100, 100], RED, atol=0.01)
 
 
@@ -105,9 +105,9 @@ def test_right_in_the_view_is_right_in_the_picture() -> None:
     mesh = ball()
     colors = np.where(mesh.vertices[:, :1] > 0, RED, BLUE)
     for towards, up, red in [((0, 0, 1), (0, 1, 0), 160), ((0, 0, -1), (0, 1, 0), 40)]:
-        picture = drawn(mesh, colors, pictures.view(towards, up), shading=False)
+        picture = drawn(mesh, colors, pictures.view_from(towards, up), shading=False)
         np.testing.assert_allclose(picture[100, red], RED, atol=0.01)
-    upright = drawn(mesh, colors, pictures.view((0, 0, 1), (1, 0, 0)), shading=False)
+    upright = drawn(mesh, colors, pictures.view_from((0, 0, 1), (1, 0, 0)), shading=False)
     np.testing.assert_allclose(upright[40, 100], RED, atol=0.01)
 
 
@@ -255,7 +255,7 @@ def test_the_target_is_seen_from_the_same_side() -> None:
     angle = np.deg2rad(110)
     turn = np.array([[np.cos(angle), -np.sin(angle), 0], [np.sin(angle), np.cos(angle), 0], [0, 0, 1]])
     turned = Mesh(source.vertices @ turn.T, source.faces)
-    view = pictures.view((1, 2, 3))
+    view = pictures.view_from((1, 2, 3))
     followed = pictures.following_view(view, source, turned, same)
     np.testing.assert_allclose(followed.towards, turn @ view.towards, atol=1e-9)
     np.testing.assert_allclose(followed.up, turn @ view.up, atol=1e-9)
@@ -289,9 +289,9 @@ def test_saved_by_extension_and_the_same_bytes_each_time(tmp_path, monkeypatch) 
         (lambda _: pictures.picture_format("map"), "no extension"),
         (lambda _: pictures.save_figure(Figure(), io.BytesIO()), "no extension"),
         (lambda _: pictures.save_figure(Figure(), io.BytesIO(), "gif"), "png, svg, pdf"),
-        (lambda _: pictures.view((0, 0, 0)), "apart"),
-        (lambda _: pictures.view((0, 2, 0), (0, 1, 0)), "apart"),
-        (lambda _: pictures.view((np.nan, 2, 0)), "towards"),
+        (lambda _: pictures.view_from((0, 0, 0)), "apart"),
+        (lambda _: pictures.view_from((0, 2, 0), (0, 1, 0)), "apart"),
+        (lambda _: pictures.view_from((np.nan, 2, 0)), "towards"),
         (lambda m: pictures.match_figure(m, m, np.arange(5)), "target_to_source"),
         (lambda m: pictures.match_figure(m, m, np.full(len(m.vertices), -2)), "source vertices from 0"),
         (lambda m: pictures.match_figure(m, m, np.full(len(m.vertices), 10**6)), "1000000"),

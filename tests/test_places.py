@@ -19,7 +19,7 @@ GUARDS = ("kfmaps.fmap.precise", "kfmaps.geometry.arap", "kfmaps.registration")
 
 
 @pytest.fixture(scope="module")
-def pair() -> datasets.Pair:
+def pair() -> datasets.ExamplePair:
     return datasets.two_poses(1500, rng=3)
 
 
@@ -32,7 +32,7 @@ class Pretended:
 
     local_scaling = 0.0
 
-    def __init__(self, pair: datasets.Pair, spot: np.ndarray, gap: float = 0.0, stubborn: bool = False) -> None:
+    def __init__(self, pair: datasets.ExamplePair, spot: np.ndarray, gap: float = 0.0, stubborn: bool = False) -> None:
         self.pair, self.spot, self.gap, self.stubborn = pair, spot, gap, stubborn
         self.held: list[np.ndarray | None] = []
 
@@ -45,20 +45,20 @@ class Pretended:
         return Registration(source.vertices, place.faces, place.weights, 0.0, self.gap)
 
 
-def end(pair: datasets.Pair, finish: Any, points: np.ndarray | None = None) -> RegisteredMap:
+def end(pair: datasets.ExamplePair, finish: Any, points: np.ndarray | None = None) -> RegisteredMap:
     shapes: Any = [SimpleNamespace(mesh=unit_area(mesh)) for mesh in (pair.source, pair.target)]
     config: Any = SimpleNamespace(registration=finish, refinement="some")
     return register_map(pair.truth if points is None else points, shapes[0], shapes[1], config, StageTimer())
 
 
-def spot_of(pair: datasets.Pair, share: float) -> np.ndarray:
+def spot_of(pair: datasets.ExamplePair, share: float) -> np.ndarray:
     """Target vertices around one, with that share of the area."""
     target = unit_area(pair.target)
     order = np.argsort(np.linalg.norm(target.vertices - target.vertices[0], axis=1))
     return order[: np.searchsorted(np.cumsum(vertex_areas(target)[order]), share)]
 
 
-def test_a_fit_that_harms_a_part_is_made_again_with_the_map_held_there(pair: datasets.Pair) -> None:
+def test_a_fit_that_harms_a_part_is_made_again_with_the_map_held_there(pair: datasets.ExamplePair) -> None:
     spot = spot_of(pair, 0.05)
     finish = Pretended(pair, spot)
     last = end(pair, finish)
@@ -74,7 +74,7 @@ def test_a_fit_that_harms_a_part_is_made_again_with_the_map_held_there(pair: dat
     np.testing.assert_array_equal(last.target_to_source, pair.truth)
 
 
-def test_a_fit_that_harms_all_the_same_is_left(pair: datasets.Pair) -> None:
+def test_a_fit_that_harms_all_the_same_is_left(pair: datasets.ExamplePair) -> None:
     last = end(pair, Pretended(pair, spot_of(pair, 0.05), stubborn=True))
     assert last.fit is not None
     assert last.fit.reason == "harm"
@@ -83,7 +83,7 @@ def test_a_fit_that_harms_all_the_same_is_left(pair: datasets.Pair) -> None:
     assert last.precise_map is None
 
 
-def test_a_fit_that_heals_more_than_it_harms_is_kept(pair: datasets.Pair) -> None:
+def test_a_fit_that_heals_more_than_it_harms_is_kept(pair: datasets.ExamplePair) -> None:
     target = unit_area(pair.target)
     other = np.argsort(-np.linalg.norm(target.vertices - target.vertices[0], axis=1))[: len(target.vertices) // 5]
     wrong = pair.truth.copy()
@@ -106,7 +106,7 @@ def test_a_fit_that_heals_more_than_it_harms_is_kept(pair: datasets.Pair) -> Non
     assert len(finish.held) == 2
 
 
-def test_a_gap_speaks_first(pair: datasets.Pair) -> None:
+def test_a_gap_speaks_first(pair: datasets.ExamplePair) -> None:
     finish = Pretended(pair, spot_of(pair, 0.05), gap=1.01 * _MAX_GAP)
     last = end(pair, finish)
     assert last.fit is not None
@@ -114,7 +114,7 @@ def test_a_gap_speaks_first(pair: datasets.Pair) -> None:
     assert len(finish.held) == 1
 
 
-def test_rotations_become_even_and_constant_ones_stay(pair: datasets.Pair) -> None:
+def test_rotations_become_even_and_constant_ones_stay(pair: datasets.ExamplePair) -> None:
     rng = np.random.default_rng(0)
     two = mesh_pair(deformable_mesh(unit_area(pair.source)), unit_area(pair.target))
     n = len(pair.source.vertices)
@@ -130,7 +130,7 @@ def test_rotations_become_even_and_constant_ones_stay(pair: datasets.Pair) -> No
     np.testing.assert_array_equal(_evened(two, 0.0)(rough), rough)
 
 
-def test_the_fit_bends_more_evenly(pair: datasets.Pair) -> None:
+def test_the_fit_bends_more_evenly(pair: datasets.ExamplePair) -> None:
     """Neighbouring rotations of the bent source differ less when they are averaged, the surfaces no more."""
     source, target = unit_area(pair.source), unit_area(pair.target)
     energy = build_arap(source)
@@ -144,7 +144,7 @@ def test_the_fit_bends_more_evenly(pair: datasets.Pair) -> None:
     assert even.gap < 1.2 * rough.gap
 
 
-def test_landmarks_pull_their_surroundings_and_bad_ones_hardly(pair: datasets.Pair) -> None:
+def test_landmarks_pull_their_surroundings_and_bad_ones_hardly(pair: datasets.ExamplePair) -> None:
     source, target = unit_area(pair.source), unit_area(pair.target)
     truth = source.vertices[pair.truth]
     slid = truth + 0.04 * np.sin(7 * truth[:, [1, 2, 0]])
@@ -166,7 +166,7 @@ def test_landmarks_pull_their_surroundings_and_bad_ones_hardly(pair: datasets.Pa
     assert misled.mean() < 1.1 * free.mean()
 
 
-def test_what_is_held_stays(pair: datasets.Pair) -> None:
+def test_what_is_held_stays(pair: datasets.ExamplePair) -> None:
     source, target = unit_area(pair.source), unit_area(pair.target)
     truth = source.vertices[pair.truth]
     slid = truth + 0.03 * np.sin(7 * truth[:, [1, 2, 0]])

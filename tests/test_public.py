@@ -3,13 +3,20 @@
 from __future__ import annotations
 
 import ast
+import dataclasses
+import importlib
 import subprocess
 import sys
+from collections import defaultdict
+from collections.abc import Iterator
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import kfmaps
+from conftest import blob
+from kfmaps.datasets.pairs import ExamplePair
 
 STUB = Path(str(kfmaps.__file__)).with_suffix(".pyi")
 
@@ -17,7 +24,6 @@ STUB = Path(str(kfmaps.__file__)).with_suffix(".pyi")
 @pytest.mark.parametrize("name", kfmaps.__all__)
 def test_name(name: str) -> None:
     assert getattr(kfmaps, name) is not None
-    assert name in dir(kfmaps)
     documented = getattr(kfmaps, name).__doc__
     assert documented
 
@@ -59,3 +65,56 @@ def test_import_is_light() -> None:
 def test_version_is_the_installed_one() -> None:
     text = (Path(__file__).parents[1] / "pyproject.toml").read_text(encoding="utf-8")
     assert f'version = "{kfmaps.__version__}"' in text
+
+
+SAME = {"app", "geodesic_errors", "learn", "main", "match", "prepare", "transfer", "view"}
+"""Names that several modules define for one thing: the function of the API, what it calls, and the command."""
+
+
+def defined(path: Path) -> Iterator[str]:
+    """Yield the public functions, classes and constants that a module defines."""
+    for node in ast.parse(path.read_text(encoding="utf-8")).body:
+        if isinstance(node, ast.FunctionDef | ast.ClassDef):
+            yield node.name
+        elif isinstance(node, ast.Assign | ast.AnnAssign):
+            targets = node.targets if isinstance(node, ast.Assign) else [node.target]
+            yield from (name.id for target in targets for name in ast.walk(target) if isinstance(name, ast.Name))
+
+
+def test_a_public_name_has_one_meaning() -> None:
+    homes = defaultdict(list)
+    for path in STUB.parent.rglob("*.py"):
+        for name in set(defined(path)):
+            if not name.startswith("_"):
+                homes[name].append(str(path.relative_to(STUB.parent)))
+    assert {name: paths for name, paths in homes.items() if len(paths) > 1 and name not in SAME} == {}
+    assert len(SAME) <= 10
+
+
+def test_dir_shows_public_names_only() -> None:
+    assert dir(kfmaps) == sorted([*kfmaps.__all__, "__version__"])
+
+
+@pytest.mark.parametrize("module", ["kfmaps", "kfmaps.io", "kfmaps.viz", "kfmaps.learn", "kfmaps.datasets"])
+def test_public_records_with_arrays_have_a_short_repr(module: str) -> None:
+    """The one that dataclasses make, which is wrapped against recursion, prints arrays in many lines."""
+    home = importlib.import_module(module)
+    for record in (getattr(home, name) for name in home.__all__):
+        if isinstance(record, type) and dataclasses.is_dataclass(record):
+            types = " ".join(str(f.type) for f in dataclasses.fields(record))
+            if any(kind in types for kind in ("rray", "Tensor", "Mesh", "Basis", "Shape", "Config")):
+                assert not hasattr(record.__repr__, "__wrapped__"), record
+
+
+def test_repr_is_one_line() -> None:
+    mesh = blob(300)
+    pair = ExamplePair("blobs", mesh, mesh, np.arange(300), np.zeros(300, dtype=np.int64), np.eye(300, 3))
+    found = kfmaps.match(mesh, mesh, kfmaps.Config.single_fit(), landmarks=np.arange(4)[:, None].repeat(2, axis=1))
+    assert repr(mesh) == f"Mesh(300 vertices, {len(mesh.faces)} faces)"
+    assert repr(kfmaps.Config()) == "Config()"
+    assert repr(kfmaps.Config(kernel=kfmaps.Laplacian(2.0))) == "Config(kernel=Laplacian(gamma=2.0))"
+    assert repr(found.basis_source).startswith("Basis(eigenvalues=<")
+    records = [pair, found, found.score, found.registration, found.partial, found.fit, kfmaps.prepare(mesh)]
+    for record in [*records, found.basis_target, kfmaps.Config.paper(), kfmaps.Config.single_fit()]:
+        assert "\n" not in repr(record)
+        assert len(repr(record)) < 400

@@ -7,7 +7,7 @@ from functools import cache
 
 from kfmaps._arrays import refuse
 
-UNKNOWN = 64 << 30
+_UNKNOWN = 64 << 30
 """What a machine is taken to have that does not tell."""
 
 
@@ -17,8 +17,8 @@ def installed_memory() -> int:
     try:
         size = os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")
     except (AttributeError, ValueError, OSError):  # no such function on Windows, no such name elsewhere
-        return UNKNOWN
-    return size if size > 0 else UNKNOWN
+        return _UNKNOWN
+    return size if size > 0 else _UNKNOWN
 
 
 def check_memory(need: float, name: str, what: str, remedy: str) -> None:
@@ -38,10 +38,10 @@ def check_memory(need: float, name: str, what: str, remedy: str) -> None:
     """
     have = installed_memory()
     if need > have:
-        raise refuse(name, f"at most {in_words(have)} of memory", f"{in_words(need)} for {what}", remedy)
+        raise refuse(name, f"at most {format_bytes(have)} of memory", f"{format_bytes(need)} for {what}", remedy)
 
 
-def in_words(size: float) -> str:
+def format_bytes(size: float) -> str:
     """A number of bytes: 12 MB, 3.5 GB, 1,000 GB."""
     for unit, scale in (("GB", 1e9), ("MB", 1e6), ("kB", 1e3)):
         if size >= scale:

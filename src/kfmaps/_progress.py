@@ -7,3 +7,6 @@ Progress = Callable[[str, float], None]
 
 Done = Callable[[float], None]
 """Called with how much of one stage is done, from 0 to 1."""
+
+CountProgress = Callable[[str, int, int], None]
+"""Called with what is done, how many are done, and how many there are."""

@@ -7,13 +7,14 @@ of the record's class. The same metadata serves the checks, the settings files, 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sized
 from dataclasses import MISSING, dataclass, field, fields, is_dataclass, replace
 from functools import lru_cache
 from inspect import cleandoc
 from numbers import Integral, Real
+from textwrap import shorten
 from types import NoneType
-from typing import Any, Literal, TypeVar, dataclass_transform, get_args, get_origin, get_type_hints
+from typing import Any, Literal, TypeVar, cast, dataclass_transform, get_args, get_origin, get_type_hints
 
 import numpy as np
 
@@ -25,7 +26,7 @@ NOTHING = ("none", "all", "automatic")
 Kinds = Mapping[Any, tuple[type, ...]]
 """The record classes behind type hints that do not list them, such as a protocol."""
 
-T = TypeVar("T")
+_T = TypeVar("T")
 
 
 @dataclass(frozen=True)
@@ -172,13 +173,14 @@ def setting(default: Any, help: str = "", **bounds: Any) -> Any:
 
 
 @dataclass_transform(frozen_default=True)
-def settings_record(cls: type[T]) -> type[T]:
+def settings_record(cls: type[_T]) -> type[_T]:
     """Make ``cls`` a frozen dataclass that checks its fields and lists them in its documentation.
 
     A class with a ``__post_init__`` of its own calls :func:`check_record` there.
     """
-    if "__post_init__" not in vars(cls):
-        cls.__post_init__ = check_record  # pyright: ignore[reportAttributeAccessIssue]
+    for name, usual in (("__post_init__", check_record), ("__repr__", short_repr)):
+        if name not in vars(cls):
+            setattr(cls, name, usual)
     text = [cleandoc(cls.__doc__ or ""), "", "Attributes", "----------"]
     made: Any = dataclass(frozen=True)(cls)
     made.is_settings_record = True
@@ -217,7 +219,7 @@ def walk(cls: type, kinds: Kinds, path: str = "") -> Iterator[tuple[str, type, S
             yield from walk(record, kinds, label)
 
 
-def as_dict(value: Any, kinds: Mapping[str, type], name: Callable[[Any], str] = repr) -> Any:
+def record_as_dict(value: Any, kinds: Mapping[str, type], name: Callable[[Any], str] = repr) -> Any:
     """Return ``value`` with every record in it as a dictionary of plain values, fit for JSON and TOML.
 
     Records among ``kinds`` carry theirs under ``kind``. An object of the user's own becomes
@@ -225,17 +227,17 @@ def as_dict(value: Any, kinds: Mapping[str, type], name: Callable[[Any], str] = 
     """
     kind = type(value).__name__
     if type(value) is kinds.get(kind) or getattr(type(value), "is_settings_record", False):
-        inside = {f.name: as_dict(getattr(value, f.name), kinds, name) for f in fields(value)}
+        inside = {f.name: record_as_dict(getattr(value, f.name), kinds, name) for f in fields(value)}
         return {"kind": kind, **inside} if kind in kinds else inside
     if isinstance(value, tuple):
-        return tuple(as_dict(one, kinds, name) for one in value)
+        return tuple(record_as_dict(one, kinds, name) for one in value)
     if isinstance(value, np.generic):
         return value.item()
     plain = value is None or isinstance(value, str | int | float | list | dict)
     return value if plain else {"kind": "callable", "name": name(value)}
 
 
-def update(record: T, values: Mapping[str, Any], fresh: Any, kinds: Kinds) -> T:
+def update(record: _T, values: Mapping[str, Any], fresh: Any, kinds: Kinds) -> _T:
     """Return ``record`` with what ``values`` names replaced.
 
     Kinds may be written in any case, a record may be named by its kind alone (``kernel = "laplacian"``), and
@@ -316,3 +318,29 @@ def _tuple(value: Any, label: str, depth: int = 0) -> tuple[Any, ...]:
     if any(not isinstance(item, tuple) and type(item) not in (int, float) for item in items):
         raise refuse(label, "a list of numbers, or of lists of them", repr(value)[:60], "write [1.0, 2.0]")
     return tuple(items)
+
+
+def short_repr(self: object) -> str:
+    """Return a record in one line: the fields that differ from their defaults, arrays by their shapes.
+
+    A dataclass with arrays says ``__repr__ = short_repr``; records of settings have it from :func:`settings_record`.
+    """
+    shown = []
+    for f in fields(cast(Any, self)):
+        value = getattr(self, f.name)
+        default = f.default if f.default_factory is MISSING else f.default_factory()
+        shape = getattr(value, "shape", None)
+        same = type(value) is type(default) and (0 in shape if shape else value == default)
+        if not (value is default or same):
+            shown.append(f"{f.name}={_shortened(value)}")
+    return f"{type(self).__name__}({', '.join(shown)})"
+
+
+def _shortened(value: object) -> str:
+    """Return a value of a record in a few words."""
+    shape = getattr(value, "shape", None)
+    if shape:
+        return f"<{' × '.join(f'{n:,}' for n in shape)}>"
+    if isinstance(value, str | bytes) or not isinstance(value, Sized) or len(repr(value)) <= 60:
+        return shorten(repr(value), 200)
+    return f"<{len(value):,}>"

@@ -13,6 +13,7 @@ from scipy.spatial import KDTree
 
 from kfmaps._arrays import KfmapsWarning, refuse, take
 from kfmaps._progress import Progress
+from kfmaps._records import short_repr
 from kfmaps._threads import available_cores, parallel
 from kfmaps.config import Config
 from kfmaps.descriptors.shot import mirror_shot, shot
@@ -27,7 +28,7 @@ FEW, NEARLY = 3_000, 1e-2
 """Vertices up to which eigenfunctions are found to rounding, and the tolerance above."""
 DESCRIBED = 7_000
 """Vertices for which SHOT is worked out; where there are more they are a hundredth of √area apart."""
-NORMALS = 0.05
+_NORMALS = 0.05
 """Distance in space, at unit area, that counts as much as normals that differ by 1."""
 
 
@@ -63,6 +64,8 @@ class Shape:
     laplacian: str = "robust"
     shot_radius: float | None = None
     extent: float | None = None
+
+    __repr__ = short_repr
 
 
 @dataclass(frozen=True, eq=False)
@@ -199,7 +202,7 @@ def local_descriptors(
         return shot(mesh, radius, threads=threads, progress=progress)
     chosen = stratified_vertices(basis, DESCRIBED, 0)
     found = shot(mesh, radius, at=chosen, threads=threads, progress=progress)
-    places = np.hstack([mesh.vertices, NORMALS * vertex_normals(mesh)])
+    places = np.hstack([mesh.vertices, _NORMALS * vertex_normals(mesh)])
     away, near = KDTree(places[chosen]).query(places, k=3, workers=threads or available_cores())
     weights = 1.0 / np.maximum(np.asarray(away) ** 2, 1e-12)
     weights /= weights.sum(axis=1, keepdims=True)

@@ -36,8 +36,8 @@ from kfmaps.batch.work import (
     true_vertices,
 )
 from kfmaps.collection.consistency import (
-    Candidate,
     Consistency,
+    StoredMap,
     compose_path,
     refine_replacement,
     score_candidates,
@@ -314,7 +314,7 @@ def _shapes(task: PairTask) -> tuple[Shape, Shape]:
     return load_prepared(task.source), load_prepared(task.target)
 
 
-def _candidates(task: PairTask) -> list[Candidate]:
+def _candidates(task: PairTask) -> list[StoredMap]:
     return stored_candidates(load_map(map_path(Path(task.folder), task.key)))
 
 

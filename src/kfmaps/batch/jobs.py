@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from kfmaps._arrays import MissingDependency, check_count, refuse
 from kfmaps._memory import check_memory
+from kfmaps._progress import CountProgress
 from kfmaps._threads import available_cores
 
 if TYPE_CHECKING:
@@ -22,8 +23,6 @@ if TYPE_CHECKING:
 
 Item = TypeVar("Item")
 Value = TypeVar("Value")
-ProgressCallback = Callable[[str, int, int], None]
-"""Called with what is being done, how much of it is done, and how much there is."""
 
 MAX_DEATHS = 3
 """Workers that may die over one task before it is given up."""
@@ -57,7 +56,7 @@ class WorkerPool:
         self,
         count: int | None = None,
         scheduler: str | None = None,
-        progress: ProgressCallback | None = None,
+        progress: CountProgress | None = None,
         log: Callable[[str], None] | None = None,
     ) -> None:
         self.count, self.scheduler = count, scheduler

@@ -23,10 +23,10 @@ from kfmaps._threads import one_blas_thread
 from kfmaps.batch.consistent import CONSISTENT, ConsistentResult, map_in_use
 from kfmaps.batch.plan import Plan
 from kfmaps.batch.results import BAD, CURVE_ERRORS, Result, fitting_limit, summarize, worst_first
-from kfmaps.batch.run_spec import read_settings
-from kfmaps.batch.shape_statistics import KINDS, SHAPES, limit_shape_paths
+from kfmaps.batch.run_spec import read_run_spec
+from kfmaps.batch.shape_statistics import DIFFERENCE_KINDS, SHAPES, limit_shape_paths
 from kfmaps.batch.work import PairTask, map_path, true_vertices
-from kfmaps.cli.words import UNIT, in_words, percent, probability_text
+from kfmaps.cli.words import UNIT, format_seconds, percent, probability_text
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.io import atomic_output, check_map, load_map, read_mesh
 from kfmaps.viz import Curve, curves_figure, match_figure, mean_curve, painted_errors, save_figure, true_views
@@ -42,7 +42,7 @@ _TEXT_SIZE = 18.0
 _MAX_NAMED = 60
 """Shapes up to which their names stand in the chart of principal components."""
 _TEMPLATES = environment("kfmaps.batch")
-_TEMPLATES.filters |= {"percent": percent, "in_words": in_words}
+_TEMPLATES.filters |= {"percent": percent, "in_words": format_seconds}
 
 _Column = tuple[str, Callable[[Result], Any], Callable[[Any], str]]
 _COLUMNS: tuple[_Column, ...] = (
@@ -96,7 +96,7 @@ def write_page(
     page = summary_page(
         name,
         results,
-        read_settings(plan.folder),
+        read_run_spec(plan.folder),
         _pictures(tasks, ordered, worst, fitting_limit(results)),
         len({(r.source, r.target) for r in results} | tasks.keys()),
         pages=pages,
@@ -240,7 +240,7 @@ def _specimens(plan: Plan) -> dict[str, Any] | None:
 
 def _chart(rows: list[dict[str, str]], known: dict[str, np.ndarray]) -> Figure:
     figure = Figure(figsize=(9.6, 4.4), facecolor="white", layout="constrained")
-    for ax, kind in zip(figure.subplots(1, len(KINDS)), KINDS, strict=True):
+    for ax, kind in zip(figure.subplots(1, len(DIFFERENCE_KINDS)), DIFFERENCE_KINDS, strict=True):
         explained = known[f"explained_{kind}"]
         if len(explained) < 2 or not explained.any():
             ax.set_axis_off()
@@ -261,7 +261,7 @@ def _variation(path: str | None, known: dict[str, np.ndarray]) -> str:
     if path is None or not Path(path).exists():
         return ""
     mesh = _quiet_mesh(path)
-    values = {f"{kind} differs by": known[f"variation_{kind}"] for kind in KINDS}
+    values = {f"{kind} differs by": known[f"variation_{kind}"] for kind in DIFFERENCE_KINDS}
     if any(len(v) != len(mesh.vertices) for v in values.values()):
         return ""
     return _address("png", _png(values_figure(mesh, values)))

@@ -13,7 +13,7 @@ from rich.text import Text
 
 from kfmaps.batch.results import Result
 from kfmaps.cli.terminal import Terminal
-from kfmaps.cli.words import in_words
+from kfmaps.cli.words import format_seconds
 from kfmaps.config import Config
 
 _LOG = "run.log"
@@ -60,7 +60,7 @@ class RunStatus:
             return "time left: known after the first pair"
         pairs = "1 pair" if self.measured == 1 else f"{self.measured} pairs"
         workers = "1 worker" if self.workers == 1 else f"{self.workers} workers"
-        return f"about {in_words(self.remaining)} left (mean of {pairs} measured, {workers})"
+        return f"about {format_seconds(self.remaining)} left (mean of {pairs} measured, {workers})"
 
 
 Callback = Callable[[RunStatus, Result | None], None]
@@ -95,7 +95,7 @@ class Estimate:
     seconds: float
 
     def __str__(self) -> str:
-        return f"{_size(self.disk)} on disk, {_size(self.memory)} of memory and {in_words(self.seconds)}"
+        return f"{_size(self.disk)} on disk, {_size(self.memory)} of memory and {format_seconds(self.seconds)}"
 
 
 def estimate(
@@ -138,7 +138,7 @@ class RunReport:
     """Reports of a run: bars on a terminal, now and then a line elsewhere, nothing where ``quiet``.
 
     A context: while it lasts, :meth:`status` is a :data:`Callback` and :meth:`stage` a
-    :data:`~kfmaps.batch.jobs.ProgressCallback`.
+    :data:`~kfmaps._progress.CountProgress`.
     """
 
     def __init__(self, quiet: bool = False) -> None:
@@ -173,7 +173,7 @@ class RunReport:
         if result is not None and result.status == "failed":
             self.say(failure_line(result))
         failed = f"{status.failed} failed, " if status.failed else ""
-        line = f"{in_words(time.monotonic() - self._begun)}: {status}"
+        line = f"{format_seconds(time.monotonic() - self._begun)}: {status}"
         if self._draws:
             self._tell("shapes", status.shapes_done, status.shapes, "", "")
         self._tell("pairs", status.pairs_done, status.pairs, failed + status.time_left(), line)

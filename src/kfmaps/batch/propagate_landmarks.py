@@ -13,7 +13,7 @@ from kfmaps._arrays import refuse
 from kfmaps.batch.consistent import CONSISTENT, map_in_use, replacement_result
 from kfmaps.batch.layout import Pair
 from kfmaps.batch.results import Result, all_results, read_result, write_rows
-from kfmaps.batch.run_spec import read_settings
+from kfmaps.batch.run_spec import read_run_spec
 from kfmaps.collection.paths import MapPath, adjacency, best_paths
 from kfmaps.fmap.precise import vertex_point_map
 from kfmaps.geometry.mesh import Mesh
@@ -22,7 +22,7 @@ from kfmaps.io.landmark_files import LandmarkSet, mesh_space, write_landmark_set
 from kfmaps.io.named_points import NamedPoints, read_named_points, transfer_points
 from kfmaps.io.partial_map import find_counterparts, precise_points
 
-UNKNOWN = 0.5
+_UNKNOWN = 0.5
 """Probability of a map of which nothing is known."""
 PAIRS = "pairs.csv"
 
@@ -158,7 +158,7 @@ def carry_points(
 
 def _edges(folder: Path) -> list[_Edge]:
     """The maps of a run with their probabilities."""
-    settings = read_settings(folder)
+    settings = read_run_spec(folder)
     agreed = _agreed(folder)
     edges = []
     for result in all_results(folder, str(settings["digest"])):
@@ -177,7 +177,7 @@ def _chance(result: Result, agreed: float | None) -> float:
     for value in (result.agreement, agreed, result.confidence, result.local_confidence):
         if value is not None:
             return float(np.clip(value, 1e-3, 1.0))
-    return UNKNOWN
+    return _UNKNOWN
 
 
 def _agreed(folder: Path) -> dict[tuple[str, str], float]:

@@ -12,8 +12,9 @@ from typing import Any
 
 import kfmaps
 from kfmaps._arrays import MissingDependency, refuse
+from kfmaps._progress import CountProgress
 from kfmaps.batch.consistent import CONSISTENT, EVIDENCE, PATHS, ConsistentResult, make_consistent
-from kfmaps.batch.jobs import TOO_LITTLE_MEMORY, ProgressCallback, WorkerPool
+from kfmaps.batch.jobs import TOO_LITTLE_MEMORY, WorkerPool
 from kfmaps.batch.page import write_page
 from kfmaps.batch.plan import Plan
 from kfmaps.batch.progress import Callback, RunStatus, failure_line, log_to, remaining_seconds
@@ -70,7 +71,7 @@ def run_batch(
     worst: int = 6,
     callback: Callback | None = None,
     consistent: bool = False,
-    progress: ProgressCallback | None = None,
+    progress: CountProgress | None = None,
 ) -> BatchResult:
     """Do what the plan leaves to do, then write the tables and the summary.
 

@@ -98,7 +98,7 @@ def claim(folder: Path, spec: RunSpec) -> None:
         with atomic_output(path) as temporary:
             temporary.write_text(content, encoding="utf-8")
         return
-    then = read_settings(folder)
+    then = read_run_spec(folder)
     if digest_of({k: v for k, v in then.items() if k != "digest"}) == spec.digest:
         return
     before, after = _flatten(then), _flatten(now)
@@ -112,7 +112,7 @@ def claim(folder: Path, spec: RunSpec) -> None:
     raise refuse(f"output {folder}", "the settings it was begun with", f"others ({shown})", remedy)
 
 
-def read_settings(folder: Path) -> dict[str, Any]:
+def read_run_spec(folder: Path) -> dict[str, Any]:
     """The settings of an output folder, as plain values with their ``digest``."""
     path = folder / FILE
     try:

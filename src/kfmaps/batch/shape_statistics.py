@@ -16,7 +16,7 @@ from kfmaps.shape import Shape
 
 SHAPES, DISTANCES, LATENT = "shapes.csv", "distances.csv", "latent.npz"
 N_COMPONENTS = 5
-KINDS = ("area", "conformal")
+DIFFERENCE_KINDS = ("area", "conformal")
 
 
 def write_shape_statistics(
@@ -33,31 +33,31 @@ def write_shape_statistics(
     for number, common in enumerate(found.limit_shapes):
         own = [names[i] for i in common.members.tolist()]
         values = found.eigenvalues[common.members]
-        matrices = {kind: operators(common.limit_shape, values, kind) for kind in KINDS}
-        pca = {kind: components(matrices[kind], N_COMPONENTS) for kind in KINDS}
-        distances = {kind: shape_distances(matrices[kind]) for kind in KINDS}
-        for kind in KINDS:
+        matrices = {kind: operators(common.limit_shape, values, kind) for kind in DIFFERENCE_KINDS}
+        pca = {kind: components(matrices[kind], N_COMPONENTS) for kind in DIFFERENCE_KINDS}
+        distances = {kind: shape_distances(matrices[kind]) for kind in DIFFERENCE_KINDS}
+        for kind in DIFFERENCE_KINDS:
             for i, row in zip(common.members.tolist(), pca[kind].scores, strict=True):
                 scores[i] |= {f"{kind}_{c + 1}": f"{x:.6g}" for c, x in enumerate(row)}
         for i, j in zip(*np.triu_indices(len(own), 1), strict=True):
-            apart.append([own[i], own[j], *(f"{distances[kind][i, j]:.6g}" for kind in KINDS)])
+            apart.append([own[i], own[j], *(f"{distances[kind][i, j]:.6g}" for kind in DIFFERENCE_KINDS)])
         middle = medoid(distances["area"])
         basis = shape(int(common.members[middle])).basis
         arrays = {"names": np.array(own), "maps": common.limit_shape.maps, "values": common.limit_shape.values}
-        arrays |= {f"explained_{kind}": pca[kind].parts for kind in KINDS}
-        for kind in KINDS:
+        arrays |= {f"explained_{kind}": pca[kind].parts for kind in DIFFERENCE_KINDS}
+        for kind in DIFFERENCE_KINDS:
             arrays[f"variation_{kind}"] = density(matrices[kind], common.limit_shape, middle, basis).std(axis=0)
         path = limit_shape_path(folder, number)
         with atomic_output(path, force=True) as temporary, open(temporary, "wb") as file:
             np.savez(file, allow_pickle=False, middle=np.array(own[middle]), **arrays)
-    titles = [f"{kind}_{i + 1}" for kind in KINDS for i in range(N_COMPONENTS)]
+    titles = [f"{kind}_{i + 1}" for kind in DIFFERENCE_KINDS for i in range(N_COMPONENTS)]
     titles = [title for title in titles if any(title in row for row in scores)]
     rows = [[name, hand[i], int(parts[i]), *(scores[i].get(t, "") for t in titles)] for i, name in enumerate(names)]
     write_rows(folder / SHAPES, [["shape", "hand", "part", *titles], *rows])
     if not found.limit_shapes:
         (folder / DISTANCES).unlink(missing_ok=True)
         return ["shapes that hang together, three or more, would have a common basis and principal components"]
-    write_rows(folder / DISTANCES, [["shape", "other", *KINDS], *apart])
+    write_rows(folder / DISTANCES, [["shape", "other", *DIFFERENCE_KINDS], *apart])
     count, alone = len(np.unique(parts)), len(names) - sum(len(common.members) for common in found.limit_shapes)
     if count == 1:
         return []

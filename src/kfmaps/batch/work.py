@@ -37,7 +37,7 @@ from kfmaps.matching.quality import ShapeSamples
 from kfmaps.matching.result import Match
 from kfmaps.shape import Shape, prepare
 
-ATTEMPTS, MAPS = "attempts", "maps"
+_ATTEMPTS, MAPS = "attempts", "maps"
 _MIRRORED_POINTS = 500
 """Points at which a map is compared with the mirrored truth."""
 _EXPECTED = (InvalidInput, NotConverged, MissingDependency, OSError)
@@ -110,10 +110,10 @@ def map_path(folder: Path, key: str) -> Path:
 def begin(folder: Path, key: str) -> int:
     """Note that work on ``key`` begins, in a small file of its own that outlives a kill; which attempt it is."""
     content = json.dumps({"host": platform.node(), "process": os.getpid(), "time": now()})
-    (folder / ATTEMPTS).mkdir(parents=True, exist_ok=True)
+    (folder / _ATTEMPTS).mkdir(parents=True, exist_ok=True)
     while True:
         attempt = attempts(folder, key) + 1
-        with suppress(FileExistsError), open(folder / ATTEMPTS / f"{key}.{attempt}", "x", encoding="utf-8") as file:
+        with suppress(FileExistsError), open(folder / _ATTEMPTS / f"{key}.{attempt}", "x", encoding="utf-8") as file:
             file.write(content)
             return attempt
 
@@ -121,7 +121,7 @@ def begin(folder: Path, key: str) -> int:
 def attempts(folder: Path, key: str) -> int:
     """How often work on ``key`` has begun."""
     count = 0
-    while (folder / ATTEMPTS / f"{key}.{count + 1}").exists():
+    while (folder / _ATTEMPTS / f"{key}.{count + 1}").exists():
         count += 1
     return count
 

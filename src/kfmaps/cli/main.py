@@ -43,7 +43,7 @@ USAGE_ERROR: type[Exception] = next(kind for kind in typer.BadParameter.__mro__ 
 FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO, errno.EBADF)
 """What the system says when a stream takes no more."""
 
-FAILURE, INTERRUPTED, UNREAD = 2, 130, 1
+FAILURE, _INTERRUPTED, UNREAD = 2, 130, 1
 """Exit statuses: bad input, Ctrl-C, output that nobody reads."""
 
 
@@ -105,7 +105,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
             status = _run(words)
             return _flushed(status)
         except KeyboardInterrupt:
-            return INTERRUPTED
+            return _INTERRUPTED
         except BrokenPipeError:
             _let_go_of_output()
             return UNREAD
@@ -175,7 +175,7 @@ def _run(words: Sequence[str]) -> int:
         # Without a message it was a group without a command, and the help has been printed.
         return _failed(f"{message.rstrip('.')}; see {path} --help") if message else FAILURE
     except typer.Abort:
-        return INTERRUPTED
+        return _INTERRUPTED
     except SystemExit as leaving:
         return leaving.code if isinstance(leaving.code, int) else 0
     return status if isinstance(status, int) else 0

@@ -9,7 +9,7 @@ import typer
 
 from kfmaps._errors import refuse
 
-COMMON = "Output"
+_COMMON = "Output"
 """Panel of the options that every command may have."""
 
 _REQUIRED = ("sure", "likely")
@@ -19,7 +19,7 @@ UNSURE = 3
 
 
 def _common(*names: str, help: str) -> Any:
-    return typer.Option(*names, help=help, rich_help_panel=COMMON)
+    return typer.Option(*names, help=help, rich_help_panel=_COMMON)
 
 
 Force = Annotated[bool, _common("--force", help="Replace existing files.")]

@@ -18,7 +18,7 @@ from kfmaps.geometry.closest_points import closest_points
 from kfmaps.geometry.mesh import Mesh, boundary_vertices, unit_area, vertex_areas
 from kfmaps.io import read_landmarks
 from kfmaps.io.partial_map import precise_points
-from kfmaps.io.text import clean_text, parse_rows, read_bytes, table
+from kfmaps.io.text import as_table, clean_text, parse_rows, read_bytes
 from kfmaps.matching.partial.match_partial import COMMON
 from kfmaps.matching.partial.registration import overlap_probability
 from kfmaps.matching.result import Match
@@ -62,7 +62,7 @@ def read_part_truth(path: Path, whole: Mesh, part: Mesh) -> PartTruth:
     name = str(path)
     if path.suffix.lower() == ".baryc_gt":
         rows = parse_rows(clean_text(read_bytes(path), name), name)
-        found = table(rows, 4, name, "a triangle and three weights a line").astype(np.float64)
+        found = as_table(rows, 4, name, "a triangle and three weights a line").astype(np.float64)
         if len(found) != len(part.vertices):
             wanted = f"{len(part.vertices)} lines, one per vertex of the part"
             raise refuse(name, wanted, str(len(found)), "check which shape is the part")

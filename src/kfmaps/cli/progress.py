@@ -15,7 +15,7 @@ from rich.progress import BarColumn, Progress, TaskID, TextColumn, TimeElapsedCo
 
 from kfmaps._arrays import shown
 from kfmaps.cli.terminal import Terminal
-from kfmaps.cli.words import in_words
+from kfmaps.cli.words import format_seconds
 
 SECONDS_BETWEEN_LINES = 5.0
 """A stage that is begun again and again, as when many maps are tried, is told at most this often."""
@@ -39,8 +39,8 @@ def standing(name: str, done: float, elapsed: float, before: float | None = None
     """How a stage stands, in one line."""
     part = f"{100 * done:.0f} % done, " if done > 0 else ""
     left = seconds_left(done, elapsed, before)
-    rest = "" if left is None else f", about {in_words(left)} left"
-    return f"{name}: {part}{in_words(elapsed)} so far{rest}"
+    rest = "" if left is None else f", about {format_seconds(left)} left"
+    return f"{name}: {part}{format_seconds(elapsed)} so far{rest}"
 
 
 class Way(Protocol):
@@ -161,9 +161,9 @@ def bars_html(stages: dict[str, tuple[float, float]]) -> str:
     rows = []
     for name, (done, elapsed) in stages.items():
         left = seconds_left(done, elapsed) if done < 1 else None
-        rest = "" if left is None else f", about {in_words(left)} left"
+        rest = "" if left is None else f", about {format_seconds(left)} left"
         bar = f'<progress max="1" value="{done:.3f}"></progress>'
-        rows.append(f"<tr><td>{html_escape(name)}</td><td>{bar}</td><td>{in_words(elapsed)}{rest}</td></tr>")
+        rows.append(f"<tr><td>{html_escape(name)}</td><td>{bar}</td><td>{format_seconds(elapsed)}{rest}</td></tr>")
     return f"<table>{''.join(rows)}</table>"
 
 

@@ -15,7 +15,7 @@ from kfmaps._arrays import shown
 from kfmaps.cli.evaluation import Accuracy
 from kfmaps.cli.words import UNIT, percent, probability_text, verdict_text
 from kfmaps.geometry.mesh import Mesh
-from kfmaps.io.map_summary import summarize
+from kfmaps.io.map_summary import summarize_match
 from kfmaps.matching.result import Match
 from kfmaps.matching.result_groups import ONE_FIT
 
@@ -28,7 +28,7 @@ _SHAPES = " --source {} --target {}"
 
 def summary(match: Match, accuracy: Accuracy | None = None) -> dict[str, Any]:
     """Return the plain values of ``kfmaps match --json``; errors are in units of √area."""
-    return {**summarize(match), "errors": None if accuracy is None else accuracy.as_dict()}
+    return {**summarize_match(match), "errors": None if accuracy is None else accuracy.as_dict()}
 
 
 def table(match: Match, accuracy: Accuracy | None = None, written: Path | None = None) -> Table:

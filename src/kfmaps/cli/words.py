@@ -21,7 +21,7 @@ def probability_text(probability: float) -> str:
     return "<1 %" if probability < 0.01 else f"{100 * probability:.0f} %"
 
 
-def in_words(seconds: float) -> str:
+def format_seconds(seconds: float) -> str:
     """A duration, rounded to what one can tell: 40 s, 12 min, 3 h 20 min."""
     if seconds < 100:
         return f"{seconds:.0f} s"

@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 
 from kfmaps._arrays import check_count, refuse
+from kfmaps._progress import CountProgress
+from kfmaps._records import short_repr
 from kfmaps._threads import one_blas_thread
 from kfmaps.collection.consistency import (
-    Candidate,
+    StoredMap,
     compose_path,
     refine_replacement,
     score_candidates,
@@ -32,8 +34,6 @@ from kfmaps.matching.quality import ShapeSamples
 from kfmaps.matching.result import Match
 from kfmaps.matching.search import scoring_samples
 from kfmaps.shape import Shape, check_prepared, prepare
-
-ProgressCallback = Callable[[str, int, int], None]
 
 
 @dataclass(frozen=True, eq=False)
@@ -75,6 +75,8 @@ class Collection:
     chirality: dict[str, int]
     limit_shapes: tuple[ComponentLimitShape, ...] = ()
     parts: tuple[tuple[str, str], ...] = ()
+
+    __repr__ = short_repr
 
     @property
     def limit_shape(self) -> LimitShape | None:
@@ -145,7 +147,7 @@ def match_collection(
     graph: str = "near",
     config: Config | None = None,
     rng: int = 0,
-    progress: ProgressCallback | None = None,
+    progress: CountProgress | None = None,
 ) -> Collection:
     """Match a collection over a graph of pairs, or take its ``maps``, and make the maps agree.
 
@@ -235,7 +237,7 @@ class _MemoryStore:
     samples: list[ShapeSamples]
     ends: list[tuple[int, int]] = field(default_factory=list)
     matches: list[Match | None] = field(default_factory=list)
-    candidates: list[list[Candidate]] = field(default_factory=list)
+    candidates: list[list[StoredMap]] = field(default_factory=list)
     scores: list[list[ScoredMap]] = field(default_factory=list)
 
     def match(self, a: int, b: int) -> Match:
@@ -277,7 +279,7 @@ class _MemoryStore:
     def _samples(self, ends: tuple[int, int]) -> tuple[ShapeSamples, ShapeSamples]:
         return self.samples[ends[0]], self.samples[ends[1]]
 
-    def _along(self, path: CyclePath) -> Candidate:
+    def _along(self, path: CyclePath) -> StoredMap:
         steps = []
         for step in path.steps:
             basis = None if step.forward else self.shapes[self.ends[step.edge][0]].basis

@@ -10,8 +10,8 @@ import numpy as np
 
 from kfmaps.collection.differences import ComponentLimitShape, component_limit_shapes
 from kfmaps.collection.paths import compose_maps, invert_map
-from kfmaps.collection.repair import CyclePath, RepairResult, Replacement, repair
-from kfmaps.collection.scored_map import ScoredMap, candidate_maps, score_maps, with_better_score
+from kfmaps.collection.repair import CyclePath, RepairResult, Replacement, repair_maps
+from kfmaps.collection.scored_map import ScoredMap, candidate_maps, score_pair_maps, with_better_score
 from kfmaps.collection.synchronization import Edge
 from kfmaps.config import Config
 from kfmaps.fmap.convert import to_points
@@ -27,7 +27,7 @@ from kfmaps.shape import Shape
 _N_LATENT = 15
 """Latent functions of a limit shape: the higher ones are truncation more than shape."""
 
-Candidate = tuple[np.ndarray, bool]
+StoredMap = tuple[np.ndarray, bool]
 """A source vertex for each target vertex, (n_t,), and whether it is a map to the target's mirror image."""
 
 
@@ -80,7 +80,7 @@ class Consistency:
 
 def synchronize_store(store: MapStore) -> Consistency:
     """Find which maps of a store are wrong, replace them, and return what the maps in use tell of the shapes."""
-    repaired = repair(len(store.names), store.ends, store.scores, store.compose)
+    repaired = repair_maps(len(store.names), store.ends, store.scores, store.compose)
     store.replace([change for change in repaired.replacements if change.kind != "none"])
     edges = [Edge(a, b, candidate_maps(several)) for (a, b), several in zip(store.ends, store.scores, strict=True)]
     k = repaired.sync.latent.shape[1]
@@ -88,7 +88,7 @@ def synchronize_store(store: MapStore) -> Consistency:
     return Consistency(repaired, component_limit_shapes(repaired.sync, edges, values, _N_LATENT), values)
 
 
-def stored_candidates(file: Match, reversed: bool | None = None) -> list[Candidate]:
+def stored_candidates(file: Match, reversed: bool | None = None) -> list[StoredMap]:
     """Return the map in use and its alternatives; ``reversed`` where the file does not tell."""
     turned = file.orientation == "reversing" if reversed is None else reversed
     return [(points, turned) for points in (file.target_to_source, *file.alternatives)]
@@ -113,15 +113,15 @@ def score_stored(
 
 
 def score_candidates(
-    maps: Sequence[Candidate], shapes: tuple[Shape, Shape], samples: tuple[ShapeSamples, ShapeSamples]
+    maps: Sequence[StoredMap], shapes: tuple[Shape, Shape], samples: tuple[ShapeSamples, ShapeSamples]
 ) -> list[ScoredMap]:
     """Score candidates of one pair, on its cleaned shapes."""
     across = reindexing(*shapes)
     points = [across.part_s.to_clean[one[across.part_t.to_original]] for one, _ in maps]
-    return score_maps(points, across.source, across.target, samples, [turned for _, turned in maps])
+    return score_pair_maps(points, across.source, across.target, samples, [turned for _, turned in maps])
 
 
-def compose_path(steps: Sequence[tuple[Candidate, Basis | None]]) -> Candidate:
+def compose_path(steps: Sequence[tuple[StoredMap, Basis | None]]) -> StoredMap:
     """Compose the candidates of a path. One that is gone through backwards has the basis of its source beside it."""
     points = [one if basis is None else invert_map(one, basis, len(one)) for (one, _), basis in steps]
     return compose_maps(points), sum(turned for (_, turned), _ in steps) % 2 == 1
@@ -129,8 +129,8 @@ def compose_path(steps: Sequence[tuple[Candidate, Basis | None]]) -> Candidate:
 
 def refine_replacement(
     replacement: Replacement,
-    candidates: Sequence[Candidate],
-    composition: Candidate | None,
+    candidates: Sequence[StoredMap],
+    composition: StoredMap | None,
     shapes: tuple[Shape, Shape],
     config: Config,
     label: str,

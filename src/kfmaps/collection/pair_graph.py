@@ -19,7 +19,7 @@ from kfmaps.geometry.connectivity import component_labels
 
 N_EIGENVALUES = 30
 """Eigenvalues that shapes are compared by."""
-TIMES = np.geomspace(0.005, 0.3, 8)
+_TIMES = np.geomspace(0.005, 0.3, 8)
 """Diffusion times at unit area whose heat kernel signatures are compared."""
 QUANTILES = np.linspace(0.05, 0.95, 7)
 
@@ -36,7 +36,7 @@ def signature(basis: Basis) -> np.ndarray:
     # By Weyl's law the i-th is about 4 π i at unit area.
     growth = np.log(np.maximum(values, 1e-3) / (4 * np.pi * np.arange(1, len(values) + 1)))
     growth = np.concatenate([growth, np.full(N_EIGENVALUES - len(growth), growth[-1] if len(growth) else 0.0)])
-    heat = np.log(np.maximum(to_numpy(heat_signature(basis, TIMES)), 1e-12))
+    heat = np.log(np.maximum(to_numpy(heat_signature(basis, _TIMES)), 1e-12))
     return np.concatenate([growth, np.quantile(heat, QUANTILES, axis=0).ravel()])
 
 

@@ -131,7 +131,7 @@ class Replacement:
 
 @dataclass(frozen=True, eq=False)
 class RepairResult:
-    """Result of :func:`repair`.
+    """Result of :func:`repair_maps`.
 
     Attributes
     ----------
@@ -160,7 +160,7 @@ Compose = Callable[[list[tuple[int, CyclePath]]], list[ScoredMap]]
 """Given edges and paths, return the scored compositions in the same order."""
 
 
-def repair(
+def repair_maps(
     count: int, ends: Sequence[tuple[int, int]], maps: Sequence[Sequence[ScoredMap]], compose: Compose
 ) -> RepairResult:
     """Find which maps of a collection of ``count`` shapes are wrong, and what replaces them.

@@ -43,7 +43,7 @@ class ScoredMap:
     reversed: bool = False
 
 
-def score_maps(
+def score_pair_maps(
     maps: Sequence[np.ndarray],
     source: Shape,
     target: Shape,

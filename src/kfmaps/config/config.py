@@ -193,7 +193,7 @@ def as_dict(value: Any) -> Any:
     Records of which a field may hold several kinds carry theirs under ``kind``. A kernel or refinement that is a
     callable of the user's own becomes ``{"kind": "callable", "name": …}``, which :func:`from_dict` refuses.
     """
-    return _records.as_dict(value, RECORDS, describe_kernel)
+    return _records.record_as_dict(value, RECORDS, describe_kernel)
 
 
 def from_dict(values: dict[str, Any], base: Config | None = None) -> Config:

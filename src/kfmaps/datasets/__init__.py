@@ -12,13 +12,13 @@ import numpy as np
 
 from kfmaps._arrays import check_count, refuse
 from kfmaps.datasets.creature import CREATURE, DANCE, PROPORTIONS, SYMMETRIC, WAVE, with_proportions
-from kfmaps.datasets.pairs import Pair, largest_piece, posed_pair
+from kfmaps.datasets.pairs import ExamplePair, largest_piece, posed_pair
 from kfmaps.datasets.skeleton import Body, Limb
 from kfmaps.datasets.surface import closed_mesh
 from kfmaps.geometry.mesh import Mesh
 
 __all__ = [
-    "Pair",
+    "ExamplePair",
     "non_isometric",
     "partial",
     "sphere",
@@ -40,7 +40,7 @@ def _counts(vertices: int) -> tuple[int, int]:
     return vertices, round(0.8 * vertices)
 
 
-def two_poses(vertices: int = 6000, rng: Seed = 0) -> Pair:
+def two_poses(vertices: int = 6000, rng: Seed = 0) -> ExamplePair:
     """Return a creature in two poses, meshed independently; no side of it is like the other.
 
     The poses bend it along its limbs, which changes lengths little: of the edges of one mesh, in the
@@ -65,7 +65,7 @@ def two_poses(vertices: int = 6000, rng: Seed = 0) -> Pair:
     return posed_pair("two poses", Body(CREATURE), WAVE, DANCE, _counts(vertices), rng)
 
 
-def non_isometric(vertices: int = 6000, rng: Seed = 0) -> Pair:
+def non_isometric(vertices: int = 6000, rng: Seed = 0) -> ExamplePair:
     """Return the creature of :func:`two_poses`, and a relative with a fat belly, long legs and a short tail.
 
     Lengths differ by up to a half between the two, the area by a third. Parameters, result and errors as in
@@ -77,7 +77,7 @@ def non_isometric(vertices: int = 6000, rng: Seed = 0) -> Pair:
     return posed_pair("non-isometric", Body(CREATURE), WAVE, bent, counts, rng, unbent_t=unbent)
 
 
-def partial(vertices: int = 6000, rng: Seed = 0, kept: float = 0.6) -> Pair:
+def partial(vertices: int = 6000, rng: Seed = 0, kept: float = 0.6) -> ExamplePair:
     """Return the creature of :func:`two_poses`, and a part of it in the other pose, cut off obliquely.
 
     Parameters
@@ -113,7 +113,7 @@ def partial(vertices: int = 6000, rng: Seed = 0, kept: float = 0.6) -> Pair:
     )
 
 
-def symmetric_creature(vertices: int = 6000, rng: Seed = 0) -> Pair:
+def symmetric_creature(vertices: int = 6000, rng: Seed = 0) -> ExamplePair:
     """Return two poses of a creature whose right side is the mirror image of its left.
 
     Lengths alone cannot tell the direct truth from ``mirrored``; only orientation can. The poses are not

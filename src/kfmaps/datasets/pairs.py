@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.spatial import KDTree
 
+from kfmaps._records import short_repr
 from kfmaps.datasets.skeleton import Bend, Body
 from kfmaps.datasets.surface import closed_mesh
 from kfmaps.geometry.closest_points import closest_points
@@ -15,7 +16,7 @@ from kfmaps.geometry.mesh import Mesh, face_areas
 
 
 @dataclass(frozen=True, eq=False)
-class Pair:
+class ExamplePair:
     """Two meshes of one shape and the true correspondence.
 
     Attributes
@@ -41,6 +42,8 @@ class Pair:
     truth_weights: np.ndarray
     mirrored: np.ndarray | None = None
 
+    __repr__ = short_repr
+
 
 def _nearest_vertex(reference: np.ndarray, posed: np.ndarray, points: np.ndarray, exact: np.ndarray) -> np.ndarray:
     """Return for each of ``points`` the vertex whose ``posed`` position is nearest to ``exact``, (n,).
@@ -62,7 +65,7 @@ def posed_pair(
     *,
     unbent_t: dict[str, Bend] | None = None,
     mirror: bool = False,
-) -> Pair:
+) -> ExamplePair:
     """Return one body in two poses, each meshed for itself.
 
     Parameters
@@ -86,7 +89,7 @@ def posed_pair(
 
     on_source = closest_points(points_t, points_s, faces_s)
     mirrored = truth(points_t * [-1, 1, 1]) if mirror else None
-    return Pair(name, source, target, truth(points_t), on_source.faces, on_source.weights, mirrored)
+    return ExamplePair(name, source, target, truth(points_t), on_source.faces, on_source.weights, mirrored)
 
 
 def _components(faces: np.ndarray) -> np.ndarray:

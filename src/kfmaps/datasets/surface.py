@@ -17,7 +17,7 @@ Warp = Callable[[np.ndarray], np.ndarray]
 """``warp(points (n, 3)) -> (n, 3)``: a smooth one-to-one map of space near the surface."""
 
 RELAXATIONS = 30
-ATTEMPTS = 5
+_ATTEMPTS = 5
 SCATTERED = 50_000
 """Vertices up to which points are spread one by one; larger meshes are subdivided smaller ones."""
 
@@ -213,7 +213,7 @@ def closed_mesh(
         fewer = (count + 3 * (2 - 2 * genus)) // 4
         points, faces = closed_mesh(field, box, fewer, rng, genus=genus, warp=warp, scattered=scattered)
         return _subdivide(field, points, faces, count)
-    for _ in range(ATTEMPTS):
+    for _ in range(_ATTEMPTS):
         points, normals = _spread(field, box, count, rng, warp)
         if warp is None:
             faces = _triangulate(points, normals)

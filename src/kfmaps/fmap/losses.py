@@ -31,7 +31,7 @@ from kfmaps.fmap.energy import Energy
 from kfmaps.fmap.terms import Elementwise, GramTerm, Term, operator_term
 
 LossName = Literal["squared", "huber", "l21", "geman"]
-LOSSES: tuple[LossName, ...] = ("squared", "huber", "l21", "geman")
+_LOSSES: tuple[LossName, ...] = ("squared", "huber", "l21", "geman")
 
 
 class Penalty(Protocol):
@@ -60,8 +60,8 @@ class Loss:
     delta: float = 1.0
 
     def __post_init__(self) -> None:
-        if self.name not in LOSSES:
-            raise refuse("loss", "one of " + ", ".join(LOSSES), repr(self.name), "choose one of them")
+        if self.name not in _LOSSES:
+            raise refuse("loss", "one of " + ", ".join(_LOSSES), repr(self.name), "choose one of them")
         check_positive(self.delta, "loss delta")
 
     def value(self, e: np.ndarray) -> np.ndarray:
@@ -166,7 +166,7 @@ class RobustData:
 
 
 @dataclass(frozen=True, eq=False)
-class Sparse:
+class _Sparse:
     """``Σ weights √(C² + ε²)``: the L1 norm, smoothed at zero; made by :func:`sparse_penalty`.
 
     Of the functional map, whose entries are of the order of 1, or below it off the diagonal.
@@ -184,7 +184,7 @@ class Sparse:
         return Elementwise(self.weights / xp.sqrt(C * C + self.smoothing**2))
 
 
-def sparse_penalty(example: Array, smoothing: float = 1e-3) -> Sparse:
+def sparse_penalty(example: Array, smoothing: float = 1e-3) -> _Sparse:
     """Return the sparsity of maps of the shape of ``example (k_t, k_s)``, with weights that grow from the diagonal.
 
     They are 0 on the line between the two corners and 1 in the others (Pokrass et al., Sparse modeling of intrinsic
@@ -193,4 +193,4 @@ def sparse_penalty(example: Array, smoothing: float = 1e-3) -> Sparse:
     k_t, k_s = example.shape
     check_positive(smoothing, "smoothing")
     rows, columns = np.arange(k_t) / max(k_t - 1, 1), np.arange(k_s) / max(k_s - 1, 1)
-    return Sparse(like(np.abs(rows[:, None] - columns[None, :]), example), smoothing)
+    return _Sparse(like(np.abs(rows[:, None] - columns[None, :]), example), smoothing)

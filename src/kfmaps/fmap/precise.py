@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from kfmaps._arrays import Array, blocks, check, refuse, to_numpy
+from kfmaps._records import short_repr
 from kfmaps._threads import parallel
 from kfmaps.fmap.convert import embed
 from kfmaps.fmap.nearest import EXACT_PAIRS, nearest
@@ -34,6 +35,8 @@ class PointMap:
 
     faces: np.ndarray
     weights: np.ndarray
+
+    __repr__ = short_repr
 
 
 def check_point_map_precise(places: PointMap, source: Mesh, n_t: int | None = None) -> PointMap:

@@ -14,7 +14,7 @@ from typing import Literal
 import numpy as np
 
 from kfmaps._arrays import Array, inner, like, namespace, refuse, to_numpy
-from kfmaps._records import check_record, setting, settings_record
+from kfmaps._records import check_record, setting, settings_record, short_repr
 
 Status = Literal["converged", "step limit", "breakdown"]
 Operator = Callable[[Array], Array]
@@ -41,6 +41,8 @@ class Solution:
     status: Status
     steps: int
     residuals: np.ndarray
+
+    __repr__ = short_repr
 
 
 @settings_record

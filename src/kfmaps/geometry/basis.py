@@ -10,10 +10,11 @@ import robust_laplacian
 from scipy.sparse import coo_array, csc_array
 
 from kfmaps._arrays import Array, MissingDependency, check_count, refuse, to_numpy
+from kfmaps._records import short_repr
 from kfmaps.geometry.clean import clean_mesh
 from kfmaps.geometry.connectivity import proper_faces
 from kfmaps.geometry.eigen.eigensolver import EXACT, smallest_eigenpairs
-from kfmaps.geometry.eigen.factorization import Sparse
+from kfmaps.geometry.eigen.factorization import SparseMatrix
 from kfmaps.geometry.mesh import Mesh, check_is_mesh, vertex_areas
 from kfmaps.geometry.point_cloud import cloud_laplacian
 
@@ -41,6 +42,8 @@ class Basis:
     eigenvalues: Array
     functions: Array
     mass: Array
+
+    __repr__ = short_repr
 
     def project(self, f: Array) -> Array:
         """Return the coefficients (k, d) of the functions ``f`` (n, d): ``Φᵀ A f``."""
@@ -144,7 +147,7 @@ def _mollified(corners: np.ndarray) -> np.ndarray:
     return np.divide(above, 8 * area, out=np.zeros_like(above), where=area > 0)
 
 
-def _operators(mesh: Mesh, laplacian: str) -> tuple[Sparse, np.ndarray]:
+def _operators(mesh: Mesh, laplacian: str) -> tuple[SparseMatrix, np.ndarray]:
     """Weak Laplacian (n, n) and lumped mass (n,) of a mesh or cloud without unused vertices and copies."""
     if len(mesh.faces) == 0:
         return cloud_laplacian(mesh.vertices)

@@ -27,6 +27,9 @@ class Mesh:
     vertices: np.ndarray
     faces: np.ndarray = field(default_factory=lambda: np.zeros((0, 3), dtype=np.int64))
 
+    def __repr__(self) -> str:
+        return f"Mesh({len(self.vertices):,} vertices, {len(self.faces):,} faces)"
+
     def __post_init__(self) -> None:
         vertices = np.ascontiguousarray(self.vertices, dtype=np.float64)
         faces = np.asarray(() if self.faces is None else self.faces)

@@ -10,13 +10,13 @@ from scipy.spatial import Delaunay, KDTree
 
 from kfmaps._arrays import refuse
 from kfmaps.geometry.connectivity import component_labels, unique_vertices
-from kfmaps.geometry.eigen.factorization import Sparse
+from kfmaps.geometry.eigen.factorization import SparseMatrix
 
 _NEIGHBOURS = 12
 """Neighbours that a point is linked to."""
 
 
-def cloud_laplacian(points: np.ndarray) -> tuple[Sparse, np.ndarray]:
+def cloud_laplacian(points: np.ndarray) -> tuple[SparseMatrix, np.ndarray]:
     """Return the weak Laplacian (n, n) and the areas (n,) of ``points (n, 3)``, all at different positions.
 
     Every point's neighbours are triangulated in its tangent plane and the tufted Laplacian is built on all these

@@ -13,7 +13,7 @@ from kfmaps.geometry.closest_points import closest_points
 from kfmaps.geometry.connectivity import component_labels
 from kfmaps.io.record import MeshFile, Picture
 
-SMALLEST, LARGEST = 1024, 4096
+SMALLEST, _LARGEST = 1024, 4096
 """Bounds of the side of a baked picture, which has the longer side of the source's."""
 TEXELS = 2_000_000
 """Texels worked on together, which bounds the memory."""
@@ -149,7 +149,7 @@ def bake_texture(
     """
     assert target.uv is not None
     assert target.uv_faces is not None
-    size = size or int(np.clip(max(pixels.shape[:2]), SMALLEST, LARGEST))
+    size = size or int(np.clip(max(pixels.shape[:2]), SMALLEST, _LARGEST))
     face, texel, weights = find_texels(target.uv[target.uv_faces], size)
     if len(face) == 0:
         raise refuse("target", "texture coordinates with room for its faces", "none", "export without them")

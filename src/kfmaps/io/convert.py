@@ -21,7 +21,7 @@ from kfmaps.io.record import fan
 from kfmaps.matching.result import Match
 from kfmaps.matching.result_groups import ShapeFile
 
-SHAPES = "a Mesh, a file, (vertices, faces), or a mesh of trimesh, PyVista, meshio or Open3D"
+_SHAPES = "a Mesh, a file, (vertices, faces), or a mesh of trimesh, PyVista, meshio or Open3D"
 POLYGONS = ("triangle", "quad", "polygon")
 """Kinds of meshio's cells that are faces."""
 
@@ -59,8 +59,8 @@ def as_mesh(shape: Any, name: str = "shape") -> Mesh:
     except InvalidInput as error:
         raise InvalidInput(f"{name}: {error}") from error
     except (TypeError, ValueError) as error:
-        raise refuse(name, SHAPES, f"{type(shape).__name__} ({error})", "check its arrays") from error
-    raise refuse(name, SHAPES, type(shape).__name__, "give kfmaps.Mesh(vertices, faces)")
+        raise refuse(name, _SHAPES, f"{type(shape).__name__} ({error})", "check its arrays") from error
+    raise refuse(name, _SHAPES, type(shape).__name__, "give kfmaps.Mesh(vertices, faces)")
 
 
 def _parts(shape: Any) -> tuple[Any, np.ndarray] | None:

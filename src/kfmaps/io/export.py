@@ -24,7 +24,7 @@ from kfmaps.io.record import MeshFile, Picture
 from kfmaps.io.transfer import transfer
 
 PICTURES = (".png", ".jpg", ".jpeg")
-LOST = 0.62
+_LOST = 0.62
 """Grey of target vertices without a counterpart."""
 _CHOICES = 8
 """Texture coordinates that are considered per vertex; a seam gives two, a corner of seams three or four."""
@@ -270,7 +270,7 @@ def write_colored(
     check_map(target_to_source, len(colors), len(target.vertices), lost=True)
     if source is not None:
         precise_points(target_to_source, source)
-    mixed = transfer(colors, target_to_source, None if source is None else source.faces, LOST)
+    mixed = transfer(colors, target_to_source, None if source is None else source.faces, _LOST)
     write_mesh(path, target, colors=np.clip(mixed, 0, 1), force=force)
 
 

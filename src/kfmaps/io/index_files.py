@@ -9,7 +9,7 @@ import numpy as np
 
 from kfmaps._arrays import check, refuse
 from kfmaps.io.atomic import atomic_output
-from kfmaps.io.text import clean_text, parse_rows, read_bytes, table, whole_numbers
+from kfmaps.io.text import as_table, clean_text, parse_rows, read_bytes, whole_numbers
 
 
 def _read_numbers(path: str | Path, columns: int, one_based: bool, wanted: str, lost: bool = False) -> np.ndarray:
@@ -18,7 +18,7 @@ def _read_numbers(path: str | Path, columns: int, one_based: bool, wanted: str, 
     rows = parse_rows(clean_text(read_bytes(path), name), name)
     if len(rows) == 0:
         raise refuse(name, wanted, "no numbers", "check that it is the right file")
-    numbers = whole_numbers(table(rows, columns, name, wanted), name)
+    numbers = whole_numbers(as_table(rows, columns, name, wanted), name)
     low = int(one_based)
     gone = (numbers == -1) & lost
     small = np.flatnonzero(((numbers < low) & ~gone).any(axis=1))

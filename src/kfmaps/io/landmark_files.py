@@ -117,7 +117,7 @@ def check_landmark_format(path: str | Path, what: str = "landmarks") -> None:
 def landmark_suffix(path: str | Path) -> str:
     """Return the extension of a landmark file with its dots, ``.mrk.json`` as one; empty for another file."""
     suffix = _suffix(path)
-    return suffix if suffix in FORMATS else ""
+    return suffix if suffix in _FORMATS else ""
 
 
 def landmark_stem(path: str | Path) -> str:
@@ -143,10 +143,10 @@ def _suffix(path: str | Path) -> str:
 
 
 def _format(path: str | Path, what: str) -> tuple[Callable, Callable, bool]:
-    found = FORMATS.get(_suffix(path))
+    found = _FORMATS.get(_suffix(path))
     if found is None:
         got = _suffix(path) or "no extension"
-        raise refuse(f"{what} {path}", f"one of {' '.join(FORMATS)}", got, "convert or rename the file")
+        raise refuse(f"{what} {path}", f"one of {' '.join(_FORMATS)}", got, "convert or rename the file")
     return found
 
 
@@ -451,7 +451,7 @@ def wide_rows(sets: Sequence[LandmarkSet]) -> list[list[str]]:
     return rows
 
 
-FORMATS: dict[str, tuple[Callable, Callable, bool]] = {
+_FORMATS: dict[str, tuple[Callable, Callable, bool]] = {
     ".mrk.json": (_read_json, _write_json, False),
     ".json": (_read_json, _write_json, False),
     ".fcsv": (_read_fcsv, _write_fcsv, False),

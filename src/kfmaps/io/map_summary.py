@@ -25,7 +25,7 @@ _ELSEWHERE = {*(array.field for array in ARRAYS.values()), *SHAPE_FIELDS, "_rein
 """Fields of a match that its summary does not hold."""
 
 
-def summarize(match: Match) -> dict[str, Any]:
+def summarize_match(match: Match) -> dict[str, Any]:
     """Return plain values of a match for JSON: its fields without the large arrays, and a few counts.
 
     The names are those of :class:`kfmaps.Match`; a group of fields is a dictionary. Numbers that are not finite are

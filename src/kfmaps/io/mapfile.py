@@ -11,18 +11,18 @@ from typing import IO, Any
 import numpy as np
 
 from kfmaps._arrays import InvalidInput, refuse
-from kfmaps._memory import in_words
+from kfmaps._memory import format_bytes
 from kfmaps.io.atomic import atomic_output, check_output
 from kfmaps.io.index_files import read_vertex_numbers, write_vertex_numbers
-from kfmaps.io.map_summary import build_match, parse_summary, summarize
+from kfmaps.io.map_summary import build_match, parse_summary, summarize_match
 from kfmaps.io.mapcontent import ARRAYS, OLDER, check_arrays, real
 from kfmaps.io.matfile import read_mat
 from kfmaps.io.text import REPAIR, read_bytes
 from kfmaps.matching.result import Match
 
-FORMATS = (".npz", ".txt", ".vts", ".mat")
+_FORMATS = (".npz", ".txt", ".vts", ".mat")
 
-LARGEST = 1 << 28
+_LARGEST = 1 << 28
 """Numbers that a map file may hold: 2 GiB of them, a map of 30 million vertices with all that is known of it."""
 
 
@@ -54,7 +54,7 @@ def save_map(path: str | Path, match: Match, force: bool = False) -> None:
     if suffix in (".txt", ".vts"):
         write_vertex_numbers(path, match.target_to_source, force=force)
         return
-    content: dict[str, Any] = {"summary": json.dumps(summarize(match))}
+    content: dict[str, Any] = {"summary": json.dumps(summarize_match(match))}
     content |= {name: value for name in ARRAYS if (value := _array(match, name)) is not None}
     # last, so that a file cut anywhere lacks the one array that must be there
     content["target_to_source"] = content.pop("target_to_source")
@@ -121,8 +121,8 @@ def load_map(path: str | Path) -> Match:
 def check_format(path: str | Path) -> None:
     """Raise :class:`InvalidInput` when ``path`` has no extension of a map."""
     suffix = Path(path).suffix.lower()
-    if suffix not in FORMATS:
-        raise refuse(f"map {path}", f"one of {' '.join(FORMATS)}", suffix or "no extension", "rename it")
+    if suffix not in _FORMATS:
+        raise refuse(f"map {path}", f"one of {' '.join(_FORMATS)}", suffix or "no extension", "rename it")
 
 
 def check_npy(file: IO[bytes], size: int, name: str) -> float:
@@ -137,10 +137,10 @@ def check_npy(file: IO[bytes], size: int, name: str) -> float:
 
 
 def check_size(count: float, name: str) -> None:
-    """Refuse a map file that unpacks to more than :data:`LARGEST` numbers."""
-    if count > LARGEST:
-        wanted = f"a map of at most {in_words(8 * LARGEST)} unpacked"
-        raise refuse(name, wanted, in_words(8 * count), "a map takes a few numbers for each vertex: check the file")
+    """Refuse a map file that unpacks to more than :data:`_LARGEST` numbers."""
+    if count > _LARGEST:
+        wanted = f"a map of at most {format_bytes(8 * _LARGEST)} unpacked"
+        raise refuse(name, wanted, format_bytes(8 * count), "a map takes a few numbers for each vertex: check the file")
 
 
 def _array(match: Match, name: str) -> np.ndarray | None:
@@ -168,7 +168,7 @@ def _npz_content(data: bytes, name: str) -> dict[str, Any]:
 
 
 def _mat_content(data: bytes, name: str) -> dict[str, Any]:
-    content: dict[str, Any] = dict(read_mat(data, name, 8 * LARGEST))
+    content: dict[str, Any] = dict(read_mat(data, name, 8 * _LARGEST))
     for key, array in ARRAYS.items():
         value = content.get(key)
         if not isinstance(value, np.ndarray):

@@ -7,7 +7,7 @@ import zlib
 import numpy as np
 
 from kfmaps._arrays import refuse
-from kfmaps._memory import in_words
+from kfmaps._memory import format_bytes
 from kfmaps.io.text import REPAIR
 
 _MATRIX, _COMPRESSED = 14, 15
@@ -80,8 +80,8 @@ def _unpacked(body: bytes, order: str, name: str, left: float, most: int) -> byt
 
 
 def _large(name: str, got: float, most: int) -> Exception:
-    wanted = f"a map of at most {in_words(most)} unpacked"
-    return refuse(name, wanted, in_words(got), "a map takes a few numbers for each vertex: check the file")
+    wanted = f"a map of at most {format_bytes(most)} unpacked"
+    return refuse(name, wanted, format_bytes(got), "a map takes a few numbers for each vertex: check the file")
 
 
 def _damaged(name: str) -> Exception:

@@ -20,7 +20,7 @@ from kfmaps.io.off import format_off, parse_off
 from kfmaps.io.ply import format_ply, parse_ply
 from kfmaps.io.record import MeshFile, checked_colors
 from kfmaps.io.stl import parse_stl
-from kfmaps.io.text import clean_text, parse_rows, read_bytes, table
+from kfmaps.io.text import as_table, clean_text, parse_rows, read_bytes
 from kfmaps.io.vtk import parse_vtk, parse_vtp
 
 
@@ -35,7 +35,7 @@ def parse_xyz(data: bytes, name: str) -> MeshFile:
         On words that are no numbers and on lines of different lengths.
     """
     rows = parse_rows(clean_text(data, name), name)
-    columns = table(rows, (3, 4, 6, 7, 9, 10), name, "x y z, the same number of columns in every line")
+    columns = as_table(rows, (3, 4, 6, 7, 9, 10), name, "x y z, the same number of columns in every line")
     return MeshFile(Mesh(columns[:, :3], np.zeros((0, 3), dtype=np.int64)))
 
 
@@ -54,7 +54,7 @@ WRITERS = {".off": format_off, ".obj": format_obj, ".ply": format_ply, ".glb": f
 
 MAX_UNPLACED = 1e-3
 """Fraction of vertices that may have NaN coordinates; surfaces extracted from CT volumes have one now and then."""
-LARGEST = 1e70
+_LARGEST = 1e70
 """Coordinates beyond this overflow in areas and are refused; no unit makes them meaningful."""
 
 
@@ -103,8 +103,8 @@ def read_mesh_file(path: str | Path, *, cloud: bool = True) -> MeshFile:
         if values is not None:
             check(values, f"{name}: {what}", remedy="repair or re-export the file")
     size = np.abs(places).max(initial=0.0)
-    if size > LARGEST:
-        raise refuse(f"{name}: vertices", f"coordinates up to {LARGEST:g}", f"{size:g}", "repair the file")
+    if size > _LARGEST:
+        raise refuse(f"{name}: vertices", f"coordinates up to {_LARGEST:g}", f"{size:g}", "repair the file")
     check_mesh(found.mesh, name, cloud=cloud)
     _warn_of_oddities(found.mesh, name)
     return found

@@ -14,6 +14,7 @@ from kfmaps.io.record import MeshFile, Picture, fan, picture_in, unit_colors
 from kfmaps.io.text import (
     REPAIR,
     Rows,
+    as_table,
     beside,
     check_lines,
     clean_text,
@@ -22,7 +23,6 @@ from kfmaps.io.text import (
     quoted,
     read_bytes,
     split_words,
-    table,
     whole_numbers,
 )
 
@@ -70,7 +70,7 @@ def parse_obj(data: bytes, name: str) -> MeshFile:
     text = clean_text(data, name).replace(b"\\\n", b"  ")  # after a backslash the line goes on
     lines = _split(text, name)
     places, colors = _vertices(_numbers(lines, _V, name, "v x y z"), name)
-    uv = table(_numbers(lines, _VT, name, "vt u v"), (2, 3), name, "vt u v")[:, :2].copy()
+    uv = as_table(_numbers(lines, _VT, name, "vt u v"), (2, 3), name, "vt u v")[:, :2].copy()
     sizes, at, numbers = _corners(lines, name)
     triangles = fan(sizes)
 

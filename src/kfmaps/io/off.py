@@ -9,7 +9,7 @@ import numpy as np
 from kfmaps._arrays import refuse
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.io.record import MeshFile, bytes_of, fan, gathered, unit_colors
-from kfmaps.io.text import REPAIR, Rows, check_lines, clean_text, parse_rows, quoted, table, whole_numbers
+from kfmaps.io.text import REPAIR, Rows, as_table, check_lines, clean_text, parse_rows, quoted, whole_numbers
 
 _HEADER = re.compile(rb"\s*(ST)?(C?N?|NC)(4?n?)OFF(?![A-Za-z])[ \t]*(BINARY)?", re.ASCII)
 
@@ -46,7 +46,7 @@ def parse_off(data: bytes, name: str) -> MeshFile:
     plain = 3 + 3 * (b"N" in kinds) + 2 * bool(textured)
     widths = (plain + 4, plain + 3) if b"C" in kinds else (plain,)
     wanted = f"{' or '.join(map(str, widths))} numbers a vertex"
-    columns = table(rows.part(1, 1 + n), widths, name, wanted)
+    columns = as_table(rows.part(1, 1 + n), widths, name, wanted)
     colors = uv = None
     if b"C" in kinds and n:
         at = plain - 2 * bool(textured)

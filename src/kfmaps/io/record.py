@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from kfmaps._arrays import check, refuse
+from kfmaps._records import short_repr
 from kfmaps.geometry.mesh import Mesh
 
 
@@ -61,6 +62,8 @@ class MeshFile:
     uv: np.ndarray | None = None
     uv_faces: np.ndarray | None = None
     picture: Picture | None = None
+
+    __repr__ = short_repr
 
 
 def fan(sizes: np.ndarray) -> np.ndarray:

@@ -10,7 +10,7 @@ from kfmaps._arrays import check, refuse
 from kfmaps.geometry.connectivity import unique_vertices
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.io.record import MeshFile
-from kfmaps.io.text import REPAIR, clean_text, parse_rows, table
+from kfmaps.io.text import REPAIR, as_table, clean_text, parse_rows
 
 _HEAD = 84
 _TRIANGLE = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attributes", "<u2")])
@@ -60,4 +60,4 @@ def _text_places(text: bytes, name: str) -> np.ndarray:
         got = "something else in between, or an end before endsolid"
         raise refuse(name, "facets of three vertices from solid to endsolid", got, REPAIR)
     corners = b"\n".join(b"\n".join(facet) for facet in _FACET.findall(text))
-    return table(parse_rows(corners, f"{name}: vertices"), 3, f"{name}: vertices", "x y z")
+    return as_table(parse_rows(corners, f"{name}: vertices"), 3, f"{name}: vertices", "x y z")

@@ -235,7 +235,7 @@ def whole_numbers(values: np.ndarray, name: str, wanted: str = "whole numbers") 
     return values.astype(np.int64)
 
 
-def table(rows: Rows, columns: int | tuple[int, ...], name: str, wanted: str) -> np.ndarray:
+def as_table(rows: Rows, columns: int | tuple[int, ...], name: str, wanted: str) -> np.ndarray:
     """Return the numbers of ``rows``, which must all be equally many and one of ``columns``, (rows, columns).
 
     Raises

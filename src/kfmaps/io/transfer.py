@@ -18,7 +18,7 @@ from kfmaps.matching.reindexing import reindexing
 from kfmaps.matching.result import Match
 from kfmaps.shape import prepare
 
-N_FUNCTIONS = 100
+_N_FUNCTIONS = 100
 """Size of the functional map where the file has none."""
 
 
@@ -132,7 +132,7 @@ def transfer_by_functions(
     check_map(found, len(source.vertices), len(target.vertices), "the map")
     tail = (None,) * (values.ndim - 1)
     check(values, "values", shape=(len(source.vertices), *tail), remedy="give one row per source vertex")
-    k_t, k_s = found.functional_map.shape if hasattr(found, "functional_map") else (N_FUNCTIONS, N_FUNCTIONS)
+    k_t, k_s = found.functional_map.shape if hasattr(found, "functional_map") else (_N_FUNCTIONS, _N_FUNCTIONS)
     if products > k_s:
         raise refuse("--products", f"at most the {k_s} functions that the map carries", str(products), "lower it")
     k = min(max(k_s, k_t), len(source.vertices) - 1, len(target.vertices) - 1)

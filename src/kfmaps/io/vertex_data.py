@@ -11,11 +11,12 @@ from pathlib import Path
 import numpy as np
 
 from kfmaps._arrays import refuse
+from kfmaps._records import short_repr
 from kfmaps.io.atomic import atomic_output, check_output
 from kfmaps.io.mapfile import check_npy
 from kfmaps.io.text import REPAIR, check_lines, complete_or_refuse, is_number, read_bytes, read_csv, read_text
 
-FORMATS = (".npy", ".csv", ".txt")
+_FORMATS = (".npy", ".csv", ".txt")
 MOST_LETTERS = 1 << 26
 """Letters of all labels together when each takes the room of the longest, four bytes a letter: a quarter of a GiB."""
 _WHOLE = re.compile(r"[+-]?\d+", re.ASCII)
@@ -36,6 +37,8 @@ class Values:
 
     array: np.ndarray
     columns: tuple[str, ...] | None = None
+
+    __repr__ = short_repr
 
 
 def read_values(path: str | Path) -> Values:
@@ -71,9 +74,9 @@ def read_values(path: str | Path) -> Values:
 
 def _format(path: str | Path) -> str:
     suffix = Path(path).suffix.lower()
-    if suffix not in FORMATS:
+    if suffix not in _FORMATS:
         got = suffix or "no extension"
-        raise refuse(f"values {path}", f"one of {' '.join(FORMATS)}", got, "convert or rename it")
+        raise refuse(f"values {path}", f"one of {' '.join(_FORMATS)}", got, "convert or rename it")
     return suffix
 
 

@@ -161,7 +161,7 @@ class Product:
         return kernel_diagonal(self.a, X) * kernel_diagonal(self.b, X)
 
 
-KERNELS = (Linear, Polynomial, Gaussian, Laplacian, Tanh, Sum, Product)
+PLAIN_KERNELS = (Linear, Polynomial, Gaussian, Laplacian, Tanh, Sum, Product)
 """Kernels of plain descriptors; those of transformed ones are in :mod:`kfmaps.kernels.transformed`."""
 
 

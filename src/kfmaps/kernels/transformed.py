@@ -124,7 +124,7 @@ class Scaled:
         return replace(self, kernel=resolve_kernel(self.kernel, samples, sharpness))
 
 
-KERNELS: tuple[type, ...] = (*kernels.KERNELS, Metric, Network, Scaled)
+KERNELS: tuple[type, ...] = (*kernels.PLAIN_KERNELS, Metric, Network, Scaled)
 """Every kernel that a settings file can name."""
 
 

@@ -16,6 +16,7 @@ import numpy as np
 import torch
 
 from kfmaps._arrays import NotConverged
+from kfmaps._records import short_repr
 from kfmaps.config import Formulation
 from kfmaps.fmap.energy import Energy, Term, descriptor_term, laplacian_term, operator_term
 from kfmaps.fmap.preconditioners import sylvester
@@ -92,7 +93,7 @@ def pair_energy(
     return Energy(terms, {name: weights[name] for name in terms})  # pyright: ignore[reportArgumentType]
 
 
-def operators(basis: Basis, W: torch.Tensor) -> torch.Tensor:
+def feature_operators(basis: Basis, W: torch.Tensor) -> torch.Tensor:
     """Return the multiplication operators ``Φᵀ A diag(wᵢ) Φ``, ``(r, k, k)``, of features ``W (n, r)``."""
     phi, weighted = basis.functions, basis.mass[:, None] * W
     return torch.stack([phi.T @ (weighted[:, i : i + 1] * phi) for i in range(W.shape[1])])
@@ -107,11 +108,11 @@ def _truncated_operators(
     that are dropped make the gradient inexact.
     """
     if not rtol:
-        return [operators(basis, F) for basis, F in zip(bases, W, strict=True)]
+        return [feature_operators(basis, F) for basis, F in zip(bases, W, strict=True)]
     with torch.no_grad():
         bounds = [torch.sqrt(basis.mass * (basis.functions**2).sum(dim=1))[:, None] for basis in bases]
         rotation = _strongest([(bound * F).T for bound, F in zip(bounds, W, strict=True)], rtol / 2)
-    both = [operators(basis, F @ rotation) for basis, F in zip(bases, W, strict=True)]
+    both = [feature_operators(basis, F @ rotation) for basis, F in zip(bases, W, strict=True)]
     with torch.no_grad():
         rotation = _strongest([X.reshape(len(X), -1) for X in both], rtol)
     return [torch.tensordot(rotation.T, X, dims=1) for X in both]
@@ -130,6 +131,8 @@ class Minimum:
 
     C: torch.Tensor
     solution: Solution
+
+    __repr__ = short_repr
 
 
 class _Implicit(torch.autograd.Function):

@@ -10,6 +10,7 @@ import numpy as np
 import torch
 
 from kfmaps._arrays import check, refuse, to_numpy
+from kfmaps._records import short_repr
 from kfmaps.config import Config, Formulation
 from kfmaps.fmap.nearest import nearest
 from kfmaps.geometry.basis import Basis
@@ -46,6 +47,8 @@ class PairTruth:
     distances: torch.Tensor
     points_s: torch.Tensor
     points_t: torch.Tensor
+
+    __repr__ = short_repr
 
 
 @dataclass(frozen=True, eq=False)

@@ -11,6 +11,7 @@ import torch
 from matplotlib.figure import Figure
 
 from kfmaps._arrays import refuse
+from kfmaps._records import short_repr
 from kfmaps.io import atomic_output
 from kfmaps.settings.learned import FORMAT, read_learned
 from kfmaps.viz.curves import COLORS
@@ -57,6 +58,8 @@ class State:
     start: dict[str, torch.Tensor]
     optimizer: dict
     history: tuple[Epoch, ...]
+
+    __repr__ = short_repr
 
     @property
     def best_epoch(self) -> Epoch:

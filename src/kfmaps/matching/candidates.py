@@ -21,8 +21,8 @@ from kfmaps.matching.fit import Fit
 from kfmaps.matching.initial_maps import (
     STARTS,
     WEIGHTS,
+    KernelWeights,
     Start,
-    Weights,
     distinct_weights,
     extremity_inits,
     kernel_inits,
@@ -36,21 +36,21 @@ from kfmaps.matching.sample_pair import SamplePair, TwoLevelSamples
 from kfmaps.matching.score import SCORE, Candidate, select_distinct
 from kfmaps.shape import Shape
 
-QUICK = 2
+_QUICK = 2
 """Weights of the sign choices after which a search may end early: then the others are left out."""
 ROUGH, ROUGH_STEP = 40, 4
 """Functions at the end of the rough refinement, and how many more at each step."""
 FINE, FINE_FROM, FINE_STEP = 80, 20, 5
 """The same of the refinement of the best, on all samples; from fewer functions it loses right maps."""
-FINE_WEIGHTS: tuple[Weights, ...] = ((12.0, 12.0), (12.0, 12.0, 30.0))
+FINE_WEIGHTS: tuple[KernelWeights, ...] = ((12.0, 12.0), (12.0, 12.0, 30.0))
 """Without extremities and with them: distances from extremities mislead where a hand has grown to a thigh."""
-AGAIN: Weights = (12.0, 12.0)
+AGAIN: KernelWeights = (12.0, 12.0)
 """Of a refinement that begins with a refined map."""
 N_PERTURBATIONS = 6
 """Maps that start from a random symmetry of the low functions."""
 TURNED = 3
 """Of the best rough maps that differ, those that are composed with symmetries of the shapes."""
-FINALISTS, FEWER = 10, 6
+FINALISTS, _FEWER = 10, 6
 """Distinct rough maps that are refined further, and those where a search ends early."""
 
 
@@ -76,12 +76,12 @@ def candidates(
     functions = min(len(source.basis.eigenvalues), len(target.basis.eigenvalues))
     marks = np.zeros((0, 2), dtype=np.int64) if landmarks is None else landmarks
     signs, weights = min(config.search.n_sign_functions, functions - 1), distinct_weights(WEIGHTS, few)
-    found = refine_coarse(sign_inits(signs, few, weights[:QUICK]), few, functions, threads)
+    found = refine_coarse(sign_inits(signs, few, weights[:_QUICK]), few, functions, threads)
     report(0.3)
     # What the user says of landmarks and points is heard in the fits.
     easy = len(marks) == 0 and descriptors is None and early_exit(found)
     if not easy:
-        found += refine_coarse(sign_inits(signs, few, weights[QUICK:]), few, functions, threads)
+        found += refine_coarse(sign_inits(signs, few, weights[_QUICK:]), few, functions, threads)
         operators = samples.whole.source.orientation, samples.whole.target.orientation
         starts = kernel_inits(source, target, config, few, operators, marks, descriptors, seed, drawn)
         starts += extremity_inits(functions, few)
@@ -96,7 +96,7 @@ def candidates(
         again += [Start(f"kicked {i}", kick, STARTS[0], WEIGHTS[0], False) for i, kick in enumerate(kicks)]
     found += refine_coarse(again, few, functions, threads)
     report(0.75)
-    chosen = distinct_maps(by_score(found), few.source, SCORE.rough_distance, FEWER if easy else FINALISTS)
+    chosen = distinct_maps(by_score(found), few.source, SCORE.rough_distance, _FEWER if easy else FINALISTS)
     refined = refine_fine(chosen, few, samples.whole, functions, threads)
     report(1.0)
     return refined
@@ -113,7 +113,7 @@ def early_exit(found: list[Candidate]) -> bool:
 def refine_coarse(starts: list[Start], pair: SamplePair, functions: int, threads: int | None = None) -> list[Candidate]:
     """Refine the starts on few samples."""
     stop = min(ROUGH, functions)
-    groups: dict[tuple[int, Weights], list[Start]] = {}
+    groups: dict[tuple[int, KernelWeights], list[Start]] = {}
     for start in starts:
         size = min(start.functions, stop, *start.functional_map.shape)
         groups.setdefault((size, start.weights), []).append(start)
@@ -148,7 +148,7 @@ def refine_finely(
     chosen: list[Candidate],
     pair: SamplePair,
     functions: int,
-    weights: Weights,
+    weights: KernelWeights,
     matches: Sequence[ExtremityMatch | None],
     threads: int | None,
 ) -> tuple[np.ndarray, np.ndarray]:
@@ -179,7 +179,7 @@ def refine_batch(
     maps: np.ndarray,
     pair: SamplePair,
     sizes: tuple[int, ...],
-    weights: Weights,
+    weights: KernelWeights,
     matches: Sequence[ExtremityMatch | None],
     threads: int | None,
 ) -> tuple[np.ndarray, np.ndarray]:

@@ -37,12 +37,12 @@ from kfmaps.matching.self_maps import self_maps
 from kfmaps.matching.solve import minimize_problem
 from kfmaps.shape import Shape
 
-Weights = tuple[float, ...]
+KernelWeights = tuple[float, ...]
 """Of SHOT, of landmarks and of extremities."""
-WEIGHTS: tuple[Weights, ...] = ((0.0, 0.0), (12.0, 12.0), (4.0, 12.0))
+WEIGHTS: tuple[KernelWeights, ...] = ((0.0, 0.0), (12.0, 12.0), (4.0, 12.0))
 """In the rough refinement of sign choices: none, so that symmetric maps are found too, much, and some."""
-FIT_WEIGHTS: tuple[Weights, ...] = ((4.0, 12.0), (12.0, 12.0))
-EXTREMITY_WEIGHTS: tuple[Weights, ...] = ((4.0, 12.0, 30.0),)
+FIT_WEIGHTS: tuple[KernelWeights, ...] = ((4.0, 12.0), (12.0, 12.0))
+EXTREMITY_WEIGHTS: tuple[KernelWeights, ...] = ((4.0, 12.0, 30.0),)
 EXTREMITY_FUNCTIONS = 12
 """Functions of the map that an extremity match starts from."""
 STARTS = (6, 10, 20)
@@ -71,7 +71,7 @@ class Start:
     name: str
     functional_map: np.ndarray
     functions: int
-    weights: Weights
+    weights: KernelWeights
     uses_descriptors: bool
     match: ExtremityMatch | None = None
     fit: Fit | None = None
@@ -90,13 +90,13 @@ class FitSpec:
         return f"{self.descriptor_set}, {self.functions} functions, orientation {self.orientation:g}"
 
 
-def distinct_weights(weights: Iterable[Weights], pair: SamplePair) -> list[Weights]:
+def distinct_weights(weights: Iterable[KernelWeights], pair: SamplePair) -> list[KernelWeights]:
     """Return the ``weights`` that differ where SHOT or landmarks may be unknown."""
     known = (pair.shot is not None, pair.landmarks is not None, True)
     return list(dict.fromkeys(tuple(w if k else 0.0 for w, k in zip(each, known, strict=False)) for each in weights))
 
 
-def sign_inits(count: int, pair: SamplePair, weights: Iterable[Weights] = WEIGHTS) -> list[Start]:
+def sign_inits(count: int, pair: SamplePair, weights: Iterable[KernelWeights] = WEIGHTS) -> list[Start]:
     """Return diagonal maps with all signs of ``count`` functions after the constant one, with all ``weights``."""
     if count == 0:
         return []
@@ -113,7 +113,7 @@ def sign_inits(count: int, pair: SamplePair, weights: Iterable[Weights] = WEIGHT
 
 
 def repeated_starts(
-    maps: Iterable[tuple[str, np.ndarray, Fit | None]], weights: Iterable[Weights], pair: SamplePair
+    maps: Iterable[tuple[str, np.ndarray, Fit | None]], weights: Iterable[KernelWeights], pair: SamplePair
 ) -> list[Start]:
     """Return starts of ``maps``, each with its name and fit, from several sizes and with several ``weights``."""
     return [

@@ -29,7 +29,7 @@ from kfmaps.matching.score import SCORE, Quality
 from kfmaps.registration.evidence import coarse_copy
 from kfmaps.shape import Shape
 
-POINTS = 1000
+_POINTS = 1000
 """Sample points on each shape."""
 COARSE = 300
 """The first of them, between which geodesic distances are compared."""
@@ -39,14 +39,14 @@ LOW = 20
 """Functions in which orientation is compared."""
 OPERATORS = 50
 """Functions of the orientation operators that a probe keeps, also for fits."""
-TIMES = np.geomspace(0.005, 0.3, 8)
+_TIMES = np.geomspace(0.005, 0.3, 8)
 """Diffusion times at unit area: from a fiftieth of the surface reached to most of it."""
 WAVES = 10
 """Functions whose orientation operators are compared."""
 
 
 @dataclass(frozen=True, eq=False)
-class Rows:
+class _Rows:
     """Descriptors ``(q, d)``, their squared lengths ``(q,)`` and :func:`descriptor_variance`."""
 
     values: np.ndarray
@@ -54,7 +54,7 @@ class Rows:
     variance: float
 
     @classmethod
-    def of(cls, descriptors: np.ndarray, precision: type = np.float32) -> Rows:
+    def of(cls, descriptors: np.ndarray, precision: type = np.float32) -> _Rows:
         values = np.asarray(descriptors, dtype=precision)
         return cls(values, np.einsum("ij,ij->i", values, values), descriptor_variance(descriptors))
 
@@ -134,12 +134,12 @@ class ShapeSamples:
         return 0.0 if self.orientation is None else float(np.linalg.norm(self.orientation))
 
     @cached_property
-    def descriptor_rows(self) -> Rows | None:
-        return None if self.descriptors is None else Rows.of(self.descriptors)
+    def descriptor_rows(self) -> _Rows | None:
+        return None if self.descriptors is None else _Rows.of(self.descriptors)
 
     @cached_property
-    def heat_rows(self) -> Rows:
-        return Rows.of(self.heat, np.float64)
+    def heat_rows(self) -> _Rows:
+        return _Rows.of(self.heat, np.float64)
 
 
 @dataclass(frozen=True, eq=False)
@@ -162,7 +162,7 @@ class ShortDistances:
 
 def sample_for_scoring(
     shape: Shape,
-    count: int = POINTS,
+    count: int = _POINTS,
     rng: int | np.random.Generator = 0,
     threads: int | None = None,
     landmarks: np.ndarray | None = None,
@@ -191,7 +191,7 @@ def sample_for_scoring(
         low = Basis(shape.basis.eigenvalues, functions[:, :OPERATORS], shape.basis.mass)
         orientation = orientation_operators(mesh, low, functions[:, : 4 * WAVES], threads)
     local = None if shape.shot is None else shape.shot[samples.vertices]
-    heat = np.log(np.maximum(to_numpy(heat_signature(samples.basis, TIMES)), 1e-12))
+    heat = np.log(np.maximum(to_numpy(heat_signature(samples.basis, _TIMES)), 1e-12))
     return ShapeSamples(
         samples,
         close,
@@ -351,7 +351,9 @@ def _distortion(pairs: _Matched, source: ShapeSamples, target: ShapeSamples) -> 
     return far / mean if mean > 0 else 0.0, float(np.mean(near))
 
 
-def _squares(points: np.ndarray, one: Rows | None, other: Rows | None, flat: float) -> tuple[np.ndarray, float] | None:
+def _squares(
+    points: np.ndarray, one: _Rows | None, other: _Rows | None, flat: float
+) -> tuple[np.ndarray, float] | None:
     """Return squared differences of descriptors of ``one`` from those of the ``points`` of the other.
 
     Beside them that of random points. ``flat``: variance below which descriptors are noise.

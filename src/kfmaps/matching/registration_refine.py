@@ -74,7 +74,7 @@ class SwappedRepair:
 
     def make(self) -> Candidate | None:
         """Return the repaired candidate; ``None`` where the registration falls apart."""
-        made = repair(self.setting, self.candidate, self.extremities, swapped=False)
+        made = _repair(self.setting, self.candidate, self.extremities, swapped=False)
         return made and normalize_errors(_with_shot_error(self.setting, made), self.reference)
 
 
@@ -130,7 +130,7 @@ def refine_by_registration(
     return distinct_maps(order + rest, on.source, SCORE.distinct_distance), retries
 
 
-def repair(
+def _repair(
     setting: RepairSetting,
     old: Candidate,
     extremities: ExtremityVertices | None,
@@ -178,12 +178,12 @@ def _best_repair(
 
     Where a body touches itself the right map may go astray one way only. ``begun``: it was a candidate before.
     """
-    new = repair(setting, old, extremities, progress=progress)
+    new = _repair(setting, old, extremities, progress=progress)
     if new is None:
         return old if begun else None
     if not begun or new.quality.score >= old.quality.score:
         return new
-    other = repair(setting, old, extremities, swapped=False)
+    other = _repair(setting, old, extremities, swapped=False)
     states = [new, score_registered(old, setting.proxies)]
     return max([*states, *([] if other is None else [other])], key=lambda c: c.score)
 

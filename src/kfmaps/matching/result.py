@@ -37,7 +37,7 @@ _OPTIONAL = (
     *("functional_map", "eigenvalues_source", "eigenvalues_target", "local_confidence", "config"),
 )
 """Fields that a map from a file or from a list of vertices may lack; asking for one of them is an error then."""
-DPI = 72
+_DPI = 72
 """Resolution of the picture in a notebook."""
 
 
@@ -160,7 +160,7 @@ class Match:
         if not hasattr(self, "source") or len(self.source.vertices) + len(self.target_to_source) > MAX_PICTURED:
             return words
         buffer = io.BytesIO()
-        self.plot().savefig(buffer, format="png", dpi=DPI)
+        self.plot().savefig(buffer, format="png", dpi=_DPI)
         data = base64.b64encode(buffer.getvalue()).decode("ascii")
         return f'<img alt="{escape(repr(self), quote=True)}" src="data:image/png;base64,{data}"><br>{words}'
 

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 
+from kfmaps._records import short_repr
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.registration.accept import RegistrationReport
 
@@ -16,20 +17,8 @@ ONE_FIT = "one fit"
 """``score.initialization`` of a map that was fitted once, without a search."""
 
 
-class _Group:
-    """A group of fields that shows itself in one line: large arrays by their shapes."""
-
-    def __repr__(self) -> str:
-        told = []
-        for f in fields(self):  # pyright: ignore[reportArgumentType]
-            value = getattr(self, f.name)
-            large = isinstance(value, np.ndarray) and value.size > 6
-            told.append(f"{f.name}=" + (f"array{value.shape}" if large else " ".join(repr(value).split())))
-        return f"{type(self).__name__}({', '.join(told)})"
-
-
-@dataclass(frozen=True, eq=False, repr=False)
-class MatchScore(_Group):
+@dataclass(frozen=True, eq=False)
+class MatchScore:
     """How a search judged its map.
 
     Attributes
@@ -53,9 +42,11 @@ class MatchScore(_Group):
     initialization: str = ""
     rejected_landmarks: np.ndarray = field(default_factory=lambda: np.zeros(0, dtype=np.int64))
 
+    __repr__ = short_repr
 
-@dataclass(frozen=True, eq=False, repr=False)
-class MatchRegistration(_Group):
+
+@dataclass(frozen=True, eq=False)
+class MatchRegistration:
     """What the non-rigid registration of the source onto the target gave.
 
     Attributes
@@ -70,9 +61,11 @@ class MatchRegistration(_Group):
     registered_vertices: np.ndarray | None = None
     report: RegistrationReport | None = None
 
+    __repr__ = short_repr
 
-@dataclass(frozen=True, eq=False, repr=False)
-class MatchPart(_Group):
+
+@dataclass(frozen=True, eq=False)
+class MatchPart:
     """Which shape is a part of the other.
 
     Attributes
@@ -96,9 +89,11 @@ class MatchPart(_Group):
     overlap_source: np.ndarray | None = None
     overlap_target: np.ndarray | None = None
 
+    __repr__ = short_repr
 
-@dataclass(frozen=True, eq=False, repr=False)
-class MatchFit(_Group):
+
+@dataclass(frozen=True, eq=False)
+class MatchFit:
     """The map before its refinement, and the kernel fit that it came from.
 
     A search compares candidates of several kinds. Where its map began with the signs of eigenfunctions or with matched
@@ -143,6 +138,8 @@ class MatchFit(_Group):
     rank: int | None = None
     n_operators: int | None = None
     weights: np.ndarray | None = None
+
+    __repr__ = short_repr
 
 
 @dataclass(frozen=True)

@@ -48,7 +48,7 @@ from kfmaps.matching.score import (
 from kfmaps.matching.self_maps import with_self_maps
 from kfmaps.shape import Shape, clean_shape
 
-FEWER = 100
+_FEWER = 100
 """Functions at the end of the refinement of shapes that differ much: their high functions do not correspond."""
 STRETCH = 0.01
 """Area over which sizes may change evenly in the non-rigid fit of such shapes."""
@@ -111,11 +111,11 @@ class SearchResult:
     registered_vertices: np.ndarray | None = None
     swapped: bool = False
     retries: tuple[Candidate | SwappedRepair, ...] = ()
-    _search: Search | None = None
+    _search: _Search | None = None
 
 
 @dataclass(frozen=True, eq=False)
-class Search:
+class _Search:
     """The state of a search.
 
     Attributes
@@ -251,7 +251,7 @@ def _are_surfaces(on: SamplePair) -> bool:
 
 def _rank(
     source: Shape, target: Shape, config: Config, pairs: np.ndarray, samples: TwoLevelSamples, found: list[Candidate]
-) -> Search:
+) -> _Search:
     """Rank the candidates; those near the best are registered too, where that may change which comes first."""
     whole, copies = samples.whole, ProxyCache.of(source, target, samples.whole)
     ranked = ranking(found, whole, copies, config.threads)
@@ -265,11 +265,11 @@ def _rank(
     assert config.search is not None
     orientation = "reversing" if config.search.orientation == "reversing" else "preserving"
     wrong = np.zeros(len(pairs), dtype=bool)
-    state = Search(source, target, config, pairs, whole.marks, wrong, samples, copies, found, ranked, orientation)
+    state = _Search(source, target, config, pairs, whole.marks, wrong, samples, copies, found, ranked, orientation)
     return _choose_orientation(state, unduly)
 
 
-def _choose_orientation(state: Search, unduly: bool) -> Search:
+def _choose_orientation(state: _Search, unduly: bool) -> _Search:
     """Compare with maps to the mirror image where that is asked for, or where one may fit better.
 
     Unasked, maps to the mirror image are registered only where the best map deforms ``unduly`` or where one of them has
@@ -296,7 +296,7 @@ def _choose_orientation(state: Search, unduly: bool) -> Search:
     return replace(state, mirrored=ranked[0]) if asked == "auto" and better > SCORE.mirror_gain else state
 
 
-def _reject_landmarks(state: Search) -> Search:
+def _reject_landmarks(state: _Search) -> _Search:
     """Leave out the landmarks that the best candidate contradicts, and refine and rank all without them."""
     if len(state.pairs) == 0:
         return state
@@ -311,7 +311,7 @@ def _reject_landmarks(state: Search) -> Search:
     return replace(state, wrong=wrong, samples=samples, found=found, ranked=ranked)
 
 
-def _to_result(state: Search, best: Candidate, rest: list[Candidate]) -> SearchResult:
+def _to_result(state: _Search, best: Candidate, rest: list[Candidate]) -> SearchResult:
     """Return ``best`` as the result of a search; ``rest`` are its alternatives, best first."""
     config, samples = state.config, state.samples.whole
     assert config.search is not None
@@ -411,13 +411,13 @@ def near_isometric(found: SearchResult) -> bool:
 
 
 def adapt_refinement(refinement: Refinement | None, found: SearchResult) -> Refinement | None:
-    """The refinement that a found map deserves: of shapes that differ much it ends with :data:`FEWER` functions.
+    """The refinement that a found map deserves: of shapes that differ much it ends with :data:`_FEWER` functions.
 
     Found on a gorilla and a woman, 5.2 instead of 8.5, and on cats and dogs, 10.5 instead of 10.9 on average, where
     people of other bodies lose nothing.
     """
     limited = getattr(refinement, "limited", None)
-    return refinement if limited is None or near_isometric(found) else limited(FEWER)
+    return refinement if limited is None or near_isometric(found) else limited(_FEWER)
 
 
 def adapt_registration(finish: Any, found: SearchResult) -> Any:

@@ -29,7 +29,7 @@ from kfmaps.shape import Shape
 
 FINE_VERTICES = 3000
 """Vertices of a coarse copy for a second look where two maps are close."""
-QUICK, PATIENT = NonRigid(n_levels=2, steps=2, rotation_smoothing=0.0), NonRigid(n_levels=3, steps=3)
+_QUICK, PATIENT = NonRigid(n_levels=2, steps=2, rotation_smoothing=0.0), NonRigid(n_levels=3, steps=3)
 """The fits of all candidates, and of those that are close."""
 _MIN_ENERGY, _MAX_ENERGY = 1e-2, 10.0
 """Energies below which maps are alike, as of two meshes of one shape, and above which nothing is left of the shape."""
@@ -114,7 +114,7 @@ def proxy_pair(
     return ProxyPair(source, target, copies, mesh_pair(a, b.mesh, on_b), mesh_pair(b, a.mesh, on_a), samples)
 
 
-def deform(C: np.ndarray, pair: ProxyPair, fit: NonRigid = QUICK) -> DeformationEnergy:
+def deform(C: np.ndarray, pair: ProxyPair, fit: NonRigid = _QUICK) -> DeformationEnergy:
     """Return how far each copy must bend to follow a functional map.
 
     Parameters

@@ -10,7 +10,7 @@ from kfmaps._arrays import MissingDependency, refuse
 
 SUFFIX = ".pt"
 FORMAT = 1
-WANTED, REMEDY = "a file that kfmaps learn wrote", "check the path, or learn anew"
+_WANTED, _REMEDY = "a file that kfmaps learn wrote", "check the path, or learn anew"
 
 
 def read_learned(path: str | Path) -> dict[str, Any]:
@@ -32,10 +32,10 @@ def read_learned(path: str | Path) -> dict[str, Any]:
         # A file that asks for more than tensors and plain values is refused before anything of it runs.
         content = torch.load(Path(path), map_location="cpu", weights_only=True)
     except OSError as error:
-        raise refuse(f"{path}", WANTED, error.strerror or str(error), REMEDY) from error
+        raise refuse(f"{path}", _WANTED, error.strerror or str(error), _REMEDY) from error
     except (pickle.UnpicklingError, RuntimeError, EOFError, ValueError, KeyError) as error:
         got = (str(error) or type(error).__name__).splitlines()[0][:120]
-        raise refuse(f"{path}", WANTED, got, REMEDY) from error
+        raise refuse(f"{path}", _WANTED, got, _REMEDY) from error
     if not isinstance(content, dict) or content.get("format") != FORMAT or not isinstance(content.get("settings"), str):
-        raise refuse(f"{path}", WANTED, "another content or version", REMEDY)
+        raise refuse(f"{path}", _WANTED, "another content or version", _REMEDY)
     return content

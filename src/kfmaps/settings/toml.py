@@ -7,7 +7,7 @@ from dataclasses import is_dataclass
 from typing import Any
 
 from kfmaps._arrays import refuse
-from kfmaps._records import Setting, as_dict, settings_of
+from kfmaps._records import Setting, record_as_dict, settings_of
 from kfmaps.config import KINDS, RECORDS, Config
 from kfmaps.kernels.kernels import describe_kernel
 
@@ -53,4 +53,4 @@ def text_of(value: Any, one: Setting) -> str:
     """Return a value as TOML."""
     if isinstance(value, tuple):
         return f"[{', '.join(text_of(item, one) for item in value)}]"
-    return json.dumps(one.none if value is None else as_dict(value, {}), ensure_ascii=False)
+    return json.dumps(one.none if value is None else record_as_dict(value, {}), ensure_ascii=False)

@@ -1,6 +1,6 @@
 """Pictures of surfaces and maps with matplotlib alone: no display and no graphics system is needed."""
 
-from kfmaps.viz.camera import View, automatic_view, following_view, view
+from kfmaps.viz.camera import View, automatic_view, following_view, view_from
 from kfmaps.viz.colors import ERROR_MAP, error_colors, error_limit, position_colors
 from kfmaps.viz.curves import Curve, curves_figure, mean_curve
 from kfmaps.viz.errors import painted_errors, true_views
@@ -28,5 +28,5 @@ __all__ = [
     "position_colors",
     "save_figure",
     "true_views",
-    "view",
+    "view_from",
 ]

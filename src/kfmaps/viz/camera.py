@@ -10,6 +10,7 @@ from scipy.spatial import KDTree
 from scipy.spatial.transform import Rotation
 
 from kfmaps._arrays import check, refuse
+from kfmaps._records import short_repr
 from kfmaps.geometry.mesh import Mesh
 
 BROADER = 1.15
@@ -45,12 +46,14 @@ class View:
     towards: np.ndarray
     up: np.ndarray
 
+    __repr__ = short_repr
+
     def axes(self) -> np.ndarray:
         """Return the rows right, up, towards (3, 3): ``points @ axes.T`` is picture coordinates and closeness."""
         return np.stack([np.cross(self.up, self.towards), self.up, self.towards])
 
 
-def view(towards: ArrayLike, up: ArrayLike = (0, 1, 0)) -> View:
+def view_from(towards: ArrayLike, up: ArrayLike = (0, 1, 0)) -> View:
     """Return the view from the direction ``towards`` (3,) with ``up`` (3,) upwards. Their lengths do not matter.
 
     Raises
@@ -106,7 +109,7 @@ def broad_side(mesh: Mesh) -> View:
         up = y
     else:
         up = z if _stance(points, z) > STEADIER * _stance(points, y) else y
-    return view(towards, up)
+    return view_from(towards, up)
 
 
 def automatic_view(mesh: Mesh) -> View:
@@ -114,7 +117,7 @@ def automatic_view(mesh: Mesh) -> View:
     frame = broad_side(mesh).axes()
     yaw, pitch = np.deg2rad([YAW, PITCH])
     aside = np.cos(yaw) * frame[2] + np.sin(yaw) * frame[0]
-    return view(np.cos(pitch) * aside + np.sin(pitch) * frame[1], frame[1])
+    return view_from(np.cos(pitch) * aside + np.sin(pitch) * frame[1], frame[1])
 
 
 def following_view(source_view: View, source: Mesh, target: Mesh, target_to_source: np.ndarray | None = None) -> View:

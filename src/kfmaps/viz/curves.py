@@ -12,6 +12,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import PercentFormatter
 
 from kfmaps._arrays import check, refuse
+from kfmaps._records import short_repr
 from kfmaps.cli.words import UNIT
 from kfmaps.fmap.evaluate import error_curve
 from kfmaps.viz.colors import percent_ticks
@@ -45,6 +46,8 @@ class Curve:
     fractions: np.ndarray
     low: np.ndarray | None = None
     high: np.ndarray | None = None
+
+    __repr__ = short_repr
 
 
 def mean_curve(label: str, thresholds: np.ndarray, curves: np.ndarray) -> Curve:

@@ -15,8 +15,8 @@ from matplotlib.text import Text
 from kfmaps._arrays import refuse
 from kfmaps.viz.colors import ERROR_MAP, percent_ticks
 
-FORMATS = ("png", "svg", "pdf")
-DPI = 160
+_FORMATS = ("png", "svg", "pdf")
+_DPI = 160
 _NOTEBOOK_DPI = 100
 TEXT = "#333333"
 MIDDLE_GREY = "#7b8492"
@@ -43,13 +43,13 @@ def picture_format(path: str | Path) -> str:
         For any other extension.
     """
     kind = Path(path).suffix.lower().removeprefix(".")
-    if kind not in FORMATS:
+    if kind not in _FORMATS:
         got = f"'.{kind}'" if kind else "no extension"
         raise refuse(f"picture {path}", "a name ending in .png, .svg or .pdf", got, "rename it")
     return kind
 
 
-def save_figure(figure: Figure, file: str | Path | IO[bytes], kind: str | None = None, *, dpi: float = DPI) -> None:
+def save_figure(figure: Figure, file: str | Path | IO[bytes], kind: str | None = None, *, dpi: float = _DPI) -> None:
     """Write ``figure`` as ``kind`` (png, svg or pdf; by default what the name of ``file`` says).
 
     The same figure gives the same bytes: no date goes in. An existing file is replaced.
@@ -69,8 +69,8 @@ def save_figure(figure: Figure, file: str | Path | IO[bytes], kind: str | None =
     """
     if kind is None:
         kind = picture_format(file if isinstance(file, str | Path) else getattr(file, "name", ""))
-    elif kind not in FORMATS:
-        raise refuse("picture", f"one of {', '.join(FORMATS)}", repr(kind), "choose one of them")
+    elif kind not in _FORMATS:
+        raise refuse("picture", f"one of {', '.join(_FORMATS)}", repr(kind), "choose one of them")
     metadata = {"png": {"Software": None}, "svg": {"Date": None}, "pdf": {"CreationDate": None}}[kind]
     # The salt makes the names inside an SVG the same each time.
     with rc_context({"svg.hashsalt": "kfmaps"}):

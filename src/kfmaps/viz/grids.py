@@ -9,6 +9,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from kfmaps._arrays import check_count, refuse
+from kfmaps._records import short_repr
 from kfmaps.geometry.mesh import Mesh, surface_area
 from kfmaps.io import check_map
 from kfmaps.io.transfer import transfer
@@ -38,6 +39,8 @@ class Panel:
     label: str
     mesh: Mesh
     target_to_source: np.ndarray | Match
+
+    __repr__ = short_repr
 
 
 def grid_figure(

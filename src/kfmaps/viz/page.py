@@ -37,7 +37,7 @@ def source_record(mesh: Mesh, name: str, common: np.ndarray | None = None) -> di
 
 
 def _source_colors(mesh: Mesh, common: np.ndarray | None) -> np.ndarray:
-    return position_colors(mesh) if common is None else np.where(common[:, None], position_colors(mesh), LOST)
+    return position_colors(mesh) if common is None else np.where(common[:, None], position_colors(mesh), _LOST)
 
 
 def _painted(colors: np.ndarray, plane: np.ndarray) -> dict[str, Any]:
@@ -48,7 +48,7 @@ def _transferred(match: Match, source: Mesh, common: np.ndarray | None) -> dict[
     """What :func:`source_record` paints, mixed inside triangles at the target's vertices; empty without such points."""
     if match.precise_map is None:
         return {}
-    given = (_source_colors(source, common), LOST), (projected_uv(source.vertices), 0.0)
+    given = (_source_colors(source, common), _LOST), (projected_uv(source.vertices), 0.0)
     return _painted(*(transfer(values, match, source.faces, lost) for values, lost in given))
 
 
@@ -66,7 +66,7 @@ def map_record(source: Mesh, target: Mesh, target_to_source: np.ndarray, label: 
     }
 
 
-LOST = 160 / 255
+_LOST = 160 / 255
 """Grey of vertices without a counterpart, as in the page's script."""
 
 

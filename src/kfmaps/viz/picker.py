@@ -54,7 +54,7 @@ def check_pairs(pairs: Any, source: Mesh, target: Mesh) -> np.ndarray:
     return np.array(pairs, dtype=np.int64).reshape(-1, 2)
 
 
-def check_names(names: Any, count: int) -> list[str]:
+def _check_names(names: Any, count: int) -> list[str]:
     """Return one short text for each of ``count`` pairs; without any, an empty one for each.
 
     Raises
@@ -196,7 +196,7 @@ class PickerServer:
 
     def _save(self, request: Any) -> Reply:
         pairs, path = self._pairs(request), self.picker.output
-        names = check_names(request.get("names"), len(pairs))
+        names = _check_names(request.get("names"), len(pairs))
 
         def write(force: bool) -> None:
             write_landmarks(path, pairs, names=names, force=force)

@@ -18,7 +18,7 @@ class Cancelled(Exception):
 
 
 @dataclass(frozen=True)
-class Status:
+class MatchStatus:
     """How a run stands.
 
     Attributes
@@ -51,12 +51,12 @@ class Runs:
         self._work = work
         self._lock = threading.Lock()
         self._cancel = threading.Event()
-        self._status = Status()
+        self._status = MatchStatus()
         self._began = 0.0
         self._thread: threading.Thread | None = None
         self._result: Any = None
 
-    def start(self, argument: Any) -> Status:
+    def start(self, argument: Any) -> MatchStatus:
         """Begin a run.
 
         Raises
@@ -69,12 +69,12 @@ class Runs:
                 raise refuse("match", "one run at a time", "a run that has not ended", "wait, or cancel it")
             self._cancel.clear()
             self._began = time.monotonic()
-            self._status = Status(run=self._status.run + 1, state="running", stage="starting")
+            self._status = MatchStatus(run=self._status.run + 1, state="running", stage="starting")
             self._thread = threading.Thread(target=self._run, args=(argument,), daemon=True)
             self._thread.start()
         return self.status()
 
-    def status(self) -> Status:
+    def status(self) -> MatchStatus:
         """Return how the last run stands now."""
         with self._lock:
             if self._status.state == "running":

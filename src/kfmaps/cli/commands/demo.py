@@ -17,14 +17,14 @@ if TYPE_CHECKING:
     import numpy as np
     from rich.table import Table
 
-    from kfmaps.datasets import Pair
+    from kfmaps.datasets import ExamplePair
 
-SHAPES = ("two-poses", "non-isometric", "partial")
+_SHAPES = ("two-poses", "non-isometric", "partial")
 
 
 def demo(
     output: Annotated[Path, typer.Option("-o", "--output", help="The picture (.png, .svg, .pdf).")] = Path("demo.png"),
-    shape: Annotated[str, typer.Option(help=f"Which pair: {', '.join(SHAPES)}.")] = "two-poses",
+    shape: Annotated[str, typer.Option(help=f"Which pair: {', '.join(_SHAPES)}.")] = "two-poses",
     vertices: Annotated[int, typer.Option(help="Of the source, from 1500 to 300000.")] = 6000,
     landmarks: Annotated[
         int, typer.Option(help="How many to take from the truth, for the comparison.", min=1, max=100)
@@ -46,8 +46,8 @@ def demo(
     from kfmaps.io import atomic_output, check_output
     from kfmaps.viz import match_figure, picture_format, save_figure
 
-    if shape not in SHAPES:
-        raise refuse("--shape", "one of " + ", ".join(SHAPES), repr(shape), "choose one of them")
+    if shape not in _SHAPES:
+        raise refuse("--shape", "one of " + ", ".join(_SHAPES), repr(shape), "choose one of them")
     if write is not None:
         paths = _write(write, shape, vertices, landmarks, seed, force)
         report_files(*paths, as_json=json)
@@ -91,14 +91,14 @@ def _write(folder: Path, shape: str, vertices: int, landmarks: int, seed: int, f
     return paths
 
 
-def _pair(shape: str, vertices: int, landmarks: int, seed: int) -> tuple[Pair, np.ndarray]:
+def _pair(shape: str, vertices: int, landmarks: int, seed: int) -> tuple[ExamplePair, np.ndarray]:
     """Return the shapes, and vertices (l,) of the target far from each other."""
     import numpy as np
 
     from kfmaps import datasets
     from kfmaps.geometry.geodesics import farthest_geodesic
 
-    pair: Pair = getattr(datasets, shape.replace("-", "_"))(vertices, seed)
+    pair: ExamplePair = getattr(datasets, shape.replace("-", "_"))(vertices, seed)
     return pair, farthest_geodesic(pair.target, landmarks, np.random.default_rng(seed))
 
 
@@ -124,7 +124,7 @@ def _table(name: str, sizes: dict[str, int], methods: list[dict[str, Any]]) -> T
 
 def _compare(
     shape: str, vertices: int, landmarks: int, seed: int, *, quiet: bool = False
-) -> tuple[Pair, list[dict[str, Any]]]:
+) -> tuple[ExamplePair, list[dict[str, Any]]]:
     """Match a pair automatically, then with landmarks with a kernel and without (NO17).
 
     The last two get the same eigenfunctions, landmarks and refinement, so that only the fit differs. Errors are in

@@ -28,8 +28,8 @@ from kfmaps.io.provenance import mesh_path, warn_of_change
 from kfmaps.matching.result import Match
 from kfmaps.viz import position_colors
 
-SHAPES = (".obj", ".ply", ".off", ".glb")
-MAPS = (".txt", ".vts", ".mat", ".npz")
+_SHAPES = (".obj", ".ply", ".off", ".glb")
+_MAPS = (".txt", ".vts", ".mat", ".npz")
 MATRICES = (".txt", ".csv", ".npy")
 
 
@@ -62,17 +62,17 @@ def export(
 ) -> None:
     """Write the target with the source's texture or colours, or the map in another format."""
     suffix = output.suffix.lower()
-    if morph and suffix not in SHAPES:
-        raise refuse("--morph", f"an output {' '.join(SHAPES)}", suffix or "no extension", "rename it")
+    if morph and suffix not in _SHAPES:
+        raise refuse("--morph", f"an output {' '.join(_SHAPES)}", suffix or "no extension", "rename it")
     if functional and confidence:
         raise refuse("export", "--functional or --confidence", "both", "run the command twice")
-    formats = MATRICES if functional or confidence else SHAPES + MAPS
+    formats = MATRICES if functional or confidence else _SHAPES + _MAPS
     if suffix not in formats:
         got = suffix or "no extension"
         raise refuse(f"output {output}", f"one of {' '.join(formats)}", got, "choose one of these")
     check_output(output, force, (map, source, target, picture))
     found = load_map(map)
-    whole = suffix in SHAPES
+    whole = suffix in _SHAPES
     shape_s, shape_t = (
         _shape(given, found, side, map) if whole or given is not None else None
         for given, side in ((source, "source"), (target, "target"))
@@ -87,7 +87,7 @@ def export(
         if values is None:
             raise refuse(str(map), "confidence per vertex", "none", "give the .npz or .mat file of a match")
         write_values(output, Values(np.asarray(values)), force)
-    elif suffix in MAPS:
+    elif suffix in _MAPS:
         save_map(output, found, force)
     elif shape_s is None or shape_t is None:
         raise refuse("export", "both --source and --target for a shape", "one of them, or none", "name the two meshes")

@@ -20,8 +20,8 @@ if TYPE_CHECKING:
     from kfmaps.config import Config
     from kfmaps.learn import State, TrainingPair
 
-PARTS = "gamma, ard, metric, mixture, terms, network"
-LOSSES = "geodesic, supervised, orthogonality, cycle, commutativity, coupling"
+_PARTS = "gamma, ard, metric, mixture, terms, network"
+_LOSSES = "geodesic, supervised, orthogonality, cycle, commutativity, coupling"
 WITH_TRUTH = ("gamma,metric,terms", "geodesic")
 WITHOUT_TRUTH = ("gamma,ard,terms", "orthogonality=0.05,cycle=0.05,coupling")
 """Default parts and losses."""
@@ -56,10 +56,10 @@ def learn(
     ],
     settings: Chosen,
     parts: Annotated[
-        str, typer.Option("--learn", metavar="NAMES", help=f"What to learn: {PARTS}. Default: {WITH_TRUTH[0]}.")
+        str, typer.Option("--learn", metavar="NAMES", help=f"What to learn: {_PARTS}. Default: {WITH_TRUTH[0]}.")
     ] = "",
     losses: Annotated[
-        str, typer.Option("--loss", metavar="NAMES", help=f"NAME or NAME=WEIGHT: {LOSSES}. Default: {WITH_TRUTH[1]}.")
+        str, typer.Option("--loss", metavar="NAMES", help=f"NAME or NAME=WEIGHT: {_LOSSES}. Default: {WITH_TRUTH[1]}.")
     ] = "",
     shapes: Annotated[str, typer.Option(metavar="PATTERNS", help="Shapes to learn from, as a?,b*.")] = "*",
     held_out: Annotated[

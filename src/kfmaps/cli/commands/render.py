@@ -13,7 +13,7 @@ from kfmaps._arrays import check_positive, refuse
 from kfmaps.batch.layout import Pair
 from kfmaps.batch.page import error_curve_of
 from kfmaps.batch.results import Result, all_results, summarize
-from kfmaps.batch.run_spec import read_settings
+from kfmaps.batch.run_spec import read_run_spec
 from kfmaps.batch.work import map_path
 from kfmaps.cli.evaluation import known_truth
 from kfmaps.cli.options import Force, Json, MapFile, SourceMesh, TargetMesh, TruthLists
@@ -31,7 +31,7 @@ from kfmaps.viz import (
     picture_format,
     save_figure,
     true_views,
-    view,
+    view_from,
 )
 
 app = typer.Typer(help="Figures for papers (PNG, SVG, PDF), drawn without a display.", no_args_is_help=True)
@@ -173,7 +173,7 @@ def _save(figure: Figure, output: Path, dpi: float, json: bool, force: bool) -> 
 
 
 def _results(folder: Path) -> list[Result]:
-    return all_results(folder, read_settings(folder)["digest"])
+    return all_results(folder, read_run_spec(folder)["digest"])
 
 
 def _plain(title: str | None) -> str | None:
@@ -186,4 +186,4 @@ def _view(towards: tuple[float, float, float] | None, up: tuple[float, float, fl
         if up is not None:
             raise refuse("--up", "--from beside it", "--up alone", "give both")
         return None
-    return view(towards, (0, 1, 0) if up is None else up)
+    return view_from(towards, (0, 1, 0) if up is None else up)

@@ -13,7 +13,7 @@ from scipy.sparse import csr_array, diags_array
 
 from kfmaps._arrays import NotConverged, blocks, check, check_count, check_positive, refuse
 from kfmaps._threads import available_cores, one_blas_thread
-from kfmaps.geometry.eigen.factorization import Map, Sparse, factorize, fill_order
+from kfmaps.geometry.eigen.factorization import Map, SparseMatrix, factorize, fill_order
 from kfmaps.geometry.eigen.lanczos import LOOSE, WIDTH, largest_eigenpairs
 
 _SOLVES_PER_BLOCK = 1.25
@@ -54,7 +54,7 @@ class Eigenpairs:
 
 
 def smallest_eigenpairs(
-    stiffness: Sparse,
+    stiffness: SparseMatrix,
     mass: np.ndarray,
     k: int,
     *,
@@ -160,7 +160,7 @@ def smallest_eigenpairs(
 
 
 def _nearly(
-    matrix: Sparse,
+    matrix: SparseMatrix,
     mass: np.ndarray,
     k: int,
     tolerance: float,
@@ -220,7 +220,7 @@ class _Pencil:
 
     def __init__(
         self,
-        matrix: Sparse,
+        matrix: SparseMatrix,
         mass: np.ndarray,
         ordered: bool,
         each: Map,

@@ -14,7 +14,7 @@ from kfmaps._arrays import MissingDependency, NotConverged, refuse
 
 Solve = Callable[[np.ndarray], np.ndarray]
 Map = Callable[..., Iterable[Any]]
-Sparse = Any
+SparseMatrix = Any
 """A SciPy sparse array or matrix."""
 
 
@@ -24,7 +24,7 @@ together more than they save. They are split so with one thread too, at no cost:
 on how many there are."""
 
 
-def fill_order(matrix: Sparse, ordering: str = "auto") -> np.ndarray | None:
+def fill_order(matrix: SparseMatrix, ordering: str = "auto") -> np.ndarray | None:
     """Return an order of the rows, (n,), in which a factor stays small; ``None`` leaves it to SuperLU.
 
     Parameters
@@ -57,7 +57,7 @@ def fill_order(matrix: Sparse, ordering: str = "auto") -> np.ndarray | None:
     return np.asarray(order)
 
 
-def factorize(matrix: Sparse, ordered: bool, each: Map = map) -> Solve:
+def factorize(matrix: SparseMatrix, ordered: bool, each: Map = map) -> Solve:
     """Factorise ``matrix`` once and return the function that solves with it.
 
     Parameters
