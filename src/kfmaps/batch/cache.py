@@ -21,7 +21,7 @@ from kfmaps.matching.quality import ShapeSamples
 from kfmaps.matching.search import scoring_samples
 from kfmaps.shape import Shape
 
-LAYOUT = 3
+_LAYOUT = 3
 """Raised when what an entry holds changes."""
 
 
@@ -43,7 +43,7 @@ def shape_key(content: str, suffix: str, config: Config) -> str:
     """
     return digest_of(
         {
-            "layout": LAYOUT,
+            "layout": _LAYOUT,
             "version": kfmaps.__version__,
             "content": content,
             "suffix": suffix.lower(),

@@ -21,20 +21,20 @@ from kfmaps._threads import available_cores
 if TYPE_CHECKING:
     from distributed import Client
 
-Item = TypeVar("Item")
-Value = TypeVar("Value")
+_Item = TypeVar("_Item")
+_Value = TypeVar("_Value")
 
 MAX_DEATHS = 3
 """Workers that may die over one task before it is given up."""
 NO_WORKERS = "60s"
 """How long a run goes on without any worker; one that was killed takes a few seconds to come back."""
-ONE_THREAD = dict.fromkeys(("OMP_NUM_THREADS", "MKL_NUM_THREADS", "OPENBLAS_NUM_THREADS"), 1)
+_ONE_THREAD = dict.fromkeys(("OMP_NUM_THREADS", "MKL_NUM_THREADS", "OPENBLAS_NUM_THREADS"), 1)
 """What a worker's environment is given. Dask's own list also has malloc return memory at once, which makes every
 large temporary array a round of page faults: a third of the time."""
-WORKER_BYTES = 120e6
+_WORKER_BYTES = 120e6
 """What a worker takes before it does anything."""
 TOO_LITTLE_MEMORY = "memory may be short: the same command with fewer --workers goes on where it was"
-MISSING_DASK = "collections need Dask ({}). Install it with: pip install 'dask[distributed]' cryptography."
+_MISSING_DASK = "collections need Dask ({}). Install it with: pip install 'dask[distributed]' cryptography."
 
 
 class WorkerPool:
@@ -104,12 +104,12 @@ class WorkerPool:
 
     def imap(
         self,
-        function: Callable[[Item], Value],
-        items: Sequence[Item],
+        function: Callable[[_Item], _Value],
+        items: Sequence[_Item],
         *,
-        label: Callable[[Item], str] = str,
-        n_begun: Callable[[Item], int] | None = None,
-    ) -> Generator[tuple[int, Value | Exception]]:
+        label: Callable[[_Item], str] = str,
+        n_begun: Callable[[_Item], int] | None = None,
+    ) -> Generator[tuple[int, _Value | Exception]]:
         """Yield the number of each item with its value, or with the exception that it ended in, as they finish.
 
         Dask has as many tasks as can run at once, so there may be any number of them, and hands those of a worker
@@ -163,7 +163,7 @@ class WorkerPool:
                 client.cancel(list(running), force=True)
 
     def map(
-        self, what: str, function: Callable[[Item], Any], items: Sequence[Item], *, failures: bool = False
+        self, what: str, function: Callable[[_Item], Any], items: Sequence[_Item], *, failures: bool = False
     ) -> list[Any]:
         """Return the ``function`` of each item, in their order, and tell the progress.
 
@@ -221,14 +221,14 @@ def local_workers(count: int | None = None) -> Iterator[Client]:
         When Dask is not installed.
     """
     count = available_cores() if count is None else check_count(count, "workers")
-    check_memory(WORKER_BYTES * count, "workers", f"{count:,} processes", "choose fewer; one for each core is best")
+    check_memory(_WORKER_BYTES * count, "workers", f"{count:,} processes", "choose fewer; one for each core is best")
     try:
         import cryptography  # noqa: F401  (Dask's TLS)
         from dask import config
         from distributed import Client, LocalCluster
         from distributed.security import Security
     except ImportError as error:
-        raise MissingDependency(MISSING_DASK.format(error)) from error
+        raise MissingDependency(_MISSING_DASK.format(error)) from error
     settings = {
         "distributed.scheduler.allowed-failures": MAX_DEATHS - 1,
         "distributed.scheduler.no-workers-timeout": NO_WORKERS,
@@ -236,7 +236,7 @@ def local_workers(count: int | None = None) -> Iterator[Client]:
         "distributed.scheduler.worker-ttl": None,
         # Dask's profiler keeps a thousand seconds of what a worker has been at: some 0.15 GB each.
         "distributed.worker.profile.enabled": False,
-        "distributed.nanny.pre-spawn-environ": ONE_THREAD,
+        "distributed.nanny.pre-spawn-environ": _ONE_THREAD,
     }
     with ExitStack() as stack:
         stack.enter_context(_quiet())
@@ -278,7 +278,7 @@ def running_workers(address: str, timeout: float = 30.0) -> Iterator[Client]:
         from distributed import Client
         from distributed.security import Security
     except ImportError as error:
-        raise MissingDependency(MISSING_DASK.format(error)) from error
+        raise MissingDependency(_MISSING_DASK.format(error)) from error
     name, remedy = f"scheduler {address}", "check the address and that its workers run"
     parts = re.fullmatch(r"(?:([a-z]+)://)?\[?([^/\s\[\]]+)\]?:(\d{1,5})/?", address, re.ASCII)
     if parts is None or not 0 < int(parts.group(3)) < 65536:  # Dask would try such a port for ever

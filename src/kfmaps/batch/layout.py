@@ -14,12 +14,12 @@ from kfmaps.io.landmark_files import landmark_stem, landmark_suffix
 from kfmaps.io.meshes import READERS
 from kfmaps.io.text import read_text
 
-SHAPE_FOLDERS = ("shapes", "off", "meshes", "ply", "obj")
+_SHAPE_FOLDERS = ("shapes", "off", "meshes", "ply", "obj")
 """Where the field keeps its shapes when they are not in the top folder; the first that has any counts."""
-TRUTH_FOLDERS = ("corres", "groundtruth")
-LANDMARK_FOLDER = "landmarks"
-PAIRS_FILE = "test_pairs.txt"
-LONGEST_KEY = 200
+_TRUTH_FOLDERS = ("corres", "groundtruth")
+_LANDMARK_FOLDER = "landmarks"
+_PAIRS_FILE = "test_pairs.txt"
+_LONGEST_KEY = 200
 """Bytes of a key; file systems take names of 255."""
 
 
@@ -41,10 +41,10 @@ class Pair:
         """
         joint = "--" if "-" in self.source + self.target else "-"
         whole = f"{self.source}{joint}{self.target}"
-        if len(os.fsencode(whole)) <= LONGEST_KEY:
+        if len(os.fsencode(whole)) <= _LONGEST_KEY:
             return whole
         digest = hashlib.sha256(os.fsencode(f"{self.source}\0{self.target}")).hexdigest()[:16]
-        start = LONGEST_KEY // 2 - 10
+        start = _LONGEST_KEY // 2 - 10
         names = (os.fsencode(name)[:start].decode("utf-8", "ignore") for name in (self.source, self.target))
         return f"{joint.join(names)}{joint}{digest}"
 
@@ -103,23 +103,23 @@ def find_collection(folder: str | Path) -> ShapeFolder:
     if not folder.is_dir():
         raise refuse(f"collection {folder}", "a folder of meshes", "no folder", "check the path")
     shapes = _shapes(folder)
-    for name in SHAPE_FOLDERS:
+    for name in _SHAPE_FOLDERS:
         shapes = shapes or _shapes(folder / name)
     if not shapes:
-        places = ", ".join(f"{name}/" for name in SHAPE_FOLDERS)
+        places = ", ".join(f"{name}/" for name in _SHAPE_FOLDERS)
         wanted = f"meshes ({' '.join(READERS)}) in it or in {places}"
         raise refuse(f"collection {folder}", wanted, "none", "check the path")
-    found = [p for name in TRUTH_FOLDERS for p in _files(folder / name)]
+    found = [p for name in _TRUTH_FOLDERS for p in _files(folder / name)]
     lists = {p.name[:-4]: p for p in found if p.suffix == ".vts" and not p.name.endswith(".sym.vts")}
     mirrored = {p.name[:-8]: p for p in found if p.name.endswith(".sym.vts")}
-    pairs = folder / PAIRS_FILE
+    pairs = folder / _PAIRS_FILE
     return ShapeFolder(
         folder,
         shapes,
         truth={name: lists[name] for name in shapes if name in lists},
         mirrored={name: mirrored[name] for name in shapes if name in mirrored},
         maps=_pair_truth([p for p in found if p.suffix == ".map"], shapes),
-        landmarks={name: p for p in _files(folder / LANDMARK_FOLDER) if (name := _landmark_owner(p)) in shapes},
+        landmarks={name: p for p in _files(folder / _LANDMARK_FOLDER) if (name := _landmark_owner(p)) in shapes},
         pairs=pairs if pairs.is_file() else None,
     )
 
@@ -187,11 +187,11 @@ def choose_pairs(
         centre = _known(star, collection, "--graph star:SHAPE")
         pairs = [Pair(centre, name) for name in names if name != centre]
     elif file is not None or collection.pairs is not None:
-        pairs = read_pairs(file or collection.pairs or "", collection)
+        pairs = _read_pairs(file or collection.pairs or "", collection)
     elif collection.maps:
         pairs = list(collection.maps)
     else:
-        got = f"no {PAIRS_FILE} in {collection.folder}"
+        got = f"no {_PAIRS_FILE} in {collection.folder}"
         raise refuse("pairs", "a list of pairs", got, "give --pairs FILE, or let --graph near choose them")
     pairs = list(dict.fromkeys(pairs))
     if not pairs:
@@ -214,7 +214,7 @@ def _known(name: str, collection: ShapeFolder, where: str) -> str:
     raise refuse(where, f"a shape of {collection.folder} ({shown}, ...)", repr(name), "check the spelling")
 
 
-def read_pairs(path: str | Path, collection: ShapeFolder) -> list[Pair]:
+def _read_pairs(path: str | Path, collection: ShapeFolder) -> list[Pair]:
     """Read a list of pairs; see :func:`choose_pairs`."""
     pairs = []
     for number, line in enumerate(read_text(path).splitlines(), 1):

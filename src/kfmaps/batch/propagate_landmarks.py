@@ -24,7 +24,7 @@ from kfmaps.io.partial_map import find_counterparts, precise_points
 
 _UNKNOWN = 0.5
 """Probability of a map of which nothing is known."""
-PAIRS = "pairs.csv"
+_PAIRS = "pairs.csv"
 
 
 @dataclass(frozen=True, eq=False)
@@ -182,7 +182,7 @@ def _chance(result: Result, agreed: float | None) -> float:
 
 def _agreed(folder: Path) -> dict[tuple[str, str], float]:
     try:
-        with open(folder / CONSISTENT / PAIRS, encoding="utf-8", newline="") as file:
+        with open(folder / CONSISTENT / _PAIRS, encoding="utf-8", newline="") as file:
             return {(row["source"], row["target"]): float(row["probability"]) for row in csv.DictReader(file)}
     except (OSError, ValueError, KeyError):
         return {}

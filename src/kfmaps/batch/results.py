@@ -17,7 +17,7 @@ from kfmaps.io import atomic_output
 FOLDER = "pairs"
 BAD = 0.05
 """A mean error above this counts as a wrong map."""
-COLOR_LIMITS = (0.02, 0.03, 0.05, 0.1, 0.15, 0.2, 0.3, 0.5)
+_COLOR_LIMITS = (0.02, 0.03, 0.05, 0.1, 0.15, 0.2, 0.3, 0.5)
 """Round errors at which the colours of pictures may end."""
 
 
@@ -205,8 +205,8 @@ def fitting_limit(results: Sequence[Result]) -> float:
     """
     errors = [r.error_mean for r in results if r.error_mean is not None]
     usual = [e for e in errors if e <= BAD] or errors
-    wanted = 3 * max(usual, default=COLOR_LIMITS[-1])
-    return next((limit for limit in COLOR_LIMITS if limit >= wanted), COLOR_LIMITS[-1])
+    wanted = 3 * max(usual, default=_COLOR_LIMITS[-1])
+    return next((limit for limit in _COLOR_LIMITS if limit >= wanted), _COLOR_LIMITS[-1])
 
 
 def worst_first(results: Sequence[Result]) -> list[Result]:

@@ -14,8 +14,8 @@ from kfmaps.collection.pair_graph import medoid
 from kfmaps.io import atomic_output
 from kfmaps.shape import Shape
 
-SHAPES, DISTANCES, LATENT = "shapes.csv", "distances.csv", "latent.npz"
-N_COMPONENTS = 5
+SHAPES, _DISTANCES, _LATENT = "shapes.csv", "distances.csv", "latent.npz"
+_N_COMPONENTS = 5
 DIFFERENCE_KINDS = ("area", "conformal")
 
 
@@ -26,7 +26,7 @@ def write_shape_statistics(
     hands = found.repaired.chirality
     hand = ["" if (hands == 1).all() else ("+" if h > 0 else "-") for h in hands]
     parts = found.repaired.sync.component
-    for path in folder.glob(f"{Path(LATENT).stem}*.npz"):
+    for path in folder.glob(f"{Path(_LATENT).stem}*.npz"):
         path.unlink()
     scores: list[dict[str, str]] = [{} for _ in names]
     apart: list[list[str]] = []
@@ -34,7 +34,7 @@ def write_shape_statistics(
         own = [names[i] for i in common.members.tolist()]
         values = found.eigenvalues[common.members]
         matrices = {kind: operators(common.limit_shape, values, kind) for kind in DIFFERENCE_KINDS}
-        pca = {kind: components(matrices[kind], N_COMPONENTS) for kind in DIFFERENCE_KINDS}
+        pca = {kind: components(matrices[kind], _N_COMPONENTS) for kind in DIFFERENCE_KINDS}
         distances = {kind: shape_distances(matrices[kind]) for kind in DIFFERENCE_KINDS}
         for kind in DIFFERENCE_KINDS:
             for i, row in zip(common.members.tolist(), pca[kind].scores, strict=True):
@@ -47,17 +47,17 @@ def write_shape_statistics(
         arrays |= {f"explained_{kind}": pca[kind].parts for kind in DIFFERENCE_KINDS}
         for kind in DIFFERENCE_KINDS:
             arrays[f"variation_{kind}"] = density(matrices[kind], common.limit_shape, middle, basis).std(axis=0)
-        path = limit_shape_path(folder, number)
+        path = _limit_shape_path(folder, number)
         with atomic_output(path, force=True) as temporary, open(temporary, "wb") as file:
             np.savez(file, allow_pickle=False, middle=np.array(own[middle]), **arrays)
-    titles = [f"{kind}_{i + 1}" for kind in DIFFERENCE_KINDS for i in range(N_COMPONENTS)]
+    titles = [f"{kind}_{i + 1}" for kind in DIFFERENCE_KINDS for i in range(_N_COMPONENTS)]
     titles = [title for title in titles if any(title in row for row in scores)]
     rows = [[name, hand[i], int(parts[i]), *(scores[i].get(t, "") for t in titles)] for i, name in enumerate(names)]
     write_rows(folder / SHAPES, [["shape", "hand", "part", *titles], *rows])
     if not found.limit_shapes:
-        (folder / DISTANCES).unlink(missing_ok=True)
+        (folder / _DISTANCES).unlink(missing_ok=True)
         return ["shapes that hang together, three or more, would have a common basis and principal components"]
-    write_rows(folder / DISTANCES, [["shape", "other", *DIFFERENCE_KINDS], *apart])
+    write_rows(folder / _DISTANCES, [["shape", "other", *DIFFERENCE_KINDS], *apart])
     count, alone = len(np.unique(parts)), len(names) - sum(len(common.members) for common in found.limit_shapes)
     if count == 1:
         return []
@@ -65,14 +65,14 @@ def write_shape_statistics(
     return [line + " each" + (f"; {alone} shapes are in parts of fewer than three" if alone else "")]
 
 
-def limit_shape_path(folder: Path, number: int) -> Path:
+def _limit_shape_path(folder: Path, number: int) -> Path:
     """Return where the limit shape of a component lies: the largest has number 0."""
-    return folder / (LATENT if number == 0 else f"{Path(LATENT).stem}-{number + 1}.npz")
+    return folder / (_LATENT if number == 0 else f"{Path(_LATENT).stem}-{number + 1}.npz")
 
 
 def limit_shape_paths(folder: Path) -> list[Path]:
     """Return where limit shapes lie, of the largest component first."""
     found = []
-    while (path := limit_shape_path(folder, len(found))).exists():
+    while (path := _limit_shape_path(folder, len(found))).exists():
         found.append(path)
     return found

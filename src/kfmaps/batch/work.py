@@ -241,7 +241,7 @@ def _matched(task: PairTask) -> dict[str, Any]:
     source, target = load_prepared(task.source), load_prepared(task.target)
     sizes = len(source.mesh.vertices), len(target.mesh.vertices)
     truth = true_vertices(task, *sizes)
-    landmarks = landmark_pairs(task, truth, source.mesh, target.mesh)
+    landmarks = _landmark_pairs(task, truth, source.mesh, target.mesh)
     probes = None
     if task.spec.config.search is not None and landmarks is None:
         probes = pair_samples(task, (source, target))
@@ -326,7 +326,7 @@ def true_vertices(task: PairTask, n_s: int, n_t: int) -> Truth | None:
     return check_truth(Truth(np.arange(n_s), numbers), n_s, n_t)
 
 
-def landmark_pairs(task: PairTask, truth: Truth | None, source: Mesh, target: Mesh) -> np.ndarray | None:
+def _landmark_pairs(task: PairTask, truth: Truth | None, source: Mesh, target: Mesh) -> np.ndarray | None:
     """The pair's landmarks (l, 2), 0-based, or ``None``.
 
     Raises

@@ -37,13 +37,13 @@ COMMANDS = {
 """Modules of ``kfmaps.cli.commands``, each with a function of its own name or a ``typer.Typer`` called ``app``; with
 the first line of its documentation, said here too so that ``--help`` imports no command."""
 
-USAGE_ERROR: type[Exception] = next(kind for kind in typer.BadParameter.__mro__ if kind.__name__ == "ClickException")
+_USAGE_ERROR: type[Exception] = next(kind for kind in typer.BadParameter.__mro__ if kind.__name__ == "ClickException")
 """What Typer raises about unknown options and missing arguments; it has no public name in all versions."""
 
-FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO, errno.EBADF)
+_FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO, errno.EBADF)
 """What the system says when a stream takes no more."""
 
-FAILURE, _INTERRUPTED, UNREAD = 2, 130, 1
+_FAILURE, _INTERRUPTED, UNREAD = 2, 130, 1
 """Exit statuses: bad input, Ctrl-C, output that nobody reads."""
 
 
@@ -114,7 +114,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         except MemoryError as error:
             return _failed(f"not enough memory; use smaller meshes or fewer samples ({error or 'no details'})")
         except OSError as error:
-            if error.filename is None and error.errno in FULL:
+            if error.filename is None and error.errno in _FULL:
                 return _unwritable(error)
             place = f"{error.filename}: " if error.filename else ""
             return _failed(f"{place}{error.strerror or error}; check the path, its rights and the space left")
@@ -168,12 +168,12 @@ def _run(words: Sequence[str]) -> int:
     command = typer.main.get_command(application(None if completing else asked))
     try:
         status = command.main(args=list(words), prog_name="kfmaps", standalone_mode=False)
-    except USAGE_ERROR as error:
+    except _USAGE_ERROR as error:
         context = getattr(error, "ctx", None)
         message = _other_option(error, context) or error.format_message()  # pyright: ignore[reportAttributeAccessIssue]
         path = getattr(context, "command_path", "kfmaps")
         # Without a message it was a group without a command, and the help has been printed.
-        return _failed(f"{message.rstrip('.')}; see {path} --help") if message else FAILURE
+        return _failed(f"{message.rstrip('.')}; see {path} --help") if message else _FAILURE
     except typer.Abort:
         return _INTERRUPTED
     except SystemExit as leaving:
@@ -208,7 +208,7 @@ def _teller(otherwise: Callable[..., None]) -> Callable[..., None]:
 
 def _failed(text: str) -> int:
     _say(f"error: {text}")
-    return FAILURE
+    return _FAILURE
 
 
 def _say(text: str) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
 from scipy.spatial import KDTree
@@ -23,9 +23,7 @@ from kfmaps.matching.partial.match_partial import COMMON
 from kfmaps.matching.partial.registration import overlap_probability
 from kfmaps.matching.result import Match
 
-Side = Literal["source", "target"]
-
-NEIGHBOURS = 1.5
+_NEIGHBOURS = 1.5
 """Mean edges of the whole from a listed vertex within which others count as common too, where the truth is a list."""
 
 
@@ -109,7 +107,7 @@ class PartAccuracy:
         return {**numbers_of(self.errors), "points": len(self.errors.errors), **finite}
 
 
-def part_accuracy(source: Mesh, target: Mesh, found: Match, truth: PartTruth, part: Side) -> PartAccuracy:
+def part_accuracy(source: Mesh, target: Mesh, found: Match, truth: PartTruth, part: str) -> PartAccuracy:
     """Compare a map with the truth of its ``part``, "source" or "target".
 
     Of a target that is a part the errors are distances on the source between where its vertices go and belong; of a
@@ -136,7 +134,7 @@ def part_accuracy(source: Mesh, target: Mesh, found: Match, truth: PartTruth, pa
     errors = summarize_errors(precise_errors(whole, said, true))
     true_common = true_overlap(whole, source if part == "source" else target, truth)
     areas = vertex_areas(whole)
-    ours = common_vertices(found, part)
+    ours = _common_vertices(found, part)
     share = None
     if ours is not None:
         share = float(areas[ours & true_common].sum() / max(areas[ours | true_common].sum(), 1e-300))
@@ -147,7 +145,7 @@ def part_accuracy(source: Mesh, target: Mesh, found: Match, truth: PartTruth, pa
     return PartAccuracy(errors, matched, share, missing)
 
 
-def common_vertices(found: Match, part: Side) -> np.ndarray | None:
+def _common_vertices(found: Match, part: str) -> np.ndarray | None:
     """The whole's vertices that the map says to be common; ``None`` where the file does not tell."""
     if part == "source":
         return found.target_to_source >= 0
@@ -180,4 +178,4 @@ def true_overlap(whole: Mesh, part: Mesh, truth: PartTruth) -> np.ndarray:
     listed = np.unique(whole.faces[truth.places.faces][truth.places.weights > 0.5])
     ends = whole.vertices[whole.faces]
     edge = float(np.linalg.norm(ends - np.roll(ends, 1, axis=1), axis=2).mean())
-    return KDTree(whole.vertices[listed]).query(whole.vertices)[0] < NEIGHBOURS * edge
+    return KDTree(whole.vertices[listed]).query(whole.vertices)[0] < _NEIGHBOURS * edge

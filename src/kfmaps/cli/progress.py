@@ -17,11 +17,11 @@ from kfmaps._arrays import shown
 from kfmaps.cli.terminal import Terminal
 from kfmaps.cli.words import format_seconds
 
-SECONDS_BETWEEN_LINES = 5.0
+_SECONDS_BETWEEN_LINES = 5.0
 """A stage that is begun again and again, as when many maps are tried, is told at most this often."""
-SECONDS_OF_SILENCE = 15.0
+_SECONDS_OF_SILENCE = 15.0
 """Where there is no terminal, a stage that goes on for longer is told of this often."""
-SECONDS_BETWEEN_PICTURES = 0.2
+_SECONDS_BETWEEN_PICTURES = 0.2
 """A notebook's bars are drawn anew no more often."""
 
 
@@ -43,14 +43,14 @@ def standing(name: str, done: float, elapsed: float, before: float | None = None
     return f"{name}: {part}{format_seconds(elapsed)} so far{rest}"
 
 
-class Way(Protocol):
+class _Way(Protocol):
     """One way of telling."""
 
     def tell(self, name: str, done: float) -> None: ...
     def close(self) -> None: ...
 
 
-class Bars:
+class _Bars:
     """A bar for each stage on a terminal."""
 
     def __init__(self, console: Console) -> None:
@@ -77,7 +77,7 @@ class Lines:
     "... of source" did.
     """
 
-    def __init__(self, silence: float = SECONDS_OF_SILENCE) -> None:
+    def __init__(self, silence: float = _SECONDS_OF_SILENCE) -> None:
         self._silence = silence
         self._lock = threading.Lock()
         self._begun: dict[str, float] = {}
@@ -99,7 +99,7 @@ class Lines:
                 return
             elapsed = now - self._begun[name]
             self._took[_kind(name)] = elapsed
-            if now - self._told.get(name, -SECONDS_BETWEEN_LINES) >= SECONDS_BETWEEN_LINES:
+            if now - self._told.get(name, -_SECONDS_BETWEEN_LINES) >= _SECONDS_BETWEEN_LINES:
                 self._told[name] = now
                 self._say(f"{name}: {elapsed:.2f} s")
 
@@ -144,7 +144,7 @@ class Notebook:
         if done <= 0 or name not in self._begun:
             self._begun[name] = now
         self._stages[name] = (done, now - self._begun[name])
-        if done >= 1 or now - self._drawn >= SECONDS_BETWEEN_PICTURES:
+        if done >= 1 or now - self._drawn >= _SECONDS_BETWEEN_PICTURES:
             self._draw()
 
     def close(self) -> None:
@@ -178,7 +178,7 @@ class Stages:
 
     def __init__(self, quiet: bool = False) -> None:
         self._quiet = quiet
-        self._way: Way | None = None
+        self._way: _Way | None = None
 
     def __enter__(self) -> Stages:
         console = Terminal(file=sys.stderr)
@@ -187,7 +187,7 @@ class Stages:
         elif console.is_jupyter:
             self._way = Notebook()
         else:
-            self._way = Bars(console) if console.is_terminal else Lines()
+            self._way = _Bars(console) if console.is_terminal else Lines()
         return self
 
     def __exit__(

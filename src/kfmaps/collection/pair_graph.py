@@ -17,11 +17,11 @@ from kfmaps.descriptors.spectral import heat_signature
 from kfmaps.geometry.basis import Basis
 from kfmaps.geometry.connectivity import component_labels
 
-N_EIGENVALUES = 30
+_N_EIGENVALUES = 30
 """Eigenvalues that shapes are compared by."""
 _TIMES = np.geomspace(0.005, 0.3, 8)
 """Diffusion times at unit area whose heat kernel signatures are compared."""
-QUANTILES = np.linspace(0.05, 0.95, 7)
+_QUANTILES = np.linspace(0.05, 0.95, 7)
 
 Pairs = tuple[tuple[int, int], ...]
 
@@ -32,12 +32,12 @@ def signature(basis: Basis) -> np.ndarray:
     Free of units where ``basis`` is that of unit area, of pose nearly, and of the triangulation. Mirror images have the
     same. Differences are of the order of 0.1 to 1.
     """
-    values = to_numpy(basis.eigenvalues)[1 : N_EIGENVALUES + 1]
+    values = to_numpy(basis.eigenvalues)[1 : _N_EIGENVALUES + 1]
     # By Weyl's law the i-th is about 4 π i at unit area.
     growth = np.log(np.maximum(values, 1e-3) / (4 * np.pi * np.arange(1, len(values) + 1)))
-    growth = np.concatenate([growth, np.full(N_EIGENVALUES - len(growth), growth[-1] if len(growth) else 0.0)])
+    growth = np.concatenate([growth, np.full(_N_EIGENVALUES - len(growth), growth[-1] if len(growth) else 0.0)])
     heat = np.log(np.maximum(to_numpy(heat_signature(basis, _TIMES)), 1e-12))
-    return np.concatenate([growth, np.quantile(heat, QUANTILES, axis=0).ravel()])
+    return np.concatenate([growth, np.quantile(heat, _QUANTILES, axis=0).ravel()])
 
 
 def signature_distances(signatures: np.ndarray) -> np.ndarray:

@@ -13,9 +13,9 @@ from kfmaps._arrays import refuse, to_numpy
 from kfmaps.fmap.convert import check_point_map, nearest
 from kfmaps.geometry.basis import Basis, eigenvalue_tolerance
 
-EMBEDDING = 60
+_EMBEDDING = 60
 """Functions by which the nearest images are found where a map is inverted."""
-MIN_PROBABILITY = 1e-6
+_MIN_PROBABILITY = 1e-6
 """Probability below which a pair is on no path."""
 
 Adjacency = Sequence[Sequence[tuple[int, int]]]
@@ -86,7 +86,7 @@ def _dijkstra(
         if here == target:
             break
         for other, number in around[here]:
-            if other not in found and number != without and probabilities[number] > MIN_PROBABILITY:
+            if other not in found and number != without and probabilities[number] > _MIN_PROBABILITY:
                 # Rounded, so that what is equal but for rounding is equal; each step costs a little by itself.
                 further = round(cost - math.log(min(probabilities[number], 1.0)) + 1e-6, 9)
                 heappush(queue, (further, length + 1, (*shapes, other), (*edges, number)))
@@ -114,7 +114,7 @@ def invert_map(target_to_source: np.ndarray, source: Basis, n_t: int) -> np.ndar
     one-to-one map it is the inverse.
     """
     points = check_point_map(target_to_source, len(source.functions), n_t)
-    k = min(EMBEDDING, len(source.eigenvalues))
+    k = min(_EMBEDDING, len(source.eigenvalues))
     values = to_numpy(source.eigenvalues)[1:k]
     places = to_numpy(source.functions)[:, 1:k] / np.sqrt(np.maximum(values, max(eigenvalue_tolerance(source), 1e-9)))
     return nearest(places, places[points], threads=1)

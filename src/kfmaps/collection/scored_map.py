@@ -17,7 +17,7 @@ from kfmaps.matching.sample_pair import sample_pair
 from kfmaps.matching.score import SCORE, probability
 from kfmaps.shape import Shape
 
-SCORED_FUNCTIONS = 80
+_SCORED_FUNCTIONS = 80
 """Functions of the maps that are scored, as many as the search scores by."""
 
 
@@ -56,7 +56,7 @@ def score_pair_maps(
     and one that was not are comparable, and scores mean what they mean there.
     """
     turned = [False] * len(maps) if reversed is None else list(reversed)
-    k = min(SCORED_FUNCTIONS, len(source.basis.eigenvalues), len(target.basis.eigenvalues))
+    k = min(_SCORED_FUNCTIONS, len(source.basis.eigenvalues), len(target.basis.eigenvalues))
     bases = source.basis.truncate(k), target.basis.truncate(k)
     rough = np.stack([to_numpy(to_functional(points, *bases)) for points in maps])
     found: list[ScoredMap | None] = [None] * len(maps)

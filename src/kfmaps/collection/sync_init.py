@@ -11,16 +11,16 @@ from scipy.sparse.linalg import eigsh
 
 from kfmaps.fmap.constraints import nearest_orthogonal
 
-DENSE = 1500
+_DENSE = 1500
 """Unknowns up to which eigenvectors are worked out densely."""
 MAX_LOG_ODDS = 4.0
 """Largest log-odds that a candidate's own evidence counts for."""
 
-Ends = Sequence[tuple[int, int]]
+_Ends = Sequence[tuple[int, int]]
 
 
 def spanning_tree_init(
-    count: int, ends: Ends, maps: Sequence[np.ndarray], odds: Sequence[np.ndarray], functions: int
+    count: int, ends: _Ends, maps: Sequence[np.ndarray], odds: Sequence[np.ndarray], functions: int
 ) -> np.ndarray:
     """Return latent maps along the spanning tree of the pairs whose best candidate has most for it, (n, k, k)."""
     latent = np.tile(np.eye(functions), (count, 1, 1))
@@ -46,7 +46,7 @@ def spanning_tree_init(
 
 
 def spectral_init(
-    count: int, ends: Ends, maps: Sequence[np.ndarray], odds: Sequence[np.ndarray], functions: int
+    count: int, ends: _Ends, maps: Sequence[np.ndarray], odds: Sequence[np.ndarray], functions: int
 ) -> np.ndarray:
     """Return latent maps from the leading eigenvectors of all pairs' maps together, each rounded, (n, k, k).
 
@@ -70,7 +70,7 @@ def spectral_init(
         at_row = rows[:, None, None] * functions + inner[None, :, None] + 0 * inner[None, None, :]
         at_column = columns[:, None, None] * functions + 0 * inner[None, :, None] + inner[None, None, :]
         whole = csr_array((values.ravel(), (at_row.ravel(), at_column.ravel())), shape=(size, size))
-    if size <= DENSE:
+    if size <= _DENSE:
         vectors = np.linalg.eigh(whole.toarray())[1][:, -functions:]
     else:
         start = np.random.default_rng(0).normal(size=size)

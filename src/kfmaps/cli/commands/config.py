@@ -8,7 +8,11 @@ from typing import Annotated
 import typer
 
 from kfmaps.cli.options import Force, Json
+from kfmaps.cli.terminal import print_json
+from kfmaps.config import Config, as_dict
+from kfmaps.io import atomic_output, check_output
 from kfmaps.settings.options import Chosen, with_settings
+from kfmaps.settings.toml import settings_text
 
 
 @with_settings
@@ -19,10 +23,6 @@ def config(
     force: Force = False,
 ) -> None:
     """Print the settings that match would use, as TOML that --config reads."""
-    from kfmaps.cli.terminal import print_json
-    from kfmaps.config import Config, as_dict
-    from kfmaps.io import atomic_output, check_output
-    from kfmaps.settings.toml import settings_text
 
     if output is not None:
         check_output(output, force)

@@ -5,19 +5,26 @@ from __future__ import annotations
 import time
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated, Any
 
+import numpy as np
 import typer
+from rich.table import Table
 
+from kfmaps import datasets
 from kfmaps._arrays import refuse
+from kfmaps._threads import one_blas_thread
 from kfmaps.cli.options import Force, Json
+from kfmaps.cli.progress import Stages
+from kfmaps.cli.terminal import Terminal, print_json, report_files, say
 from kfmaps.cli.words import UNIT, percent
-
-if TYPE_CHECKING:
-    import numpy as np
-    from rich.table import Table
-
-    from kfmaps.datasets import ExamplePair
+from kfmaps.config import Config
+from kfmaps.datasets import ExamplePair
+from kfmaps.fmap.evaluate import geodesic_errors
+from kfmaps.geometry.geodesics import farthest_geodesic
+from kfmaps.io import atomic_output, check_output, write_landmarks, write_mesh, write_vertex_numbers
+from kfmaps.matching.match import default_config, match
+from kfmaps.shape import prepare
 
 _SHAPES = ("two-poses", "non-isometric", "partial")
 
@@ -42,8 +49,6 @@ def demo(
     force: Force = False,
 ) -> None:
     """Make two poses of a shape, match them, print the error beside that without a kernel, draw a picture."""
-    from kfmaps.cli.terminal import Terminal, print_json, report_files, say
-    from kfmaps.io import atomic_output, check_output
     from kfmaps.viz import match_figure, picture_format, save_figure
 
     if shape not in _SHAPES:
@@ -74,9 +79,6 @@ def demo(
 
 def _write(folder: Path, shape: str, vertices: int, landmarks: int, seed: int, force: bool = False) -> list[Path]:
     """Write both shapes, the truth line by line and some of it as landmarks; return the files."""
-    import numpy as np
-
-    from kfmaps.io import check_output, write_landmarks, write_mesh, write_vertex_numbers
 
     paths = [folder / name for name in ("a.ply", "b.ply", "a.vts", "b.vts", "pairs.txt")]
     folder.mkdir(parents=True, exist_ok=True)
@@ -93,17 +95,12 @@ def _write(folder: Path, shape: str, vertices: int, landmarks: int, seed: int, f
 
 def _pair(shape: str, vertices: int, landmarks: int, seed: int) -> tuple[ExamplePair, np.ndarray]:
     """Return the shapes, and vertices (l,) of the target far from each other."""
-    import numpy as np
-
-    from kfmaps import datasets
-    from kfmaps.geometry.geodesics import farthest_geodesic
 
     pair: ExamplePair = getattr(datasets, shape.replace("-", "_"))(vertices, seed)
     return pair, farthest_geodesic(pair.target, landmarks, np.random.default_rng(seed))
 
 
 def _table(name: str, sizes: dict[str, int], methods: list[dict[str, Any]]) -> Table:
-    from rich.table import Table
 
     n_s, n_t = sizes.values()
     table = Table(
@@ -130,14 +127,6 @@ def _compare(
     The last two get the same eigenfunctions, landmarks and refinement, so that only the fit differs. Errors are in
     units of √area, of the refined map and of the fit alone.
     """
-    import numpy as np
-
-    from kfmaps._threads import one_blas_thread
-    from kfmaps.cli.progress import Stages
-    from kfmaps.config import Config
-    from kfmaps.fmap.evaluate import geodesic_errors
-    from kfmaps.matching.match import default_config, match
-    from kfmaps.shape import prepare
 
     with one_blas_thread(), Stages(quiet) as stages:
         stages("shapes", 0.0)

@@ -30,7 +30,7 @@ from kfmaps.viz import position_colors
 
 _SHAPES = (".obj", ".ply", ".off", ".glb")
 _MAPS = (".txt", ".vts", ".mat", ".npz")
-MATRICES = (".txt", ".csv", ".npy")
+_MATRICES = (".txt", ".csv", ".npy")
 
 
 def export(
@@ -66,7 +66,7 @@ def export(
         raise refuse("--morph", f"an output {' '.join(_SHAPES)}", suffix or "no extension", "rename it")
     if functional and confidence:
         raise refuse("export", "--functional or --confidence", "both", "run the command twice")
-    formats = MATRICES if functional or confidence else _SHAPES + _MAPS
+    formats = _MATRICES if functional or confidence else _SHAPES + _MAPS
     if suffix not in formats:
         got = suffix or "no extension"
         raise refuse(f"output {output}", f"one of {' '.join(formats)}", got, "choose one of these")

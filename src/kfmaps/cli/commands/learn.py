@@ -9,21 +9,28 @@ from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
+import numpy as np
 import typer
 
 from kfmaps._arrays import check_count, refuse
+from kfmaps.batch.layout import Pair, ShapeFolder, find_collection
 from kfmaps.cli.options import Identity, Json, Quiet
+from kfmaps.cli.progress import Stages
+from kfmaps.cli.terminal import print_json
+from kfmaps.config import Config, DescriptorConfig, Formulation, Weights
+from kfmaps.io import atomic_output, check_output, read_mesh, read_vertex_numbers
 from kfmaps.settings.options import Chosen, with_settings
+from kfmaps.settings.toml import settings_text
+from kfmaps.shape import Shape, prepare
 
 if TYPE_CHECKING:
-    from kfmaps.batch.layout import Pair, ShapeFolder
-    from kfmaps.config import Config
     from kfmaps.learn import State, TrainingPair
+
 
 _PARTS = "gamma, ard, metric, mixture, terms, network"
 _LOSSES = "geodesic, supervised, orthogonality, cycle, commutativity, coupling"
-WITH_TRUTH = ("gamma,metric,terms", "geodesic")
-WITHOUT_TRUTH = ("gamma,ard,terms", "orthogonality=0.05,cycle=0.05,coupling")
+_WITH_TRUTH = ("gamma,metric,terms", "geodesic")
+_WITHOUT_TRUTH = ("gamma,ard,terms", "orthogonality=0.05,cycle=0.05,coupling")
 """Default parts and losses."""
 
 NUMBERS: dict[str, int | float] = {
@@ -32,12 +39,12 @@ NUMBERS: dict[str, int | float] = {
 }
 """Defaults of --training: numbers of pairs, rows of the metric (0: automatic), and fields of TrainingOptions."""
 
-RANK = {"signature": 2, "landmark": 1, "shot": 2}
-RANK_ALONE = {"signature": 4, "landmark": 1, "shot": 28}
+_RANK = {"signature": 2, "landmark": 1, "shot": 2}
+_RANK_ALONE = {"signature": 4, "landmark": 1, "shot": 28}
 """Automatic numbers of rows of the metric with landmarks, and without."""
-N_SPECTRAL_ALONE = 30
+_N_SPECTRAL_ALONE = 30
 """Spectral descriptors without landmarks, as many as the search's own fits have."""
-MAX_SAMPLES = 2500
+_MAX_SAMPLES = 2500
 """Points of each shape that learning fits maps from; matches take as many as the settings say."""
 
 
@@ -56,10 +63,10 @@ def learn(
     ],
     settings: Chosen,
     parts: Annotated[
-        str, typer.Option("--learn", metavar="NAMES", help=f"What to learn: {_PARTS}. Default: {WITH_TRUTH[0]}.")
+        str, typer.Option("--learn", metavar="NAMES", help=f"What to learn: {_PARTS}. Default: {_WITH_TRUTH[0]}.")
     ] = "",
     losses: Annotated[
-        str, typer.Option("--loss", metavar="NAMES", help=f"NAME or NAME=WEIGHT: {_LOSSES}. Default: {WITH_TRUTH[1]}.")
+        str, typer.Option("--loss", metavar="NAMES", help=f"NAME or NAME=WEIGHT: {_LOSSES}. Default: {_WITH_TRUTH[1]}.")
     ] = "",
     shapes: Annotated[str, typer.Option(metavar="PATTERNS", help="Shapes to learn from, as a?,b*.")] = "*",
     held_out: Annotated[
@@ -91,11 +98,6 @@ def learn(
     if output.suffix not in (".toml", ".pt"):
         raise refuse(f"output {output}", "a name that ends in .toml or .pt", output.suffix or "none", "choose one")
     from kfmaps import learn as library  # its absence of PyTorch comes before any work
-    from kfmaps.batch.layout import find_collection
-    from kfmaps.cli.progress import Stages
-    from kfmaps.cli.terminal import print_json
-    from kfmaps.io import check_output
-    from kfmaps.settings.toml import settings_text
 
     state_file = output.with_suffix(".pt")
     stopped = state_file.is_file() and not force
@@ -103,7 +105,7 @@ def learn(
         check_output(path, force or stopped)
     lines = _lines(truth_landmarks)
     requested = settings.config(_start(bool(lines)))
-    config = replace(requested, fit_samples=min(requested.fit_samples or MAX_SAMPLES, MAX_SAMPLES))
+    config = replace(requested, fit_samples=min(requested.fit_samples or _MAX_SAMPLES, _MAX_SAMPLES))
     with Stages(quiet or json) as stages:
         folder = find_collection(data)
         drawn, judges = _draw(folder, shapes, held_out, numbers)
@@ -114,9 +116,9 @@ def learn(
             every.append(prepare(pair))
         pairs, held_out_pairs = every[: len(drawn)], every[len(drawn) :]
         known = all(pair.truth for pair in pairs)
-        default_parts, default_losses = WITH_TRUTH if known else WITHOUT_TRUTH
+        default_parts, default_losses = _WITH_TRUTH if known else _WITHOUT_TRUTH
         chosen = tuple(word.strip() for word in (parts or default_parts).split(","))
-        rank = int(numbers["rank"]) or (RANK if lines else RANK_ALONE)
+        rank = int(numbers["rank"]) or (_RANK if lines else _RANK_ALONE)
         model = library.Model(config, pairs, chosen, rank=rank, seed=int(numbers["seed"]))
         own = {name: value for name, value in numbers.items() if name not in ("pairs", "held_out_pairs", "rank")}
         options = library.TrainingOptions(weights or _losses(default_losses), **own)  # pyright: ignore
@@ -193,12 +195,11 @@ def _lines(text: str) -> tuple[int, ...]:
 
 def _start(landmarks: bool) -> Config:
     """Return the settings that learning starts from."""
-    from kfmaps.config import Config, DescriptorConfig, Formulation, Weights
 
     # SHOT tells what the signature cannot, and few strong descriptors want less commutativity and a sharper kernel.
     if not landmarks:
         return replace(
-            Config(), descriptors=DescriptorConfig(n_spectral=N_SPECTRAL_ALONE, shot=True, n_eigenfunctions=200)
+            Config(), descriptors=DescriptorConfig(n_spectral=_N_SPECTRAL_ALONE, shot=True, n_eigenfunctions=200)
         )
     start = replace(Config.single_fit(), descriptors=DescriptorConfig(shot=True, n_eigenfunctions=200))
     weights = Weights(descriptors=1000.0, commutativity=1.0, laplacian=300.0)
@@ -209,9 +210,6 @@ def _draw(
     folder: ShapeFolder, shapes: str, held_out: str, numbers: dict[str, int | float]
 ) -> tuple[list[Pair], list[Pair]]:
     """Return the pairs to learn from and those held out."""
-    import numpy as np
-
-    from kfmaps.batch.layout import Pair
 
     def matching(patterns: str) -> list[str]:
         return [name for name in folder.shapes if any(fnmatch(name, p.strip()) for p in patterns.split(","))]
@@ -237,11 +235,8 @@ def _preparation(
     folder: ShapeFolder, config: Config, lines: tuple[int, ...], identity: bool, seed: int
 ) -> Callable[[Pair], TrainingPair]:
     """Return a function that prepares a pair; each shape is read once."""
-    import numpy as np
 
-    from kfmaps.io import read_mesh, read_vertex_numbers
     from kfmaps.learn import training_pair
-    from kfmaps.shape import Shape, prepare
 
     @cache
     def shape(name: str) -> Shape:
@@ -285,9 +280,7 @@ def _continued(path: Path, request: dict[str, Any]) -> State:
 
 def _write(output: Path, best: Config, state: State, truth: bool, losses: str) -> None:
     """Write settings and picture."""
-    from kfmaps.io import atomic_output
     from kfmaps.learn import learning_figure
-    from kfmaps.settings.toml import settings_text
 
     if output.suffix == ".toml":
         kept, judge = state.best_epoch, "error of held-out pairs, in √area" if truth else "loss of held-out pairs"

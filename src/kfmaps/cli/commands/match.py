@@ -5,23 +5,33 @@ from __future__ import annotations
 import warnings
 from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated, Any
 
+import numpy as np
 import typer
 
-from kfmaps._arrays import KfmapsWarning, MissingDependency, refuse
+from kfmaps._arrays import KfmapsWarning, MissingDependency, check, refuse
+from kfmaps._threads import one_blas_thread
+from kfmaps.cli.evaluation import Accuracy, assess, known_truth
 from kfmaps.cli.options import UNSURE, Force, Json, Quiet, Require, TruthLists, check_required, meets
+from kfmaps.cli.progress import Stages
+from kfmaps.cli.summary import summary, table
+from kfmaps.cli.terminal import Terminal, print_json
+from kfmaps.config import Config
+from kfmaps.descriptors.spectral import check_landmarks
+from kfmaps.geometry.mesh import Mesh
+from kfmaps.io import check_output, read_mesh, read_values, save_map
+from kfmaps.io.mapfile import check_format
+from kfmaps.io.named_points import read_given_landmarks
+from kfmaps.io.provenance import with_files
+from kfmaps.matching.match import default_config
+from kfmaps.matching.match import match as matched
+from kfmaps.matching.memory import check_match_memory
+from kfmaps.matching.result import Match
 from kfmaps.settings.options import Chosen, with_settings
+from kfmaps.shape import prepare_both
 
-if TYPE_CHECKING:
-    import numpy as np
-
-    from kfmaps.cli.evaluation import Accuracy
-    from kfmaps.config import Config
-    from kfmaps.geometry.mesh import Mesh
-    from kfmaps.matching.result import Match
-
-SIDES = ("source", "target")
+_SIDES = ("source", "target")
 
 
 @with_settings
@@ -56,8 +66,6 @@ def match(
 ) -> None:
     """Find for each vertex of the target the corresponding vertex of the source, and write the map."""
     # What can be refused without work is refused first, so that no minutes are lost.
-    from kfmaps.io import check_output
-    from kfmaps.io.mapfile import check_format
 
     check_format(output)
     check_required(require)
@@ -68,14 +76,6 @@ def match(
     check_output(output, force, reads)
     if quiet:
         warnings.simplefilter("ignore", KfmapsWarning)
-
-    from kfmaps.cli.evaluation import known_truth
-    from kfmaps.cli.summary import summary, table
-    from kfmaps.cli.terminal import Terminal, print_json
-    from kfmaps.io import save_map
-    from kfmaps.io.named_points import read_given_landmarks
-    from kfmaps.matching.match import default_config
-    from kfmaps.matching.memory import check_match_memory
 
     config = settings.config(default_config(descriptors))
     _check_device(config.device)
@@ -114,18 +114,12 @@ def run(
     truth: Any = None,
 ) -> tuple[Match, Accuracy | None]:
     """Match two meshes and tell the stages; with ``truth`` the answer is set beside it."""
-    from kfmaps._threads import one_blas_thread
-    from kfmaps.cli.evaluation import assess
-    from kfmaps.cli.progress import Stages
-    from kfmaps.io.provenance import with_files
-    from kfmaps.matching.match import match as matched
-    from kfmaps.shape import prepare_both
 
     seconds: dict[str, float] = {}
     with one_blas_thread(), Stages(quiet) as stages:
         names = (str(paths[0]), str(paths[1]))
         shapes = prepare_both(meshes[0], meshes[1], config, names, _renamed(stages, names))
-        for side, shape in zip(SIDES, shapes, strict=True):
+        for side, shape in zip(_SIDES, shapes, strict=True):
             seconds |= {f"{stage} of {side}": t for stage, t in shape.seconds.items()}
         found = matched(
             shapes[0], shapes[1], config, landmarks=landmarks, descriptors=descriptors, rng=seed, progress=stages
@@ -144,7 +138,6 @@ def _read(path: Path, config: Config) -> Mesh:
 
     A file without faces is a point cloud only when its name says so; else something was lost.
     """
-    from kfmaps.io import read_mesh
 
     mesh = read_mesh(path, cloud=path.suffix.lower() == ".xyz")
     if len(mesh.vertices) <= config.n_eigenfunctions:
@@ -156,7 +149,7 @@ def _read(path: Path, config: Config) -> Mesh:
 
 def _renamed(stages: Callable[[str, float], None], names: tuple[str, str]) -> Callable[[str, float], None]:
     """Say "source" and "target" where a stage would name a file, whose path may be long."""
-    short = {f" of {name}": f" of {side}" for name, side in zip(reversed(names), reversed(SIDES), strict=True)}
+    short = {f" of {name}": f" of {side}" for name, side in zip(reversed(names), reversed(_SIDES), strict=True)}
 
     def told(stage: str, done: float) -> None:
         suffix = next((name for name in short if stage.endswith(name)), "")
@@ -182,7 +175,6 @@ def _check_device(device: str) -> None:
 
 
 def _check_landmarks(pairs: np.ndarray, meshes: tuple[Mesh, Mesh], paths: tuple[Path, Path]) -> None:
-    from kfmaps.descriptors.spectral import check_landmarks
 
     for i, (mesh, path) in enumerate(zip(meshes, paths, strict=True)):
         check_landmarks(pairs[:, i], len(mesh.vertices), f"landmarks on {path}")
@@ -190,10 +182,6 @@ def _check_landmarks(pairs: np.ndarray, meshes: tuple[Mesh, Mesh], paths: tuple[
 
 def _own_descriptors(files: tuple[Path, Path], meshes: tuple[Mesh, Mesh]) -> tuple[np.ndarray, np.ndarray]:
     """The user's descriptors (n_s, d) and (n_t, d), checked."""
-    import numpy as np
-
-    from kfmaps._arrays import check
-    from kfmaps.io import read_values
 
     found = []
     for file, mesh in zip(files, meshes, strict=True):
