@@ -74,7 +74,7 @@ def main() -> None:
     parser.add_argument("--data", type=Path)
     data = parser.parse_args().data
     warnings.simplefilter("ignore", kfmaps.KfmapsWarning)
-    wholes = {"creature": datasets.symmetric_creature(3000, rng=1).source, "body": datasets.two_poses(3000).source}
+    wholes = {"creature": datasets.symmetric_creature(6000, rng=1).source, "body": datasets.two_poses(6000).source}
     for folder, name in (("FAUST_r", "tr_reg_000"), ("TOSCA_r", "cat0")) if data else ():
         wholes[name] = read(mesh_file(data / folder, name))
     print(f"{'whole':12} {'patch':22} {'verdict':10} chance  best and next score")

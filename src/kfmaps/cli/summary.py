@@ -16,8 +16,10 @@ from kfmaps.cli.evaluation import Accuracy
 from kfmaps.cli.words import UNIT, percent, probability_text, verdict_text
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.io.map_summary import summarize_match
+from kfmaps.matching.finish import low_confidence_area
 from kfmaps.matching.result import Match
 from kfmaps.matching.result_groups import ONE_FIT
+from kfmaps.matching.score import SCORE
 
 _STYLES = {"likely": "bold yellow", "ambiguous": "bold red", "unlikely": "bold red"}
 """Verdicts that a terminal must not bury in a table."""
@@ -50,6 +52,8 @@ def _rows(match: Match, accuracy: Accuracy | None, written: Path | None) -> list
         ("matched", " → ".join(_shape(mesh, Path(file.path).name) for mesh, file in sides)),
         ("verdict", f"{match.verdict.capitalize()}{chance}. {verdict_text(match.verdict, n_landmarks)}"),
     ]
+    if (share := doubtful_area(match)) > SCORE.max_torn_area:
+        rows.append(("doubtful", f"one region, {share:.0%} of the target's area: its local fit is below one half"))
     if match.partial.suspected:
         rows.append(("parts", match.partial.reason))
     if lost := int((match.target_to_source < 0).sum()):
@@ -80,6 +84,14 @@ def _rows(match: Match, accuracy: Accuracy | None, written: Path | None) -> list
         )
         rows += [("written", shown(str(written))), ("next", shown(f"kfmaps view {quote(str(written))}{shapes}"))]
     return rows
+
+
+def doubtful_area(match: Match) -> float:
+    """Return the share of the target's area that fits badly, of a map of whole shapes that is called right; else 0."""
+    known = match.target is not None and match.local_confidence is not None and len(match.target.faces) > 0
+    if not known or match.verdict not in ("sure", "likely") or match.partial.which != "none":
+        return 0.0
+    return low_confidence_area(match.target, match.local_confidence)
 
 
 def _shape(mesh: Mesh, name: str) -> str:

@@ -100,9 +100,7 @@ def extremity_similarity(source: ShapeSamples, target: ShapeSamples) -> list[Ext
     """
     a, b = source.extremities, target.extremities
     between_s, between_t = a.distances[:, a.points], b.distances[:, b.points]
-    apart = np.abs(a.reach[:, None] - b.reach[None, :])
-    heat_s, heat_t = source.heat[a.points], target.heat[b.points]
-    apart = apart + np.sqrt(((heat_s[:, None] - heat_t[None, :]) ** 2).mean(axis=2))
+    apart = extremity_difference(source, target)
     both = min(len(a.points), len(b.points))
     costs, found = [], []
     for size in (both, both - 1) if both >= SPARE else (both,):
@@ -117,6 +115,16 @@ def extremity_similarity(source: ShapeSamples, target: ShapeSamples) -> list[Ext
             found += [ExtremityMatch(np.array(chosen), images[i]) for i in best]
     order = np.argsort(np.concatenate(costs), kind="stable")
     return [found[i] for i in order]
+
+
+def extremity_difference(source: ShapeSamples, target: ShapeSamples) -> np.ndarray:
+    """Return how much each extremity of one shape differs from each of another by itself, (m_s, m_t).
+
+    Its mean distance from the rest and the logarithm of its heat kernel signature are compared.
+    """
+    a, b = source.extremities, target.extremities
+    heat = source.heat[a.points][:, None] - target.heat[b.points][None, :]
+    return np.abs(a.reach[:, None] - b.reach[None, :]) + np.sqrt((heat**2).mean(axis=2))
 
 
 def extremity_cost(

@@ -117,7 +117,7 @@ def refine_and_register(task: MatchTask, found: SearchResult, guidance: Descript
     return task.result(
         final.target_to_source,
         refined.functional_map,
-        final.local_confidence,
+        _doubt_exchanged(final.local_confidence, final.target_to_source, found, shapes[0].mesh),
         verdict=found.verdict,
         confidence=found.confidence,
         orientation=found.orientation,
@@ -132,6 +132,15 @@ def refine_and_register(task: MatchTask, found: SearchResult, guidance: Descript
         partial=task.partial,
         fit=_fit_of(one, found.functional_map, None if raw is None else pair.points(raw)),
     )
+
+
+def _doubt_exchanged(confidence: np.ndarray, points: np.ndarray, found: SearchResult, source: Mesh) -> np.ndarray:
+    """Return the local confidence (n_t,), lower where a map with two limbs exchanged that comes near goes elsewhere."""
+    for other, margin in zip(found.runners_up, found.doubts, strict=False):
+        if margin >= 0.0:
+            moved = np.linalg.norm(source.vertices[other] - source.vertices[points], axis=1) > SCORE.moved_distance
+            confidence = confidence * (1.0 - moved * np.exp(-margin / SCORE.calibration.tie))
+    return confidence
 
 
 def _fit_of(one: Fit | None, C: np.ndarray, points: np.ndarray | None) -> MatchFit:
@@ -222,5 +231,10 @@ def torn_area_fraction(match: Match) -> float | None:
     """
     if match.registration.report is None or match._reindexing is None:
         return None
-    areas = vertex_areas(match._reindexing.outside[1].mesh)
-    return float(areas[match.local_confidence < SCORE.torn_confidence].sum() / areas.sum())
+    return low_confidence_area(match._reindexing.outside[1].mesh, match.local_confidence)
+
+
+def low_confidence_area(target: Mesh, local_confidence: np.ndarray) -> float:
+    """Return the share of the target's area where the local confidence (n_t,) is low, from 0 to 1."""
+    areas = vertex_areas(target)
+    return float(areas[local_confidence < SCORE.torn_confidence].sum() / areas.sum())

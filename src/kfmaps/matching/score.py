@@ -119,10 +119,12 @@ class Scoring:
     w_torn: float = 25.0
     """Cost where all of the target is torn. With less than 20 a torn map of a dog and a cat stays, with more than 35
     front and back of a gorilla may change."""
+    moved_distance: float = 0.15
+    """Distance from which an alternative takes a vertex elsewhere."""
     torn_confidence: float = 0.5
     """Local confidence below which a vertex counts as torn."""
     max_torn_area: float = 0.04
-    """Share of torn area from which alternatives are finished too."""
+    """Share of torn area from which alternatives are finished too, and a region is called doubtful."""
 
     local_radius: float = 0.2
     """Distance up to which points are neighbours whose distance a good map keeps."""

@@ -30,6 +30,7 @@ from kfmaps.matching.features import user_descriptors
 from kfmaps.matching.fit import Fit, check_landmark_pairs
 from kfmaps.matching.landmark_evidence import LandmarkEvidence, landmark_errors
 from kfmaps.matching.learned_kernel import drop_learned, learned_candidates, learned_kernel_applies
+from kfmaps.matching.limb_exchange import compare_exchanged
 from kfmaps.matching.quality import ShapeSamples, sample_for_scoring, subsample
 from kfmaps.matching.ranking import ProxyCache, merge_alternatives, ranking, rerank_near_duplicates
 from kfmaps.matching.registration_refine import SwappedRepair, refine_by_registration
@@ -75,6 +76,9 @@ class SearchResult:
         Of the map and of each alternative, higher is better.
     runners_up : tuple of arrays (n_t,)
         The distinct other maps, best first.
+    doubts : tuple of float
+        By how much the map precedes the first alternatives, those that were made on purpose: with two limbs exchanged,
+        or a better one to the mirror image, which it does not precede.
     landmarks : (l, 2) int64
         Those that the map keeps to.
     rejected_landmarks : (d,) int64
@@ -102,6 +106,7 @@ class SearchResult:
     confidence: float | None = None
     scores: tuple[float, ...] = ()
     runners_up: tuple[np.ndarray, ...] = ()
+    doubts: tuple[float, ...] = ()
     landmarks: np.ndarray = field(default_factory=lambda: np.zeros((0, 2), dtype=np.int64))
     rejected_landmarks: np.ndarray = field(default_factory=lambda: np.zeros(0, dtype=np.int64))
     orientation: str = "preserving"
@@ -133,8 +138,9 @@ class _Search:
     found, ranked : list of Candidate
         All, and the distinct ones, best first.
     orientation : "preserving" or "reversing"
-    mirrored : Candidate or None
-        A map to the mirror image that nobody asked for and that scores better, though not clearly.
+    doubts : tuple of (Candidate, float)
+        Alternatives that were made on purpose, to the mirror image or with two limbs exchanged, and by how much the
+        best map precedes each.
     """
 
     source: Shape
@@ -148,7 +154,7 @@ class _Search:
     found: list[Candidate]
     ranked: list[Candidate]
     orientation: str
-    mirrored: Candidate | None = None
+    doubts: tuple[tuple[Candidate, float], ...] = ()
 
 
 def search_map(
@@ -205,6 +211,9 @@ def search_map(
     if learned and (state.orientation == "preserving" or config.search.orientation == "reversing"):
         others = learned_candidates(source, target, config, state.samples, seed, given)
         ranked = merge_alternatives(ranked, others, samples, state.copies, config.threads)
+    if _are_surfaces(samples):
+        state = _compare_exchanged(replace(state, ranked=ranked))
+        ranked = state.ranked
     if _are_surfaces(samples) and ranked[0].quality.score < SCORE.repair_score:
         ranked = rerank_near_duplicates(ranked, state.found, samples, state.copies, config.threads)
         kept = pairs[~state.wrong]
@@ -293,7 +302,18 @@ def _choose_orientation(state: _Search, unduly: bool) -> _Search:
     if better > (SCORE.clear_margin if asked == "either" else margin):
         samples = replace(samples, whole=other)
         return replace(state, samples=samples, copies=copies, found=images, ranked=ranked, orientation="reversing")
-    return replace(state, mirrored=ranked[0]) if asked == "auto" and better > SCORE.mirror_gain else state
+    return replace(state, doubts=((ranked[0], -better),)) if asked == "auto" and better > SCORE.mirror_gain else state
+
+
+def _compare_exchanged(state: Search) -> Search:
+    """Compare the best map with itself with two alike limbs exchanged; the better leads, the other casts a doubt."""
+    best, samples = state.ranked[0], state.samples.whole
+    order = compare_exchanged(best, samples, state.copies, state.config.threads)
+    if len(order) == 1:
+        return state
+    kept = order[0].functional_map is best.functional_map
+    ranked = state.ranked if kept else [order[0], *state.ranked[1:]]
+    return replace(state, ranked=ranked, doubts=(*state.doubts, (order[1], order[0].score - order[1].score)))
 
 
 def _reject_landmarks(state: _Search) -> _Search:
@@ -315,9 +335,11 @@ def _to_result(state: _Search, best: Candidate, rest: list[Candidate]) -> Search
     """Return ``best`` as the result of a search; ``rest`` are its alternatives, best first."""
     config, samples = state.config, state.samples.whole
     assert config.search is not None
-    rest = rest if state.mirrored is None else [state.mirrored, *rest]
-    others = rest[: config.search.n_alternatives]
-    margin = float(max(best.score - rest[0].score, 0.0) if rest else np.inf)
+    near = [(c, margin) for c, margin in state.doubts if margin < SCORE.close_margin]
+    margins = [*(margin for _, margin in near), *(best.score - c.score for c in rest[:1])]
+    others = [*(c for c, _ in near), *rest][: config.search.n_alternatives]
+    scores = [*(best.score - margin for _, margin in near), *(c.score for c in rest)][: len(others)]
+    margin = max(min(margins, default=np.inf), 0.0)
     score = best.quality.score
     evidence = score, margin, best.deformation_energy, backed_by(best, samples, config.threads)
     rejected = state.wrong & still_missed(best, samples, state.evidence)
@@ -331,8 +353,9 @@ def _to_result(state: _Search, best: Candidate, rest: list[Candidate]) -> Search
         fit=best.fit,
         confidence=probability(*evidence),
         verdict=verdict(*evidence),
-        scores=tuple(float(c.score) for c in (best, *others)),
+        scores=tuple(float(score) for score in (best.score, *scores)),
         runners_up=alternative_maps(maps, *bases, config.threads),
+        doubts=tuple(margin for _, margin in near)[: len(others)],
         landmarks=state.pairs[~rejected],
         rejected_landmarks=np.flatnonzero(rejected),
         orientation=state.orientation,
