@@ -79,4 +79,5 @@ def compare_exchanged(
         return [best]
     rival = max(judged[1:], key=lambda c: c.score)
     order = sorted([judged[0], rival], key=lambda c: -c.score)
-    return rerank_close(order, copies, threads) if order[0].score - order[1].score < SCORE.shot_margin else order
+    margin = order[0].score - order[1].score
+    return rerank_close(order, copies, threads) if margin < SCORE.shot_margin else order

@@ -305,7 +305,7 @@ def _choose_orientation(state: _Search, unduly: bool) -> _Search:
     return replace(state, doubts=((ranked[0], -better),)) if asked == "auto" and better > SCORE.mirror_gain else state
 
 
-def _compare_exchanged(state: Search) -> Search:
+def _compare_exchanged(state: _Search) -> _Search:
     """Compare the best map with itself with two alike limbs exchanged; the better leads, the other casts a doubt."""
     best, samples = state.ranked[0], state.samples.whole
     order = compare_exchanged(best, samples, state.copies, state.config.threads)
