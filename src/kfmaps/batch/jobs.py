@@ -24,6 +24,8 @@ if TYPE_CHECKING:
 _Item = TypeVar("_Item")
 _Value = TypeVar("_Value")
 
+_SILENT = logging.CRITICAL + 1
+"""Level of Dask's log: it calls a client that has gone critical, with a traceback."""
 MAX_DEATHS = 3
 """Workers that may die over one task before it is given up."""
 NO_WORKERS = "60s"
@@ -253,7 +255,7 @@ def local_workers(count: int | None = None) -> Iterator[Client]:
                 # Without a dashboard there still is a small HTTP server, whose fixed port a second run would miss.
                 scheduler_kwargs={"dashboard_address": "127.0.0.1:0"},
                 memory_limit=0,  # a limit of our own would kill what the machine could still bear
-                silence_logs=logging.CRITICAL,
+                silence_logs=_SILENT,
                 preload=[__name__],
             )
             client = Client(stack.enter_context(cluster), set_as_default=False)
@@ -321,7 +323,7 @@ def _quiet() -> Iterator[None]:
     handlers = logging.getLogger("distributed").handlers
     levels = [handler.level for handler in handlers]
     for handler in handlers:
-        handler.setLevel(logging.CRITICAL)
+        handler.setLevel(_SILENT)
     try:
         yield
     finally:
