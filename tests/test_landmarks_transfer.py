@@ -27,6 +27,7 @@ from kfmaps.batch.transfer_landmarks import (
     template_pairs,
 )
 from kfmaps.batch.work import landmark_pairs, map_path
+from kfmaps.cli.commands._landmarks_transfer import describe_study
 from kfmaps.geometry.mesh import Mesh, surface_area
 from kfmaps.io import read_mesh, save_map, write_mesh
 from kfmaps.io.landmark_files import LandmarkSet, read_landmark_sets, write_landmark_sets
@@ -137,6 +138,13 @@ def test_what_fits_none_is_left_out(scans: Path, tmp_path: Path) -> None:
     for name in "bcd":
         path = scans / f"{name}.ply"
         study.append(carry_templates(templates, name, path, {"a": results["a", name]}, tmp_path))
+    flagged = replace(study[3], flags=("low confidence", "", "", "", ""))
+    lines = describe_study([study[0], flagged, flagged], templates, np.array([[0.1, 0.5, np.nan, 0.1, 0.1]]))
+    assert lines == [
+        "5 landmarks of 1 specimen carried to 2 others, median confidence 0.72",
+        "2 of 10 flagged: a in 2 specimens (low confidence)",
+        "the templates' landmarks, carried to each other, are off by 0.2 on average in the scans' unit; most b (0.5)",
+    ]
     assert [one.misfit for one in study] == ["", "its best map is unlikely (12 %, from a)", "too large", ""]
     write_study(tmp_path / "out", study, templates)
     assert [one.specimen for one in read_landmark_sets(tmp_path / "out" / "landmarks.tps")] == ["a", "d"]

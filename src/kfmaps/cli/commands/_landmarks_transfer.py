@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import warnings
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -36,7 +37,7 @@ from kfmaps.config import Config
 from kfmaps.settings.options import Chosen, with_settings
 
 SHOWN = 8
-"""Flagged landmarks and specimens that the summary names."""
+"""Flagged landmarks that the summary names."""
 
 
 @with_settings
@@ -103,7 +104,7 @@ def transfer(
     if min_confidence is not None:
         study = [drop_unsure(one, min_confidence) for one in study]
     files = write_study(output, study, templates)
-    lines = [*_summary(study, templates, errors), *_misfits(said, keep or ()), *(f"{file}" for file in files)]
+    lines = [*describe_study(study, templates, errors), *_misfits(said, keep or ()), *(f"{file}" for file in files)]
     (output / "summary.txt").write_text("\n".join(lines) + "\n", encoding="utf-8")
     for line in lines:
         report.say(line)
@@ -111,7 +112,7 @@ def transfer(
         print_json({"summary": lines[: -len(files)], "output": files})
 
 
-def _summary(study: Sequence[SpecimenLandmarks], templates: Sequence[Template], errors: np.ndarray) -> list[str]:
+def describe_study(study: Sequence[SpecimenLandmarks], templates: Sequence[Template], errors: np.ndarray) -> list[str]:
     """What came of a study, in a few lines."""
     carried = [one for one in study if one.results and not one.misfit]
     names = templates[0].points.names
@@ -120,11 +121,11 @@ def _summary(study: Sequence[SpecimenLandmarks], templates: Sequence[Template], 
         sure = np.concatenate([one.points.confidence for one in carried])
         told += f", median confidence {np.nanmedian(sure):.2f}" if np.isfinite(sure).any() else ""
     lines = [told]
-    flagged = [(one, name, flag) for one in carried for name, flag in zip(names, one.flags, strict=True) if flag]
+    flagged = Counter((name, flag) for one in carried for name, flag in zip(names, one.flags, strict=True) if flag)
     if flagged:
-        shown = "; ".join(f"{one.specimen} {name} ({flag})" for one, name, flag in flagged[:SHOWN])
-        more = f"; and {len(flagged) - SHOWN} more" if len(flagged) > SHOWN else ""
-        lines.append(f"{len(flagged)} of {len(names) * len(carried)} flagged: {shown}{more}")
+        told = [f"{name} in {_count(count, 'specimen')} ({flag})" for (name, flag), count in flagged.most_common(SHOWN)]
+        told += [f"{len(flagged) - SHOWN} other landmarks"] if len(flagged) > SHOWN else []
+        lines.append(f"{flagged.total()} of {len(names) * len(carried)} flagged: {'; '.join(told)}")
     elif carried:
         lines.append("none flagged")
     missing = sum(int((one.points.vertices < 0).sum()) for one in carried)
