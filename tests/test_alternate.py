@@ -405,7 +405,7 @@ def test_of_maps_that_are_alike_the_one_that_bends_less_is_found(creatures, monk
 def test_the_match_that_is_worth_more_is_taken(creatures):
     """Of two that both have a fit, by score and torn area together; the one taken tells the seconds of the whole."""
     source, target, truth = creatures
-    one = finish.match_from_map(source, target, truth, origin="a", quality=-9.0)
+    one = finish.match_from_map(source, target, truth, initialization="a", quality=-9.0)
     assert one.registration.report is not None
 
     def made(score, share):
@@ -444,7 +444,7 @@ def test_a_match_finishes_all_ways_unless_it_is_hardly_torn(creatures, monkeypat
 
 
 def test_a_search_tells_what_else_may_turn_out_better(creatures, monkeypatch):
-    """Each where its score is above what is known; the runners-up of each differ from it."""
+    """Each where its score is above what is known; the alternatives of each differ from it."""
     source, target, _ = creatures
     judgement = Quality(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     one = Candidate("0", np.eye(5), np.zeros(2000, dtype=int), judgement, deformation_energy=0.15)

@@ -46,7 +46,7 @@ def page(browser: Browser, pair: ExamplePair, tmp_path: Path) -> Browser:
         functional_map=rng.normal(size=(20, 30)),
         errors=np.linspace(0, 0.2, len(pair.truth)),
         confidence=np.linspace(0, 1, len(pair.truth)),
-        runners_up=[np.roll(pair.truth, 1)],
+        alternatives=[np.roll(pair.truth, 1)],
         descriptors=(pair.source.vertices, pair.target.vertices),
         summary={
             "verdict": "ambiguous",
@@ -227,7 +227,7 @@ def test_difference_is_between_the_best_map_and_the_runner_up(page: Browser, pai
     half = pair.truth.copy()
     upper = pair.target.vertices[:, 1] > np.median(pair.target.vertices[:, 1])
     half[upper] = half[upper][::-1]
-    html = result_page(pair.source, pair.target, pair.truth, runners_up=[half])
+    html = result_page(pair.source, pair.target, pair.truth, alternatives=[half])
     (tmp_path / "half.html").write_text(html, encoding="utf-8")
     page.open((tmp_path / "half.html").as_uri())
     page.mode("difference")

@@ -155,7 +155,7 @@ def test_own_descriptors(made: types.SimpleNamespace, tmp_path: Path) -> None:
 
 
 def test_without_landmarks(made: types.SimpleNamespace, tmp_path: Path) -> None:
-    """The search says how sure it is; its runners-up are maps too."""
+    """The search says how sure it is; its alternatives are maps too."""
     words = ("--set", "search.candidates=2", "--set", "refinement.stop=80", "--json", "-o", tmp_path / "m.npz")
     told = json.loads(match(made, *words, landmarks=False).stdout)
     assert told["verdict"] in ("sure", "likely", "ambiguous", "unlikely")

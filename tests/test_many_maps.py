@@ -49,15 +49,15 @@ def test_a_known_map_is_finished(shapes: list[Shape]) -> None:
     rough = np.arange(N)
     rough[:60] = np.roll(rough[:60], 7)
     found = match_from_map(
-        a, b, rough, LOCAL, origin="composition", confidence=0.9, verdict="sure", runners_up=(rough,)
+        a, b, rough, LOCAL, initialization="composition", confidence=0.9, verdict="sure", alternatives=(rough,)
     )
     assert (found.target_to_source == np.arange(N)).mean() > max((rough == np.arange(N)).mean(), 0.9)
     assert (found.score.initialization, found.verdict, found.confidence) == ("composition", "sure", 0.9)
     np.testing.assert_array_equal(found.alternatives[0], rough)
-    turned = match_from_map(a, mirror_image(b), np.arange(N), LOCAL, origin="known", orientation="reversing")
+    turned = match_from_map(a, mirror_image(b), np.arange(N), LOCAL, initialization="known", orientation="reversing")
     assert (turned.target_to_source == np.arange(N)).mean() > 0.9
     with pytest.raises(InvalidInput, match="vertices 0 to 399"):
-        match_from_map(a, b, rough + 1, LOCAL, origin="known")
+        match_from_map(a, b, rough + 1, LOCAL, initialization="known")
 
 
 def test_round_trips_of_true_maps_return(shapes: list[Shape]) -> None:

@@ -245,7 +245,7 @@ def test_a_mirrored_shape_is_told_from_a_kept_one(shape, other, monkeypatch):
     monkeypatch.setattr(search, "SCORE", replace(SCORE, congruent_energy=0.0, mirror_margin=100.0))
     kept = search_map(shape, mirrored, SMALL)
     assert (kept.orientation, kept.verdict) == ("preserving", "ambiguous")
-    moved = shape.mesh.vertices[kept.runners_up[0]] * [1, 1, -1] - unit_area(image).vertices
+    moved = shape.mesh.vertices[kept.alternatives[0]] * [1, 1, -1] - unit_area(image).vertices
     assert kept.scores[1] > kept.scores[0] + SCORE.mirror_gain
     assert np.linalg.norm(moved - moved.mean(axis=0), axis=1).mean() < 0.06
 

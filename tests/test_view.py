@@ -179,7 +179,7 @@ def test_page_holds_the_shapes_and_the_map(pair: tuple) -> None:
     source, target, points = pair
     errors = np.linspace(0, 1, 240)
     errors[5] = np.nan
-    html = result_page(source, target, points, errors=errors, runners_up=[points[::-1]], names=("a", "b"))
+    html = result_page(source, target, points, errors=errors, alternatives=[points[::-1]], names=("a", "b"))
     data = page_data(html)
     placed = unpacked(data["source"]["positions"])
     moved = placed - unit_area(source).vertices
@@ -230,7 +230,7 @@ def test_everything_of_two_7000_vertex_meshes_is_below_6_mb() -> None:
         functional_map=rng.random((200, 200)),
         errors=rng.random((4, n)),
         confidence=rng.random((4, n)),
-        runners_up=[rng.permutation(n) for _ in range(3)],
+        alternatives=[rng.permutation(n) for _ in range(3)],
         descriptors=descriptors,
     )
     assert len(html.encode()) < 3e6
@@ -244,7 +244,7 @@ def test_everything_of_two_7000_vertex_meshes_is_below_6_mb() -> None:
     [
         ({"target_to_source": np.zeros(3, int)}, "map"),
         ({"target_to_source": np.full(240, 300)}, "map"),
-        ({"runners_up": [np.full(240, -1)]}, "runner-up 1"),
+        ({"alternatives": [np.full(240, -1)]}, "alternative 1"),
         ({"errors": np.zeros((3, 240))}, "errors"),
         ({"errors": np.zeros(7)}, "errors"),
         ({"confidence": np.zeros(300)}, "confidence"),

@@ -6,6 +6,7 @@ import time
 import warnings
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from typing import Protocol
 
 import numpy as np
 from scipy.sparse import csr_array
@@ -66,6 +67,17 @@ class Shape:
     extent: float | None = None
 
     __repr__ = short_repr
+
+
+class Descriptor(Protocol):
+    """A descriptor of the user's own; one of :attr:`kfmaps.DescriptorConfig.extra`."""
+
+    def compute(self, shape: Shape) -> np.ndarray:
+        """Return a row for each vertex of a prepared shape, and the same columns for every shape, (n, d).
+
+        They must not depend on the order of vertices, on signs of eigenfunctions, or on where the shape lies.
+        """
+        ...
 
 
 @dataclass(frozen=True, eq=False)

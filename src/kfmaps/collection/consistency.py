@@ -143,11 +143,11 @@ def refine_replacement(
         *shapes,
         points,
         config,
-        origin=label,
+        initialization=label,
         orientation="reversing" if turned else "preserving",
         verdict=probability_word(replacement.after.probability),
         confidence=replacement.after.probability,
         quality=replacement.after.score,
-        runners_up=tuple(np.asarray(row) for row in others),
+        alternatives=tuple(np.asarray(row) for row in others),
         rng=seed,
     )

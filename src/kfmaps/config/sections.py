@@ -29,7 +29,8 @@ class DescriptorConfig:
 
     Energies are either spread evenly over the numbers wanted or, as the framework of NO17 does ("every-nth"), there
     are 200 for the signature and for each landmark in one list, from which every n-th is taken. SHOT is the descriptor
-    of Tombari et al. (2010). Normalisations: see :func:`kfmaps.descriptors.spectral.normalised`.
+    of Tombari et al. (2010). Normalisations: see :func:`kfmaps.descriptors.spectral.normalize`. ``extra`` are the
+    user's own (:class:`kfmaps.shape.Descriptor`).
     """
 
     n_spectral: int = setting(100, "spectral descriptors in all, shared out between signature and landmarks", low=1)

@@ -122,7 +122,7 @@ def refine_and_register(task: MatchTask, found: SearchResult, guidance: Descript
         confidence=found.confidence,
         orientation=found.orientation,
         precise_map=None if final.precise_map is None else pair.place(final.precise_map),
-        alternatives=tuple(pair.points(points) for points in found.runners_up),
+        alternatives=tuple(pair.points(points) for points in found.alternatives),
         source_to_target=None if backwards is None else pair.points_back(backwards),
         functional_map_back=refined.functional_map_back,
         score=MatchScore(
@@ -160,12 +160,12 @@ def match_from_map(
     points: np.ndarray,
     config: Config | None = None,
     *,
-    origin: str,
+    initialization: str,
     orientation: Literal["preserving", "reversing"] = "preserving",
     verdict: str = "unchecked",
     confidence: float | None = None,
     quality: float | None = None,
-    runners_up: tuple[np.ndarray, ...] = (),
+    alternatives: tuple[np.ndarray, ...] = (),
     rng: int | np.random.Generator | None = 0,
     progress: Progress | None = None,
 ) -> Match:
@@ -176,11 +176,11 @@ def match_from_map(
     source, target : Shape
     points : (n_t,) whole numbers
         A source vertex for each target vertex: of a composition of other maps, say.
-    origin : str
-        Where it comes from, for :attr:`Match.initialization`.
+    initialization : str
+        Where it comes from, for :attr:`Match.score`.
     orientation : "preserving" or "reversing"
         Whether it is a map to the target or to its mirror image.
-    verdict, confidence, runners_up
+    verdict, confidence, alternatives
         For the fields of the match.
     quality : float, optional
         :attr:`kfmaps.matching.quality.Quality.score` of ``points``: where shapes differ much the refinement ends early.
@@ -201,9 +201,9 @@ def match_from_map(
     size = min(CONTINUED, *(len(shape.basis.eigenvalues) for shape in shapes))
     bases = [shape.basis.truncate(size) for shape in shapes]
     C = to_numpy(to_functional(task.pair.points_within(points), *bases))
-    found = SearchResult(C, origin, None, verdict, confidence, orientation=orientation, quality=quality)
+    found = SearchResult(C, initialization, None, verdict, confidence, orientation=orientation, quality=quality)
     result = refine_and_register(task, found, build_guidance(*shapes, found.landmarks))
-    return replace(result, alternatives=runners_up)
+    return replace(result, alternatives=alternatives)
 
 
 def better_match(one: Match, other: Match) -> Match:

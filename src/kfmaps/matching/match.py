@@ -28,7 +28,7 @@ from kfmaps.matching.partial.match_partial import PartialMatch, describe_part, m
 from kfmaps.matching.quality import ShapeSamples
 from kfmaps.matching.reindexing import reindexing
 from kfmaps.matching.result import Match
-from kfmaps.matching.result_groups import ONE_FIT, MatchFit, MatchPart, MatchRegistration, MatchScore
+from kfmaps.matching.result_groups import ONE_FIT, MatchPart, MatchRegistration, MatchScore
 from kfmaps.matching.score import SCORE
 from kfmaps.matching.search import SearchResult, near_isometric, retry, search_map
 from kfmaps.registration.alternating_registration import WEIGHT, position_normal_guidance
@@ -157,7 +157,6 @@ def _part_result(task: MatchTask, part: PartialMatch, partial: MatchPart) -> Mat
         score=score,
         registration=MatchRegistration(None if registered is None else task.pair.bent(registered)),
         partial=partial,
-        fit=MatchFit(part.functional_map),
     )
 
 

@@ -74,7 +74,7 @@ class SearchResult:
         Probability that the map is right, see :func:`kfmaps.matching.score.probability`.
     scores : tuple of float
         Of the map and of each alternative, higher is better.
-    runners_up : tuple of arrays (n_t,)
+    alternatives : tuple of arrays (n_t,)
         The distinct other maps, best first.
     doubts : tuple of float
         By how much the map precedes the first alternatives, those that were made on purpose: with two limbs exchanged,
@@ -105,7 +105,7 @@ class SearchResult:
     verdict: str
     confidence: float | None = None
     scores: tuple[float, ...] = ()
-    runners_up: tuple[np.ndarray, ...] = ()
+    alternatives: tuple[np.ndarray, ...] = ()
     doubts: tuple[float, ...] = ()
     landmarks: np.ndarray = field(default_factory=lambda: np.zeros((0, 2), dtype=np.int64))
     rejected_landmarks: np.ndarray = field(default_factory=lambda: np.zeros(0, dtype=np.int64))
@@ -354,7 +354,7 @@ def _to_result(state: _Search, best: Candidate, rest: list[Candidate]) -> Search
         confidence=probability(*evidence),
         verdict=verdict(*evidence),
         scores=tuple(float(score) for score in (best.score, *scores)),
-        runners_up=alternative_maps(maps, *bases, config.threads),
+        alternatives=alternative_maps(maps, *bases, config.threads),
         doubts=tuple(margin for _, margin in near)[: len(others)],
         landmarks=state.pairs[~rejected],
         rejected_landmarks=np.flatnonzero(rejected),

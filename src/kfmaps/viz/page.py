@@ -143,7 +143,7 @@ def result_page(
     functional_map: np.ndarray | None = None,
     errors: np.ndarray | None = None,
     confidence: np.ndarray | None = None,
-    runners_up: Sequence[np.ndarray] | np.ndarray = (),
+    alternatives: Sequence[np.ndarray] | np.ndarray = (),
     descriptors: tuple[np.ndarray, np.ndarray] | None = None,
     most_descriptors: int = 12,
     summary: Mapping[str, Any] | None = None,
@@ -164,11 +164,11 @@ def result_page(
         Shown as a picture.
     errors : (n_t,) or (1 + c, n_t), optional
         Distance on the source from each image to the truth, in units of √area; one row for the map, or one
-        more for each runner-up. NaN where the truth is not known.
+        more for each alternative. NaN where the truth is not known.
     confidence : (n_t,) or (1 + c, n_t), optional
         From 0 to 1, higher is surer, as :func:`kfmaps.fmap.confidence.local_confidence` has it; rows as
         for ``errors``.
-    runners_up : (c, n_t) int
+    alternatives : (c, n_t) int
         Other maps, to be switched to.
     descriptors : ((n_s, d), (n_t, d)), optional
         Up to ``most_descriptors`` of the d columns are put in the page.
@@ -196,7 +196,7 @@ def result_page(
     check_count(most_descriptors, "most_descriptors", low=0)
     sizes = len(source.vertices), len(target.vertices)
     points = [check_map(target_to_source, *sizes, lost=True)]
-    points += [check_map(m, *sizes, f"runner-up {i}") for i, m in enumerate(runners_up, 1)]
+    points += [check_map(m, *sizes, f"alternative {i}") for i, m in enumerate(alternatives, 1)]
     labels = ["Best map"] + [f"Alternative {i}" for i in range(1, len(points))]
     matrix = None
     if functional_map is not None:

@@ -85,7 +85,7 @@ def match_page(
         functional_map=getattr(match, "functional_map", None),
         errors=None if truth is None else vertex_errors(source, maps, *truth),
         confidence=_confidences(source, target, maps, getattr(match, "local_confidence", None)),
-        runners_up=match.alternatives,
+        alternatives=match.alternatives,
         descriptors=signatures(source, target) if descriptors else None,
         common=None if overlap is None else overlap > 0.5,
         summary=match_summary(match),
