@@ -200,6 +200,7 @@ def test_refused(shapes: tuple[Shape, Shape], change: Callable[[], Config], part
 def test_settings_files_leave_the_users_objects_out(shapes: tuple[Shape, Shape], tmp_path: Path) -> None:
     """Settings without them do not mention them; with them no file can hold them, and a map's file says so."""
     assert "terms" not in settings_text(ONE)
+    assert "terms" not in as_dict(ONE)
     assert from_dict(json.loads(json.dumps(as_dict(ONE)))) == ONE
     own = with_extra(replace(ONE, terms=(NearIdentity(),)), Positions())
     with pytest.raises(InvalidInput, match="a record that a settings file can name"):

@@ -227,7 +227,8 @@ def record_as_dict(value: Any, kinds: Mapping[str, type], name: Callable[[Any], 
     """
     kind = type(value).__name__
     if type(value) is kinds.get(kind) or getattr(type(value), "is_settings_record", False):
-        inside = {f.name: record_as_dict(getattr(value, f.name), kinds, name) for f in fields(value)}
+        told = [f.name for f in fields(value) if getattr(value, f.name) or not f.metadata.get("python")]
+        inside = {key: record_as_dict(getattr(value, key), kinds, name) for key in told}
         return {"kind": kind, **inside} if kind in kinds else inside
     if isinstance(value, tuple):
         return tuple(record_as_dict(one, kinds, name) for one in value)
