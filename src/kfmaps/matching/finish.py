@@ -136,7 +136,7 @@ def refine_and_register(task: MatchTask, found: SearchResult, guidance: Descript
 
 def _doubt_exchanged(confidence: np.ndarray, points: np.ndarray, found: SearchResult, source: Mesh) -> np.ndarray:
     """Return the local confidence (n_t,), lower where a map with two limbs exchanged that comes near goes elsewhere."""
-    for other, margin in zip(found.runners_up, found.doubts, strict=False):
+    for other, margin in zip(found.alternatives, found.doubts, strict=False):
         if margin >= 0.0:
             moved = np.linalg.norm(source.vertices[other] - source.vertices[points], axis=1) > SCORE.moved_distance
             confidence = confidence * (1.0 - moved * np.exp(-margin / SCORE.calibration.tie))
