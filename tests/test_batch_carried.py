@@ -7,6 +7,7 @@ import itertools
 import json
 from collections.abc import Iterator
 from contextlib import contextmanager
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -17,11 +18,12 @@ from kfmaps._arrays import InvalidInput
 from kfmaps.batch.layout import Pair, find_collection
 from kfmaps.batch.plan import make_plan
 from kfmaps.batch.propagate_landmarks import propagate_landmarks, write_propagated
-from kfmaps.batch.results import result_path
+from kfmaps.batch.results import read_result, result_path, write_result
 from kfmaps.batch.run_spec import RunSpec
 from kfmaps.batch.work import map_path
 from kfmaps.cli.main import main
 from kfmaps.io import load_map, read_mesh, read_vertex_numbers, save_map
+from kfmaps.io.landmark_files import read_landmark_sets
 
 NAMES = ("tip", "base", 'a "quoted", one')
 LINES = np.array([20, 90, 150])
@@ -103,6 +105,26 @@ def test_the_command_writes_csv_and_tps(
     assert "no --collection" in capsys.readouterr().err
     assert main(["transfer", "-o", str(tmp_path / "x.csv")]) == 2
     assert "MAP and VALUES" in capsys.readouterr().err
+
+
+def test_what_fits_none_is_left_out(run: tuple[Path, Path], tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    folder, out = run
+    file = landmark_file(tmp_path / "m.csv", marks(folder))
+    path = result_path(out, "b2-b3")
+    known = path.read_text(encoding="utf-8")
+    try:
+        result = read_result(path)
+        assert result is not None
+        write_result(path, replace(result, confidence=0.12, verdict="unlikely"))
+        words = ["transfer", "--collection", str(out), "--landmarks", str(file), "--on", "b0", "-o"]
+        assert main([*words, str(tmp_path / "all.tps")]) == 0
+        told = capsys.readouterr().err
+        assert "b3 fits none of the others (its maps are right with 12 %): left out; --keep b3 keeps it" in told
+        assert [one.specimen for one in read_landmark_sets(tmp_path / "all.tps")] == ["b0", "b1", "b2"]
+        assert main([*words, str(tmp_path / "kept.tps"), "--keep", "b3"]) == 0
+        assert len(read_landmark_sets(tmp_path / "kept.tps")) == 4
+    finally:
+        path.write_text(known, encoding="utf-8")
 
 
 @contextmanager

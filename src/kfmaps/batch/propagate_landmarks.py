@@ -24,6 +24,8 @@ from kfmaps.io.partial_map import find_counterparts, precise_points
 
 _UNKNOWN = 0.5
 """Probability of a map of which nothing is known."""
+MIN_PROBABILITY = 0.5
+"""Probability of the weakest map on the path below which a specimen fits none of the others."""
 _PAIRS = "pairs.csv"
 
 
@@ -37,11 +39,14 @@ class PropagatedLandmarks:
     points : NamedPoints
     through : tuple of str
         The specimens between it and that with the landmarks.
+    weakest : float
+        The lowest probability of a map on the path.
     """
 
     specimen: str
     points: NamedPoints
     through: tuple[str, ...]
+    weakest: float = 1.0
 
 
 @dataclass(frozen=True)
@@ -100,7 +105,7 @@ def propagate_landmarks(
         back = ends[way.edges[-1]][1] == way.shapes[-2]
         points = carry_points(edge.path, before.points, *sides, back=back, chance=edge.chance)
         through = (*before.through, before.specimen) if before.specimen != start else ()
-        found[at] = PropagatedLandmarks(names[at], points, through)
+        found[at] = PropagatedLandmarks(names[at], points, through, min(before.weakest, edge.chance))
     return list(found.values()), [name for name in names if number[name] not in found]
 
 

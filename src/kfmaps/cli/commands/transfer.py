@@ -37,6 +37,10 @@ def transfer(
         typer.Option(help="Of one specimen, to all of --collection (.mrk.json, .fcsv, .tps, .pts, .csv, .particles)."),
     ] = None,
     on: Annotated[str | None, typer.Option(help="The specimen that --landmarks are on.", metavar="SHAPE")] = None,
+    keep: Annotated[
+        list[str] | None,
+        typer.Option(help="Keep this specimen of --collection though it fits none of the others.", metavar="SHAPE"),
+    ] = None,
     points: Annotated[
         bool, typer.Option("--points", help="VALUES are points (.mrk.json, .fcsv, .tps, .pts, .csv, .particles).")
     ] = False,
@@ -59,7 +63,7 @@ def transfer(
 ) -> None:
     """Carry functions, labels or named points over a map, or landmarks to all shapes of a collection."""
     if collection is not None or landmarks is not None:
-        _everywhere(collection, landmarks, on, output, force, (map, values, source, target))
+        _everywhere(collection, landmarks, on, keep or [], output, force, (map, values, source, target))
     elif map is None or values is None:
         raise refuse("transfer", "MAP and VALUES, or --collection and --landmarks", "neither", "give two of them")
     else:
@@ -106,12 +110,13 @@ def _everywhere(
     collection: Path | None,
     landmarks: Path | None,
     on: str | None,
+    keep: list[str],
     output: Path,
     force: bool,
     others: tuple[Path | None, ...],
 ) -> None:
     """Landmarks of one specimen on all of a collection."""
-    from kfmaps.batch.propagate_landmarks import propagate_landmarks, write_propagated
+    from kfmaps.batch.propagate_landmarks import MIN_PROBABILITY, propagate_landmarks, write_propagated
 
     if collection is None or landmarks is None:
         missing = "--landmarks" if landmarks is None else "--collection"
@@ -122,6 +127,12 @@ def _everywhere(
         raise refuse(f"output {output}", "the extension .csv or .tps", output.suffix or "none", "rename it")
     check_output(output, force, (landmarks,))
     found, missed = propagate_landmarks(collection, landmarks, on)
+    for one in found:
+        if one.weakest < MIN_PROBABILITY:
+            end = "kept" if one.specimen in keep else f"left out; --keep {one.specimen} keeps it"
+            text = f"{one.specimen} fits none of the others (its maps are right with {100 * one.weakest:.0f} %)"
+            warnings.warn(f"{text}: {end}", KfmapsWarning, stacklevel=2)
+    found = [one for one in found if one.weakest >= MIN_PROBABILITY or one.specimen in keep]
     write_propagated(output, found, force)
     if missed:
         text = f"no map leads to {', '.join(missed[:5])}{' and others' if len(missed) > 5 else ''}"
