@@ -46,7 +46,7 @@ from kfmaps.io.named_points import read_named_points
 from kfmaps.io.record import MeshFile
 from kfmaps.matching.result import Match
 from kfmaps.viz.picker import Picker, PickerServer
-from kfmaps.viz.server import LOOPBACK
+from kfmaps.viz.server import _LOOPBACK
 
 MOST_MEMORY = 3 << 30
 """Bytes that the process may take; a file that wants more is an error."""
@@ -153,7 +153,7 @@ def fuzz_server(seconds: float, seed: int) -> int:
         serving = PickerServer(Picker(mesh, mesh, ("a", "b"), Path(name) / "p.txt"))
         thread = threading.Thread(target=serving.server.serve_forever)
         thread.start()
-        where, token = f"{LOOPBACK}:{serving.server.port}", serving.server.token
+        where, token = f"{_LOOPBACK}:{serving.server.port}", serving.server.token
         body = json.dumps({"pairs": [[1, 2], [3, 4]]})
         head = f"POST /{token}/save HTTP/1.1\r\nHost: {where}\r\nContent-Type: application/json\r\n"
         good = f"{head}Content-Length: {len(body)}\r\n\r\n{body}".encode()
@@ -163,7 +163,7 @@ def fuzz_server(seconds: float, seed: int) -> int:
             seed += 1
             rng = np.random.default_rng(seed)
             for request in (damaged(chunked if seed % 3 == 0 else good, [good, chunked], rng), good):
-                with socket.create_connection((LOOPBACK, serving.server.port), timeout=10) as connection:
+                with socket.create_connection((_LOOPBACK, serving.server.port), timeout=10) as connection:
                     connection.sendall(request)
                     connection.shutdown(socket.SHUT_WR)
                     try:

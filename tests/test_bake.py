@@ -20,7 +20,7 @@ from kfmaps.fmap.precise import PointMap, vertex_point_map
 from kfmaps.geometry.closest_points import closest_points
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.io import MeshFile, grid_picture, read_mesh_file, write_textured
-from kfmaps.io.bake import bake_texture, can_bake, decode_picture, encode_png, find_texels, sample_picture
+from kfmaps.io.bake import _find_texels, _sample_picture, bake_texture, can_bake, decode_picture, encode_png
 from kfmaps.io.convert import as_map
 from kfmaps.io.export import transfer_uv
 from kfmaps.io.glb import format_glb
@@ -52,7 +52,7 @@ def test_texels_are_where_the_triangle_is() -> None:
     """Against every texel's centre, one by one; together they have its area."""
     size = 64
     corners = np.array([[[0.1, 0.2], [0.8, 0.3], [0.4, 0.9]]])
-    face, texel, weights = find_texels(corners, size)
+    face, texel, weights = _find_texels(corners, size)
     x, y = (texel % size + 0.5) / size, 1 - (texel // size + 0.5) / size
     np.testing.assert_allclose(np.einsum("qi,qij->qj", weights, corners[face]), np.stack([x, y], axis=1))
     assert weights.min() >= -1e-6
@@ -64,10 +64,10 @@ def test_texels_are_where_the_triangle_is() -> None:
 def test_colours_are_linear_between_texels_and_repeat() -> None:
     pixels = np.random.default_rng(0).random((4, 8, 3))
     centres = np.stack([(np.arange(8) + 0.5) / 8, np.full(8, 1 - 1.5 / 4)], axis=1)
-    np.testing.assert_allclose(sample_picture(pixels, centres), pixels[1])
+    np.testing.assert_allclose(_sample_picture(pixels, centres), pixels[1])
     between = (centres[:-1] + centres[1:]) / 2
-    np.testing.assert_allclose(sample_picture(pixels, between), (pixels[1, :-1] + pixels[1, 1:]) / 2)
-    np.testing.assert_allclose(sample_picture(pixels, centres + np.array([2, -1])), sample_picture(pixels, centres))
+    np.testing.assert_allclose(_sample_picture(pixels, between), (pixels[1, :-1] + pixels[1, 1:]) / 2)
+    np.testing.assert_allclose(_sample_picture(pixels, centres + np.array([2, -1])), _sample_picture(pixels, centres))
 
 
 def test_the_identity_gives_back_the_picture() -> None:
@@ -79,7 +79,7 @@ def test_the_identity_gives_back_the_picture() -> None:
     place = vertex_point_map(np.arange(60), shape.mesh)
     uv, uv_faces = shape.uv, shape.uv_faces
     found = bake_texture(shape, shape, pixels, uv, uv_faces, None, size=256)
-    _, texel, _ = find_texels(uv[uv_faces], 256)
+    _, texel, _ = _find_texels(uv[uv_faces], 256)
     rows = found.reshape(-1, 3)
     np.testing.assert_array_equal(rows[texel], np.rint(255 * pixels.reshape(-1, 3))[texel])
     # With points in triangles every face lies over a seam here, and every texel finds itself on the surface.
@@ -101,7 +101,7 @@ def test_a_picture_goes_around_a_seam_without_a_scar() -> None:
     pixels = round_picture()
     uv, uv_faces = transfer_uv(source, mesh, points, place)
     picture = bake_texture(source, target, pixels, uv, uv_faces, place, size=512).reshape(-1, 3) / 255.0
-    face, texel, weights = find_texels(target.uv[target.uv_faces], 512)
+    face, texel, weights = _find_texels(target.uv[target.uv_faces], 512)
     at = np.einsum("qi,qij->qj", weights, mesh.vertices[mesh.faces[face]])
     angle = np.arctan2(at[:, 1], at[:, 0]) + np.pi
     true = np.stack([0.5 + 0.5 * np.cos(angle), 0.5 + 0.5 * np.sin(angle), 0.5 + 0.5 * at[:, 2]], axis=1)
@@ -127,7 +127,7 @@ def test_faces_outside_a_part_have_one_colour(tmp_path: Path) -> None:
     found = read_mesh_file(tmp_path / "b.glb").picture
     assert found is not None
     picture = decode_picture(found)
-    face, texel, _ = find_texels(target.uv[target.uv_faces], len(picture))
+    face, texel, _ = _find_texels(target.uv[target.uv_faces], len(picture))
     outside = away[source.mesh.faces].max(axis=1)[face]
     colours = picture.reshape(-1, 3)[texel]
     assert np.ptp(colours[outside], axis=0).max() == 0

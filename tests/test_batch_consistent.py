@@ -27,7 +27,7 @@ from kfmaps.batch.run import run_batch, write_outputs
 from kfmaps.batch.run_spec import RunSpec
 from kfmaps.batch.work import map_path
 from kfmaps.io import load_map, save_map
-from kfmaps.io.atomic import UNFINISHED
+from kfmaps.io.atomic import _UNFINISHED
 from test_batch_run import until
 
 GUARDS = ("kfmaps.collection.repair", "kfmaps.collection.synchronization")
@@ -266,12 +266,12 @@ def test_a_kill_while_maps_are_made_to_agree_loses_nothing(tmp_path: Path) -> No
     assert plain(last.results) == plain(wanted.results)
     ours, theirs = (load_map(replacement_map(f, "b1-b3")).target_to_source for f in (out, reference))
     np.testing.assert_array_equal(ours, theirs)
-    assert not list(out.rglob(f"{UNFINISHED}*"))
+    assert not list(out.rglob(f"{_UNFINISHED}*"))
 
 
 def finished(folder: Path, pattern: str) -> list[Path]:
     """Files that are whole: what is being written has a name of its own."""
-    return [p for p in folder.glob(pattern) if not p.name.startswith(UNFINISHED)]
+    return [p for p in folder.glob(pattern) if not p.name.startswith(_UNFINISHED)]
 
 
 def done_results(folder: Path) -> list[Result]:

@@ -71,7 +71,7 @@ def test_torus_has_its_area() -> None:
 
 @pytest.mark.parametrize("count", [801, 802, 803, 804, 3500])
 def test_subdivided_meshes_are_as_good(count: int, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(surface, "SCATTERED", 400)
+    monkeypatch.setattr(surface, "_SCATTERED", 400)
     for mesh, genus in ((datasets.sphere(count), 0), (datasets.torus(count), 1)):
         assert len(mesh.vertices) == count
         assert surface.is_closed(mesh.faces, count, genus)
@@ -83,8 +83,8 @@ def test_subdivided_meshes_are_as_good(count: int, monkeypatch: pytest.MonkeyPat
 
 
 def test_large_pairs_have_their_exact_truth(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(surface, "SCATTERED", 2000)
-    monkeypatch.setattr(skeleton, "BLOCK", 4000)
+    monkeypatch.setattr(surface, "_SCATTERED", 2000)
+    monkeypatch.setattr(skeleton, "_BLOCK", 4000)
     pair = datasets.two_poses(6001)
     assert (len(pair.source.vertices), len(pair.target.vertices)) == (6001, 4801)
     for mesh in (pair.source, pair.target):
@@ -101,7 +101,7 @@ def test_working_in_blocks_changes_nothing(monkeypatch: pytest.MonkeyPatch) -> N
     body = Body(CREATURE)
     points = np.random.default_rng(0).uniform(body.box()[0], body.box()[1], (2500, 3))
     one = (*body(points), body.bend(points, WAVE))
-    monkeypatch.setattr(skeleton, "BLOCK", 999)
-    monkeypatch.setattr(skeleton, "MAX_POINTS", 999)
+    monkeypatch.setattr(skeleton, "_BLOCK", 999)
+    monkeypatch.setattr(skeleton, "_MAX_POINTS", 999)
     for a, b in zip(one, (*body(points), body.bend(points, WAVE)), strict=True):
         np.testing.assert_allclose(a, b, atol=1e-12)

@@ -353,7 +353,7 @@ def tiny(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Options:
     monkeypatch.setattr(figure5, "kernels", lambda: {k: small(c) for k, c in both[1]().items()})
     monkeypatch.setattr(figure4, "settings", lambda n, alone: {k: small(c) for k, c in both[2](n, alone).items()})
     monkeypatch.setattr(figure4, "COUNTS", (2,))
-    monkeypatch.setattr(surfaces, "ENOUGH", 0)
+    monkeypatch.setattr(surfaces, "_ENOUGH", 0)
     monkeypatch.setattr(figure3, "RANKS", (5, 20, 400))
     monkeypatch.setattr(figure3, "SEEDS", (0,))
     for name in ("paper", "recommended"):

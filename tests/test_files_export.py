@@ -19,7 +19,7 @@ from kfmaps.io import (
     write_colored,
     write_textured,
 )
-from kfmaps.io.export import transfer_uv_faces
+from kfmaps.io.export import _transfer_uv_faces
 
 
 def globe(n: int = 120) -> MeshFile:
@@ -48,7 +48,7 @@ def test_the_identity_gives_back_the_texture() -> None:
     assert source.uv is not None
     assert source.uv_faces is not None
     assert (sizes(source.uv, source.mesh.faces) > sizes(source.uv, source.uv_faces) + 0.5).any(), "there is a seam"
-    carried = transfer_uv_faces(source, source.mesh, np.arange(len(source.mesh.vertices)))
+    carried = _transfer_uv_faces(source, source.mesh, np.arange(len(source.mesh.vertices)))
     assert (sizes(source.uv, carried) <= sizes(source.uv, source.uv_faces) + 1e-12).all()
     # which copy of the picture does not matter: each corner is its vertex's own
     moved = source.uv[carried] - source.uv[source.mesh.faces]
@@ -59,7 +59,7 @@ def test_another_triangulation_has_no_stretched_faces_either() -> None:
     source, target = globe(), fibonacci_sphere(300, twist=1.0)
     assert source.uv is not None
     points = ((target.vertices[:, None] - source.mesh.vertices) ** 2).sum(axis=-1).argmin(axis=1)
-    carried = transfer_uv_faces(source, target, points)
+    carried = _transfer_uv_faces(source, target, points)
     away = np.abs(target.vertices[target.faces][..., 2]).max(axis=1) < 0.8  # near the poles longitude is wild
     plain = spread(source.uv, points[target.faces])[away, 0]
     assert plain.max() > 0.5
@@ -70,7 +70,7 @@ def test_the_best_of_all_combinations_is_taken() -> None:
     rng = np.random.default_rng(0)
     mesh = fibonacci_sphere(30)
     uv, uv_faces = rng.random((90, 2)), mesh.faces + 30 * rng.integers(0, 3, mesh.faces.shape)
-    carried = transfer_uv_faces(MeshFile(mesh, None, uv, uv_faces), mesh, np.arange(30))
+    carried = _transfer_uv_faces(MeshFile(mesh, None, uv, uv_faces), mesh, np.arange(30))
     options = [np.unique(uv_faces[mesh.faces == v]) for v in range(30)]
     for face, chosen in zip(mesh.faces, carried, strict=True):
 
@@ -90,7 +90,7 @@ def test_vertices_without_texture_borrow_from_the_nearest() -> None:
         Mesh(np.vstack([source.mesh.vertices, lonely]), source.mesh.faces), None, source.uv, source.uv_faces
     )
     target = fibonacci_sphere(20)
-    carried = transfer_uv_faces(extended, target, np.full(20, 60))
+    carried = _transfer_uv_faces(extended, target, np.full(20, 60))
     np.testing.assert_allclose(
         source.uv[carried] % 1, np.broadcast_to(source.uv[7] % 1, (*carried.shape, 2)), atol=1e-12
     )
@@ -98,7 +98,7 @@ def test_vertices_without_texture_borrow_from_the_nearest() -> None:
 
 def test_there_must_be_coordinates_to_carry() -> None:
     with pytest.raises(InvalidInput, match="texture coordinates, got none"):
-        transfer_uv_faces(MeshFile(blob(30)), blob(30), np.arange(30))
+        _transfer_uv_faces(MeshFile(blob(30)), blob(30), np.arange(30))
 
 
 def test_textured_files(tmp_path: Path) -> None:

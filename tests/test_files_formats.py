@@ -16,7 +16,7 @@ from conftest import blob
 from kfmaps._arrays import InvalidInput, KfmapsWarning
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.io import MeshFile, read_mesh, read_mesh_file, write_mesh
-from kfmaps.io.meshes import parse_xyz
+from kfmaps.io.meshes import _parse_xyz
 from kfmaps.io.obj import format_obj, parse_obj
 from kfmaps.io.off import format_off, parse_off
 from kfmaps.io.ply import format_ply, parse_ply
@@ -191,7 +191,7 @@ def test_ply_of_points(lines: tuple[str, ...], text: bool) -> None:
 @pytest.mark.parametrize("columns", ["", " 0 0 1", " 255 0 0", " 0 0 1 255 0 0"])
 def test_point_clouds(columns: str) -> None:
     text = "# points\n" + "".join(f"{x} {y} {z}{columns}\n" for x, y, z in PLACES)
-    same(parse_xyz(text.encode(), "a.xyz"), faces=[])
+    same(_parse_xyz(text.encode(), "a.xyz"), faces=[])
 
 
 @pytest.mark.parametrize("values", [np.ones(2), np.ones(4)])
@@ -199,9 +199,9 @@ def test_a_numpy_that_stops_early_is_not_trusted(monkeypatch: pytest.MonkeyPatch
     """Some versions give what they could read instead of an error."""
     monkeypatch.setattr(np, "fromstring", lambda *_, **__: values)
     with pytest.raises(InvalidInput, match="line 1: expected numbers, got 'x'"):
-        parse_xyz(b"1 2 x", "a.xyz")
+        _parse_xyz(b"1 2 x", "a.xyz")
     with pytest.raises(InvalidInput, match=r"a\.xyz: expected numbers"):
-        parse_xyz(b"1 2 3", "a.xyz")
+        _parse_xyz(b"1 2 3", "a.xyz")
 
 
 def test_polygons_become_fans_in_order() -> None:

@@ -9,7 +9,7 @@ from kfmaps.geometry.mesh import Mesh
 from kfmaps.io import read_mesh_file
 from kfmaps.io.bake import encode_png
 from kfmaps.io.export import write_morph, write_textured
-from kfmaps.io.obj import read_materials
+from kfmaps.io.obj import _read_materials
 from kfmaps.io.record import MeshFile, Picture
 
 pytestmark = pytest.mark.filterwarnings("ignore:.*boundary loop")
@@ -80,7 +80,7 @@ def test_pictures_that_are_not_there_or_not_as_they_are_count_as_none(tmp_path: 
     ],
 )
 def test_options_before_the_name(line: str, file: str | None) -> None:
-    assert read_materials(f"# m\nmap_Kd stray.png\nnewmtl my skin\nKd 1 1 1\n{line}\n") == {"my skin": file}
+    assert _read_materials(f"# m\nmap_Kd stray.png\nnewmtl my skin\nKd 1 1 1\n{line}\n") == {"my skin": file}
 
 
 @pytest.fixture

@@ -30,7 +30,7 @@ from kfmaps.io import load_map, read_landmark_names, read_landmarks, write_landm
 from kfmaps.matching.result import Match
 from kfmaps.viz.picker import Picker, PickerServer, check_pairs
 from kfmaps.viz.runs import Progress, Runs
-from kfmaps.viz.server import LOOPBACK, LocalServer, page_reply
+from kfmaps.viz.server import _LOOPBACK, LocalServer, page_reply
 
 SOURCE, TARGET = sphere(200, rng=0), sphere(160, rng=1)
 PAIRS = [[3, 5], [199, 159]]
@@ -60,10 +60,10 @@ class Client:
         headers: dict[str, str] | None = None,
         host: str | None = None,
     ) -> Answer:
-        connection = http.client.HTTPConnection(LOOPBACK, self.port, timeout=60)
+        connection = http.client.HTTPConnection(_LOOPBACK, self.port, timeout=60)
         try:
             connection.putrequest(method, path, skip_host=True)
-            connection.putheader("Host", host or f"{LOOPBACK}:{self.port}")
+            connection.putheader("Host", host or f"{_LOOPBACK}:{self.port}")
             for name, value in (headers or {}).items():
                 connection.putheader(name, value)
             if body is not None:
@@ -159,7 +159,7 @@ def test_other_hosts_names_are_refused(serve: Serve, host: str) -> None:
 
 def test_this_machines_names_are_welcome(serve: Serve) -> None:
     client = serve()
-    for name in ("localhost", LOOPBACK):
+    for name in ("localhost", _LOOPBACK):
         own = f"{name}:{client.port}"
         assert client.ask("GET", client.path, headers={"Origin": f"http://{own}"}, host=own).status == 200
 
@@ -248,8 +248,8 @@ def test_requests_that_are_no_json_are_refused(serve: Serve, body: bytes, kind: 
 @pytest.mark.parametrize("length", ["9" * 5000, "1" + "0" * 18, str((1 << 20) + 1), "-1", "x", "5, 6", ""])
 def test_lengths_that_are_none_are_refused(serve: Serve, tmp_path: Path, length: str) -> None:
     client = serve()
-    head = f"POST {client.path}save HTTP/1.1\r\nHost: {LOOPBACK}:{client.port}\r\nContent-Type: application/json\r\n"
-    with socket.create_connection((LOOPBACK, client.port), timeout=60) as connection:
+    head = f"POST {client.path}save HTTP/1.1\r\nHost: {_LOOPBACK}:{client.port}\r\nContent-Type: application/json\r\n"
+    with socket.create_connection((_LOOPBACK, client.port), timeout=60) as connection:
         connection.sendall(f"{head}Content-Length: {length}\r\n\r\n".encode())
         reply = b"".join(iter(lambda: connection.recv(4096), b""))
     assert reply.startswith(b"HTTP/1.1 400 ")
@@ -418,7 +418,7 @@ main(["landmarks", "a.off", "b.off", "--landmarks", "old.txt", "--no-browser"])
         try:
             assert running.stdout is not None
             address = running.stdout.readline().strip()
-            assert address.startswith(f"http://{LOOPBACK}:"), running.communicate()
+            assert address.startswith(f"http://{_LOOPBACK}:"), running.communicate()
             with urlopen(address, timeout=60) as page:
                 assert f'"pairs":{json.dumps(PAIRS, separators=(",", ":"))}' in page.read().decode()
             running.send_signal(signal.SIGINT)
@@ -447,7 +447,7 @@ def test_the_browsers_command_line_does_not_have_the_address(tmp_path: Path, mon
     monkeypatch.setattr(LocalServer, "serve_forever", lambda _: None)
     done = run("landmarks", "a.off", "a.off")
     address = done.stdout.splitlines()[0]
-    assert address.startswith(f"http://{LOOPBACK}:")
+    assert address.startswith(f"http://{_LOOPBACK}:")
     assert urlsplit(address).path.strip("/") not in opened[0]
     assert opened[0].startswith("file:")
     assert f"url={address}" in opened[1]
@@ -501,9 +501,9 @@ def test_who_sends_a_byte_now_and_then_is_not_kept(
     serve: Serve, opening: bytes, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """A request has so many seconds in all, however the bytes of it are spread."""
-    monkeypatch.setattr("kfmaps.viz.server.MAX_SECONDS", 0.5)
+    monkeypatch.setattr("kfmaps.viz.server._MAX_SECONDS", 0.5)
     client = serve()
-    with socket.create_connection((LOOPBACK, client.port), timeout=60) as connection, suppress(ConnectionError):
+    with socket.create_connection((_LOOPBACK, client.port), timeout=60) as connection, suppress(ConnectionError):
         connection.sendall(opening.replace(b"{path}", client.path.encode()))
         connection.settimeout(0.05)
         while True:  # without an end where the server waits on
@@ -514,14 +514,14 @@ def test_who_sends_a_byte_now_and_then_is_not_kept(
 
 
 def test_who_never_reads_the_answer_is_not_kept(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("kfmaps.viz.server.MAX_SECONDS", 0.2)
+    monkeypatch.setattr("kfmaps.viz.server._MAX_SECONDS", 0.2)
     closed, close = threading.Event(), HTTP1Connection.close
     monkeypatch.setattr(HTTP1Connection, "close", lambda self: (close(self), closed.set()))
     with closing(LocalServer({("GET", ""): lambda _: page_reply("x" * (1 << 26))})) as server:
         thread = threading.Thread(target=server.serve_forever)
         thread.start()
-        with socket.create_connection((LOOPBACK, server.port), timeout=60) as connection:
-            connection.sendall(f"GET /{server.token}/ HTTP/1.1\r\nHost: {LOOPBACK}:{server.port}\r\n\r\n".encode())
+        with socket.create_connection((_LOOPBACK, server.port), timeout=60) as connection:
+            connection.sendall(f"GET /{server.token}/ HTTP/1.1\r\nHost: {_LOOPBACK}:{server.port}\r\n\r\n".encode())
             assert closed.wait(60)
         server.shutdown()
         thread.join()
@@ -552,11 +552,11 @@ def test_a_hundred_saves_at_once_are_all_answered(serve: Serve, tmp_path: Path) 
 def test_twenty_chunked_saves_at_once_are_all_answered(serve: Serve) -> None:
     """A client that does not know the length before it sends says so, and is understood."""
     client = serve()
-    head = f"POST {client.path}save HTTP/1.1\r\nHost: {LOOPBACK}:{client.port}\r\nContent-Type: application/json\r\n"
+    head = f"POST {client.path}save HTTP/1.1\r\nHost: {_LOOPBACK}:{client.port}\r\nContent-Type: application/json\r\n"
     body = json.dumps({"pairs": PAIRS}).encode()
     with ExitStack() as stack:
         connections = [
-            stack.enter_context(socket.create_connection((LOOPBACK, client.port), timeout=60)) for _ in range(20)
+            stack.enter_context(socket.create_connection((_LOOPBACK, client.port), timeout=60)) for _ in range(20)
         ]
         for connection in connections:
             connection.sendall(f"{head}Transfer-Encoding: chunked\r\n\r\n{len(body):x}\r\n".encode())

@@ -26,8 +26,8 @@ torch = pytest.importorskip("torch")
 
 from kfmaps.learn import losses  # noqa: E402
 from kfmaps.learn.energy import (  # noqa: E402
+    _feature_operators,
     differentiable_minimum,
-    feature_operators,
     nystrom_features,
     pair_energy,
 )
@@ -65,9 +65,9 @@ def minimum(parts, weights, bases):
 
 TERMS = {
     "descriptors": lambda s, t, F, G: descriptor_term(s, F, t, G),
-    "slices": lambda s, t, F, G: operator_term(feature_operators(s, F), feature_operators(t, G)),
+    "slices": lambda s, t, F, G: operator_term(_feature_operators(s, F), _feature_operators(t, G)),
     "antisymmetric slices": lambda s, t, F, G: operator_term(
-        _skew(feature_operators(s, F)), _skew(feature_operators(t, G)), -1
+        _skew(_feature_operators(s, F)), _skew(_feature_operators(t, G)), -1
     ),
     "kernel descriptors": lambda s, t, F, G: kernel_descriptor_term(Gaussian(0.3), s, F, t, G, block=5),
     "hadamard": lambda s, t, F, G: hadamard_term(Gaussian(0.3), s, F, t, G, block=5),

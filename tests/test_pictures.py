@@ -13,7 +13,7 @@ from kfmaps import viz as pictures
 from kfmaps._arrays import InvalidInput
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.viz import surfaces
-from kfmaps.viz.colors import oklab_to_rgb
+from kfmaps.viz.colors import _oklab_to_rgb
 from kfmaps.viz.figures import make_transparent
 
 RED, BLUE = np.array([0.9, 0.1, 0.1]), np.array([0.1, 0.2, 0.9])
@@ -209,11 +209,11 @@ def test_position_colours_know_places_but_not_units() -> None:
 
 
 def test_oklab_has_its_greys_and_its_primaries() -> None:
-    greys = oklab_to_rgb(np.array([[0.0, 0, 0], [0.6, 0, 0], [1, 0, 0]]))
+    greys = _oklab_to_rgb(np.array([[0.0, 0, 0], [0.6, 0, 0], [1, 0, 0]]))
     np.testing.assert_allclose(greys, np.repeat(greys[:, :1], 3, axis=1), atol=1e-3)
     np.testing.assert_allclose(greys[[0, 2], 0], [0, 1], atol=1e-3)
     red_and_blue = np.array([[0.62796, 0.22486, 0.12585], [0.45201, -0.03246, -0.31153]])
-    np.testing.assert_allclose(oklab_to_rgb(red_and_blue), [[1, 0, 0], [0, 0, 1]], atol=6e-3)
+    np.testing.assert_allclose(_oklab_to_rgb(red_and_blue), [[1, 0, 0], [0, 0, 1]], atol=6e-3)
 
 
 def test_automatic_view_faces_the_broad_side() -> None:
@@ -268,7 +268,7 @@ def test_the_target_is_seen_from_the_same_side() -> None:
 
 
 def test_saved_by_extension_and_the_same_bytes_each_time(tmp_path, monkeypatch) -> None:
-    monkeypatch.setattr(surfaces, "ENOUGH", 1000)
+    monkeypatch.setattr(surfaces, "_ENOUGH", 1000)
     mesh = blob()
     for kind, start in (("png", b"\x89PNG"), ("svg", b"<?xml"), ("pdf", b"%PDF")):
         files = [tmp_path / f"{i}.{kind}" for i in range(2)]

@@ -32,8 +32,8 @@ from kfmaps.viz import (
     save_figure,
     true_views,
 )
-from kfmaps.viz.camera import LIKENESS, fit_rotation
-from kfmaps.viz.grids import LABEL
+from kfmaps.viz.camera import _LIKENESS, fit_rotation
+from kfmaps.viz.grids import _LABEL
 
 THRESHOLDS = np.linspace(0, 0.25, 11)
 
@@ -109,7 +109,7 @@ def test_panels_lie_apart_and_inside(count: int) -> None:
     assert len(boxes) == count + 1
     for i, a in enumerate(boxes):
         assert a.x0 >= 0
-        assert a.y0 >= LABEL / figure.get_figheight() * 0.99
+        assert a.y0 >= _LABEL / figure.get_figheight() * 0.99
         assert max(a.x1, a.y1) <= 1 + 1e-9
         assert not any(a.overlaps(b) for b in boxes[:i])
 
@@ -189,7 +189,7 @@ def test_views_follow_the_truth_and_not_the_map() -> None:
     back_for_front = np.asarray(KDTree(mesh.vertices).query(turned.vertices)[1])
     assert following_view(seen, mesh, mesh, back_for_front) is seen
     turn, alike = fit_rotation(_centred(mesh.vertices[back_for_front]), _centred(mesh.vertices))
-    assert alike > LIKENESS, "the map alone says that the camera should go round"
+    assert alike > _LIKENESS, "the map alone says that the camera should go round"
     assert np.trace(turn) < 0
     figure = match_figure(mesh, turned, nonsense, view=seen, target_view=followed)
     own, same = (ax.get_xlim() for ax in figure.axes[:2])

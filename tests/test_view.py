@@ -31,7 +31,7 @@ from kfmaps.viz.document import asset
 from kfmaps.viz.encode import encode_floats, encode_integers, json_block, to_json
 from kfmaps.viz.fields import area_distortion, rotation_by_map
 from kfmaps.viz.page import result_page
-from kfmaps.viz.result_pages import match_page, match_summary, signatures, vertex_errors
+from kfmaps.viz.result_pages import _match_summary, match_page, signatures, vertex_errors
 
 WEB = Path(__file__).parents[1] / "web"
 NO_FACES = np.zeros((0, 3), int)
@@ -311,15 +311,15 @@ def a_match() -> Match:
 
 
 def test_summary_of_a_match_is_json() -> None:
-    summary = match_summary(a_match())
+    summary = _match_summary(a_match())
     assert json.loads(json.dumps(summary)) == summary
     assert summary["residuals"] == [1, 0.5, 0.0625]
     assert summary["times"] == {"solve": 0.5}
     assert summary["energies"] == {"laplacian": 1.5}
     assert summary["settings"]["nystrom"]["samples"] == Config.single_fit().nystrom.samples
     assert "confidence" not in summary
-    assert match_summary(a_match().replaced(confidence=0.25))["confidence"] == 0.25
-    assert "energies" not in match_summary(a_match().replaced(fit=MatchFit()))
+    assert _match_summary(a_match().replaced(confidence=0.25))["confidence"] == 0.25
+    assert "energies" not in _match_summary(a_match().replaced(fit=MatchFit()))
 
 
 def test_page_of_a_file_shows_what_the_file_holds(pair: tuple) -> None:

@@ -26,7 +26,7 @@ NOTHING = ("none", "all", "automatic")
 Kinds = Mapping[Any, tuple[type, ...]]
 """The record classes behind type hints that do not list them, such as a protocol."""
 
-_T = TypeVar("T")
+_T = TypeVar("_T")
 
 
 @dataclass(frozen=True)

@@ -28,19 +28,19 @@ __all__ = [
     "vase",
 ]
 
-MAX_VERTICES = 300_000
+_MAX_VERTICES = 300_000
 """Number of vertices of the largest mesh."""
 
-Seed = int | np.random.Generator
+_Seed = int | np.random.Generator
 
 
 def _counts(vertices: int) -> tuple[int, int]:
     """Return the number of vertices of source and target, a fifth fewer."""
-    check_count(vertices, "vertices", low=1500, high=MAX_VERTICES)
+    check_count(vertices, "vertices", low=1500, high=_MAX_VERTICES)
     return vertices, round(0.8 * vertices)
 
 
-def two_poses(vertices: int = 6000, rng: Seed = 0) -> ExamplePair:
+def two_poses(vertices: int = 6000, rng: _Seed = 0) -> ExamplePair:
     """Return a creature in two poses, meshed independently; no side of it is like the other.
 
     The poses bend it along its limbs, which changes lengths little: of the edges of one mesh, in the
@@ -65,7 +65,7 @@ def two_poses(vertices: int = 6000, rng: Seed = 0) -> ExamplePair:
     return posed_pair("two poses", Body(CREATURE), WAVE, DANCE, _counts(vertices), rng)
 
 
-def non_isometric(vertices: int = 6000, rng: Seed = 0) -> ExamplePair:
+def non_isometric(vertices: int = 6000, rng: _Seed = 0) -> ExamplePair:
     """Return the creature of :func:`two_poses`, and a relative with a fat belly, long legs and a short tail.
 
     Lengths differ by up to a half between the two, the area by a third. Parameters, result and errors as in
@@ -77,7 +77,7 @@ def non_isometric(vertices: int = 6000, rng: Seed = 0) -> ExamplePair:
     return posed_pair("non-isometric", Body(CREATURE), WAVE, bent, counts, rng, unbent_t=unbent)
 
 
-def partial(vertices: int = 6000, rng: Seed = 0, kept: float = 0.6) -> ExamplePair:
+def partial(vertices: int = 6000, rng: _Seed = 0, kept: float = 0.6) -> ExamplePair:
     """Return the creature of :func:`two_poses`, and a part of it in the other pose, cut off obliquely.
 
     Parameters
@@ -113,7 +113,7 @@ def partial(vertices: int = 6000, rng: Seed = 0, kept: float = 0.6) -> ExamplePa
     )
 
 
-def symmetric_creature(vertices: int = 6000, rng: Seed = 0) -> ExamplePair:
+def symmetric_creature(vertices: int = 6000, rng: _Seed = 0) -> ExamplePair:
     """Return two poses of a creature whose right side is the mirror image of its left.
 
     Lengths alone cannot tell the direct truth from ``mirrored``; only orientation can. The poses are not
@@ -124,7 +124,7 @@ def symmetric_creature(vertices: int = 6000, rng: Seed = 0) -> ExamplePair:
     return posed_pair("symmetric creature", Body(SYMMETRIC), WAVE, DANCE, counts, rng, mirror=True)
 
 
-def _revolve(body: Body, vertices: int, rng: Seed) -> Mesh:
+def _revolve(body: Body, vertices: int, rng: _Seed) -> Mesh:
     """Return the surface of revolution about the y axis of a body lying in the half-plane z = 0, x >= 0."""
 
     def field(points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -138,20 +138,20 @@ def _revolve(body: Body, vertices: int, rng: Seed) -> Mesh:
     return Mesh(*closed_mesh(field, box, vertices, np.random.default_rng(rng)))
 
 
-def vase(vertices: int = 5000, rng: Seed = 0) -> Mesh:
+def vase(vertices: int = 5000, rng: _Seed = 0) -> Mesh:
     """Return a hollow vase, a surface of revolution about the y axis, with ``vertices`` (3000 to 300000) vertices.
 
     Rotation about the axis changes nothing, so no map between two of them is the right one.
     """
-    check_count(vertices, "vertices", low=3000, high=MAX_VERTICES)
+    check_count(vertices, "vertices", low=3000, high=_MAX_VERTICES)
     profile = ((0, 0), (0.30, 0.02), (0.52, 0.30), (0.55, 0.58), (0.36, 0.95), (0.28, 1.2), (0.42, 1.45))
     wall = Limb("wall", None, tuple((x, y, 0) for x, y in profile), (0.07,) * len(profile))
     return _revolve(Body((wall,), segments=60), vertices, rng)
 
 
-def sphere(vertices: int = 2000, rng: Seed = 0) -> Mesh:
+def sphere(vertices: int = 2000, rng: _Seed = 0) -> Mesh:
     """Return the unit sphere with ``vertices`` (100 to 300000) evenly spread random vertices."""
-    check_count(vertices, "vertices", low=100, high=MAX_VERTICES)
+    check_count(vertices, "vertices", low=100, high=_MAX_VERTICES)
 
     def field(points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         radius = np.linalg.norm(points, axis=1)
@@ -162,12 +162,12 @@ def sphere(vertices: int = 2000, rng: Seed = 0) -> Mesh:
     return Mesh(*closed_mesh(field, box, vertices, np.random.default_rng(rng), scattered=4000))
 
 
-def torus(vertices: int = 2000, rng: Seed = 0, tube: float = 0.4) -> Mesh:
+def torus(vertices: int = 2000, rng: _Seed = 0, tube: float = 0.4) -> Mesh:
     """Return the torus (genus 1) of radius 1 about the y axis, with ``vertices`` (400 to 300000) vertices.
 
     Its tube's radius is ``tube``, from 0.2 to 0.8.
     """
-    check_count(vertices, "vertices", low=400, high=MAX_VERTICES)
+    check_count(vertices, "vertices", low=400, high=_MAX_VERTICES)
     if not 0.2 <= tube <= 0.8:
         raise refuse("tube", "a number from 0.2 to 0.8", repr(tube), "choose one in that range")
 

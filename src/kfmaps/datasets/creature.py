@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from kfmaps.datasets.skeleton import Bend, Limb
 
-TRUNK = (
+_TRUNK = (
     Limb(
         "trunk",
         None,
@@ -23,7 +23,7 @@ TRUNK = (
     Limb("snout", "head", ((0, 1.44, 0.12), (0, 1.41, 0.22), (0, 1.39, 0.32)), (0.12, 0.10, 0.065)),
 )
 
-LEFT = (
+_LEFT = (
     Limb(
         "left ear",
         "head",
@@ -45,7 +45,7 @@ LEFT = (
     ),
 )
 
-RIGHT = (
+_RIGHT = (
     Limb("right ear", "head", ((-0.11, 1.60, 0.02), (-0.16, 1.70, 0), (-0.2, 1.78, 0)), (0.075, 0.055, 0.03)),
     Limb(
         "right arm",
@@ -62,13 +62,13 @@ RIGHT = (
     ),
 )
 
-TAIL = Limb(
+_TAIL = Limb(
     "tail",
     "trunk",
     ((0, 0.60, -0.14), (0.05, 0.46, -0.40), (0.22, 0.36, -0.60), (0.46, 0.38, -0.68), (0.66, 0.52, -0.66)),
     (0.11, 0.09, 0.07, 0.055, 0.035),
 )
-STRAIGHT_TAIL = Limb(
+_STRAIGHT_TAIL = Limb(
     "tail",
     "trunk",
     ((0, 0.60, -0.14), (0, 0.46, -0.40), (0, 0.36, -0.64), (0, 0.36, -0.86), (0, 0.48, -1.04)),
@@ -83,10 +83,10 @@ def _mirror(limb: Limb) -> Limb:
     return Limb(limb.name.replace("left", "right"), parent, points, limb.radii)
 
 
-CREATURE = (*TRUNK, *LEFT, *RIGHT, TAIL)
+CREATURE = (*_TRUNK, *_LEFT, *_RIGHT, _TAIL)
 """No side like the other: every ear, arm, leg and foot has its own length and thickness."""
 
-SYMMETRIC = (*TRUNK, *LEFT, *(_mirror(limb) for limb in LEFT), STRAIGHT_TAIL)
+SYMMETRIC = (*_TRUNK, *_LEFT, *(_mirror(limb) for limb in _LEFT), _STRAIGHT_TAIL)
 """Its right side is the mirror image of its left."""
 
 WAVE = {

@@ -10,15 +10,15 @@ from scipy.spatial.transform import Rotation
 
 from kfmaps._arrays import blocks
 
-FILLET = 0.022
+_FILLET = 0.022
 """Width of the fillet between limbs, in units of the body (about two high)."""
-SOFTNESS = 0.045
+_SOFTNESS = 0.045
 """Distance over which the motions of two limbs blend, in the same units."""
-REACH = 12 * FILLET
+_REACH = 12 * _FILLET
 """A limb further away than this adds less than 1e-5 of FILLET to the field and is left out."""
-BLOCK = 50_000
+_BLOCK = 50_000
 """Number of points computed together, which bounds the memory."""
-MAX_POINTS = 250_000
+_MAX_POINTS = 250_000
 """Largest number of points whose field is computed at once."""
 
 
@@ -94,7 +94,7 @@ class Body:
 
     def box(self) -> np.ndarray:
         """Return the lowest and highest corner of a box around the skin, (2, 3)."""
-        room = self.radii[:, :, None] + 2 * FILLET
+        room = self.radii[:, :, None] + 2 * _FILLET
         return np.array([(self.nodes - room).min(axis=(0, 1)), (self.nodes + room).max(axis=(0, 1))])
 
     def _distances(self, points: np.ndarray, limb: int) -> tuple[np.ndarray, np.ndarray]:
@@ -114,13 +114,13 @@ class Body:
 
         Far from every limb the value is REACH and the gradient zero.
         """
-        if len(points) > MAX_POINTS:
-            parts = [self(points[part]) for part in blocks(len(points), BLOCK)]
+        if len(points) > _MAX_POINTS:
+            parts = [self(points[part]) for part in blocks(len(points), _BLOCK)]
             return np.concatenate([v for v, _ in parts]), np.concatenate([g for _, g in parts])
-        values = np.full((len(self.limbs), len(points)), REACH)
+        values = np.full((len(self.limbs), len(points)), _REACH)
         gradients = np.zeros((len(self.limbs), len(points), 3))
         for limb in range(len(self.limbs)):
-            room = self.radii[limb, :, None] + REACH
+            room = self.radii[limb, :, None] + _REACH
             low, high = (self.nodes[limb] - room).min(axis=0), (self.nodes[limb] + room).max(axis=0)
             near = np.flatnonzero(((points > low) & (points < high)).all(axis=1))
             distances, place = self._distances(points[near], limb)
@@ -135,9 +135,9 @@ class Body:
             away /= np.maximum(np.linalg.norm(away, axis=1, keepdims=True), 1e-12)
             gradients[limb, near] = away - along
         least = values.min(axis=0)
-        weights = np.exp((least - values) / FILLET)
+        weights = np.exp((least - values) / _FILLET)
         total = weights.sum(axis=0)
-        return least - FILLET * np.log(total), np.einsum("ln,lni->ni", weights / total, gradients)
+        return least - _FILLET * np.log(total), np.einsum("ln,lni->ni", weights / total, gradients)
 
     def _motions(self, bends: dict[str, Bend]) -> tuple[np.ndarray, np.ndarray]:
         """Return the affine motion ``x -> A x + b`` of every piece: A (pieces, 3, 3) and b (pieces, 3).
@@ -174,12 +174,12 @@ class Body:
 
     def bend(self, points: np.ndarray, bends: dict[str, Bend]) -> np.ndarray:
         """Return ``points (n, 3)`` of the skin moved by the limbs (linear blend skinning), (n, 3)."""
-        if len(points) > BLOCK:
-            return np.concatenate([self.bend(points[part], bends) for part in blocks(len(points), BLOCK)])
+        if len(points) > _BLOCK:
+            return np.concatenate([self.bend(points[part], bends) for part in blocks(len(points), _BLOCK)])
         linear, offset = self._motions(bends)
         pieces = [self._distances(points, limb)[0] for limb in range(len(self.limbs))]
         distances = np.concatenate(pieces, axis=1)
-        weights = np.exp((distances.min(axis=1, keepdims=True) - distances) / SOFTNESS)
+        weights = np.exp((distances.min(axis=1, keepdims=True) - distances) / _SOFTNESS)
         weights *= np.linalg.norm(np.diff(self.nodes, axis=1), axis=2).ravel()
         weights /= weights.sum(axis=1, keepdims=True)
         moved = (weights @ linear.reshape(-1, 9)).reshape(-1, 3, 3)

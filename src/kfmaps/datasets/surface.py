@@ -10,19 +10,19 @@ from scipy.spatial import Delaunay, KDTree
 from kfmaps._arrays import NotConverged
 from kfmaps.geometry.mesh import unit_rows
 
-Field = Callable[[np.ndarray], tuple[np.ndarray, np.ndarray]]
+_Field = Callable[[np.ndarray], tuple[np.ndarray, np.ndarray]]
 """``field(points (n, 3)) -> (values (n,), gradients (n, 3))``: negative inside, zero on the surface."""
 
-Warp = Callable[[np.ndarray], np.ndarray]
+_Warp = Callable[[np.ndarray], np.ndarray]
 """``warp(points (n, 3)) -> (n, 3)``: a smooth one-to-one map of space near the surface."""
 
-RELAXATIONS = 30
+_RELAXATIONS = 30
 _ATTEMPTS = 5
-SCATTERED = 50_000
+_SCATTERED = 50_000
 """Vertices up to which points are spread one by one; larger meshes are subdivided smaller ones."""
 
 
-def _project(field: Field, points: np.ndarray, steps: int) -> tuple[np.ndarray, np.ndarray]:
+def _project(field: _Field, points: np.ndarray, steps: int) -> tuple[np.ndarray, np.ndarray]:
     """Move ``points`` onto the surface by Newton steps along the gradient; return them and the unit normals there."""
     for _ in range(steps):
         values, gradients = field(points)
@@ -30,7 +30,7 @@ def _project(field: Field, points: np.ndarray, steps: int) -> tuple[np.ndarray, 
     return points, unit_rows(field(points)[1])
 
 
-def _scatter(field: Field, box: np.ndarray, count: int, rng: np.random.Generator) -> tuple[np.ndarray, float]:
+def _scatter(field: _Field, box: np.ndarray, count: int, rng: np.random.Generator) -> tuple[np.ndarray, float]:
     """Return random points near the surface, uniform in area, and an estimate of the area.
 
     They are drawn uniformly from the thin layer |value| / |gradient| < width, whose volume is twice the
@@ -58,7 +58,7 @@ def _tangents(normals: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     return first, np.cross(normals, first)
 
 
-def _warped_normals(warp: Warp, points: np.ndarray, normals: np.ndarray) -> np.ndarray:
+def _warped_normals(warp: _Warp, points: np.ndarray, normals: np.ndarray) -> np.ndarray:
     """Return normals (n, 3) of the warped surface, as long as the factor by which area grows there."""
     step = 1e-4 * float(np.ptp(points, axis=0).max())
     first, second = ((warp(points + step * t) - warp(points - step * t)) / (2 * step) for t in _tangents(normals))
@@ -66,7 +66,7 @@ def _warped_normals(warp: Warp, points: np.ndarray, normals: np.ndarray) -> np.n
 
 
 def _spread(
-    field: Field, box: np.ndarray, count: int, rng: np.random.Generator, warp: Warp | None = None
+    field: _Field, box: np.ndarray, count: int, rng: np.random.Generator, warp: _Warp | None = None
 ) -> tuple[np.ndarray, np.ndarray]:
     """Return ``count`` points spread evenly over the surface: random ones that then push each other apart.
 
@@ -86,7 +86,7 @@ def _spread(
     points, area = _scatter(field, box, count, rng)
     points, normals = _project(field, points, 3)
     scale = np.ones(count)
-    for step in range(RELAXATIONS):
+    for step in range(_RELAXATIONS):
         if warp is not None and step % 5 == 0:
             scale = np.linalg.norm(_warped_normals(warp, points, normals), axis=1) ** -0.5
         # The distance between neighbours in a hexagonal pattern with this many points to the area.
@@ -142,7 +142,7 @@ def is_closed(faces: np.ndarray, count: int, genus: int = 0) -> bool:
     return once and paired and used and count - len(half) // 2 + len(faces) == 2 - 2 * genus
 
 
-def _subdivide(field: Field, points: np.ndarray, faces: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray]:
+def _subdivide(field: _Field, points: np.ndarray, faces: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray]:
     """Cut every face in four, then the longest edges in two until there are ``count`` points.
 
     The new points lie on the surface itself, not on the faces.
@@ -188,19 +188,19 @@ def _halve(points: np.ndarray, faces: np.ndarray, count: int) -> tuple[np.ndarra
 
 
 def closed_mesh(
-    field: Field,
+    field: _Field,
     box: np.ndarray,
     count: int,
     rng: np.random.Generator,
     *,
     genus: int = 0,
-    warp: Warp | None = None,
+    warp: _Warp | None = None,
     scattered: int | None = None,
 ) -> tuple[np.ndarray, np.ndarray]:
     """Return ``count`` points (count, 3) on the surface and the faces (f, 3) of a closed mesh through them.
 
     With a ``warp`` the points are given before that deformation, but spread and triangulated after it. More than
-    ``scattered`` points (:data:`SCATTERED`, and at most that) are those of a mesh of a quarter as many, subdivided,
+    ``scattered`` points (:data:`_SCATTERED`, and at most that) are those of a mesh of a quarter as many, subdivided,
     which takes a tenth of the time.
 
     Raises
@@ -209,7 +209,7 @@ def closed_mesh(
         When no draw of the points gives a closed manifold of that ``genus``: too few of them for the
         thinnest part.
     """
-    if count > min(SCATTERED, scattered or SCATTERED):
+    if count > min(_SCATTERED, scattered or _SCATTERED):
         fewer = (count + 3 * (2 - 2 * genus)) // 4
         points, faces = closed_mesh(field, box, fewer, rng, genus=genus, warp=warp, scattered=scattered)
         return _subdivide(field, points, faces, count)

@@ -13,16 +13,16 @@ from pathlib import Path
 
 from kfmaps._arrays import refuse
 
-UNFINISHED = ".unfinished-"
+_UNFINISHED = ".unfinished-"
 """How the names of files begin that are still being written."""
 
-STREAMS = ("/dev/std", "/dev/fd/", "/proc/")
+_STREAMS = ("/dev/std", "/dev/fd/", "/proc/")
 """Names of what the process has open; a file put in the place of one would not be where its output goes."""
 
 
 def remove_unfinished(folder: Path, older: float = 0.0) -> None:
     """Remove what a process that was killed left half written in ``folder``, ``older`` than so many seconds."""
-    for path in folder.glob(f"{UNFINISHED}*"):
+    for path in folder.glob(f"{_UNFINISHED}*"):
         with suppress(OSError):  # somebody else has removed it
             if time.time() - path.stat().st_mtime >= older:
                 path.unlink()
@@ -61,7 +61,7 @@ def check_output(path: str | Path, force: bool = False, reads: Iterable[str | Pa
         raise refuse(f"output {path}", "an existing folder", f"no folder {final.parent}", "make it first")
     if not os.access(final.parent, os.W_OK):
         raise refuse(f"output {path}", "a folder to write in", f"no right to write in {final.parent}", "choose another")
-    if kind not in (None, stat.S_IFREG) or os.path.abspath(path).startswith(STREAMS):
+    if kind not in (None, stat.S_IFREG) or os.path.abspath(path).startswith(_STREAMS):
         got = "a folder" if kind == stat.S_IFDIR else "a device or pipe"
         raise refuse(f"output {path}", "the name of a file", got, "name a file to write")
     for other in reads:
@@ -91,7 +91,7 @@ def atomic_output(path: str | Path, force: bool = False) -> Iterator[Path]:
         As :func:`check_output`, and when the folder cannot be written.
     """
     final = check_output(path, force)
-    temporary = final.with_name(f"{UNFINISHED}{secrets.token_hex(6)}{final.suffix}")
+    temporary = final.with_name(f"{_UNFINISHED}{secrets.token_hex(6)}{final.suffix}")
     try:
         try:
             os.close(os.open(temporary, os.O_CREAT | os.O_EXCL | os.O_WRONLY, 0o666))

@@ -13,11 +13,11 @@ from kfmaps.geometry.closest_points import closest_points
 from kfmaps.geometry.connectivity import component_labels
 from kfmaps.io.record import MeshFile, Picture
 
-SMALLEST, _LARGEST = 1024, 4096
+_SMALLEST, _LARGEST = 1024, 4096
 """Bounds of the side of a baked picture, which has the longer side of the source's."""
-TEXELS = 2_000_000
+_TEXELS = 2_000_000
 """Texels worked on together, which bounds the memory."""
-TWICE = 0.02
+_TWICE = 0.02
 """Share of the covered texels that may lie in several faces: an atlas whose charts share space cannot be baked into."""
 
 
@@ -50,7 +50,7 @@ def encode_png(pixels: np.ndarray) -> Picture:
     return Picture(buffer.getvalue(), "image/png")
 
 
-def sample_picture(pixels: np.ndarray, uv: np.ndarray) -> np.ndarray:
+def _sample_picture(pixels: np.ndarray, uv: np.ndarray) -> np.ndarray:
     """Return the colours ``(q, 3)`` of a picture at ``uv (q, 2)``, linear between texels. It repeats beyond its
     borders.
 
@@ -66,7 +66,7 @@ def sample_picture(pixels: np.ndarray, uv: np.ndarray) -> np.ndarray:
     return (1 - t) * above + t * below
 
 
-def find_texels(corners: np.ndarray, size: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def _find_texels(corners: np.ndarray, size: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Find the texels whose centres lie in the triangles ``corners (f, 3, 2)`` of the unit square's picture.
 
     Returns
@@ -85,7 +85,7 @@ def find_texels(corners: np.ndarray, size: int) -> tuple[np.ndarray, np.ndarray,
     # Faces that wrap around the whole picture, or have no area in it, have no texels of their own.
     count = np.where((np.abs(area) > 1e-9) & (span.max(axis=1) <= size), span[:, 0] * span[:, 1], 0)
     found: list[tuple[np.ndarray, np.ndarray, np.ndarray]] = []
-    block = np.cumsum(count) // TEXELS
+    block = np.cumsum(count) // _TEXELS
     for faces in np.split(np.arange(len(count)), np.flatnonzero(np.diff(block)) + 1):
         face = np.repeat(faces, count[faces])
         step = np.arange(len(face)) - np.repeat(np.cumsum(count[faces]) - count[faces], count[faces])
@@ -101,18 +101,18 @@ def find_texels(corners: np.ndarray, size: int) -> tuple[np.ndarray, np.ndarray,
     return face, texel, weights
 
 
-def can_bake(target: MeshFile, size: int = SMALLEST) -> bool:
+def can_bake(target: MeshFile, size: int = _SMALLEST) -> bool:
     """Return whether the target has texture coordinates in which every face has room of its own."""
     if target.uv is None or target.uv_faces is None:
         return False
     corners = target.uv[target.uv_faces]
     u, v = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
-    if np.abs(u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]).sum() / 2 > 1 + TWICE:
+    if np.abs(u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]).sum() / 2 > 1 + _TWICE:
         return False  # more than the whole picture
-    _, texel, _ = find_texels(corners, size)
+    _, texel, _ = _find_texels(corners, size)
     hits = np.bincount(texel)
     # Texels on an edge that two faces share count for both: those are few, and no more than one in each row of a face.
-    return bool(len(texel) and np.count_nonzero(hits > 1) <= TWICE * np.count_nonzero(hits))
+    return bool(len(texel) and np.count_nonzero(hits > 1) <= _TWICE * np.count_nonzero(hits))
 
 
 def bake_texture(
@@ -149,8 +149,8 @@ def bake_texture(
     """
     assert target.uv is not None
     assert target.uv_faces is not None
-    size = size or int(np.clip(max(pixels.shape[:2]), SMALLEST, _LARGEST))
-    face, texel, weights = find_texels(target.uv[target.uv_faces], size)
+    size = size or int(np.clip(max(pixels.shape[:2]), _SMALLEST, _LARGEST))
+    face, texel, weights = _find_texels(target.uv[target.uv_faces], size)
     if len(face) == 0:
         raise refuse("target", "texture coordinates with room for its faces", "none", "export without them")
     where = np.einsum("qi,qij->qj", weights, uv[uv_faces[face]])
@@ -166,7 +166,7 @@ def bake_texture(
         found = closest_points(points, source.mesh.vertices, source.mesh.faces)
         where[seam] = np.einsum("qi,qij->qj", found.weights, source.uv[source.uv_faces[found.faces]])
     picture = np.zeros((size * size, 3))
-    picture[texel] = sample_picture(pixels, where)
+    picture[texel] = _sample_picture(pixels, where)
     covered = np.zeros(size * size, dtype=bool)
     covered[texel] = True
     bare = ~covered.reshape(size, size)

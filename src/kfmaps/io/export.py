@@ -23,7 +23,7 @@ from kfmaps.io.partial_map import precise_points
 from kfmaps.io.record import MeshFile, Picture
 from kfmaps.io.transfer import transfer
 
-PICTURES = (".png", ".jpg", ".jpeg")
+_PICTURES = (".png", ".jpg", ".jpeg")
 _LOST = 0.62
 """Grey of target vertices without a counterpart."""
 _CHOICES = 8
@@ -66,7 +66,7 @@ def grid_picture(size: int = 1024, cells: int = 24) -> np.ndarray:
     return np.rint(255 * (0.25 + 0.7 * hue) * shade[..., None]).astype(np.uint8)
 
 
-def transfer_uv_faces(source: MeshFile, target: Mesh, target_to_source: np.ndarray) -> np.ndarray:
+def _transfer_uv_faces(source: MeshFile, target: Mesh, target_to_source: np.ndarray) -> np.ndarray:
     """Return a row of ``source.uv`` for each corner of the target's faces, (f_t, 3) int64.
 
     At a seam of the texture a source vertex has several coordinates. Each face takes those that lie
@@ -106,13 +106,13 @@ def transfer_uv(
     """Return texture coordinates of the target, ``uv`` (m, 2) and ``uv_faces`` (f_t, 3), from those of the source.
 
     With points inside triangles (``place``) each corner has the coordinates of its point; a face over a seam of the
-    texture keeps to one side of it. Without, they are those of the nearest vertices (:func:`transfer_uv_faces`). A
+    texture keeps to one side of it. Without, they are those of the nearest vertices (:func:`_transfer_uv_faces`). A
     source without coordinates has those of :func:`projected_uv`.
     """
     bare = source.uv is None or source.uv_faces is None
     uv = projected_uv(source.mesh.vertices) if source.uv is None or bare else source.uv
     corners_uv = source.mesh.faces if source.uv_faces is None or bare else source.uv_faces
-    snapped = target_to_source[target.faces] if bare else transfer_uv_faces(source, target, target_to_source)
+    snapped = target_to_source[target.faces] if bare else _transfer_uv_faces(source, target, target_to_source)
     if place is None:
         return uv, snapped
     exact = np.einsum("ti,tij->tj", place.weights, uv[corners_uv[place.faces]])
@@ -198,8 +198,8 @@ def write_textured(
     if len(mesh.faces) == 0:
         raise refuse("target", "a surface with faces", "a point cloud", "export colours as .ply")
     points = check_map(target_to_source, len(source.mesh.vertices), len(mesh.vertices), lost=True)
-    if picture is not None and not (Path(picture).is_file() and Path(picture).suffix.lower() in PICTURES):
-        raise refuse(f"picture {picture}", f"a file {' '.join(PICTURES)}", "none", "check the name")
+    if picture is not None and not (Path(picture).is_file() and Path(picture).suffix.lower() in _PICTURES):
+        raise refuse(f"picture {picture}", f"a file {' '.join(_PICTURES)}", "none", "check the name")
     place = precise_points(target_to_source, source.mesh)
     image = _picture(picture, source)
     lost = np.asarray(points < 0)
@@ -274,7 +274,7 @@ def write_colored(
     write_mesh(path, target, colors=np.clip(mixed, 0, 1), force=force)
 
 
-def morph_mesh(source: Mesh, target: Mesh, bent: np.ndarray) -> Mesh:
+def _morph_mesh(source: Mesh, target: Mesh, bent: np.ndarray) -> Mesh:
     """Return the source's triangulation in the target's shape and place; ``bent`` (n_s, 3) as a map file has it."""
     scale = np.sqrt(surface_area(target))
     return Mesh(bent * scale + target.vertices.mean(axis=0), source.faces)
@@ -286,7 +286,7 @@ def write_morph(path: str | Path, source: MeshFile, target: Mesh, bent: np.ndarr
     GLB and OBJ keep the source's texture.
     """
     check(np.asarray(bent), "bent", shape=(len(source.mesh.vertices), 3), remedy="check that the map is the source's")
-    moved = morph_mesh(source.mesh, target, bent)
+    moved = _morph_mesh(source.mesh, target, bent)
     if Path(path).suffix.lower() == ".obj" and source.picture and source.uv is not None and source.uv_faces is not None:
         _write_obj(Path(path), moved, source.uv, source.uv_faces, source.picture, source.picture.suffix, force)
         return

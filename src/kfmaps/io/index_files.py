@@ -30,7 +30,7 @@ def _read_numbers(path: str | Path, columns: int, one_based: bool, wanted: str, 
     return np.where(gone, -1, numbers - low)
 
 
-FROM_ZERO = b"# source target, counted from 0"
+_FROM_ZERO = b"# source target, counted from 0"
 
 
 def _counts_from_one(path: str | Path) -> bool:
@@ -59,7 +59,7 @@ def read_landmarks(path: str | Path, *, one_based: bool | None = None) -> np.nda
         On a file that is missing, empty, or has a line of anything else.
     """
     if one_based is None:
-        one_based = _counts_from_one(path) and not read_bytes(path).startswith(FROM_ZERO)
+        one_based = _counts_from_one(path) and not read_bytes(path).startswith(_FROM_ZERO)
     return _read_numbers(path, 2, one_based, "two whole numbers a line, source and target")
 
 

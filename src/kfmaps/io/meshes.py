@@ -24,7 +24,7 @@ from kfmaps.io.text import as_table, clean_text, parse_rows, read_bytes
 from kfmaps.io.vtk import parse_vtk, parse_vtp
 
 
-def parse_xyz(data: bytes, name: str) -> MeshFile:
+def _parse_xyz(data: bytes, name: str) -> MeshFile:
     """Read a point cloud: ``x y z`` a line.
 
     Further columns (a normal, a colour) are left out; all lines have the same number of them.
@@ -48,11 +48,11 @@ READERS = {
     ".vtp": parse_vtp,
     ".glb": parse_gltf,
     ".gltf": parse_gltf,
-    ".xyz": parse_xyz,
+    ".xyz": _parse_xyz,
 }
-WRITERS = {".off": format_off, ".obj": format_obj, ".ply": format_ply, ".glb": format_glb}
+_WRITERS = {".off": format_off, ".obj": format_obj, ".ply": format_ply, ".glb": format_glb}
 
-MAX_UNPLACED = 1e-3
+_MAX_UNPLACED = 1e-3
 """Fraction of vertices that may have NaN coordinates; surfaces extracted from CT volumes have one now and then."""
 _LARGEST = 1e70
 """Coordinates beyond this overflow in areas and are refused; no unit makes them meaningful."""
@@ -114,7 +114,7 @@ def _place_unplaced(found: MeshFile, name: str) -> MeshFile:
     """Put vertices whose coordinates are NaN at the mean of their neighbours, where they are few and have some."""
     vertices, faces = found.mesh.vertices, found.mesh.faces
     bad = np.isnan(vertices).any(axis=1)
-    if not bad.any() or bad.mean() > MAX_UNPLACED:
+    if not bad.any() or bad.mean() > _MAX_UNPLACED:
         return found
     vertices = vertices.copy()
     for v in np.flatnonzero(bad):
@@ -171,10 +171,10 @@ def write_mesh(path: str | Path, mesh: Mesh, *, colors: np.ndarray | None = None
         On an unknown extension, colours that do not fit, and as :func:`atomic_output`.
     """
     check_is_mesh(mesh)
-    writer = WRITERS.get(Path(path).suffix.lower())
+    writer = _WRITERS.get(Path(path).suffix.lower())
     if writer is None:
         got = Path(path).suffix or "no extension"
-        raise refuse(f"output {path}", f"one of {' '.join(WRITERS)}", got, "choose one of these")
+        raise refuse(f"output {path}", f"one of {' '.join(_WRITERS)}", got, "choose one of these")
     check_output(path, force)
     content = writer(mesh, None if colors is None else checked_colors(colors, len(mesh.vertices)))
     with atomic_output(path, force) as temporary:

@@ -189,14 +189,14 @@ def _picture(said: list[tuple[int, str, str]], faces: np.ndarray, name: str) -> 
     for _, word, rest in said:
         if word == "mtllib":
             for path in _libraries(rest, name):
-                pictures |= read_materials(read_bytes(path).decode("utf-8", "replace"))
+                pictures |= _read_materials(read_bytes(path).decode("utf-8", "replace"))
     found = {pictures.get(used[i][1]) for i in np.unique(last)}
     picture = found.pop() if len(found) == 1 else None
     path = None if picture is None else _file(picture, name)
     return None if path is None else picture_in(read_bytes(path))
 
 
-def read_materials(text: str) -> dict[str, str | None]:
+def _read_materials(text: str) -> dict[str, str | None]:
     """Return the picture that each material of an MTL file names; ``None`` where it has none as it is."""
     found: dict[str, str | None] = {}
     current = None

@@ -57,7 +57,7 @@ def transfer(values_s: Any, target_to_source: Any, faces_s: np.ndarray | None = 
         raise refuse("values", wanted, str(len(values)), "check that they are the source's")
     points = check_map(target_to_source, n_s=len(values), lost=True)
     nearest, precise = np.maximum(points, 0), None if match is None else match.precise_map
-    return fill_lost(_interpolate(values, precise, faces_s, nearest), points < 0, lost)
+    return _fill_lost(_interpolate(values, precise, faces_s, nearest), points < 0, lost)
 
 
 def _interpolate(values: np.ndarray, at: PointMap | None, faces: np.ndarray | None, nearest: np.ndarray) -> np.ndarray:
@@ -74,7 +74,7 @@ def _interpolate(values: np.ndarray, at: PointMap | None, faces: np.ndarray | No
     return np.where((~finite & counted).any(axis=1), values[nearest], mixed).astype(values.dtype)
 
 
-def fill_lost(values: np.ndarray, gone: np.ndarray, lost: Any = None) -> np.ndarray:
+def _fill_lost(values: np.ndarray, gone: np.ndarray, lost: Any = None) -> np.ndarray:
     """Put ``lost`` into the rows ``gone (n,)`` of ``values (n, ...)``; see :func:`transfer` for what it is by default.
 
     Raises
@@ -107,7 +107,7 @@ def transfer_back(values_t: np.ndarray, ways: Counterparts, target: Mesh, lost: 
         got = f"{len(values_t)}" if values_t.ndim else "a single value"
         raise refuse("values", f"{len(target.vertices)} rows, one per target vertex", got, "are they the target's?")
     nearest = target.faces[ways.back.faces, ways.back.weights.argmax(axis=1)]
-    return fill_lost(_interpolate(values_t, ways.back, target.faces, nearest), ~ways.source, lost)
+    return _fill_lost(_interpolate(values_t, ways.back, target.faces, nearest), ~ways.source, lost)
 
 
 def transfer_by_functions(

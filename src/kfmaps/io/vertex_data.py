@@ -17,7 +17,7 @@ from kfmaps.io.mapfile import check_npy
 from kfmaps.io.text import REPAIR, check_lines, complete_or_refuse, is_number, read_bytes, read_csv, read_text
 
 _FORMATS = (".npy", ".csv", ".txt")
-MOST_LETTERS = 1 << 26
+_MOST_LETTERS = 1 << 26
 """Letters of all labels together when each takes the room of the longest, four bytes a letter: a quarter of a GiB."""
 _WHOLE = re.compile(r"[+-]?\d+", re.ASCII)
 
@@ -103,11 +103,11 @@ def _texts(cells: list[str], name: str) -> np.ndarray:
     Raises
     ------
     InvalidInput
-        When that is more than :data:`MOST_LETTERS` in all.
+        When that is more than :data:`_MOST_LETTERS` in all.
     """
     longest = max(cells, key=len)
-    if len(longest) * len(cells) > MOST_LETTERS:
-        wanted = f"labels of at most {MOST_LETTERS // len(cells):,} letters each, for there are {len(cells):,}"
+    if len(longest) * len(cells) > _MOST_LETTERS:
+        wanted = f"labels of at most {_MOST_LETTERS // len(cells):,} letters each, for there are {len(cells):,}"
         raise refuse(name, wanted, f"one of {len(longest):,} letters ({longest[:24]!r}...)", "shorten it")
     return np.array(cells)
 

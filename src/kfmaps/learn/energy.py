@@ -23,15 +23,15 @@ from kfmaps.fmap.preconditioners import sylvester
 from kfmaps.fmap.solvers import CG, Operator, Solution, solve
 from kfmaps.geometry.basis import Basis
 
-KernelMatrix = Callable[[torch.Tensor, torch.Tensor], torch.Tensor]
+_KernelMatrix = Callable[[torch.Tensor, torch.Tensor], torch.Tensor]
 """``(n, d), (m, d) ↦ (n, m)``."""
 
-JITTER = 1e-8
+_JITTER = 1e-8
 """Added to the diagonal of the samples' kernel matrix, in units of its mean, so that its Cholesky factor exists."""
 
 
 def nystrom_features(
-    kernel: KernelMatrix, D_s: torch.Tensor, D_t: torch.Tensor, samples: torch.Tensor
+    kernel: _KernelMatrix, D_s: torch.Tensor, D_t: torch.Tensor, samples: torch.Tensor
 ) -> tuple[torch.Tensor, torch.Tensor]:
     """Return Nyström features of descriptors, differentiable in the kernel's parameters.
 
@@ -52,7 +52,7 @@ def nystrom_features(
     """
     R = kernel(samples, samples)
     size = torch.diagonal(R).mean().detach()
-    L = torch.linalg.cholesky((R + R.T) / 2 + JITTER * size * torch.eye(len(R), dtype=R.dtype))
+    L = torch.linalg.cholesky((R + R.T) / 2 + _JITTER * size * torch.eye(len(R), dtype=R.dtype))
     W_s, W_t = (torch.linalg.solve_triangular(L, kernel(samples, D), upper=False).T for D in (D_s, D_t))
     return W_s, W_t
 
@@ -93,7 +93,7 @@ def pair_energy(
     return Energy(terms, {name: weights[name] for name in terms})  # pyright: ignore[reportArgumentType]
 
 
-def feature_operators(basis: Basis, W: torch.Tensor) -> torch.Tensor:
+def _feature_operators(basis: Basis, W: torch.Tensor) -> torch.Tensor:
     """Return the multiplication operators ``Φᵀ A diag(wᵢ) Φ``, ``(r, k, k)``, of features ``W (n, r)``."""
     phi, weighted = basis.functions, basis.mass[:, None] * W
     return torch.stack([phi.T @ (weighted[:, i : i + 1] * phi) for i in range(W.shape[1])])
@@ -108,11 +108,11 @@ def _truncated_operators(
     that are dropped make the gradient inexact.
     """
     if not rtol:
-        return [feature_operators(basis, F) for basis, F in zip(bases, W, strict=True)]
+        return [_feature_operators(basis, F) for basis, F in zip(bases, W, strict=True)]
     with torch.no_grad():
         bounds = [torch.sqrt(basis.mass * (basis.functions**2).sum(dim=1))[:, None] for basis in bases]
         rotation = _strongest([(bound * F).T for bound, F in zip(bounds, W, strict=True)], rtol / 2)
-    both = [feature_operators(basis, F @ rotation) for basis, F in zip(bases, W, strict=True)]
+    both = [_feature_operators(basis, F @ rotation) for basis, F in zip(bases, W, strict=True)]
     with torch.no_grad():
         rotation = _strongest([X.reshape(len(X), -1) for X in both], rtol)
     return [torch.tensordot(rotation.T, X, dims=1) for X in both]

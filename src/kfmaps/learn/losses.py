@@ -29,7 +29,7 @@ LOSSES = {
 }
 """Names and meanings of the losses; the first two need the truth."""
 
-MAX_COUPLED = (400, 1000)
+_MAX_COUPLED = (400, 1000)
 """Largest number of target and source points of the coupling loss."""
 
 
@@ -214,7 +214,7 @@ def _coupling(
 ) -> torch.Tensor:
     """Return the coupling loss at some points of both shapes."""
     sizes = (len(pair.descriptors_t), len(pair.descriptors_s))
-    t, s = (np.sort(rng.choice(n, min(n, most), replace=False)) for n, most in zip(sizes, MAX_COUPLED, strict=True))
+    t, s = (np.sort(rng.choice(n, min(n, most), replace=False)) for n, most in zip(sizes, _MAX_COUPLED, strict=True))
     transformed = model.transform(pair.descriptors_t[t]), model.transform(pair.descriptors_s[s])
     soft = soft_point_map(*transformed, temperature)
     return coupling_loss(C, soft, pair.source.functions[s], pair.target.functions[t])

@@ -26,14 +26,14 @@ PARTS = {
 }
 """Names and meanings of what can be learned."""
 
-RIDGE = 0.1
+_RIDGE = 0.1
 """Added to the variance between corresponding points, in units of the mean variance on a shape."""
-GAMMA_RATIO = 6.0
+_GAMMA_RATIO = 6.0
 """Ratio of one γ of a mixture to the previous, at the start."""
 
 
 @dataclass(frozen=True)
-class Columns:
+class _Columns:
     """Groups of descriptors: ``blocks`` of columns, of which those of the same ``kind`` share parameters.
 
     All landmarks are of one kind, so that what is learned does not depend on which point is the first landmark.
@@ -52,7 +52,7 @@ class Columns:
         return [(kind, D[:, block[0] : block[-1] + 1]) for kind, block in zip(self.kinds, self.blocks, strict=True)]
 
 
-def columns(config: DescriptorConfig, landmarks: int, count: int) -> Columns:
+def columns(config: DescriptorConfig, landmarks: int, count: int) -> _Columns:
     """Return the blocks of ``count`` descriptors: signature, one for each landmark, SHOT."""
     local = min(352, count) if config.shot else 0
     blocks = landmarks if config.landmark_descriptor != "none" and config.energy_sampling == "even" else 0
@@ -61,7 +61,7 @@ def columns(config: DescriptorConfig, landmarks: int, count: int) -> Columns:
     sizes = [("signature", count - local - each * blocks), *[("landmark", each)] * blocks, ("shot", local)]
     ends = np.cumsum([0, *[size for _, size in sizes]])
     groups = [(kind, tuple(range(a, b))) for (kind, _), a, b in zip(sizes, ends[:-1], ends[1:], strict=True) if b > a]
-    return Columns(tuple(block for _, block in groups), tuple(kind for kind, _ in groups))
+    return _Columns(tuple(block for _, block in groups), tuple(kind for kind, _ in groups))
 
 
 class Model(torch.nn.Module):
@@ -117,7 +117,7 @@ class Model(torch.nn.Module):
         if isinstance(self.kernel, Gaussian | Laplacian):
             middle = np.arange(components if "mixture" in parts else 1)
             middle = middle - len(middle) // 2
-            self._add("log_gamma", gamma + np.log(GAMMA_RATIO) * middle, {"gamma", "mixture"})
+            self._add("log_gamma", gamma + np.log(_GAMMA_RATIO) * middle, {"gamma", "mixture"})
             # The middle kernel begins alone but for a hundredth, through which the others can grow.
             self._add("log_share", np.where(middle == 0, 0.0, np.log(0.01)), {"mixture"})
         else:
@@ -248,7 +248,7 @@ def bind(kernel: Any, **values: Any) -> Any:
     return record
 
 
-def _directions(pairs: Sequence[TrainingPair], columns: Columns, kind: str, rank: int) -> np.ndarray:
+def _directions(pairs: Sequence[TrainingPair], columns: _Columns, kind: str, rank: int) -> np.ndarray:
     """Return the start of the metric of a kind of descriptors, (rank, d).
 
     The directions in which points of a shape differ most, measured by how much corresponding points of two shapes do
@@ -269,6 +269,6 @@ def _directions(pairs: Sequence[TrainingPair], columns: Columns, kind: str, rank
     variance = np.asarray(variance) / len(pairs)
     if np.ndim(noise) == 0:
         return np.linalg.eigh(variance)[1][:, ::-1][:, :rank].T.copy()
-    noise = np.asarray(noise) / len(pairs) + RIDGE * float(np.trace(variance)) / len(variance) * np.eye(len(variance))
+    noise = np.asarray(noise) / len(pairs) + _RIDGE * float(np.trace(variance)) / len(variance) * np.eye(len(variance))
     root = np.linalg.inv(np.linalg.cholesky(noise))
     return (root.T @ np.linalg.eigh(root @ variance @ root.T)[1][:, ::-1][:, :rank]).T.copy()

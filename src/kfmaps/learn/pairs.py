@@ -22,7 +22,7 @@ from kfmaps.matching.features import pair_descriptors
 from kfmaps.matching.fit import check_landmark_pairs
 from kfmaps.shape import Shape, sample_shape
 
-MAX_CORRESPONDENCES = 500
+_MAX_CORRESPONDENCES = 500
 """Largest number of true correspondences of a pair at which errors are measured."""
 
 
@@ -171,7 +171,7 @@ def _truth(
     functions_s, functions_t = (shape.basis.truncate(k).functions for shape in (source, target))
     functional_map = np.linalg.lstsq(functions_t[true_t], functions_s[true_s], rcond=None)[0]
     # The same lines for every pair of a collection: distances from them can be kept with the shape.
-    lines = np.random.default_rng(0).choice(len(true_s), min(MAX_CORRESPONDENCES, len(true_s)), replace=False)
+    lines = np.random.default_rng(0).choice(len(true_s), min(_MAX_CORRESPONDENCES, len(true_s)), replace=False)
     true_s, true_t = (side[np.sort(lines)] for side in (true_s, true_t))
     points_s, points_t = (
         nearest(shape.mesh.vertices[side], shape.mesh.vertices[kept])

@@ -18,7 +18,7 @@ from kfmaps.learn.model import Model
 from kfmaps.learn.pairs import TrainingPair
 from kfmaps.learn.state import Epoch, State
 
-MATRIX_RATE = 0.3
+_MATRIX_RATE = 0.3
 """Part of the rate at which entries of a metric or network change, in units of their root mean square."""
 
 
@@ -250,7 +250,7 @@ def _groups(model: Model) -> list[dict[str, Any]]:
     for name, p in model.named_parameters():
         if p.requires_grad:
             size = float((p.detach() ** 2).mean().sqrt())
-            share = 1.0 if name.startswith("log_") else MATRIX_RATE * max(0.15, size)
+            share = 1.0 if name.startswith("log_") else _MATRIX_RATE * max(0.15, size)
             groups.append({"params": [p], "share": share})
     return groups
 

@@ -65,7 +65,7 @@ def with_settings(command: Callable[..., Any]) -> Callable[..., Any]:
     parameters = [p.replace(kind=inspect.Parameter.KEYWORD_ONLY) for p in own]
     parameters += [
         inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, annotation=annotation, default=None)
-        for name, annotation in {**made, **GENERAL}.items()
+        for name, annotation in {**made, **_GENERAL}.items()
     ]
 
     @functools.wraps(command)
@@ -95,7 +95,7 @@ def _option(name: str) -> Any:
     return Annotated[number | None, _typer(name, help=text, metavar=metavar)]
 
 
-GENERAL = {
+_GENERAL = {
     "preset": Annotated[
         str | None,
         _typer("--preset", metavar="NAME", help="default, single-fit, paper, no17, ...; see docs/settings.md."),

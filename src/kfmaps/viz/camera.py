@@ -13,21 +13,21 @@ from kfmaps._arrays import check, refuse
 from kfmaps._records import short_repr
 from kfmaps.geometry.mesh import Mesh
 
-BROADER = 1.15
+_BROADER = 1.15
 """How much more of a shape a view that is not along one of the file's axes must show to be preferred."""
-STEADIER = 1.4
+_STEADIER = 1.4
 """How much better than on y a shape must stand on z for z to be up."""
-YAW, PITCH = 20.0, 10.0
+_YAW, _PITCH = 20.0, 10.0
 """Degrees by which the automatic view is turned aside and lifted, so that depth shows."""
-SAME_VIEW = 45.0
+_SAME_VIEW = 45.0
 """Degrees that a target may be turned against the source and still be seen from the same side."""
 
-LIKENESS = 0.6
+_LIKENESS = 0.6
 """Correlation between the turned source and the target above which a turn is believed; poses of one shape have 0.75."""
-CLEARLY = 0.75
+_CLEARLY = 0.75
 """Part of the misfit of shapes as they lie that a turned one may have. Of 182 ordered pairs of scanned people in 14
 poses who all face one way, 3 % fit that much better when one is turned half round."""
-SAMPLES = 800
+_SAMPLES = 800
 """Points of each shape that this is measured on."""
 
 
@@ -101,21 +101,21 @@ def broad_side(mesh: Mesh) -> View:
     # Between nearly equal ones the first, so that two poses of a shape are seen alike.
     towards = (z, x, y)[int(np.argmax(shown >= 0.95 * shown.max()))]
     thinnest = np.linalg.eigh(points.T @ points)[1][:, 0]
-    if _silhouette(points, thinnest) > BROADER * shown.max():
+    if _silhouette(points, thinnest) > _BROADER * shown.max():
         towards = thinnest * np.sign(thinnest[np.abs(thinnest).argmax()])
     if abs(towards[1]) > 0.8:
         up = z
     elif abs(towards[2]) > 0.8:
         up = y
     else:
-        up = z if _stance(points, z) > STEADIER * _stance(points, y) else y
+        up = z if _stance(points, z) > _STEADIER * _stance(points, y) else y
     return view_from(towards, up)
 
 
 def automatic_view(mesh: Mesh) -> View:
     """Return the view onto the :func:`broad_side` of a shape, a little from aside and from above."""
     frame = broad_side(mesh).axes()
-    yaw, pitch = np.deg2rad([YAW, PITCH])
+    yaw, pitch = np.deg2rad([_YAW, _PITCH])
     aside = np.cos(yaw) * frame[2] + np.sin(yaw) * frame[0]
     return view_from(np.cos(pitch) * aside + np.sin(pitch) * frame[1], frame[1])
 
@@ -136,7 +136,7 @@ def view_by_truth(source_view: View, source: np.ndarray, target: np.ndarray) -> 
     It is the same view, unless the rotation that best carries the source onto the target turns by more than 45 degrees.
     """
     turn, alike = fit_rotation(source - source.mean(axis=0), target - target.mean(axis=0))
-    if alike < LIKENESS or np.rad2deg(Rotation.from_matrix(turn).magnitude()) <= SAME_VIEW:
+    if alike < _LIKENESS or np.rad2deg(Rotation.from_matrix(turn).magnitude()) <= _SAME_VIEW:
         return source_view
     return View(turn @ source_view.towards, turn @ source_view.up)
 
@@ -172,15 +172,15 @@ def rotation_between(source: Mesh, target: Mesh, target_to_source: np.ndarray | 
         elif known.any():
             ends = a[np.asarray(target_to_source)[known]], b[known]
             first, alike = fit_rotation(*(x - x.mean(axis=0) for x in ends))
-    if alike < LIKENESS:
+    if alike < _LIKENESS:
         other = np.linalg.eigh(b.T @ b)[1]
         first = other @ np.diag([1, 1, np.sign(np.linalg.det(other @ axes.T))]) @ axes.T
     turns = [first @ half for half in halves]
-    some_a, some_b = (points[:: max(1, len(points) // SAMPLES)] for points in (a, b))
+    some_a, some_b = (points[:: max(1, len(points) // _SAMPLES)] for points in (a, b))
     misfits = [_misfit(some_a @ turn.T, some_b) for turn in turns]
     best = int(np.argmin(misfits))
-    small = np.rad2deg(Rotation.from_matrix(turns[best]).magnitude()) <= SAME_VIEW
-    return turns[best] if misfits[best] < CLEARLY * _misfit(some_a, some_b) and not small else None
+    small = np.rad2deg(Rotation.from_matrix(turns[best]).magnitude()) <= _SAME_VIEW
+    return turns[best] if misfits[best] < _CLEARLY * _misfit(some_a, some_b) and not small else None
 
 
 def _standard(points: np.ndarray) -> np.ndarray:

@@ -14,11 +14,11 @@ ERROR_MAP = LinearSegmentedColormap.from_list(
 )
 """White at zero and darker all the way up, so that it reads without colour vision and in grey too."""
 
-LIGHTNESS, LIGHTNESS_SPAN, CHROMA = 0.79, 0.10, 0.17
+_LIGHTNESS, _LIGHTNESS_SPAN, _CHROMA = 0.79, 0.10, 0.17
 """OKLab values of the place colours: the middle lightness, how far it varies, and how far a and b do."""
 
 
-def oklab_to_rgb(lab: np.ndarray) -> np.ndarray:
+def _oklab_to_rgb(lab: np.ndarray) -> np.ndarray:
     """Return sRGB in [0, 1] of OKLab colours (n, 3), cut off where a screen cannot show them (Ottosson 2020)."""
     cones = lab @ np.array(
         [
@@ -53,8 +53,8 @@ def position_colors(mesh: Mesh) -> np.ndarray:
     # Most of a shape is near its middle; bent so, it takes up most of the colours.
     place = place / np.sqrt(1 + place**2)
     longest, middle, shortest = place[:, np.argsort(-extent, kind="stable")].T
-    lightness = LIGHTNESS + LIGHTNESS_SPAN / 2 * (longest - middle + shortest)
-    return oklab_to_rgb(np.stack([lightness, CHROMA * (0.8 * middle + 0.6 * shortest), CHROMA * longest], axis=1))
+    lightness = _LIGHTNESS + _LIGHTNESS_SPAN / 2 * (longest - middle + shortest)
+    return _oklab_to_rgb(np.stack([lightness, _CHROMA * (0.8 * middle + 0.6 * shortest), _CHROMA * longest], axis=1))
 
 
 def error_limit(errors: np.ndarray) -> float:

@@ -20,8 +20,8 @@ from kfmaps.viz.figures import TEXT, NotebookFigure
 
 # Okabe and Ito (2008): told apart without colour vision; the dashes do it in grey too.
 COLORS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#000000", "#56B4E9")
-DASHES = ("solid", "dashed", "dashdot", "dotted")
-N_THRESHOLDS = 251
+_DASHES = ("solid", "dashed", "dashdot", "dotted")
+_N_THRESHOLDS = 251
 """Points of a curve of :func:`plot_curve`."""
 
 
@@ -85,7 +85,7 @@ def plot_curve(errors: Mapping[str, Any], *, limit: float = 0.25, title: str | N
     --------
     >>> figure = plot_curve({"ours": [0.0, 0.01, 0.02], "theirs": [0.0, 0.05, 0.2]})
     """
-    thresholds = np.linspace(0.0, limit, N_THRESHOLDS)
+    thresholds = np.linspace(0.0, limit, _N_THRESHOLDS)
     curves = []
     for name, values in errors.items():
         array = np.asarray(values, dtype=np.float64)
@@ -120,7 +120,7 @@ def curves_figure(curves: Sequence[Curve], *, title: str | None = None, size: tu
     figure = NotebookFigure(figsize=size, facecolor="white", layout="constrained")
     ax = figure.subplots()
     for i, curve in enumerate(curves):
-        color, dash = COLORS[i % len(COLORS)], DASHES[i % len(DASHES)]
+        color, dash = COLORS[i % len(COLORS)], _DASHES[i % len(_DASHES)]
         if curve.low is not None and curve.high is not None:
             ax.fill_between(curve.thresholds, curve.low, curve.high, color=color, alpha=0.15, linewidth=0)
         ax.plot(curve.thresholds, curve.fractions, color=color, linestyle=dash, linewidth=1.8, label=curve.label)

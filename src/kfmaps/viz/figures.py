@@ -19,7 +19,7 @@ _FORMATS = ("png", "svg", "pdf")
 _DPI = 160
 _NOTEBOOK_DPI = 100
 TEXT = "#333333"
-MIDDLE_GREY = "#7b8492"
+_MIDDLE_GREY = "#7b8492"
 """Text that can be read on a white and on a dark page: contrast 3.8 and 4.6."""
 LOST = 0.75
 """Grey of target vertices without a counterpart."""
@@ -82,13 +82,13 @@ def make_transparent(figure: Figure) -> Figure:
     figure.patch.set_alpha(0)
     for ax in figure.axes:
         ax.patch.set_alpha(0)
-        ax.tick_params(color=MIDDLE_GREY, labelcolor=MIDDLE_GREY)
+        ax.tick_params(color=_MIDDLE_GREY, labelcolor=_MIDDLE_GREY)
         for line in ax.spines.values():
-            line.set_edgecolor(MIDDLE_GREY)
+            line.set_edgecolor(_MIDDLE_GREY)
         for line in (*ax.get_xgridlines(), *ax.get_ygridlines()):
             line.set_alpha(0.35)
     for text in figure.findobj(Text):
-        text.set_color(MIDDLE_GREY)
+        text.set_color(_MIDDLE_GREY)
     return figure
 
 

@@ -19,7 +19,7 @@ from kfmaps.viz.colors import position_colors
 from kfmaps.viz.figures import LOST, TEXT, NotebookFigure
 from kfmaps.viz.surfaces import draw_surface
 
-LABEL, TITLE = 0.3, 0.45
+_LABEL, _TITLE = 0.3, 0.45
 """Height of a line of labels and of the title, in inches."""
 
 
@@ -90,17 +90,17 @@ def grid_figure(
 
     # All shapes at one scale, that of equal areas, in panels that hold the largest.
     half = np.max([_half(mesh, seen) / _scale(mesh) for _, mesh, _, seen in cells], axis=0) * 1.03
-    tall = 0.88 * panel * float(np.clip(half[1] / half[0], 0.4, 2.5)) + LABEL
+    tall = 0.88 * panel * float(np.clip(half[1] / half[0], 0.4, 2.5)) + _LABEL
     if columns is None:
         rows = max(1, round(len(cells) / max(1.0, np.sqrt(1.5 * len(cells) * tall / panel))))
         columns = -(-len(cells) // rows)
     columns = min(check_count(columns, "columns"), len(cells))
     rows = -(-len(cells) // columns)
-    width, height = columns * panel, rows * tall + (TITLE if title else 0)
+    width, height = columns * panel, rows * tall + (_TITLE if title else 0)
     figure = NotebookFigure(figsize=(width, height), facecolor="white")
     for i, (text, mesh, painted, seen) in enumerate(cells):
         left, bottom = i % columns * panel / width, (rows - 1 - i // columns) * tall / height
-        place = (left + 0.06 * panel / width, bottom + LABEL / height, 0.88 * panel / width, (tall - LABEL) / height)
+        place = (left + 0.06 * panel / width, bottom + _LABEL / height, 0.88 * panel / width, (tall - _LABEL) / height)
         ax = figure.add_axes(place)
         draw_surface(ax, mesh, painted, seen)
         middle, reach = np.mean([ax.get_xlim(), ax.get_ylim()], axis=1), half * _scale(mesh)

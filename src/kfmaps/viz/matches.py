@@ -18,11 +18,11 @@ from kfmaps.viz.colors import error_colors, error_limit, position_colors
 from kfmaps.viz.figures import LOST, TEXT, NotebookFigure, add_error_bar
 from kfmaps.viz.surfaces import draw_surface
 
-PANEL = 3.4
+_PANEL = 3.4
 """Width of a panel in inches."""
 _BAR_PANEL = 4.2
 """Width in inches of a panel with its colour bar."""
-EACH = "give one per target vertex"
+_EACH = "give one per target vertex"
 
 
 def match_figure(
@@ -82,24 +82,24 @@ def match_figure(
         ("source", source, colors, view_s),
         ("target, coloured by the map", target, transfer(colors, target_to_source, source.faces, LOST), view_t),
     ]
-    width, height = 2 * PANEL, 4.4 + (0.4 if title else 0)
+    width, height = 2 * _PANEL, 4.4 + (0.4 if title else 0)
     wide = max(text / 10, 1.0)
     room = 0.42 * wide if labels else 0.08
     shown, end = None, 0.0
     if errors is not None:
         given = np.asarray(errors, dtype=np.float64)
         given = np.where(carried < 0, 0.0, given) if given.shape == carried.shape else given
-        shown = check(given, "errors", shape=carried.shape, remedy=EACH)
+        shown = check(given, "errors", shape=carried.shape, remedy=_EACH)
         end = error_limit(shown[carried >= 0]) if limit is None else limit
         painted = np.where(carried[:, None] < 0, LOST, error_colors(np.where(carried < 0, 0.0, shown), end))
         panels.append(("error on the target", target, painted, view_t))
-        width += PANEL + 0.7 * wide
+        width += _PANEL + 0.7 * wide
 
     figure = NotebookFigure(figsize=(width, height), facecolor="white")
     bottom, top = room / height, 1 - (0.45 if title else 0.08) / height
     for i, (label, mesh, painted, seen) in enumerate(panels):
-        left, middle = (PANEL * i + 0.1) / width, PANEL * (i + 0.5) / width
-        draw_surface(figure.add_axes((left, bottom, (PANEL - 0.2) / width, top - bottom)), mesh, painted, seen)
+        left, middle = (_PANEL * i + 0.1) / width, _PANEL * (i + 0.5) / width
+        draw_surface(figure.add_axes((left, bottom, (_PANEL - 0.2) / width, top - bottom)), mesh, painted, seen)
         if labels:
             figure.text(middle, 0.15 / height, label, ha="center", va="bottom", color=TEXT, fontsize=text)
     if shown is not None:

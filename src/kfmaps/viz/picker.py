@@ -20,10 +20,10 @@ from kfmaps.viz.page import check_up, map_record, shape_record, source_record, v
 from kfmaps.viz.runs import Progress, Runs
 from kfmaps.viz.server import LocalServer, Reply, json_reply, page_reply
 
-Matcher = Callable[[np.ndarray, Progress], Match]
+_Matcher = Callable[[np.ndarray, Progress], Match]
 """(landmarks (l, 2), progress) to a map, with all that is to be saved of it."""
 
-LONGEST_NAME = 60
+_LONGEST_NAME = 60
 """Letters of a landmark's name."""
 
 
@@ -65,8 +65,8 @@ def _check_names(names: Any, count: int) -> list[str]:
     if names is None:
         return [""] * count
     fits = isinstance(names, list) and len(names) == count
-    if not fits or not all(isinstance(name, str) and len(name) <= LONGEST_NAME for name in names):
-        wanted = f"{count} texts of at most {LONGEST_NAME} letters"
+    if not fits or not all(isinstance(name, str) and len(name) <= _LONGEST_NAME for name in names):
+        wanted = f"{count} texts of at most {_LONGEST_NAME} letters"
         raise refuse("names", wanted, "something else", "give one for each pair")
     return names
 
@@ -103,7 +103,7 @@ class Picker:
     force: bool = False
     landmarks: np.ndarray | tuple = ()
     labels: Sequence[str] = ()
-    matcher: Matcher | None = None
+    matcher: _Matcher | None = None
     map_output: Path | None = None
     up: str | None = None
 

@@ -20,13 +20,13 @@ from kfmaps.matching.result import Match
 from kfmaps.viz.errors import vertex_errors
 from kfmaps.viz.page import result_page
 
-SIGNATURES = 12
+_SIGNATURES = 12
 """Wave kernel signatures shown, and ..."""
-EIGENFUNCTIONS = 100
+_EIGENFUNCTIONS = 100
 """... the eigenfunctions they are made from."""
 
 
-def match_summary(match: Match) -> dict[str, Any]:
+def _match_summary(match: Match) -> dict[str, Any]:
     """Return what a page tells of a match: settings, energies, residuals, times, outcome."""
     fit, config = match.fit, getattr(match, "config", None)
     told = {
@@ -88,7 +88,7 @@ def match_page(
         alternatives=match.alternatives,
         descriptors=signatures(source, target) if descriptors else None,
         common=None if overlap is None else overlap > 0.5,
-        summary=match_summary(match),
+        summary=_match_summary(match),
         names=names,
         up=up,
     )
@@ -103,9 +103,9 @@ def _confidences(source: Mesh, target: Mesh, maps: Sequence[np.ndarray], known: 
 
 def signatures(source: Mesh, target: Mesh) -> tuple[np.ndarray, np.ndarray]:
     """Return wave kernel signatures of both shapes at the same energies, (n_s, 12) and (n_t, 12), of unit area."""
-    most = min(EIGENFUNCTIONS, len(source.vertices) - 1, len(target.vertices) - 1)
+    most = min(_EIGENFUNCTIONS, len(source.vertices) - 1, len(target.vertices) - 1)
     bases = [laplace_basis(unit_area(mesh), most) for mesh in (source, target)]
-    energies, sigma = wave_energies(SIGNATURES, *bases)
+    energies, sigma = wave_energies(_SIGNATURES, *bases)
     first, second = (np.asarray(wave_signature(basis, energies, sigma)) for basis in bases)
     return first, second
 

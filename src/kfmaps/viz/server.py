@@ -25,15 +25,15 @@ from tornado.web import Application, RequestHandler
 from kfmaps._arrays import InvalidInput, refuse
 from kfmaps.viz.encode import to_json
 
-LOOPBACK = "127.0.0.1"
-LARGEST_REQUEST = 1 << 20
+_LOOPBACK = "127.0.0.1"
+_LARGEST_REQUEST = 1 << 20
 """Bytes of a request's body."""
-MAX_SECONDS = 30.0
+_MAX_SECONDS = 30.0
 """For the head of a request, its body and the answer each, however the bytes are spread."""
-WAITING_CONNECTIONS = 256
+_WAITING_CONNECTIONS = 256
 """The system turns away who comes when as many wait to be let in."""
 
-HEADERS = {
+_HEADERS = {
     "Cache-Control": "no-store",
     "Content-Security-Policy": "frame-ancestors 'none'",
     "Cross-Origin-Opener-Policy": "same-origin",
@@ -63,7 +63,7 @@ def json_reply(data: Any, status: int = 200) -> Reply:
     return Reply(status, "application/json", json.dumps(to_json(data), allow_nan=False).encode())
 
 
-Routes = Mapping[tuple[str, str], Callable[[Any], Reply]]
+_Routes = Mapping[tuple[str, str], Callable[[Any], Reply]]
 """(method, name below the token) to a function of the request's JSON (``None`` for GET)."""
 
 
@@ -83,11 +83,11 @@ class LocalServer:
         When the port is taken.
     """
 
-    def __init__(self, routes: Routes, port: int = 0) -> None:
+    def __init__(self, routes: _Routes, port: int = 0) -> None:
         self.routes = routes
         self.token = secrets.token_urlsafe(24)
         try:
-            self._socket = socket.create_server((LOOPBACK, port), backlog=WAITING_CONNECTIONS)
+            self._socket = socket.create_server((_LOOPBACK, port), backlog=_WAITING_CONNECTIONS)
         except (OSError, OverflowError) as error:
             reason = getattr(error, "strerror", None) or str(error)
             raise refuse("port", "a free port of this machine", f"{port} ({reason})", "give another") from error
@@ -98,7 +98,7 @@ class LocalServer:
     @property
     def address(self) -> str:
         """Where the page is. Whoever knows it can use the page."""
-        return f"http://{LOOPBACK}:{self.port}/{self.token}/"
+        return f"http://{_LOOPBACK}:{self.port}/{self.token}/"
 
     def serve_forever(self) -> None:
         """Answer requests until :meth:`shutdown`, or until the user interrupts."""
@@ -106,8 +106,8 @@ class LocalServer:
 
     async def _serve(self) -> None:
         application = Application([(".*", _Handler, {"site": self})], log_function=lambda _: None)
-        limits = {"idle_connection_timeout": MAX_SECONDS, "body_timeout": MAX_SECONDS}
-        server = HTTPServer(application, no_keep_alive=True, max_body_size=LARGEST_REQUEST, **limits)
+        limits = {"idle_connection_timeout": _MAX_SECONDS, "body_timeout": _MAX_SECONDS}
+        server = HTTPServer(application, no_keep_alive=True, max_body_size=_LARGEST_REQUEST, **limits)
         server.add_socket(self._socket)
         try:
             await asyncio.wrap_future(self._stopped)
@@ -129,14 +129,14 @@ class _Handler(RequestHandler):
         self.site = site
 
     def set_default_headers(self) -> None:
-        for name, value in HEADERS.items():
+        for name, value in _HEADERS.items():
             self.set_header(name, value)
 
     async def get(self) -> None:
         answer = self._reply()
         self.set_status(answer.status)
         self.set_header("Content-Type", answer.kind)
-        _, slow = await asyncio.wait({self.finish(answer.body)}, timeout=MAX_SECONDS)
+        _, slow = await asyncio.wait({self.finish(answer.body)}, timeout=_MAX_SECONDS)
         if slow:  # who does not read the answer is not waited for
             cast(HTTP1Connection, self.request.connection).close()
 
@@ -172,7 +172,7 @@ class _Handler(RequestHandler):
     def _foreign(self) -> str | None:
         """Why the request is not this page's own, if it is not."""
         hosts = self.request.headers.get_list("Host")
-        if hosts not in ([f"{LOOPBACK}:{self.site.port}"], [f"localhost:{self.site.port}"]):
+        if hosts not in ([f"{_LOOPBACK}:{self.site.port}"], [f"localhost:{self.site.port}"]):
             return "the request was sent to another host's name"
         if any(origin != f"http://{hosts[0]}" for origin in self.request.headers.get_list("Origin")):
             return "the request comes from another site"

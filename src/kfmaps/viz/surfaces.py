@@ -12,16 +12,16 @@ from kfmaps._arrays import check
 from kfmaps.geometry.mesh import Mesh, face_normals, vertex_normals
 from kfmaps.viz.camera import View, automatic_view
 
-LIGHTS = (((-0.45, 0.65, 0.75), 0.40), ((0.8, 0.1, 0.55), 0.12))
+_LIGHTS = (((-0.45, 0.65, 0.75), 0.40), ((0.8, 0.1, 0.55), 0.12))
 """Direction (right, up, towards the camera) and strength of the lamps."""
-AMBIENT = 0.58
-SKY = 0.06
+_AMBIENT = 0.58
+_SKY = 0.06
 """How much lighter what faces up is than what faces down, before any lamp."""
-ENOUGH = 24000
+_ENOUGH = 24000
 """Triangles of even colour below which each is divided into four, so that none is seen as such."""
 
 
-def is_watertight(faces: np.ndarray, count: int) -> bool:
+def _is_watertight(faces: np.ndarray, count: int) -> bool:
     """Return whether each edge of the faces is run through as often one way as the other: nothing shows inside."""
     forth = np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]])
     return np.array_equal(np.sort(forth @ [count, 1]), np.sort(forth @ [1, count]))
@@ -29,14 +29,14 @@ def is_watertight(faces: np.ndarray, count: int) -> bool:
 
 def shade(normals: np.ndarray) -> np.ndarray:
     """Return the brightness (...,) of surfaces with unit normals (..., 3) in camera axes (Lambert's law)."""
-    light = AMBIENT + SKY * normals[..., 1]
-    for direction, strength in LIGHTS:
+    light = _AMBIENT + _SKY * normals[..., 1]
+    for direction, strength in _LIGHTS:
         cosine = normals @ (np.array(direction) / np.linalg.norm(direction))
         light = light + strength * np.maximum(cosine, 0)
     return light
 
 
-def subdivide(corners: np.ndarray) -> np.ndarray:
+def _subdivide(corners: np.ndarray) -> np.ndarray:
     """Divide triangles with corner values (f, 3, d) into four each, cut at mid-edge."""
     a, b, c = corners.swapaxes(0, 1)
     ab, bc, ca = (a + b) / 2, (b + c) / 2, (c + a) / 2
@@ -91,7 +91,7 @@ def draw_surface(
     flat = face_normals(mesh) @ axes.T
     facing = flat[:, 2]
     faces, normals = mesh.faces, vertex_normals(mesh) @ axes.T
-    if is_watertight(faces, len(points)):
+    if _is_watertight(faces, len(points)):
         # Of a closed surface only the faces towards the camera show; its faces may all be turned inwards.
         a, b, c = (points[faces[:, i]] for i in range(3))
         outward = np.sign(((a - points.mean(axis=0)) * np.cross(b - a, c - a)).sum()) or 1.0
@@ -101,8 +101,8 @@ def draw_surface(
     corners = corners * np.where((corners * flat[:, None]).sum(axis=2, keepdims=True) < 0, -1, 1)
     corners = corners * np.where(facing < 0, -1, 1)[:, None, None]
     parts = np.concatenate([points[faces], corners, colors[faces]], axis=2)
-    while 0 < len(parts) < ENOUGH:
-        parts = subdivide(parts)
+    while 0 < len(parts) < _ENOUGH:
+        parts = _subdivide(parts)
     places, corners, blend = parts[:, :, :3], parts[:, :, 3:6], parts[:, :, 6:].mean(axis=1)
     if shading:
         smooth = corners.mean(axis=1)
