@@ -189,7 +189,7 @@ MUTANTS = tuple(
         ),
         ("-0.5 * squares / size**2", "-0.4 * squares / size**2", "test_maps -k nearest"),
         ("scores -= 0.5 * np.einsum", "scores -= 0.4 * np.einsum", f"{FORMULAS} -k cells"),
-        ("_RIDGE = 0.1", "_RIDGE = 0.0", f"{FORMULAS} -k damping"),
+        ("_RIDGE = 0.1", "_RIDGE = 0.0", f"{FORMULAS} -k damping", "fmap/zoomout"),
         ("return (1 + ridge) * xp.linalg.solve", "return xp.linalg.solve", f"{FORMULAS} -k damping"),
         ("C = fit_functional_map(points, source, target, self.stop)", "pass", f"{FORMULAS} -k last_step"),
         ("C = C[:first, :first]", "C = C.T[:first, :first]", f"{FORMULAS} -k low_part"),
@@ -365,7 +365,7 @@ MUTANTS = tuple(
             "cost = squares - functions_t @ images.T",
             "test_formulations -k majorizer",
         ),
-        ("noise = np.asarray(noise) / len(pairs) + RIDGE", "noise = RIDGE", "test_learn -k metric_starts"),
+        ("noise = np.asarray(noise) / len(pairs) + _RIDGE", "noise = _RIDGE", "test_learn -k metric_starts"),
         ("0.5 * (1 + math.cos(math.pi", "0.5 * (2 + math.cos(math.pi", "test_learn -k rate_falls"),
         ("2 * d * np.sqrt(e) - d * d)", "2 * d * np.sqrt(e))", f"{FORMULAS} -k losses"),
         ("return d / np.sqrt(np.maximum(e, d * d))", "return d / np.maximum(e, d)", "test_formulations -k loss_weight"),
@@ -551,7 +551,7 @@ MUTANTS = tuple(
             "test_bake",
         ),
         ("seam = np.flatnonzero((torn & ~single)[face])", "seam = np.flatnonzero(single[face])", "test_bake"),
-        ("hits > 1) <= TWICE * np.count_nonzero(hits)", "hits > 1) <= np.count_nonzero(hits)", "test_bake"),
+        ("hits > 1) <= _TWICE * np.count_nonzero(hits)", "hits > 1) <= np.count_nonzero(hits)", "test_bake"),
         # learned kernels in a search, parts of a collection
         (
             "if new.score > ranked[0].score + SCORE.clear_margin:",

@@ -113,7 +113,7 @@ def read_mesh_file(path: str | Path, *, cloud: bool = True) -> MeshFile:
 def _place_unplaced(found: MeshFile, name: str) -> MeshFile:
     """Put vertices whose coordinates are NaN at the mean of their neighbours, where they are few and have some."""
     vertices, faces = found.mesh.vertices, found.mesh.faces
-    bad = np.isnan(vertices).any(axis=1)
+    bad = np.asarray(np.isnan(vertices).any(axis=1))
     if not bad.any() or bad.mean() > _MAX_UNPLACED:
         return found
     vertices = vertices.copy()
