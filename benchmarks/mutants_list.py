@@ -310,7 +310,7 @@ MUTANTS = tuple(
             "found[i, j] = values[:, column]",
             "test_tips -k turn",
         ),
-        ("return replace(self, turn=-self.turn)", "return self", "test_tips -k mirror"),
+        ("return replace(self, gradient_cross=-self.gradient_cross)", "return self", "test_tips -k mirror"),
         ("if far[i] >= far[near].max(initial=0.0)", "if far[i] <= far[near].max(initial=0.0)", "test_tips -k far_from"),
         (
             "cost = np.abs(theirs - ours).sum(axis=(1, 2)) / (size * (size - 1))",
@@ -327,7 +327,11 @@ MUTANTS = tuple(
             "cost = -1 * there @ here.T",
             "test_tips -k turns_alone",
         ),
-        ("each[i] += tips * extremity_cost(", "each[i] = -tips * extremity_cost(", "test_tips -k evidence"),
+        (
+            "each[i] += extremities * extremity_cost(",
+            "each[i] = -extremities * extremity_cost(",
+            "test_tips -k evidence",
+        ),
         (
             "deformed = -numbers.w_deformation",
             "deformed = numbers.w_deformation",
@@ -790,7 +794,7 @@ MUTANTS = tuple(
             "probability(score, one, deformation_energy, 0.0, numbers)",
             "test_marks -k takes",
         ),
-        ("replace(on, landmarks=None), threads)[0]", "on, threads)[0]", "test_marks -k not_led"),
+        ("replace(on, landmark_cost=None), threads)[0]", "on, threads)[0]", "test_marks -k not_led"),
         (
             "confidence=probability(*evidence)",
             "confidence=probability(*evidence[:3])",
@@ -807,11 +811,11 @@ MUTANTS = tuple(
             "test_marks -k differ_much",
         ),
         (
-            "LEAD if near_isometric(found) else LESS",
-            "LESS if near_isometric(found) else LEAD",
+            "LANDMARK_WEIGHT if near_isometric(found) else LANDMARK_WEIGHT_UNLIKE",
+            "LANDMARK_WEIGHT_UNLIKE if near_isometric(found) else LANDMARK_WEIGHT",
             "test_marks -k differ_much",
         ),
-        ("limbs, setting.shot, LESS)", "limbs, setting.shot)", "test_marks -k mended"),
+        ("limbs, setting.shot, LANDMARK_WEIGHT_UNLIKE)", "limbs, setting.shot)", "test_marks -k mended"),
         (
             "registration_pair(source, target, finer.copies, landmarks)",
             "registration_pair(source, target, finer.copies)",

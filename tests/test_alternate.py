@@ -217,7 +217,7 @@ def test_likely_pairings_are_begun_with_where_no_map_has_them(creatures, monkeyp
     on = two_level_samples(source, target, (sample_for_scoring(source, 200), sample_for_scoring(target, 200))).whole
     C = np.asarray(to_functional(truth, source.basis.truncate(40), target.basis.truncate(40)))
     ranked = [replace(c, deformation_energy=1.0) for c in score_maps([("truth", True)], C[None], None, on, 1)]
-    (best, *others) = match_extremities(on.source, on.target, on.shot)
+    (best, *others) = match_extremities(on.source, on.target, on.descriptor_cost)
     mirror = next(one for one in others if one.contradicts(best))
     monkeypatch.setattr(mending, "match_extremities", lambda *_: [best, mirror])
     monkeypatch.setattr(mending, "complete_match", lambda one, _likely: one)

@@ -142,7 +142,10 @@ def test_quality_is_what_its_definition_says(shape, other):
         apart = ((a - b[at]) ** 2).sum(axis=1)
         at_ends.append(np.average(apart[near], weights=side.samples.basis.mass[near]))
     assert found.extremity_descriptor_error == pytest.approx(np.mean(at_ends) / both, rel=1e-4)
-    without = replace(here, extremities=here.extremities.none()), replace(there, extremities=there.extremities.none())
+    without = (
+        replace(here, extremities=here.extremities.removed()),
+        replace(there, extremities=there.extremities.removed()),
+    )
     assert map_quality(C, *without).extremity_descriptor_error == 0.0
     first_back, first_forth = nearest(rows[:100], images[:100]), nearest(images[:100], rows[:100])
     change = np.abs(here.distances[np.ix_(first_back, first_back)] - there.distances).mean()

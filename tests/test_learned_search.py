@@ -85,9 +85,9 @@ def test_candidates_of_the_metric(creature):
     rows = _transformed_descriptors(source, target, config, on.whole.source, on.whole.target)
     assert rows is not None
     ground = _in_metric(on.whole, *rows)
-    assert ground.shot is not None
-    assert on.whole.shot is not None
-    assert ground.shot.shape == on.whole.shot.shape
+    assert ground.descriptor_cost is not None
+    assert on.whole.descriptor_cost is not None
+    assert ground.descriptor_cost.shape == on.whole.descriptor_cost.shape
     found = learned_candidates(source, target, config, on, 0, 0)
     assert found
     assert all(c.name.startswith("learned") and c.uses_descriptors for c in found)

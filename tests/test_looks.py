@@ -289,11 +289,11 @@ def test_maps_found_without_landmarks_take_part(creatures, monkeypatch):
     found = without_landmarks(source, target, kfmaps.Config(), on, 3, drawn=4)
     alone, how = asked[0]
     assert how == {"drawn": 4}
-    assert alone.few.marks is None
+    assert alone.few.landmark_evidence is None
     assert alone.few.landmarks is None
-    assert alone.whole.marks is None
-    assert alone.whole.landmarks is None
-    assert alone.whole.shot is on.whole.shot
+    assert alone.whole.landmark_evidence is None
+    assert alone.whole.landmark_cost is None
+    assert alone.whole.descriptor_cost is on.whole.descriptor_cost
     assert [c.name for c in found] == ["free"]
     assert found[0].landmark_errors.shape == (2,)
     np.testing.assert_array_equal(found[0].functional_map, np.eye(40))

@@ -20,8 +20,8 @@ from kfmaps.matching import registration_refine as mending
 from kfmaps.matching import search as choose
 from kfmaps.matching.candidates import score_maps
 from kfmaps.matching.landmark_evidence import (
-    LEAD,
-    LESS,
+    LANDMARK_WEIGHT,
+    LANDMARK_WEIGHT_UNLIKE,
     build_guidance,
 )
 from kfmaps.matching.quality import sample_for_scoring
@@ -155,17 +155,17 @@ def test_a_map_is_backed_by_landmarks_that_have_not_led_it(creatures, slid) -> N
     maps = (functional(creatures[2], creatures, 40), slid)
     right, wrong = (score_maps(NAMES, C[None], None, on, 1)[0] for C in maps)
     areas = np.asarray(on.source.samples.basis.mass)
-    assert on.marks is not None
+    assert on.landmark_evidence is not None
     assert (
         backed_by(right, on, 1)
-        == landmark_support(ignore_landmarks(right, on, 1).landmark_errors, on.marks.distances, areas)
+        == landmark_support(ignore_landmarks(right, on, 1).landmark_errors, on.landmark_evidence.distances, areas)
         > 0.3
     )
     # With landmarks in it the refinement would keep to them.
     led = choose.rerefine([wrong], on, 1)[0]
-    assert landmark_support(led.landmark_errors, on.marks.distances, areas) > 0.3
+    assert landmark_support(led.landmark_errors, on.landmark_evidence.distances, areas) > 0.3
     assert backed_by(wrong, on, 1) < 1e-3
-    assert backed_by(right, replace(on, landmarks=None, marks=None), 1) == 0.0
+    assert backed_by(right, replace(on, landmark_cost=None, landmark_evidence=None), 1) == 0.0
 
 
 def test_a_search_says_that_landmarks_back_its_map(creatures, monkeypatch) -> None:
@@ -279,7 +279,7 @@ def test_a_landmark_pulls_by_its_weight_and_less_from_afar() -> None:
             np.testing.assert_allclose(term.places - x, np.broadcast_to((0, 0, -off), x.shape), atol=1e-9)
 
 
-@pytest.mark.parametrize("lead", [LEAD, LESS])
+@pytest.mark.parametrize("lead", [LANDMARK_WEIGHT, LANDMARK_WEIGHT_UNLIKE])
 def test_landmarks_lead_by_their_weight(creatures, lead) -> None:
     source, target, _ = creatures
     at = spread_out(creatures, 3)
@@ -292,10 +292,10 @@ def test_landmarks_lead_by_their_weight(creatures, lead) -> None:
     for side in ("source", "target"):
         own, most = getattr(led, side), getattr(whole, side)
         np.testing.assert_allclose(own[:, :k], getattr(plain, side))
-        np.testing.assert_allclose(own[:, k:], np.sqrt(lead / LEAD) * most[:, k:])
-        if lead == LEAD:
+        np.testing.assert_allclose(own[:, k:], np.sqrt(lead / LANDMARK_WEIGHT) * most[:, k:])
+        if lead == LANDMARK_WEIGHT:
             both = np.vstack([led.source[:, k:], led.target[:, k:]])
-            assert 2 * ((both - both.mean(axis=0)) ** 2).sum(axis=1).mean() == pytest.approx(LEAD)
+            assert 2 * ((both - both.mean(axis=0)) ** 2).sum(axis=1).mean() == pytest.approx(LANDMARK_WEIGHT)
 
 
 def test_landmarks_lead_less_where_shapes_differ_much(creatures, monkeypatch) -> None:
@@ -306,7 +306,7 @@ def test_landmarks_lead_less_where_shapes_differ_much(creatures, monkeypatch) ->
     for quality in (None, SCORE.non_isometric_score, SCORE.non_isometric_score - 1):
         assert near_isometric(replace(found, quality=quality)) == (quality != SCORE.non_isometric_score - 1)
         assert matching._search_guidance(replace(found, quality=quality), (source, target)) is None
-    assert asked == [LEAD, LEAD, LESS]
+    assert asked == [LANDMARK_WEIGHT, LANDMARK_WEIGHT, LANDMARK_WEIGHT_UNLIKE]
 
 
 def test_what_is_mended_keeps_to_landmarks(creatures, monkeypatch) -> None:
@@ -337,7 +337,7 @@ def test_what_is_mended_keeps_to_landmarks(creatures, monkeypatch) -> None:
     (t, s), (s_again, t_again) = begun
     for there, here in ((s, t), (s_again, t_again)):
         np.testing.assert_array_equal(np.stack([there, here], axis=1), at)
-    assert [weight for _, weight in leads] == [LESS, LESS]
+    assert [weight for _, weight in leads] == [LANDMARK_WEIGHT_UNLIKE, LANDMARK_WEIGHT_UNLIKE]
     assert all(np.array_equal(told, at) for told, _ in leads)
 
 

@@ -32,7 +32,7 @@ from kfmaps.matching.initial_maps import perturb
 from kfmaps.matching.match import match
 from kfmaps.matching.quality import map_quality, sample_for_scoring, subsample
 from kfmaps.matching.ranking import distinct
-from kfmaps.matching.sample_pair import sample_pair
+from kfmaps.matching.sample_pair import build_sample_pair
 from kfmaps.shape import Shape, prepare
 
 GUARDS = (
@@ -112,12 +112,12 @@ def test_the_order_of_candidates_knows_no_rounding(shape):
     for first in FIRST:
         judge = sample_for_scoring(starting(shape, first), 200)
         found = score_maps(
-            [(name, True) for name in maps], np.stack(list(maps.values())), None, sample_pair(judge, judge)
+            [(name, True) for name in maps], np.stack(list(maps.values())), None, build_sample_pair(judge, judge)
         )
         assert distinct(found, judge)[0].name == "right"
         assert distinct(found[::-1], judge)[0].name == "right"
     # Symmetric maps tie but for rounding: the one that was found first stays first.
-    right = score_maps([("right", True)], np.eye(K)[None], None, sample_pair(judge, judge))[0]
+    right = score_maps([("right", True)], np.eye(K)[None], None, build_sample_pair(judge, judge))[0]
     up = replace(right, quality=replace(right.quality, coverage=right.quality.coverage + 1e-15))
     assert up.score == right.score
 

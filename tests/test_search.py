@@ -23,7 +23,7 @@ from kfmaps.matching.initial_maps import FIT_POINTS, FitSpec, fit_descriptor_set
 from kfmaps.matching.landmark_evidence import heat_features, heat_guidance, landmark_errors
 from kfmaps.matching.match import match
 from kfmaps.matching.quality import sample_for_scoring, sample_surface
-from kfmaps.matching.sample_pair import descriptor_cost, drop_landmarks, sample_pair, two_level_samples
+from kfmaps.matching.sample_pair import build_sample_pair, descriptor_cost, drop_landmarks, two_level_samples
 from kfmaps.matching.score import SCORE, rejected_landmarks
 from kfmaps.matching.search import SearchResult, adapt_refinement, search_map
 from kfmaps.shape import prepare, sample_shape
@@ -123,7 +123,7 @@ def test_the_orientation_of_a_family_turns_its_maps(shape, other):
         fit_descriptor_set([FitSpec("waves", 20, w)], points, SMALL, c, 0)[0].functional_map
         for w, c in ((1.0, cubes), (1.0, (cubes[0], -cubes[1])), (0.0, cubes))
     ]
-    on = sample_pair(*probes)
+    on = build_sample_pair(*probes)
     kept, turned, free = (c.quality.orientation for c in score_maps([("", True)] * 3, np.stack(maps), None, on))
     assert kept > 0.8
     assert kept > turned + 0.3
@@ -163,8 +163,8 @@ def test_missed_is_the_distance_from_where_a_landmark_belongs(shape):
     wrong = np.array([10, 200, 5])
     judge = sample_for_scoring(shape, 300, landmarks=at)
     on = two_level_samples(shape, shape, (judge, judge), np.stack([at, wrong], axis=1))
-    assert on.whole.marks is not None
-    off = landmark_errors(np.eye(60), judge.samples.basis.functions, on.whole.marks)
+    assert on.whole.landmark_evidence is not None
+    off = landmark_errors(np.eye(60), judge.samples.basis.functions, on.whole.landmark_evidence)
     true = geodesic_distances(shape.mesh, at[2:])[0, 5]
     assert off[:2].max() < 0.1
     assert off[2] == pytest.approx(true, abs=0.1)

@@ -11,7 +11,7 @@ from kfmaps.matching.initial_maps import symmetry_inits
 from kfmaps.matching.quality import map_quality, mirror_samples, sample_for_scoring, subsample
 from kfmaps.matching.sample_pair import two_level_samples
 from kfmaps.matching.search import scoring_samples
-from kfmaps.matching.self_maps import _MAX_DISTORTION, _MIN_DISPLACEMENT, self_maps, symmetries
+from kfmaps.matching.self_maps import _MAX_DISTORTION, _MIN_DISPLACEMENT, find_self_maps, self_maps
 from kfmaps.shape import prepare
 from test_search import SMALL
 
@@ -41,7 +41,7 @@ def moved(C, of):
 
 
 def test_a_body_is_nearly_its_own_mirror_image(on):
-    found = symmetries(on.source, 100)
+    found = find_self_maps(on.source, 100)
     assert len(found) >= 1
     first = map_quality(found[0], on.source, on.source)
     assert first.orientation < -0.9
@@ -52,9 +52,9 @@ def test_a_body_is_nearly_its_own_mirror_image(on):
 
 
 def test_those_that_change_distances_early_are_none(monkeypatch, on):
-    some = symmetries(on.source, 100)
+    some = find_self_maps(on.source, 100)
     monkeypatch.setattr(within, "_MAX_CANDIDATES", 99)
-    for one, other in zip(some, symmetries(on.source, 100), strict=True):
+    for one, other in zip(some, find_self_maps(on.source, 100), strict=True):
         np.testing.assert_array_equal(one, other)
     same, lost = np.eye(10), np.diag([1.0] + [0.0] * 9)
     changed = within._changed(np.stack([same, lost]), on.source)
@@ -66,16 +66,16 @@ def test_those_that_change_distances_early_are_none(monkeypatch, on):
 def test_a_kept_probe_knows_them(pair):
     kept = scoring_samples(pair[0])
     few = subsample(sample_for_scoring(pair[0], rng=kept_seed()), 400)
-    for C, again in zip(self_maps(subsample(kept, 400), 100), symmetries(few, 100), strict=True):
+    for C, again in zip(self_maps(subsample(kept, 400), 100), find_self_maps(few, 100), strict=True):
         np.testing.assert_array_equal(C, again)
     assert kept.turns is not None
     np.testing.assert_array_equal(mirror_samples(kept).turns, kept.turns)
     # Those of fewer functions are others.
-    assert [len(C) for C in self_maps(subsample(kept, 400), 30)] == [30] * len(symmetries(few, 30))
+    assert [len(C) for C in self_maps(subsample(kept, 400), 30)] == [30] * len(find_self_maps(few, 30))
 
 
 def test_one_function_has_none(on):
-    assert symmetries(on.source, 1) == []
+    assert find_self_maps(on.source, 1) == []
 
 
 @pytest.mark.parametrize("of_target", [False, True])
@@ -83,7 +83,7 @@ def test_a_map_is_compared_with_what_it_is_mistaken_for(pair, on, of_target):
     """Of nothing but the mirrored map the true one is found: it could not be sure for want of a rival."""
     source, target, truth = pair
     C = np.asarray(to_functional(truth, source.basis.truncate(40), target.basis.truncate(40)))
-    S = symmetries(on.target if of_target else on.source, 40)[0]
+    S = find_self_maps(on.target if of_target else on.source, 40)[0]
     right = score_maps([("truth", True)], C[None], None, on)[0]
     mirrored = score_maps([("mirrored", True)], (S @ C if of_target else C @ S)[None], None, on)[0]
     assert len(distinct_maps([right, mirrored], on.source, 0.12)) == 2

@@ -27,7 +27,7 @@ from kfmaps.matching.ranking import ProxyCache, in_order, ranking
 from kfmaps.matching.sample_pair import two_level_samples
 from kfmaps.matching.score import SCORE, Candidate, Quality
 from kfmaps.matching.search import search_map
-from kfmaps.matching.self_maps import symmetries
+from kfmaps.matching.self_maps import find_self_maps
 from kfmaps.registration.evidence import _MAX_ENERGY, _MIN_ENERGY, coarse_copy, deform, proxy_pair
 from kfmaps.registration.nonrigid_icp import NonRigid
 from kfmaps.shape import mirror_image, prepare
@@ -62,8 +62,8 @@ def test_tips_are_far_from_everything_around_them_and_from_each_other(probes):
         between = one.distances[np.ix_(one.extremities.points, one.extremities.points)]
         assert len(one.extremities.points) >= 5
         assert (between[~np.eye(len(between), dtype=bool)] >= _MIN_DISTANCE).all()
-        assert (np.diff(one.extremities.reach) <= 0).all()
-        assert (one.extremities.reach > 1.0).all()
+        assert (np.diff(one.extremities.mean_distance) <= 0).all()
+        assert (one.extremities.mean_distance > 1.0).all()
         assert one.extremities.distances[np.arange(len(between)), one.extremities.points] == pytest.approx(
             0.0, abs=1e-12
         )
@@ -82,7 +82,7 @@ def test_tips_know_nothing_of_units_position_and_numbering(creature, probes):
     after = extremities(one.distances, mass, moved, rows)
     assert np.array_equal(before.points, after.points)
     assert after.distances == pytest.approx(before.distances, abs=1e-9)
-    assert after.turn == pytest.approx(before.turn, abs=1e-6)
+    assert after.gradient_cross == pytest.approx(before.gradient_cross, abs=1e-6)
 
 
 def test_turn_is_the_sine_between_two_directions():
@@ -115,7 +115,7 @@ def test_a_shape_is_told_from_its_mirror_image_by_turns_alone(probes):
 
 def test_the_true_pairing_is_among_the_first(creature, probes, on):
     """Tips in which the truth nearly agrees, most of them, among the pairings that are refined."""
-    found = match_extremities(on.few.source, on.few.target, on.few.shot)
+    found = match_extremities(on.few.source, on.few.target, on.few.descriptor_cost)
     a, b = probes[0], probes[1]
     truth = creature[2]
     images = truth[b.samples.vertices[b.extremities.points]]
@@ -146,7 +146,7 @@ def test_distances_between_tips_alone_pair_them(probes):
     plain = replace(
         one,
         heat=np.zeros_like(one.heat),
-        extremities=replace(one.extremities, reach=np.ones(len(one.extremities.points))),
+        extremities=replace(one.extremities, mean_distance=np.ones(len(one.extremities.points))),
     )
     order = np.array([3, 0, 5, 1, 4, 2, *range(6, len(one.extremities.points))])
     tips = replace(
@@ -158,7 +158,7 @@ def test_distances_between_tips_alone_pair_them(probes):
 
 def test_shapes_without_limbs_are_not_paired(probes):
     one = probes[0]
-    bare = replace(one, extremities=one.extremities.none())
+    bare = replace(one, extremities=one.extremities.removed())
     assert match_extremities(one, bare, None) == []
     assert match_of_map(np.arange(len(one.positions)), bare, one) is None
     few = replace(one.extremities, points=one.extremities.points[: FEWEST - 1])
@@ -166,7 +166,7 @@ def test_shapes_without_limbs_are_not_paired(probes):
 
 
 def test_the_map_of_a_pairing_is_nearly_the_identity(on):
-    few = replace(on.few, target=on.few.source, shot=None)
+    few = replace(on.few, target=on.few.source, descriptor_cost=None)
     k = 8
     C = paired_map(identity(len(few.source.extremities.points)), few, k)
     assert np.linalg.norm(C - np.eye(k)) < 0.5
@@ -185,14 +185,14 @@ def test_each_map_may_have_evidence_of_its_own(on):
     bases = on.few.source.samples.basis, on.few.target.samples.basis
     pairs = [identity(6), None, ExtremityMatch(np.arange(6), np.arange(6)[::-1].copy())]
     maps = np.repeat(np.eye(10)[None], 3, axis=0)
-    cost = on.few.against(4.0, 0.0, 30.0, pairs)
+    cost = on.few.matching_cost(4.0, 0.0, 30.0, pairs)
     assert cost.shape == (3, len(on.few.target.positions), len(on.few.source.positions))
     together = batched_zoomout(maps, *bases, (10, 20, 30), cost, 1)
     for i, pairing in enumerate(pairs):
-        alone = batched_zoomout(maps[:1], *bases, (10, 20, 30), on.few.against(4.0, 0.0, 30.0, [pairing]), 1)
+        alone = batched_zoomout(maps[:1], *bases, (10, 20, 30), on.few.matching_cost(4.0, 0.0, 30.0, [pairing]), 1)
         assert np.array_equal(together[1][i], alone[1][0])
     assert not np.array_equal(together[1][0], together[1][2])
-    speaks = on.few.against(0.0, 0.0, 2.0, pairs[:1])
+    speaks = on.few.matching_cost(0.0, 0.0, 2.0, pairs[:1])
     assert speaks is not None
     assert speaks[0] == pytest.approx(
         2 * extremity_cost(on.few.source.extremities, on.few.target.extremities, pairs[0]), abs=1e-5
@@ -209,7 +209,7 @@ def test_a_shape_bends_least_onto_itself(creature, probes):
 
 
 def test_limbs_of_different_lengths_leave_no_symmetry(probes):
-    assert symmetries(subsample(probes[1], 400), 100) == []
+    assert find_self_maps(subsample(probes[1], 400), 100) == []
 
 
 def test_strain_is_of_all_places_and_not_of_the_worst(creature, probes):
@@ -265,7 +265,7 @@ def test_the_probe_of_a_mirror_image_turns_the_other_way(probes):
     turned = mirror_samples(probes[0])
     assert turned.copy is not None
     assert turned.mirrored
-    assert np.array_equal(turned.extremities.turn, -probes[0].extremities.turn)
+    assert np.array_equal(turned.extremities.gradient_cross, -probes[0].extremities.gradient_cross)
     assert turned.copy.mesh.vertices[:, 0] == pytest.approx(-probes[0].copy.mesh.vertices[:, 0])
 
 

@@ -13,7 +13,7 @@ from kfmaps.collection.synchronization import MAX_LOG_ODDS, N_FUNCTIONS, Candida
 from kfmaps.fmap.convert import to_functional
 from kfmaps.matching.candidates import AGAIN, refine_batch
 from kfmaps.matching.quality import ShapeSamples, map_quality, mirror_samples
-from kfmaps.matching.sample_pair import sample_pair
+from kfmaps.matching.sample_pair import build_sample_pair
 from kfmaps.matching.score import SCORE, probability
 from kfmaps.shape import Shape
 
@@ -61,9 +61,9 @@ def score_pair_maps(
     rough = np.stack([to_numpy(to_functional(points, *bases)) for points in maps])
     found: list[ScoredMap | None] = [None] * len(maps)
     for back in sorted(set(turned)):
-        on = sample_pair(probes[0], mirror_samples(probes[1]) if back else probes[1])
+        on = build_sample_pair(probes[0], mirror_samples(probes[1]) if back else probes[1])
         rows = [i for i, one in enumerate(turned) if one == back]
-        weights = (AGAIN[0] if on.shot is not None else 0.0, 0.0)
+        weights = (AGAIN[0] if on.descriptor_cost is not None else 0.0, 0.0)
         settled, points = refine_batch(rough[rows], on, (max(k // 2, 2), k), weights, (), 1)
         for i, C, at in zip(rows, settled, points, strict=True):
             quality = map_quality(C, on.source, on.target, at)

@@ -139,7 +139,7 @@ def refine_fine(
         if members:
             matches = [match_of_map(c.points, few.source, few.target) for c in members] if weights[2:] else []
             refined = refine_finely(members, pair, functions, weights, matches, threads)
-            uses = bool(weights[0]) or pair.shot is None
+            uses = bool(weights[0]) or pair.descriptor_cost is None
             found += score_maps([(c.name, uses) for c in members], *refined, pair, threads, [c.fit for c in members])
     return found
 
@@ -185,7 +185,7 @@ def refine_batch(
 ) -> tuple[np.ndarray, np.ndarray]:
     """Run :func:`batched_zoomout` on a pair; ``matches``: the extremities that each map takes to each other."""
     bases = pair.source.samples.basis, pair.target.samples.basis
-    return batched_zoomout(maps, *bases, sizes, pair.against(*weights, paired=matches), threads, pair.solver)
+    return batched_zoomout(maps, *bases, sizes, pair.matching_cost(*weights, matches=matches), threads, pair.solver)
 
 
 def score_maps(
@@ -206,7 +206,9 @@ def score_maps(
     def judge(i: int) -> Candidate:
         C = maps[i]
         at = points[i] if points is not None else sample_points(C, pair)
-        errors = np.zeros(0) if pair.marks is None else landmark_errors(C, functions, pair.marks)
+        errors = (
+            np.zeros(0) if pair.landmark_evidence is None else landmark_errors(C, functions, pair.landmark_evidence)
+        )
         quality = map_quality(C, pair.source, pair.target, at)
         return Candidate(names[i][0], C, at, quality, names[i][1], errors, fit=fits[i] if fits else None)
 

@@ -1,4 +1,4 @@
-"""Tips of limbs: what two bodies have in common, whatever their proportions and poses.
+"""Extremities, the ends of limbs: what two bodies have in common, whatever their proportions and poses.
 
 Hands, feet, heads and tails are where the mean geodesic distance to the rest of the surface is locally largest (Hilaga
 et al. 2001). They are few and found on any body, and distances to them, together with the sense in which two of these
@@ -18,49 +18,53 @@ from kfmaps.geometry.geodesic_graph import geodesic_graph
 from kfmaps.geometry.mesh import Mesh
 
 _MIN_DISTANCE = 0.3
-"""Distance, in units of √area, within which only the farthest point is a tip: fingers are part of a hand."""
+"""Distance, in √area, within which only the farthest point is an extremity: fingers are part of a hand."""
 
 
 @dataclass(frozen=True, eq=False)
 class Extremities:
-    """The tips of one shape; made by :func:`extremities`.
+    """The extremities of one shape; made by :func:`extremities`.
 
     Attributes
     ----------
     points : (m,) int64
-        Which samples of the probe are tips, the farthest first.
-    reach : (m,) float64
+        Which samples are extremities, the farthest first.
+    mean_distance : (m,) float64
         Mean distance of each from all of the surface, over that of all points.
     distances : (m, q) float64
-        From each tip to each sample, over the mean distance of all points from each other.
-    turn : (m, m, q) float64
-        ``n · (∇dᵢ × ∇dⱼ)`` of the distances from tips i and j at each sample, averaged nearby, from −1 to 1: the sine
-        of the angle from one direction to the other. It changes sign in a mirror. 0 for point clouds.
+        From each extremity to each sample, over the mean distance of all points from each other.
+    gradient_cross : (m, m, q) float64
+        ``n · (∇dᵢ × ∇dⱼ)`` of the distances from extremities i and j at each sample, averaged nearby, from −1 to 1: the
+        sine of the angle from one direction to the other. It changes sign in a mirror. 0 for point clouds.
+    unit : float
+        That mean distance of all points, in √area.
     """
 
     points: np.ndarray
-    reach: np.ndarray
+    mean_distance: np.ndarray
     distances: np.ndarray
-    turn: np.ndarray
+    gradient_cross: np.ndarray
     unit: float
 
-    def thinned(self, count: int) -> Extremities:
-        """At the first samples."""
-        return replace(self, distances=self.distances[:, :count], turn=self.turn[:, :, :count])
+    def subsample(self, count: int) -> Extremities:
+        """Return the same at the first ``count`` samples."""
+        return replace(self, distances=self.distances[:, :count], gradient_cross=self.gradient_cross[:, :, :count])
 
-    def none(self) -> Extremities:
-        """As of a shape without any."""
-        return Extremities(self.points[:0], self.reach[:0], self.distances[:0], self.turn[:0, :0], self.unit)
+    def removed(self) -> Extremities:
+        """Return the same as of a shape without any."""
+        return Extremities(
+            self.points[:0], self.mean_distance[:0], self.distances[:0], self.gradient_cross[:0, :0], self.unit
+        )
 
     def mirrored(self) -> Extremities:
-        """Of the mirror image."""
-        return replace(self, turn=-self.turn)
+        """Return those of the mirror image."""
+        return replace(self, gradient_cross=-self.gradient_cross)
 
 
 def extremities(
     distances: np.ndarray, mass: np.ndarray, mesh: Mesh, rows: np.ndarray, graph: csr_array | None = None
 ) -> Extremities:
-    """The tips of a shape.
+    """Return the extremities of a shape.
 
     Parameters
     ----------
@@ -73,7 +77,7 @@ def extremities(
     rows : (q,) int64
         The vertex of ``mesh`` of each sample, the first c of them those of ``distances``.
     graph : sparse (n, n), optional
-        The surface graph of ``mesh`` of depth 1, where it is there already.
+        The geodesic graph of ``mesh`` of depth 1, where it is there already.
     """
     far = distances @ (mass / mass.sum())
     mean = float(far @ (mass / mass.sum())) or 1.0
@@ -81,11 +85,22 @@ def extremities(
     farthest = [i for i, near in enumerate(distances < _MIN_DISTANCE) if far[i] >= far[near].max(initial=0.0)]
     points = np.array(sorted(farthest, key=lambda i: -far[i])[:7], dtype=np.int64)
     found = at_all_vertices(mesh, rows[points], mean, graph)
-    return Extremities(points, far[points] / mean, found.distances[:, rows], found.turn[:, :, rows], mean)
+    return Extremities(points, far[points] / mean, found.distances[:, rows], found.gradient_cross[:, :, rows], mean)
 
 
 def at_all_vertices(mesh: Mesh, vertices: np.ndarray, unit: float, graph: csr_array | None = None) -> Extremities:
-    """What the tips at ``vertices (m,)`` tell of all n vertices, with distances in ``unit``; ``graph`` as in tips."""
+    """Return what extremities tell of all n vertices.
+
+    Parameters
+    ----------
+    mesh : Mesh
+    vertices : (m,) int64
+        The extremities.
+    unit : float
+        Of the distances.
+    graph : sparse (n, n), optional
+        As in :func:`extremities`.
+    """
     found = dijkstra(geodesic_graph(mesh, 1) if graph is None else graph, indices=vertices)
     joined = np.isfinite(found)
     found = np.where(joined, found, found[joined].max(initial=0.0))

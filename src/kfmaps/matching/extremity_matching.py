@@ -86,7 +86,7 @@ def match_extremities(source: ShapeSamples, target: ShapeSamples, shot: np.ndarr
     if min(len(a.points), len(b.points)) < FEWEST:
         return []
     tried = extremity_similarity(source, target)[:TRIED]
-    thin = a.thinned(THIN), b.thinned(THIN)
+    thin = a.subsample(THIN), b.subsample(THIN)
     less = None if shot is None else shot[:THIN, :THIN]
     left = [float(extremity_cost(*thin, pairing, less).min(axis=1).mean()) for pairing in tried]
     return [tried[i] for i in np.argsort(left, kind="stable")[:KEPT]]
@@ -124,7 +124,7 @@ def extremity_difference(source: ShapeSamples, target: ShapeSamples) -> np.ndarr
     """
     a, b = source.extremities, target.extremities
     heat = source.heat[a.points][:, None] - target.heat[b.points][None, :]
-    return np.abs(a.reach[:, None] - b.reach[None, :]) + np.sqrt((heat**2).mean(axis=2))
+    return np.abs(a.mean_distance[:, None] - b.mean_distance[None, :]) + np.sqrt((heat**2).mean(axis=2))
 
 
 def extremity_cost(
@@ -189,5 +189,5 @@ def vertices_of_match(found: ExtremityMatch, source: ShapeSamples, target: Shape
 def extremity_features(found: Extremities, chosen: np.ndarray) -> np.ndarray:
     """What the ``chosen`` tips tell of each sample: distances and turns, each of them one on average."""
     upper = np.triu_indices(len(chosen), 1)
-    turn = found.turn[np.ix_(chosen, chosen)][upper]
+    turn = found.gradient_cross[np.ix_(chosen, chosen)][upper]
     return np.vstack([found.distances[chosen] / np.sqrt(len(chosen)), turn / np.sqrt(max(len(turn), 1))]).T

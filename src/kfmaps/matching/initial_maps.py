@@ -92,7 +92,7 @@ class FitSpec:
 
 def distinct_weights(weights: Iterable[KernelWeights], pair: SamplePair) -> list[KernelWeights]:
     """Return the ``weights`` that differ where SHOT or landmarks may be unknown."""
-    known = (pair.shot is not None, pair.landmarks is not None, True)
+    known = (pair.descriptor_cost is not None, pair.landmark_cost is not None, True)
     return list(dict.fromkeys(tuple(w if k else 0.0 for w, k in zip(each, known, strict=False)) for each in weights))
 
 
@@ -106,7 +106,7 @@ def sign_inits(count: int, pair: SamplePair, weights: Iterable[KernelWeights] = 
         return "signs " + "".join("+" if s > 0 else "-" for s in some[1:]) + f", weight {weight:g}"
 
     return [
-        Start(name(some, w[0]), np.diag(some), count + 1, w, bool(w[0]) or pair.shot is None)
+        Start(name(some, w[0]), np.diag(some), count + 1, w, bool(w[0]) or pair.descriptor_cost is None)
         for w in distinct_weights(weights, pair)
         for some in signs
     ]
@@ -127,7 +127,8 @@ def repeated_starts(
 def extremity_inits(functions: int, pair: SamplePair) -> list[Start]:
     """Return maps that follow from matches of extremities (:mod:`kfmaps.matching.extremity_matching`)."""
     size = min(EXTREMITY_FUNCTIONS, functions)
-    maps = [(match, paired_map(match, pair, size)) for match in match_extremities(pair.source, pair.target, pair.shot)]
+    found = match_extremities(pair.source, pair.target, pair.descriptor_cost)
+    maps = [(match, paired_map(match, pair, size)) for match in found]
     return [
         Start(f"{match}", C, len(C), w, True, match)
         for w in distinct_weights(EXTREMITY_WEIGHTS, pair)
@@ -137,7 +138,9 @@ def extremity_inits(functions: int, pair: SamplePair) -> list[Start]:
 
 def paired_map(match: ExtremityMatch, pair: SamplePair, k: int) -> np.ndarray:
     """Return the functional map (k, k) of the points that are alike by a match of extremities."""
-    points = extremity_cost(pair.source.extremities, pair.target.extremities, match, pair.shot).argmin(axis=1)
+    points = extremity_cost(pair.source.extremities, pair.target.extremities, match, pair.descriptor_cost).argmin(
+        axis=1
+    )
     return np.asarray(pair.solver(k) @ pair.source.samples.basis.functions[points, :k], float)
 
 

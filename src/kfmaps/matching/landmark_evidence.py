@@ -18,14 +18,14 @@ from kfmaps.shape import Shape
 
 _HEAT_TIMES = (0.004, 0.02, 0.1)
 """Diffusion times at unit area of the functions around a landmark: a hand, a limb, half of a body."""
-LEAD, LESS = 1.0, 0.3
+LANDMARK_WEIGHT, LANDMARK_WEIGHT_UNLIKE = 1.0, 0.3
 """Weight of landmarks beside that of SHOT in the refinement on all vertices, and between shapes that differ much, where
 heat spreads otherwise from a landmark."""
 
 
 @dataclass(frozen=True, eq=False)
 class LandmarkEvidence:
-    """What landmarks say at the samples of both shapes; made by :func:`marks`.
+    """What landmarks say at the samples of both shapes.
 
     Attributes
     ----------
@@ -42,8 +42,8 @@ class LandmarkEvidence:
     functions_s: np.ndarray
     functions_t: np.ndarray
 
-    def thinned(self, q_s: int, q_t: int) -> LandmarkEvidence:
-        """Of the first samples."""
+    def subsample(self, q_s: int, q_t: int) -> LandmarkEvidence:
+        """Return the same at the first samples."""
         return LandmarkEvidence(
             self.target,
             self.distances[:, :q_s],
@@ -52,17 +52,24 @@ class LandmarkEvidence:
         )
 
     def without(self, doubted: np.ndarray) -> LandmarkEvidence:
-        """Of the other landmarks; ``doubted (l,)`` bool."""
+        """Return the same of the other landmarks; ``doubted (l,)`` bool."""
         kept = ~doubted
         return LandmarkEvidence(*(getattr(self, name)[kept] for name in self.__dataclass_fields__))
 
 
 def heat_features(points: Basis, basis: Basis, landmarks: np.ndarray) -> np.ndarray:
-    """Correlation of heat from each landmark with heat from each of ``points``, (l, q, t), from about 0 to 1.
+    """Return the correlation of heat from landmarks with heat from points, (l, q, t), from about 0 to 1.
 
     ``h_t(p, x) / √(h_t(p, p) h_t(x, x))`` for the heat kernel h at three times: 1 at the landmark, nearly free of pose
-    and of how thick the body is there. ``points`` are some of the points of ``basis``, whose vertices ``landmarks
-    (l,)`` are.
+    and of how thick the body is there.
+
+    Parameters
+    ----------
+    points : Basis
+        At some of the points of ``basis``.
+    basis : Basis
+    landmarks : (l,) int64
+        Vertices of ``basis``.
     """
     values, phi = to_numpy(basis.eigenvalues), to_numpy(points.functions)
     here = to_numpy(basis.functions)[landmarks]
@@ -75,7 +82,7 @@ def heat_features(points: Basis, basis: Basis, landmarks: np.ndarray) -> np.ndar
 
 
 def heat_guidance(functions_s: np.ndarray, functions_t: np.ndarray) -> DescriptorGuidance:
-    """A guide of the functions ``(l, q, t)`` around landmarks; two random points differ by 1 on average."""
+    """Return guidance by functions ``(l, q, t)`` around landmarks; two random points differ by 1 on average."""
     flat = [np.moveaxis(f, 0, 1).reshape(f.shape[1], -1) for f in (functions_s, functions_t)]
     both = np.vstack(flat)
     centred = both - both.mean(axis=0)
@@ -86,10 +93,16 @@ def heat_guidance(functions_s: np.ndarray, functions_t: np.ndarray) -> Descripto
 
 
 def landmark_errors(C: np.ndarray, functions_s: np.ndarray, found: LandmarkEvidence) -> np.ndarray:
-    """How far the image of each target landmark is from the source's, (l,), in units of √area.
+    """Return how far the image of each target landmark is from the source's, (l,), in units of √area.
 
-    ``functions_s (q_s, k)``: the source's basis at its samples. The other direction says less: the ends of limbs, whose
-    functions a map damps, have no image of their own there.
+    The other direction says less: the ends of limbs, whose functions a map damps, have no image of their own there.
+
+    Parameters
+    ----------
+    C : (k_t, k_s) float64
+    functions_s : (q_s, k) float64
+        The source's basis at its samples.
+    found : LandmarkEvidence
     """
     k_t, k_s = C.shape
     back = nearest(found.target[:, :k_t], functions_s[:, :k_s] @ C.T, threads=1)
@@ -102,11 +115,20 @@ def build_guidance(
     landmarks: np.ndarray,
     limbs: DescriptorGuidance | None = None,
     shot: DescriptorGuidance | None = None,
-    lead: float = LEAD,
+    lead: float = LANDMARK_WEIGHT,
 ) -> DescriptorGuidance | None:
-    """SHOT, ``landmarks (l, 2)`` and ``limbs`` on all vertices, for the refinement; ``None`` where nothing leads.
+    """Return guidance by SHOT, landmarks and limbs on all vertices, for the refinement; ``None`` where there is none.
 
-    ``shot``: its guide, where that is known; ``lead``: the weight of the landmarks beside it.
+    Parameters
+    ----------
+    source, target : Shape
+    landmarks : (l, 2) int64
+    limbs : DescriptorGuidance, optional
+        By extremities.
+    shot : DescriptorGuidance, optional
+        By SHOT, where it is known.
+    lead : float
+        Weight of the landmarks beside SHOT.
     """
     local = combine_guidance([(1.0, shot or descriptor_guidance(source.shot, target.shot)), (0.8, limbs)])
     if len(landmarks) == 0:

@@ -31,7 +31,7 @@ _WEIGHTS = (12.0, 12.0)
 
 
 def drop_learned(config: Config) -> Config:
-    """``config`` without what :mod:`kfmaps.learn` learns, for the search's own fits: they are those without it."""
+    """Return ``config`` without what :mod:`kfmaps.learn` learns: the search's own fits are those without it."""
     if descriptor_width(config.kernel) is None:
         return config
     usual = Config()
@@ -42,7 +42,7 @@ def drop_learned(config: Config) -> Config:
 
 
 def learned_kernel_applies(config: Config, source: Shape, target: Shape) -> bool:
-    """Whether the kernel of ``config`` was learned from descriptors that these shapes have without landmarks.
+    """Return whether the kernel of ``config`` was learned from descriptors that these shapes have without landmarks.
 
     Raises
     ------
@@ -61,7 +61,21 @@ def learned_kernel_applies(config: Config, source: Shape, target: Shape) -> bool
 def learned_candidates(
     source: Shape, target: Shape, config: Config, on: TwoLevelSamples, seed: int, drawn: int
 ) -> list[Candidate]:
-    """Refined candidates by the kernel of ``config``, judged as all others are; none where it is of others."""
+    """Return candidates made with the kernel of ``config``, refined and judged as all others are.
+
+    Parameters
+    ----------
+    source, target : Shape
+    config : Config
+    on : TwoLevelSamples
+    seed, drawn : int
+        Of the fits, and of the choice of their samples.
+
+    Returns
+    -------
+    list of Candidate
+        Empty where the kernel was learned for other descriptors.
+    """
     assert config.search is not None
     rows = _transformed_descriptors(source, target, config, on.whole.source, on.whole.target)
     if rows is None:
@@ -91,10 +105,7 @@ def learned_candidates(
 def _transformed_descriptors(
     source: Shape, target: Shape, config: Config, probe_s: ShapeSamples, probe_t: ShapeSamples
 ) -> tuple[np.ndarray, np.ndarray] | None:
-    """Transformed descriptors ``(q_s, r)``, ``(q_t, r)`` at the samples of both probes.
-
-    ``None`` where the kernel was learned for other descriptors.
-    """
+    """Transformed descriptors ``(q_s, r)``, ``(q_t, r)`` at the samples; ``None`` where the kernel is for others."""
     bases = probe_s.samples.basis, probe_t.samples.basis
     at = [
         replace(shape, basis=basis, shot=probe.descriptors)
@@ -114,6 +125,8 @@ def _transform_rows(kernel: KernelLike, rows: np.ndarray) -> np.ndarray:
 
 
 def _in_metric(on: SamplePair, source: np.ndarray, target: np.ndarray) -> SamplePair:
-    """The ground with points compared in the learned metric; rows of more samples than it has are left out."""
+    """The pair with points compared in the learned metric; rows of more samples than it has are left out."""
     rows = source[: len(on.source.positions)], target[: len(on.target.positions)]
-    return replace(on, shot=None if (found := descriptor_guidance(*rows)) is None else descriptor_cost(found))
+    return replace(
+        on, descriptor_cost=None if (found := descriptor_guidance(*rows)) is None else descriptor_cost(found)
+    )

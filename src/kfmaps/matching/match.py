@@ -21,7 +21,7 @@ from kfmaps.matching.finish import (
     torn_area_fraction,
 )
 from kfmaps.matching.fit import check_landmark_pairs, fit
-from kfmaps.matching.landmark_evidence import LEAD, LESS, build_guidance
+from kfmaps.matching.landmark_evidence import LANDMARK_WEIGHT, LANDMARK_WEIGHT_UNLIKE, build_guidance
 from kfmaps.matching.memory import check_match_memory
 from kfmaps.matching.partial.detect import detect_part
 from kfmaps.matching.partial.match_partial import PartialMatch, describe_part, match_partial
@@ -196,7 +196,7 @@ def _search_guidance(found: SearchResult, shapes: tuple[Shape, Shape]) -> Descri
     """What guides the refinement of a map that a search has found."""
     meshes = [shape.mesh for shape in shapes]
     extremities = found.extremities and found.extremities.guide(*meshes)
-    lead = LEAD if near_isometric(found) else LESS
+    lead = LANDMARK_WEIGHT if near_isometric(found) else LANDMARK_WEIGHT_UNLIKE
     guidance = build_guidance(*shapes, found.landmarks, extremities, lead=lead)
     if found.registered_vertices is None:
         return guidance

@@ -84,8 +84,8 @@ class ShapeSamples:
     mirrored : bool
         Whether it is of the mirror image.
     turns : (m, k, k) float64 or None
-        Its near-symmetries (:func:`kfmaps.matching.self_maps.symmetries`) on its first samples, which are those of the
-        mirror image too; ``None`` where they have not been looked for.
+        Its near-symmetries (:func:`kfmaps.matching.self_maps.find_self_maps`) on its first samples, which are those of
+        the mirror image too; ``None`` where they have not been looked for.
     """
 
     samples: SpectralSamples
@@ -229,7 +229,7 @@ def subsample(probe: ShapeSamples, count: int) -> ShapeSamples:
         heat=probe.heat[:count],
         positions=probe.positions[:count],
         landmark_distances=probe.landmark_distances[:, :count],
-        extremities=probe.extremities.thinned(count),
+        extremities=probe.extremities.subsample(count),
     )
 
 

@@ -26,7 +26,7 @@ from kfmaps.matching.extremity_matching import (
     vertices_of_match,
 )
 from kfmaps.matching.initial_maps import EXTREMITY_FUNCTIONS, paired_map
-from kfmaps.matching.landmark_evidence import LESS, build_guidance
+from kfmaps.matching.landmark_evidence import LANDMARK_WEIGHT_UNLIKE, build_guidance
 from kfmaps.matching.quality import ShapeSamples
 from kfmaps.matching.ranking import BENT, ProxyCache, in_order, normalize_errors, reference_values, score_registered
 from kfmaps.matching.sample_pair import SamplePair
@@ -140,7 +140,7 @@ def _repair(
     """Register and refine one candidate in turn; ``swapped``: the target onto the source. ``None`` where it fails."""
     source, target, where, C = setting.source, setting.target, setting.pair, old.functional_map
     limbs = extremities and extremities.guide(source.mesh, target.mesh)
-    guidance = build_guidance(source, target, setting.landmarks, limbs, setting.shot, LESS)
+    guidance = build_guidance(source, target, setting.landmarks, limbs, setting.shot, LANDMARK_WEIGHT_UNLIKE)
     if swapped:
         C, where = C.T, where.swapped()
         guidance = guidance and guidance.swapped()
@@ -160,7 +160,7 @@ def _repair(
 
 def _begin(near: list[Candidate], on: SamplePair) -> list[tuple[Candidate, ExtremityVertices | None]]:
     """Return what repairs begin with: candidates, and maps of likely extremity matches that none of them has."""
-    likely = match_extremities(on.source, on.target, on.shot)
+    likely = match_extremities(on.source, on.target, on.descriptor_cost)
     found = [match_of_map(one.points, on.source, on.target) for one in near]
     known = [one and complete_match(one, likely) for one in found]
     begun = [(c, one and vertices_of_match(one, on.source, on.target)) for c, one in zip(near, known, strict=True)]

@@ -1,4 +1,4 @@
-"""Where the candidates of one pair are made and judged: samples of both shapes, and what speaks for pairs of them."""
+"""Samples of both shapes and the costs of matching them: what the candidates of a pair are made and scored with."""
 
 from __future__ import annotations
 
@@ -14,64 +14,86 @@ from kfmaps.matching.landmark_evidence import LandmarkEvidence, heat_features, h
 from kfmaps.matching.quality import ShapeSamples, mirror_samples, subsample
 from kfmaps.shape import Shape
 
-POINTS = 400
-"""Points of the rough refinement; the first of the probe."""
+COARSE_SAMPLES = 400
+"""Samples of the rough refinement; the first of all."""
 
 
 @dataclass(frozen=True, eq=False)
 class SamplePair:
-    """Samples of both shapes and what speaks against pairs of them.
+    """Samples of both shapes and the costs of matching them; made by :func:`build_sample_pair`.
 
     Attributes
     ----------
-    source, target : Probe
-    shot : (q_t, q_s) float32 or None
+    source, target : ShapeSamples
+    descriptor_cost : (q_t, q_s) float32 or None
         See :func:`descriptor_cost`; ``None`` where SHOT says nothing.
-    landmarks : (q_t, q_s) float32 or None
+    landmark_cost : (q_t, q_s) float32 or None
         The same of the functions around landmarks.
-    marks : Marks or None
+    landmark_evidence : LandmarkEvidence or None
     solvers : dict
         What :meth:`solver` has made, to be found again.
     """
 
     source: ShapeSamples
     target: ShapeSamples
-    shot: np.ndarray | None
-    landmarks: np.ndarray | None = None
-    marks: LandmarkEvidence | None = None
+    descriptor_cost: np.ndarray | None
+    landmark_cost: np.ndarray | None = None
+    landmark_evidence: LandmarkEvidence | None = None
     solvers: dict[int, np.ndarray] = field(default_factory=dict)
 
     def solver(self, k: int) -> np.ndarray:
-        """:func:`kfmaps.fmap.zoomout.pseudo_inverse` of the target, made once for all refinements."""
+        """Return :func:`kfmaps.fmap.zoomout.pseudo_inverse` of the target, made once for all refinements."""
         if k not in self.solvers:
             self.solvers[k] = pseudo_inverse(self.target.samples.basis, k)
         return self.solvers[k]
 
-    def against(
-        self, shot: float, landmarks: float = 0.0, tips: float = 0.0, paired: Sequence[ExtremityMatch | None] = ()
+    def matching_cost(
+        self,
+        descriptors: float,
+        landmarks: float = 0.0,
+        extremities: float = 0.0,
+        matches: Sequence[ExtremityMatch | None] = (),
     ) -> np.ndarray | None:
-        """What speaks against pairs, with weights, for :func:`kfmaps.fmap.zoomout.batched_zoomout`.
+        """Return the weighted sum of the costs, for :func:`kfmaps.fmap.zoomout.batched_zoomout`.
 
-        (q_t, q_s), or (m, q_t, q_s) when the tips of m maps are ``paired`` and count.
+        Parameters
+        ----------
+        descriptors, landmarks, extremities : float
+            Weights.
+        matches : sequence of ExtremityMatch or None
+            The extremities that each of m maps takes to each other.
+
+        Returns
+        -------
+        (q_t, q_s) or (m, q_t, q_s) float32, or None
+            The latter where extremities count; ``None`` where nothing does.
         """
         total = None
-        for weight, part in ((shot, self.shot), (landmarks, self.landmarks)):
+        for weight, part in ((descriptors, self.descriptor_cost), (landmarks, self.landmark_cost)):
             if part is not None and weight:
                 total = np.float32(weight) * part + (0 if total is None else total)
-        if tips and any(pairing is not None for pairing in paired):
-            each = np.zeros((len(paired), len(self.target.positions), len(self.source.positions)), dtype=np.float32)
+        if extremities and any(match is not None for match in matches):
+            each = np.zeros((len(matches), len(self.target.positions), len(self.source.positions)), dtype=np.float32)
             if total is not None:
                 each[:] = total
-            for i, pairing in enumerate(paired):
-                if pairing is not None:
-                    each[i] += tips * extremity_cost(self.source.extremities, self.target.extremities, pairing)
+            for i, match in enumerate(matches):
+                if match is not None:
+                    each[i] += extremities * extremity_cost(self.source.extremities, self.target.extremities, match)
             total = each
         return total
 
 
 @dataclass(frozen=True, eq=False)
 class TwoLevelSamples:
-    """Few samples for many rough maps, and all of a probe for the best."""
+    """Samples of a pair at two sizes.
+
+    Attributes
+    ----------
+    few : SamplePair
+        For many rough maps.
+    whole : SamplePair
+        For the best of them.
+    """
 
     few: SamplePair
     whole: SamplePair
@@ -80,7 +102,16 @@ class TwoLevelSamples:
 def two_level_samples(
     source: Shape, target: Shape, probes: tuple[ShapeSamples, ShapeSamples], landmarks: np.ndarray | None = None
 ) -> TwoLevelSamples:
-    """For two prepared shapes with their ``probes``, which know of the ``landmarks (l, 2)``, if any."""
+    """Return the samples of two prepared shapes at two sizes.
+
+    Parameters
+    ----------
+    source, target : Shape
+    probes : pair of ShapeSamples
+        Those of the second size, which know of the landmarks.
+    landmarks : (l, 2) int64, optional
+        Pairs "source vertex, target vertex".
+    """
     found = None
     if landmarks is not None and len(landmarks):
         sides = list(zip((source, target), probes, landmarks.T, strict=True))
@@ -88,27 +119,28 @@ def two_level_samples(
         found = LandmarkEvidence(
             target.basis.functions[landmarks[:, 1]], probes[0].landmark_distances, functions[0], functions[1]
         )
-    few = subsample(probes[0], POINTS), subsample(probes[1], POINTS)
-    less = found and found.thinned(*(len(p.samples.vertices) for p in few))
-    return TwoLevelSamples(sample_pair(*few, less), sample_pair(*probes, found))
+    few = subsample(probes[0], COARSE_SAMPLES), subsample(probes[1], COARSE_SAMPLES)
+    less = found and found.subsample(*(len(p.samples.vertices) for p in few))
+    return TwoLevelSamples(build_sample_pair(*few, less), build_sample_pair(*probes, found))
 
 
-def sample_pair(source: ShapeSamples, target: ShapeSamples, marks: LandmarkEvidence | None = None) -> SamplePair:
+def build_sample_pair(source: ShapeSamples, target: ShapeSamples, marks: LandmarkEvidence | None = None) -> SamplePair:
+    """Return the samples of two shapes with their costs, and those of landmarks where there are some."""
     found = descriptor_guidance(source.descriptors, target.descriptors)
     around = None if marks is None else descriptor_cost(heat_guidance(marks.functions_s, marks.functions_t))
     return SamplePair(source, target, None if found is None else descriptor_cost(found), around, marks)
 
 
 def drop_landmarks(on: SamplePair, wrong: np.ndarray) -> SamplePair:
-    """The ground without the ``wrong (l,)`` landmarks."""
-    return sample_pair(on.source, on.target, on.marks and on.marks.without(wrong))
+    """Return the pair without the ``wrong (l,)`` landmarks."""
+    return build_sample_pair(on.source, on.target, on.landmark_evidence and on.landmark_evidence.without(wrong))
 
 
 def mirrored_pair(on: SamplePair) -> SamplePair:
-    """The ground with the target's mirror image."""
-    return sample_pair(on.source, mirror_samples(on.target), on.marks)
+    """Return the pair with the target's mirror image."""
+    return build_sample_pair(on.source, mirror_samples(on.target), on.landmark_evidence)
 
 
 def descriptor_cost(found: DescriptorGuidance) -> np.ndarray:
-    """Half the squared differences ``(q_t, q_s)`` float32 of a guide, up to a constant for each target point."""
+    """Return half the squared differences ``(q_t, q_s)`` float32 of guidance, up to a constant a target point."""
     return (0.5 * (found.source**2).sum(axis=1)[None, :] - found.target @ found.source.T).astype(np.float32)

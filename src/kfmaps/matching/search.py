@@ -34,7 +34,7 @@ from kfmaps.matching.limb_exchange import compare_exchanged
 from kfmaps.matching.quality import ShapeSamples, sample_for_scoring, subsample
 from kfmaps.matching.ranking import ProxyCache, merge_alternatives, ranking, rerank_near_duplicates
 from kfmaps.matching.registration_refine import SwappedRepair, refine_by_registration
-from kfmaps.matching.sample_pair import POINTS as FEW
+from kfmaps.matching.sample_pair import COARSE_SAMPLES as FEW
 from kfmaps.matching.sample_pair import SamplePair, TwoLevelSamples, drop_landmarks, mirrored_pair, two_level_samples
 from kfmaps.matching.score import (
     SCORE,
@@ -250,7 +250,7 @@ def _search_samples(
     assert config.search is not None
     if config.search.match_extremities:
         return probes
-    a, b = (replace(one, extremities=one.extremities.none()) for one in probes)
+    a, b = (replace(one, extremities=one.extremities.removed()) for one in probes)
     return a, b
 
 
@@ -274,7 +274,9 @@ def _rank(
     assert config.search is not None
     orientation = "reversing" if config.search.orientation == "reversing" else "preserving"
     wrong = np.zeros(len(pairs), dtype=bool)
-    state = _Search(source, target, config, pairs, whole.marks, wrong, samples, copies, found, ranked, orientation)
+    state = _Search(
+        source, target, config, pairs, whole.landmark_evidence, wrong, samples, copies, found, ranked, orientation
+    )
     return _choose_orientation(state, unduly)
 
 
@@ -369,7 +371,7 @@ def _to_result(state: _Search, best: Candidate, rest: list[Candidate]) -> Search
 
 def ignore_landmarks(found: Candidate, on: SamplePair, threads: int | None = None) -> Candidate:
     """The map as it is when landmarks have no say: how it misses them then tells of both."""
-    return rerefine([found], replace(on, landmarks=None), threads)[0]
+    return rerefine([found], replace(on, landmark_cost=None), threads)[0]
 
 
 def still_missed(best: Candidate, on: SamplePair, marks: LandmarkEvidence | None) -> np.ndarray:
@@ -385,17 +387,19 @@ def still_missed(best: Candidate, on: SamplePair, marks: LandmarkEvidence | None
 
 def backed_by(best: Candidate, on: SamplePair, threads: int | None = None) -> float:
     """:func:`kfmaps.matching.score.landmark_support` of the map by the landmarks, 0 without any."""
-    if on.marks is None:
+    if on.landmark_evidence is None:
         return 0.0
     errors = ignore_landmarks(best, on, threads).landmark_errors
-    return landmark_support(errors, on.marks.distances, to_numpy(on.source.samples.basis.mass))
+    return landmark_support(errors, on.landmark_evidence.distances, to_numpy(on.source.samples.basis.mass))
 
 
 def without_landmarks(
     source: Shape, target: Shape, config: Config, on: TwoLevelSamples, seed: int, **more: Any
 ) -> list[Candidate]:
     """What is found without landmarks, judged with them: whoever gives some loses none of these maps."""
-    bare = TwoLevelSamples(*(replace(ground, landmarks=None, marks=None) for ground in (on.few, on.whole)))
+    bare = TwoLevelSamples(
+        *(replace(ground, landmark_cost=None, landmark_evidence=None) for ground in (on.few, on.whole))
+    )
     found = candidates(source, target, config, bare, seed, **more)
     return rescore(found, on.whole, config.threads)
 

@@ -26,16 +26,30 @@ _MIN_DISPLACEMENT = 0.1
 
 
 def self_maps(of: ShapeSamples, functions: int, threads: int | None = None) -> list[np.ndarray]:
-    """:func:`symmetries` of a probe, or those that it has kept."""
+    """Return the near-symmetries of one shape, those that it has kept or :func:`find_self_maps`.
+
+    Parameters
+    ----------
+    of : ShapeSamples
+    functions : int
+        As many as the maps may have.
+    threads : int, optional
+    """
     if of.turns is not None and of.turns.shape[1] == _size(of, functions):
         return list(of.turns)
-    return symmetries(of, functions, threads)
+    return find_self_maps(of, functions, threads)
 
 
 def with_self_maps(of: ShapeSamples, few: ShapeSamples) -> ShapeSamples:
-    """``of`` with the near-symmetries of its first samples, ``few``, so that they are found once for many matches."""
+    """Return samples with the near-symmetries of their first ones, so that they are found once for many matches.
+
+    Parameters
+    ----------
+    of, few : ShapeSamples
+        All samples, and the first of them.
+    """
     functions = few.samples.basis.functions.shape[1]
-    found, k = symmetries(few, functions, 1), _size(few, functions)
+    found, k = find_self_maps(few, functions, 1), _size(few, functions)
     return replace(of, turns=np.array(found, dtype=np.float64).reshape(len(found), k, k))
 
 
@@ -44,11 +58,11 @@ def _size(of: ShapeSamples, functions: int) -> int:
     return min(40, functions, len(of.samples.vertices))
 
 
-def symmetries(of: ShapeSamples, functions: int, threads: int | None = None) -> list[np.ndarray]:
-    """Functional maps ``(k, k)`` of a shape onto itself, other than the identity, that nearly keep distances.
+def find_self_maps(of: ShapeSamples, functions: int, threads: int | None = None) -> list[np.ndarray]:
+    """Return functional maps ``(k, k)`` of a shape onto itself, other than the identity, that nearly keep distances.
 
-    At most two, the best first, whose images are 0.08 √area apart on average; none of a shape without near-symmetries.
-    ``functions``: as many as k may have.
+    There are at most two, the best first, whose images are 0.08 √area apart on average; none of a shape without
+    near-symmetries. The parameters are those of :func:`self_maps`.
     """
     stop = _size(of, functions)
     count = min(5, stop - 1)
