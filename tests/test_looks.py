@@ -290,7 +290,7 @@ def test_maps_found_without_landmarks_take_part(creatures, monkeypatch):
     alone, how = asked[0]
     assert how == {"drawn": 4}
     assert alone.few.landmark_evidence is None
-    assert alone.few.landmarks is None
+    assert alone.few.landmark_cost is None
     assert alone.whole.landmark_evidence is None
     assert alone.whole.landmark_cost is None
     assert alone.whole.descriptor_cost is on.whole.descriptor_cost
