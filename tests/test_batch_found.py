@@ -12,7 +12,7 @@ import pytest
 from collecting import CONFIG, touch
 from kfmaps._arrays import InvalidInput
 from kfmaps.batch.layout import Pair, choose_pairs, find_collection, natural
-from kfmaps.batch.plan import recommended
+from kfmaps.batch.plan import recommended_config
 from kfmaps.batch.progress import remaining_seconds
 from kfmaps.batch.run_spec import RunSpec, claim
 from kfmaps.cli.words import format_seconds
@@ -149,10 +149,10 @@ def test_recommended_as_match_would(tmp_path: Path) -> None:
         touch(tmp_path / "landmarks" / f"{name}.txt", "1\n")
     found = find_collection(tmp_path)
     some, every = [Pair("a", "b")], choose_pairs(found, every=True)
-    assert recommended(found, some, False, True) == Config.single_fit()
-    assert recommended(found, every, True, True) == Config.single_fit()
+    assert recommended_config(found, some, False, True) == Config.single_fit()
+    assert recommended_config(found, every, True, True) == Config.single_fit()
     for pairs, files in ((every, True), (some, False)):
-        assert recommended(found, pairs, False, files) == Config()
+        assert recommended_config(found, pairs, False, files) == Config()
 
 
 def test_remaining_time_of_even_work_is_exact() -> None:

@@ -32,7 +32,7 @@ from kfmaps.batch.work import (
     make_result,
     map_path,
     pair_samples,
-    recorded,
+    save_pair_map,
     true_vertices,
 )
 from kfmaps.collection.consistency import (
@@ -293,7 +293,7 @@ def _replace_map(job: _ReplaceTask) -> Result:
         config, candidates = replace(task.spec.config, threads=1), _candidates(task)
         found = refine_replacement(change, candidates, composition, shapes, config, job.label, task.spec.seed)
         truth = true_vertices(task, *(len(shape.mesh.vertices) for shape in shapes))
-        values = recorded(task, found, shapes, truth, other)
+        values = save_pair_map(task, found, shapes, truth, other)
     values["seconds"]["total"] = time.perf_counter() - begun
     result = make_result(
         task,

@@ -80,7 +80,7 @@ class ShapeFolder:
 
 
 def natural(name: str) -> list[tuple[int, int, str]]:
-    """A sorting key under which numbers inside names count as numbers."""
+    """Return a sorting key under which numbers inside names count as numbers."""
     parts = re.findall(r"\d+|\D+", name)
     return [(0, int(part), part) if part.isdecimal() else (1, 0, part) for part in parts]
 

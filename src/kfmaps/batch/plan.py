@@ -52,8 +52,23 @@ class Plan:
     changed: int
 
 
-def recommended(collection: ShapeFolder, pairs: Sequence[Pair], landmark_lines: bool, landmark_files: bool) -> Config:
-    """``Config.single_fit()`` when every pair has landmarks, since a collection has many pairs; else ``Config()``."""
+def recommended_config(
+    collection: ShapeFolder, pairs: Sequence[Pair], landmark_lines: bool, landmark_files: bool
+) -> Config:
+    """Return the configuration of a collection for which nobody chose one.
+
+    Parameters
+    ----------
+    collection : ShapeFolder
+    pairs : sequence of Pair
+    landmark_lines, landmark_files : bool
+        Whether lines of the truth serve as landmarks, and whether those of the folder are used.
+
+    Returns
+    -------
+    Config
+        ``Config.single_fit()`` when every pair has landmarks, since a collection has many pairs; else ``Config()``.
+    """
     named = {name for pair in pairs for name in (pair.source, pair.target)}
     known = landmark_lines or (landmark_files and named <= collection.landmarks.keys())
     return Config.single_fit() if known else Config()

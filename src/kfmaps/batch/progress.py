@@ -101,9 +101,20 @@ class Estimate:
 def estimate(
     shapes: int, pairs: int, vertices: int, config: Config, workers: int, *, consistent: bool = False
 ) -> Estimate:
-    """Estimate what ``pairs`` of ``shapes`` of about ``vertices`` vertices need; linear in all of them.
+    """Return an estimate of what a run needs; linear in all sizes.
 
-    Maps that are made to agree in the end (``consistent``) are scored by what a search would know of the shapes.
+    Parameters
+    ----------
+    shapes, pairs, vertices : int
+        Numbers of shapes and pairs, and of vertices of a shape.
+    config : Config
+    workers : int
+    consistent : bool
+        Whether the maps are made to agree in the end; they are scored by what a search would know of the shapes.
+
+    Returns
+    -------
+    Estimate
     """
     searched = config.search is not None
     shape = 8.0 * vertices * (config.n_eigenfunctions + _SHOT_SIZE * config.descriptors.shot)
@@ -130,7 +141,7 @@ def log_to(folder: Path) -> Callable[[str], None]:
 
 
 def failure_line(result: Result) -> str:
-    """A failed pair in one line."""
+    """Return a failed pair in one line."""
     return f"failed: {result.source} → {result.target}: {result.reason}"
 
 

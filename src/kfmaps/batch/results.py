@@ -70,18 +70,18 @@ CURVE_ERRORS = tuple(i / 400 for i in range(101))
 
 
 def result_path(folder: Path, key: str) -> Path:
-    """Where the result of the pair with this key lies."""
+    """Return where the result of the pair with this key lies."""
     return folder / FOLDER / f"{key}.json"
 
 
 def write_result(path: Path, result: Result) -> None:
-    """Write it whole or not at all."""
+    """Write a result, whole or not at all."""
     with atomic_output(path, force=True) as temporary:
         temporary.write_text(json.dumps(asdict(result), indent=1) + "\n", encoding="utf-8")
 
 
 def read_result(path: Path) -> Result | None:
-    """Read it; ``None`` when there is none, or the file is not one."""
+    """Return the result in a file; ``None`` when there is none, or the file is not one."""
     try:
         values = json.loads(path.read_text(encoding="utf-8"))
         known = {f.name for f in fields(Result)}
@@ -92,7 +92,7 @@ def read_result(path: Path) -> Result | None:
 
 
 def all_results(folder: Path, settings: str) -> list[Result]:
-    """Every result in an output folder that was made with these settings, by source and target."""
+    """Return every result in an output folder that was made with the settings of this digest, by source and target."""
     # A worker that is killed just before it renames a result leaves it under a name that begins with a dot.
     paths = (path for path in sorted((folder / FOLDER).glob("*.json")) if not path.name.startswith("."))
     found = map(read_result, paths)
@@ -119,13 +119,13 @@ def write_rows(path: Path, rows: Iterable[Iterable[Any]], force: bool = True) ->
 
 
 def write_csv(path: Path, results: Iterable[Result]) -> None:
-    """One row a pair; empty where something is not known. Replaces an existing file."""
+    """Write one row a pair, empty where something is not known. An existing file is replaced."""
     columns, rows = _table(results)
     write_rows(path, [columns, *([row.get(name, "") for name in columns] for row in rows)])
 
 
 def write_parquet(path: Path, results: Iterable[Result]) -> None:
-    """As :func:`write_csv`, with types.
+    """Write the table of :func:`write_csv` with types.
 
     Raises
     ------
@@ -169,7 +169,7 @@ class Summary:
 
 
 def summarize(results: Sequence[Result]) -> Summary:
-    """The numbers of some results."""
+    """Return the numbers of a run from its results."""
     done = [r for r in results if r.status == "done"]
     errors = np.array([r.error_mean for r in done if r.error_mean is not None])
     seconds = [r.seconds["total"] for r in done if "total" in r.seconds]
@@ -199,9 +199,9 @@ def summarize(results: Sequence[Result]) -> Summary:
 
 
 def fitting_limit(results: Sequence[Result]) -> float:
-    """Where an error's colours end, in √area: a round number a little above the errors that are not plainly wrong.
+    """Return where an error's colours end, in √area: a round number a little above the errors of maps that are right.
 
-    The same for all pictures of a collection, so that they can be compared.
+    It is the same for all pictures of a collection, so that they can be compared.
     """
     errors = [r.error_mean for r in results if r.error_mean is not None]
     usual = [e for e in errors if e <= BAD] or errors
@@ -210,9 +210,9 @@ def fitting_limit(results: Sequence[Result]) -> float:
 
 
 def worst_first(results: Sequence[Result]) -> list[Result]:
-    """Those that are done, the largest mean error first; where no truth is known, the least sure first.
+    """Return the results that are done, the largest mean error first; where no truth is known, the least sure first.
 
-    With landmarks there was no search to be sure of, and the mean confidence of the vertices decides.
+    With landmarks there was no search to be sure of, and the mean local fit decides.
     """
     done = [r for r in results if r.status == "done"]
 

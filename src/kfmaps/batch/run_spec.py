@@ -68,7 +68,7 @@ class RunSpec:
 
 
 def digest_of(values: Any, digits: int = 16) -> str:
-    """Hexadecimal SHA-256 of plain values, cut to ``digits``."""
+    """Return the hexadecimal SHA-256 of plain values, cut to ``digits``."""
     text = json.dumps(values, sort_keys=True, separators=(",", ":"))
     return hashlib.sha256(text.encode()).hexdigest()[:digits]
 
@@ -113,7 +113,13 @@ def claim(folder: Path, spec: RunSpec) -> None:
 
 
 def read_run_spec(folder: Path) -> dict[str, Any]:
-    """The settings of an output folder, as plain values with their ``digest``."""
+    """Return the settings of an output folder, as plain values with their ``digest``.
+
+    Raises
+    ------
+    InvalidInput
+        When there are none in ``folder``, or they cannot be read.
+    """
     path = folder / FILE
     try:
         values = json.loads(path.read_text(encoding="utf-8"))

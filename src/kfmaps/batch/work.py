@@ -119,7 +119,7 @@ def begin(folder: Path, key: str) -> int:
 
 
 def attempts(folder: Path, key: str) -> int:
-    """How often work on ``key`` has begun."""
+    """Return how often work on ``key`` has begun."""
     count = 0
     while (folder / _ATTEMPTS / f"{key}.{count + 1}").exists():
         count += 1
@@ -215,7 +215,13 @@ def now() -> str:
 
 
 def load_prepared(task: ShapeTask) -> Shape:
-    """The prepared shape, which must be in the cache."""
+    """Return the prepared shape of a task, from the cache.
+
+    Raises
+    ------
+    InvalidInput
+        When it is not there.
+    """
     shape = load_shape(Path(task.entry), task.name)
     if shape is None:
         raise refuse(f"prepared shape {task.name}", "an entry in the cache", "none", "run the command again")
@@ -249,13 +255,13 @@ def _matched(task: PairTask) -> dict[str, Any]:
         source, target, replace(task.spec.config, threads=1), landmarks=landmarks, rng=task.spec.seed, probes=probes
     )
     path = map_path(Path(task.folder), task.key)
-    return recorded(task, found, (source, target), truth, path)
+    return save_pair_map(task, found, (source, target), truth, path)
 
 
-def recorded(
+def save_pair_map(
     task: PairTask, found: Match, shapes: tuple[Shape, Shape], truth: Truth | None, path: Path
 ) -> dict[str, Any]:
-    """Save the map of a pair to ``path``, and give the fields of its result."""
+    """Save the map of a pair to ``path``, and return the fields of its result."""
     source, target = shapes
     sizes = len(source.mesh.vertices), len(target.mesh.vertices)
     start = time.perf_counter()
@@ -311,7 +317,7 @@ def _errors(accuracy: Accuracy | None) -> dict[str, Any]:
 
 
 def true_vertices(task: PairTask, n_s: int, n_t: int) -> Truth | None:
-    """What is known of the pair's true correspondence; ``n_s`` and ``n_t`` are the numbers of vertices.
+    """Return what is known of the pair's true correspondence; ``n_s`` and ``n_t`` are the numbers of vertices.
 
     Raises
     ------

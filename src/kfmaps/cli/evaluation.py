@@ -165,6 +165,7 @@ class Accuracy:
 
 
 def numbers_of(errors: Evaluation) -> dict[str, float | None]:
+    """Return the numbers of an evaluation by name, ``None`` for infinite ones."""
     names = ("mean", "median", "worst", "auc", "exact")
     return {name: value if math.isfinite(value := getattr(errors, name)) else None for name in names}
 
@@ -180,9 +181,23 @@ def assess(
 ) -> Accuracy:
     """Compare a map with the truth; geodesic errors on ``source`` in units of √area.
 
-    With points inside triangles (``place``) their errors are measured too, not snapped; with the ``target``, of which
-    both are surfaces, how smooth the map is. Points of the mirrored truth are far from their images, and distances to
-    them take most of the time: ``mirrored`` takes at most so many of them, evenly through the list.
+    Parameters
+    ----------
+    source : Mesh
+    target_to_source : (n_t,) int
+        −1 where a vertex has no counterpart.
+    truth : Truth
+    place : PointMap, optional
+        Points inside triangles, whose errors are measured too.
+    target : Mesh, optional
+        Where it is given, and both are surfaces, the map's smoothness is measured too.
+    mirrored : int, optional
+        Points of the mirrored truth at most, evenly through the list. They are far from their images, and distances to
+        them take most of the time.
+
+    Returns
+    -------
+    Accuracy
 
     Raises
     ------
@@ -218,7 +233,7 @@ def assess(
 
 
 def write_curve(path: Path, errors: Evaluation, label: str, force: bool = False) -> None:
-    """The error curve as a table (.csv) or a picture (.png, .svg, .pdf)."""
+    """Write the error curve as a table (.csv) or a picture (.png, .svg, .pdf)."""
     fractions = error_curve(errors.errors, THRESHOLDS)
     with atomic_output(path, force) as temporary:
         if path.suffix.lower() == ".csv":

@@ -48,7 +48,7 @@ _FAILURE, _INTERRUPTED, UNREAD = 2, 130, 1
 
 
 def application(only: str | None = None) -> typer.Typer:
-    """The whole command; with ``only`` the others are there in name, for the list that ``--help`` shows."""
+    """Return the whole command; with ``only`` the others are there in name, for the list that ``--help`` shows."""
     app = typer.Typer(
         name="kfmaps",
         add_completion=True,
@@ -94,7 +94,10 @@ def _named(name: str) -> Callable[[], None]:
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run the command; the exit status. 0: done, 2: bad input, 130: interrupted, 1: the reader went away."""
+    """Run the command and return its exit status.
+
+    0: done, 2: bad input, 3: a required verdict was not met, 130: interrupted, 1: the reader went away.
+    """
     words = list(sys.argv[1:] if arguments is None else arguments) or ["--help"]
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", RuntimeWarning)  # NumPy's; what matters is checked and told in our words

@@ -47,10 +47,18 @@ class PartTruth:
 
 
 def read_part_truth(path: Path, whole: Mesh, part: Mesh) -> PartTruth:
-    """The truth of a part, in the two forms that benchmarks have.
+    """Read the truth of a part, in one of the two forms that benchmarks have.
 
-    ``.baryc_gt``: a line for each vertex of the part, the triangle of the whole, counted from 1, and three barycentric
-    weights. Any other file: lines "vertex of the whole, vertex of the part", counted from 0 (``.vts`` from 1).
+    Parameters
+    ----------
+    path : Path
+        ``.baryc_gt``: a line for each vertex of the part, the triangle of the whole, counted from 1, and three
+        barycentric weights. Any other file: lines "vertex of the whole, vertex of the part", counted from 0 (``.vts`` from 1).
+    whole, part : Mesh
+
+    Returns
+    -------
+    PartTruth
 
     Raises
     ------
@@ -170,7 +178,7 @@ def _carried_on(
 
 
 def true_overlap(whole: Mesh, part: Mesh, truth: PartTruth) -> np.ndarray:
-    """Which vertices of the whole (n,) are common by the truth."""
+    """Return which vertices of the whole (n,) are common by the truth."""
     if truth.dense:
         unit = unit_area(whole)
         bent = Mesh(point_positions(truth.places, unit), part.faces)

@@ -26,7 +26,7 @@ _SECONDS_BETWEEN_PICTURES = 0.2
 
 
 def seconds_left(done: float, elapsed: float, before: float | None = None) -> float | None:
-    """What a stage will still take: by how much of it is done, else by what such a stage took ``before``.
+    """Return what a stage will still take, by how much of it is done, else by what such a stage took ``before``.
 
     ``None`` while neither tells.
     """
@@ -36,7 +36,7 @@ def seconds_left(done: float, elapsed: float, before: float | None = None) -> fl
 
 
 def standing(name: str, done: float, elapsed: float, before: float | None = None) -> str:
-    """How a stage stands, in one line."""
+    """Return how a stage stands, in one line."""
     part = f"{100 * done:.0f} % done, " if done > 0 else ""
     left = seconds_left(done, elapsed, before)
     rest = "" if left is None else f", about {format_seconds(left)} left"
@@ -157,7 +157,7 @@ class Notebook:
 
 
 def bars_html(stages: dict[str, tuple[float, float]]) -> str:
-    """A table of bars: for each stage how much of it is done, from 0 to 1, and its seconds."""
+    """Return a table of bars: for each stage how much of it is done, from 0 to 1, and its seconds."""
     rows = []
     for name, (done, elapsed) in stages.items():
         left = seconds_left(done, elapsed) if done < 1 else None

@@ -10,7 +10,7 @@ Python, JSON and tables for machines have the plain fraction, in units of √are
 
 
 def percent(error: float | None, digits: int = 2) -> str:
-    """An error, in units of √area, as a number of :data:`UNIT`; empty where there is none."""
+    """Return an error, in units of √area, as a number of :data:`UNIT`; empty where there is none."""
     return "" if error is None else f"{100 * error:.{digits}f}"
 
 
@@ -22,7 +22,7 @@ def probability_text(probability: float) -> str:
 
 
 def format_seconds(seconds: float) -> str:
-    """A duration, rounded to what one can tell: 40 s, 12 min, 3 h 20 min."""
+    """Return a duration, rounded to what one can tell: 40 s, 12 min, 3 h 20 min."""
     if seconds < 100:
         return f"{seconds:.0f} s"
     minutes = round(seconds / 60)

@@ -79,7 +79,17 @@ class Consistency:
 
 
 def synchronize_store(store: MapStore) -> Consistency:
-    """Find which maps of a store are wrong, replace them, and return what the maps in use tell of the shapes."""
+    """Find which maps of a store are wrong, replace them, and return what the maps in use tell of the shapes.
+
+    Parameters
+    ----------
+    store : MapStore
+        Its maps are replaced.
+
+    Returns
+    -------
+    Consistency
+    """
     repaired = repair_maps(len(store.names), store.ends, store.scores, store.compose)
     store.replace([change for change in repaired.replacements if change.kind != "none"])
     edges = [Edge(a, b, candidate_maps(several)) for (a, b), several in zip(store.ends, store.scores, strict=True)]
@@ -115,14 +125,36 @@ def score_stored(
 def score_candidates(
     maps: Sequence[StoredMap], shapes: tuple[Shape, Shape], samples: tuple[ShapeSamples, ShapeSamples]
 ) -> list[ScoredMap]:
-    """Score candidates of one pair, on its cleaned shapes."""
+    """Score candidates of one pair, on its cleaned shapes.
+
+    Parameters
+    ----------
+    maps : sequence of Candidate
+    shapes : (Shape, Shape)
+        Source and target.
+    samples : (ShapeSamples, ShapeSamples)
+
+    Returns
+    -------
+    list of ScoredMap
+    """
     across = reindexing(*shapes)
     points = [across.part_s.to_clean[one[across.part_t.to_original]] for one, _ in maps]
     return score_pair_maps(points, across.source, across.target, samples, [turned for _, turned in maps])
 
 
 def compose_path(steps: Sequence[tuple[StoredMap, Basis | None]]) -> StoredMap:
-    """Compose the candidates of a path. One that is gone through backwards has the basis of its source beside it."""
+    """Compose the candidates of a path.
+
+    Parameters
+    ----------
+    steps : sequence of (Candidate, Basis or None)
+        A candidate that is gone through backwards has the basis of its source beside it.
+
+    Returns
+    -------
+    Candidate
+    """
     points = [one if basis is None else invert_map(one, basis, len(one)) for (one, _), basis in steps]
     return compose_maps(points), sum(turned for (_, turned), _ in steps) % 2 == 1
 
@@ -136,7 +168,25 @@ def refine_replacement(
     label: str,
     seed: int,
 ) -> Match:
-    """Finish the map that replaces another as a match is finished; the replaced one is its first alternative."""
+    """Finish the map that replaces another as a match is finished; the replaced one is its first alternative.
+
+    Parameters
+    ----------
+    replacement : Replacement
+    candidates : sequence of Candidate
+        Of the pair, the map in use first.
+    composition : Candidate or None
+        The composed map, where one replaces the map in use.
+    shapes : (Shape, Shape)
+    config : Config
+    label : str
+        What the new map started from.
+    seed : int
+
+    Returns
+    -------
+    Match
+    """
     points, turned = candidates[replacement.candidate] if composition is None else composition
     others = [row for i, (row, _) in enumerate(candidates) if i == 0 or i != replacement.candidate]
     return match_from_map(

@@ -156,17 +156,34 @@ def _signs(maps: np.ndarray) -> np.ndarray:
 
 
 def area_difference(C: np.ndarray) -> np.ndarray:
-    """``CᵀC (k_s, k_s)``: inner products on the target of functions carried there, as a matrix on the source's.
+    """Return the area-based shape difference ``CᵀC`` (Rustamov et al. 2013), the identity where areas are kept.
 
-    The identity where areas are kept. Both bases are orthonormal.
+    Parameters
+    ----------
+    C : (k_t, k_s)
+        Functional map in orthonormal bases.
+
+    Returns
+    -------
+    (k_s, k_s)
+        Inner products on the target of functions carried there, as a matrix on the source's.
     """
     return C.T @ C
 
 
 def conformal_difference(C: np.ndarray, eigenvalues_s: np.ndarray, eigenvalues_t: np.ndarray) -> np.ndarray:
-    """``Λ_s⁺ Cᵀ Λ_t C (k_s - 1, k_s - 1)``: the same for inner products of gradients, without the constant function.
+    """Return the conformal shape difference ``Λ_s⁺ Cᵀ Λ_t C``, the identity where angles are kept.
 
-    The identity where angles are kept.
+    Parameters
+    ----------
+    C : (k_t, k_s)
+        Functional map in orthonormal bases.
+    eigenvalues_s, eigenvalues_t : (k_s,), (k_t,)
+
+    Returns
+    -------
+    (k_s - 1, k_s - 1)
+        As :func:`area_difference` for inner products of gradients, without the constant function.
     """
     values = np.asarray(eigenvalues_s)[1:]
     inside = C.T @ (np.asarray(eigenvalues_t)[:, None] * C)
@@ -174,14 +191,24 @@ def conformal_difference(C: np.ndarray, eigenvalues_s: np.ndarray, eigenvalues_t
 
 
 def operators(shape: LimitShape, eigenvalues: np.ndarray, kind: str = "area") -> np.ndarray:
-    """The symmetric matrix of each shape on the latent space, (n, m, m), the identity on average.
+    """Return the symmetric matrix of each shape on the latent space, the identity on average.
 
     Parameters
     ----------
+    shape : LimitShape
     eigenvalues : (n, k)
         Of each shape, at least as many as the latent maps have rows.
     kind : "area" or "conformal"
         ``Y_vᵀ Y_v``, or ``Λ^{-1/2} Y_vᵀ Λ_v Y_v Λ^{-1/2}`` with the latent basis' own values and without the constant.
+
+    Returns
+    -------
+    (n, m, m) float64
+
+    Raises
+    ------
+    InvalidInput
+        On another kind.
     """
     if kind == "area":
         return shape.areas
@@ -194,7 +221,7 @@ def operators(shape: LimitShape, eigenvalues: np.ndarray, kind: str = "area") ->
 
 
 def shape_distances(matrices: np.ndarray) -> np.ndarray:
-    """Frobenius distances between the shapes' ``matrices (n, m, m)``, per function: (n, n)."""
+    """Return the Frobenius distances between the shapes' ``matrices (n, m, m)``, per function: (n, n)."""
     return signature_distances(matrices.reshape(len(matrices), -1)) * np.sqrt(matrices.shape[1])
 
 
@@ -220,10 +247,26 @@ class Components:
 
 
 def components(matrices: np.ndarray, count: int = 5) -> Components:
-    """Principal components of the shapes' ``matrices (n, m, m)``: at most ``count``, and fewer than shapes.
+    """Return the principal components of a collection.
 
     ``mean + Σ scores · directions`` is the best approximation of that many components. Each direction's largest entry
     is positive, so that signs mean the same from run to run.
+
+    Parameters
+    ----------
+    matrices : (n, m, m)
+        One of each shape, see :func:`operators`.
+    count : int
+        Components at most; there are fewer than shapes.
+
+    Returns
+    -------
+    Components
+
+    Raises
+    ------
+    InvalidInput
+        When the matrices are of another shape or not finite.
     """
     check(matrices, "matrices", shape=(None, None, None), finite=True)
     n, m = matrices.shape[:2]

@@ -27,10 +27,19 @@ Pairs = tuple[tuple[int, int], ...]
 
 
 def signature(basis: Basis) -> np.ndarray:
-    """Return numbers that alike shapes have alike, (d,): logarithms of eigenvalues, and how the heat kernel is spread.
+    """Return numbers that similar shapes have alike: logarithms of eigenvalues, and quantiles of the heat kernel.
 
-    Free of units where ``basis`` is that of unit area, of pose nearly, and of the triangulation. Mirror images have the
-    same. Differences are of the order of 0.1 to 1.
+    They are free of units where ``basis`` is that of unit area, nearly free of pose, and free of the triangulation.
+    Mirror images have the same. Differences are of the order of 0.1 to 1.
+
+    Parameters
+    ----------
+    basis : Basis
+        At unit area.
+
+    Returns
+    -------
+    (d,) float64
     """
     values = to_numpy(basis.eigenvalues)[1 : _N_EIGENVALUES + 1]
     # By Weyl's law the i-th is about 4 π i at unit area.
@@ -41,7 +50,17 @@ def signature(basis: Basis) -> np.ndarray:
 
 
 def signature_distances(signatures: np.ndarray) -> np.ndarray:
-    """Return distances between the rows of ``signatures (n, d)``: (n, n), symmetric, 0 on the diagonal."""
+    """Return the root mean square differences between rows.
+
+    Parameters
+    ----------
+    signatures : (n, d)
+
+    Returns
+    -------
+    (n, n) float64
+        Symmetric, 0 on the diagonal.
+    """
     check(signatures, "signatures", shape=(None, None), finite=True)
     squares = (signatures**2).sum(axis=1)
     gram = signatures @ signatures.T
@@ -57,13 +76,13 @@ def star_graph(count: int, centre: int) -> Pairs:
 
 
 def complete_graph(count: int) -> Pairs:
-    """Return all pairs, one way."""
+    """Return all pairs of ``count`` shapes, one way."""
     check_count(count, "shapes", low=2)
     return tuple((a, b) for a in range(count) for b in range(a + 1, count))
 
 
 def medoid(distances: np.ndarray) -> int:
-    """Return the shape that is least far from the others, by ``distances (n, n)``."""
+    """Return the number of the shape with the least sum of ``distances (n, n)`` to the others."""
     return int(distances.sum(axis=1).argmin())
 
 

@@ -33,7 +33,19 @@ class MapPath:
 
 
 def adjacency(count: int, ends: Sequence[tuple[int, int]]) -> Adjacency:
-    """Return the neighbours of each of ``count`` shapes by edges with these ``ends``."""
+    """Return the neighbours of each shape, and the number of the edge to each.
+
+    Parameters
+    ----------
+    count : int
+        Number of shapes.
+    ends : sequence of (int, int)
+        The shapes of each edge.
+
+    Returns
+    -------
+    Adjacency
+    """
     around: list[list[tuple[int, int]]] = [[] for _ in range(count)]
     for number, (a, b) in enumerate(ends):
         around[a].append((b, number))
@@ -63,6 +75,17 @@ def best_paths(around: Adjacency, probabilities: Sequence[float], source: int) -
     """Return the :func:`best_path` from one shape to each that can be reached, itself too, the most probable first.
 
     A path without its last step is the best path to where that begins, so points can be carried step by step.
+
+    Parameters
+    ----------
+    around : Adjacency
+    probabilities : sequence of float
+        That the map of each edge is right.
+    source : int
+
+    Returns
+    -------
+    dict of int to MapPath
     """
     return _dijkstra(around, probabilities, source)
 

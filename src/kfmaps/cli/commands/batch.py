@@ -15,7 +15,7 @@ from kfmaps._threads import available_cores
 from kfmaps.batch.consistent import ConsistentResult
 from kfmaps.batch.jobs import WorkerPool
 from kfmaps.batch.layout import Pair, choose_pairs, find_collection
-from kfmaps.batch.plan import GRAPHS, Plan, graph_pairs, make_plan, recommended
+from kfmaps.batch.plan import GRAPHS, Plan, graph_pairs, make_plan, recommended_config
 from kfmaps.batch.progress import RunReport, estimate
 from kfmaps.batch.results import summarize
 from kfmaps.batch.run import BatchResult, run_batch
@@ -81,7 +81,7 @@ def batch(
     collection = find_collection(folder)
     listed = [] if graph is not None else choose_pairs(collection, file=pairs)
     shapes = [Pair(name, name) for name in collection.shapes]
-    config = settings.config(recommended(collection, listed or shapes, bool(lines), use_files))
+    config = settings.config(recommended_config(collection, listed or shapes, bool(lines), use_files))
     spec = RunSpec(config, seed, lines, use_files, identity)
     with RunReport(quiet or json) as report:
         if graph is not None:
