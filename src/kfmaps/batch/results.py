@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import json
+from collections import Counter
 from collections.abc import Iterable, Sequence
 from dataclasses import asdict, dataclass, field, fields
 from pathlib import Path
@@ -138,11 +139,9 @@ def write_parquet(path: Path, results: Iterable[Result]) -> None:
     except ImportError as error:
         raise MissingDependency("Parquet needs pyarrow. Install it with: pip install 'kfmaps[parquet]'.") from error
     columns, rows = _table(results)
-    kinds = {"attempts": pa.int64(), "vertices_s": pa.int64(), "vertices_t": pa.int64(), "landmarks": pa.int64()}
-    kinds |= {"solver_steps": pa.int64(), "rank": pa.int64()}
-    texts = ("source", "target", "status", "settings", "inputs", "reason", "worker", "finished", "verdict", "solver")
-    kinds |= dict.fromkeys((*texts, "orientation", "changed", "why", "notes"), pa.string())
-    schema = pa.schema([(name, kinds.get(name, pa.float64())) for name in columns])
+    hints = {f.name: str(f.type) for f in fields(Result)} | {"notes": "str"}
+    kinds = {"int": pa.int64(), "str": pa.string()}
+    schema = pa.schema([(name, kinds.get(hints.get(name, "").partition(" ")[0], pa.float64())) for name in columns])
     with atomic_output(path, force=True) as temporary:
         parquet.write_table(pa.Table.from_pylist(rows, schema=schema), temporary)
 
@@ -173,25 +172,21 @@ def summarize(results: Sequence[Result]) -> Summary:
     done = [r for r in results if r.status == "done"]
     errors = np.array([r.error_mean for r in done if r.error_mean is not None])
     seconds = [r.seconds["total"] for r in done if "total" in r.seconds]
-    verdicts = dict.fromkeys(sorted(r.verdict for r in done), 0)
-    for r in done:
-        verdicts[r.verdict] += 1
-    flipped = [
-        r for r in done if r.mirrored_mean is not None and r.error_mean is not None and r.mirrored_mean < r.error_mean
-    ]
+    known, timed = len(errors) > 0, len(seconds) > 0
+    mirrored = [(r.error_mean or 0.0, r.mirrored_mean) for r in done if r.mirrored_mean is not None]
     return Summary(
         done=len(done),
         failed=len(results) - len(done),
         evaluated=len(errors),
-        error_mean=float(errors.mean()) if len(errors) else None,
-        error_median=float(np.median(errors)) if len(errors) else None,
-        error_worst=float(errors.max()) if len(errors) else None,
+        error_mean=float(errors.mean()) if known else None,
+        error_median=float(np.median(errors)) if known else None,
+        error_worst=float(errors.max()) if known else None,
         bad=int((errors > BAD).sum()),
-        flipped=len(flipped),
-        seconds_mean=float(np.mean(seconds)) if seconds else None,
-        seconds_total=float(np.sum(seconds)) if seconds else None,
-        verdicts=verdicts,
-        mirrored=sum(r.mirrored_mean is not None for r in done),
+        flipped=sum(swapped < error for error, swapped in mirrored),
+        seconds_mean=float(np.mean(seconds)) if timed else None,
+        seconds_total=float(np.sum(seconds)) if timed else None,
+        verdicts=dict(sorted(Counter(r.verdict for r in done).items())),
+        mirrored=len(mirrored),
         agreed=sum(r.agreement is not None for r in done),
         changed=sum(bool(r.changed) for r in done),
         parts=sum(r.common_s is not None for r in done),

@@ -53,7 +53,8 @@ def read_part_truth(path: Path, whole: Mesh, part: Mesh) -> PartTruth:
     ----------
     path : Path
         ``.baryc_gt``: a line for each vertex of the part, the triangle of the whole, counted from 1, and three
-        barycentric weights. Any other file: lines "vertex of the whole, vertex of the part", counted from 0 (``.vts`` from 1).
+        barycentric weights. Any other file: lines "vertex of the whole, vertex of the part", counted from 0 (``.vts``
+        from 1).
     whole, part : Mesh
 
     Returns
