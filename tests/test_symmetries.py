@@ -1,16 +1,20 @@
 """Near-symmetries of a shape, and that no map is chosen without a look at what it is mistaken for."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from kfmaps import datasets
 from kfmaps.fmap.convert import to_functional
+from kfmaps.matching import search
 from kfmaps.matching import self_maps as within
 from kfmaps.matching.candidates import distinct_maps, refine_coarse, score_maps
 from kfmaps.matching.initial_maps import symmetry_inits
 from kfmaps.matching.quality import map_quality, mirror_samples, sample_for_scoring, subsample
-from kfmaps.matching.sample_pair import two_level_samples
-from kfmaps.matching.search import scoring_samples
+from kfmaps.matching.ranking import ranking
+from kfmaps.matching.sample_pair import mirrored_pair, two_level_samples
+from kfmaps.matching.search import _choose_orientation, scoring_samples, search_map
 from kfmaps.matching.self_maps import _MAX_DISTORTION, _MIN_DISPLACEMENT, find_self_maps, self_maps
 from kfmaps.shape import prepare
 from test_search import SMALL
@@ -91,3 +95,28 @@ def test_a_map_is_compared_with_what_it_is_mistaken_for(pair, on, of_target):
     assert {start.uses_descriptors for start in starts} == {True}
     found = sorted(refine_coarse(starts, on, 60), key=lambda c: c.score, reverse=True)
     assert len(distinct_maps([right, found[0]], on.source, 0.08)) == 1
+
+
+def test_a_symmetric_body_is_not_taken_for_a_mirror_image(pair, monkeypatch):
+    """A search that has missed the right map, but not the mirrored one, finds it by the symmetry of the body."""
+    source, target, truth = pair
+    state = search_map(source, target, SMALL)._search
+    whole = state.samples.whole
+
+    def error(one):
+        true = source.mesh.vertices[truth[whole.target.samples.vertices]]
+        return np.linalg.norm(whole.source.positions[one.points] - true, axis=1).mean()
+
+    assert error(state.ranked[0]) < 0.05
+    S, C = self_maps(state.samples.few.target, 40)[0], state.ranked[0].functional_map
+    mirrored = S @ C[: len(S), : len(S)]
+    image = score_maps([("image", True)], mirrored[None], None, mirrored_pair(whole))[0]
+    missed = [one for one in state.found if error(one) > 0.1]
+    blind = replace(state, found=missed, ranked=ranking(missed, whole, state.copies))
+    assert image.score > blind.ranked[0].score
+    monkeypatch.setattr(search, "reversed_best", lambda *_: [image])
+    chosen = _choose_orientation(blind, unduly=True)
+    assert chosen.orientation == "preserving"
+    assert error(chosen.ranked[0]) < 0.05
+    monkeypatch.setattr(search, "compose_with_symmetries", lambda *_: [])
+    assert _choose_orientation(blind, unduly=True).orientation == "reversing"

@@ -144,6 +144,14 @@ def refine_fine(
     return found
 
 
+def compose_with_symmetries(one: Candidate, samples: TwoLevelSamples, threads: int | None = None) -> list[Candidate]:
+    """Return refined candidates that start from a map composed with the near-symmetries of both shapes."""
+    functions = min(side.samples.basis.functions.shape[1] for side in (samples.whole.source, samples.whole.target))
+    rough = refine_coarse(symmetry_inits([one], samples.few, functions, threads), samples.few, functions, threads)
+    chosen = distinct_maps(by_score(rough), samples.few.source, SCORE.rough_distance, _FEWER)
+    return refine_fine(chosen, samples.few, samples.whole, functions, threads) if chosen else []
+
+
 def refine_finely(
     chosen: list[Candidate],
     pair: SamplePair,

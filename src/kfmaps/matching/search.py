@@ -24,7 +24,15 @@ from kfmaps.fmap.refine import Refinement
 from kfmaps.fmap.zoomout import MAX_CANDIDATES, MAX_EXACT_PAIRS
 from kfmaps.geometry.basis import Basis
 from kfmaps.geometry.sampling import SampledBasis, stratified_vertices
-from kfmaps.matching.candidates import by_score, candidates, distinct_maps, map_distance, rerefine, rescore
+from kfmaps.matching.candidates import (
+    by_score,
+    candidates,
+    compose_with_symmetries,
+    distinct_maps,
+    map_distance,
+    rerefine,
+    rescore,
+)
 from kfmaps.matching.extremity_matching import ExtremityVertices, extremity_vertices
 from kfmaps.matching.features import user_descriptors
 from kfmaps.matching.fit import Fit, check_landmark_pairs
@@ -299,6 +307,14 @@ def _choose_orientation(state: _Search, unduly: bool) -> _Search:
         return state
     ranked = ranking(images, other, copies, config.threads)
     better, energy = ranked[0].score - state.ranked[0].score, ranked[0].deformation_energy
+    if asked == "auto" and better > SCORE.mirror_gain:
+        # A body that is nearly its own mirror image has a map that keeps orientation and is as good.
+        kept = compose_with_symmetries(ranked[0], samples, config.threads)
+        if kept:
+            found = [*state.found, *kept]
+            best = ranking(found, samples.whole, state.copies, config.threads)
+            state = replace(state, found=found, ranked=best)
+            better = ranked[0].score - best[0].score
     congruent = energy is not None and energy < SCORE.congruent_energy
     margin = SCORE.mirror_gain if congruent else SCORE.mirror_margin
     if better > (SCORE.clear_margin if asked == "either" else margin):
