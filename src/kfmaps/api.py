@@ -368,7 +368,7 @@ def _telling(progress: bool | Reporter | None) -> Any:
 def _truth(truth: Any, shapes: tuple[Mesh, Mesh]) -> Truth:
     """Corresponding vertices of both shapes, of a truth as :func:`render` takes it."""
     if not isinstance(truth, tuple):
-        points = check_map(truth, *(len(mesh.vertices) for mesh in shapes), "truth", lost=True)
+        points = check_map(truth, len(shapes[0].vertices), len(shapes[1].vertices), "truth", lost=True)
         known = np.flatnonzero(points >= 0)
         truth = points[known], known
     both = [check(np.asarray(part), "truth", shape=(None,), remedy="give vertex numbers") for part in truth]
