@@ -18,7 +18,6 @@ GUARDS = (
     "kfmaps.fmap.precise",
     "kfmaps.geometry.arap",
     "kfmaps.geometry.closest_points",
-    "kfmaps.registration.data_terms",
     "kfmaps.registration.deformable",
     "kfmaps.registration.nonrigid_icp",
 )

@@ -7,12 +7,11 @@ import pytest
 
 from conftest import blob
 from kfmaps.datasets import two_poses
-from kfmaps.fmap import approximate_geodesics as module
-from kfmaps.fmap.approximate_geodesics import approximate_geodesics
-from kfmaps.fmap.confidence import local_confidence
+from kfmaps.fmap import confidence as module
+from kfmaps.fmap.confidence import approximate_geodesics, local_confidence
 from kfmaps.geometry.mesh import Mesh, unit_area
 
-GUARDS = ("kfmaps.fmap.approximate_geodesics", "kfmaps.fmap.confidence")
+GUARDS = ("kfmaps.fmap.confidence",)
 
 
 def coarser(monkeypatch: pytest.MonkeyPatch, points: int) -> None:

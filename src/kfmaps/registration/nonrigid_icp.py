@@ -29,9 +29,9 @@ from kfmaps.geometry.coarsen import coarse_proxy, embedded_deformation, spread_v
 from kfmaps.geometry.eigen.factorization import factorize
 from kfmaps.geometry.mesh import Mesh, vertex_areas, vertex_normals
 from kfmaps.registration.contact_projection import project_with_contact
-from kfmaps.registration.data_terms import DataTerm
 from kfmaps.registration.deformable import (
     ClosestPointQuery,
+    DataTerm,
     DeformableMesh,
     closest_point_query,
     deformable_mesh,

@@ -17,8 +17,8 @@ from kfmaps.geometry.arap import arap_energy, rotations
 from kfmaps.geometry.closest_points import ClosestPoints, closest_points
 from kfmaps.geometry.mesh import Mesh, surface_area, vertex_normals
 from kfmaps.matching.partial.samples import PartPair, PartSamples
-from kfmaps.registration.data_terms import DataTerm
 from kfmaps.registration.deformable import (
+    DataTerm,
     DeformableMesh,
     closest_point_query,
     deformable_mesh,
