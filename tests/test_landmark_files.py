@@ -253,6 +253,8 @@ def test_landmarks_of_two_shapes_are_paired_by_name(tmp_path: Path) -> None:
     config = replace(one, basis=replace(one.basis, n_eigenfunctions=20))
     match = kfmaps.match(tmp_path / "a.off", tmp_path / "b.ply", config, landmarks=files)
     np.testing.assert_array_equal(match.landmarks, pairs)
+    with pytest.raises(InvalidInput, match="prepared shape"):
+        kfmaps.match(kfmaps.prepare(mesh, config), tmp_path / "b.ply", config, landmarks=files)
     words = ["match", tmp_path / "a.off", tmp_path / "b.ply", "-o", tmp_path / "m.npz", "-q"]
     done = run(
         *words, *(word for file in files for word in ("--landmarks", file)), "--set", "basis.n_eigenfunctions=20"

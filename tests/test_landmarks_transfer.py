@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from collecting import CONFIG, bent
+from collecting import CONFIG, bent, done
 from commandline import run
 from kfmaps._arrays import InvalidInput
 from kfmaps.batch.landmark_tables import write_study
@@ -26,10 +26,10 @@ from kfmaps.batch.transfer_landmarks import (
     template_errors,
     template_pairs,
 )
-from kfmaps.batch.work import landmark_pairs, map_path
+from kfmaps.batch.work import map_path
 from kfmaps.cli.commands._landmarks_transfer import describe_study
 from kfmaps.geometry.mesh import Mesh, surface_area
-from kfmaps.io import read_mesh, save_map, write_mesh
+from kfmaps.io import load_map, read_mesh, save_map, write_mesh
 from kfmaps.io.landmark_files import LandmarkSet, read_landmark_sets, write_landmark_sets
 from kfmaps.io.named_points import read_given_landmarks
 from kfmaps.matching.result import Match
@@ -239,9 +239,10 @@ def test_a_run_takes_landmarks_of_other_programs(scans: Path, tmp_path: Path) ->
     collection = find_collection(scans)
     assert sorted(collection.landmarks) == ["a", "b"]
     plan = make_plan(collection, [Pair("a", "b")], RunSpec(CONFIG), tmp_path / "out")
-    (task,) = plan.tasks
-    pairs = landmark_pairs(task, None, read_mesh(scans / "a.ply"), read_mesh(scans / "b.ply"))
-    np.testing.assert_array_equal(pairs, np.stack([AT, AT], axis=1))
+    (result,) = done(plan)
+    assert (result.status, result.reason) == ("done", "")
+    found = load_map(map_path(tmp_path / "out", "a-b"))
+    np.testing.assert_array_equal(found.landmarks, np.stack([AT, AT], axis=1))
 
 
 def test_landmarks_of_one_shape_alone_are_no_pairs(scans: Path, tmp_path: Path) -> None:

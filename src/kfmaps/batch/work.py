@@ -247,7 +247,7 @@ def _matched(task: PairTask) -> dict[str, Any]:
     source, target = load_prepared(task.source), load_prepared(task.target)
     sizes = len(source.mesh.vertices), len(target.mesh.vertices)
     truth = true_vertices(task, *sizes)
-    landmarks = _landmark_pairs(task, truth, source.mesh, target.mesh)
+    landmarks = _landmark_pairs(task, truth, *sizes)
     probes = None
     if task.spec.config.search is not None and landmarks is None:
         probes = pair_samples(task, (source, target))
@@ -332,7 +332,7 @@ def true_vertices(task: PairTask, n_s: int, n_t: int) -> Truth | None:
     return check_truth(Truth(np.arange(n_s), numbers), n_s, n_t)
 
 
-def _landmark_pairs(task: PairTask, truth: Truth | None, source: Mesh, target: Mesh) -> np.ndarray | None:
+def _landmark_pairs(task: PairTask, truth: Truth | None, n_s: int, n_t: int) -> np.ndarray | None:
     """The pair's landmarks (l, 2), 0-based, or ``None``.
 
     Raises
@@ -353,5 +353,6 @@ def _landmark_pairs(task: PairTask, truth: Truth | None, source: Mesh, target: M
         return None
     if any(map(landmark_suffix, task.landmarks)):
         files = Path(task.source.path), Path(task.target.path)
-        return read_landmark_pairs(task.landmarks, (source, target), files)[0]
-    return np.stack(read_vertex_lists(task.landmarks, (len(source.vertices), len(target.vertices))), axis=1)
+        meshes = [read_shape_mesh(str(file)) for file in files]  # prepared shapes have another unit
+        return read_landmark_pairs(task.landmarks, meshes, files)[0]
+    return np.stack(read_vertex_lists(task.landmarks, (n_s, n_t)), axis=1)

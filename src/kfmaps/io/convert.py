@@ -20,6 +20,7 @@ from kfmaps.io.named_points import read_landmark_pairs
 from kfmaps.io.record import fan
 from kfmaps.matching.result import Match
 from kfmaps.matching.result_groups import ShapeFile
+from kfmaps.shape import Shape
 
 _SHAPES = "a Mesh, a file, (vertices, faces), or a mesh of trimesh, PyVista, meshio or Open3D"
 POLYGONS = ("triangle", "quad", "polygon")
@@ -132,11 +133,15 @@ def as_landmarks(landmarks: Any, shapes: Sequence[Any] = (), meshes: Sequence[Me
     Raises
     ------
     InvalidInput
-        As :func:`~kfmaps.io.read_landmarks` and :func:`~kfmaps.io.named_points.read_landmark_pairs`.
+        On landmarks of either shape for a prepared one, whose unit is another, and as
+        :func:`~kfmaps.io.read_landmarks` and :func:`~kfmaps.io.named_points.read_landmark_pairs`.
     """
     if is_file(landmarks):
         return read_landmarks(landmarks)
     if isinstance(landmarks, tuple | list) and len(landmarks) == 2 and all(map(is_file, landmarks)):
+        if any(isinstance(shape, Shape) for shape in shapes):
+            remedy = "Give the meshes themselves, or pairs of vertices"
+            raise refuse("landmarks", "meshes in the unit of the landmarks' files", "a prepared shape", remedy)
         files = [Path(shape) if is_file(shape) else None for shape in shapes]
         return read_landmark_pairs(landmarks, meshes, files)[0]
     return landmarks
