@@ -40,7 +40,7 @@ def exchange_limbs(best: Candidate, pair: SamplePair, threads: int | None = None
     nearest_extremity = pair.target.extremities.distances[match.target].argmin(axis=0)
     maps = []
     for one in exchanged:
-        cost = extremity_cost(pair.source.extremities, pair.target.extremities, one, pair.shot)
+        cost = extremity_cost(pair.source.extremities, pair.target.extremities, one, pair.descriptor_cost)
         on_limb = (one.source != match.source)[nearest_extremity]
         points = np.where(on_limb, cost.argmin(axis=1), best.points)
         maps.append(np.asarray(pair.solver(size) @ functions[points, :size], dtype=np.float64))
