@@ -65,9 +65,14 @@ def build_arap(mesh: Mesh) -> ArapEnergy:
 
 
 def rotations(energy: ArapEnergy, x: np.ndarray) -> np.ndarray:
-    """Return the best rotation of each vertex, (n, 3, 3), for deformed positions ``x (n, 3)``.
+    """Return the best rotation of each vertex, (n, 3, 3), for deformed positions.
 
     ``R_i`` takes the edges of the rest shape at vertex i as nearly as possible to those of ``x``.
+
+    Parameters
+    ----------
+    energy : ArapEnergy
+    x : (n, 3) float64
     """
     return nearest_rotations(edge_covariances(energy, x))
 
@@ -144,7 +149,13 @@ def _times(a: np.ndarray, b: np.ndarray) -> np.ndarray:
 
 
 def arap_rhs(energy: ArapEnergy, turns: np.ndarray) -> np.ndarray:
-    """Return ``b (n, 3)`` with ``laplacian @ x = b`` at the least energy for the rotations ``turns (n, 3, 3)``."""
+    """Return ``b (n, 3)`` with ``laplacian @ x = b`` at the least energy for given rotations.
+
+    Parameters
+    ----------
+    energy : ArapEnergy
+    turns : (n, 3, 3) float64
+    """
     n = len(turns)
     return 0.5 * (energy.moments.T @ turns.transpose(2, 0, 1).reshape(3 * n, 3))
 
@@ -165,7 +176,13 @@ def arap_energy(energy: ArapEnergy, x: np.ndarray, turns: np.ndarray | None = No
 
 
 def arap_energy_per_vertex(energy: ArapEnergy, x: np.ndarray) -> np.ndarray:
-    """Return the share of each vertex, (n,), in twice the energy of ``x (n, 3)``, with the best rotations."""
+    """Return the share of each vertex, (n,), in twice the energy of deformed positions, with the best rotations.
+
+    Parameters
+    ----------
+    energy : ArapEnergy
+    x : (n, 3) float64
+    """
     edges = energy.laplacian.tocoo()
     off = edges.row != edges.col
     i, j, w = edges.row[off], edges.col[off], -edges.data[off]

@@ -127,7 +127,14 @@ def clean_mesh(mesh: Mesh, specks: bool = False) -> CleanedMesh:
 
 
 def outer_faces(mesh: Mesh, part: CleanedMesh) -> np.ndarray:
-    """Return the face of ``mesh`` that each face of its cleaned mesh ``part`` is, (g,) int64."""
+    """Return the face of a mesh that each face of its cleaned mesh is, (g,) int64.
+
+    Parameters
+    ----------
+    mesh : Mesh
+    part : CleanedMesh
+        Of ``mesh``.
+    """
     if part.mesh.faces is mesh.faces:
         return np.arange(len(mesh.faces))
     within = part.to_clean[mesh.faces]

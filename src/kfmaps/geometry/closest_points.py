@@ -158,7 +158,14 @@ def barycentric_matrix(face_of: np.ndarray, weights: np.ndarray, faces: np.ndarr
 
 
 def first_minima(values: np.ndarray, owner: np.ndarray) -> np.ndarray:
-    """Return for each owner the first entry of ``values (m,)`` that is its least; ``owner (m,)`` ascends."""
+    """Return for each owner the first entry of some values that is its least, (q,) int64.
+
+    Parameters
+    ----------
+    values : (m,) float64
+    owner : (m,) int64
+        Ascending, and naming every owner at least once.
+    """
     first = np.flatnonzero(np.diff(owner, prepend=-1))
     least = np.minimum.reduceat(values, first)
     hits = np.flatnonzero(values == np.repeat(least, np.diff(np.append(first, len(owner)))))

@@ -146,7 +146,14 @@ def n_kernel_landmarks(kernel: KernelLike) -> int | None:
 
 
 def forward(layers: tuple[Array, ...], X: Array) -> Array:
-    """Return the outputs (n, out) of a network for rows ``X (n, in)``; its ``layers`` as in :class:`Network`."""
+    """Return the outputs (n, out) of a network.
+
+    Parameters
+    ----------
+    layers : tuple of (out, in + 1)
+        As in :class:`Network`, the biases last.
+    X : (n, in)
+    """
     xp = namespace(X)
     for i, matrix in enumerate(layers):
         X = (xp.tanh(X) if i else X) @ matrix[:, :-1].T + matrix[:, -1][None, :]

@@ -88,7 +88,14 @@ class DeformationEnergy:
 
 
 def coarse_copy(shape: Shape, vertices: int = 1200) -> CoarseProxy | None:
-    """Return a coarse copy of a shape with so many ``vertices``; ``None`` where it has no faces, or too few."""
+    """Return a coarse copy of a shape; ``None`` where it has no faces, or too few.
+
+    Parameters
+    ----------
+    shape : Shape
+    vertices : int
+        Of the copy.
+    """
     if len(shape.mesh.faces) < _MIN_FACES:
         return None
     n = len(shape.mesh.vertices)

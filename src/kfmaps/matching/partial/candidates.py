@@ -58,7 +58,14 @@ class PartCandidate:
 
 
 def make_candidate(placement: Placement, pair: PartPair) -> PartCandidate:
-    """Register the part quickly by its placed samples."""
+    """Register the part quickly by its placed samples.
+
+    Parameters
+    ----------
+    placement : Placement
+        Of all samples.
+    pair : PartPair
+    """
     at = pair.whole.samples[placement.placed.match]
     points, normals = pair.whole.mesh.vertices[at], pair.whole.surface.normals[at]
     trust = np.maximum(placement.placed.trust, 0.01)
@@ -76,6 +83,11 @@ def compare_alternatives(found: Sequence[PartCandidate], pair: PartPair) -> list
     """Return the candidates, best first, after alternatives were sought and the best that differ were refined.
 
     A placement that was found by chance is far from what it can be, and would lose against one that was not.
+
+    Parameters
+    ----------
+    found : sequence of PartCandidate
+    pair : PartPair
     """
     best = max(found, key=lambda one: one.score)
     elsewhere = _alternative_placements(pair, best.registration.scale, best.points)
