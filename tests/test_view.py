@@ -27,10 +27,8 @@ from kfmaps.io.provenance import mesh_path
 from kfmaps.matching.result import Match
 from kfmaps.matching.result_groups import MatchFit, MatchScore, ShapeFile
 from kfmaps.viz.colors import position_colors
-from kfmaps.viz.document import asset
-from kfmaps.viz.encode import encode_floats, encode_integers, json_block, to_json
-from kfmaps.viz.fields import area_distortion, rotation_by_map
-from kfmaps.viz.page import result_page
+from kfmaps.viz.document import asset, encode_floats, encode_integers, json_block, to_json
+from kfmaps.viz.page import area_distortion, result_page, rotation_by_map
 from kfmaps.viz.result_pages import _match_summary, match_page, signatures, vertex_errors
 
 WEB = Path(__file__).parents[1] / "web"

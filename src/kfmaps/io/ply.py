@@ -3,14 +3,146 @@
 from __future__ import annotations
 
 import re
+from dataclasses import dataclass
 
 import numpy as np
 
 from kfmaps._arrays import refuse
 from kfmaps.geometry.mesh import Mesh
-from kfmaps.io.ply_data import CUT, Column, Element, Property, binary_columns, text_columns
-from kfmaps.io.record import MeshFile, bytes_of, fan, unit_colors
-from kfmaps.io.text import REPAIR, clean_text, parse_rows, quoted, whole_numbers
+from kfmaps.io.record import MeshFile, bytes_of, fan, gathered, unit_colors
+from kfmaps.io.text import REPAIR, Rows, check_lines, clean_text, parse_rows, quoted, whole_numbers
+
+
+@dataclass(frozen=True)
+class _Property:
+    """A column: a number, or a list when ``count`` is given. The two are NumPy types with byte order."""
+
+    name: str
+    kind: np.dtype
+    count: np.dtype | None = None
+
+
+@dataclass(frozen=True)
+class _Element:
+    """A table of ``rows`` rows."""
+
+    name: str
+    rows: int
+    properties: tuple[_Property, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class _Column:
+    """The values of one property, those of lists one after another; ``sizes`` (rows,) are their lengths."""
+
+    values: np.ndarray
+    sizes: np.ndarray | None = None
+
+
+_CUT = "the file is cut short or its counts are wrong: export it again"
+
+
+def _text_columns(element: _Element, rows: Rows, name: str) -> dict[str, _Column]:
+    """Return the columns of an element whose lines are ``rows``."""
+    at, ends = rows.starts.copy(), rows.starts + rows.counts
+
+    def step(lengths: np.ndarray | int) -> None:
+        nonlocal at
+        at = at + lengths
+        wanted = f"every property of a {element.name}"
+        check_lines(at > ends, rows.lines, name, wanted, lambda i: f"only {rows.counts[i]} numbers")
+
+    columns = {}
+    for item in element.properties:
+        first = at
+        step(1)
+        if item.count is None:
+            columns[item.name] = _Column(_typed(rows.values[first], item, name))
+            continue
+        sizes = whole_numbers(rows.values[first], f"{name}: length of {item.name}")
+        check_lines(sizes < 0, rows.lines, name, f"{item.name} of 0 numbers or more", lambda i: str(sizes[i]))  # noqa: B023
+        first = at
+        step(sizes)
+        columns[item.name] = _Column(_typed(rows.values[gathered(first, sizes)], item, name), sizes)
+    wanted = f"only the properties of a {element.name}"
+    check_lines(at < ends, rows.lines, name, wanted, lambda i: f"{rows.counts[i]} numbers")
+    return columns
+
+
+def _typed(values: np.ndarray, item: _Property, name: str) -> np.ndarray:
+    """``values`` from a text in the type that the header gives; fractions keep every digit of the text."""
+    if item.kind.kind == "f":
+        return values
+    numbers = whole_numbers(values, f"{name}: {item.name}")
+    low, high = np.iinfo(item.kind).min, np.iinfo(item.kind).max
+    if ((numbers < low) | (numbers > high)).any():
+        got = f"{numbers.min()} to {numbers.max()}"
+        raise refuse(f"{name}: {item.name}", f"numbers from {low} to {high}, as the header says", got, REPAIR)
+    return numbers.astype(item.kind)
+
+
+def _binary_columns(element: _Element, data: bytes, start: int, name: str) -> tuple[dict[str, _Column], int]:
+    """Return the columns of an element that begins at byte ``start``, and where the next one begins."""
+    smallest = sum((p.count or p.kind).itemsize for p in element.properties)
+    if element.rows * smallest > len(data) - start:
+        got = f"{len(data) - start} bytes"
+        raise refuse(name, f"{element.rows} rows of the element {element.name}", got, _CUT)
+    if element.rows == 0:
+        none = np.zeros(0, dtype=np.int64)
+        return {p.name: _Column(none, none if p.count else None) for p in element.properties}, start
+    # Nearly always the lists are equally long in every row; then the element is one structured array.
+    _, sizes, _ = _walk(element, data, start, 1, name)
+    layout = []
+    for i, (item, (size,)) in enumerate(zip(element.properties, sizes, strict=True)):
+        if item.count is None:
+            layout.append((f"{i}", item.kind))
+        else:
+            layout += [(f"count {i}", item.count), (f"{i}", item.kind, (int(size),))]
+    block_type = np.dtype(layout)
+    end = start + element.rows * block_type.itemsize
+    if end <= len(data):
+        block = np.frombuffer(data, block_type, element.rows, start)
+        if all((block[c] == block[c][0]).all() for c in block_type.names or () if c.startswith("count")):
+            columns = {}
+            for i, item in enumerate(element.properties):
+                lengths = block[f"count {i}"].astype(np.int64) if item.count else None
+                columns[item.name] = _Column(block[f"{i}"].ravel(), lengths)
+            return columns, end
+
+    offsets, sizes, end = _walk(element, data, start, element.rows, name)
+    raw = np.frombuffer(data, dtype=np.uint8)
+    columns = {}
+    for item, first, lengths in zip(element.properties, offsets, sizes, strict=True):
+        skip = item.count.itemsize if item.count else 0
+        taken = raw[gathered(first + skip, lengths * item.kind.itemsize)].view(item.kind)
+        columns[item.name] = _Column(taken, lengths if item.count else None)
+    return columns, end
+
+
+def _walk(element: _Element, data: bytes, start: int, rows: int, name: str) -> tuple[np.ndarray, np.ndarray, int]:
+    """Step through ``rows`` rows: where each property begins and how many values it has, (p, rows) both."""
+    steps = []
+    for item in element.properties:
+        code = np.dtype(item.count or item.kind)
+        order = "little" if code.newbyteorder("<") == code else "big"
+        steps.append((item.count is not None, code.itemsize, item.kind.itemsize, order, code.kind == "i"))
+    offsets, sizes = [], []
+    at = start
+    for _ in range(rows):
+        for is_list, head, width, order, signed in steps:
+            offsets.append(at)
+            size = 1
+            if is_list:
+                size = int.from_bytes(data[at : at + head], order, signed=signed)
+                at += width * size
+            sizes.append(size)
+            at += head
+            if size < 0 or at > len(data):
+                got = "a negative length" if size < 0 else "the end of the file"
+                raise refuse(name, f"{element.rows} rows of the element {element.name}", got, _CUT)
+    shape = (rows, len(steps))
+    return np.array(offsets).reshape(shape).T, np.array(sizes).reshape(shape).T, at
+
 
 _TYPES = {
     "char": "i1", "uchar": "u1", "short": "i2", "ushort": "u2", "int": "i4", "uint": "u4",
@@ -35,35 +167,35 @@ def parse_ply(data: bytes, name: str) -> MeshFile:
         of fewer than three corners.
     """
     order, elements, start = _header(data, name)
-    found: dict[str, dict[str, Column]] = {}
+    found: dict[str, dict[str, _Column]] = {}
     if order == "":
         rows = parse_rows(clean_text(data[start:], name), name)
         have, first = len(rows), 0
         if have != sum(e.rows for e in elements):
             shown = [f"{e.rows} lines of {e.name}" for e in elements[:4]]
             wanted = " and ".join(shown + [f"{len(elements) - 4} elements more"] * (len(elements) > 4))
-            raise refuse(name, wanted, f"{have} lines", CUT)
+            raise refuse(name, wanted, f"{have} lines", _CUT)
         for element in elements:
             part = rows.part(first, first + element.rows)
-            found[element.name] = text_columns(element, part, name)
+            found[element.name] = _text_columns(element, part, name)
             first += element.rows
     else:
         for element in elements:
-            found[element.name], start = binary_columns(element, data, start, name)
+            found[element.name], start = _binary_columns(element, data, start, name)
         if data[start:].strip():
             what = "a header that counts all of it; it was perhaps copied as text"
             raise refuse(name, what, f"{len(data) - start} bytes more", REPAIR)
     return _mesh_file(found, name)
 
 
-def _header(data: bytes, name: str) -> tuple[str, list[Element], int]:
+def _header(data: bytes, name: str) -> tuple[str, list[_Element], int]:
     """Byte order ('' for text), elements, and where the body begins."""
     opening = re.match(rb"ply[ \t]*(\r?\n|\r)", data)
     if opening is None:
         raise refuse(name, "the word ply first", quoted(data[:16]), "check the extension")
     order: str | None = None
-    elements: dict[str, tuple[int, dict[str, Property]]] = {}
-    properties: dict[str, Property] = {}
+    elements: dict[str, tuple[int, dict[str, _Property]]] = {}
+    properties: dict[str, _Property] = {}
     at, i = opening.end(), 1
     while (end := data.find(opening.group(1)[-1:], at)) >= 0:
         # Some programs end lines with \r\n in one part of the header and with \n in another.
@@ -93,26 +225,26 @@ def _header(data: bytes, name: str) -> tuple[str, list[Element], int]:
 
 
 def _checked_header(
-    order: str | None, elements: dict[str, tuple[int, dict[str, Property]]], end: int, name: str
-) -> tuple[str, list[Element], int]:
+    order: str | None, elements: dict[str, tuple[int, dict[str, _Property]]], end: int, name: str
+) -> tuple[str, list[_Element], int]:
     """What :func:`_header` returns, when it is all there."""
     bare = [kind for kind, (_, properties) in elements.items() if not properties]
     if order is None or bare:
         got = "none" if order is None else f"none for {bare[0]}"
         raise refuse(f"{name}: header", "a format, and properties of each element", got, REPAIR)
-    return order, [Element(kind, count, tuple(p.values())) for kind, (count, p) in elements.items()], end
+    return order, [_Element(kind, count, tuple(p.values())) for kind, (count, p) in elements.items()], end
 
 
-def _property(words: list[str], order: str, where: str) -> Property:
+def _property(words: list[str], order: str, where: str) -> _Property:
     match words:
         case [kind, title] if kind in _TYPES:
-            return Property(title, np.dtype(order + _TYPES[kind]))
+            return _Property(title, np.dtype(order + _TYPES[kind]))
         case ["list", count, kind, title] if kind in _TYPES and _TYPES.get(count, "f")[0] != "f":
-            return Property(title, np.dtype(order + _TYPES[kind]), np.dtype(order + _TYPES[count]))
+            return _Property(title, np.dtype(order + _TYPES[kind]), np.dtype(order + _TYPES[count]))
     raise refuse(where, "a type of PLY and a name", quoted(" ".join(words).encode()), REPAIR)
 
 
-def _mesh_file(found: dict[str, dict[str, Column]], name: str) -> MeshFile:
+def _mesh_file(found: dict[str, dict[str, _Column]], name: str) -> MeshFile:
     """Pick what a mesh needs from the elements."""
     vertex = {k: c for k, c in found.get("vertex", {}).items() if c.sizes is None}
     if not {"x", "y", "z"} <= vertex.keys():
@@ -140,7 +272,7 @@ def _mesh_file(found: dict[str, dict[str, Column]], name: str) -> MeshFile:
     return MeshFile(Mesh(stacked(("x", "y", "z")), faces), colors, uv, None if uv is None else faces)
 
 
-def _colors(vertex: dict[str, Column], names: tuple[str, ...]) -> np.ndarray:
+def _colors(vertex: dict[str, _Column], names: tuple[str, ...]) -> np.ndarray:
     """Colours from 0 to 1: bytes and 16-bit numbers by their range, text and fractions by their size."""
     values = [vertex[k].values for k in names]
     columns = np.stack(values, axis=1)

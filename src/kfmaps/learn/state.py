@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from kfmaps._arrays import refuse
 from kfmaps._records import short_repr
 from kfmaps.io import atomic_output
-from kfmaps.settings.learned import FORMAT, read_learned
+from kfmaps.settings.merge import FORMAT, read_learned
 from kfmaps.viz.curves import COLORS
 from kfmaps.viz.figures import TEXT
 

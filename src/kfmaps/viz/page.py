@@ -10,15 +10,13 @@ import numpy as np
 from kfmaps._arrays import check, check_count, refuse
 from kfmaps.cli.words import VERDICTS, verdict_text
 from kfmaps.fmap.convert import nearest_reached
-from kfmaps.geometry.mesh import Mesh, unit_area
+from kfmaps.geometry.mesh import Mesh, face_areas, unit_area
 from kfmaps.io import check_map, projected_uv
 from kfmaps.io.transfer import transfer
 from kfmaps.matching.result import Match
-from kfmaps.viz.camera import broad_side, rotation_between
+from kfmaps.viz.camera import broad_side, fit_rotation, rotation_between
 from kfmaps.viz.colors import position_colors
-from kfmaps.viz.document import document
-from kfmaps.viz.encode import encode_floats, encode_integers
-from kfmaps.viz.fields import area_distortion, rotation_by_map
+from kfmaps.viz.document import document, encode_floats, encode_integers
 
 
 def shape_record(mesh: Mesh, name: str) -> dict[str, Any]:
@@ -219,3 +217,35 @@ def result_page(
         "summary": summary or {},
     }
     return document("result.html.j2", title=f"{names[0]} → {names[1]}", data=data)
+
+
+def area_distortion(source: Mesh, target: Mesh, target_to_source: np.ndarray) -> np.ndarray:
+    """Return the base-2 logarithm of how the map changes area around each target vertex, (n_t,), within [-4, 4].
+
+    The area on the source of the images of the faces around a vertex over the area of those faces on the
+    target, both shapes scaled to unit area. 0 keeps area, 1 doubles it, -1 halves it; faces collapsed to
+    nothing are held at -4. NaN where no face with area meets the vertex, around vertices without a counterpart (−1),
+    and everywhere on point clouds.
+    """
+    n = len(target.vertices)
+    if len(target.faces) == 0 or len(source.faces) == 0:
+        return np.full(n, np.nan)
+    lost = np.asarray(target_to_source) < 0
+    image = face_areas(Mesh(source.vertices[target_to_source], target.faces)) / face_areas(source).sum()
+    own = face_areas(target) / face_areas(target).sum()
+    corners = target.faces.ravel()
+    here = np.bincount(corners, np.repeat(own, 3), minlength=n)
+    there = np.bincount(corners, np.repeat(image, 3), minlength=n)
+    ratio = np.divide(there, here, out=np.full(n, np.nan), where=here > 0)
+    ratio[np.unique(target.faces[lost[target.faces].any(axis=1)])] = np.nan
+    return np.log2(np.clip(ratio, 2.0**-4, 2.0**4))
+
+
+def rotation_by_map(source: Mesh, target: Mesh, target_to_source: np.ndarray) -> np.ndarray:
+    """Return the rotation, (3, 3), that turns the target's vertices best onto their matches (Kabsch 1976)."""
+    known = np.asarray(target_to_source) >= 0
+    if not known.any():
+        return np.eye(3)
+    there = source.vertices[np.asarray(target_to_source)[known]]
+    here = target.vertices[known] - target.vertices[known].mean(axis=0)
+    return fit_rotation(here, there - there.mean(axis=0))[0]

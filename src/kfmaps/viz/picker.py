@@ -14,8 +14,7 @@ from kfmaps.fmap.confidence import local_confidence
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.io import check_map, save_map, write_landmarks
 from kfmaps.matching.result import Match
-from kfmaps.viz.document import document
-from kfmaps.viz.encode import encode_floats
+from kfmaps.viz.document import document, encode_floats
 from kfmaps.viz.page import check_up, map_record, shape_record, source_record, verdict_record, views_record
 from kfmaps.viz.runs import Progress, Runs
 from kfmaps.viz.server import LocalServer, Reply, json_reply, page_reply

@@ -23,7 +23,7 @@ from tornado.httpserver import HTTPServer
 from tornado.web import Application, RequestHandler
 
 from kfmaps._arrays import InvalidInput, refuse
-from kfmaps.viz.encode import to_json
+from kfmaps.viz.document import to_json
 
 _LOOPBACK = "127.0.0.1"
 _LARGEST_REQUEST = 1 << 20
