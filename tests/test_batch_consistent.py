@@ -243,7 +243,7 @@ def test_a_kill_while_maps_are_made_to_agree_loses_nothing(tmp_path: Path) -> No
     kept: dict[Path, tuple[bytes, int]] = {}
     for pattern, enough in stages.items():
         with subprocess.Popen([sys.executable, str(script), str(folder), str(out), "consistent"]) as process:
-            until(lambda p=pattern, n=enough: len(finished(out / CONSISTENT, p)) >= n, 60.0)
+            until(lambda p=pattern, n=enough: len(finished(out / CONSISTENT, p)) >= n)
             for each in (*psutil.Process(process.pid).children(recursive=True), process):
                 each.kill()
         assert process.returncode == -signal.SIGKILL

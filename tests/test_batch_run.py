@@ -34,7 +34,7 @@ from kfmaps.batch.work import attempts, map_path, prepare_shape
 from kfmaps.io import load_map
 
 
-def until(condition: Callable[[], Any], seconds: float = 20.0) -> Any:
+def until(condition: Callable[[], Any], seconds: float = 120.0) -> Any:
     """The first true value of ``condition``, asked again and again."""
     end = time.monotonic() + seconds
     while time.monotonic() < end:
