@@ -33,6 +33,9 @@ CHOSEN_ON = {
     "TOSCA_r": {"cat0", "cat8", "cat10", "dog0", "dog3", "dog8", "horse0", "horse6", "horse17", "centaur0", "centaur3"},
     "catdog": {"cat0", "cat8", "cat10", "dog0", "dog3", "dog8"},
     "TOSCA_nonIsometric_r": {"8_gorilla_01", "8_woman_01", "8_woman_02"},
+    "SMAL_r": {"dog_01", "dog_02", "cow_01", "cow_03", "lion_02", "lion_03", "fox_01", "wolf_01"},
+    "SHREC07": {"381", "382", "383", "385"},
+    "TOPKIDS": {f"kid{i:02d}" for i in range(7)},
 }
 OWN = (("two_poses", 5), ("symmetric_creature", 5), ("non_isometric", 5), ("non_isometric", 6))
 RIGHT = 8.0
@@ -79,9 +82,13 @@ def loaded(job: Job) -> tuple[kfmaps.Mesh, kfmaps.Mesh, np.ndarray, np.ndarray]:
         both = np.loadtxt(job.data / "cross" / "cat_dog.txt", dtype=np.int64) - 1
         side = 0 if job.source.startswith("cat") else 1
         return *meshes, lines(folder, job.source)[both[:, side]], lines(folder, job.target)[both[:, 1 - side]]
-    if job.kind.startswith("PFAUST"):
-        true = np.loadtxt(folder / f"{job.target}.txt", dtype=np.int64)
+    if job.kind.startswith("PFAUST") or job.kind in ("TOPKIDS", "SMAL_r"):
+        name = f"truth/{job.source}-{job.target}" if job.kind == "SMAL_r" else job.target
+        true = np.loadtxt(folder / f"{name}.txt", dtype=np.int64)
         return *meshes, true[:, 0], true[:, 1]
+    if job.kind == "SHREC07":
+        true_s, true_t = (np.loadtxt(folder / f"{name}.txt", dtype=np.int64) for name in (job.source, job.target))
+        return *meshes, true_s, true_t
     if job.kind == "SHREC16":
         places = np.loadtxt(folder / f"{job.target}.baryc_gt")
         corners = meshes[0].faces[places[:, 0].astype(np.int64) - 1]
@@ -90,25 +97,29 @@ def loaded(job: Job) -> tuple[kfmaps.Mesh, kfmaps.Mesh, np.ndarray, np.ndarray]:
     return *meshes, lines(folder, job.source), lines(folder, job.target)
 
 
-def pairs_of(kind: str, data: Path | None, count: int) -> list[tuple[str, str]]:
-    """At most ``count`` pairs of a set, drawn with a fixed seed, none of two shapes that settings were chosen on."""
-    if kind == "own":
-        return [(name, str(seed)) for name, seed in OWN]
-    assert data is not None
+def all_pairs(kind: str, data: Path) -> list[tuple[str, str]]:
+    """All pairs of a set."""
     folder = data / ("TOSCA_r" if kind == "catdog" else kind)
     if kind in ("catdog", "TOSCA_r"):
         names = sorted(p.stem for p in folder.glob("*.off"))
         animal = {name: name.rstrip("0123456789") for name in names}
         wanted = [("cat", "dog"), ("dog", "cat")] if kind == "catdog" else [(a, a) for a in set(animal.values())]
         found = [(a, b) for a, b in permutations(names, 2) if (animal[a], animal[b]) in wanted]
-        found = [(a, b) for a, b in found if kind == "catdog" or a < b]
-    else:
-        text = (folder / "test_pairs.txt").read_text(encoding="utf-8").split("\n")
-        found = [(a, b) for a, b in (line.split() for line in text if line.strip())]
-        if kind == "FAUST_r":
-            found = [(a, b) for a, b in found if int(a[-3:]) // 10 != int(b[-3:]) // 10]
+        return [(a, b) for a, b in found if kind == "catdog" or a < b]
+    text = (folder / "test_pairs.txt").read_text(encoding="utf-8").split("\n")
+    found = [(a, b) for a, b in (line.split() for line in text if line.strip())]
+    if kind == "FAUST_r":
+        found = [(a, b) for a, b in found if int(a[-3:]) // 10 != int(b[-3:]) // 10]
+    return found
+
+
+def pairs_of(kind: str, data: Path | None, count: int) -> list[tuple[str, str]]:
+    """At most ``count`` pairs of a set, drawn with a fixed seed, none of two shapes that settings were chosen on."""
+    if kind == "own":
+        return [(name, str(seed)) for name, seed in OWN]
+    assert data is not None
     left_out = CHOSEN_ON.get(kind, set())
-    found = [pair for pair in found if not left_out.issuperset(pair)]
+    found = [pair for pair in all_pairs(kind, data) if not left_out.issuperset(pair)]
     drawn = np.random.default_rng(0).permutation(len(found))[:count]
     return [found[i] for i in np.sort(drawn)]
 

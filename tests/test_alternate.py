@@ -12,6 +12,7 @@ import pytest
 import kfmaps
 from kfmaps._arrays import NotConverged
 from kfmaps.fmap.convert import nearest, to_functional
+from kfmaps.fmap.descriptor_guidance import DescriptorGuidance
 from kfmaps.geometry.mesh import MIRROR, Mesh, vertex_areas
 from kfmaps.matching import finish, ranking
 from kfmaps.matching import match as matching
@@ -397,7 +398,10 @@ def test_of_maps_that_are_alike_the_one_that_bends_less_is_found(creatures, monk
     monkeypatch.setattr(
         ranking, "with_bending", lambda some, *_: [replace(c, deformation_energy=bends[c.name]) for c in some]
     )
-    found = choose.search_map(source, target, replace(kfmaps.Config(), threads=1))
+    config = replace(kfmaps.Config(), threads=1)
+    assert config.search is not None
+    preserving = replace(config, search=replace(config.search, orientation="preserving"))
+    found = choose.search_map(source, target, preserving)
     assert found.initialization == "alike"
     assert len(found.scores) == 1
 
@@ -483,3 +487,67 @@ def test_where_the_target_lies_leads_as_well(creatures):
     lie = position_normal_guidance(source.mesh, Mesh(target.mesh.vertices + 1.0, target.mesh.faces))
     np.testing.assert_allclose(led.source, np.hstack([alone.source, np.sqrt(alternate.WEIGHT) * lie.source]))
     np.testing.assert_allclose(led.target, np.hstack([alone.target, np.sqrt(alternate.WEIGHT) * lie.target]))
+
+
+def test_a_map_is_registered_on_proxies_either_way(creatures, monkeypatch):
+    """The vertices are those of the side that is registered; descriptors stay on their side."""
+    source, target, truth = creatures
+    C = np.asarray(to_functional(truth, source.basis.truncate(40), target.basis.truncate(40)))
+    pair = both(source, target)
+    led = DescriptorGuidance(source.mesh.vertices, target.mesh.vertices)
+    asked = []
+    usual = mending.alternating_registration
+
+    def told(C, pair, guidance, progress):
+        asked.append((pair.source, guidance.source, guidance.target))
+        return usual(C, pair, guidance, progress)
+
+    monkeypatch.setattr(mending, "alternating_registration", told)
+    for swapped, moved, other in ((True, target, source), (False, source, target)):
+        found = mending.register_map_on_proxies(C, pair, led, swapped)
+        assert found is not None
+        assert error(found.functional_map, source, target, truth) < 0.05
+        assert found.registered_vertices.shape == moved.mesh.vertices.shape
+        shape, own, theirs = asked.pop()
+        assert shape is moved
+        assert own is moved.mesh.vertices
+        assert theirs is other.mesh.vertices
+
+    def falls_apart(*_what):
+        raise NotConverged("it fell apart")
+
+    monkeypatch.setattr(mending, "alternating_registration", falls_apart)
+    assert mending.register_map_on_proxies(C, pair, led) is None
+
+
+def test_what_deforms_unduly_is_repaired_before_it_is_compared_with_mirror_images(creatures, monkeypatch):
+    """The repaired map stays where it is better, and where no proxy can be registered all stays as it is."""
+    source, target, truth = creatures
+    on = two_level_samples(source, target, (sample_for_scoring(source, 200), sample_for_scoring(target, 200)))
+    torn = truth.copy()
+    high = np.argsort(target.mesh.vertices[:, 0])[-len(torn) // 4 :]
+    torn[high] = np.random.default_rng(0).permutation(torn[high])
+    maps = [
+        np.asarray(to_functional(points, source.basis.truncate(40), target.basis.truncate(40)))
+        for points in (torn, truth)
+    ]
+    copies = ProxyCache.of(source, target, on.whole)
+    found = ranking.with_bending(score_maps([("torn", True), ("right", True)], np.stack(maps), None, on.whole), copies)
+    marks, wrong = np.zeros((0, 2), dtype=np.int64), np.zeros(0, dtype=bool)
+    config = replace(kfmaps.Config(), threads=1)
+    torn_first = choose._Search(source, target, config, marks, None, wrong, on, copies, found, found, "preserving")
+    best, second = choose._repair_best(torn_first).ranked
+    assert best.score > found[0].score
+    assert best.deformation_energy < found[0].deformation_energy
+    assert second is found[1]
+    compared = []
+    monkeypatch.setattr(choose, "_choose_orientation", lambda state, unduly: compared.append(unduly) or state)
+    for unduly in (False, True):
+        monkeypatch.setattr(choose, "deforms_unduly", lambda _found, unduly=unduly: unduly)
+        ranked = choose._rank(source, target, config, marks, on, found[:1]).ranked
+        assert (ranked[0].score > found[0].score) == unduly
+    assert compared == [False, True]
+    monkeypatch.setattr(choose, "register_map_on_proxies", lambda *_what: None)
+    assert choose._repair_best(torn_first) is torn_first
+    flat = replace(torn_first, copies=ProxyCache(source, target, (None, None)))
+    assert choose._repair_best(flat) is flat

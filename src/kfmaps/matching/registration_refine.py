@@ -32,6 +32,7 @@ from kfmaps.matching.ranking import BENT, ProxyCache, in_order, normalize_errors
 from kfmaps.matching.sample_pair import SamplePair
 from kfmaps.matching.score import SCORE, Candidate
 from kfmaps.registration.alternating_registration import (
+    AlternatingResult,
     RegistrationPair,
     alternating_registration,
     registration_pair,
@@ -138,24 +139,49 @@ def _repair(
     progress: Done = lambda _done: None,
 ) -> Candidate | None:
     """Register and refine one candidate in turn; ``swapped``: the target onto the source. ``None`` where it fails."""
-    source, target, where, C = setting.source, setting.target, setting.pair, old.functional_map
+    source, target = setting.source, setting.target
     limbs = extremities and extremities.guide(source.mesh, target.mesh)
     guidance = build_guidance(source, target, setting.landmarks, limbs, setting.shot, LANDMARK_WEIGHT_UNLIKE)
-    if swapped:
-        C, where = C.T, where.swapped()
-        guidance = guidance and guidance.swapped()
-    try:
-        found = alternating_registration(C, where, guidance, lambda part: progress(0.9 * part))
-    except NotConverged:
+    found = register_map_on_proxies(
+        old.functional_map, setting.pair, guidance, swapped, lambda part: progress(0.9 * part)
+    )
+    if found is None:
         progress(1.0)
         return None
-    size = min(FINE, len(found.functional_map))
-    C = found.functional_map[:size, :size]
-    C = (C.T if swapped else C)[None]
+    C = found.functional_map[None, :FINE, :FINE]
     new = score_maps([(old.name, old.uses_descriptors)], C, None, setting.samples, 1, [old.fit])[0]
     new = score_registered(new, setting.proxies)
     progress(1.0)
     return replace(new, registered_vertices=found.registered_vertices, swapped=swapped)
+
+
+def register_map_on_proxies(
+    C: np.ndarray,
+    pair: RegistrationPair,
+    guidance: DescriptorGuidance | None,
+    swapped: bool = True,
+    progress: Done | None = None,
+) -> AlternatingResult | None:
+    """Return :func:`alternating_registration` of a map, or ``None`` where a proxy falls apart.
+
+    Parameters
+    ----------
+    C : (k_t, k_s) float64
+    pair : RegistrationPair
+    guidance : DescriptorGuidance or None
+        On all vertices.
+    swapped : bool
+        Whether the target is registered to the source: the vertices of the result are then the target's.
+    progress : callable, optional
+    """
+    if swapped:
+        C, pair = C.T, pair.swapped()
+        guidance = guidance and guidance.swapped()
+    try:
+        found = alternating_registration(C, pair, guidance, progress)
+    except NotConverged:
+        return None
+    return replace(found, functional_map=found.functional_map.T) if swapped else found
 
 
 def _begin(near: list[Candidate], on: SamplePair) -> list[tuple[Candidate, ExtremityVertices | None]]:

@@ -25,6 +25,7 @@ from kfmaps.fmap.zoomout import MAX_CANDIDATES, MAX_EXACT_PAIRS
 from kfmaps.geometry.basis import Basis
 from kfmaps.geometry.sampling import SampledBasis, stratified_vertices
 from kfmaps.matching.candidates import (
+    FINE,
     by_score,
     candidates,
     compose_with_symmetries,
@@ -32,16 +33,17 @@ from kfmaps.matching.candidates import (
     map_distance,
     rerefine,
     rescore,
+    score_maps,
 )
 from kfmaps.matching.extremity_matching import ExtremityVertices, extremity_vertices
 from kfmaps.matching.features import user_descriptors
 from kfmaps.matching.fit import Fit, check_landmark_pairs
-from kfmaps.matching.landmark_evidence import LandmarkEvidence, landmark_errors
+from kfmaps.matching.landmark_evidence import LandmarkEvidence, build_guidance, landmark_errors
 from kfmaps.matching.learned_kernel import drop_learned, learned_candidates, learned_kernel_applies
 from kfmaps.matching.limb_exchange import compare_exchanged
 from kfmaps.matching.quality import ShapeSamples, sample_for_scoring, subsample
-from kfmaps.matching.ranking import ProxyCache, merge_alternatives, ranking, rerank_near_duplicates
-from kfmaps.matching.registration_refine import SwappedRepair, refine_by_registration
+from kfmaps.matching.ranking import ProxyCache, merge_alternatives, ranking, rerank_near_duplicates, with_bending
+from kfmaps.matching.registration_refine import SwappedRepair, refine_by_registration, register_map_on_proxies
 from kfmaps.matching.sample_pair import COARSE_SAMPLES as FEW
 from kfmaps.matching.sample_pair import SamplePair, TwoLevelSamples, drop_landmarks, mirrored_pair, two_level_samples
 from kfmaps.matching.score import (
@@ -55,6 +57,7 @@ from kfmaps.matching.score import (
     verdict,
 )
 from kfmaps.matching.self_maps import with_self_maps
+from kfmaps.registration.alternating_registration import registration_pair
 from kfmaps.shape import Shape, clean_shape
 
 _FEWER = 100
@@ -285,7 +288,26 @@ def _rank(
     state = _Search(
         source, target, config, pairs, whole.landmark_evidence, wrong, samples, copies, found, ranked, orientation
     )
-    return _choose_orientation(state, unduly)
+    return _choose_orientation(_repair_best(state) if unduly else state, unduly)
+
+
+def _repair_best(state: _Search) -> _Search:
+    """Register the best candidate on proxies and refine it, and keep that where it is better.
+
+    A right map with one extremity turned deforms as much as a map that ought to go to the mirror image.
+    """
+    best, copies, samples = state.ranked[0], state.copies, state.samples.whole
+    if copies.coarse is None:
+        return state
+    guidance = build_guidance(state.source, copies.image, state.pairs)
+    pair = registration_pair(state.source, copies.image, copies.coarse.copies, state.pairs)
+    one = register_map_on_proxies(best.functional_map, pair, guidance)
+    if one is None:
+        return state
+    C, threads = one.functional_map[None, :FINE, :FINE], state.config.threads
+    made = score_maps([(best.name, best.uses_descriptors)], C, None, samples, threads, [best.fit])
+    made = with_bending(made, copies, threads)[0]
+    return replace(state, ranked=[made, *state.ranked[1:]]) if made.score > best.score else state
 
 
 def _choose_orientation(state: _Search, unduly: bool) -> _Search:
