@@ -707,7 +707,12 @@ MUTANTS = tuple(
             "return score",
             "test_alternate -k worth_more",
         ),
-        ("(C.T if swapped else C)[None]", "C[None]", "test_alternate -k asked_for"),
+        (
+            "replace(found, functional_map=found.functional_map.T) if swapped else found",
+            "found",
+            "test_alternate -k registered_on_proxies",
+        ),
+        ("_repair_best(state) if unduly else state", "state", "test_alternate -k unduly_is_repaired"),
         ("(i == k) != (j == n)", "i == k and j != n", "test_alternate -k heard_once"),
         ("[match for match in known if match], PAIRED)", "[], PAIRED)", "test_alternate -k begun_with"),
         (
