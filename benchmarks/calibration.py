@@ -15,6 +15,7 @@ from __future__ import annotations
 import argparse
 import json
 import math
+from dataclasses import replace
 from itertools import pairwise
 from pathlib import Path
 
@@ -69,6 +70,20 @@ def fitted(x: np.ndarray, right: np.ndarray, new: np.ndarray) -> tuple[np.ndarra
     return most_likely, low
 
 
+def told(rows: list[dict], middle: float) -> np.ndarray:
+    """The probabilities that the library would give with another middle of its logistic function."""
+    numbers = replace(SCORE.calibration, middle=middle)
+    return np.array([probability(row["quality"], margin(row), row["bending"], numbers=numbers) for row in rows])
+
+
+def fitted_middle(rows: list[dict], right: np.ndarray) -> tuple[float, float]:
+    """The most likely middle, the other numbers as they are, and the highest that 90 % of likely ones agree to."""
+    middles = np.arange(-16.0, -8.0, 0.05)
+    chances = np.clip([told(rows, middle) for middle in middles], 1e-9, 1 - 1e-9)
+    loss = -np.where(right, np.log(chances), np.log(1 - chances)).sum(axis=1)
+    return float(middles[loss.argmin()]), float(middles[loss < loss.min() + FIVE_PERCENT**2 / 2].max())
+
+
 def table(kinds: np.ndarray, right: np.ndarray, p: np.ndarray) -> None:
     print("kind                      maps  right   sure  sure and wrong")
     for kind in (*dict.fromkeys(kinds), "all"):
@@ -98,8 +113,15 @@ def main() -> None:
     for kind in dict.fromkeys(kinds):
         here = kinds == kind
         left_out[here], low[here] = fitted(x[~here], right[~here], x[here])
+    middles, by_middle = {}, np.zeros(len(rows))
+    for kind in dict.fromkeys(kinds):
+        others = [row for row, one in zip(rows, kinds, strict=True) if one != kind]
+        middles[kind] = fitted_middle(others, right[kinds != kind])[1]
+        by_middle[kinds == kind] = told(rows, middles[kind])[kinds == kind]
+    print("middle by the other kinds:", ", ".join(f"{kind} {value:.1f}" for kind, value in middles.items()))
     for name, p in (
         ("as it is", now),
+        ("the middle alone fitted to the other kinds, the highest that 90 % of likely ones agree to", by_middle),
         ("fitted to the other kinds, by the most likely coefficients", left_out),
         ("fitted to the other kinds, by what 95 % of all likely coefficients agree to", low),
     ):

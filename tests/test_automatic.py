@@ -252,10 +252,10 @@ def test_a_part_is_not_called_a_match():
     pair = partial(1500, rng=0)
     found = match(pair.source, pair.target, replace(Config(), threads=2, partial=Partial("none")))
     assert geodesic_errors(pair.source, found.target_to_source, pair.truth).mean() > 0.05
-    assert found.verdict != "sure"
+    assert found.verdict == "unlikely"
     assert found.score.scores[0] < SCORE.calibration.middle
     assert found.confidence is not None
-    assert found.confidence < 0.1
+    assert found.confidence < 0.5
 
 
 def test_left_and_right_of_a_symmetric_body_are_told_apart():

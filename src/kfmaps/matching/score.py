@@ -31,7 +31,7 @@ class Calibration:
 
     slope: float = 0.92
     """Slope of the logistic function of the score."""
-    middle: float = -10.0
+    middle: float = -12.0
     """Score at which half of all maps are right."""
     tie: float = 0.4
     """Margin at which the doubt that a different map casts has fallen to 1/e."""
