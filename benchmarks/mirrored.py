@@ -27,6 +27,7 @@ SETS = {"FAUST_r": 3, "SHREC19_r": 3, "TOSCA_r": 3, "catdog": 2}
 def line(name: str, source: Mesh, target: Mesh) -> None:
     """Print what is found, and how much better the best map to the mirror image is than the best that is none."""
     config = replace(kfmaps.Config(), threads=1)
+    assert config.search is not None
     shapes = kfmaps.prepare(source, config), kfmaps.prepare(target, config)
     found = search_map(*shapes, config)
     state = search_map(*shapes, replace(config, search=replace(config.search, orientation="preserving")))._search

@@ -83,8 +83,7 @@ def test_some_rows_tell_the_directions_of_all(monkeypatch):
     rng = np.random.default_rng(5)
     source, target = (rng.normal(size=(n, 6)) * [3.0, 2.0, 1.5, 0.1, 0.1, 0.1] + 1.0 for n in (900, 700))
     every = descriptor_guidance(source, target, 3)
-    for name in ("ROWS", "TELLING"):
-        monkeypatch.setattr(f"kfmaps.fmap.descriptor_guidance.{name}", 400)
+    monkeypatch.setattr("kfmaps.fmap.descriptor_guidance._DIRECTION_ROWS", 400)
     some = descriptor_guidance(source, target, 3)
     assert every is not None
     assert some is not None
@@ -103,7 +102,7 @@ def test_noise_does_not_guide():
 
 
 def test_bad_settings_are_refused():
-    with pytest.raises(InvalidInput, match="as many on both"):
+    with pytest.raises(InvalidInput, match="equally many on both"):
         descriptor_guidance(np.eye(4, 3), np.eye(4, 2))
     with pytest.raises(InvalidInput, match="descriptor_weight"):
         ZoomOut(descriptor_weight=-1.0)

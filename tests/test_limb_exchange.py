@@ -57,6 +57,7 @@ def exchanged(made):
 
 def test_alike_extremities_are_exchanged_two_at_a_time(made):
     match = match_of_map(made.right.points, made.on.source, made.on.target)
+    assert match is not None
     unlike = extremity_difference(made.on.source, made.on.source)
     assert np.diag(unlike) == pytest.approx(0.0)
     some = exchanged_matches(match, made.on.source)

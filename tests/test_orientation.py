@@ -158,7 +158,7 @@ def test_threads_and_libraries_agree(convert, rng):
 
 def test_refuses_what_does_not_fit(small_mesh, small_basis):
     n = len(small_mesh.vertices)
-    with pytest.raises(InvalidInput, match="triangulate"):
+    with pytest.raises(InvalidInput, match="Triangulate"):
         orientation_operators(Mesh(small_mesh.vertices, np.zeros((0, 3))), small_basis, np.ones((n, 1)))
     with pytest.raises(InvalidInput, match="functions"):
         orientation_operators(small_mesh, small_basis, np.ones((n - 1, 1)))

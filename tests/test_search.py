@@ -276,6 +276,7 @@ def test_a_candidate_knows_the_fit_that_it_began_with(shape, other, monkeypatch)
     assert fitted
     assert {name for name, one in began.items() if one is not None} == set(fitted)
     for name, one in fitted.items():
+        assert one is not None
         size = int(name.split(", ")[1].split()[0])
         assert one.functional_map.shape == (size, size)
         assert set(one.energies) >= {"laplacian", "descriptors", "commutativity"}

@@ -238,7 +238,7 @@ def test_refuses_bad_settings(change, said):
 
 def test_refuses_what_has_no_surface():
     vertices = blob(50).vertices
-    with pytest.raises(InvalidInput, match="triangulate"):
+    with pytest.raises(InvalidInput, match="Triangulate"):
         shot(Mesh(vertices, np.zeros((0, 3))))
     with pytest.raises(InvalidInput, match="vertices"):
         shot(Mesh(np.where(vertices > 1, np.nan, vertices), blob(50).faces))

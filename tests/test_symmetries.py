@@ -101,6 +101,7 @@ def test_a_symmetric_body_is_not_taken_for_a_mirror_image(pair, monkeypatch):
     """A search that has missed the right map, but not the mirrored one, finds it by the symmetry of the body."""
     source, target, truth = pair
     state = search_map(source, target, SMALL)._search
+    assert state is not None
     whole = state.samples.whole
 
     def error(one):

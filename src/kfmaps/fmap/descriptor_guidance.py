@@ -17,6 +17,8 @@ from kfmaps.geometry.basis import Basis
 
 DIMENSIONS = 32
 """Principal directions of the descriptors that are kept: SHOT has 352, most of them noise."""
+_DIRECTION_ROWS = 10_000
+"""Rows of both shapes that determine the principal directions; more change them by little."""
 FLAT = 0.05
 """Spread of SHOT below which its differences are the triangulation's: a sphere has 0.0005, bodies 0.2 to 0.3."""
 
@@ -86,7 +88,7 @@ def descriptor_guidance(
     count = len(source) + len(target)
     mean = (source.sum(axis=0) + target.sum(axis=0)) / count
     # Of large shapes some rows tell the directions; and the mean is taken off what is left, so that none is copied.
-    some = np.vstack([side[:: max(1, count // 10_000)] for side in sides]) - mean
+    some = np.vstack([side[:: max(1, count // _DIRECTION_ROWS)] for side in sides]) - mean
     directions = np.linalg.eigh(some.T @ some)[1][:, ::-1][:, :dimensions]
     reduced = [side @ directions - mean @ directions for side in sides]
     unit = np.sqrt(2 * sum((part**2).sum() for part in reduced) / count)
