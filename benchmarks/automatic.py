@@ -183,7 +183,7 @@ def report(title: str, rows: list[dict]) -> None:
     wrong = sum(r["verdict"] == "sure" and r["error"] >= RIGHT for r in rows)
     print(
         f"{title:34} {len(rows):4} {errors.mean():7.2f} {np.median(errors):7.2f} {errors.max():7.2f}"
-        f" {int((errors > 10).sum()):6} {called[0]:6} {called[1]:6} {called[2]:6} {wrong:8}"
+        f" {int((errors > 10).sum()):6} {called[0]:6} {called[1]:6} {called[2]:6} {called[3]:6} {wrong:8}"
         f" {np.mean([r['seconds'] for r in rows]):7.1f}"
     )
 

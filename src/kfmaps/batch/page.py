@@ -52,7 +52,7 @@ _COLUMNS: tuple[_Column, ...] = (
     ("mirrored", lambda r: r.mirrored_mean, percent),
     ("verdict", lambda r: r.verdict or None, str),
     ("probability", lambda r: r.confidence, probability_text),
-    ("local fit", lambda r: r.local_confidence, "{:.2f}".format),
+    ("local fit", lambda r: r.local_confidence, "{:.0%}".format),
     ("agreement", lambda r: r.agreement, probability_text),
     ("orientation", lambda r: r.orientation if r.orientation == "reversing" else None, str),
     ("of source", lambda r: r.common_s, "{:.0%}".format),

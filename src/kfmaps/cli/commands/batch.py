@@ -135,7 +135,8 @@ def _lines(text: str | None) -> tuple[int, ...]:
 
 def describe_plan(plan: Plan, workers: int | None, consistent: bool) -> str:
     """Return what there is to do, and for many pairs what that needs."""
-    parts = [f"{len(plan.tasks)} pairs of {_n_shapes(plan.tasks)} shapes"]
+    count = len(plan.tasks)
+    parts = [f"{count} pair{'' if count == 1 else 's'} of {_n_shapes(plan.tasks)} shapes"]
     parts += [f"{len(plan.results)} done already"] if plan.results else []
     parts += [f"{plan.changed} to do again since their files have changed"] if plan.changed else []
     if len(plan.todo) >= _MANY and (vertices := _n_vertices(plan)):
