@@ -14,11 +14,11 @@ from kfmaps.collection.procrustes import (
     geometric_median,
     is_mirror_image,
     principal_components,
-    similarity,
     thin_plate_warp,
 )
+from kfmaps.geometry.similarity import similarity
 
-GUARDS = ("kfmaps.collection.procrustes",)
+GUARDS = ("kfmaps.collection.procrustes", "kfmaps.geometry.similarity")
 
 
 @pytest.fixture

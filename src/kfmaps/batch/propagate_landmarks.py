@@ -21,6 +21,7 @@ from kfmaps.io import check_map, check_output, load_map, read_mesh
 from kfmaps.io.landmark_files import LandmarkSet, mesh_space, write_landmark_sets
 from kfmaps.io.named_points import NamedPoints, read_named_points, transfer_points
 from kfmaps.io.partial_map import find_counterparts, precise_points
+from kfmaps.matching.result import Match
 
 _UNKNOWN = 0.5
 """Probability of a map of which nothing is known."""
@@ -103,7 +104,8 @@ def propagate_landmarks(
         edge, before = edges[way.edges[-1]], found[way.shapes[-2]]
         sides = (_mesh(name, edges, meshes) for name in (edge.pair.source, edge.pair.target))
         back = ends[way.edges[-1]][1] == way.shapes[-2]
-        points = carry_points(edge.path, before.points, *sides, back=back, chance=edge.chance)
+        known = load_map(edge.path)
+        points = carry_points(known, before.points, *sides, name=str(edge.path), back=back, chance=edge.chance)
         through = (*before.through, before.specimen) if before.specimen != start else ()
         found[at] = PropagatedLandmarks(names[at], points, through, min(before.weakest, edge.chance))
     return list(found.values()), [name for name in names if number[name] not in found]
@@ -129,16 +131,25 @@ def _ways(count: int, ends: Sequence[tuple[int, int]], edges: Sequence[_Edge], s
 
 
 def carry_points(
-    path: Path, points: NamedPoints, source: Mesh, target: Mesh, *, back: bool = False, chance: float = 1.0
+    known: Match,
+    points: NamedPoints,
+    source: Mesh,
+    target: Mesh,
+    *,
+    name: str,
+    back: bool = False,
+    chance: float = 1.0,
 ) -> NamedPoints:
-    """Return points carried over the map in a file; those lost on the way stay lost.
+    """Return points carried over a map; those lost on the way stay lost.
 
     Parameters
     ----------
-    path : Path
-        Of the map from ``source`` to ``target``.
+    known : Match
+        The map from ``source`` to ``target``.
     points : NamedPoints
         On the source, or (``back``) on the target.
+    name : str
+        How messages call the map.
     chance : float
         Probability that the map is right. The confidence of a point is multiplied by it and by how well the map keeps
         distances around the point.
@@ -148,10 +159,9 @@ def carry_points(
     InvalidInput
         When the map does not fit the meshes.
     """
-    known = load_map(path)
-    ways = find_counterparts(known, source, target, str(path)) if (known.target_to_source < 0).any() else None
+    ways = find_counterparts(known, source, target, name) if (known.target_to_source < 0).any() else None
     if ways is None:
-        check_map(known, len(source.vertices), len(target.vertices), str(path))
+        check_map(known, len(source.vertices), len(target.vertices), name)
         place, some = precise_points(known, source) or vertex_point_map(known.target_to_source, source), {}
     else:
         place, some = ways.place, {"known": ways.target, "common": ways.source}

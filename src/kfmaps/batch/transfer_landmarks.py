@@ -28,6 +28,7 @@ from kfmaps.io.landmark_files import (
     read_landmark_sets,
 )
 from kfmaps.io.named_points import FLIP, NamedPoints, choose_specimen, place_landmarks, scatter_points, transfer_points
+from kfmaps.matching.result import Match
 
 MATCHES = "matches"
 """Folder of the maps inside the output."""
@@ -179,8 +180,9 @@ def carry_templates(
         file = map_path(folder, Pair(one.specimen, specimen).key)
         chance = results[one.specimen].confidence
         start = replace(one.points, confidence=np.ones(len(names)))
-        carried.append(carry_points(file, start, one.mesh, mesh, chance=1.0 if chance is None else chance))
-        rivals.append(_rival_distance(file, one, mesh, carried[-1]))
+        known, chance = load_map(file), 1.0 if chance is None else chance
+        carried.append(carry_points(known, start, one.mesh, mesh, name=str(file), chance=chance))
+        rivals.append(_rival_distance(known, one, mesh, carried[-1]))
     proposals = np.stack([points.points for points in carried])
     median = geometric_median(proposals)
     there = np.asarray(np.isfinite(median).all(axis=1))
@@ -242,7 +244,8 @@ def template_errors(
             if a is b or result is None or result.status != "done":
                 continue
             start = replace(a.points, confidence=np.ones(len(a.points.names)))
-            carried = carry_points(map_path(folder, Pair(a.specimen, b.specimen).key), start, a.mesh, b.mesh)
+            file = map_path(folder, Pair(a.specimen, b.specimen).key)
+            carried = carry_points(load_map(file), start, a.mesh, b.mesh, name=str(file))
             rows.append(np.linalg.norm(carried.points - b.points.points, axis=1))
     return np.array(rows).reshape(-1, len(templates[0].points.names))
 
@@ -261,10 +264,10 @@ def _flag(confidence: float, spread: float, there: bool) -> str:
     return "low confidence" if not confidence >= MIN_CONFIDENCE else ""
 
 
-def _rival_distance(file: Path, template: Template, mesh: Mesh, carried: NamedPoints) -> np.ndarray:
-    """How far from its place the other maps of a file put each landmark at least; NaN without other maps."""
+def _rival_distance(known: Match, template: Template, mesh: Mesh, carried: NamedPoints) -> np.ndarray:
+    """How far from its place the alternatives of a map put each landmark at least; NaN without alternatives."""
     distances = np.full(len(carried.names), np.nan)
-    for other in load_map(file).alternatives:
+    for other in known.alternatives:
         if (other >= 0).all():
             place = vertex_point_map(other, template.mesh)
             points = transfer_points(template.points, template.mesh, mesh, place).points

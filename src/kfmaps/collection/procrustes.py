@@ -8,6 +8,7 @@ import numpy as np
 from scipy.interpolate import RBFInterpolator
 
 from kfmaps._arrays import check, refuse
+from kfmaps.geometry.similarity import similarity
 
 MAX_ROUNDS = 100
 TOLERANCE = 1e-12
@@ -71,21 +72,6 @@ def generalized_procrustes(points: np.ndarray) -> Procrustes:
     sizes = np.sqrt(((filled - filled.mean(axis=1, keepdims=True)) ** 2).sum(axis=(1, 2)))
     distances = np.sqrt(((aligned - consensus) ** 2).sum(axis=(1, 2)))
     return Procrustes(aligned, consensus, sizes, distances)
-
-
-def similarity(points: np.ndarray, onto: np.ndarray, reflect: bool = False) -> tuple[np.ndarray, float, np.ndarray]:
-    """Return the rotation (3, 3), scale and shift (3,) that bring ``points (l, 3)`` nearest to ``onto`` (Umeyama 1991).
-
-    The points become ``scale * points @ rotation + shift``. With ``reflect`` reflections are allowed as well.
-    """
-    a, b = points - points.mean(axis=0), onto - onto.mean(axis=0)
-    left, values, right = np.linalg.svd(a.T @ b)
-    sign = np.ones(3)
-    if not reflect and np.linalg.det(left @ right) < 0:
-        sign[2] = -1
-    turn = (left * sign) @ right
-    scale = float((values * sign).sum() / (a**2).sum())
-    return turn, scale, onto.mean(axis=0) - scale * points.mean(axis=0) @ turn
 
 
 def is_mirror_image(points: np.ndarray, reference: np.ndarray) -> bool:

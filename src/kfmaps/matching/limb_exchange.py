@@ -6,7 +6,6 @@ well. What tells the two maps apart is the seam: the skin between exchanged legs
 
 from __future__ import annotations
 
-from dataclasses import replace
 from itertools import combinations
 
 import numpy as np
@@ -72,7 +71,7 @@ def compare_exchanged(
 
     Both are judged by the same evidence. Only the map itself where no exchange scores nearly as well.
     """
-    plain = replace(best, deformation_energy=None, strain=None, shot_error=None)
+    plain = best.unregistered
     rivals = [c for c in exchange_limbs(plain, pair, threads) if c.score > plain.score - SCORE.max_behind]
     judged = with_bending([plain, *rivals], copies, threads) if rivals else []
     if not judged:

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, TypeVar
 
 import numpy as np
@@ -277,6 +277,11 @@ class Candidate:
     def score(self) -> float:
         """See :func:`candidate_score`."""
         return candidate_score(self)
+
+    @property
+    def unregistered(self) -> Candidate:
+        """The same without evidence of a registration."""
+        return replace(self, deformation_energy=None, strain=None, shot_error=None)
 
 
 @dataclass(frozen=True)

@@ -49,7 +49,6 @@ from kfmaps.matching.sample_pair import SamplePair, TwoLevelSamples, drop_landma
 from kfmaps.matching.score import (
     SCORE,
     Candidate,
-    candidate_score,
     excess_deformation,
     landmark_support,
     probability,
@@ -324,7 +323,7 @@ def _choose_orientation(state: _Search, unduly: bool) -> _Search:
         return state
     other = mirrored_pair(samples.whole)
     images, copies = reversed_best(state.found, other, config.threads), ProxyCache.of(state.source, state.target, other)
-    plain = candidate_score(replace(state.ranked[0], deformation_energy=None, strain=None, shot_error=None))
+    plain = state.ranked[0].unregistered.score
     if not images or (asked == "auto" and not unduly and images[0].score < plain + SCORE.mirror_gain):
         return state
     ranked = ranking(images, other, copies, config.threads)

@@ -12,6 +12,7 @@ from scipy.spatial.transform import Rotation
 from kfmaps._arrays import check, refuse
 from kfmaps._records import short_repr
 from kfmaps.geometry.mesh import Mesh
+from kfmaps.geometry.similarity import similarity
 
 _BROADER = 1.15
 """How much more of a shape a view that is not along one of the file's axes must show to be preferred."""
@@ -147,10 +148,8 @@ def fit_rotation(source: np.ndarray, target: np.ndarray) -> tuple[np.ndarray, fl
 
     How well is the correlation between both, from -1 to 1.
     """
-    u, fit, vt = np.linalg.svd(target.T @ source)
-    proper = np.array([1, 1, np.sign(np.linalg.det(u @ vt)) or 1.0])
-    size = np.linalg.norm(source) * np.linalg.norm(target)
-    return u @ np.diag(proper) @ vt, float(fit @ proper / max(size, 1e-300))
+    turn, scale, _ = similarity(source, target)
+    return turn.T, scale * float(np.linalg.norm(source)) / max(float(np.linalg.norm(target)), 1e-300)
 
 
 def rotation_between(source: Mesh, target: Mesh, target_to_source: np.ndarray | None = None) -> np.ndarray | None:

@@ -26,27 +26,21 @@ def shape_record(mesh: Mesh, name: str) -> dict[str, Any]:
     return {"name": name, "positions": encode_floats(placed), "faces": encode_integers(mesh.faces)}
 
 
-def source_record(mesh: Mesh, name: str, common: np.ndarray | None = None) -> dict[str, Any]:
-    """Return :func:`shape_record` with the colours and texture coordinates that a map carries over.
-
-    Grey where the vertices are not ``common`` (n_s,) to both shapes.
-    """
-    return {**shape_record(mesh, name), **_painted(_source_colors(mesh, common), projected_uv(mesh.vertices))}
-
-
-def _source_colors(mesh: Mesh, common: np.ndarray | None) -> np.ndarray:
-    return position_colors(mesh) if common is None else np.where(common[:, None], position_colors(mesh), _LOST)
+def source_record(mesh: Mesh, name: str, colors: np.ndarray | None = None) -> dict[str, Any]:
+    """Return :func:`shape_record` with colours, by default those of positions, and texture coordinates to transfer."""
+    colors = position_colors(mesh) if colors is None else colors
+    return {**shape_record(mesh, name), **_painted(colors, projected_uv(mesh.vertices))}
 
 
 def _painted(colors: np.ndarray, plane: np.ndarray) -> dict[str, Any]:
     return {"colours": encode_integers(np.rint(255 * colors).astype(np.uint8)), "plane": encode_floats(plane)}
 
 
-def _transferred(match: Match, source: Mesh, common: np.ndarray | None) -> dict[str, Any]:
+def _transferred(match: Match, source: Mesh, colors: np.ndarray) -> dict[str, Any]:
     """What :func:`source_record` paints, mixed inside triangles at the target's vertices; empty without such points."""
     if match.precise_map is None:
         return {}
-    given = (_source_colors(source, common), _LOST), (projected_uv(source.vertices), 0.0)
+    given = (colors, _LOST), (projected_uv(source.vertices), 0.0)
     return _painted(*(transfer(values, match, source.faces, lost) for values, lost in given))
 
 
@@ -199,15 +193,18 @@ def result_page(
     matrix = None
     if functional_map is not None:
         matrix = check(np.asarray(functional_map, dtype=np.float64), "functional_map", shape=(None, None))
+    colors = position_colors(source)
+    if common is not None:
+        colors = np.where(common[:, None], colors, _LOST)
     maps = [map_record(source, target, m, label) for m, label in zip(points, labels, strict=True)]
     if isinstance(target_to_source, Match):
-        maps[0] |= _transferred(target_to_source, source, common)
+        maps[0] |= _transferred(target_to_source, source, colors)
     data = {
         "kind": "result",
         "up": up or "auto",
         "views": views_record(source, target, points[0]),
         "verdict": verdict_record(summary or {}),
-        "source": source_record(source, names[0], common),
+        "source": source_record(source, names[0], colors),
         "target": shape_record(target, names[1]),
         "rotation": rotation_by_map(source, target, points[0]).ravel(),
         "maps": maps,

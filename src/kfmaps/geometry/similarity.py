@@ -1,0 +1,20 @@
+"""The similarity transform that brings corresponding points nearest to each other."""
+
+from __future__ import annotations
+
+import numpy as np
+
+
+def similarity(points: np.ndarray, onto: np.ndarray, reflect: bool = False) -> tuple[np.ndarray, float, np.ndarray]:
+    """Return the rotation (3, 3), scale and shift (3,) that bring ``points (l, 3)`` nearest to ``onto`` (Umeyama 1991).
+
+    The points become ``scale * points @ rotation + shift``. With ``reflect`` reflections are allowed as well.
+    """
+    a, b = points - points.mean(axis=0), onto - onto.mean(axis=0)
+    left, values, right = np.linalg.svd(a.T @ b)
+    sign = np.ones(3)
+    if not reflect and np.linalg.det(left @ right) < 0:
+        sign[2] = -1
+    turn = (left * sign) @ right
+    scale = float((values * sign).sum() / max(float((a**2).sum()), 1e-300))
+    return turn, scale, onto.mean(axis=0) - scale * points.mean(axis=0) @ turn
