@@ -18,6 +18,7 @@ from kfmaps.batch.plan import make_plan
 from kfmaps.batch.results import Result
 from kfmaps.batch.run_spec import RunSpec
 from kfmaps.batch.transfer_landmarks import (
+    MAX_SPREAD,
     SpecimenLandmarks,
     carry_templates,
     drop_unsure,
@@ -114,6 +115,22 @@ def test_three_templates_outvote_one_that_is_off(scans: Path, tmp_path: Path) ->
     np.testing.assert_allclose(errors[0], 0, atol=1e-9)
     assert errors[1, 0] > 1
     assert len(template_pairs(templates, collection)) == 9
+
+
+def test_templates_agree_within_a_share_of_the_size_of_the_scan(scans: Path, tmp_path: Path) -> None:
+    mesh = read_mesh(scans / "c.ply")
+    face = mesh.faces[(mesh.faces == AT[0]).any(axis=1)][0]
+    ends = mesh.vertices[[AT[0], face[face != AT[0]][0]]]
+    length = np.linalg.norm(ends[1] - ends[0])
+    near = ends[0] + 0.3 * MAX_SPREAD * np.sqrt(surface_area(mesh)) / length * (ends[1] - ends[0])
+    moved = LandmarkSet(LABELS, np.vstack([near[None], mesh.vertices[AT[1:]]]))
+    write_landmark_sets(tmp_path / "c.mrk.json", [moved], force=True)
+    templates = read_templates([tmp_path / f"{name}.mrk.json" for name in "abc"], find_collection(scans))
+    results = maps(tmp_path, [(name, "d") for name in "abc"])
+    one = carry_templates(templates, "d", scans / "d.ply", {n: results[n, "d"] for n in "abc"}, tmp_path)
+    assert one.spread[0] > MAX_SPREAD, "in the unit of the scan, where it means nothing"
+    np.testing.assert_allclose(one.points.confidence, 0.72)
+    assert one.flags == ("",) * 5
 
 
 def test_landmarks_that_a_template_lacks_come_from_the_others(scans: Path, tmp_path: Path) -> None:

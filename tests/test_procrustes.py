@@ -45,6 +45,15 @@ def test_position_orientation_and_size_do_not_count(shapes: np.ndarray) -> None:
     np.testing.assert_allclose(found.distances, np.linalg.norm(found.aligned - found.consensus, axis=(1, 2)))
 
 
+def test_a_similarity_reflects_only_where_it_may(shapes: np.ndarray) -> None:
+    points = shapes[0]
+    mirrored = points * [-1.0, 1.0, 1.0]
+    assert np.linalg.det(similarity(points, mirrored)[0]) == pytest.approx(1)
+    turn, scale, shift = similarity(points, mirrored, reflect=True)
+    assert np.linalg.det(turn) == pytest.approx(-1)
+    np.testing.assert_allclose(scale * points @ turn + shift, mirrored, atol=1e-12)
+
+
 def test_two_specimens_agree_with_scipy(shapes: np.ndarray) -> None:
     a, b = shapes[:2]
     turn, scale, shift = similarity(a, b)
