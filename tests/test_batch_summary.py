@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import csv
-import sys
 import warnings
 from dataclasses import replace
 from html.parser import HTMLParser
@@ -23,10 +22,9 @@ from kfmaps.batch.results import (
     summarize,
     worst_first,
     write_csv,
-    write_parquet,
     write_result,
 )
-from kfmaps.batch.run import COLUMNS, TABLE, run_batch, write_outputs
+from kfmaps.batch.run import run_batch
 
 
 @pytest.fixture(scope="module")
@@ -46,29 +44,14 @@ def some_results() -> list[Result]:
 
 
 def test_tables_have_a_row_a_pair(tmp_path: Path) -> None:
-    from pyarrow import parquet
-
     results = some_results()
     write_csv(tmp_path / "t.csv", results)
-    write_parquet(tmp_path / "t.parquet", results)
     with open(tmp_path / "t.csv", encoding="utf-8", newline="") as file:
         rows = list(csv.DictReader(file))
-    typed = parquet.read_table(tmp_path / "t.parquet").to_pylist()
-    assert [r["target"] for r in rows] == [r.target for r in results] == [r["target"] for r in typed]
+    assert [r["target"] for r in rows] == [r.target for r in results]
     assert [r["error_mean"] for r in rows] == ["0.02", "0.2", ""]
-    assert [r["error_mean"] for r in typed] == [0.02, 0.2, None]
-    assert rows[0].keys() == typed[0].keys()
     assert rows[0]["seconds_point_map"] == "1.0"
     assert rows[2]["notes"] == "one; two"
-
-
-def test_csv_alone_without_pyarrow(folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    plan = plan_of(folder, tmp_path)
-    results = done(plan)[:1]
-    assert {p.name for p in write_outputs(plan, results, "c", 0)} == {TABLE, COLUMNS, PAGE}
-    monkeypatch.setitem(sys.modules, "pyarrow", None)
-    assert {p.name for p in write_outputs(plan, results, "c", 0)} == {TABLE, PAGE}
-    assert not (tmp_path / COLUMNS).exists()
 
 
 class Elements(HTMLParser):

@@ -12,7 +12,6 @@ from typing import Any
 
 import numpy as np
 
-from kfmaps._arrays import MissingDependency
 from kfmaps.io import atomic_output
 
 FOLDER = "pairs"
@@ -100,18 +99,6 @@ def all_results(folder: Path, settings: str) -> list[Result]:
     return sorted((r for r in found if r is not None and r.settings == settings), key=lambda r: (r.source, r.target))
 
 
-def _table(results: Iterable[Result]) -> tuple[list[str], list[dict[str, Any]]]:
-    """Columns, those of :class:`Result` first and then all times as ``seconds_…``, and a flat row for each result."""
-    rows = []
-    for result in results:
-        values = asdict(result)
-        times = {"seconds_" + name.replace(" ", "_"): time for name, time in values.pop("seconds").items()}
-        del values["curve"]
-        rows.append(values | {"notes": "; ".join(values["notes"])} | times)
-    fixed = [f.name for f in fields(Result) if f.name not in ("seconds", "curve")]
-    return fixed + list(dict.fromkeys(name for row in rows for name in row if name.startswith("seconds_"))), rows
-
-
 def write_rows(path: Path, rows: Iterable[Iterable[Any]], force: bool = True) -> None:
     """Write rows as CSV, whole or not at all."""
     path.parent.mkdir(parents=True, exist_ok=True)
@@ -120,30 +107,15 @@ def write_rows(path: Path, rows: Iterable[Iterable[Any]], force: bool = True) ->
 
 
 def write_csv(path: Path, results: Iterable[Result]) -> None:
-    """Write one row a pair, empty where something is not known. An existing file is replaced."""
-    columns, rows = _table(results)
+    """Write a row for each pair: the fields of :class:`Result`, then the times as ``seconds_…``; unknown is empty."""
+    rows = []
+    for result in results:
+        values = asdict(result)
+        times = {"seconds_" + name.replace(" ", "_"): time for name, time in values.pop("seconds").items()}
+        rows.append(values | {"notes": "; ".join(result.notes)} | times)
+    fixed = [f.name for f in fields(Result) if f.name not in ("seconds", "curve")]
+    columns = fixed + list(dict.fromkeys(name for row in rows for name in row if name.startswith("seconds_")))
     write_rows(path, [columns, *([row.get(name, "") for name in columns] for row in rows)])
-
-
-def write_parquet(path: Path, results: Iterable[Result]) -> None:
-    """Write the table of :func:`write_csv` with types.
-
-    Raises
-    ------
-    MissingDependency
-        When pyarrow is not installed.
-    """
-    try:
-        import pyarrow as pa
-        from pyarrow import parquet
-    except ImportError as error:
-        raise MissingDependency("Parquet needs pyarrow. Install it with: pip install 'kfmaps[parquet]'.") from error
-    columns, rows = _table(results)
-    hints = {f.name: str(f.type) for f in fields(Result)} | {"notes": "str"}
-    kinds = {"int": pa.int64(), "str": pa.string()}
-    schema = pa.schema([(name, kinds.get(hints.get(name, "").partition(" ")[0], pa.float64())) for name in columns])
-    with atomic_output(path, force=True) as temporary:
-        parquet.write_table(pa.Table.from_pylist(rows, schema=schema), temporary)
 
 
 @dataclass(frozen=True)

@@ -18,7 +18,7 @@ from kfmaps.batch.jobs import TOO_LITTLE_MEMORY, WorkerPool
 from kfmaps.batch.page import write_page
 from kfmaps.batch.plan import Plan
 from kfmaps.batch.progress import Callback, RunStatus, failure_line, log_to, remaining_seconds
-from kfmaps.batch.results import FOLDER, Result, all_results, result_path, write_csv, write_parquet
+from kfmaps.batch.results import FOLDER, Result, all_results, result_path, write_csv
 from kfmaps.batch.run_spec import FILE
 from kfmaps.batch.work import (
     MAPS,
@@ -34,7 +34,7 @@ from kfmaps.batch.work import (
 from kfmaps.io import remove_unfinished
 
 _A_DAY = 86400.0
-TABLE, COLUMNS = "results.csv", "results.parquet"
+TABLE = "results.csv"
 
 
 @dataclass(frozen=True)
@@ -226,14 +226,8 @@ def write_outputs(
     plan: Plan, results: list[Result], name: str, worst: int, consistent: ConsistentResult | None = None
 ) -> tuple[Path, ...]:
     """Write the tables and the summary anew from the ``results``; their paths."""
-    files = [plan.folder / TABLE]
-    write_csv(files[0], results)
-    try:
-        write_parquet(plan.folder / COLUMNS, results)
-        files.append(plan.folder / COLUMNS)
-    except MissingDependency:
-        (plan.folder / COLUMNS).unlink(missing_ok=True)  # one of an earlier run would be out of date
-    return (*files, write_page(plan, results, name, worst, consistent))
+    write_csv(plan.folder / TABLE, results)
+    return plan.folder / TABLE, write_page(plan, results, name, worst, consistent)
 
 
 @contextmanager

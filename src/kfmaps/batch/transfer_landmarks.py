@@ -10,14 +10,13 @@ import numpy as np
 
 from kfmaps._arrays import refuse
 from kfmaps.batch.layout import Pair, ShapeFolder
-from kfmaps.batch.propagate_landmarks import carry_points
 from kfmaps.batch.results import Result
 from kfmaps.batch.work import map_path, read_shape_mesh
 from kfmaps.collection.procrustes import geometric_median, is_mirror_image
 from kfmaps.fmap.precise import PointMap, nearest_vertices, vertex_point_map
 from kfmaps.geometry.closest_points import closest_points
 from kfmaps.geometry.mesh import Mesh, surface_area
-from kfmaps.io import load_map
+from kfmaps.io import check_map, load_map
 from kfmaps.io.landmark_files import (
     LPS,
     RAS,
@@ -28,6 +27,7 @@ from kfmaps.io.landmark_files import (
     read_landmark_sets,
 )
 from kfmaps.io.named_points import FLIP, NamedPoints, choose_specimen, place_landmarks, scatter_points, transfer_points
+from kfmaps.io.partial_map import find_counterparts, precise_points
 from kfmaps.matching.result import Match
 
 MATCHES = "matches"
@@ -179,9 +179,8 @@ def carry_templates(
     for one in used:
         file = map_path(folder, Pair(one.specimen, specimen).key)
         chance = results[one.specimen].confidence
-        start = replace(one.points, confidence=np.ones(len(names)))
         known, chance = load_map(file), 1.0 if chance is None else chance
-        carried.append(carry_points(known, start, one.mesh, mesh, name=str(file), chance=chance))
+        carried.append(_carry_points(known, one.points, one.mesh, mesh, str(file), chance))
         rivals.append(_rival_distance(known, one, mesh, carried[-1]))
     proposals = np.stack([points.points for points in carried])
     median = geometric_median(proposals)
@@ -217,6 +216,25 @@ def carry_templates(
     return SpecimenLandmarks(specimen, points, spread, rival, flags, verdicts, misfit, space)
 
 
+def _carry_points(
+    known: Match, points: NamedPoints, source: Mesh, target: Mesh, name: str, chance: float
+) -> NamedPoints:
+    """Return points of the source on the target; those without counterpart are missing.
+
+    The confidence of a point is that of the map's neighbourhood times ``chance``, the probability of the map ``name``.
+    """
+    if (known.target_to_source < 0).any():
+        ways = find_counterparts(known, source, target, name)
+        place, some = ways.place, {"known": ways.target, "common": ways.source}
+    else:
+        check_map(known, len(source.vertices), len(target.vertices), name)
+        place, some = precise_points(known, source) or vertex_point_map(known.target_to_source, source), {}
+    trust = getattr(known, "local_confidence", None)  # a list of vertices has none
+    local = np.ones(len(target.vertices)) if trust is None else np.nan_to_num(trust)
+    carried = transfer_points(points, source, target, place, local, **some)
+    return replace(carried, confidence=carried.confidence * chance)
+
+
 def drop_unsure(one: SpecimenLandmarks, min_confidence: float) -> SpecimenLandmarks:
     """Return the landmarks without those below a confidence, which become missing."""
     keep = one.points.confidence >= min_confidence
@@ -243,9 +261,8 @@ def template_errors(
             result = results.get((a.specimen, b.specimen))
             if a is b or result is None or result.status != "done":
                 continue
-            start = replace(a.points, confidence=np.ones(len(a.points.names)))
             file = map_path(folder, Pair(a.specimen, b.specimen).key)
-            carried = carry_points(load_map(file), start, a.mesh, b.mesh, name=str(file))
+            carried = _carry_points(load_map(file), a.points, a.mesh, b.mesh, str(file), 1.0)
             rows.append(np.linalg.norm(carried.points - b.points.points, axis=1))
     return np.array(rows).reshape(-1, len(templates[0].points.names))
 

@@ -26,7 +26,7 @@ COMMANDS = {
     "evaluate": "Print the geodesic error of a map, by the Princeton protocol, in per cent of √area.",
     "info": "Show what is in files: vertices, faces, components, area, genus, defects.",
     "config": "Print the settings that match would use, as TOML that --config reads.",
-    "transfer": "Carry functions, labels or named points over a map, or landmarks to all shapes of a collection.",
+    "transfer": "Carry functions, labels or named points over a map.",
     "export": "Write the target with the source's texture or colours, or the map in another format.",
     "view": "Show a map in the browser, or write it as one page that needs no network.",
     "landmarks": "Pick landmarks on a local page, or carry those of some specimens to all scans of a folder.",

@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-import warnings
 from pathlib import Path
 from typing import Annotated
 
 import numpy as np
 import typer
 
-from kfmaps._arrays import KfmapsWarning, refuse
-from kfmaps.cli.options import Force, Json, SourceMesh, TargetMesh
+from kfmaps._arrays import refuse
+from kfmaps.cli.options import Force, Json, MapFile, SourceMesh, TargetMesh
 from kfmaps.cli.terminal import report_files
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.io import Values, check_output, load_map, read_mesh, read_values, write_values
@@ -24,23 +23,9 @@ from kfmaps.matching.result import Match
 
 
 def transfer(
+    map: MapFile,
+    values: Annotated[Path, typer.Argument(help="A row for each source vertex (.npy, .csv, .txt).", metavar="VALUES")],
     output: Annotated[Path, typer.Option("-o", "--output", help="A row for each target vertex (.npy, .csv, .txt).")],
-    map: Annotated[Path | None, typer.Argument(help="A map (.npz, .txt, .vts, .mat).", metavar="MAP")] = None,
-    values: Annotated[
-        Path | None, typer.Argument(help="A row for each source vertex (.npy, .csv, .txt).", metavar="VALUES")
-    ] = None,
-    collection: Annotated[
-        Path | None, typer.Option(help="Instead of MAP: the output folder of kfmaps batch.", metavar="OUT")
-    ] = None,
-    landmarks: Annotated[
-        Path | None,
-        typer.Option(help="Of one specimen, to all of --collection (.mrk.json, .fcsv, .tps, .pts, .csv, .particles)."),
-    ] = None,
-    on: Annotated[str | None, typer.Option(help="The specimen that --landmarks are on.", metavar="SHAPE")] = None,
-    keep: Annotated[
-        list[str] | None,
-        typer.Option(help="Keep this specimen of --collection though it fits none of the others.", metavar="SHAPE"),
-    ] = None,
     points: Annotated[
         bool, typer.Option("--points", help="VALUES are points (.mrk.json, .fcsv, .tps, .pts, .csv, .particles).")
     ] = False,
@@ -61,22 +46,17 @@ def transfer(
     json: Json = False,
     force: Force = False,
 ) -> None:
-    """Carry functions, labels or named points over a map, or landmarks to all shapes of a collection."""
-    if collection is not None or landmarks is not None:
-        _everywhere(collection, landmarks, on, keep or [], output, force, (map, values, source, target))
-    elif map is None or values is None:
-        raise refuse("transfer", "MAP and VALUES, or --collection and --landmarks", "neither", "give two of them")
+    """Carry functions, labels or named points over a map."""
+    check_output(output, force, (map, values, source, target))
+    if products is not None and (points or back):
+        with_it = "--points" if points else "--back"
+        raise refuse("--products", "values of the source", with_it, "leave one of them out")
+    found = load_map(map)
+    if points:
+        check_landmark_format(output, "output")
+        _points(found, map, values, output, back, (source, target), force)
     else:
-        check_output(output, force, (map, values, source, target))
-        if products is not None and (points or back):
-            with_it = "--points" if points else "--back"
-            raise refuse("--products", "values of the source", with_it, "leave one of them out")
-        found = load_map(map)
-        if points:
-            check_landmark_format(output, "output")
-            _points(found, map, values, output, back, (source, target), force)
-        else:
-            write_values(output, _carried(found, map, values, (source, target), back, products, lost), force)
+        write_values(output, _carried(found, map, values, (source, target), back, products, lost), force)
     report_files(output, as_json=json)
 
 
@@ -104,39 +84,6 @@ def _carried(
         precise_points(found, shape)
         faces = shape.faces
     return Values(transfer_values(read.array, found, faces, gone), read.columns)
-
-
-def _everywhere(
-    collection: Path | None,
-    landmarks: Path | None,
-    on: str | None,
-    keep: list[str],
-    output: Path,
-    force: bool,
-    others: tuple[Path | None, ...],
-) -> None:
-    """Landmarks of one specimen on all of a collection."""
-    from kfmaps.batch.propagate_landmarks import MIN_PROBABILITY, propagate_landmarks, write_propagated
-
-    if collection is None or landmarks is None:
-        missing = "--landmarks" if landmarks is None else "--collection"
-        raise refuse("transfer", "--collection and --landmarks together", f"no {missing}", "give both")
-    if any(one is not None for one in others):
-        raise refuse("transfer", "--collection and --landmarks alone", "a map or mesh beside them", "leave that out")
-    if output.suffix.lower() not in (".csv", ".tps"):
-        raise refuse(f"output {output}", "the extension .csv or .tps", output.suffix or "none", "rename it")
-    check_output(output, force, (landmarks,))
-    found, missed = propagate_landmarks(collection, landmarks, on)
-    for one in found:
-        if one.weakest < MIN_PROBABILITY:
-            end = "kept" if one.specimen in keep else f"left out; --keep {one.specimen} keeps it"
-            text = f"{one.specimen} fits none of the others (its maps are right with {100 * one.weakest:.0f} %)"
-            warnings.warn(f"{text}: {end}", KfmapsWarning, stacklevel=2)
-    found = [one for one in found if one.weakest >= MIN_PROBABILITY or one.specimen in keep]
-    write_propagated(output, found, force)
-    if missed:
-        text = f"no map leads to {', '.join(missed[:5])}{' and others' if len(missed) > 5 else ''}"
-        warnings.warn(f"{text}; they have no landmarks", KfmapsWarning, stacklevel=2)
 
 
 def _shape(found: Match, side: str, given: Path | None, map: Path) -> Mesh:
