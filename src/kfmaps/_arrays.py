@@ -85,13 +85,7 @@ def check(
     finite: bool = True,
     remedy: str = "check how it was made",
 ) -> Array:
-    """Return ``array`` when it has the ``shape`` (``None`` matches any length) and only finite numbers.
-
-    Raises
-    ------
-    InvalidInput
-        Naming the array, what was expected, what was got and ``remedy``.
-    """
+    """Return ``array`` when it has the ``shape`` (``None`` matches any length) and only finite numbers."""
     if shape is not None:
         fits = len(array.shape) == len(shape) and all(
             want is None or want == have for want, have in zip(shape, array.shape, strict=True)

@@ -22,14 +22,8 @@ class KfmapsWarning(UserWarning):
 def refuse(name: str, expected: str, got: str, remedy: str) -> InvalidInput:
     """Return the error "`name`: expected …, got …. Do ….", the one form of every refusal.
 
-    Parameters
-    ----------
-    name : str
-        The argument, option or file.
-    expected, got : str
-        Noun phrases.
-    remedy : str
-        One or more sentences about what to do; the first letter and the last full stop are put right.
+    ``name``: the argument, option or file; ``expected`` and ``got``: noun phrases; ``remedy``: one or more sentences
+    about what to do; the first letter and the last full stop are put right.
     """
     problem = f"{name}: expected {expected}, got {got}"
     return InvalidInput(shown(f"{_sentence(problem, '')} {_sentence(remedy, remedy[:1].upper())}"))

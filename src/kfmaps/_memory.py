@@ -24,17 +24,7 @@ def installed_memory() -> int:
 def check_memory(need: float, name: str, what: str, remedy: str) -> None:
     """Refuse what needs more memory than there is in the machine.
 
-    Parameters
-    ----------
-    need : float
-        Bytes.
-    name, what : str
-        What is at fault, and what the memory would be for.
-
-    Raises
-    ------
-    InvalidInput
-        Saying how much it would take.
+    ``need``: bytes; ``name`` and ``what``: what is at fault, and what the memory would be for.
     """
     have = installed_memory()
     if need > have:

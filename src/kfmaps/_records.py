@@ -31,38 +31,19 @@ _T = TypeVar("_T")
 
 @dataclass(frozen=True)
 class Setting:
-    """One field of a settings record.
-
-    Attributes
-    ----------
-    name : str
-    hint : type
-        Its type.
-    default : Any
-        Its default value or what makes it; ``MISSING`` where there is none.
-    help : str
-        What it means, without the full stop.
-    above, low, high, below : float or None
-        Exclusive and inclusive bounds of a number.
-    none : str
-        The word for ``None`` in settings files.
-    option : str
-        The command's option that sets it; empty where there is none.
-    python : bool
-        Whether only Python code can set it, since it holds objects that a settings file cannot name.
-    """
+    """One field of a settings record."""
 
     name: str
-    hint: Any
-    default: Any
-    help: str = ""
-    above: float | None = None
+    hint: Any  # its type
+    default: Any  # its default value or what makes it; ``MISSING`` where there is none
+    help: str = ""  # what it means, without the full stop
+    above: float | None = None  # exclusive and inclusive bounds of a number
     low: float | None = None
     high: float | None = None
     below: float | None = None
-    none: str = "none"
-    option: str = ""
-    python: bool = False
+    none: str = "none"  # the word for ``None`` in settings files
+    option: str = ""  # the command's option that sets it; empty where there is none
+    python: bool = False  # whether only Python code can set it, since it holds objects that a settings file cannot name
 
     @property
     def types(self) -> tuple[Any, ...]:
@@ -157,14 +138,8 @@ def _is_a(value: Any, hint: Any) -> bool:
 def setting(default: Any, help: str = "", **bounds: Any) -> Any:
     """Return a dataclass field with documentation and bounds.
 
-    Parameters
-    ----------
-    default : Any
-        The default value; a class or function makes it anew for each record.
-    help : str
-        What it means.
-    bounds
-        Further attributes of :class:`Setting`.
+    ``default``: the default value; a class or function makes it anew for each record; ``help``: what it means;
+    ``bounds``: further attributes of :class:`Setting`.
     """
     metadata = {"help": help, **bounds}
     if callable(default):
@@ -244,11 +219,6 @@ def update(record: _T, values: Mapping[str, Any], fresh: Any, kinds: Kinds) -> _
     Kinds may be written in any case, a record may be named by its kind alone (``kernel = "laplacian"``), and
     ``"none"``, ``"all"`` and ``"automatic"`` stand for ``None`` where there can be none. A record of another kind than
     the one in ``record`` begins with what ``fresh`` has there when it is of that kind, and else with its own defaults.
-
-    Raises
-    ------
-    InvalidInput
-        On names that do not exist and values of the wrong type or out of range.
     """
     return _updated(type(record), values, record, fresh, "", kinds)
 

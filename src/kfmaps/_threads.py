@@ -57,10 +57,7 @@ def one_blas_thread() -> Iterator[None]:
 def parallel(function: Callable[[A], B], items: Iterable[A], threads: int | None = None) -> list[B]:
     """``[function(item) for item in items]`` over Python threads, with BLAS held to one thread.
 
-    Parameters
-    ----------
-    threads : int, optional
-        How many at once; ``None`` takes every available core. With 1 it is a plain loop.
+    ``threads``: How many at once; ``None`` takes every available core. With 1 it is a plain loop.
     """
     items = list(items)
     count = min(threads or available_cores(), max(len(items), 1))

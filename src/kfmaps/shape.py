@@ -82,21 +82,11 @@ class Descriptor(Protocol):
 
 @dataclass(frozen=True, eq=False)
 class SampledShape:
-    """Some points of a shape that stand for all; made by :func:`sample_shape`.
+    """Some points of a shape that stand for all; made by :func:`sample_shape`."""
 
-    Attributes
-    ----------
-    shape : Shape
-        A point cloud with the areas and functions of the surface that it was taken from.
-    vertices : (q,) int64
-        Which they are.
-    landmarks : (l,) int64
-        Where the landmarks are among them.
-    """
-
-    shape: Shape
-    vertices: np.ndarray
-    landmarks: np.ndarray
+    shape: Shape  # a point cloud with the areas and functions of the surface that it was taken from
+    vertices: np.ndarray  # (q,): which they are
+    landmarks: np.ndarray  # (l,): where the landmarks are among them
 
 
 def sample_shape(
@@ -136,20 +126,9 @@ def prepare(
 ) -> Shape:
     """Do the work that depends on one shape alone, so that matching it with many others reuses it.
 
-    Parameters
-    ----------
-    mesh : Mesh
-        In any unit; a mesh without faces is a point cloud. Open edges that lie in one place are connected, specks
-        and vertices that no face uses are left out (:func:`kfmaps.geometry.clean.clean_mesh`), with a warning.
-    config : Config, optional
-        Its basis, descriptor and refinement settings count here.
-
-    Raises
-    ------
-    InvalidInput
-        When the mesh cannot be worked with, or has fewer vertices than eigenfunctions are needed.
-    NotConverged
-        When the eigensolver misses its tolerance.
+    ``mesh``: In any unit; a mesh without faces is a point cloud. Open edges that lie in one place are connected, specks
+    and vertices that no face uses are left out (:func:`kfmaps.geometry.clean.clean_mesh`), with a warning. ``config``:
+    its basis, descriptor and refinement settings count here.
     """
     config = config or Config()
     report = progress or (lambda _stage, _done: None)
@@ -226,13 +205,7 @@ def local_descriptors(
 
 
 def mirror_image(shape: Shape) -> Shape:
-    """The mirror image of a prepared shape, with the same vertices, functions and areas.
-
-    Raises
-    ------
-    InvalidInput
-        For a point cloud, which has no orientation.
-    """
+    """The mirror image of a prepared shape, with the same vertices, functions and areas."""
     if len(shape.mesh.faces) == 0:
         raise refuse(
             shape.name, "a surface, which can be mirrored", "a point cloud", "leave orientation at 'preserving'"

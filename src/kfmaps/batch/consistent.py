@@ -58,24 +58,12 @@ _LAYOUT = 5
 
 @dataclass(frozen=True, eq=False)
 class ConsistentResult:
-    """A run whose maps were made to agree.
+    """A run whose maps were made to agree."""
 
-    Attributes
-    ----------
-    results : tuple of Result
-        Those given, with their probabilities; of replaced maps the new.
-    before : dict of (source, target) to Result
-        Of replaced maps the old.
-    doubted : tuple of str
-        A line for each pair that others contradict and for which nothing better is known.
-    notes : tuple of str
-        What could not be taken into account.
-    """
-
-    results: tuple[Result, ...]
-    before: dict[tuple[str, str], Result]
-    doubted: tuple[str, ...]
-    notes: tuple[str, ...] = ()
+    results: tuple[Result, ...]  # those given, with their probabilities; of replaced maps the new
+    before: dict[tuple[str, str], Result]  # of replaced maps the old
+    doubted: tuple[str, ...]  # a line for each pair that others contradict and for which nothing better is known
+    notes: tuple[str, ...] = ()  # what could not be taken into account
 
     @property
     def replaced(self) -> int:
@@ -102,17 +90,7 @@ def map_in_use(folder: Path, key: str) -> Path:
 def make_consistent(plan: Plan, results: Sequence[Result], pool: WorkerPool) -> ConsistentResult:
     """Find which maps of a finished run are wrong, replace them, and write what came of it.
 
-    Parameters
-    ----------
-    plan : Plan
-    results : sequence of Result
-        Of the plan's pairs; those that failed are left as they are.
-    pool : WorkerPool
-
-    Raises
-    ------
-    InvalidInput
-        When no pair is matched.
+    ``results``: of the plan's pairs; those that failed are left as they are.
     """
     known = {(r.source, r.target): r for r in results if r.status == "done"}
     tasks = [task for task in plan.tasks if (task.pair.source, task.pair.target) in known]

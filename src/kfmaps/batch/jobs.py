@@ -42,16 +42,9 @@ _MISSING_DASK = "collections need Dask ({}). Install it with: pip install 'dask[
 class WorkerPool:
     """Dask workers, started when they are first needed; a context that ends them.
 
-    Parameters
-    ----------
-    count : int, optional
-        Worker processes on this machine; by default one for each core.
-    scheduler : str, optional
-        Address of a running Dask scheduler, to use its workers instead.
-    progress : ProgressCallback, optional
-        For :meth:`map`.
-    log : callable, optional
-        Called with a line when a worker dies.
+    ``count``: worker processes on this machine; by default one for each core; ``scheduler``: address of a running Dask
+    scheduler, to use its workers instead; ``progress``: for :meth:`map`; ``log``: called with a line when a worker
+    dies.
     """
 
     def __init__(
@@ -114,23 +107,11 @@ class WorkerPool:
     ) -> Generator[tuple[int, _Value | Exception]]:
         """Yield the number of each item with its value, or with the exception that it ended in, as they finish.
 
-        Dask has as many tasks as can run at once, so there may be any number of them, and hands those of a worker
-        that died to another.
+        Dask has as many tasks as can run at once, so there may be any number of them, and hands those of a worker that
+        died to another.
 
-        Parameters
-        ----------
-        function : callable
-        items : sequence
-        label : callable
-            Name of an item in the log.
-        n_begun : callable, optional
-            How often work on an item has begun. Dask blames every task that was with a worker that died; an item that
-            has not begun :data:`MAX_DEATHS` times is tried again.
-
-        Raises
-        ------
-        InvalidInput
-            When the scheduler or all workers are lost.
+        ``label``: name of an item in the log. ``n_begun``: How often work on an item has begun. Dask blames every task
+        that was with a worker that died; an item that has not begun :data:`MAX_DEATHS` times is tried again.
         """
         from distributed import CancelledError, KilledWorker, as_completed
         from distributed.scheduler import NoWorkerError
@@ -169,19 +150,8 @@ class WorkerPool:
     ) -> list[Any]:
         """Return the ``function`` of each item, in their order, and tell the progress.
 
-        Parameters
-        ----------
-        what : str
-            For the progress and the log.
-        function : callable
-        items : sequence
-        failures : bool
-            Whether exceptions are returned in the place of values, instead of raised.
-
-        Raises
-        ------
-        InvalidInput
-            When workers die over one item again and again.
+        ``what``: for the progress and the log; ``failures``: whether exceptions are returned in the place of values,
+        instead of raised.
         """
         values: dict[int, Any] = {}
         if not items:
@@ -214,13 +184,8 @@ def dask_setup(worker: Any) -> None:
 def local_workers(count: int | None = None) -> Iterator[Client]:
     """Start worker processes on this machine, one task and one BLAS thread each, gone when the block ends.
 
-    They listen on the loopback address only and speak TLS with certificates made for this run: whoever can talk
-    to a Dask scheduler can run any code, and other users of the machine reach the loopback too.
-
-    Raises
-    ------
-    MissingDependency
-        When Dask is not installed.
+    They listen on the loopback address only and speak TLS with certificates made for this run: whoever can talk to a
+    Dask scheduler can run any code, and other users of the machine reach the loopback too.
     """
     count = available_cores() if count is None else check_count(count, "workers")
     check_memory(_WORKER_BYTES * count, "workers", f"{count:,} processes", "choose fewer; one for each core is best")
@@ -267,15 +232,7 @@ def local_workers(count: int | None = None) -> Iterator[Client]:
 
 @contextmanager
 def running_workers(address: str, timeout: float = 30.0) -> Iterator[Client]:
-    """Connect to a Dask scheduler that is running, at ``address`` such as ``tcp://host:8786``.
-
-    Raises
-    ------
-    MissingDependency
-        When Dask is not installed.
-    InvalidInput
-        When nobody answers within ``timeout`` seconds, or there is no worker.
-    """
+    """Connect to a Dask scheduler that is running, at ``address`` such as ``tcp://host:8786``."""
     try:
         from distributed import Client
         from distributed.security import Security

@@ -21,13 +21,8 @@ EXTREME = 2.0
 def write_study(output: Path, study: Sequence[SpecimenLandmarks], templates: Sequence[Template]) -> list[Path]:
     """Write the landmarks of all specimens that fit, and their statistics; return the files, most useful first.
 
-    Parameters
-    ----------
-    output : Path
-        A folder; its files are replaced.
-    study : sequence of SpecimenLandmarks
-    templates : sequence of Template
-        The first gives the format of each specimen's own file, and the surface that the extremes are drawn on.
+    ``output``: a folder; its files are replaced; ``templates``: the first gives the format of each specimen's own file,
+    and the surface that the extremes are drawn on.
     """
     fitting = [one for one in study if not one.misfit]
     suffix = landmark_suffix(templates[0].file)

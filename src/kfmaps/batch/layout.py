@@ -51,32 +51,18 @@ class Pair:
 
 @dataclass(frozen=True)
 class ShapeFolder:
-    """What a folder holds.
-
-    Attributes
-    ----------
-    folder : Path
-    shapes : mapping of name to path
-        In natural order: 2 before 10.
-    truth : mapping of name to path
-        Vertex lists; line k of one shape's corresponds to line k of another's.
-    mirrored : mapping of name to path
-        The lists with left and right swapped.
-    maps : mapping of Pair to path
-        Truth of one pair: line i is the target's vertex for the source's vertex i, counted from 1 (SHREC'19).
-    landmarks : mapping of name to path
-        Vertex lists; line k of one shape's corresponds to line k of another's.
-    pairs : Path or None
-        The folder's own list of pairs.
-    """
+    """What a folder holds."""
 
     folder: Path
-    shapes: Mapping[str, Path]
+    shapes: Mapping[str, Path]  # in natural order: 2 before 10
+    # Vertex lists; line k of one shape's corresponds to line k of another's.
     truth: Mapping[str, Path] = field(default_factory=dict)
-    mirrored: Mapping[str, Path] = field(default_factory=dict)
+    mirrored: Mapping[str, Path] = field(default_factory=dict)  # the lists with left and right swapped
+    # Truth of one pair: line i is the target's vertex for the source's vertex i, counted from 1 (SHREC'19).
     maps: Mapping[Pair, Path] = field(default_factory=dict)
+    # Vertex lists; line k of one shape's corresponds to line k of another's.
     landmarks: Mapping[str, Path] = field(default_factory=dict)
-    pairs: Path | None = None
+    pairs: Path | None = None  # the folder's own list of pairs
 
 
 def natural(name: str) -> list[tuple[int, int, str]]:
@@ -88,16 +74,10 @@ def natural(name: str) -> list[tuple[int, int, str]]:
 def find_collection(folder: str | Path) -> ShapeFolder:
     """Look through a folder laid out as the field does.
 
-    Shapes lie in the folder itself or, when it has none, in ``shapes/``, ``off/``, ``meshes/``, ``ply/`` or
-    ``obj/``. Truth lies in ``corres/`` (or ``groundtruth/``) as ``NAME.vts`` and ``NAME.sym.vts``, or per pair as
-    ``A_B.map``; landmarks in ``landmarks/NAME.txt`` (counted from 0) or ``NAME.vts`` (counted from 1), or in other
-    programs' formats (:mod:`kfmaps.io.landmark_files`); pairs in
-    ``test_pairs.txt``.
-
-    Raises
-    ------
-    InvalidInput
-        When there is no folder, no shape in it, or two files for one name.
+    Shapes lie in the folder itself or, when it has none, in ``shapes/``, ``off/``, ``meshes/``, ``ply/`` or ``obj/``.
+    Truth lies in ``corres/`` (or ``groundtruth/``) as ``NAME.vts`` and ``NAME.sym.vts``, or per pair as ``A_B.map``;
+    landmarks in ``landmarks/NAME.txt`` (counted from 0) or ``NAME.vts`` (counted from 1), or in other programs' formats
+    (:mod:`kfmaps.io.landmark_files`); pairs in ``test_pairs.txt``.
     """
     folder = Path(folder)
     if not folder.is_dir():
@@ -164,21 +144,8 @@ def choose_pairs(
 ) -> list[Pair]:
     """Return the pairs to match, each once and in order.
 
-    Parameters
-    ----------
-    file : path, optional
-        Two names a line, "source target"; ``#`` starts a comment. Names may carry the mesh's extension.
-    every : bool
-        Every shape to every other one, both ways.
-    star : str, optional
-        This shape as the source of all others.
-
-    With none of them, the folder's ``test_pairs.txt`` counts, or else the pairs that have a truth of their own.
-
-    Raises
-    ------
-    InvalidInput
-        When there is no pair, a shape is not there, or two pairs would have files of one name.
+    ``file``: Two names a line, "source target"; ``#`` starts a comment. Names may carry the mesh's extension.
+    ``every``: every shape to every other one, both ways; ``star``: this shape as the source of all others.
     """
     names = list(collection.shapes)
     if every:

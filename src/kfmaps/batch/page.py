@@ -68,21 +68,8 @@ def write_page(
 ) -> Path:
     """Write the summary of a run, and the pages of the pairs that it shows as pictures.
 
-    Parameters
-    ----------
-    plan : Plan
-    results : sequence of Result
-        Of all pairs in the output folder.
-    name : str
-        Title, any text.
-    worst : int
-        How many of the worst pairs are shown as pictures.
-    consistent : ConsistentResult, optional
-        What came of making the maps agree.
-
-    Returns
-    -------
-    Path
+    ``results``: of all pairs in the output folder; ``name``: title, any text; ``worst``: how many of the worst pairs
+    are shown as pictures; ``consistent``: what came of making the maps agree.
     """
     tasks = {(task.pair.source, task.pair.target): task for task in plan.tasks}
     ordered = worst_first(results)
@@ -123,27 +110,10 @@ def summary_page(
 ) -> str:
     """Return the summary page.
 
-    Parameters
-    ----------
-    name : str
-        Title, any text.
-    results : sequence of Result
-    settings : mapping
-        As JSON holds them.
-    pictures, changed : mapping of caption to PNG bytes
-        Of the worst pairs, and of replaced maps before and after, in the order to be shown.
-    pairs : int
-        How many pairs were asked for.
-    pages : mapping of (source, target) to address, optional
-        Of the pages of single maps, relative to the summary.
-    doubted : sequence of str
-        Pairs that others contradict and for which nothing better is known, a line each.
-    specimens : mapping, optional
-        Charts of the shapes, and a table.
-
-    Returns
-    -------
-    str
+    ``name``: title, any text; ``settings``: as JSON holds them; ``pictures`` and ``changed``: of the worst pairs, and
+    of replaced maps before and after, in the order to be shown; ``pairs``: how many pairs were asked for; ``pages``: of
+    the pages of single maps, relative to the summary; ``doubted``: pairs that others contradict and for which nothing
+    better is known, a line each; ``specimens``: charts of the shapes, and a table.
     """
     numbers, ordered = summarize(results), worst_first(results)
     folder = files("kfmaps.batch").joinpath("templates")

@@ -27,29 +27,14 @@ GRAPHS = "near, star, star:SHAPE, all or both"
 
 @dataclass(frozen=True)
 class Plan:
-    """What a run does.
+    """What a run does."""
 
-    Attributes
-    ----------
-    folder : Path
-        The output folder.
-    spec : RunSpec
-    tasks : tuple of PairTask
-        Every pair asked for, in order.
-    todo : tuple of PairTask
-        Those without a result that counts.
-    results : tuple of Result
-        Of the others.
-    changed : int
-        How many of ``todo`` have a result that no longer counts, because their files have changed.
-    """
-
-    folder: Path
+    folder: Path  # the output folder
     spec: RunSpec
-    tasks: tuple[PairTask, ...]
-    todo: tuple[PairTask, ...]
-    results: tuple[Result, ...]
-    changed: int
+    tasks: tuple[PairTask, ...]  # every pair asked for, in order
+    todo: tuple[PairTask, ...]  # those without a result that counts
+    results: tuple[Result, ...]  # of the others
+    changed: int  # how many of ``todo`` have a result that no longer counts, because their files have changed
 
 
 def recommended_config(
@@ -57,17 +42,9 @@ def recommended_config(
 ) -> Config:
     """Return the configuration of a collection for which nobody chose one.
 
-    Parameters
-    ----------
-    collection : ShapeFolder
-    pairs : sequence of Pair
-    landmark_lines, landmark_files : bool
-        Whether lines of the truth serve as landmarks, and whether those of the folder are used.
-
-    Returns
-    -------
-    Config
-        ``Config.single_fit()`` when every pair has landmarks, since a collection has many pairs; else ``Config()``.
+    ``landmark_lines`` and ``landmark_files``: whether lines of the truth serve as landmarks, and whether those of the
+    folder are used. Returns ``Config.single_fit()`` when every pair has landmarks, since a collection has many pairs;
+    else ``Config()``.
     """
     named = {name for pair in pairs for name in (pair.source, pair.target)}
     known = landmark_lines or (landmark_files and named <= collection.landmarks.keys())
@@ -79,23 +56,7 @@ def make_plan(
 ) -> Plan:
     """Return what a run has to do. The output folder is made, and what is done already is read from it.
 
-    Parameters
-    ----------
-    collection : ShapeFolder
-    pairs : sequence of Pair
-    spec : RunSpec
-    output : path
-    retry_failed : bool
-        Whether pairs that failed are done again.
-
-    Returns
-    -------
-    Plan
-
-    Raises
-    ------
-    InvalidInput
-        When the output folder holds results of another specification or cannot be made.
+    ``retry_failed``: whether pairs that failed are done again.
     """
     if spec.identity and (collection.truth or collection.maps):
         remedy = "leave --identity out, or move the files away"
@@ -127,29 +88,11 @@ def graph_pairs(
 ) -> list[Pair]:
     """Choose pairs over a graph of the whole collection.
 
-    Parameters
-    ----------
-    collection : ShapeFolder
-    spec : RunSpec
-    output : path
-        Output folder of the run.
-    kind : str
-        "near": each shape with those that are most like it, about three pairs a shape, on cycles
-        (:func:`kfmaps.collection.pair_graph.nearest_neighbor_graph`). "star": the one in the middle with all others;
-        "star:SHAPE": this one. "all": every pair, one way; "both": both ways. What the shapes decide is kept in the
-        output folder, so that it stays the same. A shape that cannot be prepared has one pair, with the middle one,
-        which fails.
-    pool : WorkerPool
-        Prepares the shapes.
-
-    Returns
-    -------
-    list of Pair
-
-    Raises
-    ------
-    InvalidInput
-        On another kind, and when fewer than two shapes can be prepared.
+    ``output``: output folder of the run. ``kind``: "near": each shape with those that are most like it, about three
+    pairs a shape, on cycles (:func:`kfmaps.collection.pair_graph.nearest_neighbor_graph`). "star": the one in the
+    middle with all others; "star:SHAPE": this one. "all": every pair, one way; "both": both ways. What the shapes
+    decide is kept in the output folder, so that it stays the same. A shape that cannot be prepared has one pair, with
+    the middle one, which fails. ``pool``: prepares the shapes.
     """
     names = list(collection.shapes)
     if kind.startswith("star:"):

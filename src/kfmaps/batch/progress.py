@@ -103,18 +103,8 @@ def estimate(
 ) -> Estimate:
     """Return an estimate of what a run needs; linear in all sizes.
 
-    Parameters
-    ----------
-    shapes, pairs, vertices : int
-        Numbers of shapes and pairs, and of vertices of a shape.
-    config : Config
-    workers : int
-    consistent : bool
-        Whether the maps are made to agree in the end; they are scored by what a search would know of the shapes.
-
-    Returns
-    -------
-    Estimate
+    ``shapes``, ``pairs`` and ``vertices``: numbers of shapes and pairs, and of vertices of a shape; ``consistent``:
+    whether the maps are made to agree in the end; they are scored by what a search would know of the shapes.
     """
     searched = config.search is not None
     shape = 8.0 * vertices * (config.n_eigenfunctions + _SHOT_SIZE * config.descriptors.shot)

@@ -39,27 +39,13 @@ TABLE = "results.csv"
 
 @dataclass(frozen=True)
 class BatchResult:
-    """What came of a run.
+    """What came of a run."""
 
-    Attributes
-    ----------
-    results : tuple of Result
-        Of every pair that was asked for and has one, by source and target.
-    matched : int
-        Pairs that this run worked on.
-    interrupted : bool
-        Whether it was stopped by the user; the same call goes on.
-    files : tuple of Path
-        Tables and summary.
-    consistent : ConsistentResult or None
-        What came of making the maps agree, where that was asked for.
-    """
-
-    results: tuple[Result, ...]
-    matched: int
-    interrupted: bool
-    files: tuple[Path, ...]
-    consistent: ConsistentResult | None = None
+    results: tuple[Result, ...]  # of every pair that was asked for and has one, by source and target
+    matched: int  # pairs that this run worked on
+    interrupted: bool  # whether it was stopped by the user; the same call goes on
+    files: tuple[Path, ...]  # tables and summary
+    consistent: ConsistentResult | None = None  # what came of making the maps agree, where that was asked for
 
 
 def run_batch(
@@ -75,27 +61,10 @@ def run_batch(
 ) -> BatchResult:
     """Do what the plan leaves to do, then write the tables and the summary.
 
-    Parameters
-    ----------
-    plan : Plan
-        From :func:`~kfmaps.batch.plan.make_plan`.
-    workers, scheduler, progress
-        See :class:`~kfmaps.batch.jobs.WorkerPool`.
-    name : str
-        The summary's title.
-    worst : int
-        How many of the worst pairs the summary shows as pictures.
-    callback : callable, optional
-        Called with how the run stands, and with each result.
-    consistent : bool
-        Whether the maps are made to agree in the end (:func:`~kfmaps.batch.consistent.make_consistent`).
-
-    Raises
-    ------
-    MissingDependency
-        When Dask is not installed and there is something to do.
-    InvalidInput
-        When another run is using the output folder, or the workers cannot be used.
+    ``plan``: from :func:`~kfmaps.batch.plan.make_plan`; ``workers``, ``scheduler`` and ``progress``: see
+    :class:`~kfmaps.batch.jobs.WorkerPool`; ``name``: the summary's title; ``worst``: how many of the worst pairs the
+    summary shows as pictures; ``callback``: called with how the run stands, and with each result; ``consistent``:
+    whether the maps are made to agree in the end (:func:`~kfmaps.batch.consistent.make_consistent`).
     """
     new: list[Result] = []
     interrupted, agreed = False, None
@@ -130,11 +99,6 @@ def match_pairs(
 
     When a worker dies, Dask hands its task to another, which keeps what is finished and begins the rest anew. A task
     that kills :data:`~kfmaps.batch.jobs.MAX_DEATHS` workers is recorded as failed.
-
-    Raises
-    ------
-    InvalidInput
-        When the workers do not see the output folder or run another version, and when they or the scheduler are lost.
     """
     log, callback = log or (lambda _line: None), callback or (lambda _status, _result: None)
     check_workers(plan, pool)
@@ -188,13 +152,7 @@ def _status(plan: Plan, pool: WorkerPool, shapes: int, prepared: list[Prepared],
 
 
 def check_workers(plan: Plan, pool: WorkerPool) -> None:
-    """Check that every worker has this version and sees the output folder under the same path.
-
-    Raises
-    ------
-    InvalidInput
-        When one does not.
-    """
+    """Check that every worker has this version and sees the output folder under the same path."""
     name = "workers"
     try:
         seen: Any = pool.client.run(_seen, str(plan.folder / FILE))

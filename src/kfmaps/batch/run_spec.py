@@ -20,26 +20,13 @@ FILE = "settings.json"
 
 @dataclass(frozen=True)
 class RunSpec:
-    """Everything besides the shapes that results depend on.
-
-    Attributes
-    ----------
-    config : Config
-    seed : int
-        Given to every pair, as ``match`` does with its ``rng``.
-    landmark_lines : tuple of int
-        Lines, counted from 1, of the true correspondences that serve as landmarks.
-    landmark_files : bool
-        Whether landmarks are taken from the folder when it has them.
-    identity : bool
-        Whether the truth is "vertex i is vertex i".
-    """
+    """Everything besides the shapes that results depend on."""
 
     config: Config
-    seed: int = 0
-    landmark_lines: tuple[int, ...] = ()
-    landmark_files: bool = True
-    identity: bool = False
+    seed: int = 0  # given to every pair, as ``match`` does with its ``rng``
+    landmark_lines: tuple[int, ...] = ()  # lines, counted from 1, of the true correspondences that serve as landmarks
+    landmark_files: bool = True  # whether landmarks are taken from the folder when it has them
+    identity: bool = False  # whether the truth is "vertex i is vertex i"
 
     def __post_init__(self) -> None:
         check_count(self.seed, "seed", low=0)
@@ -84,13 +71,7 @@ def _flatten(values: Any, name: str = "") -> dict[str, Any]:
 
 
 def claim(folder: Path, spec: RunSpec) -> None:
-    """Make ``folder`` the place of results with this ``spec``, or find that it already is.
-
-    Raises
-    ------
-    InvalidInput
-        When it holds results of other settings, naming the differences.
-    """
+    """Make ``folder`` the place of results with this ``spec``, or find that it already is."""
     path = folder / FILE
     now = spec.as_dict()
     if not path.exists():
@@ -113,13 +94,7 @@ def claim(folder: Path, spec: RunSpec) -> None:
 
 
 def read_run_spec(folder: Path) -> dict[str, Any]:
-    """Return the settings of an output folder, as plain values with their ``digest``.
-
-    Raises
-    ------
-    InvalidInput
-        When there are none in ``folder``, or they cannot be read.
-    """
+    """Return the settings of an output folder, as plain values with their ``digest``."""
     path = folder / FILE
     try:
         values = json.loads(path.read_text(encoding="utf-8"))

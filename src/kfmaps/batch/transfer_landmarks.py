@@ -43,56 +43,29 @@ GOOD = ("sure", "likely", "landmarks", "unchecked")
 
 @dataclass(frozen=True, eq=False)
 class Template:
-    """A specimen whose landmarks are given.
-
-    Attributes
-    ----------
-    specimen : str
-    file : Path
-        Of the landmarks.
-    mesh : Mesh
-    points : NamedPoints
-    space : "LPS", "RAS" or ""
-        The mesh's coordinate system, as far as mesh or landmarks name one.
-    """
+    """A specimen whose landmarks are given."""
 
     specimen: str
-    file: Path
+    file: Path  # of the landmarks
     mesh: Mesh
     points: NamedPoints
-    space: str
+    space: str  # "LPS", "RAS" or "": the mesh's coordinate system, as far as mesh or landmarks name one
 
 
 @dataclass(frozen=True, eq=False)
 class SpecimenLandmarks:
-    """The landmarks of one specimen.
-
-    Attributes
-    ----------
-    specimen : str
-    points : NamedPoints
-        Vertices of −1 and NaN where a landmark is missing.
-    spread : (l,) float64
-        Largest distance of a template's proposal from the median, in the mesh's unit; NaN with one template.
-    rival : (l,) float64
-        Distance to where the best other map puts the landmark, in the mesh's unit; NaN where no other map is known.
-    flags : tuple of str
-        For each landmark why it should be looked at; empty for none.
-    results : tuple of Result
-        Of the maps that it rests on; empty for a template.
-    misfit : str
-        Why the specimen fits none of the others; empty where it does.
-    space : "LPS", "RAS" or ""
-    """
+    """The landmarks of one specimen."""
 
     specimen: str
-    points: NamedPoints
+    points: NamedPoints  # vertices of −1 and NaN where a landmark is missing
+    # (l,): largest distance of a template's proposal from the median, in the mesh's unit; NaN with one template.
     spread: np.ndarray
+    # (l,): distance to where the best other map puts the landmark, in the mesh's unit; NaN where no other map is known.
     rival: np.ndarray
-    flags: tuple[str, ...]
-    results: tuple[Result, ...] = ()
-    misfit: str = ""
-    space: str = ""
+    flags: tuple[str, ...]  # for each landmark why it should be looked at; empty for none
+    results: tuple[Result, ...] = ()  # of the maps that it rests on; empty for a template
+    misfit: str = ""  # why the specimen fits none of the others; empty where it does
+    space: str = ""  # "LPS", "RAS" or ""
 
     @property
     def landmarks(self) -> LandmarkSet:
@@ -104,12 +77,6 @@ def read_templates(files: Sequence[Path], scans: ShapeFolder) -> list[Template]:
     """Read the landmarks of specimens that are among the scans; a file of several specimens holds as many templates.
 
     A file belongs to the scan whose name it has, or begins with.
-
-    Raises
-    ------
-    InvalidInput
-        When a file belongs to no scan, two to one, the landmarks do not lie on it, or those of one specimen are a
-        mirror image of another's.
     """
     found: dict[str, Template] = {}
     for file in files:
@@ -146,22 +113,9 @@ def carry_templates(
 ) -> SpecimenLandmarks:
     """Return the landmarks of a scan: the geometric median of what the templates propose, on the surface.
 
-    Parameters
-    ----------
-    templates : sequence of Template
-    specimen : str
-    path : Path
-        Of its mesh.
-    results : mapping of a template's name to Result
-        Of the maps from the templates; those that are not good are left out where there are others.
-    folder : Path
-        Output of the run that made the maps.
-
-    Returns
-    -------
-    SpecimenLandmarks
-        The confidence of a landmark is the mean of the templates' confidences, times the fraction of templates
-        whose proposal lies near the median (:data:`MAX_SPREAD`).
+    Maps that are not good (:data:`GOOD`) are left out where there are others. The confidence of a landmark is the mean
+    of the templates' confidences, times the fraction of templates whose proposal lies near the median
+    (:data:`MAX_SPREAD`).
     """
     names = templates[0].points.names
     done = [one for one in templates if one.specimen in results and results[one.specimen].status == "done"]

@@ -215,13 +215,7 @@ def now() -> str:
 
 
 def load_prepared(task: ShapeTask) -> Shape:
-    """Return the prepared shape of a task, from the cache.
-
-    Raises
-    ------
-    InvalidInput
-        When it is not there.
-    """
+    """Return the prepared shape of a task, from the cache."""
     shape = load_shape(Path(task.entry), task.name)
     if shape is None:
         raise refuse(f"prepared shape {task.name}", "an entry in the cache", "none", "run the command again")
@@ -317,13 +311,7 @@ def _errors(accuracy: Accuracy | None) -> dict[str, Any]:
 
 
 def true_vertices(task: PairTask, n_s: int, n_t: int) -> Truth | None:
-    """Return what is known of the pair's true correspondence; ``n_s`` and ``n_t`` are the numbers of vertices.
-
-    Raises
-    ------
-    InvalidInput
-        When its files cannot be used or do not fit the shapes.
-    """
+    """Return what is known of the pair's true correspondence; ``n_s`` and ``n_t`` are the numbers of vertices."""
     if task.truth_map is None:
         return known_truth(task.truth, n_s, n_t, symmetric=task.mirrored, identity=task.spec.identity)
     numbers = read_vertex_numbers(task.truth_map, one_based=True)
@@ -333,13 +321,7 @@ def true_vertices(task: PairTask, n_s: int, n_t: int) -> Truth | None:
 
 
 def _landmark_pairs(task: PairTask, truth: Truth | None, n_s: int, n_t: int) -> np.ndarray | None:
-    """The pair's landmarks (l, 2), 0-based, or ``None``.
-
-    Raises
-    ------
-    InvalidInput
-        When lines of a truth are asked for that it does not have, or the landmarks' files cannot be used.
-    """
+    """The pair's landmarks (l, 2), 0-based, or ``None``."""
     if lines := task.spec.landmark_lines:
         if truth is None:
             raise refuse("--truth-landmarks", "true correspondences", "none for this pair", "leave it out")

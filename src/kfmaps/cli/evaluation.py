@@ -54,25 +54,9 @@ def known_truth(
 ) -> Truth | None:
     """Return the truth that options or a collection's files name; ``None`` when they name none.
 
-    Parameters
-    ----------
-    files : (path, path), optional
-        Lists of vertices of source and target, line k of one corresponding to line k of the other.
-    n_s, n_t : int
-        Vertices of the shapes.
-    symmetric : path, optional
-        The same for the target with left and right swapped.
-    identity : bool
-        Vertex i corresponds to vertex i.
-
-    Returns
-    -------
-    Truth or None
-
-    Raises
-    ------
-    InvalidInput
-        When half of it is missing, more than one is given, or it does not fit the shapes.
+    ``files``: lists of vertices of source and target, line k of one corresponding to line k of the other; ``n_s`` and
+    ``n_t``: vertices of the shapes; ``symmetric``: the same for the target with left and right swapped; ``identity``:
+    vertex i corresponds to vertex i.
     """
     if identity:
         if files is not None or symmetric is not None:
@@ -90,20 +74,7 @@ def known_truth(
 def read_vertex_lists(files: Sequence[str | Path], counts: Sequence[int]) -> list[np.ndarray]:
     """Read lists of vertices, line k of one corresponding to line k of the others.
 
-    Parameters
-    ----------
-    files : sequence of path
-    counts : sequence of int
-        Vertices of the shape of each file.
-
-    Returns
-    -------
-    list of arrays (q,) int64
-
-    Raises
-    ------
-    InvalidInput
-        When they differ in length, or name vertices that the shapes do not have.
+    ``counts``: vertices of the shape of each file.
     """
     lists = [read_vertex_numbers(file) for file in files]
     for file, numbers, count in zip(files, lists, counts, strict=False):
@@ -115,13 +86,7 @@ def read_vertex_lists(files: Sequence[str | Path], counts: Sequence[int]) -> lis
 
 
 def check_truth(truth: Truth, n_s: int, n_t: int) -> Truth:
-    """Return ``truth`` when its vertices are those of shapes with ``n_s`` and ``n_t`` vertices.
-
-    Raises
-    ------
-    InvalidInput
-        When they are not.
-    """
+    """Return ``truth`` when its vertices are those of shapes with ``n_s`` and ``n_t`` vertices."""
     _check_range(truth.source, n_s, "truth of the source")
     _check_range(truth.target, n_t, "truth of the target")
     if truth.mirrored is not None:
@@ -181,28 +146,10 @@ def assess(
 ) -> Accuracy:
     """Compare a map with the truth; geodesic errors on ``source`` in units of √area.
 
-    Parameters
-    ----------
-    source : Mesh
-    target_to_source : (n_t,) int
-        −1 where a vertex has no counterpart.
-    truth : Truth
-    place : PointMap, optional
-        Points inside triangles, whose errors are measured too.
-    target : Mesh, optional
-        Where it is given, and both are surfaces, the map's smoothness is measured too.
-    mirrored : int, optional
-        Points of the mirrored truth at most, evenly through the list. They are far from their images, and distances to
-        them take most of the time.
-
-    Returns
-    -------
-    Accuracy
-
-    Raises
-    ------
-    InvalidInput
-        When the map or the truth names vertices that the shapes do not have.
+    ``target_to_source (n_t,)``: −1 where a vertex has no counterpart; ``place``: points inside triangles, whose errors
+    are measured too; ``target``: where it is given, and both are surfaces, the map's smoothness is measured too.
+    ``mirrored``: Points of the mirrored truth at most, evenly through the list. They are far from their images, and
+    distances to them take most of the time.
     """
     target_to_source = check_map(target_to_source, len(source.vertices), lost=True)
     check_truth(truth, len(source.vertices), len(target_to_source))

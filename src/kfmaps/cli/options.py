@@ -54,13 +54,7 @@ Require = Annotated[
 
 
 def check_required(verdict: str | None) -> None:
-    """Check the value of ``--require``.
-
-    Raises
-    ------
-    InvalidInput
-        When it is no verdict that can be required.
-    """
+    """Check the value of ``--require``."""
     if verdict is not None and verdict not in _REQUIRED:
         raise refuse("--require", " or ".join(_REQUIRED), repr(verdict), "choose one of them")
 

@@ -29,42 +29,19 @@ _NEIGHBOURS = 1.5
 
 @dataclass(frozen=True, eq=False)
 class PartTruth:
-    """Where vertices of a part belong on the whole.
+    """Where vertices of a part belong on the whole."""
 
-    Attributes
-    ----------
-    vertices : (q,) int64
-        Of the part.
-    places : PointMap
-        On the whole, of each of them.
-    dense : bool
-        Whether they are all of the part's vertices, in order.
-    """
-
-    vertices: np.ndarray
-    places: PointMap
-    dense: bool
+    vertices: np.ndarray  # (q,): of the part
+    places: PointMap  # on the whole, of each of them
+    dense: bool  # whether they are all of the part's vertices, in order
 
 
 def read_part_truth(path: Path, whole: Mesh, part: Mesh) -> PartTruth:
     """Read the truth of a part, in one of the two forms that benchmarks have.
 
-    Parameters
-    ----------
-    path : Path
-        ``.baryc_gt``: a line for each vertex of the part, the triangle of the whole, counted from 1, and three
-        barycentric weights. Any other file: lines "vertex of the whole, vertex of the part", counted from 0 (``.vts``
-        from 1).
-    whole, part : Mesh
-
-    Returns
-    -------
-    PartTruth
-
-    Raises
-    ------
-    InvalidInput
-        When the file is neither, or does not belong to the shapes.
+    ``path``: ``.baryc_gt``: a line for each vertex of the part, the triangle of the whole, counted from 1, and three
+    barycentric weights. Any other file: lines "vertex of the whole, vertex of the part", counted from 0 (``.vts`` from
+    1).
     """
     name = str(path)
     if path.suffix.lower() == ".baryc_gt":
@@ -89,25 +66,14 @@ def read_part_truth(path: Path, whole: Mesh, part: Mesh) -> PartTruth:
 
 @dataclass(frozen=True, eq=False)
 class PartAccuracy:
-    """How good a map between a part and a whole is.
+    """How good a map between a part and a whole is."""
 
-    Attributes
-    ----------
-    errors : Evaluation
-        In units of √area of the whole.
-    matched : float
-        Part of the points with a known truth (of the true common area, where the source is the part) that the map gives
-        a counterpart; the others are in no mean.
-    overlap : float or None
-        Intersection over union, by area of the whole, of the common part found and the true one.
-    missing : float
-        Part of the whole's area that the part lacks.
-    """
-
-    errors: Evaluation
+    errors: Evaluation  # in units of √area of the whole
+    # Part of the points with a known truth (of the true common area, where the source is the part) that the map gives a
+    # counterpart; the others are in no mean.
     matched: float
-    overlap: float | None
-    missing: float
+    overlap: float | None  # intersection over union, by area of the whole, of the common part found and the true one
+    missing: float  # part of the whole's area that the part lacks
 
     def as_dict(self) -> dict[str, Any]:
         """Plain numbers for JSON."""
@@ -121,11 +87,6 @@ def part_accuracy(source: Mesh, target: Mesh, found: Match, truth: PartTruth, pa
 
     Of a target that is a part the errors are distances on the source between where its vertices go and belong; of a
     source that is a part, distances on the target between its vertices and where what is mapped to them belongs.
-
-    Raises
-    ------
-    InvalidInput
-        When the map gives none of the points a counterpart.
     """
     points = found.target_to_source
     place = precise_points(found, source) or vertex_point_map(np.maximum(points, 0), source)

@@ -170,10 +170,7 @@ def bars_html(stages: dict[str, tuple[float, float]]) -> str:
 class Stages:
     """``stages(name, done)`` for a computation that reports its stages, ``done`` from 0 to 1.
 
-    Parameters
-    ----------
-    quiet : bool
-        Say nothing.
+    ``quiet``: say nothing.
     """
 
     def __init__(self, quiet: bool = False) -> None:

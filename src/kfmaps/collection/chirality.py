@@ -20,17 +20,9 @@ def chirality(count: int, ends: Sequence[tuple[int, int]], kept: Sequence[bool],
     As much of the ``weights`` as can be is to agree: the leading eigenvector of the signed graph gives signs
     (synchronisation over the group of two; Singer 2011), and a shape changes its own as long as that gains.
 
-    Parameters
-    ----------
-    count : int
-        Number of shapes.
-    ends, kept, weights : sequences
-        Of each pair its shapes, whether its map keeps orientation, and how sure that is, not negative.
-
-    Returns
-    -------
-    (n,) int64
-        Where pairs join shapes, the one with the lowest number has 1.
+    ``count``: number of shapes; ``ends``, ``kept`` and ``weights``: of each pair its shapes, whether its map keeps
+    orientation, and how sure that is, not negative. Returns (n,): where pairs join shapes, the one with the lowest
+    number has 1.
     """
     if len(ends) != len(kept):
         raise refuse("pairs", "an orientation for each pair", f"{len(kept)} for {len(ends)} pairs", "give as many")

@@ -62,33 +62,17 @@ class MapStore(Protocol):
 
 @dataclass(frozen=True, eq=False)
 class Consistency:
-    """Result of :func:`synchronize_store`.
+    """Result of :func:`synchronize_store`."""
 
-    Attributes
-    ----------
-    repaired : RepairResult
-        What was replaced, and how probable all maps are.
-    limit_shapes : tuple of ComponentLimitShape
-    eigenvalues : (n, k) float64
-        Of each shape at unit area, as many as the latent maps have rows.
-    """
-
-    repaired: RepairResult
+    repaired: RepairResult  # what was replaced, and how probable all maps are
     limit_shapes: tuple[ComponentLimitShape, ...]
-    eigenvalues: np.ndarray
+    eigenvalues: np.ndarray  # (n, k): of each shape at unit area, as many as the latent maps have rows
 
 
 def synchronize_store(store: MapStore) -> Consistency:
     """Find which maps of a store are wrong, replace them, and return what the maps in use tell of the shapes.
 
-    Parameters
-    ----------
-    store : MapStore
-        Its maps are replaced.
-
-    Returns
-    -------
-    Consistency
+    ``store``: its maps are replaced.
     """
     repaired = repair_maps(len(store.names), store.ends, store.scores, store.compose)
     store.replace([change for change in repaired.replacements if change.kind != "none"])
@@ -127,16 +111,7 @@ def score_candidates(
 ) -> list[ScoredMap]:
     """Score candidates of one pair, on its cleaned shapes.
 
-    Parameters
-    ----------
-    maps : sequence of Candidate
-    shapes : (Shape, Shape)
-        Source and target.
-    samples : (ShapeSamples, ShapeSamples)
-
-    Returns
-    -------
-    list of ScoredMap
+    ``shapes``: source and target.
     """
     across = reindexing(*shapes)
     points = [across.part_s.to_clean[one[across.part_t.to_original]] for one, _ in maps]
@@ -146,14 +121,7 @@ def score_candidates(
 def compose_path(steps: Sequence[tuple[StoredMap, Basis | None]]) -> StoredMap:
     """Compose the candidates of a path.
 
-    Parameters
-    ----------
-    steps : sequence of (Candidate, Basis or None)
-        A candidate that is gone through backwards has the basis of its source beside it.
-
-    Returns
-    -------
-    Candidate
+    ``steps``: a candidate that is gone through backwards has the basis of its source beside it.
     """
     points = [one if basis is None else invert_map(one, basis, len(one)) for (one, _), basis in steps]
     return compose_maps(points), sum(turned for (_, turned), _ in steps) % 2 == 1
@@ -170,22 +138,8 @@ def refine_replacement(
 ) -> Match:
     """Finish the map that replaces another as a match is finished; the replaced one is its first alternative.
 
-    Parameters
-    ----------
-    replacement : Replacement
-    candidates : sequence of Candidate
-        Of the pair, the map in use first.
-    composition : Candidate or None
-        The composed map, where one replaces the map in use.
-    shapes : (Shape, Shape)
-    config : Config
-    label : str
-        What the new map started from.
-    seed : int
-
-    Returns
-    -------
-    Match
+    ``candidates``: of the pair, the map in use first; ``composition``: the composed map, where one replaces the map in
+    use; ``label``: what the new map started from.
     """
     points, turned = candidates[replacement.candidate] if composition is None else composition
     others = [row for i, (row, _) in enumerate(candidates) if i == 0 or i != replacement.candidate]

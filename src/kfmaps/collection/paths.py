@@ -35,16 +35,7 @@ class MapPath:
 def adjacency(count: int, ends: Sequence[tuple[int, int]]) -> Adjacency:
     """Return the neighbours of each shape, and the number of the edge to each.
 
-    Parameters
-    ----------
-    count : int
-        Number of shapes.
-    ends : sequence of (int, int)
-        The shapes of each edge.
-
-    Returns
-    -------
-    Adjacency
+    ``count``: number of shapes; ``ends``: the shapes of each edge.
     """
     around: list[list[tuple[int, int]]] = [[] for _ in range(count)]
     for number, (a, b) in enumerate(ends):
@@ -58,15 +49,9 @@ def best_path(
 ) -> MapPath | None:
     """Return the path from ``source`` to ``target`` whose maps are most probably all right; ``None`` without one.
 
-    Parameters
-    ----------
-    around : Adjacency
-        Edges are gone through both ways.
-    probabilities : sequence of float
-        That the map of each edge is right. Of equally probable paths the one of the fewest edges is taken, then of the
-        lowest numbers.
-    without : int, optional
-        An edge that is not to be used.
+    ``around``: edges are gone through both ways. ``probabilities``: That the map of each edge is right. Of equally
+    probable paths the one of the fewest edges is taken, then of the lowest numbers. ``without``: an edge that is not to
+    be used.
     """
     return _dijkstra(around, probabilities, source, target, without).get(target)
 
@@ -76,16 +61,7 @@ def best_paths(around: Adjacency, probabilities: Sequence[float], source: int) -
 
     A path without its last step is the best path to where that begins, so points can be carried step by step.
 
-    Parameters
-    ----------
-    around : Adjacency
-    probabilities : sequence of float
-        That the map of each edge is right.
-    source : int
-
-    Returns
-    -------
-    dict of int to MapPath
+    ``probabilities``: that the map of each edge is right.
     """
     return _dijkstra(around, probabilities, source)
 

@@ -17,38 +17,21 @@ TOLERANCE = 1e-12
 
 @dataclass(frozen=True, eq=False)
 class Procrustes:
-    """Specimens brought to one position, orientation and size.
+    """Specimens brought to one position, orientation and size."""
 
-    Attributes
-    ----------
-    aligned : (s, l, 3) float64
-        Centred, of centroid size 1, turned to the consensus. Missing landmarks are those of the consensus.
-    consensus : (l, 3) float64
-        The mean of the aligned specimens, of centroid size 1.
-    centroid_sizes : (s,) float64
-        Root of the summed squared distances of the landmarks from their mean, in the unit of the points.
-    distances : (s,) float64
-        Procrustes distance of each specimen from the consensus.
-    """
-
+    # (s, l, 3): Centred, of centroid size 1, turned to the consensus. Missing landmarks are those of the consensus.
     aligned: np.ndarray
-    consensus: np.ndarray
+    consensus: np.ndarray  # (l, 3): the mean of the aligned specimens, of centroid size 1
+    # (s,): root of the summed squared distances of the landmarks from their mean, in the unit of the points.
     centroid_sizes: np.ndarray
-    distances: np.ndarray
+    distances: np.ndarray  # (s,): Procrustes distance of each specimen from the consensus
 
 
 def generalized_procrustes(points: np.ndarray) -> Procrustes:
     """Return the generalised Procrustes analysis of landmarks (Gower 1975; Rohlf and Slice 1990), without reflections.
 
-    Parameters
-    ----------
-    points : (s, l, 3) float64
-        NaN for a missing landmark, which is put where the consensus has it and has no say in the alignment.
-
-    Raises
-    ------
-    InvalidInput
-        When a specimen has fewer than three landmarks, or a landmark is missing in all.
+    ``points (s, l, 3)``: NaN for a missing landmark, which is put where the consensus has it and has no say in the
+    alignment.
     """
     check(points, "landmarks", shape=(None, None, 3), finite=False)
     there = np.asarray(np.isfinite(points).all(axis=2))
@@ -107,20 +90,11 @@ def _aligned(points: np.ndarray, seen: np.ndarray, consensus: np.ndarray) -> np.
 
 @dataclass(frozen=True, eq=False)
 class PrincipalComponents:
-    """Principal components of shapes.
+    """Principal components of shapes."""
 
-    Attributes
-    ----------
-    scores : (s, c) float64
-    loadings : (c, l, 3) float64
-        Orthonormal directions; the largest coordinate of each is positive.
-    variances : (c,) float64
-        Variance of the scores, largest first.
-    """
-
-    scores: np.ndarray
-    loadings: np.ndarray
-    variances: np.ndarray
+    scores: np.ndarray  # (s, c)
+    loadings: np.ndarray  # (c, l, 3): orthonormal directions; the largest coordinate of each is positive
+    variances: np.ndarray  # (c,): variance of the scores, largest first
 
 
 def principal_components(aligned: np.ndarray) -> PrincipalComponents:
@@ -143,15 +117,8 @@ def thin_plate_warp(points: np.ndarray, landmarks: np.ndarray, onto: np.ndarray)
 def geometric_median(points: np.ndarray) -> np.ndarray:
     """Return the point with the least sum of distances to given ones, by Weiszfeld's iteration.
 
-    Parameters
-    ----------
-    points : (t, l, 3) float64
-        ``t`` proposals for each of ``l`` points; NaN proposals do not count.
-
-    Returns
-    -------
-    (l, 3) float64
-        Of two proposals their mean; NaN where there is none.
+    ``points (t, l, 3)``: ``t`` proposals for each of ``l`` points; NaN proposals do not count. Returns (l, 3): of two
+    proposals their mean; NaN where there is none.
     """
     there = np.asarray(np.isfinite(points).all(axis=2))
     values = np.where(there[..., None], points, 0.0)

@@ -62,52 +62,28 @@ class CyclePath:
 
 @dataclass(frozen=True)
 class MapEvidence:
-    """What is known of a candidate map.
+    """What is known of a candidate map."""
 
-    Attributes
-    ----------
-    probability : float
-        That it is right, beside all other maps.
-    score : float
-        Its own evidence, :attr:`kfmaps.matching.score.Quality.score`.
-    residual : float
-        Its distance from what the rest of the collection says (:class:`SyncResult`).
-    """
-
-    probability: float
-    score: float
-    residual: float
+    probability: float  # that it is right, beside all other maps
+    score: float  # its own evidence, :attr:`kfmaps.matching.score.Quality.score`
+    residual: float  # its distance from what the rest of the collection says (:class:`SyncResult`)
 
 
 @dataclass(frozen=True)
 class Replacement:
-    """What becomes of a pair whose map in use is improbable.
-
-    Attributes
-    ----------
-    edge : int
-    kind : "alternative", "composition" or "none"
-        What replaces the map; "none" where no candidate is probable, and the map stays.
-    before, after : MapEvidence
-        Of the map that was in use, and of the one that is.
-    candidate : int
-        The alternative's number, from 1.
-    path : CyclePath or None
-        Of a composition.
-    contradicts : bool
-        Whether the map that was in use is of another orientation than it claims, or than the collection agrees on.
-    improved : bool
-        Whether that map was right on the whole, and a composition merely fits better.
-    """
+    """What becomes of a pair whose map in use is improbable."""
 
     edge: int
+    # "alternative", "composition" or "none": what replaces the map; "none" where no candidate is probable, and the map
+    # stays.
     kind: str
-    before: MapEvidence
+    before: MapEvidence  # of the map that was in use, and of the one that is
     after: MapEvidence
-    candidate: int = 0
-    path: CyclePath | None = None
+    candidate: int = 0  # the alternative's number, from 1
+    path: CyclePath | None = None  # of a composition
+    # Whether the map that was in use is of another orientation than it claims, or than the collection agrees on.
     contradicts: bool = False
-    improved: bool = False
+    improved: bool = False  # whether that map was right on the whole, and a composition merely fits better
 
     def label(self, names: Sequence[str]) -> str:
         """Return what the map was replaced by, in words; empty where it stays."""
@@ -131,21 +107,11 @@ class Replacement:
 
 @dataclass(frozen=True, eq=False)
 class RepairResult:
-    """Result of :func:`repair_maps`.
+    """Result of :func:`repair_maps`."""
 
-    Attributes
-    ----------
-    sync : SyncResult
-        With the compositions among the candidates.
-    replacements : tuple of Replacement
-        In the order of the edges.
-    chirality : (n,) int64
-        1 and -1: shapes that are mirror images of each other's kind.
-    """
-
-    sync: SyncResult
-    replacements: tuple[Replacement, ...]
-    chirality: np.ndarray
+    sync: SyncResult  # with the compositions among the candidates
+    replacements: tuple[Replacement, ...]  # in the order of the edges
+    chirality: np.ndarray  # (n,): 1 and -1: shapes that are mirror images of each other's kind
 
     @property
     def probabilities(self) -> np.ndarray:
@@ -165,20 +131,8 @@ def repair_maps(
 ) -> RepairResult:
     """Find which maps of a collection of ``count`` shapes are wrong, and what replaces them.
 
-    Parameters
-    ----------
-    count : int
-        Number of shapes.
-    ends : sequence of (int, int)
-        Source and target of each pair.
-    maps : sequence of sequences of ScoredMap
-        Of each pair the map in use and its alternatives.
-    compose : callable
-        Makes and scores compositions, all that one round asks for at once.
-
-    Returns
-    -------
-    RepairResult
+    ``count``: number of shapes; ``ends``: source and target of each pair; ``maps``: of each pair the map in use and its
+    alternatives; ``compose``: makes and scores compositions, all that one round asks for at once.
     """
     return _Repair(count, ends, maps, compose).run()
 

@@ -23,24 +23,13 @@ _SCORED_FUNCTIONS = 80
 
 @dataclass(frozen=True, eq=False)
 class ScoredMap:
-    """One map of a pair with its own evidence.
+    """One map of a pair with its own evidence."""
 
-    Attributes
-    ----------
-    map : (k, k) float64
-        Its functional map, source → target, of :data:`kfmaps.collection.synchronization.N_FUNCTIONS` functions.
-    score : float
-        :attr:`kfmaps.matching.score.Quality.score`.
-    orientation : float
-        1 where it is kept, -1 where it is reversed; of what the map claims to be.
-    reversed : bool
-        Whether it claims to be a map to the target's mirror image.
-    """
-
+    # (k, k): its functional map, source → target, of :data:`kfmaps.collection.synchronization.N_FUNCTIONS` functions.
     map: np.ndarray
-    score: float
-    orientation: float
-    reversed: bool = False
+    score: float  # :attr:`kfmaps.matching.score.Quality.score`
+    orientation: float  # 1 where it is kept, -1 where it is reversed; of what the map claims to be
+    reversed: bool = False  # whether it claims to be a map to the target's mirror image
 
 
 def score_pair_maps(

@@ -40,21 +40,11 @@ _MAX_REJOINS = 3
 
 @dataclass(frozen=True, eq=False)
 class CandidateMap:
-    """One candidate map of a pair.
+    """One candidate map of a pair."""
 
-    Attributes
-    ----------
-    map : (k, k) float64
-        Functional map source → target of at least :data:`N_FUNCTIONS` functions.
-    log_odds : float
-        Logarithm of the odds that it is right, from its own evidence alone.
-    reversed : bool
-        Whether it is a map to the target's mirror image.
-    """
-
-    map: np.ndarray
-    log_odds: float = 0.0
-    reversed: bool = False
+    map: np.ndarray  # (k, k): functional map source → target of at least :data:`N_FUNCTIONS` functions
+    log_odds: float = 0.0  # logarithm of the odds that it is right, from its own evidence alone
+    reversed: bool = False  # whether it is a map to the target's mirror image
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,26 +58,15 @@ class Edge:
 
 @dataclass(frozen=True, eq=False)
 class SyncResult:
-    """Result of :func:`synchronize`.
+    """Result of :func:`synchronize`."""
 
-    Attributes
-    ----------
-    latent : (n, k, k) float64
-        Orthogonal map of each shape, from the latent space to its functions.
-    probabilities : tuple of arrays (c + 1,)
-        Of each edge: the probability of each of its candidates, and last that none is right.
-    residuals : tuple of arrays (c,)
-        Of each edge: ``‖C Y_s − Y_t‖² / k`` of each candidate; 0 where all agrees, 2 for unrelated maps.
-    limit : float
-        Residual from which a candidate is rather wrong.
-    component : (n,) int64
-        Connected component of each shape; shapes of different components say nothing about each other.
-    """
-
-    latent: np.ndarray
+    latent: np.ndarray  # (n, k, k): orthogonal map of each shape, from the latent space to its functions
+    # Of each edge: the probability of each of its candidates, and last that none is right.
     probabilities: tuple[np.ndarray, ...]
+    # Of each edge: ``‖C Y_s − Y_t‖² / k`` of each candidate; 0 where all agrees, 2 for unrelated maps.
     residuals: tuple[np.ndarray, ...]
-    limit: float
+    limit: float  # residual from which a candidate is rather wrong
+    # (n,): connected component of each shape; shapes of different components say nothing about each other.
     component: np.ndarray = field(default_factory=lambda: np.zeros(0, dtype=np.int64))
 
 
@@ -124,22 +103,7 @@ def synchronize(count: int, edges: Sequence[Edge], functions: int = N_FUNCTIONS)
     The result depends neither on the order of the edges nor, but for the basis of the latent space, on the numbers of
     the shapes. An edge on no cycle keeps the probability that its own evidence gives.
 
-    Parameters
-    ----------
-    count : int
-        Number of shapes.
-    edges : sequence of Edge
-    functions : int
-        Size ``k`` of the maps that are compared.
-
-    Returns
-    -------
-    SyncResult
-
-    Raises
-    ------
-    InvalidInput
-        When an edge names shapes that are not there, or a map has fewer functions.
+    ``count``: number of shapes; ``functions``: size ``k`` of the maps that are compared.
     """
     check_count(count, "shapes", low=2)
     check_count(functions, "functions", low=2)

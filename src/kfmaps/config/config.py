@@ -197,11 +197,5 @@ def as_dict(value: Any) -> Any:
 
 
 def from_dict(values: dict[str, Any], base: Config | None = None) -> Config:
-    """Return ``base``, by default ``Config()``, with what ``values`` names replaced; the inverse of :func:`as_dict`.
-
-    Raises
-    ------
-    InvalidInput
-        On names and kinds that do not exist, naming those that do, and on values of the wrong type or out of range.
-    """
+    """Return ``base``, by default ``Config()``, with what ``values`` names replaced; the inverse of :func:`as_dict`."""
     return _records.update(base or Config(), values, Config(), KINDS)

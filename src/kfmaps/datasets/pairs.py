@@ -17,29 +17,16 @@ from kfmaps.geometry.mesh import Mesh, face_areas
 
 @dataclass(frozen=True, eq=False)
 class ExamplePair:
-    """Two meshes of one shape and the true correspondence.
-
-    Attributes
-    ----------
-    name : str
-    source, target : Mesh
-        Meshed independently: no vertex of one is meant to be a vertex of the other.
-    truth : (n_t,) int64
-        For each target vertex the source vertex nearest to its exact position on the source.
-    truth_faces : (n_t,) int64
-        The source face with the exact position.
-    truth_weights : (n_t, 3) float64
-        Barycentric coordinates of the exact position in that face: not negative, sum 1.
-    mirrored : (n_t,) int64 or None
-        On a shape that is its own mirror image, the truth that swaps left and right.
-    """
+    """Two meshes of one shape and the true correspondence."""
 
     name: str
-    source: Mesh
+    source: Mesh  # meshed independently: no vertex of one is meant to be a vertex of the other
     target: Mesh
-    truth: np.ndarray
-    truth_faces: np.ndarray
+    truth: np.ndarray  # (n_t,): for each target vertex the source vertex nearest to its exact position on the source
+    truth_faces: np.ndarray  # (n_t,): the source face with the exact position
+    # (n_t, 3): barycentric coordinates of the exact position in that face: not negative, sum 1.
     truth_weights: np.ndarray
+    # (n_t,): on a shape that is its own mirror image, the truth that swaps left and right.
     mirrored: np.ndarray | None = None
 
     __repr__ = short_repr
@@ -68,14 +55,8 @@ def posed_pair(
 ) -> ExamplePair:
     """Return one body in two poses, each meshed for itself.
 
-    Parameters
-    ----------
-    counts : (int, int)
-        Vertices of the source and of the target.
-    unbent_t : dict, optional
-        The target's proportions without its turns, when they differ from the source's.
-    mirror : bool
-        Whether the body is its own mirror image in the plane x = 0.
+    ``counts``: vertices of the source and of the target; ``unbent_t``: the target's proportions without its turns, when
+    they differ from the source's; ``mirror``: whether the body is its own mirror image in the plane x = 0.
     """
     box = body.box()
     points_s, faces_s = closed_mesh(body, box, counts[0], rng)

@@ -24,40 +24,22 @@ _MAX_POINTS = 250_000
 
 @dataclass(frozen=True)
 class Limb:
-    """A tube along a smooth curve.
-
-    Attributes
-    ----------
-    name : str
-    parent : str or None
-        The limb that carries it; None for the trunk, which comes first.
-    points : tuple of (x, y, z)
-        What the curve passes through, from the root to the tip.
-    radii : tuple of float
-        The tube's radius at each of them.
-    """
+    """A tube along a smooth curve."""
 
     name: str
-    parent: str | None
-    points: tuple[tuple[float, float, float], ...]
-    radii: tuple[float, ...]
+    parent: str | None  # the limb that carries it; None for the trunk, which comes first
+    points: tuple[tuple[float, float, float], ...]  # what the curve passes through, from the root to the tip
+    radii: tuple[float, ...]  # the tube's radius at each of them
 
 
 @dataclass(frozen=True)
 class Bend:
-    """A pose or a change of proportions of one limb.
+    """A pose or a change of proportions of one limb."""
 
-    Attributes
-    ----------
-    turns : tuple of (x, y, z)
-        A rotation vector in degrees at each of the limb's points, in the axes of the unbent body; each is
-        spread over the curve between the two points beside it.
-    longer, thicker : float
-        Factors along and across the limb.
-    """
-
+    # A rotation vector in degrees at each of the limb's points, in the axes of the unbent body; each is spread over the
+    # curve between the two points beside it.
     turns: tuple[tuple[float, float, float], ...] = ()
-    longer: float = 1.0
+    longer: float = 1.0  # factors along and across the limb
     thicker: float = 1.0
 
 
@@ -70,12 +52,7 @@ def _with_level_ends(along: np.ndarray, radii: np.ndarray) -> tuple[np.ndarray, 
 class Body:
     """The straight pieces of all limbs as arrays; ``body(points)`` is the field that is zero on the skin.
 
-    Parameters
-    ----------
-    limbs : tuple of Limb
-        Parents before their children.
-    segments : int
-        Straight pieces per limb.
+    ``limbs``: parents before their children; ``segments``: straight pieces per limb.
     """
 
     def __init__(self, limbs: tuple[Limb, ...], segments: int = 12) -> None:

@@ -70,18 +70,8 @@ def _spread(
 ) -> tuple[np.ndarray, np.ndarray]:
     """Return ``count`` points spread evenly over the surface: random ones that then push each other apart.
 
-    Parameters
-    ----------
-    field : Field
-    box : (2, 3)
-        Lowest and highest corner of a box around the surface.
-    warp : callable, optional
-        When given, the points are even after this deformation.
-
-    Returns
-    -------
-    points, normals : (count, 3), (count, 3)
-        On the surface before the deformation.
+    ``box (2, 3)``: lowest and highest corner of a box around the surface; ``warp``: when given, the points are even
+    after this deformation. Returns ``points, normals (count, 3)``: on the surface before the deformation.
     """
     points, area = _scatter(field, box, count, rng)
     points, normals = _project(field, points, 3)
@@ -202,12 +192,6 @@ def closed_mesh(
     With a ``warp`` the points are given before that deformation, but spread and triangulated after it. More than
     ``scattered`` points (:data:`_SCATTERED`, and at most that) are those of a mesh of a quarter as many, subdivided,
     which takes a tenth of the time.
-
-    Raises
-    ------
-    NotConverged
-        When no draw of the points gives a closed manifold of that ``genus``: too few of them for the
-        thinnest part.
     """
     if count > min(_SCATTERED, scattered or _SCATTERED):
         fewer = (count + 3 * (2 - 2 * genus)) // 4

@@ -40,21 +40,11 @@ def approximate_nearest(
 ) -> np.ndarray:
     """Return for each query a point that is nearly the closest, (q,) int64.
 
-    Parameters
-    ----------
-    queries, points : (q, d), (p, d) float64
-        At least one point. Rows whose leading columns are alike should be alike: those of smooth functions on a
-        surface, the lowest first. Otherwise more is missed.
-    size : int
-        Points in a cell, about. With ``p`` all points are compared, in single precision.
-    probes : int
-        Cells that each query names.
-    threads : int, optional
-        Python threads; ``None`` takes every core.
-    start : (q,) int, optional
-        For each query a point not far from the nearest: only the cells around it are searched.
-    around : int
-        How many cells these are.
+    ``queries (q, d)`` and ``points (p, d)``: At least one point. Rows whose leading columns are alike should be alike:
+    those of smooth functions on a surface, the lowest first. Otherwise more is missed. ``size``: Points in a cell,
+    about. With ``p`` all points are compared, in single precision. ``probes``: cells that each query names;
+    ``threads``: Python threads; ``None`` takes every core; ``start (q,)``: for each query a point not far from the
+    nearest: only the cells around it are searched; ``around``: how many cells these are.
     """
     p, q = len(points), len(queries)
     probes = check_count(probes, "probes")

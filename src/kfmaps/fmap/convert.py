@@ -59,17 +59,9 @@ def embed(
 ) -> tuple[Array, Array]:
     """Return the points of both shapes in the spectral embedding of the target, where nearest ones correspond.
 
-    Parameters
-    ----------
-    C : (k_t, k_s)
-    source, target : Basis
-        Truncated to the size of ``C``.
-    extra_columns : pair of (n_s, d) and (n_t, d), optional
-        Further columns to compare; see :meth:`kfmaps.fmap.descriptor_guidance.DescriptorGuidance.embedding_columns`.
-
-    Returns
-    -------
-    source, target : (n_s, k_t + d), (n_t, k_t + d)
+    ``C (k_t, k_s)``; ``source`` and ``target``: truncated to the size of ``C``; ``extra_columns``: further columns to
+    compare; see :meth:`kfmaps.fmap.descriptor_guidance.DescriptorGuidance.embedding_columns`. Returns ``source, target
+    (n_s, k_t + d)``.
     """
     k_t, k_s = C.shape
     images, places = source.truncate(k_s).functions @ C.T, target.truncate(k_t).functions
@@ -92,13 +84,7 @@ def to_functional(target_to_source: np.ndarray, source: Basis, target: Basis) ->
 
 
 def check_point_map(target_to_source: np.ndarray, n_s: int, n_t: int) -> np.ndarray:
-    """Return ``target_to_source`` as int64 when it gives each of ``n_t`` vertices one of ``n_s``.
-
-    Raises
-    ------
-    InvalidInput
-        On another shape, numbers that are not whole, or vertices that do not exist.
-    """
+    """Return ``target_to_source`` as int64 when it gives each of ``n_t`` vertices one of ``n_s``."""
     points = np.asarray(target_to_source)
     if points.shape != (n_t,) or not np.issubdtype(points.dtype, np.integer):
         got = f"{points.dtype} of shape {points.shape}"
@@ -120,11 +106,7 @@ def nearest_reached(source: Mesh, target_to_source: np.ndarray) -> np.ndarray:
     Nearest along the edges, so that a point of an arm is not linked to the leg beside it; straight through space for
     point clouds and for parts that no target vertex reaches.
 
-    Parameters
-    ----------
-    source : Mesh
-    target_to_source : (n_t,) int
-        −1 where a vertex has no counterpart.
+    ``target_to_source (n_t,)``: −1 where a vertex has no counterpart.
     """
     n = len(source.vertices)
     reached = np.unique(target_to_source)

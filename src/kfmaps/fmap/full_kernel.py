@@ -20,13 +20,8 @@ def kernel_descriptor_term(
 ) -> GramTerm:
     """Return the preservation of the features of a whole kernel (equation 8).
 
-    Parameters
-    ----------
-    kernel : Kernel or callable
-    source, target : Basis
-    descriptors_s, descriptors_t : (n_s, d), (n_t, d)
-    block : int
-        Rows of one block: no (n_s, n_t) matrix is held.
+    ``descriptors_s (n_s, d)`` and ``descriptors_t (n_t, d)``; ``block``: rows of one block: no (n_s, n_t) matrix is
+    held.
     """
     check_same_count(descriptors_s, descriptors_t)
     sides = ((source, descriptors_s), (target, descriptors_t))

@@ -42,17 +42,7 @@ class PointMap:
 def check_point_map_precise(places: PointMap, source: Mesh, n_t: int | None = None) -> PointMap:
     """Return a point map when it lies on faces of the source.
 
-    Parameters
-    ----------
-    places : PointMap
-    source : Mesh
-    n_t : int, optional
-        Number of target vertices, where it is to be checked.
-
-    Raises
-    ------
-    InvalidInput
-        On faces that do not exist, weights that are negative or do not sum to 1, and other lengths.
+    ``n_t``: number of target vertices, where it is to be checked.
     """
     faces, weights = np.asarray(places.faces), np.asarray(places.weights, dtype=np.float64)
     remedy = "check that the map belongs to these two meshes, in this order"
@@ -82,15 +72,7 @@ def nearest_vertices(places: PointMap, source: Mesh) -> np.ndarray:
 def vertex_point_map(target_to_source: np.ndarray, source: Mesh) -> PointMap:
     """Return a map of vertices as a map of points: each in a corner of some face that has it.
 
-    Parameters
-    ----------
-    target_to_source : (n_t,) int
-    source : Mesh
-
-    Raises
-    ------
-    InvalidInput
-        When a vertex that no face uses is named.
+    ``target_to_source (n_t,)``.
     """
     face, corner = np.full(len(source.vertices), -1), np.zeros(len(source.vertices), dtype=np.int64)
     face[source.faces.ravel()] = np.repeat(np.arange(len(source.faces)), 3)
@@ -112,15 +94,8 @@ def to_precise_map(
 ) -> PointMap:
     """Return the closest points of the source's surface in the spectral embedding, for all target vertices.
 
-    Parameters
-    ----------
-    C : (k_t, k_s)
-    source, target : Basis
-    faces_s : (f, 3) int64
-        Of the source, triangles between the rows of ``Φ_s Cᵀ``.
-    threads : int, optional
-    beside : pair of (n_s, d) and (n_t, d), optional
-        As for :func:`kfmaps.fmap.convert.to_points`.
+    ``C (k_t, k_s)``; ``faces_s (f, 3)``: of the source, triangles between the rows of ``Φ_s Cᵀ``; ``beside``: as for
+    :func:`kfmaps.fmap.convert.to_points`.
     """
     points, queries = (np.asarray(to_numpy(x), dtype=np.float64) for x in embed(C, source, target, beside))
     return nearest_surface_points(queries, points, faces_s, threads)
@@ -137,14 +112,9 @@ def nearest_surface_points(
     only these few are looked at. All inner products follow from squared distances; those of the triangles that float32
     leaves in doubt are found again in float64.
 
-    Parameters
-    ----------
-    queries, points : (q, d), (p, d)
-    faces : (f, 3) int64
-    threads : int, optional
-    exact : bool, optional
-        By default while queries times points are at most ``EXACT_PAIRS``. Otherwise the nearest vertices are sought
-        approximately, and only triangles of their neighbours are looked at.
+    ``queries (q, d)`` and ``points (p, d)``; ``faces (f, 3)``. ``exact``: By default while queries times points are at
+    most ``EXACT_PAIRS``. Otherwise the nearest vertices are sought approximately, and only triangles of their
+    neighbours are looked at.
     """
     check(queries, "queries", shape=(None, points.shape[1]))
     check(points, "points", shape=(None, None))
@@ -247,18 +217,7 @@ def invert_precise_map(places: PointMap, source: Mesh, target: Mesh, known: np.n
     the closest place on them. Where the map is one-to-one that is its inverse; parts that nothing is mapped to get the
     nearest that something is.
 
-    Parameters
-    ----------
-    places : PointMap
-        For each target vertex.
-    source, target : Mesh
-    known : (n_t,) bool, optional
-        Only faces whose corners all are known count.
-
-    Raises
-    ------
-    InvalidInput
-        When the map does not fit the two shapes, or no face is known.
+    ``places``: for each target vertex; ``known (n_t,)``: only faces whose corners all are known count.
     """
     places = check_point_map_precise(places, source, len(target.vertices))
     rows = np.arange(len(target.faces)) if known is None else np.flatnonzero(known[target.faces].all(axis=1))

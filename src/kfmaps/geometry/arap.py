@@ -19,20 +19,13 @@ from kfmaps.geometry.mesh import Mesh
 
 @dataclass(frozen=True, eq=False)
 class ArapEnergy:
-    """The operators of the rest shape that the energy is computed with; made by :func:`build_arap`.
+    """The operators of the rest shape that the energy is computed with; made by :func:`build_arap`."""
 
-    Attributes
-    ----------
-    laplacian : (n, n) sparse
-        Positive semi-definite, of the weights.
-    moments : (3 n, n) sparse
-        ``(moments @ x)`` stacks, for each axis ``a`` of the rest shape, ``Σ_j w_ij (x̄_i − x̄_j)_a (x_i − x_j)``.
-    rest : (n, 3) float64
-    """
-
-    laplacian: Any
+    laplacian: Any  # (n, n): positive semi-definite, of the weights
+    # (3 n, n): ``(moments @ x)`` stacks, for each axis ``a`` of the rest shape, ``Σ_j w_ij (x̄_i − x̄_j)_a (x_i −
+    # x_j)``.
     moments: Any
-    rest: np.ndarray
+    rest: np.ndarray  # (n, 3)
 
 
 def build_arap(mesh: Mesh) -> ArapEnergy:
@@ -69,10 +62,7 @@ def rotations(energy: ArapEnergy, x: np.ndarray) -> np.ndarray:
 
     ``R_i`` takes the edges of the rest shape at vertex i as nearly as possible to those of ``x``.
 
-    Parameters
-    ----------
-    energy : ArapEnergy
-    x : (n, 3) float64
+    ``x (n, 3)``.
     """
     return nearest_rotations(edge_covariances(energy, x))
 
@@ -151,10 +141,7 @@ def _times(a: np.ndarray, b: np.ndarray) -> np.ndarray:
 def arap_rhs(energy: ArapEnergy, turns: np.ndarray) -> np.ndarray:
     """Return ``b (n, 3)`` with ``laplacian @ x = b`` at the least energy for given rotations.
 
-    Parameters
-    ----------
-    energy : ArapEnergy
-    turns : (n, 3, 3) float64
+    ``turns (n, 3, 3)``.
     """
     n = len(turns)
     return 0.5 * (energy.moments.T @ turns.transpose(2, 0, 1).reshape(3 * n, 3))
@@ -163,12 +150,7 @@ def arap_rhs(energy: ArapEnergy, turns: np.ndarray) -> np.ndarray:
 def arap_energy(energy: ArapEnergy, x: np.ndarray, turns: np.ndarray | None = None) -> float:
     """Return the energy of deformed positions, at least 0.
 
-    Parameters
-    ----------
-    energy : ArapEnergy
-    x : (n, 3) float64
-    turns : (n, 3, 3) float64, optional
-        Rotations of the vertices; the best ones when not given.
+    ``x (n, 3)``; ``turns (n, 3, 3)``: rotations of the vertices; the best ones when not given.
     """
     turns = rotations(energy, x) if turns is None else turns
     sizes = np.sum(x * (energy.laplacian @ x)) + np.sum(energy.rest * (energy.laplacian @ energy.rest))
@@ -178,10 +160,7 @@ def arap_energy(energy: ArapEnergy, x: np.ndarray, turns: np.ndarray | None = No
 def arap_energy_per_vertex(energy: ArapEnergy, x: np.ndarray) -> np.ndarray:
     """Return the share of each vertex, (n,), in twice the energy of deformed positions, with the best rotations.
 
-    Parameters
-    ----------
-    energy : ArapEnergy
-    x : (n, 3) float64
+    ``x (n, 3)``.
     """
     edges = energy.laplacian.tocoo()
     off = edges.row != edges.col

@@ -20,30 +20,14 @@ _MAX_SPECK_AREA = 0.005
 
 @dataclass(frozen=True, eq=False)
 class CleanedMesh:
-    """A cleaned mesh of ``m`` vertices and the numbers of its ``n`` original ones; made by :func:`clean_mesh`.
+    """A cleaned mesh of ``m`` vertices and the numbers of its ``n`` original ones; made by :func:`clean_mesh`."""
 
-    Attributes
-    ----------
-    mesh : Mesh
-        Its faces name three vertices each. The very mesh that was given when there is nothing to leave out.
-    to_original : (m,) int64
-        Original number of each vertex, ascending. Of welded vertices the first is kept.
-    to_clean : (n,) int64
-        The vertex that each original one counts as.
-    unreferenced : (n,) bool
-        Original vertices of no face: they count as the vertex nearest in space.
-    n_welded : int
-        How many original vertices count as one with an earlier one.
-    specks : int
-        Components left out.
-    """
-
-    mesh: Mesh
-    to_original: np.ndarray
-    to_clean: np.ndarray
-    unreferenced: np.ndarray
-    n_welded: int = 0
-    specks: int = 0
+    mesh: Mesh  # Its faces name three vertices each. The very mesh that was given when there is nothing to leave out.
+    to_original: np.ndarray  # (m,): Original number of each vertex, ascending. Of welded vertices the first is kept.
+    to_clean: np.ndarray  # (n,): the vertex that each original one counts as
+    unreferenced: np.ndarray  # (n,): original vertices of no face: they count as the vertex nearest in space
+    n_welded: int = 0  # how many original vertices count as one with an earlier one
+    specks: int = 0  # components left out
 
     @property
     def whole(self) -> bool:
@@ -86,16 +70,8 @@ def weld_vertices(mesh: Mesh) -> np.ndarray:
 def clean_mesh(mesh: Mesh, specks: bool = False) -> CleanedMesh:
     """Return a mesh without welded vertices, faces that name a vertex twice, and vertices that no other face uses.
 
-    Parameters
-    ----------
-    mesh : Mesh
-        Its face numbers within range.
-    specks : bool
-        Whether to leave out components whose area is less than 0.5 % of the largest one's.
-
-    Returns
-    -------
-    CleanedMesh
+    ``mesh``: its face numbers within range; ``specks``: whether to leave out components whose area is less than 0.5 %
+    of the largest one's.
     """
     n = len(mesh.vertices)
     first = weld_vertices(mesh)
@@ -129,11 +105,7 @@ def clean_mesh(mesh: Mesh, specks: bool = False) -> CleanedMesh:
 def outer_faces(mesh: Mesh, part: CleanedMesh) -> np.ndarray:
     """Return the face of a mesh that each face of its cleaned mesh is, (g,) int64.
 
-    Parameters
-    ----------
-    mesh : Mesh
-    part : CleanedMesh
-        Of ``mesh``.
+    ``part``: of ``mesh``.
     """
     if part.mesh.faces is mesh.faces:
         return np.arange(len(mesh.faces))

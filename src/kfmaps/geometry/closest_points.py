@@ -13,42 +13,19 @@ from kfmaps._arrays import check, refuse
 
 @dataclass(frozen=True, eq=False)
 class ClosestPoints:
-    """Points on a surface and their distances from the queries.
+    """Points on a surface and their distances from the queries."""
 
-    Attributes
-    ----------
-    faces : (q,) int64
-    weights : (q, 3) float64
-        Barycentric coordinates in the face: not negative, with sum 1.
-    points : (q, 3) float64
-    distances : (q,) float64
-    """
-
-    faces: np.ndarray
-    weights: np.ndarray
-    points: np.ndarray
-    distances: np.ndarray
+    faces: np.ndarray  # (q,)
+    weights: np.ndarray  # (q, 3): barycentric coordinates in the face: not negative, with sum 1
+    points: np.ndarray  # (q, 3)
+    distances: np.ndarray  # (q,)
 
 
 def closest_points(points: np.ndarray, vertices: np.ndarray, faces: np.ndarray) -> ClosestPoints:
     """Return the closest point on a surface to each of some points, by libigl's search tree.
 
-    Parameters
-    ----------
-    points : (q, 3) float64
-    vertices : (n, 3) float64
-    faces : (f, 3) int64
-        Faces without area count as the line or point that they are. Of several faces at the same distance any may be
-        the answer.
-
-    Returns
-    -------
-    ClosestPoints
-
-    Raises
-    ------
-    InvalidInput
-        If there are no faces, or positions are not finite.
+    ``points (q, 3)``; ``vertices (n, 3)``. ``faces (f, 3)``: Faces without area count as the line or point that they
+    are. Of several faces at the same distance any may be the answer.
     """
     if len(faces) == 0:
         raise refuse("mesh", "a surface with faces", "a point cloud", "triangulate it first")
@@ -63,20 +40,9 @@ def closest_among(
 ) -> ClosestPoints:
     """Return the closest point to each of some points on given faces.
 
-    Parameters
-    ----------
-    points : (q, 3) float64
-    vertices : (n, 3) float64
-    faces : (f, 3) int64
-    candidates : (m,) int64
-        Rows of ``faces``.
-    owner : (m,) int64
-        The point that each candidate is for: ascending, and naming every point at least once.
-
-    Returns
-    -------
-    ClosestPoints
-        Of several candidates at the same distance the first.
+    ``points (q, 3)``; ``vertices (n, 3)``; ``faces (f, 3)``; ``candidates (m,)``: rows of ``faces``; ``owner (m,)``:
+    the point that each candidate is for: ascending, and naming every point at least once. Of several candidates at
+    the same distance the first is taken.
     """
     corners = faces[candidates]
     a = vertices[corners[:, 0]]
@@ -95,19 +61,10 @@ def closest_weights(
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Return the point of each triangle ``a, b, c`` that is closest to a point ``q``, from inner products.
 
-    Parameters
-    ----------
-    e11, e12, e22 : (m,) float64
-        ``u·u``, ``u·v`` and ``v·v`` of the edges ``u = b − a`` and ``v = c − a``.
-    r1, r2 : (m,) float64
-        ``(q − a)·u`` and ``(q − a)·v``.
-
-    Returns
-    -------
-    s, t : (m,) float64
-        The point is ``a + s u + t v``, with ``s, t ≥ 0`` and ``s + t ≤ 1``.
-    gain : (m,) float64
-        By how much it is closer than ``a``, in squared distance: at least 0.
+    ``e11 (m,)``, ``e12 (m,)`` and ``e22 (m,)``: ``u·u``, ``u·v`` and ``v·v`` of the edges ``u = b − a`` and ``v = c −
+    a``; ``r1 (m,)`` and ``r2 (m,)``: ``(q − a)·u`` and ``(q − a)·v``. Returns ``s, t (m,)``: the point is ``a + s u + t
+    v``, with ``s, t ≥ 0`` and ``s + t ≤ 1``; ``gain (m,)``: by how much it is closer than ``a``, in squared distance:
+    at least 0.
     """
     tiny = np.finfo(np.float64).tiny
     det = e11 * e22 - e12 * e12
@@ -143,15 +100,8 @@ def barycentric_weights(s: np.ndarray, t: np.ndarray) -> np.ndarray:
 def barycentric_matrix(face_of: np.ndarray, weights: np.ndarray, faces: np.ndarray, n: int) -> csr_array:
     """Return the sparse ``(q, n)`` that takes values at vertices to points inside triangles.
 
-    Parameters
-    ----------
-    face_of : (q,) int64
-        The face that each point lies in.
-    weights : (q, 3) float64
-        Its barycentric coordinates.
-    faces : (f, 3) int64
-    n : int
-        Number of vertices.
+    ``face_of (q,)``: the face that each point lies in; ``weights (q, 3)``: its barycentric coordinates; ``faces (f,
+    3)``; ``n``: number of vertices.
     """
     q = len(face_of)
     return csr_array((weights.ravel(), faces[face_of].ravel(), 3 * np.arange(q + 1)), shape=(q, n))
@@ -160,11 +110,7 @@ def barycentric_matrix(face_of: np.ndarray, weights: np.ndarray, faces: np.ndarr
 def first_minima(values: np.ndarray, owner: np.ndarray) -> np.ndarray:
     """Return for each owner the first entry of some values that is its least, (q,) int64.
 
-    Parameters
-    ----------
-    values : (m,) float64
-    owner : (m,) int64
-        Ascending, and naming every owner at least once.
+    ``values (m,)``; ``owner (m,)``: ascending, and naming every owner at least once.
     """
     first = np.flatnonzero(np.diff(owner, prepend=-1))
     least = np.minimum.reduceat(values, first)

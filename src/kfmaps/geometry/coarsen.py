@@ -16,21 +16,11 @@ from kfmaps.geometry.sampling import stratified
 
 @dataclass(frozen=True, eq=False)
 class CoarseProxy:
-    """A coarse copy of a mesh; made by :func:`coarse_proxy`.
+    """A coarse copy of a mesh; made by :func:`coarse_proxy`."""
 
-    Attributes
-    ----------
-    mesh : Mesh
-        With q vertices, each in some face.
-    vertices : (q,) int64
-        Their numbers in the fine mesh.
-    owner : (n,) int64
-        The vertex of the copy that is nearest to each vertex of the fine mesh.
-    """
-
-    mesh: Mesh
-    vertices: np.ndarray
-    owner: np.ndarray
+    mesh: Mesh  # with q vertices, each in some face
+    vertices: np.ndarray  # (q,): their numbers in the fine mesh
+    owner: np.ndarray  # (n,): the vertex of the copy that is nearest to each vertex of the fine mesh
 
     def mirrored(self) -> CoarseProxy:
         """Return the copy of the mirror image."""
@@ -40,18 +30,8 @@ class CoarseProxy:
 def spread_vertices(mesh: Mesh, count: int, kept: np.ndarray | None = None) -> np.ndarray:
     """Return vertices spread evenly over the area of a mesh.
 
-    Parameters
-    ----------
-    mesh : Mesh
-    count : int
-        About how many; all where the mesh has no more.
-    kept : (l,) int64, optional
-        Vertices that are to be among them.
-
-    Returns
-    -------
-    (q,) int64
-        Ascending.
+    ``count``: about how many; all where the mesh has no more; ``kept (l,)``: vertices that are to be among them.
+    Returns (q,): ascending.
     """
     if len(mesh.vertices) <= count:
         return np.arange(len(mesh.vertices))
@@ -77,17 +57,8 @@ def coarsen(mesh: Mesh, vertices: np.ndarray, owner: np.ndarray | None = None) -
     to three becomes a face of these. With evenly spread vertices that is close to their geodesic Delaunay
     triangulation; thin parts with few of them may lose faces. A point cloud stays one.
 
-    Parameters
-    ----------
-    mesh : Mesh
-    vertices : (q,) int64
-    owner : (n,) int64, optional
-        :func:`_voronoi_regions` of them, where they are known.
-
-    Returns
-    -------
-    Mesh
-        Its vertex i is ``vertices[i]``, with orientation kept.
+    ``vertices (q,)``; ``owner (n,)``: :func:`_voronoi_regions` of them, where they are known. Result: its vertex i is
+    ``vertices[i]``, with orientation kept.
     """
     if len(mesh.faces) == 0:
         return Mesh(mesh.vertices[vertices], mesh.faces)
@@ -102,11 +73,7 @@ def coarsen(mesh: Mesh, vertices: np.ndarray, owner: np.ndarray | None = None) -
 def coarse_proxy(mesh: Mesh, vertices: np.ndarray) -> CoarseProxy:
     """Return a coarse copy of a mesh, without vertices that no face uses.
 
-    Parameters
-    ----------
-    mesh : Mesh
-    vertices : (q,) int64
-        Those of the copy, ascending. With all vertices the copy has all faces.
+    ``vertices (q,)``: Those of the copy, ascending. With all vertices the copy has all faces.
     """
     owner = np.arange(len(vertices))
     coarse = mesh

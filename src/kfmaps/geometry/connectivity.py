@@ -10,16 +10,9 @@ from scipy.sparse.csgraph import connected_components
 
 
 def unique_vertices(vertices: np.ndarray) -> np.ndarray:
-    """Return for each vertex the number of the first one at exactly the same position.
+    """Return for each vertex the number of the first one at exactly the same position: (n,).
 
-    Parameters
-    ----------
-    vertices : (n, 3) float64
-        Finite positions.
-
-    Returns
-    -------
-    (n,) int64
+    ``vertices (n, 3)``: finite positions.
     """
     points = vertices + 0.0  # makes -0.0 and 0.0 the same
     order = np.lexsort(points.T)
@@ -34,18 +27,8 @@ def unique_vertices(vertices: np.ndarray) -> np.ndarray:
 def component_labels(count: int, a: np.ndarray, b: np.ndarray) -> tuple[int, np.ndarray]:
     """Return the connected components of a graph.
 
-    Parameters
-    ----------
-    count : int
-        Number of nodes.
-    a, b : (m,) int
-        Ends of the edges.
-
-    Returns
-    -------
-    number : int
-    labels : (count,) int
-        Component of each node, from 0.
+    ``count``: number of nodes; ``a (m,)`` and ``b (m,)``: ends of the edges. Returns ``number``; ``labels (count,)``:
+    component of each node, from 0.
     """
     if count == 0:
         return 0, np.zeros(0, dtype=np.int64)
@@ -62,16 +45,8 @@ def proper_faces(faces: np.ndarray) -> np.ndarray:
 def boundary_edges(faces: np.ndarray, n: int) -> np.ndarray:
     """Return the edges that only one face has.
 
-    Parameters
-    ----------
-    faces : (f, 3) int64
-    n : int
-        Number of vertices.
-
-    Returns
-    -------
-    (b, 2) int64
-        Vertices of each edge, the smaller number first, in ascending order.
+    ``faces (f, 3)``; ``n``: number of vertices. Returns (b, 2): vertices of each edge, the smaller number first, in
+    ascending order.
     """
     tail, head = faces.ravel(), faces[:, [1, 2, 0]].ravel()
     # One number for each edge: rows are sorted ten times as slowly.
@@ -83,17 +58,10 @@ def boundary_edges(faces: np.ndarray, n: int) -> np.ndarray:
 
 @dataclass(frozen=True, eq=False)
 class VertexRings:
-    """The faces around each vertex; made by :func:`vertex_rings`.
+    """The faces around each vertex; made by :func:`vertex_rings`."""
 
-    Attributes
-    ----------
-    start : (n + 1,) int64
-        The faces of vertex ``i`` are ``faces[start[i]:start[i + 1]]``.
-    faces : (3 f,) int64
-    """
-
-    start: np.ndarray
-    faces: np.ndarray
+    start: np.ndarray  # (n + 1,): the faces of vertex ``i`` are ``faces[start[i]:start[i + 1]]``
+    faces: np.ndarray  # (3 f,)
 
     def around(self, vertices: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Return all faces around each of ``vertices (m,)``, and which entry of ``vertices`` each is for."""

@@ -22,11 +22,6 @@ def cloud_laplacian(points: np.ndarray) -> tuple[SparseMatrix, np.ndarray]:
     Every point's neighbours are triangulated in its tangent plane and the tufted Laplacian is built on all these
     triangles (Sharp and Crane 2020, section 5.7). The areas, in squared units of the points, are of the surface that
     they seem to lie on: on remeshed humans and animals their sum is right to within 0.3 to 4 %.
-
-    Raises
-    ------
-    InvalidInput
-        If the points lie on no surface: fewer than four, or on a line.
     """
     wanted = "points spread over a surface"
     if len(points) < 4:

@@ -34,24 +34,8 @@ def surface_point_distances(
     It is the shorter of the straight line from one to the other over up to 16 unfolded edges, which is exact, and the
     shortest path over vertices (:func:`kfmaps.geometry.geodesic_graph.geodesic_graph`) that both see in straight lines.
 
-    Parameters
-    ----------
-    mesh : Mesh
-        A surface.
-    faces_a, faces_b : (q,) int
-        The faces that the points lie in.
-    weights_a, weights_b : (q, 3) float64
-        Barycentric coordinates in them.
-
-    Returns
-    -------
-    (q,) float64
-        Infinite on different components.
-
-    Raises
-    ------
-    InvalidInput
-        On lists of different length and faces that do not exist.
+    ``mesh``: a surface; ``faces_a (q,)`` and ``faces_b (q,)``: the faces that the points lie in; ``weights_a (q, 3)``
+    and ``weights_b (q, 3)``: barycentric coordinates in them. Returns (q,): infinite on different components.
     """
     q, n = len(faces_a), len(mesh.vertices)
     first = weld_vertices(mesh)

@@ -73,10 +73,8 @@ class Topology:
 def topology(mesh: Mesh) -> Topology:
     """Count components, boundaries, handles and defects of ``mesh``.
 
-    Parameters
-    ----------
-    mesh : Mesh
-        Its face numbers within range (see :func:`kfmaps.geometry.mesh.check_mesh`). A point cloud has no components.
+    ``mesh``: Its face numbers within range (see :func:`kfmaps.geometry.mesh.check_mesh`). A point cloud has no
+    components.
     """
     n = len(mesh.vertices)
     corners = weld_vertices(mesh)[mesh.faces]

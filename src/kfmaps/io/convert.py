@@ -121,20 +121,9 @@ def _meshio(cells: Any) -> np.ndarray:
 def as_landmarks(landmarks: Any, shapes: Sequence[Any] = (), meshes: Sequence[Mesh] = ()) -> Any:
     """Return landmarks as pairs of vertices where files hold them, else as they are.
 
-    Parameters
-    ----------
-    landmarks : path, pair of paths, or anything else
-        A file of pairs, or the landmarks of either shape (:func:`~kfmaps.io.landmark_files.read_landmark_sets`), of
-        which those count that both have by name.
-    shapes : sequence of two
-        What was handed in as the shapes; their files may name a coordinate system.
-    meshes : sequence of two Mesh
-
-    Raises
-    ------
-    InvalidInput
-        On landmarks of either shape for a prepared one, whose unit is another, and as
-        :func:`~kfmaps.io.read_landmarks` and :func:`~kfmaps.io.named_points.read_landmark_pairs`.
+    ``landmarks``: a file of pairs, or the landmarks of either shape
+    (:func:`~kfmaps.io.landmark_files.read_landmark_sets`), of which those count that both have by name; ``shapes``:
+    what was handed in as the shapes; their files may name a coordinate system.
     """
     if is_file(landmarks):
         return read_landmarks(landmarks)

@@ -32,29 +32,16 @@ FCSV_COLUMNS = "id,x,y,z,ow,ox,oy,oz,vis,sel,lock,label,desc,associatedNodeID"
 
 @dataclass(frozen=True, eq=False)
 class LandmarkSet:
-    """The landmarks of one specimen, as a file has them.
-
-    Attributes
-    ----------
-    names : tuple of str
-    points : (l, 3) float64
-        NaN for a missing landmark. Points of a plane have a third coordinate of 0.
-    specimen : str
-        Empty where the file does not say.
-    space : "LPS", "RAS" or ""
-        The file's coordinate system; empty where it does not say.
-    vertices : (l,) int64 or None
-        Vertices, from 0, in place of points (then all NaN); only tables have them.
-    notes : tuple of str
-        A remark on each landmark, written to files that have room for one. A landmark with a remark is written as not
-        selected, so that 3D Slicer shows it in another colour. Empty for none at all.
-    """
+    """The landmarks of one specimen, as a file has them."""
 
     names: tuple[str, ...]
-    points: np.ndarray
-    specimen: str = ""
-    space: str = ""
+    points: np.ndarray  # (l, 3): NaN for a missing landmark. Points of a plane have a third coordinate of 0.
+    specimen: str = ""  # empty where the file does not say
+    space: str = ""  # "LPS", "RAS" or "": the file's coordinate system; empty where it does not say
+    # (l,): vertices, from 0, in place of points (then all NaN); only tables have them.
     vertices: np.ndarray | None = None
+    # A remark on each landmark, written to files that have room for one. A landmark with a remark is written as not
+    # selected, so that 3D Slicer shows it in another colour. Empty for none at all.
     notes: tuple[str, ...] = ()
 
 
@@ -62,14 +49,9 @@ def read_landmark_sets(path: str | Path) -> list[LandmarkSet]:
     """Read landmarks of one or more specimens; the extension tells the format.
 
     ``.mrk.json`` and ``.fcsv`` (3D Slicer), ``.tps`` (tpsDig, MorphoJ, geomorph; curves are points as well), ``.pts``
-    (Landmark Editor), ``.particles`` (ShapeWorks), and ``.csv``: a row for each landmark ("name, x, y, z",
-    "name, vertex", or columns with titles, among them a specimen) or for each specimen (columns ``x_NAME``,
-    ``y_NAME``, ``z_NAME``, or ``NAME.X`` and so on).
-
-    Raises
-    ------
-    InvalidInput
-        On another extension, a file that is not what its extension says, and a name that is there twice.
+    (Landmark Editor), ``.particles`` (ShapeWorks), and ``.csv``: a row for each landmark ("name, x, y, z", "name,
+    vertex", or columns with titles, among them a specimen) or for each specimen (columns ``x_NAME``, ``y_NAME``,
+    ``z_NAME``, or ``NAME.X`` and so on).
     """
     read = _format(path, "landmarks")[0]
     name = str(path)
@@ -92,14 +74,7 @@ def check_names(names: Sequence[str], what: str) -> None:
 
 
 def write_landmark_sets(path: str | Path, sets: Sequence[LandmarkSet], force: bool = False) -> None:
-    """Write landmarks so that :func:`read_landmark_sets` reads them back; the extension tells the format.
-
-    Raises
-    ------
-    InvalidInput
-        On another extension, on several specimens where the format holds one, and as
-        :func:`~kfmaps.io.atomic.atomic_output`.
-    """
+    """Write landmarks so that :func:`read_landmark_sets` reads them back; the extension tells the format."""
     _, write, many = _format(path, "output")
     if len(sets) != 1 and not many:
         raise refuse(f"output {path}", "one specimen", str(len(sets)), "write .csv or .tps, or a file for each")

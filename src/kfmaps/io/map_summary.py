@@ -50,13 +50,7 @@ def mean_confidence(match: Match) -> float | None:
 
 
 def parse_summary(text: str, name: str) -> dict[str, Any]:
-    """Return the dictionary in the JSON ``text`` of a summary; empty for an empty text.
-
-    Raises
-    ------
-    InvalidInput
-        When it is no JSON of a dictionary, or nested without end.
-    """
+    """Return the dictionary in the JSON ``text`` of a summary; empty for an empty text."""
     try:
         values = json.loads(text) if text else {}
         level, depth = [values], 0
@@ -74,13 +68,7 @@ def parse_summary(text: str, name: str) -> dict[str, Any]:
 
 
 def build_match(summary: Mapping[str, Any], arrays: Mapping[str, Any], name: str) -> Match:
-    """Return the match of a summary and of arrays by the field that they belong to, such as "fit.raw_functional_map".
-
-    Raises
-    ------
-    InvalidInput
-        When the summary has a value of another kind than its field.
-    """
+    """Return the match of a summary and of arrays by their fields, such as "fit.raw_functional_map"."""
     return _read_record(Match, summary, arrays, "", name)
 
 

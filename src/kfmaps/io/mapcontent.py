@@ -17,36 +17,18 @@ Size = int | str | None
 
 @dataclass(frozen=True)
 class MapArray:
-    """One array of a map file.
+    """One array of a map file."""
 
-    Attributes
-    ----------
-    field : str
-        The field of :class:`kfmaps.Match` that it holds; a dot leads into a group of fields.
-    shape : tuple of Size
-    of : str
-        Whose numbers it holds: vertices of the source ("s") or target ("t"), one letter a column ("st"), or faces
-        ("f"). A .mat file counts them from 1. Empty for real numbers.
-    missing : bool
-        Whether −1 may stand for a vertex without counterpart, or NaN for an unknown number.
-    high : float
-        Greatest value of numbers that are at least 0; infinite where they are not bounded.
-    """
-
-    field: str
+    field: str  # the field of :class:`kfmaps.Match` that it holds; a dot leads into a group of fields
     shape: tuple[Size, ...]
+    # Whose numbers it holds: vertices of the source ("s") or target ("t"), one letter a column ("st"), or faces ("f").
+    # A .mat file counts them from 1. Empty for real numbers.
     of: str = ""
-    missing: bool = False
-    high: float = np.inf
+    missing: bool = False  # whether −1 may stand for a vertex without counterpart, or NaN for an unknown number
+    high: float = np.inf  # greatest value of numbers that are at least 0; infinite where they are not bounded
 
     def check(self, value: Any, name: str, sizes: Mapping[str, int | None]) -> np.ndarray:
-        """Return ``value`` as int64 or float64 where it is what the field wants; ``sizes``: vertices of both shapes.
-
-        Raises
-        ------
-        InvalidInput
-            On another kind or shape, and on numbers out of range.
-        """
+        """Return ``value`` as int64 or float64 where it is what the field wants; ``sizes``: vertices of both shapes."""
         shape = tuple(sizes[size] if isinstance(size, str) else size for size in self.shape)
         array = check(real(value, name), name, shape=shape, finite=not self.missing, remedy=REPAIR)
         if self.of:
@@ -126,19 +108,8 @@ def check_map(
 def check_arrays(content: Mapping[str, Any], n_s: int | None, name: str) -> dict[str, Any]:
     """Return the arrays of a map file, ``content``, by the field of a match that each one holds.
 
-    Parameters
-    ----------
-    content : mapping of str to arrays and texts
-        Names that no map file has are left out.
-    n_s : int or None
-        Number of vertices of the source, where it is known.
-    name : str
-        The file, for messages.
-
-    Raises
-    ------
-    InvalidInput
-        Naming the first array that is another than its name says.
+    ``content``: names that no map file has are left out; ``n_s``: number of vertices of the source, where it is known;
+    ``name``: the file, for messages.
     """
     title = f"{name}: target_to_source"
     points = check_map(content["target_to_source"], n_s, name=title, lost=True)

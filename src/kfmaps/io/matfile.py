@@ -19,21 +19,7 @@ _CHAR, _NUMERIC, _COMPLEX = 4, range(6, 16), 0x0800
 def read_mat(data: bytes, name: str, most: int = 1 << 31) -> dict[str, np.ndarray | str]:
     """The real arrays and texts of a .mat file by name; cells, structures and other kinds are left out.
 
-    Parameters
-    ----------
-    data : bytes
-    name : str
-        How messages call it.
-    most : int
-        Bytes that the file may unpack to, every number counted as eight.
-
-    SciPy writes these files for us but does not read them: on a damaged file its reader can end the
-    process. Format: MathWorks, "MAT-File Format", version 5.
-
-    Raises
-    ------
-    InvalidInput
-        On another version, on a file that is cut short or damaged, and before it unpacks to more than ``most``.
+    ``name``: how messages call it; ``most``: bytes that the file may unpack to, every number counted as eight.
     """
     if data[:10] == b"MATLAB 7.3" or data[1:4] == b"HDF":
         raise refuse(name, "a .mat file of version 5 to 7", "version 7.3", "save it with the option -v7")

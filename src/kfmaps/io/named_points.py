@@ -42,60 +42,27 @@ FACTORS = (0.001, 0.01, 0.1, 10.0, 25.4, 100.0, 1000.0)
 
 @dataclass(frozen=True, eq=False)
 class NamedPoints:
-    """Points on a surface.
-
-    Attributes
-    ----------
-    names : tuple of str
-    place : PointMap
-        Where they lie.
-    points : (q, 3) float64
-        The same in space, in the mesh's unit.
-    vertices : (q,) int64
-        The nearest vertices; −1 of a point without counterpart, whose place in space is NaN.
-    confidence : (q,) float64
-        From 0 to 1, NaN where nothing is known.
-    apart : (q,) float64
-        How far the point that it was given as lies from the surface, in the mesh's unit.
-    """
+    """Points on a surface."""
 
     names: tuple[str, ...]
-    place: PointMap
-    points: np.ndarray
-    vertices: np.ndarray
-    confidence: np.ndarray
-    apart: np.ndarray
+    place: PointMap  # where they lie
+    points: np.ndarray  # (q, 3): the same in space, in the mesh's unit
+    vertices: np.ndarray  # (q,): the nearest vertices; −1 of a point without counterpart, whose place in space is NaN
+    confidence: np.ndarray  # (q,): from 0 to 1, NaN where nothing is known
+    apart: np.ndarray  # (q,): how far the point that it was given as lies from the surface, in the mesh's unit
 
 
 def read_named_points(path: str | Path, mesh: Mesh, *, specimen: str = "", space: str = "") -> NamedPoints:
     """Read landmarks of ``mesh`` from a file of :func:`~kfmaps.io.landmark_files.read_landmark_sets`.
 
-    Parameters
-    ----------
-    path : str or Path
-    mesh : Mesh
-    specimen : str
-        Whose landmarks are taken from a file of several specimens.
-    space : "LPS", "RAS" or ""
-        The mesh's coordinate system, where it is known (:func:`~kfmaps.io.landmark_files.mesh_space`).
-
-    Raises
-    ------
-    InvalidInput
-        As :func:`~kfmaps.io.landmark_files.read_landmark_sets` and :func:`place_landmarks`, and when the specimen is
-        not in the file.
+    ``specimen``: whose landmarks are taken from a file of several specimens; ``space`` ("LPS", "RAS" or ""): the mesh's
+    coordinate system, where it is known (:func:`~kfmaps.io.landmark_files.mesh_space`).
     """
     return place_landmarks(choose_specimen(read_landmark_sets(path), specimen, str(path)), mesh, str(path), space=space)
 
 
 def choose_specimen(sets: list[LandmarkSet], specimen: str, name: str) -> LandmarkSet:
-    """Return the landmarks of ``specimen`` out of those of the file ``name``, or the only ones that it has.
-
-    Raises
-    ------
-    InvalidInput
-        When the file has several specimens and not this one.
-    """
+    """Return the landmarks of ``specimen`` out of those of the file ``name``, or the only ones that it has."""
     own = next((one for one in sets if specimen and specimen in (one.specimen, Path(one.specimen).stem)), None)
     if own is None and len(sets) > 1:
         got = ", ".join(one.specimen for one in sets[:5])
@@ -110,25 +77,7 @@ def place_landmarks(given: LandmarkSet, mesh: Mesh, name: str, *, space: str = "
     Where file and mesh name different coordinate systems, x and y change their sign. Where one of them names none and
     the points lie on the surface only with the other sign, they are turned as well, with a warning.
 
-    Parameters
-    ----------
-    given : LandmarkSet
-    mesh : Mesh
-    name : str
-        How messages call the landmarks.
-    space : "LPS", "RAS" or ""
-        The mesh's coordinate system.
-
-    Raises
-    ------
-    InvalidInput
-        When a vertex does not exist, or half of the points lie farther from the surface than
-        :data:`MAX_DISTANCE`; the message says which unit or mirror image would fit.
-
-    Warns
-    -----
-    KfmapsWarning
-        Naming points that lie farther away than :data:`NOTED_DISTANCE`.
+    ``name``: how messages call the landmarks; ``space`` ("LPS", "RAS" or ""): the mesh's coordinate system.
     """
     if given.vertices is not None:
         n, vertices = len(mesh.vertices), given.vertices
@@ -197,25 +146,9 @@ def read_landmark_pairs(
 ) -> tuple[np.ndarray, list[str]]:
     """Read the landmarks of two shapes and pair them by name.
 
-    Parameters
-    ----------
-    files : (source, target) paths
-        As of :func:`read_named_points`.
-    meshes : (source, target) Mesh
-    mesh_files : (source, target) paths or None
-        Where the meshes came from: their names and coordinate systems count.
-
-    Returns
-    -------
-    (l, 2) int64
-        The vertices nearest to the landmarks.
-    list of str
-        Their names.
-
-    Raises
-    ------
-    InvalidInput
-        When they have no name in common, and as :func:`read_named_points`.
+    ``files (source, target)``: as of :func:`read_named_points`; ``meshes (source, target)``; ``mesh_files (source,
+    target)``: where the meshes came from: their names and coordinate systems count. Returns (l, 2): the vertices
+    nearest to the landmarks; their names.
     """
     both = [
         read_named_points(
@@ -237,14 +170,7 @@ def read_given_landmarks(
     mesh_files: Sequence[Path | None],
     one_based: bool | None = None,
 ) -> tuple[np.ndarray, list[str]]:
-    """Read one file of pairs of vertices, or two files with the landmarks of either shape; pairs (l, 2) and names.
-
-    Raises
-    ------
-    InvalidInput
-        On another number of files, the landmarks of one shape alone, and as :func:`~kfmaps.io.read_landmarks` and
-        :func:`read_landmark_pairs`.
-    """
+    """Read one file of pairs of vertices, or two files with the landmarks of either shape; pairs (l, 2) and names."""
     if len(files) == 2:
         return read_landmark_pairs(files, meshes, mesh_files)
     if len(files) != 1 or landmark_suffix(files[0]):
@@ -341,19 +267,8 @@ def _columns(given: NamedPoints) -> tuple[np.ndarray, ...]:
 def write_named_points(path: str | Path, points: NamedPoints, force: bool = False, space: str = "") -> None:
     """Write points: CSV with name, nearest vertex, x, y, z and confidence, or another format of landmark files.
 
-    Parameters
-    ----------
-    path : str or Path
-    points : NamedPoints
-    force : bool
-        Whether an existing file is replaced.
-    space : "LPS", "RAS" or ""
-        The mesh's coordinate system, for formats that name it.
-
-    Raises
-    ------
-    InvalidInput
-        On an extension that :func:`~kfmaps.io.landmark_files.write_landmark_sets` does not know.
+    ``force``: whether an existing file is replaced; ``space`` ("LPS", "RAS" or ""): the mesh's coordinate system, for
+    formats that name it.
     """
     if Path(path).suffix.lower() != ".csv":
         write_landmark_sets(path, [LandmarkSet(points.names, points.points, landmark_stem(path), space)], force)

@@ -56,16 +56,10 @@ class _Lines:
 def parse_obj(data: bytes, name: str) -> MeshFile:
     """Read the ``v``, ``vt`` and ``f`` lines.
 
-    A vertex is ``v x y z``, perhaps with a weight of 1, or ``v x y z red green blue``; vertices have colours
-    only when all of them do. A corner of a face is ``v``, ``v/vt``, ``v//vn`` or ``v/vt/vn``, counted from
-    1, or backwards from the last one read when negative. Texture coordinates are kept when every corner
-    has them, and then the picture of the materials.
-
-    Raises
-    ------
-    InvalidInput
-        On words that are none of the format, numbers missing or out of range, faces of fewer than three
-        corners, and weights other than 1.
+    A vertex is ``v x y z``, perhaps with a weight of 1, or ``v x y z red green blue``; vertices have colours only when
+    all of them do. A corner of a face is ``v``, ``v/vt``, ``v//vn`` or ``v/vt/vn``, counted from 1, or backwards from
+    the last one read when negative. Texture coordinates are kept when every corner has them, and then the picture of
+    the materials.
     """
     text = clean_text(data, name).replace(b"\\\n", b"  ")  # after a backslash the line goes on
     lines = _split(text, name)
@@ -166,18 +160,12 @@ def _absolute(numbers: np.ndarray, before: np.ndarray, total: int, at: np.ndarra
 def _picture(said: list[tuple[int, str, str]], faces: np.ndarray, name: str) -> Picture | None:
     """The one colour texture (``map_Kd``) of all faces, in an MTL file beside the OBJ file; ``None`` if there is none.
 
-    Files that are missing, lie elsewhere than in the folder of the OBJ file or below it, or are no PNG or JPEG are
-    none either, and so are pictures that are moved or scaled: who wants the shape alone need not have them.
-    Specification: Alias/Wavefront, "MTL material format", 1995.
+    Files that are missing, lie elsewhere than in the folder of the OBJ file or below it, or are no PNG or JPEG are none
+    either, and so are pictures that are moved or scaled: who wants the shape alone need not have them. Specification:
+    Alias/Wavefront, "MTL material format", 1995.
 
-    Parameters
-    ----------
-    said : list of (line, word, rest)
-        The file's lines ``mtllib`` and ``usemtl``, from line 1 on, ascending.
-    faces : (p,) int64
-        The line of each face.
-    name : str
-        The OBJ file.
+    ``said``: the file's lines ``mtllib`` and ``usemtl``, from line 1 on, ascending; ``faces (p,)``: the line of each
+    face; ``name``: the OBJ file.
     """
     used = [(line, rest) for line, word, rest in said if word == "usemtl"]
     if not used or len(faces) == 0:
@@ -247,15 +235,9 @@ def format_obj(
 ) -> bytes:
     """Write ``mesh`` as OBJ; every digit of the coordinates is kept.
 
-    Parameters
-    ----------
-    mesh : Mesh
-    colors : (n, 3) float64, optional
-        Fractions from 0 to 1, written after the coordinates as many programs read them.
-    uv : (m, 2) float64, optional
-        Texture coordinates, with ``uv_faces`` (f, 3).
-    material : (file, name), optional
-        The MTL file and the material in it that the faces use.
+    ``colors (n, 3)``: fractions from 0 to 1, written after the coordinates as many programs read them; ``uv (m, 2)``:
+    texture coordinates, with ``uv_faces`` (f, 3); ``material (file, name)``: the MTL file and the material in it that
+    the faces use.
     """
     lines = [f"mtllib {material[0]}"] if material else []
     values = mesh.vertices if colors is None else np.hstack([mesh.vertices, colors])

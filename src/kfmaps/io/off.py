@@ -17,14 +17,9 @@ _HEADER = re.compile(rb"\s*(ST)?(C?N?|NC)(4?n?)OFF(?![A-Za-z])[ \t]*(BINARY)?", 
 def parse_off(data: bytes, name: str) -> MeshFile:
     """Read OFF, COFF, NOFF, STOFF and their combinations.
 
-    The counts may stand on the line of the word OFF. Each vertex has its line: x y z, then a normal (N),
-    red green blue and perhaps alpha (C), texture coordinates (ST). Each face has its line: the number of
-    its corners, the 0-based corners, and perhaps a colour, which is left out. Normals are left out too.
-
-    Raises
-    ------
-    InvalidInput
-        On anything else, binary and four-dimensional OFF, and counts that do not fit the lines.
+    The counts may stand on the line of the word OFF. Each vertex has its line: x y z, then a normal (N), red green blue
+    and perhaps alpha (C), texture coordinates (ST). Each face has its line: the number of its corners, the 0-based
+    corners, and perhaps a colour, which is left out. Normals are left out too.
     """
     text = clean_text(data, name)
     header = _HEADER.match(text)

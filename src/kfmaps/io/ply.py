@@ -157,14 +157,8 @@ _UV = (("s", "t"), ("u", "v"), ("texture_u", "texture_v"))
 def parse_ply(data: bytes, name: str) -> MeshFile:
     """Read PLY with its properties in any order.
 
-    Used are x, y and z of the element vertex, its colours and texture coordinates, and the list
-    vertex_indices (or vertex_index) of the element face. All else is left out, but must fit the header.
-
-    Raises
-    ------
-    InvalidInput
-        On a header that is not PLY's, a body that does not fit it to the byte, triangle strips, and faces
-        of fewer than three corners.
+    Used are x, y and z of the element vertex, its colours and texture coordinates, and the list vertex_indices (or
+    vertex_index) of the element face. All else is left out, but must fit the header.
     """
     order, elements, start = _header(data, name)
     found: dict[str, dict[str, _Column]] = {}

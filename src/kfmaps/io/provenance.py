@@ -38,13 +38,7 @@ def warn_of_change(found: Match, side: str, path: Path) -> None:
 
 
 def mesh_path(given: Path | None, found: Match, side: str, beside: Path, remedy: str = "") -> Path:
-    """Return the file of the shape ``side``: as given, else as the map names it, there or beside the map.
-
-    Raises
-    ------
-    InvalidInput
-        When nothing names a file that exists.
-    """
+    """Return the file of the shape ``side``: as given, else as the map names it, there or beside the map."""
     if given is not None:
         return given
     named = getattr(found, f"{side}_file").path

@@ -26,15 +26,9 @@ _SOLID, _END = (re.compile(rb"\s*" + word + rb"\b", re.IGNORECASE) for word in (
 def parse_stl(data: bytes, name: str) -> MeshFile:
     """Read STL, binary or text.
 
-    STL is the one format without shared vertices: each triangle repeats its three positions. Here, and
-    only here, positions that are equal to the last bit become one vertex, or there would be no surface.
-    Vertices are numbered in the order of their first occurrence.
-
-    Raises
-    ------
-    InvalidInput
-        On a binary file whose length does not fit its count, and on text that is not triangles from solid
-        to endsolid.
+    STL is the one format without shared vertices: each triangle repeats its three positions. Here, and only here,
+    positions that are equal to the last bit become one vertex, or there would be no surface. Vertices are numbered in
+    the order of their first occurrence.
     """
     count = int.from_bytes(data[80:84], "little") if len(data) >= _HEAD else -1
     if count >= 0 and len(data) == _HEAD + _TRIANGLE.itemsize * count:

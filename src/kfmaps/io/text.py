@@ -23,24 +23,12 @@ _NUMBER = re.compile(r"[+-]?(\d+(\.\d*)?|\.\d+)([eE][+-]?\d+)?|[+-]?(inf|infinit
 
 @dataclass(frozen=True, eq=False)
 class Rows:
-    """The numbers of a text, line by line; lines without any are left out.
+    """The numbers of a text, line by line; lines without any are left out."""
 
-    Attributes
-    ----------
-    values : (v,) float64
-        All numbers in order.
-    counts : (r,) int64
-        How many each line has, at least 1.
-    starts : (r,) int64
-        Where in ``values`` each line begins.
-    lines : (r,) int64
-        The number of each line in the file, from 1.
-    """
-
-    values: np.ndarray
-    counts: np.ndarray
-    starts: np.ndarray
-    lines: np.ndarray
+    values: np.ndarray  # (v,): all numbers in order
+    counts: np.ndarray  # (r,): how many each line has, at least 1
+    starts: np.ndarray  # (r,): where in ``values`` each line begins
+    lines: np.ndarray  # (r,): the number of each line in the file, from 1
 
     def __len__(self) -> int:
         return len(self.counts)
@@ -51,13 +39,7 @@ class Rows:
 
 
 def read_bytes(path: str | Path) -> bytes:
-    """Return the content of a regular file that is not empty.
-
-    Raises
-    ------
-    InvalidInput
-        When it is missing, a folder, a device, empty, or cannot be read.
-    """
+    """Return the content of a regular file that is not empty."""
     path = Path(path)
     try:
         if not path.is_file():
@@ -90,13 +72,7 @@ def read_text(path: str | Path) -> str:
 
 
 def read_csv(path: str | Path) -> list[tuple[int, list[str]]]:
-    """Return the rows of a file of comma-separated values that are not empty: the line's number, and its cells.
-
-    Raises
-    ------
-    InvalidInput
-        As :func:`read_text`, and on quotes that do not close and cells of more than 131,072 letters.
-    """
+    """Return the rows of a file of comma-separated values that are not empty: the line's number, and its cells."""
     reader = csv.reader(io.StringIO(read_text(path), newline=""), strict=True)
     try:
         return [(reader.line_num, [cell.strip() for cell in row]) for row in reader if row]
@@ -106,13 +82,7 @@ def read_csv(path: str | Path) -> list[tuple[int, list[str]]]:
 
 @contextmanager
 def complete_or_refuse(name: str, wanted: str) -> Iterator[None]:
-    """Report whatever a reader runs into in a wrong structure as a file that is not complete.
-
-    Raises
-    ------
-    InvalidInput
-        In place of any other error but a lack of memory.
-    """
+    """Report whatever a reader runs into in a wrong structure as a file that is not complete."""
     try:
         yield
     except (InvalidInput, MemoryError):
@@ -178,19 +148,8 @@ def split_words(text: bytes | np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 def parse_rows(text: bytes, name: str, line_numbers: np.ndarray | None = None) -> Rows:
     """Read a text that holds nothing but numbers between blanks.
 
-    Parameters
-    ----------
-    text : bytes
-        From :func:`clean_text`.
-    name : str
-        How messages call it.
-    line_numbers : (lines,) int64, optional
-        The number in the file of each line of ``text``, where they are not 1, 2, 3, ...
-
-    Raises
-    ------
-    InvalidInput
-        Naming the first word that is not a number.
+    ``text``: from :func:`clean_text`; ``name``: how messages call it; ``line_numbers (lines,)``: the number in the file
+    of each line of ``text``, where they are not 1, 2, 3, ....
     """
     at, line_of_word = split_words(text)
     per_line = np.bincount(line_of_word)
@@ -209,26 +168,14 @@ def parse_rows(text: bytes, name: str, line_numbers: np.ndarray | None = None) -
 
 
 def check_lines(bad: np.ndarray, lines: np.ndarray, name: str, wanted: str, got: Callable[[int], str]) -> None:
-    """Refuse the first of the ``lines (r,)`` of a file that is ``bad (r,)``; ``got`` says what is in row ``i``.
-
-    Raises
-    ------
-    InvalidInput
-        Naming the line.
-    """
+    """Refuse the first of the ``lines (r,)`` of a file that is ``bad (r,)``; ``got`` says what is in row ``i``."""
     if bad.any():
         i = int(np.argmax(bad))
         raise refuse(f"{name}, line {lines[i]}", wanted, got(i), REPAIR)
 
 
 def whole_numbers(values: np.ndarray, name: str, wanted: str = "whole numbers") -> np.ndarray:
-    """Return ``values`` as int64.
-
-    Raises
-    ------
-    InvalidInput
-        When one has a fraction, is NaN, or is too large (2^53 or more) to be exact.
-    """
+    """Return ``values`` as int64."""
     bad = ~((np.abs(values) < 2**53) & (values == np.rint(values)))
     if bad.any():
         raise refuse(name, wanted, f"{values[bad][0]:.6g}", REPAIR)
@@ -236,13 +183,7 @@ def whole_numbers(values: np.ndarray, name: str, wanted: str = "whole numbers") 
 
 
 def as_table(rows: Rows, columns: int | tuple[int, ...], name: str, wanted: str) -> np.ndarray:
-    """Return the numbers of ``rows``, which must all be equally many and one of ``columns``, (rows, columns).
-
-    Raises
-    ------
-    InvalidInput
-        Naming the first line of another length.
-    """
+    """Return the numbers of ``rows``, which must all be equally many and one of ``columns``, (rows, columns)."""
     if len(rows) == 0:
         return np.zeros((0, columns if isinstance(columns, int) else columns[0]))
     allowed = (columns,) if isinstance(columns, int) else columns

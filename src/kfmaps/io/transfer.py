@@ -75,13 +75,7 @@ def _interpolate(values: np.ndarray, at: PointMap | None, faces: np.ndarray | No
 
 
 def _fill_lost(values: np.ndarray, gone: np.ndarray, lost: Any = None) -> np.ndarray:
-    """Put ``lost`` into the rows ``gone (n,)`` of ``values (n, ...)``; see :func:`transfer` for what it is by default.
-
-    Raises
-    ------
-    InvalidInput
-        When their kind has no such value.
-    """
+    """Put ``lost``, by default that of :func:`transfer`, into the rows ``gone (n,)`` of ``values (n, ...)``."""
     if not gone.any():
         return values
     if lost is None:
@@ -97,11 +91,6 @@ def transfer_back(values_t: np.ndarray, ways: Counterparts, target: Mesh, lost: 
     """Carry values from the vertices of the target to those of the source, (n_t, ...) to (n_s, ...).
 
     Each source vertex takes those of its own place on the target. ``lost`` is as for :func:`transfer`.
-
-    Raises
-    ------
-    InvalidInput
-        When they are not the target's.
     """
     if values_t.ndim == 0 or len(values_t) != len(target.vertices):
         got = f"{len(values_t)}" if values_t.ndim else "a single value"
@@ -118,11 +107,6 @@ def transfer_by_functions(
     See :func:`kfmaps.fmap.transfer.transfer_functions`. Eigenfunctions are found anew and ``C = Φ_tᵀ A_t Φ_s[map]``
     from the map's points, since their signs may be others than when the map was made. It has the size of the file's
     map.
-
-    Raises
-    ------
-    InvalidInput
-        When values are no numbers, or do not belong to the source, or the map to the shapes.
     """
     if values.dtype.kind not in "fiu":
         raise refuse("values", "numbers", str(values.dtype), "leave --products out: labels go by points")

@@ -27,13 +27,7 @@ _WORD = re.compile(rb"\S+")
 
 
 def parse_vtk(data: bytes, name: str) -> MeshFile:
-    """Read a legacy file of version 2 to 5.1 (https://docs.vtk.org, "Simple Legacy Formats"), text or binary.
-
-    Raises
-    ------
-    InvalidInput
-        On another dataset than polygonal data, triangle strips, and a file that is cut short.
-    """
+    """Read a legacy file of version 2 to 5.1 (https://docs.vtk.org, "Simple Legacy Formats"), text or binary."""
     head = data.split(b"\n", 3)
     if len(head) < 4 or not head[0].startswith(b"# vtk DataFile"):
         raise refuse(name, "a VTK file", "another beginning", "check that the extension is right")
@@ -131,13 +125,7 @@ class _Legacy:
 
 
 def parse_vtp(data: bytes, name: str) -> MeshFile:
-    """Read an XML file (https://docs.vtk.org, "XML File Formats"): text, base64 or appended arrays, plain or zlib.
-
-    Raises
-    ------
-    InvalidInput
-        On another dataset than polygonal data, triangle strips, another compression, and a file that is cut short.
-    """
+    """Read an XML file (https://docs.vtk.org, "XML File Formats"): text, base64 or appended arrays, plain or zlib."""
     with complete_or_refuse(name, "a complete .vtp file"):
         return _read_xml(data, name)
 

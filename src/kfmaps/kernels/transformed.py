@@ -148,11 +148,7 @@ def n_kernel_landmarks(kernel: KernelLike) -> int | None:
 def forward(layers: tuple[Array, ...], X: Array) -> Array:
     """Return the outputs (n, out) of a network.
 
-    Parameters
-    ----------
-    layers : tuple of (out, in + 1)
-        As in :class:`Network`, the biases last.
-    X : (n, in)
+    ``layers``: as in :class:`Network`, the biases last; ``X (n, in)``.
     """
     xp = namespace(X)
     for i, matrix in enumerate(layers):

@@ -52,30 +52,15 @@ class TermFactory(Protocol):
 
 @dataclass(frozen=True, eq=False)
 class FitProblem:
-    """What two shapes tell a map between them, in either direction; made by :func:`assemble`.
-
-    Attributes
-    ----------
-    config : Config
-    shapes : pair of Shape
-        On the points that the fit is made from.
-    bases : pair of Basis
-        As large as the map, on the device of the work.
-    kernel : kernel
-        With every γ a number.
-    descriptors : Descriptors
-    features : Features or None
-        ``None`` with the exact kernel.
-    multiplications, orientations : pair of arrays (r, k, k), or None
-        Slices of the operators that the map should commute with, on source and target.
-    """
+    """What two shapes tell a map between them, in either direction; made by :func:`assemble`."""
 
     config: Config
-    shapes: tuple[Shape, Shape]
-    bases: tuple[Basis, Basis]
-    kernel: KernelLike
+    shapes: tuple[Shape, Shape]  # on the points that the fit is made from
+    bases: tuple[Basis, Basis]  # as large as the map, on the device of the work
+    kernel: KernelLike  # with every γ a number
     descriptors: Descriptors
-    features: Features | None = None
+    features: Features | None = None  # ``None`` with the exact kernel
+    # Slices of the operators that the map should commute with, on source and target.
     multiplications: tuple[Array, Array] | None = None
     orientations: tuple[Array, Array] | None = None
 

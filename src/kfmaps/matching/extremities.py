@@ -23,28 +23,16 @@ _MIN_DISTANCE = 0.3
 
 @dataclass(frozen=True, eq=False)
 class Extremities:
-    """The extremities of one shape; made by :func:`extremities`.
+    """The extremities of one shape; made by :func:`extremities`."""
 
-    Attributes
-    ----------
-    points : (m,) int64
-        Which samples are extremities, the farthest first.
-    mean_distance : (m,) float64
-        Mean distance of each from all of the surface, over that of all points.
-    distances : (m, q) float64
-        From each extremity to each sample, over the mean distance of all points from each other.
-    gradient_cross : (m, m, q) float64
-        ``n · (∇dᵢ × ∇dⱼ)`` of the distances from extremities i and j at each sample, averaged nearby, from −1 to 1: the
-        sine of the angle from one direction to the other. It changes sign in a mirror. 0 for point clouds.
-    unit : float
-        That mean distance of all points, in √area.
-    """
-
-    points: np.ndarray
-    mean_distance: np.ndarray
+    points: np.ndarray  # (m,): which samples are extremities, the farthest first
+    mean_distance: np.ndarray  # (m,): mean distance of each from all of the surface, over that of all points
+    # (m, q): from each extremity to each sample, over the mean distance of all points from each other.
     distances: np.ndarray
+    # (m, m, q): ``n · (∇dᵢ × ∇dⱼ)`` of the distances from extremities i and j at each sample, averaged nearby, from −1
+    # to 1: the sine of the angle from one direction to the other. It changes sign in a mirror. 0 for point clouds.
     gradient_cross: np.ndarray
-    unit: float
+    unit: float  # that mean distance of all points, in √area
 
     def subsample(self, count: int) -> Extremities:
         """Return the same at the first ``count`` samples."""
@@ -66,18 +54,9 @@ def extremities(
 ) -> Extremities:
     """Return the extremities of a shape.
 
-    Parameters
-    ----------
-    distances : (c, c) float64
-        Geodesic distances between its first samples.
-    mass : (c,) float64
-        The areas that these stand for.
-    mesh : Mesh
-        The surface, or a coarse copy.
-    rows : (q,) int64
-        The vertex of ``mesh`` of each sample, the first c of them those of ``distances``.
-    graph : sparse (n, n), optional
-        The geodesic graph of ``mesh`` of depth 1, where it is there already.
+    ``distances (c, c)``: geodesic distances between its first samples; ``mass (c,)``: the areas that these stand for;
+    ``mesh``: the surface, or a coarse copy; ``rows (q,)``: the vertex of ``mesh`` of each sample, the first c of them
+    those of ``distances``; ``graph``: the geodesic graph of ``mesh`` of depth 1, where it is there already.
     """
     far = distances @ (mass / mass.sum())
     mean = float(far @ (mass / mass.sum())) or 1.0
@@ -91,15 +70,7 @@ def extremities(
 def at_all_vertices(mesh: Mesh, vertices: np.ndarray, unit: float, graph: csr_array | None = None) -> Extremities:
     """Return what extremities tell of all n vertices.
 
-    Parameters
-    ----------
-    mesh : Mesh
-    vertices : (m,) int64
-        The extremities.
-    unit : float
-        Of the distances.
-    graph : sparse (n, n), optional
-        As in :func:`extremities`.
+    ``vertices (m,)``: the extremities; ``unit``: of the distances; ``graph``: as in :func:`extremities`.
     """
     found = dijkstra(geodesic_graph(mesh, 1) if graph is None else graph, indices=vertices)
     joined = np.isfinite(found)

@@ -83,13 +83,7 @@ def sample_pair_for_fit(
 def user_descriptors(
     source: Shape, target: Shape, config: DescriptorConfig, given: tuple[Any, Any] | None
 ) -> tuple[Any, Any] | None:
-    """Return the descriptors of both shapes that were ``given`` and those that ``config.extra`` computes.
-
-    Raises
-    ------
-    InvalidInput
-        When one has not a row per vertex, or another number of columns on either shape.
-    """
+    """Return the descriptors of both shapes that were ``given`` and those that ``config.extra`` computes."""
     if not config.extra:
         return given
     blocks = [given] if given is not None else []
@@ -118,15 +112,8 @@ def pair_descriptors(
 ) -> Descriptors:
     """Descriptors of both shapes as ``config`` asks.
 
-    Parameters
-    ----------
-    source, target : Shape
-    bases : pair of Basis
-        On the device where the work is done.
-    landmarks : (l, 2) int64
-        Pairs "source, target"; l may be 0.
-    given : pair of arrays (n_s, d), (n_t, d), optional
-        Descriptors of the user's own, beside the computed ones.
+    ``bases``: on the device where the work is done; ``landmarks (l, 2)``: pairs "source, target"; l may be 0;
+    ``given``: descriptors of the user's own, beside the computed ones.
     """
     size = min(config.n_eigenfunctions, *(b.functions.shape[1] for b in bases))
     small = (bases[0].truncate(size), bases[1].truncate(size))
@@ -229,13 +216,7 @@ def _every_nth(side: int, bases: tuple[Basis, ...], config: DescriptorConfig, la
 
 
 def resolve_kernel_width(descriptors: Descriptors, config: Config, rng: np.random.Generator) -> KernelLike:
-    """The kernel of ``config`` with automatic γ chosen from farthest points of both shapes' descriptors.
-
-    Raises
-    ------
-    InvalidInput
-        When the kernel was learned with another number of landmarks.
-    """
+    """The kernel of ``config`` with automatic γ chosen from farthest points of both shapes' descriptors."""
     wanted, given = taught(config.kernel), int(np.max(descriptors.landmark, initial=-1)) + 1
     if wanted is not None and wanted != given:
         remedy = "give as many, or learn a kernel with as many (kfmaps learn --truth-landmarks, or without)"

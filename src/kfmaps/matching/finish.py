@@ -31,30 +31,15 @@ CONTINUED = 80
 
 @dataclass(frozen=True, eq=False)
 class MatchTask:
-    """Two shapes to match and what every step of it needs.
+    """Two shapes to match and what every step of it needs."""
 
-    Attributes
-    ----------
-    meshes : (Mesh, Mesh)
-        As they were handed in.
-    pair : VertexReindexing
-        The prepared shapes, as handed in and cleaned.
-    config : Config
-    landmarks : (l, 2) int64
-        In the numbers of ``meshes``.
-    seed : int
-    clock : StageTimer
-    partial : MatchPart
-        Why the shapes were taken for whole.
-    """
-
-    meshes: tuple[Mesh, Mesh]
-    pair: VertexReindexing
+    meshes: tuple[Mesh, Mesh]  # as they were handed in
+    pair: VertexReindexing  # the prepared shapes, as handed in and cleaned
     config: Config
-    landmarks: np.ndarray
+    landmarks: np.ndarray  # (l, 2): in the numbers of ``meshes``
     seed: int
     clock: StageTimer
-    partial: MatchPart = field(default_factory=MatchPart)
+    partial: MatchPart = field(default_factory=MatchPart)  # why the shapes were taken for whole
 
     def shapes(self, orientation: str) -> tuple[Shape, Shape]:
         """Both cleaned shapes; the target mirrored where the map is to its mirror image."""
@@ -171,24 +156,11 @@ def match_from_map(
 ) -> Match:
     """A map that is known but for its details, finished as :func:`match` finishes the one that it has found.
 
-    Parameters
-    ----------
-    source, target : Shape
-    points : (n_t,) whole numbers
-        A source vertex for each target vertex: of a composition of other maps, say.
-    initialization : str
-        Where it comes from, for :attr:`Match.score`.
-    orientation : "preserving" or "reversing"
-        Whether it is a map to the target or to its mirror image.
-    verdict, confidence, alternatives
-        For the fields of the match.
-    quality : float, optional
-        :attr:`kfmaps.matching.quality.Quality.score` of ``points``: where shapes differ much the refinement ends early.
-
-    Raises
-    ------
-    InvalidInput
-        When the shapes were prepared otherwise, or the points are none of the source.
+    ``points (n_t,)``: a source vertex for each target vertex: of a composition of other maps, say; ``initialization``:
+    where it comes from, for :attr:`Match.score`; ``orientation`` ("preserving" or "reversing"): whether it is a map to
+    the target or to its mirror image; ``verdict``, ``confidence`` and ``alternatives``: for the fields of the match;
+    ``quality``: :attr:`kfmaps.matching.quality.Quality.score` of ``points``: where shapes differ much the refinement
+    ends early.
     """
     config = config or Config()
     for shape in (source, target):

@@ -25,21 +25,12 @@ heat spreads otherwise from a landmark."""
 
 @dataclass(frozen=True, eq=False)
 class LandmarkEvidence:
-    """What landmarks say at the samples of both shapes.
+    """What landmarks say at the samples of both shapes."""
 
-    Attributes
-    ----------
-    target : (l, k) float64
-        Rows of the target's basis at its landmarks.
-    distances : (l, q_s) float64
-        From each of the source's landmarks to its samples along the surface, in units of √area.
-    functions_s, functions_t : (l, q_s, t), (l, q_t, t) float64
-        Functions around each landmark at the samples, see :func:`heat_features`.
-    """
-
-    target: np.ndarray
+    target: np.ndarray  # (l, k): rows of the target's basis at its landmarks
+    # (l, q_s): from each of the source's landmarks to its samples along the surface, in units of √area.
     distances: np.ndarray
-    functions_s: np.ndarray
+    functions_s: np.ndarray  # (l, q_s, t): functions around each landmark at the samples, see :func:`heat_features`
     functions_t: np.ndarray
 
     def subsample(self, q_s: int, q_t: int) -> LandmarkEvidence:
@@ -63,13 +54,7 @@ def heat_features(points: Basis, basis: Basis, landmarks: np.ndarray) -> np.ndar
     ``h_t(p, x) / √(h_t(p, p) h_t(x, x))`` for the heat kernel h at three times: 1 at the landmark, nearly free of pose
     and of how thick the body is there.
 
-    Parameters
-    ----------
-    points : Basis
-        At some of the points of ``basis``.
-    basis : Basis
-    landmarks : (l,) int64
-        Vertices of ``basis``.
+    ``points``: at some of the points of ``basis``; ``landmarks (l,)``: vertices of ``basis``.
     """
     values, phi = to_numpy(basis.eigenvalues), to_numpy(points.functions)
     here = to_numpy(basis.functions)[landmarks]
@@ -97,12 +82,7 @@ def landmark_errors(C: np.ndarray, functions_s: np.ndarray, found: LandmarkEvide
 
     The other direction says less: the ends of limbs, whose functions a map damps, have no image of their own there.
 
-    Parameters
-    ----------
-    C : (k_t, k_s) float64
-    functions_s : (q_s, k) float64
-        The source's basis at its samples.
-    found : LandmarkEvidence
+    ``C (k_t, k_s)``; ``functions_s (q_s, k)``: the source's basis at its samples.
     """
     k_t, k_s = C.shape
     back = nearest(found.target[:, :k_t], functions_s[:, :k_s] @ C.T, threads=1)
@@ -119,16 +99,8 @@ def build_guidance(
 ) -> DescriptorGuidance | None:
     """Return guidance by SHOT, landmarks and limbs on all vertices, for the refinement; ``None`` where there is none.
 
-    Parameters
-    ----------
-    source, target : Shape
-    landmarks : (l, 2) int64
-    limbs : DescriptorGuidance, optional
-        By extremities.
-    shot : DescriptorGuidance, optional
-        By SHOT, where it is known.
-    lead : float
-        Weight of the landmarks beside SHOT.
+    ``landmarks (l, 2)``; ``limbs``: by extremities; ``shot``: by SHOT, where it is known; ``lead``: weight of the
+    landmarks beside SHOT.
     """
     local = combine_guidance([(1.0, shot or descriptor_guidance(source.shot, target.shot)), (0.8, limbs)])
     if len(landmarks) == 0:

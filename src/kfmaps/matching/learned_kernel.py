@@ -42,13 +42,7 @@ def drop_learned(config: Config) -> Config:
 
 
 def learned_kernel_applies(config: Config, source: Shape, target: Shape) -> bool:
-    """Return whether the kernel of ``config`` was learned from descriptors that these shapes have without landmarks.
-
-    Raises
-    ------
-    InvalidInput
-        When it was learned with landmarks: a search has no fit of their descriptors.
-    """
+    """Return whether the kernel of ``config`` was learned from descriptors that these shapes have without landmarks."""
     if descriptor_width(config.kernel) is None:
         return False
     if n_kernel_landmarks(config.kernel):
@@ -63,18 +57,8 @@ def learned_candidates(
 ) -> list[Candidate]:
     """Return candidates made with the kernel of ``config``, refined and judged as all others are.
 
-    Parameters
-    ----------
-    source, target : Shape
-    config : Config
-    on : TwoLevelSamples
-    seed, drawn : int
-        Of the fits, and of the choice of their samples.
-
-    Returns
-    -------
-    list of Candidate
-        Empty where the kernel was learned for other descriptors.
+    ``seed`` and ``drawn`` belong to the fits and to the choice of their samples. Where the kernel was learned for other
+    descriptors there are none.
     """
     assert config.search is not None
     rows = _transformed_descriptors(source, target, config, on.whole.source, on.whole.target)

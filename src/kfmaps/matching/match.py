@@ -57,36 +57,14 @@ def match(
     other do, it is placed there by distances and SHOT (:mod:`kfmaps.matching.partial`) and vertices without a
     counterpart have −1.
 
-    Parameters
-    ----------
-    source, target : Mesh or Shape
-        A :class:`Shape` from :func:`prepare` saves the work that depends on one shape alone; it must come from the
-        same settings of the basis, SHOT and the numbers of functions.
-    config : Config, optional
-        ``Config()`` when not given; ``Config.single_fit()``, one fit, with descriptors of the user's own.
-    landmarks : (l, 2) whole numbers, optional
-        Pairs "source vertex, target vertex", 0-based.
-    descriptors : pair of arrays (n_s, d), (n_t, d), optional
-        Of the user's own, used beside those that the configuration names.
-    rng : seed or Generator
-        The same seed gives the same answer.
-    progress : callable, optional
-        ``progress(stage, done)`` with done from 0 to 1.
-    probes : pair of ShapeSamples, optional
-        What the search with this ``rng`` needs to know of each shape, from
-        :func:`kfmaps.matching.search.scoring_samples`. They save an eighth of the time where a shape is matched many
-        times, and change nothing.
-
-    Returns
-    -------
-    Match
-
-    Raises
-    ------
-    InvalidInput
-        When a mesh, the landmarks or the descriptors cannot be used; the message says what to do.
-    NotConverged
-        When the eigensolver misses its tolerance.
+    ``source`` and ``target``: a :class:`Shape` from :func:`prepare` saves the work that depends on one shape alone; it
+    must come from the same settings of the basis, SHOT and the numbers of functions; ``config``: ``Config()`` when not
+    given; ``Config.single_fit()``, one fit, with descriptors of the user's own; ``landmarks (l, 2)``: pairs "source
+    vertex, target vertex", 0-based; ``descriptors``: of the user's own, used beside those that the configuration names;
+    ``rng``: the same seed gives the same answer; ``progress``: ``progress(stage, done)`` with done from 0 to 1.
+    ``probes``: What the search with this ``rng`` needs to know of each shape, from
+    :func:`kfmaps.matching.search.scoring_samples`. They save an eighth of the time where a shape is matched many times,
+    and change nothing.
     """
     config = config or default_config(descriptors)
     prepared = prepare_both(source, target, config, progress=progress)

@@ -11,18 +11,7 @@ def check_match_memory(config: Config, n_s: int, n_t: int, landmarks: int = 0) -
 
     Counted are only the arrays that cannot be avoided, so that nothing is refused which could be done.
 
-    Parameters
-    ----------
-    config : Config
-    n_s, n_t : int
-        Vertices of source and target.
-    landmarks : int
-        Each makes one descriptor or more.
-
-    Raises
-    ------
-    InvalidInput
-        Saying how much it would take.
+    ``n_s`` and ``n_t``: vertices of source and target; ``landmarks``: each makes one descriptor or more.
     """
     most = config.fit_samples or max(n_s, n_t)
     rows = min(n_s, most) + min(n_t, most)

@@ -61,43 +61,21 @@ class _Rows:
 
 @dataclass(frozen=True, eq=False)
 class ShapeSamples:
-    """What judging maps needs of one shape; made by :func:`sample_for_scoring`.
+    """What judging maps needs of one shape; made by :func:`sample_for_scoring`."""
 
-    Attributes
-    ----------
-    samples : SpectralSamples
-        Farthest points; the first ``c`` of them are farthest points too.
-    distances : (c, c) float64
-        Geodesic distances between the first points.
-    orientation : (w, k, k) float64 or None
-        Orientation operators of the first functions, in the first functions; ``None`` for a point cloud.
-    descriptors : (q, d) float64 or None
-        SHOT at the samples.
-    heat : (q, t) float64
-        Logarithm of the heat kernel signature at the samples, for fixed times.
-    positions : (q, 3) float64
-    landmark_distances : (l, q) float64
-        Geodesic distances from landmarks to the samples.
-    extremities : Extremities
-    copy : CoarseProxy or None
-        ``None`` for a point cloud.
-    mirrored : bool
-        Whether it is of the mirror image.
-    turns : (m, k, k) float64 or None
-        Its near-symmetries (:func:`kfmaps.matching.self_maps.find_self_maps`) on its first samples, which are those of
-        the mirror image too; ``None`` where they have not been looked for.
-    """
-
-    samples: SpectralSamples
-    distances: np.ndarray
+    samples: SpectralSamples  # farthest points; the first ``c`` of them are farthest points too
+    distances: np.ndarray  # (c, c): geodesic distances between the first points
+    # (w, k, k): orientation operators of the first functions, in the first functions; ``None`` for a point cloud.
     orientation: np.ndarray | None
-    descriptors: np.ndarray | None
-    heat: np.ndarray
-    positions: np.ndarray
-    landmark_distances: np.ndarray
+    descriptors: np.ndarray | None  # (q, d): SHOT at the samples
+    heat: np.ndarray  # (q, t): logarithm of the heat kernel signature at the samples, for fixed times
+    positions: np.ndarray  # (q, 3)
+    landmark_distances: np.ndarray  # (l, q): geodesic distances from landmarks to the samples
     extremities: Extremities
-    copy: CoarseProxy | None
-    mirrored: bool = False
+    copy: CoarseProxy | None  # ``None`` for a point cloud
+    mirrored: bool = False  # whether it is of the mirror image
+    # (m, k, k): its near-symmetries (:func:`kfmaps.matching.self_maps.find_self_maps`) on its first samples, which are
+    # those of the mirror image too; ``None`` where they have not been looked for.
     turns: np.ndarray | None = None
 
     @cached_property

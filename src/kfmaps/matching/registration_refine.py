@@ -89,17 +89,13 @@ def refine_by_registration(
 ) -> tuple[list[Candidate], tuple[Candidate | SwappedRepair, ...]]:
     """Repair the best candidates between unlike shapes, and rank them again.
 
-    The target is registered onto the source, so that each direction has its say: what follows registers the source
-    onto the target. Where that has made a candidate worse, it counts as the best of that, of the source registered onto
-    the target, and of what it was. Repairs keep to the extremities that a map takes to each other, so the likeliest
-    matches of extremities that none of the maps has begin repairs too.
+    The target is registered onto the source, so that each direction has its say: what follows registers the source onto
+    the target. Where that has made a candidate worse, it counts as the best of that, of the source registered onto the
+    target, and of what it was. Repairs keep to the extremities that a map takes to each other, so the likeliest matches
+    of extremities that none of the maps has begin repairs too.
 
-    Returns
-    -------
-    ranked : list of Candidate
-    retries : tuple of Candidate or SwappedRepair
-        What may turn out better than the first on all vertices: the next that were repaired, and the first repaired the
-        other way round.
+    Returns ``ranked``; ``retries``: what may turn out better than the first on all vertices: the next that were
+    repaired, and the first repaired the other way round.
     """
     finer = copies.fine
     if finer is None:
@@ -164,15 +160,8 @@ def register_map_on_proxies(
 ) -> AlternatingResult | None:
     """Return :func:`alternating_registration` of a map, or ``None`` where a proxy falls apart.
 
-    Parameters
-    ----------
-    C : (k_t, k_s) float64
-    pair : RegistrationPair
-    guidance : DescriptorGuidance or None
-        On all vertices.
-    swapped : bool
-        Whether the target is registered to the source: the vertices of the result are then the target's.
-    progress : callable, optional
+    ``C (k_t, k_s)``; ``guidance``: on all vertices; ``swapped``: whether the target is registered to the source: the
+    vertices of the result are then the target's.
     """
     if swapped:
         C, pair = C.T, pair.swapped()

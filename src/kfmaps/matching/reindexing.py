@@ -16,21 +16,12 @@ from kfmaps.shape import Shape, clean_shape
 
 @dataclass(frozen=True, eq=False)
 class VertexReindexing:
-    """Two prepared shapes as they are outside and inside; made by :func:`reindexing`.
-
-    Attributes
-    ----------
-    outside : (Shape, Shape)
-    source, target : Shape
-        Inside: each place once, without unused vertices and specks (:func:`kfmaps.shape.clean_shape`).
-    part_s, part_t : Inside
-        How their vertices are numbered.
-    """
+    """Two prepared shapes as they are outside and inside; made by :func:`reindexing`."""
 
     outside: tuple[Shape, Shape]
-    source: Shape
+    source: Shape  # inside: each place once, without unused vertices and specks (:func:`kfmaps.shape.clean_shape`)
     target: Shape
-    part_s: CleanedMesh
+    part_s: CleanedMesh  # how their vertices are numbered
     part_t: CleanedMesh
 
     @property
@@ -39,13 +30,7 @@ class VertexReindexing:
         return self.part_s.whole and self.part_t.whole
 
     def landmarks(self, given: Any) -> Any:
-        """Landmarks ``(l, 2)`` outside as those inside; ``None`` stays.
-
-        Raises
-        ------
-        InvalidInput
-            When two of them count as one vertex.
-        """
+        """Landmarks ``(l, 2)`` outside as those inside; ``None`` stays."""
         if given is None or self.open:
             return given
         pairs = check_landmark_pairs(given, *self.outside)

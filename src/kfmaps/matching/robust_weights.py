@@ -38,18 +38,8 @@ class RobustWeights:
 def robust_weights(descriptors: Descriptors, bases: tuple[Basis, Basis], config: Config) -> RobustWeights:
     """``descriptors`` scaled by the square roots of the weights that a robust loss per landmark or descriptor gives.
 
-    Parameters
-    ----------
-    descriptors : Descriptors
-        Those of no landmark keep their size when the loss is per landmark.
-    bases : pair of Basis
-    config : Config
-        Its formulation and weights count.
-
-    Raises
-    ------
-    InvalidInput
-        When the loss is per landmark and there is none.
+    ``descriptors``: those of no landmark keep their size when the loss is per landmark; ``config``: its formulation and
+    weights count.
     """
     asked = config.formulation
     if asked.loss_group == "landmark":

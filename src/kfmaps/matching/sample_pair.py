@@ -20,26 +20,14 @@ COARSE_SAMPLES = 400
 
 @dataclass(frozen=True, eq=False)
 class SamplePair:
-    """Samples of both shapes and the costs of matching them; made by :func:`build_sample_pair`.
-
-    Attributes
-    ----------
-    source, target : ShapeSamples
-    descriptor_cost : (q_t, q_s) float32 or None
-        See :func:`descriptor_cost`; ``None`` where SHOT says nothing.
-    landmark_cost : (q_t, q_s) float32 or None
-        The same of the functions around landmarks.
-    landmark_evidence : LandmarkEvidence or None
-    solvers : dict
-        What :meth:`solver` has made, to be found again.
-    """
+    """Samples of both shapes and the costs of matching them; made by :func:`build_sample_pair`."""
 
     source: ShapeSamples
     target: ShapeSamples
-    descriptor_cost: np.ndarray | None
-    landmark_cost: np.ndarray | None = None
+    descriptor_cost: np.ndarray | None  # (q_t, q_s): see :func:`descriptor_cost`; ``None`` where SHOT says nothing
+    landmark_cost: np.ndarray | None = None  # (q_t, q_s): the same of the functions around landmarks
     landmark_evidence: LandmarkEvidence | None = None
-    solvers: dict[int, np.ndarray] = field(default_factory=dict)
+    solvers: dict[int, np.ndarray] = field(default_factory=dict)  # what :meth:`solver` has made, to be found again
 
     def solver(self, k: int) -> np.ndarray:
         """Return :func:`kfmaps.fmap.zoomout.pseudo_inverse` of the target, made once for all refinements."""
@@ -56,17 +44,8 @@ class SamplePair:
     ) -> np.ndarray | None:
         """Return the weighted sum of the costs, for :func:`kfmaps.fmap.zoomout.batched_zoomout`.
 
-        Parameters
-        ----------
-        descriptors, landmarks, extremities : float
-            Weights.
-        matches : sequence of ExtremityMatch or None
-            The extremities that each of m maps takes to each other.
-
-        Returns
-        -------
-        (q_t, q_s) or (m, q_t, q_s) float32, or None
-            The latter where extremities count; ``None`` where nothing does.
+        ``descriptors``, ``landmarks`` and ``extremities``: weights; ``matches``: the extremities that each of m maps
+        takes to each other. Returns (q_t, q_s): the latter where extremities count; ``None`` where nothing does.
         """
         total = None
         for weight, part in ((descriptors, self.descriptor_cost), (landmarks, self.landmark_cost)):
@@ -85,18 +64,10 @@ class SamplePair:
 
 @dataclass(frozen=True, eq=False)
 class TwoLevelSamples:
-    """Samples of a pair at two sizes.
+    """Samples of a pair at two sizes."""
 
-    Attributes
-    ----------
-    few : SamplePair
-        For many rough maps.
-    whole : SamplePair
-        For the best of them.
-    """
-
-    few: SamplePair
-    whole: SamplePair
+    few: SamplePair  # for many rough maps
+    whole: SamplePair  # for the best of them
 
 
 def two_level_samples(
@@ -104,13 +75,8 @@ def two_level_samples(
 ) -> TwoLevelSamples:
     """Return the samples of two prepared shapes at two sizes.
 
-    Parameters
-    ----------
-    source, target : Shape
-    probes : pair of ShapeSamples
-        Those of the second size, which know of the landmarks.
-    landmarks : (l, 2) int64, optional
-        Pairs "source vertex, target vertex".
+    ``probes``: those of the second size, which know of the landmarks; ``landmarks (l, 2)``: pairs "source vertex,
+    target vertex".
     """
     found = None
     if landmarks is not None and len(landmarks):

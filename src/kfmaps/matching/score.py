@@ -195,37 +195,21 @@ SCORE = Scoring()
 
 @dataclass(frozen=True)
 class Quality:
-    """Measures of one map on samples; made by :func:`kfmaps.matching.quality.map_quality`.
+    """Measures of one map on samples; made by :func:`kfmaps.matching.quality.map_quality`."""
 
-    Attributes
-    ----------
-    orientation : float
-        From 1, kept everywhere, to -1, reversed everywhere: correlation of the source's orientation operators,
-        transferred, with those of the target (Ren et al. 2018). 0 for point clouds.
-    distortion : float
-        Mean absolute change of geodesic distances, divided by the mean distance. 0 for an isometry.
-    local_distortion : float
-        The same for points closer than :attr:`Scoring.local_radius`, so that tears count, wherever they are.
-    descriptors : float
-        Mean squared difference of SHOT between matched points, divided by that of random ones, from 0 to about 1; mean
-        of both directions. Less where the shapes have hardly any features.
-    heat : float
-        The same for the logarithm of the heat kernel signature, which knows thick from thin.
-    coverage : float
-        Share of the area that is the image of something, the smaller of both directions.
-    laplacian : float
-        ``‖C Λ_s − Λ_t C‖² / ‖C Λ_s‖²``; 1, as of unrelated shapes, for a map of constants alone.
-    extremity_descriptor_error : float
-        ``descriptors`` of points near extremities alone; no part of :attr:`score`. 0 where there are none.
-    """
-
+    # From 1, kept everywhere, to -1, reversed everywhere: correlation of the source's orientation operators,
+    # transferred, with those of the target (Ren et al. 2018). 0 for point clouds.
     orientation: float
-    distortion: float
+    distortion: float  # Mean absolute change of geodesic distances, divided by the mean distance. 0 for an isometry.
+    # The same for points closer than :attr:`Scoring.local_radius`, so that tears count, wherever they are.
     local_distortion: float
+    # Mean squared difference of SHOT between matched points, divided by that of random ones, from 0 to about 1; mean of
+    # both directions. Less where the shapes have hardly any features.
     descriptors: float
-    heat: float
-    coverage: float
-    laplacian: float
+    heat: float  # the same for the logarithm of the heat kernel signature, which knows thick from thin
+    coverage: float  # share of the area that is the image of something, the smaller of both directions
+    laplacian: float  # ``‖C Λ_s − Λ_t C‖² / ‖C Λ_s‖²``; 1, as of unrelated shapes, for a map of constants alone
+    # ``descriptors`` of points near extremities alone; no part of :attr:`score`. 0 where there are none.
     extremity_descriptor_error: float = 0.0
 
     @property
@@ -236,41 +220,24 @@ class Quality:
 
 @dataclass(frozen=True, eq=False)
 class Candidate:
-    """One refined map on the samples of a pair.
+    """One refined map on the samples of a pair."""
 
-    Attributes
-    ----------
-    name : str
-        Where it came from.
-    functional_map : (k, k) float64
-    points : (q_t,) int64
-        A source sample for each target sample.
-    quality : Quality
-    uses_descriptors : bool
-        A map that was refined without descriptors is only an alternative.
-    landmark_errors : (l,) float64
-        Distance of each landmark's image from where it belongs, in √area.
-    deformation_energy, strain, shot_error : float or None
-        See :mod:`kfmaps.registration.evidence`; ``None`` where they were not computed. The latter two are over those of
-        a usual or of the best candidate.
-    registered_vertices : (n_s, 3) float64 or None
-        The source's vertices on the target, roughly; with ``swapped`` the target's (n_t, 3) on the source.
-    swapped : bool
-    fit : Fit or None
-        The kernel fit that it began with; ``None`` where it began with signs, extremities or another candidate.
-    """
-
-    name: str
-    functional_map: np.ndarray
-    points: np.ndarray
+    name: str  # where it came from
+    functional_map: np.ndarray  # (k, k)
+    points: np.ndarray  # (q_t,): a source sample for each target sample
     quality: Quality
-    uses_descriptors: bool = True
+    uses_descriptors: bool = True  # a map that was refined without descriptors is only an alternative
+    # (l,): distance of each landmark's image from where it belongs, in √area.
     landmark_errors: np.ndarray = field(default_factory=lambda: np.zeros(0))
+    # See :mod:`kfmaps.registration.evidence`; ``None`` where they were not computed. The latter two are over those of a
+    # usual or of the best candidate.
     deformation_energy: float | None = None
     strain: float | None = None
     shot_error: float | None = None
+    # (n_s, 3): the source's vertices on the target, roughly; with ``swapped`` the target's (n_t, 3) on the source.
     registered_vertices: np.ndarray | None = None
     swapped: bool = False
+    # The kernel fit that it began with; ``None`` where it began with signs, extremities or another candidate.
     fit: Fit | None = None
 
     @property
@@ -286,21 +253,12 @@ class Candidate:
 
 @dataclass(frozen=True)
 class PartEvidence:
-    """Measures of one placement of a part.
+    """Measures of one placement of a part."""
 
-    Attributes
-    ----------
-    consistency : float
-        Of all samples with their neighbours, 0 to 1.
-    similarity_rank : float
-        Mean logarithm of the share of the whole's samples that resemble a sample more than its place does: 0 and less.
-    deformation_energy, gap, flipped_area : float
-        Of :class:`kfmaps.matching.partial.registration.PartRegistration`.
-    """
-
-    consistency: float
+    consistency: float  # of all samples with their neighbours, 0 to 1
+    # Mean logarithm of the share of the whole's samples that resemble a sample more than its place does: 0 and less.
     similarity_rank: float
-    deformation_energy: float = math.inf
+    deformation_energy: float = math.inf  # of :class:`kfmaps.matching.partial.registration.PartRegistration`
     gap: float = 0.0
     flipped_area: float = 0.0
 
@@ -364,14 +322,8 @@ def landmark_support(errors: np.ndarray, distances: np.ndarray, areas: np.ndarra
     The squared share of the source that lies within :attr:`Scoring.landmark_radius` of a landmark, times a logistic
     function of the mean error. Few landmarks, or many in one place, tell little.
 
-    Parameters
-    ----------
-    errors : (l,)
-        Of the landmarks, in √area, by a map in which they had no say.
-    distances : (l, q_s)
-        From each of the source's landmarks to its samples.
-    areas : (q_s,)
-        Of these samples.
+    ``errors (l,)``: of the landmarks, in √area, by a map in which they had no say; ``distances (l, q_s)``: from each of
+    the source's landmarks to its samples; ``areas (q_s,)``: of these samples.
     """
     if len(errors) == 0:
         return 0.0
@@ -397,17 +349,10 @@ def probability(
 ) -> float:
     """Return the probability that a map is right.
 
-    Parameters
-    ----------
-    score : float
-        :attr:`Quality.score` of a whole shape, :func:`part_score` of a part.
-    margin : float
-        By how much the best different map is behind; where both are equal each is as likely.
-    deformation_energy : float, optional
-        Where it exceeds that of right maps much, something that the score does not see is wrong.
-    support : float
-        :func:`landmark_support`, which takes away doubt.
-    numbers : Calibration
+    ``score``: :attr:`Quality.score` of a whole shape, :func:`part_score` of a part; ``margin``: by how much the best
+    different map is behind; where both are equal each is as likely; ``deformation_energy``: where it exceeds that of
+    right maps much, something that the score does not see is wrong; ``support``: :func:`landmark_support`, which takes
+    away doubt.
     """
     fits = float(expit(numbers.slope * (score - numbers.middle)))
     if deformation_energy is not None:

@@ -69,101 +69,54 @@ SETTLED = 3
 
 @dataclass(frozen=True, eq=False)
 class SearchResult:
-    """A map before it is finished on all points: what :func:`search_map` returns.
+    """A map before it is finished on all points: what :func:`search_map` returns."""
 
-    Attributes
-    ----------
-    functional_map : (k, k) float64
-    initialization : str
-        What the candidate started from.
-    fit : Fit or None
-        The kernel fit that the map began with, if any.
-    verdict : str
-        "sure", "likely", "ambiguous" or "unlikely" of a search; "landmarks" or "unchecked" of one fit.
-    confidence : float or None
-        Probability that the map is right, see :func:`kfmaps.matching.score.probability`.
-    scores : tuple of float
-        Of the map and of each alternative, higher is better.
-    alternatives : tuple of arrays (n_t,)
-        The distinct other maps, best first.
-    doubts : tuple of float
-        By how much the map precedes the first alternatives, those that were made on purpose: with two limbs exchanged,
-        or a better one to the mirror image, which it does not precede.
-    landmarks : (l, 2) int64
-        Those that the map keeps to.
-    rejected_landmarks : (d,) int64
-        The numbers, from 0, of those given that it contradicts.
-    orientation : "preserving" or "reversing"
-        Whether it is a map to the target or to its mirror image.
-    quality : float or None
-        Score of the map of a search, apart from landmarks.
-    deformation_energy : float or None
-        See :class:`kfmaps.registration.evidence.DeformationEnergy`.
-    extremities : ExtremityVertices or None
-        Extremities that guide the refinement, where the shapes differ so much that they should.
-    registered_vertices : (n_s, 3) float64 or None
-        The source's vertices roughly on the target, where the shapes differ so much that these guide it as well.
-    swapped : bool
-        Whether ``registered_vertices`` are the target's vertices on the source instead, (n_t, 3).
-    retries : tuple of Candidate or SwappedRepair
-        What may turn out better on all vertices; :func:`retry` makes a result of it.
-    """
-
-    functional_map: np.ndarray
-    initialization: str
-    fit: Fit | None
-    verdict: str
-    confidence: float | None = None
-    scores: tuple[float, ...] = ()
-    alternatives: tuple[np.ndarray, ...] = ()
+    functional_map: np.ndarray  # (k, k)
+    initialization: str  # what the candidate started from
+    fit: Fit | None  # the kernel fit that the map began with, if any
+    verdict: str  # "sure", "likely", "ambiguous" or "unlikely" of a search; "landmarks" or "unchecked" of one fit
+    confidence: float | None = None  # probability that the map is right, see :func:`kfmaps.matching.score.probability`
+    scores: tuple[float, ...] = ()  # of the map and of each alternative, higher is better
+    alternatives: tuple[np.ndarray, ...] = ()  # the distinct other maps, best first
+    # By how much the map precedes the first alternatives, those that were made on purpose: with two limbs exchanged, or
+    # a better one to the mirror image, which it does not precede.
     doubts: tuple[float, ...] = ()
+    # (l, 2): those that the map keeps to.
     landmarks: np.ndarray = field(default_factory=lambda: np.zeros((0, 2), dtype=np.int64))
+    # (d,): the numbers, from 0, of those given that it contradicts.
     rejected_landmarks: np.ndarray = field(default_factory=lambda: np.zeros(0, dtype=np.int64))
+    # "preserving" or "reversing": whether it is a map to the target or to its mirror image.
     orientation: str = "preserving"
-    quality: float | None = None
-    deformation_energy: float | None = None
+    quality: float | None = None  # score of the map of a search, apart from landmarks
+    deformation_energy: float | None = None  # see :class:`kfmaps.registration.evidence.DeformationEnergy`
+    # Extremities that guide the refinement, where the shapes differ so much that they should.
     extremities: ExtremityVertices | None = None
+    # (n_s, 3): the source's vertices roughly on the target, where the shapes differ so much that these guide it as
+    # well.
     registered_vertices: np.ndarray | None = None
-    swapped: bool = False
+    swapped: bool = False  # whether ``registered_vertices`` are the target's vertices on the source instead, (n_t, 3)
+    # What may turn out better on all vertices; :func:`retry` makes a result of it.
     retries: tuple[Candidate | SwappedRepair, ...] = ()
     _search: _Search | None = None
 
 
 @dataclass(frozen=True, eq=False)
 class _Search:
-    """The state of a search.
-
-    Attributes
-    ----------
-    source, target : Shape
-    config : Config
-    pairs : (l, 2) int64
-        Landmarks as they were given.
-    evidence : LandmarkEvidence or None
-        Of all of them.
-    wrong : (l,) bool
-        Those that the best candidate contradicts.
-    samples : TwoLevelSamples
-    copies : ProxyCache
-    found, ranked : list of Candidate
-        All, and the distinct ones, best first.
-    orientation : "preserving" or "reversing"
-    doubts : tuple of (Candidate, float)
-        Alternatives that were made on purpose, to the mirror image or with two limbs exchanged, and by how much the
-        best map precedes each.
-    """
+    """The state of a search."""
 
     source: Shape
     target: Shape
     config: Config
-    pairs: np.ndarray
-    evidence: LandmarkEvidence | None
-    wrong: np.ndarray
+    pairs: np.ndarray  # (l, 2): landmarks as they were given
+    evidence: LandmarkEvidence | None  # of all of them
+    wrong: np.ndarray  # (l,): those that the best candidate contradicts
     samples: TwoLevelSamples
     copies: ProxyCache
-    found: list[Candidate]
+    found: list[Candidate]  # all, and the distinct ones, best first
     ranked: list[Candidate]
-    orientation: str
+    orientation: str  # "preserving" or "reversing"
+    # Alternatives that were made on purpose, to the mirror image or with two limbs exchanged, and by how much the best
+    # map precedes each.
     doubts: tuple[tuple[Candidate, float], ...] = ()
 
 
@@ -180,25 +133,10 @@ def search_map(
 ) -> SearchResult:
     """Find a map between two prepared shapes, as ``config.search`` says.
 
-    Parameters
-    ----------
-    source, target : Shape
-    config : Config
-    landmarks : (l, 2) whole numbers, optional
-        Pairs "source vertex, target vertex". They steer the candidates and rank them; those that the best map
-        contradicts while it keeps to most of the others are left out
-        (:func:`kfmaps.matching.score.rejected_landmarks`).
-    descriptors : pair of arrays (n_s, d), (n_t, d), optional
-    rng : seed or Generator
-    progress : callable, optional
-    probes : pair of ShapeSamples, optional
-        Of :func:`scoring_samples` with the same ``rng``: spares the work where a shape is matched many times. Not
-        used with landmarks, whose distances they have too.
-
-    Raises
-    ------
-    InvalidInput
-        When ``config.search`` is ``None``, landmarks cannot be used, or the kernel was learned with landmarks.
+    ``landmarks (l, 2)``: Pairs "source vertex, target vertex". They steer the candidates and rank them; those that the
+    best map contradicts while it keeps to most of the others are left out
+    (:func:`kfmaps.matching.score.rejected_landmarks`). ``probes``: Of :func:`scoring_samples` with the same ``rng``:
+    spares the work where a shape is matched many times. Not used with landmarks, whose distances they have too.
     """
     if config.search is None:
         raise refuse("search", "settings of a search", "None", "use Config(), which has them")

@@ -28,12 +28,7 @@ _MIN_DISPLACEMENT = 0.1
 def self_maps(of: ShapeSamples, functions: int, threads: int | None = None) -> list[np.ndarray]:
     """Return the near-symmetries of one shape, those that it has kept or :func:`find_self_maps`.
 
-    Parameters
-    ----------
-    of : ShapeSamples
-    functions : int
-        As many as the maps may have.
-    threads : int, optional
+    ``functions``: as many as the maps may have.
     """
     if of.turns is not None and of.turns.shape[1] == _size(of, functions):
         return list(of.turns)
@@ -43,10 +38,7 @@ def self_maps(of: ShapeSamples, functions: int, threads: int | None = None) -> l
 def with_self_maps(of: ShapeSamples, few: ShapeSamples) -> ShapeSamples:
     """Return samples with the near-symmetries of their first ones, so that they are found once for many matches.
 
-    Parameters
-    ----------
-    of, few : ShapeSamples
-        All samples, and the first of them.
+    ``of`` and ``few``: all samples, and the first of them.
     """
     functions = few.samples.basis.functions.shape[1]
     found, k = find_self_maps(few, functions, 1), _size(few, functions)

@@ -37,13 +37,7 @@ class Minimised:
 
 
 def solve_problem(task: FitProblem, config: Config, report: Progress, start: Any = None) -> Minimised:
-    """:func:`minimize_problem` from ``start`` where one is given, which is checked; told as the stage "solve".
-
-    Warns
-    -----
-    KfmapsWarning
-        When the solver broke down, so that the map is not the minimiser.
-    """
+    """:func:`minimize_problem` from ``start`` where one is given, which is checked; told as the stage "solve"."""
     if start is not None:
         right = task.energy.rhs()
         start = np.asarray(to_numpy(start) if hasattr(start, "shape") else start, dtype=np.float64)

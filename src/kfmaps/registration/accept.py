@@ -26,37 +26,18 @@ _MAX_WORSENED_AREA = 0.006
 
 @dataclass(frozen=True)
 class RegistrationReport:
-    """What a non-rigid fit tells about a map, without the truth; made by :func:`register_map`.
+    """What a non-rigid fit tells about a map, without the truth; made by :func:`register_map`."""
 
-    Attributes
-    ----------
-    gap : float
-        Root of the mean squared distance of the bent source and the target, in both directions, in units of √area.
-    deformation_energy : float
-        As-rigid-as-possible energy per area: 0 for a motion.
-    before : float
-        Confidence, averaged over the target's vertices, of the map that the fit began with.
-    after : float or None
-        The same of the map that it ends with; ``None`` where the gap alone refused it.
-    worsened, improved : float
-        Shares of the target's area in which the confidence falls and rises by more than 0.2.
-    pinned : bool
-        Whether the map was held fast where a first fit had worsened it.
-    accepted : bool
-        Whether the match has taken the fit's points.
-    reason : "gap", "harm" or None
-        What spoke against it.
-    """
-
+    # Root of the mean squared distance of the bent source and the target, in both directions, in units of √area.
     gap: float
-    deformation_energy: float
-    before: float
-    after: float | None = None
-    worsened: float = 0.0
+    deformation_energy: float  # as-rigid-as-possible energy per area: 0 for a motion
+    before: float  # confidence, averaged over the target's vertices, of the map that the fit began with
+    after: float | None = None  # the same of the map that it ends with; ``None`` where the gap alone refused it
+    worsened: float = 0.0  # shares of the target's area in which the confidence falls and rises by more than 0.2
     improved: float = 0.0
-    pinned: bool = False
-    accepted: bool = False
-    reason: str | None = "gap"
+    pinned: bool = False  # whether the map was held fast where a first fit had worsened it
+    accepted: bool = False  # whether the match has taken the fit's points
+    reason: str | None = "gap"  # what spoke against it
 
     @property
     def loss(self) -> float | None:
@@ -66,27 +47,15 @@ class RegistrationReport:
 
 @dataclass(frozen=True, eq=False)
 class RegisteredMap:
-    """A map after the non-rigid fit; made by :func:`register_map`.
+    """A map after the non-rigid fit; made by :func:`register_map`."""
 
-    Attributes
-    ----------
-    target_to_source : (n_t,) int64
-        The source vertex nearest to each point; those that were given where no fit was made or kept.
-    precise_map : PointMap or None
-        ``None`` where no fit was made or kept.
-    registered_vertices : (n_s, 3) float64 or None
-        The source's vertices on the target, at unit area, where the fit was kept.
-    local_confidence : (n_t,) float64
-        :func:`kfmaps.fmap.confidence.local_confidence` of the map.
-    fit : RegistrationReport or None
-        What the fit tells of the map, kept or not; ``None`` where none was made.
-    """
-
+    # (n_t,): the source vertex nearest to each point; those that were given where no fit was made or kept.
     target_to_source: np.ndarray
-    precise_map: PointMap | None
+    precise_map: PointMap | None  # ``None`` where no fit was made or kept
+    # (n_s, 3): the source's vertices on the target, at unit area, where the fit was kept.
     registered_vertices: np.ndarray | None
-    local_confidence: np.ndarray
-    fit: RegistrationReport | None = None
+    local_confidence: np.ndarray  # (n_t,): :func:`kfmaps.fmap.confidence.local_confidence` of the map
+    fit: RegistrationReport | None = None  # what the fit tells of the map, kept or not; ``None`` where none was made
 
 
 @dataclass(frozen=True, eq=False)
@@ -115,20 +84,8 @@ def register_map(
     the two the last is kept for which the evidence speaks: that worsens little, or improves at least half as much as it
     worsens.
 
-    Parameters
-    ----------
-    points : (n_t,) int64
-        The map.
-    source, target : Shape
-    config : Config
-        Its ``registration``, which is left out where that or the refinement is ``None``.
-    clock : StageTimer
-    landmarks : (l, 2) int64, optional
-        Pairs "source vertex, target vertex", which hold softly.
-
-    Returns
-    -------
-    RegisteredMap
+    ``points (n_t,)``: the map; ``config``: its ``registration``, which is left out where that or the refinement is
+    ``None``; ``landmarks (l, 2)``: pairs "source vertex, target vertex", which hold softly.
     """
     with clock("confidence"):
         confidence = build_local_distortion(source.mesh, target.mesh)

@@ -54,17 +54,10 @@ class RegistrationPair:
 
 @dataclass(frozen=True, eq=False)
 class AlternatingResult:
-    """What :func:`alternating_registration` returns.
+    """What :func:`alternating_registration` returns."""
 
-    Attributes
-    ----------
-    functional_map : (k, k)
-    registered_vertices : (n_s, 3)
-        The source's, on the target.
-    """
-
-    functional_map: np.ndarray
-    registered_vertices: np.ndarray
+    functional_map: np.ndarray  # (k, k)
+    registered_vertices: np.ndarray  # (n_s, 3): the source's, on the target
 
 
 def registration_pair(
@@ -72,12 +65,7 @@ def registration_pair(
 ) -> RegistrationPair:
     """Return what an alternating registration of two shapes works on.
 
-    Parameters
-    ----------
-    source, target : Shape
-    copies : pair of CoarseProxy
-    landmarks : (l, 2) int64, optional
-        Vertices of the shapes, of which the nearest of the copies are taken.
+    ``landmarks (l, 2)``: vertices of the shapes, of which the nearest of the copies are taken.
     """
     marks = np.zeros((0, 2), dtype=np.int64) if landmarks is None else landmarks
     near = [
@@ -93,19 +81,7 @@ def alternating_registration(
 ) -> AlternatingResult:
     """Improve a map between unlike shapes by registrations and refinements in turn.
 
-    Parameters
-    ----------
-    C : (k_t, k_s)
-    on : RegistrationPair
-    led : DescriptorGuidance or None
-        Guides the refinements, for all vertices.
-    report : callable, optional
-        Told how much is done, from 0 to 1.
-
-    Raises
-    ------
-    NotConverged
-        Where a copy falls apart.
+    ``C (k_t, k_s)``; ``led``: guides the refinements, for all vertices; ``report``: told how much is done, from 0 to 1.
     """
     a, b = on.copies
     k = min(*(len(basis.eigenvalues) for basis in on.bases), _REFINE.stop)

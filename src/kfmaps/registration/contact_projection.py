@@ -28,17 +28,8 @@ def project_with_contact(
     distance in space, in normals (those that differ by 1 count as 0.02), and at rest from the map's points (1 counts as
     0.05). On meshes as uneven as may be none costs more than the closest in space.
 
-    Parameters
-    ----------
-    points : (n_t,) int64
-        The map that the registration began with.
-    body : DeformableMesh
-        The source.
-    x : (n_s, 3) float64
-        Its vertices, bent.
-    target : Mesh
-    normals : (n_t, 3) float64
-        Of the target's vertices.
+    ``points (n_t,)``: the map that the registration began with; ``body``: the source; ``x (n_s, 3)``: its vertices,
+    bent; ``normals (n_t, 3)``: of the target's vertices.
     """
     faces, rest = body.mesh.faces, body.mesh.vertices
     there = np.hstack([x, NORMALS * vertex_normals(Mesh(x, faces)), _REST_WEIGHT * rest])

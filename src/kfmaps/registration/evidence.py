@@ -49,52 +49,32 @@ class SurfaceSamples:
 
 @dataclass(frozen=True, eq=False)
 class ProxyPair:
-    """Coarse copies of two shapes, ready to be bent onto each other as maps say; made by :func:`proxy_pair`.
-
-    Attributes
-    ----------
-    source, target : Shape
-    copies : pair of CoarseProxy
-    forth, back : MeshPair
-        The source's copy and the target's, and the other way.
-    samples : pair of SurfaceSamples or None
-        Of the copies at rest, where SHOT was asked for.
-    """
+    """Coarse copies of two shapes, ready to be bent onto each other as maps say; made by :func:`proxy_pair`."""
 
     source: Shape
     target: Shape
     copies: tuple[CoarseProxy, CoarseProxy]
-    forth: MeshPair
+    forth: MeshPair  # the source's copy and the target's, and the other way
     back: MeshPair
-    samples: tuple[SurfaceSamples, SurfaceSamples] | None = None
+    samples: tuple[SurfaceSamples, SurfaceSamples] | None = None  # of the copies at rest, where SHOT was asked for
 
 
 @dataclass(frozen=True)
 class DeformationEnergy:
-    """How far both shapes must bend to follow a map; made by :func:`deform`.
+    """How far both shapes must bend to follow a map; made by :func:`deform`."""
 
-    Attributes
-    ----------
-    energy : float
-        As-rigid-as-possible energy per area, the geometric mean of both directions: 0 for a motion; of one where the
-        other copy falls apart, 10 where both do.
-    strain : float
-        Mean logarithm of the local energy per area: what is bent a little everywhere, as limbs that are turned front to
-        back, shows in it; the few places where two bodies differ most, which have most of the energy, hardly.
-    """
-
+    # As-rigid-as-possible energy per area, the geometric mean of both directions: 0 for a motion; of one where the
+    # other copy falls apart, 10 where both do.
     energy: float
+    # Mean logarithm of the local energy per area: what is bent a little everywhere, as limbs that are turned front to
+    # back, shows in it; the few places where two bodies differ most, which have most of the energy, hardly.
     strain: float
 
 
 def coarse_copy(shape: Shape, vertices: int = 1200) -> CoarseProxy | None:
     """Return a coarse copy of a shape; ``None`` where it has no faces, or too few.
 
-    Parameters
-    ----------
-    shape : Shape
-    vertices : int
-        Of the copy.
+    ``vertices``: of the copy.
     """
     if len(shape.mesh.faces) < _MIN_FACES:
         return None
@@ -108,12 +88,7 @@ def proxy_pair(
 ) -> ProxyPair:
     """Return coarse ``copies`` of two shapes ready to be registered, so that what depends on no map is found once.
 
-    Parameters
-    ----------
-    source, target : Shape
-    copies : pair of CoarseProxy
-    with_shot : bool
-        Whether :func:`registered_shot_error` will be asked for.
+    ``with_shot``: whether :func:`registered_shot_error` will be asked for.
     """
     a, b = (deformable_mesh(copy.mesh, {}) for copy in copies)
     on_a, on_b = (closest_point_query(body.mesh, around=body.around) for body in (a, b))
@@ -124,11 +99,7 @@ def proxy_pair(
 def deform(C: np.ndarray, pair: ProxyPair, fit: NonRigid = _QUICK) -> DeformationEnergy:
     """Return how far each copy must bend to follow a functional map.
 
-    Parameters
-    ----------
-    C : (k_t, k_s) float64
-    pair : ProxyPair
-    fit : NonRigid
+    ``C (k_t, k_s)``.
     """
     forth, back = (_deform_one(fit, *way) for way in _point_maps(C, pair))
     if forth is None or back is None:
@@ -140,16 +111,8 @@ def deform(C: np.ndarray, pair: ProxyPair, fit: NonRigid = _QUICK) -> Deformatio
 def registered_shot_error(C: np.ndarray, pair: ProxyPair) -> float | None:
     """Return the mean squared difference of SHOT, from 0 to 2, of each copy bent onto the other as a map says.
 
-    Parameters
-    ----------
-    C : (k_t, k_s) float64
-    pair : ProxyPair
-        With SHOT.
-
-    Returns
-    -------
-    float or None
-        The mean of both directions, or that of one where the other copy falls apart; ``None`` where both do.
+    ``C (k_t, k_s)``; ``pair``: with SHOT. Returns the mean of both directions, or that of one where the other copy
+    falls apart; ``None`` where both do.
     """
     assert pair.samples is not None
     forth, back = _point_maps(C, pair)

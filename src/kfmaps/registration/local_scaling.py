@@ -32,13 +32,8 @@ def local_scaling(energy: ArapEnergy, areas: np.ndarray, area: float) -> Callabl
     ``S_i`` symmetric, from 0.4 to 2.5 in every direction: the linear map that takes the surroundings' rest shape to
     their bent one in the sense of least squares, each vertex turned back by its rotation.
 
-    Parameters
-    ----------
-    energy : ArapEnergy
-    areas : (n,) float64
-        Of the vertices.
-    area : float
-        About that of the surroundings; with 0 the function returns the rotations.
+    ``areas (n,)``: of the vertices; ``area``: about that of the surroundings; with 0 the function returns the
+    rotations.
     """
     if area == 0:
         return lambda _x, turns: turns

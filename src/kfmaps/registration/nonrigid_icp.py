@@ -52,28 +52,15 @@ _SCALED_LANDMARK_PULL = (30.0, 0.1)
 
 @dataclass(frozen=True, eq=False)
 class Registration:
-    """A source bent onto a target, both at unit area.
+    """A source bent onto a target, both at unit area."""
 
-    Attributes
-    ----------
-    vertices : (n_s, 3) float64
-        The source's, where they lie on the target.
-    faces : (n_t,) int64
-        The source face that each target vertex lies on.
-    weights : (n_t, 3) float64
-        The barycentric coordinates of its place there
-        (:func:`kfmaps.registration.contact_projection.project_with_contact`).
-    bending : float
-        As-rigid-as-possible energy per area (:func:`kfmaps.geometry.arap.arap_energy`): 0 for a motion.
-    gap : float
-        Root of the mean squared distance of the two surfaces, in both directions, in units of √area.
-    """
-
-    vertices: np.ndarray
-    faces: np.ndarray
+    vertices: np.ndarray  # (n_s, 3): the source's, where they lie on the target
+    faces: np.ndarray  # (n_t,): the source face that each target vertex lies on
+    # (n_t, 3): the barycentric coordinates of its place there
+    # (:func:`kfmaps.registration.contact_projection.project_with_contact`).
     weights: np.ndarray
-    bending: float
-    gap: float
+    bending: float  # as-rigid-as-possible energy per area (:func:`kfmaps.geometry.arap.arap_energy`): 0 for a motion
+    gap: float  # root of the mean squared distance of the two surfaces, in both directions, in units of √area
 
 
 @settings_record

@@ -19,15 +19,7 @@ _WANTED, _REMEDY = "a file that kfmaps learn wrote", "check the path, or learn a
 
 
 def read_learned(path: str | Path) -> dict[str, Any]:
-    """What the file holds: tensors and plain values. Nothing in it is ever executed.
-
-    Raises
-    ------
-    InvalidInput
-        When the file is missing, damaged, or something else.
-    MissingDependency
-        Without PyTorch.
-    """
+    """What the file holds: tensors and plain values. Nothing in it is ever executed."""
     try:
         import torch
     except ImportError as error:
@@ -61,13 +53,7 @@ def preset(name: str) -> Config:
 
 
 def read_settings(path: str | Path, base: Config | None = None) -> Config:
-    """Return ``base``, by default ``Config()``, with those of a TOML file or a ``.pt`` file of ``kfmaps learn``.
-
-    Raises
-    ------
-    InvalidInput
-        When the file is missing or no TOML, and on names and values that are not settings.
-    """
+    """Return ``base``, by default ``Config()``, with those of a TOML file or a ``.pt`` file of ``kfmaps learn``."""
     try:
         if Path(path).is_char_device():  # one like /dev/zero never ends
             raise refuse(f"--config {path}", "a settings file", "a device", "check the path")
@@ -91,18 +77,8 @@ def with_assignments(
 ) -> Config:
     """Return ``base`` changed by texts like ``"weights.laplacian=0.5"``; of two for one setting the later counts.
 
-    Parameters
-    ----------
-    base : Config
-    assignments : sequence of str
-        Values are TOML; quotes around words may be left out.
-    options : mapping, optional
-        Paths and values by the option that gave them, applied before: ``{"--kernel": ("kernel", "laplacian")}``.
-
-    Raises
-    ------
-    InvalidInput
-        Beginning with the names of the assignments or options that are at fault.
+    ``assignments``: values are TOML; quotes around words may be left out; ``options``: paths and values by the option
+    that gave them, applied before: ``{"--kernel": ("kernel", "laplacian")}``.
     """
     given = dict(options or {})
     for text in assignments:

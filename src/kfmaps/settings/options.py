@@ -23,33 +23,17 @@ OPTIONS: dict[str, tuple[str, Setting]] = {
 
 @dataclass(frozen=True)
 class Chosen:
-    """What the user chose on the command line.
-
-    Attributes
-    ----------
-    preset : str or None
-    file : Path or None
-        A settings file.
-    options : mapping
-        Path and value by option.
-    assignments : tuple of str
-        What stood after ``--set``.
-    """
+    """What the user chose on the command line."""
 
     preset: str | None = None
-    file: Path | None = None
-    options: Mapping[str, tuple[str, Any]] = field(default_factory=dict)
-    assignments: tuple[str, ...] = ()
+    file: Path | None = None  # a settings file
+    options: Mapping[str, tuple[str, Any]] = field(default_factory=dict)  # path and value by option
+    assignments: tuple[str, ...] = ()  # what stood after ``--set``
 
     def config(self, base: Config) -> Config:
         """Return the preset, or else ``base``, changed by the file, the options and ``--set``.
 
         What a file does not name is as in the preset, or in ``Config()``, whatever the command's ``base``.
-
-        Raises
-        ------
-        InvalidInput
-            Naming the option or the file that is at fault.
         """
         config = base if self.preset is None and self.file is None else preset(self.preset or "default")
         config = config if self.file is None else read_settings(self.file, config)

@@ -15,16 +15,7 @@ from kfmaps.kernels.kernels import describe_kernel
 def settings_text(config: Config, comments: bool = True) -> str:
     """Return TOML from which :func:`~kfmaps.settings.merge.read_settings` makes ``config`` again, whatever the base.
 
-    Parameters
-    ----------
-    config : Config
-    comments : bool
-        Whether each line says what it means.
-
-    Raises
-    ------
-    InvalidInput
-        When its kernel or refinement is a callable of the user's own, which cannot be written.
+    ``comments``: whether each line says what it means.
     """
     head = ["# Settings of kfmaps match; give them with --config FILE.", ""] if comments else []
     return "\n".join([*head, *_lines(config, "", comments)]) + "\n"

@@ -108,16 +108,9 @@ def policy(script: str, style: str, *, connect: bool) -> str:
 def document(template: str, *, title: str, data: Any, connect: bool = False) -> str:
     """Return a whole page.
 
-    Parameters
-    ----------
-    template : str
-        Name of the template with the page's body.
-    title : str
-        Any text; it is escaped.
-    data : mapping
-        What :func:`kfmaps.viz.document.to_json` can turn into JSON; the script reads it as data only.
-    connect : bool
-        Whether the page may send requests to its own server. A page for the disk may send none at all.
+    ``template``: name of the template with the page's body; ``title``: any text; it is escaped; ``data``: what
+    :func:`kfmaps.viz.document.to_json` can turn into JSON; the script reads it as data only. ``connect``: Whether the
+    page may send requests to its own server. A page for the disk may send none at all.
     """
     script, style = asset("viewer.js"), asset("viewer.css")
     return _TEMPLATES.get_template(template).render(

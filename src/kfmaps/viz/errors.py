@@ -17,12 +17,8 @@ def vertex_errors(source: Mesh, maps: Sequence[np.ndarray], truth_s: np.ndarray,
 
     NaN where the truth is not known, or a vertex has no counterpart.
 
-    Parameters
-    ----------
-    source : Mesh
-    maps : m arrays (n_t,)
-    truth_s, truth_t : (q,) int
-        Corresponding vertices. Of several truths for one target vertex the last counts.
+    ``truth_s (q,)`` and ``truth_t (q,)``: Corresponding vertices. Of several truths for one target vertex the last
+    counts.
     """
     rows = np.full((len(maps), len(maps[0])), np.nan)
     # All at once, so that one search from a true vertex serves every map.

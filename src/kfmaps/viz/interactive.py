@@ -19,16 +19,9 @@ from kfmaps.viz.runs import Progress
 class InteractiveMatcher:
     """``matcher(landmarks, progress)``: the map of the two shapes with these landmarks, ready to be saved.
 
-    Parameters
-    ----------
-    source, target : Mesh
-    names : (str, str)
-        How messages call them.
-    paths : (Path, Path)
-        Their files, which the saved map names.
-    settings : callable
-        The configuration for some landmarks (l, 2); by default what :func:`kfmaps.matching.match.match` takes. It may
-        differ between none and some, not between some and others.
+    ``names``: how messages call them; ``paths``: their files, which the saved map names. ``settings``: The
+    configuration for some landmarks (l, 2); by default what :func:`kfmaps.matching.match.match` takes. It may differ
+    between none and some, not between some and others.
     """
 
     def __init__(

@@ -119,18 +119,7 @@ def match_figure(
 def values_figure(mesh: Mesh, values: Mapping[str, np.ndarray], view: View | None = None) -> Figure:
     """Draw a surface in the colours of ``values``, once for each title, with a bar in per cent.
 
-    Parameters
-    ----------
-    mesh : Mesh
-    values : mapping of str to (n,)
-        Numbers of each vertex, not negative, by title.
-    view : View, optional
-        By default :func:`automatic_view`.
-
-    Raises
-    ------
-    InvalidInput
-        When there is not one number for each vertex.
+    ``values``: numbers of each vertex, not negative, by title; ``view``: by default :func:`automatic_view`.
     """
     seen = automatic_view(mesh) if view is None else view
     width, height = _BAR_PANEL * len(values), 4.4

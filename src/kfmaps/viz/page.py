@@ -82,13 +82,7 @@ def views_record(source: Mesh, target: Mesh, target_to_source: np.ndarray | None
 
 
 def check_up(up: str | None) -> str | None:
-    """Return ``up`` when it is an axis, or ``None``: found from the shape.
-
-    Raises
-    ------
-    InvalidInput
-        On anything else.
-    """
+    """Return ``up`` when it is an axis, or ``None``: found from the shape."""
     if up not in (None, "x", "y", "z"):
         raise refuse("up", "x, y or z", repr(up), "name the axis that points upwards")
     return up

@@ -27,13 +27,7 @@ _LONGEST_NAME = 60
 
 
 def check_pairs(pairs: Any, source: Mesh, target: Mesh) -> np.ndarray:
-    """Return landmarks (l, 2) int64, a vertex of ``source`` and one of ``target`` each.
-
-    Raises
-    ------
-    InvalidInput
-        When ``pairs`` is anything else.
-    """
+    """Return landmarks (l, 2) int64, a vertex of ``source`` and one of ``target`` each."""
     remedy = "give pairs of 0-based vertex numbers, source first"
     whole = isinstance(pairs, list) and all(
         isinstance(pair, list) and len(pair) == 2 and all(type(v) is int for v in pair) for pair in pairs
@@ -54,13 +48,7 @@ def check_pairs(pairs: Any, source: Mesh, target: Mesh) -> np.ndarray:
 
 
 def _check_names(names: Any, count: int) -> list[str]:
-    """Return one short text for each of ``count`` pairs; without any, an empty one for each.
-
-    Raises
-    ------
-    InvalidInput
-        When ``names`` is anything else.
-    """
+    """Return one short text for each of ``count`` pairs; without any, an empty one for each."""
     if names is None:
         return [""] * count
     fits = isinstance(names, list) and len(names) == count
@@ -72,39 +60,18 @@ def _check_names(names: Any, count: int) -> list[str]:
 
 @dataclass(frozen=True, eq=False)
 class Picker:
-    """What the picker works on.
-
-    Attributes
-    ----------
-    source, target : Mesh
-    names : (str, str)
-        Shown as text.
-    output : Path
-        Where the page writes landmarks.
-    force : bool
-        Whether existing files are replaced without asking.
-    landmarks : (l, 2) int64
-        Pairs to begin with, and ...
-    labels : sequence of str
-        ... their names.
-    matcher : callable or None
-        Computes a map from landmarks; without it the page cannot match.
-    map_output : Path or None
-        Where the page may write the map of a run; without it none is saved.
-    up : {"x", "y", "z"} or None
-        The shapes' vertical axis; ``None``: a good side is found.
-    """
+    """What the picker works on."""
 
     source: Mesh
     target: Mesh
-    names: tuple[str, str]
-    output: Path
-    force: bool = False
-    landmarks: np.ndarray | tuple = ()
-    labels: Sequence[str] = ()
-    matcher: _Matcher | None = None
-    map_output: Path | None = None
-    up: str | None = None
+    names: tuple[str, str]  # shown as text
+    output: Path  # where the page writes landmarks
+    force: bool = False  # whether existing files are replaced without asking
+    landmarks: np.ndarray | tuple = ()  # (l, 2): pairs to begin with, and ...
+    labels: Sequence[str] = ()  # their names
+    matcher: _Matcher | None = None  # computes a map from landmarks; without it the page cannot match
+    map_output: Path | None = None  # where the page may write the map of a run; without it none is saved
+    up: str | None = None  # the shapes' vertical axis; ``None``: a good side is found
 
     def page(self) -> str:
         """Return the page, which speaks to the server it came from."""

@@ -63,18 +63,9 @@ def match_page(
 ) -> str:
     """Return the page of a map: :func:`kfmaps.viz.page.result_page` with all that the match knows.
 
-    Parameters
-    ----------
-    match : Match
-    source, target : Mesh
-    names : (str, str)
-        What the page calls the shapes.
-    truth : ((q,), (q,)) int, optional
-        Corresponding vertices of the source and of the target, for the errors.
-    descriptors : bool
-        Whether to work out wave kernel signatures to show, which takes an eigensolve of each shape.
-    up : {"x", "y", "z"}, optional
-        The vertical axis; by default a good side is found.
+    ``names``: what the page calls the shapes; ``truth``: corresponding vertices of the source and of the target, for
+    the errors; ``descriptors``: whether to work out wave kernel signatures to show, which takes an eigensolve of each
+    shape; ``up``: the vertical axis; by default a good side is found.
     """
     maps = [match.target_to_source, *match.alternatives]
     overlap = match.partial.overlap_source

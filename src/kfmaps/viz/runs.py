@@ -19,29 +19,14 @@ class Cancelled(Exception):
 
 @dataclass(frozen=True)
 class MatchStatus:
-    """How a run stands.
+    """How a run stands."""
 
-    Attributes
-    ----------
-    run : int
-        Its number, from 1; 0 before the first.
-    state : {"idle", "running", "done", "failed", "cancelled"}
-    stage : str
-        What it is doing.
-    fraction : float
-        How much of that is done, from 0 to 1.
-    seconds : float
-        Since it began, or what it took.
-    error : str
-        Why it failed.
-    """
-
-    run: int = 0
+    run: int = 0  # its number, from 1; 0 before the first
     state: str = "idle"
-    stage: str = ""
-    fraction: float = 0.0
-    seconds: float = 0.0
-    error: str = ""
+    stage: str = ""  # what it is doing
+    fraction: float = 0.0  # how much of that is done, from 0 to 1
+    seconds: float = 0.0  # since it began, or what it took
+    error: str = ""  # why it failed
 
 
 class Runs:
@@ -57,13 +42,7 @@ class Runs:
         self._result: Any = None
 
     def start(self, argument: Any) -> MatchStatus:
-        """Begin a run.
-
-        Raises
-        ------
-        InvalidInput
-            While another is running.
-        """
+        """Begin a run."""
         with self._lock:
             if self._status.state == "running":
                 raise refuse("match", "one run at a time", "a run that has not ended", "wait, or cancel it")

@@ -70,17 +70,8 @@ _Routes = Mapping[tuple[str, str], Callable[[Any], Reply]]
 class LocalServer:
     """Answer ``routes`` at ``address`` until stopped, one request after another.
 
-    Parameters
-    ----------
-    routes : mapping
-        What is answered; everything else is refused. No file is ever read on a request.
-    port : int
-        0 takes any free one.
-
-    Raises
-    ------
-    InvalidInput
-        When the port is taken.
+    ``routes``: What is answered; everything else is refused. No file is ever read on a request. ``port``: 0 takes any
+    free one.
     """
 
     def __init__(self, routes: _Routes, port: int = 0) -> None:

@@ -27,18 +27,9 @@ on how many there are."""
 def fill_order(matrix: SparseMatrix, ordering: str = "auto") -> np.ndarray | None:
     """Return an order of the rows, (n,), in which a factor stays small; ``None`` leaves it to SuperLU.
 
-    Parameters
-    ----------
-    matrix : (n, n) sparse
-        Symmetric in its pattern.
-    ordering : {"auto", "metis", "mmd"}
-        ``"metis"``: nested dissection, a smaller factor and faster solves from some ten thousand rows; needs
-        ``kfmaps[fast]``. ``"mmd"``: SuperLU's minimum degree. ``"auto"``: METIS where it is installed.
-
-    Raises
-    ------
-    MissingDependency
-        When METIS is asked for and not installed.
+    ``matrix (n, n)``: symmetric in its pattern. ``ordering``: ``"metis"``: nested dissection, a smaller factor and
+    faster solves from some ten thousand rows; needs ``kfmaps[fast]``. ``"mmd"``: SuperLU's minimum degree. ``"auto"``:
+    METIS where it is installed.
     """
     if ordering not in ("auto", "metis", "mmd"):
         raise refuse("ordering", "'auto', 'metis' or 'mmd'", repr(ordering), "choose one of them")
@@ -60,27 +51,12 @@ def fill_order(matrix: SparseMatrix, ordering: str = "auto") -> np.ndarray | Non
 def factorize(matrix: SparseMatrix, ordered: bool, each: Map = map) -> Solve:
     """Factorise ``matrix`` once and return the function that solves with it.
 
-    Parameters
-    ----------
-    matrix : (n, n) sparse
-        Symmetric, float32 or float64, the precision of the factor. It is not pivoted: right when it is positive
-        definite, else to be checked by its solutions. Then an ordering of ``A + Aᵀ`` serves, with half the factor that
-        SciPy's default, made for unsymmetric matrices, gives.
-    ordered : bool
-        Whether the rows are already in a :func:`fill_order`; else SuperLU finds one.
-    each : callable
-        ``map``, or that of a thread pool, over which the blocks of right-hand sides are spread (SuperLU releases the
-        interpreter's lock).
-
-    Returns
-    -------
-    callable
-        ``(n, b) -> (n, b)`` float64 in column-major order.
-
-    Raises
-    ------
-    NotConverged
-        When the matrix is singular to working precision.
+    ``matrix (n, n)``: Symmetric, float32 or float64, the precision of the factor. It is not pivoted: right when it is
+    positive definite, else to be checked by its solutions. Then an ordering of ``A + Aᵀ`` serves, with half the factor
+    that SciPy's default, made for unsymmetric matrices, gives. ``ordered``: whether the rows are already in a
+    :func:`fill_order`; else SuperLU finds one; ``each``: ``map``, or that of a thread pool, over which the blocks of
+    right-hand sides are spread (SuperLU releases the interpreter's lock). Returns ``(n, b) -> (n, b)`` float64 in
+    column-major order.
     """
     try:
         factor = splu(

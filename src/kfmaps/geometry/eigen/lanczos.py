@@ -218,23 +218,9 @@ def largest_eigenpairs(
 ) -> ConvergedPairs:
     """Return at least the ``k`` largest eigenpairs of an operator.
 
-    Parameters
-    ----------
-    apply : callable
-        (n, b) -> (n, b).
-    n, k : int
-        ``n`` above ``_capacity(k)``.
-    tolerance : float
-        Bound on ``‖apply(x) − νx‖ / ν`` before the last, refining step.
-    rng : numpy.random.Generator
-        Draws the start vectors.
-    each : callable
-        ``map``, or that of a thread pool.
-
-    Raises
-    ------
-    NotConverged
-        When the Krylov basis is full without a new converged pair.
+    ``apply``: (n, b) -> (n, b); ``n`` and ``k``: ``n`` above ``_capacity(k)``; ``tolerance``: bound on ``‖apply(x) −
+    νx‖ / ν`` before the last, refining step; ``rng``: draws the start vectors; ``each``: ``map``, or that of a thread
+    pool.
     """
     locked = ConvergedPairs(np.zeros(0), np.zeros((n, 0)), 0)
     while True:

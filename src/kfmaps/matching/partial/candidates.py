@@ -37,22 +37,11 @@ _ROUNDS = (2, 5)
 
 @dataclass(frozen=True, eq=False)
 class PartCandidate:
-    """A part registered from one placement of its samples.
+    """A part registered from one placement of its samples."""
 
-    Attributes
-    ----------
-    placement : Placement
-        With all samples placed.
-    registration : PartRegistration
-    points : (q, 3) float64
-        Of the samples, on the whole.
-    evidence : PartEvidence
-    score : float
-    """
-
-    placement: Placement
+    placement: Placement  # with all samples placed
     registration: PartRegistration
-    points: np.ndarray
+    points: np.ndarray  # (q, 3): of the samples, on the whole
     evidence: PartEvidence
     score: float
 
@@ -60,11 +49,7 @@ class PartCandidate:
 def make_candidate(placement: Placement, pair: PartPair) -> PartCandidate:
     """Register the part quickly by its placed samples.
 
-    Parameters
-    ----------
-    placement : Placement
-        Of all samples.
-    pair : PartPair
+    ``placement``: of all samples.
     """
     at = pair.whole.samples[placement.placed.match]
     points, normals = pair.whole.mesh.vertices[at], pair.whole.surface.normals[at]
@@ -83,11 +68,6 @@ def compare_alternatives(found: Sequence[PartCandidate], pair: PartPair) -> list
     """Return the candidates, best first, after alternatives were sought and the best that differ were refined.
 
     A placement that was found by chance is far from what it can be, and would lose against one that was not.
-
-    Parameters
-    ----------
-    found : sequence of PartCandidate
-    pair : PartPair
     """
     best = max(found, key=lambda one: one.score)
     elsewhere = _alternative_placements(pair, best.registration.scale, best.points)

@@ -23,50 +23,25 @@ COMMON = 0.5
 
 @dataclass(frozen=True, eq=False)
 class PartialMatch:
-    """A match of two cleaned shapes of which one is a part of the other.
+    """A match of two cleaned shapes of which one is a part of the other."""
 
-    Attributes
-    ----------
-    part : "source", "target" or "both"
-    target_to_source : (n_t,) int64
-        −1 where a vertex has no counterpart.
-    precise_map : PointMap
-        For each target vertex; where it has no counterpart that is the nearest point that could be one.
-    overlap_source, overlap_target : (n_s,), (n_t,) float64
-        Probability to be in the common part.
-    functional_map : (k_t, k_s) float64
-        Of the map on the common part; as many functions of the part as have the whole's frequencies.
-    local_confidence : (n_t,) float64
-        See :func:`kfmaps.fmap.confidence.local_confidence`.
-    registered_vertices : (n_s, 3) float64 or None
-        The source's vertices on the target at unit area, where the source is the part.
-    scale : float
-        √area of the part over that of the whole.
-    verdict : str
-    confidence : float
-        Probability that the map is right.
-    scores : tuple of float
-        Of the candidates, best first.
-    rejected_landmarks : (l,) int64
-        Numbers of landmarks that the map contradicts.
-    whole : bool
-        Whether the common part is most of both shapes.
-    """
-
-    part: str
-    target_to_source: np.ndarray
+    part: str  # "source", "target" or "both"
+    target_to_source: np.ndarray  # (n_t,): −1 where a vertex has no counterpart
+    # For each target vertex; where it has no counterpart that is the nearest point that could be one.
     precise_map: PointMap
-    overlap_source: np.ndarray
+    overlap_source: np.ndarray  # (n_s,): probability to be in the common part
     overlap_target: np.ndarray
+    # (k_t, k_s): of the map on the common part; as many functions of the part as have the whole's frequencies.
     functional_map: np.ndarray
-    local_confidence: np.ndarray
+    local_confidence: np.ndarray  # (n_t,): see :func:`kfmaps.fmap.confidence.local_confidence`
+    # (n_s, 3): the source's vertices on the target at unit area, where the source is the part.
     registered_vertices: np.ndarray | None
-    scale: float
+    scale: float  # √area of the part over that of the whole
     verdict: str
-    confidence: float
-    scores: tuple[float, ...]
-    rejected_landmarks: np.ndarray
-    whole: bool
+    confidence: float  # probability that the map is right
+    scores: tuple[float, ...]  # of the candidates, best first
+    rejected_landmarks: np.ndarray  # (l,): numbers of landmarks that the map contradicts
+    whole: bool  # whether the common part is most of both shapes
 
 
 def match_partial(
@@ -81,22 +56,8 @@ def match_partial(
 ) -> PartialMatch:
     """Match two prepared shapes of which one is a part.
 
-    Parameters
-    ----------
-    source, target : Shape
-    config : Config
-    which : {"source", "target", "both"}
-        The part. With "both" each may have what the other lacks; the one with the smaller area is bent, or the target
-        where their units cannot be compared.
-    landmarks : (l, 2) int64, optional
-        Pairs "source vertex, target vertex".
-    rng : int
-    progress : callable, optional
-
-    Raises
-    ------
-    InvalidInput
-        On point clouds, and where units are said to be the same but are not known.
+    ``which``: The part. With "both" each may have what the other lacks; the one with the smaller area is bent, or the
+    target where their units cannot be compared. ``landmarks (l, 2)``: pairs "source vertex, target vertex".
     """
     for shape in (source, target):
         if len(shape.mesh.faces) == 0:

@@ -32,25 +32,13 @@ _MIN_SCALE_RATIO = 1.12
 
 @dataclass(frozen=True, eq=False)
 class PlacedPart:
-    """A part placed on a whole.
-
-    Attributes
-    ----------
-    registration : PartRegistration
-    overlap : Overlap
-    scores : tuple of float
-        Of all candidates, the best first.
-    margin : float
-        By how much the best of those that place the part elsewhere scores less.
-    landmark_errors : (l,) float64
-        Distance of each landmark from where it should be, in √area of the whole.
-    """
+    """A part placed on a whole."""
 
     registration: PartRegistration
     overlap: Overlap
-    scores: tuple[float, ...]
-    margin: float
-    landmark_errors: np.ndarray
+    scores: tuple[float, ...]  # of all candidates, the best first
+    margin: float  # by how much the best of those that place the part elsewhere scores less
+    landmark_errors: np.ndarray  # (l,): distance of each landmark from where it should be, in √area of the whole
 
 
 def place_part(
@@ -66,26 +54,10 @@ def place_part(
 ) -> PlacedPart:
     """Place a part on a whole.
 
-    Parameters
-    ----------
-    part, whole : Mesh
-        At unit area.
-    config : Config
-    ratio : float, optional
-        √area of the part over that of the whole as they were given: one of the scales that are tried, and the only one
-        where ``config.partial.scale`` is "fixed".
-    landmarks : (l, 2) int64, optional
-        Vertices of the part and of the whole.
-    both_partial : bool
-        Whether the whole, too, may lack something.
-    rng : int
-    progress : callable, optional
-        Told about how much is done, from 0 to 1.
-
-    Raises
-    ------
-    InvalidInput
-        Where the scale is said to be fixed but is not known.
+    ``part`` and ``whole``: at unit area; ``ratio``: √area of the part over that of the whole as they were given: one of
+    the scales that are tried, and the only one where ``config.partial.scale`` is "fixed"; ``landmarks (l, 2)``:
+    vertices of the part and of the whole; ``both_partial``: whether the whole, too, may lack something; ``progress``:
+    told about how much is done, from 0 to 1.
     """
     report = progress or (lambda _done: None)
     pairs = np.zeros((0, 2), dtype=np.int64) if landmarks is None else np.asarray(landmarks)

@@ -36,38 +36,17 @@ _OVERLAP_WIDTH = 0.02
 
 @dataclass(frozen=True, eq=False)
 class PartRegistration:
-    """A part bent onto a whole, in its unit.
+    """A part bent onto a whole, in its unit."""
 
-    Attributes
-    ----------
-    vertices : (n, 3) float64
-    rest : Mesh
-        The part at the scale that was found.
-    scale : float
-        √area of the part over that of the whole.
-    places : ClosestPoints
-        The closest point of the whole to each vertex.
-    inside : (n,) bool
-        False where that is beyond an edge of the whole.
-    deformation_energy : float
-        As-rigid-as-possible energy per area.
-    gap : float
-        Root of the mean squared distance from the whole.
-    flipped_area : float
-        Part of the area whose normals look elsewhere than the whole's.
-    edge_ratio : float
-        How much longer than at rest edges are, by the median.
-    """
-
-    vertices: np.ndarray
-    rest: Mesh
-    scale: float
-    places: ClosestPoints
-    inside: np.ndarray
-    deformation_energy: float
-    gap: float
-    flipped_area: float
-    edge_ratio: float
+    vertices: np.ndarray  # (n, 3)
+    rest: Mesh  # the part at the scale that was found
+    scale: float  # √area of the part over that of the whole
+    places: ClosestPoints  # the closest point of the whole to each vertex
+    inside: np.ndarray  # (n,): false where that is beyond an edge of the whole
+    deformation_energy: float  # as-rigid-as-possible energy per area
+    gap: float  # root of the mean squared distance from the whole
+    flipped_area: float  # part of the area whose normals look elsewhere than the whole's
+    edge_ratio: float  # how much longer than at rest edges are, by the median
 
 
 def scale_mesh(mesh: Mesh, scale: float) -> Mesh:
@@ -86,19 +65,9 @@ def register_part(
 ) -> PartRegistration:
     """Bend the part onto the whole.
 
-    Parameters
-    ----------
-    pair : PartPair
-    scale : float
-        √area of the part over that of the whole.
-    points, normals : (q, 3) float64
-        Where the part's samples begin, and the normals of the whole there.
-    trust : (q,) float64
-        How much each counts.
-    quick : bool
-        Three levels of three steps, to compare candidates, instead of five of five.
-    progress : callable
-        Told about how much is done, from 0 to 1.
+    ``scale``: √area of the part over that of the whole; ``points (q, 3)`` and ``normals (q, 3)``: where the part's
+    samples begin, and the normals of the whole there; ``trust (q,)``: how much each counts; ``quick``: three levels of
+    three steps, to compare candidates, instead of five of five; ``progress``: told about how much is done, from 0 to 1.
     """
     rest, whole = deformable_mesh(scale_mesh(pair.part.mesh, scale)), pair.whole
     x = initial_deformation(rest, pair.part.samples, points, normals, rest.areas.sum() * trust / trust.sum())
@@ -153,23 +122,12 @@ def _at_boundary(found: ClosestPoints, faces: np.ndarray, on_boundary: np.ndarra
 
 @dataclass(frozen=True, eq=False)
 class Overlap:
-    """What a part and a whole have in common, by vertices, and where each lies on the other shape.
+    """What a part and a whole have in common, by vertices, and where each lies on the other shape."""
 
-    Attributes
-    ----------
-    part : (n_p,) float64
-        Probability to be on both.
-    whole : (n_w,) float64
-    on_whole : PointMap
-        For each vertex of the part.
-    on_part : PointMap
-        For each vertex of the whole; means something only where ``whole`` is above a half.
-    """
-
-    part: np.ndarray
-    whole: np.ndarray
-    on_whole: PointMap
-    on_part: PointMap
+    part: np.ndarray  # (n_p,): probability to be on both
+    whole: np.ndarray  # (n_w,)
+    on_whole: PointMap  # for each vertex of the part
+    on_part: PointMap  # for each vertex of the whole; means something only where ``whole`` is above a half
 
 
 def overlap_probability(
@@ -177,21 +135,8 @@ def overlap_probability(
 ) -> tuple[np.ndarray, ClosestPoints]:
     """Return how likely each vertex of a whole lies on a bent part, and the closest place on it.
 
-    Parameters
-    ----------
-    bent : Mesh
-        In the unit of the whole.
-    on_boundary : (n_p,) bool
-        Its vertices on the boundary.
-    whole : Mesh
-        At unit area.
-    normals : (n_w, 3), optional
-        Of the whole's vertices, where they are known.
-
-    Returns
-    -------
-    probability : (n_w,) float64
-    places : ClosestPoints
+    ``bent``: in the unit of the whole; ``on_boundary (n_p,)``: its vertices on the boundary; ``whole``: at unit area;
+    ``normals (n_w, 3)``: of the whole's vertices, where they are known. Returns ``probability (n_w,)``; ``places``.
     """
     found, _, agree = closest_point_query(bent)(whole.vertices, vertex_normals(whole) if normals is None else normals)
     # Beyond the part's edge the closest point lies on it: half the length of its edges is as near as vertices can tell.

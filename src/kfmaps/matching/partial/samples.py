@@ -20,30 +20,15 @@ from kfmaps.registration.deformable import ClosestPointQuery, closest_point_quer
 
 @dataclass(frozen=True, eq=False)
 class PartSamples:
-    """Samples of one shape, in units of its own √area; made by :func:`part_samples`.
+    """Samples of one shape, in units of its own √area; made by :func:`part_samples`."""
 
-    Attributes
-    ----------
-    mesh : Mesh
-        At unit area.
-    samples : (q,) int64
-        Vertices: landmarks, then farthest points, so that the first few are spread evenly too.
-    distances : (q, q) float32
-        Along the surface; infinite between components.
-    boundary_distance : (q,) float32
-        Infinite where there is no boundary.
-    on_boundary : (n,) bool
-    n_landmarks : int
-    descriptors : dict
-        SHOT at the samples by its radius, as far as :meth:`shot` was asked for it.
-    """
-
-    mesh: Mesh
-    samples: np.ndarray
-    distances: np.ndarray
-    boundary_distance: np.ndarray
-    on_boundary: np.ndarray
+    mesh: Mesh  # at unit area
+    samples: np.ndarray  # (q,): vertices: landmarks, then farthest points, so that the first few are spread evenly too
+    distances: np.ndarray  # (q, q): along the surface; infinite between components
+    boundary_distance: np.ndarray  # (q,): infinite where there is no boundary
+    on_boundary: np.ndarray  # (n,)
     n_landmarks: int = 0
+    # SHOT at the samples by its radius, as far as :meth:`shot` was asked for it.
     descriptors: dict[float, np.ndarray] = field(default_factory=dict)
 
     def shot(self, radius: float, threads: int | None = 1) -> np.ndarray:
@@ -77,15 +62,7 @@ class PartPair:
 def part_samples(mesh: Mesh, count: int, landmarks: np.ndarray | None = None, rng: int = 0) -> PartSamples:
     """Return samples of one shape.
 
-    Parameters
-    ----------
-    mesh : Mesh
-        At unit area.
-    count : int
-        Farthest points.
-    landmarks : (l,) int64, optional
-        Vertices that come first.
-    rng : int
+    ``mesh``: at unit area; ``count``: farthest points; ``landmarks (l,)``: vertices that come first.
     """
     chosen = np.zeros(0, dtype=np.int64) if landmarks is None else np.asarray(landmarks, dtype=np.int64)
     n_landmarks = len(chosen)

@@ -27,23 +27,12 @@ LARGER_SCALES = tuple(SCALES[-1] * 1.15**i for i in range(1, 4))
 
 @dataclass(frozen=True, eq=False)
 class Placement:
-    """Samples of the part placed at one scale.
+    """Samples of the part placed at one scale."""
 
-    Attributes
-    ----------
-    scale : float
-        √area of the part over that of the whole.
-    params : RelaxationParams
-        Those that it began with.
-    placed : Assignment
-    similarity : (q, m) float32
-        Products of descriptors.
-    """
-
-    scale: float
-    params: RelaxationParams
+    scale: float  # √area of the part over that of the whole
+    params: RelaxationParams  # those that it began with
     placed: Assignment
-    similarity: np.ndarray
+    similarity: np.ndarray  # (q, m): products of descriptors
 
     @property
     def evidence(self) -> PartEvidence:
