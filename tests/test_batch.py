@@ -14,7 +14,15 @@ from collecting import CONFIG, LANDMARKS, bent, done, plan_of, touch, write_coll
 from conftest import blob
 from kfmaps._arrays import InvalidInput
 from kfmaps.batch import cache, work
-from kfmaps.batch.cache import cached_samples, file_digest, load_record, load_shape, samples_path, save_shape, shape_key
+from kfmaps.batch.cache import (
+    _samples_path,
+    cached_samples,
+    file_digest,
+    load_record,
+    load_shape,
+    save_shape,
+    shape_key,
+)
 from kfmaps.batch.layout import Pair, find_collection
 from kfmaps.batch.plan import make_plan
 from kfmaps.batch.results import summarize
@@ -74,8 +82,8 @@ def test_a_kept_probe_changes_no_bit(tmp_path: Path) -> None:
     a, b = (prepare(bent(i, 300), config, name=str(i)) for i in (0, 1))
     entry = tmp_path / "a.npz"
     first = cached_samples(a, entry, 3)
-    assert samples_path(entry, 3).exists()
-    assert not samples_path(entry, 4).exists()
+    assert _samples_path(entry, 3).exists()
+    assert not _samples_path(entry, 4).exists()
     read = cached_samples(a, entry, 3)
     assert read is not first
     known, kept = _arrays_of(first), _arrays_of(read)
@@ -85,9 +93,9 @@ def test_a_kept_probe_changes_no_bit(tmp_path: Path) -> None:
     plain, quick = match(a, b, config, rng=3), match(a, b, config, rng=3, probes=(read, scoring_samples(b, 3)))
     np.testing.assert_array_equal(quick.target_to_source, plain.target_to_source)
     assert quick.score.scores == plain.score.scores
-    data = samples_path(entry, 3).read_bytes()
-    samples_path(entry, 3).write_bytes(data[: len(data) // 2])
-    assert load_record(samples_path(entry, 3), type(first)) is None
+    data = _samples_path(entry, 3).read_bytes()
+    _samples_path(entry, 3).write_bytes(data[: len(data) // 2])
+    assert load_record(_samples_path(entry, 3), type(first)) is None
 
 
 def test_far_mirrored_points_are_sampled(folder: Path) -> None:

@@ -23,12 +23,12 @@ import threadpoolctl
 
 from collecting import CONFIG, Deadly, done, plan_of, write_collection
 from kfmaps._arrays import InvalidInput, MissingDependency
-from kfmaps.batch.jobs import WorkerPool, local_workers, running_workers
+from kfmaps.batch.jobs import WorkerPool, _local_workers, _running_workers
 from kfmaps.batch.layout import Pair, find_collection
 from kfmaps.batch.plan import Plan, make_plan
 from kfmaps.batch.progress import RunStatus
 from kfmaps.batch.results import Result, result_path
-from kfmaps.batch.run import _tidied, check_workers, match_pairs, run_batch
+from kfmaps.batch.run import _check_workers, _match_pairs, _tidied, run_batch
 from kfmaps.batch.run_spec import RunSpec
 from kfmaps.batch.work import attempts, map_path, prepare_shape
 from kfmaps.io import load_map
@@ -154,11 +154,11 @@ class Machine(WorkerPool):
 
 
 def test_a_shape_that_kills_fails_its_pairs_alone(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("kfmaps.batch.run.check_workers", lambda *_: None)
+    monkeypatch.setattr("kfmaps.batch.run._check_workers", lambda *_: None)
     plan = plan_of(write_collection(tmp_path / "c", 3), tmp_path / "out")
     told: list[RunStatus] = []
     log: list[str] = []
-    results = list(match_pairs(plan, Machine("b1"), lambda status, _result: told.append(status), log.append))
+    results = list(_match_pairs(plan, Machine("b1"), lambda status, _result: told.append(status), log.append))
     failed = [r for r in results if r.status == "failed"]
     assert {(r.source, r.target) for r in results if r.status == "done"} == {("b0", "b2"), ("b2", "b0")}
     assert len(failed) == 4
@@ -203,7 +203,7 @@ def _listening() -> list[str]:
 def test_workers_use_one_thread_and_the_loopback_alone(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.delenv("MALLOC_TRIM_THRESHOLD_", raising=False)
     monkeypatch.delenv("OMP_NUM_THREADS", raising=False)
-    with local_workers(1) as workers:
+    with _local_workers(1) as workers:
         assert workers.scheduler_info()["address"].startswith("tls://127.0.0.1:")
         told: Any = workers.run(_about)
         (worker,) = told.values()
@@ -227,7 +227,7 @@ def test_a_running_scheduler(tmp_path: Path) -> None:
         plan = plan_of(folder, tmp_path / "other")
         (tmp_path / "other" / "settings.json").unlink()
         with WorkerPool(scheduler=address) as pool, pytest.raises(InvalidInput, match="on all of them"):
-            check_workers(plan, pool)
+            _check_workers(plan, pool)
 
 
 @contextmanager
@@ -263,7 +263,7 @@ def test_a_worker_of_a_running_scheduler_is_killed(tmp_path: Path) -> None:
             os.kill(killed[0][0], signal.SIGKILL)
 
     with dask_processes(tmp_path, 2) as address:
-        with running_workers(address) as workers:
+        with _running_workers(address) as workers:
             until(lambda: len(workers.scheduler_info()["workers"]) == 2)
         outcome = run_batch(plan, scheduler=address, worst=0, callback=kill_one)
     ((process, key),) = killed
@@ -276,14 +276,14 @@ def test_a_worker_of_a_running_scheduler_is_killed(tmp_path: Path) -> None:
 
 
 def test_two_runs_at_once_do_not_meet() -> None:
-    with local_workers(1) as first, local_workers(1) as second:  # a warning would be an error
+    with _local_workers(1) as first, _local_workers(1) as second:  # a warning would be an error
         addresses = [set(w.scheduler_info()["workers"]) for w in (first, second)]
         assert len(addresses[0] | addresses[1]) == 2
         assert set(_listening()) == {"127.0.0.1"}
 
 
 def test_no_scheduler() -> None:
-    with pytest.raises(InvalidInput, match=r"tcp://127\.0\.0\.1:9"), running_workers("tcp://127.0.0.1:9", timeout=0.3):
+    with pytest.raises(InvalidInput, match=r"tcp://127\.0\.0\.1:9"), _running_workers("tcp://127.0.0.1:9", timeout=0.3):
         pass
 
 
@@ -338,9 +338,9 @@ def test_workers_that_end_as_they_start(error: Exception, monkeypatch: pytest.Mo
         raise error
 
     monkeypatch.setattr("distributed.LocalCluster", fail)
-    with pytest.raises(InvalidInput, match=r"ended as they started\. Memory may be short"), local_workers(2):
+    with pytest.raises(InvalidInput, match=r"ended as they started\. Memory may be short"), _local_workers(2):
         pass
-    with pytest.raises(InvalidInput, match=r"workers: expected at most .* got 120,000,000 GB"), local_workers(10**9):
+    with pytest.raises(InvalidInput, match=r"workers: expected at most .* got 120,000,000 GB"), _local_workers(10**9):
         pass
 
 
@@ -355,7 +355,7 @@ def test_workers_that_are_lost_on_the_way(tmp_path: Path, monkeypatch: pytest.Mo
     pool = WorkerPool()
     pool._client = Nobody()  # type: ignore[assignment]
     with pytest.raises(InvalidInput, match="workers: expected processes that answer, got some that ended"):
-        check_workers(plan, pool)
+        _check_workers(plan, pool)
     monkeypatch.setattr("kfmaps.batch.jobs.NO_WORKERS", "1s")
     with WorkerPool(1) as pool:
         cluster: Any = pool.client.cluster
@@ -382,5 +382,5 @@ def test_no_scheduler_but_something_else(address: str) -> None:
             if address == TALKING:
                 threading.Thread(target=talk, daemon=True).start()
             address = f"tcp://127.0.0.1:{server.getsockname()[1]}"
-        with pytest.raises(InvalidInput, match="scheduler"), running_workers(address, timeout=0.3):
+        with pytest.raises(InvalidInput, match="scheduler"), _running_workers(address, timeout=0.3):
             pass

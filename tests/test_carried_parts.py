@@ -11,7 +11,7 @@ from commandline import run
 from kfmaps import datasets
 from kfmaps.batch.page import summary_page
 from kfmaps.batch.results import Result
-from kfmaps.cli.partial_truth import PartTruth, true_overlap
+from kfmaps.cli.partial_truth import PartTruth, _true_overlap
 from kfmaps.fmap.precise import PointMap, invert_precise_map, nearest_vertices, point_positions
 from kfmaps.geometry.mesh import surface_area
 from kfmaps.io import load_map, save_map, write_mesh
@@ -30,7 +30,7 @@ def made(tmp_path_factory: pytest.TempPathFactory) -> types.SimpleNamespace:
     pair = datasets.partial(1500, rng=1)
     whole, part = pair.source, pair.target
     place = PointMap(pair.truth_faces, pair.truth_weights)
-    common = true_overlap(whole, part, PartTruth(np.arange(len(part.vertices)), place, True))
+    common = _true_overlap(whole, part, PartTruth(np.arange(len(part.vertices)), place, True))
     write_mesh(folder / "whole.ply", whole)
     write_mesh(folder / "part.ply", part)
     files = ShapeFile(str(folder / "whole.ply")), ShapeFile(str(folder / "part.ply"))

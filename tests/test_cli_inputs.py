@@ -13,7 +13,7 @@ import pytest
 import kfmaps
 from commandline import SMALL, run, shapes
 from kfmaps._arrays import InvalidInput
-from kfmaps._memory import check_memory, format_bytes, installed_memory
+from kfmaps._memory import _installed_memory, check_memory, format_bytes
 from kfmaps.config import Config, DescriptorConfig, NystromConfig
 from kfmaps.io import write_vertex_numbers
 from kfmaps.matching.memory import check_match_memory
@@ -80,7 +80,7 @@ def test_numbers_out_of_proportion(made: types.SimpleNamespace, words: tuple[str
 
 
 def test_demand(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("kfmaps._memory.installed_memory", lambda: 16 << 30)
+    monkeypatch.setattr("kfmaps._memory._installed_memory", lambda: 16 << 30)
     for config in (Config.single_fit(), Config(), Config.paper(), Config.no17()):
         check_match_memory(config, 80_000, 80_000, 50)
     with pytest.raises(InvalidInput, match=r"got 80 GB for 500,000 descriptors of 20,000 points"):
@@ -109,7 +109,7 @@ def test_demand_of_a_match_from_python() -> None:
 
 
 def test_memory() -> None:
-    assert 1 << 28 < installed_memory() < 1 << 50
+    assert 1 << 28 < _installed_memory() < 1 << 50
     check_memory(1e6, "a", "b", "c")
     with pytest.raises(InvalidInput, match=r"a: expected at most .*B of memory, got 1,000,000,000 GB for b. C\."):
         check_memory(1e18, "a", "b", "c")

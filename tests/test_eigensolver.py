@@ -40,7 +40,7 @@ def square_grid(side: int) -> tuple[csr_array, np.ndarray, np.ndarray]:
     return stiffness, np.ones(side**2), np.sort(np.add.outer(values, values).ravel())
 
 
-def largest(spectrum: np.ndarray, k: int) -> _lanczos.ConvergedPairs:
+def largest(spectrum: np.ndarray, k: int) -> _lanczos._ConvergedPairs:
     """Largest eigenpairs of the diagonal matrix."""
     with one_blas_thread():
         rng = np.random.default_rng(3)

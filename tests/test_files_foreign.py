@@ -232,7 +232,7 @@ def test_gltf_of_more_copies_than_anybody_means_is_refused(
 
 
 def test_gltf_that_does_not_fit_into_memory_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("kfmaps._memory.installed_memory", lambda: 1 << 20)
+    monkeypatch.setattr("kfmaps._memory._installed_memory", lambda: 1 << 20)
     assert "got 5 MB for 20,000 vertices and corners of 1 parts" in refused(tmp_path / "a.gltf", copies(20_000, 1, 1))
 
 

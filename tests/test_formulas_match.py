@@ -17,7 +17,7 @@ from kfmaps.fmap.terms import operator_term, value
 from kfmaps.fmap.zoomout import ZoomOut
 from kfmaps.kernels.kernels import Gaussian, _squared_distances
 from kfmaps.matching.assemble import assemble, orientation_pair, principal_features
-from kfmaps.matching.features import Descriptors, Features, joint_samples, pair_descriptors
+from kfmaps.matching.features import Descriptors, Features, _joint_samples, pair_descriptors
 from kfmaps.matching.landmark_evidence import _HEAT_TIMES, heat_features
 from kfmaps.matching.quality import map_quality, sample_for_scoring
 from kfmaps.matching.score import Candidate, probability
@@ -83,11 +83,11 @@ def test_half_of_the_samples_come_from_each_shape(shape, other, sampling):
     rng = np.random.default_rng(0)
     of = [np.column_stack([np.full(len(s.basis.mass), i), s.mesh.vertices]) for i, s in enumerate((shape, other))]
     marked = Descriptors(of[0], of[1], np.full(4, -1))
-    rows = joint_samples(shape, other, marked, Gaussian(1.0), settings, rng)
+    rows = _joint_samples(shape, other, marked, Gaussian(1.0), settings, rng)
     assert np.bincount(rows[:, 0].astype(int)).tolist() == [30, 30]
     few = replace(other, mesh=replace(other.mesh, vertices=other.mesh.vertices[:20], faces=np.zeros((0, 3), int)))
     scarce = replace(marked, target=marked.target[:20])
-    rows = joint_samples(shape, few, scarce, Gaussian(1.0), settings, rng)
+    rows = _joint_samples(shape, few, scarce, Gaussian(1.0), settings, rng)
     assert np.bincount(rows[:, 0].astype(int)).tolist() == [30, 20]
 
 

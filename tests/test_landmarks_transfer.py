@@ -28,7 +28,7 @@ from kfmaps.batch.transfer_landmarks import (
     template_pairs,
 )
 from kfmaps.batch.work import map_path
-from kfmaps.cli.commands._landmarks_transfer import describe_study
+from kfmaps.cli.commands._landmarks_transfer import _describe_study
 from kfmaps.geometry.mesh import Mesh, surface_area
 from kfmaps.io import load_map, read_mesh, save_map, write_mesh
 from kfmaps.io.landmark_files import LandmarkSet, read_landmark_sets, write_landmark_sets
@@ -156,7 +156,7 @@ def test_what_fits_none_is_left_out(scans: Path, tmp_path: Path) -> None:
         path = scans / f"{name}.ply"
         study.append(carry_templates(templates, name, path, {"a": results["a", name]}, tmp_path))
     flagged = replace(study[3], flags=("low confidence", "", "", "", ""))
-    lines = describe_study([study[0], flagged, flagged], templates, np.array([[0.1, 0.5, np.nan, 0.1, 0.1]]))
+    lines = _describe_study([study[0], flagged, flagged], templates, np.array([[0.1, 0.5, np.nan, 0.1, 0.1]]))
     assert lines == [
         "5 landmarks of 1 specimen carried to 2 others, median confidence 0.72",
         "2 of 10 flagged: a in 2 specimens (low confidence)",

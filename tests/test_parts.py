@@ -8,14 +8,14 @@ import pytest
 
 from conftest import blob
 from kfmaps import datasets
-from kfmaps.cli.partial_truth import PartTruth, part_accuracy, true_overlap
+from kfmaps.cli.partial_truth import PartTruth, _true_overlap, part_accuracy
 from kfmaps.config import Config, Partial
 from kfmaps.fmap.evaluate import precise_errors
 from kfmaps.fmap.precise import PointMap
 from kfmaps.geometry.mesh import Mesh, boundary_vertices, surface_area
 from kfmaps.io import load_map
 from kfmaps.matching.match import match
-from kfmaps.matching.partial.detect import boundary_opening, detect_part
+from kfmaps.matching.partial.detect import _boundary_opening, detect_part
 from kfmaps.matching.partial.relaxation_labeling import _SLACK, consistency, distance_bounds
 from kfmaps.matching.partial.samples import part_samples
 from kfmaps.matching.partial.scale_search import SCALES
@@ -67,11 +67,11 @@ def disc(count):
 
 
 def test_the_opening_of_a_disc_is_another_disc(pair):
-    assert boundary_opening(disc(200)) == pytest.approx(1.0, rel=1e-3)
-    assert boundary_opening(pair.source) == 0.0
-    assert boundary_opening(Mesh(pair.source.vertices, pair.source.faces[:0])) == 0.0
-    assert boundary_opening(Mesh(5.0 * disc(200).vertices, disc(200).faces)) == pytest.approx(
-        boundary_opening(disc(200))
+    assert _boundary_opening(disc(200)) == pytest.approx(1.0, rel=1e-3)
+    assert _boundary_opening(pair.source) == 0.0
+    assert _boundary_opening(Mesh(pair.source.vertices, pair.source.faces[:0])) == 0.0
+    assert _boundary_opening(Mesh(5.0 * disc(200).vertices, disc(200).faces)) == pytest.approx(
+        _boundary_opening(disc(200))
     )
 
 
@@ -84,7 +84,7 @@ def test_boundaries_tell_which_is_a_part(pair):
     assert detect_part(pair.source, cloud).which == "none"
     # A pinhole is none: a face of many is left out.
     pinhole = Mesh(pair.source.vertices, pair.source.faces[1:])
-    assert 0.0 < boundary_opening(pinhole) < SCORE.part.min_opening
+    assert 0.0 < _boundary_opening(pinhole) < SCORE.part.min_opening
     assert detect_part(pair.source, pinhole).which == "none"
 
 
@@ -126,7 +126,7 @@ def test_a_part_in_another_unit_and_turned_is_placed(pair, found, truth):
     assert errors.mean() < 0.03
     common = found.target_to_source >= 0
     assert common.mean() > 0.95
-    ours, true = found.partial.overlap_source > 0.5, true_overlap(pair.source, pair.target, truth)
+    ours, true = found.partial.overlap_source > 0.5, _true_overlap(pair.source, pair.target, truth)
     assert (ours & true).sum() / (ours | true).sum() > 0.85
     assert found.verdict != "unlikely"
     for overlap in (found.partial.overlap_source, found.partial.overlap_target):
@@ -141,7 +141,7 @@ def test_the_other_way_round_vertices_without_counterpart_are_minus_one(pair, tr
     assert back.partial.overlap_target is not None
     lost = back.target_to_source < 0
     assert (back.target_to_source[lost] == -1).all()
-    true = true_overlap(pair.source, pair.target, truth)
+    true = _true_overlap(pair.source, pair.target, truth)
     assert (lost == ~true).mean() > 0.9
     # Where there is a counterpart, going there and by the truth back is no way at all.
     here = np.flatnonzero(~lost)

@@ -12,16 +12,16 @@ import pytest
 
 from collecting import CONFIG
 from conftest import blob
-from kfmaps.cli.progress import Lines, Notebook, Stages, bars_html, seconds_left, standing
+from kfmaps.cli.progress import Lines, Stages, _bars_html, _Notebook, _seconds_left, standing
 from kfmaps.shape import prepare
 
 
 def test_what_is_left_follows_from_what_is_done() -> None:
     """A quarter done in ten seconds leaves thirty; nothing done leaves what such a stage took before."""
-    assert seconds_left(0.25, 10) == pytest.approx(30)
-    assert seconds_left(0, 10) is None
-    assert seconds_left(0, 10, before=25) == 15
-    assert seconds_left(0, 30, before=25) is None
+    assert _seconds_left(0.25, 10) == pytest.approx(30)
+    assert _seconds_left(0, 10) is None
+    assert _seconds_left(0, 10, before=25) == 15
+    assert _seconds_left(0, 30, before=25) is None
     assert standing("candidates", 0.25, 10) == "candidates: 25 % done, 10 s so far, about 30 s left"
     assert standing("energy", 0, 400) == "energy: 7 min so far"
 
@@ -79,13 +79,13 @@ def test_a_notebook_gets_bars_of_its_own(monkeypatch: pytest.MonkeyPatch) -> Non
     display.display = lambda *_, **__: handle  # pyright: ignore[reportAttributeAccessIssue]
     monkeypatch.setitem(sys.modules, "IPython", types.ModuleType("IPython"))
     monkeypatch.setitem(sys.modules, "IPython.display", display)
-    notebook = Notebook()
+    notebook = _Notebook()
     notebook.tell("a<b", 0.0)
     notebook.tell("a<b", 1.0)
     notebook.close()
     assert 'value="1.000"' in shown[-1]
     assert "a&lt;b" in shown[-1]
-    assert "about 30 s left" in bars_html({"solve": (0.25, 10.0)})
+    assert "about 30 s left" in _bars_html({"solve": (0.25, 10.0)})
 
 
 def test_the_long_stages_of_a_shape_tell_how_far_they_are() -> None:

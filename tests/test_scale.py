@@ -22,7 +22,7 @@ from kfmaps.geometry.sampling import SampledBasis, spectral_samples, stratified_
 from kfmaps.kernels.landmark_selection import farthest_descriptors
 from kfmaps.matching.fit import fit, fit_points
 from kfmaps.matching.postprocess import refine_map
-from kfmaps.shape import local_descriptors, prepare, sample_shape
+from kfmaps.shape import _local_descriptors, prepare, sample_shape
 
 GUARDS = (
     "kfmaps.fmap.approximate_nearest",
@@ -71,9 +71,9 @@ def necked(n: int, waist: float, half: float) -> Mesh:
 
 def test_shot_of_some_vertices_stands_for_all(pair, monkeypatch):
     shape = pair[0]
-    exact = local_descriptors(shape.mesh, shape.basis, 0.15)
+    exact = _local_descriptors(shape.mesh, shape.basis, 0.15)
     monkeypatch.setattr(fit_shape, "DESCRIBED", 800)
-    found = local_descriptors(shape.mesh, shape.basis, 0.15)
+    found = _local_descriptors(shape.mesh, shape.basis, 0.15)
     assert found.shape == exact.shape
     np.testing.assert_allclose(np.linalg.norm(found, axis=1), 1.0)
     away = np.linalg.norm(found - exact, axis=1).mean()

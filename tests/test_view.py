@@ -27,8 +27,8 @@ from kfmaps.io.provenance import mesh_path
 from kfmaps.matching.result import Match
 from kfmaps.matching.result_groups import MatchFit, MatchScore, ShapeFile
 from kfmaps.viz.colors import position_colors
-from kfmaps.viz.document import asset, encode_floats, encode_integers, json_block, to_json
-from kfmaps.viz.page import area_distortion, result_page, rotation_by_map
+from kfmaps.viz.document import _json_block, asset, encode_floats, encode_integers, to_json
+from kfmaps.viz.page import _area_distortion, _rotation_by_map, result_page
 from kfmaps.viz.result_pages import _match_summary, match_page, signatures, vertex_errors
 
 WEB = Path(__file__).parents[1] / "web"
@@ -115,7 +115,7 @@ def test_real_numbers_come_back_within_half_a_step() -> None:
 
 def test_json_block_holds_no_markup_and_means_the_same() -> None:
     data = {NASTY: [NASTY, np.float32(0.5), np.arange(2), (1, None), True, "Ω → \u2028"]}
-    text = json_block(data)
+    text = _json_block(data)
     assert not set("<>&\u2028") & set(text)
     assert json.loads(text) == {NASTY: [NASTY, 0.5, [0, 1], [1, None], True, "Ω → \u2028"]}
 
@@ -131,14 +131,14 @@ def test_area_distortion_is_the_ratio_of_areas() -> None:
     target = grid_torus(24, 16)
     identity = np.arange(len(target.vertices))
     grown = Mesh(7 * target.vertices, target.faces)
-    assert np.abs(area_distortion(grown, target, identity)).max() < 1e-9
+    assert np.abs(_area_distortion(grown, target, identity)).max() < 1e-9
     # Summed over the target with the weights of the definition, the ratios give the source's whole area.
     bent = Mesh(target.vertices * (1 + 0.3 * np.sin(target.vertices)), target.faces)
     weights = vertex_areas(unit_area(target))
-    assert weights @ 2 ** area_distortion(bent, target, identity) == pytest.approx(1, abs=1e-9)
-    assert np.ptp(area_distortion(bent, target, identity)) > 0.5
-    assert (area_distortion(target, target, np.zeros_like(identity)) == -4).all()
-    assert np.isnan(area_distortion(Mesh(target.vertices, NO_FACES), target, identity)).all()
+    assert weights @ 2 ** _area_distortion(bent, target, identity) == pytest.approx(1, abs=1e-9)
+    assert np.ptp(_area_distortion(bent, target, identity)) > 0.5
+    assert (_area_distortion(target, target, np.zeros_like(identity)) == -4).all()
+    assert np.isnan(_area_distortion(Mesh(target.vertices, NO_FACES), target, identity)).all()
 
 
 def test_nearest_reached_is_nearest_along_the_edges() -> None:
@@ -165,9 +165,9 @@ def test_alignment_undoes_a_rotation_and_never_mirrors() -> None:
     turn = Rotation.from_euler("xyz", [100, 30, -70], degrees=True).as_matrix()
     target = Mesh(source.vertices @ turn.T + 5, source.faces)
     identity = np.arange(200)
-    assert np.allclose(rotation_by_map(source, target, identity), turn.T)
+    assert np.allclose(_rotation_by_map(source, target, identity), turn.T)
     mirrored = Mesh(source.vertices * [-1, 1, 1], source.faces)
-    assert np.linalg.det(rotation_by_map(source, mirrored, identity)) == pytest.approx(1)
+    assert np.linalg.det(_rotation_by_map(source, mirrored, identity)) == pytest.approx(1)
 
 
 # The page -------------------------------------------------------------------------------------------------

@@ -28,7 +28,7 @@ def is_numpy(*arrays: Array) -> bool:
     return is_numpy_namespace(array_namespace(*arrays))
 
 
-def is_torch(*arrays: Array) -> bool:
+def _is_torch(*arrays: Array) -> bool:
     """Whether ``arrays`` are PyTorch tensors."""
     return is_torch_namespace(array_namespace(*arrays))
 
@@ -43,7 +43,7 @@ def to_numpy(array: Array) -> np.ndarray:
     """A NumPy copy or view of ``array``, wherever it lives."""
     if isinstance(array, np.ndarray):
         return array
-    if is_torch(array):
+    if _is_torch(array):
         return array.detach().cpu().numpy()
     return np.from_dlpack(array)
 
@@ -74,7 +74,7 @@ def inner(x: Array, y: Array) -> float:
 
 def number(x: Array) -> float:
     """A Python number of an array with one value, without what PyTorch knows of its derivatives."""
-    return float(x.detach() if is_torch(x) else x)
+    return float(x.detach() if _is_torch(x) else x)
 
 
 def check(

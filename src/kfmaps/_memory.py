@@ -12,7 +12,7 @@ _UNKNOWN = 64 << 30
 
 
 @cache
-def installed_memory() -> int:
+def _installed_memory() -> int:
     """Bytes of memory that this machine has, in use or not."""
     try:
         size = os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")
@@ -26,7 +26,7 @@ def check_memory(need: float, name: str, what: str, remedy: str) -> None:
 
     ``need``: bytes; ``name`` and ``what``: what is at fault, and what the memory would be for.
     """
-    have = installed_memory()
+    have = _installed_memory()
     if need > have:
         raise refuse(name, f"at most {format_bytes(have)} of memory", f"{format_bytes(need)} for {what}", remedy)
 

@@ -156,7 +156,7 @@ def prepare(
     if config.descriptors.shot and len(mesh.faces):
         start = time.perf_counter()
         report(f"SHOT of {name}", 0.0)
-        local = local_descriptors(
+        local = _local_descriptors(
             small,
             basis,
             config.descriptors.shot_radius,
@@ -177,7 +177,7 @@ def prepare(
     return replace(shape, mesh=_placed(mesh, part, small), basis=whole, shot=local)
 
 
-def local_descriptors(
+def _local_descriptors(
     mesh: Mesh,
     basis: Basis,
     radius: float,

@@ -66,14 +66,14 @@ def load_shape(path: Path, name: str) -> Shape | None:
     return None if shape is None else replace(shape, name=name)
 
 
-def samples_path(entry: Path, seed: int) -> Path:
+def _samples_path(entry: Path, seed: int) -> Path:
     """Return where the samples for this seed lie, beside the ``entry`` of their shape."""
     return entry.with_name(f"{entry.stem}.samples{seed}.npz")
 
 
 def cached_samples(shape: Shape, entry: Path, seed: int) -> ShapeSamples:
     """Return what a search needs to know of ``shape``: read where it is kept, else worked out and kept."""
-    path = samples_path(entry, seed)
+    path = _samples_path(entry, seed)
     samples = load_record(path, ShapeSamples)
     if samples is None:
         samples = scoring_samples(shape, seed)

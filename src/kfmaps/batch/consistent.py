@@ -71,20 +71,20 @@ class ConsistentResult:
         return len(self.before)
 
 
-def replacement_map(folder: Path, key: str) -> Path:
+def _replacement_map(folder: Path, key: str) -> Path:
     """Return where the map lies that replaces a pair's own."""
     return folder / CONSISTENT / MAPS / f"{key}.npz"
 
 
-def replacement_result(folder: Path, key: str) -> Path:
+def _replacement_result(folder: Path, key: str) -> Path:
     """Return where its result lies."""
     return folder / CONSISTENT / RESULTS / f"{key}.json"
 
 
 def map_in_use(folder: Path, key: str) -> Path:
     """Return the map of a pair: that which replaces its own, or its own."""
-    other = replacement_map(folder, key)
-    return other if replacement_result(folder, key).exists() and other.exists() else map_path(folder, key)
+    other = _replacement_map(folder, key)
+    return other if _replacement_result(folder, key).exists() and other.exists() else map_path(folder, key)
 
 
 def make_consistent(plan: Plan, results: Sequence[Result], pool: WorkerPool) -> ConsistentResult:
@@ -253,7 +253,7 @@ def _score_composition(job: _PathTask) -> ScoredMap:
 def _replace_map(job: _ReplaceTask) -> Result:
     """Finish, evaluate and save the map that replaces another unless that is done; a failure is recorded."""
     task, change, folder = job.task, job.change, Path(job.task.folder)
-    path, other = replacement_result(folder, task.key), replacement_map(folder, task.key)
+    path, other = _replacement_result(folder, task.key), _replacement_map(folder, task.key)
     begun = time.perf_counter()
     values: dict[str, Any] = {"seconds": {}}
     inputs = ""
@@ -300,8 +300,8 @@ def _remove_replacements(plan: Plan, kept: set[str]) -> None:
     """Remove replacements of maps that are not replaced any more, since others have been matched again."""
     for task in plan.tasks:
         if task.key not in kept:
-            replacement_result(plan.folder, task.key).unlink(missing_ok=True)
-            replacement_map(plan.folder, task.key).unlink(missing_ok=True)
+            _replacement_result(plan.folder, task.key).unlink(missing_ok=True)
+            _replacement_map(plan.folder, task.key).unlink(missing_ok=True)
 
 
 def _write_pairs(path: Path, store: _FolderStore, found: Consistency) -> None:

@@ -71,7 +71,7 @@ class WorkerPool:
     def client(self) -> Client:
         """The connection to the workers, which are started now if they were not."""
         if self._client is None:
-            where = running_workers(self.scheduler) if self.scheduler else local_workers(self.count)
+            where = _running_workers(self.scheduler) if self.scheduler else _local_workers(self.count)
             self._client = self._stack.enter_context(where)
             self.n_threads = _n_threads(self._client)
             self._client.subscribe_topic("all", self._note_event)
@@ -181,7 +181,7 @@ def dask_setup(worker: Any) -> None:
 
 
 @contextmanager
-def local_workers(count: int | None = None) -> Iterator[Client]:
+def _local_workers(count: int | None = None) -> Iterator[Client]:
     """Start worker processes on this machine, one task and one BLAS thread each, gone when the block ends.
 
     They listen on the loopback address only and speak TLS with certificates made for this run: whoever can talk to a
@@ -231,7 +231,7 @@ def local_workers(count: int | None = None) -> Iterator[Client]:
 
 
 @contextmanager
-def running_workers(address: str, timeout: float = 30.0) -> Iterator[Client]:
+def _running_workers(address: str, timeout: float = 30.0) -> Iterator[Client]:
     """Connect to a Dask scheduler that is running, at ``address`` such as ``tcp://host:8786``."""
     try:
         from distributed import Client

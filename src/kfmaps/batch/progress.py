@@ -87,7 +87,7 @@ def remaining_seconds(
 
 
 @dataclass(frozen=True)
-class Estimate:
+class _Estimate:
     """What a run will need: bytes on ``disk`` and of ``memory`` of all workers together, and ``seconds``."""
 
     disk: float
@@ -100,7 +100,7 @@ class Estimate:
 
 def estimate(
     shapes: int, pairs: int, vertices: int, config: Config, workers: int, *, consistent: bool = False
-) -> Estimate:
+) -> _Estimate:
     """Return an estimate of what a run needs; linear in all sizes.
 
     ``shapes``, ``pairs`` and ``vertices``: numbers of shapes and pairs, and of vertices of a shape; ``consistent``:
@@ -113,7 +113,7 @@ def estimate(
     each += _AGREE_SECONDS * vertices if consistent else 0.0
     total = pairs * each + shapes * _PREPARE_SECONDS * vertices
     memory = workers * (_WORKER_BYTES + _VERTEX_BYTES * vertices)
-    return Estimate(disk, memory, total / max(min(workers, pairs), 1))
+    return _Estimate(disk, memory, total / max(min(workers, pairs), 1))
 
 
 def _size(count: float) -> str:

@@ -74,7 +74,7 @@ def run_batch(
         log(f"{len(plan.todo)} of {len(plan.tasks)} pairs to match")
         try:
             if plan.todo:
-                for result in match_pairs(plan, pool, callback, log):
+                for result in _match_pairs(plan, pool, callback, log):
                     new.append(result)
             if consistent:
                 matched = all_results(plan.folder, plan.spec.digest)
@@ -86,13 +86,13 @@ def run_batch(
             pool.close()  # what they are still at is not to end behind the back of the tables
         better = {} if agreed is None else {(r.source, r.target): r for r in agreed.results}
         everything = [better.get((r.source, r.target), r) for r in all_results(plan.folder, plan.spec.digest)]
-        files = write_outputs(plan, everything, name, 0 if interrupted else worst, agreed)
+        files = _write_outputs(plan, everything, name, 0 if interrupted else worst, agreed)
     results = tuple(r for r in everything if (r.source, r.target) in asked)
     log(f"{len(results)} pairs have a result, {sum(r.status == 'failed' for r in results)} of them failed")
     return BatchResult(results, len(new), interrupted, files, agreed)
 
 
-def match_pairs(
+def _match_pairs(
     plan: Plan, pool: WorkerPool, callback: Callback | None = None, log: Callable[[str], None] | None = None
 ) -> Iterator[Result]:
     """Prepare the shapes and match the pairs that the plan leaves to do; the results, in the order in which they come.
@@ -101,7 +101,7 @@ def match_pairs(
     that kills :data:`~kfmaps.batch.jobs.MAX_DEATHS` workers is recorded as failed.
     """
     log, callback = log or (lambda _line: None), callback or (lambda _status, _result: None)
-    check_workers(plan, pool)
+    _check_workers(plan, pool)
     for task in plan.todo:
         result_path(plan.folder, task.key).unlink(missing_ok=True)
     shapes = list({t.entry: t for task in plan.todo for t in (task.source, task.target)}.values())
@@ -151,7 +151,7 @@ def _status(plan: Plan, pool: WorkerPool, shapes: int, prepared: list[Prepared],
     return RunStatus(len(prepared), shapes, len(done), failed, len(plan.tasks), pool.n_threads, left, len(measured))
 
 
-def check_workers(plan: Plan, pool: WorkerPool) -> None:
+def _check_workers(plan: Plan, pool: WorkerPool) -> None:
     """Check that every worker has this version and sees the output folder under the same path."""
     name = "workers"
     try:
@@ -180,7 +180,7 @@ def _seen(path: str) -> tuple[str, str]:
         return kfmaps.__version__, ""
 
 
-def write_outputs(
+def _write_outputs(
     plan: Plan, results: list[Result], name: str, worst: int, consistent: ConsistentResult | None = None
 ) -> tuple[Path, ...]:
     """Write the tables and the summary anew from the ``results``; their paths."""

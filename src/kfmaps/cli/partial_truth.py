@@ -102,7 +102,7 @@ def part_accuracy(source: Mesh, target: Mesh, found: Match, truth: PartTruth, pa
     if not known.any():
         raise refuse("map", "a counterpart for some of the truth's points", "none", "take another map or truth")
     errors = summarize_errors(precise_errors(whole, said, true))
-    true_common = true_overlap(whole, source if part == "source" else target, truth)
+    true_common = _true_overlap(whole, source if part == "source" else target, truth)
     areas = vertex_areas(whole)
     ours = _common_vertices(found, part)
     share = None
@@ -139,7 +139,7 @@ def _carried_on(
     return known[told], vertex_point_map(rows, target), PointMap(on.faces, on.weights)
 
 
-def true_overlap(whole: Mesh, part: Mesh, truth: PartTruth) -> np.ndarray:
+def _true_overlap(whole: Mesh, part: Mesh, truth: PartTruth) -> np.ndarray:
     """Return which vertices of the whole (n,) are common by the truth."""
     if truth.dense:
         unit = unit_area(whole)

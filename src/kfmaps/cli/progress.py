@@ -25,7 +25,7 @@ _SECONDS_BETWEEN_PICTURES = 0.2
 """A notebook's bars are drawn anew no more often."""
 
 
-def seconds_left(done: float, elapsed: float, before: float | None = None) -> float | None:
+def _seconds_left(done: float, elapsed: float, before: float | None = None) -> float | None:
     """Return what a stage will still take, by how much of it is done, else by what such a stage took ``before``.
 
     ``None`` while neither tells.
@@ -38,7 +38,7 @@ def seconds_left(done: float, elapsed: float, before: float | None = None) -> fl
 def standing(name: str, done: float, elapsed: float, before: float | None = None) -> str:
     """Return how a stage stands, in one line."""
     part = f"{100 * done:.0f} % done, " if done > 0 else ""
-    left = seconds_left(done, elapsed, before)
+    left = _seconds_left(done, elapsed, before)
     rest = "" if left is None else f", about {format_seconds(left)} left"
     return f"{name}: {part}{format_seconds(elapsed)} so far{rest}"
 
@@ -127,7 +127,7 @@ def _kind(name: str) -> str:
     return name.rpartition(" of ")[0] or name
 
 
-class Notebook:
+class _Notebook:
     """Bars in a notebook's cell: plain HTML, so that nothing beside IPython is needed."""
 
     def __init__(self) -> None:
@@ -153,14 +153,14 @@ class Notebook:
     def _draw(self) -> None:
         self._drawn = time.monotonic()
         if self._place is not None:
-            self._place.update(self._html(bars_html(self._stages)))
+            self._place.update(self._html(_bars_html(self._stages)))
 
 
-def bars_html(stages: dict[str, tuple[float, float]]) -> str:
+def _bars_html(stages: dict[str, tuple[float, float]]) -> str:
     """Return a table of bars: for each stage how much of it is done, from 0 to 1, and its seconds."""
     rows = []
     for name, (done, elapsed) in stages.items():
-        left = seconds_left(done, elapsed) if done < 1 else None
+        left = _seconds_left(done, elapsed) if done < 1 else None
         rest = "" if left is None else f", about {format_seconds(left)} left"
         bar = f'<progress max="1" value="{done:.3f}"></progress>'
         rows.append(f"<tr><td>{html_escape(name)}</td><td>{bar}</td><td>{format_seconds(elapsed)}{rest}</td></tr>")
@@ -182,7 +182,7 @@ class Stages:
         if self._quiet:
             self._way = None
         elif console.is_jupyter:
-            self._way = Notebook()
+            self._way = _Notebook()
         else:
             self._way = _Bars(console) if console.is_terminal else Lines()
         return self

@@ -52,7 +52,7 @@ def _rows(match: Match, accuracy: Accuracy | None, written: Path | None) -> list
         ("matched", " → ".join(_shape(mesh, Path(file.path).name) for mesh, file in sides)),
         ("verdict", f"{match.verdict.capitalize()}{chance}. {verdict_text(match.verdict, n_landmarks)}"),
     ]
-    if (share := doubtful_area(match)) > SCORE.max_torn_area:
+    if (share := _doubtful_area(match)) > SCORE.max_torn_area:
         rows.append(("doubtful", f"one region, {share:.0%} of the target's area: its local fit is below one half"))
     if match.partial.suspected:
         rows.append(("parts", match.partial.reason))
@@ -86,7 +86,7 @@ def _rows(match: Match, accuracy: Accuracy | None, written: Path | None) -> list
     return rows
 
 
-def doubtful_area(match: Match) -> float:
+def _doubtful_area(match: Match) -> float:
     """Return the share of the target's area that fits badly, of a map of whole shapes that is called right; else 0."""
     known = match.target is not None and match.local_confidence is not None and len(match.target.faces) > 0
     if not known or match.verdict not in ("sure", "likely") or match.partial.which != "none":

@@ -16,7 +16,7 @@ Size = int | str | None
 
 
 @dataclass(frozen=True)
-class MapArray:
+class _MapArray:
     """One array of a map file."""
 
     field: str  # the field of :class:`kfmaps.Match` that it holds; a dot leads into a group of fields
@@ -43,22 +43,22 @@ class MapArray:
 
 
 ARRAYS = {
-    "target_to_source": MapArray("target_to_source", ("t",), "s", missing=True),
-    "functional_map": MapArray("functional_map", (None, None)),
-    "eigenvalues_source": MapArray("eigenvalues_source", (None,)),
-    "eigenvalues_target": MapArray("eigenvalues_target", (None,)),
-    "local_confidence": MapArray("local_confidence", ("t",), missing=True),
-    "alternatives": MapArray("alternatives", (None, "t"), "s"),
-    "landmarks": MapArray("landmarks", (None, 2), "st"),
-    "precise_faces": MapArray("precise_map.faces", ("t",), "f"),
-    "precise_weights": MapArray("precise_map.weights", ("t", 3), high=1 + 1e-6),
-    "source_to_target": MapArray("source_to_target", ("s",), "t"),
-    "functional_map_back": MapArray("functional_map_back", (None, None)),
-    "registered_vertices": MapArray("registration.registered_vertices", ("s", 3)),
-    "overlap_source": MapArray("partial.overlap_source", ("s",), high=1),
-    "overlap_target": MapArray("partial.overlap_target", ("t",), high=1),
-    "raw_functional_map": MapArray("fit.raw_functional_map", (None, None)),
-    "raw_target_to_source": MapArray("fit.raw_target_to_source", ("t",), "s"),
+    "target_to_source": _MapArray("target_to_source", ("t",), "s", missing=True),
+    "functional_map": _MapArray("functional_map", (None, None)),
+    "eigenvalues_source": _MapArray("eigenvalues_source", (None,)),
+    "eigenvalues_target": _MapArray("eigenvalues_target", (None,)),
+    "local_confidence": _MapArray("local_confidence", ("t",), missing=True),
+    "alternatives": _MapArray("alternatives", (None, "t"), "s"),
+    "landmarks": _MapArray("landmarks", (None, 2), "st"),
+    "precise_faces": _MapArray("precise_map.faces", ("t",), "f"),
+    "precise_weights": _MapArray("precise_map.weights", ("t", 3), high=1 + 1e-6),
+    "source_to_target": _MapArray("source_to_target", ("s",), "t"),
+    "functional_map_back": _MapArray("functional_map_back", (None, None)),
+    "registered_vertices": _MapArray("registration.registered_vertices", ("s", 3)),
+    "overlap_source": _MapArray("partial.overlap_source", ("s",), high=1),
+    "overlap_target": _MapArray("partial.overlap_target", ("t",), high=1),
+    "raw_functional_map": _MapArray("fit.raw_functional_map", (None, None)),
+    "raw_target_to_source": _MapArray("fit.raw_target_to_source", ("t",), "s"),
 }
 """The arrays of a map file by name; all but the first may be left out."""
 

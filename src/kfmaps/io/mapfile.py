@@ -136,7 +136,7 @@ def check_npy(file: IO[bytes], size: int, name: str) -> float:
     return count * max(1.0, dtype.itemsize / 8)
 
 
-def check_size(count: float, name: str) -> None:
+def _check_size(count: float, name: str) -> None:
     """Refuse a map file that unpacks to more than :data:`_LARGEST` numbers."""
     if count > _LARGEST:
         wanted = f"a map of at most {format_bytes(8 * _LARGEST)} unpacked"
@@ -156,12 +156,12 @@ def _npz_content(data: bytes, name: str) -> dict[str, Any]:
     with zipfile.ZipFile(io.BytesIO(data)) as archive:
         items = archive.infolist()
         # What an archive unpacks to may be a thousand times its size: what it declares is looked at first.
-        check_size(sum(item.file_size for item in items) / 8, name)
+        _check_size(sum(item.file_size for item in items) / 8, name)
         total = 0.0
         for item in items:
             with archive.open(item) as file:
                 total += check_npy(file, item.file_size, f"{name}: {item.filename}")
-        check_size(total, name)
+        _check_size(total, name)
     with np.load(io.BytesIO(data), allow_pickle=False) as arrays:
         loaded = {k: arrays[k] for k in arrays.files}
     return {k: str(v) if v.dtype.kind == "U" and v.ndim == 0 else v for k, v in loaded.items()}

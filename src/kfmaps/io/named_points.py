@@ -206,7 +206,7 @@ def transfer_points(
         return given
     if not there.all():
         some = transfer_points(
-            select_points(given, there), source, target, place, confidence, back=back, known=known, common=common
+            _select_points(given, there), source, target, place, confidence, back=back, known=known, common=common
         )
         return scatter_points(some, given.names, there)
     images = point_positions(place, source)
@@ -236,7 +236,7 @@ def transfer_points(
     return NamedPoints(given.names, there, points, vertices, trust, found.distances)
 
 
-def select_points(given: NamedPoints, chosen: np.ndarray) -> NamedPoints:
+def _select_points(given: NamedPoints, chosen: np.ndarray) -> NamedPoints:
     """Return those of the points that are ``chosen (q,)``."""
     names = tuple(name for name, one in zip(given.names, chosen, strict=True) if one)
     place = PointMap(given.place.faces[chosen], given.place.weights[chosen])
@@ -244,7 +244,7 @@ def select_points(given: NamedPoints, chosen: np.ndarray) -> NamedPoints:
 
 
 def scatter_points(given: NamedPoints, names: tuple[str, ...], chosen: np.ndarray) -> NamedPoints:
-    """Put points in the places of those ``chosen`` among all ``names``: the inverse of :func:`select_points`.
+    """Put points in the places of those ``chosen`` among all ``names``: the inverse of :func:`_select_points`.
 
     All others, and those with the vertex −1, have no place.
     """

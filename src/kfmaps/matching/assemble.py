@@ -109,7 +109,7 @@ class FitProblem:
         pair = [replace(shape, basis=basis) for shape, basis in zip(self.shapes, small, strict=True)]
         more = {}
         for one in self.config.terms:
-            name = term_name(one)
+            name = _term_name(one)
             name = name if name not in (*terms, *more) else f"{name} {len(more) + 1}"
             more[name] = (float(getattr(one, "weight", 1.0)), complete_term(one(pair[s], pair[t])))
         return energy.joined(more)
@@ -149,7 +149,7 @@ def assemble(
     return FitProblem(config, shapes, small, features.kernel, descriptors, features, multiplications, orientations)
 
 
-def term_name(factory: Any) -> str:
+def _term_name(factory: Any) -> str:
     """Return the name of a term of the user's own in tables of energies: that of its function or class."""
     return getattr(factory, "__name__", type(factory).__name__)
 

@@ -117,8 +117,8 @@ def pair_descriptors(
     """
     size = min(config.n_eigenfunctions, *(b.functions.shape[1] for b in bases))
     small = (bases[0].truncate(size), bases[1].truncate(size))
-    sides = [spectral_descriptors(i, small, config, landmarks[:, i]) for i in (0, 1)]
-    whose = landmark_of_each(config, len(landmarks))
+    sides = [_spectral_descriptors(i, small, config, landmarks[:, i]) for i in (0, 1)]
+    whose = _landmark_of_each(config, len(landmarks))
     if given is not None:
         for i, shape in enumerate((source, target)):
             sides[i].append(like(_given_descriptors(given[i], shape), bases[i].functions))
@@ -146,7 +146,7 @@ def pair_descriptors(
     return Descriptors(D_s, D_t, np.concatenate([whose, others]))
 
 
-def spectral_descriptors(
+def _spectral_descriptors(
     side: int, bases: tuple[Basis, ...], config: DescriptorConfig, landmarks: np.ndarray
 ) -> list[Array]:
     """Signature and landmark maps of shape ``side`` (0 or 1); energies are common to both ``bases``."""
@@ -175,7 +175,7 @@ def _shares(config: DescriptorConfig, marks: int) -> tuple[int, int]:
     return max(config.n_spectral - per_landmark * marks, 0), per_landmark
 
 
-def landmark_of_each(config: DescriptorConfig, landmarks: int) -> np.ndarray:
+def _landmark_of_each(config: DescriptorConfig, landmarks: int) -> np.ndarray:
     """The landmark that each of the spectral descriptors is of, counted from 0, (d,); −1 for the signature."""
     marks = landmarks if config.landmark_descriptor != "none" else 0
     if marks == 0 and config.signature == "none":
@@ -207,7 +207,7 @@ def _every_nth(side: int, bases: tuple[Basis, ...], config: DescriptorConfig, la
     parts = (
         []
         if config.signature == "none"
-        else spectral_descriptors(side, bases, replace(whole, n_spectral=EVERY), landmarks[:0])
+        else _spectral_descriptors(side, bases, replace(whole, n_spectral=EVERY), landmarks[:0])
     )
     if len(landmarks) and config.landmark_descriptor != "none":
         parts.append(_family(config.landmark_descriptor, bases[side], bases, landmarks, EVERY))
@@ -232,12 +232,12 @@ def kernel_features(
     if isinstance(config.kernel, Linear):
         return Features(descriptors.source, descriptors.target, config.kernel)
     kernel = resolve_kernel_width(descriptors, config, rng)
-    samples = joint_samples(source, target, descriptors, kernel, config.nystrom, rng)
+    samples = _joint_samples(source, target, descriptors, kernel, config.nystrom, rng)
     factor = nystrom(kernel, samples, config.nystrom.rtol)
     return Features(factor.features(descriptors.source), factor.features(descriptors.target), kernel)
 
 
-def joint_samples(
+def _joint_samples(
     source: Shape,
     target: Shape,
     descriptors: Descriptors,

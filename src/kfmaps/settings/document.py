@@ -16,7 +16,7 @@ from kfmaps.settings.toml import text_of
 BEGIN, END = "<!-- begin: made by kfmaps.settings.document -->", "<!-- end -->"
 
 
-def value_in(config: Config, path: str, cls: type, one: Setting) -> str:
+def _value_in(config: Config, path: str, cls: type, one: Setting) -> str:
     """Return what ``config`` has at ``path``, the default of the record ``cls`` where it has another or none."""
     section = path.rpartition(".")[0]
     record: Any = getattr(config, section) if section else config
@@ -46,7 +46,7 @@ def tables() -> str:
         for path, cls, one in rows:
             of = f" ({cls.__name__.lower()})" if several else ""
             option = f", `{one.option}`" if one.option else ""
-            values = " | ".join(value_in(config, path, cls, one) for config in configs)
+            values = " | ".join(_value_in(config, path, cls, one) for config in configs)
             lines.append(f"| `{path}`{option} | {one.help}{of} | {one.values(KINDS)} | {values} |")
     names = ["* `default`: what `kfmaps match` and `kfmaps.match` use, that is `Config()`"]
     for name in PRESETS[1:]:
@@ -55,7 +55,7 @@ def tables() -> str:
     return "\n".join([BEGIN, "", "### Presets", "", *names, *lines, "", END])
 
 
-def updated(text: str) -> str:
+def _updated(text: str) -> str:
     """Return ``text`` with the tables between its two marks made anew."""
     before, _, rest = text.partition(BEGIN)
     return before + tables() + rest.partition(END)[2]
@@ -63,4 +63,4 @@ def updated(text: str) -> str:
 
 if __name__ == "__main__":
     path = Path(sys.argv[1])
-    path.write_text(updated(path.read_text(encoding="utf-8")), encoding="utf-8")
+    path.write_text(_updated(path.read_text(encoding="utf-8")), encoding="utf-8")

@@ -63,7 +63,7 @@ def to_json(value: Any) -> Any:
     return str(value)
 
 
-def json_block(data: Any) -> str:
+def _json_block(data: Any) -> str:
     """Return JSON that is safe between ``<script>`` tags: no ``<``, ``>`` or ``&`` is left in it.
 
     A mesh called ``</script><script>`` is then only a name: those characters stand inside JSON strings alone,
@@ -118,7 +118,7 @@ def document(template: str, *, title: str, data: Any, connect: bool = False) -> 
         title=title,
         style=Markup(style),
         script=Markup(script),
-        data=Markup(json_block(data)),
+        data=Markup(_json_block(data)),
     )
 
 

@@ -54,7 +54,7 @@ def map_record(source: Mesh, target: Mesh, target_to_source: np.ndarray, label: 
         "label": label,
         "points": encode_integers(np.where(lost, len(source.vertices), target_to_source)),
         "nearest": encode_integers(nearest_reached(source, target_to_source)),
-        "distortion": encode_floats(area_distortion(source, target, target_to_source)),
+        "distortion": encode_floats(_area_distortion(source, target, target_to_source)),
     }
 
 
@@ -200,7 +200,7 @@ def result_page(
         "verdict": verdict_record(summary or {}),
         "source": source_record(source, names[0], colors),
         "target": shape_record(target, names[1]),
-        "rotation": rotation_by_map(source, target, points[0]).ravel(),
+        "rotation": _rotation_by_map(source, target, points[0]).ravel(),
         "maps": maps,
         **_fields(len(points), len(target.vertices), errors=errors, confidence=confidence),
         "descriptors": _descriptors(descriptors, source, target, most_descriptors),
@@ -210,7 +210,7 @@ def result_page(
     return document("result.html.j2", title=f"{names[0]} → {names[1]}", data=data)
 
 
-def area_distortion(source: Mesh, target: Mesh, target_to_source: np.ndarray) -> np.ndarray:
+def _area_distortion(source: Mesh, target: Mesh, target_to_source: np.ndarray) -> np.ndarray:
     """Return the base-2 logarithm of how the map changes area around each target vertex, (n_t,), within [-4, 4].
 
     The area on the source of the images of the faces around a vertex over the area of those faces on the
@@ -232,7 +232,7 @@ def area_distortion(source: Mesh, target: Mesh, target_to_source: np.ndarray) ->
     return np.log2(np.clip(ratio, 2.0**-4, 2.0**4))
 
 
-def rotation_by_map(source: Mesh, target: Mesh, target_to_source: np.ndarray) -> np.ndarray:
+def _rotation_by_map(source: Mesh, target: Mesh, target_to_source: np.ndarray) -> np.ndarray:
     """Return the rotation, (3, 3), that turns the target's vertices best onto their matches (Kabsch 1976)."""
     known = np.asarray(target_to_source) >= 0
     if not known.any():

@@ -13,7 +13,7 @@ from kfmaps._arrays import InvalidInput, NotConverged, refuse
 from kfmaps._progress import Progress
 
 
-class Cancelled(Exception):
+class _Cancelled(Exception):
     """Raised through the progress call to leave a match that nobody wants any more."""
 
 
@@ -74,7 +74,7 @@ class Runs:
 
     def _progress(self, stage: str, fraction: float) -> None:
         if self._cancel.is_set():
-            raise Cancelled
+            raise _Cancelled
         with self._lock:
             self._status = replace(self._status, stage=str(stage), fraction=min(max(float(fraction), 0.0), 1.0))
 
@@ -82,7 +82,7 @@ class Runs:
         result, state, error = None, "done", ""
         try:
             result = self._work(argument, self._progress)
-        except Cancelled:
+        except _Cancelled:
             state = "cancelled"
         except (InvalidInput, NotConverged, ImportError, OSError, MemoryError) as problem:
             state, error = "failed", str(problem) or type(problem).__name__

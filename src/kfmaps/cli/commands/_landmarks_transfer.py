@@ -104,7 +104,7 @@ def transfer(
     if min_confidence is not None:
         study = [drop_unsure(one, min_confidence) for one in study]
     files = write_study(output, study, templates)
-    lines = [*describe_study(study, templates, errors), *_misfits(said, keep or ()), *(f"{file}" for file in files)]
+    lines = [*_describe_study(study, templates, errors), *_misfits(said, keep or ()), *(f"{file}" for file in files)]
     (output / "summary.txt").write_text("\n".join(lines) + "\n", encoding="utf-8")
     for line in lines:
         report.say(line)
@@ -112,7 +112,7 @@ def transfer(
         print_json({"summary": lines[: -len(files)], "output": files})
 
 
-def describe_study(study: Sequence[SpecimenLandmarks], templates: Sequence[Template], errors: np.ndarray) -> list[str]:
+def _describe_study(study: Sequence[SpecimenLandmarks], templates: Sequence[Template], errors: np.ndarray) -> list[str]:
     """What came of a study, in a few lines."""
     carried = [one for one in study if one.results and not one.misfit]
     names = templates[0].points.names

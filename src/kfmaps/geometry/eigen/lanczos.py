@@ -42,7 +42,7 @@ LOOSE = 1e-6
 
 
 @dataclass(frozen=True, eq=False)
-class ConvergedPairs:
+class _ConvergedPairs:
     """Converged pairs: eigenvalues (c,) descending, vectors (n, c) orthonormal, and how many restarts it took."""
 
     values: np.ndarray
@@ -124,7 +124,7 @@ def _orthonormal(block: np.ndarray, bases: list[np.ndarray], each: Map) -> tuple
 
 def _stage(
     apply: Callable[[np.ndarray], np.ndarray],
-    locked: ConvergedPairs,
+    locked: _ConvergedPairs,
     k: int,
     tolerance: float,
     rng: np.random.Generator,
@@ -215,14 +215,14 @@ def largest_eigenpairs(
     tolerance: float,
     rng: np.random.Generator,
     each: Map = map,
-) -> ConvergedPairs:
+) -> _ConvergedPairs:
     """Return at least the ``k`` largest eigenpairs of an operator.
 
     ``apply``: (n, b) -> (n, b); ``n`` and ``k``: ``n`` above ``_capacity(k)``; ``tolerance``: bound on ``‖apply(x) −
     νx‖ / ν`` before the last, refining step; ``rng``: draws the start vectors; ``each``: ``map``, or that of a thread
     pool.
     """
-    locked = ConvergedPairs(np.zeros(0), np.zeros((n, 0)), 0)
+    locked = _ConvergedPairs(np.zeros(0), np.zeros((n, 0)), 0)
     while True:
         values, vectors = _stage(apply, locked, k, tolerance, rng, each)
         if len(locked.values) >= k:
@@ -234,4 +234,4 @@ def largest_eigenpairs(
         order = np.argsort(-together, kind="stable")
         if locked.stages:
             vectors = np.hstack([locked.vectors, vectors])
-        locked = ConvergedPairs(together[order], np.asfortranarray(vectors[:, order]), locked.stages + 1)
+        locked = _ConvergedPairs(together[order], np.asfortranarray(vectors[:, order]), locked.stages + 1)

@@ -21,7 +21,7 @@ class PartDetection:
     reason: str
 
 
-def boundary_opening(mesh: Mesh) -> float:
+def _boundary_opening(mesh: Mesh) -> float:
     """Area of flat discs as long around as the boundaries of ``mesh``, over its own area: the least that is missing.
 
     0 of a closed surface and of a point cloud.
@@ -44,8 +44,8 @@ def detect_part(source: Mesh, target: Mesh) -> PartDetection:
     if len(source.faces) == 0 or len(target.faces) == 0:
         return PartDetection("none", "point clouds are taken for whole")
     openings: dict[Literal["source", "target"], float] = {
-        "source": boundary_opening(source),
-        "target": boundary_opening(target),
+        "source": _boundary_opening(source),
+        "target": _boundary_opening(target),
     }
     part, whole = sorted(openings, key=lambda name: -openings[name])
     if openings[part] < SCORE.part.min_opening:
