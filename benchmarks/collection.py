@@ -145,7 +145,7 @@ def plant(tasks: tuple[PairTask, ...], wrong: float, note: Path) -> list[tuple[s
             path = map_path(Path(tasks[i].folder), tasks[i].pair.key)
             found = load_map(path)
             points = rng.permutation(found.target_to_source)
-            planted_map = found.replaced(target_to_source=points, precise_map=None, alternatives=(), fit=MatchFit())
+            planted_map = replace(found, target_to_source=points, precise_map=None, alternatives=(), fit=MatchFit())
             save_map(path, planted_map, force=True)
         note.write_text("done\n", encoding="utf-8")
     return [(tasks[i].pair.source, tasks[i].pair.target) for i in planted]

@@ -6,6 +6,7 @@ import base64
 import io
 import json
 import struct
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -122,7 +123,7 @@ def test_faces_outside_a_part_have_one_colour(tmp_path: Path) -> None:
     away = source.mesh.vertices[:, 2] > 0.5
     points[away] = -1
     places = as_map(vertex_point_map(np.arange(n), source.mesh), source.mesh)
-    write_textured(tmp_path / "b.glb", source, target, places.replaced(target_to_source=points))
+    write_textured(tmp_path / "b.glb", source, target, replace(places, target_to_source=points))
     found = read_mesh_file(tmp_path / "b.glb").picture
     assert found is not None
     picture = decode_picture(found)

@@ -74,7 +74,7 @@ def run(tmp_path_factory: pytest.TempPathFactory) -> tuple[Plan, list[Result]]:
     path = map_path(plan.folder, "b1-b3")
     found = load_map(path)
     wrong = np.random.default_rng(0).permutation(found.target_to_source)
-    save_map(path, found.replaced(target_to_source=wrong), force=True)
+    save_map(path, replace(found, target_to_source=wrong), force=True)
     return plan, results
 
 
@@ -157,7 +157,7 @@ def test_pairs_that_match_again_are_not_replaced_any_more(run: tuple[Plan, list[
     path = map_path(plan.folder, "b1-b3")
     wrong = path.read_bytes()
     right = load_map(_replacement_map(plan.folder, "b1-b3"))
-    save_map(path, right.replaced(alternatives=()), force=True)
+    save_map(path, replace(right, alternatives=()), force=True)
     try:
         assert make_consistent(plan, results, Alone()).replaced == 0
         assert not _replacement_map(plan.folder, "b1-b3").exists()
@@ -212,7 +212,7 @@ def test_maps_of_parts_take_no_part(run: tuple[Plan, list[Result]]) -> None:
     whole = path.read_bytes()
     found = load_map(path)
     some = np.where(np.arange(len(found.target_to_source)) < 20, -1, found.target_to_source)
-    save_map(path, found.replaced(target_to_source=some), force=True)
+    save_map(path, replace(found, target_to_source=some), force=True)
     try:
         agreed = make_consistent(plan, results, Alone())
         (note,) = agreed.notes
@@ -235,7 +235,7 @@ def test_a_kill_while_maps_are_made_to_agree_loses_nothing(tmp_path: Path) -> No
     done(plan)
     path = map_path(out, "b1-b3")
     found = load_map(path)
-    save_map(path, found.replaced(target_to_source=np.random.default_rng(0).permutation(200)), force=True)
+    save_map(path, replace(found, target_to_source=np.random.default_rng(0).permutation(200)), force=True)
     reference = tmp_path / "reference"
     shutil.copytree(out, reference)
     script = Path(__file__).with_name("collecting.py")

@@ -132,7 +132,7 @@ def test_the_texture_lies_where_the_points_do(made: types.SimpleNamespace) -> No
 def test_a_changed_file_is_told(made: types.SimpleNamespace, tmp_path: Path) -> None:
     found = load_map(made.map)
     changed = replace(found.target_file, sha256="0" * 64)
-    save_map(tmp_path / "map.npz", found.replaced(target_file=changed))
+    save_map(tmp_path / "map.npz", replace(found, target_file=changed))
     assert "has changed" in run("export", tmp_path / "map.npz", "-o", tmp_path / "b.ply").stderr
     assert "changed" not in run("export", made.map, "-o", tmp_path / "c.ply").stderr
     colors = read_mesh_file(tmp_path / "b.ply").colors
@@ -167,7 +167,7 @@ def test_map_files_keep_points_and_refuse_wrong_ones(made: types.SimpleNamespace
         {"registration": MatchRegistration(np.zeros((3, 2)))},
     ]
     for fields in wrong:
-        save_map(tmp_path / "wrong.npz", found.replaced(**fields), force=True)
+        save_map(tmp_path / "wrong.npz", replace(found, **fields), force=True)
         with pytest.raises(kfmaps.InvalidInput):
             load_map(tmp_path / "wrong.npz")
 

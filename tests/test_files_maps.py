@@ -8,7 +8,7 @@ import pickle
 import re
 import tracemalloc
 import zipfile
-from dataclasses import fields, is_dataclass
+from dataclasses import fields, is_dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -75,7 +75,7 @@ def example(seed: int = 0, n_t: int = 50) -> Match:
 def plain(record: Any) -> Any:
     """A record as dictionaries of lists, so that two can be compared."""
     if is_dataclass(record):
-        return {f.name: plain(getattr(record, f.name, "none")) for f in fields(record)}
+        return {f.name: plain(getattr(record, f.name, "none")) for f in fields(type(record))}
     if isinstance(record, tuple):
         return [plain(one) for one in record]
     return record.tolist() if isinstance(record, np.ndarray) else record
@@ -102,7 +102,7 @@ def test_every_field_of_a_match_is_in_its_file_or_said_to_be_missing(tmp_path: P
         assert not hasattr(found, name)
         with pytest.raises(InvalidInput, match=f"{name}: expected a match that has it.*Match the shapes again"):
             getattr(found, name)
-    assert pickle.loads(pickle.dumps(found)).replaced(seed=8).seed == 8
+    assert replace(pickle.loads(pickle.dumps(found)), seed=8).seed == 8
     with pytest.raises(AttributeError, match="no attribute 'basis'"):
         found.basis  # type: ignore[attr-defined]  # noqa: B018
 

@@ -5,6 +5,7 @@ import hashlib
 import json
 import shutil
 import subprocess
+from dataclasses import replace
 from html.parser import HTMLParser
 from importlib.resources import files
 from pathlib import Path
@@ -316,8 +317,8 @@ def test_summary_of_a_match_is_json() -> None:
     assert summary["energies"] == {"laplacian": 1.5}
     assert summary["settings"]["nystrom"]["samples"] == Config.single_fit().nystrom.samples
     assert "confidence" not in summary
-    assert _match_summary(a_match().replaced(confidence=0.25))["confidence"] == 0.25
-    assert "energies" not in _match_summary(a_match().replaced(fit=MatchFit()))
+    assert _match_summary(replace(a_match(), confidence=0.25))["confidence"] == 0.25
+    assert "energies" not in _match_summary(replace(a_match(), fit=MatchFit()))
 
 
 def test_page_of_a_file_shows_what_the_file_holds(pair: tuple) -> None:

@@ -25,6 +25,7 @@ from kfmaps.geometry.mesh import Mesh
 from kfmaps.io import atomic_output, check_map, load_map
 from kfmaps.io import save_map as save_map
 from kfmaps.io import transfer as carried
+from kfmaps.io.atomic import write_text
 from kfmaps.io.convert import as_landmarks, as_map, as_mesh, is_file
 from kfmaps.matching import match as matching
 from kfmaps.matching.result import Match
@@ -344,8 +345,7 @@ def view(
     html = match_page(as_map(found, shapes[0]), *shapes, names, **given)
     if output is None:
         return open_page(html)[0]
-    with atomic_output(output, force) as temporary:
-        temporary.write_text(html, encoding="utf-8")
+    write_text(output, html, force)
     return Path(output)
 
 

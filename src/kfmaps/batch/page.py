@@ -28,7 +28,8 @@ from kfmaps.batch.shape_statistics import DIFFERENCE_KINDS, SHAPES, limit_shape_
 from kfmaps.batch.work import PairTask, map_path, true_vertices
 from kfmaps.cli.words import UNIT, format_seconds, percent, probability_text
 from kfmaps.geometry.mesh import Mesh
-from kfmaps.io import atomic_output, check_map, load_map, read_mesh
+from kfmaps.io import check_map, load_map, read_mesh
+from kfmaps.io.atomic import write_text
 from kfmaps.viz import Curve, curves_figure, match_figure, mean_curve, painted_errors, save_figure, true_views
 from kfmaps.viz.document import environment, policy
 from kfmaps.viz.figures import make_transparent
@@ -91,8 +92,7 @@ def write_page(
         doubted=() if consistent is None else consistent.doubted,
         specimens=specimens,
     )
-    with atomic_output(plan.folder / PAGE, force=True) as temporary:
-        temporary.write_text(page, encoding="utf-8")
+    write_text(plan.folder / PAGE, page, force=True)
     return plan.folder / PAGE
 
 
@@ -322,7 +322,6 @@ def _write_pages(
                 )
         except (InvalidInput, OSError):
             continue
-        with atomic_output(page, force=True) as temporary:
-            temporary.write_text(html, encoding="utf-8")
+        write_text(page, html, force=True)
     paths = {pair: folder / _PAGES / f"{task.key}.html" for pair, task in tasks.items()}
     return {pair: f"{_PAGES}/{quote(path.name)}" for pair, path in paths.items() if path.exists()}

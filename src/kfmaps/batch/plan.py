@@ -19,7 +19,7 @@ from kfmaps.batch.run_spec import RunSpec, claim, digest_of
 from kfmaps.batch.work import PairTask, ShapeTask, load_prepared, prepare_shape
 from kfmaps.collection.pair_graph import complete_graph, medoid, signature, signature_distances, signature_graph
 from kfmaps.config import Config
-from kfmaps.io import atomic_output
+from kfmaps.io.atomic import write_text
 
 _GRAPH = "graph.json"
 GRAPHS = "near, star, star:SHAPE, all or both"
@@ -123,9 +123,8 @@ def graph_pairs(
     middle = medoid(signature_distances(signatures)) if bad else 0
     pairs = [Pair(good[a].name, good[b].name) for a, b in chosen]
     pairs += [Pair(good[middle].name, done.name) for done in bad]
-    with atomic_output(path, force=True) as temporary:
-        content = {"kind": kind, "shapes": key, "pairs": [[p.source, p.target] for p in pairs]}
-        temporary.write_text(json.dumps(content, indent=1) + "\n", encoding="utf-8")
+    content = {"kind": kind, "shapes": key, "pairs": [[p.source, p.target] for p in pairs]}
+    write_text(path, json.dumps(content, indent=1) + "\n", force=True)
     return pairs
 
 

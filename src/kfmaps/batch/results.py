@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 import json
 from collections import Counter
 from collections.abc import Iterable, Sequence
@@ -12,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from kfmaps.io import atomic_output
+from kfmaps.io.atomic import csv_text, write_text
 
 FOLDER = "pairs"
 BAD = 0.05
@@ -76,8 +75,7 @@ def result_path(folder: Path, key: str) -> Path:
 
 def write_result(path: Path, result: Result) -> None:
     """Write a result, whole or not at all."""
-    with atomic_output(path, force=True) as temporary:
-        temporary.write_text(json.dumps(asdict(result), indent=1) + "\n", encoding="utf-8")
+    write_text(path, json.dumps(asdict(result), indent=1) + "\n", force=True)
 
 
 def read_result(path: Path) -> Result | None:
@@ -99,11 +97,10 @@ def all_results(folder: Path, settings: str) -> list[Result]:
     return sorted((r for r in found if r is not None and r.settings == settings), key=lambda r: (r.source, r.target))
 
 
-def write_rows(path: Path, rows: Iterable[Iterable[Any]], force: bool = True) -> None:
-    """Write rows as CSV, whole or not at all."""
+def write_rows(path: Path, rows: Iterable[Iterable[Any]]) -> None:
+    """Write rows as CSV, whole or not at all; an existing file is replaced."""
     path.parent.mkdir(parents=True, exist_ok=True)
-    with atomic_output(path, force=force) as temporary, open(temporary, "w", encoding="utf-8", newline="") as file:
-        csv.writer(file, lineterminator="\n").writerows(rows)
+    write_text(path, csv_text(rows), force=True)
 
 
 def write_csv(path: Path, results: Iterable[Result]) -> None:

@@ -13,7 +13,7 @@ from typing import Any
 import kfmaps
 from kfmaps._arrays import check_count, refuse
 from kfmaps.config import Config, as_dict
-from kfmaps.io import atomic_output
+from kfmaps.io.atomic import write_text
 
 FILE = "settings.json"
 
@@ -75,9 +75,7 @@ def claim(folder: Path, spec: RunSpec) -> None:
     path = folder / FILE
     now = spec.as_dict()
     if not path.exists():
-        content = json.dumps({"digest": spec.digest, **now}, indent=2) + "\n"
-        with atomic_output(path) as temporary:
-            temporary.write_text(content, encoding="utf-8")
+        write_text(path, json.dumps({"digest": spec.digest, **now}, indent=2) + "\n")
         return
     then = read_run_spec(folder)
     if digest_of({k: v for k, v in then.items() if k != "digest"}) == spec.digest:

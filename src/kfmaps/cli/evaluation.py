@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import csv
-import io
 import math
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
@@ -27,6 +25,7 @@ from kfmaps.fmap.evaluate import (
 from kfmaps.fmap.precise import PointMap
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.io import atomic_output, check_map, read_vertex_numbers
+from kfmaps.io.atomic import csv_text, write_text
 
 THRESHOLDS = np.linspace(0.0, 0.25, 251)
 """Of a curve, in units of √area: as far as the area under the curve is taken."""
@@ -182,13 +181,11 @@ def assess(
 def write_curve(path: Path, errors: Evaluation, label: str, force: bool = False) -> None:
     """Write the error curve as a table (.csv) or a picture (.png, .svg, .pdf)."""
     fractions = error_curve(errors.errors, THRESHOLDS)
-    with atomic_output(path, force) as temporary:
-        if path.suffix.lower() == ".csv":
-            text = io.StringIO(newline="")
-            rows = [[f"{t:.6g}", repr(float(f))] for t, f in zip(THRESHOLDS, fractions, strict=True)]
-            csv.writer(text, lineterminator="\n").writerows([["error", "fraction"], *rows])
-            temporary.write_text(text.getvalue(), encoding="ascii")
-            return
-        from kfmaps.viz import Curve, curves_figure, save_figure
+    if path.suffix.lower() == ".csv":
+        rows = [[f"{t:.6g}", repr(float(f))] for t, f in zip(THRESHOLDS, fractions, strict=True)]
+        write_text(path, csv_text([["error", "fraction"], *rows]), force)
+        return
+    from kfmaps.viz import Curve, curves_figure, save_figure
 
+    with atomic_output(path, force) as temporary:
         save_figure(curves_figure([Curve(label, THRESHOLDS, fractions)]), temporary)

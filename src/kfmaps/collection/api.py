@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -299,7 +299,7 @@ def _checked_maps(
         file = as_map(one)
         sizes = len(shapes[a].mesh.vertices), len(shapes[b].mesh.vertices)
         points = check_map(file, *sizes, name=f"map {source} → {target}", lost=True)
-        found[a, b] = file.replaced(target_to_source=points)
+        found[a, b] = replace(file, target_to_source=points)
     if not found:
         raise refuse("maps", "at least one", "none", "leave them out, and pairs are matched")
     return found

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from kfmaps._arrays import check, refuse
-from kfmaps.io.atomic import atomic_output
+from kfmaps.io.atomic import write_text
 from kfmaps.io.text import as_table, clean_text, parse_rows, read_bytes, whole_numbers
 
 
@@ -94,8 +94,7 @@ def write_landmarks(
     named = [_printable(name) for name in names] or [""] * len(pairs)
     for (s, t), name in zip((pairs.astype(np.int64) + int(one_based)).tolist(), named, strict=True):
         lines.append(f"{s} {t}  # {name}" if name else f"{s} {t}")
-    with atomic_output(path, force) as temporary:
-        temporary.write_text("\n".join(lines) + "\n", encoding="utf-8")
+    write_text(path, "\n".join(lines) + "\n", force)
 
 
 def read_vertex_numbers(path: str | Path, one_based: bool | None = None, *, lost: bool = False) -> np.ndarray:
@@ -129,7 +128,6 @@ def write_vertex_numbers(
     """Write 0-based ``numbers`` (m,) so that :func:`read_vertex_numbers` reads them back; −1 stays."""
     one_based = _counts_from_one(path) if one_based is None else one_based
     numbers = check(np.asarray(numbers), "vertex numbers", shape=(None,), remedy="give a list")
-    with atomic_output(path, force) as temporary:
-        numbers = numbers.astype(np.int64)
-        lines = map(str, np.where(numbers == -1, -1, numbers + int(one_based)).tolist())
-        temporary.write_text("\n".join(lines) + "\n", encoding="ascii")
+    numbers = numbers.astype(np.int64)
+    lines = map(str, np.where(numbers == -1, -1, numbers + int(one_based)).tolist())
+    write_text(path, "\n".join(lines) + "\n", force)

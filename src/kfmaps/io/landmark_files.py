@@ -14,7 +14,7 @@ from pathlib import Path
 import numpy as np
 
 from kfmaps._arrays import refuse
-from kfmaps.io.atomic import atomic_output, check_output
+from kfmaps.io.atomic import csv_text, write_text
 from kfmaps.io.text import REPAIR, complete_or_refuse, is_number, read_text
 
 LPS, RAS = "LPS", "RAS"
@@ -78,10 +78,7 @@ def write_landmark_sets(path: str | Path, sets: Sequence[LandmarkSet], force: bo
     _, write, many = _format(path, "output")
     if len(sets) != 1 and not many:
         raise refuse(f"output {path}", "one specimen", str(len(sets)), "write .csv or .tps, or a file for each")
-    check_output(path, force)
-    text = write(sets)
-    with atomic_output(path, force) as temporary:
-        temporary.write_text(text, encoding="utf-8", newline="")
+    write_text(path, write(sets), force)
 
 
 def check_landmark_format(path: str | Path, what: str = "landmarks") -> None:
@@ -222,19 +219,13 @@ def _read_fcsv(text: str, name: str) -> list[LandmarkSet]:
 
 
 def _write_fcsv(sets: Sequence[LandmarkSet]) -> str:
-    one, out = sets[0], io.StringIO(newline="")
-    head = (
-        "Markups fiducial file version = 4.11",
-        f"CoordinateSystem = {one.space or LPS}",
-        f"columns = {FCSV_COLUMNS}",
-    )
-    out.writelines(f"# {line}\n" for line in head)
-    writer = csv.writer(out, lineterminator="\n")
+    one, rows = sets[0], []
     for i, (label, point) in enumerate(zip(one.names, one.points.tolist(), strict=True)):
         if not np.isnan(point).any():
             note = _note(one, i)
-            writer.writerow([i + 1, *map(repr, point), 0, 0, 0, 1, 1, int(not note), 0, label, note, ""])
-    return out.getvalue()
+            rows.append([i + 1, *map(repr, point), 0, 0, 0, 1, 1, int(not note), 0, label, note, ""])
+    space = f"# CoordinateSystem = {one.space or LPS}\n"
+    return f"# Markups fiducial file version = 4.11\n{space}# columns = {FCSV_COLUMNS}\n" + csv_text(rows)
 
 
 def _read_tps(text: str, name: str) -> list[LandmarkSet]:
@@ -401,13 +392,11 @@ def _wide(titles: list[str], triples: dict[str, list[int]], rows: list[list[str]
 
 
 def _write_csv(sets: Sequence[LandmarkSet]) -> str:
-    out = io.StringIO(newline="")
-    writer = csv.writer(out, lineterminator="\n")
-    writer.writerow(["specimen", "name", "x", "y", "z"])
+    rows = [["specimen", "name", "x", "y", "z"]]
     for one in sets:
         for label, point in zip(one.names, one.points.tolist(), strict=True):
-            writer.writerow([one.specimen, label, *("NA" if np.isnan(x) else repr(x) for x in point)])
-    return out.getvalue()
+            rows.append([one.specimen, label, *("NA" if np.isnan(x) else repr(x) for x in point)])
+    return csv_text(rows)
 
 
 def wide_rows(sets: Sequence[LandmarkSet]) -> list[list[str]]:

@@ -8,7 +8,7 @@ from collections.abc import Mapping
 from dataclasses import MISSING, fields, is_dataclass
 from functools import lru_cache
 from types import NoneType
-from typing import Any, Literal, get_args, get_origin, get_type_hints
+from typing import Any, Literal, TypeVar, get_args, get_origin, get_type_hints
 
 import numpy as np
 
@@ -18,6 +18,8 @@ from kfmaps.config import Config, as_dict, from_dict
 from kfmaps.io.mapcontent import ARRAYS
 from kfmaps.io.text import REPAIR
 from kfmaps.matching.result import SHAPE_FIELDS, Match
+
+_T = TypeVar("_T")
 
 DEEPEST = 50
 """Levels of a JSON text; a summary has five."""
@@ -67,14 +69,9 @@ def parse_summary(text: str, name: str) -> dict[str, Any]:
     return values
 
 
-def build_match(summary: Mapping[str, Any], arrays: Mapping[str, Any], name: str) -> Match:
-    """Return the match of a summary and of arrays by their fields, such as "fit.raw_functional_map"."""
-    return _read_record(Match, summary, arrays, "", name)
-
-
 def _plain_record(record: Any, path: str = "") -> dict[str, Any]:
     """The fields of a record as plain values, without those that are kept elsewhere."""
-    kept = [f for f in fields(record) if path + f.name not in _ELSEWHERE and f.name != "precise_map"]
+    kept = [f for f in fields(type(record)) if path + f.name not in _ELSEWHERE and f.name != "precise_map"]
     return {f.name: _plain(getattr(record, f.name, None), f"{path}{f.name}.") for f in kept}
 
 
@@ -102,8 +99,12 @@ def _options(hint: Any) -> tuple[Any, ...]:
     return (hint,) if get_origin(hint) in (None, tuple, dict, Literal) else get_args(hint)
 
 
-def _read_record(cls: type, values: Any, arrays: Mapping[str, Any], path: str, name: str) -> Any:
-    """A record of class ``cls`` from plain ``values`` and ``arrays``; what neither has is as by default."""
+def read_record(cls: type[_T], values: Any, name: str, arrays: Mapping[str, Any] | None = None, path: str = "") -> _T:
+    """Return a record of plain ``values`` and of ``arrays`` by field; what neither has is as by default.
+
+    ``name`` is the file's, ``path`` leads to the record in it, such as "fit.".
+    """
+    arrays = arrays or {}
     if not isinstance(values, Mapping):
         raise refuse(f"{name}: {path[:-1]}", "a dictionary", repr(values)[:60], REPAIR)
     found: dict[str, Any] = {}
@@ -117,7 +118,7 @@ def _read_record(cls: type, values: Any, arrays: Mapping[str, Any], path: str, n
         elif isinstance(record, type) and label not in _ELSEWHERE:
             inside = values.get(f.name)
             if inside is not None or any(one.startswith(f"{label}.") for one in arrays):
-                found[f.name] = _read_record(record, inside or {}, arrays, f"{label}.", name)
+                found[f.name] = read_record(record, inside or {}, name, arrays, f"{label}.")
         elif f.name in values and label not in _ELSEWHERE:
             found[f.name] = _read_value(hint, values[f.name], f"{name}: {label}")
         elif f.default is MISSING and f.default_factory is MISSING:

@@ -14,11 +14,12 @@ from kfmaps._arrays import InvalidInput, refuse
 from kfmaps._memory import format_bytes
 from kfmaps.io.atomic import atomic_output, check_output
 from kfmaps.io.index_files import read_vertex_numbers, write_vertex_numbers
-from kfmaps.io.map_summary import build_match, parse_summary, summarize_match
+from kfmaps.io.map_summary import parse_summary, read_record, summarize_match
 from kfmaps.io.mapcontent import ARRAYS, OLDER, check_arrays, real
 from kfmaps.io.matfile import read_mat
 from kfmaps.io.text import REPAIR, read_bytes
 from kfmaps.matching.result import Match
+from kfmaps.matching.result_groups import ShapeFile
 
 _FORMATS = (".npz", ".txt", ".vts", ".mat")
 
@@ -113,9 +114,8 @@ def load_map(path: str | Path) -> Match:
     if not isinstance(text, str):
         raise refuse(f"{name}: summary", "text", f"an array of {np.asarray(text).dtype}", REPAIR)
     summary = parse_summary(text, f"{name}: summary")
-    known = build_match(summary, {"target_to_source": np.zeros(0, dtype=np.int64)}, f"{name}: summary")
-    arrays = check_arrays(content, known.n_source, name)
-    return build_match(summary, arrays, f"{name}: summary")
+    source = read_record(ShapeFile, summary.get("source_file", {}), f"{name}: summary", path="source_file.")
+    return read_record(Match, summary, f"{name}: summary", check_arrays(content, source.n_vertices, name))
 
 
 def check_format(path: str | Path) -> None:

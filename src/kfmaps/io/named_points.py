@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import csv
-import io
 import warnings
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -15,7 +13,7 @@ from kfmaps._arrays import KfmapsWarning, refuse
 from kfmaps.fmap.precise import PointMap, nearest_vertices, point_positions, vertex_point_map
 from kfmaps.geometry.closest_points import ClosestPoints, closest_points
 from kfmaps.geometry.mesh import Mesh, surface_area
-from kfmaps.io.atomic import atomic_output, check_output
+from kfmaps.io.atomic import csv_text, write_text
 from kfmaps.io.index_files import read_landmark_names, read_landmarks
 from kfmaps.io.landmark_files import (
     LandmarkSet,
@@ -273,13 +271,9 @@ def write_named_points(path: str | Path, points: NamedPoints, force: bool = Fals
     if Path(path).suffix.lower() != ".csv":
         write_landmark_sets(path, [LandmarkSet(points.names, points.points, landmark_stem(path), space)], force)
         return
-    check_output(path, force)
-    text = io.StringIO(newline="")
-    out = csv.writer(text, lineterminator="\n")
-    out.writerow(["name", "vertex", "x", "y", "z", "confidence"])
+    rows: list[list[object]] = [["name", "vertex", "x", "y", "z", "confidence"]]
     for i, name in enumerate(points.names):
         known = points.confidence[i]
         place = ["NA" if np.isnan(x) else repr(x) for x in points.points[i].tolist()]
-        out.writerow([name, int(points.vertices[i]), *place, "" if np.isnan(known) else f"{known:.3f}"])
-    with atomic_output(path, force) as temporary:
-        temporary.write_text(text.getvalue(), encoding="utf-8", newline="")
+        rows.append([name, int(points.vertices[i]), *place, "" if np.isnan(known) else f"{known:.3f}"])
+    write_text(path, csv_text(rows), force)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import warnings
+from dataclasses import replace
 from pathlib import Path
 
 from kfmaps._arrays import KfmapsWarning, refuse
@@ -27,7 +28,7 @@ def with_files(match: Match, paths: tuple[Path, Path], meshes: tuple[Mesh, Mesh]
     source, target = (
         ShapeFile.of(mesh, str(path.absolute()), sha256(path)) for path, mesh in zip(paths, meshes, strict=True)
     )
-    return match.replaced(source=meshes[0], target=meshes[1], source_file=source, target_file=target)
+    return replace(match, source=meshes[0], target=meshes[1], source_file=source, target_file=target)
 
 
 def warn_of_change(found: Match, side: str, path: Path) -> None:

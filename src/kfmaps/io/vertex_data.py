@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 import io
 import re
 from dataclasses import dataclass
@@ -12,7 +11,7 @@ import numpy as np
 
 from kfmaps._arrays import refuse
 from kfmaps._records import short_repr
-from kfmaps.io.atomic import atomic_output, check_output
+from kfmaps.io.atomic import atomic_output, check_output, csv_text, write_text
 from kfmaps.io.mapfile import check_npy
 from kfmaps.io.text import REPAIR, check_lines, complete_or_refuse, is_number, read_bytes, read_csv, read_text
 
@@ -152,12 +151,8 @@ def write_values(path: str | Path, values: Values, force: bool = False) -> None:
     numbers = array.astype(np.int64) if array.dtype.kind == "b" else array
     rows = (numbers[:, None] if array.ndim == 1 else numbers).tolist()
     cells = [[cell if isinstance(cell, str) else repr(cell) for cell in row] for row in rows]
-    with (
-        atomic_output(path, force) as temporary,
-        open(temporary, "w", encoding="utf-8", newline="") as file,
-    ):
-        if suffix == ".csv":
-            table = [list(values.columns)] if values.columns else []
-            csv.writer(file, lineterminator="\n").writerows(table + cells)
-        else:
-            file.writelines(" ".join(row) + "\n" for row in cells)
+    if suffix == ".csv":
+        text = csv_text([list(values.columns), *cells] if values.columns else cells)
+    else:
+        text = "".join(" ".join(row) + "\n" for row in cells)
+    write_text(path, text, force)

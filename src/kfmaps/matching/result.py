@@ -139,10 +139,6 @@ class Match:
                 raise NotKnown(f"{name}: expected a match that has it, got {got}. Match the shapes again.")
             raise AttributeError(f"Match has no attribute {name!r}")
 
-    def replaced(self, **changes: Any) -> Match:
-        """Return the match with other values in some fields; unlike ``dataclasses.replace``, loaded ones too."""
-        return Match(**{**vars(self), **changes})
-
     @property
     def n_source(self) -> int | None:
         """Number of vertices of the source, where it is known."""
@@ -316,3 +312,16 @@ class Match:
         central = order[np.minimum(first, len(points) - 1)]
         result = known[central[nearest_reached(source, points)]].astype(np.int64)
         return result if overlap is None else np.where(overlap > 0.5, result, -1)
+
+
+class _KnownFields:
+    """The fields of the class; of a match those that it has, so that ``dataclasses.replace`` passes over the others."""
+
+    def __init__(self) -> None:
+        self._all = vars(Match)["__dataclass_fields__"]
+
+    def __get__(self, match: Match | None, _: type) -> dict[str, Any]:
+        return self._all if match is None else {name: one for name, one in self._all.items() if name in vars(match)}
+
+
+Match.__dataclass_fields__ = _KnownFields()  # pyright: ignore[reportAttributeAccessIssue]

@@ -24,7 +24,8 @@ from kfmaps.batch.work import PairTask
 from kfmaps.cli.options import UNSURE, Identity, Json, Quiet, Require, Workers, check_required, meets
 from kfmaps.cli.terminal import print_json
 from kfmaps.cli.words import UNIT, percent
-from kfmaps.io import atomic_output, read_mesh
+from kfmaps.io import read_mesh
+from kfmaps.io.atomic import write_text
 from kfmaps.settings.options import Chosen, with_settings
 from kfmaps.settings.toml import settings_text
 
@@ -89,8 +90,7 @@ def batch(
                 listed = graph_pairs(collection, spec, output, graph, pool)
         plan = make_plan(collection, listed, spec, output, retry_failed=retry_failed)
         if not (plan.folder / _TOML).exists():
-            with atomic_output(plan.folder / _TOML) as temporary:
-                temporary.write_text(settings_text(config), encoding="utf-8")
+            write_text(plan.folder / _TOML, settings_text(config))
         report.say(describe_plan(plan, count, consistent))
         outcome = run_batch(
             plan,

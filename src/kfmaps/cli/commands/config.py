@@ -10,7 +10,7 @@ import typer
 from kfmaps.cli.options import Force, Json
 from kfmaps.cli.terminal import print_json
 from kfmaps.config import Config, as_dict
-from kfmaps.io import atomic_output, check_output
+from kfmaps.io.atomic import check_output, write_text
 from kfmaps.settings.options import Chosen, with_settings
 from kfmaps.settings.toml import settings_text
 
@@ -29,8 +29,7 @@ def config(
     chosen = settings.config(Config())
     text = settings_text(chosen)
     if output is not None:
-        with atomic_output(output, force) as temporary:
-            temporary.write_text(text, encoding="utf-8")
+        write_text(output, text, force)
     if json:
         print_json(as_dict(chosen))
     elif output is None:

@@ -19,6 +19,7 @@ from kfmaps.cli.progress import Stages
 from kfmaps.cli.terminal import print_json
 from kfmaps.config import Config, DescriptorConfig, Formulation, Weights
 from kfmaps.io import atomic_output, check_output, read_mesh, read_vertex_numbers
+from kfmaps.io.atomic import write_text
 from kfmaps.settings.options import Chosen, with_settings
 from kfmaps.settings.toml import settings_text
 from kfmaps.shape import Shape, prepare
@@ -285,7 +286,6 @@ def _write(output: Path, best: Config, state: State, truth: bool, losses: str) -
     if output.suffix == ".toml":
         kept, judge = state.best_epoch, "error of held-out pairs, in √area" if truth else "loss of held-out pairs"
         head = f"# Learned by {losses}; {judge}: {kept.held_out:.5f}, epoch {kept.number}.\n"
-        with atomic_output(output, force=True) as temporary:
-            temporary.write_text(head + settings_text(best), encoding="utf-8")
+        write_text(output, head + settings_text(best), force=True)
     with atomic_output(output.with_suffix(".png"), force=True) as temporary:
         learning_figure(state.history, truth=truth).savefig(temporary, dpi=150)

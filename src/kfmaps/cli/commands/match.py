@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -130,7 +131,7 @@ def run(
             accuracy = assess(meshes[0], found.target_to_source, truth)
             stages("evaluation", 1.0)
     found = with_files(found, paths, meshes)
-    return found.replaced(seconds={**seconds, **found.seconds}), accuracy
+    return replace(found, seconds={**seconds, **found.seconds}), accuracy
 
 
 def _read(path: Path, config: Config) -> Mesh:

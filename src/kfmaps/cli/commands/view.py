@@ -10,7 +10,8 @@ import typer
 from kfmaps.cli.evaluation import known_truth
 from kfmaps.cli.options import Force, Identity, Json, MapFile, SourceMesh, TargetMesh, TruthLists, UpAxis
 from kfmaps.cli.terminal import report_files, say
-from kfmaps.io import atomic_output, check_output, load_map
+from kfmaps.io import check_output, load_map
+from kfmaps.io.atomic import write_text
 from kfmaps.io.provenance import map_mesh, mesh_path
 from kfmaps.viz.page import check_up
 from kfmaps.viz.result_pages import match_page, open_page
@@ -40,8 +41,7 @@ def view(
     pairs = None if known is None else (known.source, known.target)
     html = match_page(found, meshes[0], meshes[1], names, truth=pairs, descriptors=descriptors, up=up)
     if output is not None:
-        with atomic_output(output, force) as temporary:
-            temporary.write_text(html, encoding="utf-8")
+        write_text(output, html, force)
         report_files(output, as_json=json)
         return
     path, opened = open_page(html)
