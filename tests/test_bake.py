@@ -20,9 +20,17 @@ from kfmaps.fmap.precise import PointMap, vertex_point_map
 from kfmaps.geometry.closest_points import closest_points
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.io import MeshFile, grid_picture, read_mesh_file, write_textured
-from kfmaps.io.bake import _find_texels, _sample_picture, bake_texture, can_bake, decode_picture, encode_png
+from kfmaps.io.bake import (
+    _find_texels,
+    _pack,
+    _sample_picture,
+    can_bake,
+    decode_picture,
+    encode_png,
+    transfer_texture,
+    transfer_uv,
+)
 from kfmaps.io.convert import as_map
-from kfmaps.io.export import transfer_uv
 from kfmaps.io.glb import format_glb
 from kfmaps.io.gltf import parse_gltf
 from kfmaps.io.record import Picture
@@ -50,15 +58,15 @@ def round_picture(size: int = 512) -> np.ndarray:
 
 def test_texels_are_where_the_triangle_is() -> None:
     """Against every texel's centre, one by one; together they have its area."""
-    size = 64
+    height, width = 96, 64
     corners = np.array([[[0.1, 0.2], [0.8, 0.3], [0.4, 0.9]]])
-    face, texel, weights = _find_texels(corners, size)
-    x, y = (texel % size + 0.5) / size, 1 - (texel // size + 0.5) / size
+    face, texel, weights = _find_texels(corners, height, width)
+    x, y = (texel % width + 0.5) / width, 1 - (texel // width + 0.5) / height
     np.testing.assert_allclose(np.einsum("qi,qij->qj", weights, corners[face]), np.stack([x, y], axis=1))
     assert weights.min() >= -1e-6
     u, v = corners[0, 1] - corners[0, 0], corners[0, 2] - corners[0, 0]
     assert len(np.unique(texel)) == len(texel)
-    assert len(texel) / size**2 == pytest.approx(abs(u[0] * v[1] - u[1] * v[0]) / 2, rel=0.02)
+    assert len(texel) / (height * width) == pytest.approx(abs(u[0] * v[1] - u[1] * v[0]) / 2, rel=0.02)
 
 
 def test_colours_are_linear_between_texels_and_repeat() -> None:
@@ -70,6 +78,22 @@ def test_colours_are_linear_between_texels_and_repeat() -> None:
     np.testing.assert_allclose(_sample_picture(pixels, centres + np.array([2, -1])), _sample_picture(pixels, centres))
 
 
+def at_points(source: MeshFile, mesh: Mesh) -> PointMap:
+    """Each vertex at the closest point of the source."""
+    found = closest_points(mesh.vertices, source.mesh.vertices, source.mesh.faces)
+    return PointMap(found.faces, found.weights)
+
+
+def colours_of(shape: MeshFile) -> tuple[np.ndarray, np.ndarray]:
+    """The colours in the middle of each face of a textured shape, and where that is."""
+    assert shape.uv is not None
+    assert shape.uv_faces is not None
+    assert shape.picture is not None
+    pixels = decode_picture(shape.picture)
+    middle = shape.uv[shape.uv_faces].mean(axis=1)
+    return _sample_picture(pixels, middle), shape.mesh.vertices[shape.mesh.faces].mean(axis=1)
+
+
 def test_the_identity_gives_back_the_picture() -> None:
     """Every texel inside a face, when source and target are one and the same."""
     shape = own_atlas(fibonacci_sphere(60))
@@ -77,40 +101,114 @@ def test_the_identity_gives_back_the_picture() -> None:
     assert shape.uv_faces is not None
     pixels = np.random.default_rng(1).integers(0, 256, (256, 256, 3)) / 255.0
     place = vertex_point_map(np.arange(60), shape.mesh)
-    uv, uv_faces = shape.uv, shape.uv_faces
-    found = bake_texture(shape, shape, pixels, uv, uv_faces, None, size=256)
-    _, texel, _ = _find_texels(uv[uv_faces], 256)
-    rows = found.reshape(-1, 3)
+    found = transfer_uv(shape, shape.mesh, place)
+    assert not found.torn.any()
+    np.testing.assert_array_equal(found.uv[found.uv_faces], shape.uv[shape.uv_faces])
+    baked = transfer_texture(shape, shape, found, encode_png(pixels), 256).picture
+    assert baked is not None
+    _, texel, _ = _find_texels(shape.uv[shape.uv_faces], 256, 256)
+    rows = np.rint(255 * decode_picture(baked)).reshape(-1, 3)
     np.testing.assert_array_equal(rows[texel], np.rint(255 * pixels.reshape(-1, 3))[texel])
-    # With points in triangles every face lies over a seam here, and every texel finds itself on the surface.
-    carried = transfer_uv(shape, shape.mesh, np.arange(60), place)
-    again = bake_texture(shape, shape, pixels, *carried, place, size=256).reshape(-1, 3)
-    assert (np.abs(again[texel].astype(int) - rows[texel]) <= 1).mean() > 0.97
 
 
-def test_a_picture_goes_around_a_seam_without_a_scar() -> None:
-    """The colour in the target's atlas is that of the place on the sphere, at the seam of the source's texture too."""
+@pytest.mark.parametrize("own", [True, False])
+def test_a_picture_goes_around_a_seam_without_a_scar(own: bool) -> None:
+    """The colour is that of the place on the sphere, at the seam of the source's texture too."""
     source, mesh = globe(900), fibonacci_sphere(700)
-    found = closest_points(mesh.vertices, source.mesh.vertices, source.mesh.faces)
-    place = PointMap(found.faces, found.weights)
-    points = source.mesh.faces[found.faces, found.weights.argmax(axis=1)]
-    target = own_atlas(mesh)
-    assert can_bake(target)
-    assert target.uv is not None
-    assert target.uv_faces is not None
-    pixels = round_picture()
-    uv, uv_faces = transfer_uv(source, mesh, points, place)
-    picture = bake_texture(source, target, pixels, uv, uv_faces, place, size=512).reshape(-1, 3) / 255.0
-    face, texel, weights = _find_texels(target.uv[target.uv_faces], 512)
-    at = np.einsum("qi,qij->qj", weights, mesh.vertices[mesh.faces[face]])
+    target = own_atlas(mesh) if own else MeshFile(mesh)
+    assert can_bake(target) == own
+    found = transfer_uv(source, mesh, at_points(source, mesh))
+    made = transfer_texture(source, target, found, encode_png(round_picture()))
+    colours, at = colours_of(made)
     angle = np.arctan2(at[:, 1], at[:, 0]) + np.pi
     true = np.stack([0.5 + 0.5 * np.cos(angle), 0.5 + 0.5 * np.sin(angle), 0.5 + 0.5 * at[:, 2]], axis=1)
     wide = np.hypot(at[:, 0], at[:, 1]) > 0.4  # longitude means little at the poles
-    off = np.abs(picture[texel] - true).max(axis=1)[wide]
-    assert np.quantile(off, 0.99) < 0.08
-    assert off.max() < 0.25
+    off = np.abs(colours - true).max(axis=1)[wide]
+    assert np.quantile(off, 0.99) < 0.06
+    assert off.max() < 0.12
     # Beyond the charts too there is no colour that is not next to them.
-    assert picture.sum(axis=1).min() > 0.2
+    assert made.picture is not None
+    assert decode_picture(made.picture).sum(axis=2).min() > 0.2
+
+
+def test_only_faces_over_a_seam_are_drawn_anew() -> None:
+    """All others have the source's coordinates; the picture above the new rows is the source's, texel by texel."""
+    source, mesh = globe(900), fibonacci_sphere(700)
+    found = transfer_uv(source, mesh, at_points(source, mesh))
+    pixels = np.random.default_rng(0).integers(0, 256, (1024, 1024, 3)) / 255.0
+    made = transfer_texture(source, MeshFile(mesh), found, encode_png(pixels))
+    assert made.picture is not None
+    assert made.uv is not None
+    assert made.uv_faces is not None
+    after = decode_picture(made.picture)
+    rows = len(after) - 1024
+    assert rows > 0
+    np.testing.assert_allclose(after[:1024], pixels, atol=1e-6)
+    corners = made.uv[made.uv_faces] * [1, len(after) / 1024] - [0, rows / 1024]
+    kept = corners[:, :, 1].max(axis=1) > 0
+    x, y, z = mesh.vertices.T
+    longitude = np.ptp(np.arctan2(y, x)[mesh.faces], axis=1)
+    assert not kept[(longitude > np.pi) & (np.abs(z[mesh.faces]).max(axis=1) < 0.9)].any()
+    assert kept[(longitude < 1) & (np.abs(z[mesh.faces]).max(axis=1) < 0.9)].mean() > 0.97
+    gap = corners[kept] - found.uv[found.uv_faces[kept]]
+    np.testing.assert_allclose(gap, np.rint(gap), atol=1e-9)
+    # No face reaches across the picture, but those around a pole.
+    around = np.abs(z[mesh.faces]).max(axis=1) < 0.9
+    assert np.ptp(made.uv[made.uv_faces[around]], axis=1).max() < 0.3
+
+
+def test_a_texture_that_repeats_is_drawn_in_one_copy() -> None:
+    """Rows below the picture end its repetition: coordinates from 0 to 3 move into the first copy."""
+    source, mesh = globe(900), fibonacci_sphere(700)
+    assert source.uv is not None
+    source = MeshFile(source.mesh, None, source.uv * [3, 1], source.uv_faces)
+    found = transfer_uv(source, mesh, at_points(source, mesh))
+    made = transfer_texture(source, MeshFile(mesh), found, encode_png(round_picture()))
+    assert made.uv is not None
+    assert made.uv.min() >= 0
+    assert made.uv.max() <= 1
+    colours, at = colours_of(made)
+    angle = 3 * (np.arctan2(at[:, 1], at[:, 0]) + np.pi)
+    true = np.stack([0.5 + 0.5 * np.cos(angle), 0.5 + 0.5 * np.sin(angle)], axis=1)
+    wide = np.hypot(at[:, 0], at[:, 1]) > 0.6
+    assert np.quantile(np.abs(colours[:, :2] - true).max(axis=1)[wide], 0.98) < 0.2
+
+
+def test_the_size_of_the_picture_is_that_asked_for() -> None:
+    source, mesh = globe(300), fibonacci_sphere(200)
+    found = transfer_uv(source, mesh, at_points(source, mesh))
+    grey = encode_png(np.full((100, 200, 3), 0.5))
+    for size, width in ((None, 1024), (300, 300)):
+        made = transfer_texture(source, MeshFile(mesh), found, grey, size).picture
+        assert made is not None
+        pixels = decode_picture(made)
+        assert pixels.shape[1] == width
+        assert pixels.shape[0] > width // 2
+        np.testing.assert_allclose(pixels, 0.5, atol=0.01)
+        own = transfer_texture(source, own_atlas(mesh), found, grey, size).picture
+        assert own is not None
+        assert decode_picture(own).shape == (width, width, 3)
+
+
+def test_packed_triangles_keep_their_shape_and_apart() -> None:
+    rng = np.random.default_rng(0)
+    corners = rng.random((300, 3, 2)) * 40
+    edges = np.linalg.norm(corners[:, [1, 2, 0]] - corners, axis=2)
+    packed, height = _pack(edges, 400)
+    size = np.ptp(packed, axis=1)
+    assert (packed >= 3).all()
+    assert (packed[:, :, 0] <= 397).all()
+    assert (packed[:, :, 1] <= height - 3).all()
+    assert np.abs(np.linalg.norm(packed[:, [1, 2, 0]] - packed, axis=2) - edges).max() < 2  # whole texels
+    low, high = packed.min(axis=1) - 2.9, packed.max(axis=1) + 2.9
+    apart = (low[:, None] >= high[None]) | (low[None] >= high[:, None])
+    assert (apart.any(axis=2) | np.eye(len(packed), dtype=bool)).all()
+    assert size.min() >= 1
+    # Too many for one more picture: all are made smaller.
+    small, height = _pack(edges, 160)
+    assert height <= 160
+    ratio = np.linalg.norm(small[:, [1, 2, 0]] - small, axis=2).sum() / edges.sum()
+    assert 0.01 < ratio < 0.5
 
 
 def test_faces_outside_a_part_have_one_colour(tmp_path: Path) -> None:
@@ -127,7 +225,7 @@ def test_faces_outside_a_part_have_one_colour(tmp_path: Path) -> None:
     found = read_mesh_file(tmp_path / "b.glb").picture
     assert found is not None
     picture = decode_picture(found)
-    face, texel, _ = _find_texels(target.uv[target.uv_faces], len(picture))
+    face, texel, _ = _find_texels(target.uv[target.uv_faces], *picture.shape[:2])
     outside = away[source.mesh.faces].max(axis=1)[face]
     colours = picture.reshape(-1, 3)[texel]
     assert np.ptp(colours[outside], axis=0).max() == 0
@@ -137,11 +235,12 @@ def test_faces_outside_a_part_have_one_colour(tmp_path: Path) -> None:
 def test_padding_is_the_nearest_colour() -> None:
     mesh = Mesh(np.eye(3), np.array([[0, 1, 2]]))
     target = MeshFile(mesh, None, np.array([[0.4, 0.4], [0.6, 0.4], [0.4, 0.6]]), np.array([[0, 1, 2]]))
-    assert target.uv is not None
     blue = np.zeros((8, 8, 3))
     blue[:, :, 2] = 1.0
-    picture = bake_texture(target, target, blue, target.uv, mesh.faces, size=64)
-    assert (picture == [0, 0, 255]).all()
+    found = transfer_uv(target, mesh, vertex_point_map(np.arange(3), mesh))
+    picture = transfer_texture(target, target, found, encode_png(blue), 64).picture
+    assert picture is not None
+    assert (decode_picture(picture) == [0, 0, 1]).all()
 
 
 def test_an_atlas_whose_faces_share_space_gets_the_sources_coordinates(tmp_path: Path) -> None:
@@ -200,7 +299,7 @@ def changed(data: bytes, edit: Any) -> bytes:
 def glb() -> bytes:
     shape = globe(30)
     picture = encode_png(grid_picture(32, 4))
-    return format_glb(shape.mesh, uv=shape.uv, uv_faces=shape.uv_faces, picture=(picture.data, picture.kind))
+    return format_glb(MeshFile(shape.mesh, None, shape.uv, shape.uv_faces, picture))
 
 
 def test_a_texture_comes_in_as_it_went_out(glb: bytes, tmp_path: Path) -> None:

@@ -1,12 +1,8 @@
 """Files: meshes, landmarks, maps, per-vertex values and exports, each read strictly and written whole."""
 
 from kfmaps.io.atomic import atomic_output, check_output, remove_unfinished
-from kfmaps.io.export import (
-    grid_picture,
-    projected_uv,
-    write_colored,
-    write_textured,
-)
+from kfmaps.io.bake import projected_uv
+from kfmaps.io.export import grid_picture, write_colored, write_textured
 from kfmaps.io.index_files import (
     read_landmark_names,
     read_landmarks,

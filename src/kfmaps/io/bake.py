@@ -1,24 +1,32 @@
-"""A texture baked: the source's picture resampled into the target's own atlas."""
+"""A texture carried to a target: the source's coordinates where they describe it, else a picture baked anew."""
 
 from __future__ import annotations
 
 import io
+from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.ndimage import distance_transform_edt
+from scipy.ndimage import distance_transform_edt, uniform_filter
 
 from kfmaps._arrays import refuse
 from kfmaps.fmap.precise import PointMap, point_positions
 from kfmaps.geometry.closest_points import closest_points
-from kfmaps.geometry.connectivity import component_labels
+from kfmaps.geometry.mesh import Mesh
 from kfmaps.io.record import MeshFile, Picture
 
 _SMALLEST, _LARGEST = 1024, 4096
-"""Bounds of the side of a baked picture, which has the longer side of the source's."""
+"""Bounds of the longer side of a baked picture, which is that of the source's unless a size is given."""
 _TEXELS = 2_000_000
 """Texels worked on together, which bounds the memory."""
 _TWICE = 0.02
 """Share of the covered texels that may lie in several faces: an atlas whose charts share space cannot be baked into."""
+_OFF = 0.1
+"""How far the coordinates in the middle of a face may be from the mean of its corners', in edge lengths: beyond it,
+the face lies over a seam of the texture."""
+_INSET = 0.05
+"""How far a corner is moved towards the middle of its face to find on which side of a seam the face lies."""
+_MARGIN = 3
+"""Texels around each face that is packed into the picture, which get the nearest colour."""
 
 
 def decode_picture(picture: Picture) -> np.ndarray:
@@ -66,24 +74,31 @@ def _sample_picture(pixels: np.ndarray, uv: np.ndarray) -> np.ndarray:
     return (1 - t) * above + t * below
 
 
-def _find_texels(corners: np.ndarray, size: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Find the texels whose centres lie in the triangles ``corners (f, 3, 2)`` of the unit square's picture.
+def _find_texels(corners: np.ndarray, height: int, width: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Find the texels whose centres lie in triangles of a picture.
+
+    Parameters
+    ----------
+    corners : (f, 3, 2) float64
+        Texture coordinates.
+    height, width : int
+        Of the picture, in texels.
 
     Returns
     -------
     face : (q,) int64
     texel : (q,) int64
-        ``row · size + column``, wrapped where triangles leave the square.
+        ``row · width + column``, wrapped where triangles leave the picture.
     weights : (q, 3) float64
         Barycentric coordinates of the centre.
     """
-    at = np.stack([corners[:, :, 0] * size, (1 - corners[:, :, 1]) * size], axis=2) - 0.5
+    at = np.stack([corners[:, :, 0] * width, (1 - corners[:, :, 1]) * height], axis=2) - 0.5
     low, high = np.ceil(at.min(axis=1)).astype(np.int64), np.floor(at.max(axis=1)).astype(np.int64)
     span = np.maximum(high - low + 1, 0)
     u, v = at[:, 1] - at[:, 0], at[:, 2] - at[:, 0]
     area = u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]
     # Faces that wrap around the whole picture, or have no area in it, have no texels of their own.
-    count = np.where((np.abs(area) > 1e-9) & (span.max(axis=1) <= size), span[:, 0] * span[:, 1], 0)
+    count = np.where((np.abs(area) > 1e-9) & (span <= [width, height]).all(axis=1), span[:, 0] * span[:, 1], 0)
     found: list[tuple[np.ndarray, np.ndarray, np.ndarray]] = []
     block = np.cumsum(count) // _TEXELS
     for faces in np.split(np.arange(len(count)), np.flatnonzero(np.diff(block)) + 1):
@@ -96,7 +111,8 @@ def _find_texels(corners: np.ndarray, size: int) -> tuple[np.ndarray, np.ndarray
         t = (u[face, 0] * gap[:, 1] - u[face, 1] * gap[:, 0]) / area[face]
         inside = (s >= -1e-9) & (t >= -1e-9) & (s + t <= 1 + 1e-9)
         s, t = s[inside], t[inside]
-        found.append((face[inside], (y[inside] % size) * size + x[inside] % size, np.stack([1 - s - t, s, t], axis=1)))
+        texel = (y[inside] % height) * width + x[inside] % width
+        found.append((face[inside], texel, np.stack([1 - s - t, s, t], axis=1)))
     face, texel, weights = (np.concatenate(part) for part in zip(*found, strict=True))
     return face, texel, weights
 
@@ -109,67 +125,257 @@ def can_bake(target: MeshFile, size: int = _SMALLEST) -> bool:
     u, v = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
     if np.abs(u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]).sum() / 2 > 1 + _TWICE:
         return False  # more than the whole picture
-    _, texel, _ = _find_texels(corners, size)
+    _, texel, _ = _find_texels(corners, size, size)
     hits = np.bincount(texel)
     # Texels on an edge that two faces share count for both: those are few, and no more than one in each row of a face.
     return bool(len(texel) and np.count_nonzero(hits > 1) <= _TWICE * np.count_nonzero(hits))
 
 
+@dataclass(frozen=True, eq=False)
+class TransferredUv:
+    """Texture coordinates of a target in the source's picture; made by :func:`transfer_uv`.
+
+    Attributes
+    ----------
+    uv : (m, 2) float64
+    uv_faces : (f, 3) int64
+        Row of ``uv`` for each corner of the target's faces.
+    torn : (f,) bool
+        Faces over a seam of the source's texture, which no coordinates of three corners describe.
+    edges : (f, 3) float64
+        Lengths of the edges in the picture, as parts of its width; of a source with faces.
+    images : (f, 3, 3) float64
+        Where the corners lie on the source; of one with faces.
+    """
+
+    uv: np.ndarray
+    uv_faces: np.ndarray
+    torn: np.ndarray
+    edges: np.ndarray | None = None
+    images: np.ndarray | None = None
+
+
+def projected_uv(vertices: np.ndarray) -> np.ndarray:
+    """Return texture coordinates by looking along the shortest side of the bounding box.
+
+    Parameters
+    ----------
+    vertices : (n, 3) float64
+
+    Returns
+    -------
+    (n, 2) float64
+        From 0 to 1; the longest side runs upwards and fills the height, lengths are alike in both directions.
+    """
+    span = np.ptp(vertices, axis=0)
+    _, across, up = np.argsort(span, kind="stable")
+    middle = vertices.min(axis=0) + span / 2
+    scale = span[up] if span[up] > 0 else 1.0
+    return 0.5 + (vertices[:, [across, up]] - middle[[across, up]]) / scale
+
+
+def with_uv(source: MeshFile) -> MeshFile:
+    """Return ``source`` with texture coordinates, where it has none those of :func:`projected_uv`."""
+    if source.uv is not None and source.uv_faces is not None:
+        return source
+    return replace(source, uv=projected_uv(source.mesh.vertices), uv_faces=source.mesh.faces, picture=None)
+
+
+def _uv_at(source: MeshFile, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return texture coordinates (q, 2) of the surface closest to ``points (q, 3)``, and its faces (q,)."""
+    assert source.uv is not None
+    assert source.uv_faces is not None
+    found = closest_points(points, source.mesh.vertices, source.mesh.faces)
+    return np.einsum("qi,qij->qj", found.weights, source.uv[source.uv_faces[found.faces]]), found.faces
+
+
+def transfer_uv(source: MeshFile, target: Mesh, place: PointMap) -> TransferredUv:
+    """Return texture coordinates of the target in the source's picture.
+
+    Each corner has the coordinates of its point on the source. At a seam of the texture one point has several; a
+    corner then takes those on its own face's side. A face that lies over a seam is named in ``torn``: the middle of
+    such a face is not where the mean of its corners is.
+
+    Parameters
+    ----------
+    source : MeshFile
+        A surface; one without texture coordinates has those of :func:`projected_uv`.
+    target : Mesh
+    place : PointMap
+        For each target vertex.
+    """
+    source, mesh = with_uv(source), source.mesh
+    assert source.uv is not None
+    assert source.uv_faces is not None
+    uv = np.einsum("ti,tij->tj", place.weights, source.uv[source.uv_faces[place.faces]])
+    uv_faces = target.faces.copy()
+    images = point_positions(place, mesh)[target.faces]
+    middle, under = _uv_at(source, images.mean(axis=1))
+    grown = [x[:, [1, 2, 0]] - x for x in (source.uv[source.uv_faces[under]], mesh.vertices[mesh.faces[under]])]
+    sizes = np.linalg.norm(grown[0], axis=2), np.linalg.norm(grown[1], axis=2)
+    stretch = np.divide(*sizes, out=np.zeros_like(sizes[0]), where=sizes[1] > 0).max(axis=1)
+    edges = np.linalg.norm(images[:, [1, 2, 0]] - images, axis=2) * stretch[:, None]
+    most = _OFF * edges.max(axis=1) + 1e-9
+
+    def off(corners: np.ndarray, rows: np.ndarray) -> np.ndarray:
+        return np.linalg.norm(corners.mean(axis=1) - middle[rows], axis=1) > most[rows]
+
+    rows = np.flatnonzero(off(uv[uv_faces], np.arange(len(uv_faces))))
+    inset = images[rows] + _INSET * (images[rows].mean(axis=1, keepdims=True) - images[rows])
+    at, faces = _uv_at(source, inset.reshape(-1, 3))
+    at = at.reshape(-1, 3, 2)
+    corners = ((at - _INSET * at.mean(axis=1, keepdims=True)) / (1 - _INSET)).reshape(-1, 2)
+    options = source.uv[source.uv_faces[faces]]  # a corner that is a vertex of the source has exactly its coordinates
+    gap = np.abs(options - corners[:, None]).max(axis=2)
+    corners = np.where((gap.min(axis=1) < 1e-7)[:, None], options[np.arange(len(gap)), gap.argmin(axis=1)], corners)
+    torn = np.zeros(len(uv_faces), dtype=bool)
+    torn[rows] = off(corners.reshape(-1, 3, 2), rows)
+    corners, again = np.unique(corners, axis=0, return_inverse=True)
+    uv_faces[rows] = len(uv) + again.reshape(-1, 3)
+    return TransferredUv(np.concatenate([uv, corners]), uv_faces, torn, edges, images)
+
+
 def bake_texture(
     source: MeshFile,
-    target: MeshFile,
+    found: TransferredUv,
     pixels: np.ndarray,
-    uv: np.ndarray,
-    uv_faces: np.ndarray,
-    place: PointMap | None = None,
-    size: int | None = None,
+    atlas: np.ndarray,
+    picture: np.ndarray,
+    covered: np.ndarray,
 ) -> np.ndarray:
-    """Return the source's picture resampled into the target's atlas, (size, size, 3) uint8.
+    """Return a picture with the source's colours drawn into it, (h, w, 3) uint8.
+
+    Parameters
+    ----------
+    source : MeshFile
+    found : TransferredUv
+        Where the faces lie in the source's picture. Those that are torn are worked out texel by texel: each takes the
+        closest place on the source's surface.
+    pixels : (..., 3) float64
+        The source's picture, :func:`decode_picture`.
+    atlas : (f, 3, 2) float64
+        Where the faces lie in the new picture; NaN for those that are not drawn.
+    picture : (h, w, 3) float64
+        What is there already, where ``covered (h, w)``; both are changed. Other texels get the colour of the nearest
+        covered one in the end, so that no other colour bleeds in where a viewer mixes neighbours.
+    """
+    height, width = covered.shape
+    drawn = np.flatnonzero(np.isfinite(atlas).all(axis=(1, 2)))
+    face, texel, weights = _find_texels(atlas[drawn], height, width)
+    if len(face) == 0:
+        raise refuse("target", "texture coordinates with room for its faces", "none", "export without them")
+    face = drawn[face]
+    where = np.einsum("qi,qij->qj", weights, found.uv[found.uv_faces[face]])
+    seam = np.flatnonzero(found.torn[face])
+    if len(seam) and found.images is not None:
+        where[seam] = _uv_at(with_uv(source), np.einsum("qi,qij->qj", weights[seam], found.images[face[seam]]))[0]
+    picture.reshape(-1, 3)[texel] = _sample_picture(pixels, where)
+    covered.reshape(-1)[texel] = True
+    nearest = distance_transform_edt(~covered, return_distances=False, return_indices=True)
+    assert nearest is not None
+    return np.rint(255 * picture[nearest[0], nearest[1]]).astype(np.uint8)
+
+
+def _pack(edges: np.ndarray, width: int) -> tuple[np.ndarray, int]:
+    """Lay triangles side by side into rows.
+
+    Parameters
+    ----------
+    edges : (t, 3) float64
+        Lengths of the edges from corner i to the next, in texels.
+    width : int
+        Of a row, in texels. Where the rows together are higher than this, all triangles are made smaller.
+
+    Returns
+    -------
+    corners : (t, 3, 2) float64
+        In texels, from the upper left.
+    height : int
+        Of all rows.
+    """
+    first = edges.argmax(axis=1)  # the longest edge lies at the top
+    a, b, c = (np.take_along_axis(edges, ((first + i) % 3)[:, None], axis=1)[:, 0] for i in range(3))
+    a = np.clip(a, 1e-9, None)
+    x = np.clip((a**2 + c**2 - b**2) / (2 * a), 0, a)
+    y = np.sqrt(np.maximum(c**2 - x**2, 0))
+    scale = min(1.0, (width - 2 * _MARGIN - 1) / max(a.max(), 1e-9))
+    while True:
+        wide, high = np.ceil(np.maximum(scale * a, 1)), np.ceil(np.maximum(scale * y, 1))
+        place, left, top, row = np.zeros((len(a), 2)), 0, 0, 0
+        for i in np.argsort(-high, kind="stable"):
+            if left + wide[i] + 2 * _MARGIN > width:
+                left, top, row = 0, top + row, 0
+            place[i] = left + _MARGIN, top + _MARGIN
+            left, row = left + wide[i] + 2 * _MARGIN, max(row, high[i] + 2 * _MARGIN)
+        if top + row <= width or scale * a.max() < 1:
+            break
+        scale *= 0.8
+    flat = np.zeros((len(a), 3, 2))
+    flat[:, 1, 0], flat[:, 2, 0], flat[:, 2, 1] = wide, scale * x * wide / np.maximum(scale * a, 1e-9), high
+    order = (np.arange(3) - first[:, None]) % 3
+    return place[:, None] + np.take_along_axis(flat, order[:, :, None], axis=1), int(top + row)
+
+
+def _resized(pixels: np.ndarray, size: int | None) -> np.ndarray:
+    """Return a picture whose longer side has ``size`` texels; by default within bounds."""
+    height, width = pixels.shape[:2]
+    size = size or int(np.clip(max(height, width), _SMALLEST, _LARGEST))
+    h, w = (max(1, round(side * size / max(height, width))) for side in (height, width))
+    if (h, w) == (height, width):
+        return pixels
+    if size < max(height, width):
+        pixels = uniform_filter(pixels, (height // h, width // w, 1), mode="nearest")
+    across, down = np.meshgrid((np.arange(w) + 0.5) / w, 1 - (np.arange(h) + 0.5) / h)
+    return _sample_picture(pixels, np.stack([across.ravel(), down.ravel()], axis=1)).reshape(h, w, 3)
+
+
+def transfer_texture(
+    source: MeshFile,
+    target: MeshFile,
+    found: TransferredUv,
+    picture: Picture,
+    size: int | None = None,
+) -> MeshFile:
+    """Return the target with texture coordinates and a picture.
+
+    A target with room for each face in its own atlas keeps it, and the picture is resampled into that. Otherwise it
+    gets the source's coordinates and picture; faces over a seam of the texture are drawn anew, each into a place of its
+    own in rows that are added below the picture.
 
     Parameters
     ----------
     source, target : MeshFile
-        The target with its own texture coordinates.
-    pixels : (h, w, 3) float64
-        The source's picture, :func:`decode_picture`.
-    uv, uv_faces : (m, 2) float64, (f_t, 3) int64
-        Coordinates in the source's picture for the corners of the target's faces
-        (:func:`kfmaps.io.export.transfer_uv`), in which lies what is inside a face.
-    place : PointMap, optional
-        Points inside triangles. Faces over a seam of the source's texture, which no coordinates of three corners
-        describe, are then worked out texel by texel: each takes the closest place on the source's surface.
+    found : TransferredUv
+    picture : Picture
+        The source's.
     size : int, optional
-        By default as large as the source's picture, within bounds.
-
-    Returns
-    -------
-    (size, size, 3) uint8
-        Beyond the borders of charts each texel has the colour of the nearest covered one, so that no other colour
-        bleeds in where a viewer mixes neighbours.
+        Longer side of the picture in texels; by default the source's, within bounds.
     """
-    assert target.uv is not None
-    assert target.uv_faces is not None
-    size = size or int(np.clip(max(pixels.shape[:2]), _SMALLEST, _LARGEST))
-    face, texel, weights = _find_texels(target.uv[target.uv_faces], size)
-    if len(face) == 0:
-        raise refuse("target", "texture coordinates with room for its faces", "none", "export without them")
-    where = np.einsum("qi,qij->qj", weights, uv[uv_faces[face]])
-    if place is not None and source.uv is not None and source.uv_faces is not None:
-        corners, n = source.uv_faces, len(source.uv)
-        charts = component_labels(n, corners[:, :2].ravel(), corners[:, 1:].ravel())[1][corners[:, 0]]  # of its faces
-        chart = charts[place.faces][target.mesh.faces]
-        torn = (chart != chart[:, :1]).any(axis=1) | (uv_faces != target.mesh.faces).any(axis=1)
-        single = (uv_faces == uv_faces[:, :1]).all(axis=1)  # faces outside a part have one colour
-        seam = np.flatnonzero((torn & ~single)[face])
-        corners = point_positions(place, source.mesh)[target.mesh.faces[face[seam]]]
-        points = np.einsum("qi,qij->qj", weights[seam], corners)
-        found = closest_points(points, source.mesh.vertices, source.mesh.faces)
-        where[seam] = np.einsum("qi,qij->qj", found.weights, source.uv[source.uv_faces[found.faces]])
-    picture = np.zeros((size * size, 3))
-    picture[texel] = _sample_picture(pixels, where)
-    covered = np.zeros(size * size, dtype=bool)
-    covered[texel] = True
-    bare = ~covered.reshape(size, size)
-    nearest = distance_transform_edt(bare, return_distances=False, return_indices=True)
-    assert nearest is not None
-    return np.rint(255 * picture.reshape(size, size, 3)[nearest[0], nearest[1]]).astype(np.uint8)
+    if can_bake(target):
+        assert target.uv is not None
+        pixels = decode_picture(picture)
+        side = size or max(_resized(pixels, None).shape)
+        blank = np.zeros((side, side, 3)), np.zeros((side, side), dtype=bool)
+        drawn = bake_texture(source, found, pixels, target.uv[target.uv_faces], *blank)
+        return replace(target, picture=encode_png(drawn))
+    plain = MeshFile(target.mesh, None, found.uv, found.uv_faces, picture)
+    if not found.torn.any() or found.edges is None:
+        return plain if size is None else replace(plain, picture=encode_png(_resized(decode_picture(picture), size)))
+    pixels = _resized(decode_picture(picture), size)
+    height, width = pixels.shape[:2]
+    corners = found.uv[found.uv_faces]
+    # Rows below end the repetition of the picture: all faces move into its first copy, and those over its edge are
+    # drawn anew as well.
+    copy = np.floor(corners.min(axis=1) + 1e-6)
+    own = found.torn | ((corners.max(axis=1) - 1e-6 > copy + 1).any(axis=1))
+    found = replace(found, torn=own)
+    packed, rows = _pack(found.edges[own] * width, width)
+    canvas, covered = np.zeros((height + rows, width, 3)), np.zeros((height + rows, width), dtype=bool)
+    canvas[:height], covered[:height] = pixels, True
+    atlas = np.full_like(corners, np.nan)
+    atlas[own] = packed / [width, height + rows]
+    atlas[own, :, 1] = rows / (height + rows) - atlas[own, :, 1]
+    drawn = bake_texture(source, found, pixels, atlas, canvas, covered)
+    moved = (corners - copy[:, None]) * [1, height / (height + rows)] + [0, rows / (height + rows)]
+    uv, uv_faces = np.unique(np.where(own[:, None, None], atlas, moved).reshape(-1, 2), axis=0, return_inverse=True)
+    return MeshFile(target.mesh, None, uv, uv_faces.reshape(-1, 3), encode_png(drawn))

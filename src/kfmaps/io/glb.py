@@ -1,4 +1,4 @@
-"""GLB files written: one surface, with colours or a texture, and another shape to morph into."""
+"""GLB files written: one surface with colours or a texture, morph targets and a skin."""
 
 from __future__ import annotations
 
@@ -7,12 +7,15 @@ import struct
 from typing import Any
 
 import numpy as np
+from scipy.spatial.transform import Rotation
 
-from kfmaps.geometry.mesh import Mesh, vertex_normals
-from kfmaps.io.record import bytes_of
+from kfmaps.geometry.mesh import vertex_normals
+from kfmaps.io.record import MeshFile, Skin, bytes_of
 
-_FLOAT, _BYTE, _INT = 5126, 5121, 5125
+_FLOAT, _BYTE, _SHORT, _INT = 5126, 5121, 5123, 5125
 _ARRAY, _ELEMENT = 34962, 34963
+_MOST_JOINTS = 4
+"""Joints of a vertex that every program reads."""
 
 
 class _Chunks:
@@ -30,7 +33,7 @@ class _Chunks:
         self.data += content
         return len(self.views) - 1
 
-    def array(self, values: np.ndarray, kind: int, shape: str, target: int = _ARRAY, **more: Any) -> int:
+    def array(self, values: np.ndarray, kind: int, shape: str, target: int | None = _ARRAY, **more: Any) -> int:
         at = self.view(np.ascontiguousarray(values).tobytes(), target)
         self.accessors.append({"bufferView": at, "componentType": kind, "count": len(values), "type": shape, **more})
         return len(self.accessors) - 1
@@ -41,34 +44,17 @@ class _Chunks:
         return self.array(single, _FLOAT, "VEC3", min=single.min(axis=0).tolist(), max=single.max(axis=0).tolist())
 
 
-def format_glb(
-    mesh: Mesh,
-    colors: np.ndarray | None = None,
-    *,
-    uv: np.ndarray | None = None,
-    uv_faces: np.ndarray | None = None,
-    picture: tuple[bytes, str] | None = None,
-    morph: np.ndarray | None = None,
-) -> bytes:
-    """Write ``mesh`` as GLB, positions in single precision.
+def format_glb(shape: MeshFile) -> bytes:
+    """Write a mesh with its colours, texture, morph targets and skin as GLB, in single precision.
 
-    Parameters
-    ----------
-    mesh : Mesh
-    colors : (n, 3) float64, optional
-        sRGB from 0 to 1, one per vertex.
-    uv : (m, 2) float64, optional
-        Texture coordinates, with ``uv_faces`` (f, 3); (0, 0) is the lower left corner. A vertex with several, along
-        seams, is written once for each.
-    picture : (bytes, str), optional
-        The texture's file and its media type, embedded.
-    morph : (n, 3) float64, optional
-        The same vertices elsewhere: a morph target, from weight 0 to 1.
+    A vertex with several texture coordinates, along seams, is written once for each. Of more than four joints of a
+    vertex the four heaviest count.
 
     References
     ----------
     Khronos Group, glTF 2.0, https://registry.khronos.org/glTF/specs/2.0/glTF-2.0.html.
     """
+    mesh, colors, uv, uv_faces, picture = shape.mesh, shape.colors, shape.uv, shape.uv_faces, shape.picture
     chunks = _Chunks()
     rows, faces = np.arange(len(mesh.vertices)), mesh.faces
     at_uv = None
@@ -89,24 +75,30 @@ def format_glb(
         attributes["TEXCOORD_0"] = chunks.array(flipped.astype("<f4"), _FLOAT, "VEC2")
         if picture is not None:
             material["pbrMetallicRoughness"]["baseColorTexture"] = {"index": 0}
-            tree |= {"textures": [{"source": 0}], "images": [{"bufferView": 0, "mimeType": picture[1]}]}
+            tree |= {"textures": [{"source": 0}], "images": [{"bufferView": 0, "mimeType": picture.kind}]}
     part: dict[str, Any] = {"attributes": attributes, "material": 0}
     if len(faces):
         part["indices"] = chunks.array(faces.ravel().astype("<u4"), _INT, "SCALAR", _ELEMENT)
     else:
         part["mode"] = 0
-    node: dict[str, Any] = {"primitives": [part]}
-    if morph is not None:
-        part["targets"] = [{"POSITION": chunks.places((morph - mesh.vertices)[rows])}]
-        node |= {"weights": [0.0], "extras": {"targetNames": ["target"]}}
+    made: dict[str, Any] = {"primitives": [part]}
+    if shape.morphs:
+        part["targets"] = [{"POSITION": chunks.places(moved[rows])} for moved in shape.morphs.values()]
+        made |= {"weights": [0.0] * len(shape.morphs), "extras": {"targetNames": list(shape.morphs)}}
+    if shape.skin is not None:
+        order = np.argsort(-shape.skin.weights, axis=1, kind="stable")[:, :_MOST_JOINTS]
+        heaviest = np.take_along_axis(shape.skin.weights, order, axis=1)
+        heaviest /= np.maximum(heaviest.sum(axis=1, keepdims=True), 1e-300)
+        order, heaviest = (np.pad(x, ((0, 0), (0, _MOST_JOINTS - x.shape[1]))) for x in (order, heaviest))
+        attributes["JOINTS_0"] = chunks.array(np.where(heaviest > 0, order, 0)[rows].astype("<u2"), _SHORT, "VEC4")
+        attributes["WEIGHTS_0"] = chunks.array(heaviest[rows].astype("<f4"), _FLOAT, "VEC4")
     if "images" in tree and picture is not None:
-        tree["images"][0]["bufferView"] = chunks.view(picture[0])
+        tree["images"][0]["bufferView"] = chunks.view(picture.data)
     tree |= {
         "asset": {"version": "2.0", "generator": "kfmaps"},
         "scene": 0,
-        "scenes": [{"nodes": [0]}],
-        "nodes": [{"mesh": 0}],
-        "meshes": [node],
+        **_nodes(shape.skin, chunks),
+        "meshes": [made],
         "materials": [material],
         "accessors": chunks.accessors,
         "bufferViews": chunks.views,
@@ -117,6 +109,33 @@ def format_glb(
     binary = bytes(chunks.data) + b"\0" * (-len(chunks.data) % 4)
     head = struct.pack("<4sII", b"glTF", 2, 12 + 8 + len(text) + 8 + len(binary))
     return head + struct.pack("<I4s", len(text), b"JSON") + text + struct.pack("<I4s", len(binary), b"BIN\0") + binary
+
+
+def _nodes(skin: Skin | None, chunks: _Chunks) -> dict[str, Any]:
+    """The node of the mesh, and one for each joint of its skin."""
+    if skin is None:
+        return {"scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}]}
+    above = np.where((skin.parents < 0)[:, None, None], np.eye(4), skin.matrices[skin.parents])
+    local = np.linalg.solve(above, skin.matrices)
+    nodes: list[dict[str, Any]] = [{"mesh": 0, "skin": 0}]
+    for j, (name, matrix) in enumerate(zip(skin.names, local, strict=True)):
+        children = (1 + np.flatnonzero(skin.parents == j)).tolist()
+        nodes.append({"name": name, **_placed(matrix), **({"children": children} if children else {})})
+    binds = chunks.array(np.linalg.inv(skin.matrices).transpose(0, 2, 1).astype("<f4"), _FLOAT, "MAT4", None)
+    roots = (1 + np.flatnonzero(skin.parents < 0)).tolist()
+    joints = list(range(1, len(nodes)))
+    skins = [{"joints": joints, "inverseBindMatrices": binds}]
+    return {"scenes": [{"nodes": [0, *roots]}], "nodes": nodes, "skins": skins}
+
+
+def _placed(matrix: np.ndarray) -> dict[str, Any]:
+    """A node's translation, rotation and scale, which animations need; its matrix where there is shear."""
+    scale = np.linalg.norm(matrix[:3, :3], axis=0) * np.sign(np.linalg.det(matrix[:3, :3]))
+    turn = matrix[:3, :3] / np.where(scale == 0, 1, scale)
+    if np.abs(turn.T @ turn - np.eye(3)).max() > 1e-4:
+        return {"matrix": matrix.T.ravel().tolist()}
+    turned = Rotation.from_matrix(turn).as_quat().tolist()
+    return {"translation": matrix[:3, 3].tolist(), "rotation": turned, "scale": scale.tolist()}
 
 
 def _directions(normals: np.ndarray) -> np.ndarray:

@@ -13,12 +13,12 @@ import numpy as np
 from kfmaps._arrays import refuse
 from kfmaps._memory import check_memory
 from kfmaps.geometry.mesh import Mesh
-from kfmaps.io.record import MeshFile, Picture, picture_in
+from kfmaps.io.record import MeshFile, Picture, Skin, picture_in
 from kfmaps.io.text import REPAIR, beside, complete_or_refuse, read_bytes
 
 _TYPES = {5120: "i1", 5121: "u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
 _FLOAT, _UNSIGNED = 5126, {5121, 5123, 5125}
-_WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4}
+_WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT4": 16}
 _TRIANGLES, _STRIP, _FAN = 4, 5, 6
 _WHOLE = "a complete glTF 2.0 file"
 _UNCOMPRESSED = "export it without compression"
@@ -45,14 +45,15 @@ def parse_gltf(data: bytes, name: str) -> MeshFile:
     """Read the triangles of a glTF 2.0 file, text (.gltf) or binary (.glb), with its .bin beside it.
 
     Nothing is merged: where a file repeats a vertex, as exporters do along seams of a texture, it stays repeated.
-    Several parts follow one another in the order of the file, each placed by its node. A picture is read
-    when it is the one colour texture of all parts; else there is none.
+    Several parts follow one another in the order of the file, each placed by its node, or by the joints that its
+    vertices follow. Morph targets of one name in several parts are one. A picture is read when it is the one colour
+    texture of all parts; else there is none.
     Specification: Khronos Group, "glTF 2.0", https://registry.khronos.org/glTF/specs/2.0/glTF-2.0.html.
 
     Raises
     ------
     InvalidInput
-        On a file that is cut short, compressed or sparse data, extensions that are needed and not known, triangle
+        On a file that is cut short, compressed data, extensions that are needed and not known, triangle
         fans, nodes that are no tree, and too many copies of a part.
     """
     with complete_or_refuse(name, _WHOLE):
@@ -119,6 +120,8 @@ class _Scene:
         self.tree, binary = _split(data, name)
         self._check_extensions()
         self.buffers = []
+        self.above: dict[int, int] = {}  # the node above each of the scene, -1 of roots
+        self.matrices: dict[int, np.ndarray] = {}  # from the frame of a node to the scene's
         for buffer in self.tree.get("buffers", []):
             content = self._content(buffer["uri"]) if buffer.get("uri") is not None else binary
             size = _count(buffer["byteLength"])
@@ -149,8 +152,8 @@ class _Scene:
         """Refuse what would be read as zeros or skipped in silence."""
         name = self.name
         for accessor in self.tree.get("accessors", []):
-            if "bufferView" not in accessor or "sparse" in accessor:
-                raise refuse(name, "plain data", "compressed or sparse data", _UNCOMPRESSED)
+            if "bufferView" not in accessor and "sparse" not in accessor:
+                raise refuse(name, "plain data", "compressed data", _UNCOMPRESSED)
         for part in [p for mesh in self.tree.get("meshes", []) for p in mesh["primitives"]]:
             mode = part.get("mode", _TRIANGLES)
             if mode == _FAN:
@@ -158,6 +161,8 @@ class _Scene:
             if mode not in (_TRIANGLES, _STRIP):
                 continue
             place = self._one("accessors", part["attributes"]["POSITION"])
+            if "sparse" in place or ("indices" in part and "sparse" in self._one("accessors", part["indices"])):
+                raise refuse(name, "plain vertices and triangles", "sparse ones", _UNCOMPRESSED)
             if (place["componentType"], place["type"]) != (_FLOAT, "VEC3"):
                 raise refuse(name, "positions as 32-bit numbers", "quantised ones", "export it unquantised")
             if "indices" in part and self._one("accessors", part["indices"])["componentType"] not in _UNSIGNED:
@@ -171,15 +176,15 @@ class _Scene:
         else:
             children = {child for node in nodes for child in node.get("children", [])}
             roots = [i for i in range(len(nodes)) if i not in children]
-        waiting, seen, parts = [(_count(root), np.eye(4)) for root in roots], set(), []
+        waiting, parts = [(_count(root), -1) for root in roots], []
         while waiting:
             i, above = waiting.pop()
-            if i in seen:
+            if i in self.above:
                 raise refuse(self.name, "nodes that form a tree", f"node {i} in it twice", REPAIR)
-            seen.add(i)
             node = nodes[i]
-            matrix = above @ _matrix(node)
-            waiting += [(_count(child), matrix) for child in node.get("children", [])]
+            matrix = (np.eye(4) if above < 0 else self.matrices[above]) @ _matrix(node)
+            self.above[i], self.matrices[i] = above, matrix
+            waiting += [(_count(child), i) for child in node.get("children", [])]
             if "mesh" in node:
                 mesh = _count(node["mesh"])
                 for j, part in enumerate(self.tree["meshes"][mesh]["primitives"]):
@@ -188,13 +193,25 @@ class _Scene:
         return sorted(parts, key=lambda p: p[:3])
 
     def rows(self, number: Any) -> np.ndarray:
-        """The rows of an accessor as they stand in their buffer, (count, width), not copied."""
+        """The rows of an accessor, (count, width), not copied where they stand in their buffer."""
         accessor = self._one("accessors", number)
-        view = self._one("bufferViews", accessor["bufferView"])
-        item, width = np.dtype(_TYPES[accessor["componentType"]]), _WIDTHS[accessor["type"]]
-        count, row = _count(accessor["count"]), item.itemsize * width
+        item, width, count = np.dtype(_TYPES[accessor["componentType"]]), _WIDTHS[accessor["type"]], accessor["count"]
+        sparse = accessor.get("sparse")
+        if sparse is None:
+            return self._block(accessor, item, width, count)
+        rows = np.zeros((_count(count), width), item)
+        if "bufferView" in accessor:
+            rows[:] = self._block(accessor, item, width, count)
+        at = self._block(sparse["indices"], np.dtype(_TYPES[sparse["indices"]["componentType"]]), 1, sparse["count"])
+        rows[at[:, 0]] = self._block(sparse["values"], item, width, sparse["count"])
+        return rows
+
+    def _block(self, where: dict[str, Any], item: np.dtype, width: int, count: Any) -> np.ndarray:
+        """``count`` rows of a buffer, from the view and offset that ``where`` names."""
+        view = self._one("bufferViews", where["bufferView"])
+        count, row = _count(count), item.itemsize * width
         step = _count(view.get("byteStride", row))
-        offset, first = _count(accessor.get("byteOffset", 0)), _count(view.get("byteOffset", 0))
+        offset, first = _count(where.get("byteOffset", 0)), _count(view.get("byteOffset", 0))
         buffer, size = self.buffers[_count(view["buffer"])], _count(view["byteLength"])
         if step < row or (count and offset + (count - 1) * step + row > size) or first + size > len(buffer):
             raise refuse(self.name, _WHOLE, f"too few bytes for {count} rows of numbers", _CUT)
@@ -215,31 +232,104 @@ class _Scene:
         if not parts:
             return MeshFile(Mesh(np.zeros((0, 3)), np.zeros((0, 3), dtype=np.int64)))
         primitives = [self.tree["meshes"][part.mesh]["primitives"][part.primitive] for part in parts]
-        self._check_size(primitives)
-        places, faces, colors, uv, n = [], [], [], [], 0
+        joints = self._joints(parts)
+        self._check_size(primitives, joints)
+        places, faces, colors, uv, morphs, weights, n = [], [], [], [], [], [], 0
         for part, primitive in zip(parts, primitives, strict=True):
             attributes = primitive["attributes"]
             own = self.numbers(attributes["POSITION"])
             corners = self._triangles(primitive, len(own), f"{name}: mesh {part.mesh}, part {part.primitive}")
-            turn, shift = part.matrix[:3, :3], part.matrix[:3, 3]
-            places.append(own if np.array_equal(part.matrix, np.eye(4)) else own @ turn.T + shift)
-            faces.append((corners[:, ::-1] if np.linalg.det(turn) < 0 else corners) + n)
+            follows, matrix = self._skinned(part, attributes, joints, len(own))
+            turn, shift = matrix[..., :3, :3], matrix[..., :3, 3]
+            places.append(
+                own if np.array_equal(matrix, np.eye(4)) else np.einsum("...ij,...j->...i", turn, own) + shift
+            )
+            flipped = np.linalg.det(turn.reshape(-1, 3, 3).mean(axis=0)) < 0
+            faces.append((corners[:, ::-1] if flipped else corners) + n)
+            weights.append(follows)
+            morphs.append(
+                {t: np.einsum("...ij,...j->...i", turn, d) for t, d in self._morphs(part, primitive, len(own))}
+            )
             for title, found, columns in (("COLOR_0", colors, 3), ("TEXCOORD_0", uv, 2)):
                 if title in attributes:
-                    values = self.numbers(attributes[title])
-                    if len(values) != len(own) or values.shape[1] < columns:
-                        wanted = f"{columns} numbers for each vertex"
-                        raise refuse(f"{name}: {title}", wanted, f"shape {values.shape}", REPAIR)
-                    found.append(values[:, :columns])
+                    found.append(self._attribute(attributes, title, len(own), columns))
             n += len(own)
         mesh = Mesh(np.vstack(places), np.vstack(faces))
         tints = np.clip(np.vstack(colors), 0.0, 1.0) if len(colors) == len(parts) else None
+        titles = dict.fromkeys(title for moved in morphs for title in moved)
+        still = [np.zeros_like(x) for x in places]
+        moves = {t: np.vstack([moved.get(t, zero) for moved, zero in zip(morphs, still, strict=True)]) for t in titles}
+        skin = self._skin(joints, np.vstack(weights)) if joints else None
         if len(uv) < len(parts):
-            return MeshFile(mesh, tints)
+            return MeshFile(mesh, tints, morphs=moves, skin=skin)
         joined = np.vstack(uv) * [1, -1] + [0, 1]  # glTF counts from the top of the picture
-        return MeshFile(mesh, tints, joined, mesh.faces, self._picture(primitives))
+        return MeshFile(mesh, tints, joined, mesh.faces, self._picture(primitives), moves, skin)
 
-    def _check_size(self, primitives: list[dict[str, Any]]) -> None:
+    def _attribute(self, attributes: dict[str, Any], title: str, n: int, columns: int) -> np.ndarray:
+        """The first ``columns`` numbers of each of ``n`` vertices."""
+        count = self._one("accessors", attributes[title])["count"]
+        values = self.numbers(attributes[title]) if count == n else np.zeros((0, 0))
+        if len(values) != n or values.shape[1] < columns:
+            raise refuse(f"{self.name}: {title}", f"{columns} numbers for each vertex", f"{count} rows", REPAIR)
+        return values[:, :columns]
+
+    def _morphs(self, part: _Part, primitive: dict[str, Any], n: int) -> list[tuple[str, np.ndarray]]:
+        """The name and the displacements (n, 3) of each morph target."""
+        targets = primitive.get("targets", [])
+        told = self.tree["meshes"][part.mesh].get("extras", {}).get("targetNames", [])
+        names = told if len(told) == len(targets) else [f"morph {i}" for i in range(len(targets))]
+        moved = [self._attribute(t, "POSITION", n, 3) if "POSITION" in t else np.zeros((n, 3)) for t in targets]
+        return list(zip(map(str, names), moved, strict=True))
+
+    def _joints(self, parts: list[_Part]) -> list[int]:
+        """The nodes that vertices of the parts may follow, in the order of the skins."""
+        used = dict.fromkeys(i for i in (self.tree["nodes"][part.node].get("skin") for part in parts) if i is not None)
+        joints = list(dict.fromkeys(_count(j) for i in used for j in self._one("skins", i)["joints"]))
+        if any(j not in self.matrices for j in joints):
+            raise refuse(self.name, "joints that are nodes of the scene", "others", REPAIR)
+        return joints
+
+    def _skinned(
+        self, part: _Part, attributes: dict[str, Any], joints: list[int], n: int
+    ) -> tuple[np.ndarray, np.ndarray]:
+        """How much each vertex of a part follows each of ``joints``, (n, j), and its matrix, (4, 4) or (n, 4, 4).
+
+        A vertex that follows joints lies where they carry it, wherever the node of the part is.
+        """
+        weights, skin = np.zeros((n, len(joints))), self.tree["nodes"][part.node].get("skin")
+        if skin is None or "JOINTS_0" not in attributes:
+            return weights, part.matrix
+        own = [_count(j) for j in self._one("skins", skin)["joints"]]
+        bind = self._one("skins", skin).get("inverseBindMatrices")
+        inverse = np.eye(4).ravel() if bind is None else self.numbers(bind)
+        inverse = np.broadcast_to(inverse, (len(own), 16)).reshape(-1, 4, 4).transpose(0, 2, 1)
+        carried = np.stack([self.matrices[j] @ m for j, m in zip(own, inverse, strict=True)])
+        follows = np.zeros((n, len(own)))
+        sets = [title[7:] for title in attributes if title.startswith("JOINTS_")]
+        for i in sets:
+            at = self._attribute(attributes, f"JOINTS_{i}", n, 4).astype(np.int64)
+            share = self._attribute(attributes, f"WEIGHTS_{i}", n, 4)
+            np.add.at(follows, (np.arange(n)[:, None], at), share)
+        total = follows.sum(axis=1, keepdims=True)
+        follows = np.divide(follows, total, out=np.zeros_like(follows), where=total > 0)
+        weights[:, [joints.index(j) for j in own]] = follows
+        if (np.abs(carried - carried[0]) <= 1e-5 * np.abs(carried[0]).max()).all():
+            return weights, carried[0]  # the scene shows the mesh at rest
+        matrix = (follows @ carried.reshape(-1, 16)).reshape(n, 4, 4)
+        return weights, np.where((total > 0)[:, :, None], matrix, part.matrix)
+
+    def _skin(self, joints: list[int], weights: np.ndarray) -> Skin:
+        """The skeleton as the scene shows it: each joint hangs on the nearest joint above it."""
+        parents = []
+        for j in joints:
+            above = self.above[j]
+            while above >= 0 and above not in joints:
+                above = self.above[above]
+            parents.append(joints.index(above) if above >= 0 else -1)
+        names = tuple(str(self.tree["nodes"][j].get("name", f"joint {i}")) for i, j in enumerate(joints))
+        return Skin(names, np.array(parents), np.stack([self.matrices[j] for j in joints]), weights)
+
+    def _check_size(self, primitives: list[dict[str, Any]], joints: list[int]) -> None:
         """Refuse what nodes repeat again and again, and what does not fit into memory, before any of it is read."""
         used = [a for p in primitives for a in (p["attributes"]["POSITION"], p.get("indices")) if a is not None]
         sizes = {a: len(self.rows(a)) for a in set(used)}
@@ -250,7 +340,9 @@ class _Scene:
             got = f"{repeated:,}, with {len(primitives):,} placed parts"
             raise refuse(self.name, wanted, got, "export each shape once")
         what = f"{rows:,} vertices and corners of {len(primitives):,} parts"
-        check_memory(_BYTES_PER_ROW * rows, self.name, what, REPAIR)
+        moved = sum(_count(self._one("accessors", a)["count"]) for p in primitives for a in _moved(p))
+        follow = len(joints) * sum(sizes[p["attributes"]["POSITION"]] for p in primitives)
+        check_memory(_BYTES_PER_ROW * rows + 48 * moved + 24 * follow, self.name, what, REPAIR)
 
     def _picture(self, primitives: list[dict[str, Any]]) -> Picture | None:
         """The colour texture that all ``primitives`` share; ``None`` when there is no such one, or of another kind.
@@ -292,6 +384,11 @@ class _Scene:
         if len(corners) % 3:
             raise refuse(name, "faces of three corners each", f"{len(corners)} corners", REPAIR)
         return corners.reshape(-1, 3)
+
+
+def _moved(primitive: dict[str, Any]) -> list[Any]:
+    """The accessors of the morph targets of a primitive."""
+    return [target["POSITION"] for target in primitive.get("targets", []) if "POSITION" in target]
 
 
 def _matrix(node: dict[str, Any]) -> np.ndarray:

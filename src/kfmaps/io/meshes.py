@@ -39,6 +39,10 @@ def _parse_xyz(data: bytes, name: str) -> MeshFile:
     return MeshFile(Mesh(columns[:, :3], np.zeros((0, 3), dtype=np.int64)))
 
 
+def _format_glb(mesh: Mesh, colors: np.ndarray | None) -> bytes:
+    return format_glb(MeshFile(mesh, colors))
+
+
 READERS = {
     ".off": parse_off,
     ".obj": parse_obj,
@@ -50,7 +54,7 @@ READERS = {
     ".gltf": parse_gltf,
     ".xyz": _parse_xyz,
 }
-_WRITERS = {".off": format_off, ".obj": format_obj, ".ply": format_ply, ".glb": format_glb}
+_WRITERS = {".off": format_off, ".obj": format_obj, ".ply": format_ply, ".glb": _format_glb}
 
 _MAX_UNPLACED = 1e-3
 """Fraction of vertices that may have NaN coordinates; surfaces extracted from CT volumes have one now and then."""
@@ -99,7 +103,7 @@ def read_mesh_file(path: str | Path, *, cloud: bool = True) -> MeshFile:
         found = reader(read_bytes(path), name)
     found = _place_unplaced(found, name)
     places = found.mesh.vertices
-    for what, values in (("vertices", places), ("colors", found.colors), ("texture", found.uv)):
+    for what, values in (("vertices", places), ("colors", found.colors), ("texture", found.uv), *found.morphs.items()):
         if values is not None:
             check(values, f"{name}: {what}", remedy="repair or re-export the file")
     size = np.abs(places).max(initial=0.0)

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from scipy.spatial import KDTree
 
 from kfmaps.fmap.precise import PointMap, check_point_map_precise, invert_precise_map, point_positions, vertex_point_map
 from kfmaps.geometry.mesh import Mesh
@@ -24,6 +25,27 @@ def precise_points(found: Any, source: Mesh) -> PointMap | None:
     """
     place = found.precise_map if isinstance(found, Match) else None
     return None if place is None else check_point_map_precise(place, source, len(found.target_to_source))
+
+
+def point_map(found: Any, source: Mesh, target_to_source: np.ndarray) -> PointMap:
+    """Return a point inside a triangle of a surface for each target vertex, at vertices where ``found`` has no others.
+
+    Parameters
+    ----------
+    found : Match or (n_t,) int64
+    source : Mesh
+    target_to_source : (n_t,) int64
+        Its vertices. A vertex of no face counts as the nearest that one has; without a counterpart (−1) any is taken.
+    """
+    place = precise_points(found, source)
+    if place is not None:
+        return place
+    used = np.unique(source.faces)
+    moved = np.arange(len(source.vertices))
+    bare = np.setdiff1d(moved, used)
+    if len(bare):
+        moved[bare] = used[KDTree(source.vertices[used]).query(source.vertices[bare])[1]]
+    return vertex_point_map(moved[np.where(target_to_source < 0, target_to_source.max(), target_to_source)], source)
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,7 +87,7 @@ def find_counterparts(found: Match, source: Mesh, target: Mesh, name: str = "map
     """
     points = check_map(found, len(source.vertices), len(target.vertices), name, lost=True)
     known = points >= 0
-    place = precise_points(found, source) or vertex_point_map(np.where(known, points, points.max()), source)
+    place = point_map(found, source, points)
     back = invert_precise_map(place, source, target, None if known.all() else known)
     return Counterparts(place, back, known, _reached(found, source, target, place, back, known))
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -40,6 +40,30 @@ def picture_in(data: bytes) -> Picture | None:
 
 
 @dataclass(frozen=True, eq=False)
+class Skin:
+    """A skeleton and what of each vertex follows which joint.
+
+    Attributes
+    ----------
+    names : tuple of str
+        Of the joints.
+    parents : (j,) int64
+        The joint above each, -1 of roots.
+    matrices : (j, 4, 4) float64
+        From each joint's frame to the mesh's, at rest: the last column is where the joint is.
+    weights : (n, j) float64
+        Each row adds up to 1; 0 throughout for a vertex that follows no joint.
+    """
+
+    names: tuple[str, ...]
+    parents: np.ndarray
+    matrices: np.ndarray
+    weights: np.ndarray
+
+    __repr__ = short_repr
+
+
+@dataclass(frozen=True, eq=False)
 class MeshFile:
     """A mesh with what else its file says about the vertices.
 
@@ -55,6 +79,9 @@ class MeshFile:
         For each corner of each face the row of ``uv``. At a seam one vertex has several.
     picture : Picture or None
         The one texture of the whole shape, of files that hold it (GLB, glTF) or name it (OBJ).
+    morphs : dict of str to (n, 3) float64
+        Morph targets (shape keys) by name: displacements of the vertices.
+    skin : Skin or None
     """
 
     mesh: Mesh
@@ -62,6 +89,8 @@ class MeshFile:
     uv: np.ndarray | None = None
     uv_faces: np.ndarray | None = None
     picture: Picture | None = None
+    morphs: dict[str, np.ndarray] = field(default_factory=dict)
+    skin: Skin | None = None
 
     __repr__ = short_repr
 

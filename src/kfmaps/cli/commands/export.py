@@ -48,6 +48,10 @@ def export(
     picture: Annotated[
         Path | None, typer.Option(help="The source's texture (PNG, JPEG); default: its own, or a grid.")
     ] = None,
+    texture_size: Annotated[
+        int | None,
+        typer.Option(min=16, max=16384, metavar="TEXELS", help="Longer side of the picture; default: the source's."),
+    ] = None,
     functional: Annotated[
         bool, typer.Option("--functional", help="Write the functional map C alone (.txt, .csv, .npy).")
     ] = False,
@@ -60,7 +64,7 @@ def export(
     json: Json = False,
     force: Force = False,
 ) -> None:
-    """Write the target with the source's texture or colours, or the map in another format."""
+    """Write the target with the source's texture, shape keys and skeleton (GLB), or the map in another format."""
     suffix = output.suffix.lower()
     if morph and suffix not in _SHAPES:
         raise refuse("--morph", f"an output {' '.join(_SHAPES)}", suffix or "no extension", "rename it")
@@ -97,7 +101,7 @@ def export(
             raise refuse(str(map), "a non-rigid fit for --morph", "none", "give the .npz file of a match that kept it")
         write_morph(output, shape_s, shape_t.mesh, np.asarray(bent), force)
     elif suffix in (".obj", ".glb"):
-        write_textured(output, shape_s, shape_t, found, picture=picture, force=force)
+        write_textured(output, shape_s, shape_t, found, picture=picture, size=texture_size, force=force)
     else:
         colors = position_colors(shape_s.mesh) if shape_s.colors is None else shape_s.colors
         write_colored(output, colors, shape_t.mesh, found, source=shape_s.mesh, force=force)

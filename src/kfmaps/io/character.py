@@ -1,0 +1,167 @@
+"""Morph targets (shape keys), skinning weights and skeletons carried over a map."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+from scipy.sparse import diags_array
+
+from kfmaps.fmap.convert import nearest_reached
+from kfmaps.fmap.precise import PointMap, point_positions
+from kfmaps.geometry.arap import build_arap, edge_covariances, nearest_rotations
+from kfmaps.geometry.eigen.factorization import factorize
+from kfmaps.geometry.mesh import MIRROR, Mesh, vertex_areas
+from kfmaps.geometry.similarity import similarity
+from kfmaps.io.mapcontent import check_map
+from kfmaps.io.partial_map import point_map
+from kfmaps.io.record import MeshFile, Skin
+
+_SURROUNDINGS = 1e-3
+"""Part of the surface over which its turn and stretch by the map are averaged."""
+_MAX_FACTOR = 2.5
+"""How much more or less than all of the surface a part of it may be stretched."""
+_OWN = 0.1
+"""Weight of a vertex for the place of a joint that follows this joint alone. One between it and the joint above counts
+up to ten times as much: the joint lies there."""
+
+
+def transfer_character(source: MeshFile, target: MeshFile, target_to_source: Any) -> MeshFile:
+    """Return ``target`` with the source's morph targets and skin; as it is where the source has none.
+
+    Parameters
+    ----------
+    source, target : MeshFile
+        Surfaces.
+    target_to_source : (n_t,) int64 or Match
+        Vertices without a counterpart (−1) do not move with morphs, and follow the joints of the nearest one that has.
+
+    Raises
+    ------
+    InvalidInput
+        When the map does not fit the shapes.
+    """
+    if not source.morphs and source.skin is None:
+        return target
+    mesh = target.mesh
+    points = check_map(target_to_source, len(source.mesh.vertices), len(mesh.vertices), lost=True)
+    places, known = point_map(target_to_source, source.mesh, points), points >= 0
+    mirrored = getattr(target_to_source, "orientation", "preserving") == "reversing"
+    morphs, skin = {}, None
+    if source.morphs:
+        turns = local_similarities(source.mesh, mesh, places, mirrored) * known[:, None, None]
+        morphs = {name: turn_morph(moved, source.mesh, places, turns) for name, moved in source.morphs.items()}
+    if source.skin is not None:
+        nearest = nearest_reached(mesh, np.where(known, np.arange(len(points)), -1))
+        near = PointMap(places.faces[nearest], places.weights[nearest])
+        skin = transfer_skin(source.skin, source.mesh, mesh, near, mirrored)
+    return replace(target, morphs=morphs, skin=skin)
+
+
+def local_similarities(source: Mesh, target: Mesh, places: PointMap, mirrored: bool = False) -> np.ndarray:
+    """Return how the surface turns and grows from the source to the target around each target vertex, (n_t, 3, 3).
+
+    Each is a rotation times a factor, that of the edges around the vertex and around its neighbours, fitted by least
+    squares as in as-rigid-as-possible deformation (Sorkine and Alexa 2007).
+
+    Parameters
+    ----------
+    source, target : Mesh
+    places : PointMap
+        For each target vertex.
+    mirrored : bool
+        Whether the map is one to the target's mirror image: then they are reflections too.
+    """
+    rest = target.vertices * MIRROR if mirrored else target.vertices
+    energy, areas = build_arap(Mesh(rest, target.faces)), vertex_areas(target)
+    images = point_positions(places, source)
+    area = areas.sum()
+    diffuse = factorize(
+        _SURROUNDINGS * area * energy.laplacian + diags_array(np.maximum(areas, 1e-9 * area)), ordered=False
+    )
+    both = [edge_covariances(energy, x) for x in (images, rest)]
+    moved, own = (np.asarray(diffuse(x.reshape(-1, 9))).reshape(-1, 3, 3) for x in both)
+    turns = nearest_rotations(moved)  # from the target's edges to those of their images
+    sizes = np.trace(own, axis1=1, axis2=2), np.einsum("tij,tij->t", turns, moved)
+    usual = sizes[0].sum() / max(sizes[1].sum(), 1e-300)
+    factor = sizes[0] / np.maximum(sizes[1], 1e-300)
+    factor = np.clip(factor, usual / _MAX_FACTOR, usual * _MAX_FACTOR)
+    result = factor[:, None, None] * turns.transpose(0, 2, 1)
+    return result * MIRROR[:, None] if mirrored else result
+
+
+def turn_morph(moved: np.ndarray, source: Mesh, places: PointMap, turns: np.ndarray) -> np.ndarray:
+    """Return the displacements (n_t, 3) of a morph target, ``moved (n_s, 3)`` on the source, turned with the surface.
+
+    Parameters
+    ----------
+    moved : (n_s, 3) float64
+    source : Mesh
+    places : PointMap
+    turns : (n_t, 3, 3) float64
+        Of :func:`local_similarities`.
+    """
+    return np.einsum("tij,tj->ti", turns, point_positions(places, Mesh(moved, source.faces)))
+
+
+def transfer_skin(skin: Skin, source: Mesh, target: Mesh, places: PointMap, mirrored: bool = False) -> Skin:
+    """Return the source's skin on the target.
+
+    Weights are mixed inside triangles. Each joint moves by the similarity that fits the surface around it best: the
+    vertices that follow it and, ten times as much, those that follow the joint above too. Its axes turn with it. A
+    joint that nothing follows moves with the ones below it, or else with the one above.
+
+    Parameters
+    ----------
+    skin : Skin
+    source, target : Mesh
+    places : PointMap
+        For each target vertex.
+    mirrored : bool
+        Whether the map is one to the target's mirror image.
+    """
+    weights = np.einsum("ti,tij->tj", places.weights, skin.weights[source.faces[places.faces]])
+    total = weights.sum(axis=1, keepdims=True)
+    weights = np.divide(weights, total, out=np.zeros_like(weights), where=total > 0)
+    images, areas = point_positions(places, source), vertex_areas(target)
+    joints = len(skin.names)
+    above = np.where(skin.parents < 0, np.arange(joints), skin.parents)
+    own = areas[:, None] * weights * (_OWN + np.where(above == np.arange(joints), 0, weights[:, above]))
+    order = _from_roots(skin.parents)
+    enough = 1e-6 * areas.sum()
+    for j in order[::-1]:  # a joint without weight has that of the ones below it
+        if own[:, j].sum() < enough:
+            own[:, j] = own[:, skin.parents == j].sum(axis=1)
+    matrices = np.array(skin.matrices)
+    moves: dict[int, np.ndarray] = {-1: _weighted_similarity(images, target.vertices, areas, mirrored)}
+    for j in order:
+        bare = own[:, j].sum() < enough
+        parent = int(skin.parents[j])
+        moves[j] = moves[parent] if bare else _weighted_similarity(images, target.vertices, own[:, j], mirrored)
+        linear = moves[j][:3, :3]
+        size = np.cbrt(abs(np.linalg.det(linear)))
+        matrices[j, :3, :3] = linear / max(size, 1e-300) @ skin.matrices[j, :3, :3]
+        if mirrored:
+            matrices[j, :3, 0] *= -1  # a joint's frame is right-handed
+        matrices[j, :3, 3] = linear @ skin.matrices[j, :3, 3] + moves[j][:3, 3]
+    return Skin(skin.names, skin.parents, matrices, weights)
+
+
+def _from_roots(parents: np.ndarray) -> list[int]:
+    """Joints in an order in which each comes after the one above it."""
+    order: list[int] = []
+    level = np.flatnonzero(parents < 0)
+    while len(level):
+        order += level.tolist()
+        level = np.flatnonzero(np.isin(parents, level))
+    return order
+
+
+def _weighted_similarity(points: np.ndarray, onto: np.ndarray, weights: np.ndarray, mirrored: bool) -> np.ndarray:
+    """Return the similarity (4, 4) that brings weighted points (n, 3) nearest to others, a mirrored one if asked."""
+    ends = onto * MIRROR if mirrored else onto
+    turn, scale, shift = similarity(points, ends, weights=weights)
+    result = np.eye(4)
+    result[:3, :3], result[:3, 3] = scale * turn.T, shift
+    return np.diag([*MIRROR, 1.0]) @ result if mirrored else result
