@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -80,7 +81,7 @@ def test_a_character_turns_and_grows_with_the_target(source: MeshFile) -> None:
 
 def test_a_mirror_image_has_mirrored_morphs_and_proper_joints(source: MeshFile) -> None:
     target = moved_by(source.mesh, np.diag(MIRROR), 1.0, np.zeros(3))
-    points = as_map(same(source.mesh), source.mesh).replaced(orientation="reversing")
+    points = replace(as_map(same(source.mesh), source.mesh), orientation="reversing")
     made = transfer_character(source, MeshFile(target), points)
     for name, moved in source.morphs.items():
         np.testing.assert_allclose(made.morphs[name], moved * MIRROR, atol=1e-8)

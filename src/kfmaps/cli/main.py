@@ -27,7 +27,7 @@ COMMANDS = {
     "info": "Show what is in files: vertices, faces, components, area, genus, defects.",
     "config": "Print the settings that match would use, as TOML that --config reads.",
     "transfer": "Carry functions, labels or named points over a map.",
-    "export": "Write the target with the source's texture, shape keys and skeleton (GLB), or the map in another format.",
+    "export": "Write the target with the source's texture, shape keys and skeleton, or the map in another format.",
     "view": "Show a map in the browser, or write it as one page that needs no network.",
     "landmarks": "Pick landmarks on a local page, or carry those of some specimens to all scans of a folder.",
     "batch": "Match many pairs in parallel: a table, every map and a summary page.",

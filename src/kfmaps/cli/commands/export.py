@@ -64,7 +64,7 @@ def export(
     json: Json = False,
     force: Force = False,
 ) -> None:
-    """Write the target with the source's texture, shape keys and skeleton (GLB), or the map in another format."""
+    """Write the target with the source's texture, shape keys and skeleton, or the map in another format."""
     suffix = output.suffix.lower()
     if morph and suffix not in _SHAPES:
         raise refuse("--morph", f"an output {' '.join(_SHAPES)}", suffix or "no extension", "rename it")
