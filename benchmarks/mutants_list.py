@@ -553,7 +553,21 @@ MUTANTS = tuple(
             "y = uv[:, 0] * width, uv[:, 1] * height",
             "test_bake",
         ),
-        ("seam = np.flatnonzero((torn & ~single)[face])", "seam = np.flatnonzero(single[face])", "test_bake"),
+        ("seam = np.flatnonzero(found.torn[face])", "seam = np.flatnonzero(~found.torn[face])", "test_bake"),
+        ("own = found.torn | (", "own = found.torn & (", "test_bake"),
+        ("uv_faces[rows] = len(uv) + again", "uv_faces[rows] = again", "test_files_export"),
+        # characters
+        ("return result * MIRROR[:, None] if mirrored", "return result if mirrored", "test_character"),
+        ("* turns.transpose(0, 2, 1)", "* turns", "test_character", "io/character"),
+        ("mirrored) * known[:, None, None]", "mirrored)", "test_character"),
+        (
+            "own = areas[:, None] * weights * (_OWN + np.where(",
+            "own = areas[:, None] * weights * (_OWN + 0 * np.where(",
+            "test_character",
+        ),
+        ("moves[j] = moves[parent] if bare", "moves[j] = moves[-1] if bare", "test_character"),
+        ("self.matrices[j] @ m for j, m", "m @ self.matrices[j] for j, m", "test_character"),
+        ("local = np.linalg.solve(above, skin.matrices)", "local = skin.matrices - 0 * above", "test_character"),
         ("hits > 1) <= _TWICE * np.count_nonzero(hits)", "hits > 1) <= np.count_nonzero(hits)", "test_bake"),
         # learned kernels in a search, parts of a collection
         (
