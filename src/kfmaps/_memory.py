@@ -7,8 +7,7 @@ from functools import cache
 
 from kfmaps._arrays import refuse
 
-_UNKNOWN = 64 << 30
-"""What a machine is taken to have that does not tell."""
+_UNKNOWN = 64 << 30  # what a machine is taken to have that does not tell
 
 
 @cache

@@ -337,11 +337,7 @@ def view(
 
     shapes = _shapes(found, source, target)
     known = None if truth is None else _truth(truth, shapes)
-    given = {
-        "truth": None if known is None else (known.source, known.target),
-        "descriptors": descriptors,
-        "up": up,
-    }
+    given = {"truth": None if known is None else (known.source, known.target), "descriptors": descriptors, "up": up}
     html = match_page(as_map(found, shapes[0]), *shapes, names, **given)
     if output is None:
         return open_page(html)[0]

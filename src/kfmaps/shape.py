@@ -29,8 +29,7 @@ FEW, NEARLY = 3_000, 1e-2
 """Vertices up to which eigenfunctions are found to rounding, and the tolerance above."""
 DESCRIBED = 7_000
 """Vertices for which SHOT is worked out; where there are more they are a hundredth of √area apart."""
-_NORMALS = 0.05
-"""Distance in space, at unit area, that counts as much as normals that differ by 1."""
+_NORMALS = 0.05  # distance in space, at unit area, that counts as much as normals that differ by 1
 
 
 @dataclass(frozen=True, eq=False)
@@ -178,11 +177,7 @@ def prepare(
 
 
 def _local_descriptors(
-    mesh: Mesh,
-    basis: Basis,
-    radius: float,
-    threads: int | None = None,
-    progress: Callable[[float], None] | None = None,
+    mesh: Mesh, basis: Basis, radius: float, threads: int | None = None, progress: Callable[[float], None] | None = None
 ) -> np.ndarray:
     """SHOT of all vertices of a mesh of unit area, (n, 352); of more than :data:`DESCRIBED` from as many.
 

@@ -21,8 +21,7 @@ from kfmaps.matching.quality import ShapeSamples
 from kfmaps.matching.search import scoring_samples
 from kfmaps.shape import Shape
 
-_LAYOUT = 3
-"""Raised when what an entry holds changes."""
+_LAYOUT = 3  # raised when what an entry holds changes
 
 
 def file_digest(path: str | Path) -> str:

@@ -52,8 +52,7 @@ from kfmaps.shape import Shape
 
 CONSISTENT, EVIDENCE, PATHS = "consistent", "evidence", "paths"
 _TABLE = "pairs.csv"
-_LAYOUT = 5
-"""Raised when what is kept of a pair changes."""
+_LAYOUT = 5  # raised when what is kept of a pair changes
 
 
 @dataclass(frozen=True, eq=False)

@@ -24,8 +24,7 @@ if TYPE_CHECKING:
 _Item = TypeVar("_Item")
 _Value = TypeVar("_Value")
 
-_SILENT = logging.CRITICAL + 1
-"""Level of Dask's log: it calls a client that has gone critical, with a traceback."""
+_SILENT = logging.CRITICAL + 1  # level of Dask's log: it calls a client that has gone critical, with a traceback
 MAX_DEATHS = 3
 """Workers that may die over one task before it is given up."""
 NO_WORKERS = "60s"
@@ -33,8 +32,7 @@ NO_WORKERS = "60s"
 _ONE_THREAD = dict.fromkeys(("OMP_NUM_THREADS", "MKL_NUM_THREADS", "OPENBLAS_NUM_THREADS"), 1)
 """What a worker's environment is given. Dask's own list also has malloc return memory at once, which makes every
 large temporary array a round of page faults: a third of the time."""
-_WORKER_BYTES = 120e6
-"""What a worker takes before it does anything."""
+_WORKER_BYTES = 120e6  # what a worker takes before it does anything
 TOO_LITTLE_MEMORY = "memory may be short: the same command with fewer --workers goes on where it was"
 _MISSING_DASK = "collections need Dask ({}). Install it with: pip install 'dask[distributed]' cryptography."
 

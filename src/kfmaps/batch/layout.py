@@ -19,8 +19,7 @@ _SHAPE_FOLDERS = ("shapes", "off", "meshes", "ply", "obj")
 _TRUTH_FOLDERS = ("corres", "groundtruth")
 _LANDMARK_FOLDER = "landmarks"
 _PAIRS_FILE = "test_pairs.txt"
-_LONGEST_KEY = 200
-"""Bytes of a key; file systems take names of 255."""
+_LONGEST_KEY = 200  # bytes of a key; file systems take names of 255
 
 
 @dataclass(frozen=True, order=True)

@@ -38,10 +38,8 @@ from kfmaps.viz.result_pages import match_page
 
 PAGE = "summary.html"
 _PAGES = "pages"
-_TEXT_SIZE = 18.0
-"""Letters in points: the pictures are shown at half their size."""
-_MAX_NAMED = 60
-"""Shapes up to which their names stand in the chart of principal components."""
+_TEXT_SIZE = 18.0  # letters in points: the pictures are shown at half their size
+_MAX_NAMED = 60  # shapes up to which their names stand in the chart of principal components
 _TEMPLATES = environment("kfmaps.batch")
 _TEMPLATES.filters |= {"percent": percent, "in_words": format_seconds}
 

@@ -79,13 +79,7 @@ def make_plan(
     return Plan(make.folder, spec, tasks, tuple(todo), tuple(results), changed)
 
 
-def graph_pairs(
-    collection: ShapeFolder,
-    spec: RunSpec,
-    output: str | Path,
-    kind: str,
-    pool: WorkerPool,
-) -> list[Pair]:
+def graph_pairs(collection: ShapeFolder, spec: RunSpec, output: str | Path, kind: str, pool: WorkerPool) -> list[Pair]:
     """Choose pairs over a graph of the whole collection.
 
     ``output``: output folder of the run. ``kind``: "near": each shape with those that are most like it, about three

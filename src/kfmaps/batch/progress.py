@@ -17,10 +17,8 @@ from kfmaps.cli.words import format_seconds
 from kfmaps.config import Config
 
 _LOG = "run.log"
-_LINE_SECONDS = 30.0
-"""Seconds between lines where there is no terminal."""
-_SHOT_SIZE = 352
-"""Numbers of SHOT at each vertex."""
+_LINE_SECONDS = 30.0  # seconds between lines where there is no terminal
+_SHOT_SIZE = 352  # numbers of SHOT at each vertex
 _SAMPLE_BYTES, _MAP_BYTES = 6e6, 230.0
 """Disk: what a search keeps of one shape, whatever its size; a map's file for each target vertex."""
 _WORKER_BYTES, _VERTEX_BYTES = 0.22e9, 42e3

@@ -16,8 +16,7 @@ from kfmaps.io.atomic import csv_text, write_text
 FOLDER = "pairs"
 BAD = 0.05
 """A mean error above this counts as a wrong map."""
-_COLOR_LIMITS = (0.02, 0.03, 0.05, 0.1, 0.15, 0.2, 0.3, 0.5)
-"""Round errors at which the colours of pictures may end."""
+_COLOR_LIMITS = (0.02, 0.03, 0.05, 0.1, 0.15, 0.2, 0.3, 0.5)  # round errors at which the colours of pictures may end
 
 
 @dataclass(frozen=True)

@@ -17,15 +17,7 @@ from kfmaps.fmap.precise import PointMap, nearest_vertices, vertex_point_map
 from kfmaps.geometry.closest_points import closest_points
 from kfmaps.geometry.mesh import Mesh, surface_area
 from kfmaps.io import check_map, load_map
-from kfmaps.io.landmark_files import (
-    LPS,
-    RAS,
-    LandmarkSet,
-    check_names,
-    landmark_stem,
-    mesh_space,
-    read_landmark_sets,
-)
+from kfmaps.io.landmark_files import LPS, RAS, LandmarkSet, check_names, landmark_stem, mesh_space, read_landmark_sets
 from kfmaps.io.named_points import FLIP, NamedPoints, choose_specimen, place_landmarks, scatter_points, transfer_points
 from kfmaps.io.partial_map import find_counterparts, precise_points
 from kfmaps.matching.result import Match

@@ -38,10 +38,8 @@ from kfmaps.matching.result import Match
 from kfmaps.shape import Shape, prepare
 
 _ATTEMPTS, MAPS = "attempts", "maps"
-_MIRRORED_POINTS = 500
-"""Points at which a map is compared with the mirrored truth."""
-_EXPECTED = (InvalidInput, NotConverged, MissingDependency, OSError)
-"""What may go wrong with one shape or pair."""
+_MIRRORED_POINTS = 500  # points at which a map is compared with the mirrored truth
+_EXPECTED = (InvalidInput, NotConverged, MissingDependency, OSError)  # what may go wrong with one shape or pair
 _DIED = f"{MAX_DEATHS} workers died while it was worked on; there may be too little memory"
 
 

@@ -9,11 +9,9 @@ import typer
 
 from kfmaps._errors import refuse
 
-_COMMON = "Output"
-"""Panel of the options that every command may have."""
+_COMMON = "Output"  # panel of the options that every command may have
 
-_REQUIRED = ("sure", "likely")
-"""Verdicts that can be required, best first."""
+_REQUIRED = ("sure", "likely")  # verdicts that can be required, best first
 UNSURE = 3
 """Exit status when a verdict is worse than the required one."""
 

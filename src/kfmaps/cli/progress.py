@@ -19,10 +19,8 @@ from kfmaps.cli.words import format_seconds
 
 _SECONDS_BETWEEN_LINES = 5.0
 """A stage that is begun again and again, as when many maps are tried, is told at most this often."""
-_SECONDS_OF_SILENCE = 15.0
-"""Where there is no terminal, a stage that goes on for longer is told of this often."""
-_SECONDS_BETWEEN_PICTURES = 0.2
-"""A notebook's bars are drawn anew no more often."""
+_SECONDS_OF_SILENCE = 15.0  # where there is no terminal, a stage that goes on for longer is told of this often
+_SECONDS_BETWEEN_PICTURES = 0.2  # a notebook's bars are drawn anew no more often
 
 
 def _seconds_left(done: float, elapsed: float, before: float | None = None) -> float | None:

@@ -24,8 +24,7 @@ from kfmaps.matching.score import SCORE
 _STYLES = {"likely": "bold yellow", "ambiguous": "bold red", "unlikely": "bold red"}
 """Verdicts that a terminal must not bury in a table."""
 
-_SHAPES = " --source {} --target {}"
-"""What ``kfmaps view`` needs for a file that does not name its shapes."""
+_SHAPES = " --source {} --target {}"  # what ``kfmaps view`` needs for a file that does not name its shapes
 
 
 def summary(match: Match, accuracy: Accuracy | None = None) -> dict[str, Any]:

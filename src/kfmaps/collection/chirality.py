@@ -10,8 +10,7 @@ from numpy.typing import ArrayLike
 from kfmaps._arrays import check, refuse
 from kfmaps.geometry.connectivity import component_labels
 
-_MAX_FLIPS = 100
-"""Signs that are changed at most."""
+_MAX_FLIPS = 100  # signs that are changed at most
 
 
 def chirality(count: int, ends: Sequence[tuple[int, int]], kept: Sequence[bool], weights: ArrayLike) -> np.ndarray:

@@ -24,8 +24,7 @@ from kfmaps.matching.result import Match
 from kfmaps.matching.score import probability_word
 from kfmaps.shape import Shape
 
-_N_LATENT = 15
-"""Latent functions of a limit shape: the higher ones are truncation more than shape."""
+_N_LATENT = 15  # latent functions of a limit shape: the higher ones are truncation more than shape
 
 StoredMap = tuple[np.ndarray, bool]
 """A source vertex for each target vertex, (n_t,), and whether it is a map to the target's mirror image."""

@@ -21,10 +21,8 @@ from kfmaps.collection.pair_graph import signature_distances
 from kfmaps.collection.synchronization import Edge, SyncResult
 from kfmaps.geometry.basis import Basis
 
-_RIGHT = 0.5
-"""Probability from which a candidate takes part in the common basis."""
-_N_ITERATIONS = 30
-"""Iterations of the latent maps."""
+_RIGHT = 0.5  # probability from which a candidate takes part in the common basis
+_N_ITERATIONS = 30  # iterations of the latent maps
 
 
 @dataclass(frozen=True, eq=False)

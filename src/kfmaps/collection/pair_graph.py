@@ -17,10 +17,8 @@ from kfmaps.descriptors.spectral import heat_signature
 from kfmaps.geometry.basis import Basis
 from kfmaps.geometry.connectivity import component_labels
 
-_N_EIGENVALUES = 30
-"""Eigenvalues that shapes are compared by."""
-_TIMES = np.geomspace(0.005, 0.3, 8)
-"""Diffusion times at unit area whose heat kernel signatures are compared."""
+_N_EIGENVALUES = 30  # eigenvalues that shapes are compared by
+_TIMES = np.geomspace(0.005, 0.3, 8)  # diffusion times at unit area whose heat kernel signatures are compared
 _QUANTILES = np.linspace(0.05, 0.95, 7)
 
 Pairs = tuple[tuple[int, int], ...]

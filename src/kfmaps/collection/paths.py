@@ -13,10 +13,8 @@ from kfmaps._arrays import refuse, to_numpy
 from kfmaps.fmap.convert import check_point_map, nearest
 from kfmaps.geometry.basis import Basis, eigenvalue_tolerance
 
-_EMBEDDING = 60
-"""Functions by which the nearest images are found where a map is inverted."""
-_MIN_PROBABILITY = 1e-6
-"""Probability below which a pair is on no path."""
+_EMBEDDING = 60  # functions by which the nearest images are found where a map is inverted
+_MIN_PROBABILITY = 1e-6  # probability below which a pair is on no path
 
 Adjacency = Sequence[Sequence[tuple[int, int]]]
 """Of each shape its neighbours, with the number of the edge between."""

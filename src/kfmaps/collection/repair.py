@@ -17,30 +17,16 @@ from kfmaps.collection.chirality import chirality
 from kfmaps.collection.paths import Adjacency, adjacency, best_path
 from kfmaps.collection.scored_map import ScoredMap, candidate_maps, is_same_map, with_better_score
 from kfmaps.collection.sync_init import MAX_LOG_ODDS
-from kfmaps.collection.synchronization import (
-    N_FUNCTIONS,
-    OUTLIER_FACTOR,
-    Edge,
-    SyncResult,
-    map_residuals,
-    synchronize,
-)
+from kfmaps.collection.synchronization import N_FUNCTIONS, OUTLIER_FACTOR, Edge, SyncResult, map_residuals, synchronize
 from kfmaps.matching.score import SCORE
 
-_DOUBT = 0.5
-"""Probability of the map in use below which a composition is sought."""
-_WRONG = 0.1
-"""Probability of the map in use below which it is replaced."""
-_RIGHT = 0.5
-"""Least probability of the map that replaces it."""
-_MIN_PATH_PROBABILITY = 0.3
-"""Least probability that all maps of a path are right."""
-_MIN_GAIN = 0.3
-"""How much better a composition must score to replace a map that is right on the whole."""
-_N_TWO_STEP = 3
-"""Paths of two steps by the maps in use that are tried for a doubted pair."""
-_N_ROUNDS = 3
-"""Rounds of compositions: a replaced map may open a path for others."""
+_DOUBT = 0.5  # probability of the map in use below which a composition is sought
+_WRONG = 0.1  # probability of the map in use below which it is replaced
+_RIGHT = 0.5  # least probability of the map that replaces it
+_MIN_PATH_PROBABILITY = 0.3  # least probability that all maps of a path are right
+_MIN_GAIN = 0.3  # how much better a composition must score to replace a map that is right on the whole
+_N_TWO_STEP = 3  # paths of two steps by the maps in use that are tried for a doubted pair
+_N_ROUNDS = 3  # rounds of compositions: a replaced map may open a path for others
 
 
 @dataclass(frozen=True)

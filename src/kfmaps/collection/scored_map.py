@@ -17,8 +17,7 @@ from kfmaps.matching.sample_pair import build_sample_pair
 from kfmaps.matching.score import SCORE, probability
 from kfmaps.shape import Shape
 
-_SCORED_FUNCTIONS = 80
-"""Functions of the maps that are scored, as many as the search scores by."""
+_SCORED_FUNCTIONS = 80  # functions of the maps that are scored, as many as the search scores by
 
 
 @dataclass(frozen=True, eq=False)

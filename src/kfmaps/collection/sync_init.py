@@ -11,8 +11,7 @@ from scipy.sparse.linalg import eigsh
 
 from kfmaps.fmap.constraints import nearest_orthogonal
 
-_DENSE = 1500
-"""Unknowns up to which eigenvectors are worked out densely."""
+_DENSE = 1500  # unknowns up to which eigenvectors are worked out densely
 MAX_LOG_ODDS = 4.0
 """Largest log-odds that a candidate's own evidence counts for."""
 

@@ -23,19 +23,15 @@ from kfmaps.geometry.connectivity import component_labels
 
 N_FUNCTIONS = 20
 """Size of the maps that are compared: enough to tell flipped limbs, and few enough to fit other bodies."""
-_N_LEVELS = 8
-"""Steps in which the tolerance falls."""
-_N_SWEEPS = 6
-"""Sweeps over all shapes at each tolerance."""
+_N_LEVELS = 8  # steps in which the tolerance falls
+_N_SWEEPS = 6  # sweeps over all shapes at each tolerance
 _RESIDUAL_LIMITS = (0.15, 0.7)
 """Least and largest residual from which a candidate is rather wrong. A random map has 1 to 2, a flipped one 0.8 and
 more, right ones between near-isometric bodies 0.02 to 0.1."""
 OUTLIER_FACTOR = 4.0
 """Multiple of the median residual of the maps that fit, from which one is rather wrong."""
-_MAX_REASSIGNMENTS = 5
-"""Rounds in which shapes may take what one of their edges says instead of the mean of all."""
-_MAX_REJOINS = 3
-"""Rounds in which parts of the graph that agree within may be turned against each other as wholes."""
+_MAX_REASSIGNMENTS = 5  # rounds in which shapes may take what one of their edges says instead of the mean of all
+_MAX_REJOINS = 3  # rounds in which parts of the graph that agree within may be turned against each other as wholes
 
 
 @dataclass(frozen=True, eq=False)

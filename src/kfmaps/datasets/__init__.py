@@ -28,8 +28,7 @@ __all__ = [
     "vase",
 ]
 
-_MAX_VERTICES = 300_000
-"""Number of vertices of the largest mesh."""
+_MAX_VERTICES = 300_000  # number of vertices of the largest mesh
 
 _Seed = int | np.random.Generator
 

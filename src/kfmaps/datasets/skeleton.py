@@ -10,16 +10,11 @@ from scipy.spatial.transform import Rotation
 
 from kfmaps._arrays import blocks
 
-_FILLET = 0.022
-"""Width of the fillet between limbs, in units of the body (about two high)."""
-_SOFTNESS = 0.045
-"""Distance over which the motions of two limbs blend, in the same units."""
-_REACH = 12 * _FILLET
-"""A limb further away than this adds less than 1e-5 of FILLET to the field and is left out."""
-_BLOCK = 50_000
-"""Number of points computed together, which bounds the memory."""
-_MAX_POINTS = 250_000
-"""Largest number of points whose field is computed at once."""
+_FILLET = 0.022  # width of the fillet between limbs, in units of the body (about two high)
+_SOFTNESS = 0.045  # distance over which the motions of two limbs blend, in the same units
+_REACH = 12 * _FILLET  # a limb further away than this adds less than 1e-5 of FILLET to the field and is left out
+_BLOCK = 50_000  # number of points computed together, which bounds the memory
+_MAX_POINTS = 250_000  # largest number of points whose field is computed at once
 
 
 @dataclass(frozen=True)

@@ -18,8 +18,7 @@ _Warp = Callable[[np.ndarray], np.ndarray]
 
 _RELAXATIONS = 30
 _ATTEMPTS = 5
-_SCATTERED = 50_000
-"""Vertices up to which points are spread one by one; larger meshes are subdivided smaller ones."""
+_SCATTERED = 50_000  # vertices up to which points are spread one by one; larger meshes are subdivided smaller ones
 
 
 def _project(field: _Field, points: np.ndarray, steps: int) -> tuple[np.ndarray, np.ndarray]:

@@ -27,8 +27,7 @@ Form = Literal["surface", "paper"]
 
 _PAIRS = 30_000
 """Pairs of a vertex and a support point in one block: work arrays that fit the cache are nearly twice as fast."""
-_EACH = 8
-"""One vertex of so many is asked how many those are."""
+_EACH = 8  # one vertex of so many is asked how many those are
 
 
 @dataclass(frozen=True, eq=False)

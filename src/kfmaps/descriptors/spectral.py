@@ -19,8 +19,7 @@ from kfmaps.geometry.basis import Basis
 Normalisation = Literal["none", "norm", "max", "row", "variance"]
 
 
-_ZERO = 1e-3
-"""Eigenvalue, at unit area, up to which a function counts as the constant of a component."""
+_ZERO = 1e-3  # eigenvalue, at unit area, up to which a function counts as the constant of a component
 
 
 def _spectral_range(*bases: Basis) -> tuple[float, float]:
@@ -211,12 +210,7 @@ def normalize(D_s: Array, D_t: Array, how: Normalisation, mass_s: Array, mass_t:
     if how not in get_args(Normalisation):
         raise refuse("normalisation", "one of " + ", ".join(get_args(Normalisation)), repr(how), "choose one of them")
     check(D_s, "source descriptors", shape=(mass_s.shape[0], None), remedy="give one row per source vertex")
-    check(
-        D_t,
-        "target descriptors",
-        shape=(mass_t.shape[0], D_s.shape[1]),
-        remedy="give the same descriptors on both",
-    )
+    check(D_t, "target descriptors", shape=(mass_t.shape[0], D_s.shape[1]), remedy="give the same descriptors on both")
     if how == "none":
         return D_s, D_t
     w_s, w_t = (0.5 * m[:, None] / xp.sum(m) for m in (mass_s, mass_t))

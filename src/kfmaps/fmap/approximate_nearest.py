@@ -20,8 +20,7 @@ from scipy.spatial import KDTree
 from kfmaps._arrays import blocks, check_count
 from kfmaps._threads import parallel
 
-_GROUP_SIZE = 128
-"""Queries that are worked on together, at most."""
+_GROUP_SIZE = 128  # queries that are worked on together, at most
 N_PROBE = 16
 """Cells that a query names."""
 N_PROBE_FAST = 4

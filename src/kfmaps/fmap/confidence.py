@@ -25,8 +25,7 @@ from kfmaps.geometry.sampling import stratified
 
 _RADIUS = 0.2
 """How far a sample may be from a vertex to count as its surroundings, in √area: some twenty samples are that near."""
-_BLOCK = 64
-"""Samples worked on together, which bounds the memory."""
+_BLOCK = 64  # samples worked on together, which bounds the memory
 _LARGE, _COPY_VERTICES = 10_000, 6_000
 """Vertices above which distances are found on a coarse copy, and vertices of the copy. Of 20,000 vertices confidences
 made of both differ by 0.009 on average."""

@@ -19,8 +19,7 @@ from kfmaps._arrays import Array, check, inner, namespace
 from kfmaps.fmap.solvers import CG, Direct, Operator, Solution, Solver, Status
 from kfmaps.fmap.terms import Term
 
-_MAX_HALVINGS = 12
-"""Shorter steps that are tried before the polar step."""
+_MAX_HALVINGS = 12  # shorter steps that are tried before the polar step
 
 
 def nearest_orthogonal(C: Array) -> Array:

@@ -89,10 +89,7 @@ def check_point_map(target_to_source: np.ndarray, n_s: int, n_t: int) -> np.ndar
     if points.shape != (n_t,) or not np.issubdtype(points.dtype, np.integer):
         got = f"{points.dtype} of shape {points.shape}"
         raise refuse(
-            "target_to_source",
-            f"whole numbers of shape ({n_t},)",
-            got,
-            "give a source vertex per target vertex",
+            "target_to_source", f"whole numbers of shape ({n_t},)", got, "give a source vertex per target vertex"
         )
     if n_t and (points.min() < 0 or points.max() >= n_s):
         got = f"{int(points.min())} to {int(points.max())}"

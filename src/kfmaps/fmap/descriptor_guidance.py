@@ -17,8 +17,7 @@ from kfmaps.geometry.basis import Basis
 
 DIMENSIONS = 32
 """Principal directions of the descriptors that are kept: SHOT has 352, most of them noise."""
-_DIRECTION_ROWS = 10_000
-"""Rows of both shapes that determine the principal directions; more change them by little."""
+_DIRECTION_ROWS = 10_000  # rows of both shapes that determine the principal directions; more change them by little
 FLAT = 0.05
 """Spread of SHOT below which its differences are the triangulation's: a sphere has 0.0005, bodies 0.2 to 0.3."""
 

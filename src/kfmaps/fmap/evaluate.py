@@ -39,12 +39,7 @@ class Evaluation:
     exact: float
 
 
-def geodesic_errors(
-    source: Mesh,
-    predicted: np.ndarray,
-    true: np.ndarray,
-    method: str = "unfolded",
-) -> np.ndarray:
+def geodesic_errors(source: Mesh, predicted: np.ndarray, true: np.ndarray, method: str = "unfolded") -> np.ndarray:
     """Return the geodesic distance from each predicted to its true vertex, (q,), divided by √area of the source.
 
     Distances are worked out for one block of vertices at a time: no n × n matrix is held. Points on different

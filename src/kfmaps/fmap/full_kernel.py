@@ -11,12 +11,7 @@ from kfmaps.kernels.kernels import KernelLike, kernel_matrix
 
 
 def kernel_descriptor_term(
-    kernel: KernelLike,
-    source: Basis,
-    descriptors_s: Array,
-    target: Basis,
-    descriptors_t: Array,
-    block: int = 1024,
+    kernel: KernelLike, source: Basis, descriptors_s: Array, target: Basis, descriptors_t: Array, block: int = 1024
 ) -> GramTerm:
     """Return the preservation of the features of a whole kernel (equation 8).
 
@@ -93,12 +88,7 @@ class HadamardCommutativity:
 
 
 def hadamard_term(
-    kernel: KernelLike,
-    source: Basis,
-    descriptors_s: Array,
-    target: Basis,
-    descriptors_t: Array,
-    block: int = 512,
+    kernel: KernelLike, source: Basis, descriptors_s: Array, target: Basis, descriptors_t: Array, block: int = 512
 ) -> HadamardCommutativity:
     """Return the commutativity with the operators of a whole kernel (equations 10 to 12).
 

@@ -13,11 +13,9 @@ from kfmaps._arrays import Array, blocks, check, is_numpy, namespace, refuse, to
 from kfmaps._threads import available_cores, parallel
 from kfmaps.fmap.approximate_nearest import N_PROBE, approximate_nearest
 
-_TREE_POINTS = 20_000
-"""Points beyond which a k-d tree is built."""
+_TREE_POINTS = 20_000  # points beyond which a k-d tree is built
 
-_TIE = 1e-12
-"""Relative difference below which two distances from the tree are compared anew."""
+_TIE = 1e-12  # relative difference below which two distances from the tree are compared anew
 
 EXACT_PAIRS = 10_000**2
 """Queries times points up to which the search is exact when nothing else is asked for."""

@@ -326,8 +326,5 @@ def rotate_gram(gram: Array, U: Array) -> Array:
 def check_same_count(a: Array, b: Array) -> None:
     if a.shape[1] != b.shape[1]:
         raise refuse(
-            "descriptors",
-            "the same number on both shapes",
-            f"{a.shape[1]} and {b.shape[1]}",
-            "compute both alike",
+            "descriptors", "the same number on both shapes", f"{a.shape[1]} and {b.shape[1]}", "compute both alike"
         )

@@ -16,12 +16,7 @@ from kfmaps.geometry.basis import Basis
 
 
 def transfer_functions(
-    values: Array,
-    C: Array,
-    source: Basis,
-    target: Basis,
-    products: int | None = 20,
-    ridge: float = 0.1,
+    values: Array, C: Array, source: Basis, target: Basis, products: int | None = 20, ridge: float = 0.1
 ) -> Array:
     """Return the images ``(n_t, d)`` on the target of functions on the source.
 

@@ -28,8 +28,7 @@ MAX_CANDIDATES, _CANDIDATES_PER_SAMPLE = 8_000, 2
 """Source points that steps on samples choose from, at most: in all, and for each sample of the target."""
 MAX_EXACT_PAIRS = 2_000_000
 """Pairs of points above which steps on samples search approximately."""
-_RIDGE = 0.1
-"""Damping of the least squares on samples, in units of their areas' sum."""
+_RIDGE = 0.1  # damping of the least squares on samples, in units of their areas' sum
 _PAIRS_PER_BATCH = 1_000_000
 """Pairs of points of the maps refined together by :func:`batched_zoomout`: score matrices that stay in the cache."""
 

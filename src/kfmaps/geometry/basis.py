@@ -18,8 +18,7 @@ from kfmaps.geometry.eigen.factorization import SparseMatrix
 from kfmaps.geometry.mesh import Mesh, check_is_mesh, vertex_areas
 from kfmaps.geometry.point_cloud import cloud_laplacian
 
-_MIN_ANGLE_RATIO = 1e-6
-"""Angle below which a face counts as one with longer edges, and how much longer they are."""
+_MIN_ANGLE_RATIO = 1e-6  # angle below which a face counts as one with longer edges, and how much longer they are
 
 
 @dataclass(frozen=True, eq=False)

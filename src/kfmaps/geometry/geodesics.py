@@ -32,14 +32,11 @@ from kfmaps.geometry.mesh import Mesh, check_is_mesh
 _METHODS = ("unfolded", "dijkstra", "heat")
 
 
-_FULL_SEARCHES = 100
-"""Points that :func:`pairwise_geodesics` searches all of the surface from."""
+_FULL_SEARCHES = 100  # points that :func:`pairwise_geodesics` searches all of the surface from
 
-_NEARBY = 0.25
-"""Distance at unit area up to which it searches from the others: a fifth of a body."""
+_NEARBY = 0.25  # distance at unit area up to which it searches from the others: a fifth of a body
 
-_SEARCHES = 64
-"""Farthest samples whose regions are large enough that a whole search is faster than a spreading front."""
+_SEARCHES = 64  # farthest samples whose regions are large enough that a whole search is faster than a spreading front
 
 
 def _indices(values: ArrayLike, n: int, name: str) -> np.ndarray:

@@ -12,8 +12,7 @@ from kfmaps._arrays import refuse
 from kfmaps.geometry.connectivity import component_labels, unique_vertices
 from kfmaps.geometry.eigen.factorization import SparseMatrix
 
-_NEIGHBOURS = 12
-"""Neighbours that a point is linked to."""
+_NEIGHBOURS = 12  # neighbours that a point is linked to
 
 
 def cloud_laplacian(points: np.ndarray) -> tuple[SparseMatrix, np.ndarray]:

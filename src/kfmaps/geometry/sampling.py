@@ -16,8 +16,7 @@ from kfmaps._arrays import check_count, like, take, to_numpy
 from kfmaps.geometry.basis import Basis, eigenvalue_tolerance
 from kfmaps.kernels.landmark_selection import farthest_descriptors
 
-_STRATA_DIMENSIONS = 8
-"""Coordinates of the embedding that strata are cut by."""
+_STRATA_DIMENSIONS = 8  # coordinates of the embedding that strata are cut by
 _POOL_SIZE = 8_000
 """Vertices that :func:`spectral_samples` chooses from, at most (but four times as many as it is to choose)."""
 _MIN_HALF_AREA = 0.15

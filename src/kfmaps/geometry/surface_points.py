@@ -20,8 +20,7 @@ from kfmaps.geometry.geodesic_graph import (
 )
 from kfmaps.geometry.mesh import Mesh, unit_rows
 
-_VERTEX_EDGES = 4
-"""Edges that a straight line from a point to a vertex may cross."""
+_VERTEX_EDGES = 4  # edges that a straight line from a point to a vertex may cross
 _DIRECT_EDGES = 16
 """Edges that a straight line from one point to the other may cross: farther ones go over vertices, at 0.3 % more."""
 

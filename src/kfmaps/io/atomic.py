@@ -16,8 +16,7 @@ from typing import Any
 
 from kfmaps._arrays import refuse
 
-_UNFINISHED = ".unfinished-"
-"""How the names of files begin that are still being written."""
+_UNFINISHED = ".unfinished-"  # how the names of files begin that are still being written
 
 _STREAMS = ("/dev/std", "/dev/fd/", "/proc/")
 """Names of what the process has open; a file put in the place of one would not be where its output goes."""

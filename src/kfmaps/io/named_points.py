@@ -163,10 +163,7 @@ def read_landmark_pairs(
 
 
 def read_given_landmarks(
-    files: Sequence[Path],
-    meshes: Sequence[Mesh],
-    mesh_files: Sequence[Path | None],
-    one_based: bool | None = None,
+    files: Sequence[Path], meshes: Sequence[Mesh], mesh_files: Sequence[Path | None], one_based: bool | None = None
 ) -> tuple[np.ndarray, list[str]]:
     """Read one file of pairs of vertices, or two files with the landmarks of either shape; pairs (l, 2) and names."""
     if len(files) == 2:

@@ -18,8 +18,7 @@ from kfmaps.matching.reindexing import reindexing
 from kfmaps.matching.result import Match
 from kfmaps.shape import prepare
 
-_N_FUNCTIONS = 100
-"""Size of the functional map where the file has none."""
+_N_FUNCTIONS = 100  # size of the functional map where the file has none
 
 
 def transfer(values_s: Any, target_to_source: Any, faces_s: np.ndarray | None = None, lost: Any = None) -> np.ndarray:

@@ -41,12 +41,7 @@ class Nystrom:
 
     def features(self, X: Array, block: int = 8192) -> Array:
         """Return the features ``W (n, r)`` of descriptors ``X (n, d)``, with ``W Wᵀ ≈ k(X, X)``."""
-        check(
-            X,
-            "descriptors",
-            shape=(None, self.samples.shape[1]),
-            remedy="use those that the samples come from",
-        )
+        check(X, "descriptors", shape=(None, self.samples.shape[1]), remedy="use those that the samples come from")
         rows = [
             kernel_matrix(self.kernel, X[part, :], self.samples) @ self.whitener for part in blocks(X.shape[0], block)
         ]

@@ -23,8 +23,7 @@ from kfmaps.fmap.preconditioners import sylvester
 from kfmaps.fmap.solvers import CG, Operator, Solution, solve
 from kfmaps.geometry.basis import Basis
 
-_KernelMatrix = Callable[[torch.Tensor, torch.Tensor], torch.Tensor]
-"""``(n, d), (m, d) ↦ (n, m)``."""
+_KernelMatrix = Callable[[torch.Tensor, torch.Tensor], torch.Tensor]  # ``(n, d), (m, d) ↦ (n, m)``
 
 _JITTER = 1e-8
 """Added to the diagonal of the samples' kernel matrix, in units of its mean, so that its Cholesky factor exists."""

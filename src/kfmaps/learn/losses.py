@@ -29,8 +29,7 @@ LOSSES = {
 }
 """Names and meanings of the losses; the first two need the truth."""
 
-_MAX_COUPLED = (400, 1000)
-"""Largest number of target and source points of the coupling loss."""
+_MAX_COUPLED = (400, 1000)  # largest number of target and source points of the coupling loss
 
 
 def functional_map(model: Model, pair: TrainingPair, solver: CG, operator_rtol: float = 0.0) -> torch.Tensor:

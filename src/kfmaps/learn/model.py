@@ -26,10 +26,8 @@ PARTS = {
 }
 """Names and meanings of what can be learned."""
 
-_RIDGE = 0.1
-"""Added to the variance between corresponding points, in units of the mean variance on a shape."""
-_GAMMA_RATIO = 6.0
-"""Ratio of one γ of a mixture to the previous, at the start."""
+_RIDGE = 0.1  # added to the variance between corresponding points, in units of the mean variance on a shape
+_GAMMA_RATIO = 6.0  # ratio of one γ of a mixture to the previous, at the start
 
 
 @dataclass(frozen=True)

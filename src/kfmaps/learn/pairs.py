@@ -22,8 +22,7 @@ from kfmaps.matching.features import pair_descriptors
 from kfmaps.matching.fit import check_landmark_pairs
 from kfmaps.shape import Shape, sample_shape
 
-_MAX_CORRESPONDENCES = 500
-"""Largest number of true correspondences of a pair at which errors are measured."""
+_MAX_CORRESPONDENCES = 500  # largest number of true correspondences of a pair at which errors are measured
 
 
 @dataclass(frozen=True, eq=False)

@@ -36,8 +36,7 @@ from kfmaps.matching.sample_pair import SamplePair, TwoLevelSamples
 from kfmaps.matching.score import SCORE, Candidate, select_distinct
 from kfmaps.shape import Shape
 
-_QUICK = 2
-"""Weights of the sign choices after which a search may end early: then the others are left out."""
+_QUICK = 2  # weights of the sign choices after which a search may end early: then the others are left out
 ROUGH, ROUGH_STEP = 40, 4
 """Functions at the end of the rough refinement, and how many more at each step."""
 FINE, FINE_FROM, FINE_STEP = 80, 20, 5

@@ -162,10 +162,7 @@ def fit(
 
 
 def fit_of_problem(
-    problem: FitProblem,
-    found: Minimised,
-    seconds: dict[str, float] | None = None,
-    weights: np.ndarray | None = None,
+    problem: FitProblem, found: Minimised, seconds: dict[str, float] | None = None, weights: np.ndarray | None = None
 ) -> Fit:
     """Return the record of what minimises a problem; see :class:`Fit` for the fields."""
     return Fit(

@@ -36,10 +36,7 @@ class LandmarkEvidence:
     def subsample(self, q_s: int, q_t: int) -> LandmarkEvidence:
         """Return the same at the first samples."""
         return LandmarkEvidence(
-            self.target,
-            self.distances[:, :q_s],
-            self.functions_s[:, :q_s],
-            self.functions_t[:, :q_t],
+            self.target, self.distances[:, :q_s], self.functions_s[:, :q_s], self.functions_t[:, :q_t]
         )
 
     def without(self, doubted: np.ndarray) -> LandmarkEvidence:

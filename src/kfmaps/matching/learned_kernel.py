@@ -26,8 +26,7 @@ from kfmaps.matching.sample_pair import SamplePair, TwoLevelSamples, descriptor_
 from kfmaps.matching.score import SCORE, Candidate
 from kfmaps.shape import Shape
 
-_WEIGHTS = (12.0, 12.0)
-"""Of the metric and of landmarks."""
+_WEIGHTS = (12.0, 12.0)  # of the metric and of landmarks
 
 
 def drop_learned(config: Config) -> Config:

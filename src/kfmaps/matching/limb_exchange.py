@@ -21,8 +21,7 @@ from kfmaps.matching.score import SCORE, Candidate
 _MAX_DIFFERENCE = 0.3
 """Difference of two extremities (:func:`extremity_difference`) up to which their limbs are exchanged. The legs of one
 side of an animal have 0.01 to 0.1, a leg and the head 0.25 and more."""
-_MAX_PAIRS = 4
-"""Pairs of limbs that are exchanged, the most alike."""
+_MAX_PAIRS = 4  # pairs of limbs that are exchanged, the most alike
 
 
 def exchange_limbs(best: Candidate, pair: SamplePair, threads: int | None = None) -> list[Candidate]:

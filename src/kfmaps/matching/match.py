@@ -13,13 +13,7 @@ from kfmaps._stage_timer import StageTimer
 from kfmaps.config import Config
 from kfmaps.fmap.descriptor_guidance import DescriptorGuidance, combine_guidance
 from kfmaps.geometry.mesh import Mesh
-from kfmaps.matching.finish import (
-    MatchTask,
-    better_match,
-    final_score,
-    refine_and_register,
-    torn_area_fraction,
-)
+from kfmaps.matching.finish import MatchTask, better_match, final_score, refine_and_register, torn_area_fraction
 from kfmaps.matching.fit import check_landmark_pairs, fit
 from kfmaps.matching.landmark_evidence import LANDMARK_WEIGHT, LANDMARK_WEIGHT_UNLIKE, build_guidance
 from kfmaps.matching.memory import check_match_memory
@@ -142,12 +136,7 @@ def _fit_once(task: MatchTask, landmarks: np.ndarray | None, descriptors: tuple[
     """The map of one fit, without a search."""
     shapes = task.shapes("preserving")
     one = fit(
-        *shapes,
-        task.config,
-        landmarks=landmarks,
-        descriptors=descriptors,
-        rng=task.seed,
-        progress=task.clock.report,
+        *shapes, task.config, landmarks=landmarks, descriptors=descriptors, rng=task.seed, progress=task.clock.report
     )
     task.clock.seconds.update(one.seconds)
     verdict = "unchecked" if landmarks is None else "landmarks"

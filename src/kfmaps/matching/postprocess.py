@@ -96,11 +96,7 @@ def refine_map(
             refine = partial(refine, guide=led or descriptor_guidance(source.shot, target.shot))
         with clock("refinement"):
             refined = refine(
-                C,
-                *bases,
-                progress=lambda done: clock.report("refinement", done),
-                threads=config.threads,
-                points=points,
+                C, *bases, progress=lambda done: clock.report("refinement", done), threads=config.threads, points=points
             )
     return PostprocessedMap(refined.target_to_source, to_numpy(refined.functional_map), points, clock.seconds)
 

@@ -29,8 +29,7 @@ from kfmaps.matching.score import SCORE, Quality
 from kfmaps.registration.evidence import coarse_copy
 from kfmaps.shape import Shape
 
-_POINTS = 1000
-"""Sample points on each shape."""
+_POINTS = 1000  # sample points on each shape
 COARSE = 300
 """The first of them, between which geodesic distances are compared."""
 SURFACE = 6000

@@ -125,11 +125,7 @@ def with_bending(found: list[Candidate], copies: ProxyCache, threads: int | None
 
 
 def merge_alternatives(
-    ranked: list[Candidate],
-    more: list[Candidate],
-    on: SamplePair,
-    copies: ProxyCache,
-    threads: int | None = None,
+    ranked: list[Candidate], more: list[Candidate], on: SamplePair, copies: ProxyCache, threads: int | None = None
 ) -> list[Candidate]:
     """``ranked``, and the best of ``more`` that is none of them: first where it is clearly better, else a rival."""
     others = [c for c in more if all(map_distance(c, one, on.source) > SCORE.distinct_distance for one in ranked)]

@@ -37,8 +37,7 @@ _OPTIONAL = (
     *("functional_map", "eigenvalues_source", "eigenvalues_target", "local_confidence", "config"),
 )
 """Fields that a map from a file or from a list of vertices may lack; asking for one of them is an error then."""
-_DPI = 72
-"""Resolution of the picture in a notebook."""
+_DPI = 72  # resolution of the picture in a notebook
 
 
 class NotKnown(InvalidInput, AttributeError):

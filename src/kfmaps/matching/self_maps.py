@@ -21,8 +21,7 @@ _MAX_DISTORTION = 0.12
 """Distortion up to which a self-map counts as a near-symmetry: bodies in any pose have 0.04 to 0.08, the next 0.2."""
 _MAX_CANDIDATES = 12
 """Self-maps of 14 functions, least distorted first, that are refined further: symmetries are among the best eight."""
-_MIN_DISPLACEMENT = 0.1
-"""Mean distance, in units of √area, by which it must move points; less is the identity."""
+_MIN_DISPLACEMENT = 0.1  # mean distance, in units of √area, by which it must move points; less is the identity
 
 
 def self_maps(of: ShapeSamples, functions: int, threads: int | None = None) -> list[np.ndarray]:

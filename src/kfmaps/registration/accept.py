@@ -18,8 +18,7 @@ _MAX_GAP = 0.02
 """Distance that may be left between the bent source and the target, in √area: right maps of one kind of body leave
 0.0006 to 0.003, right ones of a cat and a dog up to 0.0065, wrong ones up to 0.02 and a whole body on a part of one
 more."""
-_MIN_CHANGE = 0.2
-"""Change of the confidence of a vertex that counts: such vertices are harmed, or healed, by a fit."""
+_MIN_CHANGE = 0.2  # change of the confidence of a vertex that counts: such vertices are harmed, or healed, by a fit
 _MAX_WORSENED_AREA = 0.006
 """Share of the target's area that a right fit harms at most, fingertips mostly; above, what it harmed is held back."""
 

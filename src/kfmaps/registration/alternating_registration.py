@@ -24,16 +24,14 @@ from kfmaps.geometry.sampling import SampledBasis
 from kfmaps.registration.nonrigid_icp import NonRigid
 from kfmaps.shape import Shape
 
-_ROUNDS = 2
-"""Fits, each followed by a refinement on the copies."""
+_ROUNDS = 2  # fits, each followed by a refinement on the copies
 FIT = NonRigid(stiffness=5e-3, n_levels=2, steps=4, local_scaling=0.05)
 """Stiff, so that what is torn is not bent to fit; but limbs may be longer or thicker."""
 _REFINE = ZoomOut(start=20, stop=100, step=20, descriptor_weight=36.0)
 """On the copies; the high functions of shapes that differ much do not correspond."""
 WEIGHT = 10.0
 """Of where both lie beside SHOT."""
-_NORMAL_WEIGHT = 0.3
-"""Distance at unit area that counts as much as normals that differ by 1."""
+_NORMAL_WEIGHT = 0.3  # distance at unit area that counts as much as normals that differ by 1
 
 
 @dataclass(frozen=True, eq=False)

@@ -33,10 +33,8 @@ _QUICK, PATIENT = NonRigid(n_levels=2, steps=2, rotation_smoothing=0.0), NonRigi
 """The fits of all candidates, and of those that are close."""
 _MIN_ENERGY, _MAX_ENERGY = 1e-2, 10.0
 """Energies below which maps are alike, as of two meshes of one shape, and above which nothing is left of the shape."""
-_MIN_FACES = 12
-"""Faces below which there is nothing to bend."""
-_SAMPLE_STEP = 6
-"""Of a copy every so many vertices have SHOT."""
+_MIN_FACES = 12  # faces below which there is nothing to bend
+_SAMPLE_STEP = 6  # of a copy every so many vertices have SHOT
 
 
 @dataclass(frozen=True, eq=False)

@@ -19,10 +19,8 @@ from scipy.sparse import diags_array
 from kfmaps.geometry.arap import ArapEnergy, edge_covariances
 from kfmaps.geometry.eigen.factorization import factorize
 
-_DAMPING = 0.05
-"""Damping towards a change of size alike in all directions: flat surroundings say nothing of the third."""
-_MIN_FACTOR, _MAX_FACTOR = 0.4, 2.5
-"""The smallest and largest factor."""
+_DAMPING = 0.05  # damping towards a change of size alike in all directions: flat surroundings say nothing of the third
+_MIN_FACTOR, _MAX_FACTOR = 0.4, 2.5  # the smallest and largest factor
 
 
 def local_scaling(energy: ArapEnergy, areas: np.ndarray, area: float) -> Callable[[np.ndarray, np.ndarray], np.ndarray]:

@@ -14,22 +14,17 @@ from kfmaps._records import short_repr
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.geometry.similarity import similarity
 
-_BROADER = 1.15
-"""How much more of a shape a view that is not along one of the file's axes must show to be preferred."""
-_STEADIER = 1.4
-"""How much better than on y a shape must stand on z for z to be up."""
-_YAW, _PITCH = 20.0, 10.0
-"""Degrees by which the automatic view is turned aside and lifted, so that depth shows."""
-_SAME_VIEW = 45.0
-"""Degrees that a target may be turned against the source and still be seen from the same side."""
+_BROADER = 1.15  # how much more of a shape a view that is not along one of the file's axes must show to be preferred
+_STEADIER = 1.4  # how much better than on y a shape must stand on z for z to be up
+_YAW, _PITCH = 20.0, 10.0  # degrees by which the automatic view is turned aside and lifted, so that depth shows
+_SAME_VIEW = 45.0  # degrees that a target may be turned against the source and still be seen from the same side
 
 _LIKENESS = 0.6
 """Correlation between the turned source and the target above which a turn is believed; poses of one shape have 0.75."""
 _CLEARLY = 0.75
 """Part of the misfit of shapes as they lie that a turned one may have. Of 182 ordered pairs of scanned people in 14
 poses who all face one way, 3 % fit that much better when one is turned half round."""
-_SAMPLES = 800
-"""Points of each shape that this is measured on."""
+_SAMPLES = 800  # points of each shape that this is measured on
 
 
 @dataclass(frozen=True, eq=False)

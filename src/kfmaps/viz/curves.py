@@ -21,8 +21,7 @@ from kfmaps.viz.figures import TEXT, NotebookFigure
 # Okabe and Ito (2008): told apart without colour vision; the dashes do it in grey too.
 COLORS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#000000", "#56B4E9")
 _DASHES = ("solid", "dashed", "dashdot", "dotted")
-_N_THRESHOLDS = 251
-"""Points of a curve of :func:`plot_curve`."""
+_N_THRESHOLDS = 251  # points of a curve of :func:`plot_curve`
 
 
 @dataclass(frozen=True, eq=False)

@@ -31,11 +31,7 @@ def vertex_errors(source: Mesh, maps: Sequence[np.ndarray], truth_s: np.ndarray,
 
 
 def painted_errors(
-    source: Mesh,
-    target: Mesh,
-    target_to_source: np.ndarray,
-    truth_s: np.ndarray,
-    truth_t: np.ndarray,
+    source: Mesh, target: Mesh, target_to_source: np.ndarray, truth_s: np.ndarray, truth_t: np.ndarray
 ) -> np.ndarray:
     """Return the geodesic error at each target vertex, (n_t,), in √area of the source, without gaps.
 

@@ -19,8 +19,7 @@ from kfmaps.viz.colors import position_colors
 from kfmaps.viz.figures import LOST, TEXT, NotebookFigure
 from kfmaps.viz.surfaces import draw_surface
 
-_LABEL, _TITLE = 0.3, 0.45
-"""Height of a line of labels and of the title, in inches."""
+_LABEL, _TITLE = 0.3, 0.45  # height of a line of labels and of the title, in inches
 
 
 @dataclass(frozen=True, eq=False)

@@ -18,10 +18,8 @@ from kfmaps.viz.colors import error_colors, error_limit, position_colors
 from kfmaps.viz.figures import LOST, TEXT, NotebookFigure, add_error_bar
 from kfmaps.viz.surfaces import draw_surface
 
-_PANEL = 3.4
-"""Width of a panel in inches."""
-_BAR_PANEL = 4.2
-"""Width in inches of a panel with its colour bar."""
+_PANEL = 3.4  # width of a panel in inches
+_BAR_PANEL = 4.2  # width in inches of a panel with its colour bar
 _EACH = "give one per target vertex"
 
 
@@ -103,12 +101,7 @@ def match_figure(
         if labels:
             figure.text(middle, 0.15 / height, label, ha="center", va="bottom", color=TEXT, fontsize=text)
     if shown is not None:
-        place = (
-            1 - 0.8 * wide / width,
-            bottom + 0.15 * (top - bottom),
-            0.12 / width,
-            0.7 * (top - bottom),
-        )
+        place = (1 - 0.8 * wide / width, bottom + 0.15 * (top - bottom), 0.12 / width, 0.7 * (top - bottom))
         beyond = shown[carried >= 0].max(initial=0.0) > end
         add_error_bar(figure, place, end, f"geodesic error ({UNIT})", beyond=bool(beyond), text=text)
     if title:

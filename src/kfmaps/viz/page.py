@@ -58,8 +58,7 @@ def map_record(source: Mesh, target: Mesh, target_to_source: np.ndarray, label: 
     }
 
 
-_LOST = 160 / 255
-"""Grey of vertices without a counterpart, as in the page's script."""
+_LOST = 160 / 255  # grey of vertices without a counterpart, as in the page's script
 
 
 def verdict_record(summary: Mapping[str, Any]) -> dict[str, Any] | None:

@@ -22,8 +22,7 @@ from kfmaps.viz.server import LocalServer, Reply, json_reply, page_reply
 _Matcher = Callable[[np.ndarray, Progress], Match]
 """(landmarks (l, 2), progress) to a map, with all that is to be saved of it."""
 
-_LONGEST_NAME = 60
-"""Letters of a landmark's name."""
+_LONGEST_NAME = 60  # letters of a landmark's name
 
 
 def check_pairs(pairs: Any, source: Mesh, target: Mesh) -> np.ndarray:

@@ -20,10 +20,8 @@ from kfmaps.matching.result import Match
 from kfmaps.viz.errors import vertex_errors
 from kfmaps.viz.page import result_page
 
-_SIGNATURES = 12
-"""Wave kernel signatures shown, and ..."""
-_EIGENFUNCTIONS = 100
-"""... the eigenfunctions they are made from."""
+_SIGNATURES = 12  # wave kernel signatures shown, and ...
+_EIGENFUNCTIONS = 100  # ... the eigenfunctions they are made from.
 
 
 def _match_summary(match: Match) -> dict[str, Any]:

@@ -26,12 +26,9 @@ from kfmaps._arrays import InvalidInput, refuse
 from kfmaps.viz.document import to_json
 
 _LOOPBACK = "127.0.0.1"
-_LARGEST_REQUEST = 1 << 20
-"""Bytes of a request's body."""
-_MAX_SECONDS = 30.0
-"""For the head of a request, its body and the answer each, however the bytes are spread."""
-_WAITING_CONNECTIONS = 256
-"""The system turns away who comes when as many wait to be let in."""
+_LARGEST_REQUEST = 1 << 20  # bytes of a request's body
+_MAX_SECONDS = 30.0  # for the head of a request, its body and the answer each, however the bytes are spread
+_WAITING_CONNECTIONS = 256  # the system turns away who comes when as many wait to be let in
 
 _HEADERS = {
     "Cache-Control": "no-store",

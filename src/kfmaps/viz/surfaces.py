@@ -15,10 +15,8 @@ from kfmaps.viz.camera import View, automatic_view
 _LIGHTS = (((-0.45, 0.65, 0.75), 0.40), ((0.8, 0.1, 0.55), 0.12))
 """Direction (right, up, towards the camera) and strength of the lamps."""
 _AMBIENT = 0.58
-_SKY = 0.06
-"""How much lighter what faces up is than what faces down, before any lamp."""
-_ENOUGH = 24000
-"""Triangles of even colour below which each is divided into four, so that none is seen as such."""
+_SKY = 0.06  # how much lighter what faces up is than what faces down, before any lamp
+_ENOUGH = 24000  # triangles of even colour below which each is divided into four, so that none is seen as such
 
 
 def _is_watertight(faces: np.ndarray, count: int) -> bool:

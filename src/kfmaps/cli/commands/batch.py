@@ -29,10 +29,8 @@ from kfmaps.io.atomic import write_text
 from kfmaps.settings.options import Chosen, with_settings
 from kfmaps.settings.toml import settings_text
 
-_TOML = "settings.toml"
-"""In the output folder, for ``kfmaps match --config``."""
-_MANY = 20
-"""Pairs from which it is told before what they need."""
+_TOML = "settings.toml"  # in the output folder, for ``kfmaps match --config``
+_MANY = 20  # pairs from which it is told before what they need
 _FAILED, INTERRUPTED = 1, 130
 """Exit status when a pair failed, and after Ctrl-C."""
 

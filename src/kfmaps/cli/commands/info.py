@@ -72,8 +72,7 @@ def _rows(facts: dict[str, Any]) -> list[tuple[str, str]]:
 
 
 def info(
-    meshes: Annotated[list[Path], typer.Argument(help="Meshes or point clouds.", metavar="MESH")],
-    json: Json = False,
+    meshes: Annotated[list[Path], typer.Argument(help="Meshes or point clouds.", metavar="MESH")], json: Json = False
 ) -> None:
     """Show what is in files: vertices, faces, components, area, genus, defects."""
     if len(meshes) == 1:

@@ -31,8 +31,7 @@ if TYPE_CHECKING:
 _PARTS = "gamma, ard, metric, mixture, terms, network"
 _LOSSES = "geodesic, supervised, orthogonality, cycle, commutativity, coupling"
 _WITH_TRUTH = ("gamma,metric,terms", "geodesic")
-_WITHOUT_TRUTH = ("gamma,ard,terms", "orthogonality=0.05,cycle=0.05,coupling")
-"""Default parts and losses."""
+_WITHOUT_TRUTH = ("gamma,ard,terms", "orthogonality=0.05,cycle=0.05,coupling")  # default parts and losses
 
 NUMBERS: dict[str, int | float] = {
     **{"pairs": 32, "held_out_pairs": 6, "epochs": 5, "batch": 2, "rate": 0.1, "patience": 3},
@@ -43,10 +42,8 @@ NUMBERS: dict[str, int | float] = {
 _RANK = {"signature": 2, "landmark": 1, "shot": 2}
 _RANK_ALONE = {"signature": 4, "landmark": 1, "shot": 28}
 """Automatic numbers of rows of the metric with landmarks, and without."""
-_N_SPECTRAL_ALONE = 30
-"""Spectral descriptors without landmarks, as many as the search's own fits have."""
-_MAX_SAMPLES = 2500
-"""Points of each shape that learning fits maps from; matches take as many as the settings say."""
+_N_SPECTRAL_ALONE = 30  # spectral descriptors without landmarks, as many as the search's own fits have
+_MAX_SAMPLES = 2500  # points of each shape that learning fits maps from; matches take as many as the settings say
 
 
 @with_settings

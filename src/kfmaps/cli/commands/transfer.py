@@ -102,13 +102,7 @@ def _both(found: Match, map: Path, given: tuple[Path | None, Path | None]) -> tu
 
 
 def _points(
-    found: Match,
-    map: Path,
-    values: Path,
-    output: Path,
-    back: bool,
-    given: tuple[Path | None, Path | None],
-    force: bool,
+    found: Match, map: Path, values: Path, output: Path, back: bool, given: tuple[Path | None, Path | None], force: bool
 ) -> None:
     source, target, ways = _both(found, map, given)
     trust = getattr(found, "local_confidence", None)

@@ -25,8 +25,7 @@ EXACT = 1e-10
 _MAX_LOOSE_RESIDUAL = 1e-2
 """What a solution in single precision may leave of the right-hand side; 3e-6 is usual at 80,000 rows."""
 
-_LOOSE_SHIFT = 10.0
-"""Shift of a loose search, in units of the usual one."""
+_LOOSE_SHIFT = 10.0  # shift of a loose search, in units of the usual one
 
 
 THREADED = 50_000

@@ -30,11 +30,9 @@ WIDTH = 8
 """Vectors in a block. Wider ones need more vectors in all, narrower ones more passes over basis and factor."""
 
 
-_ROWS = 16384
-"""Rows of the tall products that are worked on together: they fit the cache and can go to threads."""
+_ROWS = 16384  # rows of the tall products that are worked on together: they fit the cache and can go to threads
 
-_EQUAL_RTOL = 1e-9
-"""Relative difference below which two eigenvalues count as copies of one."""
+_EQUAL_RTOL = 1e-9  # relative difference below which two eigenvalues count as copies of one
 
 
 LOOSE = 1e-6

@@ -31,8 +31,7 @@ from kfmaps.matching.score import SCORE, PartEvidence, part_score, select_distin
 
 _SCALE_RATIOS = (1.0, 1.1, 1 / 1.1)
 """Scales that are tried, against that of the placement: a wrong one has a scale of its own."""
-_ROUNDS = (2, 5)
-"""How often candidates are refined, at least and at most."""
+_ROUNDS = (2, 5)  # how often candidates are refined, at least and at most
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,10 +55,7 @@ def make_candidate(placement: Placement, pair: PartPair) -> PartCandidate:
     trust = np.maximum(placement.placed.trust, 0.01)
     found = register_part(pair, placement.scale, points, normals, trust, quick=True)
     evidence = replace(
-        placement.evidence,
-        deformation_energy=found.deformation_energy,
-        gap=found.gap,
-        flipped_area=found.flipped_area,
+        placement.evidence, deformation_energy=found.deformation_energy, gap=found.gap, flipped_area=found.flipped_area
     )
     return PartCandidate(placement, found, found.places.points[pair.part.samples], evidence, part_score(evidence))
 

@@ -26,8 +26,7 @@ from kfmaps.matching.partial.scale_search import (
 )
 from kfmaps.matching.score import select_distinct
 
-_MIN_SCALE_RATIO = 1.12
-"""Ratio of scales from which two are worth a trial each."""
+_MIN_SCALE_RATIO = 1.12  # ratio of scales from which two are worth a trial each
 
 
 @dataclass(frozen=True, eq=False)

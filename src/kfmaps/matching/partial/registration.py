@@ -28,8 +28,7 @@ from kfmaps.registration.deformable import (
 
 _STIFFNESS = (2e-3, 6e-4, 2e-4, 6e-5, 2e-5)
 """Stiffness of the levels, in areas of the whole; a quick registration has the first three."""
-_BEYOND = 0.01
-"""Distance from an edge of the whole, in its √area, at which a point counts as lying beyond it."""
+_BEYOND = 0.01  # distance from an edge of the whole, in its √area, at which a point counts as lying beyond it
 _OVERLAP_WIDTH = 0.02
 """Distance between the surfaces, in √area of the whole, at which a common point is as likely as not."""
 
