@@ -30,7 +30,7 @@ from automatic import mesh_file, read
 
 import kfmaps
 from kfmaps import datasets
-from kfmaps._stage_timer import StageTimer
+from kfmaps._progress import StageTimer
 from kfmaps.fmap.evaluate import precise_errors, smoothness
 from kfmaps.fmap.precise import PointMap, nearest_surface_points, point_positions
 from kfmaps.geometry.closest_points import closest_points

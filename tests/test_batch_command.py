@@ -10,9 +10,7 @@ import numpy as np
 import pytest
 
 from collecting import LANDMARKS, touch, write_collection
-from kfmaps.batch.progress import estimate
 from kfmaps.cli.main import main
-from kfmaps.config import Config
 from kfmaps.io import load_map, read_vertex_numbers, write_landmarks
 
 GUARDS = ("kfmaps.matching.memory",)
@@ -168,16 +166,3 @@ def test_a_graph_of_pairs_that_agree(folder: Path, tmp_path: Path, capsys: pytes
         "distances.csv",
         "latent.npz",
     }
-
-
-def test_what_is_needed_grows_with_the_work() -> None:
-    one = estimate(100, 300, 5000, Config(), 2)
-    assert estimate(200, 600, 5000, Config(), 2).seconds == pytest.approx(2 * one.seconds)
-    assert estimate(200, 600, 5000, Config(), 2).disk == pytest.approx(2 * one.disk)
-    assert estimate(100, 300, 5000, Config(), 4).memory == pytest.approx(2 * one.memory)
-    assert estimate(100, 300, 5000, Config.single_fit(), 2).seconds < one.seconds
-    fit, agreed = (estimate(100, 300, 5000, Config.single_fit(), 2, consistent=c) for c in (False, True))
-    assert agreed.seconds > fit.seconds
-    assert agreed.disk > fit.disk + 100 * 5e6
-    assert estimate(100, 300, 5000, Config(), 2, consistent=True).disk == one.disk
-    assert str(one).startswith("3.0 GB on disk")

@@ -20,7 +20,6 @@ FLOORS = {
     "descriptors": 4,
     "fmap": 5,
     "config": 6,
-    "_stage_timer": 6,
     "shape": 6,
     "registration": 6,
     "matching": 9,

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from kfmaps import datasets
-from kfmaps._stage_timer import StageTimer
+from kfmaps._progress import StageTimer
 from kfmaps.fmap.precise import PointMap, point_positions, vertex_point_map
 from kfmaps.geometry.arap import build_arap, nearest_rotations, rotations
 from kfmaps.geometry.mesh import Mesh, unit_area, vertex_areas

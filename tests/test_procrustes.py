@@ -9,11 +9,11 @@ from scipy.spatial import procrustes
 from scipy.stats import special_ortho_group
 
 from kfmaps._arrays import InvalidInput
+from kfmaps.collection.differences import components
 from kfmaps.collection.procrustes import (
     generalized_procrustes,
     geometric_median,
     is_mirror_image,
-    principal_components,
     thin_plate_warp,
 )
 from kfmaps.geometry.similarity import similarity
@@ -83,12 +83,12 @@ def test_missing_landmarks_have_no_say(shapes: np.ndarray) -> None:
 
 def test_components_are_those_of_the_covariance(shapes: np.ndarray) -> None:
     aligned = generalized_procrustes(shapes).aligned
-    found = principal_components(aligned)
+    found = components(aligned)
     flat = aligned.reshape(12, -1)
     values = np.sort(np.linalg.eigvalsh(np.cov(flat.T)))[::-1]
     np.testing.assert_allclose(found.variances, values[: len(found.variances)], atol=1e-12)
     np.testing.assert_allclose(found.variances, found.scores.var(axis=0, ddof=1))
-    loads = found.loadings.reshape(len(found.variances), -1)
+    loads = found.directions.reshape(len(found.variances), -1)
     np.testing.assert_allclose(loads @ loads.T, np.eye(len(loads)), atol=1e-9)
     np.testing.assert_allclose(flat.mean(axis=0) + found.scores @ loads, flat, atol=1e-9)
     assert (loads[np.arange(len(loads)), np.abs(loads).argmax(axis=1)] > 0).all()

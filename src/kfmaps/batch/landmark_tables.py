@@ -9,7 +9,8 @@ import numpy as np
 
 from kfmaps.batch.results import write_rows
 from kfmaps.batch.transfer_landmarks import SpecimenLandmarks, Template
-from kfmaps.collection.procrustes import generalized_procrustes, principal_components, thin_plate_warp
+from kfmaps.collection.differences import components
+from kfmaps.collection.procrustes import generalized_procrustes, thin_plate_warp
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.io import write_mesh
 from kfmaps.io.landmark_files import LandmarkSet, landmark_suffix, wide_rows, write_landmark_sets
@@ -55,7 +56,7 @@ def _write_shape(folder: Path, study: Sequence[SpecimenLandmarks], template: Tem
     study, points = [study[int(i)] for i in rows], points[np.ix_(rows, columns)]
     names = [study[0].points.names[i] for i in columns]
     found = generalized_procrustes(points)
-    parts = principal_components(found.aligned)
+    parts = components(found.aligned)
     titles = [f"PC{i + 1}" for i in range(len(parts.variances))]
     folder.mkdir(parents=True, exist_ok=True)
     aligned = [LandmarkSet(tuple(names), x, one.specimen) for x, one in zip(found.aligned, study, strict=True)]
@@ -64,18 +65,17 @@ def _write_shape(folder: Path, study: Sequence[SpecimenLandmarks], template: Tem
     table = [[one.specimen, size, far, *row] for one, size, far, row in scores]
     write_rows(folder / "pca_scores.csv", [["specimen", "centroid_size", "distance", *titles], *table])
     loads = [
-        [name, axis, found.consensus[i, j], *parts.loadings[:, i, j]]
+        [name, axis, found.consensus[i, j], *parts.directions[:, i, j]]
         for i, name in enumerate(names)
         for j, axis in enumerate("xyz")
     ]
     write_rows(folder / "pca_loadings.csv", [["name", "axis", "consensus", *titles], *loads])
-    share = parts.variances / max(parts.variances.sum(), 1e-300)
-    variance = [[title, v, s] for title, v, s in zip(titles, parts.variances, share, strict=True)]
+    variance = [[title, v, s] for title, v, s in zip(titles, parts.variances, parts.parts, strict=True)]
     write_rows(folder / "pca_variance.csv", [["component", "variance", "fraction"], *variance])
     base = template.points.points[columns]
     if np.isfinite(base).all():
         for sign, word in ((-1, "minus"), (1, "plus")):
-            extreme = found.consensus + sign * EXTREME * np.sqrt(parts.variances[0]) * parts.loadings[0]
+            extreme = found.consensus + sign * EXTREME * np.sqrt(parts.variances[0]) * parts.directions[0]
             warped = Mesh(thin_plate_warp(template.mesh.vertices, base, extreme), template.mesh.faces)
             write_mesh(folder / f"PC1_{word}.ply", warped, force=True)
     return [folder / "pca_scores.csv", folder / "procrustes.csv"]

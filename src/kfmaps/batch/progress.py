@@ -1,4 +1,4 @@
-"""How a run stands: what it will need, how long the rest will take, what it says on the terminal and in its log."""
+"""How a run stands: how long the rest will take, what it says on the terminal and in its log."""
 
 from __future__ import annotations
 
@@ -14,19 +14,9 @@ from rich.text import Text
 from kfmaps.batch.results import Result
 from kfmaps.cli.terminal import Terminal
 from kfmaps.cli.words import format_seconds
-from kfmaps.config import Config
 
 _LOG = "run.log"
 _LINE_SECONDS = 30.0  # seconds between lines where there is no terminal
-_SHOT_SIZE = 352  # numbers of SHOT at each vertex
-_SAMPLE_BYTES, _MAP_BYTES = 6e6, 230.0
-"""Disk: what a search keeps of one shape, whatever its size; a map's file for each target vertex."""
-_WORKER_BYTES, _VERTEX_BYTES = 0.22e9, 42e3
-"""Memory of a worker, and for each vertex of a shape: 0.43 GB was measured with 5,000."""
-_PREPARE_SECONDS, _SEARCH_SECONDS, _FIT_SECONDS, _AGREE_SECONDS = 0.6e-3, 1.8e-3, 0.5e-3, 0.18e-3
-"""CPU seconds for each vertex: of a shape, and of a pair by a search, by one fit, and to make the maps agree. Measured
-on shapes of 5,000 vertices; machines differ."""
-_MIN_SEARCH_SECONDS = 2.0
 
 
 @dataclass(frozen=True)
@@ -82,40 +72,6 @@ def remaining_seconds(
             total += left * mean
             longest += mean if pairs_left else 0.0
     return max(total / workers, longest)
-
-
-@dataclass(frozen=True)
-class _Estimate:
-    """What a run will need: bytes on ``disk`` and of ``memory`` of all workers together, and ``seconds``."""
-
-    disk: float
-    memory: float
-    seconds: float
-
-    def __str__(self) -> str:
-        return f"{_size(self.disk)} on disk, {_size(self.memory)} of memory and {format_seconds(self.seconds)}"
-
-
-def estimate(
-    shapes: int, pairs: int, vertices: int, config: Config, workers: int, *, consistent: bool = False
-) -> _Estimate:
-    """Return an estimate of what a run needs; linear in all sizes.
-
-    ``shapes``, ``pairs`` and ``vertices``: numbers of shapes and pairs, and of vertices of a shape; ``consistent``:
-    whether the maps are made to agree in the end; they are scored by what a search would know of the shapes.
-    """
-    searched = config.search is not None
-    shape = 8.0 * vertices * (config.n_eigenfunctions + _SHOT_SIZE * config.descriptors.shot)
-    disk = shapes * (shape + _SAMPLE_BYTES * (searched or consistent)) + pairs * _MAP_BYTES * vertices
-    each = max(_SEARCH_SECONDS * vertices, _MIN_SEARCH_SECONDS) if searched else _FIT_SECONDS * vertices
-    each += _AGREE_SECONDS * vertices if consistent else 0.0
-    total = pairs * each + shapes * _PREPARE_SECONDS * vertices
-    memory = workers * (_WORKER_BYTES + _VERTEX_BYTES * vertices)
-    return _Estimate(disk, memory, total / max(min(workers, pairs), 1))
-
-
-def _size(count: float) -> str:
-    return f"{count / 1e9:.1f} GB" if count >= 1e8 else f"{count / 1e6:.0f} MB"
 
 
 def log_to(folder: Path) -> Callable[[str], None]:

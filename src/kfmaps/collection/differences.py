@@ -231,31 +231,33 @@ class Components:
     ----------
     scores : (n, c) float64
         Where each shape lies along each component; mean 0.
+    directions : (c, m, d) float64
+        The matrices that they stand for, orthonormal; the largest entry of each is positive.
+    variances : (c,) float64
+        Variance of the scores, largest first.
     parts : (c,) float64
-        Part of the variance that each explains, descending.
-    directions : (c, m, m) float64
-        The matrices that they stand for, of length 1.
-    mean : (m, m) float64
+        Part of the whole variance that each explains.
+    mean : (m, d) float64
     """
 
     scores: np.ndarray
-    parts: np.ndarray
     directions: np.ndarray
+    variances: np.ndarray
+    parts: np.ndarray
     mean: np.ndarray
 
 
-def components(matrices: np.ndarray, count: int = 5) -> Components:
+def components(matrices: np.ndarray, count: int | None = None) -> Components:
     """Return the principal components of a collection.
 
-    ``mean + Σ scores · directions`` is the best approximation of that many components. Each direction's largest entry
-    is positive, so that signs mean the same from run to run.
+    ``mean + Σ scores · directions`` is the best approximation of that many components.
 
     Parameters
     ----------
-    matrices : (n, m, m)
-        One of each shape, see :func:`operators`.
-    count : int
-        Components at most; there are fewer than shapes.
+    matrices : (n, m, d)
+        One of each shape: of :func:`operators`, or aligned landmarks.
+    count : int, optional
+        Components at most; by default those with a variance above rounding. There are fewer than shapes.
 
     Returns
     -------
@@ -267,18 +269,20 @@ def components(matrices: np.ndarray, count: int = 5) -> Components:
         When the matrices are of another shape or not finite.
     """
     check(matrices, "matrices", shape=(None, None, None), finite=True)
-    n, m = matrices.shape[:2]
-    check_count(count, "components")
+    n = len(matrices)
     mean = matrices.mean(axis=0)
-    rows = (matrices - mean).reshape(n, -1)
-    left, sizes, right = np.linalg.svd(rows, full_matrices=False)
-    kept = min(count, n - 1, len(sizes))
-    whole = (sizes**2).sum()
-    flip = np.sign(right[np.arange(kept), np.abs(right[:kept]).argmax(axis=1)])
-    flip = np.where(flip == 0, 1.0, flip)
-    parts = sizes[:kept] ** 2 / whole if whole > 0 else np.zeros(kept)
-    scores = left[:, :kept] * sizes[:kept] * flip
-    return Components(scores, parts, (right[:kept] * flip[:, None]).reshape(kept, m, m), mean)
+    left, sizes, right = np.linalg.svd((matrices - mean).reshape(n, -1), full_matrices=False)
+    own = int((sizes > 1e-10 * max(sizes[0], 1e-300)).sum()) if count is None else check_count(count, "components")
+    kept = min(own, n - 1, len(sizes))
+    flip = np.where(right[np.arange(kept), np.abs(right[:kept]).argmax(axis=1)] < 0, -1.0, 1.0)
+    squares, whole = sizes[:kept] ** 2, (sizes**2).sum()
+    return Components(
+        left[:, :kept] * sizes[:kept] * flip,
+        (right[:kept] * flip[:, None]).reshape(kept, *mean.shape),
+        squares / max(n - 1, 1),
+        squares / whole if whole > 0 else np.zeros(kept),
+        mean,
+    )
 
 
 def density(matrices: np.ndarray, shape: LimitShape, number: int, basis: Basis) -> np.ndarray:

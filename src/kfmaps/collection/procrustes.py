@@ -1,4 +1,4 @@
-"""Generalised Procrustes analysis of landmarks, principal components of their shapes, and robust means of points."""
+"""Generalised Procrustes analysis of landmarks, warps, and robust means of points."""
 
 from __future__ import annotations
 
@@ -86,27 +86,6 @@ def _aligned(points: np.ndarray, seen: np.ndarray, consensus: np.ndarray) -> np.
         return _unit(points) @ turn
     placed = scale * points @ turn + shift
     return _unit(np.where(seen[:, None], placed, consensus))
-
-
-@dataclass(frozen=True, eq=False)
-class PrincipalComponents:
-    """Principal components of shapes."""
-
-    scores: np.ndarray  # (s, c)
-    loadings: np.ndarray  # (c, l, 3): orthonormal directions; the largest coordinate of each is positive
-    variances: np.ndarray  # (c,): variance of the scores, largest first
-
-
-def principal_components(aligned: np.ndarray) -> PrincipalComponents:
-    """Return the principal components of aligned shapes (s, l, 3): those with a variance above rounding."""
-    flat = aligned.reshape(len(aligned), -1)
-    left, values, right = np.linalg.svd(flat - flat.mean(axis=0), full_matrices=False)
-    count = int((values > 1e-10 * max(values.max(initial=0.0), 1e-300)).sum()) if len(flat) > 1 else 0
-    count = min(count, len(flat) - 1)
-    sign = np.array([np.sign(row[np.abs(row).argmax()]) for row in right[:count]]).reshape(-1)
-    scores = left[:, :count] * values[:count] * sign
-    variances = values[:count] ** 2 / max(len(flat) - 1, 1)
-    return PrincipalComponents(scores, (right[:count] * sign[:, None]).reshape(count, *aligned.shape[1:]), variances)
 
 
 def thin_plate_warp(points: np.ndarray, landmarks: np.ndarray, onto: np.ndarray) -> np.ndarray:

@@ -8,8 +8,7 @@ from typing import Any, Literal
 import numpy as np
 
 from kfmaps._arrays import seed_of, to_numpy
-from kfmaps._progress import Progress
-from kfmaps._stage_timer import StageTimer
+from kfmaps._progress import Progress, StageTimer
 from kfmaps.config import Config
 from kfmaps.fmap.convert import check_point_map, to_functional
 from kfmaps.fmap.descriptor_guidance import DescriptorGuidance

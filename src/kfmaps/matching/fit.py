@@ -11,8 +11,7 @@ from typing import Any
 import numpy as np
 
 from kfmaps._arrays import refuse, seed_of, to_numpy
-from kfmaps._progress import Progress
-from kfmaps._stage_timer import StageTimer
+from kfmaps._progress import Progress, StageTimer
 from kfmaps._threads import one_blas_thread
 from kfmaps.config import Config
 from kfmaps.descriptors.spectral import check_landmarks

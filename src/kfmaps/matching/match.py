@@ -8,8 +8,7 @@ from typing import Any
 import numpy as np
 
 from kfmaps._arrays import seed_of
-from kfmaps._progress import Progress
-from kfmaps._stage_timer import StageTimer
+from kfmaps._progress import Progress, StageTimer
 from kfmaps.config import Config
 from kfmaps.fmap.descriptor_guidance import DescriptorGuidance, combine_guidance
 from kfmaps.geometry.mesh import Mesh

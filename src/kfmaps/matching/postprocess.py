@@ -9,8 +9,7 @@ from typing import Any
 import numpy as np
 
 from kfmaps._arrays import like, to_numpy
-from kfmaps._progress import Progress
-from kfmaps._stage_timer import StageTimer
+from kfmaps._progress import Progress, StageTimer
 from kfmaps._threads import one_blas_thread
 from kfmaps.config import Config
 from kfmaps.fmap.convert import to_points

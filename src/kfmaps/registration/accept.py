@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from kfmaps._stage_timer import StageTimer
+from kfmaps._progress import StageTimer
 from kfmaps.config import Config
 from kfmaps.fmap.confidence import build_local_distortion
 from kfmaps.fmap.precise import PointMap, nearest_vertices

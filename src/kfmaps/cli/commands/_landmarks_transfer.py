@@ -78,7 +78,7 @@ def transfer(
     spec = RunSpec(settings.config(Config()), landmark_files=False)
     plan = make_plan(collection, template_pairs(templates, collection), spec, output / MATCHES)
     with RunReport(quiet or json) as report:
-        report.say(describe_plan(plan, count, False))
+        report.say(describe_plan(plan))
         outcome = run_batch(
             plan,
             workers=count,

@@ -2,35 +2,29 @@
 
 from __future__ import annotations
 
-import warnings
-from collections.abc import Sequence
 from dataclasses import asdict
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
-from kfmaps._arrays import InvalidInput, KfmapsWarning, check_count, refuse
-from kfmaps._threads import available_cores
+from kfmaps._arrays import check_count, refuse
 from kfmaps.batch.consistent import ConsistentResult
 from kfmaps.batch.jobs import WorkerPool
 from kfmaps.batch.layout import Pair, choose_pairs, find_collection
 from kfmaps.batch.plan import GRAPHS, Plan, graph_pairs, make_plan, recommended_config
-from kfmaps.batch.progress import RunReport, estimate
+from kfmaps.batch.progress import RunReport
 from kfmaps.batch.results import summarize
 from kfmaps.batch.run import BatchResult, run_batch
 from kfmaps.batch.run_spec import RunSpec
-from kfmaps.batch.work import PairTask
 from kfmaps.cli.options import UNSURE, Identity, Json, Quiet, Require, Workers, check_required, meets
 from kfmaps.cli.terminal import print_json
 from kfmaps.cli.words import UNIT, percent
-from kfmaps.io import read_mesh
 from kfmaps.io.atomic import write_text
 from kfmaps.settings.options import Chosen, with_settings
 from kfmaps.settings.toml import settings_text
 
 _TOML = "settings.toml"  # in the output folder, for ``kfmaps match --config``
-_MANY = 20  # pairs from which it is told before what they need
 _FAILED, INTERRUPTED = 1, 130
 """Exit status when a pair failed, and after Ctrl-C."""
 
@@ -89,7 +83,7 @@ def batch(
         plan = make_plan(collection, listed, spec, output, retry_failed=retry_failed)
         if not (plan.folder / _TOML).exists():
             write_text(plan.folder / _TOML, settings_text(config))
-        report.say(describe_plan(plan, count, consistent))
+        report.say(describe_plan(plan))
         outcome = run_batch(
             plan,
             workers=count,
@@ -131,33 +125,14 @@ def _lines(text: str | None) -> tuple[int, ...]:
         raise refuse("--landmarks", expected, repr(text), "count lines from 1, or say none") from error
 
 
-def describe_plan(plan: Plan, workers: int | None, consistent: bool) -> str:
-    """Return what there is to do, and for many pairs what that needs."""
+def describe_plan(plan: Plan) -> str:
+    """Return what there is to do."""
     count = len(plan.tasks)
-    parts = [f"{count} pair{'' if count == 1 else 's'} of {_n_shapes(plan.tasks)} shapes"]
+    shapes = len({name for task in plan.tasks for name in (task.pair.source, task.pair.target)})
+    parts = [f"{count} pair{'' if count == 1 else 's'} of {shapes} shapes"]
     parts += [f"{len(plan.results)} done already"] if plan.results else []
     parts += [f"{plan.changed} to do again since their files have changed"] if plan.changed else []
-    if len(plan.todo) >= _MANY and (vertices := _n_vertices(plan)):
-        count = available_cores() if workers is None else workers
-        sizes = _n_shapes(plan.todo), len(plan.todo), vertices
-        need = estimate(*sizes, plan.spec.config, count, consistent=consistent)
-        workers_text = "1 worker" if count == 1 else f"{count} workers"
-        parts.append(f"about {need} for shapes of {vertices:,} vertices and {workers_text}; machines differ")
     return ", ".join(parts)
-
-
-def _n_shapes(tasks: Sequence[PairTask]) -> int:
-    return len({name for task in tasks for name in (task.pair.source, task.pair.target)})
-
-
-def _n_vertices(plan: Plan) -> int:
-    """Of the first shape that is to be matched; 0 where it cannot be read, which is told with its pairs."""
-    try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore", KfmapsWarning)
-            return len(read_mesh(plan.todo[0].source.path).vertices)
-    except (InvalidInput, OSError):
-        return 0
 
 
 def _describe_outcome(plan: Plan, outcome: BatchResult) -> list[str]:
