@@ -38,7 +38,7 @@ from kfmaps.learn import (  # noqa: E402
     training_pair,
 )
 from kfmaps.learn import PARTS as PARTS_OF_MODEL  # noqa: E402
-from kfmaps.learn.model import columns  # noqa: E402
+from kfmaps.learn.model import _blocks  # noqa: E402
 
 CONFIG = replace(
     Config.single_fit(),
@@ -147,7 +147,7 @@ def test_gradient_of_a_loss_is_its_difference(parts, lessons):
 
 def test_landmarks_share_their_weights(lessons):
     """Whichever point is the first landmark, what was learned is the same."""
-    kinds = columns(CONFIG.descriptors, 2, lessons[0].descriptors_s.shape[1])
+    kinds = _blocks(CONFIG.descriptors, 2, lessons[0].descriptors_s.shape[1])
     assert kinds.kinds.count("landmark") == 2
     assert kinds.count == 10
     kernel = shaken(Model(CONFIG, lessons, ["ard"])).settings().kernel
@@ -210,12 +210,12 @@ def test_the_rate_falls_to_zero(lessons):
 
 def test_columns_of_every_kind():
     config = DescriptorConfig(n_spectral=20)
-    found = columns(config, 3, 20 + 352)
+    found = _blocks(config, 3, 20 + 352)
     assert found.kinds == ("signature", "landmark", "landmark", "landmark", "shot")
     assert found.blocks[-1] == tuple(range(20, 372))
-    assert columns(replace(config, signature="none"), 0, 352).kinds == ("shot",)
+    assert _blocks(replace(config, signature="none"), 0, 352).kinds == ("shot",)
     nth = DescriptorConfig(n_spectral=20, energy_sampling="every-nth", shot=False)
-    assert columns(nth, 3, 20).kinds == ("signature",)
+    assert _blocks(nth, 3, 20).kinds == ("signature",)
 
 
 def test_it_learns_stops_and_resumes_alike(lessons, tmp_path):

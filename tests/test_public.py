@@ -5,10 +5,12 @@ from __future__ import annotations
 import ast
 import dataclasses
 import importlib
+import inspect
+import re
 import subprocess
 import sys
 from collections import defaultdict
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import numpy as np
@@ -19,6 +21,22 @@ from conftest import blob
 from kfmaps.datasets.pairs import ExamplePair
 
 STUB = Path(str(kfmaps.__file__)).with_suffix(".pyi")
+API = Path(__file__).parent.parent / "docs" / "api"
+DIRECTIVE = re.compile(r"^\.\. auto(\w+):: (\S+)((?:\n   :.*)*)", re.MULTILINE)
+RECORDS = {
+    "Basis",
+    "Config",
+    "Energy",
+    "Kernel",
+    "KernelLike",
+    "Mesh",
+    "MeshFile",
+    "Model",
+    "PointMap",
+    "Shape",
+    "Term",
+    "View",
+}
 
 
 @pytest.mark.parametrize("name", kfmaps.__all__)
@@ -120,3 +138,39 @@ def test_repr_is_one_line() -> None:
     for record in [*records, found.basis_target, kfmaps.Config.paper(), kfmaps.Config.single_fit()]:
         assert "\n" not in repr(record)
         assert len(repr(record)) < 400
+
+
+def reference() -> Iterator[tuple[str, Callable]]:
+    """Yield the functions and methods that the pages of docs/api show, with their names."""
+    for page in sorted(API.glob("*.rst")):
+        for kind, name, options in DIRECTIVE.findall(page.read_text(encoding="utf-8")):
+            told = dict(re.findall(r":([\w-]+):(.*)", options))
+            home = importlib.import_module(name if kind == "module" else name.rpartition(".")[0])
+            own = [one for one, value in vars(home).items() if getattr(value, "__module__", "") == name]
+            named = told.get("members", "").replace(",", " ").split()
+            members = (named or own if "members" in told else []) if kind == "module" else [name.rpartition(".")[2]]
+            for one in members:
+                value = getattr(home, one)
+                if one.startswith("_") or one in told.get("exclude-members", "").replace(",", " ").split():
+                    continue
+                if inspect.isfunction(value):
+                    yield one, value
+                elif inspect.isclass(value) and "members" in told:
+                    methods = [n for n in vars(value) if not n.startswith("_") and (kind == "module" or not named)]
+                    yield from ((f"{one}.{n}", f) for n in methods if inspect.isfunction(f := getattr(value, n)))
+
+
+def test_the_reference_explains_every_argument() -> None:
+    """A parameter is named in the documentation, or is a record of the package, whose name says enough."""
+    pytest.importorskip("torch")
+    left, count = [], 0
+    for label, function in reference():
+        text = inspect.getdoc(function) or ""
+        for parameter in inspect.signature(function).parameters.values():
+            words = set(re.findall(r"[A-Za-z_]\w*", str(parameter.annotation))) - {"None"}
+            plain = bool(words) and words <= RECORDS
+            count += 1
+            if text and parameter.name != "self" and not plain and not re.search(rf"\b{parameter.name}\b", text):
+                left.append(f"{label}: {parameter.name}")
+    assert count > 300
+    assert left == []

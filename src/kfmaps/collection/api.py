@@ -85,10 +85,15 @@ class Collection:
         return self.limit_shapes[0].limit_shape if whole else None
 
     def map(self, source: str, target: str) -> np.ndarray:
-        """A vertex of ``source`` for each vertex of ``target``, (n_t,): of any two shapes that maps join.
+        """Return a vertex of ``source`` for each vertex of ``target``, (n_t,), of any two shapes that maps join.
 
-        Along the path whose maps are most probably all right: the pair's own map where that is best. Where no path
-        leads there, the pair's own map of a part, if it has one: −1 where there is no counterpart.
+        It follows the path whose maps are most probably all right: the pair's own map where that is best. Where no path
+        leads there it is the pair's own map of a part, if it has one, with −1 where there is no counterpart.
+
+        Parameters
+        ----------
+        source, target : str
+            Names of shapes.
 
         Raises
         ------
@@ -110,7 +115,12 @@ class Collection:
         return compose_path(steps)[0]
 
     def distances(self, kind: str = "area") -> np.ndarray:
-        """How much the shapes differ, (n, n): in areas, or ("conformal") but for areas; NaN where no maps join them.
+        """Return how much the shapes differ, (n, n); NaN where no maps join them.
+
+        Parameters
+        ----------
+        kind : "area" or "conformal"
+            Whether they differ in areas, or in what is left when areas are kept.
 
         Raises
         ------
@@ -127,7 +137,7 @@ class Collection:
         return found
 
     def eigenvalues(self) -> np.ndarray:
-        """Of each shape at unit area, as many as the common bases need, (n, k)."""
+        """Return the eigenvalues of each shape at unit area, as many as the common bases need, (n, k)."""
         k = self.limit_shapes[0].limit_shape.maps.shape[1] if self.limit_shapes else 0
         return np.stack([shape.basis.eigenvalues[:k] for shape in self.shapes])
 

@@ -68,7 +68,7 @@ def signature_distances(signatures: np.ndarray) -> np.ndarray:
 
 
 def star_graph(count: int, centre: int) -> Pairs:
-    """Return the pairs of ``centre`` with all others: the fewest pairs, none of which others can check."""
+    """Return the pairs of ``centre`` with all others of ``count`` shapes; none of them can be checked by others."""
     check_count(count, "shapes", low=2)
     return tuple((centre, other) for other in range(count) if other != centre)
 

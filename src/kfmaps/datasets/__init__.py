@@ -53,7 +53,7 @@ def two_poses(vertices: int = 6000, rng: _Seed = 0) -> ExamplePair:
 
     Returns
     -------
-    Pair
+    ExamplePair
 
     Raises
     ------
@@ -67,8 +67,8 @@ def two_poses(vertices: int = 6000, rng: _Seed = 0) -> ExamplePair:
 def non_isometric(vertices: int = 6000, rng: _Seed = 0) -> ExamplePair:
     """Return the creature of :func:`two_poses`, and a relative with a fat belly, long legs and a short tail.
 
-    Lengths differ by up to a half between the two, the area by a third. Parameters, result and errors as in
-    :func:`two_poses`.
+    Lengths differ by up to a half between the two, the area by a third. ``vertices``, ``rng``, result and errors are as
+    in :func:`two_poses`.
     """
     rng = np.random.default_rng(rng)
     unbent, bent = with_proportions({}, PROPORTIONS), with_proportions(DANCE, PROPORTIONS)
@@ -89,7 +89,7 @@ def partial(vertices: int = 6000, rng: _Seed = 0, kept: float = 0.6) -> ExampleP
 
     Returns
     -------
-    Pair
+    ExamplePair
         Its target is one manifold piece with a boundary.
 
     Raises
@@ -116,7 +116,7 @@ def symmetric_creature(vertices: int = 6000, rng: _Seed = 0) -> ExamplePair:
     """Return two poses of a creature whose right side is the mirror image of its left.
 
     Lengths alone cannot tell the direct truth from ``mirrored``; only orientation can. The poses are not
-    symmetric. Parameters, result and errors as in :func:`two_poses`.
+    symmetric. ``vertices``, ``rng``, result and errors are as in :func:`two_poses`.
     """
     rng = np.random.default_rng(rng)
     counts = _counts(vertices)
@@ -140,7 +140,8 @@ def _revolve(body: Body, vertices: int, rng: _Seed) -> Mesh:
 def vase(vertices: int = 5000, rng: _Seed = 0) -> Mesh:
     """Return a hollow vase, a surface of revolution about the y axis, with ``vertices`` (3000 to 300000) vertices.
 
-    Rotation about the axis changes nothing, so no map between two of them is the right one.
+    Rotation about the axis changes nothing, so no map between two of them is the right one. ``rng`` places the
+    vertices.
     """
     check_count(vertices, "vertices", low=3000, high=_MAX_VERTICES)
     profile = ((0, 0), (0.30, 0.02), (0.52, 0.30), (0.55, 0.58), (0.36, 0.95), (0.28, 1.2), (0.42, 1.45))
@@ -149,7 +150,7 @@ def vase(vertices: int = 5000, rng: _Seed = 0) -> Mesh:
 
 
 def sphere(vertices: int = 2000, rng: _Seed = 0) -> Mesh:
-    """Return the unit sphere with ``vertices`` (100 to 300000) evenly spread random vertices."""
+    """Return the unit sphere with ``vertices`` (100 to 300000) evenly spread vertices, drawn with ``rng``."""
     check_count(vertices, "vertices", low=100, high=_MAX_VERTICES)
 
     def field(points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -164,7 +165,7 @@ def sphere(vertices: int = 2000, rng: _Seed = 0) -> Mesh:
 def torus(vertices: int = 2000, rng: _Seed = 0, tube: float = 0.4) -> Mesh:
     """Return the torus (genus 1) of radius 1 about the y axis, with ``vertices`` (400 to 300000) vertices.
 
-    Its tube's radius is ``tube``, from 0.2 to 0.8.
+    Its tube's radius is ``tube``, from 0.2 to 0.8; ``rng`` places the vertices.
     """
     check_count(vertices, "vertices", low=400, high=_MAX_VERTICES)
     if not 0.2 <= tube <= 0.8:

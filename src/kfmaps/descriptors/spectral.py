@@ -36,7 +36,7 @@ def _spectral_range(*bases: Basis) -> tuple[float, float]:
 
 
 def heat_times(count: int, *bases: Basis) -> np.ndarray:
-    """Return diffusion times, (count,), common to all ``bases`` (Sun et al. 2009).
+    """Return ``count`` diffusion times, (count,), common to all ``bases`` (Sun et al. 2009).
 
     They are spread logarithmically from ``4 ln 10 / λ_high`` to ``4 ln 10 / λ_low``.
     """

@@ -34,7 +34,7 @@ class DescriptorGuidance:
     target: np.ndarray
 
     def at(self, source: np.ndarray | None, target: np.ndarray | None) -> DescriptorGuidance:
-        """Return the guidance of some vertices ``(q,)`` of each shape; ``None`` keeps all."""
+        """Return the guidance of the vertices ``source (q_s,)`` and ``target (q_t,)``; ``None`` keeps all."""
         return replace(
             self,
             source=self.source if source is None else self.source[source],

@@ -89,14 +89,14 @@ class Energy:
         return _total(weight * term.rotated_diagonal(U_t, U_s) for weight, term in self._active())
 
     def joined(self, more: Mapping[str, tuple[float, Term]]) -> Energy:
-        """Return the energy with further terms, ``{name: (weight, term)}``."""
+        """Return the energy with further terms, ``more`` being ``{name: (weight, term)}``."""
         return Energy(
             {**self.terms, **{name: term for name, (_, term) in more.items()}},
             {**self.weights, **{name: weight for name, (weight, _) in more.items()}},
         )
 
     def without(self, name: str) -> Energy:
-        """Return the energy without the term of that name, if it has one."""
+        """Return the energy without the term called ``name``, if it has one."""
         return Energy(
             {other: term for other, term in self.terms.items() if other != name},
             {other: weight for other, weight in self.weights.items() if other != name},

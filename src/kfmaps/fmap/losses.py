@@ -42,7 +42,7 @@ class Penalty(Protocol):
         ...
 
     def majorizer(self, C: Array) -> Term:
-        """Return a term that, up to a constant, is never below ``value(X)`` and equals it at ``X = C``."""
+        """Return a term that, up to a constant, is never below ``value(X)`` and equals it where ``X`` is ``C``."""
         ...
 
 
@@ -116,7 +116,7 @@ class RobustData:
     sizes: np.ndarray | None = None
 
     def residuals(self, C: Array) -> np.ndarray:
-        """Return the squared residuals ``e / s`` of the groups ``0, 1, …``, (g,)."""
+        """Return the squared residuals ``e / s`` at ``C`` of the groups ``0, 1, …``, (g,)."""
         return self._relative(self._grouped(self._columns(C)))
 
     def scaled(self, C: Array, width: float) -> RobustData:

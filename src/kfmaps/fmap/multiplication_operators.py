@@ -104,7 +104,7 @@ def _fill_products(phi: np.ndarray, old: np.ndarray | None) -> np.ndarray:
 
 
 def unpack_operators(packed: Array) -> Array:
-    """Return the operators ``(r, k, k)`` of packed rows ``(r, k(k+1)/2)``."""
+    """Return the operators ``(r, k, k)`` of the rows ``packed (r, k(k+1)/2)``."""
     xp = namespace(packed)
     k = int(np.sqrt(2 * packed.shape[1] + 0.25) - 0.5)
     if k * (k + 1) // 2 != packed.shape[1]:

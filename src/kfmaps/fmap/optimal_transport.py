@@ -48,7 +48,7 @@ class TransportPenalty:
     _last: dict = field(default_factory=dict, repr=False)
 
     def plan(self, C: Array) -> Array:
-        """Return ``Π (m_t, m_s)``: how much area of each source point goes to each target point."""
+        """Return ``Π (m_t, m_s)`` at ``C``: how much area of each source point goes to each target point."""
         return self._solved(C)[0]
 
     def value(self, C: Array) -> float:

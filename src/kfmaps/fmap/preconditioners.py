@@ -14,7 +14,7 @@ from kfmaps.fmap.solvers import Operator
 
 
 def jacobi(diagonal: Array) -> Operator:
-    """Return the division by the diagonal ``(k_t, k_s)``; entries that the energy does not see are left as they are."""
+    """Return the division by ``diagonal (k_t, k_s)``; entries that the energy does not see are left as they are."""
     safe = _safe(diagonal)
     return lambda r: r / safe
 

@@ -141,7 +141,10 @@ def solve(
 
 
 def dense_matrix(apply: Operator, shape: tuple[int, ...], example: Array) -> np.ndarray:
-    """Return the matrix of ``apply`` on arrays of ``shape``, flattened in row-major order; for small sizes."""
+    """Return the matrix of ``apply`` on arrays of ``shape``, flattened in row-major order.
+
+    For small sizes. ``example`` is an array of the namespace and device that ``apply`` works in.
+    """
     size = int(np.prod(shape))
     columns = np.empty((size, size))
     for j in range(size):

@@ -15,7 +15,7 @@ class Term(Protocol):
     """A quadratic term; all arrays have shape (k_t, k_s)."""
 
     def apply(self, C: Array) -> Array:
-        """Return ``A(C)``: linear, self-adjoint, positive semi-definite."""
+        """Return ``A(C)`` at ``C (k_t, k_s)``: linear, self-adjoint, positive semi-definite."""
         ...
 
     def rhs(self) -> Array:
@@ -76,7 +76,7 @@ class CompletedTerm:
 
 
 def complete_term(term: Any) -> Term:
-    """Return a term that has ``apply``, ``rhs``, ``diagonal`` and ``constant`` as a whole :class:`Term`.
+    """Return ``term``, which has ``apply``, ``rhs``, ``diagonal`` and ``constant``, as a whole :class:`Term`.
 
     Raises
     ------
@@ -319,7 +319,7 @@ def _zeros(k: int, like: Array) -> Array:
 
 
 def rotate_gram(gram: Array, U: Array) -> Array:
-    """Return the diagonal of ``Uᵀ gram U``."""
+    """Return the diagonal of ``Uᵀ gram U`` for ``gram (k, k)`` and orthogonal ``U``."""
     return namespace(gram).sum(U * (gram @ U), axis=0)
 
 

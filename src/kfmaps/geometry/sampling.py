@@ -120,9 +120,9 @@ def stratified_samples(
 def stratified_vertices(
     basis: Basis, count: int, rng: int | np.random.Generator = 0, kept: np.ndarray | None = None
 ) -> np.ndarray:
-    """Return the vertices of :func:`stratified_samples` alone, (q,) int64, in a fraction of its time.
+    """Return ``count`` vertices as :func:`stratified_samples` has them, (q,) int64, in a fraction of its time.
 
-    The parameters are those of :func:`stratified_samples`.
+    ``rng`` is a seed or a Generator; ``kept (l,)`` are vertices that are taken as well.
     """
     candidates, _, chosen = _strata(basis, count, rng)
     return candidates[chosen] if kept is None else np.union1d(candidates[chosen], kept)

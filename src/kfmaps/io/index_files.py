@@ -64,7 +64,7 @@ def read_landmarks(path: str | Path, *, one_based: bool | None = None) -> np.nda
 
 
 def read_landmark_names(path: str | Path) -> list[str]:
-    """Return the name of each pair of a landmarks file: what stands behind ``#`` on the pair's line."""
+    """Return the name of each pair of the landmarks file ``path``: what stands behind ``#`` on the pair's line."""
     data = read_bytes(path).decode("utf-8", "replace")
     lines = (line.partition("#") for line in data.splitlines())
     return [_printable(comment) for pair, _, comment in lines if pair.strip()]
@@ -82,9 +82,19 @@ def write_landmarks(
     one_based: bool | None = None,
     force: bool = False,
 ) -> None:
-    """Write 0-based ``pairs`` (l, 2) so that :func:`read_landmarks` reads them back; ``.vts`` counts from 1.
+    """Write landmark pairs so that :func:`read_landmarks` reads them back.
 
-    ``names``, one for each pair, stand behind ``#`` on the pairs' lines; :func:`read_landmark_names` reads them.
+    Parameters
+    ----------
+    path : str or Path
+    pairs : (l, 2) int
+        0-based, "source, target".
+    names : sequence of str
+        One for each pair, or none; they stand behind ``#`` on the pairs' lines.
+    one_based : bool, optional
+        Whether the file counts from 1; by default only a ``.vts`` file does.
+    force : bool
+        Whether an existing file is replaced.
     """
     one_based = _counts_from_one(path) if one_based is None else one_based
     pairs = check(np.asarray(pairs), "landmarks", shape=(None, 2), remedy="give one row source, target each")
@@ -125,7 +135,18 @@ def read_vertex_numbers(path: str | Path, one_based: bool | None = None, *, lost
 def write_vertex_numbers(
     path: str | Path, numbers: np.ndarray, one_based: bool | None = None, *, force: bool = False
 ) -> None:
-    """Write 0-based ``numbers`` (m,) so that :func:`read_vertex_numbers` reads them back; −1 stays."""
+    """Write vertex numbers so that :func:`read_vertex_numbers` reads them back.
+
+    Parameters
+    ----------
+    path : str or Path
+    numbers : (m,) int
+        0-based; −1 stays.
+    one_based : bool, optional
+        Whether the file counts from 1; by default only a ``.vts`` file does.
+    force : bool
+        Whether an existing file is replaced.
+    """
     one_based = _counts_from_one(path) if one_based is None else one_based
     numbers = check(np.asarray(numbers), "vertex numbers", shape=(None,), remedy="give a list")
     numbers = numbers.astype(np.int64)

@@ -93,7 +93,7 @@ def read_mesh(path: str | Path, *, cloud: bool = True) -> Mesh:
 
 
 def read_mesh_file(path: str | Path, *, cloud: bool = True) -> MeshFile:
-    """Read a mesh as :func:`read_mesh`, with the colours and texture coordinates that the file has."""
+    """Read ``path`` as :func:`read_mesh` does (``cloud`` too), with the colours and texture coordinates that it has."""
     path, name = Path(path), str(path)
     reader = READERS.get(path.suffix.lower())
     if reader is None:

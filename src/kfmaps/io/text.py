@@ -58,7 +58,7 @@ def read_bytes(path: str | Path) -> bytes:
 
 
 def read_text(path: str | Path) -> str:
-    """Return the content of a regular file of UTF-8 text.
+    """Return the content of the regular file ``path``, which is UTF-8 text.
 
     Raises
     ------

@@ -41,7 +41,7 @@ class Values:
 
 
 def read_values(path: str | Path) -> Values:
-    """Read per-vertex values from ``.npy``, ``.csv`` or ``.txt``.
+    """Read per-vertex values from ``path``: ``.npy``, ``.csv`` or ``.txt``.
 
     In a ``.csv`` file a first row of names is recognised above numbers. A ``.txt`` file has a vertex a line,
     numbers between blanks, or one label; lines that begin with ``#`` are comments. Tables are numbers
@@ -132,6 +132,14 @@ def _npy(data: bytes, name: str) -> np.ndarray:
 
 def write_values(path: str | Path, values: Values, force: bool = False) -> None:
     """Write per-vertex values so that :func:`read_values` reads them back; every digit is kept.
+
+    Parameters
+    ----------
+    path : str or Path
+        ``.npy``, ``.csv`` or ``.txt``.
+    values : Values
+    force : bool
+        Whether an existing file is replaced.
 
     Raises
     ------

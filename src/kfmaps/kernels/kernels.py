@@ -34,7 +34,7 @@ class _Resolvable(Protocol):
     """A kernel of transformed descriptors; see :mod:`kfmaps.kernels.transformed`."""
 
     def resolved(self, samples: Array, sharpness: float) -> Kernel:
-        """Return the same kernel with every automatic γ made a number."""
+        """Return the same kernel with every automatic γ made a number, from ``samples (q, d)`` and ``sharpness``."""
         ...
 
 

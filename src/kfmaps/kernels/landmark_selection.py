@@ -15,7 +15,7 @@ _Rng = int | np.random.Generator | None
 
 
 def uniform(n: int, count: int, rng: _Rng = 0) -> np.ndarray:
-    """Return ``count`` of ``n`` rows, all subsets equally likely."""
+    """Return ``count`` of ``n`` rows, (count,) int64, drawn with ``rng``; all subsets are equally likely."""
     check_count(count, "sample count", high=n)
     return np.random.default_rng(rng).choice(n, size=count, replace=False)
 

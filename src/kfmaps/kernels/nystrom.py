@@ -40,7 +40,7 @@ class Nystrom:
         return int(self.whitener.shape[1])
 
     def features(self, X: Array, block: int = 8192) -> Array:
-        """Return the features ``W (n, r)`` of descriptors ``X (n, d)``, with ``W Wᵀ ≈ k(X, X)``."""
+        """Return the features ``W (n, r)`` of descriptors ``X (n, d)``, with ``W Wᵀ ≈ k(X, X)``, by ``block`` rows."""
         check(X, "descriptors", shape=(None, self.samples.shape[1]), remedy="use those that the samples come from")
         rows = [
             kernel_matrix(self.kernel, X[part, :], self.samples) @ self.whitener for part in blocks(X.shape[0], block)

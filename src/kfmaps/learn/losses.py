@@ -101,7 +101,7 @@ def pair_loss(
 
 
 def check_losses(weights: Mapping[str, float]) -> None:
-    """Refuse no losses at all and names that are not among :data:`LOSSES`."""
+    """Refuse ``weights`` without losses, and names that are not among :data:`LOSSES`."""
     unknown = sorted(set(weights) - set(LOSSES))
     if unknown or not weights:
         raise refuse("losses", "some of " + ", ".join(LOSSES), ", ".join(unknown) or "none", "choose among them")
@@ -129,23 +129,23 @@ def point_error(model: Model, pair: TrainingPair, *, solver: CG, operator_rtol: 
 
 
 def supervised_loss(C: torch.Tensor, true: torch.Tensor) -> torch.Tensor:
-    """Return ``‖C − C*‖² / ‖C*‖²`` for the true map ``C*`` (FMNet, Litany et al. 2017; Donati et al. 2020)."""
+    """Return ``‖C − C*‖² / ‖C*‖²`` for the ``true`` map ``C*`` (FMNet, Litany et al. 2017; Donati et al. 2020)."""
     return ((C - true) ** 2).sum() / (true**2).sum()
 
 
 def orthogonality_loss(C: torch.Tensor) -> torch.Tensor:
-    """Return ``‖CᵀC − I‖² / k``, zero for maps that preserve areas (Roufosse et al. 2019)."""
+    """Return ``‖CᵀC − I‖² / k`` of ``C``, zero for maps that preserve areas (Roufosse et al. 2019)."""
     return cycle_loss(C, C.T)
 
 
 def cycle_loss(C: torch.Tensor, back: torch.Tensor) -> torch.Tensor:
-    """Return ``‖C' C − I‖² / k`` for the map ``back`` C' from target to source (Roufosse et al. 2019)."""
+    """Return ``‖back C − I‖² / k`` for ``C`` and a map ``back`` from target to source (Roufosse et al. 2019)."""
     k = C.shape[1]
     return ((back @ C - torch.eye(k, dtype=C.dtype)) ** 2).sum() / k
 
 
 def commutativity_loss(C: torch.Tensor, source: Basis, target: Basis) -> torch.Tensor:
-    """Return ``‖C Λ_s − Λ_t C‖² / ‖Λ_s‖²``, zero for isometries (Roufosse et al. 2019)."""
+    """Return ``‖C Λ_s − Λ_t C‖² / ‖Λ_s‖²`` of ``C``, zero for isometries (Roufosse et al. 2019)."""
     commutator = C * source.eigenvalues[None, :] - target.eigenvalues[:, None] * C
     return (commutator**2).sum() / (source.eigenvalues**2).sum()
 

@@ -50,7 +50,7 @@ class _Columns:
         return [(kind, D[:, block[0] : block[-1] + 1]) for kind, block in zip(self.kinds, self.blocks, strict=True)]
 
 
-def columns(config: DescriptorConfig, landmarks: int, count: int) -> _Columns:
+def _blocks(config: DescriptorConfig, landmarks: int, count: int) -> _Columns:
     """Return the blocks of ``count`` descriptors: signature, one for each landmark, SHOT."""
     local = min(352, count) if config.shot else 0
     blocks = landmarks if config.landmark_descriptor != "none" and config.energy_sampling == "even" else 0
@@ -110,7 +110,7 @@ class Model(torch.nn.Module):
             got = f"{sorted(counts)}"
             raise refuse("pairs", "equally many landmarks and descriptors on all pairs", got, "give as many to each")
         self.config, self.parts, self.kernel = config, tuple(parts), config.kernel
-        self.columns = columns(config.descriptors, *counts.pop())
+        self.columns = _blocks(config.descriptors, *counts.pop())
         gamma = float(np.log(np.median([pair.gamma for pair in pairs])))
         if isinstance(self.kernel, Gaussian | Laplacian):
             middle = np.arange(components if "mixture" in parts else 1)
@@ -170,11 +170,11 @@ class Model(torch.nn.Module):
         return X
 
     def kernel_matrix(self, X: torch.Tensor, Y: torch.Tensor) -> torch.Tensor:
-        """Return kernel values ``(n, m)`` of rows that :meth:`transform` returned."""
+        """Return kernel values ``(n, m)`` of rows ``X`` and ``Y`` that :meth:`transform` returned."""
         if not isinstance(self.kernel, Gaussian | Laplacian):
             return kernel_matrix(self.kernel, X, Y)
         gammas, shares = (torch.exp(self.get_parameter(name)) for name in ("log_gamma", "log_share"))
-        parts = [shares[i] * bind(self.kernel, gamma=gammas[i])(X, Y) for i in range(len(gammas))]
+        parts = [shares[i] * _bind(self.kernel, gamma=gammas[i])(X, Y) for i in range(len(gammas))]
         return torch.stack(parts).sum(dim=0) if len(parts) > 1 else parts[0]
 
     def weights(self) -> dict[str, torch.Tensor | float]:
@@ -238,7 +238,7 @@ def _automatic_gamma(kernel: Gaussian | Laplacian, transformed: Sequence[np.ndar
     return float(np.median([k.gamma or 1.0 for k in kernels if isinstance(k, Gaussian | Laplacian)]))
 
 
-def bind(kernel: Any, **values: Any) -> Any:
+def _bind(kernel: Any, **values: Any) -> Any:
     """Return a kernel's record with tensors in place of its numbers, unchecked: the same formula, with derivatives."""
     record = copy.copy(kernel)
     for name, value in values.items():

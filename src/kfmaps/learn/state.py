@@ -94,7 +94,7 @@ def save(path: str | Path, state: State, settings: str, request: dict[str, Any])
 
 
 def load(path: str | Path) -> tuple[State, str, dict[str, Any]]:
-    """Return the state, settings and request of a file that :func:`save` wrote.
+    """Return the state, settings and request of the file ``path`` that :func:`save` wrote.
 
     Only tensors and plain values are read (``weights_only``): a file with anything else is refused.
 

@@ -172,7 +172,10 @@ class Match:
         return api.view(self, **options)
 
     def save(self, path: str | Path, *, force: bool = False) -> None:
-        """Write the map (.npz, .mat, .txt, .vts) as :func:`kfmaps.save_map` does."""
+        """Write the map to ``path`` (.npz, .mat, .txt, .vts) as :func:`kfmaps.save_map` does.
+
+        An existing file is replaced with ``force`` alone.
+        """
         from kfmaps import api
 
         api.save_map(path, self, force)

@@ -162,5 +162,5 @@ class ShapeFile:
 
     @classmethod
     def of(cls, mesh: Mesh, path: str = "", sha256: str = "") -> ShapeFile:
-        """Return the record of a mesh that was read from ``path``."""
+        """Return the record of a mesh that was read from ``path``, a file with this ``sha256``."""
         return cls(path, sha256, len(mesh.vertices), len(mesh.faces))

@@ -119,8 +119,9 @@ def automatic_view(mesh: Mesh) -> View:
 def following_view(source_view: View, source: Mesh, target: Mesh, target_to_source: np.ndarray | None = None) -> View:
     """Return the view that shows the target from the side of the body from which ``source_view`` shows the source.
 
-    It is the same view, unless the shapes lie in different directions (:func:`rotation_between`): then the camera turns
-    with them. A map that takes back for front is thereby seen to do so.
+    ``target_to_source (n_t,)`` is the map, where one is known. It is the same view, unless the shapes lie in different
+    directions (:func:`rotation_between`): then the camera turns with them. A map that takes back for front is thereby
+    seen to do so.
     """
     turn = rotation_between(source, target, target_to_source)
     return source_view if turn is None else View(turn @ source_view.towards, turn @ source_view.up)

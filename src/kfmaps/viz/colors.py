@@ -58,7 +58,7 @@ def position_colors(mesh: Mesh) -> np.ndarray:
 
 
 def error_limit(errors: np.ndarray) -> float:
-    """Return the error at which colours end: the 99th percentile, rounded up to one digit (1, 2, 3, 4, 6 or 8)."""
+    """Return where the colours of ``errors`` end: their 99th percentile, rounded up to 1, 2, 3, 4, 6 or 8."""
     top = float(np.percentile(errors, 99))
     if not top > 0:
         return 0.01

@@ -50,7 +50,10 @@ class Curve:
 
 
 def mean_curve(label: str, thresholds: np.ndarray, curves: np.ndarray) -> Curve:
-    """Return the mean of the ``curves`` (m, t) of single pairs, with a band that holds the middle 80 % of them."""
+    """Return the mean of the ``curves`` (m, t) of single pairs, with a band that holds the middle 80 % of them.
+
+    ``thresholds (t,)`` are their errors in √area, ``label`` is the name of the result.
+    """
     curves = check(np.asarray(curves, dtype=np.float64), "curves", shape=(None, len(thresholds)))
     if len(curves) == 0:
         raise refuse("curves", "at least one pair", "none", "evaluate a pair whose truth is known")

@@ -60,6 +60,7 @@ def true_views(
 ) -> tuple[View, View]:
     """Return views of source and target from the same side by the truth, however wrong a map may be.
 
+    ``truth_s (q,)`` and ``truth_t (q,)`` are corresponding vertices.
     A map with left and right swapped would have the camera go round to the back, where it looks right.
     """
     source_view = source_view or automatic_view(source)

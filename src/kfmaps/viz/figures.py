@@ -35,7 +35,7 @@ class NotebookFigure(Figure):
 
 
 def picture_format(path: str | Path) -> str:
-    """Return the format that a file's extension names: png, svg or pdf.
+    """Return the format that the extension of ``path`` names: png, svg or pdf.
 
     Raises
     ------
