@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -93,12 +94,16 @@ class DataTerm:
     def at(self, x: np.ndarray) -> np.ndarray:
         """Return the matrix of the term times ``x (n_s, 3)``."""
         inside = self._shortened(x if self.rows is None else self.rows @ x)
-        return inside if self.rows is None else self.rows.T @ inside
+        return inside if self.rows is None else self._columns @ inside
 
     def right(self) -> np.ndarray:
         """Return the right-hand side, (n_s, 3)."""
         inside = self._shortened(self.places)
-        return inside if self.rows is None else self.rows.T @ inside
+        return inside if self.rows is None else self._columns @ inside
+
+    @cached_property
+    def _columns(self) -> Any:
+        return self.rows.T
 
     def _shortened(self, z: np.ndarray) -> np.ndarray:
         if self.normals is None:

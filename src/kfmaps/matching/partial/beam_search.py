@@ -103,11 +103,20 @@ def _select_different(states: np.ndarray, distances: np.ndarray, most: int, half
     They differ in at least one of their places or, with ``half``, in half of them.
     """
     kept: list[int] = []
+    alike = distances <= _MIN_DISTANCE
+    columns = np.ascontiguousarray(states.T)
     left = np.arange(len(states))
     while len(kept) < most and len(left):
-        kept.append(int(left[0]))
-        off = distances[states[left[0]], states[left[1:]]]
-        left = left[1:][(np.median(off, axis=1) if half else off.max(axis=1)) > _MIN_DISTANCE]
+        kept.append(first := int(left[0]))
+        if half:
+            same = np.median(distances[states[first], states[left]], axis=1) <= _MIN_DISTANCE
+        else:
+            # The last place differs most often: few rows remain to be compared in the others.
+            same = alike[columns[-1, first], columns[-1, left]]
+            for column in columns[-2::-1]:
+                rows = np.flatnonzero(same)
+                same[rows] = alike[column[first], column[left[rows]]]
+        left = left[~same]
     return np.array(kept, dtype=np.int64)
 
 

@@ -91,7 +91,8 @@ def consistency(
     with np.errstate(invalid="ignore"):
         off = upper - distances
         # One array after the other, since this is where most of the time goes.
-        explained = np.clip(off, 0, upper - lower)
+        explained = np.maximum(off, 0)
+        np.minimum(explained, upper - lower, out=explained)
         explained *= 0.5
         off -= explained
         off /= slack[0] + slack[1] * upper
@@ -131,8 +132,11 @@ def relax(
     share /= share.sum(axis=1, keepdims=True)
     own, label = np.repeat(np.arange(n), k), candidates.ravel()
     near = (upper <= params.reach) & ~np.eye(n, dtype=bool)
-    pairs = np.ix_(own, own)
-    fits = consistency(upper[pairs], lower[pairs], distances[np.ix_(label, label)]) * near[pairs]
+    fits = np.empty((len(own), len(own)), dtype=np.result_type(upper, distances))
+    for i in range(n):  # one sample after the other, so that its arrays fit the cache
+        rows = slice(i * k, (i + 1) * k)
+        between = distances[candidates[i]].take(label, axis=1)
+        fits[rows] = consistency(upper[i, own], lower[i, own], between) * near[i, own]
     backed = share
     for _ in range(12):
         backed = (fits @ share.ravel().astype(fits.dtype)).reshape(n, k)
@@ -165,16 +169,16 @@ def reassign(
     q = len(similarity)
     match, fit = np.zeros(q, dtype=np.int64), np.zeros(q)
     trusted = np.flatnonzero(placed.trust > 0)
-    for i in range(q):
-        near = trusted[np.argsort(bounds.upper[i, trusted], kind="stable")[:41]]
+    nearest = trusted[np.argsort(bounds.upper[:, trusted], axis=1, kind="stable")[:, :41]]
+    for i, near in enumerate(nearest):
         near = near[(near != i) & np.isfinite(bounds.upper[i, near])]
         if len(near) == 0:
             match[i] = similarity[i].argmax()
             continue
         upper, lower = bounds.upper[i, near], bounds.lower[i, near]
-        fits = consistency(upper, lower, distances[:, placed.match[near]], (0.03, 0.08))
+        fits = consistency(upper[:, None], lower[:, None], distances[placed.match[near]], (0.03, 0.08))
         weight = placed.trust[near] / (0.1 + upper)
-        share = fits @ (weight / weight.sum()).astype(fits.dtype)
+        share = (weight / weight.sum()).astype(fits.dtype) @ fits
         if i < n_landmarks:
             match[i] = placed.match[i]
         else:
