@@ -17,6 +17,10 @@ from kfmaps.geometry.sampling import stratified
 from kfmaps.matching.partial.relaxation_labeling import DistanceBounds, distance_bounds
 from kfmaps.registration.deformable import ClosestPointQuery, closest_point_query
 
+_SUPPORT, _FULL_SUPPORT = 10_000, 0.14
+"""Support points of SHOT, and its radius in √area above which they become fewer. They change products of descriptors by
+at most 0.02, where those of two random points differ by 0.37."""
+
 
 @dataclass(frozen=True, eq=False)
 class PartSamples:
@@ -34,8 +38,9 @@ class PartSamples:
     def shot(self, radius: float, threads: int | None = 1) -> np.ndarray:
         """Return SHOT at the samples, (q, 352) float32, of a ``radius`` in √area of the shape."""
         if radius not in self.descriptors:
-            # Half of the support points that a descriptor at every vertex deserves.
-            found = shot(self.mesh, radius, at=self.samples, samples=10_000, threads=threads)
+            # As many support points in a ball of any radius: half of those that a descriptor at every vertex deserves.
+            count = int(_SUPPORT * min((_FULL_SUPPORT / radius) ** 2, 1.0))
+            found = shot(self.mesh, radius, at=self.samples, samples=count, threads=threads)
             self.descriptors[radius] = found.astype(np.float32)
         return self.descriptors[radius]
 

@@ -21,6 +21,8 @@ TRIALS = (
 """The first tries all scales, the others the best of these."""
 SCALES = tuple(0.28 * 1.15**i for i in range(10))
 """√area of the part over that of the whole; SHOT and consistency tolerate a tenth more or less."""
+_SHOT_STEP = 1.15 ** (1 / 3)
+"""Ratio of the scales that SHOT is computed at: 2.4 % are nothing to it, and placements of like scales share it."""
 LARGER_SCALES = tuple(SCALES[-1] * 1.15**i for i in range(1, 4))
 """Further ones where what is registered is no part, but overlaps with one."""
 
@@ -51,7 +53,8 @@ class Placement:
 
 def shot_similarity(pair: PartPair, scale: float, params: RelaxationParams) -> np.ndarray:
     """Return mean products ``(q, m)`` of the SHOT of both, in balls of equal size; landmarks are settled."""
-    total = sum(pair.part.shot(radius / scale) @ pair.whole.shot(radius).T for radius in params.radii)
+    near = SCALES[0] * _SHOT_STEP ** round(np.log(scale / SCALES[0]) / np.log(_SHOT_STEP))
+    total = sum(pair.part.shot(radius / near) @ pair.whole.shot(radius).T for radius in params.radii)
     similarity = np.asarray(total, dtype=np.float32) / len(params.radii)
     landmarks = np.arange(pair.part.n_landmarks)
     similarity[landmarks] = -1.0
