@@ -93,7 +93,7 @@ def main() -> None:
             print(f"    {stage:34s}{seconds:8.2f}")
         if profile:
             profile.disable()
-            pstats.Stats(profile).sort_stats("cumulative").print_stats(90)
+            pstats.Stats(profile).sort_stats("cumulative").print_stats(70).sort_stats("tottime").print_stats(40)
 
 
 if __name__ == "__main__":

@@ -7,7 +7,7 @@ from kfmaps.matching.partial.beam_search import beam_search
 from kfmaps.matching.partial.candidates import _SCALE_RATIOS, _alternative_placements
 from kfmaps.matching.partial.relaxation_labeling import distance_bounds
 from kfmaps.matching.partial.samples import PartPair, PartSamples
-from kfmaps.matching.partial.scale_search import TRIALS
+from kfmaps.matching.partial.scale_search import TRIALS, _shot_scale
 from kfmaps.matching.score import SCORE
 
 GUARDS = ("kfmaps.matching.partial",)
@@ -30,7 +30,8 @@ def sheet(marks=0, told=0.05):
     for scale in (SCALE, 1.0):
         mesh = Mesh(points / scale, np.zeros((0, 3), dtype=np.int64))
         known = {
-            radius / (scale * beside): own * np.float32(told if scale == 1.0 else 1.0)
+            radius / (beside if scale == 1.0 else _shot_scale(SCALE * beside)): own
+            * np.float32(told if scale == 1.0 else 1.0)
             for radius in TRIALS[0].radii
             for beside in _SCALE_RATIOS
         }

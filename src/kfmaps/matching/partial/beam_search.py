@@ -103,20 +103,17 @@ def _select_different(states: np.ndarray, distances: np.ndarray, most: int, half
     They differ in at least one of their places or, with ``half``, in half of them.
     """
     kept: list[int] = []
-    alike = distances <= _MIN_DISTANCE
-    columns = np.ascontiguousarray(states.T)
-    left = np.arange(len(states))
-    while len(kept) < most and len(left):
-        kept.append(first := int(left[0]))
-        if half:
-            same = np.median(distances[states[first], states[left]], axis=1) <= _MIN_DISTANCE
-        else:
-            # The last place differs most often: few rows remain to be compared in the others.
-            same = alike[columns[-1, first], columns[-1, left]]
-            for column in columns[-2::-1]:
-                rows = np.flatnonzero(same)
-                same[rows] = alike[column[first], column[left[rows]]]
-        left = left[~same]
+    left, last = np.ones(len(states), dtype=bool), states[:, -1]
+    for i in range(len(states)):
+        if len(kept) == most:
+            break
+        if not left[i]:
+            continue
+        kept.append(i)
+        # Most differ in the last place already.
+        rows = (left & (half | (distances[last[i]] <= _MIN_DISTANCE)[last])).nonzero()[0]
+        off = distances[states[i], states[rows]]
+        left[rows[(np.median(off, axis=1) if half else off.max(axis=1)) <= _MIN_DISTANCE]] = False
     return np.array(kept, dtype=np.int64)
 
 

@@ -91,10 +91,11 @@ def consistency(
     with np.errstate(invalid="ignore"):
         off = upper - distances
         # One array after the other, since this is where most of the time goes.
-        explained = np.maximum(off, 0)
-        np.minimum(explained, upper - lower, out=explained)
-        explained *= 0.5
-        off -= explained
+        if np.any(upper > lower):
+            explained = np.maximum(off, 0)
+            np.minimum(explained, upper - lower, out=explained)
+            explained *= 0.5
+            off -= explained
         off /= slack[0] + slack[1] * upper
         off *= off
         fits = np.subtract(1, off, out=off)

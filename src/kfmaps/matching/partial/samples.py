@@ -11,7 +11,7 @@ from scipy.sparse.csgraph import dijkstra
 from kfmaps.descriptors.shot import shot
 from kfmaps.geometry.coarsen import coarsen
 from kfmaps.geometry.geodesic_graph import geodesic_graph
-from kfmaps.geometry.geodesics import farthest_geodesic
+from kfmaps.geometry.geodesics import farthest_geodesic, pairwise_geodesics
 from kfmaps.geometry.mesh import Mesh, boundary_vertices
 from kfmaps.geometry.sampling import stratified
 from kfmaps.matching.partial.relaxation_labeling import DistanceBounds, distance_bounds
@@ -78,8 +78,9 @@ def part_samples(mesh: Mesh, count: int, landmarks: np.ndarray | None = None, rn
     first = np.searchsorted(rows, chosen)
     farthest = farthest_geodesic(small, min(count, len(np.unique(small.faces))), rng)
     chosen = np.concatenate([first, farthest[~np.isin(farthest, first)]])
-    distances = dijkstra(geodesic_graph(small, 1), indices=chosen)
+    graph, away = geodesic_graph(small, 1), np.full(len(small.vertices), np.inf)
     on = np.flatnonzero(boundary_vertices(small))
-    away = distances[:, on].min(axis=1) if len(on) else np.full(len(chosen), np.inf)
-    between = distances[:, chosen].astype(np.float32)
+    if len(on):
+        away = dijkstra(graph, indices=on, min_only=True)
+    away, between = away[chosen], pairwise_geodesics(graph, chosen).astype(np.float32)
     return PartSamples(mesh, rows[chosen], between, away.astype(np.float32), boundary_vertices(mesh), n_landmarks)

@@ -53,13 +53,18 @@ class Placement:
 
 def shot_similarity(pair: PartPair, scale: float, params: RelaxationParams) -> np.ndarray:
     """Return mean products ``(q, m)`` of the SHOT of both, in balls of equal size; landmarks are settled."""
-    near = SCALES[0] * _SHOT_STEP ** round(np.log(scale / SCALES[0]) / np.log(_SHOT_STEP))
+    near = _shot_scale(scale)
     total = sum(pair.part.shot(radius / near) @ pair.whole.shot(radius).T for radius in params.radii)
     similarity = np.asarray(total, dtype=np.float32) / len(params.radii)
     landmarks = np.arange(pair.part.n_landmarks)
     similarity[landmarks] = -1.0
     similarity[landmarks, landmarks] = 2.0
     return similarity
+
+
+def _shot_scale(scale: float) -> float:
+    """Return the nearest of the scales that SHOT is computed at."""
+    return float(SCALES[0] * _SHOT_STEP ** round(np.log(scale / SCALES[0]) / np.log(_SHOT_STEP)))
 
 
 def place_by_beams(pair: PartPair, scale: float, similarity: np.ndarray) -> list[Assignment]:
