@@ -46,7 +46,7 @@ def grid(x, y):
 def sampled(mesh, samples=()):
     """A mesh with some samples, whose distances nothing here asks for."""
     none = np.zeros(0)
-    return PartSamples(mesh, np.asarray(samples, dtype=np.int64), none, none, boundary_vertices(mesh))
+    return PartSamples(mesh, np.asarray(samples, dtype=np.int64), none, none)
 
 
 @pytest.fixture(scope="module")
@@ -128,7 +128,7 @@ def test_what_lies_beyond_the_whole_is_let_alone(shapes):
     assert far.mean() > 0.9
     assert not found.inside[beyond[far]].any()
     assert found.gap < 5e-3
-    common = find_overlap(found, pair)
+    common = find_overlap(found, pair.whole)
     assert (common.part[own] > 0.5).mean() > 0.9
     assert (common.part[beyond[far]] == 0).all()
     assert (common.whole > 0.5).mean() > 0.9

@@ -35,7 +35,7 @@ def sheet(marks=0, told=0.05):
             for radius in TRIALS[0].radii
             for beside in _SCALE_RATIOS
         }
-        sides.append(PartSamples(mesh, each, between / np.float32(scale), endless, each < 0, marks, known))
+        sides.append(PartSamples(mesh, each, between / np.float32(scale), endless, marks, known))
     return points, *sides
 
 

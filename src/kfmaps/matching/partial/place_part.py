@@ -11,10 +11,17 @@ from kfmaps._arrays import refuse
 from kfmaps._threads import parallel
 from kfmaps.config import Config
 from kfmaps.geometry.closest_points import closest_points
+from kfmaps.geometry.coarsen import CoarseProxy, coarse_proxy, spread_vertices
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.matching.partial.candidates import PartCandidate, compare_alternatives, make_candidate, margin
-from kfmaps.matching.partial.registration import Overlap, PartRegistration, find_overlap, register_part
-from kfmaps.matching.partial.samples import PartPair, part_samples
+from kfmaps.matching.partial.registration import (
+    Overlap,
+    PartRegistration,
+    find_overlap,
+    refine_registration,
+    register_part,
+)
+from kfmaps.matching.partial.samples import PartPair, PartSurface, part_samples
 from kfmaps.matching.partial.scale_search import (
     LARGER_SCALES,
     SCALES,
@@ -26,6 +33,7 @@ from kfmaps.matching.partial.scale_search import (
 )
 from kfmaps.matching.score import select_distinct
 
+_PROXY_FROM, _PROXY_VERTICES = 15_000, 5_000  # vertices above which a shape is placed by a coarse copy, and of that
 _MIN_SCALE_RATIO = 1.12  # ratio of scales from which two are worth a trial each
 
 
@@ -64,12 +72,13 @@ def place_part(
     fixed = settings.scale == "fixed"
     if fixed and ratio is None:
         raise refuse("units", "shapes whose sizes are known", "prepared ones without", "prepare them again")
-    pair = PartPair(
-        part_samples(part, settings.samples, pairs[:, 0], rng),
-        part_samples(whole, settings.whole_samples, pairs[:, 1], rng),
-        fixed,
-        config.threads,
-    )
+    copies = [_coarse_copy(mesh, marks) for mesh, marks in ((part, pairs[:, 0]), (whole, pairs[:, 1]))]
+    counts = settings.samples, settings.whole_samples
+    samples = [
+        part_samples(copy.mesh, count, copy.owner[marks], rng)
+        for copy, count, marks in zip(copies, counts, pairs.T, strict=True)
+    ]
+    pair = PartPair(samples[0], samples[1], fixed, config.threads)
     report(0.15)
     scales = [ratio] if fixed and ratio else [*SCALES, *(LARGER_SCALES if both_partial else ())]
     if not fixed and ratio and scales[0] / _MIN_SCALE_RATIO < ratio < scales[-1] * _MIN_SCALE_RATIO:
@@ -82,10 +91,13 @@ def place_part(
         report(0.5 + 0.15 * (i + 1) / len(likely))
     found = compare_alternatives(found, pair)
     report(0.75)
-    last = _register_fully(found[0].registration, pair, pairs, lambda done: report(0.75 + 0.25 * done))
+    last, on = _register_fully(found[0].registration, pair, lambda done: report(0.75 + 0.25 * done)), pair.whole
+    if any(len(copy.vertices) < len(mesh.vertices) for copy, mesh in zip(copies, (part, whole), strict=True)):
+        on = PartSurface(whole)
+        last = refine_registration(last, copies[0], part, on)
     ends = last.vertices[pairs[:, 0]] - whole.vertices[pairs[:, 1]]
     scores = tuple(one.score for one in found)
-    return PlacedPart(last, find_overlap(last, pair), scores, margin(found, len(pairs)), np.linalg.norm(ends, axis=1))
+    return PlacedPart(last, find_overlap(last, on), scores, margin(found, len(pairs)), np.linalg.norm(ends, axis=1))
 
 
 def candidate_placements(pair: PartPair, scales: list[float], count: int) -> tuple[list[Placement], list[Placement]]:
@@ -113,15 +125,19 @@ def _likely_placements(pair: PartPair, scales: list[float], count: int) -> list[
     return [*by_relaxation[: count + 1], *by_beams[:2]]
 
 
-def _register_fully(
-    found: PartRegistration, pair: PartPair, landmarks: np.ndarray, progress: Callable[[float], None]
-) -> PartRegistration:
+def _coarse_copy(mesh: Mesh, landmarks: np.ndarray) -> CoarseProxy:
+    """Return what a mesh is placed by: a coarse copy of a large one, with all landmarks."""
+    count = _PROXY_VERTICES if len(mesh.vertices) > _PROXY_FROM else len(mesh.vertices)
+    return coarse_proxy(mesh, spread_vertices(mesh, count, landmarks))
+
+
+def _register_fully(found: PartRegistration, pair: PartPair, progress: Callable[[float], None]) -> PartRegistration:
     """Register the part once more, from where it lies, at the scale of its edges."""
     mesh, vertex_normals, samples = pair.whole.mesh, pair.whole.surface.normals, pair.part.samples
     places = closest_points(found.vertices[samples], mesh.vertices, mesh.faces)
     points, normals = places.points, vertex_normals[mesh.faces[places.faces]].mean(axis=1)
     trust = found.inside[samples] * np.exp2(-((places.distances / 0.02) ** 2)) + 1e-3
-    ends = landmarks[:, 1]
+    ends = pair.whole.samples[: pair.whole.n_landmarks]
     points[: len(ends)], normals[: len(ends)] = mesh.vertices[ends], vertex_normals[ends]
     normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-12)
     scale = found.scale if pair.fixed_scale else found.scale * found.edge_ratio

@@ -7,16 +7,17 @@ become.
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from kfmaps.fmap.precise import PointMap
-from kfmaps.geometry.arap import arap_energy, rotations
+from kfmaps.geometry.arap import arap_energy, build_arap, rotations
 from kfmaps.geometry.closest_points import ClosestPoints, closest_points
-from kfmaps.geometry.mesh import Mesh, surface_area, vertex_normals
-from kfmaps.matching.partial.samples import PartPair, PartSamples
+from kfmaps.geometry.coarsen import CoarseProxy, embedded_deformation
+from kfmaps.geometry.mesh import Mesh, boundary_vertices, surface_area, vertex_normals
+from kfmaps.matching.partial.samples import PartPair, PartSurface
 from kfmaps.registration.deformable import (
     DataTerm,
     DeformableMesh,
@@ -68,8 +69,41 @@ def register_part(
     samples begin, and the normals of the whole there; ``trust (q,)``: how much each counts; ``quick``: three levels of
     three steps, to compare candidates, instead of five of five; ``progress``: told about how much is done, from 0 to 1.
     """
-    rest, whole = deformable_mesh(scale_mesh(pair.part.mesh, scale)), pair.whole
+    rest = deformable_mesh(scale_mesh(pair.part.mesh, scale))
     x = initial_deformation(rest, pair.part.samples, points, normals, rest.areas.sum() * trust / trust.sum())
+    levels, steps = (_STIFFNESS[:3], 3) if quick else (_STIFFNESS, 5)
+    return _bend(rest, x, scale, pair.whole, levels, steps, progress)
+
+
+def refine_registration(found: PartRegistration, copy: CoarseProxy, part: Mesh, whole: PartSurface) -> PartRegistration:
+    """Bend a part onto a whole as coarse copies of both were bent.
+
+    Parameters
+    ----------
+    found : PartRegistration
+        Of the copies.
+    copy : CoarseProxy
+        Of the part.
+    part : Mesh
+    whole : PartSurface
+    """
+    rest, x = deformable_mesh(scale_mesh(part, found.scale)), found.vertices
+    if len(x) < len(part.vertices):
+        turns = rotations(build_arap(found.rest), x)
+        x = embedded_deformation(replace(copy, mesh=found.rest), rest.mesh, x, turns)
+    return _bend(rest, x, found.scale, whole, _STIFFNESS[-1:], 2, lambda _done: None)
+
+
+def _bend(
+    rest: DeformableMesh,
+    x: np.ndarray,
+    scale: float,
+    whole: PartSurface,
+    levels: Sequence[float],
+    steps: int,
+    progress: Callable[[float], None],
+) -> PartRegistration:
+    """Return the part, ``rest``, bent onto the whole from where its vertices are, ``x (n, 3)``."""
 
     def terms(x: np.ndarray, _stiffness: float) -> list[DataTerm]:
         found, there, agree = whole.surface(x, vertex_normals(Mesh(x, rest.mesh.faces)))
@@ -78,13 +112,11 @@ def register_part(
     def turns(x: np.ndarray) -> np.ndarray:
         return rotations(rest.energy, x)
 
-    levels, steps = (_STIFFNESS[:3], 3) if quick else (_STIFFNESS, 5)
-    return _measure_registration(
-        descend_levels(rest, x, levels, steps, 1.0, terms, turns, progress), rest, scale, whole
-    )
+    x = descend_levels(rest, x, levels, steps, 1.0, terms, turns, progress)
+    return _measure_registration(x, rest, scale, whole)
 
 
-def _measure_registration(x: np.ndarray, body: DeformableMesh, scale: float, whole: PartSamples) -> PartRegistration:
+def _measure_registration(x: np.ndarray, body: DeformableMesh, scale: float, whole: PartSurface) -> PartRegistration:
     """Return what a part, ``body`` at rest, shows with its vertices at ``x (n, 3)``."""
     rest, areas = body.mesh, body.areas
     found = closest_points(x, whole.mesh.vertices, whole.mesh.faces)
@@ -108,7 +140,7 @@ def _measure_registration(x: np.ndarray, body: DeformableMesh, scale: float, who
     )
 
 
-def _is_inside(found: ClosestPoints, whole: PartSamples) -> np.ndarray:
+def _is_inside(found: ClosestPoints, whole: PartSurface) -> np.ndarray:
     """Return which places (q,) are no points of the whole's boundary that something beyond it is nearest to."""
     return ~(_at_boundary(found, whole.mesh.faces, whole.on_boundary) & (found.distances > _BEYOND))
 
@@ -146,10 +178,10 @@ def overlap_probability(
     return _half_at(found.distances, width) * np.where(agree > 0, 1.0, 0.25), found
 
 
-def find_overlap(bent: PartRegistration, pair: PartPair) -> Overlap:
+def find_overlap(bent: PartRegistration, whole: PartSurface) -> Overlap:
     """Return what a registered part and the whole have in common."""
     mesh = Mesh(bent.vertices, bent.rest.faces)
-    common, found = overlap_probability(mesh, pair.part.on_boundary, pair.whole.mesh, pair.whole.surface.normals)
+    common, found = overlap_probability(mesh, boundary_vertices(bent.rest), whole.mesh, whole.surface.normals)
     own = np.where(bent.inside, _half_at(bent.places.distances, _OVERLAP_WIDTH), 0.0)
     return Overlap(own, common, *(PointMap(places.faces, places.weights) for places in (bent.places, found)))
 

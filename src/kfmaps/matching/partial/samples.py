@@ -9,11 +9,9 @@ import numpy as np
 from scipy.sparse.csgraph import dijkstra
 
 from kfmaps.descriptors.shot import shot
-from kfmaps.geometry.coarsen import coarsen
 from kfmaps.geometry.geodesic_graph import geodesic_graph
 from kfmaps.geometry.geodesics import farthest_geodesic, pairwise_geodesics
 from kfmaps.geometry.mesh import Mesh, boundary_vertices
-from kfmaps.geometry.sampling import stratified
 from kfmaps.matching.partial.relaxation_labeling import DistanceBounds, distance_bounds
 from kfmaps.registration.deformable import ClosestPointQuery, closest_point_query
 
@@ -23,14 +21,29 @@ at most 0.02, where those of two random points differ by 0.37."""
 
 
 @dataclass(frozen=True, eq=False)
-class PartSamples:
+class PartSurface:
+    """A mesh at unit area, with its boundary and ready to search for closest points."""
+
+    mesh: Mesh
+
+    @cached_property
+    def on_boundary(self) -> np.ndarray:
+        """Which vertices are on the boundary, (n,) bool."""
+        return boundary_vertices(self.mesh)
+
+    @cached_property
+    def surface(self) -> ClosestPointQuery:
+        """The mesh with its normals, ready to search for closest points."""
+        return closest_point_query(self.mesh)
+
+
+@dataclass(frozen=True, eq=False)
+class PartSamples(PartSurface):
     """Samples of one shape, in units of its own √area; made by :func:`part_samples`."""
 
-    mesh: Mesh  # at unit area
     samples: np.ndarray  # (q,): vertices: landmarks, then farthest points, so that the first few are spread evenly too
     distances: np.ndarray  # (q, q): along the surface; infinite between components
     boundary_distance: np.ndarray  # (q,): infinite where there is no boundary
-    on_boundary: np.ndarray  # (n,)
     n_landmarks: int = 0
     # SHOT at the samples by its radius, as far as :meth:`shot` was asked for it.
     descriptors: dict[float, np.ndarray] = field(default_factory=dict)
@@ -43,11 +56,6 @@ class PartSamples:
             found = shot(self.mesh, radius, at=self.samples, samples=count, threads=threads)
             self.descriptors[radius] = found.astype(np.float32)
         return self.descriptors[radius]
-
-    @cached_property
-    def surface(self) -> ClosestPointQuery:
-        """The mesh with its normals, ready to search for closest points."""
-        return closest_point_query(self.mesh)
 
 
 @dataclass(frozen=True, eq=False)
@@ -69,18 +77,12 @@ def part_samples(mesh: Mesh, count: int, landmarks: np.ndarray | None = None, rn
 
     ``mesh``: at unit area; ``count``: farthest points; ``landmarks (l,)``: vertices that come first.
     """
-    chosen = np.zeros(0, dtype=np.int64) if landmarks is None else np.asarray(landmarks, dtype=np.int64)
-    n_landmarks = len(chosen)
-    small, rows = mesh, np.arange(len(mesh.vertices))
-    if len(rows) > 20_000:  # searches of all vertices would take most of the time
-        rows = np.union1d(stratified(mesh.vertices, np.ones(len(rows)), 8_000, rng), chosen)
-        small = coarsen(mesh, rows)
-    first = np.searchsorted(rows, chosen)
-    farthest = farthest_geodesic(small, min(count, len(np.unique(small.faces))), rng)
+    first = np.zeros(0, dtype=np.int64) if landmarks is None else np.asarray(landmarks, dtype=np.int64)
+    farthest = farthest_geodesic(mesh, min(count, len(np.unique(mesh.faces))), rng)
     chosen = np.concatenate([first, farthest[~np.isin(farthest, first)]])
-    graph, away = geodesic_graph(small, 1), np.full(len(small.vertices), np.inf)
-    on = np.flatnonzero(boundary_vertices(small))
+    graph, away = geodesic_graph(mesh, 1), np.full(len(mesh.vertices), np.inf)
+    on = np.flatnonzero(boundary_vertices(mesh))
     if len(on):
         away = dijkstra(graph, indices=on, min_only=True)
-    away, between = away[chosen], pairwise_geodesics(graph, chosen).astype(np.float32)
-    return PartSamples(mesh, rows[chosen], between, away.astype(np.float32), boundary_vertices(mesh), n_landmarks)
+    between = pairwise_geodesics(graph, chosen).astype(np.float32)
+    return PartSamples(mesh, chosen, between, away[chosen].astype(np.float32), len(first))
