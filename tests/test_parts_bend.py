@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from kfmaps.geometry.closest_points import closest_points
+from kfmaps.geometry.coarsen import coarse_proxy, spread_vertices
 from kfmaps.geometry.mesh import Mesh, boundary_vertices, surface_area, unit_area, vertex_normals
 from kfmaps.matching.partial.registration import (
     _BEYOND,
@@ -12,6 +13,7 @@ from kfmaps.matching.partial.registration import (
     _measure_registration,
     find_overlap,
     overlap_probability,
+    refine_registration,
     register_part,
     scale_mesh,
 )
@@ -91,6 +93,22 @@ def test_a_part_that_was_moved_lies_where_it_was_cut(shapes, laid):
     assert found.flipped_area == 0.0
     assert found.edge_ratio == pytest.approx(1.0, abs=5e-3)
     assert found.inside.all()
+
+
+def test_all_vertices_follow_a_coarse_copy(shapes, laid):
+    """A copy of a third of the vertices is bent back; the part itself is where it was cut, on the whole's own bumps."""
+    whole, half, own = shapes
+    _, on, part, size = laid
+    copy = coarse_proxy(part, spread_vertices(part, len(own) // 3))
+    at = own[copy.vertices]
+    pair = PartPair(sampled(copy.mesh, np.arange(len(at))), on)
+    coarse = register_part(pair, size, whole.vertices[at], on.surface.normals[at], np.ones(len(at)))
+    found = refine_registration(coarse, copy, part, on)
+    assert len(coarse.vertices) < len(own) // 2
+    assert np.linalg.norm(found.vertices - half.vertices, axis=1).mean() < 2e-3
+    assert found.gap < 1e-3
+    assert found.scale == size
+    assert found.rest.vertices == pytest.approx(size * part.vertices)
 
 
 @pytest.mark.parametrize("factor", [0.8, 1.25])
