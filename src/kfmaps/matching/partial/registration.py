@@ -76,17 +76,7 @@ def register_part(
 
 
 def refine_registration(found: PartRegistration, copy: CoarseProxy, part: Mesh, whole: PartSurface) -> PartRegistration:
-    """Bend a part onto a whole as coarse copies of both were bent.
-
-    Parameters
-    ----------
-    found : PartRegistration
-        Of the copies.
-    copy : CoarseProxy
-        Of the part.
-    part : Mesh
-    whole : PartSurface
-    """
+    """Bend a ``part`` onto a whole as coarse copies of both were bent, of which ``copy`` is the part's."""
     rest, x = deformable_mesh(scale_mesh(part, found.scale)), found.vertices
     if len(x) < len(part.vertices):
         turns = rotations(build_arap(found.rest), x)

@@ -15,9 +15,9 @@ from kfmaps.geometry.mesh import Mesh, boundary_vertices
 from kfmaps.matching.partial.relaxation_labeling import DistanceBounds, distance_bounds
 from kfmaps.registration.deformable import ClosestPointQuery, closest_point_query
 
+# Support points of SHOT, and its radius in √area above which they become fewer. That changes products of descriptors by
+# at most 0.02, where those of two random points differ by 0.37.
 _SUPPORT, _FULL_SUPPORT = 10_000, 0.14
-"""Support points of SHOT, and its radius in √area above which they become fewer. They change products of descriptors by
-at most 0.02, where those of two random points differ by 0.37."""
 
 
 @dataclass(frozen=True, eq=False)

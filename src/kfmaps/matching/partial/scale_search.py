@@ -21,8 +21,7 @@ TRIALS = (
 """The first tries all scales, the others the best of these."""
 SCALES = tuple(0.28 * 1.15**i for i in range(10))
 """√area of the part over that of the whole; SHOT and consistency tolerate a tenth more or less."""
-_SHOT_STEP = 1.15 ** (1 / 3)
-"""Ratio of the scales that SHOT is computed at: 2.4 % are nothing to it, and placements of like scales share it."""
+_SHOT_STEP = 1.15 ** (1 / 3)  # ratio of the scales that SHOT is computed at, which placements of like scales share
 LARGER_SCALES = tuple(SCALES[-1] * 1.15**i for i in range(1, 4))
 """Further ones where what is registered is no part, but overlaps with one."""
 
