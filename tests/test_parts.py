@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 from functools import partial
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -16,6 +17,7 @@ from kfmaps.geometry.mesh import Mesh, boundary_vertices, surface_area
 from kfmaps.io import load_map
 from kfmaps.matching.match import match
 from kfmaps.matching.partial.detect import _boundary_opening, detect_part
+from kfmaps.matching.partial.match_partial import describe_part
 from kfmaps.matching.partial.relaxation_labeling import _SLACK, consistency, distance_bounds
 from kfmaps.matching.partial.samples import part_samples
 from kfmaps.matching.partial.scale_search import SCALES
@@ -217,3 +219,16 @@ def test_only_what_a_detour_explains_is_forgiven():
     sure = consistency(np.array([far]), np.array([far]), np.array([0.45]), (0.02, 0.1))[0]
     assert sure < fits[1]
     assert consistency(np.array([np.inf]), np.array([np.inf]), np.array([0.4]), (0.02, 0.1))[0] == 0
+
+
+@pytest.mark.parametrize(
+    ("scale", "told"),
+    [
+        (0.9, "the target is a part, 81% of the other's area; because"),
+        (0.97, "the target has holes (6% is missing)"),
+        (1.01, "the target has holes (0% is missing)"),
+    ],
+)
+def test_a_part_that_lacks_little_is_a_shape_with_holes(scale, told):
+    found = SimpleNamespace(part="target", scale=scale)
+    assert describe_part(found, "because") == told  # type: ignore[arg-type]

@@ -153,9 +153,15 @@ def test_guides_are_joined_in_proportion_to_their_weights(shape):
 
 def test_landmarks_are_doubted_when_most_of_the_others_are_met():
     near, far = 0.02, 0.9
-    assert rejected_landmarks(np.array([near, near, far, near, near])).tolist() == [False, False, True, False, False]
-    assert not rejected_landmarks(np.array([far, near])).any()
-    assert not rejected_landmarks(np.array([far, far, near, near, far])).any()
+    assert rejected_landmarks(np.array([near, near, far, near, near]), 0.3).tolist() == [
+        False,
+        False,
+        True,
+        False,
+        False,
+    ]
+    assert not rejected_landmarks(np.array([far, near]), 0.3).any()
+    assert not rejected_landmarks(np.array([far, far, near, near, far]), 0.3).any()
 
 
 def test_missed_is_the_distance_from_where_a_landmark_belongs(shape):
@@ -170,7 +176,8 @@ def test_missed_is_the_distance_from_where_a_landmark_belongs(shape):
     assert off[2] == pytest.approx(true, abs=0.1)
     one = score_maps([("", True)], np.eye(60)[None], None, on.whole)[0]
     assert one.quality.score - one.score == pytest.approx(SCORE.w_landmark, rel=0.3)
-    less = drop_landmarks(on.whole, np.array([False, False, True]))
+    less = drop_landmarks(on, np.array([False, False, True])).whole
+    assert drop_landmarks(on, np.ones(3, dtype=bool)).few.landmark_cost is None
     assert rerefine([one], less)[0].landmark_errors.shape == (2,)
     assert len(refine_fine([one], less, less, 90)[0].landmark_errors) == 2
 

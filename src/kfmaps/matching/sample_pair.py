@@ -97,9 +97,14 @@ def build_sample_pair(source: ShapeSamples, target: ShapeSamples, marks: Landmar
     return SamplePair(source, target, None if found is None else descriptor_cost(found), around, marks)
 
 
-def drop_landmarks(on: SamplePair, wrong: np.ndarray) -> SamplePair:
-    """Return the pair without the ``wrong (l,)`` landmarks."""
-    return build_sample_pair(on.source, on.target, on.landmark_evidence and on.landmark_evidence.without(wrong))
+def drop_landmarks(on: TwoLevelSamples, wrong: np.ndarray) -> TwoLevelSamples:
+    """Return the samples without the ``wrong (l,)`` landmarks."""
+
+    def less(pair: SamplePair) -> SamplePair:
+        kept = pair.landmark_evidence if pair.landmark_evidence and not wrong.all() else None
+        return build_sample_pair(pair.source, pair.target, kept and kept.without(wrong))
+
+    return TwoLevelSamples(less(on.few), less(on.whole))
 
 
 def mirrored_pair(on: SamplePair) -> SamplePair:

@@ -135,6 +135,8 @@ class Scoring:
 
     max_landmark_error: float = 0.3
     """Distance of a landmark's image from which it is simply wrong, and the landmark may be rejected."""
+    max_isometric_landmark_error: float = 0.12
+    """The same where the map nearly keeps distances; right ones miss by 0.11 at most (research/score.md)."""
     min_kept_landmarks: float = 0.6
     """Share of landmarks that a map must keep to before the others are rejected."""
     landmark_radius: float = 0.2
@@ -333,9 +335,15 @@ def landmark_support(errors: np.ndarray, distances: np.ndarray, areas: np.ndarra
     return share**2 * float(expit((numbers.landmark_error_middle - error) / numbers.landmark_error_width))
 
 
-def rejected_landmarks(errors: np.ndarray, numbers: Scoring = SCORE) -> np.ndarray:
+def max_landmark_error(score: float, numbers: Scoring = SCORE) -> float:
+    """Return the error from which a landmark contradicts a map of this :attr:`Quality.score`, in √area."""
+    near_isometric = score >= numbers.non_isometric_score
+    return numbers.max_isometric_landmark_error if near_isometric else numbers.max_landmark_error
+
+
+def rejected_landmarks(errors: np.ndarray, limit: float, numbers: Scoring = SCORE) -> np.ndarray:
     """Return which landmarks ``(l,)`` contradict a map that keeps to most of them; none of fewer than three."""
-    wrong = errors > numbers.max_landmark_error
+    wrong = errors > limit
     few = len(errors) < 3 or (~wrong).mean() < numbers.min_kept_landmarks
     return np.zeros(len(errors), dtype=bool) if few else wrong
 

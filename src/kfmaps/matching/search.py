@@ -51,6 +51,7 @@ from kfmaps.matching.score import (
     Candidate,
     excess_deformation,
     landmark_support,
+    max_landmark_error,
     probability,
     rejected_landmarks,
     verdict,
@@ -145,16 +146,32 @@ def search_map(
     seed = _drawn(given)
     report = progress or (lambda _stage, _done: None)
     pairs = check_landmark_pairs(landmarks, source, target)
-    samples = two_level_samples(source, target, _search_samples(source, target, config, pairs, seed, probes), pairs)
+    everything = two_level_samples(source, target, _search_samples(source, target, config, pairs, seed, probes), pairs)
     report("candidates", 0.1)
     plain, part = drop_learned(config), 0.4 if len(pairs) else 0.8
     more = {"descriptors": user_descriptors(source, target, config.descriptors, descriptors), "drawn": given}
-    first = lambda done: report("candidates", 0.1 + part * done)  # noqa: E731
-    found = candidates(source, target, plain, samples, seed, landmarks=pairs, report=first, **more)
+    alone: list[Candidate] = []
     if len(pairs):
         second = lambda done: report("candidates", 0.5 + 0.4 * done)  # noqa: E731
-        found += without_landmarks(source, target, plain, samples, seed, report=second, **more)
-    state = _reject_landmarks(_rank(source, target, config, pairs, samples, found))
+        alone = without_landmarks(source, target, plain, everything, seed, report=second, **more)
+
+    none, copies = np.zeros(len(pairs), dtype=bool), ProxyCache.of(source, target, everything.whole)
+    marks = everything.whole.landmark_evidence
+    base = _Search(source, target, config, pairs, marks, none, everything, copies, [], [], "preserving")
+
+    def search_with(wrong: np.ndarray) -> _Search:
+        kept = drop_landmarks(everything, wrong) if wrong.any() else everything
+        first = lambda done: report("candidates", 0.1 + part * done)  # noqa: E731
+        found: list[Candidate] = []
+        if not len(pairs) or not wrong.all():
+            found = candidates(source, target, plain, kept, seed, landmarks=pairs[~wrong], report=first, **more)
+        if alone:
+            found += rescore(alone, kept.whole, config.threads)
+        return _rank(replace(base, wrong=wrong, samples=kept, found=found))
+
+    state = search_with(none)
+    if len(pairs) and (wrong := _contradicted_landmarks(state)).any():
+        state = search_with(wrong)
     ranked, samples, retries = state.ranked, state.samples.whole, ()
     if learned and (state.orientation == "preserving" or config.search.orientation == "reversing"):
         others = learned_candidates(source, target, config, state.samples, seed, given)
@@ -206,25 +223,20 @@ def _are_surfaces(on: SamplePair) -> bool:
     return on.source.orientation is not None and on.target.orientation is not None
 
 
-def _rank(
-    source: Shape, target: Shape, config: Config, pairs: np.ndarray, samples: TwoLevelSamples, found: list[Candidate]
-) -> _Search:
+def _rank(state: _Search) -> _Search:
     """Rank the candidates; those near the best are registered too, where that may change which comes first."""
-    whole, copies = samples.whole, ProxyCache.of(source, target, samples.whole)
-    ranked = ranking(found, whole, copies, config.threads)
+    whole, copies, found, threads = state.samples.whole, state.copies, state.found, state.config.threads
+    ranked = ranking(found, whole, copies, threads)
     # Asked before a map is sought that deforms less: on a left and a right bone it may be a little below the limit.
     unduly = deforms_unduly(ranked[0])
     if ranked[0].deformation_energy is not None:
         behind = np.inf if unduly else SCORE.close_margin
         near = [c for c in found if map_distance(c, ranked[0], whole.source) <= SCORE.distinct_distance]
-        near = rerank_near_duplicates(ranked, near, whole, copies, config.threads, SCORE.duplicate_distance, behind)
+        near = rerank_near_duplicates(ranked, near, whole, copies, threads, SCORE.duplicate_distance, behind)
         ranked = distinct_maps(near, whole.source, SCORE.distinct_distance)
-    assert config.search is not None
-    orientation = "reversing" if config.search.orientation == "reversing" else "preserving"
-    wrong = np.zeros(len(pairs), dtype=bool)
-    state = _Search(
-        source, target, config, pairs, whole.landmark_evidence, wrong, samples, copies, found, ranked, orientation
-    )
+    assert state.config.search is not None
+    orientation = "reversing" if state.config.search.orientation == "reversing" else "preserving"
+    state = replace(state, ranked=ranked, orientation=orientation)
     return _choose_orientation(_repair_best(state) if unduly else state, unduly)
 
 
@@ -265,6 +277,11 @@ def _choose_orientation(state: _Search, unduly: bool) -> _Search:
     if not images or (asked == "auto" and not unduly and images[0].score < plain + SCORE.mirror_gain):
         return state
     ranked = ranking(images, other, copies, config.threads)
+    if asked == "auto" and len(state.pairs):
+        # Landmarks with left for right agree with the mirror image of any body that is its own mirror image.
+        by_surface = _without_evidence(ranked[0]).score - _without_evidence(_best_by_surface(state)[0]).score
+        if by_surface <= SCORE.mirror_gain:
+            return state
     better, energy = ranked[0].score - state.ranked[0].score, ranked[0].deformation_energy
     if asked == "auto" and better > SCORE.mirror_gain:
         # A body that is nearly its own mirror image has a map that keeps orientation and is as good.
@@ -293,19 +310,38 @@ def _compare_exchanged(state: _Search) -> _Search:
     return replace(state, ranked=ranked, doubts=(*state.doubts, (order[1], order[0].score - order[1].score)))
 
 
-def _reject_landmarks(state: _Search) -> _Search:
-    """Leave out the landmarks that the best candidate contradicts, and refine and rank all without them."""
-    if len(state.pairs) == 0:
-        return state
-    whole, threads = state.samples.whole, state.config.threads
-    wrong = rejected_landmarks(ignore_landmarks(state.ranked[0], whole, threads).landmark_errors)
-    if not wrong.any():
-        return state
-    rest = drop_landmarks(whole, wrong)
-    found = rerefine(state.found, rest, threads)
-    samples = TwoLevelSamples(drop_landmarks(state.samples.few, wrong), rest)
-    ranked = ranking(found, rest, state.copies, threads)
-    return replace(state, wrong=wrong, samples=samples, found=found, ranked=ranked)
+def _contradicted_landmarks(state: _Search) -> np.ndarray:
+    """Return which landmarks (l,) bool to leave out.
+
+    The best map contradicts some while it keeps to most of the others. A map that is found without landmarks and would
+    be called "sure" contradicts any number, unless a map that keeps to them fits the surfaces nearly as well.
+    """
+    best, whole, threads = state.ranked[0], state.samples.whole, state.config.threads
+    missed = ignore_landmarks(best, whole, threads).landmark_errors
+    limit = max_landmark_error(best.quality.score)
+    wrong = rejected_landmarks(missed, limit)
+    before = [_without_evidence(c.unregistered).score for c in (best, *state.found)]
+    if not (missed > limit).any() and max(before) < before[0] + SCORE.clear_margin:
+        return wrong
+    order = _best_by_surface(state)
+    first, margin = order[0], order[0].score - order[1].score if len(order) > 1 else np.inf
+    if verdict(first.quality.score, margin, first.deformation_energy) != "sure":
+        return wrong
+    missed_by_first = ignore_landmarks(first, whole, threads).landmark_errors
+    far = missed_by_first > max_landmark_error(first.quality.score)
+    ahead = _without_evidence(first).score - _without_evidence(best).score
+    return far if ahead > SCORE.close_margin or not (far & (missed <= limit)).any() else wrong
+
+
+def _best_by_surface(state: _Search) -> list[Candidate]:
+    """Return the distinct candidates, best first, ranked as if there were no landmarks."""
+    found = [replace(c, landmark_errors=np.zeros(0)) for c in state.found]
+    return ranking(found, state.samples.whole, state.copies, state.config.threads)
+
+
+def _without_evidence(found: Candidate) -> Candidate:
+    """Return a candidate without landmarks, and without what is only known beside other candidates."""
+    return replace(found, landmark_errors=np.zeros(0), strain=None, shot_error=None)
 
 
 def _to_result(state: _Search, best: Candidate, rest: list[Candidate]) -> SearchResult:
@@ -357,7 +393,8 @@ def still_missed(best: Candidate, on: SamplePair, marks: LandmarkEvidence | None
     """
     if marks is None:
         return np.zeros(0, dtype=bool)
-    return landmark_errors(best.functional_map, on.source.samples.basis.functions, marks) > SCORE.max_landmark_error
+    errors = landmark_errors(best.functional_map, on.source.samples.basis.functions, marks)
+    return errors > max_landmark_error(best.quality.score)
 
 
 def backed_by(best: Candidate, on: SamplePair, threads: int | None = None) -> float:

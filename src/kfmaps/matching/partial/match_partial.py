@@ -19,6 +19,8 @@ from kfmaps.shape import Shape
 
 COMMON = 0.5
 """Probability from which a vertex has a counterpart."""
+_HOLES = 0.9
+"""Share of the other's area from which a part is called a shape with holes."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -124,4 +126,7 @@ def describe_part(found: PartialMatch, reason: str) -> str:
     if found.part == "both":
         shares = found.overlap_source.mean(), found.overlap_target.mean()
         return f"common: {shares[0]:.0%} of the source's vertices, {shares[1]:.0%} of the target's; {reason}"
-    return f"the {found.part} is a part, {found.scale**2:.0%} of the other's area; {reason}"
+    share = found.scale**2
+    if share >= _HOLES:
+        return f"the {found.part} has holes ({max(1 - share, 0):.0%} is missing)"
+    return f"the {found.part} is a part, {share:.0%} of the other's area; {reason}"

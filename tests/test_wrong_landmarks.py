@@ -1,0 +1,71 @@
+"""Landmarks that are wrong are named, whatever they agree with, and move nothing."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+
+import kfmaps
+from kfmaps.datasets import symmetric_creature
+from kfmaps.geometry.geodesics import geodesic_distances
+from kfmaps.geometry.sampling import stratified_vertices
+from kfmaps.matching.score import SCORE, max_landmark_error, rejected_landmarks
+from kfmaps.matching.search import SearchResult, search_map
+
+GUARDS = ("kfmaps.matching.search", "kfmaps.matching.score")
+
+
+@pytest.fixture(scope="module")
+def creature() -> Any:
+    """Two prepared poses of a symmetric body, its pair, and ten right landmarks."""
+    pair = symmetric_creature(1500, rng=1)
+    shapes = [kfmaps.prepare(mesh, name=name) for mesh, name in ((pair.source, "a"), (pair.target, "b"))]
+    rows = stratified_vertices(shapes[1].basis, 10, 0)
+    return *shapes, pair, np.stack([pair.truth[rows], rows], axis=1)
+
+
+def searched(creature: Any, landmarks: np.ndarray) -> SearchResult:
+    return search_map(*creature[:2], replace(kfmaps.Config(), threads=1), landmarks=landmarks)
+
+
+def test_all_landmarks_with_left_for_right_are_named(creature: Any) -> None:
+    """A mirrored map keeps to all of them; the map without landmarks is sure, and it stays."""
+    pair, right = creature[2:]
+    swapped = right.copy()
+    swapped[:, 0] = pair.mirrored[right[:, 1]]
+    far = geodesic_distances(creature[0].mesh, right[:, 0])[np.arange(10), swapped[:, 0]] > 0.15
+    found = searched(creature, swapped)
+    assert (found.verdict, found.orientation) == ("sure", "preserving")
+    assert 2 < far.sum() < 10
+    assert found.rejected_landmarks.tolist() == np.flatnonzero(far).tolist()
+
+
+def test_a_single_wrong_landmark_is_named_and_moves_nothing(creature: Any) -> None:
+    """Even where it is the only one, against a map that is sure without it."""
+    right = creature[3]
+    away = geodesic_distances(creature[0].mesh, right[:1, 0])[0]
+    wrong = np.array([[np.abs(away - 0.2).argmin(), right[0, 1]]])
+    found, alone = searched(creature, wrong), searched(creature, right[:0])
+    assert found.rejected_landmarks.tolist() == [0]
+    np.testing.assert_array_equal(found.functional_map, alone.functional_map)
+    assert (found.verdict, found.confidence) == (alone.verdict, alone.confidence)
+
+
+def test_of_many_landmarks_the_wrong_one_is_named_and_the_map_is_that_of_the_others(creature: Any) -> None:
+    right = creature[3][:5]
+    away = geodesic_distances(creature[0].mesh, right[2:3, 0])[0]
+    spoiled = right.copy()
+    spoiled[2, 0] = np.abs(away - 0.2).argmin()
+    found, others = searched(creature, spoiled), searched(creature, np.delete(right, 2, axis=0))
+    assert found.rejected_landmarks.tolist() == [2]
+    np.testing.assert_allclose(found.functional_map, others.functional_map, atol=1e-9)
+
+
+def test_landmarks_may_be_farther_off_between_shapes_that_differ_much() -> None:
+    limits = [max_landmark_error(SCORE.non_isometric_score + more) for more in (0.0, -0.1)]
+    assert limits == [SCORE.max_isometric_landmark_error, SCORE.max_landmark_error]
+    errors = np.array([0.0, 0.2, 0.01])
+    assert [rejected_landmarks(errors, limit).tolist() for limit in limits] == [[False, True, False], [False] * 3]
