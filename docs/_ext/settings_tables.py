@@ -1,8 +1,7 @@
-"""The table of all settings in docs/settings.md: ``python -m kfmaps.settings.document docs/settings.md``."""
+"""The table of all settings in docs/settings.md: ``python docs/_ext/settings_tables.py``."""
 
 from __future__ import annotations
 
-import sys
 from dataclasses import MISSING, is_dataclass
 from inspect import getdoc
 from pathlib import Path
@@ -13,7 +12,7 @@ from kfmaps.config import KINDS, Config
 from kfmaps.settings.merge import PRESETS, preset
 from kfmaps.settings.toml import text_of
 
-BEGIN, END = "<!-- begin: made by kfmaps.settings.document -->", "<!-- end -->"
+BEGIN, END = "<!-- begin: made by docs/_ext/settings_tables.py -->", "<!-- end -->"
 
 
 def _value_in(config: Config, path: str, cls: type, one: Setting) -> str:
@@ -55,12 +54,12 @@ def tables() -> str:
     return "\n".join([BEGIN, "", "### Presets", "", *names, *lines, "", END])
 
 
-def _updated(text: str) -> str:
+def updated(text: str) -> str:
     """Return ``text`` with the tables between its two marks made anew."""
     before, _, rest = text.partition(BEGIN)
     return before + tables() + rest.partition(END)[2]
 
 
 if __name__ == "__main__":
-    path = Path(sys.argv[1])
-    path.write_text(_updated(path.read_text(encoding="utf-8")), encoding="utf-8")
+    path = Path(__file__).parents[1] / "settings.md"
+    path.write_text(updated(path.read_text(encoding="utf-8")), encoding="utf-8")
