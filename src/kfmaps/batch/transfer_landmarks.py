@@ -105,14 +105,14 @@ def carry_templates(
 ) -> SpecimenLandmarks:
     """Return the landmarks of a scan: the geometric median of what the templates propose, on the surface.
 
-    Maps that are not good (:data:`GOOD`) are left out where there are others. The confidence of a landmark is the mean
-    of the templates' confidences, times the fraction of templates whose proposal lies near the median
-    (:data:`MAX_SPREAD`).
+    ``results`` are those of the maps from the templates. Maps that are not good (:data:`GOOD`) are left out where there
+    are others. The confidence of a landmark is the mean of the templates' confidences, times the fraction of templates
+    whose proposal lies near the median (:data:`MAX_SPREAD`).
     """
     names = templates[0].points.names
     done = [one for one in templates if one.specimen in results and results[one.specimen].status == "done"]
-    good = [one for one in done if results[one.specimen].verdict in GOOD]
-    if not done:
+    used = [one for one in done if results[one.specimen].verdict in GOOD] or done
+    if not used:
         reasons = [r.reason for r in results.values() if r.reason]
         nothing = np.full(len(names), np.nan)
         points = scatter_points(_nothing(), names, np.zeros(len(names), dtype=bool))
@@ -120,46 +120,47 @@ def carry_templates(
         return SpecimenLandmarks(specimen, points, nothing, nothing, ("",) * len(names), misfit=told)
     mesh = read_shape_mesh(str(path))
     unit = float(np.sqrt(surface_area(mesh)))
-    used = good or done
     carried, rivals = [], []
     for one in used:
         file = map_path(folder, Pair(one.specimen, specimen).key)
-        chance = results[one.specimen].confidence
-        known, chance = load_map(file), 1.0 if chance is None else chance
-        carried.append(_carry_points(known, one.points, one.mesh, mesh, str(file), chance))
-        rivals.append(_rival_distance(known, one, mesh, carried[-1]))
+        known, chance = load_map(file), results[one.specimen].confidence
+        points = _carry_points(known, one.points, one.mesh, mesh, str(file), 1.0 if chance is None else chance)
+        carried.append(points)
+        rivals.append(_rival_distance(known, one, mesh, points))
     proposals = np.stack([points.points for points in carried])
     median = geometric_median(proposals)
-    there = np.asarray(np.isfinite(median).all(axis=1))
-    close = closest_points(median[there], mesh.vertices, mesh.faces)
-    place = PointMap(close.faces, close.weights)
     distances = np.linalg.norm(proposals - median, axis=2)
     near = np.where(np.isnan(distances), np.nan, distances <= MAX_SPREAD * unit)
     confidence = _mean(np.stack([points.confidence for points in carried])) * _mean(near)
-    placed = NamedPoints(
-        tuple(name for name, one in zip(names, there, strict=True) if one),
-        *(place, close.points, nearest_vertices(place, mesh), confidence[there], close.distances),
-    )
-    spread = np.full(len(names), np.nan)
-    if len(used) > 1:
-        spread[there] = np.nanmax(distances[:, there], axis=0)
-    rival = np.full(len(names), np.nan)
-    seen = np.isfinite(np.stack(rivals)).any(axis=0)
-    rival[seen] = np.nanmin(np.stack(rivals)[:, seen], axis=0)
-    flags = tuple(_flag(c, s / unit, n) for c, s, n in zip(confidence, spread, there, strict=True))
+    points = _on_surface(names, median, confidence, mesh)
+    spread = np.fmax.reduce(distances) if len(used) > 1 else np.full(len(names), np.nan)
+    there = np.isfinite(median).all(axis=1)
+    flags = tuple(_flag(c, s / unit, bool(n)) for c, s, n in zip(confidence, spread, there, strict=True))
     verdicts = tuple(results[one.specimen] for one in used)
-    misfit = ""
-    if not good:
-        best = max(verdicts, key=lambda r: r.confidence or 0.0)
-        misfit = f"its best map is {best.verdict} ({100 * (best.confidence or 0.0):.0f} %, from {best.source})"
-    points = scatter_points(placed, names, there)
-    reference = templates[0].points.points
-    if not misfit and is_mirror_image(points.points, reference):
-        misfit = (
-            "its landmarks are a mirror image of the templates': left and right are swapped, or the scan is mirrored"
-        )
     space = mesh_space(path) or templates[0].space
-    return SpecimenLandmarks(specimen, points, spread, rival, flags, verdicts, misfit, space)
+    misfit = _misfit(verdicts, points, templates[0])
+    return SpecimenLandmarks(specimen, points, spread, np.fmin.reduce(rivals), flags, verdicts, misfit, space)
+
+
+def _on_surface(names: tuple[str, ...], positions: np.ndarray, confidence: np.ndarray, mesh: Mesh) -> NamedPoints:
+    """Return the points of the surface that are closest to ``positions (l, 3)``; NaN positions have none."""
+    there = np.asarray(np.isfinite(positions).all(axis=1))
+    close = closest_points(positions[there], mesh.vertices, mesh.faces)
+    place = PointMap(close.faces, close.weights)
+    own = tuple(name for name, one in zip(names, there, strict=True) if one)
+    vertices = nearest_vertices(place, mesh)
+    placed = NamedPoints(own, place, close.points, vertices, confidence[there], close.distances)
+    return scatter_points(placed, names, there)
+
+
+def _misfit(results: Sequence[Result], points: NamedPoints, template: Template) -> str:
+    """Say why a specimen fits none of the others; nothing where it does."""
+    if not any(one.verdict in GOOD for one in results):
+        best = max(results, key=lambda r: r.confidence or 0.0)
+        return f"its best map is {best.verdict} ({100 * (best.confidence or 0.0):.0f} %, from {best.source})"
+    if is_mirror_image(points.points, template.points.points):
+        return "its landmarks are a mirror image of the templates': left and right are swapped, or the scan is mirrored"
+    return ""
 
 
 def _carry_points(

@@ -153,41 +153,6 @@ def _signs(maps: np.ndarray) -> np.ndarray:
     return np.where(sums < 0, -1.0, 1.0)
 
 
-def area_difference(C: np.ndarray) -> np.ndarray:
-    """Return the area-based shape difference ``CᵀC`` (Rustamov et al. 2013), the identity where areas are kept.
-
-    Parameters
-    ----------
-    C : (k_t, k_s)
-        Functional map in orthonormal bases.
-
-    Returns
-    -------
-    (k_s, k_s)
-        Inner products on the target of functions carried there, as a matrix on the source's.
-    """
-    return C.T @ C
-
-
-def conformal_difference(C: np.ndarray, eigenvalues_s: np.ndarray, eigenvalues_t: np.ndarray) -> np.ndarray:
-    """Return the conformal shape difference ``Λ_s⁺ Cᵀ Λ_t C``, the identity where angles are kept.
-
-    Parameters
-    ----------
-    C : (k_t, k_s)
-        Functional map in orthonormal bases.
-    eigenvalues_s, eigenvalues_t : (k_s,), (k_t,)
-
-    Returns
-    -------
-    (k_s - 1, k_s - 1)
-        As :func:`area_difference` for inner products of gradients, without the constant function.
-    """
-    values = np.asarray(eigenvalues_s)[1:]
-    inside = C.T @ (np.asarray(eigenvalues_t)[:, None] * C)
-    return inside[1:, 1:] / np.maximum(values, 1e-9 * values.max())[:, None]
-
-
 def operators(shape: LimitShape, eigenvalues: np.ndarray, kind: str = "area") -> np.ndarray:
     """Return the symmetric matrix of each shape on the latent space, the identity on average.
 
