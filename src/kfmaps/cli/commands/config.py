@@ -23,7 +23,6 @@ def config(
     force: Force = False,
 ) -> None:
     """Print the settings that match would use, as TOML that --config reads."""
-
     if output is not None:
         check_output(output, force)
     chosen = settings.config(Config())

@@ -79,7 +79,6 @@ def demo(
 
 def _write(folder: Path, shape: str, vertices: int, landmarks: int, seed: int, force: bool = False) -> list[Path]:
     """Write both shapes, the truth line by line and some of it as landmarks; return the files."""
-
     paths = [folder / name for name in ("a.ply", "b.ply", "a.vts", "b.vts", "pairs.txt")]
     folder.mkdir(parents=True, exist_ok=True)
     for path in paths:
@@ -95,13 +94,11 @@ def _write(folder: Path, shape: str, vertices: int, landmarks: int, seed: int, f
 
 def _pair(shape: str, vertices: int, landmarks: int, seed: int) -> tuple[ExamplePair, np.ndarray]:
     """Return the shapes, and vertices (l,) of the target far from each other."""
-
     pair: ExamplePair = getattr(datasets, shape.replace("-", "_"))(vertices, seed)
     return pair, farthest_geodesic(pair.target, landmarks, np.random.default_rng(seed))
 
 
 def _table(name: str, sizes: dict[str, int], methods: list[dict[str, Any]]) -> Table:
-
     n_s, n_t = sizes.values()
     table = Table(
         title=f"{name}: {n_s:,} and {n_t:,} vertices, meshed independently",
@@ -127,7 +124,6 @@ def _compare(
     The last two get the same eigenfunctions, landmarks and refinement, so that only the fit differs. Errors are in
     units of √area, of the refined map and of the fit alone.
     """
-
     with one_blas_thread(), Stages(quiet) as stages:
         stages("shapes", 0.0)
         pair, rows = _pair(shape, vertices, landmarks, seed)

@@ -193,7 +193,6 @@ def _lines(text: str) -> tuple[int, ...]:
 
 def _start(landmarks: bool) -> Config:
     """Return the settings that learning starts from."""
-
     # SHOT tells what the signature cannot, and few strong descriptors want less commutativity and a sharper kernel.
     if not landmarks:
         return replace(
@@ -233,7 +232,6 @@ def _preparation(
     folder: ShapeFolder, config: Config, lines: tuple[int, ...], identity: bool, seed: int
 ) -> Callable[[Pair], TrainingPair]:
     """Return a function that prepares a pair; each shape is read once."""
-
     from kfmaps.learn import training_pair
 
     @cache

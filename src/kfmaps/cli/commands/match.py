@@ -115,7 +115,6 @@ def run(
     truth: Any = None,
 ) -> tuple[Match, Accuracy | None]:
     """Match two meshes and tell the stages; with ``truth`` the answer is set beside it."""
-
     seconds: dict[str, float] = {}
     with one_blas_thread(), Stages(quiet) as stages:
         names = (str(paths[0]), str(paths[1]))
@@ -139,7 +138,6 @@ def _read(path: Path, config: Config) -> Mesh:
 
     A file without faces is a point cloud only when its name says so; else something was lost.
     """
-
     mesh = read_mesh(path, cloud=path.suffix.lower() == ".xyz")
     if len(mesh.vertices) <= config.n_eigenfunctions:
         wanted = f"more than {config.n_eigenfunctions} vertices, one for each eigenfunction"
@@ -183,7 +181,6 @@ def _check_landmarks(pairs: np.ndarray, meshes: tuple[Mesh, Mesh], paths: tuple[
 
 def _own_descriptors(files: tuple[Path, Path], meshes: tuple[Mesh, Mesh]) -> tuple[np.ndarray, np.ndarray]:
     """The user's descriptors (n_s, d) and (n_t, d), checked."""
-
     found = []
     for file, mesh in zip(files, meshes, strict=True):
         values = read_values(file).array
