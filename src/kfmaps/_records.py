@@ -83,7 +83,7 @@ class Setting:
             return f"{self.low:g} to {f'{self.high:g}' if self.high is not None else f'below {self.below:g}'}"
         return "" if self.low is None else f"at least {self.low:g}"
 
-    def check(self, value: Any, label: str) -> None:
+    def check(self, value: object, label: str) -> None:
         """Raise :class:`InvalidInput`, beginning with ``label``, when the field cannot have ``value``."""
         if (value is None and self.optional) or self._fits(value):
             return
@@ -275,13 +275,13 @@ def _one_of(
     return _updated(cls, table, begin, None, label, kinds)
 
 
-def _table(value: Any, label: str) -> Mapping[str, Any]:
+def _table(value: object, label: str) -> Mapping[str, Any]:
     if not isinstance(value, dict):
         raise refuse(label, "a table of settings", repr(value), f"write [{label}] and one setting a line")
     return value
 
 
-def _tuple(value: Any, label: str, depth: int = 0) -> tuple[Any, ...]:
+def _tuple(value: object, label: str, depth: int = 0) -> tuple[Any, ...]:
     """Nested lists of numbers as tuples; how many there must be is for their record to say."""
     if not isinstance(value, list | tuple) or depth > 3:
         raise refuse(label, "a list of numbers, or of lists of them", repr(value)[:60], "write [1.0, 2.0]")

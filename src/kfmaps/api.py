@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from kfmaps._arrays import check, refuse
 from kfmaps.cli.evaluation import Truth, check_truth
@@ -26,7 +27,7 @@ from kfmaps.io import atomic_output, check_map, load_map
 from kfmaps.io import save_map as save_map
 from kfmaps.io import transfer as carried
 from kfmaps.io.atomic import write_text
-from kfmaps.io.convert import as_landmarks, as_map, as_mesh, is_file
+from kfmaps.io.convert import LandmarksLike, MapLike, ShapeLike, TruthLike, as_landmarks, as_map, as_mesh, is_file
 from kfmaps.matching import match as matching
 from kfmaps.matching.result import Match
 from kfmaps.shape import Shape
@@ -39,12 +40,12 @@ Reporter = Callable[[str, float], None]
 
 
 def match(
-    source: Any,
-    target: Any,
+    source: ShapeLike | Shape,
+    target: ShapeLike | Shape,
     config: Config | None = None,
     *,
-    landmarks: Any = None,
-    descriptors: tuple[Any, Any] | None = None,
+    landmarks: LandmarksLike | None = None,
+    descriptors: tuple[ArrayLike, ArrayLike] | None = None,
     rng: int | np.random.Generator | None = 0,
     progress: bool | Reporter | None = None,
 ) -> Match:
@@ -95,7 +96,7 @@ def match(
 
 
 def prepare(
-    shape: Any, config: Config | None = None, *, name: str | None = None, progress: bool | Reporter | None = None
+    shape: ShapeLike, config: Config | None = None, *, name: str | None = None, progress: bool | Reporter | None = None
 ) -> Shape:
     """Do the work that depends on one shape alone, so that matching it with many others reuses it.
 
@@ -123,7 +124,9 @@ def prepare(
         return prepared(as_mesh(shape, name), config, name=name, progress=report)
 
 
-def transfer(values: Any, found: Any, lost: Any = None, *, source: Any = None) -> np.ndarray:
+def transfer(
+    values: ArrayLike, found: MapLike, lost: object = None, *, source: ShapeLike | Shape | None = None
+) -> np.ndarray:
     """Carry values from the vertices of the source to those of the target.
 
     Parameters
@@ -152,7 +155,9 @@ def transfer(values: Any, found: Any, lost: Any = None, *, source: Any = None) -
     return carried(values, as_map(found, mesh), None if mesh is None else mesh.faces, lost)
 
 
-def geodesic_errors(source: Any, predicted: Any, true: Any, method: str = "unfolded") -> np.ndarray:
+def geodesic_errors(
+    source: ShapeLike | Shape, predicted: MapLike, true: TruthLike | PointMap, method: str = "unfolded"
+) -> np.ndarray:
     """Return the geodesic distance on the source from each predicted to its true point, divided by √area.
 
     Parameters
@@ -194,9 +199,9 @@ def geodesic_errors(source: Any, predicted: Any, true: Any, method: str = "unfol
 
 
 def zoomout(
-    C: Any,
-    source: Any,
-    target: Any,
+    C: ArrayLike,
+    source: Basis | Shape,
+    target: Basis | Shape,
     *,
     start: int | None = None,
     stop: int | None = None,
@@ -248,12 +253,12 @@ def zoomout(
 
 
 def render(
-    found: Any,
-    source: Any = None,
-    target: Any = None,
+    found: MapLike,
+    source: ShapeLike | Shape | None = None,
+    target: ShapeLike | Shape | None = None,
     *,
     output: str | Path | None = None,
-    truth: Any = None,
+    truth: TruthLike | None = None,
     force: bool = False,
     **options: Any,
 ) -> Figure:
@@ -302,12 +307,12 @@ def render(
 
 
 def view(
-    found: Any,
-    source: Any = None,
-    target: Any = None,
+    found: MapLike,
+    source: ShapeLike | Shape | None = None,
+    target: ShapeLike | Shape | None = None,
     *,
     output: str | Path | None = None,
-    truth: Any = None,
+    truth: TruthLike | None = None,
     names: tuple[str, str] = ("source", "target"),
     descriptors: bool = True,
     up: str | None = None,
@@ -345,11 +350,11 @@ def view(
     return Path(output)
 
 
-def _mesh(shape: Any, name: str) -> Mesh:
+def _mesh(shape: ShapeLike | Shape, name: str) -> Mesh:
     return shape.mesh if isinstance(shape, Shape) else as_mesh(shape, name)
 
 
-def _check_config(config: Any) -> None:
+def _check_config(config: object) -> None:
     if config is not None and not isinstance(config, Config):
         raise refuse("config", "a Config", type(config).__name__, "give kfmaps.Config() or Config.paper(), say")
 
@@ -361,7 +366,7 @@ def _telling(progress: bool | Reporter | None) -> Any:
     return nullcontext(progress or None)
 
 
-def _truth(truth: Any, shapes: tuple[Mesh, Mesh]) -> Truth:
+def _truth(truth: TruthLike, shapes: tuple[Mesh, Mesh]) -> Truth:
     """Corresponding vertices of both shapes, of a truth as :func:`render` takes it."""
     if not isinstance(truth, tuple):
         points = check_map(truth, len(shapes[0].vertices), len(shapes[1].vertices), "truth", lost=True)
@@ -374,7 +379,7 @@ def _truth(truth: Any, shapes: tuple[Mesh, Mesh]) -> Truth:
     return check_truth(Truth(both[0], both[1]), *(len(mesh.vertices) for mesh in shapes))
 
 
-def _shapes(found: Any, source: Any, target: Any) -> tuple[Mesh, Mesh]:
+def _shapes(found: MapLike, source: ShapeLike | Shape | None, target: ShapeLike | Shape | None) -> tuple[Mesh, Mesh]:
     """The two shapes of a map: as given, else the match's own, else those that the map's file names."""
     from kfmaps.io.provenance import map_mesh
 

@@ -172,7 +172,7 @@ def _n_threads(client: Client) -> int:
     return sum(threads.values())
 
 
-def dask_setup(worker: Any) -> None:
+def dask_setup(worker: object) -> None:
     """Called by Dask in each local worker process: leave Ctrl-C to the process that was started by the user."""
     del worker
     signal.signal(signal.SIGINT, signal.SIG_IGN)

@@ -7,7 +7,6 @@ from collections import Counter
 from collections.abc import Iterable, Sequence
 from dataclasses import asdict, dataclass, field, fields
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -96,7 +95,7 @@ def all_results(folder: Path, settings: str) -> list[Result]:
     return sorted((r for r in found if r is not None and r.settings == settings), key=lambda r: (r.source, r.target))
 
 
-def write_rows(path: Path, rows: Iterable[Iterable[Any]]) -> None:
+def write_rows(path: Path, rows: Iterable[Iterable[object]]) -> None:
     """Write rows as CSV, whole or not at all; an existing file is replaced."""
     path.parent.mkdir(parents=True, exist_ok=True)
     write_text(path, csv_text(rows), force=True)

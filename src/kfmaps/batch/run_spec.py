@@ -54,13 +54,13 @@ class RunSpec:
         return digest_of(self.as_dict())
 
 
-def digest_of(values: Any, digits: int = 16) -> str:
+def digest_of(values: object, digits: int = 16) -> str:
     """Return the hexadecimal SHA-256 of plain values, cut to ``digits``."""
     text = json.dumps(values, sort_keys=True, separators=(",", ":"))
     return hashlib.sha256(text.encode()).hexdigest()[:digits]
 
 
-def _flatten(values: Any, name: str = "") -> dict[str, Any]:
+def _flatten(values: object, name: str = "") -> dict[str, Any]:
     """Nested mappings as one, with dotted names."""
     if not isinstance(values, Mapping):
         return {name: values}

@@ -47,7 +47,7 @@ def say(text: str) -> None:
     print(shown(text))
 
 
-def print_json(values: Any) -> None:
+def print_json(values: object) -> None:
     """Print one line of JSON on standard output; paths as text."""
     print(json.dumps(values, default=str))
 

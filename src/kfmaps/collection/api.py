@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import Any
 
 import numpy as np
 
@@ -28,7 +27,7 @@ from kfmaps.collection.repair import CyclePath, Replacement
 from kfmaps.collection.scored_map import ScoredMap
 from kfmaps.config import Config
 from kfmaps.io import check_map
-from kfmaps.io.convert import as_map, as_mesh
+from kfmaps.io.convert import MapLike, ShapeLike, as_map, as_mesh
 from kfmaps.matching.match import match
 from kfmaps.matching.quality import ShapeSamples
 from kfmaps.matching.result import Match
@@ -151,8 +150,8 @@ class Collection:
 
 
 def match_collection(
-    shapes: Mapping[str, Any] | Sequence[Any],
-    maps: Mapping[tuple[str, str], Any] | None = None,
+    shapes: Mapping[str, ShapeLike | Shape] | Sequence[ShapeLike | Shape],
+    maps: Mapping[tuple[str, str], MapLike] | None = None,
     *,
     graph: str = "near",
     config: Config | None = None,
@@ -298,7 +297,7 @@ class _MemoryStore:
 
 
 def _checked_maps(
-    maps: Mapping[tuple[str, str], Any], names: Sequence[str], shapes: Sequence[Shape]
+    maps: Mapping[tuple[str, str], MapLike], names: Sequence[str], shapes: Sequence[Shape]
 ) -> dict[tuple[int, int], Match]:
     found = {}
     for (source, target), one in maps.items():

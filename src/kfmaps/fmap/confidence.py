@@ -71,23 +71,13 @@ def local_confidence(
 
 @dataclass(frozen=True, eq=False)
 class LocalDistortion:
-    """What is the same for all maps between two shapes; made by :func:`build_local_distortion`.
-
-    Attributes
-    ----------
-    part_s, part_t : CleanedMesh
-    reach_s : GraphDistances
-        Of the cleaned source.
-    samples : (q,) int64
-        Vertices of the cleaned target.
-    near : tuple of (rows, columns, distances)
-        For each 64 samples, which of them is how far from which vertex of the target, where it is near.
-    """
+    """What is the same for all maps between two shapes; made by :func:`build_local_distortion`."""
 
     part_s: CleanedMesh
     part_t: CleanedMesh
-    reach_s: GraphDistances
-    samples: np.ndarray
+    reach_s: GraphDistances  # of the cleaned source
+    samples: np.ndarray  # (q,): vertices of the cleaned target
+    # For each 64 samples, which of them is how far from which vertex of the target, where it is near.
     near: tuple[tuple[np.ndarray, np.ndarray, np.ndarray], ...]
 
     def __call__(self, target_to_source: np.ndarray) -> np.ndarray:
@@ -140,18 +130,10 @@ def build_local_distortion(
 
 @dataclass(frozen=True, eq=False)
 class GraphDistances:
-    """A surface on which distances are sought; made by :func:`approximate_geodesics`.
+    """A surface on which distances are sought; made by :func:`approximate_geodesics`."""
 
-    Attributes
-    ----------
-    graph : sparse (m, m)
-        Of the edges of the surface or its copy.
-    near : CoarseInterpolation or None
-        How the surface lies on the copy; ``None`` where there is none.
-    """
-
-    graph: csr_array
-    near: CoarseInterpolation | None = None
+    graph: csr_array  # of the edges of the surface or its copy
+    near: CoarseInterpolation | None = None  # how the surface lies on the copy; ``None`` where there is none
 
     def __call__(self, vertices: np.ndarray, limit: float) -> np.ndarray:
         """Return distances (q, n) from ``vertices (q,)``; infinite, or at least larger than ``limit``, beyond that."""

@@ -73,21 +73,13 @@ def edge_covariances(energy: ArapEnergy, x: np.ndarray) -> np.ndarray:
 
 
 def nearest_rotations(matrices: np.ndarray) -> np.ndarray:
-    """Return the rotation closest to each of some matrices, never a reflection.
+    """Return the rotation closest to each of some matrices, never a reflection: (n, 3, 3).
 
     The closed form takes a tenth of the time of singular value decompositions, which are used for the few matrices
     whose rotation is hardly determined.
 
-    Parameters
-    ----------
-    matrices : (n, 3, 3) float64
+    ``matrices (n, 3, 3)``.
 
-    Returns
-    -------
-    (n, 3, 3) float64
-
-    References
-    ----------
     Markley, Attitude determination using vector observations: a fast optimal matrix algorithm (1993).
     """
     # One entry of all matrices lies together: (3, 3, n).

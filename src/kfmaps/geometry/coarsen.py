@@ -93,27 +93,13 @@ def coarse_proxy(mesh: Mesh, vertices: np.ndarray) -> CoarseProxy:
 
 
 def embedded_deformation(copy: CoarseProxy, mesh: Mesh, bent: np.ndarray, turns: np.ndarray) -> np.ndarray:
-    """Return the vertices of a mesh that follows its deformed coarse copy.
+    """Return the vertices of a mesh that follows its deformed coarse copy: (n, 3).
 
     Each moves with the vertices of the copy around it, by the motion of each, blended by weights that fall to zero
     where the surroundings end. A rigid motion of the copy is that of the mesh.
 
-    Parameters
-    ----------
-    copy : CoarseProxy
-        Of ``mesh``.
-    mesh : Mesh
-    bent : (q, 3) float64
-        Positions of the copy's vertices.
-    turns : (q, 3, 3) float64
-        Their rotations.
+    ``copy``: of ``mesh``; ``bent (q, 3)``: positions of the copy's vertices; ``turns (q, 3, 3)``: their rotations.
 
-    Returns
-    -------
-    (n, 3) float64
-
-    References
-    ----------
     Sumner, Schmid and Pauly, Embedded deformation for shape manipulation (2007).
     """
     q, n = len(copy.vertices), len(mesh.vertices)

@@ -17,47 +17,24 @@ class Topology:
 
     Open edges that lie in one place count as connected (:func:`kfmaps.geometry.clean.weld_vertices`): a mesh cut along
     seams, or into single triangles, is the surface that it looks like.
-
-    Attributes
-    ----------
-    components : int
-        Connected pieces of surface, joined where they share a vertex.
-    boundary_edges, boundary_loops : int
-        Edges of one face only, and the closed curves that they form. Where edges are non-manifold, an open chain
-        between two of them counts as a loop.
-    euler_characteristic : int
-        Vertices - edges + faces; vertices that no face uses do not count.
-    orientable : bool
-        Whether all faces can be turned to agree with their neighbours.
-    genus : int or None
-        Handles, summed over the components, each boundary loop filled by a disc: ``(2 components - loops -
-        euler_characteristic) / 2``. None unless the surface is an orientable manifold.
-    nonmanifold_edges : int
-        Edges of three faces or more.
-    nonmanifold_vertices : int
-        Vertices whose faces form several fans instead of one.
-    inconsistent_edges : int
-        Edges along which two neighbours are oriented against each other.
-    degenerate_faces : int
-        Faces that name a vertex twice or have no area (1e-14 of the largest, or less).
-    unreferenced_vertices : int
-        Vertices that no face uses.
-    duplicated_vertices : int
-        Vertices in exactly the place of an earlier one.
     """
 
-    components: int
+    components: int  # connected pieces of surface, joined where they share a vertex
+    # Edges of one face only, and the closed curves that they form. Where edges are non-manifold, an open chain between
+    # two of them counts as a loop.
     boundary_edges: int
     boundary_loops: int
-    euler_characteristic: int
-    is_orientable: bool
+    euler_characteristic: int  # vertices - edges + faces; vertices that no face uses do not count
+    is_orientable: bool  # whether all faces can be turned to agree with their neighbours
+    # Handles, summed over the components, each boundary loop filled by a disc: ``(2 components - loops -
+    # euler_characteristic) / 2``. None unless the surface is an orientable manifold.
     genus: int | None
-    nonmanifold_edges: int
-    nonmanifold_vertices: int
-    inconsistent_edges: int
-    degenerate_faces: int
-    unreferenced_vertices: int
-    duplicated_vertices: int
+    nonmanifold_edges: int  # edges of three faces or more
+    nonmanifold_vertices: int  # vertices whose faces form several fans instead of one
+    inconsistent_edges: int  # edges along which two neighbours are oriented against each other
+    degenerate_faces: int  # faces that name a vertex twice or have no area (1e-14 of the largest, or less)
+    unreferenced_vertices: int  # vertices that no face uses
+    duplicated_vertices: int  # vertices in exactly the place of an earlier one
 
     @property
     def is_closed(self) -> bool:

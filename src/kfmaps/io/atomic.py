@@ -12,7 +12,6 @@ import time
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
-from typing import Any
 
 from kfmaps._arrays import refuse
 
@@ -121,7 +120,7 @@ def write_text(path: str | Path, text: str, force: bool = False) -> None:
         temporary.write_text(text, encoding="utf-8", newline="")
 
 
-def csv_text(rows: Iterable[Iterable[Any]]) -> str:
+def csv_text(rows: Iterable[Iterable[object]]) -> str:
     """Return rows as comma-separated values."""
     text = io.StringIO(newline="")
     csv.writer(text, lineterminator="\n").writerows(rows)

@@ -8,9 +8,10 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, Protocol, TypeGuard
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from kfmaps._arrays import InvalidInput, refuse
 from kfmaps.fmap.precise import PointMap, check_point_map_precise, nearest_vertices
@@ -22,17 +23,42 @@ from kfmaps.matching.result import Match
 from kfmaps.matching.result_groups import ShapeFile
 from kfmaps.shape import Shape
 
+
+class HasVertices(Protocol):
+    """A mesh of trimesh (``faces``) or Open3D (``triangles``)."""
+
+    @property
+    def vertices(self) -> Any: ...
+
+
+class HasPoints(Protocol):
+    """A mesh of PyVista (``faces``) or meshio (``cells``)."""
+
+    @property
+    def points(self) -> Any: ...
+
+
+FileName = str | os.PathLike[str]
+ShapeLike = Mesh | FileName | np.ndarray | Sequence[ArrayLike] | HasVertices | HasPoints
+"""What a shape may be: a Mesh, a file, an array (n, 3), a pair of arrays, or another library's mesh."""
+MapLike = Match | PointMap | FileName | ArrayLike
+"""What a map may be: a match, points inside triangles, a file, or a source vertex for each target vertex."""
+LandmarksLike = FileName | ArrayLike | tuple[FileName, FileName]
+"""What landmarks may be: pairs of vertices, a file of them, or a file for each shape."""
+TruthLike = ArrayLike | tuple[ArrayLike, ArrayLike]
+"""What a truth may be: the source vertex of each target vertex, or corresponding vertices of both."""
+
 _SHAPES = "a Mesh, a file, (vertices, faces), or a mesh of trimesh, PyVista, meshio or Open3D"
 POLYGONS = ("triangle", "quad", "polygon")
 """Kinds of meshio's cells that are faces."""
 
 
-def is_file(value: Any) -> bool:
+def is_file(value: object) -> TypeGuard[FileName]:
     """Return whether ``value`` names a file."""
     return isinstance(value, str | os.PathLike)
 
 
-def as_mesh(shape: Any, name: str = "shape") -> Mesh:
+def as_mesh(shape: ShapeLike, name: str = "shape") -> Mesh:
     """Return a shape as a mesh, or as a point cloud where it has no faces. Vertices keep their order and number.
 
     Parameters
@@ -118,7 +144,9 @@ def _meshio(cells: Any) -> np.ndarray:
     return np.concatenate(parts) if parts else np.zeros((0, 3), dtype=np.int64)
 
 
-def as_landmarks(landmarks: Any, shapes: Sequence[Any] = (), meshes: Sequence[Mesh] = ()) -> Any:
+def as_landmarks(
+    landmarks: LandmarksLike | None, shapes: Sequence[object] = (), meshes: Sequence[Mesh] = ()
+) -> ArrayLike | None:
     """Return landmarks as pairs of vertices where files hold them, else as they are.
 
     ``landmarks``: a file of pairs, or the landmarks of either shape
@@ -136,7 +164,7 @@ def as_landmarks(landmarks: Any, shapes: Sequence[Any] = (), meshes: Sequence[Me
     return landmarks
 
 
-def as_map(found: Any, source: Mesh | None = None) -> Match:
+def as_map(found: MapLike, source: Mesh | None = None) -> Match:
     """Return a map of any kind as a :class:`~kfmaps.Match`.
 
     Parameters

@@ -27,7 +27,7 @@ class _MapArray:
     missing: bool = False  # whether −1 may stand for a vertex without counterpart, or NaN for an unknown number
     high: float = np.inf  # greatest value of numbers that are at least 0; infinite where they are not bounded
 
-    def check(self, value: Any, name: str, sizes: Mapping[str, int | None]) -> np.ndarray:
+    def check(self, value: object, name: str, sizes: Mapping[str, int | None]) -> np.ndarray:
         """Return ``value`` as int64 or float64 where it is what the field wants; ``sizes``: vertices of both shapes."""
         shape = tuple(sizes[size] if isinstance(size, str) else size for size in self.shape)
         array = check(real(value, name), name, shape=shape, finite=not self.missing, remedy=REPAIR)
@@ -66,7 +66,7 @@ OLDER = {"config", "eigenvalues_s", "eigenvalues_t", "n_s", "runners_up", "place
 """Names in files of older versions, which are refused."""
 
 
-def real(value: Any, name: str) -> np.ndarray:
+def real(value: object, name: str) -> np.ndarray:
     """Return ``value`` as an array where it holds real numbers or truth values."""
     array = np.asarray(value)
     if array.dtype.kind not in "biuf":
@@ -75,7 +75,7 @@ def real(value: Any, name: str) -> np.ndarray:
 
 
 def check_map(
-    target_to_source: Any, n_s: int | None = None, n_t: int | None = None, name: str = "map", *, lost: bool = False
+    target_to_source: object, n_s: int | None = None, n_t: int | None = None, name: str = "map", *, lost: bool = False
 ) -> np.ndarray:
     """Return ``target_to_source`` as (n_t,) int64 where it names a source vertex for every target vertex.
 

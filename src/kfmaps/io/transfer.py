@@ -6,6 +6,7 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from kfmaps._arrays import check, refuse
 from kfmaps.config import BasisConfig, Config, DescriptorConfig
@@ -21,7 +22,9 @@ from kfmaps.shape import prepare
 _N_FUNCTIONS = 100  # size of the functional map where the file has none
 
 
-def transfer(values_s: Any, target_to_source: Any, faces_s: np.ndarray | None = None, lost: Any = None) -> np.ndarray:
+def transfer(
+    values_s: ArrayLike, target_to_source: Any, faces_s: np.ndarray | None = None, lost: object = None
+) -> np.ndarray:
     """Carry values from the vertices of the source to those of the target.
 
     Parameters
@@ -73,7 +76,7 @@ def _interpolate(values: np.ndarray, at: PointMap | None, faces: np.ndarray | No
     return np.where((~finite & counted).any(axis=1), values[nearest], mixed).astype(values.dtype)
 
 
-def _fill_lost(values: np.ndarray, gone: np.ndarray, lost: Any = None) -> np.ndarray:
+def _fill_lost(values: np.ndarray, gone: np.ndarray, lost: object = None) -> np.ndarray:
     """Put ``lost``, by default that of :func:`transfer`, into the rows ``gone (n,)`` of ``values (n, ...)``."""
     if not gone.any():
         return values
@@ -86,7 +89,7 @@ def _fill_lost(values: np.ndarray, gone: np.ndarray, lost: Any = None) -> np.nda
     return values
 
 
-def transfer_back(values_t: np.ndarray, ways: Counterparts, target: Mesh, lost: Any = None) -> np.ndarray:
+def transfer_back(values_t: np.ndarray, ways: Counterparts, target: Mesh, lost: object = None) -> np.ndarray:
     """Carry values from the vertices of the target to those of the source, (n_t, ...) to (n_s, ...).
 
     Each source vertex takes those of its own place on the target. ``lost`` is as for :func:`transfer`.

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import Any
 from weakref import WeakKeyDictionary
 
 import numpy as np
 import torch
+from numpy.typing import ArrayLike
 
 from kfmaps._arrays import check, refuse, to_numpy
 from kfmaps._records import short_repr
@@ -101,8 +101,8 @@ def training_pair(
     target: Shape,
     config: Config,
     *,
-    landmarks: Any = None,
-    truth: tuple[Any, Any] | None = None,
+    landmarks: ArrayLike | None = None,
+    truth: tuple[ArrayLike, ArrayLike] | None = None,
     samples: int = 150,
     rng: int | np.random.Generator = 0,
 ) -> TrainingPair:
@@ -157,7 +157,7 @@ def training_pair(
 
 
 def _truth(
-    source: Shape, target: Shape, points: tuple[np.ndarray, np.ndarray], k: int, truth: tuple[Any, Any]
+    source: Shape, target: Shape, points: tuple[np.ndarray, np.ndarray], k: int, truth: tuple[ArrayLike, ArrayLike]
 ) -> PairTruth:
     """Return the truth of a fit that uses ``points`` of source and target."""
     true_s, true_t = (np.asarray(side) for side in truth)

@@ -20,29 +20,16 @@ from kfmaps.shape import Shape
 
 @dataclass(frozen=True, eq=False)
 class PostprocessedMap:
-    """What :func:`refine_map` returns.
+    """What :func:`refine_map` returns."""
 
-    Attributes
-    ----------
-    target_to_source : (n_t,) int64
-        A source vertex for each target vertex.
-    functional_map : (k_t, k_s) float64
-        Of that map.
-    raw_target_to_source : (n_t,) int64 or None
-        The point map before the refinement, where it was asked for or there is none.
-    seconds : dict of str to float
-    source_to_target : (n_s,) int64 or None
-        A target vertex for each source vertex, where a map back was given.
-    map_back : (k_s, k_t) float64 or None
-        Its functional map.
-    """
-
-    target_to_source: np.ndarray
-    functional_map: np.ndarray
+    target_to_source: np.ndarray  # (n_t,): a source vertex for each target vertex
+    functional_map: np.ndarray  # (k_t, k_s): of that map
+    # (n_t,): the point map before the refinement, where it was asked for or there is none.
     raw_target_to_source: np.ndarray | None
     seconds: dict[str, float]
+    # (n_s,): a target vertex for each source vertex, where a map back was given.
     source_to_target: np.ndarray | None = None
-    functional_map_back: np.ndarray | None = None
+    functional_map_back: np.ndarray | None = None  # (k_s, k_t): its functional map
 
 
 def refine_map(

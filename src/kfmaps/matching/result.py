@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from kfmaps._arrays import InvalidInput, check, like, refuse
 from kfmaps.config import Config
@@ -180,7 +181,7 @@ class Match:
 
         api.save_map(path, self, force)
 
-    def transfer(self, values: Any, products: int | None = None) -> np.ndarray:
+    def transfer(self, values: ArrayLike, products: int | None = None) -> np.ndarray:
         """Carry ``values (n_s, ...)`` from the source's vertices to the target's, (n_t, ...).
 
         Target vertex ``j`` gets ``values[target_to_source[j]]``, as by :func:`kfmaps.transfer`; functions, labels and
@@ -211,7 +212,7 @@ class Match:
             values, self.functional_map, self.basis_source, self.basis_target, None if products == 0 else products
         )
 
-    def energies(self, functional_map: Any = None) -> dict[str, float]:
+    def energies(self, functional_map: ArrayLike | None = None) -> dict[str, float]:
         """Return the weighted value of each term of the energy that ``config`` asks for.
 
         The energy is assembled anew, which takes about as long as one fit. It knows the landmarks that the map keeps

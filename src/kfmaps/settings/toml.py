@@ -40,7 +40,7 @@ def _lines(record: Any, section: str, comments: bool) -> list[str]:
     return lines + tables
 
 
-def text_of(value: Any, one: Setting) -> str:
+def text_of(value: object, one: Setting) -> str:
     """Return a value as TOML."""
     if isinstance(value, tuple):
         return f"[{', '.join(text_of(item, one) for item in value)}]"

@@ -45,7 +45,7 @@ def encode_floats(values: np.ndarray) -> dict[str, Any]:
     return {**_record(codes, "uint16", "<u2"), "low": low, "step": step}
 
 
-def to_json(value: Any) -> Any:
+def to_json(value: object) -> Any:
     """Return ``value`` with NumPy's numbers and arrays, tuples and non-finite floats turned into what JSON has.
 
     NaN and infinities become the strings ``"nan"``, ``"inf"`` and ``"-inf"``; anything unknown, its ``str``.
@@ -63,7 +63,7 @@ def to_json(value: Any) -> Any:
     return str(value)
 
 
-def _json_block(data: Any) -> str:
+def _json_block(data: object) -> str:
     """Return JSON that is safe between ``<script>`` tags: no ``<``, ``>`` or ``&`` is left in it.
 
     A mesh called ``</script><script>`` is then only a name: those characters stand inside JSON strings alone,
@@ -105,7 +105,7 @@ def policy(script: str, style: str, *, connect: bool) -> str:
     )
 
 
-def document(template: str, *, title: str, data: Any, connect: bool = False) -> str:
+def document(template: str, *, title: str, data: object, connect: bool = False) -> str:
     """Return a whole page.
 
     ``template``: name of the template with the page's body; ``title``: any text; it is escaped; ``data``: what

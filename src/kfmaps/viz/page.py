@@ -101,7 +101,9 @@ def _fields(maps: int, n_t: int, **given: Any) -> dict[str, Any]:
     return fields
 
 
-def _descriptors(descriptors: Any, source: Mesh, target: Mesh, most: int) -> list[dict[str, Any]]:
+def _descriptors(
+    descriptors: tuple[np.ndarray, np.ndarray] | None, source: Mesh, target: Mesh, most: int
+) -> list[dict[str, Any]]:
     """Up to ``most`` columns, spread over all of them, each on one scale for both shapes."""
     if descriptors is None:
         return []

@@ -25,7 +25,7 @@ _Matcher = Callable[[np.ndarray, Progress], Match]
 _LONGEST_NAME = 60  # letters of a landmark's name
 
 
-def check_pairs(pairs: Any, source: Mesh, target: Mesh) -> np.ndarray:
+def check_pairs(pairs: object, source: Mesh, target: Mesh) -> np.ndarray:
     """Return landmarks (l, 2) int64, a vertex of ``source`` and one of ``target`` each."""
     remedy = "give pairs of 0-based vertex numbers, source first"
     whole = isinstance(pairs, list) and all(
@@ -46,7 +46,7 @@ def check_pairs(pairs: Any, source: Mesh, target: Mesh) -> np.ndarray:
     return np.array(pairs, dtype=np.int64).reshape(-1, 2)
 
 
-def _check_names(names: Any, count: int) -> list[str]:
+def _check_names(names: object, count: int) -> list[str]:
     """Return one short text for each of ``count`` pairs; without any, an empty one for each."""
     if names is None:
         return [""] * count
@@ -93,23 +93,7 @@ class Picker:
 class PickerServer:
     """The server of a picker's page: seven requests, two files to write, none to read.
 
-    Parameters
-    ----------
-    picker : Picker
-    port : int
-        0 takes any free one.
-
-    Attributes
-    ----------
-    server : LocalServer
-        Not yet answering: call its ``serve_forever``.
-    runs : Runs
-        The matches started from the page.
-
-    Raises
-    ------
-    InvalidInput
-        When the port is taken.
+    ``server`` is not answering yet: call its ``serve_forever``. ``runs`` are the matches started from the page.
     """
 
     def __init__(self, picker: Picker, port: int = 0) -> None:
@@ -179,13 +163,13 @@ class PickerServer:
             raise refuse("match", "a picker that can match", "one that cannot", "save and use kfmaps match")
         return json_reply(asdict(self.runs.start(self._pairs(request))))
 
-    def _progress(self, _: Any) -> Reply:
+    def _progress(self, _: object) -> Reply:
         return json_reply(asdict(self.runs.status()))
 
-    def _cancel(self, _: Any) -> Reply:
+    def _cancel(self, _: object) -> Reply:
         self.runs.cancel()
         return self._progress(None)
 
-    def _last_map(self, _: Any) -> Reply:
+    def _last_map(self, _: object) -> Reply:
         record = self.runs.result()
         return json_reply({"error": "no match is done"}, 404) if record is None else json_reply(record)

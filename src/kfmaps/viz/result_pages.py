@@ -83,7 +83,7 @@ def match_page(
     )
 
 
-def _confidences(source: Mesh, target: Mesh, maps: Sequence[np.ndarray], known: Any) -> np.ndarray:
+def _confidences(source: Mesh, target: Mesh, maps: Sequence[np.ndarray], known: np.ndarray | None) -> np.ndarray:
     """Confidence of each map at each target vertex, (m, n_t); ``known`` is that of the first, or ``None``."""
     sizes = len(source.vertices), len(target.vertices)
     rows = [local_confidence(source, target, check_map(m, *sizes, lost=True)) for m in maps[known is not None :]]

@@ -55,7 +55,7 @@ def page_reply(html: str) -> Reply:
     return Reply(200, "text/html; charset=utf-8", html.encode())
 
 
-def json_reply(data: Any, status: int = 200) -> Reply:
+def json_reply(data: object, status: int = 200) -> Reply:
     """Return the answer that is data for the page's script."""
     return Reply(status, "application/json", json.dumps(to_json(data), allow_nan=False).encode())
 
@@ -130,7 +130,7 @@ class _Handler(RequestHandler):
 
     post = get
 
-    def write_error(self, status_code: int, **_: Any) -> None:
+    def write_error(self, status_code: int, **_: object) -> None:
         self.set_header("Content-Type", "application/json")
         self.finish(json.dumps({"error": responses.get(status_code, "the request cannot be answered")}))
 

@@ -6,14 +6,14 @@ import warnings
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated
 
 import numpy as np
 import typer
 
 from kfmaps._arrays import KfmapsWarning, MissingDependency, check, refuse
 from kfmaps._threads import one_blas_thread
-from kfmaps.cli.evaluation import Accuracy, assess, known_truth
+from kfmaps.cli.evaluation import Accuracy, Truth, assess, known_truth
 from kfmaps.cli.options import UNSURE, Force, Json, Quiet, Require, TruthLists, check_required, meets
 from kfmaps.cli.progress import Stages
 from kfmaps.cli.summary import summary, table
@@ -112,7 +112,7 @@ def run(
     seed: int = 0,
     *,
     quiet: bool = False,
-    truth: Any = None,
+    truth: Truth | None = None,
 ) -> tuple[Match, Accuracy | None]:
     """Match two meshes and tell the stages; with ``truth`` the answer is set beside it."""
     seconds: dict[str, float] = {}
@@ -196,7 +196,7 @@ def _own_descriptors(files: tuple[Path, Path], meshes: tuple[Mesh, Mesh]) -> tup
     return found[0], found[1]
 
 
-def _show(match: Match, truth: Any) -> None:
+def _show(match: Match, truth: Truth | None) -> None:
     from kfmaps.viz.result_pages import match_page, open_page
 
     names = (Path(match.source_file.path).stem, Path(match.target_file.path).stem)
