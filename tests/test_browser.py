@@ -15,6 +15,8 @@ from chromium import NASTY, Browser, Keys, chromium, needs_browser
 from kfmaps.datasets import ExamplePair, two_poses
 from kfmaps.fmap.confidence import local_confidence
 from kfmaps.geometry.mesh import Mesh
+from kfmaps.io import MeshFile
+from kfmaps.io.bake import encode_png
 from kfmaps.matching.result import Match
 from kfmaps.viz.page import result_page
 from kfmaps.viz.result_pages import match_page
@@ -334,3 +336,28 @@ def test_turntable_turns_until_it_is_switched_off(page: Browser) -> None:
     assert page.place("target", 3) == still
     page.element("#reset").click()
     assert page.place("target", 3) == places[0]
+
+
+def test_the_texture_of_the_source_is_on_both_shapes(browser: Browser, pair: ExamplePair, tmp_path: Path) -> None:
+    """A picture that is red on the left and blue on the right, and the pattern again for an alternative."""
+    pixels = np.zeros((64, 64, 3))
+    pixels[:, :32, 0], pixels[:, 32:, 2] = 1, 1
+    source = pair.source
+    uv = np.where(source.vertices[:, :1] < np.median(source.vertices[:, 0]), [0.25, 0.5], [0.75, 0.5])
+    file = MeshFile(source, None, uv, source.faces, encode_png(pixels))
+    found = Match(pair.truth, alternatives=(pair.truth[::-1],))
+    html = match_page(found, source, pair.target, ("a", "b"), descriptors=False, texture=file)
+    (tmp_path / "texture.html").write_text(html, encoding="utf-8")
+    browser.open((tmp_path / "texture.html").as_uri())
+    browser.mode("texture")
+    browser.until(lambda: browser.text("legend-text") == "The texture of a, carried to b by the map.")
+    browser.painted()
+    for side in ("source", "target"):
+        view = browser.picture(browser.element(f"#view-{side}"))
+        red = (view[..., 0] > 100) & (view[..., 1:].max(axis=2) < 60)
+        blue = (view[..., 2] > 100) & (view[..., :2].max(axis=2) < 60)
+        assert red.mean() > 0.02
+        assert blue.mean() > 0.02
+    browser.run(CHOOSE_MAP, "1")
+    browser.until(lambda: browser.text("legend-text").startswith("The pattern lies on a"))
+    assert browser.complaints() == []

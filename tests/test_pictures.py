@@ -9,10 +9,12 @@ from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 from matplotlib.text import Text
 
+from conftest import fibonacci_sphere
 from kfmaps import viz as pictures
 from kfmaps._arrays import InvalidInput
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.viz import surfaces
+from kfmaps.viz.camera import fit_rotation
 from kfmaps.viz.colors import _oklab_to_rgb
 from kfmaps.viz.figures import make_transparent
 
@@ -265,6 +267,31 @@ def test_the_target_is_seen_from_the_same_side() -> None:
     assert np.abs(a - b).mean() < 0.01
     mirrored = Mesh(source.vertices * [-1, 1, 1], source.faces)
     assert np.linalg.det(pictures.following_view(view, source, mirrored, same).axes()) > 0
+
+
+def _body(*parts: tuple[tuple[float, ...], tuple[float, ...]]) -> Mesh:
+    """Ellipsoids of given half axes and places."""
+    ball = fibonacci_sphere(300)
+    faces = np.vstack([ball.faces + 300 * i for i in range(len(parts))])
+    return Mesh(np.vstack([ball.vertices * size + np.array(place) for size, place in parts]), faces)
+
+
+def test_shapes_of_different_kinds_are_both_upright() -> None:
+    """An animal that stands on z and a person on y: the map, which lays one onto the other, does not turn the view."""
+    legs = [((0.1, 0.1, 0.5), (x, y, -0.6)) for y in (-0.9, 0.9) for x in (-0.25, 0.25)]
+    animal = _body(((0.35, 1.2, 0.35), (0, 0, 0)), *legs)
+    lower = [((0.15, 0.9, 0.15), (x, -1.6, 0)) for x in (-0.3, 0.3)]
+    upper = [((0.7, 0.1, 0.1), (x, 0.6, 0)) for x in (-0.9, 0.9)]
+    person = _body(((0.4, 0.8, 0.25), (0, 0, 0)), *lower, *upper)
+    same = np.arange(len(animal.vertices))
+    view, own = pictures.automatic_view(animal), pictures.automatic_view(person)
+    assert view.up[2] > 0.9
+    assert own.up[1] > 0.9
+    turn, alike = fit_rotation(*(x - x.mean(axis=0) for x in (animal.vertices, person.vertices)))
+    assert alike > 0.6, "the map is believed"
+    assert (turn @ view.up)[1] < 0.5, "and alone would lay the person down"
+    assert pictures.following_view(view, animal, person, same).up[1] > 0.9
+    assert pictures.following_view(own, person, animal, same).up[2] > 0.9
 
 
 def test_saved_by_extension_and_the_same_bytes_each_time(tmp_path, monkeypatch) -> None:

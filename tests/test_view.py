@@ -21,15 +21,18 @@ from kfmaps.config import Config
 from kfmaps.datasets import sphere
 from kfmaps.fmap.confidence import local_confidence
 from kfmaps.fmap.convert import nearest_reached
+from kfmaps.fmap.evaluate import area_distortion
 from kfmaps.fmap.precise import PointMap
 from kfmaps.geometry.mesh import Mesh, unit_area, vertex_areas
-from kfmaps.io import save_map, write_mesh, write_vertex_numbers
+from kfmaps.io import MeshFile, save_map, write_mesh, write_vertex_numbers
+from kfmaps.io.bake import decode_picture, encode_png
 from kfmaps.io.provenance import mesh_path
+from kfmaps.io.record import Picture
 from kfmaps.matching.result import Match
 from kfmaps.matching.result_groups import MatchFit, MatchScore, ShapeFile
 from kfmaps.viz.colors import position_colors
 from kfmaps.viz.document import _json_block, asset, encode_floats, encode_integers, to_json
-from kfmaps.viz.page import _area_distortion, _rotation_by_map, result_page
+from kfmaps.viz.page import _rotation_by_map, result_page
 from kfmaps.viz.result_pages import _match_summary, match_page, signatures, vertex_errors
 
 WEB = Path(__file__).parents[1] / "web"
@@ -132,14 +135,14 @@ def test_area_distortion_is_the_ratio_of_areas() -> None:
     target = grid_torus(24, 16)
     identity = np.arange(len(target.vertices))
     grown = Mesh(7 * target.vertices, target.faces)
-    assert np.abs(_area_distortion(grown, target, identity)).max() < 1e-9
+    assert np.abs(area_distortion(grown, target, identity)).max() < 1e-9
     # Summed over the target with the weights of the definition, the ratios give the source's whole area.
     bent = Mesh(target.vertices * (1 + 0.3 * np.sin(target.vertices)), target.faces)
     weights = vertex_areas(unit_area(target))
-    assert weights @ 2 ** _area_distortion(bent, target, identity) == pytest.approx(1, abs=1e-9)
-    assert np.ptp(_area_distortion(bent, target, identity)) > 0.5
-    assert (_area_distortion(target, target, np.zeros_like(identity)) == -4).all()
-    assert np.isnan(_area_distortion(Mesh(target.vertices, NO_FACES), target, identity)).all()
+    assert weights @ 2 ** area_distortion(bent, target, identity) == pytest.approx(1, abs=1e-9)
+    assert np.ptp(area_distortion(bent, target, identity)) > 0.5
+    assert (area_distortion(target, target, np.zeros_like(identity)) == -4).all()
+    assert np.isnan(area_distortion(Mesh(target.vertices, NO_FACES), target, identity)).all()
 
 
 def test_nearest_reached_is_nearest_along_the_edges() -> None:
@@ -410,3 +413,22 @@ def test_colours_are_mixed_inside_triangles_where_the_map_has_points_there(pair:
     expected = np.einsum("j,tjc->tc", [0.5, 0.3, 0.2], position_colors(source)[source.faces[faces]])
     assert np.abs(unpacked(data["maps"][0]["colours"]) - 255 * expected).max() <= 0.5
     assert "colours" not in page_data(result_page(source, target, found.target_to_source))["maps"][0]
+
+
+def test_the_page_has_the_texture_of_the_source(pair: tuple[Mesh, Mesh, np.ndarray]) -> None:
+    """Coordinates for each corner and the picture, of both shapes; none where the source has no picture."""
+    source, target, points = pair
+    picture = encode_png(np.random.default_rng(0).random((2100, 30, 3)))
+    file = MeshFile(source, None, np.random.default_rng(1).random((len(source.vertices), 2)), source.faces, picture)
+    found = Match(points)
+    html = match_page(found, source, target, ("a", "b"), descriptors=False, texture=file)
+    own, carried = page_data(html)["textures"]
+    assert len(unpacked(own["corners"])) == 3 * len(source.faces)
+    assert len(unpacked(carried["corners"])) == 3 * len(target.faces)
+    for record in (own, carried):
+        kind, _, data = record["picture"].partition(",")
+        assert kind == "data:image/png;base64"
+        assert decode_picture(Picture(base64.b64decode(data), "image/png")).shape[0] >= 2048
+    assert page_data(match_page(found, source, target, ("a", "b"), descriptors=False))["textures"] == []
+    bare = MeshFile(source)
+    assert page_data(match_page(found, source, target, ("a", "b"), descriptors=False, texture=bare))["textures"] == []

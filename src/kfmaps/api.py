@@ -338,12 +338,22 @@ def view(
     Path
         The page: one file that needs no network.
     """
+    from kfmaps.io.provenance import map_mesh_file
     from kfmaps.viz.result_pages import match_page, open_page
 
     shapes = _shapes(found, source, target)
+    made = as_map(found, shapes[0])
+    path = made.source_file.path if source is None else source
     known = None if truth is None else _truth(truth, shapes)
-    given = {"truth": None if known is None else (known.source, known.target), "descriptors": descriptors, "up": up}
-    html = match_page(as_map(found, shapes[0]), *shapes, names, **given)
+    given = {
+        "truth": None if known is None else (known.source, known.target),
+        "descriptors": descriptors,
+        "up": up,
+        "texture": map_mesh_file(Path(path), made, "source", Path())
+        if is_file(path) and Path(path).is_file()
+        else None,
+    }
+    html = match_page(made, *shapes, names, **given)
     if output is None:
         return open_page(html)[0]
     write_text(output, html, force)

@@ -57,6 +57,10 @@ export function startResult(data) {
       return { text: `Each point of ${names[1]} has the colour of its match on ${names[0]}.${grey}` };
     },
     texture: () => {
+      if (state.map === 0 && shapes.every((s) => s.dressed)) {
+        shapes.forEach((s) => s.showPicture());
+        return { text: `The texture of ${names[0]}, carried to ${names[1]} by the map.` };
+      }
       shapes[0].show(colours, plane);
       shapes[1].show(carried("colours"), carried("plane"));
       return { text: `The pattern lies on ${names[0]} and is carried to ${names[1]} by the map.` };
@@ -95,6 +99,10 @@ export function startResult(data) {
     byId("descriptor-choice").hidden = state.mode !== "descriptor";
     mark();
   };
+
+  (data.textures ?? []).forEach((record, i) => shapes[i].dress(record, () => {
+    if (state.mode === "texture") show();
+  }));
 
   const measured = (target) => {
     const error = errors[state.map]?.[target] ?? NaN;

@@ -1,6 +1,7 @@
 // One shape on the stage: its geometry, what it shows, and finding the vertex under the pointer.
 import {
-  BufferAttribute, BufferGeometry, DoubleSide, Group, Matrix4, Mesh, Points, Ray, ShaderMaterial, Sphere, Vector3,
+  BufferAttribute, BufferGeometry, DoubleSide, Group, LinearFilter, Matrix4, Mesh, Points, Ray, RepeatWrapping,
+  ShaderMaterial, Sphere, Texture, Vector3,
 } from "three";
 import { MeshBVH } from "three-mesh-bvh";
 import { numbers, reals } from "./data.js";
@@ -28,6 +29,8 @@ void main() {
 // that lie on the source; where neighbours' coordinates are far apart its lines would only flicker, so they fade.
 const FRAGMENT = `
 uniform bool textured;
+uniform bool pictured;
+uniform sampler2D picture;
 uniform bool round;
 uniform float cells;
 varying vec3 vColour;
@@ -48,7 +51,7 @@ vec3 pattern(vec3 base) {
 void main() {
   vec2 off = 2.0 * gl_PointCoord - 1.0;
   if (round && dot(off, off) > 1.0) discard;
-  vec3 base = textured ? pattern(vColour) : vColour;
+  vec3 base = pictured ? texture2D(picture, vPlane).rgb : textured ? pattern(vColour) : vColour;
   float light = 1.04 - 0.45 * dot(off, off); // a point is a little ball
   if (!round) {
     vec3 n = normalize(vNormal);
@@ -85,6 +88,8 @@ export class Surface {
       side: DoubleSide,
       uniforms: {
         textured: { value: false },
+        pictured: { value: false },
+        picture: { value: null },
         round: { value: !this.faces.length },
         cells: { value: 16 },
         size: { value: 1 },
@@ -95,6 +100,7 @@ export class Surface {
     this.group = new Group();
     this.group.add(this.body);
     this.tree = null;
+    this.dressed = null;
   }
 
   /** Position of a vertex in the shape's own frame. */
@@ -112,8 +118,38 @@ export class Surface {
     return this.place(vertex, into).applyMatrix4(this.group.matrixWorld);
   }
 
+  /** Takes the picture of a texture (a record with coordinates for each corner of the faces), then calls `ready`. */
+  dress(record, ready) {
+    const image = new Image();
+    image.onload = () => {
+      const picture = new Texture(image);
+      picture.wrapS = picture.wrapT = RepeatWrapping;
+      picture.minFilter = LinearFilter; // smaller copies would mix neighbours in the picture
+      picture.generateMipmaps = false;
+      picture.needsUpdate = true;
+      this.material.uniforms.picture.value = picture;
+      const own = this.geometry.toNonIndexed();
+      const uv = reals(record.uv);
+      const corners = numbers(record.corners);
+      const plane = new Float32Array(2 * corners.length);
+      corners.forEach((at, i) => plane.set([uv[2 * at], uv[2 * at + 1]], 2 * i));
+      own.setAttribute("plane", new BufferAttribute(plane, 2));
+      this.dressed = own;
+      ready();
+    };
+    image.src = record.picture;
+  }
+
+  /** Shows the picture that `dress` took. */
+  showPicture() {
+    this.body.geometry = this.dressed;
+    this.material.uniforms.pictured.value = true;
+  }
+
   /** Three bytes a vertex, shown as they are or, with `plane` (two numbers a vertex), under the texture. */
   show(colours, plane = null) {
+    this.body.geometry = this.geometry;
+    this.material.uniforms.pictured.value = false;
     this.geometry.attributes.colour.array.set(colours);
     this.geometry.attributes.colour.needsUpdate = true;
     if (plane) {

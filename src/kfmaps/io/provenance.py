@@ -9,7 +9,8 @@ from pathlib import Path
 
 from kfmaps._arrays import KfmapsWarning, refuse
 from kfmaps.geometry.mesh import Mesh
-from kfmaps.io.meshes import read_mesh
+from kfmaps.io.meshes import read_mesh_file
+from kfmaps.io.record import MeshFile
 from kfmaps.matching.result import Match
 from kfmaps.matching.result_groups import ShapeFile
 
@@ -52,6 +53,11 @@ def mesh_path(given: Path | None, found: Match, side: str, beside: Path, remedy:
 
 
 def map_mesh(given: Path | None, found: Match, side: str, beside: Path, remedy: str = "") -> Mesh:
+    """Return the mesh of :func:`map_mesh_file`."""
+    return map_mesh_file(given, found, side, beside, remedy).mesh
+
+
+def map_mesh_file(given: Path | None, found: Match, side: str, beside: Path, remedy: str = "") -> MeshFile:
     """Return the shape ``side`` of a map, read from :func:`mesh_path`.
 
     What is odd about it was told when it was matched, and is not told again.
@@ -59,4 +65,4 @@ def map_mesh(given: Path | None, found: Match, side: str, beside: Path, remedy: 
     path = mesh_path(given, found, side, beside, remedy)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", KfmapsWarning)
-        return read_mesh(path)
+        return read_mesh_file(path)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import base64
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -10,8 +11,9 @@ import numpy as np
 from kfmaps._arrays import check, check_count, refuse
 from kfmaps.cli.words import VERDICTS, verdict_text
 from kfmaps.fmap.convert import nearest_reached
-from kfmaps.geometry.mesh import Mesh, face_areas, unit_area
-from kfmaps.io import check_map, projected_uv
+from kfmaps.fmap.evaluate import area_distortion
+from kfmaps.geometry.mesh import Mesh, unit_area
+from kfmaps.io import MeshFile, check_map, projected_uv
 from kfmaps.io.transfer import transfer
 from kfmaps.matching.result import Match
 from kfmaps.viz.camera import broad_side, fit_rotation, rotation_between
@@ -54,7 +56,7 @@ def map_record(source: Mesh, target: Mesh, target_to_source: np.ndarray, label: 
         "label": label,
         "points": encode_integers(np.where(lost, len(source.vertices), target_to_source)),
         "nearest": encode_integers(nearest_reached(source, target_to_source)),
-        "distortion": encode_floats(_area_distortion(source, target, target_to_source)),
+        "distortion": encode_floats(area_distortion(source, target, target_to_source)),
     }
 
 
@@ -101,6 +103,16 @@ def _fields(maps: int, n_t: int, **given: Any) -> dict[str, Any]:
     return fields
 
 
+def _texture_record(shape: MeshFile) -> dict[str, Any]:
+    """The texture coordinates of a shape, for each corner of its faces, and its picture as a data address."""
+    assert shape.uv is not None
+    assert shape.uv_faces is not None
+    assert shape.picture is not None
+    data = base64.b64encode(shape.picture.data).decode("ascii")
+    corners = encode_integers(shape.uv_faces.ravel())
+    return {"uv": encode_floats(shape.uv), "corners": corners, "picture": f"data:{shape.picture.kind};base64,{data}"}
+
+
 def _descriptors(
     descriptors: tuple[np.ndarray, np.ndarray] | None, source: Mesh, target: Mesh, most: int
 ) -> list[dict[str, Any]]:
@@ -137,6 +149,7 @@ def result_page(
     names: tuple[str, str] = ("source", "target"),
     up: str | None = None,
     common: np.ndarray | None = None,
+    textures: tuple[MeshFile, MeshFile] | None = None,
 ) -> str:
     """Return one HTML file that shows a map: it needs no network, no server and nothing beside it.
 
@@ -168,6 +181,8 @@ def result_page(
         The shapes' vertical axis; by default a good side is found. It can be changed in the page.
     common : (n_s,) bool, optional
         Of a part and a whole, which source vertices are on both; the others are grey.
+    textures : (MeshFile, MeshFile), optional
+        Both shapes with coordinates and a picture, which are shown instead of a pattern.
 
     Returns
     -------
@@ -206,31 +221,10 @@ def result_page(
         **_fields(len(points), len(target.vertices), errors=errors, confidence=confidence),
         "descriptors": _descriptors(descriptors, source, target, most_descriptors),
         "matrix": None if matrix is None else encode_floats(matrix),
+        "textures": [_texture_record(shape) for shape in textures or ()],
         "summary": summary or {},
     }
     return document("result.html.j2", title=f"{names[0]} → {names[1]}", data=data)
-
-
-def _area_distortion(source: Mesh, target: Mesh, target_to_source: np.ndarray) -> np.ndarray:
-    """Return the base-2 logarithm of how the map changes area around each target vertex, (n_t,), within [-4, 4].
-
-    The area on the source of the images of the faces around a vertex over the area of those faces on the
-    target, both shapes scaled to unit area. 0 keeps area, 1 doubles it, -1 halves it; faces collapsed to
-    nothing are held at -4. NaN where no face with area meets the vertex, around vertices without a counterpart (−1),
-    and everywhere on point clouds.
-    """
-    n = len(target.vertices)
-    if len(target.faces) == 0 or len(source.faces) == 0:
-        return np.full(n, np.nan)
-    lost = np.asarray(target_to_source) < 0
-    image = face_areas(Mesh(source.vertices[target_to_source], target.faces)) / face_areas(source).sum()
-    own = face_areas(target) / face_areas(target).sum()
-    corners = target.faces.ravel()
-    here = np.bincount(corners, np.repeat(own, 3), minlength=n)
-    there = np.bincount(corners, np.repeat(image, 3), minlength=n)
-    ratio = np.divide(there, here, out=np.full(n, np.nan), where=here > 0)
-    ratio[np.unique(target.faces[lost[target.faces].any(axis=1)])] = np.nan
-    return np.log2(np.clip(ratio, 2.0**-4, 2.0**4))
 
 
 def _rotation_by_map(source: Mesh, target: Mesh, target_to_source: np.ndarray) -> np.ndarray:

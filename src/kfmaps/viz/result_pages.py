@@ -15,13 +15,16 @@ from kfmaps.descriptors.spectral import wave_energies, wave_signature
 from kfmaps.fmap.confidence import local_confidence
 from kfmaps.geometry.basis import laplace_basis
 from kfmaps.geometry.mesh import Mesh, unit_area
-from kfmaps.io import check_map
+from kfmaps.io import MeshFile, check_map
+from kfmaps.io.bake import decode_picture
+from kfmaps.io.export import textured
 from kfmaps.matching.result import Match
 from kfmaps.viz.errors import vertex_errors
 from kfmaps.viz.page import result_page
 
 _SIGNATURES = 12  # wave kernel signatures shown, and ...
 _EIGENFUNCTIONS = 100  # ... the eigenfunctions they are made from.
+_MOST_TEXELS = 2048  # longer side of the largest picture of a texture in a page.
 
 
 def _match_summary(match: Match) -> dict[str, Any]:
@@ -58,12 +61,14 @@ def match_page(
     truth: tuple[np.ndarray, np.ndarray] | None = None,
     descriptors: bool = True,
     up: str | None = None,
+    texture: MeshFile | None = None,
 ) -> str:
     """Return the page of a map: :func:`kfmaps.viz.page.result_page` with all that the match knows.
 
     ``names``: what the page calls the shapes; ``truth``: corresponding vertices of the source and of the target, for
     the errors; ``descriptors``: whether to work out wave kernel signatures to show, which takes an eigensolve of each
-    shape; ``up``: the vertical axis; by default a good side is found.
+    shape; ``up``: the vertical axis; by default a good side is found; ``texture``: the source as its file has it, whose
+    picture is shown on both shapes.
     """
     maps = [match.target_to_source, *match.alternatives]
     overlap = match.partial.overlap_source
@@ -80,7 +85,20 @@ def match_page(
         summary=_match_summary(match),
         names=names,
         up=up,
+        textures=_textured(texture, match, source, target),
     )
+
+
+def _textured(texture: MeshFile | None, match: Match, source: Mesh, target: Mesh) -> tuple[MeshFile, MeshFile] | None:
+    """Both shapes with the source's picture; ``None`` where it has none."""
+    if texture is None or texture.picture is None or len(texture.mesh.vertices) != len(source.vertices):
+        return None
+    if len(source.faces) == 0 or len(target.faces) == 0:
+        return None
+    large = max(decode_picture(texture.picture).shape) > _MOST_TEXELS
+    size = _MOST_TEXELS if large else None
+    own = textured(texture, MeshFile(source), np.arange(len(source.vertices)), size=size)
+    return own, textured(texture, MeshFile(target), match, size=size)
 
 
 def _confidences(source: Mesh, target: Mesh, maps: Sequence[np.ndarray], known: np.ndarray | None) -> np.ndarray:

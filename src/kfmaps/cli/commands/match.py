@@ -24,7 +24,7 @@ from kfmaps.geometry.mesh import Mesh
 from kfmaps.io import check_output, read_mesh, read_values, save_map
 from kfmaps.io.mapfile import check_format
 from kfmaps.io.named_points import read_given_landmarks
-from kfmaps.io.provenance import with_files
+from kfmaps.io.provenance import map_mesh_file, with_files
 from kfmaps.matching.match import default_config
 from kfmaps.matching.match import match as matched
 from kfmaps.matching.memory import check_match_memory
@@ -201,6 +201,8 @@ def _show(match: Match, truth: Truth | None) -> None:
 
     names = (Path(match.source_file.path).stem, Path(match.target_file.path).stem)
     known = None if truth is None else (truth.source, truth.target)
-    path, opened = open_page(match_page(match, match.source, match.target, names, truth=known))
+    texture = map_mesh_file(None, match, "source", Path())
+    page = match_page(match, match.source, match.target, names, truth=known, texture=texture)
+    path, opened = open_page(page)
     if not opened:
         typer.echo(f"no browser was found; open {path.as_uri()}", err=True)

@@ -12,7 +12,7 @@ from kfmaps.cli.options import Force, Identity, Json, MapFile, SourceMesh, Targe
 from kfmaps.cli.terminal import report_files, say
 from kfmaps.io import check_output, load_map
 from kfmaps.io.atomic import write_text
-from kfmaps.io.provenance import map_mesh, mesh_path
+from kfmaps.io.provenance import map_mesh_file, mesh_path
 from kfmaps.viz.page import check_up
 from kfmaps.viz.result_pages import match_page, open_page
 
@@ -35,11 +35,13 @@ def view(
         check_output(output, force, (map, source, target, *(truth or ())))
     found = load_map(map)
     paths = [mesh_path(given, found, side, map) for given, side in ((source, "source"), (target, "target"))]
-    meshes = [map_mesh(path, found, side, map) for path, side in zip(paths, ("source", "target"), strict=True)]
+    shapes = [map_mesh_file(path, found, side, map) for path, side in zip(paths, ("source", "target"), strict=True)]
+    meshes = [shape.mesh for shape in shapes]
     names = (paths[0].stem, paths[1].stem)
     known = known_truth(truth, *(len(mesh.vertices) for mesh in meshes), identity=identity)
     pairs = None if known is None else (known.source, known.target)
-    html = match_page(found, meshes[0], meshes[1], names, truth=pairs, descriptors=descriptors, up=up)
+    given = {"truth": pairs, "descriptors": descriptors, "up": up, "texture": shapes[0]}
+    html = match_page(found, meshes[0], meshes[1], names, **given)
     if output is not None:
         write_text(output, html, force)
         report_files(output, as_json=json)
