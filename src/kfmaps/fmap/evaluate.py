@@ -218,9 +218,9 @@ def truth_from_pairs(truth_s: np.ndarray, truth_t: np.ndarray, target_to_source:
 def area_distortion(source: Mesh, target: Mesh, target_to_source: np.ndarray) -> np.ndarray:
     """Return the base-2 logarithm of how the map ``target_to_source (n_t,)`` changes area around each target vertex.
 
-    The area on the source of the images of the faces around a vertex over the area of those faces on the
-    target, both shapes scaled to unit area. 0 keeps area, 1 doubles it, -1 halves it; faces collapsed to
-    nothing are held at -4, and nothing exceeds 4. NaN where no face with area meets the vertex, around vertices without a counterpart (−1),
+    The area on the source of the images of the faces around a vertex over the area of those faces on the target, both
+    shapes scaled to unit area. 0 keeps area, 1 doubles it, -1 halves it; faces collapsed to nothing are held at -4,
+    and nothing exceeds 4. NaN where no face with area meets the vertex, around vertices without a counterpart (−1),
     and everywhere on point clouds.
     """
     n = len(target.vertices)
