@@ -2,15 +2,13 @@
 
     python benchmarks/collection.py [--shapes 25,50,100] [--vertices 1000] [--workers 2] [--out DIR] [--wrong 0.2]
     python benchmarks/collection.py --shapes 1000 --plain --workers 1 --out DIR
-    python benchmarks/collection.py --shapes 1000 --vertices 5000 --plan
 
 Every specimen is one body bent, stretched and swollen at random, and triangulated for itself, so that the truth is
 known. Pairs are chosen by likeness (``--graph near``), matched by ``kfmaps batch``'s own machinery, and made to agree
 (``--consistent``). A part ``--wrong`` of the maps is replaced by random ones before that. ``--plain`` makes one fit of
 each pair and a short refinement instead of a search, which is cheap, and wrong more often than a search is. With
-``--out`` the same call goes on where it was cut short. ``--plan`` tells the pairs, memory and time that a run needs,
-and runs nothing. ``--agree`` measures the
-agreement alone, on made-up maps of as many shapes. Errors are in per cent of √area.
+``--out`` the same call goes on where it was cut short. ``--agree`` measures the agreement alone, on made-up maps of as
+many shapes. Errors are in per cent of √area.
 """
 
 from __future__ import annotations
@@ -34,7 +32,7 @@ from kfmaps.batch.consistent import map_in_use
 from kfmaps.batch.jobs import WorkerPool
 from kfmaps.batch.layout import find_collection
 from kfmaps.batch.plan import graph_pairs, make_plan
-from kfmaps.batch.progress import RunStatus, estimate
+from kfmaps.batch.progress import RunStatus
 from kfmaps.batch.results import BAD, Result
 from kfmaps.batch.run import BatchResult, run_batch
 from kfmaps.batch.run_spec import RunSpec
@@ -239,7 +237,6 @@ def main() -> None:
         "--full", action="store_true", help="the recommended search and finish, about three times as long"
     )
     parser.add_argument("--plain", action="store_true", help="one fit of each pair and a short refinement")
-    parser.add_argument("--plan", action="store_true")
     parser.add_argument("--agree", action="store_true")
     chosen = parser.parse_args()
     counts = [int(word) for word in chosen.shapes.split(",")]
@@ -247,10 +244,6 @@ def main() -> None:
         print("CPU seconds a shape to agree alone\nshapes  pairs    seconds  wrong  found  other")
         for count in counts:
             print(agreement(count, chosen.wrong), flush=True)
-        return
-    if chosen.plan:
-        for count in counts:
-            print(estimate(count, 3 * count, chosen.vertices, Config(), chosen.workers))
         return
     config = FULL if chosen.full else PLAIN if chosen.plain else QUICK
     print(

@@ -34,6 +34,7 @@ myst_heading_anchors = 3
 autodoc_typehints = "signature"
 autodoc_typehints_format = "short"
 autodoc_member_order = "bysource"
+autodoc_type_aliases = {name: name for name in ("ArrayLike", "LandmarksLike", "MapLike", "ShapeLike", "TruthLike")}
 python_maximum_signature_line_length = 90
 napoleon_google_docstring = False
 napoleon_use_ivar = True

@@ -60,10 +60,10 @@ def test_shapes_of_other_libraries(kind: str) -> None:
 def test_polygons_become_fans() -> None:
     square = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0.5, 2, 0]], dtype=float)
     fans = [[0, 1, 2], [0, 2, 3], [3, 2, 4]]
-    flat = types.SimpleNamespace(points=square, faces=np.array([4, 0, 1, 2, 3, 3, 3, 2, 4]))
+    flat: Any = types.SimpleNamespace(points=square, faces=np.array([4, 0, 1, 2, 3, 3, 3, 2, 4]))
     np.testing.assert_array_equal(as_mesh(flat).faces, fans)
     blocks = {"quad": np.array([[0, 1, 2, 3]]), "triangle": np.array([[3, 2, 4]])}
-    meshio = types.SimpleNamespace(points=square, cells=blocks, cells_dict=blocks)
+    meshio: Any = types.SimpleNamespace(points=square, cells=blocks, cells_dict=blocks)
     np.testing.assert_array_equal(as_mesh(meshio).faces, fans)
     np.testing.assert_array_equal(as_mesh((square, [[0, 1, 2, 3]])).faces, fans[:2])
 
@@ -221,8 +221,8 @@ def test_picture_and_page_of_a_map(shuffled: kfmaps.Match, tmp_path: Path) -> No
         (lambda: kfmaps.coverage(ORDER, "a.off"), "source: expected a Mesh"),  # pyright: ignore
         (lambda: kfmaps.write_mesh("a.off", (V, F)), "mesh: expected a Mesh"),  # pyright: ignore
         (lambda: kfmaps.save_map("a.npz", ORDER), "map: expected a Match"),  # pyright: ignore
-        (lambda: kfmaps.transfer(V, {"a": 1}), "map: expected"),
-        (lambda: kfmaps.view({"a": 1}, MESH, MESH), "map: expected"),
+        (lambda: kfmaps.transfer(V, {"a": 1}), "map: expected"),  # pyright: ignore
+        (lambda: kfmaps.view({"a": 1}, MESH, MESH), "map: expected"),  # pyright: ignore
     ],
 )
 def test_wrong_things_are_told_in_words(call: Any, told: str) -> None:
@@ -284,7 +284,7 @@ def test_zoomout_grows_a_map_to_all_functions(shuffled: kfmaps.Match) -> None:
         ((np.eye(61), a, b), "at most 60 × 60"),
     ):
         with pytest.raises(kfmaps.InvalidInput, match=part):
-            kfmaps.zoomout(*wrong)
+            kfmaps.zoomout(*wrong)  # pyright: ignore
 
 
 def test_error_curves_in_one_line() -> None:

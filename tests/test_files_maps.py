@@ -74,7 +74,7 @@ def example(seed: int = 0, n_t: int = 50) -> Match:
 
 def plain(record: Any) -> Any:
     """A record as dictionaries of lists, so that two can be compared."""
-    if is_dataclass(record):
+    if is_dataclass(record) and not isinstance(record, type):
         return {f.name: plain(getattr(record, f.name, "none")) for f in fields(type(record))}
     if isinstance(record, tuple):
         return [plain(one) for one in record]

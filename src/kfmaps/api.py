@@ -183,18 +183,19 @@ def geodesic_errors(
     """
     mesh = _mesh(source, "source")
     points = predicted if isinstance(predicted, PointMap) else as_map(predicted).target_to_source
-    if isinstance(true, tuple):
-        true, rows = (check(np.asarray(part), "truth", shape=(None,)) for part in true)
+    goal = true if isinstance(true, PointMap | tuple) else np.asarray(true)
+    if isinstance(goal, tuple):
+        goal, rows = (check(np.asarray(part), "truth", shape=(None,)) for part in goal)
         n_t = len(points.faces if isinstance(points, PointMap) else points)
-        rows = check_map(rows, n_t, len(true), "the truth's target vertices")
+        rows = check_map(rows, n_t, len(goal), "the truth's target vertices")
         points = PointMap(points.faces[rows], points.weights[rows]) if isinstance(points, PointMap) else points[rows]
-    if isinstance(points, PointMap) or isinstance(true, PointMap):
-        return evaluate.precise_errors(mesh, points, true)
-    known, true = points >= 0, np.asarray(true)
-    if known.all() or known.shape != true.shape:
-        return evaluate.geodesic_errors(mesh, points, true, method)
+    if isinstance(points, PointMap) or isinstance(goal, PointMap):
+        return evaluate.precise_errors(mesh, points, goal)
+    known = points >= 0
+    if known.all() or known.shape != goal.shape:
+        return evaluate.geodesic_errors(mesh, points, goal, method)
     errors = np.full(len(points), np.nan)
-    errors[known] = evaluate.geodesic_errors(mesh, points[known], true[known], method)
+    errors[known] = evaluate.geodesic_errors(mesh, points[known], goal[known], method)
     return errors
 
 
@@ -245,11 +246,14 @@ def zoomout(
             got = f"a {type(basis).__name__}"
             raise refuse(name, "a Basis or a Shape", got, "give kfmaps.laplace_basis(mesh, k) or kfmaps.prepare(mesh)")
     k_s, k_t = (basis.functions.shape[1] for basis in bases)
-    C = check(np.asarray(C, dtype=np.float64), "C", shape=(None, None), remedy="give a functional map (k_t, k_s)")
-    if C.shape[0] > k_t or C.shape[1] > k_s:
-        raise refuse("C", f"at most {k_t} × {k_s} entries", f"{C.shape[0]} × {C.shape[1]}", "compute more functions")
-    refine = ZoomOut(min(C.shape) if start is None else start, min(k_s, k_t) if stop is None else stop, step, samples)
-    return refine(C, bases[0], bases[1], threads=threads)
+    given = check(np.asarray(C, dtype=np.float64), "C", shape=(None, None), remedy="give a functional map (k_t, k_s)")
+    if given.shape[0] > k_t or given.shape[1] > k_s:
+        got = f"{given.shape[0]} × {given.shape[1]}"
+        raise refuse("C", f"at most {k_t} × {k_s} entries", got, "compute more functions")
+    refine = ZoomOut(
+        min(given.shape) if start is None else start, min(k_s, k_t) if stop is None else stop, step, samples
+    )
+    return refine(given, bases[0], bases[1], threads=threads)
 
 
 def render(
@@ -393,7 +397,7 @@ def _shapes(found: MapLike, source: ShapeLike | Shape | None, target: ShapeLike 
     """The two shapes of a map: as given, else the match's own, else those that the map's file names."""
     from kfmaps.io.provenance import map_mesh
 
-    named = load_map(found) if is_file(found) else found
+    named = load_map(Path(found)) if is_file(found) else found
     beside = Path(found) if is_file(found) else Path()
     meshes = []
     for given, side in ((source, "source"), (target, "target")):

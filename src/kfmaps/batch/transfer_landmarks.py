@@ -134,8 +134,7 @@ def carry_templates(
     confidence = _mean(np.stack([points.confidence for points in carried])) * _mean(near)
     points = _on_surface(names, median, confidence, mesh)
     spread = np.fmax.reduce(distances) if len(used) > 1 else np.full(len(names), np.nan)
-    there = np.isfinite(median).all(axis=1)
-    flags = tuple(_flag(c, s / unit, bool(n)) for c, s, n in zip(confidence, spread, there, strict=True))
+    flags = tuple(_flag(*one) for one in zip(confidence, spread / unit, points.vertices >= 0, strict=True))
     verdicts = tuple(results[one.specimen] for one in used)
     space = mesh_space(path) or templates[0].space
     misfit = _misfit(verdicts, points, templates[0])
@@ -170,15 +169,16 @@ def _carry_points(
 
     The confidence of a point is that of the map's neighbourhood times ``chance``, the probability of the map ``name``.
     """
+    there = common = None
     if (known.target_to_source < 0).any():
         ways = find_counterparts(known, source, target, name)
-        place, some = ways.place, {"known": ways.target, "common": ways.source}
+        place, there, common = ways.place, ways.target, ways.source
     else:
         check_map(known, len(source.vertices), len(target.vertices), name)
-        place, some = precise_points(known, source) or vertex_point_map(known.target_to_source, source), {}
+        place = precise_points(known, source) or vertex_point_map(known.target_to_source, source)
     trust = getattr(known, "local_confidence", None)  # a list of vertices has none
     local = np.ones(len(target.vertices)) if trust is None else np.nan_to_num(trust)
-    carried = transfer_points(points, source, target, place, local, **some)
+    carried = transfer_points(points, source, target, place, local, known=there, common=common)
     return replace(carried, confidence=carried.confidence * chance)
 
 

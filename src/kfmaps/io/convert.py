@@ -77,7 +77,7 @@ def as_mesh(shape: ShapeLike, name: str = "shape") -> Mesh:
     if isinstance(shape, Mesh):
         return shape
     if is_file(shape):
-        return read_mesh(shape)
+        return read_mesh(Path(shape))
     try:
         found = _parts(shape)
         if found is not None:
@@ -144,9 +144,7 @@ def _meshio(cells: Any) -> np.ndarray:
     return np.concatenate(parts) if parts else np.zeros((0, 3), dtype=np.int64)
 
 
-def as_landmarks(
-    landmarks: LandmarksLike | None, shapes: Sequence[object] = (), meshes: Sequence[Mesh] = ()
-) -> ArrayLike | None:
+def as_landmarks(landmarks: LandmarksLike | None, shapes: Sequence[object] = (), meshes: Sequence[Mesh] = ()) -> Any:
     """Return landmarks as pairs of vertices where files hold them, else as they are.
 
     ``landmarks``: a file of pairs, or the landmarks of either shape
@@ -154,13 +152,13 @@ def as_landmarks(
     what was handed in as the shapes; their files may name a coordinate system.
     """
     if is_file(landmarks):
-        return read_landmarks(landmarks)
+        return read_landmarks(Path(landmarks))
     if isinstance(landmarks, tuple | list) and len(landmarks) == 2 and all(map(is_file, landmarks)):
         if any(isinstance(shape, Shape) for shape in shapes):
             remedy = "Give the meshes themselves, or pairs of vertices"
             raise refuse("landmarks", "meshes in the unit of the landmarks' files", "a prepared shape", remedy)
         files = [Path(shape) if is_file(shape) else None for shape in shapes]
-        return read_landmark_pairs(landmarks, meshes, files)[0]
+        return read_landmark_pairs([Path(str(one)) for one in landmarks], meshes, files)[0]
     return landmarks
 
 

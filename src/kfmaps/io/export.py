@@ -21,11 +21,9 @@ from kfmaps.io.meshes import write_mesh
 from kfmaps.io.obj import format_obj
 from kfmaps.io.partial_map import point_map, precise_points
 from kfmaps.io.record import MeshFile, Picture
-from kfmaps.io.transfer import transfer
+from kfmaps.io.transfer import LOST_GREY, transfer
 
 _PICTURES = (".png", ".jpg", ".jpeg")
-_LOST = 0.62
-"""Grey of target vertices without a counterpart."""
 
 
 def grid_picture(size: int = 1024, cells: int = 24) -> np.ndarray:
@@ -190,7 +188,7 @@ def write_colored(
     check_map(target_to_source, len(colors), len(target.vertices), lost=True)
     if source is not None:
         precise_points(target_to_source, source)
-    mixed = transfer(colors, target_to_source, None if source is None else source.faces, _LOST)
+    mixed = transfer(colors, target_to_source, None if source is None else source.faces, LOST_GREY)
     write_mesh(path, target, colors=np.clip(mixed, 0, 1), force=force)
 
 

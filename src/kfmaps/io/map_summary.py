@@ -108,7 +108,7 @@ def read_record(cls: type[_T], values: Any, name: str, arrays: Mapping[str, Any]
     if not isinstance(values, Mapping):
         raise refuse(f"{name}: {path[:-1]}", "a dictionary", repr(values)[:60], REPAIR)
     found: dict[str, Any] = {}
-    for f in fields(cls):
+    for f in fields(cls):  # pyright: ignore[reportArgumentType]
         label, hint = path + f.name, _hints(cls)[f.name]
         record = next((one for one in _options(hint) if is_dataclass(one)), None)
         if label in arrays:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from scipy.spatial import KDTree
@@ -14,7 +15,7 @@ from kfmaps.matching.partial.match_partial import COMMON
 from kfmaps.matching.result import Match
 
 
-def precise_points(found: object, source: Mesh) -> PointMap | None:
+def precise_points(found: Any, source: Mesh) -> PointMap | None:
     """Return the points inside triangles of a map file, checked; ``None`` where it has none.
 
     Raises
@@ -26,7 +27,7 @@ def precise_points(found: object, source: Mesh) -> PointMap | None:
     return None if place is None else check_point_map_precise(place, source, len(found.target_to_source))
 
 
-def point_map(found: object, source: Mesh, target_to_source: np.ndarray) -> PointMap:
+def point_map(found: Any, source: Mesh, target_to_source: np.ndarray) -> PointMap:
     """Return a point inside a triangle of a surface for each target vertex, at vertices where ``found`` has no others.
 
     Parameters

@@ -21,6 +21,9 @@ from kfmaps.shape import prepare
 
 _N_FUNCTIONS = 100  # size of the functional map where the file has none
 
+LOST_GREY = 160 / 255
+"""Grey of vertices without a counterpart, in files, figures and (web/src/link.js) pages."""
+
 
 def transfer(
     values_s: ArrayLike, target_to_source: Any, faces_s: np.ndarray | None = None, lost: object = None
@@ -76,7 +79,7 @@ def _interpolate(values: np.ndarray, at: PointMap | None, faces: np.ndarray | No
     return np.where((~finite & counted).any(axis=1), values[nearest], mixed).astype(values.dtype)
 
 
-def _fill_lost(values: np.ndarray, gone: np.ndarray, lost: object = None) -> np.ndarray:
+def _fill_lost(values: np.ndarray, gone: np.ndarray, lost: Any = None) -> np.ndarray:
     """Put ``lost``, by default that of :func:`transfer`, into the rows ``gone (n,)`` of ``values (n, ...)``."""
     if not gone.any():
         return values

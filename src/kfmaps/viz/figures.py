@@ -21,8 +21,6 @@ _NOTEBOOK_DPI = 100
 TEXT = "#333333"
 _MIDDLE_GREY = "#7b8492"
 """Text that can be read on a white and on a dark page: contrast 3.8 and 4.6."""
-LOST = 0.75
-"""Grey of target vertices without a counterpart."""
 
 
 class NotebookFigure(Figure):

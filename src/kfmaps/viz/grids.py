@@ -12,11 +12,11 @@ from kfmaps._arrays import check_count, refuse
 from kfmaps._records import short_repr
 from kfmaps.geometry.mesh import Mesh, surface_area
 from kfmaps.io import check_map
-from kfmaps.io.transfer import transfer
+from kfmaps.io.transfer import LOST_GREY, transfer
 from kfmaps.matching.result import Match
 from kfmaps.viz.camera import View, automatic_view, following_view
 from kfmaps.viz.colors import position_colors
-from kfmaps.viz.figures import LOST, TEXT, NotebookFigure
+from kfmaps.viz.figures import TEXT, NotebookFigure
 from kfmaps.viz.surfaces import draw_surface
 
 _LABEL, _TITLE = 0.3, 0.45  # height of a line of labels and of the title, in inches
@@ -85,7 +85,7 @@ def grid_figure(
         sizes = len(source.vertices), len(item.mesh.vertices)
         points = check_map(item.target_to_source, *sizes, f"map to {item.label}", lost=True)
         seen = following_view(view, source, item.mesh, points)
-        cells.append((item.label, item.mesh, transfer(colors, item.target_to_source, source.faces, LOST), seen))
+        cells.append((item.label, item.mesh, transfer(colors, item.target_to_source, source.faces, LOST_GREY), seen))
 
     # All shapes at one scale, that of equal areas, in panels that hold the largest.
     half = np.max([_half(mesh, seen) / _scale(mesh) for _, mesh, _, seen in cells], axis=0) * 1.03

@@ -11,11 +11,11 @@ from kfmaps._arrays import check
 from kfmaps.cli.words import UNIT
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.io import check_map
-from kfmaps.io.transfer import transfer
+from kfmaps.io.transfer import LOST_GREY, transfer
 from kfmaps.matching.result import Match
 from kfmaps.viz.camera import View, automatic_view, following_view
 from kfmaps.viz.colors import error_colors, error_limit, position_colors
-from kfmaps.viz.figures import LOST, TEXT, NotebookFigure, add_error_bar
+from kfmaps.viz.figures import TEXT, NotebookFigure, add_error_bar
 from kfmaps.viz.surfaces import draw_surface
 
 _PANEL = 3.4  # width of a panel in inches
@@ -78,7 +78,7 @@ def match_figure(
     view_t = following_view(view_s, source, target, carried) if target_view is None else target_view
     panels = [
         ("source", source, colors, view_s),
-        ("target, coloured by the map", target, transfer(colors, target_to_source, source.faces, LOST), view_t),
+        ("target, coloured by the map", target, transfer(colors, target_to_source, source.faces, LOST_GREY), view_t),
     ]
     width, height = 2 * _PANEL, 4.4 + (0.4 if title else 0)
     wide = max(text / 10, 1.0)
@@ -89,7 +89,7 @@ def match_figure(
         given = np.where(carried < 0, 0.0, given) if given.shape == carried.shape else given
         shown = check(given, "errors", shape=carried.shape, remedy=_EACH)
         end = error_limit(shown[carried >= 0]) if limit is None else limit
-        painted = np.where(carried[:, None] < 0, LOST, error_colors(np.where(carried < 0, 0.0, shown), end))
+        painted = np.where(carried[:, None] < 0, LOST_GREY, error_colors(np.where(carried < 0, 0.0, shown), end))
         panels.append(("error on the target", target, painted, view_t))
         width += _PANEL + 0.7 * wide
 

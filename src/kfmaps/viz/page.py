@@ -14,7 +14,7 @@ from kfmaps.fmap.convert import nearest_reached
 from kfmaps.fmap.evaluate import area_distortion
 from kfmaps.geometry.mesh import Mesh, unit_area
 from kfmaps.io import MeshFile, check_map, projected_uv
-from kfmaps.io.transfer import transfer
+from kfmaps.io.transfer import LOST_GREY, transfer
 from kfmaps.matching.result import Match
 from kfmaps.viz.camera import broad_side, fit_rotation, rotation_between
 from kfmaps.viz.colors import position_colors
@@ -42,7 +42,7 @@ def _transferred(match: Match, source: Mesh, colors: np.ndarray) -> dict[str, An
     """What :func:`source_record` paints, mixed inside triangles at the target's vertices; empty without such points."""
     if match.precise_map is None:
         return {}
-    given = (colors, _LOST), (projected_uv(source.vertices), 0.0)
+    given = (colors, LOST_GREY), (projected_uv(source.vertices), 0.0)
     return _painted(*(transfer(values, match, source.faces, lost) for values, lost in given))
 
 
@@ -58,9 +58,6 @@ def map_record(source: Mesh, target: Mesh, target_to_source: np.ndarray, label: 
         "nearest": encode_integers(nearest_reached(source, target_to_source)),
         "distortion": encode_floats(area_distortion(source, target, target_to_source)),
     }
-
-
-_LOST = 160 / 255  # grey of vertices without a counterpart, as in the page's script
 
 
 def verdict_record(summary: Mapping[str, Any]) -> dict[str, Any] | None:
@@ -205,7 +202,7 @@ def result_page(
         matrix = check(np.asarray(functional_map, dtype=np.float64), "functional_map", shape=(None, None))
     colors = position_colors(source)
     if common is not None:
-        colors = np.where(common[:, None], colors, _LOST)
+        colors = np.where(common[:, None], colors, LOST_GREY)
     maps = [map_record(source, target, m, label) for m, label in zip(points, labels, strict=True)]
     if isinstance(target_to_source, Match):
         maps[0] |= _transferred(target_to_source, source, colors)

@@ -25,7 +25,7 @@ _Matcher = Callable[[np.ndarray, Progress], Match]
 _LONGEST_NAME = 60  # letters of a landmark's name
 
 
-def check_pairs(pairs: object, source: Mesh, target: Mesh) -> np.ndarray:
+def check_pairs(pairs: Any, source: Mesh, target: Mesh) -> np.ndarray:
     """Return landmarks (l, 2) int64, a vertex of ``source`` and one of ``target`` each."""
     remedy = "give pairs of 0-based vertex numbers, source first"
     whole = isinstance(pairs, list) and all(
@@ -46,7 +46,7 @@ def check_pairs(pairs: object, source: Mesh, target: Mesh) -> np.ndarray:
     return np.array(pairs, dtype=np.int64).reshape(-1, 2)
 
 
-def _check_names(names: object, count: int) -> list[str]:
+def _check_names(names: Any, count: int) -> list[str]:
     """Return one short text for each of ``count`` pairs; without any, an empty one for each."""
     if names is None:
         return [""] * count
