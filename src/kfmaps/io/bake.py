@@ -16,27 +16,18 @@ from kfmaps.io.record import MeshFile, Picture
 
 _SMALLEST, _LARGEST = 1024, 4096
 """Bounds of the longer side of a baked picture, which is that of the source's unless a size is given."""
-_TEXELS = 2_000_000
-"""Texels worked on together, which bounds the memory."""
+_TEXELS = 2_000_000  # texels worked on together, which bounds the memory
 _TWICE = 0.02
 """Share of the covered texels that may lie in several faces: an atlas whose charts share space cannot be baked into."""
 _OFF = 0.1
 """How far the coordinates in the middle of a face may be from the mean of its corners', in edge lengths: beyond it,
 the face lies over a seam of the texture."""
-_INSET = 0.05
-"""How far a corner is moved towards the middle of its face to find on which side of a seam the face lies."""
-_MARGIN = 3
-"""Texels around each face that is packed into the picture, which get the nearest colour."""
+_INSET = 0.05  # how far a corner is moved towards the middle of its face to find on which side of a seam the face lies
+_MARGIN = 3  # texels around each face that is packed into the picture, which get the nearest colour
 
 
 def decode_picture(picture: Picture) -> np.ndarray:
-    """Decode a PNG or JPEG file into (h, w, 3) float64 from 0 to 1; row 0 is the top.
-
-    Raises
-    ------
-    InvalidInput
-        When it cannot be read.
-    """
+    """Decode a PNG or JPEG file into (h, w, 3) float64 from 0 to 1; row 0 is the top."""
     from matplotlib.image import imread
 
     try:
@@ -77,20 +68,9 @@ def _sample_picture(pixels: np.ndarray, uv: np.ndarray) -> np.ndarray:
 def _find_texels(corners: np.ndarray, height: int, width: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Find the texels whose centres lie in triangles of a picture.
 
-    Parameters
-    ----------
-    corners : (f, 3, 2) float64
-        Texture coordinates.
-    height, width : int
-        Of the picture, in texels.
-
-    Returns
-    -------
-    face : (q,) int64
-    texel : (q,) int64
-        ``row · width + column``, wrapped where triangles leave the picture.
-    weights : (q, 3) float64
-        Barycentric coordinates of the centre.
+    ``corners (f, 3, 2)``: texture coordinates; ``height`` and ``width``: of the picture, in texels. Returns ``face
+    (q,)``; ``texel (q,)``: ``row · width + column``, wrapped where triangles leave the picture; ``weights (q, 3)``:
+    barycentric coordinates of the centre.
     """
     at = np.stack([corners[:, :, 0] * width, (1 - corners[:, :, 1]) * height], axis=2) - 0.5
     low, high = np.ceil(at.min(axis=1)).astype(np.int64), np.floor(at.max(axis=1)).astype(np.int64)
@@ -133,26 +113,14 @@ def can_bake(target: MeshFile, size: int = _SMALLEST) -> bool:
 
 @dataclass(frozen=True, eq=False)
 class TransferredUv:
-    """Texture coordinates of a target in the source's picture; made by :func:`transfer_uv`.
+    """Texture coordinates of a target in the source's picture; made by :func:`transfer_uv`."""
 
-    Attributes
-    ----------
-    uv : (m, 2) float64
-    uv_faces : (f, 3) int64
-        Row of ``uv`` for each corner of the target's faces.
-    torn : (f,) bool
-        Faces over a seam of the source's texture, which no coordinates of three corners describe.
-    edges : (f, 3) float64
-        Lengths of the edges in the picture, as parts of its width; of a source with faces.
-    images : (f, 3, 3) float64
-        Where the corners lie on the source; of one with faces.
-    """
-
-    uv: np.ndarray
-    uv_faces: np.ndarray
-    torn: np.ndarray
+    uv: np.ndarray  # (m, 2)
+    uv_faces: np.ndarray  # (f, 3): row of ``uv`` for each corner of the target's faces
+    torn: np.ndarray  # (f,): faces over a seam of the source's texture, which no coordinates of three corners describe
+    # (f, 3): lengths of the edges in the picture, as parts of its width; of a source with faces.
     edges: np.ndarray | None = None
-    images: np.ndarray | None = None
+    images: np.ndarray | None = None  # (f, 3, 3): where the corners lie on the source; of one with faces
 
 
 def projected_uv(vertices: np.ndarray) -> np.ndarray:
@@ -192,17 +160,12 @@ def _uv_at(source: MeshFile, points: np.ndarray) -> tuple[np.ndarray, np.ndarray
 def transfer_uv(source: MeshFile, target: Mesh, place: PointMap) -> TransferredUv:
     """Return texture coordinates of the target in the source's picture.
 
-    Each corner has the coordinates of its point on the source. At a seam of the texture one point has several; a
-    corner then takes those on its own face's side. A face that lies over a seam is named in ``torn``: the middle of
-    such a face is not where the mean of its corners is.
+    Each corner has the coordinates of its point on the source. At a seam of the texture one point has several; a corner
+    then takes those on its own face's side. A face that lies over a seam is named in ``torn``: the middle of such a
+    face is not where the mean of its corners is.
 
-    Parameters
-    ----------
-    source : MeshFile
-        A surface; one without texture coordinates has those of :func:`projected_uv`.
-    target : Mesh
-    place : PointMap
-        For each target vertex.
+    ``source``: a surface; one without texture coordinates has those of :func:`projected_uv`; ``place``: for each target
+    vertex.
     """
     source, mesh = with_uv(source), source.mesh
     assert source.uv is not None
@@ -245,19 +208,11 @@ def bake_texture(
 ) -> np.ndarray:
     """Return a picture with the source's colours drawn into it, (h, w, 3) uint8.
 
-    Parameters
-    ----------
-    source : MeshFile
-    found : TransferredUv
-        Where the faces lie in the source's picture. Those that are torn are worked out texel by texel: each takes the
-        closest place on the source's surface.
-    pixels : (..., 3) float64
-        The source's picture, :func:`decode_picture`.
-    atlas : (f, 3, 2) float64
-        Where the faces lie in the new picture; NaN for those that are not drawn.
-    picture : (h, w, 3) float64
-        What is there already, where ``covered (h, w)``; both are changed. Other texels get the colour of the nearest
-        covered one in the end, so that no other colour bleeds in where a viewer mixes neighbours.
+    ``found``: Where the faces lie in the source's picture. Those that are torn are worked out texel by texel: each
+    takes the closest place on the source's surface. ``pixels (..., 3)``: the source's picture, :func:`decode_picture`;
+    ``atlas (f, 3, 2)``: where the faces lie in the new picture; NaN for those that are not drawn. ``picture (h, w,
+    3)``: What is there already, where ``covered (h, w)``; both are changed. Other texels get the colour of the nearest
+    covered one in the end, so that no other colour bleeds in where a viewer mixes neighbours.
     """
     height, width = covered.shape
     drawn = np.flatnonzero(np.isfinite(atlas).all(axis=(1, 2)))
@@ -279,19 +234,9 @@ def bake_texture(
 def _pack(edges: np.ndarray, width: int) -> tuple[np.ndarray, int]:
     """Lay triangles side by side into rows.
 
-    Parameters
-    ----------
-    edges : (t, 3) float64
-        Lengths of the edges from corner i to the next, in texels.
-    width : int
-        Of a row, in texels. Where the rows together are higher than this, all triangles are made smaller.
-
-    Returns
-    -------
-    corners : (t, 3, 2) float64
-        In texels, from the upper left.
-    height : int
-        Of all rows.
+    ``edges (t, 3)``: lengths of the edges from corner i to the next, in texels. ``width``: Of a row, in texels. Where
+    the rows together are higher than this, all triangles are made smaller. Returns ``corners (t, 3, 2)``: in texels,
+    from the upper left; ``height``: of all rows.
     """
     first = edges.argmax(axis=1)  # the longest edge lies at the top
     a, b, c = (np.take_along_axis(edges, ((first + i) % 3)[:, None], axis=1)[:, 0] for i in range(3))
@@ -342,14 +287,7 @@ def transfer_texture(
     gets the source's coordinates and picture; faces over a seam of the texture are drawn anew, each into a place of its
     own in rows that are added below the picture.
 
-    Parameters
-    ----------
-    source, target : MeshFile
-    found : TransferredUv
-    picture : Picture
-        The source's.
-    size : int, optional
-        Longer side of the picture in texels; by default the source's, within bounds.
+    ``picture``: the source's; ``size``: longer side of the picture in texels; by default the source's, within bounds.
     """
     if can_bake(target):
         assert target.uv is not None

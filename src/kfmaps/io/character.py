@@ -18,10 +18,8 @@ from kfmaps.io.mapcontent import check_map
 from kfmaps.io.partial_map import point_map
 from kfmaps.io.record import MeshFile, Skin
 
-_SURROUNDINGS = 1e-3
-"""Part of the surface over which its turn and stretch by the map are averaged."""
-_MAX_FACTOR = 2.5
-"""How much more or less than all of the surface a part of it may be stretched."""
+_SURROUNDINGS = 1e-3  # part of the surface over which its turn and stretch by the map are averaged
+_MAX_FACTOR = 2.5  # how much more or less than all of the surface a part of it may be stretched
 _OWN = 0.1
 """Weight of a vertex for the place of a joint that follows this joint alone. One between it and the joint above counts
 up to ten times as much: the joint lies there."""
@@ -30,17 +28,8 @@ up to ten times as much: the joint lies there."""
 def transfer_character(source: MeshFile, target: MeshFile, target_to_source: Any) -> MeshFile:
     """Return ``target`` with the source's morph targets and skin; as it is where the source has none.
 
-    Parameters
-    ----------
-    source, target : MeshFile
-        Surfaces.
-    target_to_source : (n_t,) int64 or Match
-        Vertices without a counterpart (−1) do not move with morphs, and follow the joints of the nearest one that has.
-
-    Raises
-    ------
-    InvalidInput
-        When the map does not fit the shapes.
+    ``source`` and ``target``: surfaces; ``target_to_source (n_t,)``: vertices without a counterpart (−1) do not move
+    with morphs, and follow the joints of the nearest one that has.
     """
     if not source.morphs and source.skin is None:
         return target
@@ -65,13 +54,8 @@ def local_similarities(source: Mesh, target: Mesh, places: PointMap, mirrored: b
     Each is a rotation times a factor, that of the edges around the vertex and around its neighbours, fitted by least
     squares as in as-rigid-as-possible deformation (Sorkine and Alexa 2007).
 
-    Parameters
-    ----------
-    source, target : Mesh
-    places : PointMap
-        For each target vertex.
-    mirrored : bool
-        Whether the map is one to the target's mirror image: then they are reflections too.
+    ``places``: for each target vertex; ``mirrored``: whether the map is one to the target's mirror image: then they are
+    reflections too.
     """
     rest = target.vertices * MIRROR if mirrored else target.vertices
     energy, areas = build_arap(Mesh(rest, target.faces)), vertex_areas(target)
@@ -94,13 +78,7 @@ def local_similarities(source: Mesh, target: Mesh, places: PointMap, mirrored: b
 def turn_morph(moved: np.ndarray, source: Mesh, places: PointMap, turns: np.ndarray) -> np.ndarray:
     """Return the displacements (n_t, 3) of a morph target, ``moved (n_s, 3)`` on the source, turned with the surface.
 
-    Parameters
-    ----------
-    moved : (n_s, 3) float64
-    source : Mesh
-    places : PointMap
-    turns : (n_t, 3, 3) float64
-        Of :func:`local_similarities`.
+    ``turns (n_t, 3, 3)``: of :func:`local_similarities`.
     """
     return np.einsum("tij,tj->ti", turns, point_positions(places, Mesh(moved, source.faces)))
 
@@ -112,14 +90,7 @@ def transfer_skin(skin: Skin, source: Mesh, target: Mesh, places: PointMap, mirr
     vertices that follow it and, ten times as much, those that follow the joint above too. Its axes turn with it. A
     joint that nothing follows moves with the ones below it, or else with the one above.
 
-    Parameters
-    ----------
-    skin : Skin
-    source, target : Mesh
-    places : PointMap
-        For each target vertex.
-    mirrored : bool
-        Whether the map is one to the target's mirror image.
+    ``places``: for each target vertex; ``mirrored``: whether the map is one to the target's mirror image.
     """
     weights = np.einsum("ti,tij->tj", places.weights, skin.weights[source.faces[places.faces]])
     total = weights.sum(axis=1, keepdims=True)

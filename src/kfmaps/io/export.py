@@ -111,14 +111,8 @@ def textured(
 ) -> MeshFile:
     """Return the target with the source's texture, as :func:`write_textured` writes it.
 
-    Parameters
-    ----------
-    source, target : MeshFile
-    target_to_source : (n_t,) int64 or Match
-    picture : Picture, optional
-        By default the source's own, or a coloured grid.
-    size : int, optional
-        Longer side of the picture in texels; see :func:`kfmaps.io.bake.transfer_texture`.
+    ``target_to_source (n_t,)``; ``picture``: by default the source's own, or a coloured grid; ``size``: longer side of
+    the picture in texels; see :func:`kfmaps.io.bake.transfer_texture`.
     """
     mesh, picture = target.mesh, picture or _picture(None, source)
     if len(mesh.faces) == 0:

@@ -14,8 +14,7 @@ from kfmaps.io.record import MeshFile, Skin, bytes_of
 
 _FLOAT, _BYTE, _SHORT, _INT = 5126, 5121, 5123, 5125
 _ARRAY, _ELEMENT = 34962, 34963
-_MOST_JOINTS = 4
-"""Joints of a vertex that every program reads."""
+_MOST_JOINTS = 4  # joints of a vertex that every program reads
 
 
 class _Chunks:
@@ -50,8 +49,6 @@ def format_glb(shape: MeshFile) -> bytes:
     A vertex with several texture coordinates, along seams, is written once for each. Of more than four joints of a
     vertex the four heaviest count.
 
-    References
-    ----------
     Khronos Group, glTF 2.0, https://registry.khronos.org/glTF/specs/2.0/glTF-2.0.html.
     """
     mesh, colors, uv, uv_faces, picture = shape.mesh, shape.colors, shape.uv, shape.uv_faces, shape.picture

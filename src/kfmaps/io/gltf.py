@@ -23,8 +23,7 @@ _TRIANGLES, _STRIP, _FAN = 4, 5, 6
 _WHOLE = "a complete glTF 2.0 file"
 _UNCOMPRESSED = "export it without compression"
 _CUT = "the file is cut short or damaged: export it again"
-_BYTES_PER_ROW = 250
-"""What a vertex or a corner takes while it is read and checked, measured on a scene of 20 million."""
+_BYTES_PER_ROW = 250  # what a vertex or a corner takes while it is read and checked, measured on a scene of 20 million
 _MOST_REPEATED = 4_000_000
 """Vertices and corners that nodes may add by placing a mesh again: a file of 8 MB could mean a thousandfold."""
 _LOOKS = ("KHR_materials_", "KHR_texture_", "EXT_texture_", "KHR_lights_", "KHR_xmp", "MSFT_texture_")
@@ -47,27 +46,15 @@ def parse_gltf(data: bytes, name: str) -> MeshFile:
     Nothing is merged: where a file repeats a vertex, as exporters do along seams of a texture, it stays repeated.
     Several parts follow one another in the order of the file, each placed by its node, or by the joints that its
     vertices follow. Morph targets of one name in several parts are one. A picture is read when it is the one colour
-    texture of all parts; else there is none.
-    Specification: Khronos Group, "glTF 2.0", https://registry.khronos.org/glTF/specs/2.0/glTF-2.0.html.
-
-    Raises
-    ------
-    InvalidInput
-        On a file that is cut short, compressed data, extensions that are needed and not known, triangle
-        fans, nodes that are no tree, and too many copies of a part.
+    texture of all parts; else there is none. Specification: Khronos Group, "glTF 2.0",
+    https://registry.khronos.org/glTF/specs/2.0/glTF-2.0.html.
     """
     with complete_or_refuse(name, _WHOLE):
         return _Scene(data, name).mesh_file()
 
 
 def buffer_files(data: bytes, name: str) -> list[Path]:
-    """Return the files beside a .gltf that it takes its numbers from.
-
-    Raises
-    ------
-    InvalidInput
-        When ``data`` is no glTF.
-    """
+    """Return the files beside a .gltf that it takes its numbers from."""
     with complete_or_refuse(name, _WHOLE):
         tree, _ = _split(data, name)
         uris = [buffer.get("uri") for buffer in tree.get("buffers", [])]

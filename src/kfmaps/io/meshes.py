@@ -28,11 +28,6 @@ def _parse_xyz(data: bytes, name: str) -> MeshFile:
     """Read a point cloud: ``x y z`` a line.
 
     Further columns (a normal, a colour) are left out; all lines have the same number of them.
-
-    Raises
-    ------
-    InvalidInput
-        On words that are no numbers and on lines of different lengths.
     """
     rows = parse_rows(clean_text(data, name), name)
     columns = as_table(rows, (3, 4, 6, 7, 9, 10), name, "x y z, the same number of columns in every line")
@@ -58,8 +53,7 @@ _WRITERS = {".off": format_off, ".obj": format_obj, ".ply": format_ply, ".glb": 
 
 _MAX_UNPLACED = 1e-3
 """Fraction of vertices that may have NaN coordinates; surfaces extracted from CT volumes have one now and then."""
-_LARGEST = 1e70
-"""Coordinates beyond this overflow in areas and are refused; no unit makes them meaningful."""
+_LARGEST = 1e70  # coordinates beyond this overflow in areas and are refused; no unit makes them meaningful
 
 
 def read_mesh(path: str | Path, *, cloud: bool = True) -> Mesh:

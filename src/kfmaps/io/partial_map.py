@@ -16,13 +16,7 @@ from kfmaps.matching.result import Match
 
 
 def precise_points(found: Any, source: Mesh) -> PointMap | None:
-    """Return the points inside triangles of a map file, checked; ``None`` where it has none.
-
-    Raises
-    ------
-    InvalidInput
-        When they are not on ``source``.
-    """
+    """Return the points inside triangles of a map file, checked; ``None`` where it has none."""
     place = found.precise_map if isinstance(found, Match) else None
     return None if place is None else check_point_map_precise(place, source, len(found.target_to_source))
 
@@ -30,12 +24,8 @@ def precise_points(found: Any, source: Mesh) -> PointMap | None:
 def point_map(found: Any, source: Mesh, target_to_source: np.ndarray) -> PointMap:
     """Return a point inside a triangle of a surface for each target vertex, at vertices where ``found`` has no others.
 
-    Parameters
-    ----------
-    found : Match or (n_t,) int64
-    source : Mesh
-    target_to_source : (n_t,) int64
-        Its vertices. A vertex of no face counts as the nearest that one has; without a counterpart (−1) any is taken.
+    ``target_to_source (n_t,)``: Its vertices. A vertex of no face counts as the nearest that one has; without a
+    counterpart (−1) any is taken.
     """
     place = precise_points(found, source)
     if place is not None:
@@ -50,23 +40,13 @@ def point_map(found: Any, source: Mesh, target_to_source: np.ndarray) -> PointMa
 
 @dataclass(frozen=True, eq=False)
 class Counterparts:
-    """A map of points in both directions as far as there are any.
+    """A map of points in both directions as far as there are any."""
 
-    Attributes
-    ----------
-    place : PointMap
-        On the source, for each target vertex; means nothing where there is no counterpart.
-    back : PointMap
-        On the target, for each source vertex; the nearest that something is mapped to where there is no counterpart.
-    target : (n_t,) bool
-        Which vertices have one.
-    source : (n_s,) bool
-    """
-
-    place: PointMap
+    place: PointMap  # on the source, for each target vertex; means nothing where there is no counterpart
+    # On the target, for each source vertex; the nearest that something is mapped to where there is no counterpart.
     back: PointMap
-    target: np.ndarray
-    source: np.ndarray
+    target: np.ndarray  # (n_t,): which vertices have one
+    source: np.ndarray  # (n_s,)
 
     @property
     def complete(self) -> bool:
@@ -79,11 +59,6 @@ def find_counterparts(found: Match, source: Mesh, target: Mesh, name: str = "map
 
     A source vertex has a counterpart where ``overlap_source`` of the file says so. Of a file that does not tell it has
     one within half an edge of what the target's faces are mapped to; of one without −1 every vertex has.
-
-    Raises
-    ------
-    InvalidInput
-        When the map does not fit the shapes, or gives no face of the target a counterpart.
     """
     points = check_map(found, len(source.vertices), len(target.vertices), name, lost=True)
     known = points >= 0

@@ -13,16 +13,10 @@ from kfmaps.geometry.mesh import Mesh
 
 @dataclass(frozen=True)
 class Picture:
-    """A picture as it lies in a file.
-
-    Attributes
-    ----------
-    data : bytes
-    kind : "image/png" or "image/jpeg"
-    """
+    """A picture as it lies in a file."""
 
     data: bytes
-    kind: str
+    kind: str  # "image/png" or "image/jpeg"
 
     @property
     def suffix(self) -> str:
@@ -30,8 +24,7 @@ class Picture:
         return ".png" if self.kind == "image/png" else ".jpg"
 
 
-_MARKS = {b"\x89PNG\r\n\x1a\n": "image/png", b"\xff\xd8\xff": "image/jpeg"}
-"""How the files of each kind begin."""
+_MARKS = {b"\x89PNG\r\n\x1a\n": "image/png", b"\xff\xd8\xff": "image/jpeg"}  # how the files of each kind begin
 
 
 def picture_in(data: bytes) -> Picture | None:
@@ -41,24 +34,13 @@ def picture_in(data: bytes) -> Picture | None:
 
 @dataclass(frozen=True, eq=False)
 class Skin:
-    """A skeleton and what of each vertex follows which joint.
+    """A skeleton and what of each vertex follows which joint."""
 
-    Attributes
-    ----------
-    names : tuple of str
-        Of the joints.
-    parents : (j,) int64
-        The joint above each, -1 of roots.
-    matrices : (j, 4, 4) float64
-        From each joint's frame to the mesh's, at rest: the last column is where the joint is.
-    weights : (n, j) float64
-        Each row adds up to 1; 0 throughout for a vertex that follows no joint.
-    """
-
-    names: tuple[str, ...]
-    parents: np.ndarray
+    names: tuple[str, ...]  # of the joints
+    parents: np.ndarray  # (j,): the joint above each, -1 of roots
+    # (j, 4, 4): from each joint's frame to the mesh's, at rest: the last column is where the joint is.
     matrices: np.ndarray
-    weights: np.ndarray
+    weights: np.ndarray  # (n, j): each row adds up to 1; 0 throughout for a vertex that follows no joint
 
     __repr__ = short_repr
 
@@ -98,15 +80,8 @@ class MeshFile:
 def fan(sizes: np.ndarray) -> np.ndarray:
     """The triangles that polygons fall into, each polygon a fan around its first corner.
 
-    Parameters
-    ----------
-    sizes : (p,) int64
-        How many corners each polygon has, at least 3.
-
-    Returns
-    -------
-    (t, 3) int64
-        Positions in the list of all corners, one polygon after another, in the order of the polygons.
+    ``sizes (p,)``: how many corners each polygon has, at least 3. Returns (t, 3): positions in the list of all corners,
+    one polygon after another, in the order of the polygons.
     """
     first = np.cumsum(sizes) - sizes
     triangles = sizes - 2
@@ -129,16 +104,8 @@ def unit_colors(colors: np.ndarray) -> np.ndarray:
 def checked_colors(colors: np.ndarray, n: int) -> np.ndarray:
     """``colors`` as (n, 3) float64 from 0 to 1.
 
-    Parameters
-    ----------
-    colors : (n, 3) or (n, 4) array
-        Fractions from 0 to 1, or whole numbers from 0 to 255 when the dtype is an integer one. A fourth
-        column (alpha) is left out.
-
-    Raises
-    ------
-    InvalidInput
-        On another shape, NaN, or values out of range.
+    ``colors (n, 3)``: Fractions from 0 to 1, or whole numbers from 0 to 255 when the dtype is an integer one. A fourth
+    column (alpha) is left out.
     """
     colors = np.asarray(colors)
     wanted, remedy = f"({n}, 3) numbers", "give red, green and blue for each vertex"

@@ -19,12 +19,9 @@ from kfmaps.geometry.mesh import Mesh, unit_rows, vertex_areas, vertex_normals
 
 NORMALS = 0.02
 """Distance in space, at unit area, that counts as much as normals that differ by 1."""
-_MIN_COSINE = 0.3
-"""Cosine between two normals from which a pair of closest points counts; fully at 1."""
-_INITIAL_STIFFNESS = 1e-3
-"""Stiffness of the first shape, which follows the map."""
-_ALONG = 0.03
-"""Weight of squared distances along the surface, against 1 along its normal."""
+_MIN_COSINE = 0.3  # cosine between two normals from which a pair of closest points counts; fully at 1
+_INITIAL_STIFFNESS = 1e-3  # stiffness of the first shape, which follows the map
+_ALONG = 0.03  # weight of squared distances along the surface, against 1 along its normal
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,17 +37,8 @@ class ClosestPointQuery:
     def __call__(self, points: np.ndarray, normals: np.ndarray) -> tuple[ClosestPoints, np.ndarray, np.ndarray]:
         """Find the closest points of the surface with like normals.
 
-        Parameters
-        ----------
-        points, normals : (q, 3) float64
-
-        Returns
-        -------
-        found : ClosestPoints
-        normals : (q, 3) float64
-            Of the surface there.
-        agreement : (q,) float64
-            Of the normals, 0 to 1.
+        ``points (q, 3)`` and ``normals (q, 3)``. Returns ``found``; ``normals (q, 3)``: of the surface there;
+        ``agreement (q,)``: of the normals, 0 to 1.
         """
         near = self.tree.query(np.hstack([points, NORMALS * normals]))[1]
         found = closest_among(points, self.vertices, self.faces, *self.around.around(near))
@@ -64,13 +52,7 @@ def closest_point_query(
 ) -> ClosestPointQuery:
     """Return a mesh ready to search for closest points with like normals.
 
-    Parameters
-    ----------
-    mesh : Mesh
-    normals : (n, 3) float64, optional
-        Of its vertices, where they are known.
-    around : VertexRings, optional
-        Its rings, where they are known.
+    ``normals (n, 3)``: of its vertices, where they are known; ``around``: its rings, where they are known.
     """
     normals = vertex_normals(mesh) if normals is None else normals
     around = vertex_rings(mesh.faces, len(mesh.vertices)) if around is None else around
@@ -114,24 +96,14 @@ class DataTerm:
 
 @dataclass(frozen=True, eq=False)
 class DeformableMesh:
-    """A surface at rest, and what stays the same while it is bent; made by :func:`deformable_mesh`.
-
-    Attributes
-    ----------
-    mesh : Mesh
-    energy : ArapEnergy
-    areas : (n,) float64
-        Of the vertices.
-    around : VertexRings
-    solvers : dict or None
-        What :meth:`solver` has made, to be found again; ``None`` keeps nothing, since the factors of a large mesh are
-        large.
-    """
+    """A surface at rest, and what stays the same while it is bent; made by :func:`deformable_mesh`."""
 
     mesh: Mesh
     energy: ArapEnergy
-    areas: np.ndarray
+    areas: np.ndarray  # (n,): of the vertices
     around: VertexRings
+    # What :meth:`solver` has made, to be found again; ``None`` keeps nothing, since the factors of a large mesh are
+    # large.
     solvers: dict[tuple[float, float], Solve] | None = None
 
     def solver(self, stiffness: float, data: float) -> Solve:
@@ -162,13 +134,7 @@ def initial_deformation(
     the normals of that shape disagree with those given the placing is folded or twisted: there vertices have no say,
     and rotations are carried over from the surroundings by diffusion.
 
-    Parameters
-    ----------
-    body : DeformableMesh
-    points : (q,) int64
-        Vertices that have places.
-    places, normals : (q, 3) float64
-    weights : (q,) float64
+    ``points (q,)``: vertices that have places; ``places (q, 3)`` and ``normals (q, 3)``; ``weights (q,)``.
     """
     n, energy = len(body.areas), body.energy
     rows = csr_array((np.ones(len(points)), points, np.arange(len(points) + 1)), shape=(len(points), n))
@@ -204,18 +170,8 @@ def descend(
 
     Every step lowers that energy, so that none needs to be exact.
 
-    Parameters
-    ----------
-    energy : ArapEnergy
-    stiffness : float
-        Its weight, in units of area.
-    solve : callable
-        The preconditioner.
-    terms : list of DataTerm
-    x : (n, 3) float64
-    turns : (n, 3, 3) float64
-        Matrices that turn the rest shape of each vertex's surroundings.
-    steps : int
+    ``stiffness``: its weight, in units of area; ``solve``: the preconditioner; ``x (n, 3)``; ``turns (n, 3, 3)``:
+    matrices that turn the rest shape of each vertex's surroundings.
     """
 
     def apply(z: np.ndarray) -> np.ndarray:
@@ -251,23 +207,10 @@ def descend_levels(
 ) -> np.ndarray:
     """Return the deformed vertices (n, 3) after non-rigid ICP, each level less stiff than the one before.
 
-    Parameters
-    ----------
-    body : DeformableMesh
-    x : (n, 3) float64
-        Where the vertices begin.
-    levels : sequence of float
-        Stiffness of each level, in units of area.
-    steps : int
-        Searches for closest points at each level.
-    data : float
-        Weight of the data terms beside that stiffness in the preconditioner.
-    terms : callable
-        Data terms at ``x`` and a stiffness.
-    turns : callable
-        Matrices (n, 3, 3) that turn the rest shape of each vertex's surroundings at ``x``.
-    progress : callable
-        Told how much is done, from 0 to 1.
+    ``x (n, 3)``: where the vertices begin; ``levels``: stiffness of each level, in units of area; ``steps``: searches
+    for closest points at each level; ``data``: weight of the data terms beside that stiffness in the preconditioner;
+    ``terms``: data terms at ``x`` and a stiffness; ``turns``: matrices (n, 3, 3) that turn the rest shape of each
+    vertex's surroundings at ``x``; ``progress``: told how much is done, from 0 to 1.
     """
     for i, stiffness in enumerate(levels):
         solve = body.solver(stiffness, data)

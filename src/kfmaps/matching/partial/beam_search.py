@@ -12,10 +12,8 @@ import numpy as np
 
 from kfmaps.matching.partial.relaxation_labeling import Assignment, DistanceBounds, consistency
 
-_ANCHORS = 16
-"""Samples that are placed."""
-_MIN_DISTANCE = 0.12
-"""Distance between two places of some anchor, in √area of the whole, from which placements differ."""
+_ANCHORS = 16  # samples that are placed
+_MIN_DISTANCE = 0.12  # distance between two places of some anchor, in √area of the whole, from which placements differ
 
 
 def _select_anchors(bounds: DistanceBounds, boundary_distance: np.ndarray, count: int, first: int = 0) -> np.ndarray:
@@ -23,14 +21,8 @@ def _select_anchors(bounds: DistanceBounds, boundary_distance: np.ndarray, count
 
     They are farthest points by the smaller of the distance to those chosen and twice that to the boundary.
 
-    Parameters
-    ----------
-    bounds : DistanceBounds
-    boundary_distance : (q,) float
-        In the unit of ``bounds``.
-    count : int
-    first : int
-        So many of the first samples, the landmarks, are chosen first.
+    ``boundary_distance (q,)``: in the unit of ``bounds``; ``first``: so many of the first samples, the landmarks, are
+    chosen first.
     """
     upper = np.where(np.isfinite(bounds.upper), bounds.upper, 0.0)
     inner = 2.0 * np.minimum(boundary_distance, upper.max(initial=0.0))
@@ -54,18 +46,9 @@ def beam_search(
 ) -> list[Assignment]:
     """Return at most 12 distinct placements of a few samples, best first; only these samples have trust.
 
-    Parameters
-    ----------
-    bounds : DistanceBounds
-    boundary_distance : (q,) float
-        Of the part's samples, in the unit of the whole.
-    distances : (m, m) float
-        Between the whole's samples, of which the first 400 are places.
-    similarity : (q, m) float
-        Products of descriptors; rows of the first ``n_landmarks`` samples have one entry above all others.
-    n_landmarks : int
-    width : int
-        Placements that are kept at each step.
+    ``boundary_distance (q,)``: of the part's samples, in the unit of the whole; ``distances (m, m)``: between the
+    whole's samples, of which the first 400 are places; ``similarity (q, m)``: products of descriptors; rows of the
+    first ``n_landmarks`` samples have one entry above all others; ``width``: placements that are kept at each step.
     """
     anchors = _select_anchors(bounds, boundary_distance, _ANCHORS, n_landmarks)
     m = min(400, similarity.shape[1])

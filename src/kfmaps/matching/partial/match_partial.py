@@ -19,8 +19,7 @@ from kfmaps.shape import Shape
 
 COMMON = 0.5
 """Probability from which a vertex has a counterpart."""
-_HOLES = 0.9
-"""Share of the other's area from which a part is called a shape with holes."""
+_HOLES = 0.9  # share of the other's area from which a part is called a shape with holes
 
 
 @dataclass(frozen=True, eq=False)
