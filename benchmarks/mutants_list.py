@@ -480,6 +480,8 @@ MUTANTS = tuple(
         ("np.average(found.distances**2, weights=on)", "np.average(found.distances, weights=on)", "test_parts_bend"),
         ("areas[cosine < 0.3].sum()", "areas[cosine > 0.3].sum()", "test_parts_bend"),
         ("on = areas * inside\n", "on = areas\n", "test_parts_bend", "matching/partial/registration"),
+        ("replace(copy, mesh=found.rest)", "copy", "test_parts_bend"),
+        ("np.flatnonzero(4 * nearest > apart", "np.flatnonzero(nearest > apart", "test_nystrom"),
         (
             "whole.on_boundary) & (found.distances > _BEYOND)",
             "whole.on_boundary) | (found.distances > _BEYOND)",

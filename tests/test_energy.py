@@ -170,6 +170,10 @@ def test_slices_are_packed_and_unpacked(case, asarray, convert):
     np.testing.assert_allclose(gram, np.einsum("iab,jab->ij", wanted, wanted), rtol=1e-10)
     threaded = multiplication_operators(source, W, block=4, threads=3)
     np.testing.assert_allclose(threaded, to_numpy(packed), rtol=1e-10, atol=1e-13)
+    single = multiplication_operators(source, W, block=4, single=True)
+    off = np.abs(single - threaded).max() / np.abs(threaded).max()
+    assert single.dtype == np.float64
+    assert 0.0 < off < 4 * 6e-8
 
 
 def test_compression_is_exact_for_redundant_features_and_bounded_otherwise(case, rng):

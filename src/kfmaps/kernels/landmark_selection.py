@@ -43,15 +43,20 @@ def farthest_descriptors(X: Array, count: int, rng: _Rng = 0, pool: int | None =
     X = X - X.mean(axis=0)
     squares = np.einsum("ij,ij->i", X, X)
     taken = np.empty(count, dtype=np.int64)
-    nearest = np.full(len(X), np.inf)
+    nearest, owner = np.full(len(X), np.inf), np.zeros(len(X), dtype=np.int64)
     following = int(draw.integers(len(X)))
     for i in range(count):
         taken[i] = following
-        away = X @ X[following]
+        apart = squares[taken[: i + 1]] + squares[following] - 2 * (X[taken[: i + 1]] @ X[following])
+        # A row that is at most half as far from the one taken as that is from the new one is not nearer to the new one.
+        rows = np.flatnonzero(4 * nearest > apart[owner])
+        away = X[rows] @ X[following]
         away *= -2
-        away += squares
+        away += squares[rows]
         away += squares[following]
-        np.minimum(nearest, away, out=nearest)
+        nearer = away < nearest[rows]
+        rows = rows[nearer]
+        nearest[rows], owner[rows] = away[nearer], i
         nearest[following] = -np.inf
         following = int(np.argmax(nearest))
         if nearest[following] <= 1e-14 * squares.max():
