@@ -46,8 +46,8 @@ def page(browser: Browser, pair: ExamplePair, tmp_path: Path) -> Browser:
         pair.target,
         pair.truth,
         functional_map=rng.normal(size=(20, 30)),
-        errors=np.linspace(0, 0.2, len(pair.truth)),
-        confidence=np.linspace(0, 1, len(pair.truth)),
+        errors=np.linspace(0, 0.2, len(pair.truth))[None],
+        confidence=np.linspace(0, 1, len(pair.truth))[None],
         alternatives=[np.roll(pair.truth, 1)],
         descriptors=(pair.source.vertices, pair.target.vertices),
         summary={

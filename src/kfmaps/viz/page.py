@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from kfmaps._arrays import check, check_count, refuse
+from kfmaps._arrays import refuse
 from kfmaps.cli.words import VERDICTS, verdict_text
 from kfmaps.fmap.convert import nearest_reached
 from kfmaps.fmap.evaluate import area_distortion
@@ -86,20 +86,6 @@ def check_up(up: str | None) -> str | None:
     return up
 
 
-def _fields(maps: int, n_t: int, **given: Any) -> dict[str, Any]:
-    """Numbers at target vertices, of the best map alone or of every map."""
-    fields = {}
-    for name, values in given.items():
-        if values is None:
-            continue
-        rows = np.atleast_2d(np.asarray(values, dtype=np.float64))
-        check(rows, name, shape=(None, n_t), finite=False, remedy="give one number per target vertex")
-        if len(rows) not in (1, maps):
-            raise refuse(name, f"one row, or one for each of {maps} maps", f"{len(rows)}", "leave some out")
-        fields[name] = [encode_floats(row) for row in rows]
-    return fields
-
-
 def _texture_record(shape: MeshFile) -> dict[str, Any]:
     """The texture coordinates of a shape, for each corner of its faces, and its picture as a data address."""
     assert shape.uv is not None
@@ -108,27 +94,6 @@ def _texture_record(shape: MeshFile) -> dict[str, Any]:
     data = base64.b64encode(shape.picture.data).decode("ascii")
     corners = encode_integers(shape.uv_faces.ravel())
     return {"uv": encode_floats(shape.uv), "corners": corners, "picture": f"data:{shape.picture.kind};base64,{data}"}
-
-
-def _descriptors(
-    descriptors: tuple[np.ndarray, np.ndarray] | None, source: Mesh, target: Mesh, most: int
-) -> list[dict[str, Any]]:
-    """Up to ``most`` columns, spread over all of them, each on one scale for both shapes."""
-    if descriptors is None:
-        return []
-    pair = [np.asarray(d, dtype=np.float64) for d in descriptors]
-    for array, mesh, name in zip(pair, (source, target), ("source", "target"), strict=True):
-        shape = (len(mesh.vertices), None)
-        check(array, f"descriptors of the {name}", shape=shape, remedy="give one row per vertex")
-    if pair[0].shape[1] != pair[1].shape[1]:
-        wanted = "as many columns on both shapes"
-        raise refuse("descriptors", wanted, f"{pair[0].shape[1]} and {pair[1].shape[1]}", "compute both alike")
-    count = pair[0].shape[1]
-    chosen = np.unique(np.linspace(0, count - 1, min(count, most)).round().astype(int)) if count else []
-    return [
-        {"number": int(j), "source": encode_floats(pair[0][:, j]), "target": encode_floats(pair[1][:, j])}
-        for j in chosen
-    ]
 
 
 def result_page(
@@ -141,7 +106,6 @@ def result_page(
     confidence: np.ndarray | None = None,
     alternatives: Sequence[np.ndarray] | np.ndarray = (),
     descriptors: tuple[np.ndarray, np.ndarray] | None = None,
-    most_descriptors: int = 12,
     summary: Mapping[str, Any] | None = None,
     names: tuple[str, str] = ("source", "target"),
     up: str | None = None,
@@ -150,62 +114,25 @@ def result_page(
 ) -> str:
     """Return one HTML file that shows a map: it needs no network, no server and nothing beside it.
 
-    Parameters
-    ----------
-    source, target : Mesh
-        Surfaces, or point clouds.
-    target_to_source : (n_t,) int or Match
-        A source vertex for each target vertex; −1 where there is none, which is grey. Colours and the pattern are mixed
-        inside triangles where a match has points there.
-    functional_map : (k_t, k_s), optional
-        Shown as a picture.
-    errors : (n_t,) or (1 + c, n_t), optional
-        Distance on the source from each image to the truth, in units of √area; one row for the map, or one
-        more for each alternative. NaN where the truth is not known.
-    confidence : (n_t,) or (1 + c, n_t), optional
-        From 0 to 1, higher is surer, as :func:`kfmaps.fmap.confidence.local_confidence` has it; rows as
-        for ``errors``.
-    alternatives : (c, n_t) int
-        Other maps, to be switched to.
-    descriptors : ((n_s, d), (n_t, d)), optional
-        Up to ``most_descriptors`` of the d columns are put in the page.
-    summary : mapping, optional
-        Anything JSON can hold. The page knows ``settings``, ``energies`` and ``times`` (mappings, seconds),
-        ``residuals`` (a list, drawn as a curve) and lists all else as it is.
-    names : (str, str)
-        Any text, shown as text.
-    up : {"x", "y", "z"}, optional
-        The shapes' vertical axis; by default a good side is found. It can be changed in the page.
-    common : (n_s,) bool, optional
-        Of a part and a whole, which source vertices are on both; the others are grey.
-    textures : (MeshFile, MeshFile), optional
-        Both shapes with coordinates and a picture, which are shown instead of a pattern.
-
-    Returns
-    -------
-    str
-        The page, to be written as UTF-8.
-
-    Raises
-    ------
-    InvalidInput
-        On arrays that do not fit the two shapes.
+    Colours and the pattern are mixed inside triangles where a match has points there. ``errors (m, n_t)``, distances on
+    the source in √area, and ``confidence (m, n_t)`` have a row for the map, or one for each alternative too; NaN is
+    unknown. ``descriptors`` have the same columns on both shapes. ``summary`` is anything that JSON can hold: the page
+    knows ``settings``, ``energies``, ``times`` (mappings) and ``residuals`` (a list), and lists all else. Where
+    ``common (n_s,)`` is false the source is grey. ``textures``, both shapes with coordinates and a picture, are shown
+    instead of a pattern.
     """
     check_up(up)
-    check_count(most_descriptors, "most_descriptors", low=0)
     sizes = len(source.vertices), len(target.vertices)
     points = [check_map(target_to_source, *sizes, lost=True)]
     points += [check_map(m, *sizes, f"alternative {i}") for i, m in enumerate(alternatives, 1)]
     labels = ["Best map"] + [f"Alternative {i}" for i in range(1, len(points))]
-    matrix = None
-    if functional_map is not None:
-        matrix = check(np.asarray(functional_map, dtype=np.float64), "functional_map", shape=(None, None))
     colors = position_colors(source)
     if common is not None:
         colors = np.where(common[:, None], colors, LOST_GREY)
     maps = [map_record(source, target, m, label) for m, label in zip(points, labels, strict=True)]
     if isinstance(target_to_source, Match):
         maps[0] |= _transferred(target_to_source, source, colors)
+    fields = {"errors": errors, "confidence": confidence}
     data = {
         "kind": "result",
         "up": up or "auto",
@@ -215,9 +142,12 @@ def result_page(
         "target": shape_record(target, names[1]),
         "rotation": _rotation_by_map(source, target, points[0]).ravel(),
         "maps": maps,
-        **_fields(len(points), len(target.vertices), errors=errors, confidence=confidence),
-        "descriptors": _descriptors(descriptors, source, target, most_descriptors),
-        "matrix": None if matrix is None else encode_floats(matrix),
+        **{name: [encode_floats(row) for row in rows] for name, rows in fields.items() if rows is not None},
+        "descriptors": [
+            {"number": i, "source": encode_floats(a), "target": encode_floats(b)}
+            for i, (a, b) in enumerate(zip(*(part.T for part in descriptors), strict=True) if descriptors else ())
+        ],
+        "matrix": None if functional_map is None else encode_floats(functional_map),
         "textures": [_texture_record(shape) for shape in textures or ()],
         "summary": summary or {},
     }
