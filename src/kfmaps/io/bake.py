@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import io
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
-from scipy.ndimage import distance_transform_edt, uniform_filter
+from scipy.ndimage import distance_transform_edt, uniform_filter1d
 
 from kfmaps._arrays import refuse
 from kfmaps.fmap.precise import PointMap, point_positions
@@ -226,8 +227,7 @@ def bake_texture(
         where[seam] = _uv_at(with_uv(source), np.einsum("qi,qij->qj", weights[seam], found.images[face[seam]]))[0]
     picture.reshape(-1, 3)[texel] = _sample_picture(pixels, where)
     covered.reshape(-1)[texel] = True
-    nearest = distance_transform_edt(~covered, return_distances=False, return_indices=True)
-    assert nearest is not None
+    nearest: Any = distance_transform_edt(~covered, return_distances=False, return_indices=True)
     return np.rint(255 * picture[nearest[0], nearest[1]]).astype(np.uint8)
 
 
@@ -261,15 +261,20 @@ def _pack(edges: np.ndarray, width: int) -> tuple[np.ndarray, int]:
     return place[:, None] + np.take_along_axis(flat, order[:, :, None], axis=1), int(top + row)
 
 
+def _side(pixels: np.ndarray) -> int:
+    """Return the longer side of a baked picture when nobody asks for another."""
+    return int(np.clip(max(pixels.shape[:2]), _SMALLEST, _LARGEST))
+
+
 def _resized(pixels: np.ndarray, size: int | None) -> np.ndarray:
     """Return a picture whose longer side has ``size`` texels; by default within bounds."""
     height, width = pixels.shape[:2]
-    size = size or int(np.clip(max(height, width), _SMALLEST, _LARGEST))
+    size = size or _side(pixels)
     h, w = (max(1, round(side * size / max(height, width))) for side in (height, width))
     if (h, w) == (height, width):
         return pixels
     if size < max(height, width):
-        pixels = uniform_filter(pixels, (height // h, width // w, 1), mode="nearest")
+        pixels = uniform_filter1d(uniform_filter1d(pixels, height // h, axis=0), width // w, axis=1)
     across, down = np.meshgrid((np.arange(w) + 0.5) / w, 1 - (np.arange(h) + 0.5) / h)
     return _sample_picture(pixels, np.stack([across.ravel(), down.ravel()], axis=1)).reshape(h, w, 3)
 
@@ -291,8 +296,9 @@ def transfer_texture(
     """
     if can_bake(target):
         assert target.uv is not None
+        assert target.uv_faces is not None
         pixels = decode_picture(picture)
-        side = size or max(_resized(pixels, None).shape)
+        side = size or _side(pixels)
         blank = np.zeros((side, side, 3)), np.zeros((side, side), dtype=bool)
         drawn = bake_texture(source, found, pixels, target.uv[target.uv_faces], *blank)
         return replace(target, picture=encode_png(drawn))

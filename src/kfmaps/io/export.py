@@ -126,11 +126,9 @@ def textured(
         found = TransferredUv(projected_uv(source.mesh.vertices), corners, corners[:, 0] < 0)
     if lost.any():
         # All three corners in one place: the face has one colour of the picture, and the picture does not spread.
-        faces = lost[mesh.faces].any(axis=1)
-        uv, uv_faces = (
-            np.concatenate([found.uv, np.zeros((1, 2))]),
-            np.where(faces[:, None], len(found.uv), found.uv_faces),
-        )
+        faces = np.asarray(lost[mesh.faces].any(axis=1))
+        uv = np.concatenate([found.uv, np.zeros((1, 2))])
+        uv_faces = np.where(faces[:, None], len(found.uv), found.uv_faces)
         found = replace(found, uv=uv, uv_faces=uv_faces, torn=found.torn & ~faces)
     if target.uv is not None and not can_bake(target):
         told = "several faces of the target share their place in its texture: it gets the source's coordinates"
