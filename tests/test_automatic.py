@@ -299,7 +299,7 @@ def test_a_match_of_a_search_has_no_fit_of_its_own(shape, other):
     assert found.config is SMALL
     assert found.fit.raw_target_to_source is None
     assert found.fit.status is None
-    assert found.score.initialization.startswith(("signs", "kicked", "SHOT", "tips", "turned"))
+    assert found.score.initialization.startswith(("signs", "kicked", "SHOT", "extremities", "turned"))
 
 
 def test_progress_never_falls_and_ends_at_one(shape, other):

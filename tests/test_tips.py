@@ -274,7 +274,7 @@ def test_tips_can_be_left_out(creature):
     plain = replace(SMALL, search=replace(SMALL.search, match_extremities=False))
     source, target = creature[:2]
     names = search_map(source, target, plain, rng=0).initialization, search_map(source, target, SMALL, rng=0)
-    assert not names[0].startswith("tips")
+    assert not names[0].startswith("extremities")
     assert names[1].confidence is not None
 
 

@@ -1,7 +1,7 @@
-"""Which tip of one shape is which of another, and the rough map that follows.
+"""Match the extremities of two shapes, and find the rough map that follows.
 
-All ways to pair the tips are tried, and those kept whose tips lie alike; then, for each, the distances to the tips and
-the sense in which they grow are compared at all points, which tells a limb from another and left from right.
+All ways to pair the extremities are tried, and those kept whose extremities lie alike. Then, for each, the distances to
+them and the sense in which these grow are compared at all points, which tells limbs apart and left from right.
 """
 
 from __future__ import annotations
@@ -18,66 +18,63 @@ from kfmaps.matching.quality import ShapeSamples
 from kfmaps.matching.score import select_distinct
 
 FEWEST = 3
-"""Tips without which nothing is told apart."""
+"""Least number of extremities that tell limbs apart."""
 LEFT_OUT = 0.15
-"""Cost of leaving one of the tips out, as its part of all: an ear of a dog has no partner on a cat."""
+"""Cost of leaving out all extremities; that of one is its share. An ear of a dog has no partner on a cat."""
 SPARE = 5
-"""Tips from which one may be left out."""
+"""Number of extremities from which one may be left out."""
 TRIED = 200
-"""Pairings whose points are compared, ..."""
+"""Matches that are compared at samples."""
 THIN = 150
-"""... at so many of the samples, ..."""
+"""Samples at which they are compared."""
 KEPT = 32
-"""... and those that are refined."""
+"""Matches that are refined."""
 NEAR = 0.5
-"""Distance, over the mean one of all points, up to which a tip whose image is nearest to another goes to that one."""
+"""Largest distance of an extremity's image from the extremity that it goes to, over the mean distance of points."""
 SHOT = 0.02
-"""Weight of SHOT beside distances from tips, where those are the same."""
+"""Weight of SHOT beside distances from extremities."""
 
 
 @dataclass(frozen=True, eq=False)
 class ExtremityMatch:
-    """Tips ``source (m,)`` of one shape and, in the same order, ``target (m,)`` of the other."""
+    """Extremities of one shape, ``source (m,)``, and in the same order those of the other, ``target (m,)``."""
 
     source: np.ndarray
     target: np.ndarray
 
     def pairs(self) -> set[tuple[int, int]]:
-        """Of the tips' numbers."""
+        """Return the pairs of the extremities' numbers."""
         return set(zip(self.source.tolist(), self.target.tolist(), strict=True))
 
     def within(self, other: ExtremityMatch) -> bool:
-        """Whether ``other`` has all of its pairs."""
+        """Return whether ``other`` has all of its pairs."""
         return self.pairs() <= other.pairs()
 
     def contradicts(self, other: ExtremityMatch) -> bool:
-        """Whether one tip, of either shape, goes to different ones."""
+        """Return whether an extremity of either shape goes to different ones."""
         return any((i == k) != (j == n) for i, j in self.pairs() for k, n in other.pairs())
 
     def __str__(self) -> str:
-        return f"tips {'-'.join(map(str, self.source))} to {'-'.join(map(str, self.target))}"
+        return f"extremities {'-'.join(map(str, self.source))} to {'-'.join(map(str, self.target))}"
 
 
 def unused_matches(likely: list[ExtremityMatch], known: list[ExtremityMatch], most: int) -> list[ExtremityMatch]:
-    """The first ``most`` of ``likely`` that contradict each other, less those all of which is in one of ``known``.
-
-    Two contradict each other where they take one tip, of either shape, to different ones.
-    """
+    """Return the first ``most`` of ``likely`` that contradict each other, without parts of those ``known``."""
     first = select_distinct(likely, ExtremityMatch.contradicts, most)
     whole = [complete_match(one, likely) for one in first]
     return [one for one in whole if not any(one.within(other) for other in known)]
 
 
 def complete_match(pairing: ExtremityMatch, likely: list[ExtremityMatch]) -> ExtremityMatch:
-    """The first of ``likely`` with all pairs of ``pairing`` and more, else itself.
+    """Return the first of ``likely`` with all pairs of ``pairing`` and more, else ``pairing`` itself.
 
-    With one tip left out there is always less to differ: of a right pairing of all tips the parts come first.
+    With one extremity left out less can differ, so parts of a right match of all extremities come before it.
     """
     return next((one for one in likely if pairing.within(one) and len(one.source) > len(pairing.source)), pairing)
 
 
 def match_extremities(source: ShapeSamples, target: ShapeSamples, shot: np.ndarray | None) -> list[ExtremityMatch]:
-    """The likeliest, best first; none where a shape has hardly any tips.
+    """Return the likeliest matches, best first; none where a shape has fewer than three extremities.
 
     ``shot (q_t, q_s)``: half the squared differences of descriptors, see
     :func:`kfmaps.matching.sample_pair.descriptor_cost`.
@@ -93,7 +90,7 @@ def match_extremities(source: ShapeSamples, target: ShapeSamples, shot: np.ndarr
 
 
 def extremity_similarity(source: ShapeSamples, target: ShapeSamples) -> list[ExtremityMatch]:
-    """All pairings of as many tips as both shapes have, or of one less, in the order of how alike the tips lie.
+    """Return all matches of as many extremities as both shapes have, or of one less, the most alike first.
 
     Their distances from each other and from the rest are compared, and the heat kernel signature, which knows a tail
     from a leg.
@@ -130,7 +127,7 @@ def extremity_difference(source: ShapeSamples, target: ShapeSamples) -> np.ndarr
 def extremity_cost(
     a: Extremities, b: Extremities, pairing: ExtremityMatch, shot: np.ndarray | None = None
 ) -> np.ndarray:
-    """What speaks against each pair of samples ``(q_t, q_s)``: squared differences of all that tips tell."""
+    """Return the squared differences of the features of samples, ``(q_t, q_s)`` (:func:`extremity_features`)."""
     there, here = extremity_features(b, pairing.target), extremity_features(a, pairing.source)
     cost = -2 * there @ here.T
     cost += (there**2).sum(axis=1)[:, None]
@@ -141,11 +138,11 @@ def extremity_cost(
 
 
 def match_of_map(points: np.ndarray, source: ShapeSamples, target: ShapeSamples) -> ExtremityMatch | None:
-    """The tips that a map ``points (q_t,)`` takes to each other, nearly; ``None`` where they are fewer than three."""
+    """Return the extremities that a map ``points (q_t,)`` takes near each other; ``None`` for fewer than three."""
     a, b = source.extremities, target.extremities
     if min(len(a.points), len(b.points)) < FEWEST:
         return None
-    # From each tip of the source to the image of each of the target.
+    # From each extremity of the source to the image of each of the target.
     off = a.distances[:, points[b.points]]
     nearest_s, nearest_t = off.argmin(axis=0), off.argmin(axis=1)
     theirs = np.flatnonzero((off.min(axis=0) < NEAR) & (nearest_t[nearest_s] == np.arange(len(b.points))))
@@ -154,15 +151,14 @@ def match_of_map(points: np.ndarray, source: ShapeSamples, target: ShapeSamples)
 
 @dataclass(frozen=True, eq=False)
 class ExtremityVertices:
-    """Paired tips as vertices ``source (m,)`` and ``target (m,)`` of both shapes, and the unit of distances of each."""
+    """Matched extremities as vertices, ``source (m,)`` and ``target (m,)``, and the unit of distance of each shape."""
 
     source: np.ndarray
     target: np.ndarray
     units: tuple[float, float]
 
     def guide(self, source: Mesh, target: Mesh) -> DescriptorGuidance:
-        """What the tips tell of all vertices, for the refinement: half its squared differences are
-        :func:`extremity_cost`."""
+        """Return the features of all vertices, whose squared differences are twice :func:`extremity_cost`."""
         everything = np.arange(len(self.source))
         sides = ((source, self.source), (target, self.target))
         return DescriptorGuidance(
@@ -174,20 +170,20 @@ class ExtremityVertices:
 
 
 def extremity_vertices(points: np.ndarray, source: ShapeSamples, target: ShapeSamples) -> ExtremityVertices | None:
-    """Those that a map ``points (q_t,)`` of samples pairs (:func:`match_of_map`)."""
+    """Return the extremities that a map of samples matches (:func:`match_of_map`), as vertices."""
     found = match_of_map(points, source, target)
     return None if found is None else vertices_of_match(found, source, target)
 
 
 def vertices_of_match(found: ExtremityMatch, source: ShapeSamples, target: ShapeSamples) -> ExtremityVertices:
-    """The tips of a pairing as vertices of both shapes."""
+    """Return the extremities of a match as vertices of both shapes."""
     at = source.extremities.points[found.source], target.extremities.points[found.target]
     units = source.extremities.unit, target.extremities.unit
     return ExtremityVertices(source.samples.vertices[at[0]], target.samples.vertices[at[1]], units)
 
 
 def extremity_features(found: Extremities, chosen: np.ndarray) -> np.ndarray:
-    """What the ``chosen`` tips tell of each sample: distances and turns, each of them one on average."""
+    """Return distances from the ``chosen`` extremities and their gradients' turns at each sample, each 1 on average."""
     upper = np.triu_indices(len(chosen), 1)
     turn = found.gradient_cross[np.ix_(chosen, chosen)][upper]
     return np.vstack([found.distances[chosen] / np.sqrt(len(chosen)), turn / np.sqrt(max(len(turn), 1))]).T
