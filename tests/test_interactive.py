@@ -11,29 +11,22 @@ import pytest
 from collecting import CONFIG
 from conftest import blob
 from kfmaps.cli.main import main
-from kfmaps.config import Config
 from kfmaps.io import write_mesh
-from kfmaps.viz.interactive import InteractiveMatcher
+from kfmaps.viz.runs import InteractiveMatcher
 
 MARKS = np.array([[3, 3], [50, 50], [120, 120], [9, 9]])
 
 
 def test_shapes_are_prepared_once_and_the_settings_are_used() -> None:
     mesh = blob(300)
-    seen: list[list[list[int]]] = []
-
-    def chosen(pairs: np.ndarray) -> Config:
-        seen.append(pairs.tolist())
-        return replace(CONFIG, refinement=None)
-
-    matcher = InteractiveMatcher(mesh, mesh, ("a", "b"), (Path("a.off"), Path("b.off")), chosen)
+    config = replace(CONFIG, refinement=None)
+    matcher = InteractiveMatcher((mesh, mesh), ("a", "b"), (Path("a.off"), Path("b.off")), config)
     stages: list[str] = []
     for marks in (MARKS, MARKS[:3]):
         found = matcher(marks, lambda stage, done: stages.append(stage) if done == 1 else None)
         np.testing.assert_array_equal(found.target_to_source, np.arange(300))
         np.testing.assert_array_equal(found.landmarks, marks)
         assert (found.n_source, found.source_file.path) == (300, str(Path("a.off").absolute()))
-    assert seen == [MARKS.tolist(), MARKS[:3].tolist()]
     assert [stages.count(f"eigenfunctions of {name}") for name in "ab"] == [1, 1]
     assert stages.count("descriptors") == 2
     assert "refinement" not in stages

@@ -1,4 +1,4 @@
-"""One match at a time in the background, watched and cancelled from outside."""
+"""Matches of two shapes with other landmarks again and again: one at a time, watched and cancelled from outside."""
 
 from __future__ import annotations
 
@@ -7,10 +7,39 @@ import time
 import traceback
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from pathlib import Path
 from typing import Any
+
+import numpy as np
 
 from kfmaps._arrays import InvalidInput, NotConverged, refuse
 from kfmaps._progress import Progress
+from kfmaps.config import Config
+from kfmaps.geometry.mesh import Mesh
+from kfmaps.io.provenance import with_files
+from kfmaps.matching.match import match
+from kfmaps.matching.result import Match
+from kfmaps.shape import Shape, prepare
+
+
+class InteractiveMatcher:
+    """``matcher(landmarks, progress)``: the map of two shapes with these landmarks; each shape is prepared once.
+
+    ``names`` is how messages call the shapes, ``paths`` are their files, which the saved map names.
+    """
+
+    def __init__(
+        self, meshes: tuple[Mesh, Mesh], names: tuple[str, str], paths: tuple[Path, Path], config: Config
+    ) -> None:
+        self._meshes, self._names, self._paths, self._config = meshes, names, paths, config
+        self._shapes: list[Shape] = []
+
+    def __call__(self, landmarks: np.ndarray, progress: Progress) -> Match:
+        for mesh, name in list(zip(self._meshes, self._names, strict=True))[len(self._shapes) :]:
+            self._shapes.append(prepare(mesh, self._config, name=name, progress=progress))
+        pairs = landmarks if len(landmarks) else None
+        found = match(*self._shapes, config=self._config, landmarks=pairs, progress=progress)
+        return with_files(found, self._paths, self._meshes)
 
 
 class _Cancelled(Exception):

@@ -19,13 +19,12 @@ from kfmaps.config import Config
 from kfmaps.io import check_output, read_mesh
 from kfmaps.io.mapfile import check_format
 from kfmaps.io.named_points import read_given_landmarks
-from kfmaps.matching.match import default_config
 from kfmaps.settings.options import Chosen, with_settings
 from kfmaps.viz.document import forwarding_page
-from kfmaps.viz.interactive import InteractiveMatcher
 from kfmaps.viz.page import check_up
 from kfmaps.viz.picker import Picker, PickerServer, check_pairs
 from kfmaps.viz.result_pages import open_page
+from kfmaps.viz.runs import InteractiveMatcher
 
 
 class _PickByDefault(TyperGroup):
@@ -89,12 +88,7 @@ def pick(
         known, labels = read_given_landmarks(begun, shapes, (source, target))
     pairs = check_pairs(known.tolist(), *shapes)
     names = (source.stem, target.stem)
-
-    def chosen(_: np.ndarray) -> Config:
-        return settings.config(default_config())
-
-    chosen(pairs)  # what is wrong with the settings is said before the page opens
-    matcher = InteractiveMatcher(*shapes, names, (source, target), chosen)
+    matcher = InteractiveMatcher(shapes, names, (source, target), settings.config(Config()))
     picker = Picker(*shapes, names, output, force, pairs, labels, matcher, map_output, up)
     serving = PickerServer(picker, port)
     if json:
