@@ -4,7 +4,9 @@ import numpy as np
 import pytest
 
 from kfmaps.matching.partial.beam_search import _ANCHORS, _MIN_DISTANCE, _select_anchors, _select_different, beam_search
-from kfmaps.matching.partial.relaxation_labeling import distance_bounds
+from kfmaps.matching.partial.place_part import _placed_differently
+from kfmaps.matching.partial.relaxation_labeling import Assignment, distance_bounds
+from kfmaps.matching.partial.scale_search import TRIALS, Placement
 
 GUARDS = ("kfmaps.matching.partial.beam_search", "kfmaps.matching.partial.relaxation_labeling")
 
@@ -87,6 +89,16 @@ def test_a_landmark_stays_where_it_is(plane):
     alike[0] = -1.0
     alike[0, 5] = 2.0
     assert all(one.match[0] == 5 for one in beam_search(part, edge, between, alike, 1)[:1])
+
+
+def test_placements_of_mostly_the_same_points_are_registered_once():
+    def placed(*match):
+        return Placement(1.0, TRIALS[0], Assignment(np.array(match), np.ones(6), 1.0), np.zeros((6, 9)))
+
+    one, near, other = placed(0, 1, 2, 3, 4, 5), placed(0, 1, 2, 3, 7, 8), placed(0, 1, 2, 6, 7, 8)
+    assert not _placed_differently(one, near)
+    assert _placed_differently(one, other)
+    assert not _placed_differently(near, other)
 
 
 def test_placings_that_hardly_differ_are_left_out():

@@ -21,7 +21,8 @@ from kfmaps.geometry.basis import Basis
 from kfmaps.geometry.coarsen import CoarseProxy
 from kfmaps.geometry.mesh import Mesh, vertex_areas, vertex_normals
 from kfmaps.geometry.sampling import SampledBasis
-from kfmaps.registration.nonrigid_icp import NonRigid
+from kfmaps.registration.deformable import deformable_mesh
+from kfmaps.registration.nonrigid_icp import MeshPair, NonRigid, mesh_pair
 from kfmaps.shape import Shape
 
 _ROUNDS = 2  # fits, each followed by a refinement on the copies
@@ -43,11 +44,12 @@ class RegistrationPair:
     copies: tuple[CoarseProxy, CoarseProxy]
     bases: tuple[SampledBasis, SampledBasis]
     landmarks: np.ndarray
+    ways: tuple[MeshPair, MeshPair]  # the source's copy to be bent onto the target's, and the other way
 
     def swapped(self) -> RegistrationPair:
         """Return the same for maps the other way."""
-        (a, b), (on_a, on_b) = self.copies, self.bases
-        return RegistrationPair(self.target, self.source, (b, a), (on_b, on_a), self.landmarks[:, ::-1])
+        a, b = self.copies[::-1], self.bases[::-1]
+        return RegistrationPair(self.target, self.source, a, b, self.landmarks[:, ::-1], self.ways[::-1])
 
 
 @dataclass(frozen=True, eq=False)
@@ -71,7 +73,9 @@ def registration_pair(
         for shape, copy, at in zip((source, target), copies, marks.T, strict=True)
     ]
     bases = _sampled(source.basis, copies[0]), _sampled(target.basis, copies[1])
-    return RegistrationPair(source, target, copies, bases, np.stack(near, axis=1))
+    a, b = (deformable_mesh(copy.mesh, {}) for copy in copies)
+    ways = mesh_pair(a, b.mesh), mesh_pair(b, a.mesh)
+    return RegistrationPair(source, target, copies, bases, np.stack(near, axis=1), ways)
 
 
 def alternating_registration(
@@ -88,7 +92,7 @@ def alternating_registration(
     found = refine(C, *on.bases, guide=here)
     bent = a.mesh.vertices
     for i in range(_ROUNDS):
-        bent = FIT.vertices(a.mesh, b.mesh, found.target_to_source, landmarks=on.landmarks)
+        bent = FIT.bent(on.ways[0], found.target_to_source, marks=on.landmarks)[0]
         lie = position_normal_guidance(Mesh(bent, a.mesh.faces), b.mesh)
         found = refine(found.functional_map, *on.bases, guide=combine_guidance([(1.0, here), (WEIGHT, lie)]))
         if report is not None:

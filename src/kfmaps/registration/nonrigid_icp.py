@@ -18,7 +18,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.sparse import csr_array, diags_array
+from scipy.sparse import csr_array
 
 from kfmaps._arrays import refuse
 from kfmaps._records import setting, settings_record
@@ -26,7 +26,6 @@ from kfmaps.fmap.convert import check_point_map
 from kfmaps.geometry.arap import arap_energy, build_arap, nearest_rotations, rotations
 from kfmaps.geometry.closest_points import barycentric_matrix
 from kfmaps.geometry.coarsen import coarse_proxy, embedded_deformation, spread_vertices
-from kfmaps.geometry.eigen.factorization import factorize
 from kfmaps.geometry.mesh import Mesh, vertex_areas, vertex_normals
 from kfmaps.registration.contact_projection import project_with_contact
 from kfmaps.registration.deformable import (
@@ -239,7 +238,7 @@ def _evened(pair: MeshPair, area: float) -> Callable[[np.ndarray], np.ndarray]:
     """Averages rotations ``(n_s, 3, 3)`` with those around: one step of implicit diffusion over ``area``."""
     if area == 0:
         return lambda turns: turns
-    diffuse = factorize(area * pair.body.energy.laplacian + diags_array(pair.body.areas), ordered=False)
+    diffuse = pair.body.solver(area, 1.0)
     return lambda turns: nearest_rotations(
         diffuse(pair.body.areas[:, None] * turns.reshape(len(turns), 9)).reshape(turns.shape)
     )
@@ -261,7 +260,7 @@ def _discs(pair: MeshPair, landmarks: np.ndarray) -> np.ndarray:
         return np.zeros((n, 0))
     points = np.zeros((n, count))
     points[landmarks[:, 0], np.arange(count)] = 1.0
-    diffuse = factorize(1e-3 * pair.body.energy.laplacian + diags_array(pair.body.areas), ordered=False)
+    diffuse = pair.body.solver(1e-3, 1.0)
     return pair.body.areas[:, None] * np.asarray(diffuse(points)).reshape(n, count)
 
 

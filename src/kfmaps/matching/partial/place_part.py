@@ -122,7 +122,12 @@ def _likely_placements(pair: PartPair, scales: list[float], count: int) -> list[
     by_relaxation, by_beams = (
         sorted(some, key=lambda one: -one.score) for some in (full[: len(rough)], full[len(rough) :])
     )
-    return [*by_relaxation[: count + 1], *by_beams[:2]]
+    return select_distinct([*by_relaxation[: count + 1], *by_beams[:2]], _placed_differently, count + 3)
+
+
+def _placed_differently(one: Placement, other: Placement) -> bool:
+    """Return whether two placements agree on less than two thirds of the samples: they register alike otherwise."""
+    return float((one.placed.match == other.placed.match).mean()) < 2 / 3
 
 
 def _coarse_copy(mesh: Mesh, landmarks: np.ndarray) -> CoarseProxy:
