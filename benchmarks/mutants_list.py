@@ -847,7 +847,7 @@ MUTANTS = tuple(
             "test_marks -k nearest_to_them",
         ),
         ("self.landmarks[:, ::-1]", "self.landmarks", "test_marks -k nearest_to_them"),
-        ("target_to_source, landmarks=on.landmarks)", "target_to_source)", "test_marks -k between_refinements"),
+        ("target_to_source, marks=on.landmarks)", "target_to_source)", "test_marks -k between_refinements"),
         ("if self.local_scaling else _LANDMARK_PULL", "if False else _LANDMARK_PULL", "test_marks -k far_off"),
         (
             "(missing**2).sum(axis=1) / fading**2) ** 2",
