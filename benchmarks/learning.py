@@ -32,7 +32,7 @@ import numpy as np
 from scipy.stats import bootstrap
 
 import kfmaps
-from kfmaps.batch.cache import load_shape, save_shape
+from kfmaps.batch.cache import load_shape, save_record
 from kfmaps.fmap.convert import nearest
 from kfmaps.geometry.geodesics import geodesic_distances
 from kfmaps.io import read_vertex_numbers
@@ -69,7 +69,7 @@ class Data:
                 warnings.simplefilter("ignore", kfmaps.KfmapsWarning)
                 found = kfmaps.prepare(kfmaps.read_mesh(path), SEARCH, name=name)
             if kept:
-                save_shape(kept, found)
+                save_record(kept, found)
         return found
 
     def distances(self, shape: kfmaps.Shape, sources: np.ndarray) -> np.ndarray:

@@ -20,7 +20,7 @@ from kfmaps.batch.cache import (
     file_digest,
     load_record,
     load_shape,
-    save_shape,
+    save_record,
     shape_key,
 )
 from kfmaps.batch.layout import Pair, find_collection
@@ -43,7 +43,7 @@ def test_prepared_shapes_come_back_as_they_were(tmp_path: Path) -> None:
     config = replace(CONFIG, descriptors=replace(CONFIG.descriptors, shot=True, shot_radius=0.4))
     shape = prepare(blob(200), config, name="b")
     path = tmp_path / "entry.npz"
-    save_shape(path, shape)
+    save_record(path, shape)
     back = load_shape(path, "other")
     assert back is not None
     assert back.name == "other"
@@ -62,7 +62,7 @@ def test_prepared_shapes_come_back_as_they_were(tmp_path: Path) -> None:
 def test_damaged_entries_count_as_none(tmp_path: Path) -> None:
     path = tmp_path / "entry.npz"
     assert load_shape(path, "b") is None
-    save_shape(path, prepare(blob(200), CONFIG))
+    save_record(path, prepare(blob(200), CONFIG))
     data = path.read_bytes()
     path.write_bytes(data[: len(data) // 2])
     assert load_shape(path, "b") is None

@@ -54,11 +54,6 @@ def shape_key(content: str, suffix: str, config: Config) -> str:
     )
 
 
-def save_shape(path: Path, shape: Shape) -> None:
-    """Write a prepared shape, whole or not at all; an entry that is there is replaced by its equal."""
-    save_record(path, shape)
-
-
 def load_shape(path: Path, name: str) -> Shape | None:
     """Read a prepared shape; ``None`` when there is none or the entry is damaged, so that it is made again."""
     shape = load_record(path, Shape)

@@ -18,7 +18,7 @@ import numpy as np
 
 from kfmaps._arrays import InvalidInput, KfmapsWarning, MissingDependency, NotConverged, refuse
 from kfmaps._threads import one_blas_thread
-from kfmaps.batch.cache import cached_samples, file_digest, load_shape, save_shape
+from kfmaps.batch.cache import cached_samples, file_digest, load_shape, save_record
 from kfmaps.batch.jobs import MAX_DEATHS
 from kfmaps.batch.layout import Pair
 from kfmaps.batch.results import CURVE_ERRORS, Result, read_result, result_path, write_result
@@ -134,7 +134,7 @@ def prepare_shape(task: ShapeTask) -> Prepared:
     with capture_errors() as caught, one_blas_thread():
         if file_digest(task.path) != task.content:
             raise refuse(task.path, "the file as it was when the run began", "a changed one", "run the command again")
-        save_shape(entry, prepare(read_shape_mesh(task.path), replace(task.config, threads=1), name=task.name))
+        save_record(entry, prepare(read_shape_mesh(task.path), replace(task.config, threads=1), name=task.name))
     return Prepared(task.name, time.perf_counter() - start, caught.reason, tuple(caught.notes))
 
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 from pathlib import Path
 from shlex import quote
-from typing import Any
 
 import numpy as np
 from rich.table import Table
@@ -15,7 +14,6 @@ from kfmaps._arrays import shown
 from kfmaps.cli.evaluation import Accuracy
 from kfmaps.cli.words import UNIT, percent, probability_text, verdict_text
 from kfmaps.geometry.mesh import Mesh
-from kfmaps.io.map_summary import summarize_match
 from kfmaps.matching.finish import low_confidence_area
 from kfmaps.matching.result import Match
 from kfmaps.matching.result_groups import ONE_FIT
@@ -25,11 +23,6 @@ _STYLES = {"likely": "bold yellow", "ambiguous": "bold red", "unlikely": "bold r
 """Verdicts that a terminal must not bury in a table."""
 
 _SHAPES = " --source {} --target {}"  # what ``kfmaps view`` needs for a file that does not name its shapes
-
-
-def summary(match: Match, accuracy: Accuracy | None = None) -> dict[str, Any]:
-    """Return the plain values of ``kfmaps match --json``; errors are in units of √area."""
-    return {**summarize_match(match), "errors": None if accuracy is None else accuracy.as_dict()}
 
 
 def table(match: Match, accuracy: Accuracy | None = None, written: Path | None = None) -> Table:

@@ -16,12 +16,13 @@ from kfmaps._threads import one_blas_thread
 from kfmaps.cli.evaluation import Accuracy, Truth, assess, known_truth
 from kfmaps.cli.options import UNSURE, Force, Json, Quiet, Require, TruthLists, check_required, meets
 from kfmaps.cli.progress import Stages
-from kfmaps.cli.summary import summary, table
+from kfmaps.cli.summary import table
 from kfmaps.cli.terminal import Terminal, print_json
 from kfmaps.config import Config
 from kfmaps.descriptors.spectral import check_landmarks
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.io import check_output, read_mesh, read_values, save_map
+from kfmaps.io.map_summary import summarize_match
 from kfmaps.io.mapfile import check_format
 from kfmaps.io.named_points import read_given_landmarks
 from kfmaps.io.provenance import map_mesh_file, with_files
@@ -94,7 +95,8 @@ def match(
     found, accuracy = run(meshes, (source, target), config, pairs, own, seed, quiet=quiet or json, truth=known)
     save_map(output, found, force)
     if json:
-        print_json({**summary(found, accuracy), "output": output})
+        errors = None if accuracy is None else accuracy.as_dict()
+        print_json({**summarize_match(found), "errors": errors, "output": output})
     elif not quiet:
         Terminal().print(table(found, accuracy, output))
     if view:
