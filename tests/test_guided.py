@@ -95,6 +95,18 @@ def test_some_rows_tell_the_directions_of_all(monkeypatch):
     assert (some.source**2).sum() + (some.target**2).sum() == pytest.approx(800)
 
 
+def test_descriptors_in_single_precision_guide_as_well():
+    """Sums over many rows of numbers far from their mean lose it in single precision: they are in double."""
+    rng = np.random.default_rng(0)
+    sides = [4 + rng.normal(size=(n, 3)) * [1.0, 0.6, 0.3] for n in (300_000, 200_000)]
+    exact, single = descriptor_guidance(*sides), descriptor_guidance(*(side.astype(np.float32) for side in sides))
+    assert exact is not None
+    assert single is not None
+    for a, b in ((exact.source, single.source), (exact.target, single.target)):
+        turned = np.sign((a * b).sum(axis=0))
+        np.testing.assert_allclose(b * turned, a, atol=3e-6)
+
+
 def test_noise_does_not_guide():
     rng = np.random.default_rng(0)
     assert descriptor_guidance(1 + 0.01 * rng.normal(size=(50, 3)), 1 + 0.01 * rng.normal(size=(40, 3))) is None

@@ -75,7 +75,8 @@ def test_shot_of_some_vertices_stands_for_all(pair, monkeypatch):
     monkeypatch.setattr(fit_shape, "DESCRIBED", 800)
     found = _local_descriptors(shape.mesh, shape.basis, 0.15)
     assert found.shape == exact.shape
-    np.testing.assert_allclose(np.linalg.norm(found, axis=1), 1.0)
+    assert found.dtype == np.float32
+    np.testing.assert_allclose(np.linalg.norm(found, axis=1), 1.0, rtol=1e-6)
     away = np.linalg.norm(found - exact, axis=1).mean()
     assert 0 < away < 0.25 * np.linalg.norm(exact - exact[::-1], axis=1).mean()
 

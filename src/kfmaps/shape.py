@@ -43,7 +43,7 @@ class Shape:
     basis : Basis
         Of as many functions as the configuration needs in all. Vertices that lie on no surface, and all but the first
         in one place, have no area and the functions of the vertex that they count as (:func:`clean_shape`).
-    shot : (n, 352) float64 or None
+    shot : (n, 352) float64, of a large shape float32, or None
         The SHOT descriptor when the configuration asks for it; a point cloud has none.
     name : str
     seconds : dict of str to float
@@ -192,8 +192,10 @@ def _local_descriptors(
     away, near = KDTree(places[chosen]).query(places, k=3, workers=threads or available_cores())
     weights = 1.0 / np.maximum(np.asarray(away) ** 2, 1e-12)
     weights /= weights.sum(axis=1, keepdims=True)
-    spread = csr_array((weights.ravel(), np.asarray(near).ravel(), 3 * np.arange(len(places) + 1)))
-    result = np.asarray(spread @ found)
+    # In single precision: of large shapes no other array takes as much memory, and time to have it.
+    single = weights.astype(np.float32).ravel()
+    spread = csr_array((single, np.asarray(near).ravel(), 3 * np.arange(len(places) + 1)))
+    result = np.asarray(spread @ found.astype(np.float32))
     length = np.sqrt(np.einsum("ij,ij->i", result, result))[:, None]
     np.divide(result, length, out=result, where=length > 0)
     return result

@@ -85,25 +85,27 @@ def descriptor_guidance(
         return None
     sides = (source, target)
     count = len(source) + len(target)
-    mean = (source.sum(axis=0) + target.sum(axis=0)) / count
+    mean = (source.sum(axis=0, dtype=np.float64) + target.sum(axis=0, dtype=np.float64)) / count
     # Of large shapes some rows tell the directions; and the mean is taken off what is left, so that none is copied.
     some = np.vstack([side[:: max(1, count // _DIRECTION_ROWS)] for side in sides]) - mean
     directions = np.linalg.eigh(some.T @ some)[1][:, ::-1][:, :dimensions]
-    reduced = [side @ directions - mean @ directions for side in sides]
+    reduced = [side @ directions.astype(side.dtype) - mean @ directions for side in sides]
     unit = np.sqrt(2 * sum((part**2).sum() for part in reduced) / count)
     return DescriptorGuidance(reduced[0] / unit, reduced[1] / unit)
 
 
 def _varied(descriptors: np.ndarray) -> bool:
     """Whether :func:`descriptor_variance` is at least :data:`FLAT`, mostly told in one pass."""
-    mean = descriptors.mean(axis=0)
-    about = float(np.einsum("ij,ij->", descriptors, descriptors)) / len(descriptors) - float(mean @ mean)
+    mean = descriptors.mean(axis=0, dtype=np.float64)
+    about = float(np.einsum("ij,ij->", descriptors, descriptors, dtype=np.float64)) / len(descriptors) - float(
+        mean @ mean
+    )
     return about > 2 * FLAT or descriptor_variance(descriptors) >= FLAT
 
 
 def descriptor_variance(descriptors: np.ndarray) -> float:
     """Return the mean squared distance of the rows of ``descriptors (n, d)`` from their mean."""
-    mean = descriptors.mean(axis=0)
+    mean = descriptors.mean(axis=0, dtype=np.float64)
     squares = sum(float(((descriptors[rows] - mean) ** 2).sum()) for rows in blocks(len(descriptors), 30_000))
     return squares / len(descriptors)
 
