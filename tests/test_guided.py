@@ -98,8 +98,9 @@ def test_some_rows_tell_the_directions_of_all(monkeypatch):
 def test_descriptors_in_single_precision_guide_as_well():
     """Sums over many rows of numbers far from their mean lose it in single precision: they are in double."""
     rng = np.random.default_rng(0)
-    sides = [4 + rng.normal(size=(n, 3)) * [1.0, 0.6, 0.3] for n in (300_000, 200_000)]
-    exact, single = descriptor_guidance(*sides), descriptor_guidance(*(side.astype(np.float32) for side in sides))
+    source, target = (4 + rng.normal(size=(n, 3)) * [1.0, 0.6, 0.3] for n in (300_000, 200_000))
+    exact = descriptor_guidance(source, target)
+    single = descriptor_guidance(source.astype(np.float32), target.astype(np.float32))
     assert exact is not None
     assert single is not None
     for a, b in ((exact.source, single.source), (exact.target, single.target)):

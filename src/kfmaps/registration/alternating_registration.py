@@ -48,8 +48,8 @@ class RegistrationPair:
 
     def swapped(self) -> RegistrationPair:
         """Return the same for maps the other way."""
-        a, b = self.copies[::-1], self.bases[::-1]
-        return RegistrationPair(self.target, self.source, a, b, self.landmarks[:, ::-1], self.ways[::-1])
+        (a, b), (on_a, on_b), (forth, back) = self.copies, self.bases, self.ways
+        return RegistrationPair(self.target, self.source, (b, a), (on_b, on_a), self.landmarks[:, ::-1], (back, forth))
 
 
 @dataclass(frozen=True, eq=False)
