@@ -20,10 +20,9 @@ from kfmaps import datasets
 from kfmaps.fmap.precise import nearest_vertices
 from kfmaps.io import load_map, save_map
 from kfmaps.io.partial_map import find_counterparts
-from kfmaps.io.transfer import transfer
+from kfmaps.io.transfer import LOST_GREY, transfer
 from kfmaps.viz import automatic_view, position_colors, save_figure
 from kfmaps.viz.camera import following_view
-from kfmaps.viz.figures import LOST
 from kfmaps.viz.surfaces import draw_surface
 
 
@@ -48,7 +47,7 @@ def main() -> None:
     assert overlap is not None, "the map is none of a part"
     panels = (
         ("the part", part, colors, following_view(seen, whole, part, found.target_to_source)),
-        ("the whole in the part's colours", whole, transfer(colors, back, lost=LOST), seen),
+        ("the whole in the part's colours", whole, transfer(colors, back, lost=LOST_GREY), seen),
         ("probability to be on both", whole, matplotlib.colormaps["viridis"](overlap)[:, :3], seen),
     )
     figure = Figure(figsize=(9.6, 4.4), facecolor="white")

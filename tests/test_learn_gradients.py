@@ -31,7 +31,7 @@ from kfmaps.learn.energy import (  # noqa: E402
     nystrom_features,
     pair_energy,
 )
-from kfmaps.learn.model import bind  # noqa: E402
+from kfmaps.learn.model import _bind  # noqa: E402
 
 N_S, N_T, K_S, K_T, D = 10, 9, 4, 3, 2
 EXACT = CG(rtol=1e-13, max_iter=500)
@@ -95,16 +95,16 @@ def test_every_term_and_its_weight(name, case):
 
 KERNELS = {
     "linear": (lambda: Linear(), ()),
-    "polynomial": (lambda offset: bind(Polynomial(3, 0.5), offset=offset), (0.5,)),
-    "gaussian": (lambda gamma: bind(Gaussian(1.0), gamma=gamma), (0.4,)),
-    "laplacian": (lambda gamma: bind(Laplacian(1.0), gamma=gamma), (0.6,)),
-    "tanh": (lambda scale, offset: bind(Tanh(0.3, 0.1), scale=scale, offset=offset), (0.3, 0.1)),
+    "polynomial": (lambda offset: _bind(Polynomial(3, 0.5), offset=offset), (0.5,)),
+    "gaussian": (lambda gamma: _bind(Gaussian(1.0), gamma=gamma), (0.4,)),
+    "laplacian": (lambda gamma: _bind(Laplacian(1.0), gamma=gamma), (0.6,)),
+    "tanh": (lambda scale, offset: _bind(Tanh(0.3, 0.1), scale=scale, offset=offset), (0.3, 0.1)),
     "sum": (
-        lambda gamma, a: Sum(bind(Gaussian(1.0), gamma=gamma), bind(Scaled(Linear()), factor=a)),
+        lambda gamma, a: Sum(_bind(Gaussian(1.0), gamma=gamma), _bind(Scaled(Linear()), factor=a)),
         (0.4, 0.2),
     ),
     "product": (
-        lambda gamma, offset: Product(bind(Laplacian(1.0), gamma=gamma), bind(Polynomial(2, 1.0), offset=offset)),
+        lambda gamma, offset: Product(_bind(Laplacian(1.0), gamma=gamma), _bind(Polynomial(2, 1.0), offset=offset)),
         (0.4, 0.8),
     ),
 }

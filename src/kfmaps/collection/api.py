@@ -37,7 +37,7 @@ from kfmaps.shape import Shape, check_prepared, prepare
 
 @dataclass(frozen=True, eq=False)
 class Collection:
-    """Shapes with maps that agree; made by :func:`collection`.
+    """Shapes with maps that agree; made by :func:`match_collection`.
 
     Attributes
     ----------
