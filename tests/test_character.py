@@ -134,6 +134,29 @@ def test_joints_that_nothing_follows_move_along(source: MeshFile) -> None:
     np.testing.assert_allclose(skin_of(made).matrices[:, :3, 3], 2 * matrices[:, :3, 3] @ turn.T + 1, atol=1e-7)
 
 
+def test_a_tip_moves_with_the_limb_that_it_ends(pair: ExamplePair, source: MeshFile) -> None:
+    """Nothing follows the end of a foot, which is lifted with the leg."""
+    own = skin_of(source)
+    tip = np.array([0.22, 0.06, 0.19])
+    matrices = np.concatenate([own.matrices, np.eye(4)[None]])
+    matrices[-1, :3, 3] = tip
+    parents = np.append(own.parents, own.names.index("left foot"))
+    weights = np.hstack([own.weights, np.zeros((len(own.weights), 1))])
+    rig = MeshFile(source.mesh, skin=Skin((*own.names, "tip"), parents, matrices, weights))
+    places = as_map(PointMap(pair.truth_faces, pair.truth_weights), source.mesh)
+    made = skin_of(transfer_character(rig, MeshFile(pair.target), places))
+    assert np.linalg.norm(made.matrices[-1, :3, 3] - BODY.bend(tip[None], DANCE)[0]) < 0.1
+
+
+def test_a_joint_scaled_to_nothing_is_written(source: MeshFile) -> None:
+    own = skin_of(source)
+    matrices = own.matrices.copy()
+    matrices[3, :3, :3] = 0
+    rig = Skin(own.names, own.parents, matrices, own.weights)
+    found = skin_of(parse_gltf(format_glb(MeshFile(source.mesh, skin=rig)), "a"))
+    np.testing.assert_allclose(found.matrices, matrices, atol=1e-6)
+
+
 def test_vertices_outside_a_part_stand_still(source: MeshFile) -> None:
     points = np.arange(len(source.mesh.vertices))
     away = source.mesh.vertices[:, 1] < 0.3  # legs

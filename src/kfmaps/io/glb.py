@@ -113,12 +113,12 @@ def _nodes(skin: Skin | None, chunks: _Chunks) -> dict[str, Any]:
     if skin is None:
         return {"scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}]}
     above = np.where((skin.parents < 0)[:, None, None], np.eye(4), skin.matrices[skin.parents])
-    local = np.linalg.solve(above, skin.matrices)
+    local = np.linalg.pinv(above) @ skin.matrices  # a joint may be scaled to nothing
     nodes: list[dict[str, Any]] = [{"mesh": 0, "skin": 0}]
     for j, (name, matrix) in enumerate(zip(skin.names, local, strict=True)):
         children = (1 + np.flatnonzero(skin.parents == j)).tolist()
         nodes.append({"name": name, **_placed(matrix), **({"children": children} if children else {})})
-    binds = chunks.array(np.linalg.inv(skin.matrices).transpose(0, 2, 1).astype("<f4"), _FLOAT, "MAT4", None)
+    binds = chunks.array(np.linalg.pinv(skin.matrices).transpose(0, 2, 1).astype("<f4"), _FLOAT, "MAT4", None)
     roots = (1 + np.flatnonzero(skin.parents < 0)).tolist()
     joints = list(range(1, len(nodes)))
     skins = [{"joints": joints, "inverseBindMatrices": binds}]

@@ -96,8 +96,14 @@ def read_mesh_file(path: str | Path, *, cloud: bool = True) -> MeshFile:
     with np.errstate(all="ignore"):  # wild numbers are refused below
         found = reader(read_bytes(path), name)
     found = _place_unplaced(found, name)
-    places = found.mesh.vertices
-    for what, values in (("vertices", places), ("colors", found.colors), ("texture", found.uv), *found.morphs.items()):
+    places, weights = found.mesh.vertices, None if found.skin is None else found.skin.weights
+    for what, values in (
+        ("vertices", places),
+        ("colors", found.colors),
+        ("texture", found.uv),
+        *found.morphs.items(),
+        ("weights", weights),
+    ):
         if values is not None:
             check(values, f"{name}: {what}", remedy="repair or re-export the file")
     size = np.abs(places).max(initial=0.0)
