@@ -3,7 +3,7 @@
 Each reader gets files that kfmaps wrote with bytes changed, repeated, cut out, exchanged with those of another file,
 or numbers replaced by unlikely ones. A reader may return something or raise InvalidInput with one line; anything else
 is printed with the seed of the file, and the exit status is 1. With ``--server`` the landmark page's server gets
-requests that are damaged likewise, and must go on to answer a good one.
+requests to all its routes that are damaged likewise or whose JSON is unlikely, and must go on to answer a good one.
 """
 
 from __future__ import annotations
@@ -145,24 +145,79 @@ def fuzz_files(seconds: float, seed: int) -> int:
     return errors
 
 
+def unlikely_json(rng: np.random.Generator, depth: int = 0) -> Any:
+    """A value that the page's script would not send, of lists and objects up to three deep."""
+    leaves = [
+        None,
+        True,
+        -1,
+        0,
+        3,
+        10**30,
+        0.5,
+        1e308,
+        "",
+        "1",
+        "\ud800",
+        "a\tb",
+        "x" * 5000,
+        [],
+        {},
+        [[1, 2]],
+        [[1, 1, 1]],
+    ]
+    kind = rng.integers(4) if depth < 3 else 0
+    if kind < 2:
+        return leaves[rng.integers(len(leaves))]
+    some = [unlikely_json(rng, depth + 1) for _ in range(rng.integers(4))]
+    keys = ["pairs", "names", "run", "overwrite", "else"]
+    return some if kind == 2 else {keys[rng.integers(len(keys))]: value for value in some}
+
+
 def fuzz_server(seconds: float, seed: int) -> int:
     """Send damaged requests for so long; the number of times that the server did not go on."""
     mesh = sphere(100, rng=0)
     errors, answers = 0, Counter[str]()
+    same = Match(np.arange(len(mesh.vertices)), verdict="sure", confidence=0.99)
+    routes = [
+        "POST /{}/save",
+        "POST /{}/match",
+        "POST /{}/save-map",
+        "POST /{}/cancel",
+        "GET /{}/progress",
+        "GET /{}/map",
+    ]
     with tempfile.TemporaryDirectory() as name:
-        serving = PickerServer(Picker(mesh, mesh, ("a", "b"), Path(name) / "p.txt"))
+        folder = Path(name)
+        picker = Picker(
+            mesh,
+            mesh,
+            ("a", "b"),
+            folder / "p.txt",
+            matcher=lambda _pairs, _progress: same,
+            map_output=folder / "m.npz",
+        )
+        serving = PickerServer(picker)
         thread = threading.Thread(target=serving.server.serve_forever)
         thread.start()
         where, token = f"{_LOOPBACK}:{serving.server.port}", serving.server.token
-        body = json.dumps({"pairs": [[1, 2], [3, 4]]})
-        head = f"POST /{token}/save HTTP/1.1\r\nHost: {where}\r\nContent-Type: application/json\r\n"
-        good = f"{head}Content-Length: {len(body)}\r\n\r\n{body}".encode()
-        chunked = f"{head}Transfer-Encoding: chunked\r\n\r\n{len(body):x}\r\n{body}\r\n0\r\n\r\n".encode()
+
+        def request_to(route: str, data: Any) -> bytes:
+            body = json.dumps(data)
+            head = f"{route.format(token)} HTTP/1.1\r\nHost: {where}\r\nContent-Type: application/json\r\n"
+            return f"{head}Content-Length: {len(body)}\r\n\r\n{body}".encode()
+
+        good = request_to(routes[0], {"pairs": [[1, 2], [3, 4]]})
+        head, _, body = good.partition(b"\r\n\r\n")
+        head = head[: head.rindex(b"\r\n")]
+        chunked = head + f"\r\nTransfer-Encoding: chunked\r\n\r\n{len(body):x}\r\n".encode() + body + b"\r\n0\r\n\r\n"
         end = time.monotonic() + seconds
         while time.monotonic() < end:
             seed += 1
             rng = np.random.default_rng(seed)
-            for request in (damaged(chunked if seed % 3 == 0 else good, [good, chunked], rng), good):
+            odd = request_to(routes[rng.integers(len(routes))], unlikely_json(rng))
+            odd = odd if seed % 2 else damaged([good, chunked, odd][seed % 3], [good, chunked], rng)
+            for request in (odd, good):
                 with socket.create_connection((_LOOPBACK, serving.server.port), timeout=10) as connection:
                     connection.sendall(request)
                     connection.shutdown(socket.SHUT_WR)

@@ -20,6 +20,7 @@ from kfmaps.config import Config
 from kfmaps.descriptors.shot import mirror_shot, shot
 from kfmaps.geometry.basis import Basis, laplace_basis
 from kfmaps.geometry.clean import CleanedMesh, clean_mesh
+from kfmaps.geometry.cloud_surface import surface_of_cloud
 from kfmaps.geometry.eigen.eigensolver import EXACT, THREADED
 from kfmaps.geometry.mesh import Mesh, check_mesh, surface_area, unit_area, vertex_normals
 from kfmaps.geometry.mesh import mirror_mesh as mirrored_mesh
@@ -53,7 +54,7 @@ class Shape:
     shot_radius : float or None
         Of ``shot``, in units of √area.
     extent : float or None
-        √area before it was scaled, where that is known.
+        √area before it was scaled; ``None`` of a point cloud.
     """
 
     mesh: Mesh
@@ -66,6 +67,11 @@ class Shape:
     extent: float | None = None
 
     __repr__ = short_repr
+
+    @property
+    def given_mesh(self) -> Mesh:
+        """The mesh without the faces that were found for a point cloud."""
+        return Mesh(self.mesh.vertices) if self.extent is None else self.mesh
 
 
 class Descriptor(Protocol):
@@ -132,12 +138,17 @@ def prepare(
     config = config or Config()
     report = progress or (lambda _stage, _done: None)
     part = clean_mesh(check_mesh(mesh, name, cloud=True), specks=True)
+    is_cloud = len(mesh.faces) == 0
     small = unit_area(part.mesh)
     wanted = config.n_eigenfunctions
     if len(small.vertices) <= wanted:
         remedy = "lower the basis, descriptor and refinement sizes, or refine the mesh"
         raise refuse(name, f"more than {wanted} vertices, one for each eigenfunction", str(len(small.vertices)), remedy)
     _tell(part, name)
+    if is_cloud and config.descriptors.shot and (surface := surface_of_cloud(small.vertices)) is not None:
+        mesh = Mesh(surface.vertices[part.to_clean], part.to_original[surface.faces])
+        part = clean_mesh(mesh, specks=True)
+        small = unit_area(part.mesh)
     seconds = {}
     start = time.perf_counter()
     report(f"eigenfunctions of {name}", 0.0)
@@ -165,7 +176,7 @@ def prepare(
         seconds["SHOT"] = time.perf_counter() - start
         report(f"SHOT of {name}", 1.0)
     radius = None if local is None else config.descriptors.shot_radius
-    size = float(np.sqrt(surface_area(part.mesh))) if len(mesh.faces) else None
+    size = None if is_cloud else float(np.sqrt(surface_area(part.mesh)))
     shape = Shape(Mesh(small.vertices, mesh.faces), basis, local, name, seconds, config.basis.laplacian, radius, size)
     if part.whole:
         return shape

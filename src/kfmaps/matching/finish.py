@@ -105,7 +105,9 @@ def refine_and_register(task: MatchTask, found: SearchResult, guidance: Descript
         verdict=found.verdict,
         confidence=found.confidence,
         orientation=found.orientation,
-        precise_map=None if final.precise_map is None else pair.place(final.precise_map),
+        precise_map=None
+        if final.precise_map is None or len(task.meshes[0].faces) == 0
+        else pair.place(final.precise_map),
         alternatives=tuple(pair.points(points) for points in found.alternatives),
         source_to_target=None if backwards is None else pair.points_back(backwards),
         functional_map_back=refined.functional_map_back,
@@ -166,7 +168,7 @@ def match_from_map(
         check_prepared(shape, config)
     points = check_point_map(points, len(source.mesh.vertices), len(target.mesh.vertices))
     none = np.zeros((0, 2), dtype=np.int64)
-    meshes = (source.mesh, target.mesh)
+    meshes = (source.given_mesh, target.given_mesh)
     task = MatchTask(meshes, reindexing(source, target), config, none, seed_of(rng), StageTimer(progress))
     shapes = task.shapes(orientation)
     size = min(CONTINUED, *(len(shape.basis.eigenvalues) for shape in shapes))

@@ -66,8 +66,8 @@ def match(
     marks, descriptors = pair.landmarks(pairs if len(pairs) else None), pair.descriptors(descriptors)
     check_match_memory(config, len(prepared[0].mesh.vertices), len(prepared[1].mesh.vertices), len(pairs))
     meshes = (
-        source.mesh if isinstance(source, Shape) else source,
-        target.mesh if isinstance(target, Shape) else target,
+        source.given_mesh if isinstance(source, Shape) else source,
+        target.given_mesh if isinstance(target, Shape) else target,
     )
     task = MatchTask(meshes, pair, config, pairs, seed_of(rng), StageTimer(progress))
     part, why = _match_part(task, marks)

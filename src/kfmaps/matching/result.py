@@ -260,9 +260,9 @@ class Match:
         pair = self._reindexing
         if pair is None:
             raise refuse("precise", "a match with its shapes", "one from a file", "match the shapes again")
-        for shape in (pair.source, pair.target):
-            if len(shape.mesh.faces) == 0:
-                raise refuse(shape.name, "a surface with triangles", "a point cloud", "use target_to_source")
+        for name, mesh in (("source", self.source), ("target", self.target)):
+            if len(mesh.faces) == 0:
+                raise refuse(name, "a surface with triangles", "a point cloud", "use target_to_source")
         refine, columns = self.config.refinement, None
         bases = (pair.source.basis, pair.target.basis)
         weight = getattr(refine, "descriptor_weight", 0.0)

@@ -148,11 +148,11 @@ def search_map(
     pairs = check_landmark_pairs(landmarks, source, target)
     everything = two_level_samples(source, target, _search_samples(source, target, config, pairs, seed, probes), pairs)
     report("candidates", 0.1)
-    plain, part = drop_learned(config), 0.4 if len(pairs) else 0.8
+    plain, begin, part = drop_learned(config), *((0.5, 0.4) if len(pairs) else (0.1, 0.8))
     more = {"descriptors": user_descriptors(source, target, config.descriptors, descriptors), "drawn": given}
     alone: list[Candidate] = []
     if len(pairs):
-        second = lambda done: report("candidates", 0.5 + 0.4 * done)  # noqa: E731
+        second = lambda done: report("candidates", 0.1 + 0.4 * done)  # noqa: E731
         alone = without_landmarks(source, target, plain, everything, seed, report=second, **more)
 
     none, copies = np.zeros(len(pairs), dtype=bool), ProxyCache.of(source, target, everything.whole)
@@ -161,7 +161,7 @@ def search_map(
 
     def search_with(wrong: np.ndarray) -> _Search:
         kept = drop_landmarks(everything, wrong) if wrong.any() else everything
-        first = lambda done: report("candidates", 0.1 + part * done)  # noqa: E731
+        first = lambda done: report("candidates", begin + part * done)  # noqa: E731
         found: list[Candidate] = []
         if not len(pairs) or not wrong.all():
             found = candidates(source, target, plain, kept, seed, landmarks=pairs[~wrong], report=first, **more)

@@ -1,0 +1,182 @@
+"""The closed surface through a point cloud, without normals."""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.sparse import coo_array, diags_array
+from scipy.sparse.linalg import cg
+from scipy.spatial import Delaunay, KDTree, QhullError
+
+from kfmaps.geometry.mesh import Mesh, surface_area, unit_rows, vertex_normals
+from kfmaps.geometry.point_cloud import cloud_areas
+
+_SHARPNESS = 4.0
+"""Exponent of the weights of links, as Kolluri et al. chose it."""
+_LARGEST = 10.0
+"""Largest circumradius, over the longest side of the box around the points."""
+_MAX_ROUGHNESS = 0.16
+"""Median height of a vertex over its neighbours' mean, over the length of edges: noise above leaves no surface."""
+_SMOOTH_ROUGHNESS = 0.12
+"""The same from which points are smoothed; clean bodies have 0.07 to 0.11."""
+_SMOOTHING = ((0.5, -0.53),) * 10
+"""Steps of Taubin (1995) towards the neighbours' mean and back, which keep the volume."""
+_MIN_USED = 0.95
+"""Share of the points that must be corners of faces."""
+_MAX_AREA_RATIO = 1.2
+"""How much larger or smaller than the cloud's estimated area the surface may be."""
+_OTHERS = np.array([[1, 2, 3], [0, 2, 3], [0, 1, 3], [0, 1, 2]])
+"""Corners of the face opposite to each corner of a tetrahedron."""
+
+
+def surface_of_cloud(points: np.ndarray) -> Mesh | None:
+    """Return a closed mesh whose vertices are the points, smoothed where they are noisy.
+
+    Parameters
+    ----------
+    points : (n, 3) float64
+        All at different positions.
+
+    Returns
+    -------
+    Mesh or None
+        The points in their order; a few may be of no face. ``None`` where the points do not seem to lie on one closed
+        surface, or are too noisy.
+    """
+    try:
+        faces = crust_faces(points)
+        rough = _roughness(points, faces) if len(faces) else np.inf
+        if rough > _MAX_ROUGHNESS:
+            return None
+        if rough > _SMOOTH_ROUGHNESS:
+            points = _smooth(points, faces)
+            faces = crust_faces(points)
+    except QhullError:  # all in a plane
+        return None
+    if len(np.unique(faces)) < _MIN_USED * len(points):
+        return None
+    mesh = Mesh(points, faces)
+    ratio = surface_area(mesh) / cloud_areas(points).sum()
+    return mesh if 1 / _MAX_AREA_RATIO < ratio < _MAX_AREA_RATIO else None
+
+
+def crust_faces(points: np.ndarray) -> np.ndarray:
+    """Return the faces between Delaunay tetrahedra inside and outside, counter-clockwise seen from outside, (f, 3).
+
+    Neighbours are on the same side the more their circumspheres overlap; the largest tetrahedra at a point on both of
+    its sides, the poles, are on different ones. The eigencrust (Kolluri, Shewchuk and O'Brien 2004), with what lies
+    beyond the convex hull held outside: one linear system with a symmetric positive definite matrix.
+    """
+    delaunay = Delaunay(points)
+    cells, neighbours = delaunay.simplices, delaunay.neighbors
+    centres, radii = _circumspheres(points, cells)
+    outside = len(cells)
+    # Neighbours, and the cells at the hull with all that lies beyond.
+    a, side = np.nonzero(neighbours > np.arange(outside)[:, None])
+    b = neighbours[a, side]
+    overlap = radii[a] ** 2 + radii[b] ** 2 - ((centres[a] - centres[b]) ** 2).sum(axis=1)
+    hull, opposite = np.nonzero(neighbours < 0)
+    corners, normals = _outward_faces(points, cells, hull, opposite)
+    beyond = ((centres[hull] - points[corners[:, 0]]) * normals).sum(axis=1) / radii[hull]
+    first, second, angle = _poles(points, cells, centres, radii, corners, normals)
+    rows = np.concatenate([a, hull, first])
+    columns = np.concatenate([b, np.full(len(hull), outside), second])
+    alike = np.concatenate([overlap / (2 * radii[a] * radii[b]), beyond])
+    weights = np.concatenate([np.exp(_SHARPNESS * np.clip(alike, -1, 1)), -np.exp(-_SHARPNESS * angle)])
+    shape = outside + 1, outside + 1
+    links = coo_array((weights, (rows, columns)), shape=shape).tocsr()
+    links = links + links.T
+    degrees = np.asarray(abs(links).sum(axis=1)).ravel()
+    matrix = (diags_array(degrees) - links).tocsr()
+    right = -matrix[:outside, [outside]].toarray().ravel()
+    value = cg(matrix[:outside, :outside], right, rtol=1e-5, maxiter=2000, M=diags_array(1 / degrees[:outside]))[0]
+    inside = value < 0
+    cell, opposite = np.nonzero(inside[:, None] & ((neighbours < 0) | ~inside[neighbours]))
+    return _outward_faces(points, cells, cell, opposite)[0].astype(np.int64)
+
+
+def _circumspheres(points: np.ndarray, cells: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return centres (m, 3) and radii (m,) of spheres through the corners of tetrahedra; of flat ones some sphere."""
+    corners = points[cells]
+    edges = corners[:, 1:] - corners[:, :1]
+    flat = np.abs(np.linalg.det(edges)) < 1e-9 * np.linalg.norm(edges, axis=2).prod(axis=1)
+    edges[flat] = np.eye(3)
+    middle = np.linalg.solve(edges, 0.5 * (edges**2).sum(axis=2, keepdims=True))[:, :, 0]
+    radii = np.linalg.norm(middle, axis=1)
+    kept = np.minimum(radii, _LARGEST * float(np.ptp(points, axis=0).max()))
+    return corners[:, 0] + middle * (kept / radii)[:, None], kept
+
+
+def _outward_faces(
+    points: np.ndarray, cells: np.ndarray, cell: np.ndarray, opposite: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Return faces of cells by the corner ``opposite``, turned outwards, (f, 3), and their unit normals (f, 3)."""
+    faces = np.take_along_axis(cells[cell], _OTHERS[opposite], axis=1)
+    a, b, c = (points[faces[:, i]] for i in range(3))
+    normals = unit_rows(np.cross(b - a, c - a))
+    inward = ((points[cells[cell, opposite]] - a) * normals).sum(axis=1) > 0
+    faces[inward] = faces[inward][:, ::-1]
+    return faces, np.where(inward[:, None], -normals, normals)
+
+
+def _poles(
+    points: np.ndarray,
+    cells: np.ndarray,
+    centres: np.ndarray,
+    radii: np.ndarray,
+    hull: np.ndarray,
+    normals: np.ndarray,
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return pairs of cells on both sides of points and the cosine between the directions to their centres.
+
+    The number of cells stands for what lies beyond the ``hull`` (h, 3), whose faces have the ``normals`` (h, 3).
+    """
+    n = len(points)
+    at, cell = cells.ravel(), np.repeat(np.arange(len(cells)), 4)
+    radius = radii[cell]
+    towards = (centres[cell] - points[at]) / radius[:, None]
+
+    def largest(size: np.ndarray) -> np.ndarray:
+        order = np.lexsort((-size, at))
+        return order[np.unique(at[order], return_index=True)[1]]
+
+    one = largest(radius)
+    first, direction = np.full(n, len(cells)), np.zeros((n, 3))
+    first[at[one]], direction[at[one]] = cell[one], towards[one]
+    out = np.zeros((n, 3))
+    np.add.at(out, hull.ravel(), np.repeat(normals, 3, axis=0))
+    on_hull = np.unique(hull)
+    first[on_hull], direction[on_hull] = len(cells), unit_rows(out[on_hull])
+    angle = (towards * direction[at]).sum(axis=1)
+    other = largest(np.where(angle < 0, radius, -1.0))
+    other = other[angle[other] < 0]
+    return first[at[other]], cell[other], angle[other]
+
+
+def _roughness(points: np.ndarray, faces: np.ndarray) -> float:
+    """Return the median height of corners over the mean of their neighbours, over the mean length of edges."""
+    height = ((_neighbour_means(points, faces) - points) * vertex_normals(Mesh(points, faces))).sum(axis=1)
+    edge = np.linalg.norm(points[faces] - points[np.roll(faces, 1, axis=1)], axis=2).mean()
+    return float(np.median(np.abs(height[np.unique(faces)])) / edge)
+
+
+def _smooth(points: np.ndarray, faces: np.ndarray) -> np.ndarray:
+    """Return smoothed points; those of no face go amid the nearest three that have one."""
+    moved = points.copy()
+    for steps in _SMOOTHING:
+        for step in steps:
+            moved += step * (_neighbour_means(moved, faces) - moved)
+    used = np.bincount(faces.ravel(), minlength=len(points)) > 0
+    if not used.all():
+        near = KDTree(points[used]).query(points[~used], k=3)[1]
+        moved[~used] = moved[used][near].mean(axis=1)
+    return moved
+
+
+def _neighbour_means(points: np.ndarray, faces: np.ndarray) -> np.ndarray:
+    """Return the mean of each vertex's neighbours, (n, 3); of a vertex without faces its own position."""
+    a, b = faces.ravel(), np.roll(faces, 1, axis=1).ravel()
+    n = len(points)
+    ones = np.ones(2 * len(a))
+    links = coo_array((ones, (np.concatenate([a, b]), np.concatenate([b, a]))), shape=(n, n)).tocsr()
+    count = np.asarray(links.sum(axis=1)).ravel()
+    return np.where(count[:, None] > 0, (links @ points) / np.maximum(count, 1)[:, None], points)

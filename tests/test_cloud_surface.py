@@ -1,0 +1,81 @@
+"""Point clouds of closed bodies get the faces of their surface; others stay clouds."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import kfmaps
+from conftest import blob, fibonacci_sphere
+from kfmaps import InvalidInput
+from kfmaps.datasets import symmetric_creature, torus
+from kfmaps.geometry.cloud_surface import crust_faces, surface_of_cloud
+from kfmaps.geometry.mesh import Mesh, surface_area, vertex_normals
+
+GUARDS = ("kfmaps.geometry.cloud_surface", "kfmaps.shape")
+
+
+def noisy(mesh: Mesh, sigma: float) -> np.ndarray:
+    return mesh.vertices + sigma * np.random.default_rng(0).normal(size=mesh.vertices.shape)
+
+
+@pytest.mark.parametrize(("mesh", "euler"), [(blob(900), 2), (torus(1500, rng=0), 0)], ids=["blob", "torus"])
+def test_the_faces_of_a_closed_surface_are_found(mesh: Mesh, euler: int) -> None:
+    """All points, every edge once in each direction, the genus, the area and the side."""
+    faces = crust_faces(mesh.vertices)
+    n = len(mesh.vertices)
+    there = faces.ravel() * n + np.roll(faces, -1, axis=1).ravel()
+    back = np.roll(faces, -1, axis=1).ravel() * n + faces.ravel()
+    assert len(np.unique(there)) == len(there)
+    assert set(there) == set(back)
+    assert len(np.unique(faces)) == n
+    assert n - len(there) // 2 + len(faces) == euler
+    found = Mesh(mesh.vertices, faces)
+    assert surface_area(found) == pytest.approx(surface_area(mesh), rel=0.01)
+    assert ((vertex_normals(found) * vertex_normals(mesh)).sum(axis=1) > 0.9).all()
+
+
+def test_noise_is_smoothed_and_too_much_of_it_leaves_a_cloud() -> None:
+    mesh = fibonacci_sphere(2000)
+    spacing = np.sqrt(4 * np.pi / 2000)
+    clean = surface_of_cloud(mesh.vertices)
+    assert clean is not None
+    np.testing.assert_array_equal(clean.vertices, mesh.vertices)
+    found = surface_of_cloud(noisy(mesh, 0.2 * spacing))
+    assert found is not None
+    off = [np.abs(np.linalg.norm(x, axis=1) - 1).mean() for x in (noisy(mesh, 0.2 * spacing), found.vertices)]
+    assert off[1] < 0.5 * off[0]
+    assert surface_of_cloud(noisy(mesh, 0.6 * spacing)) is None
+
+
+def test_what_is_no_closed_surface_stays_a_cloud() -> None:
+    rng = np.random.default_rng(0)
+    flat = np.column_stack([rng.uniform(size=(800, 2)), np.zeros(800)])
+    wavy = flat + np.column_stack([np.zeros((800, 2)), 0.1 * np.sin(5 * flat[:, 0])])
+    cup = fibonacci_sphere(1500).vertices
+    for points in (flat, wavy, cup[cup[:, 2] < 0.2], rng.normal(size=(800, 3))):
+        assert surface_of_cloud(points) is None
+
+
+def test_clouds_of_symmetric_bodies_are_matched_without_landmarks() -> None:
+    """As meshes are: the right way round; what is answered is of the clouds as they were given."""
+    pair = symmetric_creature(1500, rng=1)
+    clouds = Mesh(pair.source.vertices), Mesh(pair.target.vertices)
+    config = replace(kfmaps.Config(), threads=1)
+    found = kfmaps.match(*clouds, config)
+    errors = kfmaps.geodesic_errors(pair.source, found.target_to_source, pair.truth)
+    assert errors.mean() < 0.03
+    assert found.verdict == "sure"
+    assert found.source is clouds[0]
+    assert found.precise_map is None
+    with pytest.raises(InvalidInput, match="point cloud"):
+        found.precise()
+    shape = kfmaps.prepare(clouds[0], config)
+    assert shape.shot is not None
+    assert len(shape.given_mesh.faces) == 0 < len(shape.mesh.faces)
+    assert (
+        len(kfmaps.prepare(clouds[0], replace(config, descriptors=replace(config.descriptors, shot=False))).mesh.faces)
+        == 0
+    )
