@@ -793,6 +793,14 @@ MUTANTS = tuple(
         ),
         ("return share**2 * float(", "return share * float(", "test_marks -k far_as_they_reach"),
         (
+            "ahead > SCORE.close_margin or not (far",
+            "ahead > SCORE.close_margin and not (far",
+            "test_wrong_landmarks -k all_landmarks",
+        ),
+        ("margins.append(0.0)", "margins.append(9.0)", "test_automatic -k without_orientation"),
+        ("inside = value < 0", "inside = value > 0", "test_cloud_surface -k faces_of"),
+        ("-np.exp(-_SHARPNESS * angle)", "np.exp(-_SHARPNESS * angle)", "test_cloud_surface -k faces_of"),
+        (
             "share = float(areas[covered].sum() / areas.sum())",
             "share = float(covered.mean())",
             "test_marks -k far_as_they_reach",

@@ -43,6 +43,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--data", type=Path)
     parser.add_argument("--pairs", type=int, default=25)
+    parser.add_argument("--from", dest="first", type=int, default=0, help="number of the first pair that is matched")
     arguments = parser.parse_args()
     kinds = ["torus", "vase", "sphere", "creature", "body", *(FILES if arguments.data else ())]
     # A person and a child, and two four-legged animals, do correspond.
@@ -50,7 +51,7 @@ def main() -> None:
     pairs = [pair for pair in permutations(kinds, 2) if set(pair) not in alike]
     rng = np.random.default_rng(0)
     config, told = replace(kfmaps.Config(), threads=1), []
-    for number in rng.permutation(len(pairs))[: arguments.pairs]:
+    for i, number in enumerate(rng.permutation(len(pairs))[: arguments.pairs]):
         shapes = []
         for kind in pairs[number]:
             if kind in FILES:
@@ -58,6 +59,8 @@ def main() -> None:
                 shapes.append(read(mesh_file(arguments.data / folder, str(rng.choice(names)))))
             else:
                 shapes.append(made(kind, int(rng.integers(100))))
+        if i < arguments.first:
+            continue
         found = kfmaps.match(shapes[0], shapes[1], config)
         told.append(found.verdict)
         print(f"{' to '.join(pairs[number]):24} {found.verdict:10} {found.confidence:5.2f}", flush=True)

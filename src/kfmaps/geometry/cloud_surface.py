@@ -14,8 +14,9 @@ _SHARPNESS = 4.0
 """Exponent of the weights of links, as Kolluri et al. chose it."""
 _LARGEST = 10.0
 """Largest circumradius, over the longest side of the box around the points."""
-_MAX_ROUGHNESS = 0.16
-"""Median height of a vertex over its neighbours' mean, over the length of edges: noise above leaves no surface."""
+_MAX_ROUGHNESS = 0.14
+"""Median height of a vertex over its neighbours' mean, over the length of edges: with more
+noise maps were wrong and called "sure"."""
 _SMOOTH_ROUGHNESS = 0.12
 """The same from which points are smoothed; clean bodies have 0.07 to 0.11."""
 _SMOOTHING = ((0.5, -0.53),) * 10

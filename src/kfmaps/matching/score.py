@@ -136,7 +136,7 @@ class Scoring:
     max_landmark_error: float = 0.3
     """Distance of a landmark's image from which it is simply wrong, and the landmark may be rejected."""
     max_isometric_landmark_error: float = 0.12
-    """The same where the map nearly keeps distances; right ones miss by 0.11 at most (research/score.md)."""
+    """The same where the map nearly keeps distances; right ones miss by 0.11 at most (research/landmarks.md)."""
     min_kept_landmarks: float = 0.6
     """Share of landmarks that a map must keep to before the others are rejected."""
     landmark_radius: float = 0.2
