@@ -18,7 +18,6 @@ from kfmaps.matching.score import (
     placement_score,
     probability,
     select_distinct,
-    torn_score,
     verdict,
 )
 
@@ -83,14 +82,9 @@ def test_every_weight_of_a_part_counts(weight: str) -> None:
 
 
 def test_the_tables_name_all_weights() -> None:
-    named = {*MEASURES, *CANDIDATE_WEIGHTS, "w_torn"}
+    named = {*MEASURES, *CANDIDATE_WEIGHTS}
     assert {f.name for f in fields(SCORE) if f.name.startswith("w_")} == named
     assert {f.name for f in fields(SCORE.part) if f.name.startswith("w_")} == set(PART_WEIGHTS)
-
-
-def test_torn_area_costs() -> None:
-    assert torn_score(-9.0, 0.1) == pytest.approx(-11.5)
-    assert torn_score(-9.0, None) == torn_score(-9.0, 0.1, without("w_torn")) == -9.0
 
 
 def test_what_is_not_known_costs_nothing() -> None:
@@ -123,3 +117,10 @@ def test_the_first_that_differ_are_selected() -> None:
     values = [0, 1, 5, 6, 9, 20]
     assert select_distinct(values, lambda a, b: abs(a - b) > 2) == [0, 5, 9, 20]
     assert select_distinct(values, lambda a, b: abs(a - b) > 2, 2) == [0, 5]
+
+
+def test_an_alternative_that_is_near_keeps_a_map_from_being_sure() -> None:
+    """A map that swapped front and back was 2.1 before the right one."""
+    numbers = SCORE.calibration
+    score = numbers.middle + 2.5 / numbers.slope
+    assert probability(score, 6.0) > numbers.sure > probability(score, 2.1) > numbers.likely

@@ -33,8 +33,9 @@ class Calibration:
     """Slope of the logistic function of the score."""
     middle: float = -12.0
     """Score at which half of all maps are right."""
-    tie: float = 0.4
-    """Margin at which the doubt that a different map casts has fallen to 1/e."""
+    tie: float = 1.3
+    """Margin at which the doubt that a different map casts has fallen to 1/e. A map that swaps front and back has
+    preceded the right one by 2.1."""
     usual_log_deformation: float = -3.6
     """Logarithm of the deformation energy of right maps at a score of 0."""
     log_deformation_per_score: float = -0.233
@@ -54,7 +55,7 @@ class Calibration:
 class PartScoring:
     """Numbers that parts are judged by; see research/parts.md for the shapes that they were chosen on."""
 
-    calibration: Calibration = field(default_factory=lambda: Calibration(slope=1 / 0.43, middle=16.2, tie=1.3))
+    calibration: Calibration = field(default_factory=lambda: Calibration(slope=1 / 0.43, middle=16.2))
     """Fitted by `benchmarks/parts_verdict.py`."""
     w_consistency: float = 4.0
     """Weight of the consistency of all samples with their neighbours."""
@@ -116,9 +117,6 @@ class Scoring:
     """Weight of the SHOT error after registration, where it is known; right and wrong maps differ by 0.02 and more."""
     w_landmark: float = 2.0
     """Cost of a landmark whose image is simply wrong."""
-    w_torn: float = 25.0
-    """Cost where all of the target is torn. With less than 20 a torn map of a dog and a cat stays, with more than 35
-    front and back of a gorilla may change."""
     moved_distance: float = 0.15
     """Distance from which an alternative takes a vertex elsewhere."""
     torn_confidence: float = 0.5
@@ -153,8 +151,6 @@ class Scoring:
     duplicate_distance: float = 0.005
     """Distance up to which maps near the best are registered too: of two legs that touch, it is as far from one to the
     other."""
-    twin_distance: float = 0.03
-    """Distance up to which two registered maps are one: a limb that lies elsewhere makes 0.05."""
     early_exit_score: float = -7.0
     """:attr:`Quality.score` of a rough map from which fits and perturbations are left out: people have −4 to −10,
     animals of different kinds −8.5 and less."""
@@ -178,8 +174,9 @@ class Scoring:
     """Margin of the first two candidates below which their SHOT errors are compared."""
     close_margin: float = 1.0
     """Margin of the first two candidates below which they are registered again with more points."""
-    repairable_margin: float = 6.0
-    """Margin behind which a candidate is not repaired: repairs have gained up to 10."""
+    repairable_margin: float = 3.5
+    """Margin behind which a candidate is not repaired: of 34 pairs none that was farther behind became the better one
+    (research/subtraction.md)."""
     hopeless_margin: float = 5.0
     """Margin behind which a repaired candidate loses whatever its SHOT error."""
     min_orientation: float = -0.2
@@ -294,11 +291,6 @@ def candidate_score(candidate: Candidate, numbers: Scoring = SCORE) -> float:
     evidence = quality_score(candidate.quality, numbers) - extremities + deformed + strained + differs
     missed = float(np.minimum(candidate.landmark_errors / numbers.max_landmark_error, 1.0).sum())
     return round(evidence - numbers.w_landmark * missed, 9)
-
-
-def torn_score(score: float, torn_area: float | None, numbers: Scoring = SCORE) -> float:
-    """Return the score of a finished map: that of its candidate less the cost of the share of torn area."""
-    return score - numbers.w_torn * (torn_area or 0.0)
 
 
 def placement_score(evidence: PartEvidence, numbers: PartScoring = SCORE.part) -> float:
