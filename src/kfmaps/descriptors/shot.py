@@ -255,14 +255,14 @@ def _describe(centres: np.ndarray, tree: KDTree, support: _Support, radius: floa
     pairs = _Pairs(i, offset, distance, normal, support.weights[j], len(centres))
     if form == "paper":
         return unit_rows(_histograms(pairs, _frames(pairs, form), pairs.weight, bins))
-    faded = pairs.weight * np.minimum(10 * (1 - distance), 1)
+    faded = pairs.weight * (10 * (1 - distance)).clip(-np.inf, 1)
     return unit_rows(np.sqrt(_histograms(pairs, _frames(pairs, form), faded, bins)))
 
 
 def _frames(pairs: _Pairs, form: Form) -> np.ndarray:
     """Right-handed frames, (count, 3, 3), one axis a row; zero where there is none."""
     offset = pairs.offset
-    near = pairs.weight * np.maximum(1 - pairs.distance, 0)
+    near = pairs.weight * (1 - pairs.distance).clip(0, np.inf)
     lever = near * offset
     covariance = np.empty((pairs.count, 3, 3))
     for a in range(3):
@@ -324,9 +324,9 @@ def _histograms(pairs: _Pairs, frames: np.ndarray, weight: np.ndarray, bins: int
     height = np.arccos(np.clip(z / pairs.distance, -1, 1)) * (_ELEVATIONS / np.pi) - 0.5
     depth = pairs.distance * _SHELLS - 0.5
     nodes = np.empty((len(i), _ELEVATIONS * _SHELLS))
-    inward = [np.maximum(1 - np.abs(depth - d), 0) for d in range(_SHELLS)]
+    inward = [(1 - np.abs(depth - d)).clip(0, np.inf) for d in range(_SHELLS)]
     for e in range(_ELEVATIONS):
-        across = np.maximum(1 - np.abs(height - e), 0) * weight
+        across = (1 - np.abs(height - e)).clip(0, np.inf) * weight
         for d in range(_SHELLS):
             nodes[:, e * _SHELLS + d] = across * inward[d]
     starts = np.arange(0, 4 * len(i) + 1, 4, dtype=np.int32)
