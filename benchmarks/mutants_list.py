@@ -120,7 +120,7 @@ MUTANTS = tuple(
             "mean = 2 * xp.sum(w_s * D_s, axis=0, keepdims=True)",
             FORMULAS,
         ),
-        ("np.minimum(10 * (1 - distance), 1)", "np.minimum(2 * (1 - distance), 1)", "test_shot -k plain"),
+        ("(10 * (1 - distance)).clip", "(2 * (1 - distance)).clip", "test_shot -k plain"),
         ("np.arccos(np.clip(z / pairs.distance, -1, 1))", "np.arccos(np.clip(z, -1, 1))", "test_shot -k plain"),
         ("unit_rows(np.sqrt(_histograms(", "unit_rows(np.abs(_histograms(", "test_shot -k plain"),
         ("AZIMUTHS, -1)[:, ::-1]", "AZIMUTHS, -1)[:, :]", "test_shot -k mirror"),
