@@ -17,30 +17,17 @@ import numpy as np
 
 _SLACK = (0.02, 0.1)
 """Change of a distance that speaks against a pair altogether: at no distance, in √area, and per distance."""
-_LANDMARK_TRUST = 3.0
-"""Trust in a landmark, where that of a sample is at most 1."""
+_LANDMARK_TRUST = 3.0  # trust in a landmark, where that of a sample is at most 1
 
 
 @dataclass(frozen=True)
 class RelaxationParams:
-    """How a relaxation begins.
+    """How a relaxation begins."""
 
-    Attributes
-    ----------
-    radii : tuple of float
-        Of SHOT, in √area of the whole.
-    first : int
-        Samples that are placed at first.
-    candidates : int
-        Places that each may have: few samples with many places find what descriptors alone do not.
-    reach : float
-        Distance up to which pairs count, in √area of the whole.
-    """
-
-    radii: tuple[float, ...] = (0.09, 0.14)
-    first: int = 150
-    candidates: int = 12
-    reach: float = 0.6
+    radii: tuple[float, ...] = (0.09, 0.14)  # of SHOT, in √area of the whole
+    first: int = 150  # samples that are placed at first
+    candidates: int = 12  # places that each may have: few samples with many places find what descriptors alone do not
+    reach: float = 0.6  # distance up to which pairs count, in √area of the whole
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,21 +44,11 @@ class DistanceBounds:
 
 @dataclass(frozen=True, eq=False)
 class Assignment:
-    """A sample of the whole for each of the part's.
+    """A sample of the whole for each of the part's."""
 
-    Attributes
-    ----------
-    match : (q,) int64
-        Number of the whole's sample.
-    trust : (q,) float64
-        0 for samples whose place is not to be relied on, up to 1, and more for landmarks.
-    support : float
-        Mean consistency of the pairs within reach, 0 to 1.
-    """
-
-    match: np.ndarray
-    trust: np.ndarray
-    support: float
+    match: np.ndarray  # (q,): number of the whole's sample
+    trust: np.ndarray  # (q,): 0 for samples whose place is not to be relied on, up to 1, and more for landmarks
+    support: float  # mean consistency of the pairs within reach, 0 to 1
 
 
 def distance_bounds(distances: np.ndarray, boundary_distance: np.ndarray, scale: float) -> DistanceBounds:
@@ -111,15 +88,8 @@ def relax(
 ) -> Assignment:
     """Place the first few samples by relaxation labelling.
 
-    Parameters
-    ----------
-    bounds : DistanceBounds
-    distances : (m, m) float
-        Between the whole's samples.
-    similarity : (q, m) float
-        Products of descriptors; rows of the first ``n_landmarks`` samples have one entry above all others.
-    params : RelaxationParams
-    n_landmarks : int
+    ``distances (m, m)``: between the whole's samples; ``similarity (q, m)``: products of descriptors; rows of the first
+    ``n_landmarks`` samples have one entry above all others.
     """
     n = min(max(params.first, n_landmarks), len(similarity))
     k = min(params.candidates, similarity.shape[1])
