@@ -8,6 +8,7 @@ import numpy as np
 from scipy.spatial import Delaunay, KDTree
 
 from kfmaps._arrays import NotConverged
+from kfmaps.geometry.cloud_surface import outward_faces
 from kfmaps.geometry.mesh import unit_rows
 
 _Field = Callable[[np.ndarray], tuple[np.ndarray, np.ndarray]]
@@ -110,13 +111,7 @@ def _triangulate(points: np.ndarray, normals: np.ndarray) -> np.ndarray:
     neighbour = delaunay.neighbors
     shell = inside[:, None] & ((neighbour < 0) | ~inside[neighbour])
     tetrahedron, opposite = np.nonzero(shell)
-    others = np.array([[1, 2, 3], [0, 2, 3], [0, 1, 3], [0, 1, 2]])
-    faces = np.take_along_axis(delaunay.simplices[tetrahedron], others[opposite], axis=1)
-    a, b, c = (points[faces[:, i]] for i in range(3))
-    inwards = points[delaunay.simplices[tetrahedron, opposite]] - a
-    turned = (np.cross(b - a, c - a) * inwards).sum(axis=1) > 0
-    faces[turned] = faces[turned][:, ::-1]
-    return faces.astype(np.int64)
+    return outward_faces(points, delaunay.simplices, tetrahedron, opposite)[0].astype(np.int64)
 
 
 def is_closed(faces: np.ndarray, count: int, genus: int = 0) -> bool:

@@ -66,6 +66,16 @@ def crust_faces(points: np.ndarray) -> np.ndarray:
     Neighbours are on the same side the more their circumspheres overlap; the largest tetrahedra at a point on both of
     its sides, the poles, are on different ones. The eigencrust (Kolluri, Shewchuk and O'Brien 2004), with what lies
     beyond the convex hull held outside: one linear system with a symmetric positive definite matrix.
+
+    Parameters
+    ----------
+    points : (n, 3) float64
+        All at different positions.
+
+    Raises
+    ------
+    scipy.spatial.QhullError
+        When the points lie in a plane.
     """
     delaunay = Delaunay(points)
     cells, neighbours = delaunay.simplices, delaunay.neighbors
@@ -76,7 +86,7 @@ def crust_faces(points: np.ndarray) -> np.ndarray:
     b = neighbours[a, side]
     overlap = radii[a] ** 2 + radii[b] ** 2 - ((centres[a] - centres[b]) ** 2).sum(axis=1)
     hull, opposite = np.nonzero(neighbours < 0)
-    corners, normals = _outward_faces(points, cells, hull, opposite)
+    corners, normals = outward_faces(points, cells, hull, opposite)
     beyond = ((centres[hull] - points[corners[:, 0]]) * normals).sum(axis=1) / radii[hull]
     first, second, angle = _poles(points, cells, centres, radii, corners, normals)
     rows = np.concatenate([a, hull, first])
@@ -92,7 +102,7 @@ def crust_faces(points: np.ndarray) -> np.ndarray:
     value = cg(matrix[:outside, :outside], right, rtol=1e-5, maxiter=2000, M=diags_array(1 / degrees[:outside]))[0]
     inside = value < 0
     cell, opposite = np.nonzero(inside[:, None] & ((neighbours < 0) | ~inside[neighbours]))
-    return _outward_faces(points, cells, cell, opposite)[0].astype(np.int64)
+    return outward_faces(points, cells, cell, opposite)[0].astype(np.int64)
 
 
 def _circumspheres(points: np.ndarray, cells: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -107,10 +117,19 @@ def _circumspheres(points: np.ndarray, cells: np.ndarray) -> tuple[np.ndarray, n
     return corners[:, 0] + middle * (kept / radii)[:, None], kept
 
 
-def _outward_faces(
+def outward_faces(
     points: np.ndarray, cells: np.ndarray, cell: np.ndarray, opposite: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Return faces of cells by the corner ``opposite``, turned outwards, (f, 3), and their unit normals (f, 3)."""
+    """Return the faces of tetrahedra that lie opposite to a corner each, and their unit normals, both (f, 3).
+
+    Parameters
+    ----------
+    points : (n, 3) float64
+    cells : (m, 4) int
+        Corners of the tetrahedra.
+    cell, opposite : (f,) int
+        Of each face its tetrahedron and, from 0 to 3, the corner that it does not have. It is turned away from that.
+    """
     faces = np.take_along_axis(cells[cell], _OTHERS[opposite], axis=1)
     a, b, c = (points[faces[:, i]] for i in range(3))
     normals = unit_rows(np.cross(b - a, c - a))
