@@ -208,7 +208,13 @@ def pairwise_geodesics(graph: csr_array, points: np.ndarray) -> np.ndarray:
     near[:, :_FULL_SEARCHES] = found[:, _FULL_SEARCHES:].T
     found = np.concatenate([found, near])
     single = found.astype(np.float32)
-    over = np.stack([(one[:, None] + single[:, _FULL_SEARCHES:]).min(axis=0) for one in single[_FULL_SEARCHES:]])
+    known = np.isfinite(single)
+    over = np.stack(
+        [
+            (one[at, None] + single[at, _FULL_SEARCHES:]).min(axis=0)
+            for one, at in zip(single[_FULL_SEARCHES:], known[_FULL_SEARCHES:], strict=True)
+        ]
+    )
     rest = found[_FULL_SEARCHES:, _FULL_SEARCHES:]
     rest[np.isinf(rest)] = over[np.isinf(rest)]
     np.minimum(rest, rest.T.copy(), out=rest)
