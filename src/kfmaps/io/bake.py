@@ -305,7 +305,7 @@ def transfer_texture(
     plain = MeshFile(target.mesh, None, found.uv, found.uv_faces, picture)
     if not found.torn.any() or found.edges is None:
         return plain if size is None else replace(plain, picture=encode_png(_resized(decode_picture(picture), size)))
-    pixels = _resized(decode_picture(picture), size)
+    pixels, edges = _resized(decode_picture(picture), size), found.edges
     height, width = pixels.shape[:2]
     corners = found.uv[found.uv_faces]
     # Rows below end the repetition of the picture: all faces move into its first copy, and those over its edge are
@@ -313,7 +313,7 @@ def transfer_texture(
     copy = np.floor(corners.min(axis=1) + 1e-6)
     own = found.torn | ((corners.max(axis=1) - 1e-6 > copy + 1).any(axis=1))
     found = replace(found, torn=own)
-    packed, rows = _pack(found.edges[own] * width, width)
+    packed, rows = _pack(edges[own] * width, width)
     canvas, covered = np.zeros((height + rows, width, 3)), np.zeros((height + rows, width), dtype=bool)
     canvas[:height], covered[:height] = pixels, True
     atlas = np.full_like(corners, np.nan)
