@@ -578,7 +578,7 @@ MUTANTS = tuple(
             "test_learned_search -k clearly",
         ),
         (
-            "if all(map_distance(c, one, on.source) > SCORE.distinct_distance for one in ranked)",
+            "if all(map_distance(c, one, samples.source) > SCORE.distinct_distance for one in ranked)",
             "if ranked",
             "test_learned_search -k clearly",
         ),
@@ -639,7 +639,11 @@ MUTANTS = tuple(
             "differs = numbers.w_shot",
             "test_looks -k over_usual",
         ),
-        ("shot_error=None if looks is None else looks - usual[1]", "shot_error=looks", "test_looks -k over_usual"),
+        (
+            "shot_error=None if shot_errors is None else shot_errors - usual[1]",
+            "shot_error=shot_errors",
+            "test_looks -k over_usual",
+        ),
         ("strain=None if strain is None else strain - usual[0]", "strain=strain", "test_looks -k over_usual"),
         (
             "reference_values(found, np.mean)[0], reference_values(found, min)[1]",
@@ -742,7 +746,7 @@ MUTANTS = tuple(
             "test_clear -k rivals",
         ),
         (
-            "easy = len(marks) == 0 and descriptors is None and early_exit(found)",
+            "easy = len(pairs) == 0 and descriptors is None and early_exit(found)",
             "easy = early_exit(found)",
             "test_clear -k heard",
         ),
@@ -812,7 +816,7 @@ MUTANTS = tuple(
             "probability(score, one, deformation_energy, 0.0, numbers)",
             "test_marks -k takes",
         ),
-        ("replace(on, landmark_cost=None), threads)[0]", "on, threads)[0]", "test_marks -k not_led"),
+        ("replace(samples, landmark_cost=None), threads)[0]", "samples, threads)[0]", "test_marks -k not_led"),
         (
             "confidence=probability(*evidence)",
             "confidence=probability(*evidence[:3])",

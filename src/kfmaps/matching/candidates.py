@@ -73,16 +73,16 @@ def candidates(
     assert config.search is not None
     few, threads = samples.few, config.threads
     functions = min(len(source.basis.eigenvalues), len(target.basis.eigenvalues))
-    marks = np.zeros((0, 2), dtype=np.int64) if landmarks is None else landmarks
+    pairs = np.zeros((0, 2), dtype=np.int64) if landmarks is None else landmarks
     signs, weights = min(config.search.n_sign_functions, functions - 1), distinct_weights(WEIGHTS, few)
     found = refine_coarse(sign_inits(signs, few, weights[:_QUICK]), few, functions, threads)
     report(0.3)
     # What the user says of landmarks and points is heard in the fits.
-    easy = len(marks) == 0 and descriptors is None and early_exit(found)
+    easy = len(pairs) == 0 and descriptors is None and early_exit(found)
     if not easy:
         found += refine_coarse(sign_inits(signs, few, weights[_QUICK:]), few, functions, threads)
         operators = samples.whole.source.orientation, samples.whole.target.orientation
-        starts = kernel_inits(source, target, config, few, operators, marks, descriptors, seed, drawn)
+        starts = kernel_inits(source, target, config, few, operators, pairs, descriptors, seed, drawn)
         starts += extremity_inits(functions, few)
         report(0.5)
         found += refine_coarse(starts, few, functions, threads)

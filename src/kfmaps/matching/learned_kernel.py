@@ -52,7 +52,7 @@ def learned_kernel_applies(config: Config, source: Shape, target: Shape) -> bool
 
 
 def learned_candidates(
-    source: Shape, target: Shape, config: Config, on: TwoLevelSamples, seed: int, drawn: int
+    source: Shape, target: Shape, config: Config, samples: TwoLevelSamples, seed: int, drawn: int
 ) -> list[Candidate]:
     """Return candidates made with the kernel of ``config``, refined and judged as all others are.
 
@@ -60,17 +60,17 @@ def learned_candidates(
     descriptors there are none.
     """
     assert config.search is not None
-    rows = _transformed_descriptors(source, target, config, on.whole.source, on.whole.target)
+    rows = _transformed_descriptors(source, target, config, samples.whole.source, samples.whole.target)
     if rows is None:
         return []
-    few, whole = (_in_metric(ground, *rows) for ground in (on.few, on.whole))
+    few, whole = (_in_metric(pair, *rows) for pair in (samples.few, samples.whole))
     functions = min(len(source.basis.eigenvalues), len(target.basis.eigenvalues))
     starts = [
         s for s in sign_inits(min(config.search.n_sign_functions, functions - 1), few) if s.weights[0] == _WEIGHTS[0]
     ]
     none = np.zeros((0, 2), dtype=np.int64)
     points = sample_pair_for_fit(source, target, FIT_POINTS, none, None, drawn)
-    operators = on.whole.source.orientation, on.whole.target.orientation
+    operators = samples.whole.source.orientation, samples.whole.target.orientation
     fits = [FitSpec(LEARNED, min(k, config.basis.n_eigenfunctions), 0.1) for k in (20, 50)]
     made = fit_descriptor_set(fits, points, config, operators, seed)
     starts += [
@@ -82,7 +82,7 @@ def learned_candidates(
     chosen = distinct_maps(found, few.source, SCORE.rough_distance, 4)
     refined = refine_finely(chosen, whole, functions, _WEIGHTS, (), config.threads)
     names = [(c.name if c.name.startswith(LEARNED) else f"{LEARNED}, {c.name}", True) for c in chosen]
-    return score_maps(names, *refined, on.whole, config.threads, [c.fit for c in chosen])
+    return score_maps(names, *refined, samples.whole, config.threads, [c.fit for c in chosen])
 
 
 def _transformed_descriptors(
@@ -91,8 +91,8 @@ def _transformed_descriptors(
     """Transformed descriptors ``(q_s, r)``, ``(q_t, r)`` at the samples; ``None`` where the kernel is for others."""
     bases = probe_s.samples.basis, probe_t.samples.basis
     at = [
-        replace(shape, basis=basis, shot=probe.descriptors)
-        for shape, basis, probe in zip((source, target), bases, (probe_s, probe_t), strict=True)
+        replace(shape, basis=basis, shot=sampled.descriptors)
+        for shape, basis, sampled in zip((source, target), bases, (probe_s, probe_t), strict=True)
     ]
     used = pair_descriptors(at[0], at[1], bases, config.descriptors, np.zeros((0, 2), dtype=np.int64), None)
     if descriptor_width(config.kernel) != used.source.shape[1]:
@@ -107,9 +107,9 @@ def _transform_rows(kernel: KernelLike, rows: np.ndarray) -> np.ndarray:
     return rows
 
 
-def _in_metric(on: SamplePair, source: np.ndarray, target: np.ndarray) -> SamplePair:
+def _in_metric(samples: SamplePair, source: np.ndarray, target: np.ndarray) -> SamplePair:
     """The pair with points compared in the learned metric; rows of more samples than it has are left out."""
-    rows = source[: len(on.source.positions)], target[: len(on.target.positions)]
+    rows = source[: len(samples.source.positions)], target[: len(samples.target.positions)]
     return replace(
-        on, descriptor_cost=None if (found := descriptor_guidance(*rows)) is None else descriptor_cost(found)
+        samples, descriptor_cost=None if (found := descriptor_guidance(*rows)) is None else descriptor_cost(found)
     )

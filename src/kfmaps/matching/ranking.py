@@ -56,9 +56,9 @@ class ProxyCache:
     mirrored: bool = False
 
     @classmethod
-    def of(cls, source: Shape, target: Shape, on: SamplePair) -> ProxyCache:
-        """Of the shapes as they are ``on`` a ground."""
-        return cls(source, target, (on.source.copy, on.target.copy), on.target.mirrored)
+    def of(cls, source: Shape, target: Shape, samples: SamplePair) -> ProxyCache:
+        """Return the cache of two shapes, with the coarse copies that their samples have."""
+        return cls(source, target, (samples.source.copy, samples.target.copy), samples.target.mirrored)
 
     @cached_property
     def image(self) -> Shape:
@@ -80,9 +80,11 @@ class ProxyCache:
         return proxy_pair(self.source, self.image, (a, b.mirrored() if self.mirrored else b), with_shot=True)
 
 
-def ranking(found: list[Candidate], on: SamplePair, copies: ProxyCache, threads: int | None = None) -> list[Candidate]:
+def ranking(
+    found: list[Candidate], samples: SamplePair, copies: ProxyCache, threads: int | None = None
+) -> list[Candidate]:
     """The distinct ones of ``found``, best first; the first few are judged by how far the source must bend as well."""
-    ranked = distinct(found, on.source)
+    ranked = distinct(found, samples.source)
     near = [c for c in ranked[:BENT] if c.score > ranked[0].score - SCORE.max_behind]
     tried = with_bending(near, copies, threads)
     if not tried:
@@ -98,7 +100,7 @@ def ranking(found: list[Candidate], on: SamplePair, copies: ProxyCache, threads:
 def rerank_near_duplicates(
     ranked: list[Candidate],
     found: list[Candidate],
-    on: SamplePair,
+    samples: SamplePair,
     copies: ProxyCache,
     threads: int | None = None,
     distance: float = SCORE.rough_distance,
@@ -109,7 +111,7 @@ def rerank_near_duplicates(
     A map with one limb wrong is near the right one, and may come before it by chance: which of them is torn shows when
     both are bent. None that is farther ``behind`` before that.
     """
-    best = distinct_maps(in_order(found), on.source, distance, CLOSER)
+    best = distinct_maps(in_order(found), samples.source, distance, CLOSER)
     known = [c.functional_map for c in ranked]
     more = [c for c in best if c.score > best[0].score - behind and not any(c.functional_map is C for C in known)]
     return in_order([*ranked, *with_bending(more, copies, threads)])
@@ -125,13 +127,13 @@ def with_bending(found: list[Candidate], copies: ProxyCache, threads: int | None
 
 
 def merge_alternatives(
-    ranked: list[Candidate], more: list[Candidate], on: SamplePair, copies: ProxyCache, threads: int | None = None
+    ranked: list[Candidate], more: list[Candidate], samples: SamplePair, copies: ProxyCache, threads: int | None = None
 ) -> list[Candidate]:
     """``ranked``, and the best of ``more`` that is none of them: first where it is clearly better, else a rival."""
-    others = [c for c in more if all(map_distance(c, one, on.source) > SCORE.distinct_distance for one in ranked)]
+    others = [c for c in more if all(map_distance(c, one, samples.source) > SCORE.distinct_distance for one in ranked)]
     if not others or max(c.quality.score for c in others) < ranked[0].quality.score - SCORE.max_behind:
         return ranked
-    new = ranking(others, on, copies, threads)[0]
+    new = ranking(others, samples, copies, threads)[0]
     if new.score > ranked[0].score + SCORE.clear_margin:
         return [new, *ranked]
     return [ranked[0], *by_score([*ranked[1:], new])]
@@ -147,11 +149,11 @@ def rerank_close(order: list[Candidate], copies: ProxyCache, threads: int | None
         return order
     close = order[0].score - order[1].score < SCORE.close_margin
 
-    def look(found: Candidate) -> Candidate:
+    def with_shot_error(found: Candidate) -> Candidate:
         found = score_registered(found, finer) if close else found
         return replace(found, shot_error=registered_shot_error(found.functional_map, finer))
 
-    found = parallel(look, order[:2], threads)
+    found = parallel(with_shot_error, order[:2], threads)
     # Nothing is added for looks: the best is compared with maps that nobody has looked at.
     middle = reference_values(found, np.mean)[0], reference_values(found, min)[1]
     return in_order([normalize_errors(c, middle) for c in found]) + order[2:]
@@ -166,17 +168,17 @@ def score_registered(found: Candidate, pair: ProxyPair) -> Candidate:
 def reference_values(found: list[Candidate], of: Callable[[list[float]], Any]) -> tuple[float, float]:
     """The strain and the mismatch of bent candidates that others are compared with: both depend on the shapes."""
     strains = [c.strain for c in found if c.strain is not None]
-    looks = [c.shot_error for c in found if c.shot_error is not None]
-    return float(of(strains)) if strains else 0.0, float(of(looks)) if looks else 0.0
+    shot_errors = [c.shot_error for c in found if c.shot_error is not None]
+    return float(of(strains)) if strains else 0.0, float(of(shot_errors)) if shot_errors else 0.0
 
 
 def normalize_errors(found: Candidate, usual: tuple[float, float]) -> Candidate:
     """With strain and mismatch, where they are known, over the usual ones."""
-    strain, looks = found.strain, found.shot_error
+    strain, shot_errors = found.strain, found.shot_error
     return replace(
         found,
         strain=None if strain is None else strain - usual[0],
-        shot_error=None if looks is None else looks - usual[1],
+        shot_error=None if shot_errors is None else shot_errors - usual[1],
     )
 
 

@@ -61,7 +61,7 @@ class RepairSetting:
 
 def refine_by_registration(
     ranked: list[Candidate],
-    on: SamplePair,
+    samples: SamplePair,
     copies: ProxyCache,
     landmarks: np.ndarray,
     threads: int | None = None,
@@ -79,9 +79,11 @@ def refine_by_registration(
         return ranked
     source, target = copies.source, copies.image
     pair = registration_pair(source, target, finer.copies, landmarks)
-    setting = RepairSetting(source, target, pair, finer, on, landmarks, descriptor_guidance(source.shot, target.shot))
-    near, rest = repairable(ranked, on.source)
-    begun = _begin(near, on)
+    setting = RepairSetting(
+        source, target, pair, finer, samples, landmarks, descriptor_guidance(source.shot, target.shot)
+    )
+    near, rest = repairable(ranked, samples.source)
+    begun = _begin(near, samples)
     done = np.zeros(len(begun))
 
     def report(i: int, part: float) -> None:
@@ -97,7 +99,7 @@ def refine_by_registration(
     tried = compared([c for c in made if c is not None], partial(_with_shot_error, setting), threads)
     least = reference_values(tried, min)
     order = in_order([normalize_errors(c, least) for c in tried])
-    return distinct_maps(order + rest, on.source, SCORE.distinct_distance)
+    return distinct_maps(order + rest, samples.source, SCORE.distinct_distance)
 
 
 def _repair(
@@ -146,16 +148,18 @@ def register_map_on_proxies(
     return replace(found, functional_map=found.functional_map.T) if swapped else found
 
 
-def _begin(near: list[Candidate], on: SamplePair) -> list[tuple[Candidate, ExtremityVertices | None]]:
+def _begin(near: list[Candidate], samples: SamplePair) -> list[tuple[Candidate, ExtremityVertices | None]]:
     """Return what repairs begin with: candidates, and maps of likely extremity matches that none of them has."""
-    likely = match_extremities(on.source, on.target, on.descriptor_cost)
-    found = [match_of_map(one.points, on.source, on.target) for one in near]
+    likely = match_extremities(samples.source, samples.target, samples.descriptor_cost)
+    found = [match_of_map(one.points, samples.source, samples.target) for one in near]
     known = [one and complete_match(one, likely) for one in found]
-    begun = [(c, one and vertices_of_match(one, on.source, on.target)) for c, one in zip(near, known, strict=True)]
+    begun = [
+        (c, one and vertices_of_match(one, samples.source, samples.target)) for c, one in zip(near, known, strict=True)
+    ]
     for one in unused_matches(likely, [match for match in known if match], PAIRED):
-        C = paired_map(one, on, min(EXTREMITY_FUNCTIONS, len(near[0].functional_map)))
-        candidate = score_maps([(f"{one}", True)], C[None], None, on, 1)[0]
-        begun.append((candidate, vertices_of_match(one, on.source, on.target)))
+        C = paired_map(one, samples, min(EXTREMITY_FUNCTIONS, len(near[0].functional_map)))
+        candidate = score_maps([(f"{one}", True)], C[None], None, samples, 1)[0]
+        begun.append((candidate, vertices_of_match(one, samples.source, samples.target)))
     return begun
 
 

@@ -154,8 +154,8 @@ def search_map(
         alone = without_landmarks(source, target, plain, everything, seed, report=second, **more)
 
     none, copies = np.zeros(len(pairs), dtype=bool), ProxyCache.of(source, target, everything.whole)
-    marks = everything.whole.landmark_evidence
-    base = _Search(source, target, config, pairs, marks, none, everything, copies, [], [], "preserving")
+    evidence = everything.whole.landmark_evidence
+    base = _Search(source, target, config, pairs, evidence, none, everything, copies, [], [], "preserving")
 
     def search_with(wrong: np.ndarray) -> _Search:
         kept = drop_landmarks(everything, wrong) if wrong.any() else everything
@@ -207,8 +207,8 @@ def _search_samples(
     return a, b
 
 
-def _are_surfaces(on: SamplePair) -> bool:
-    return on.source.orientation is not None and on.target.orientation is not None
+def _are_surfaces(samples: SamplePair) -> bool:
+    return samples.source.orientation is not None and samples.target.orientation is not None
 
 
 def _rank(state: _Search) -> _Search:
@@ -370,40 +370,40 @@ def _to_result(state: _Search, best: Candidate, rest: list[Candidate]) -> Search
     )
 
 
-def ignore_landmarks(found: Candidate, on: SamplePair, threads: int | None = None) -> Candidate:
+def ignore_landmarks(found: Candidate, samples: SamplePair, threads: int | None = None) -> Candidate:
     """The map as it is when landmarks have no say: how it misses them then tells of both."""
-    return rerefine([found], replace(on, landmark_cost=None), threads)[0]
+    return rerefine([found], replace(samples, landmark_cost=None), threads)[0]
 
 
-def still_missed(best: Candidate, on: SamplePair, marks: LandmarkEvidence | None) -> np.ndarray:
+def still_missed(best: Candidate, samples: SamplePair, evidence: LandmarkEvidence | None) -> np.ndarray:
     """Which of all landmarks given the map misses, (l,).
 
     One that a rough map of unlike shapes has missed, on a tail say, may be right by what that has been mended to, in
     which it had no say.
     """
-    if marks is None:
+    if evidence is None:
         return np.zeros(0, dtype=bool)
-    errors = landmark_errors(best.functional_map, on.source.samples.basis.functions, marks)
+    errors = landmark_errors(best.functional_map, samples.source.samples.basis.functions, evidence)
     return errors > max_landmark_error(best.quality.score)
 
 
-def backed_by(best: Candidate, on: SamplePair, threads: int | None = None) -> float:
+def backed_by(best: Candidate, samples: SamplePair, threads: int | None = None) -> float:
     """:func:`kfmaps.matching.score.landmark_support` of the map by the landmarks, 0 without any."""
-    if on.landmark_evidence is None:
+    if samples.landmark_evidence is None:
         return 0.0
-    errors = ignore_landmarks(best, on, threads).landmark_errors
-    return landmark_support(errors, on.landmark_evidence.distances, to_numpy(on.source.samples.basis.mass))
+    errors = ignore_landmarks(best, samples, threads).landmark_errors
+    return landmark_support(errors, samples.landmark_evidence.distances, to_numpy(samples.source.samples.basis.mass))
 
 
 def without_landmarks(
-    source: Shape, target: Shape, config: Config, on: TwoLevelSamples, seed: int, **more: Any
+    source: Shape, target: Shape, config: Config, samples: TwoLevelSamples, seed: int, **more: Any
 ) -> list[Candidate]:
     """What is found without landmarks, judged with them: whoever gives some loses none of these maps."""
     bare = TwoLevelSamples(
-        *(replace(ground, landmark_cost=None, landmark_evidence=None) for ground in (on.few, on.whole))
+        *(replace(pair, landmark_cost=None, landmark_evidence=None) for pair in (samples.few, samples.whole))
     )
     found = candidates(source, target, config, bare, seed, **more)
-    return rescore(found, on.whole, config.threads)
+    return rescore(found, samples.whole, config.threads)
 
 
 def alternative_maps(
@@ -456,13 +456,13 @@ def adapt_registration(finish: Any, found: SearchResult) -> Any:
     return replace(finish, local_scaling=STRETCH)
 
 
-def reversed_best(found: list[Candidate], turned: SamplePair, threads: int | None = None) -> list[Candidate]:
+def reversed_best(found: list[Candidate], mirrored: SamplePair, threads: int | None = None) -> list[Candidate]:
     """The candidates as maps to the mirror image, best first; the best are settled once more with its descriptors.
 
     Rivals are among ``found``, refined without a look at descriptors: those of an isometry that reverses orientation.
     """
-    images = by_score(rescore([replace(c, uses_descriptors=True) for c in found], turned, threads))
-    return by_score(rerefine(images[:SETTLED], turned, threads) + images[SETTLED:])
+    images = by_score(rescore([replace(c, uses_descriptors=True) for c in found], mirrored, threads))
+    return by_score(rerefine(images[:SETTLED], mirrored, threads) + images[SETTLED:])
 
 
 def deforms_unduly(found: Candidate) -> bool:
