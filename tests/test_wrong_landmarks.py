@@ -28,7 +28,8 @@ def creature() -> Any:
 
 
 def searched(creature: Any, landmarks: np.ndarray) -> SearchResult:
-    return search_map(*creature[:2], replace(kfmaps.Config(), threads=1), landmarks=landmarks)
+    source, target = creature[:2]
+    return search_map(source, target, replace(kfmaps.Config(), threads=1), landmarks=landmarks)
 
 
 def test_all_landmarks_with_left_for_right_are_named(creature: Any) -> None:
