@@ -338,7 +338,7 @@ def _to_result(state: _Search, best: Candidate, rest: list[Candidate]) -> Search
     assert config.search is not None
     near = [(c, margin) for c, margin in state.doubts if margin < SCORE.close_margin]
     margins = [*(margin for _, margin in near), *(best.score - c.score for c in rest[:1])]
-    if not _are_surfaces(samples) and samples.landmark_evidence is None:
+    if not _are_surfaces(samples) and (~state.wrong).sum() < 3:
         margins.append(0.0)  # nothing tells the map from its mirror image
     others = [*(c for c, _ in near), *rest][: config.search.n_alternatives]
     scores = [*(best.score - margin for _, margin in near), *(c.score for c in rest)][: len(others)]
