@@ -13,6 +13,7 @@ from sphinx.util.nodes import make_refnode
 
 import kfmaps
 
+ALIAS = re.compile(r"TypeAliasForwardRef\('(\w+)'\)")
 SEVERAL = re.compile(r"^(\w+(?:, \w+)+) : (.*)$")
 
 
@@ -42,8 +43,9 @@ def separate(_app: Sphinx, _what: str, _name: str, _obj: Any, _options: Any, lin
 def readable(
     _app: Sphinx, _what: str, _name: str, _obj: Any, _options: Any, signature: str | None, returned: str | None
 ) -> tuple[str | None, str | None]:
-    """Replace default factories in signatures by ``...``, which can be parsed."""
-    return (signature.replace("<factory>", "...") if signature else signature), returned
+    """Replace default factories in signatures by ``...``, which can be parsed, and show aliases by their names."""
+    parts = [ALIAS.sub(r"\1", part) if part else part for part in (signature, returned)]
+    return (parts[0].replace("<factory>", "...") if parts[0] else parts[0]), parts[1]
 
 
 def skipped(_app: Sphinx, what: str, name: str, obj: Any, skip: bool, _options: Any) -> bool | None:
