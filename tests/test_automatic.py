@@ -226,7 +226,7 @@ def test_a_verdict_follows_the_score_and_the_margin():
     numbers = SCORE.calibration
     middle = numbers.middle
     good, bad = middle + 6, middle - 6
-    assert verdict(good, 1.0) == "sure"
+    assert verdict(good, 6.0) == "sure"
     assert verdict(good, 0.0) == "ambiguous"
     assert verdict(bad, np.inf) == "unlikely"
     assert verdict(middle + 0.1, np.inf) == verdict(middle + 2, np.inf) == "likely"
@@ -244,7 +244,7 @@ def test_a_verdict_follows_the_score_and_the_margin():
     assert bent[0] == pytest.approx(probability(good, 1.0), rel=0.01)
     excess = np.exp(numbers.excess_middle - excess_deformation(100.0, 1.0))
     assert probability(100.0, np.inf, excess) == pytest.approx(0.5)
-    assert verdict(good, 1.0, usual) == "sure"
+    assert verdict(good, 6.0, usual) == "sure"
     assert verdict(good, 1.0, 4 * usual) == "unlikely"
 
 

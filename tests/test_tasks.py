@@ -26,7 +26,7 @@ GUARDS = ("kfmaps.matching.match",)
 
 ROOT = Path(__file__).parents[1]
 DOCS = ROOT / "docs"
-ELSEWHERE = ("import bpy", "--morph", "pip install", "part.npz", ".xyz")
+ELSEWHERE = ("import bpy", "--morph", "pip install", "part.npz", ".xyz", "hero.glb")
 """Words of blocks that need another program, or files that are not there."""
 PAGES = sorted(page for page in DOCS.glob("*.md") if re.search(r"^(```python|kfmaps )", page.read_text(), re.MULTILINE))
 OWN_TESTS = ("index", "settings", "extend", "learning", "collections", "skulls")
