@@ -781,8 +781,8 @@ MUTANTS = tuple(
             "test_marks -k where_they_are_missed",
         ),
         (
-            "rejected = state.wrong & still_missed(",
-            "rejected = state.wrong | still_missed(",
+            "rejected = state.wrong & (state.wrong.all() | still_missed(",
+            "rejected = state.wrong | (state.wrong.all() | still_missed(",
             "test_marks -k doubted_no_longer",
         ),
         ("return share**2 * float(", "return share * float(", "test_marks -k far_as_they_reach"),

@@ -10,8 +10,10 @@ import pytest
 
 import kfmaps
 from kfmaps.datasets import symmetric_creature
+from kfmaps.fmap.convert import to_functional
 from kfmaps.geometry.geodesics import geodesic_distances
 from kfmaps.geometry.sampling import stratified_vertices
+from kfmaps.matching import match as matching
 from kfmaps.matching.score import SCORE, max_landmark_error, rejected_landmarks
 from kfmaps.matching.search import SearchResult, search_map
 
@@ -70,3 +72,14 @@ def test_landmarks_may_be_farther_off_between_shapes_that_differ_much() -> None:
     assert limits == [SCORE.max_isometric_landmark_error, SCORE.max_landmark_error]
     errors = np.array([0.0, 0.2, 0.01])
     assert [rejected_landmarks(errors, limit).tolist() for limit in limits] == [[False, True, False], [False] * 3]
+
+
+def test_a_landmark_that_the_finished_map_keeps_to_is_not_named(creature: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The search has rejected a right and a wrong one."""
+    source, target, pair, right = creature
+    given = right[:2].copy()
+    given[1, 0] = np.abs(geodesic_distances(source.mesh, right[1:2, 0])[0] - 0.3).argmin()
+    C = np.asarray(to_functional(pair.truth, source.basis.truncate(60), target.basis.truncate(60)))
+    found = SearchResult(C, "a", None, "sure", quality=-1.0, rejected_landmarks=np.arange(2))
+    monkeypatch.setattr(matching, "search_map", lambda *_a, **_m: found)
+    assert kfmaps.match(source, target, landmarks=given).score.rejected_landmarks.tolist() == [1]

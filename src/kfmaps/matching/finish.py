@@ -12,6 +12,7 @@ from kfmaps._progress import Progress, StageTimer
 from kfmaps.config import Config
 from kfmaps.fmap.convert import check_point_map, to_functional
 from kfmaps.fmap.descriptor_guidance import DescriptorGuidance
+from kfmaps.geometry.geodesics import geodesic_distances
 from kfmaps.geometry.mesh import MIRROR, Mesh, vertex_areas
 from kfmaps.matching.fit import Fit
 from kfmaps.matching.landmark_evidence import build_guidance
@@ -19,7 +20,7 @@ from kfmaps.matching.postprocess import refine_map
 from kfmaps.matching.reindexing import VertexReindexing, reindexing
 from kfmaps.matching.result import Match
 from kfmaps.matching.result_groups import ONE_FIT, MatchFit, MatchPart, MatchRegistration, MatchScore, ShapeFile
-from kfmaps.matching.score import SCORE
+from kfmaps.matching.score import SCORE, max_landmark_error
 from kfmaps.matching.search import SearchResult, adapt_refinement, adapt_registration
 from kfmaps.registration.accept import register_map
 from kfmaps.shape import Shape, check_prepared, mirror_image
@@ -112,12 +113,26 @@ def refine_and_register(task: MatchTask, found: SearchResult, guidance: Descript
         source_to_target=None if backwards is None else pair.points_back(backwards),
         functional_map_back=refined.functional_map_back,
         score=MatchScore(
-            found.scores, found.quality, found.deformation_energy, found.initialization, found.rejected_landmarks
+            found.scores,
+            found.quality,
+            found.deformation_energy,
+            found.initialization,
+            _still_contradicted(task, found, final.target_to_source, shapes[0].mesh),
         ),
         registration=MatchRegistration(registered, final.fit),
         partial=task.partial,
         fit=_fit_of(one, found.functional_map, None if raw is None else pair.points(raw)),
     )
+
+
+def _still_contradicted(task: MatchTask, found: SearchResult, points: np.ndarray, source: Mesh) -> np.ndarray:
+    """Return those of the rejected landmarks (d,) that the finished map ``points (n_t,)`` contradicts too."""
+    rejected, pairs = found.rejected_landmarks, task.pair.landmarks(task.landmarks)
+    if len(rejected) == 0 or pairs is None or found.quality is None:
+        return rejected
+    places = pairs[rejected]
+    away = geodesic_distances(source, places[:, 0])[np.arange(len(places)), points[places[:, 1]]]
+    return rejected[away > max_landmark_error(found.quality)]
 
 
 def _doubt_exchanged(confidence: np.ndarray, points: np.ndarray, found: SearchResult, source: Mesh) -> np.ndarray:

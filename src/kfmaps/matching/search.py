@@ -117,6 +117,7 @@ class _Search:
     # Alternatives that were made on purpose, to the mirror image or with two limbs exchanged, and by how much the best
     # map precedes each.
     doubts: tuple[tuple[Candidate, float], ...] = ()
+    alone: list[Candidate] = field(default_factory=list)
 
 
 def search_map(
@@ -163,9 +164,8 @@ def search_map(
         found: list[Candidate] = []
         if not len(pairs) or not wrong.all():
             found = candidates(source, target, plain, kept, seed, landmarks=pairs[~wrong], report=first, **more)
-        if alone:
-            found += rescore(alone, kept.whole, config.threads)
-        return _rank(replace(base, wrong=wrong, samples=kept, found=found))
+        free = rescore(alone, kept.whole, config.threads) if alone else []
+        return _rank(replace(base, wrong=wrong, samples=kept, found=[*found, *free], alone=free))
 
     state = search_with(none)
     if len(pairs) and (wrong := _contradicted_landmarks(state)).any():
@@ -317,13 +317,16 @@ def _contradicted_landmarks(state: _Search) -> np.ndarray:
         return wrong
     missed_by_first = ignore_landmarks(first, whole, threads).landmark_errors
     far = missed_by_first > max_landmark_error(first.quality.score)
+    if 2 * far.sum() > len(far):
+        far = np.ones(len(far), dtype=bool)  # of sides that were exchanged those near the middle would mislead too
     ahead = _without_evidence(first).score - _without_evidence(best).score
     return far if ahead > SCORE.close_margin or not (far & (missed <= limit)).any() else wrong
 
 
 def _best_by_surface(state: _Search) -> list[Candidate]:
-    """Return the distinct candidates, best first, ranked as if there were no landmarks."""
-    found = [replace(c, landmark_errors=np.zeros(0)) for c in state.found]
+    """Return the distinct candidates that were found without landmarks, best first, ranked without them."""
+    found = state.found if state.orientation == "reversing" else state.alone
+    found = [replace(c, landmark_errors=np.zeros(0)) for c in found or state.found]
     return ranking(found, state.samples.whole, state.copies, state.config.threads)
 
 
@@ -345,7 +348,7 @@ def _to_result(state: _Search, best: Candidate, rest: list[Candidate]) -> Search
     margin = max(min(margins, default=np.inf), 0.0)
     score = best.quality.score
     evidence = score, margin, best.deformation_energy, backed_by(best, samples, config.threads)
-    rejected = state.wrong & still_missed(best, samples, state.evidence)
+    rejected = state.wrong & (state.wrong.all() | still_missed(best, samples, state.evidence))
     bases, maps = (state.source.basis, state.target.basis), [c.functional_map for c in others]
     extremities = None
     if score < SCORE.non_isometric_score:
