@@ -62,6 +62,7 @@ def spoil(pairs: np.ndarray, way: str, count: int, target: kfmaps.Shape, rng: np
         made[bad, 1] = np.roll(pairs[bad, 1], 1)
     elif way == "sides":
         config = kfmaps.Config()
+        assert config.search is not None
         turned = replace(config, threads=1, search=replace(config.search, orientation="reversing"))
         made[:, 1] = kfmaps.match(target, target, turned).target_to_source[pairs[:, 1]]
     return made
@@ -80,7 +81,7 @@ def rows_of(job: Job) -> list[dict]:
         pairs = pairs[np.unique(pairs[:, 1], return_index=True)[1]] if way == "sides" else pairs
         wrong = ~(pairs[:, None] == right).all(axis=2).any(axis=1)
         start = time.process_time()
-        found = kfmaps.match(*shapes, config, landmarks=pairs if count else None)
+        found = kfmaps.match(shapes[0], shapes[1], config, landmarks=pairs if count else None)
         seconds = time.process_time() - start
         errors = 100 * kfmaps.geodesic_errors(source, found.target_to_source[true_t], true_s)
         alone = errors if count == 0 else alone
