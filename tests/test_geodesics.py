@@ -10,7 +10,7 @@ from scipy.spatial import Delaunay
 from conftest import blob, fibonacci_sphere
 from kfmaps._arrays import InvalidInput
 from kfmaps.geometry.geodesic_graph import geodesic_graph
-from kfmaps.geometry.geodesics import _SEARCHES, farthest_geodesic, geodesic_distance_pairs, geodesic_distances
+from kfmaps.geometry.geodesics import _SEARCHES, _blocks, farthest_geodesic, geodesic_distance_pairs, geodesic_distances
 from kfmaps.geometry.mesh import Mesh
 
 GUARDS = ("kfmaps.geometry.geodesic_graph", "kfmaps.geometry.geodesics")
@@ -166,6 +166,16 @@ def test_pairs_are_entries_of_the_matrix(method: str) -> None:
     assert np.isinf(pairs).any()
     assert (pairs == 0).any()
     assert geodesic_distance_pairs(mesh, [], [], method).shape == (0,)
+
+
+def test_pairs_are_searched_from_64_sources_at_a_time() -> None:
+    rng = np.random.default_rng(0)
+    sources, reach = rng.integers(0, 200, 1000), rng.uniform(size=1000)
+    blocks = _blocks(np.arange(1000), sources, reach)
+    np.testing.assert_array_equal(np.sort(np.concatenate(blocks)), np.arange(1000))
+    sizes = [len(np.unique(sources[block])) for block in blocks]
+    assert sum(sizes) == len(np.unique(sources))
+    assert sorted(sizes)[1:] == [64] * (len(sizes) - 1)
 
 
 def test_far_pairs_are_found_too() -> None:

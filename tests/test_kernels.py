@@ -138,6 +138,13 @@ def test_identical_descriptors_do_not_break_the_automatic_gamma():
     assert np.isfinite(kernel.gamma)
 
 
+def test_rounding_between_equal_descriptors_sets_no_width():
+    """However large they are."""
+    rounded = 1e4 * (1 + 5e-13 * (np.arange(6) % 2))
+    kernel: Any = resolve_kernel(Gaussian(), rounded[:, None], 0.7)
+    assert kernel.gamma == 0.7
+
+
 def test_how_many_descriptors_a_kernel_takes():
     metric = Metric(Gaussian(1.0), (1.0, 2.0))
     assert descriptor_width(Gaussian()) is None
