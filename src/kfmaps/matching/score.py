@@ -174,8 +174,8 @@ class Scoring:
     """Margin of the first two candidates below which their SHOT errors are compared."""
     close_margin: float = 1.0
     """Margin of the first two candidates below which they are registered again with more points."""
-    repairable_margin: float = 3.5
-    """Margin behind which a candidate is not repaired: of 34 pairs none that was farther behind became the better one
+    repairable_margin: float = 6.0
+    """Margin behind which a candidate is not repaired: repairs have gained up to 10, and decide between front and back
     (research/subtraction.md)."""
     hopeless_margin: float = 5.0
     """Margin behind which a repaired candidate loses whatever its SHOT error."""
