@@ -215,3 +215,11 @@ def test_a_component_that_nothing_is_mapped_to_goes_with_what_is_beside_it(pair:
     assert np.abs(found.vertices[: len(body.vertices)] - moved.vertices).max() < 0.01
     assert np.linalg.norm(found.vertices[len(body.vertices) :].mean(axis=0) - moved.vertices[0]) < 0.2
     assert alone.bending < 1e-3
+
+
+def test_an_obtuse_corner_takes_one_half_from_an_edge_at_most():
+    """Cotangents are limited to −1: the edge between corners of cotangents −3 and 3 has (−1 + 3) / 2."""
+    height = {-3.0: np.sqrt(10.0) - 3.0, 3.0: np.sqrt(10.0) + 3.0}  # over the middle of an edge of length 2
+    vertices = np.array([[-1.0, 0, 0], [1.0, 0, 0], [0, height[-3.0], 0], [0, -height[3.0], 0]])
+    energy = build_arap(Mesh(vertices, np.array([[0, 1, 2], [1, 0, 3]])))
+    assert energy.laplacian[0, 1] == pytest.approx(-1.0)

@@ -17,7 +17,7 @@ from kfmaps.fmap.solvers import CG
 from kfmaps.fmap.zoomout import ZoomOut
 from kfmaps.geometry.basis import laplace_basis
 from kfmaps.geometry.geodesics import geodesic_distance_pairs
-from kfmaps.geometry.mesh import Mesh, unit_area
+from kfmaps.geometry.mesh import Mesh, unit_area, vertex_normals
 from kfmaps.geometry.sampling import SampledBasis, spectral_samples, stratified_samples, stratified_vertices
 from kfmaps.kernels.landmark_selection import farthest_descriptors
 from kfmaps.matching.fit import fit, fit_points
@@ -79,6 +79,20 @@ def test_shot_of_some_vertices_stands_for_all(pair, monkeypatch):
     np.testing.assert_allclose(np.linalg.norm(found, axis=1), 1.0, rtol=1e-6)
     away = np.linalg.norm(found - exact, axis=1).mean()
     assert 0 < away < 0.25 * np.linalg.norm(exact - exact[::-1], axis=1).mean()
+
+
+def test_shot_between_samples_is_the_mean_by_inverse_squared_distances(pair, monkeypatch):
+    shape = pair[0]
+    exact = _local_descriptors(shape.mesh, shape.basis, 0.15)
+    monkeypatch.setattr(fit_shape, "DESCRIBED", 800)
+    found = _local_descriptors(shape.mesh, shape.basis, 0.15)
+    chosen = stratified_vertices(shape.basis, 800, 0)
+    places = np.hstack([shape.mesh.vertices, fit_shape._NORMALS * vertex_normals(shape.mesh)])
+    for v in np.setdiff1d(np.arange(len(places)), chosen)[::50]:
+        squares = ((places[chosen] - places[v]) ** 2).sum(axis=1)
+        near = np.argsort(squares)[:3]
+        mean = (exact[chosen[near]] / squares[near][:, None]).sum(axis=0)
+        np.testing.assert_allclose(found[v], mean / np.linalg.norm(mean), atol=1e-5)
 
 
 @pytest.mark.parametrize("count", [100, 300])
