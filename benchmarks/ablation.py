@@ -40,6 +40,7 @@ from kfmaps.matching import (
     sample_pair,
     search,
 )
+from kfmaps.matching import match as matching
 
 Patch = tuple[Any, str, Any]
 """A module, one of its names, and what stands there instead."""
@@ -85,6 +86,7 @@ PIECES: dict[str, list[Patch]] = {
         (registration_refine, name, n) for name, n in (("FIRST", 1), ("BENT", 1), ("PAIRED", 0))
     ],
     "repairs": [(search, "refine_by_registration", lambda ranked, *_: (ranked, ()))],
+    "second finish where torn": [(matching, "_try_others", lambda _task, _found, best: best)],
     "exchanged limbs": [(search, "compare_exchanged", lambda best, *_, **__: [best])],
     "guidance by extremities": [(search, "extremity_vertices", lambda *_: None)],
     "linear guidance of 32 for one of 96": _guided(lambda s, t: guidance.descriptor_guidance(s, t, 96)),

@@ -722,6 +722,11 @@ MUTANTS = tuple(
         ("NORMALS * normals, _REST_WEIGHT", "0 * normals, _REST_WEIGHT", "test_landing -k nearly_touch"),
         ("cheaper = _cost(likely, there[faces], wanted) <", "cheaper = 0 <=", "test_landing -k thin"),
         (
+            "return score - numbers.w_torn * (torn_area or 0.0)",
+            "return score",
+            "test_alternate -k worth_more",
+        ),
+        (
             "replace(found, functional_map=found.functional_map.T) if swapped else found",
             "found",
             "test_alternate -k registered_on_proxies",
@@ -729,6 +734,11 @@ MUTANTS = tuple(
         ("_repair_best(state) if unduly else state", "state", "test_alternate -k unduly_is_repaired"),
         ("(i == k) != (j == n)", "i == k and j != n", "test_alternate -k heard_once"),
         ("[match for match in known if match], PAIRED)", "[], PAIRED)", "test_alternate -k begun_with"),
+        (
+            "[c for c in state.ranked if map_distance(c, made, source) > SCORE.distinct_distance]",
+            "state.ranked",
+            "test_alternate -k turn_out",
+        ),
         (
             "local = np.log(np.maximum(arap_energy_per_vertex(energy, x)",
             "local = (np.maximum(arap_energy_per_vertex(energy, x)",

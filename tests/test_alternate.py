@@ -13,9 +13,9 @@ import kfmaps
 from kfmaps._arrays import NotConverged
 from kfmaps.fmap.convert import nearest, to_functional
 from kfmaps.fmap.descriptor_guidance import DescriptorGuidance
-from kfmaps.geometry.mesh import MIRROR, Mesh
+from kfmaps.geometry.mesh import MIRROR, Mesh, vertex_areas
+from kfmaps.matching import finish, ranking
 from kfmaps.matching import match as matching
-from kfmaps.matching import ranking
 from kfmaps.matching import registration_refine as mending
 from kfmaps.matching import search as choose
 from kfmaps.matching.candidates import map_distance, score_maps
@@ -27,10 +27,12 @@ from kfmaps.matching.extremity_matching import (
     unused_matches,
     vertices_of_match,
 )
+from kfmaps.matching.finish import better_match
 from kfmaps.matching.initial_maps import paired_map
 from kfmaps.matching.quality import sample_for_scoring
 from kfmaps.matching.ranking import ProxyCache, rerank_near_duplicates
 from kfmaps.matching.registration_refine import refine_by_registration, repairable
+from kfmaps.matching.result_groups import MatchRegistration
 from kfmaps.matching.sample_pair import mirrored_pair, two_level_samples
 from kfmaps.matching.score import SCORE, Candidate, Quality
 from kfmaps.registration import alternating_registration as alternate
@@ -169,7 +171,8 @@ def test_mending_tells_how_far_it_is(creatures, monkeypatch):
     assert shares == pytest.approx([0.0, *once])
 
 
-def test_the_target_is_registered_and_stays_where_it_falls_apart(creatures, monkeypatch):
+def test_the_target_is_bent_and_the_source_where_that_is_asked_for(creatures, monkeypatch):
+    """Of the winner alone, and not where a copy falls apart."""
     source, target, truth = creatures
     on = two_level_samples(source, target, (sample_for_scoring(source, 200), sample_for_scoring(target, 200))).whole
     C = np.asarray(to_functional(truth, source.basis.truncate(40), target.basis.truncate(40)))
@@ -178,24 +181,35 @@ def test_the_target_is_registered_and_stays_where_it_falls_apart(creatures, monk
 
     def made(C, on, led, _report):
         calls.append((on.source is target, led.source.shape[0], np.array_equal(C, ranked[0].functional_map.T)))
-        if apart:
+        if (on.source is target) in apart:
             raise NotConverged("it fell apart")
         return alternate.AlternatingResult(C, on.source.mesh.vertices)
 
-    def repaired():
-        nowhere = np.zeros((0, 2), dtype=np.int64)
-        (found,) = refine_by_registration(ranked, on, ProxyCache.of(source, target, on), nowhere, 1)
-        return found
+    def end():
+        found, retries = refine_by_registration(
+            ranked, on, ProxyCache.of(source, target, on), np.zeros((0, 2), dtype=np.int64), 1
+        )
+        assert len(found) == 1
+        return found[0], retries
 
     monkeypatch.setattr(mending, "alternating_registration", made)
     monkeypatch.setattr(mending, "match_extremities", lambda *_: [])
-    found, n_t = repaired(), len(target.mesh.vertices)
+    first, retries = end()
+    n_s, n_t = len(source.mesh.vertices), len(target.mesh.vertices)
     assert calls == [(True, n_t, True)]
-    assert found.swapped
-    assert len(np.asarray(found.registered_vertices)) == n_t
-    np.testing.assert_array_equal(found.functional_map, ranked[0].functional_map)
+    (way,) = retries  # nothing else was mended
+    assert isinstance(way, mending.SwappedRepair)
+    other = way.make()
+    assert other is not None
+    assert calls[1:] == [(False, n_s, False)]
+    for one, backwards, count in ((first, True, n_t), (other, False, n_s)):
+        assert one.swapped == backwards
+        assert len(np.asarray(one.registered_vertices)) == count
+        np.testing.assert_array_equal(one.functional_map, ranked[0].functional_map)
+    apart.append(False)
+    assert way.make() is None
     apart.append(True)
-    assert repaired().registered_vertices is None
+    assert end()[0].registered_vertices is None
 
 
 def test_likely_pairings_are_begun_with_where_no_map_has_them(creatures, monkeypatch):
@@ -224,15 +238,17 @@ def test_likely_pairings_are_begun_with_where_no_map_has_them(creatures, monkeyp
     monkeypatch.setattr(mending, "alternating_registration", made)
     monkeypatch.setattr(mending, "vertices_of_match", tips_of)
     landmarks = np.zeros((0, 2), dtype=np.int64)
-    found = refine_by_registration(ranked, on, ProxyCache.of(source, target, on), landmarks, 1)
+    found, (other, _) = refine_by_registration(ranked, on, ProxyCache.of(source, target, on), landmarks, 1)
     names = {c.name for c in found}
+    assert isinstance(other, Candidate)
+    assert {found[0].name, other.name} == names
     assert len(calls) == 2  # the truth has the best pairing itself
     assert asked == [f"{match_of_map(ranked[0].points, on.source, on.target)}", f"{mirror}"]
     np.testing.assert_array_equal(begun[1].T, paired_map(mirror, on, len(begun[1])))
     assert names == {"truth", f"{mirror}"}
     monkeypatch.setattr(mending, "match_of_map", lambda *_: None)
     assert f"{mirror}" not in {
-        c.name for c in refine_by_registration(ranked, on, ProxyCache.of(source, target, on), landmarks, 1)
+        c.name for c in refine_by_registration(ranked, on, ProxyCache.of(source, target, on), landmarks, 1)[0]
     }
     assert len(calls) == 5
 
@@ -270,9 +286,14 @@ def test_what_goes_astray_stays_as_it_was(creatures, monkeypatch):
     monkeypatch.setattr(mending, "alternating_registration", lambda *_rest: astray)
     monkeypatch.setattr(mending, "match_extremities", lambda *_: [])
     nowhere = np.zeros((0, 2), dtype=np.int64)
-    (found,) = refine_by_registration(ranked, on, ProxyCache.of(source, target, on), nowhere, 1)
+    (found,), retries = refine_by_registration(ranked, on, ProxyCache.of(source, target, on), nowhere, 1)
     assert found.functional_map is ranked[0].functional_map
     assert found.registered_vertices is None
+    (way,) = retries
+    assert isinstance(way, mending.SwappedRepair)
+    made = way.make()
+    assert made is not None
+    assert not made.swapped
     # Looked at as closely as what it is compared with.
     assert found.deformation_energy is not None
     assert found.deformation_energy < 0.5
@@ -293,7 +314,7 @@ def test_what_goes_astray_one_way_is_mended_the_other(creatures, monkeypatch):
     monkeypatch.setattr(mending, "alternating_registration", made)
     monkeypatch.setattr(mending, "match_extremities", lambda *_: [])
     nowhere = np.zeros((0, 2), dtype=np.int64)
-    (found,) = refine_by_registration(ranked, on, ProxyCache.of(source, target, on), nowhere, 1)
+    (found,) = refine_by_registration(ranked, on, ProxyCache.of(source, target, on), nowhere, 1)[0]
     np.testing.assert_array_equal(found.functional_map, C)
     assert not found.swapped
     assert found.registered_vertices is source.mesh.vertices
@@ -383,6 +404,74 @@ def test_of_maps_that_are_alike_the_one_that_bends_less_is_found(creatures, monk
     found = choose.search_map(source, target, preserving)
     assert found.initialization == "alike"
     assert len(found.scores) == 1
+
+
+def test_the_match_that_is_worth_more_is_taken(creatures):
+    """Of two that both have a fit, by score and torn area together; the one taken tells the seconds of the whole."""
+    source, target, truth = creatures
+    one = finish.match_from_map(source, target, truth, initialization="a", quality=-9.0)
+    assert one.registration.report is not None
+
+    def made(score, share):
+        order = np.cumsum(vertex_areas(target.mesh)) <= share * vertex_areas(target.mesh).sum()
+        trust = np.where(order, 0.4, 0.9)
+        judged = replace(one.score, scores=(score,))
+        return replace(one, score=judged, local_confidence=trust, seconds={}, verdict=f"{share}")
+
+    known = replace(made(-9.0, 0.3), seconds=one.seconds)
+    for lost, taken in ((0.1 * SCORE.w_torn, 0.1), (0.3 * SCORE.w_torn, 0.3), (-1.0, 0.1)):
+        found = better_match(known, made(-9.0 - lost, 0.1))
+        assert found.verdict == f"{taken}"
+        assert found.seconds is one.seconds
+    refused = replace(made(-9.0, 0.1), precise_map=None)
+    assert better_match(known, refused).verdict == "0.1"
+    assert better_match(known, replace(refused, registration=MatchRegistration())) is known
+
+
+def test_a_match_finishes_all_ways_unless_it_is_hardly_torn(creatures, monkeypatch):
+    source, target, truth = creatures
+    C = np.asarray(to_functional(truth, source.basis.truncate(40), target.basis.truncate(40)))
+    other = choose.SearchResult(C, "other", None, "unlikely", quality=-9.0, scores=(-9.0,))
+    asked = []
+    ways: Any = (replace(other, registered_vertices=target.mesh.vertices, swapped=True), other, None)
+    monkeypatch.setattr(matching, "retry", lambda found, i, least: asked.append(least) or found.retries[i])
+    monkeypatch.setattr(matching, "search_map", lambda *_a, **_k: replace(other, initialization="one", retries=ways))
+    monkeypatch.setattr(matching, "better_match", lambda a, b: replace(b, seconds=a.seconds))
+    config = replace(kfmaps.Config(), registration=None)
+    for share, ends in ((0.5, "other"), (SCORE.max_torn_area, "one"), (None, "one")):
+        for module in (matching, finish):
+            monkeypatch.setattr(module, "torn_area_fraction", lambda _match, share=share: share)
+        found = kfmaps.match(source, target, config)
+        assert found.score.initialization == ends
+        assert [f"another way, {i}" in found.seconds for i in (1, 2)] == 2 * [ends == "other"]
+    assert asked == 3 * [-9.0 - 0.5 * SCORE.w_torn]
+
+
+def test_a_search_tells_what_else_may_turn_out_better(creatures, monkeypatch):
+    """Each where its score is above what is known; the alternatives of each differ from it."""
+    source, target, _ = creatures
+    judgement = Quality(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+    one = Candidate("0", np.eye(5), np.zeros(2000, dtype=int), judgement, deformation_energy=0.15)
+    ranked = [replace(one, name=str(i), points=np.full(2000, i), strain=i / SCORE.w_strain) for i in range(5)]
+    twin = replace(one, name="twin", strain=0.5 / SCORE.w_strain)
+    setting: Any = None
+    astray = mending.SwappedRepair(setting, twin, None, (0.0, 0.0))
+    monkeypatch.setattr(mending.SwappedRepair, "make", lambda _self: None)
+    monkeypatch.setattr(choose, "SCORE", replace(SCORE, repair_score=np.inf))
+    monkeypatch.setattr(choose, "refine_by_registration", lambda *_: (ranked, (ranked[2], twin, astray)))
+    monkeypatch.setattr(choose, "rerank_near_duplicates", lambda *_: ranked)
+    monkeypatch.setattr(choose, "alternative_maps", lambda maps, *_: tuple(range(len(maps))))
+    monkeypatch.setattr(choose, "map_distance", lambda a, b, _: float(a.points[0] != b.points[0]))
+    found = choose.search_map(source, target, kfmaps.Config())
+    made = [choose.retry(found, i, -np.inf) for i in range(3)]
+    best = [c.score for c in ranked]
+    assert [m and (m.initialization, m.scores[:2]) for m in (found, *made)] == [
+        ("0", (best[0], best[1])),
+        ("2", (best[2], best[0])),
+        ("twin", (twin.score, best[1])),
+        None,
+    ]
+    assert [choose.retry(found, i, best[1]) and "more" for i in range(3)] == [None, "more", None]
 
 
 def test_where_the_target_lies_leads_as_well(creatures):

@@ -161,14 +161,14 @@ def test_of_mended_maps_the_one_that_looks_right_comes_first(creatures, monkeypa
     monkeypatch.setattr(mending, "registered_shot_error", lambda *_what: 0.2)
     monkeypatch.setattr(mending, "alternating_registration", stays)
     nowhere = np.zeros((0, 2), dtype=np.int64)
-    ranked = refine_by_registration([bad, good], on, ProxyCache.of(source, target, on), nowhere, 1)
+    ranked = refine_by_registration([bad, good], on, ProxyCache.of(source, target, on), nowhere, 1)[0]
     assert [c.name for c in ranked] == ["bad", "truth"]
     made = alternate.AlternatingResult(good.functional_map, source.mesh.vertices)
     monkeypatch.setattr(mending, "alternating_registration", lambda C, *_what: replace(made, functional_map=C))
     monkeypatch.setattr(mending, "score_maps", lambda names, *_w: [bad if names[0][0] == "bad" else good])
     monkeypatch.setattr(mending, "score_registered", lambda c, *_what: replace(c, strain=0.0))
     monkeypatch.setattr(mending, "registered_shot_error", lambda C, *_what: 0.25 if C is bad.functional_map else 0.2)
-    found = refine_by_registration([bad, good], on, ProxyCache.of(source, target, on), nowhere, 1)
+    found = refine_by_registration([bad, good], on, ProxyCache.of(source, target, on), nowhere, 1)[0]
     assert [c.name for c in found] == ["truth", "bad"]
     assert [c.shot_error for c in found] == pytest.approx([0.0, 0.05])
 

@@ -310,7 +310,7 @@ def test_landmarks_lead_less_where_shapes_differ_much(creatures, monkeypatch) ->
 
 
 def test_what_is_mended_keeps_to_landmarks(creatures, monkeypatch) -> None:
-    """With those that are not doubted."""
+    """Each way round, with those that are not doubted."""
     source, target, truth = creatures
     monkeypatch.setattr(ranks, "proxy_pair", lambda *pair, **_shot: proxy_pair(*pair))
     monkeypatch.setattr(mending, "registered_shot_error", lambda *_what: 0.2)
@@ -331,10 +331,13 @@ def test_what_is_mended_keeps_to_landmarks(creatures, monkeypatch) -> None:
 
     monkeypatch.setattr(mending, "build_guidance", lead)
     monkeypatch.setattr(mending, "alternating_registration", made)
-    mending.refine_by_registration(ranked, on, ProxyCache.of(source, target, on), at, 1)
-    ((t, s),) = begun
-    np.testing.assert_array_equal(np.stack([s, t], axis=1), at)
-    assert [weight for _, weight in leads] == [LANDMARK_WEIGHT_UNLIKE]
+    (way,) = mending.refine_by_registration(ranked, on, ProxyCache.of(source, target, on), at, 1)[1]
+    assert isinstance(way, mending.SwappedRepair)
+    way.make()
+    (t, s), (s_again, t_again) = begun
+    for there, here in ((s, t), (s_again, t_again)):
+        np.testing.assert_array_equal(np.stack([there, here], axis=1), at)
+    assert [weight for _, weight in leads] == [LANDMARK_WEIGHT_UNLIKE, LANDMARK_WEIGHT_UNLIKE]
     assert all(np.array_equal(told, at) for told, _ in leads)
 
 

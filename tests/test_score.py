@@ -18,6 +18,7 @@ from kfmaps.matching.score import (
     placement_score,
     probability,
     select_distinct,
+    torn_score,
     verdict,
 )
 
@@ -82,9 +83,14 @@ def test_every_weight_of_a_part_counts(weight: str) -> None:
 
 
 def test_the_tables_name_all_weights() -> None:
-    named = {*MEASURES, *CANDIDATE_WEIGHTS}
+    named = {*MEASURES, *CANDIDATE_WEIGHTS, "w_torn"}
     assert {f.name for f in fields(SCORE) if f.name.startswith("w_")} == named
     assert {f.name for f in fields(SCORE.part) if f.name.startswith("w_")} == set(PART_WEIGHTS)
+
+
+def test_torn_area_costs() -> None:
+    assert torn_score(-9.0, 0.1) == pytest.approx(-11.5)
+    assert torn_score(-9.0, None) == torn_score(-9.0, 0.1, without("w_torn")) == -9.0
 
 
 def test_what_is_not_known_costs_nothing() -> None:

@@ -20,7 +20,7 @@ from kfmaps.matching.postprocess import refine_map
 from kfmaps.matching.reindexing import VertexReindexing, reindexing
 from kfmaps.matching.result import Match
 from kfmaps.matching.result_groups import ONE_FIT, MatchFit, MatchPart, MatchRegistration, MatchScore, ShapeFile
-from kfmaps.matching.score import SCORE, max_landmark_error
+from kfmaps.matching.score import SCORE, max_landmark_error, torn_score
 from kfmaps.matching.search import SearchResult, adapt_refinement, adapt_registration
 from kfmaps.registration.accept import register_map
 from kfmaps.shape import Shape, check_prepared, mirror_image
@@ -192,6 +192,34 @@ def match_from_map(
     found = SearchResult(C, initialization, None, verdict, confidence, orientation=orientation, quality=quality)
     result = refine_and_register(task, found, build_guidance(*shapes, found.landmarks))
     return replace(result, alternatives=alternatives)
+
+
+def better_match(one: Match, other: Match) -> Match:
+    """The ``other`` of two matches of the same shapes where it is worth more, else ``one``; with its seconds.
+
+    Between shapes of other proportions distances nearby change everywhere; after the non-rigid fit they are kept badly
+    only where a limb is torn or has been sent elsewhere, which no score of the search tells so well. Without that fit
+    nothing can be told.
+    """
+    if torn_area_fraction(one) is None or torn_area_fraction(other) is None or final_score(other) <= final_score(one):
+        return one
+    return replace(other, seconds=one.seconds)
+
+
+def final_score(match: Match) -> float:
+    """The score of a match that a search has found, less the cost of its torn area."""
+    return torn_score(match.score.scores[0], torn_area_fraction(match))
+
+
+def torn_area_fraction(match: Match) -> float | None:
+    """The share of the target around which a match with a non-rigid fit keeps distances badly, from 0 to 1.
+
+    Where the fit was refused that of the map before it, which is more. ``None`` where none was made, before which
+    distances between shapes of other proportions are kept badly everywhere.
+    """
+    if match.registration.report is None or match._reindexing is None:
+        return None
+    return low_confidence_area(match._reindexing.outside[1].mesh, match.local_confidence)
 
 
 def low_confidence_area(target: Mesh, local_confidence: np.ndarray) -> float:

@@ -12,7 +12,7 @@ from kfmaps._progress import Progress, StageTimer
 from kfmaps.config import Config
 from kfmaps.fmap.descriptor_guidance import DescriptorGuidance, combine_guidance
 from kfmaps.geometry.mesh import Mesh
-from kfmaps.matching.finish import MatchTask, refine_and_register
+from kfmaps.matching.finish import MatchTask, better_match, final_score, refine_and_register, torn_area_fraction
 from kfmaps.matching.fit import check_landmark_pairs, fit
 from kfmaps.matching.landmark_evidence import LANDMARK_WEIGHT, LANDMARK_WEIGHT_UNLIKE, build_guidance
 from kfmaps.matching.memory import check_match_memory
@@ -22,7 +22,8 @@ from kfmaps.matching.quality import ShapeSamples
 from kfmaps.matching.reindexing import reindexing
 from kfmaps.matching.result import Match
 from kfmaps.matching.result_groups import ONE_FIT, MatchPart, MatchRegistration, MatchScore
-from kfmaps.matching.search import SearchResult, near_isometric, search_map
+from kfmaps.matching.score import SCORE
+from kfmaps.matching.search import SearchResult, near_isometric, retry, search_map
 from kfmaps.registration.alternating_registration import WEIGHT, position_normal_guidance
 from kfmaps.shape import Shape, prepare_both
 
@@ -87,7 +88,8 @@ def match(
             progress=progress,
             probes=None if asked else probes,  # they are of the shapes as they were given
         )
-    return refine_and_register(task, found, _search_guidance(found, task.shapes(found.orientation)))
+    best = refine_and_register(task, found, _search_guidance(found, task.shapes(found.orientation)))
+    return _try_others(task, found, best)
 
 
 def _match_part(task: MatchTask, landmarks: np.ndarray | None) -> tuple[PartialMatch | None, MatchPart]:
@@ -139,6 +141,21 @@ def _fit_once(task: MatchTask, landmarks: np.ndarray | None, descriptors: tuple[
     verdict = "unchecked" if landmarks is None else "landmarks"
     pairs = check_landmark_pairs(landmarks, *shapes)
     return SearchResult(one.functional_map, ONE_FIT, one, verdict, landmarks=pairs)
+
+
+def _try_others(task: MatchTask, found: SearchResult, best: Match) -> Match:
+    """The best of a finished map and, where it is torn, the others that the search offers."""
+    for i in range(len(found.retries)):
+        if (torn_area_fraction(best) or 0.0) <= SCORE.max_torn_area:
+            break
+        with task.clock(f"another way, {i + 1}"):
+            # With a lower score it would not be better even if nothing of it were torn.
+            other = retry(found, i, final_score(best))
+            if other is not None:
+                apart = replace(task, clock=StageTimer(task.clock.report))
+                guidance = _search_guidance(other, task.shapes(other.orientation))
+                best = better_match(best, refine_and_register(apart, other, guidance))
+    return best
 
 
 def _search_guidance(found: SearchResult, shapes: tuple[Shape, Shape]) -> DescriptorGuidance | None:

@@ -44,6 +44,8 @@ FIRST = 2
 """Maps that are repaired, whether or not they differ."""
 PAIRED = 3
 """Likeliest extremity matches that repairs begin with, where no map that is repaired has the same."""
+NEXT = 2
+"""Repaired candidates after the best that may turn out to be less torn than it."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,6 +61,24 @@ class RepairSetting:
     shot: DescriptorGuidance | None
 
 
+@dataclass(frozen=True, eq=False)
+class SwappedRepair:
+    """A repair that was not made: of the ``candidate``, the source registered onto the target.
+
+    ``reference``: strain and SHOT error of the best repaired candidates, over which its own count.
+    """
+
+    setting: RepairSetting
+    candidate: Candidate
+    extremities: ExtremityVertices | None
+    reference: tuple[float, float]
+
+    def make(self) -> Candidate | None:
+        """Return the repaired candidate; ``None`` where the registration falls apart."""
+        made = _repair(self.setting, self.candidate, self.extremities, swapped=False)
+        return made and normalize_errors(_with_shot_error(self.setting, made), self.reference)
+
+
 def refine_by_registration(
     ranked: list[Candidate],
     samples: SamplePair,
@@ -66,17 +86,20 @@ def refine_by_registration(
     landmarks: np.ndarray,
     threads: int | None = None,
     progress: Progress | None = None,
-) -> list[Candidate]:
-    """Repair the best candidates between unlike shapes, and return all, ranked again.
+) -> tuple[list[Candidate], tuple[Candidate | SwappedRepair, ...]]:
+    """Repair the best candidates between unlike shapes, and rank them again.
 
     The target is registered onto the source, so that each direction has its say: what follows registers the source onto
     the target. Where that has made a candidate worse, it counts as the best of that, of the source registered onto the
     target, and of what it was. Repairs keep to the extremities that a map takes to each other, so the likeliest matches
     of extremities that none of the maps has begin repairs too.
+
+    Returns ``ranked``; ``retries``: what may turn out better than the first on all vertices: the next that were
+    repaired, and the first repaired the other way round.
     """
     finer = copies.fine
     if finer is None:
-        return ranked
+        return ranked, ()
     source, target = copies.source, copies.image
     pair = registration_pair(source, target, finer.copies, landmarks)
     setting = RepairSetting(
@@ -96,10 +119,14 @@ def refine_by_registration(
 
     report(0, 0.0)
     made = parallel(repair_one, range(len(begun)), threads)
+    which = [i for i, c in enumerate(made) if c is not None]
     tried = compared([c for c in made if c is not None], partial(_with_shot_error, setting), threads)
     least = reference_values(tried, min)
     order = in_order([normalize_errors(c, least) for c in tried])
-    return distinct_maps(order + rest, samples.source, SCORE.distinct_distance)
+    first = begun[which[next(i for i, c in enumerate(tried) if c.functional_map is order[0].functional_map)]]
+    nexts = distinct_maps(order, samples.source, SCORE.twin_distance, 1 + NEXT)[1:]
+    retries = (*nexts, SwappedRepair(setting, *first, least))
+    return distinct_maps(order + rest, samples.source, SCORE.distinct_distance), retries
 
 
 def _repair(

@@ -117,6 +117,9 @@ class Scoring:
     """Weight of the SHOT error after registration, where it is known; right and wrong maps differ by 0.02 and more."""
     w_landmark: float = 2.0
     """Cost of a landmark whose image is simply wrong."""
+    w_torn: float = 25.0
+    """Cost where all of the target is torn. With less than 20 a torn map of a dog and a cat stays, with more than 35
+    front and back of a gorilla may change."""
     moved_distance: float = 0.15
     """Distance from which an alternative takes a vertex elsewhere."""
     torn_confidence: float = 0.5
@@ -151,6 +154,8 @@ class Scoring:
     duplicate_distance: float = 0.005
     """Distance up to which maps near the best are registered too: of two legs that touch, it is as far from one to the
     other."""
+    twin_distance: float = 0.03
+    """Distance up to which two registered maps are one: a limb that lies elsewhere makes 0.05."""
     early_exit_score: float = -7.0
     """:attr:`Quality.score` of a rough map from which fits and perturbations are left out: people have −4 to −10,
     animals of different kinds −8.5 and less."""
@@ -291,6 +296,11 @@ def candidate_score(candidate: Candidate, numbers: Scoring = SCORE) -> float:
     evidence = quality_score(candidate.quality, numbers) - extremities + deformed + strained + differs
     missed = float(np.minimum(candidate.landmark_errors / numbers.max_landmark_error, 1.0).sum())
     return round(evidence - numbers.w_landmark * missed, 9)
+
+
+def torn_score(score: float, torn_area: float | None, numbers: Scoring = SCORE) -> float:
+    """Return the score of a finished map: that of its candidate less the cost of the share of torn area."""
+    return score - numbers.w_torn * (torn_area or 0.0)
 
 
 def placement_score(evidence: PartEvidence, numbers: PartScoring = SCORE.part) -> float:

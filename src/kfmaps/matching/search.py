@@ -43,7 +43,7 @@ from kfmaps.matching.learned_kernel import drop_learned, learned_candidates, lea
 from kfmaps.matching.limb_exchange import compare_exchanged
 from kfmaps.matching.quality import ShapeSamples, sample_for_scoring, subsample
 from kfmaps.matching.ranking import ProxyCache, merge_alternatives, ranking, rerank_near_duplicates, with_bending
-from kfmaps.matching.registration_refine import refine_by_registration, register_map_on_proxies
+from kfmaps.matching.registration_refine import SwappedRepair, refine_by_registration, register_map_on_proxies
 from kfmaps.matching.sample_pair import COARSE_SAMPLES as FEW
 from kfmaps.matching.sample_pair import SamplePair, TwoLevelSamples, drop_landmarks, mirrored_pair, two_level_samples
 from kfmaps.matching.score import (
@@ -96,6 +96,8 @@ class SearchResult:
     # well.
     registered_vertices: np.ndarray | None = None
     swapped: bool = False  # whether ``registered_vertices`` are the target's vertices on the source instead, (n_t, 3)
+    # What may turn out better on all vertices; :func:`retry` makes a result of it.
+    retries: tuple[Candidate | SwappedRepair, ...] = ()
     _search: _Search | None = None
 
 
@@ -170,7 +172,7 @@ def search_map(
     state = search_with(none)
     if len(pairs) and (wrong := _contradicted_landmarks(state)).any():
         state = search_with(wrong)
-    ranked, samples = state.ranked, state.samples.whole
+    ranked, samples, retries = state.ranked, state.samples.whole, ()
     if learned and (state.orientation == "preserving" or config.search.orientation == "reversing"):
         others = learned_candidates(source, target, config, state.samples, seed, given)
         ranked = merge_alternatives(ranked, others, samples, state.copies, config.threads)
@@ -180,9 +182,19 @@ def search_map(
     if _are_surfaces(samples) and ranked[0].quality.score < SCORE.repair_score:
         ranked = rerank_near_duplicates(ranked, state.found, samples, state.copies, config.threads)
         kept = pairs[~state.wrong]
-        ranked = refine_by_registration(ranked, samples, state.copies, kept, config.threads, report)
+        ranked, retries = refine_by_registration(ranked, samples, state.copies, kept, config.threads, report)
     state = replace(state, ranked=ranked)
-    return replace(_to_result(state, ranked[0], ranked[1:]), _search=state)
+    return replace(_to_result(state, ranked[0], ranked[1:]), retries=retries, _search=state)
+
+
+def retry(result: SearchResult, number: int, least: float) -> SearchResult | None:
+    """Return the result of one of ``result.retries``; ``None`` where it fails or its score is not above ``least``."""
+    one, state = result.retries[number], result._search
+    made = one.make() if isinstance(one, SwappedRepair) else one
+    if state is None or made is None or made.score <= least:
+        return None
+    source = state.samples.whole.source
+    return _to_result(state, made, [c for c in state.ranked if map_distance(c, made, source) > SCORE.distinct_distance])
 
 
 def _search_samples(
