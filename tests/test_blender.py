@@ -15,6 +15,7 @@ from characters import BODY, character
 from kfmaps.datasets.creature import DANCE
 from kfmaps.datasets.pairs import ExamplePair, posed_pair
 from kfmaps.fmap.precise import PointMap
+from kfmaps.io.bake import encode_png
 from kfmaps.io.convert import as_map
 from kfmaps.io.record import MeshFile
 
@@ -207,21 +208,13 @@ def test_the_operators_in_blender(addon: types.ModuleType) -> None:
     target = bpy.context.active_object
     for item in (source, target):  # an egg with a nose, so that there is one answer
         places = addon.numbers(item.data.vertices, "co", 3).astype(float)
-        places *= [1, 1.4, 2 + 0.6 * 0]
+        places *= [1, 1.4, 2]
         places[:, 1] += 0.8 * np.exp(-8 * ((places[:, 2] - 0.7) ** 2 + places[:, 0] ** 2)) * (places[:, 1] > 0)
         places[:, 0] += 0.5 * np.exp(-6 * ((places[:, 2] + 1.0) ** 2 + places[:, 1] ** 2)) * (places[:, 0] > 0)
         item.data.vertices.foreach_set("co", places.astype(np.float32).ravel())
     while target.data.uv_layers:
         target.data.uv_layers.remove(target.data.uv_layers[0])
-    image = bpy.data.images.new("skin", 64, 64)
-    material = bpy.data.materials.new("skin")
-    material.use_nodes = True
-    nodes = material.node_tree.nodes
-    node = nodes.new("ShaderNodeTexImage")
-    node.image = image
-    shader = next(one for one in nodes if one.type == "BSDF_PRINCIPLED")
-    material.node_tree.links.new(node.outputs["Color"], shader.inputs["Base Color"])
-    source.data.materials.append(material)
+    addon.write_picture(source, encode_png(np.full((64, 64, 3), 0.5)))
     source.select_set(True)
     target.select_set(True)
     bpy.context.view_layer.objects.active = target

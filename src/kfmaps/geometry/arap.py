@@ -8,12 +8,14 @@ that is bent alike has the same energy.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from scipy.sparse import coo_array, csr_array, diags_array
 
+from kfmaps.geometry.eigen.factorization import factorize
 from kfmaps.geometry.mesh import Mesh
 
 
@@ -70,6 +72,16 @@ def rotations(energy: ArapEnergy, x: np.ndarray) -> np.ndarray:
 def edge_covariances(energy: ArapEnergy, x: np.ndarray) -> np.ndarray:
     """Return ``Σ_j w_ij (x_i − x_j)(x̄_i − x̄_j)ᵀ`` of each vertex, (n, 3, 3), for positions ``x (n, 3)``."""
     return (energy.moments @ x).reshape(3, len(x), 3).transpose(1, 2, 0)
+
+
+def spread_matrices(energy: ArapEnergy, areas: np.ndarray, area: float) -> Callable[[np.ndarray], np.ndarray]:
+    """Return a function that spreads sums over vertices, matrices (n, 3, 3), over about ``area`` around each vertex.
+
+    It is one implicit step of heat flow, with ``areas (n,)`` of the vertices.
+    """
+    n = len(areas)
+    diffuse = factorize(area * energy.laplacian + diags_array(areas), ordered=False)
+    return lambda matrices: np.asarray(diffuse(np.ascontiguousarray(matrices.reshape(n, 9)))).reshape(n, 3, 3)
 
 
 def nearest_rotations(matrices: np.ndarray) -> np.ndarray:

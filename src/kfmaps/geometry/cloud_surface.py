@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 from scipy.sparse import coo_array, diags_array
 from scipy.sparse.linalg import cg
@@ -174,17 +176,18 @@ def _poles(
 
 def _roughness(points: np.ndarray, faces: np.ndarray) -> float:
     """Return the median height of corners over the mean of their neighbours, over the mean length of edges."""
-    height = ((_neighbour_means(points, faces) - points) * vertex_normals(Mesh(points, faces))).sum(axis=1)
+    mean = _neighbour_mean(faces, len(points))(points)
+    height = ((mean - points) * vertex_normals(Mesh(points, faces))).sum(axis=1)
     edge = np.linalg.norm(points[faces] - points[np.roll(faces, 1, axis=1)], axis=2).mean()
     return float(np.median(np.abs(height[np.unique(faces)])) / edge)
 
 
 def _smooth(points: np.ndarray, faces: np.ndarray) -> np.ndarray:
     """Return smoothed points; those of no face go amid the nearest three that have one."""
-    moved = points.copy()
+    moved, mean = points.copy(), _neighbour_mean(faces, len(points))
     for steps in _SMOOTHING:
         for step in steps:
-            moved += step * (_neighbour_means(moved, faces) - moved)
+            moved += step * (mean(moved) - moved)
     used = np.bincount(faces.ravel(), minlength=len(points)) > 0
     if not used.all():
         near = KDTree(points[used]).query(points[~used], k=3)[1]
@@ -192,11 +195,10 @@ def _smooth(points: np.ndarray, faces: np.ndarray) -> np.ndarray:
     return moved
 
 
-def _neighbour_means(points: np.ndarray, faces: np.ndarray) -> np.ndarray:
-    """Return the mean of each vertex's neighbours, (n, 3); of a vertex without faces its own position."""
+def _neighbour_mean(faces: np.ndarray, n: int) -> Callable[[np.ndarray], np.ndarray]:
+    """Return a function of positions (n, 3): the mean of each vertex's neighbours; without faces its own position."""
     a, b = faces.ravel(), np.roll(faces, 1, axis=1).ravel()
-    n = len(points)
     ones = np.ones(2 * len(a))
     links = coo_array((ones, (np.concatenate([a, b]), np.concatenate([b, a]))), shape=(n, n)).tocsr()
-    count = np.asarray(links.sum(axis=1)).ravel()
-    return np.where(count[:, None] > 0, (links @ points) / np.maximum(count, 1)[:, None], points)
+    count = np.asarray(links.sum(axis=1))[:, None]
+    return lambda points: np.where(count > 0, (links @ points) / np.maximum(count, 1), points)

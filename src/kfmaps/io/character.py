@@ -6,12 +6,10 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
-from scipy.sparse import diags_array
 
 from kfmaps.fmap.convert import nearest_reached
 from kfmaps.fmap.precise import PointMap, point_positions
-from kfmaps.geometry.arap import build_arap, edge_covariances, nearest_rotations
-from kfmaps.geometry.eigen.factorization import factorize
+from kfmaps.geometry.arap import build_arap, edge_covariances, nearest_rotations, spread_matrices
 from kfmaps.geometry.mesh import MIRROR, Mesh, vertex_areas
 from kfmaps.geometry.similarity import similarity
 from kfmaps.io.mapcontent import check_map
@@ -61,11 +59,8 @@ def local_similarities(source: Mesh, target: Mesh, places: PointMap, mirrored: b
     energy, areas = build_arap(Mesh(rest, target.faces)), vertex_areas(target)
     images = point_positions(places, source)
     area = areas.sum()
-    diffuse = factorize(
-        _SURROUNDINGS * area * energy.laplacian + diags_array(np.maximum(areas, 1e-9 * area)), ordered=False
-    )
-    both = [edge_covariances(energy, x) for x in (images, rest)]
-    moved, own = (np.asarray(diffuse(x.reshape(-1, 9))).reshape(-1, 3, 3) for x in both)
+    spread = spread_matrices(energy, np.maximum(areas, 1e-9 * area), _SURROUNDINGS * area)
+    moved, own = (spread(edge_covariances(energy, x)) for x in (images, rest))
     turns = nearest_rotations(moved)  # from the target's edges to those of their images
     sizes = np.trace(own, axis1=1, axis2=2), np.einsum("tij,tij->t", turns, moved)
     usual = sizes[0].sum() / max(sizes[1].sum(), 1e-300)

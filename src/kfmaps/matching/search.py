@@ -113,13 +113,13 @@ class _Search:
     wrong: np.ndarray  # (l,): those that the best candidate contradicts
     samples: TwoLevelSamples
     copies: ProxyCache
-    found: list[Candidate]  # all, and the distinct ones, best first
-    ranked: list[Candidate]
+    found: list[Candidate]  # all
+    ranked: list[Candidate]  # the distinct ones, best first
     orientation: str  # "preserving" or "reversing"
     # Alternatives that were made on purpose, to the mirror image or with two limbs exchanged, and by how much the best
     # map precedes each.
     doubts: tuple[tuple[Candidate, float], ...] = ()
-    alone: list[Candidate] = field(default_factory=list)
+    alone: list[Candidate] = field(default_factory=list)  # those of ``found`` that landmarks had no say in
 
 
 def search_map(

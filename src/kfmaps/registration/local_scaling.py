@@ -14,10 +14,8 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
-from scipy.sparse import diags_array
 
-from kfmaps.geometry.arap import ArapEnergy, edge_covariances
-from kfmaps.geometry.eigen.factorization import factorize
+from kfmaps.geometry.arap import ArapEnergy, edge_covariances, spread_matrices
 
 _DAMPING = 0.05  # damping towards a change of size alike in all directions: flat surroundings say nothing of the third
 _MIN_FACTOR, _MAX_FACTOR = 0.4, 2.5  # the smallest and largest factor
@@ -35,12 +33,7 @@ def local_scaling(energy: ArapEnergy, areas: np.ndarray, area: float) -> Callabl
     """
     if area == 0:
         return lambda _x, turns: turns
-    n = len(areas)
-    diffuse = factorize(area * energy.laplacian + diags_array(areas), ordered=False)
-
-    def averaged(matrices: np.ndarray) -> np.ndarray:
-        return np.asarray(diffuse(np.ascontiguousarray(matrices.reshape(n, 9)))).reshape(n, 3, 3)
-
+    averaged = spread_matrices(energy, areas, area)
     rest = averaged(edge_covariances(energy, energy.rest))
     size = np.maximum(np.trace(rest, axis1=1, axis2=2), 1e-300)
     inverse = np.linalg.inv(rest + (_DAMPING * size)[:, None, None] * np.eye(3))
