@@ -88,6 +88,13 @@ def test_a_killed_worker_costs_nothing(tmp_path: Path) -> None:
     log = (plan.folder / "run.log").read_text(encoding="utf-8")
     (line,) = [line for line in log.splitlines() if "a worker died" in line]
     assert killed[0].replace("-", " → ") in line
+    events = [json.loads(line) for line in (plan.folder / "run.jsonl").read_text(encoding="utf-8").splitlines()]
+    assert [f"{event['time']} {event['text']}" for event in events] == log.splitlines()
+    assert [event["tasks"] for event in events if event["event"] == "worker died"] == [[killed[0].replace("-", " → ")]]
+    pairs = [event for event in events if event["event"] == "pair"]
+    assert [event["finished"] for event in pairs] == list(range(1, 13))
+    assert pairs[-1]["remaining"] == 0
+    assert {event["event"] for event in events} == {"begin", "worker died", "pair", "end"}
     assert [r.status for r in outcome.results] == ["done"] * 12
     assert {Pair(r.source, r.target).key: r.attempts for r in outcome.results if r.attempts > 1} == {killed[0]: 2}
     assert len(list((plan.folder / "pairs").iterdir())) == outcome.matched == 12
@@ -158,7 +165,11 @@ def test_a_shape_that_kills_fails_its_pairs_alone(tmp_path: Path, monkeypatch: p
     plan = plan_of(write_collection(tmp_path / "c", 3), tmp_path / "out")
     told: list[RunStatus] = []
     log: list[str] = []
-    results = list(_match_pairs(plan, Machine("b1"), lambda status, _result: told.append(status), log.append))
+
+    def note(_event: str, text: str, **_: object) -> None:
+        log.append(text)
+
+    results = list(_match_pairs(plan, Machine("b1"), lambda status, _result: told.append(status), note))
     failed = [r for r in results if r.status == "failed"]
     assert {(r.source, r.target) for r in results if r.status == "done"} == {("b0", "b2"), ("b2", "b0")}
     assert len(failed) == 4

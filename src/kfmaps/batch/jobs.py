@@ -7,6 +7,7 @@ import logging
 import re
 import signal
 import socket
+import time
 import warnings
 from collections import deque
 from collections.abc import Callable, Generator, Iterator, Sequence
@@ -41,8 +42,8 @@ class WorkerPool:
     """Dask workers, started when they are first needed; a context that ends them.
 
     ``count``: worker processes on this machine; by default one for each core; ``scheduler``: address of a running Dask
-    scheduler, to use its workers instead; ``progress``: for :meth:`map`; ``log``: called with a line when a worker
-    dies.
+    scheduler, to use its workers instead; ``progress``: for :meth:`map`; ``log``: called when a worker dies
+    (:data:`kfmaps.batch.progress.Log`). ``begun`` has the number of each item under way, and when it began.
     """
 
     def __init__(
@@ -50,11 +51,12 @@ class WorkerPool:
         count: int | None = None,
         scheduler: str | None = None,
         progress: CountProgress | None = None,
-        log: Callable[[str], None] | None = None,
+        log: Callable[..., None] | None = None,
     ) -> None:
         self.count, self.scheduler = count, scheduler
         self.progress = progress or (lambda _what, _done, _of: None)
-        self.log = log or (lambda _line: None)
+        self.log = log or (lambda *_, **__: None)
+        self.begun: dict[int, float] = {}
         self._stack, self._client = ExitStack(), None
         self._labels: dict[Any, str] = {}
         self._deaths = 0
@@ -93,7 +95,8 @@ class WorkerPool:
         if message.get("action") == "remove-worker" and not message.get("expected"):
             self._deaths += 1
             tasks = sorted(self._labels[key] for key in message.get("processing-tasks", ()) if key in self._labels)
-            self.log(f"a worker died ({message.get('worker')}) while it had: {', '.join(tasks) or 'nothing to do'}")
+            worker, had = message.get("worker"), ", ".join(tasks) or "nothing to do"
+            self.log("worker died", f"a worker died ({worker}) while it had: {had}", worker=worker, tasks=tasks)
 
     def imap(
         self,
@@ -125,11 +128,11 @@ class WorkerPool:
                     number = waiting.popleft()
                     future = client.submit(function, items[number], pure=False)
                     self._labels[future.key] = label(items[number])
-                    running[future] = number
+                    running[future], self.begun[number] = number, time.monotonic()
                     finished.add(future)
                 future, value = next(finished)
                 number = running.pop(future)
-                del self._labels[future.key]
+                del self._labels[future.key], self.begun[number]
                 error = value[1] if future.status == "error" else value if isinstance(value, CancelledError) else None
                 if isinstance(error, CancelledError):
                     raise refuse("scheduler", "an answer", "none any more", "run the same command again to go on")
@@ -140,6 +143,7 @@ class WorkerPool:
                     continue
                 yield number, value if error is None else error
         finally:
+            self.begun.clear()
             with suppress(Exception):  # a scheduler that is lost has nothing to cancel
                 client.cancel(list(running), force=True)
 

@@ -22,7 +22,15 @@ from kfmaps._arrays import InvalidInput, KfmapsWarning
 from kfmaps._threads import one_blas_thread
 from kfmaps.batch.consistent import CONSISTENT, ConsistentResult, map_in_use
 from kfmaps.batch.plan import Plan
-from kfmaps.batch.results import BAD, CURVE_ERRORS, Result, fitting_limit, summarize, worst_first
+from kfmaps.batch.results import (
+    BAD,
+    CURVE_ERRORS,
+    Result,
+    describe_result,
+    fitting_limit,
+    summarize,
+    worst_first,
+)
 from kfmaps.batch.run_spec import read_run_spec
 from kfmaps.batch.shape_statistics import DIFFERENCE_KINDS, SHAPES, limit_shape_paths
 from kfmaps.batch.work import PairTask, map_path, true_vertices
@@ -259,9 +267,9 @@ def _pictures(
         if task is None or drawn == count:
             continue
         try:
-            new = {_caption(result): _picture(task, limit, map_in_use(Path(task.folder), task.key))}
+            new = {describe_result(result): _picture(task, limit, map_in_use(Path(task.folder), task.key))}
             if before is not None:
-                old = f"before: {_caption(before[result.source, result.target])}"
+                old = f"before: {describe_result(before[result.source, result.target])}"
                 new = {old: _picture(task, limit, map_path(Path(task.folder), task.key))} | {
                     f"now: {caption}, {result.changed}": png for caption, png in new.items()
                 }
@@ -270,13 +278,6 @@ def _pictures(
         pictures |= new
         drawn += 1
     return pictures
-
-
-def _caption(result: Result) -> str:
-    parts = [f"{result.source} → {result.target}"]
-    parts += [] if result.error_mean is None else [f"mean error {percent(result.error_mean)} {UNIT}"]
-    parts += [] if result.confidence is None else [f"{result.verdict} ({probability_text(result.confidence)})"]
-    return ", ".join(parts)
 
 
 def _picture(task: PairTask, limit: float, path: Path) -> bytes:

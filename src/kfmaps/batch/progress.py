@@ -2,20 +2,25 @@
 
 from __future__ import annotations
 
+import heapq
+import json
 import time
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
 from datetime import UTC, datetime
 from pathlib import Path
 
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TaskID, TextColumn, TimeElapsedColumn
 from rich.text import Text
 
-from kfmaps.batch.results import Result
+from kfmaps.batch.results import Result, describe_result
 from kfmaps.cli.terminal import Terminal
 from kfmaps.cli.words import format_seconds
 
-_LOG = "run.log"
+_LOG, _EVENTS = "run.log", "run.jsonl"
+_FIXED_VERTICES = 8000.0
+"""Vertices of a shape that take as long as what depends on no size. From docs/performance.md: 4.1 s of 5,000 vertices,
+8.7 of 20,000, 32 of 80,000."""
 _LINE_SECONDS = 30.0  # seconds between lines where there is no terminal
 
 
@@ -48,45 +53,82 @@ class RunStatus:
             return "time left: known after the first pair"
         pairs = "1 pair" if self.measured == 1 else f"{self.measured} pairs"
         workers = "1 worker" if self.workers == 1 else f"{self.workers} workers"
-        return f"about {format_seconds(self.remaining)} left (mean of {pairs} measured, {workers})"
+        return f"about {format_seconds(self.remaining)} left (from {pairs} and their sizes, {workers})"
 
 
 Callback = Callable[[RunStatus, Result | None], None]
 """Called with how the run stands, and with the result that has just come, if one has."""
 
 
-def remaining_seconds(
-    shape_seconds: Sequence[float], pair_seconds: Sequence[float], shapes_left: int, pairs_left: int, workers: int
-) -> float | None:
-    """Return what is left of each kind at its mean measured time, shared out between the workers.
+Log = Callable[..., None]
+"""Called with the name of an event, the event in words, and its values by name."""
 
-    Work that is under way counts as if it had not begun, so the estimate is rather too long. It is never less than the
-    time of one pair while a pair is left, and ``None`` when there is something left of which nothing was measured.
+
+@dataclass
+class WorkLeft:
+    """What is left of one kind of work, and how long it takes.
+
+    A piece is taken to last in proportion to its size and a fixed part, and each worker to take the next that waits.
+    One that is under way lasts for half its time at least: it may be slower than those that have finished.
+
+    Attributes
+    ----------
+    sizes : dict of int to float
+        Mean number of vertices of each piece that is left, in the order in which they are begun.
+    before : list of (size, seconds)
+        Measured by earlier runs; counts until a piece has finished.
+    finished : list of (size, seconds)
     """
-    total = longest = 0.0
-    for left, seconds in ((shapes_left, shape_seconds), (pairs_left, pair_seconds)):
-        if left and not seconds:
+
+    sizes: dict[int, float]
+    before: list[tuple[float, float]] = field(default_factory=list)
+    finished: list[tuple[float, float]] = field(default_factory=list)
+
+    @property
+    def measured(self) -> list[tuple[float, float]]:
+        """The pieces that the estimate rests on."""
+        return self.finished or self.before
+
+    def end(self, number: int, seconds: float | None = None) -> None:
+        """Note that a piece has ended, and after how many seconds; one without is not measured."""
+        size = self.sizes.pop(number)
+        if seconds:
+            self.finished.append((size, seconds))
+
+    def remaining(self, begun: Mapping[int, float], workers: int) -> float | None:
+        """Return the seconds that the rest takes; ``None`` where nothing has been measured.
+
+        ``begun``: seconds since each piece began that is under way; ``workers``: how many go on at once.
+        """
+        if not self.sizes:
+            return 0.0
+        if not self.measured:
             return None
-        if left:
-            mean = sum(seconds) / len(seconds)
-            total += left * mean
-            longest += mean if pairs_left else 0.0
-    return max(total / workers, longest)
+        pace = sum(seconds for _, seconds in self.measured) / sum(size + _FIXED_VERTICES for size, _ in self.measured)
+        lasts = {number: pace * (size + _FIXED_VERTICES) for number, size in self.sizes.items()}
+        free = [max(lasts[number] - seconds, lasts[number] / 2) for number, seconds in begun.items()]
+        free += [0.0] * (workers - len(free))
+        heapq.heapify(free)
+        for number, seconds in lasts.items():
+            if number not in begun:
+                heapq.heapreplace(free, free[0] + seconds)
+        return max(free)
 
 
-def log_to(folder: Path) -> Callable[[str], None]:
-    """Return a function that appends a line with the time to the log of an output folder."""
+def log_to(folder: Path) -> Log:
+    """Return a function that appends events with the time to both logs of an output folder.
 
-    def log(line: str) -> None:
-        with open(folder / _LOG, "a", encoding="utf-8") as file:
-            file.write(f"{datetime.now(UTC).isoformat(timespec='seconds')} {' '.join(line.split())}\n")
+    ``run.log`` has a line of words for each event, ``run.jsonl`` a JSON object that has its values too.
+    """
+
+    def log(event: str, text: str, **values: object) -> None:
+        now, text = datetime.now(UTC).isoformat(timespec="seconds"), " ".join(text.split())
+        entry = json.dumps({"time": now, "event": event, "text": text, **values})
+        for name, line in ((_LOG, f"{now} {text}"), (_EVENTS, entry)):
+            with open(folder / name, "a", encoding="utf-8") as file:
+                file.write(line + "\n")
 
     return log
-
-
-def failure_line(result: Result) -> str:
-    """Return a failed pair in one line."""
-    return f"failed: {result.source} → {result.target}: {result.reason}"
 
 
 class RunReport:
@@ -126,7 +168,7 @@ class RunReport:
     def status(self, status: RunStatus, result: Result | None) -> None:
         """Tell how the run stands, and the reason where the ``result`` that has just come is a failure."""
         if result is not None and result.status == "failed":
-            self.say(failure_line(result))
+            self.say(describe_result(result))
         failed = f"{status.failed} failed, " if status.failed else ""
         line = f"{format_seconds(time.monotonic() - self._begun)}: {status}"
         if self._draws:

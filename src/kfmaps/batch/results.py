@@ -10,6 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
+from kfmaps.cli.words import UNIT, percent, probability_text
 from kfmaps.io.atomic import csv_text, write_text
 
 FOLDER = "pairs"
@@ -60,6 +61,16 @@ class Result:
     def is_of(self, settings: str, inputs: str) -> bool:
         """Return whether it was made with these settings from these files."""
         return (self.settings, self.inputs) == (settings, inputs)
+
+
+def describe_result(result: Result) -> str:
+    """Return a pair in one line: its error and verdict, or why it failed."""
+    pair = f"{result.source} → {result.target}"
+    if result.status == "failed":
+        return f"failed: {pair}: {result.reason}"
+    parts = [] if result.error_mean is None else [f"mean error {percent(result.error_mean)} {UNIT}"]
+    parts += [] if result.confidence is None else [f"{result.verdict} ({probability_text(result.confidence)})"]
+    return ", ".join([pair, *parts])
 
 
 CURVE_ERRORS = tuple(i / 400 for i in range(101))

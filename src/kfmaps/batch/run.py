@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Callable, Iterator
+import time
+from collections.abc import Iterator
 from contextlib import closing, contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -17,8 +18,8 @@ from kfmaps.batch.consistent import CONSISTENT, EVIDENCE, PATHS, ConsistentResul
 from kfmaps.batch.jobs import TOO_LITTLE_MEMORY, WorkerPool
 from kfmaps.batch.page import write_page
 from kfmaps.batch.plan import Plan
-from kfmaps.batch.progress import Callback, RunStatus, failure_line, log_to, remaining_seconds
-from kfmaps.batch.results import FOLDER, Result, all_results, result_path, write_csv
+from kfmaps.batch.progress import Callback, Log, RunStatus, WorkLeft, log_to
+from kfmaps.batch.results import FOLDER, Result, all_results, describe_result, result_path, write_csv
 from kfmaps.batch.run_spec import FILE
 from kfmaps.batch.work import (
     MAPS,
@@ -34,6 +35,9 @@ from kfmaps.batch.work import (
 from kfmaps.io import remove_unfinished
 
 _A_DAY = 86400.0
+_BYTES = 40.0  # of a mesh's file for each vertex and its faces, about
+_LOGGED = ("source", "target", "status", "reason", "verdict", "confidence", "error_mean", "attempts", "worker")
+"""Fields of a result that the log has."""
 TABLE = "results.csv"
 
 
@@ -71,7 +75,9 @@ def run_batch(
     log = log_to(plan.folder)
     asked = {(task.pair.source, task.pair.target) for task in plan.tasks}
     with _locked(plan.folder), _tidied(plan), WorkerPool(workers, scheduler, progress, log) as pool:
-        log(f"{len(plan.todo)} of {len(plan.tasks)} pairs to match")
+        of, todo, settings = len(plan.tasks), len(plan.todo), plan.spec.digest
+        told = {"todo": todo, "pairs": of, "settings": settings, "version": kfmaps.__version__}
+        log("begin", f"{todo} of {of} pairs to match", **told)
         try:
             if plan.todo:
                 for result in _match_pairs(plan, pool, callback, log):
@@ -79,37 +85,61 @@ def run_batch(
             if consistent:
                 matched = all_results(plan.folder, plan.spec.digest)
                 agreed = make_consistent(plan, [r for r in matched if (r.source, r.target) in asked], pool)
+                for r in (r for r in agreed.results if r.changed):
+                    told = f"{r.source} → {r.target} replaced by {r.changed}: {r.why}"
+                    log("replaced", told, source=r.source, target=r.target, by=r.changed, why=r.why)
         except KeyboardInterrupt:
             interrupted = True
-            log("interrupted")
+            log("interrupted", "interrupted")
+        except BaseException as error:  # SystemExit, where a signal ended it
+            reason = f"{type(error).__name__}: {error}"
+            log("stopped", f"stopped: {reason}", reason=reason)
+            raise
         finally:
             pool.close()  # what they are still at is not to end behind the back of the tables
         better = {} if agreed is None else {(r.source, r.target): r for r in agreed.results}
         everything = [better.get((r.source, r.target), r) for r in all_results(plan.folder, plan.spec.digest)]
         files = _write_outputs(plan, everything, name, 0 if interrupted else worst, agreed)
     results = tuple(r for r in everything if (r.source, r.target) in asked)
-    log(f"{len(results)} pairs have a result, {sum(r.status == 'failed' for r in results)} of them failed")
+    failed = sum(r.status == "failed" for r in results)
+    log("end", f"{len(results)} pairs have a result, {failed} of them failed", pairs=len(results), failed=failed)
     return BatchResult(results, len(new), interrupted, files, agreed)
 
 
 def _match_pairs(
-    plan: Plan, pool: WorkerPool, callback: Callback | None = None, log: Callable[[str], None] | None = None
+    plan: Plan, pool: WorkerPool, callback: Callback | None = None, log: Log | None = None
 ) -> Iterator[Result]:
     """Prepare the shapes and match the pairs that the plan leaves to do; the results, in the order in which they come.
 
     When a worker dies, Dask hands its task to another, which keeps what is finished and begins the rest anew. A task
     that kills :data:`~kfmaps.batch.jobs.MAX_DEATHS` workers is recorded as failed.
     """
-    log, callback = log or (lambda _line: None), callback or (lambda _status, _result: None)
+    log, callback = log or (lambda *_, **__: None), callback or (lambda _status, _result: None)
     _check_workers(plan, pool)
     for task in plan.todo:
         result_path(plan.folder, task.key).unlink(missing_ok=True)
     shapes = list({t.entry: t for task in plan.todo for t in (task.source, task.target)}.values())
     prepared: dict[str, Prepared] = {}
     done: list[Result] = list(plan.results)
+    entries = {t.entry: t for task in plan.tasks for t in (task.source, task.target)}
+    vertices = {entry: _vertices(task) for entry, task in entries.items()}
+
+    def mean(task: PairTask) -> float:
+        return (vertices[task.source.entry] + vertices[task.target.entry]) / 2
+
+    earlier = {(r.source, r.target): r.seconds["total"] for r in plan.results if r.status == "done"}
+    pairs = ((task, (task.pair.source, task.pair.target)) for task in plan.tasks)
+    measured = [(mean(task), earlier[pair]) for task, pair in pairs if pair in earlier]
+    preparing = WorkLeft({number: vertices[task.entry] for number, task in enumerate(shapes)})
+    matching = WorkLeft(dict(enumerate(map(mean, plan.todo))), measured)
 
     def tell(result: Result | None = None) -> None:
-        callback(_status(plan, pool, len(shapes), list(prepared.values()), done), result)
+        status = _status(plan, pool, len(shapes), preparing, matching, done)
+        if result is not None:
+            values = {name: getattr(result, name) for name in _LOGGED} | {"seconds": result.seconds.get("total")}
+            counts = {"finished": status.pairs_done, "pairs": status.pairs, "remaining": status.remaining}
+            log("pair", describe_result(result), **values, **counts)
+        callback(status, result)
 
     tell()
     with closing(pool.imap(prepare_shape, shapes, n_begun=_attempts)) as values:
@@ -118,16 +148,19 @@ def _match_pairs(
             prepared[task.entry] = (
                 value if isinstance(value, Prepared) else Prepared(task.name, reason=error_text(value))
             )
-            if prepared[task.entry].reason:
-                log(f"shape {task.name} could not be prepared: {prepared[task.entry].reason}")
+            reason = prepared[task.entry].reason
+            preparing.end(number, None if reason else prepared[task.entry].seconds)
+            if reason:
+                log(
+                    "shape failed", f"shape {task.name} could not be prepared: {reason}", shape=task.name, reason=reason
+                )
             tell()
     jobs = [(task, prepared[task.source.entry], prepared[task.target.entry]) for task in plan.todo]
     label, n_begun = (lambda job: str(job[0])), (lambda job: _attempts(job[0]))
     with closing(pool.imap(_match, jobs, label=label, n_begun=n_begun)) as values:
         for number, value in values:
             result = record_failure(plan.todo[number], error_text(value)) if isinstance(value, Exception) else value
-            if result.status == "failed":
-                log(failure_line(result))
+            matching.end(number, result.seconds["total"] if result.status == "done" else None)
             done.append(result)
             tell(result)
             yield result
@@ -141,14 +174,33 @@ def _attempts(task: ShapeTask | PairTask) -> int:
     return attempts(Path(task.folder), task.key)
 
 
-def _status(plan: Plan, pool: WorkerPool, shapes: int, prepared: list[Prepared], done: list[Result]) -> RunStatus:
-    new = done[len(plan.results) :]
-    measured = [r.seconds["total"] for r in new if r.status == "done"]
-    measured = measured or [r.seconds["total"] for r in plan.results if r.status == "done"]
-    shape_seconds = [one.seconds for one in prepared if one.seconds and not one.reason]
-    left = remaining_seconds(shape_seconds, measured, shapes - len(prepared), len(plan.todo) - len(new), pool.n_threads)
-    failed = sum(r.status == "failed" for r in done)
-    return RunStatus(len(prepared), shapes, len(done), failed, len(plan.tasks), pool.n_threads, left, len(measured))
+def _vertices(task: ShapeTask) -> float:
+    """Return the number of vertices of a shape, about, from the length of its file."""
+    try:
+        return Path(task.path).stat().st_size / _BYTES
+    except OSError:
+        return 0.0
+
+
+def _status(
+    plan: Plan, pool: WorkerPool, shapes: int, preparing: WorkLeft, matching: WorkLeft, done: list[Result]
+) -> RunStatus:
+    now = time.monotonic()
+    begun = {number: now - since for number, since in pool.begun.items()}
+    under_way = (begun, {}) if preparing.sizes else ({}, begun)
+    first, second = (
+        work.remaining(some, pool.n_threads) for work, some in zip((preparing, matching), under_way, strict=True)
+    )
+    return RunStatus(
+        shapes_done=shapes - len(preparing.sizes),
+        shapes=shapes,
+        pairs_done=len(done),
+        failed=sum(r.status == "failed" for r in done),
+        pairs=len(plan.tasks),
+        workers=pool.n_threads,
+        remaining=None if first is None or second is None else first + second,
+        measured=len(matching.measured),
+    )
 
 
 def _check_workers(plan: Plan, pool: WorkerPool) -> None:

@@ -13,7 +13,7 @@ from kfmaps.batch.consistent import ConsistentResult
 from kfmaps.batch.jobs import WorkerPool
 from kfmaps.batch.layout import Pair, choose_pairs, find_collection
 from kfmaps.batch.plan import GRAPHS, Plan, graph_pairs, make_plan, recommended_config
-from kfmaps.batch.progress import RunReport
+from kfmaps.batch.progress import RunReport, log_to
 from kfmaps.batch.results import summarize
 from kfmaps.batch.run import BatchResult, run_batch
 from kfmaps.batch.run_spec import RunSpec
@@ -78,7 +78,7 @@ def batch(
     spec = RunSpec(config, seed, lines, use_files, identity)
     with RunReport(quiet or json) as report:
         if graph is not None:
-            with WorkerPool(count, scheduler, report.stage) as pool:
+            with WorkerPool(count, scheduler, report.stage, log_to(output)) as pool:
                 listed = graph_pairs(collection, spec, output, graph, pool)
         plan = make_plan(collection, listed, spec, output, retry_failed=retry_failed)
         if not (plan.folder / _TOML).exists():
