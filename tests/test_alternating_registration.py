@@ -50,7 +50,7 @@ GUARDS = ("kfmaps.matching", "kfmaps.registration.alternating_registration", "kf
 
 @pytest.fixture(autouse=True)
 def alike(monkeypatch):
-    """How bent shapes look is tested in test_looks.py, and takes seconds."""
+    """How bent shapes look is tested in test_registration_evidence.py, and takes seconds."""
     monkeypatch.setattr(ranking, "proxy_pair", lambda *pair, **_shot: proxy_pair(*pair))
     for module in (ranking, mending):
         monkeypatch.setattr(module, "registered_shot_error", lambda *_what: 0.2)
