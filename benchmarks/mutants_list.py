@@ -754,6 +754,16 @@ MUTANTS = tuple(
             "edge_covariances(energy, x)",
             "test_local_scaling -k exactly",
         ),
+        (
+            "return min(ahead, _without_evidence(image).score",
+            "return max(ahead, _without_evidence(image).score",
+            "test_wrong_landmarks -k left_for_right",
+        ),
+        (
+            "hold = bool(np.median(errors) <= ",
+            "hold = bool(np.max(errors) <= ",
+            "test_registration_accepted -k less_exact",
+        ),
         ("return turns @ (axes * np.clip(", "return (axes * np.clip(", "test_local_scaling -k exactly"),
         ("diffuse = factorize(area * energy.laplacian +", "diffuse = factorize(", "test_local_scaling -k nearly"),
         (

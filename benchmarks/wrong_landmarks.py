@@ -31,7 +31,9 @@ WAYS = {
     "10, two far": (10, "far", 2),
     "10, one off by 0.15": (10, "near", 1),
     "10, all off by 0.04": (10, "shaken", 10),
+    "3, left for right": (3, "sides", 3),
     "10, left for right": (10, "sides", 10),
+    "25, left for right": (25, "sides", 25),
 }
 """Number of landmarks, what is done to how many of them."""
 

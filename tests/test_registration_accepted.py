@@ -35,9 +35,13 @@ class Pretended:
     def __init__(self, pair: datasets.ExamplePair, spot: np.ndarray, gap: float = 0.0, stubborn: bool = False) -> None:
         self.pair, self.spot, self.gap, self.stubborn = pair, spot, gap, stubborn
         self.held: list[np.ndarray | None] = []
+        self.landmarks: np.ndarray | None = None
 
-    def __call__(self, source: Mesh, *_: Any, held: np.ndarray | None, **_more: Any) -> Registration:
+    def __call__(
+        self, source: Mesh, *_: Any, held: np.ndarray | None, landmarks: np.ndarray | None, **_more: Any
+    ) -> Registration:
         self.held.append(held)
+        self.landmarks = landmarks
         points = self.pair.truth.copy()
         if held is None or self.stubborn:
             points[self.spot] = np.random.default_rng(0).permutation(points[self.spot])
@@ -45,10 +49,13 @@ class Pretended:
         return Registration(source.vertices, place.faces, place.weights, 0.0, self.gap)
 
 
-def end(pair: datasets.ExamplePair, finish: Any, points: np.ndarray | None = None) -> RegisteredMap:
+def end(
+    pair: datasets.ExamplePair, finish: Any, points: np.ndarray | None = None, landmarks: np.ndarray | None = None
+) -> RegisteredMap:
     shapes: Any = [SimpleNamespace(mesh=unit_area(mesh)) for mesh in (pair.source, pair.target)]
     config: Any = SimpleNamespace(registration=finish, refinement="some")
-    return register_map(pair.truth if points is None else points, shapes[0], shapes[1], config, StageTimer())
+    points = pair.truth if points is None else points
+    return register_map(points, shapes[0], shapes[1], config, StageTimer(), landmarks)
 
 
 def spot_of(pair: datasets.ExamplePair, share: float) -> np.ndarray:
@@ -112,6 +119,32 @@ def test_a_gap_speaks_first(pair: datasets.ExamplePair) -> None:
     assert last.fit is not None
     assert (last.fit.reason, last.fit.after, last.fit.accepted) == ("gap", None, False)
     assert len(finish.held) == 1
+
+
+@pytest.mark.parametrize(
+    ("off", "far", "count", "scaling", "hold"),
+    [
+        (0.03, 9, 9, 0.0, True),
+        (0.05, 5, 9, 0.0, False),
+        (0.05, 4, 9, 0.0, True),
+        (0.05, 4, 4, 0.0, True),
+        (0.05, 5, 9, 0.01, True),
+    ],
+)
+def test_landmarks_that_are_less_exact_than_the_map_do_not_hold(
+    pair: datasets.ExamplePair, off: float, far: int, count: int, scaling: float, hold: bool
+) -> None:
+    """Most of them count; of a few, or between shapes of other proportions, nothing is told."""
+    source, rows = unit_area(pair.source).vertices, np.arange(0, 900, 900 // count)[:count]
+    landmarks = np.stack([pair.truth[rows], rows], axis=1)
+    away = np.linalg.norm(source[landmarks[:far, 0], None] - source, axis=2)
+    landmarks[:far, 0] = np.abs(away - off).argmin(axis=1)
+    finish = Pretended(pair, spot_of(pair, 0.0))
+    finish.local_scaling = scaling
+    last = end(pair, finish, landmarks=landmarks)
+    assert last.fit is not None
+    assert last.fit.landmarks_held == hold
+    assert (finish.landmarks is None) != hold
 
 
 def test_rotations_become_even_and_constant_ones_stay(pair: datasets.ExamplePair) -> None:

@@ -34,16 +34,16 @@ def searched(creature: Any, landmarks: np.ndarray) -> SearchResult:
     return search_map(source, target, replace(kfmaps.Config(), threads=1), landmarks=landmarks)
 
 
-def test_all_landmarks_with_left_for_right_are_named(creature: Any) -> None:
-    """A mirrored map keeps to all of them; the map without landmarks is sure, and it stays."""
-    pair, right = creature[2:]
-    swapped = right.copy()
-    swapped[:, 0] = pair.mirrored[right[:, 1]]
-    far = geodesic_distances(creature[0].mesh, right[:, 0])[np.arange(10), swapped[:, 0]] > 0.15
+@pytest.mark.parametrize("count", [3, 10])
+def test_all_landmarks_with_left_for_right_are_named(creature: Any, count: int) -> None:
+    """A mirrored map keeps to all of them, of three even a better one; the map without landmarks is sure and stays."""
+    pair, rows = creature[2], stratified_vertices(creature[1].basis, count, 0)
+    right, swapped = (np.stack([places[rows], rows], axis=1) for places in (pair.truth, pair.mirrored))
+    far = geodesic_distances(creature[0].mesh, right[:, 0])[np.arange(count), swapped[:, 0]] > 0.15
     found = searched(creature, swapped)
     assert (found.verdict, found.orientation) == ("sure", "preserving")
-    assert 2 < far.sum() < 10
-    assert found.rejected_landmarks.tolist() == np.flatnonzero(far).tolist()
+    assert far.sum() > 0.3 * count
+    assert set(np.flatnonzero(far)) <= set(found.rejected_landmarks.tolist())
 
 
 def test_a_single_wrong_landmark_is_named_and_moves_nothing(creature: Any) -> None:

@@ -58,7 +58,9 @@ def _rows(match: Match, accuracy: Accuracy | None, written: Path | None) -> list
     if n_landmarks:
         numbers = ", ".join(str(number) for number in rejected)
         left_out = f"; left out, since the map contradicts them: number {numbers}, counted from 0" if numbers else ""
-        rows.append(("landmarks", f"{n_landmarks}{left_out}"))
+        held = match.registration.report is None or match.registration.report.landmarks_held
+        loose = "" if held else "; most are 4 % of √area or more from the map, so they do not hold it"
+        rows.append(("landmarks", f"{n_landmarks}{left_out}{loose}"))
     if fit.weights is not None:
         group, least = match.config.formulation.loss_group, np.argsort(fit.weights)[:3]
         text = ", ".join(f"{group} {number} {fit.weights[number]:.2f}" for number in least)

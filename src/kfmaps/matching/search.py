@@ -265,6 +265,7 @@ def _choose_orientation(state: _Search, unduly: bool) -> _Search:
     Unasked, maps to the mirror image are registered only where the best map deforms ``unduly`` or where one of them has
     a better score before registration. One that is clearly better replaces the best map, and so does one that is better
     and moves the shape as a whole. Any other that is better is kept beside the best map, and makes it ambiguous.
+    "Better" is one that is so without landmarks too.
     """
     config, samples = state.config, state.samples
     assert config.search is not None
@@ -277,26 +278,31 @@ def _choose_orientation(state: _Search, unduly: bool) -> _Search:
     if not images or (asked == "auto" and not unduly and images[0].score < plain + SCORE.mirror_gain):
         return state
     ranked = ranking(images, other, copies, config.threads)
-    if asked == "auto" and len(state.pairs):
+    image, energy = ranked[0], ranked[0].deformation_energy
+
+    def gain(plain: _Search) -> float:
+        ahead = image.score - plain.ranked[0].score
+        if asked != "auto" or not len(plain.pairs):
+            return ahead
         # Landmarks with left for right agree with the mirror image of any body that is its own mirror image.
-        by_surface = _without_evidence(ranked[0]).score - _without_evidence(_best_by_surface(state)[0]).score
-        if by_surface <= SCORE.mirror_gain:
-            return state
-    better, energy = ranked[0].score - state.ranked[0].score, ranked[0].deformation_energy
+        return min(ahead, _without_evidence(image).score - _without_evidence(_best_by_surface(plain)[0]).score)
+
+    better = gain(state)
     if asked == "auto" and better > SCORE.mirror_gain:
         # A body that is nearly its own mirror image has a map that keeps orientation and is as good.
-        kept = compose_with_symmetries(ranked[0], samples, config.threads)
+        kept = compose_with_symmetries(image, samples, config.threads)
         if kept:
             found = [*state.found, *kept]
-            best = ranking(found, samples.whole, state.copies, config.threads)
-            state = replace(state, found=found, ranked=best)
-            better = ranked[0].score - best[0].score
+            alone = [*state.alone, *kept] if state.alone else []
+            first = ranking(found, samples.whole, state.copies, config.threads)
+            state = replace(state, found=found, alone=alone, ranked=first)
+            better = gain(state)
     congruent = energy is not None and energy < SCORE.congruent_energy
     margin = SCORE.mirror_gain if congruent else SCORE.mirror_margin
     if better > (SCORE.clear_margin if asked == "either" else margin):
         samples = replace(samples, whole=other)
         return replace(state, samples=samples, copies=copies, found=images, ranked=ranked, orientation="reversing")
-    return replace(state, doubts=((ranked[0], -better),)) if asked == "auto" and better > SCORE.mirror_gain else state
+    return replace(state, doubts=((image, -better),)) if asked == "auto" and better > SCORE.mirror_gain else state
 
 
 def _compare_exchanged(state: _Search) -> _Search:

@@ -21,6 +21,9 @@ more."""
 _MIN_CHANGE = 0.2  # change of the confidence of a vertex that counts: such vertices are harmed, or healed, by a fit
 _MAX_WORSENED_AREA = 0.006
 """Share of the target's area that a right fit harms at most, fingertips mostly; above, what it harmed is held back."""
+_MAX_LANDMARK_ERROR, _MIN_LANDMARKS = 0.04, 5
+"""Median distance of landmarks from the map, in √area, above which they are taken for less exact than the map of shapes
+that are nearly isometric, and how many of them can tell: right ones have 0.01 to 0.03."""
 
 
 @dataclass(frozen=True)
@@ -37,6 +40,7 @@ class RegistrationReport:
     pinned: bool = False  # whether the map was held fast where a first fit had worsened it
     accepted: bool = False  # whether the match has taken the fit's points
     reason: str | None = "gap"  # what spoke against it
+    landmarks_held: bool = True  # whether landmarks had a say; not where most are less exact than the map
 
     @property
     def loss(self) -> float | None:
@@ -84,7 +88,8 @@ def register_map(
     worsens.
 
     ``points (n_t,)``: the map; ``config``: its ``registration``, which is left out where that or the refinement is
-    ``None``; ``landmarks (l, 2)``: pairs "source vertex, target vertex", which hold softly.
+    ``None``; ``landmarks (l, 2)``: pairs "source vertex, target vertex", which hold softly, or not at all where
+    five or more are less exact than the map.
     """
     with clock("confidence"):
         confidence = build_local_distortion(source.mesh, target.mesh)
@@ -93,6 +98,12 @@ def register_map(
     finish = config.registration
     if finish is None or config.refinement is None or not surfaces:
         return RegisteredMap(points, None, None, trust)
+    hold = True
+    if landmarks is not None and len(landmarks) >= _MIN_LANDMARKS and not getattr(finish, "local_scaling", 0):
+        images = source.mesh.vertices[points[landmarks[:, 1]]]
+        errors = np.linalg.norm(images - source.mesh.vertices[landmarks[:, 0]], axis=1)
+        hold = bool(np.median(errors) <= _MAX_LANDMARK_ERROR)
+        landmarks = landmarks if hold else None
     areas = vertex_areas(target.mesh)
     areas = areas / areas.sum()
 
@@ -102,7 +113,9 @@ def register_map(
             found = finish(
                 source.mesh, target.mesh, points, lambda done: clock.report(stage, done), landmarks=landmarks, held=held
             )
-        told = RegistrationReport(found.gap, found.bending, float(trust.mean()), pinned=held is not None)
+        told = RegistrationReport(
+            found.gap, found.bending, float(trust.mean()), pinned=held is not None, landmarks_held=hold
+        )
         if found.gap > _MAX_GAP:
             return _Tried(found, points, trust, told)
         vertices = nearest_vertices(PointMap(found.faces, found.weights), source.mesh)
