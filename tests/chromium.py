@@ -108,6 +108,10 @@ class Browser:
             chain.w3c_actions.pointer_action.click()
         chain.perform()
 
+    def hover(self, name: str) -> None:
+        """Point at the middle of an element, also in a frame."""
+        ActionChains(self.driver, duration=0).move_to_element(self.element(name)).perform()
+
     def drag(self, side: str, start: int, end: int) -> None:
         chain = ActionChains(self.driver, duration=0)
         pointer = chain.w3c_actions.pointer_action

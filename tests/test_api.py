@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import re
+import sys
 import types
 from dataclasses import replace
+from html import unescape
 from pathlib import Path
 from typing import Any
 
@@ -138,6 +141,24 @@ def test_a_match_shows_itself(found: kfmaps.Match) -> None:
     assert len(found.plot(truth=(np.arange(200), np.arange(200))).axes) == 4  # the error, and its bar
 
 
+def test_a_notebook_shows_the_page_in_its_cell(found: kfmaps.Match, monkeypatch: pytest.MonkeyPatch) -> None:
+    shown: list[str] = []
+    display = types.ModuleType("IPython.display")
+    display.HTML = str  # pyright: ignore[reportAttributeAccessIssue]
+    display.display = shown.append  # pyright: ignore[reportAttributeAccessIssue]
+    monkeypatch.setitem(sys.modules, "IPython", types.ModuleType("IPython"))
+    monkeypatch.setitem(sys.modules, "IPython.display", display)
+    monkeypatch.setattr("kfmaps.viz.notebook.in_notebook", lambda: True)
+    assert found.view(descriptors=False, names=('a"<b>', "c")) is None
+    (html,) = shown
+    page = unescape(re.findall(r'srcdoc="([^"]*)"', html)[0])
+    assert 'sandbox="allow-scripts allow-downloads"' in html
+    assert 'title="a&quot;&lt;b&gt; → c"' in html
+    assert page.startswith("<!DOCTYPE html>")
+    assert '<body class="cell">' in page
+    assert page.endswith("</html>")
+
+
 def test_what_is_carried_over(shuffled: kfmaps.Match, tmp_path: Path) -> None:
     heights = V[:, 1]
     np.testing.assert_array_equal(shuffled.transfer(heights), heights[ORDER])
@@ -190,6 +211,7 @@ def test_the_inverse_is_finer_where_the_map_is() -> None:
 def test_picture_and_page_of_a_map(shuffled: kfmaps.Match, tmp_path: Path) -> None:
     """From a match, or from the file and the shapes."""
     path = kfmaps.view(shuffled, output=tmp_path / "page.html", descriptors=False, names=("one", "two"))
+    assert path is not None
     assert "one → two" in path.read_text(encoding="utf-8")
     shuffled.save(tmp_path / "m.npz")
     kfmaps.view(tmp_path / "m.npz", (V, F), OTHER, output=tmp_path / "again.html", descriptors=False)

@@ -18,6 +18,7 @@ from kfmaps.geometry.mesh import Mesh
 from kfmaps.io import MeshFile
 from kfmaps.io.bake import encode_png
 from kfmaps.matching.result import Match
+from kfmaps.viz.notebook import cell_html
 from kfmaps.viz.page import result_page
 from kfmaps.viz.result_pages import match_page
 
@@ -186,6 +187,37 @@ def test_a_vertex_can_be_named_by_number_and_taken_in_the_middle(page: Browser, 
     assert pair.truth[int(told[1])] == int(told[2])
     view.send_keys(Keys.ESCAPE)
     assert page.text("pinned") == ""
+
+
+PLACES = "return ['source', 'target'].map((s) => document.getElementById(`view-${s}`).getBoundingClientRect().toJSON())"
+
+
+@pytest.mark.parametrize(("mark", "ground"), [("true", 245), ("false", 20)])
+@pytest.mark.parametrize("width", [420, 1200])
+def test_in_a_cell_of_a_notebook(
+    browser: Browser, pair: ExamplePair, tmp_path: Path, width: int, mark: str, ground: int
+) -> None:
+    """Both views beside each other, nothing to scroll, light or dark as the notebook is, whatever the system is."""
+    features = [{"name": "prefers-color-scheme", "value": "light" if mark == "false" else "dark"}]
+    browser.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": features})
+    html = cell_html(result_page(pair.source, pair.target, pair.truth, names=(NASTY, "b")), NASTY)
+    cell = f'<!DOCTYPE html><body data-jp-theme-light="{mark}"><div style="width: {width}px">{html}</div></body>'
+    (tmp_path / "notebook.html").write_text(cell, encoding="utf-8")
+    browser.driver.get_log("browser")
+    browser.driver.get((tmp_path / "notebook.html").as_uri())
+    browser.driver.switch_to.frame(browser.element("iframe"))
+    browser.until(lambda: browser.run("return window.kfmaps?.firstPicture != null"))
+    first, second = browser.run(PLACES)
+    assert first["top"] == pytest.approx(second["top"], abs=1)
+    assert min(first["width"], second["width"]) > width / 3
+    assert min(first["height"], second["height"]) > 250
+    assert second["right"] < width
+    assert browser.run("return document.body.scrollHeight") <= 600
+    assert f"rgb({ground}," in browser.run("return getComputedStyle(document.body).backgroundColor")
+    before = browser.text("readout")
+    browser.hover("#view-target")
+    browser.until(lambda: browser.text("readout") != before)
+    assert browser.complaints() == []
 
 
 @pytest.mark.parametrize("scheme", ["light", "dark"])

@@ -321,15 +321,15 @@ def view(
     descriptors: bool = True,
     up: str | None = None,
     force: bool = False,
-) -> Path:
-    """Show a map in the browser, or write the page.
+) -> Path | None:
+    """Show a map in the browser, in a notebook in its cell, or write the page.
 
     Parameters
     ----------
     found, source, target, truth, force
         As in :func:`render`.
     output : path, optional
-        Write the page there and open nothing.
+        Write the page there and show nothing.
     names : (str, str)
         What the page calls the shapes.
     descriptors : bool
@@ -339,10 +339,11 @@ def view(
 
     Returns
     -------
-    Path
-        The page: one file that needs no network.
+    Path or None
+        The page: one file that needs no network; ``None`` where it is in a cell.
     """
     from kfmaps.io.provenance import map_mesh_file
+    from kfmaps.viz.notebook import in_notebook, show_in_cell
     from kfmaps.viz.result_pages import match_page, open_page
 
     shapes = _shapes(found, source, target)
@@ -358,10 +359,19 @@ def view(
         else None,
     }
     html = match_page(made, *shapes, names, **given)
-    if output is None:
-        return open_page(html)[0]
-    write_text(output, html, force)
-    return Path(output)
+    if output is not None:
+        write_text(output, html, force)
+        return Path(output)
+    if in_notebook():
+        return show_in_cell(html, f"{names[0]} → {names[1]}")
+    return open_page(html)[0]
+
+
+def picture_html(found: Match, words: str) -> str:
+    """Return the picture of a match as an image of HTML, with ``words`` for those who do not see it."""
+    from kfmaps.viz.notebook import figure_html
+
+    return figure_html(render(found), words)
 
 
 def _mesh(shape: ShapeLike | Shape, name: str) -> Mesh:

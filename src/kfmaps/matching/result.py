@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import base64
-import io
 from dataclasses import KW_ONLY, dataclass, field
 from html import escape
 from pathlib import Path
@@ -38,7 +36,6 @@ _OPTIONAL = (
     *("functional_map", "eigenvalues_source", "eigenvalues_target", "local_confidence", "config"),
 )
 """Fields that a map from a file or from a list of vertices may lack; asking for one of them is an error then."""
-_DPI = 72  # resolution of the picture in a notebook
 
 
 class NotKnown(InvalidInput, AttributeError):
@@ -155,10 +152,9 @@ class Match:
         words = f"<code>{escape(repr(self))}</code>"
         if not hasattr(self, "source") or len(self.source.vertices) + len(self.target_to_source) > MAX_PICTURED:
             return words
-        buffer = io.BytesIO()
-        self.plot().savefig(buffer, format="png", dpi=_DPI)
-        data = base64.b64encode(buffer.getvalue()).decode("ascii")
-        return f'<img alt="{escape(repr(self), quote=True)}" src="data:image/png;base64,{data}"><br>{words}'
+        from kfmaps import api
+
+        return f"{api.picture_html(self, repr(self))}<br>{words}"
 
     def plot(self, **options: Any) -> Figure:
         """Draw the map; :func:`kfmaps.render` lists the options."""
@@ -166,8 +162,8 @@ class Match:
 
         return api.render(self, **options)
 
-    def view(self, **options: Any) -> Path:
-        """Show the map in the browser; :func:`kfmaps.view` lists the options."""
+    def view(self, **options: Any) -> Path | None:
+        """Show the map in the browser, or in a notebook's cell; :func:`kfmaps.view` lists the options."""
         from kfmaps import api
 
         return api.view(self, **options)
