@@ -298,6 +298,17 @@ def test_no_landmarks_are_as_none_at_all(shape, other):
     )
 
 
+def test_descriptors_of_the_user_take_nothing_away(shape, other):
+    """Noise as descriptors: the match is the search all the same, and its map as good."""
+    rng = np.random.default_rng(0)
+    noise = tuple(rng.normal(size=(len(s.mesh.vertices), 4)) for s in (shape, other))
+    small = replace(SMALL, refinement=None, registration=None)
+    plain, found = match(shape, other, small), match(shape, other, small, descriptors=noise)
+    assert found.verdict == plain.verdict
+    assert found.score.quality >= plain.score.quality - 0.2
+    assert match(shape.mesh, other.mesh, descriptors=noise).verdict != "unchecked"
+
+
 def test_a_match_of_a_search_has_no_fit_of_its_own(shape, other):
     found = match(shape, other, SMALL)
     assert found.config is SMALL

@@ -19,7 +19,16 @@ SIZES = (
     *("--set", "basis.n_eigenfunctions=20", "--set", "descriptors.n_spectral=20"),
     *("--set", "descriptors.n_eigenfunctions=40", "--set", "nystrom.samples=60"),
 )
-ZOOM = ("--set", "refinement.start=10", "--set", "refinement.stop=40", "--set", "refinement.step=5")
+ZOOM = (
+    "--preset",
+    "single-fit",
+    "--set",
+    "refinement.start=10",
+    "--set",
+    "refinement.stop=40",
+    "--set",
+    "refinement.step=5",
+)
 MARKS = ("--landmarks", ",".join(map(str, LANDMARKS)))
 
 

@@ -12,11 +12,9 @@ import pytest
 from collecting import CONFIG, touch
 from kfmaps._arrays import InvalidInput
 from kfmaps.batch.layout import Pair, choose_pairs, find_collection, natural
-from kfmaps.batch.plan import recommended_config
 from kfmaps.batch.progress import WorkLeft
 from kfmaps.batch.run_spec import RunSpec, claim
 from kfmaps.cli.words import format_seconds
-from kfmaps.config import Config
 from kfmaps.kernels.kernels import Linear
 
 
@@ -140,19 +138,6 @@ def test_landmark_lines_are_checked() -> None:
     for lines in ((0,), (2, 2)):
         with pytest.raises(InvalidInput, match="--landmarks"):
             RunSpec(CONFIG, landmark_lines=lines)
-
-
-def test_recommended_as_match_would(tmp_path: Path) -> None:
-    for name in ("a", "b", "c"):
-        touch(tmp_path / f"{name}.off")
-    for name in ("a", "b"):
-        touch(tmp_path / "landmarks" / f"{name}.txt", "1\n")
-    found = find_collection(tmp_path)
-    some, every = [Pair("a", "b")], choose_pairs(found, every=True)
-    assert recommended_config(found, some, False, True) == Config.single_fit()
-    assert recommended_config(found, every, True, True) == Config.single_fit()
-    for pairs, files in ((every, True), (some, False)):
-        assert recommended_config(found, pairs, False, files) == Config()
 
 
 def left(

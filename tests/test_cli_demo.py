@@ -20,7 +20,8 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("demo")
     few = replace(Config(), search=Search(candidates=2))
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("kfmaps.cli.commands.demo.default_config", lambda: few)
+        made = {"__new__": lambda _cls: few, "single_fit": Config.single_fit, "no17": Config.no17}
+        patch.setattr("kfmaps.cli.commands.demo.Config", type("Config", (), made))
         ran = run("demo", "--vertices", "1500", "-o", folder / "demo.png", "--json", "--seed", "1")
     assert ran.status == 0, ran.stderr
     (folder / "told.json").write_text(ran.stdout)

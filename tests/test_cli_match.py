@@ -145,7 +145,7 @@ def test_own_descriptors(made: types.SimpleNamespace, tmp_path: Path) -> None:
     values = np.concatenate([mesh.vertices, mesh.vertices**2], axis=1)
     np.save(tmp_path / "s.npy", values)
     np.savetxt(tmp_path / "t.csv", values[made.truth], delimiter=",")
-    words = ("--descriptors", tmp_path / "s.npy", tmp_path / "t.csv")
+    words = ("--preset", "single-fit", "--descriptors", tmp_path / "s.npy", tmp_path / "t.csv")
     ran = match(
         made, *words, "--set", "descriptors.signature=none", "--json", "-o", tmp_path / "m.npz", landmarks=False
     )

@@ -63,7 +63,7 @@ def match(
         meshio or Open3D. A :class:`Shape` from :func:`prepare` saves the work that depends on one shape alone; it must
         come from the same settings of the basis, SHOT and the numbers of functions.
     config : Config, optional
-        ``Config()`` when not given; ``Config.single_fit()``, one fit, with descriptors of the user's own.
+        ``Config()`` when not given.
     landmarks : (l, 2) whole numbers, a path, or a pair of paths, optional
         Pairs "source vertex, target vertex", 0-based; or the landmarks of either shape, which are paired by name
         (``.mrk.json``, ``.fcsv``, ``.tps``, ``.pts``, ``.csv``, ``.particles``).

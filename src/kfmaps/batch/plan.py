@@ -18,7 +18,6 @@ from kfmaps.batch.results import FOLDER, Result, read_result, result_path
 from kfmaps.batch.run_spec import RunSpec, claim, digest_of
 from kfmaps.batch.work import PairTask, ShapeTask, load_prepared, prepare_shape
 from kfmaps.collection.pair_graph import complete_graph, medoid, signature, signature_distances, signature_graph
-from kfmaps.config import Config
 from kfmaps.io.atomic import write_text
 
 _GRAPH = "graph.json"
@@ -35,20 +34,6 @@ class Plan:
     todo: tuple[PairTask, ...]  # those without a result that counts
     results: tuple[Result, ...]  # of the others
     changed: int  # how many of ``todo`` have a result that no longer counts, because their files have changed
-
-
-def recommended_config(
-    collection: ShapeFolder, pairs: Sequence[Pair], landmark_lines: bool, landmark_files: bool
-) -> Config:
-    """Return the configuration of a collection for which nobody chose one.
-
-    ``landmark_lines`` and ``landmark_files``: whether lines of the truth serve as landmarks, and whether those of the
-    folder are used. Returns ``Config.single_fit()`` when every pair has landmarks, since a collection has many pairs;
-    else ``Config()``.
-    """
-    named = {name for pair in pairs for name in (pair.source, pair.target)}
-    known = landmark_lines or (landmark_files and named <= collection.landmarks.keys())
-    return Config.single_fit() if known else Config()
 
 
 def make_plan(

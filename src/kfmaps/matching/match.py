@@ -52,14 +52,14 @@ def match(
 
     ``source`` and ``target``: a :class:`Shape` from :func:`prepare` saves the work that depends on one shape alone; it
     must come from the same settings of the basis, SHOT and the numbers of functions; ``config``: ``Config()`` when not
-    given; ``Config.single_fit()``, one fit, with descriptors of the user's own; ``landmarks (l, 2)``: pairs "source
+    given; ``landmarks (l, 2)``: pairs "source
     vertex, target vertex", 0-based; ``descriptors``: of the user's own, used beside those that the configuration names;
     ``rng``: the same seed gives the same answer; ``progress``: ``progress(stage, done)`` with done from 0 to 1.
     ``probes``: What the search with this ``rng`` needs to know of each shape, from
     :func:`kfmaps.matching.search.scoring_samples`. They save an eighth of the time where a shape is matched many times,
     and change nothing.
     """
-    config = config or default_config(descriptors)
+    config = config or Config()
     prepared = prepare_both(source, target, config, progress=progress)
     pair = reindexing(prepared[0], prepared[1])
     pairs = check_landmark_pairs(landmarks, *pair.outside)
@@ -169,8 +169,3 @@ def _search_guidance(found: SearchResult, shapes: tuple[Shape, Shape]) -> Descri
     moved = 1 if found.swapped else 0
     meshes[moved] = Mesh(found.registered_vertices, meshes[moved].faces)
     return combine_guidance([(1.0, guidance), (WEIGHT, position_normal_guidance(*meshes))])
-
-
-def default_config(descriptors: Any = None) -> Config:
-    """Return the configuration that :func:`match` uses when none is given."""
-    return Config.single_fit() if descriptors is not None else Config()

@@ -11,8 +11,8 @@ import typer
 from kfmaps._arrays import check_count, refuse
 from kfmaps.batch.consistent import ConsistentResult
 from kfmaps.batch.jobs import WorkerPool
-from kfmaps.batch.layout import Pair, choose_pairs, find_collection
-from kfmaps.batch.plan import GRAPHS, Plan, graph_pairs, make_plan, recommended_config
+from kfmaps.batch.layout import choose_pairs, find_collection
+from kfmaps.batch.plan import GRAPHS, Plan, graph_pairs, make_plan
 from kfmaps.batch.progress import RunReport, log_to
 from kfmaps.batch.results import summarize
 from kfmaps.batch.run import BatchResult, run_batch
@@ -20,6 +20,7 @@ from kfmaps.batch.run_spec import RunSpec
 from kfmaps.cli.options import UNSURE, Identity, Json, Quiet, Require, Workers, check_required, meets
 from kfmaps.cli.terminal import print_json
 from kfmaps.cli.words import UNIT, percent
+from kfmaps.config import Config
 from kfmaps.io.atomic import write_text
 from kfmaps.settings.options import Chosen, with_settings
 from kfmaps.settings.toml import settings_text
@@ -73,8 +74,7 @@ def batch(
         raise refuse("pairs", "one of --graph and --pairs", "both", "leave one out")
     collection = find_collection(folder)
     listed = [] if graph is not None else choose_pairs(collection, file=pairs)
-    shapes = [Pair(name, name) for name in collection.shapes]
-    config = settings.config(recommended_config(collection, listed or shapes, bool(lines), use_files))
+    config = settings.config(Config())
     spec = RunSpec(config, seed, lines, use_files, identity)
     with RunReport(quiet or json) as report:
         if graph is not None:

@@ -23,7 +23,7 @@ from kfmaps.datasets import ExamplePair
 from kfmaps.fmap.evaluate import geodesic_errors
 from kfmaps.geometry.geodesics import farthest_geodesic
 from kfmaps.io import atomic_output, check_output, write_landmarks, write_mesh, write_vertex_numbers
-from kfmaps.matching.match import default_config, match
+from kfmaps.matching.match import match
 from kfmaps.shape import prepare
 
 _SHAPES = ("two-poses", "non-isometric", "partial")
@@ -128,7 +128,7 @@ def _compare(
         stages("shapes", 0.0)
         pair, rows = _pair(shape, vertices, landmarks, seed)
         stages("shapes", 1.0)
-        automatic, single = default_config(), Config.single_fit()
+        automatic, single = Config(), Config.single_fit()
         # The same shapes for all: the fits with landmarks need more eigenfunctions.
         size = max(automatic.n_eigenfunctions, single.n_eigenfunctions)
         config = replace(automatic, descriptors=replace(automatic.descriptors, n_eigenfunctions=size))

@@ -26,7 +26,6 @@ from kfmaps.io.map_summary import summarize_match
 from kfmaps.io.mapfile import check_format
 from kfmaps.io.named_points import read_given_landmarks
 from kfmaps.io.provenance import map_mesh_file, with_files
-from kfmaps.matching.match import default_config
 from kfmaps.matching.match import match as matched
 from kfmaps.matching.memory import check_match_memory
 from kfmaps.matching.result import Match
@@ -79,7 +78,7 @@ def match(
     if quiet:
         warnings.simplefilter("ignore", KfmapsWarning)
 
-    config = settings.config(default_config(descriptors))
+    config = settings.config(Config())
     _check_device(config.device)
     meshes = _read(source, config), _read(target, config)
     pairs = None

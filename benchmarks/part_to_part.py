@@ -1,0 +1,113 @@
+"""Two parts of two shapes, neither of which holds all of the other: errors, overlaps and verdicts.
+
+    python benchmarks/part_to_part.py --data DIR [--sets TOSCA_r,SMAL_r] [--pairs 6] [--half report] [--json FILE]
+
+Each shape of a pair is cut by a plane at random and keeps 55 to 80 % of its area; drawn anew until 35 to 75 % of what
+the target keeps is on the source too. Truth is that of the whole shapes, where they have one. Errors are mean geodesic
+distances on the whole source × 100, over the target's vertices that both truly have and the map gives a counterpart.
+The overlap is intersection over union of areas of the target. DIR as for benchmarks/automatic.py.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import time
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+from automatic import Job, loaded, pairs_of
+from wrong_landmarks import choice_pairs
+
+import kfmaps
+from kfmaps.datasets.pairs import largest_piece
+from kfmaps.geometry.mesh import Mesh, unit_area, vertex_areas
+
+KEPT, COMMON = (0.55, 0.8), (0.35, 0.75)
+WRONG = 10.0
+"""Mean error × 100 above which no map should be called sure."""
+
+
+def cut(mesh: Mesh, rng: np.random.Generator) -> tuple[Mesh, np.ndarray]:
+    """What lies on one side of a random plane, and the vertices of the whole that it keeps."""
+    height = mesh.vertices @ rng.normal(size=3)
+    order, areas = np.argsort(height), vertex_areas(mesh)
+    below = order[: np.searchsorted(np.cumsum(areas[order]), rng.uniform(*KEPT) * areas.sum())]
+    keep = np.zeros(len(mesh.vertices), dtype=bool)
+    keep[below] = True
+    return largest_piece(mesh, keep)
+
+
+def cuts(job: Job, seed: int) -> tuple[Mesh, Mesh, np.ndarray, np.ndarray, Mesh, np.ndarray]:
+    """Both parts; vertices of the target's part with a truth, (m,), and the source part's, −1 where it lacks them; the
+    whole source, and which of its vertices the part has."""
+    source, target, true_s, true_t = loaded(job)
+    source, target = unit_area(source), unit_area(target)
+    rng = np.random.default_rng(seed)
+    for _ in range(1000):
+        (a, kept_s), (b, kept_t) = cut(source, rng), cut(target, rng)
+        new_s, new_t = (np.full(len(mesh.vertices), -1) for mesh in (source, target))
+        new_s[kept_s], new_t[kept_t] = np.arange(len(kept_s)), np.arange(len(kept_t))
+        some = new_t[true_t] >= 0
+        if some.any() and COMMON[0] <= (new_s[true_s[some]] >= 0).mean() <= COMMON[1]:
+            return a, b, new_t[true_t[some]], new_s[true_s[some]], source, kept_s
+    raise SystemExit(f"{job}: no cuts with enough in common")
+
+
+def run(job: Job, seed: int) -> dict[str, object]:
+    source, target, rows, part, whole, kept = cuts(job, seed)
+    config = replace(kfmaps.Config(), threads=1)
+    begun = time.process_time()
+    found = kfmaps.match(source, target, replace(config, partial=replace(config.partial, part="both")))
+    seconds = time.process_time() - begun
+    areas, true = vertex_areas(target)[rows], part >= 0
+    ours = found.target_to_source[rows] >= 0
+    both = true & ours
+    error = None
+    if both.any():
+        images = kept[found.target_to_source[rows[both]]]
+        error = 100 * float(kfmaps.geodesic_errors(whole, images, kept[part[both]]).mean())
+    return {
+        "set": job.kind,
+        "pair": f"{job.source} {job.target} {seed}",
+        "error": error,
+        "overlap": float(areas[both].sum() / areas[true | ours].sum()),
+        "matched": float(areas[both].sum() / areas[true].sum()),
+        "common": float(areas[true].sum() / areas.sum()),
+        "verdict": found.verdict,
+        "confidence": found.confidence,
+        "seconds": seconds,
+    }
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--data", type=Path, required=True)
+    parser.add_argument("--sets", default="TOSCA_r,SMAL_r")
+    parser.add_argument("--half", choices=("choice", "report"), default="report")
+    parser.add_argument("--pairs", type=int, default=6, help="of each set")
+    parser.add_argument("--json", type=Path)
+    arguments = parser.parse_args()
+    rows: list[dict] = []
+    for kind in arguments.sets.split(","):
+        drawn = (choice_pairs if arguments.half == "choice" else pairs_of)(kind, arguments.data, arguments.pairs)
+        for number, pair in enumerate(drawn):
+            rows.append(run(Job(arguments.data, kind, *pair), number))
+            print(json.dumps(rows[-1]), flush=True)
+    print(f"\n{'set':10}{'pairs':>6}{'error':>8}{'median':>8}{'IoU %':>7}{'sure':>6}{'sure, >10':>11}{'CPU s':>8}")
+    for kind in dict.fromkeys(r["set"] for r in rows):
+        here = [r for r in rows if r["set"] == kind]
+        errors = np.array([100.0 if r["error"] is None else r["error"] for r in here])
+        sure = np.array([r["verdict"] == "sure" for r in here])
+        overlap, seconds = (np.mean([r[name] for r in here]) for name in ("overlap", "seconds"))
+        print(
+            f"{kind:10}{len(here):6}{errors.mean():8.2f}{np.median(errors):8.2f}{100 * overlap:7.1f}{sure.sum():6}"
+            f"{(sure & (errors > WRONG)).sum():11}{seconds:8.1f}"
+        )
+    if arguments.json:
+        arguments.json.write_text(json.dumps(rows, indent=1), encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()
