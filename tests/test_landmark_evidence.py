@@ -190,7 +190,7 @@ def test_a_landmark_that_the_map_keeps_is_doubted_no_longer(creatures, monkeypat
     """A rough map has missed two; the map that comes of it keeps the first, and has the second elsewhere indeed."""
     source, target, _ = creatures
     only_the_truth(creatures, monkeypatch)
-    monkeypatch.setattr(choose, "_contradicted_landmarks", lambda _state: np.arange(10) < 2)
+    monkeypatch.setattr(choose, "_contradicted_landmarks", lambda _state: (np.arange(10) < 2, ()))
     at = spread_out(creatures, 10)
     at[1, 0] = np.linalg.norm(source.mesh.vertices - source.mesh.vertices[at[1, 0]], axis=1).argmax()
     found = choose.search_map(source, target, replace(kfmaps.Config(), threads=1), landmarks=at)

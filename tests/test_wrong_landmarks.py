@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -14,6 +15,7 @@ from kfmaps.fmap.convert import to_functional
 from kfmaps.geometry.geodesics import geodesic_distances
 from kfmaps.geometry.sampling import stratified_vertices
 from kfmaps.matching import match as matching
+from kfmaps.matching import search as searching
 from kfmaps.matching.score import SCORE, max_landmark_error, rejected_landmarks
 from kfmaps.matching.search import SearchResult, search_map
 
@@ -83,3 +85,29 @@ def test_a_landmark_that_the_finished_map_keeps_to_is_not_named(creature: Any, m
     found = SearchResult(C, "a", None, "sure", quality=-1.0, rejected_landmarks=np.arange(2))
     monkeypatch.setattr(matching, "search_map", lambda *_a, **_m: found)
     assert kfmaps.match(source, target, landmarks=given).score.rejected_landmarks.tolist() == [1]
+
+
+@pytest.mark.parametrize(("ahead", "outcome"), [(1.1, "left out"), (0.9, "doubt"), (-0.9, "doubt"), (-1.1, "none")])
+def test_a_sure_map_that_contradicts_landmarks_leaves_them_out_or_casts_a_doubt(
+    monkeypatch: pytest.MonkeyPatch, ahead: float, outcome: str
+) -> None:
+    """It leads those that keep to them by more than 1, or neither leads; one that is far behind says nothing."""
+    best, first, second = (
+        SimpleNamespace(score=score, quality=SimpleNamespace(score=-1.0), deformation_energy=None, missed=missed)
+        for score, missed in ((0.0, [0.0, 0.02]), (ahead, [0.5, 0.4]), (-20.0, [0.5, 0.4]))
+    )
+    for one in (best, first, second):
+        one.unregistered, one.landmark_errors = one, np.array(one.missed)
+    monkeypatch.setattr(searching, "ignore_landmarks", lambda one, *_: one)
+    monkeypatch.setattr(searching, "_without_evidence", lambda one: one)
+    monkeypatch.setattr(searching, "map_distance", lambda *_: 1.0)
+    monkeypatch.setattr(searching, "_best_by_surface", lambda _: [first, second])
+    whole = SimpleNamespace(source=None)
+    state: Any = SimpleNamespace(
+        ranked=[best], found=[best, first], samples=SimpleNamespace(whole=whole), config=kfmaps.Config()
+    )
+    wrong, doubts = searching._contradicted_landmarks(state)
+    assert wrong.tolist() == 2 * [outcome == "left out"]
+    assert [(one, margin) for one, margin in doubts if margin < SCORE.close_margin] == (
+        [(first, -ahead)] if outcome == "doubt" else []
+    )

@@ -116,8 +116,8 @@ class _Search:
     found: list[Candidate]  # all
     ranked: list[Candidate]  # the distinct ones, best first
     orientation: str  # "preserving" or "reversing"
-    # Alternatives that were made on purpose, to the mirror image or with two limbs exchanged, and by how much the best
-    # map precedes each.
+    # Alternatives that were made on purpose, to the mirror image or with two limbs exchanged, or that contradict the
+    # landmarks, and by how much the best map precedes each.
     doubts: tuple[tuple[Candidate, float], ...] = ()
     alone: list[Candidate] = field(default_factory=list)  # those of ``found`` that landmarks had no say in
 
@@ -170,8 +170,10 @@ def search_map(
         return _rank(replace(base, wrong=wrong, samples=kept, found=[*found, *free], alone=free))
 
     state = search_with(none)
-    if len(pairs) and (wrong := _contradicted_landmarks(state)).any():
-        state = search_with(wrong)
+    if len(pairs):
+        wrong, doubts = _contradicted_landmarks(state)
+        state = search_with(wrong) if wrong.any() else state
+        state = replace(state, doubts=(*state.doubts, *doubts))
     ranked, samples, retries = state.ranked, state.samples.whole, ()
     if learned and (state.orientation == "preserving" or config.search.orientation == "reversing"):
         others = learned_candidates(source, target, config, state.samples, seed, given)
@@ -316,29 +318,35 @@ def _compare_exchanged(state: _Search) -> _Search:
     return replace(state, ranked=ranked, doubts=(*state.doubts, (order[1], order[0].score - order[1].score)))
 
 
-def _contradicted_landmarks(state: _Search) -> np.ndarray:
-    """Return which landmarks (l,) bool to leave out.
+def _contradicted_landmarks(state: _Search) -> tuple[np.ndarray, tuple[tuple[Candidate, float], ...]]:
+    """Return which landmarks (l,) bool to leave out, and the map that casts a doubt on those that are kept, if any.
 
     The best map contradicts some while it keeps to most of the others. A map that is found without landmarks and would
-    be called "sure" contradicts any number, unless a map that keeps to them fits the surfaces nearly as well.
+    be called "sure" contradicts any number, unless a map that keeps to them fits the surfaces nearly as well; then
+    neither is sure.
     """
     best, whole, threads = state.ranked[0], state.samples.whole, state.config.threads
     missed = ignore_landmarks(best, whole, threads).landmark_errors
     limit = max_landmark_error(best.quality.score)
     wrong = rejected_landmarks(missed, limit)
-    before = [_without_evidence(c.unregistered).score for c in (best, *state.found)]
-    if not (missed > limit).any() and max(before) < before[0] + SCORE.clear_margin:
-        return wrong
+    own, others = _without_evidence(best.unregistered).score - SCORE.repairable_margin, state.found
+    others = [c for c in others if _without_evidence(c.unregistered).score > own]
+    if not (missed > limit).any() and all(
+        map_distance(c, best, whole.source) <= SCORE.distinct_distance for c in others
+    ):
+        return wrong, ()
     order = _best_by_surface(state)
     first, margin = order[0], order[0].score - order[1].score if len(order) > 1 else np.inf
     if verdict(first.quality.score, margin, first.deformation_energy) != "sure":
-        return wrong
+        return wrong, ()
     missed_by_first = ignore_landmarks(first, whole, threads).landmark_errors
     far = missed_by_first > max_landmark_error(first.quality.score)
     if 2 * far.sum() > len(far):
         far = np.ones(len(far), dtype=bool)  # of sides that were exchanged those near the middle would mislead too
     ahead = _without_evidence(first).score - _without_evidence(best).score
-    return far if ahead > SCORE.close_margin or not (far & (missed <= limit)).any() else wrong
+    if ahead > SCORE.close_margin or not (far & (missed <= limit)).any():
+        return far, ()
+    return wrong, ((first, -ahead),)
 
 
 def _best_by_surface(state: _Search) -> list[Candidate]:
