@@ -1,6 +1,5 @@
 """The landmark picker's server: who is refused, and what the page can do."""
 
-import http.client
 import json
 import os
 import signal
@@ -11,7 +10,6 @@ import threading
 import time
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, closing, suppress
-from dataclasses import dataclass
 from html import unescape
 from pathlib import Path
 from typing import Any
@@ -31,64 +29,10 @@ from kfmaps.matching.result import Match
 from kfmaps.viz.picker import Picker, PickerServer, check_pairs
 from kfmaps.viz.runs import Progress, Runs
 from kfmaps.viz.server import _LOOPBACK, LocalServer, page_reply
+from serving import Client
 
 SOURCE, TARGET = sphere(200, rng=0), sphere(160, rng=1)
 PAIRS = [[3, 5], [199, 159]]
-
-
-@dataclass
-class Answer:
-    status: int
-    headers: dict[str, str]
-    body: bytes
-
-    @property
-    def json(self) -> Any:
-        return json.loads(self.body)
-
-
-class Client:
-    def __init__(self, server: LocalServer) -> None:
-        self.port = server.port
-        self.path = f"/{server.token}/"
-
-    def ask(
-        self,
-        method: str,
-        path: str,
-        body: bytes | None = None,
-        headers: dict[str, str] | None = None,
-        host: str | None = None,
-    ) -> Answer:
-        connection = http.client.HTTPConnection(_LOOPBACK, self.port, timeout=60)
-        try:
-            connection.putrequest(method, path, skip_host=True)
-            connection.putheader("Host", host or f"{_LOOPBACK}:{self.port}")
-            for name, value in (headers or {}).items():
-                connection.putheader(name, value)
-            if body is not None:
-                connection.putheader("Content-Length", str(len(body)))
-            connection.endheaders(body)
-            reply = connection.getresponse()
-            return Answer(reply.status, dict(reply.getheaders()), reply.read())
-        finally:
-            connection.close()
-
-    def get(self, name: str = "") -> Answer:
-        return self.ask("GET", self.path + name)
-
-    def post(self, name: str, data: Any, **headers: str) -> Answer:
-        kind = {"Content-Type": "application/json"}
-        return self.ask("POST", self.path + name, json.dumps(data).encode(), kind | headers)
-
-    def settled(self) -> dict[str, Any]:
-        """The status of the run once it is no longer running."""
-        for _ in range(6000):
-            status = self.get("progress").json
-            if status["state"] != "running":
-                return status
-            time.sleep(0.01)
-        raise AssertionError("the run does not end")
 
 
 Serve = Callable[..., Client]

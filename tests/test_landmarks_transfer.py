@@ -163,7 +163,7 @@ def test_what_fits_none_is_left_out(scans: Path, tmp_path: Path) -> None:
         "the templates' landmarks, carried to each other, are off by 0.2 on average in the scans' unit; most b (0.5)",
     ]
     assert [one.misfit for one in study] == ["", "its best map is unlikely (12 %, from a)", "too large", ""]
-    write_study(tmp_path / "out", study, templates)
+    write_study(tmp_path / "out", study, ".mrk.json")
     assert [one.specimen for one in read_landmark_sets(tmp_path / "out" / "landmarks.tps")] == ["a", "d"]
     assert sorted(path.name for path in (tmp_path / "out" / "landmarks").iterdir()) == ["a.mrk.json", "d.mrk.json"]
     with open(tmp_path / "out" / "specimens.csv", encoding="utf-8") as file:
@@ -207,7 +207,7 @@ def test_tables_and_statistics(scans: Path, tmp_path: Path) -> None:
     templates = read_templates([tmp_path / f"{name}.mrk.json" for name in "abcd"], collection)
     study: list[SpecimenLandmarks] = [given_landmarks(one) for one in templates]
     study[3] = replace(study[3], flags=("", "look here", "", "", ""))
-    write_study(tmp_path / "out", study, templates)
+    write_study(tmp_path / "out", study, ".mrk.json")
     out = tmp_path / "out"
     for name in ("landmarks.csv", "landmarks_wide.csv"):
         sets = read_landmark_sets(out / name)

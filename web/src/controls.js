@@ -3,8 +3,8 @@
 const CLICK = 4; // pixels that a click may move
 
 /**
- * Calls `on.hover(i, vertex)`, `on.click(i, vertex, event)` and, where `on.grab(i, x, y)` answers something other
- * than null, `on.drag(i, vertex, grabbed)` while it is dragged and `on.drop(i, grabbed)` at the end.
+ * Calls `on.hover(i, vertex)`, `on.click(i, vertex, event, grabbed)` and, where `on.grab(i, x, y)` answers something other
+ * than null, `on.drag(i, vertex, grabbed, event)` while it is dragged and `on.drop(i, grabbed)` at the end.
  */
 export function attach(stage, i, on) {
   const box = stage.views[i].box;
@@ -59,7 +59,7 @@ export function attach(stage, i, on) {
     if (!start.moved) return;
     if (grabbed !== null) {
       const vertex = stage.pick(i, event.clientX, event.clientY);
-      if (vertex >= 0) on.drag(i, vertex, grabbed);
+      if (vertex >= 0) on.drag(i, vertex, grabbed, event);
     } else if (start.button !== 0 || event.shiftKey) {
       stage.shift(i, dx, dy);
     } else {
@@ -72,7 +72,7 @@ export function attach(stage, i, on) {
     if (start && event.type === "pointerup") {
       if (grabbed !== null && start.moved) on.drop(i, grabbed);
       else if (!start.moved && start.button === 0) {
-        on.click(i, stage.pick(i, event.clientX, event.clientY), event);
+        on.click(i, stage.pick(i, event.clientX, event.clientY), event, grabbed);
       }
     }
     start = grabbed = null;

@@ -1,11 +1,12 @@
 import { say } from "./base.js";
 import { pageData } from "./data.js";
 import { startPicker } from "./picker.js";
+import { startReview } from "./review.js";
 import { startResult } from "./result.js";
 
 try {
   const data = pageData();
-  const page = { result: startResult, picker: startPicker }[data.kind](data);
+  const page = { result: startResult, picker: startPicker, review: startReview }[data.kind](data);
   const side = (name) => ["source", "target"].indexOf(name);
   // For scripts: where a vertex is in the window, which vertex is at a place
   // there, which vertices are marked, and when first drawn (ms).

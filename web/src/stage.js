@@ -163,15 +163,15 @@ export class Stage {
     requestAnimationFrame(step);
   }
 
-  /** The vertex of view `i` under a point of the window, or -1. */
-  pick(i, clientX, clientY) {
+  /** The vertex of view `i` under a point of the window, or -1; with `inside` the point in its triangle, or null. */
+  pick(i, clientX, clientY, inside = false) {
     const view = this.views[i];
     const { left, top, width, height } = view.box.getBoundingClientRect();
     const at = new Vector2(((clientX - left) / width) * 2 - 1, 1 - ((clientY - top) / height) * 2);
     view.settle(this.fit, width, height);
     const caster = new Raycaster();
     caster.setFromCamera(at, view.camera);
-    return view.surface.pick(caster.ray);
+    return view.surface.pick(caster.ray, inside);
   }
 
   /** Where a vertex of view `i` is in the window, and whether it is in sight. */
@@ -182,6 +182,27 @@ export class Stage {
     const p = view.surface.world(vertex).project(view.camera);
     const visible = view.surface.sees(vertex, view.camera.position);
     return { x: left + ((p.x + 1) / 2) * width, y: top + ((1 - p.y) / 2) * height, visible };
+  }
+
+  /** Turns all views so that the surface around a point of view `i` faces the viewer. */
+  face(i, at) {
+    const view = this.views[i];
+    const normal = view.surface.normal(at).applyQuaternion(view.base);
+    // The shortest way would tilt what is upright; so first about that, then towards it.
+    const about = Math.atan2(normal.x, normal.z), tilt = Math.asin(Math.min(Math.max(normal.y, -1), 1));
+    for (const each of this.views) {
+      each.turn.setFromAxisAngle(new Vector3(1, 0, 0), tilt)
+        .multiply(new Quaternion().setFromAxisAngle(new Vector3(0, 1, 0), -about));
+    }
+  }
+
+  /** Puts a point of view `i` in its middle, `zoom` times as large. */
+  centre(i, at, zoom) {
+    const view = this.views[i];
+    const place = view.surface.place(at).applyQuaternion(view.base).applyQuaternion(view.turn);
+    view.zoom = zoom;
+    view.shift.set(-place.x / this.fit, -place.y / this.fit);
+    this.draw();
   }
 
   /** Replaces the markers of view `i`: [{vertex, colour, text}]. */

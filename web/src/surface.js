@@ -1,7 +1,7 @@
 // One shape on the stage: its geometry, what it shows, and finding the vertex under the pointer.
 import {
   BufferAttribute, BufferGeometry, DoubleSide, Group, LinearFilter, Matrix4, Mesh, Points, Ray, RepeatWrapping,
-  ShaderMaterial, Sphere, Texture, Vector3,
+  ShaderMaterial, Sphere, Texture, Triangle, Vector3,
 } from "three";
 import { MeshBVH } from "three-mesh-bvh";
 import { numbers, reals } from "./data.js";
@@ -64,6 +64,8 @@ void main() {
   gl_FragColor = vec4(base * min(light, 1.05), 1.0);
 }`;
 
+const AROUND = 0.06; // √area around a point that its normal is the mean of
+
 export class Surface {
   constructor(record) {
     this.name = record.name;
@@ -103,9 +105,30 @@ export class Surface {
     this.dressed = null;
   }
 
-  /** Position of a vertex in the shape's own frame. */
-  place(vertex, into = new Vector3()) {
-    return into.fromArray(this.positions, 3 * vertex);
+  /** Position of a vertex, or of a point inside a triangle ({face, weights}), in the shape's own frame. */
+  place(at, into = new Vector3()) {
+    if (typeof at === "number") return into.fromArray(this.positions, 3 * at);
+    into.set(0, 0, 0);
+    this.corners(at.face).forEach((corner, i) => into.addScaledVector(corner, at.weights[i]));
+    return into;
+  }
+
+  /** Positions of the corners of a face. */
+  corners(face) {
+    return [0, 1, 2].map((i) => this.place(this.faces[3 * face + i]));
+  }
+
+  /** Mean normal of the surface around a point of a triangle, of what faces the same way. */
+  normal(at) {
+    const [a, b, c] = this.corners(at.face);
+    const own = b.sub(a).cross(c.sub(a)).normalize();
+    const middle = this.place(at), sum = own.clone(), p = new Vector3(), n = new Vector3();
+    for (let i = 0; i < this.count; i++) {
+      if (this.place(i, p).distanceToSquared(middle) > AROUND ** 2) continue;
+      n.fromBufferAttribute(this.geometry.attributes.normal, i);
+      if (n.dot(own) > 0) sum.add(n);
+    }
+    return sum.normalize();
   }
 
   /** Straight distance between two vertices, in √area: the page's shapes have unit area. */
@@ -159,18 +182,26 @@ export class Surface {
     this.material.uniforms.textured.value = plane !== null;
   }
 
-  /** The vertex that a ray of the stage meets first, or -1. */
-  pick(ray) {
+  /** The vertex that a ray of the stage meets first, or -1; with `inside` the point in its triangle, or null. */
+  pick(ray, inside = false) {
     const inverse = new Matrix4().copy(this.group.matrixWorld).invert();
     const own = new Ray().copy(ray).applyMatrix4(inverse);
     if (!this.faces.length) return this.#nearestPoint(own);
     // The tree takes a moment on a large shape, so it is built when first needed; indirect keeps the faces' order.
     this.tree ??= new MeshBVH(this.geometry, { indirect: true });
     const hit = this.tree.raycastFirst(own, DoubleSide);
+    if (inside) return hit && this.#inside(hit.faceIndex, hit.point);
     if (!hit) return -1;
     const corners = [hit.face.a, hit.face.b, hit.face.c];
     const distance = corners.map((v) => this.place(v).distanceToSquared(hit.point));
     return corners[distance.indexOf(Math.min(...distance))];
+  }
+
+  #inside(face, point) {
+    const weights = Triangle.getBarycoord(point, ...this.corners(face), new Vector3());
+    const all = weights ? weights.toArray().map((w) => Math.max(w, 0)) : [1, 0, 0];
+    const sum = all[0] + all[1] + all[2];
+    return { face, weights: all.map((w) => w / sum) };
   }
 
   /** Of the points close to the ray, the one nearest to the eye. */

@@ -1,32 +1,38 @@
-"""Write the landmarks of a study: a file for each specimen, tables, and the statistics of their shapes."""
+"""Read and write the landmarks of a study: a file for each specimen, tables, corrections, statistics of shapes."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import csv
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
 
+from kfmaps._arrays import refuse
 from kfmaps.batch.results import write_rows
-from kfmaps.batch.transfer_landmarks import SpecimenLandmarks, Template
+from kfmaps.batch.transfer_landmarks import Corrections, SpecimenLandmarks
+from kfmaps.batch.work import read_shape_mesh
 from kfmaps.collection.differences import components
 from kfmaps.collection.procrustes import generalized_procrustes, thin_plate_warp
+from kfmaps.fmap.precise import PointMap
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.io import write_mesh
 from kfmaps.io.landmark_files import LandmarkSet, landmark_suffix, wide_rows, write_landmark_sets
+from kfmaps.io.named_points import NamedPoints
+from kfmaps.io.text import complete_or_refuse
 
+CORRECTIONS = "corrections.csv"
+"""What somebody has corrected by hand: the one file of a study that :func:`write_study` leaves alone."""
 EXTREME = 2.0
 """Standard deviations of a principal component at which its extremes are drawn."""
 
 
-def write_study(output: Path, study: Sequence[SpecimenLandmarks], templates: Sequence[Template]) -> list[Path]:
+def write_study(output: Path, study: Sequence[SpecimenLandmarks], suffix: str) -> list[Path]:
     """Write the landmarks of all specimens that fit, and their statistics; return the files, most useful first.
 
-    ``output``: a folder; its files are replaced; ``templates``: the first gives the format of each specimen's own file,
-    and the surface that the extremes are drawn on.
+    ``output``: a folder; its files are replaced; ``suffix``: of each specimen's own file, which tells its format.
     """
     fitting = [one for one in study if not one.misfit]
-    suffix = landmark_suffix(templates[0].file)
     own = output / "landmarks"
     own.mkdir(parents=True, exist_ok=True)
     for old in own.glob(f"*{suffix}"):
@@ -43,11 +49,72 @@ def write_study(output: Path, study: Sequence[SpecimenLandmarks], templates: Seq
     write_rows(files[1], wide_rows([one.landmarks for one in fitting]))
     write_landmark_sets(files[2], [one.landmarks for one in fitting], force=True)
     write_rows(files[3], _specimen_rows(study))
-    return [*files, *_write_shape(output / "shape", fitting, templates[0])]
+    return [*files, *_write_shape(output / "shape", fitting)]
 
 
-def _write_shape(folder: Path, study: Sequence[SpecimenLandmarks], template: Template) -> list[Path]:
+def read_study(output: Path) -> tuple[list[SpecimenLandmarks], str]:
+    """Read what :func:`write_study` wrote: all specimens, without the landmarks of those left out, and the suffix."""
+    try:
+        with open(output / "landmarks.csv", encoding="utf-8", newline="") as file:
+            rows = list(csv.DictReader(file))
+        with open(output / "specimens.csv", encoding="utf-8", newline="") as file:
+            specimens = list(csv.DictReader(file))
+        suffix = landmark_suffix(next((output / "landmarks").iterdir()))
+        return [
+            _read_specimen(one, [row for row in rows if row["specimen"] == one["specimen"]]) for one in specimens
+        ], suffix
+    except (OSError, KeyError, ValueError, StopIteration) as error:
+        remedy = "run kfmaps landmarks transfer first"
+        raise refuse(f"study {output}", "a folder of kfmaps landmarks transfer", str(error), remedy) from error
+
+
+def _read_specimen(one: Mapping[str, str], rows: Sequence[Mapping[str, str]]) -> SpecimenLandmarks:
+    def column(name: str) -> np.ndarray:
+        return np.array([np.nan if row[name] == "NA" else float(row[name]) for row in rows])
+
+    weights = np.stack([column(f"weight_{i}") for i in (1, 2, 3)], axis=1)
+    positions = np.stack([column(axis) for axis in "xyz"], axis=1)
+    vertices, faces = (column(name).astype(np.int64) for name in ("vertex", "face"))
+    names = tuple(row["name"] for row in rows)
+    points = NamedPoints(
+        names, PointMap(faces, weights), positions, vertices, column("confidence"), np.full(len(rows), np.nan)
+    )
+    return SpecimenLandmarks(
+        *(one["specimen"], points, column("spread"), column("rival_distance"), tuple(row["flag"] for row in rows)),
+        scan=Path(one["scan"]),
+        n_maps=int(one["templates"]),
+        verdict=one["verdict"],
+        chance=float("nan" if one["confidence"] == "NA" else one["confidence"]),
+        misfit=one["reason"],
+        space=one["space"],
+    )
+
+
+def read_corrections(output: Path) -> dict[str, dict[str, tuple[np.ndarray, str]]]:
+    """Return the corrections of a study by specimen and landmark; none where there is no such file."""
+    path = output / CORRECTIONS
+    found: dict[str, dict[str, tuple[np.ndarray, str]]] = {}
+    if path.exists():
+        with open(path, encoding="utf-8", newline="") as file, complete_or_refuse(str(path), "a table of corrections"):
+            for row in csv.DictReader(file):
+                point = np.array([np.nan if row[axis] == "NA" else float(row[axis]) for axis in "xyz"])
+                found.setdefault(row["specimen"], {})[row["name"]] = (point, row["flag"])
+    return found
+
+
+def write_corrections(output: Path, corrections: Mapping[str, Corrections]) -> None:
+    """Write the corrections of a study, which :func:`read_corrections` reads back."""
+    rows = [
+        [specimen, name, *("NA" if np.isnan(x) else repr(x) for x in point.tolist()), word]
+        for specimen, own in corrections.items()
+        for name, (point, word) in own.items()
+    ]
+    write_rows(output / CORRECTIONS, [["specimen", "name", "x", "y", "z", "flag"], *rows])
+
+
+def _write_shape(folder: Path, study: Sequence[SpecimenLandmarks]) -> list[Path]:
     """Procrustes coordinates, principal components and their extremes, of the landmarks that any specimen has."""
+    template = next(one for one in study if not one.verdict)
     points = np.stack([one.points.points for one in study])
     seen = np.isfinite(points).all(axis=2)
     rows, columns = np.flatnonzero(seen.sum(axis=1) >= 3), np.flatnonzero(seen.any(axis=0))
@@ -74,9 +141,10 @@ def _write_shape(folder: Path, study: Sequence[SpecimenLandmarks], template: Tem
     write_rows(folder / "pca_variance.csv", [["component", "variance", "fraction"], *variance])
     base = template.points.points[columns]
     if np.isfinite(base).all():
+        mesh = read_shape_mesh(str(template.scan))
         for sign, word in ((-1, "minus"), (1, "plus")):
             extreme = found.consensus + sign * EXTREME * np.sqrt(parts.variances[0]) * parts.directions[0]
-            warped = Mesh(thin_plate_warp(template.mesh.vertices, base, extreme), template.mesh.faces)
+            warped = Mesh(thin_plate_warp(mesh.vertices, base, extreme), mesh.faces)
             write_mesh(folder / f"PC1_{word}.ply", warped, force=True)
     return [folder / "pca_scores.csv", folder / "procrustes.csv"]
 
@@ -97,14 +165,13 @@ def _long_rows(study: Sequence[SpecimenLandmarks]) -> list[list[object]]:
 
 
 def _specimen_rows(study: Sequence[SpecimenLandmarks]) -> list[list[object]]:
-    rows: list[list[object]] = [["specimen", "status", "verdict", "confidence", "templates", "flagged", "reason"]]
+    titles = ["specimen", "status", "verdict", "confidence", "templates", "flagged", "reason", "scan", "space"]
+    rows: list[list[object]] = [titles]
     for one in study:
-        best = max(one.results, key=lambda r: r.confidence or 0.0) if one.results else None
-        status = "left out" if one.misfit else "carried" if best else "template"
-        verdict = "" if best is None else best.verdict
-        sure = "NA" if best is None or best.confidence is None else f"{best.confidence:.4f}"
-        flagged = sum(map(bool, one.flags))
-        rows.append([one.specimen, status, verdict, sure, len(one.results), flagged, one.misfit])
+        status = "left out" if one.misfit else "carried" if one.verdict else "template"
+        flagged = sum(map(bool, one.open_flags))
+        told = [status, one.verdict, _cell(one.chance), one.n_maps, flagged, one.misfit]
+        rows.append([one.specimen, *told, one.scan.absolute(), one.space])
     return rows
 
 

@@ -61,6 +61,8 @@ class ShapeFolder:
     maps: Mapping[Pair, Path] = field(default_factory=dict)
     # Vertex lists; line k of one shape's corresponds to line k of another's.
     landmarks: Mapping[str, Path] = field(default_factory=dict)
+    # Landmarks of a pair alone, of source and target; they go before those of the shapes.
+    pair_landmarks: Mapping[Pair, tuple[Path, Path]] = field(default_factory=dict)
     pairs: Path | None = None  # the folder's own list of pairs
 
 

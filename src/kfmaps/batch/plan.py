@@ -142,7 +142,9 @@ class _Tasks:
         truth = _both(collection.truth, pair) if own is None and not spec.identity else None
         mirrored = collection.mirrored.get(pair.target) if truth else None
         use_files = spec.landmark_files and not spec.landmark_lines
-        landmarks = _both(collection.landmarks, pair) if use_files else None
+        given = collection.pair_landmarks.get(pair)
+        landmarks = (str(given[0]), str(given[1])) if given else _both(collection.landmarks, pair)
+        landmarks = landmarks if use_files else None
         files = [own, *(truth or ()), mirrored, *(landmarks or ())]
         inputs = digest_of([source.content, target.content, *(self.digest(Path(f)) if f else None for f in files)])
         mirrored, own = (None if path is None else str(path.resolve()) for path in (mirrored, own))

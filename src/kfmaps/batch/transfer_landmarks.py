@@ -17,7 +17,16 @@ from kfmaps.fmap.precise import PointMap, nearest_vertices, vertex_point_map
 from kfmaps.geometry.closest_points import closest_points
 from kfmaps.geometry.mesh import Mesh, surface_area
 from kfmaps.io import check_map, load_map
-from kfmaps.io.landmark_files import LPS, RAS, LandmarkSet, check_names, landmark_stem, mesh_space, read_landmark_sets
+from kfmaps.io.landmark_files import (
+    LPS,
+    RAS,
+    LandmarkSet,
+    check_names,
+    landmark_stem,
+    mesh_space,
+    read_landmark_sets,
+    write_landmark_sets,
+)
 from kfmaps.io.named_points import FLIP, NamedPoints, choose_specimen, place_landmarks, scatter_points, transfer_points
 from kfmaps.io.partial_map import find_counterparts, precise_points
 from kfmaps.matching.result import Match
@@ -29,8 +38,14 @@ MIN_CONFIDENCE = 0.5
 MAX_SPREAD = 0.015
 """Distance of a template's proposal from the median, in √area, above which a landmark is flagged. Chosen on the choice
 half of `benchmarks/skulls.py`, where it flags 2 % of the landmarks."""
+CORRECTED, CHECKED = REVIEWED = ("corrected", "checked")
+"""What stands in place of a flag once somebody has moved a landmark, or found that it is right."""
 GOOD = ("sure", "likely", "landmarks", "unchecked")
 """Verdicts of maps that carry landmarks."""
+
+
+Corrections = Mapping[str, tuple[np.ndarray, str]]
+"""By landmark: its position (3,), NaN for a missing one, and one of :data:`REVIEWED`."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,6 +54,7 @@ class Template:
 
     specimen: str
     file: Path  # of the landmarks
+    scan: Path  # of the mesh
     mesh: Mesh
     points: NamedPoints
     space: str  # "LPS", "RAS" or "": the mesh's coordinate system, as far as mesh or landmarks name one
@@ -54,15 +70,23 @@ class SpecimenLandmarks:
     spread: np.ndarray
     # (l,): distance to where the best other map puts the landmark, in the mesh's unit; NaN where no other map is known.
     rival: np.ndarray
-    flags: tuple[str, ...]  # for each landmark why it should be looked at; empty for none
-    results: tuple[Result, ...] = ()  # of the maps that it rests on; empty for a template
+    flags: tuple[str, ...]  # for each landmark why it should be looked at, or one of REVIEWED; empty for none
+    scan: Path = Path()  # file of the mesh
+    n_maps: int = 0  # maps that it rests on
+    verdict: str = ""  # of the best of these maps, "failed" without one, empty for a template
+    chance: float = np.nan  # probability of that map
     misfit: str = ""  # why the specimen fits none of the others; empty where it does
     space: str = ""  # "LPS", "RAS" or ""
 
     @property
     def landmarks(self) -> LandmarkSet:
         """The landmarks as files hold them."""
-        return LandmarkSet(self.points.names, self.points.points, self.specimen, self.space, notes=self.flags)
+        return LandmarkSet(self.points.names, self.points.points, self.specimen, self.space, notes=self.open_flags)
+
+    @property
+    def open_flags(self) -> tuple[str, ...]:
+        """Flags without those that somebody has dealt with."""
+        return tuple("" if flag in REVIEWED else flag for flag in self.flags)
 
 
 def read_templates(files: Sequence[Path], scans: ShapeFolder) -> list[Template]:
@@ -83,7 +107,7 @@ def read_templates(files: Sequence[Path], scans: ShapeFolder) -> list[Template]:
                 raise refuse(str(path), "a surface with faces", "a point cloud", "Landmarks lie on surfaces")
             given = choose_specimen([one], name, str(file))
             points = place_landmarks(given, mesh, str(file), space=space)
-            found[name] = Template(name, file, mesh, points, space or _space(given, points))
+            found[name] = Template(name, file, path, mesh, points, space or _space(given, points))
     templates = list(found.values())
     first = templates[0]
     names = tuple(dict.fromkeys(label for one in templates for label in one.points.names))
@@ -98,6 +122,28 @@ def read_templates(files: Sequence[Path], scans: ShapeFolder) -> list[Template]:
 def template_pairs(templates: Sequence[Template], scans: ShapeFolder) -> list[Pair]:
     """Return the pairs to match: from each template to every other scan, other templates too, which tests them."""
     return [Pair(one.specimen, name) for one in templates for name in scans.shapes if name != one.specimen]
+
+
+def corrected_pairs(
+    templates: Sequence[Template], scans: ShapeFolder, corrections: Mapping[str, Corrections], folder: Path
+) -> dict[Pair, tuple[Path, Path]]:
+    """Write the landmarks with which corrected specimens are matched again; return both files of each such pair.
+
+    Maps between templates stay as they are: they test the templates' landmarks.
+    """
+    own = {one.specimen: one.points for one in templates}
+    found: dict[Pair, tuple[Path, Path]] = {}
+    for pair in template_pairs(templates, scans):
+        known = corrections.get(pair.target, {}) if pair.target not in own else {}
+        given = dict(zip(own[pair.source].names, own[pair.source].points, strict=True))
+        names = tuple(name for name in known if name in given and np.isfinite([known[name][0], given[name]]).all())
+        if names:
+            folder.mkdir(parents=True, exist_ok=True)
+            found[pair] = (folder / f"{pair.key}-source.csv", folder / f"{pair.key}-target.csv")
+            for file, points in zip(found[pair], (given, {name: known[name][0] for name in names}), strict=True):
+                placed = LandmarkSet(names, np.array([points[name] for name in names]), file.stem)
+                write_landmark_sets(file, [placed], force=True)
+    return found
 
 
 def carry_templates(
@@ -117,7 +163,7 @@ def carry_templates(
         nothing = np.full(len(names), np.nan)
         points = scatter_points(_nothing(), names, np.zeros(len(names), dtype=bool))
         told = reasons[0] if reasons else "it was not matched"
-        return SpecimenLandmarks(specimen, points, nothing, nothing, ("",) * len(names), misfit=told)
+        return SpecimenLandmarks(specimen, points, nothing, nothing, ("",) * len(names), path, 0, "failed", misfit=told)
     mesh = read_shape_mesh(str(path))
     unit = float(np.sqrt(surface_area(mesh)))
     carried, rivals = [], []
@@ -135,10 +181,12 @@ def carry_templates(
     points = _on_surface(names, median, confidence, mesh)
     spread = np.fmax.reduce(distances) if len(used) > 1 else np.full(len(names), np.nan)
     flags = tuple(_flag(*one) for one in zip(confidence, spread / unit, points.vertices >= 0, strict=True))
-    verdicts = tuple(results[one.specimen] for one in used)
+    best = max((results[one.specimen] for one in used), key=lambda r: r.confidence or 0.0)
     space = mesh_space(path) or templates[0].space
-    misfit = _misfit(verdicts, points, templates[0])
-    return SpecimenLandmarks(specimen, points, spread, np.fmin.reduce(rivals), flags, verdicts, misfit, space)
+    misfit = _misfit(best, points, templates[0])
+    chance = np.nan if best.confidence is None else best.confidence
+    told = (path, len(used), best.verdict, chance, misfit, space)
+    return SpecimenLandmarks(specimen, points, spread, np.fmin.reduce(rivals), flags, *told)
 
 
 def _on_surface(names: tuple[str, ...], positions: np.ndarray, confidence: np.ndarray, mesh: Mesh) -> NamedPoints:
@@ -152,10 +200,9 @@ def _on_surface(names: tuple[str, ...], positions: np.ndarray, confidence: np.nd
     return scatter_points(placed, names, there)
 
 
-def _misfit(results: Sequence[Result], points: NamedPoints, template: Template) -> str:
-    """Say why a specimen fits none of the others; nothing where it does."""
-    if not any(one.verdict in GOOD for one in results):
-        best = max(results, key=lambda r: r.confidence or 0.0)
+def _misfit(best: Result, points: NamedPoints, template: Template) -> str:
+    """Say why a specimen with this best map fits none of the others; nothing where it does."""
+    if best.verdict not in GOOD:
         return f"its best map is {best.verdict} ({100 * (best.confidence or 0.0):.0f} %, from {best.source})"
     if is_mirror_image(points.points, template.points.points):
         return "its landmarks are a mirror image of the templates': left and right are swapped, or the scan is mirrored"
@@ -182,6 +229,29 @@ def _carry_points(
     return replace(carried, confidence=carried.confidence * chance)
 
 
+def correct_points(points: NamedPoints, corrections: Corrections, mesh: Mesh) -> NamedPoints:
+    """Return points with those in ``corrections`` put to the closest places of the surface, with confidence 1."""
+    there = np.array([name in corrections for name in points.names])
+    positions = np.array([corrections[name][0] if name in corrections else np.full(3, np.nan) for name in points.names])
+    new = _on_surface(points.names, positions, np.ones(len(there)), mesh)
+
+    def merge(a: np.ndarray, b: np.ndarray) -> np.ndarray:
+        return np.where(there.reshape(-1, *[1] * (a.ndim - 1)), a, b)
+
+    place = PointMap(merge(new.place.faces, points.place.faces), merge(new.place.weights, points.place.weights))
+    fields = ("points", "vertices", "confidence", "apart")
+    return NamedPoints(points.names, place, *(merge(getattr(new, one), getattr(points, one)) for one in fields))
+
+
+def correct_landmarks(one: SpecimenLandmarks, corrections: Corrections) -> SpecimenLandmarks:
+    """Return the landmarks of a specimen with what somebody has corrected, which is marked in place of its flag."""
+    if not corrections:
+        return one
+    points = correct_points(one.points, corrections, read_shape_mesh(str(one.scan)))
+    words = zip(points.names, one.flags, strict=True)
+    return replace(one, points=points, flags=tuple(corrections.get(name, (None, flag))[1] for name, flag in words))
+
+
 def drop_unsure(one: SpecimenLandmarks, min_confidence: float) -> SpecimenLandmarks:
     """Return the landmarks without those below a confidence, which become missing."""
     keep = one.points.confidence >= min_confidence
@@ -195,7 +265,8 @@ def given_landmarks(template: Template) -> SpecimenLandmarks:
     """Return a template's own landmarks as those of a specimen: sure, and not flagged."""
     none = np.full(len(template.points.names), np.nan)
     points = replace(template.points, confidence=np.where(template.points.vertices >= 0, 1.0, np.nan))
-    return SpecimenLandmarks(template.specimen, points, none, none, ("",) * len(none), space=template.space)
+    flags = ("",) * len(none)
+    return SpecimenLandmarks(template.specimen, points, none, none, flags, template.scan, space=template.space)
 
 
 def template_errors(

@@ -29,7 +29,7 @@ COMMANDS = {
     "transfer": "Carry functions, labels or named points over a map.",
     "export": "Write the target with the source's texture, shape keys and skeleton, or the map in another format.",
     "view": "Show a map in the browser, or write it as one page that needs no network.",
-    "landmarks": "Pick landmarks on a local page, or carry those of some specimens to all scans of a folder.",
+    "landmarks": "Pick landmarks on a local page, carry those of some specimens to a folder of scans, review them.",
     "batch": "Match many pairs in parallel: a table, every map and a summary page.",
     "render": "Figures for papers (PNG, SVG, PDF), drawn without a display.",
     "learn": "Learn a kernel from pairs of shapes, and write settings for kfmaps match --config.",

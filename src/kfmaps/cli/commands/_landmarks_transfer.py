@@ -13,7 +13,7 @@ import numpy as np
 import typer
 
 from kfmaps._arrays import KfmapsWarning, refuse
-from kfmaps.batch.landmark_tables import write_study
+from kfmaps.batch.landmark_tables import read_corrections, write_study
 from kfmaps.batch.layout import find_collection
 from kfmaps.batch.plan import make_plan
 from kfmaps.batch.progress import RunReport
@@ -21,9 +21,13 @@ from kfmaps.batch.run import run_batch
 from kfmaps.batch.run_spec import RunSpec
 from kfmaps.batch.transfer_landmarks import (
     MATCHES,
+    REVIEWED,
     SpecimenLandmarks,
     Template,
     carry_templates,
+    correct_landmarks,
+    correct_points,
+    corrected_pairs,
     drop_unsure,
     given_landmarks,
     read_templates,
@@ -34,6 +38,7 @@ from kfmaps.cli.commands.batch import INTERRUPTED, describe_plan, parse_workers
 from kfmaps.cli.options import Json, Quiet, Workers
 from kfmaps.cli.terminal import print_json
 from kfmaps.config import Config
+from kfmaps.io.landmark_files import landmark_suffix
 from kfmaps.settings.options import Chosen, with_settings
 
 SHOWN = 8
@@ -75,7 +80,14 @@ def transfer(
     for name in keep or ():
         if name not in collection.shapes:
             raise refuse("--keep", f"the name of a scan in {scans}", repr(name), "check the spelling")
-    spec = RunSpec(settings.config(Config()), landmark_files=False)
+    corrections = read_corrections(output)
+    templates = [
+        replace(one, points=correct_points(one.points, corrections.get(one.specimen, {}), one.mesh))
+        for one in templates
+    ]
+    again = corrected_pairs(templates, collection, corrections, output / MATCHES / "corrected")
+    collection = replace(collection, landmarks={}, pair_landmarks=again)
+    spec = RunSpec(settings.config(Config()))
     plan = make_plan(collection, template_pairs(templates, collection), spec, output / MATCHES)
     with RunReport(quiet or json) as report:
         report.say(describe_plan(plan))
@@ -97,13 +109,14 @@ def transfer(
         warnings.simplefilter("ignore", KfmapsWarning)  # what is odd about the scans is in the results
         for name, path in collection.shapes.items():
             from_templates = {one.specimen: results[one.specimen, name] for one in templates if one.specimen != name}
-            study.append(own.get(name) or carry_templates(templates, name, path, from_templates, plan.folder))
+            one = own.get(name) or carry_templates(templates, name, path, from_templates, plan.folder)
+            study.append(correct_landmarks(one, corrections.get(name, {})))
         errors = template_errors(templates, results, plan.folder)
     said = [one for one in study if one.misfit]
     study = [replace(one, misfit="") if one.specimen in (keep or ()) else one for one in study]
     if min_confidence is not None:
         study = [drop_unsure(one, min_confidence) for one in study]
-    files = write_study(output, study, templates)
+    files = write_study(output, study, landmark_suffix(templates[0].file))
     lines = [*_describe_study(study, templates, errors), *_misfits(said, keep or ()), *(f"{file}" for file in files)]
     (output / "summary.txt").write_text("\n".join(lines) + "\n", encoding="utf-8")
     for line in lines:
@@ -114,20 +127,23 @@ def transfer(
 
 def _describe_study(study: Sequence[SpecimenLandmarks], templates: Sequence[Template], errors: np.ndarray) -> list[str]:
     """What came of a study, in a few lines."""
-    carried = [one for one in study if one.results and not one.misfit]
+    carried = [one for one in study if one.verdict and not one.misfit]
     names = templates[0].points.names
     told = f"{len(names)} landmarks of {_count(len(templates), 'specimen')} carried to {_count(len(carried), 'other')}"
     if carried:
         sure = np.concatenate([one.points.confidence for one in carried])
         told += f", median confidence {np.nanmedian(sure):.2f}" if np.isfinite(sure).any() else ""
     lines = [told]
-    flagged = Counter((name, flag) for one in carried for name, flag in zip(names, one.flags, strict=True) if flag)
+    flagged = Counter((name, flag) for one in carried for name, flag in zip(names, one.open_flags, strict=True) if flag)
     if flagged:
         told = [f"{name} in {_count(count, 'specimen')} ({flag})" for (name, flag), count in flagged.most_common(SHOWN)]
         told += [f"{len(flagged) - SHOWN} other landmarks"] if len(flagged) > SHOWN else []
         lines.append(f"{flagged.total()} of {len(names) * len(carried)} flagged: {'; '.join(told)}")
     elif carried:
         lines.append("none flagged")
+    done = Counter(flag for one in study for flag in one.flags if flag in REVIEWED)
+    if done:
+        lines.append(", ".join(f"{done[word]} {word}" for word in REVIEWED) + " by hand")
     missing = sum(int((one.points.vertices < 0).sum()) for one in carried)
     if missing:
         lines.append(f"{missing} missing (NA)")

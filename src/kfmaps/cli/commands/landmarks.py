@@ -1,4 +1,4 @@
-"""``kfmaps landmarks``: pairs of points picked by hand on a local web page, and landmarks carried to many scans."""
+"""``kfmaps landmarks``: pairs picked by hand on a local page, landmarks carried to many scans, and their review."""
 
 from __future__ import annotations
 
@@ -21,10 +21,14 @@ from kfmaps.io.mapfile import check_format
 from kfmaps.io.named_points import read_given_landmarks
 from kfmaps.settings.options import Chosen, with_settings
 from kfmaps.viz.document import forwarding_page
+from kfmaps.viz.landmark_review import ReviewServer
 from kfmaps.viz.page import check_up
 from kfmaps.viz.picker import Picker, PickerServer, check_pairs
 from kfmaps.viz.result_pages import open_page
 from kfmaps.viz.runs import InteractiveMatcher
+
+_Port = Annotated[int, typer.Option(help="Of this machine; 0 takes a free one.", min=0, max=65535)]
+_OpenPage = Annotated[bool, typer.Option("--browser/--no-browser", help="Open the page.")]
 
 
 class _PickByDefault(TyperGroup):
@@ -39,7 +43,7 @@ class _PickByDefault(TyperGroup):
 app = typer.Typer(
     cls=_PickByDefault,
     no_args_is_help=True,
-    help="Pick landmarks on a local page, or carry those of some specimens to all scans of a folder.",
+    help="Pick landmarks on a local page, carry those of some specimens to a folder of scans, review them.",
 )
 app.command("transfer")(transfer)
 
@@ -64,8 +68,8 @@ def pick(
         Path, typer.Option("--map", help="Where the page saves the map of a run: .npz, .mat, .txt or .vts.")
     ] = Path("map.npz"),
     up: UpAxis = None,
-    port: Annotated[int, typer.Option(help="Of this machine; 0 takes a free one.", min=0, max=65535)] = 0,
-    browser: Annotated[bool, typer.Option("--browser/--no-browser", help="Open the page.")] = True,
+    port: _Port = 0,
+    browser: _OpenPage = True,
     json: Json = False,
     force: Annotated[bool, typer.Option("--force", help="Save over an existing file without asking.")] = False,
 ) -> None:
@@ -90,9 +94,31 @@ def pick(
     names = (source.stem, target.stem)
     matcher = InteractiveMatcher(shapes, names, (source, target), settings.config(Config()))
     picker = Picker(*shapes, names, output, force, pairs, labels, matcher, map_output, up)
-    serving = PickerServer(picker, port)
+    _serve(PickerServer(picker, port), {"output": [output, map_output]}, browser, json)
+
+
+@app.command("review")
+def review(
+    study: Annotated[Path, typer.Argument(help="A folder that landmarks transfer wrote.", metavar="STUDY")],
+    up: UpAxis = None,
+    port: _Port = 0,
+    browser: _OpenPage = True,
+    json: Json = False,
+) -> None:
+    """Look at the landmarks of each specimen on a local page, move those that are wrong, accept those that are right.
+
+    Tables and statistics are written anew at each save. The same landmarks transfer as before keeps the corrections,
+    and fits the maps of corrected specimens to them.
+    """
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", KfmapsWarning)  # what is odd about the scans said landmarks transfer
+        _serve(ReviewServer(study, port, up), {"output": [study]}, browser, json)
+
+
+def _serve(serving: PickerServer | ReviewServer, told: dict[str, Any], browser: bool, json: bool) -> None:
+    """Say where the page is, open it, and answer until the user interrupts."""
     if json:
-        print_json({"address": serving.server.address, "output": [output, map_output]})
+        print_json({"address": serving.server.address, **told})
     else:
         typer.echo(serving.server.address)
         typer.echo("Only this machine can reach it, and only with that address. Ctrl-C ends.")

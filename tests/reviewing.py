@@ -1,0 +1,60 @@
+"""A small study of carried landmarks, and its review page being served."""
+
+from __future__ import annotations
+
+import csv
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+from collecting import bent
+from kfmaps.batch.landmark_tables import write_study
+from kfmaps.batch.layout import find_collection
+from kfmaps.batch.transfer_landmarks import given_landmarks, read_templates
+from kfmaps.io import write_mesh
+from kfmaps.io.landmark_files import LandmarkSet, write_landmark_sets
+from kfmaps.viz.landmark_review import ReviewServer
+
+N = 300
+AT = np.array([10, 100, 150, 220, 290])
+LABELS = tuple("abcde")
+
+
+def make_study(tmp_path: Path) -> Path:
+    """A study of four poses; that of ``b`` has a flagged landmark and a missing one, ``d`` is left out."""
+    scans = tmp_path / "scans"
+    scans.mkdir()
+    for i, name in enumerate("abcd"):
+        mesh = bent(i, N)
+        write_mesh(scans / f"{name}.ply", mesh)
+        points = mesh.vertices[AT]
+        points[4] = np.nan if name == "b" else points[4]
+        write_landmark_sets(tmp_path / f"{name}.mrk.json", [LandmarkSet(LABELS, points, space="LPS")])
+    templates = read_templates([tmp_path / f"{name}.mrk.json" for name in "abcd"], find_collection(scans))
+    made = [given_landmarks(one) for one in templates]
+    carried = [replace(one, verdict="sure", chance=0.875, n_maps=1) for one in made[1:]]
+    carried[0] = replace(carried[0], flags=("", "low confidence", "", "", "no counterpart"))
+    carried[2] = replace(carried[2], misfit="it is a cat")
+    write_study(tmp_path / "study", [made[0], *carried], ".mrk.json")
+    return tmp_path / "study"
+
+
+@contextmanager
+def serve_review(study: Path) -> Iterator[ReviewServer]:
+    """The review page of a study, answering from another thread."""
+    made = ReviewServer(study)
+    thread = threading.Thread(target=made.server.serve_forever)
+    thread.start()
+    yield made
+    made.server.shutdown()
+    thread.join()
+    made.close()
+
+
+def rows_of(study: Path, specimen: str) -> dict[str, dict[str, str]]:
+    with open(study / "landmarks.csv", encoding="utf-8") as file:
+        return {row["name"]: row for row in csv.DictReader(file) if row["specimen"] == specimen}
