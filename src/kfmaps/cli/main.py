@@ -19,6 +19,7 @@ import typer
 
 import kfmaps
 from kfmaps._errors import InvalidInput, KfmapsWarning, MissingDependency, NotConverged, shown
+from kfmaps.cli.streams import standard_streams
 
 COMMANDS = {
     "match": "Find for each vertex of the target the corresponding vertex of the source, and write the map.",
@@ -170,7 +171,8 @@ def _run(words: Sequence[str]) -> int:
     asked = next((word for word in words if not word.startswith("-")), "")
     command = typer.main.get_command(application(None if completing else asked))
     try:
-        status = command.main(args=list(words), prog_name="kfmaps", standalone_mode=False)
+        with standard_streams(words, asked) as words:
+            status = command.main(args=words, prog_name="kfmaps", standalone_mode=False)
     except _USAGE_ERROR as error:
         context = getattr(error, "ctx", None)
         message = _other_option(error, context) or error.format_message()  # pyright: ignore[reportAttributeAccessIssue]

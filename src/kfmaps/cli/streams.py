@@ -1,0 +1,101 @@
+"""``-`` among the words of a command: standard input where it reads a file, standard output where it writes one."""
+
+from __future__ import annotations
+
+import re
+import sys
+import tempfile
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager, redirect_stdout
+from pathlib import Path
+
+from kfmaps._errors import refuse
+
+_STREAM = re.compile(r"-(\.[a-z][a-z.]*)?")
+_OUTPUTS = ("-o", "--output", "--curve")
+_FORMATS = {"match": ".txt", "transfer": ".csv", "export": ".ply", "view": ".html", "config": ".toml", "render": ".png"}
+"""What a command writes to ``-``; ``-.npz`` and the like say another format. Other commands write folders."""
+_SIGNS = (
+    (rb"ply\s", ".ply"),
+    (rb"(ST)?C?N?4?n?OFF\b", ".off"),
+    (rb"glTF", ".glb"),
+    (rb"# vtk DataFile", ".vtk"),
+    (rb"<(\?xml|VTKFile)", ".vtp"),
+    (rb"solid\b", ".stl"),
+    (rb"PK\x03\x04", ".npz"),
+    (rb"\x93NUMPY", ".npy"),
+    (rb"MATLAB", ".mat"),
+    (rb"# Markups", ".fcsv"),
+    (rb"\s*\{", ".mrk.json"),
+    (rb"(\s*#[^\n]*\n|(mtllib|o|g|s) [^\n]*\n|\s)*v\s+\S+\s+\S", ".obj"),
+    (rb"(#[^\n]*\n)*[^\n#]*,", ".csv"),
+)
+"""How the content of each format begins; anything else is plain text."""
+
+
+def content_suffix(data: bytes) -> str:
+    """Return the extension of a file with this content."""
+    return next((suffix for sign, suffix in _SIGNS if re.match(sign, data)), ".txt")
+
+
+@contextmanager
+def standard_streams(words: Sequence[str], command: str) -> Iterator[list[str]]:
+    """Put files in the place of ``-`` among the words of a command.
+
+    What is read comes from standard input. What is written goes to standard output when the block ends, and what the
+    command prints meanwhile to standard error.
+
+    Parameters
+    ----------
+    words : sequence of str
+    command : str
+        The command's name, which decides the format that is written.
+
+    Yields
+    ------
+    list of str
+        The words with the names of files.
+
+    Raises
+    ------
+    InvalidInput
+        When there are two ``-`` of a kind, or the command writes a folder.
+    """
+    places = [i for i, word in enumerate(words) if _STREAM.fullmatch(word)]
+    writes = [i for i in places if i and words[i - 1] in _OUTPUTS]
+    reads = [i for i in places if i not in writes]
+    for name, found in (("standard input", reads), ("standard output", writes)):
+        if len(found) > 1:
+            raise refuse(name, "one file", f"{len(found)} times -", "name the other files")
+    words = list(words)
+    if not places:
+        yield words
+        return
+    with tempfile.TemporaryDirectory(prefix="kfmaps-") as folder:
+        for i in reads:
+            data = sys.stdin.buffer.read()
+            if not data:
+                raise refuse("standard input", "a file", "nothing", "send one, or name it")
+            path = Path(folder) / f"standard-input{words[i][1:] or content_suffix(data)}"
+            path.write_bytes(data)
+            words[i] = str(path)
+        if not writes:
+            yield words
+            return
+        suffix = words[writes[0]][1:] or _FORMATS.get(command)
+        if suffix is None:
+            raise refuse("output -", "a folder or a file with a name", "standard output", "name it")
+        path = Path(folder) / f"standard-output{suffix}"
+        words[writes[0]] = str(path)
+        with redirect_stdout(sys.stderr):
+            yield words
+        if path.exists():
+            _print(path.read_bytes())
+
+
+def _print(data: bytes) -> None:
+    if hasattr(sys.stdout, "buffer"):
+        sys.stdout.flush()
+        sys.stdout.buffer.write(data)
+    else:
+        sys.stdout.write(data.decode("utf-8"))
