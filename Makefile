@@ -11,7 +11,7 @@ export OMP_NUM_THREADS ?= 1
 CORE := automatic clouds confidence device eigensolver energy formulas formulas_match formulations geodesics guided inside \
 	kernels many many_differences many_maps maps nystrom orientation pipeline preconditioners rounding scale search shot solvers spectrum topology
 
-.PHONY: demo test shake lint mutants docs experiments dist web clean
+.PHONY: demo test shake lint mutants docs experiments dist image web clean
 
 demo: $(VENV)/.base
 	$(BIN)/kfmaps demo --output demo.png --force
@@ -43,6 +43,10 @@ dist: $(VENV)/.dev
 	    build/dist/bin/python -m pip install --quiet --constraint constraints.txt $$archive && \
 	    (cd build/dist && bin/kfmaps demo --output demo.png --force) || exit 1; \
 	done
+
+# The image of the Dockerfile; where nothing builds images, its steps in a temporary folder.
+image:
+	docker build --tag kfmaps . || $(PYTHON) tests/test_image.py
 
 # The bundle of the result page; only needed after a change under web/ (Node 20 or newer).
 web:

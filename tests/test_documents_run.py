@@ -29,7 +29,7 @@ DOCS = ROOT / "docs"
 ELSEWHERE = ("import bpy", "--morph", "pip install", "part.npz", ".xyz", "hero.glb")
 """Words of blocks that need another program, or files that are not there."""
 PAGES = sorted(page for page in DOCS.glob("*.md") if re.search(r"^(```python|kfmaps )", page.read_text(), re.MULTILINE))
-OWN_TESTS = ("index", "settings", "extend", "learning", "collections", "skulls")
+OWN_TESTS = ("index", "settings", "extend", "learning", "collections", "cluster", "skulls")
 PAGES = [page for page in PAGES if page.stem not in OWN_TESTS]
 
 
