@@ -18,7 +18,10 @@ from kfmaps.geometry.mesh import Mesh
 from kfmaps.io import load_map, save_map, write_mesh
 from kfmaps.io.landmark_files import (
     _FORMATS,
+    LandmarkCurve,
     LandmarkSet,
+    find_curves,
+    fixed_rows,
     landmark_stem,
     landmark_suffix,
     mesh_space,
@@ -68,7 +71,7 @@ def test_slicer_json(tmp_path: Path) -> None:
         {"label": "b", "positionStatus": "undefined", "position": [0, 0, 0]},
         {"position": [4, 5, 6], "positionStatus": "defined"},
     ]
-    content = {"markups": [{"type": "Curve", "coordinateSystem": "LPS", "controlPoints": points}]}
+    content = {"markups": [{"type": "Fiducial", "coordinateSystem": "LPS", "controlPoints": points}]}
     (read,) = read_landmark_sets(touch(tmp_path / "s.mrk.json", json.dumps(content)))
     assert (read.names, read.space) == (("a", "b", "3"), "LPS")
     np.testing.assert_array_equal(read.points, [[1, 2, 3], [np.nan] * 3, [4, 5, 6]])
@@ -280,3 +283,39 @@ def test_points_are_carried_from_slicers_file_to_slicers_file(tmp_path: Path) ->
     (read,) = read_landmark_sets(tmp_path / "b.mrk.json")
     assert read.names == ("a", "b", "c")
     np.testing.assert_allclose(read.points, 2 * on(mesh).points, atol=1e-9)
+
+
+CURVED = ("tip", "curvebrow_2", "looporbit_1", "looporbit_2", "looporbit_3", "curvebrow_1", "curvebrow_10")
+
+
+def test_curves_are_known_by_the_names_of_their_points() -> None:
+    assert find_curves(CURVED) == [LandmarkCurve("brow", (5, 1, 6), False), LandmarkCurve("orbit", (2, 3, 4), True)]
+    assert fixed_rows(CURVED) == [0]
+    assert find_curves(("curve_of_the_nose", "loop", "a_1")) == []
+
+
+def test_curves_of_slicer_keep_their_type_and_name(tmp_path: Path) -> None:
+    points = np.arange(21.0).reshape(7, 3)
+    points[2] = np.nan
+    path = tmp_path / "s.mrk.json"
+    write_landmark_sets(path, [LandmarkSet(CURVED, points, notes=("", "look", *[""] * 5))])
+    markups = json.loads(path.read_text())["markups"]
+    assert [one["type"] for one in markups] == ["Fiducial", "Curve", "ClosedCurve"]
+    assert [len(one["controlPoints"]) for one in markups] == [1, 3, 3]
+    assert [one["selected"] for one in markups[1]["controlPoints"]] == [True, False, True]
+    (read,) = read_landmark_sets(path)
+    assert read.names == ("tip", "curvebrow_1", "curvebrow_2", "curvebrow_3", *CURVED[2:5])
+    np.testing.assert_array_equal(read.points, points[[0, 5, 1, 6, 2, 3, 4]])
+    unnamed = [{"type": kind, "controlPoints": [{"label": "C-1", "position": [1, 2, 3]}]} for kind in ("Curve",) * 2]
+    (read,) = read_landmark_sets(touch(tmp_path / "t.mrk.json", json.dumps({"markups": unnamed})))
+    assert read.names == ("curve1_1", "curve2_1")
+
+
+def test_curves_of_tps_come_after_the_landmarks(tmp_path: Path) -> None:
+    points = np.arange(21.0).reshape(7, 3)
+    write_landmark_sets(tmp_path / "s.tps", [LandmarkSet(CURVED, points, "one")] * 2)
+    lines = (tmp_path / "s.tps").read_text().splitlines()
+    assert [line for line in lines if "=" in line] == ["LM3=1", "CURVES=2", "POINTS=3", "POINTS=3", "ID=one"] * 2
+    read = read_landmark_sets(tmp_path / "s.tps")[1]
+    assert read.names == ("1", *(f"curve{i}_{k}" for i in (1, 2) for k in (1, 2, 3)))
+    np.testing.assert_array_equal(read.points, points[[0, 5, 1, 6, 2, 3, 4]])

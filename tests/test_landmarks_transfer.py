@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import json
 from dataclasses import replace
 from pathlib import Path
 
@@ -29,6 +30,8 @@ from kfmaps.batch.transfer_landmarks import (
 )
 from kfmaps.batch.work import map_path
 from kfmaps.cli.commands._landmarks_transfer import _describe_study
+from kfmaps.collection.semilandmarks import bending_energy_matrix
+from kfmaps.geometry.closest_points import closest_points
 from kfmaps.geometry.mesh import Mesh, surface_area
 from kfmaps.io import load_map, read_mesh, save_map, write_mesh
 from kfmaps.io.landmark_files import LandmarkSet, read_landmark_sets, write_landmark_sets
@@ -192,7 +195,7 @@ def test_names_of_templates(scans: Path, tmp_path: Path) -> None:
     collection = find_collection(scans)
     (tmp_path / "b_LM.mrk.json").write_bytes((tmp_path / "b.mrk.json").read_bytes())
     assert read_templates([tmp_path / "b_LM.mrk.json"], collection)[0].specimen == "b"
-    with pytest.raises(InvalidInput, match="one file of landmarks for b"):
+    with pytest.raises(InvalidInput, match="one file for each landmark of b"):
         read_templates([tmp_path / "b.mrk.json", tmp_path / "b_LM.mrk.json"], collection)
     (tmp_path / "x.mrk.json").write_bytes((tmp_path / "b.mrk.json").read_bytes())
     with pytest.raises(InvalidInput, match="Call the file of landmarks as the scan is called"):
@@ -270,3 +273,61 @@ def test_landmarks_of_one_shape_alone_are_no_pairs(scans: Path, tmp_path: Path) 
     pairs, names = read_given_landmarks(files, meshes, (None, None))
     assert names == list(LABELS)
     np.testing.assert_array_equal(pairs, np.stack([AT, AT], axis=1))
+
+
+RING = np.array([12, 40, 75, 160, 200, 260])
+
+
+def curve_files(folder: Path, scans: Path, name: str) -> list[Path]:
+    """Landmarks and a curve of a scan, in two files as Slicer saves them."""
+    vertices = read_mesh(scans / f"{name}.ply").vertices
+    labels = tuple(f"curve1_{k + 1}" for k in range(6))
+    write_landmark_sets(
+        folder / f"{name}_crest.mrk.json", [LandmarkSet(labels, vertices[RING], space="LPS")], force=True
+    )
+    return [folder / f"{name}.mrk.json", folder / f"{name}_crest.mrk.json"]
+
+
+def test_points_of_a_curve_slide_and_landmarks_do_not(scans: Path, tmp_path: Path) -> None:
+    (template,) = read_templates(curve_files(tmp_path, scans, "a"), find_collection(scans))
+    assert template.points.names == (*LABELS, *(f"curvecrest_{k}" for k in range(1, 7)))
+    results = maps(tmp_path, [("a", "d")])
+    one = carry_templates([template], "d", scans / "d.ply", {"a": results["a", "d"]}, tmp_path)
+    mesh = read_mesh(scans / "d.ply")
+    carried = mesh.vertices[[*AT, *RING]]
+    fixed = [0, 1, 2, 3, 4, 5, 10]
+    np.testing.assert_allclose(one.points.points[fixed], carried[fixed], atol=1e-9)
+    assert (np.linalg.norm(one.points.points - carried, axis=1)[6:10] > 0.01).all()
+    bent_least = bending_energy_matrix(template.points.points)
+    before, after = (np.einsum("ia,ij,ja->", x, bent_least, x) for x in (carried, one.points.points))
+    assert after < before
+    close = closest_points(one.points.points, mesh.vertices, mesh.faces)
+    np.testing.assert_allclose(close.distances, 0, atol=1e-6)
+    own = given_landmarks(template)
+    write_study(tmp_path / "out", [own, one, replace(one, specimen="e")], ".mrk.json")
+    markups = json.loads((tmp_path / "out" / "landmarks" / "d.mrk.json").read_text())["markups"]
+    assert [(m["type"], len(m["controlPoints"])) for m in markups] == [("Fiducial", 5), ("Curve", 6)]
+    assert (tmp_path / "out" / "sliders.csv").read_text().split() == [
+        "before,slide,after",
+        "6,7,8",
+        "7,8,9",
+        "8,9,10",
+        "9,10,11",
+    ]
+
+
+def test_curves_of_several_templates_slide_to_their_mean(scans: Path, tmp_path: Path) -> None:
+    files = [*curve_files(tmp_path, scans, "a"), *curve_files(tmp_path, scans, "b")]
+    templates = read_templates(files, find_collection(scans))
+    moved = np.linalg.norm(templates[1].points.points - read_mesh(scans / "b.ply").vertices[[*AT, *RING]], axis=1)
+    np.testing.assert_allclose(moved[[*range(6), 10]], 0, atol=1e-9)
+    assert (moved[6:10] > 1e-3).all()
+    results = maps(tmp_path, [("a", "b"), ("b", "a")])
+    errors = template_errors(templates, results, tmp_path)
+    assert np.isnan(errors[:, 5:]).all()
+    assert np.isfinite(errors[:, :5]).all()
+    labels = tuple(f"curve1_{k + 1}" for k in range(5))
+    points = read_mesh(scans / "b.ply").vertices[RING[:5]]
+    write_landmark_sets(files[3], [LandmarkSet(labels, points, space="LPS")], force=True)
+    with pytest.raises(InvalidInput, match=r"expected 6 points of the curve crest, as another has, got 5\. Resample"):
+        read_templates(files, find_collection(scans))

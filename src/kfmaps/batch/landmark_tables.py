@@ -17,7 +17,7 @@ from kfmaps.collection.procrustes import generalized_procrustes, thin_plate_warp
 from kfmaps.fmap.precise import PointMap
 from kfmaps.geometry.mesh import Mesh
 from kfmaps.io import write_mesh
-from kfmaps.io.landmark_files import LandmarkSet, landmark_suffix, wide_rows, write_landmark_sets
+from kfmaps.io.landmark_files import LandmarkSet, find_curves, landmark_suffix, wide_rows, write_landmark_sets
 from kfmaps.io.named_points import NamedPoints
 from kfmaps.io.text import complete_or_refuse
 
@@ -49,6 +49,10 @@ def write_study(output: Path, study: Sequence[SpecimenLandmarks], suffix: str) -
     write_rows(files[1], wide_rows([one.landmarks for one in fitting]))
     write_landmark_sets(files[2], [one.landmarks for one in fitting], force=True)
     write_rows(files[3], _specimen_rows(study))
+    sliders = _sliders(fitting[0].points.names)
+    if sliders:
+        files.append(output / "sliders.csv")
+        write_rows(files[4], [["before", "slide", "after"], *sliders])
     return [*files, *_write_shape(output / "shape", fitting)]
 
 
@@ -147,6 +151,16 @@ def _write_shape(folder: Path, study: Sequence[SpecimenLandmarks]) -> list[Path]
             warped = Mesh(thin_plate_warp(mesh.vertices, base, extreme), mesh.faces)
             write_mesh(folder / f"PC1_{word}.ply", warped, force=True)
     return [folder / "pca_scores.csv", folder / "procrustes.csv"]
+
+
+def _sliders(names: Sequence[str]) -> list[list[int]]:
+    """The points that slide between which others, counted from 1, as geomorph's ``gpagen(curves = )`` wants them."""
+    found = []
+    for curve in find_curves(names):
+        rows = [row + 1 for row in curve.rows]
+        rows = [rows[-1], *rows, rows[0]] if curve.closed else rows
+        found += [list(three) for three in zip(rows, rows[1:], rows[2:], strict=False)]
+    return found
 
 
 def _long_rows(study: Sequence[SpecimenLandmarks]) -> list[list[object]]:

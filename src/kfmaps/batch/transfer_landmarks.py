@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import itertools
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -12,7 +14,8 @@ from kfmaps._arrays import refuse
 from kfmaps.batch.layout import Pair, ShapeFolder
 from kfmaps.batch.results import Result
 from kfmaps.batch.work import map_path, read_shape_mesh
-from kfmaps.collection.procrustes import geometric_median, is_mirror_image
+from kfmaps.collection.procrustes import generalized_procrustes, geometric_median, is_mirror_image
+from kfmaps.collection.semilandmarks import slide_semilandmarks
 from kfmaps.fmap.precise import PointMap, nearest_vertices, vertex_point_map
 from kfmaps.geometry.closest_points import closest_points
 from kfmaps.geometry.mesh import Mesh, surface_area
@@ -22,6 +25,8 @@ from kfmaps.io.landmark_files import (
     RAS,
     LandmarkSet,
     check_names,
+    find_curves,
+    fixed_rows,
     landmark_stem,
     mesh_space,
     read_landmark_sets,
@@ -92,31 +97,65 @@ class SpecimenLandmarks:
 def read_templates(files: Sequence[Path], scans: ShapeFolder) -> list[Template]:
     """Read the landmarks of specimens that are among the scans; a file of several specimens holds as many templates.
 
-    A file belongs to the scan whose name it has, or begins with.
+    A file belongs to the scan whose name it has, or begins with; several of one scan are joined, such as landmarks and
+    a file for each curve, which is then called as the file is.
     """
     found: dict[str, Template] = {}
     for file in files:
         sets = read_landmark_sets(file)
         for one in sets:
             name = _scan_of(one.specimen if len(sets) > 1 else landmark_stem(file), scans, file)
-            if name in found:
-                raise refuse(str(file), f"one file of landmarks for {name}", "two", "leave one out")
             path = scans.shapes[name]
             mesh, space = read_shape_mesh(str(path)), mesh_space(path)
             if len(mesh.faces) == 0:
                 raise refuse(str(path), "a surface with faces", "a point cloud", "Landmarks lie on surfaces")
-            given = choose_specimen([one], name, str(file))
+            given = _name_curve(choose_specimen([one], name, str(file)), landmark_stem(file), name)
             points = place_landmarks(given, mesh, str(file), space=space)
+            if name in found:
+                known = found[name].points
+                if again := set(known.names) & set(points.names):
+                    got = f"two with {min(again)!r}"
+                    raise refuse(str(file), f"one file for each landmark of {name}", got, "leave one out")
+                found[name] = replace(found[name], points=_join(known, points))
+                continue
             found[name] = Template(name, file, path, mesh, points, space or _space(given, points))
     templates = list(found.values())
     first = templates[0]
     names = tuple(dict.fromkeys(label for one in templates for label in one.points.names))
+    curves = find_curves(names)
+    names = tuple(names[row] for row in [*fixed_rows(names), *(row for curve in curves for row in curve.rows)])
+    for one, curve in itertools.product(templates, find_curves(names)):
+        count = sum(names[row] in one.points.names for row in curve.rows)
+        if 0 < count < len(curve.rows):
+            wanted = f"{len(curve.rows)} points of the curve {curve.name}, as another has"
+            raise refuse(str(one.file), wanted, f"{count}", "resample them alike")
     for one in templates[1:]:
         if is_mirror_image(_by_name(one.points, names), _by_name(first.points, names)):
             got = f"a mirror image of {first.file}'s"
             remedy = "Left and right labels are swapped in one of them, or one of the scans is a mirror image"
             raise refuse(str(one.file), "landmarks like those of the others", got, remedy)
-    return [replace(one, points=_all_names(one.points, names)) for one in templates]
+    templates = [replace(one, points=_all_names(one.points, names)) for one in templates]
+    if len(templates) == 1 or not curves:
+        return templates
+    slid = _slide(np.stack([one.points.points for one in templates]), templates)
+    pairs = zip(templates, slid, strict=True)
+    return [replace(one, points=_on_surface(names, new, one.points.confidence, one.mesh)) for one, new in pairs]
+
+
+def _name_curve(given: LandmarkSet, stem: str, specimen: str) -> LandmarkSet:
+    """Landmarks whose only curve has the rest of the file's name for its own, where the file has nothing else."""
+    rest = stem.removeprefix(specimen).strip("._- ")
+    if not rest or fixed_rows(given.names) or len(find_curves(given.names)) > 1:
+        return given
+    return replace(given, names=tuple(re.sub(r"(curve|loop).*(_\d+)", rf"\g<1>{rest}\2", one) for one in given.names))
+
+
+def _join(a: NamedPoints, b: NamedPoints) -> NamedPoints:
+    place = PointMap(np.append(a.place.faces, b.place.faces), np.vstack([a.place.weights, b.place.weights]))
+    fields = ("points", "vertices", "confidence", "apart")
+    return NamedPoints(
+        a.names + b.names, place, *(np.concatenate([getattr(a, one), getattr(b, one)]) for one in fields)
+    )
 
 
 def template_pairs(templates: Sequence[Template], scans: ShapeFolder) -> list[Pair]:
@@ -151,9 +190,9 @@ def carry_templates(
 ) -> SpecimenLandmarks:
     """Return the landmarks of a scan: the geometric median of what the templates propose, on the surface.
 
-    ``results`` are those of the maps from the templates. Maps that are not good (:data:`GOOD`) are left out where there
-    are others. The confidence of a landmark is the mean of the templates' confidences, times the fraction of templates
-    whose proposal lies near the median (:data:`MAX_SPREAD`).
+    Points of curves are slid before. ``results`` are those of the maps from the templates. Maps that are not good
+    (:data:`GOOD`) are left out where there are others. The confidence of a landmark is the mean of the templates'
+    confidences, times the fraction of templates whose proposal lies near the median (:data:`MAX_SPREAD`).
     """
     names = templates[0].points.names
     done = [one for one in templates if one.specimen in results and results[one.specimen].status == "done"]
@@ -173,7 +212,7 @@ def carry_templates(
         points = _carry_points(known, one.points, one.mesh, mesh, str(file), 1.0 if chance is None else chance)
         carried.append(points)
         rivals.append(_rival_distance(known, one, mesh, points))
-    proposals = np.stack([points.points for points in carried])
+    proposals = _slide(np.stack([points.points for points in carried]), templates)
     median = geometric_median(proposals)
     distances = np.linalg.norm(proposals - median, axis=2)
     near = np.where(np.isnan(distances), np.nan, distances <= MAX_SPREAD * unit)
@@ -187,6 +226,16 @@ def carry_templates(
     chance = np.nan if best.confidence is None else best.confidence
     told = (path, len(used), best.verdict, chance, misfit, space)
     return SpecimenLandmarks(specimen, points, spread, np.fmin.reduce(rivals), flags, *told)
+
+
+def _slide(points: np.ndarray, templates: Sequence[Template]) -> np.ndarray:
+    """Return landmarks of specimens (s, l, 3), points of curves slid against the template, or the mean of several."""
+    curves = [(np.array(curve.rows), curve.closed) for curve in find_curves(templates[0].points.names)]
+    if not curves:
+        return points
+    given = np.stack([one.points.points for one in templates])
+    reference = given[0] if len(given) == 1 else generalized_procrustes(given).consensus
+    return np.stack([slide_semilandmarks(one, reference, curves) for one in points])
 
 
 def _on_surface(names: tuple[str, ...], positions: np.ndarray, confidence: np.ndarray, mesh: Mesh) -> NamedPoints:
@@ -272,7 +321,10 @@ def given_landmarks(template: Template) -> SpecimenLandmarks:
 def template_errors(
     templates: Sequence[Template], results: Mapping[tuple[str, str], Result], folder: Path
 ) -> np.ndarray:
-    """Return how far each template's landmarks come to lie from those of each other one, (pairs, l); NaN for none."""
+    """Return how far each template's landmarks come to lie from those of each other one.
+
+    (pairs, l); NaN for none, and for points of curves, which may lie anywhere along them.
+    """
     rows = []
     for a in templates:
         for b in templates:
@@ -282,6 +334,7 @@ def template_errors(
             file = map_path(folder, Pair(a.specimen, b.specimen).key)
             carried = _carry_points(load_map(file), a.points, a.mesh, b.mesh, str(file), 1.0)
             rows.append(np.linalg.norm(carried.points - b.points.points, axis=1))
+            rows[-1][np.setdiff1d(np.arange(len(rows[-1])), fixed_rows(carried.names))] = np.nan
     return np.array(rows).reshape(-1, len(templates[0].points.names))
 
 

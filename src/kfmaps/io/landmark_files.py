@@ -30,9 +30,40 @@ SCHEMA = "https://raw.githubusercontent.com/slicer/slicer/master/Modules/Loadabl
 FCSV_COLUMNS = "id,x,y,z,ow,ox,oy,oz,vis,sel,lock,label,desc,associatedNodeID"
 
 
+_CURVE_TYPES = {"Curve": "curve", "ClosedCurve": "loop"}
+"""3D Slicer's types of curves, and how the names of their points begin."""
+_CURVE_POINT = re.compile(r"(curve|loop)(.*)_(\d+)")
+
+
+@dataclass(frozen=True)
+class LandmarkCurve:
+    """A curve among landmarks."""
+
+    name: str
+    rows: tuple[int, ...]  # its points, in order
+    closed: bool  # whether the last point is next to the first
+
+
+def find_curves(names: Sequence[str]) -> list[LandmarkCurve]:
+    """Return the curves among landmarks: "curveNAME_1", "curveNAME_2", ..., or "loopNAME_1" of a closed curve."""
+    found: dict[tuple[str, str], list[tuple[int, int]]] = {}
+    for row, label in enumerate(names):
+        match = _CURVE_POINT.fullmatch(label)
+        if match is not None:
+            found.setdefault((match[1], match[2]), []).append((int(match[3]), row))
+    return [
+        LandmarkCurve(name, tuple(row for _, row in sorted(own)), kind == "loop") for (kind, name), own in found.items()
+    ]
+
+
+def fixed_rows(names: Sequence[str]) -> list[int]:
+    """Return the landmarks that are of no curve."""
+    return [row for row, label in enumerate(names) if _CURVE_POINT.fullmatch(label) is None]
+
+
 @dataclass(frozen=True, eq=False)
 class LandmarkSet:
-    """The landmarks of one specimen, as a file has them."""
+    """The landmarks of one specimen, as a file has them; points of curves are named as :func:`find_curves` says."""
 
     names: tuple[str, ...]
     points: np.ndarray  # (l, 3): NaN for a missing landmark. Points of a plane have a third coordinate of 0.
@@ -48,7 +79,7 @@ class LandmarkSet:
 def read_landmark_sets(path: str | Path) -> list[LandmarkSet]:
     """Read landmarks of one or more specimens; the extension tells the format.
 
-    ``.mrk.json`` and ``.fcsv`` (3D Slicer), ``.tps`` (tpsDig, MorphoJ, geomorph; curves are points as well), ``.pts``
+    ``.mrk.json`` and ``.fcsv`` (3D Slicer), ``.tps`` (tpsDig, MorphoJ, geomorph), ``.pts``
     (Landmark Editor), ``.particles`` (ShapeWorks), and ``.csv``: a row for each landmark ("name, x, y, z", "name,
     vertex", or columns with titles, among them a specimen) or for each specimen (columns ``x_NAME``, ``y_NAME``,
     ``z_NAME``, or ``NAME.X`` and so on).
@@ -145,11 +176,14 @@ def _numbered(count: int) -> tuple[str, ...]:
 def _read_json(text: str, name: str) -> list[LandmarkSet]:
     """Markups of 3D Slicer: https://github.com/Slicer/Slicer, ``markups-schema-v1.0.3.json``."""
     content = json.loads(text)
-    names, points, spaces = [], [], set()
+    names, points, spaces, curves = [], [], set(), 0
     for markup in content["markups"]:
         spaces.add(_space(markup.get("coordinateSystem", LPS), name))
-        for one in markup.get("controlPoints", []):
-            names.append(str(one.get("label") or len(names) + 1))
+        kind = _CURVE_TYPES.get(markup.get("type", ""))
+        curves += kind is not None
+        for i, one in enumerate(markup.get("controlPoints", []), 1):
+            label = str(one.get("label") or len(names) + 1)
+            names.append(f"{kind}{markup.get('name') or curves}_{i}" if kind else label)
             placed = one.get("positionStatus", "defined") == "defined" and one.get("position")
             points.append([float(x) for x in one["position"]] if placed else [np.nan] * 3)
     if len(spaces) > 1:
@@ -166,35 +200,42 @@ def _space(word: object, name: str) -> str:
 
 
 def _write_json(sets: Sequence[LandmarkSet]) -> str:
-    one = sets[0]
-    points = []
-    for i, (label, point) in enumerate(zip(one.names, one.points.tolist(), strict=True)):
-        placed = not np.isnan(point).any()
-        points.append(
-            {
-                "id": str(i + 1),
-                "label": label,
-                "description": _note(one, i),
-                "associatedNodeID": "",
-                **({"position": point} if placed else {}),
-                "orientation": [-1.0, 0.0, 0.0, 0.0, -1.0, 0.0, 0.0, 0.0, 1.0],
-                "selected": not _note(one, i),
-                "locked": False,
-                "visibility": True,
-                "positionStatus": "defined" if placed else "undefined",
-            }
-        )
-    markup = {
-        "type": "Fiducial",
-        "coordinateSystem": one.space or LPS,
-        "coordinateUnits": "mm",
+    one, types = sets[0], {kind: word for word, kind in _CURVE_TYPES.items()}
+    curves = find_curves(one.names)
+    lists = [("Fiducial", {}, fixed_rows(one.names))] if not curves or fixed_rows(one.names) else []
+    lists += [(types["loop" if c.closed else "curve"], {"name": c.name}, list(c.rows)) for c in curves]
+    markups = []
+    for kind, told, rows in lists:
+        markup = {
+            "type": kind,
+            **told,
+            "coordinateSystem": one.space or LPS,
+            "coordinateUnits": "mm",
+            "locked": False,
+            "fixedNumberOfControlPoints": False,
+            "labelFormat": "%N-%d",
+            "lastUsedControlPointNumber": len(rows),
+            "controlPoints": [_control_point(one, row, i) for i, row in enumerate(rows, 1)],
+        }
+        markups.append(markup)
+    return json.dumps({"@schema": f"{SCHEMA}markups-schema-v1.0.3.json#", "markups": markups}, indent=1) + "\n"
+
+
+def _control_point(one: LandmarkSet, row: int, number: int) -> dict[str, object]:
+    point = one.points[row].tolist()
+    placed = not np.isnan(point).any()
+    return {
+        "id": str(number),
+        "label": one.names[row],
+        "description": _note(one, row),
+        "associatedNodeID": "",
+        **({"position": point} if placed else {}),
+        "orientation": [-1.0, 0.0, 0.0, 0.0, -1.0, 0.0, 0.0, 0.0, 1.0],
+        "selected": not _note(one, row),
         "locked": False,
-        "fixedNumberOfControlPoints": False,
-        "labelFormat": "%N-%d",
-        "lastUsedControlPointNumber": len(points),
-        "controlPoints": points,
+        "visibility": True,
+        "positionStatus": "defined" if placed else "undefined",
     }
-    return json.dumps({"@schema": f"{SCHEMA}markups-schema-v1.0.3.json#", "markups": [markup]}, indent=1) + "\n"
 
 
 def _note(one: LandmarkSet, i: int) -> str:
@@ -266,10 +307,15 @@ def _read_tps(text: str, name: str) -> list[LandmarkSet]:
 
 
 def _write_tps(sets: Sequence[LandmarkSet]) -> str:
+    """Landmarks and then curves, by ``POINTS=`` in three dimensions too, since geomorph knows no other word."""
     lines = []
     for one in sets:
-        lines.append(f"LM3={len(one.names)}")
-        lines += [" ".join("NA" if np.isnan(x) else f"{x:.9g}" for x in row) for row in one.points.tolist()]
+        fixed, curves = fixed_rows(one.names), find_curves(one.names)
+        parts = [(f"LM3={len(fixed)}", fixed), *((f"POINTS={len(curve.rows)}", curve.rows) for curve in curves)]
+        for i, (head, rows) in enumerate(parts):
+            lines += [f"CURVES={len(curves)}", head] if i == 1 else [head]
+            points = one.points[list(rows)].tolist()
+            lines += [" ".join("NA" if np.isnan(x) else f"{x:.9g}" for x in point) for point in points]
         lines.append(f"ID={' '.join(one.specimen.split())}")
     return "\n".join(lines) + "\n"
 

@@ -1,0 +1,109 @@
+"""Semilandmarks: points of curves, whose places along the curve mean nothing until they have been slid."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from scipy.interpolate import CubicSpline
+from scipy.linalg import null_space, solve
+from scipy.spatial.distance import cdist
+
+_MAX_ROUNDS = 50
+_TOLERANCE = 1e-6  # largest step, in the length of the longest curve, at which the rounds end
+_MAX_STEP = 0.4  # largest step in one round, in the distance to the next point of the curve: points keep their order
+
+
+def bending_energy_matrix(points: np.ndarray) -> np.ndarray:
+    """Return the matrix of the bending energy of thin-plate splines that begin at landmarks.
+
+    With ``B`` this matrix and ``y`` one coordinate of other landmarks, ``yᵀ B y`` is the integral of the squared second
+    derivatives of the spline that takes the landmarks there, up to a constant factor; 0 of an affine map (Bookstein,
+    Principal warps, 1989, with the kernel −|r| of three dimensions).
+
+    Parameters
+    ----------
+    points : (l, 3)
+
+    Returns
+    -------
+    (l, l) float64
+        Symmetric, positive semi-definite.
+    """
+    free = null_space(np.column_stack([np.ones(len(points)), points]).T)
+    return free @ solve(free.T @ -cdist(points, points) @ free, free.T, assume_a="sym")
+
+
+def slide_semilandmarks(
+    points: np.ndarray, template: np.ndarray, curves: Sequence[tuple[np.ndarray, bool]]
+) -> np.ndarray:
+    """Return landmarks with those of curves slid along them until the bending energy from the template is least.
+
+    A curve is the cubic spline through its points. Each round is a Gauss-Newton step: the least energy along the
+    tangents (Bookstein, Landmark methods for forms without landmarks, 1997; Gunz, Mitteroecker and Bookstein,
+    Semilandmarks in three dimensions, 2005), and then along the curve itself.
+
+    Parameters
+    ----------
+    points, template : (l, 3)
+        Landmarks of a specimen and of what it is compared with; NaN for missing ones, which take no part.
+    curves : sequence of ((c,) int, bool)
+        The landmarks of each curve in their order, and whether the last is next to the first. The ends of an open curve
+        stay where they are, and so do landmarks of no curve.
+
+    Returns
+    -------
+    (l, 3) float64
+    """
+    there = np.asarray(np.isfinite(points).all(axis=1) & np.isfinite(template).all(axis=1))
+    paths = [_Path(points, rows[there[rows]], closed) for rows, closed in curves if there[rows].sum() > 2]
+    if not paths or there.sum() < 5:
+        return points
+    energy = np.zeros((len(points), len(points)))
+    energy[np.ix_(there, there)] = bending_energy_matrix(template[there])
+    rows = np.concatenate([path.rows for path in paths])
+    slid = np.where(there[:, None], points, 0.0)
+    least = float(np.einsum("ia,ij,ja->", slid, energy, slid))
+    for _ in range(_MAX_ROUNDS):
+        tangents = np.concatenate([path.spline(path.at, 1) for path in paths])
+        matrix = energy[np.ix_(rows, rows)] * (tangents @ tangents.T)
+        matrix += 1e-10 * np.trace(matrix) / len(rows) * np.eye(len(rows))  # what does not bend does not slide
+        steps = -solve(matrix, (tangents * (energy @ slid)[rows]).sum(axis=1), assume_a="pos")
+        steps *= min(
+            1.0, _MAX_STEP / max(np.abs(steps / np.concatenate([path.gaps() for path in paths])).max(), 1e-300)
+        )
+        new, before = slid.copy(), [path.at for path in paths]
+        while np.abs(steps).max() > _TOLERANCE * max(path.length for path in paths):
+            for path, at, step in zip(paths, before, np.split(steps, _ends(paths)), strict=True):
+                path.at = at + step
+                new[path.rows] = path.spline(path.at)
+            value = float(np.einsum("ia,ij,ja->", new, energy, new))
+            if value < least:
+                break
+            steps = steps / 2
+        else:
+            break
+        slid, least = new, value
+    return np.where(there[:, None], slid, points)
+
+
+class _Path:
+    """A curve of a specimen, and where on it the points lie that slide."""
+
+    def __init__(self, points: np.ndarray, rows: np.ndarray, closed: bool) -> None:
+        corners = points[np.append(rows, rows[0]) if closed else rows]
+        lengths = np.linalg.norm(np.diff(corners, axis=0), axis=1)
+        knots = np.append(0.0, np.cumsum(np.maximum(lengths, 1e-9 * lengths.sum())))
+        self.spline = CubicSpline(knots, corners, bc_type="periodic" if closed else "not-a-knot")
+        self.closed, self.length = closed, float(knots[-1])
+        self.rows, self.at = (rows, knots[:-1]) if closed else (rows[1:-1], knots[1:-1])
+
+    def gaps(self) -> np.ndarray:
+        """Return the distance of each point to the nearer of its neighbours, along the curve."""
+        ends = (self.at[-1] - self.length, self.at[0] + self.length) if self.closed else (0.0, self.length)
+        gaps = np.diff(np.concatenate([ends[:1], self.at, ends[1:]]))
+        return np.minimum(gaps[:-1], gaps[1:])
+
+
+def _ends(paths: Sequence[_Path]) -> np.ndarray:
+    return np.cumsum([len(path.rows) for path in paths])[:-1]

@@ -1,0 +1,110 @@
+"""Semilandmarks slide along their curves to where the bending energy is least."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from scipy.interpolate import RBFInterpolator
+
+from kfmaps.collection.procrustes import thin_plate_warp
+from kfmaps.collection.semilandmarks import bending_energy_matrix, slide_semilandmarks
+
+GUARDS = ("kfmaps.collection.semilandmarks",)
+
+RNG = np.random.default_rng(3)
+FIXED = RNG.normal(size=(8, 3))
+AFFINE = np.eye(3) + 0.3 * RNG.normal(size=(3, 3))
+LINE = np.array([[-1.0, 0.5, 0.2]]) + np.linspace(0, 1, 7)[:, None] * np.array([[2.0, -0.6, 0.9]])
+ANGLES = np.linspace(0, 2 * np.pi, 12, endpoint=False)
+CIRCLE = np.column_stack([np.cos(ANGLES), np.sin(ANGLES), 0.3 * np.sin(2 * ANGLES)])
+OPEN = (np.arange(8, 15), False)
+
+
+def energy(template: np.ndarray, points: np.ndarray) -> float:
+    return float(np.einsum("ia,ij,ja->", points, bending_energy_matrix(template), points))
+
+
+def test_affine_maps_do_not_bend_and_all_others_do() -> None:
+    matrix = bending_energy_matrix(FIXED)
+    np.testing.assert_allclose(matrix, matrix.T, atol=1e-12)
+    np.testing.assert_allclose(matrix @ np.column_stack([np.ones(8), FIXED]), 0, atol=1e-10)
+    values = np.linalg.eigvalsh(matrix)
+    assert (np.abs(values) > 1e-9).sum() == 4
+    assert values.min() > -1e-12
+
+
+def test_the_energy_is_that_of_the_spline() -> None:
+    """The integral of squared second derivatives is 8π times the quadratic form, in three dimensions."""
+    onto = FIXED[:, 0] + 0.3 * RNG.normal(size=8)
+    spline = RBFInterpolator(FIXED, onto[:, None], kernel="linear", degree=1)
+    weights = np.linalg.solve(
+        np.block([
+            [-np.linalg.norm(FIXED[:, None] - FIXED, axis=2), np.ones((8, 1)), FIXED],
+            [np.ones((1, 8)), np.zeros((1, 4))],
+            [FIXED.T, np.zeros((3, 4))],
+        ]),
+        np.append(onto, np.zeros(4)),
+    )[:8]  # fmt: skip
+    np.testing.assert_allclose(bending_energy_matrix(FIXED) @ onto, weights, rtol=1e-8)
+    at = RNG.normal(size=(5, 3))
+    kernel = -np.linalg.norm(at[:, None] - FIXED, axis=2)
+    rest = spline(at)[:, 0] - kernel @ weights  # affine: second differences vanish
+    design = np.column_stack([np.ones(5), at])
+    np.testing.assert_allclose(design @ np.linalg.lstsq(design, rest, rcond=None)[0], rest, atol=1e-9)
+
+
+def test_points_of_a_straight_curve_find_back_to_where_an_affine_map_puts_them() -> None:
+    template = np.vstack([FIXED, LINE])
+    right = template @ AFFINE + 2
+    moved = right.copy()
+    moved[9:14] += np.array([0.08, -0.06, 0.07, 0.05, -0.09])[:, None] * (right[14] - right[8])
+    np.testing.assert_allclose(slide_semilandmarks(moved, template, [OPEN]), right, atol=1e-4)
+    np.testing.assert_allclose(slide_semilandmarks(right, template, [OPEN]), right, atol=1e-6)
+
+
+def test_fixed_landmarks_and_ends_stay_and_the_energy_falls_to_a_minimum() -> None:
+    template = np.vstack([FIXED, LINE, CIRCLE])
+    curves = [OPEN, (np.arange(15, 27), True)]
+    points = thin_plate_warp(template, FIXED, FIXED + 0.2 * RNG.normal(size=(8, 3)))
+    uneven = ANGLES + 0.15 * RNG.normal(size=12)
+    circle = np.column_stack([np.cos(uneven), np.sin(uneven), 0.3 * np.sin(2 * uneven)])
+    points[15:] = thin_plate_warp(circle, FIXED, points[:8])
+    slid = slide_semilandmarks(points, template, curves)
+    still = [*range(9), 14]
+    np.testing.assert_array_equal(slid[still], points[still])
+    least = energy(template, slid)
+    assert least < 0.6 * energy(template, points)
+    for row in (*range(9, 14), *range(15, 27)):  # along the tangent of its neighbours no point would save energy
+        near = {15: (26, 16), 26: (25, 15)}.get(row, (row - 1, row + 1))
+        for step in (-0.03, 0.03):
+            tried = slid.copy()
+            tried[row] += step * (slid[near[1]] - slid[near[0]])
+            assert energy(template, tried) > least
+    order = np.unwrap(np.arctan2(*(slid[15:, :2] - slid[15:, :2].mean(axis=0)).T[::-1]))
+    assert (np.diff(order) > 0).all()
+
+
+def test_scale_and_position_change_nothing() -> None:
+    template = np.vstack([FIXED, LINE])
+    points = template + 0.1 * RNG.normal(size=template.shape)
+    slid = slide_semilandmarks(points, template, [OPEN])
+    again = slide_semilandmarks(100 * points + 7, 0.01 * template - 3, [OPEN])
+    np.testing.assert_allclose((again - 7) / 100, slid, atol=1e-5)
+
+
+def test_missing_points_take_no_part() -> None:
+    template = np.vstack([FIXED, LINE])
+    points = template + 0.1 * RNG.normal(size=template.shape)
+    gone = points.copy()
+    gone[[2, 11]] = np.nan
+    slid = slide_semilandmarks(gone, template, [OPEN])
+    keep = np.setdiff1d(np.arange(15), [2, 11])
+    fewer = slide_semilandmarks(points[keep], template[keep], [(np.arange(7, 13), False)])
+    np.testing.assert_allclose(slid[keep], fewer)
+    assert np.isnan(slid[[2, 11]]).all()
+
+
+@pytest.mark.parametrize("curves", [[], [(np.arange(8, 10), False)]])
+def test_nothing_slides_where_there_is_no_curve(curves: list) -> None:
+    points = np.vstack([FIXED, LINE])
+    assert slide_semilandmarks(points, points[::-1], curves) is points
