@@ -5,7 +5,7 @@ import pytest
 
 from conftest import blob, random_basis
 from kfmaps._arrays import InvalidInput, to_numpy
-from kfmaps.fmap.convert import nearest, to_functional, to_points
+from kfmaps.fmap.convert import _embed_single, embed, nearest, to_functional, to_points
 from kfmaps.fmap.evaluate import coverage, error_curve, geodesic_errors, summarize_errors, truth_from_pairs
 from kfmaps.fmap.nearest import _TREE_POINTS
 from kfmaps.fmap.refine import ICP
@@ -114,6 +114,16 @@ def test_permuted_vertices_permute_the_answer(small_basis, convert, rng):
     f = rng.normal(size=(40, 2))
     carried = target.reconstruct(to_numpy(C) @ f)
     np.testing.assert_allclose(carried, small_basis.reconstruct(f)[order], atol=1e-7)
+
+
+def test_an_approximate_search_in_single_precision_sees_the_same_points(rng):
+    source, target, C = random_basis(300, 12, rng), random_basis(200, 14, rng), rng.normal(size=(14, 10))
+    beside = rng.normal(size=(300, 40)), rng.normal(size=(200, 40))
+    for columns in (None, beside):
+        exact, single = embed(C, source, target, columns), _embed_single(C, source, target, columns)
+        for one, other in zip(exact, single, strict=True):
+            assert other.dtype == np.float32
+            np.testing.assert_allclose(other, one, rtol=1e-6, atol=1e-6)
 
 
 def test_a_vertex_without_area_is_nobodys_image(small_basis):

@@ -47,10 +47,10 @@ def approximate_nearest(
     """
     p, q = len(points), len(queries)
     probes = check_count(probes, "probes")
-    middle = points.mean(axis=0)
+    middle = points.mean(axis=0, dtype=np.float64)
     unit = float((points.max(axis=0) - points.min(axis=0)).max()) or 1.0
     order, edges, patches = _cells(points, check_count(size, "cell size"), middle, unit, threads)
-    rows = np.concatenate([_single(points[order[part]], middle, unit) for part in blocks(p, 65536)])
+    rows = np.concatenate([_single(points[order[part]], middle, unit) for part in blocks(p, 4096)])
     centres = _means(rows, edges)
     near = cell = wider = np.zeros(0, dtype=np.int64)
     if start is not None:

@@ -7,9 +7,9 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import dijkstra
 from scipy.spatial import KDTree
 
-from kfmaps._arrays import Array, namespace, refuse, take, to_numpy
+from kfmaps._arrays import Array, blocks, is_numpy, namespace, refuse, take, to_numpy
 from kfmaps.fmap.approximate_nearest import N_PROBE
-from kfmaps.fmap.nearest import nearest
+from kfmaps.fmap.nearest import nearest, searches_cells
 from kfmaps.geometry.basis import Basis
 from kfmaps.geometry.mesh import Mesh
 
@@ -44,7 +44,10 @@ def to_points(
         unless ``exact`` says otherwise, and quicker with fewer ``probes`` or a map ``start (n_t,)`` that is nearly
         right.
     """
-    images, places = embed(C, source, target, beside)
+    dimensions = C.shape[0] + (0 if beside is None else beside[0].shape[1])
+    many = searches_cells(target.mass.shape[0], source.mass.shape[0], dimensions, exact)
+    single = many and is_numpy(C, source.functions)
+    images, places = (_embed_single if single else embed)(C, source, target, beside)
     # A vertex that no face uses has no area and the values of a neighbour: it is nobody's image.
     used = np.flatnonzero(to_numpy(source.mass) > 0)
     if len(used) == images.shape[0]:
@@ -69,6 +72,23 @@ def embed(
         return images, places
     xp = namespace(images)
     return xp.concat([images, extra_columns[0]], axis=1), xp.concat([places, extra_columns[1]], axis=1)
+
+
+def _embed_single(
+    C: np.ndarray, source: Basis, target: Basis, extra_columns: tuple[Array, Array] | None
+) -> tuple[np.ndarray, np.ndarray]:
+    """Return what :func:`embed` does, in the single precision that an approximate search of many points works in."""
+    k_t, k_s = C.shape
+    columns = extra_columns or (np.zeros((len(source.mass), 0)), np.zeros((len(target.mass), 0)))
+    sides = (source.functions[:, :k_s], C.T, columns[0]), (target.functions[:, :k_t], None, columns[1])
+    embedded = []
+    for functions, turn, beside in sides:
+        rows = np.empty((len(functions), k_t + beside.shape[1]), dtype=np.float32)
+        for part in blocks(len(rows), 4096):
+            rows[part, :k_t] = functions[part] if turn is None else functions[part] @ turn
+            rows[part, k_t:] = beside[part]
+        embedded.append(rows)
+    return embedded[0], embedded[1]
 
 
 def to_functional(target_to_source: np.ndarray, source: Basis, target: Basis) -> Array:

@@ -63,12 +63,25 @@ def nearest(
         raise refuse("points", "at least one", "none", "give at least one")
     if is_numpy(queries):
         queries, points = _in_range(queries, points)
-        # In more dimensions space is too empty for a tree to beat the matrix product.
-        if points.shape[1] <= 32 and len(points) > _TREE_POINTS:
+        if _in_tree(*points.shape):
             return _by_tree(queries, points, threads)
-        if exact is False or (exact is None and len(queries) * len(points) > EXACT_PAIRS):
+        if searches_cells(len(queries), *points.shape, exact):
             return approximate_nearest(queries, points, threads=threads, probes=probes, start=start)
     return _exact(queries, points, block, threads)
+
+
+def _in_tree(points: int, dimensions: int) -> bool:
+    """Whether a k-d tree is built: in more dimensions space is too empty for it to beat the matrix product."""
+    return dimensions <= 32 and points > _TREE_POINTS
+
+
+def searches_cells(queries: int, points: int, dimensions: int, exact: bool | None) -> bool:
+    """Return whether :func:`nearest` searches so many rows approximately, which is in single precision.
+
+    ``queries``, ``points`` and ``dimensions``: how many there are; ``exact``: as for :func:`nearest`.
+    """
+    many = exact is False or (exact is None and queries * points > EXACT_PAIRS)
+    return many and not _in_tree(points, dimensions)
 
 
 def _in_range(queries: np.ndarray, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -44,16 +44,20 @@ def closest_among(
     the point that each candidate is for: ascending, and naming every point at least once. Of several candidates at
     the same distance the first is taken.
     """
-    corners = faces[candidates]
-    a = vertices[corners[:, 0]]
-    u, v, r = vertices[corners[:, 1]] - a, vertices[corners[:, 2]] - a, points[owner] - a
-    dot = [np.einsum("ij,ij->i", x, y) for x, y in ((u, u), (u, v), (v, v), (r, u), (r, v), (r, r))]
-    s, t, gain = closest_weights(*dot[:5])
-    squared = np.maximum(dot[5] - gain, 0.0)
+    # One coordinate of all points lies together: (3, m).
+    x, (i, j, k) = np.ascontiguousarray(vertices.T), faces[candidates].T
+    a, u, v = (x.take(corner, axis=1) for corner in (i, j, k))
+    r = np.ascontiguousarray(points.T).take(owner, axis=1)
+    for edge in (u, v, r):
+        edge -= a
+    pairs = (u, u), (u, v), (v, v), (r, u), (r, v), (r, r)
+    *dots, squares = (np.einsum("im,im->m", *pair) for pair in pairs)
+    s, t, gain = closest_weights(*dots)
+    squared = np.maximum(squares - gain, 0.0)
     hits = first_minima(squared, owner)
-    weights = barycentric_weights(s[hits], t[hits])
-    places = a[hits] + s[hits, None] * u[hits] + t[hits, None] * v[hits]
-    return ClosestPoints(candidates[hits], weights, places, np.sqrt(squared[hits]))
+    s, t = s[hits], t[hits]
+    places = np.ascontiguousarray((a[:, hits] + s * u[:, hits] + t * v[:, hits]).T)
+    return ClosestPoints(candidates[hits], barycentric_weights(s, t), places, np.sqrt(squared[hits]))
 
 
 def closest_weights(
@@ -68,9 +72,9 @@ def closest_weights(
     """
     tiny = np.finfo(np.float64).tiny
     det = e11 * e22 - e12 * e12
-    safe = np.maximum(det, tiny)
-    s, t = (e22 * r1 - e12 * r2) / safe, (e11 * r2 - e12 * r1) / safe
-    outside = np.flatnonzero((s < 0) | (t < 0) | (s + t > 1) | (det <= 1e-14 * e11 * e22))
+    inverse = 1.0 / np.maximum(det, tiny)
+    s, t = (e22 * r1 - e12 * r2) * inverse, (e11 * r2 - e12 * r1) * inverse
+    outside = np.flatnonzero((np.minimum(s, t) < 0) | (s + t > 1) | (det <= 1e-14 * e11 * e22))
     if len(outside):
         # Then it lies on an edge: the best of the three.
         a11, a12, a22, p, q = (x[outside] for x in (e11, e12, e22, r1, r2))
@@ -78,12 +82,11 @@ def closest_weights(
         on_v = np.clip(q / np.maximum(a22, tiny), 0, 1)
         length = a11 - 2 * a12 + a22
         across = np.clip((q - p + a11 - a12) / np.maximum(length, tiny), 0, 1)
-        zero = np.zeros_like(on_u)
-        choices = np.stack([on_u, zero, 1 - across]), np.stack([zero, on_v, across])
-        gains = _gain(choices[0], choices[1], a11, a12, a22, p, q)
-        best = gains.argmax(axis=0)
-        each = np.arange(len(outside))
-        s[outside], t[outside] = choices[0][best, each], choices[1][best, each]
+        by_u, by_v = on_u * (2 * p - on_u * a11), on_v * (2 * q - on_v * a22)
+        beyond = _gain(1 - across, across, a11, a12, a22, p, q) > np.maximum(by_u, by_v)
+        first = by_u >= by_v
+        s[outside] = np.where(beyond, 1 - across, np.where(first, on_u, 0.0))
+        t[outside] = np.where(beyond, across, np.where(first, 0.0, on_v))
     return s, t, _gain(s, t, e11, e12, e22, r1, r2)
 
 

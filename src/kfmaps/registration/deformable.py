@@ -140,6 +140,8 @@ def initial_deformation(
     rows = csr_array((np.ones(len(points)), points, np.arange(len(points) + 1)), shape=(len(points), n))
     gathered = rows.T @ np.hstack([weights[:, None] * places, weights[:, None] * normals])
     share = rows.T @ weights
+    # The places of a vertex pull as one with their sum of weights does at their mean.
+    own, mean = share.copy(), gathered[:, :3] / np.where(share > 0, share, 1.0)[:, None]
     _take_along(body.mesh, share, gathered)
     smooth = factorize(1e-4 * energy.laplacian + diags_array(share), ordered=False)(gathered)
     x, wanted = np.ascontiguousarray(smooth[:, :3]), unit_rows(smooth[:, 3:])
@@ -151,7 +153,7 @@ def initial_deformation(
         turns = rotations(energy, x).reshape(n, 9)
         diffusion = factorize(2.5e-3 * 0.5**round * energy.laplacian + diags_array(held), ordered=False)
         turns = nearest_rotations(diffusion(held[:, None] * turns).reshape(n, 3, 3))
-        terms = [DataTerm(weights * trust[points], places, rows)]
+        terms = [DataTerm(trust * own, mean)]
         x = descend(energy, _INITIAL_STIFFNESS, solve, terms, x, turns, 8)
         x = descend(energy, _INITIAL_STIFFNESS, solve, terms, x, rotations(energy, x), 8)
     return x

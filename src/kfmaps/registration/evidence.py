@@ -128,9 +128,14 @@ def _point_maps(C: np.ndarray, pair: ProxyPair) -> tuple[tuple[MeshPair, np.ndar
     return (pair.forth, nearest(rows, images, threads=1)), (pair.back, nearest(images, rows, threads=1))
 
 
+def _bent(fit: NonRigid, pair: MeshPair, points: np.ndarray) -> np.ndarray:
+    """The first surface's vertices on the second; of two candidates with one map found once."""
+    return pair.once((fit, points.tobytes()), lambda: fit.bent(pair, points)[0])
+
+
 def _deform_one(fit: NonRigid, pair: MeshPair, points: np.ndarray) -> DeformationEnergy | None:
     try:
-        x, _ = fit.bent(pair, points)
+        x = _bent(fit, pair, points)
     except NotConverged:
         return None
     energy, areas = pair.body.energy, np.maximum(pair.body.areas, 1e-12)
@@ -143,7 +148,7 @@ def _deform_one(fit: NonRigid, pair: MeshPair, points: np.ndarray) -> Deformatio
 
 def _bent_shot_error(pair: MeshPair, points: np.ndarray, samples: SurfaceSamples) -> float | None:
     try:
-        x, _ = FIT.bent(pair, points)
+        x = _bent(FIT, pair, points)
     except NotConverged:
         return None
     return _shot_difference(samples, Mesh(x, pair.body.mesh.faces))

@@ -15,7 +15,8 @@ It comes last: a refinement after it would go back to where it was.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 from scipy.sparse import csr_array
@@ -186,7 +187,8 @@ class NonRigid:
         if x is not None:
             levels, steps, begun = range(self.n_levels)[-1:], min(self.steps, 2), 0.3
         else:
-            x = initial_deformation(pair.body, points, pair.target.vertices, pair.normals_t, pair.areas_t)
+            places = pair.target.vertices, pair.normals_t, pair.areas_t
+            x = pair.once(points.tobytes(), lambda: initial_deformation(pair.body, points, *places))
             report(begun)
         even = _evened(pair, self.rotation_smoothing)
         stretched = local_scaling(pair.body.energy, pair.body.areas, self.local_scaling)
@@ -222,6 +224,13 @@ class MeshPair:
     target: Mesh
     areas_t: np.ndarray
     look_t: ClosestPointQuery
+    kept: dict[Any, np.ndarray] = field(default_factory=dict)  # what :meth:`once` has made
+
+    def once(self, key: Any, make: Callable[[], np.ndarray]) -> np.ndarray:
+        """Return what ``make`` returns, made once for each ``key``: several fits begin alike, and some are repeated."""
+        if key not in self.kept:
+            self.kept[key] = make()
+        return self.kept[key]
 
     @property
     def normals_t(self) -> np.ndarray:
