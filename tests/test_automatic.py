@@ -15,6 +15,7 @@ from kfmaps.fmap.descriptor_guidance import FLAT, descriptor_variance
 from kfmaps.fmap.evaluate import geodesic_errors
 from kfmaps.fmap.zoomout import ZoomOut
 from kfmaps.geometry.mesh import Mesh
+from kfmaps.matching import finish
 from kfmaps.matching.candidates import candidates
 from kfmaps.matching.initial_maps import perturb, plan_fits
 from kfmaps.matching.match import match
@@ -195,6 +196,16 @@ def test_an_asymmetric_shape_is_matched_and_sure(shape, other):
     again = match(shape, other, SMALL)
     np.testing.assert_array_equal(found.target_to_source, again.target_to_source)
     assert found.score.scores == again.score.scores
+
+
+def test_a_map_of_which_half_is_torn_is_half_as_likely(shape, other, monkeypatch):
+    plain = match(shape, other, SMALL)
+    assert plain.verdict == "sure"
+    monkeypatch.setattr(finish, "low_confidence_area", lambda *_: 0.5)
+    found = match(shape, other, SMALL)
+    assert found.confidence == pytest.approx(0.5 * plain.confidence, rel=1e-6)
+    assert found.verdict == "unlikely"
+    assert match(shape, other, replace(SMALL, registration=None)).verdict == "sure"
 
 
 def test_a_mirrored_shape_is_found_when_asked_for(shape):

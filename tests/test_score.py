@@ -14,6 +14,7 @@ from kfmaps.matching.score import (
     Scoring,
     candidate_score,
     excess_deformation,
+    lower_by_torn_area,
     part_score,
     placement_score,
     probability,
@@ -117,6 +118,22 @@ def test_a_verdict_is_ambiguous_where_a_rival_takes_the_word_away() -> None:
         assert verdict(numbers.middle + above, np.inf) == alone
     assert verdict(numbers.middle + 6, 0.0) == verdict(numbers.middle + 1, 0.0) == "ambiguous"
     assert verdict(numbers.middle - 1, 0.0) == "unlikely"
+
+
+@pytest.mark.parametrize(
+    ("chance", "word", "torn", "lower"),
+    [
+        (0.95, "sure", 0.0, (0.95, "sure")),
+        (0.95, "sure", 0.1, (0.855, "likely")),
+        (0.6, "likely", 0.25, (0.45, "unlikely")),
+        (0.95, "ambiguous", 0.1, (0.855, "ambiguous")),
+        (None, "landmarks", 0.5, (None, "landmarks")),
+    ],
+)
+def test_torn_area_lowers_the_probability(chance: Any, word: str, torn: float, lower: tuple[Any, str]) -> None:
+    found = lower_by_torn_area(chance, word, torn)
+    assert found[1] == lower[1]
+    assert found[0] == pytest.approx(lower[0])
 
 
 def test_the_first_that_differ_are_selected() -> None:

@@ -20,7 +20,7 @@ from kfmaps.matching.postprocess import refine_map
 from kfmaps.matching.reindexing import VertexReindexing, reindexing
 from kfmaps.matching.result import Match
 from kfmaps.matching.result_groups import ONE_FIT, MatchFit, MatchPart, MatchRegistration, MatchScore, ShapeFile
-from kfmaps.matching.score import SCORE, max_landmark_error, torn_score
+from kfmaps.matching.score import SCORE, lower_by_torn_area, max_landmark_error, torn_score
 from kfmaps.matching.search import SearchResult, adapt_refinement, adapt_registration
 from kfmaps.registration.accept import register_map
 from kfmaps.shape import Shape, check_prepared, mirror_image
@@ -99,12 +99,14 @@ def refine_and_register(task: MatchTask, found: SearchResult, guidance: Descript
     if registered is not None:
         registered = pair.bent(registered * MIRROR if found.orientation == "reversing" else registered)
     raw, backwards, one = refined.raw_target_to_source, refined.source_to_target, found.fit
+    torn = 0.0 if final.fit is None else low_confidence_area(shapes[1].mesh, final.local_confidence)
+    confidence, verdict = lower_by_torn_area(found.confidence, found.verdict, torn)
     return task.result(
         final.target_to_source,
         refined.functional_map,
         _doubt_exchanged(final.local_confidence, final.target_to_source, found, shapes[0].mesh),
-        verdict=found.verdict,
-        confidence=found.confidence,
+        verdict=verdict,
+        confidence=confidence,
         orientation=found.orientation,
         precise_map=None
         if final.precise_map is None or len(task.meshes[0].faces) == 0
