@@ -163,6 +163,7 @@ def test_remaining_time_follows_sizes() -> None:
     assert work.remaining({}, 1) == pytest.approx(14)
     work.end(1, 3.0)
     assert work.remaining({}, 1) == pytest.approx(3)
+    assert left([(2000, 4.0), (2000, 0.0)], [2000], {}, 1) == pytest.approx(2)  # the second came from the cache
 
 
 def simulated(seconds: np.ndarray, sizes: np.ndarray, workers: int) -> list[tuple[int, float | None, float]]:

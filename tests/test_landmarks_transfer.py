@@ -245,6 +245,10 @@ def test_the_command_goes_on_where_it_was(scans: Path, tmp_path: Path) -> None:
     lines = (tmp_path / "out" / "summary.txt").read_text().splitlines()
     assert lines[-1].endswith("procrustes.csv")
     assert "the name of a scan" in run(*words, *more, "--keep", "z").stderr
+    (scans / "d.ply").write_text("ply\n")
+    told = run(*words, *more)
+    assert told.status == 1
+    assert "d does not fit the others: shape d could not be prepared" in told.stdout
 
 
 def test_a_picked_pair_of_meshes_needs_no_subcommand(scans: Path) -> None:

@@ -50,7 +50,7 @@ class RunStatus:
         if self.pairs_done == self.pairs:
             return "finished"
         if self.remaining is None:
-            return "time left: known after the first pair"
+            return "time left: not known yet"
         pairs = "1 pair" if self.measured == 1 else f"{self.measured} pairs"
         workers = "1 worker" if self.workers == 1 else f"{self.workers} workers"
         return f"about {format_seconds(self.remaining)} left (from {pairs} and their sizes, {workers})"
@@ -92,7 +92,7 @@ class WorkLeft:
     def end(self, number: int, seconds: float | None = None) -> None:
         """Note that a piece has ended, and after how many seconds; one without is not measured."""
         size = self.sizes.pop(number)
-        if seconds:
+        if seconds is not None:
             self.finished.append((size, seconds))
 
     def remaining(self, begun: Mapping[int, float], workers: int) -> float | None:

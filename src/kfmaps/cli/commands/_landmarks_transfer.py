@@ -34,7 +34,7 @@ from kfmaps.batch.transfer_landmarks import (
     template_errors,
     template_pairs,
 )
-from kfmaps.cli.commands.batch import INTERRUPTED, describe_plan, parse_workers
+from kfmaps.cli.commands.batch import FAILED, INTERRUPTED, describe_plan, parse_workers
 from kfmaps.cli.options import Json, Quiet, Workers
 from kfmaps.cli.terminal import print_json
 from kfmaps.config import Config
@@ -123,6 +123,8 @@ def transfer(
         report.say(line)
     if json:
         print_json({"summary": lines[: -len(files)], "output": files})
+    if any(result.status == "failed" for result in outcome.results):
+        raise typer.Exit(FAILED)
 
 
 def _describe_study(study: Sequence[SpecimenLandmarks], templates: Sequence[Template], errors: np.ndarray) -> list[str]:

@@ -26,7 +26,7 @@ from kfmaps.settings.options import Chosen, with_settings
 from kfmaps.settings.toml import settings_text
 
 _TOML = "settings.toml"  # in the output folder, for ``kfmaps match --config``
-_FAILED, INTERRUPTED = 1, 130
+FAILED, INTERRUPTED = 1, 130
 """Exit status when a pair failed, and after Ctrl-C."""
 
 
@@ -101,7 +101,7 @@ def batch(
     if outcome.interrupted:
         raise typer.Exit(INTERRUPTED)
     if any(result.status == "failed" for result in outcome.results):
-        raise typer.Exit(_FAILED)
+        raise typer.Exit(FAILED)
     if not all(meets(result.verdict, require) for result in outcome.results):
         raise typer.Exit(UNSURE)
 
