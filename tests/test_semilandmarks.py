@@ -108,3 +108,12 @@ def test_missing_points_take_no_part() -> None:
 def test_nothing_slides_where_there_is_no_curve(curves: list) -> None:
     points = np.vstack([FIXED, LINE])
     assert slide_semilandmarks(points, points[::-1], curves) is points
+
+
+def test_a_landmark_at_the_end_of_a_curve_counts_once() -> None:
+    """Otherwise the energy of two landmarks in one place has no bound, and pushes their neighbours about."""
+    template = np.vstack([FIXED, LINE])
+    points = template @ AFFINE + 0.05 * RNG.normal(size=template.shape)
+    slid = slide_semilandmarks(points, template, [OPEN])
+    more = [np.vstack([one, one[8] + 1e-12]) for one in (points, template)]
+    np.testing.assert_allclose(slide_semilandmarks(*more, [OPEN])[:15], slid, atol=1e-6)

@@ -11,6 +11,7 @@ from scipy.spatial.distance import cdist
 
 _MAX_ROUNDS = 50
 _TOLERANCE = 1e-6  # largest step, in the length of the longest curve, at which the rounds end
+_COINCIDENT = 1e-3  # distance of landmarks that count as one, such as one at the end of a curve, in the centroid size
 _MAX_STEP = 0.4  # largest step in one round, in the distance to the next point of the curve: points keep their order
 
 
@@ -59,9 +60,10 @@ def slide_semilandmarks(
     paths = [_Path(points, rows[there[rows]], closed) for rows, closed in curves if there[rows].sum() > 2]
     if not paths or there.sum() < 5:
         return points
-    energy = np.zeros((len(points), len(points)))
-    energy[np.ix_(there, there)] = bending_energy_matrix(template[there])
     rows = np.concatenate([path.rows for path in paths])
+    used = _distinct(template, [*rows, *np.setdiff1d(np.flatnonzero(there), rows)])
+    energy = np.zeros((len(points), len(points)))
+    energy[np.ix_(used, used)] = bending_energy_matrix(template[used])
     slid = np.where(there[:, None], points, 0.0)
     least = float(np.einsum("ia,ij,ja->", slid, energy, slid))
     for _ in range(_MAX_ROUNDS):
@@ -103,6 +105,16 @@ class _Path:
         ends = (self.at[-1] - self.length, self.at[0] + self.length) if self.closed else (0.0, self.length)
         gaps = np.diff(np.concatenate([ends[:1], self.at, ends[1:]]))
         return np.minimum(gaps[:-1], gaps[1:])
+
+
+def _distinct(points: np.ndarray, rows: Sequence[int]) -> np.ndarray:
+    """Those of ``rows`` that lie apart from the ones before: between two in one place a spline may bend without end."""
+    near = _COINCIDENT * np.linalg.norm(points[rows] - points[rows].mean(axis=0))
+    found: list[int] = []
+    for row in rows:
+        if not found or np.linalg.norm(points[found] - points[row], axis=1).min() > near:
+            found.append(row)
+    return np.array(found)
 
 
 def _ends(paths: Sequence[_Path]) -> np.ndarray:
