@@ -243,7 +243,7 @@ def test_the_command_goes_on_where_it_was(scans: Path, tmp_path: Path) -> None:
     assert (again.status, again.stdout) == (0, "")
     assert {path: path.stat().st_mtime_ns for path in times} == times
     lines = (tmp_path / "out" / "summary.txt").read_text().splitlines()
-    assert lines[-1].endswith("procrustes.csv")
+    assert lines[-1].endswith("local_differences.csv")
     assert "the name of a scan" in run(*words, *more, "--keep", "z").stderr
     (scans / "d.ply").write_text("ply\n")
     told = run(*words, *more)

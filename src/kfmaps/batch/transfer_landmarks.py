@@ -258,6 +258,20 @@ def _misfit(best: Result, points: NamedPoints, template: Template) -> str:
     return ""
 
 
+def target_points(
+    known: Match, source: Mesh, target: Mesh, name: str
+) -> tuple[PointMap, np.ndarray | None, np.ndarray | None]:
+    """Return the source's point for each target vertex, and which vertices of target and source have a counterpart.
+
+    The masks (n_t,) and (n_s,) are ``None`` where all have one. ``name``: how messages call the map.
+    """
+    if (known.target_to_source < 0).any():
+        ways = find_counterparts(known, source, target, name)
+        return ways.place, ways.target, ways.source
+    check_map(known, len(source.vertices), len(target.vertices), name)
+    return precise_points(known, source) or vertex_point_map(known.target_to_source, source), None, None
+
+
 def _carry_points(
     known: Match, points: NamedPoints, source: Mesh, target: Mesh, name: str, chance: float
 ) -> NamedPoints:
@@ -265,13 +279,7 @@ def _carry_points(
 
     The confidence of a point is that of the map's neighbourhood times ``chance``, the probability of the map ``name``.
     """
-    there = common = None
-    if (known.target_to_source < 0).any():
-        ways = find_counterparts(known, source, target, name)
-        place, there, common = ways.place, ways.target, ways.source
-    else:
-        check_map(known, len(source.vertices), len(target.vertices), name)
-        place = precise_points(known, source) or vertex_point_map(known.target_to_source, source)
+    place, there, common = target_points(known, source, target, name)
     trust = getattr(known, "local_confidence", None)  # a list of vertices has none
     local = np.ones(len(target.vertices)) if trust is None else np.nan_to_num(trust)
     carried = transfer_points(points, source, target, place, local, known=there, common=common)

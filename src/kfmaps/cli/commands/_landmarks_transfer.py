@@ -15,6 +15,7 @@ import typer
 from kfmaps._arrays import KfmapsWarning, refuse
 from kfmaps.batch.landmark_tables import read_corrections, write_study
 from kfmaps.batch.layout import find_collection
+from kfmaps.batch.local_differences import write_local_differences
 from kfmaps.batch.plan import make_plan
 from kfmaps.batch.progress import RunReport
 from kfmaps.batch.run import run_batch
@@ -112,11 +113,13 @@ def transfer(
             one = own.get(name) or carry_templates(templates, name, path, from_templates, plan.folder)
             study.append(correct_landmarks(one, corrections.get(name, {})))
         errors = template_errors(templates, results, plan.folder)
-    said = [one for one in study if one.misfit]
-    study = [replace(one, misfit="") if one.specimen in (keep or ()) else one for one in study]
-    if min_confidence is not None:
-        study = [drop_unsure(one, min_confidence) for one in study]
-    files = write_study(output, study, landmark_suffix(templates[0].file))
+        said = [one for one in study if one.misfit]
+        study = [replace(one, misfit="") if one.specimen in (keep or ()) else one for one in study]
+        if min_confidence is not None:
+            study = [drop_unsure(one, min_confidence) for one in study]
+        files = write_study(output, study, landmark_suffix(templates[0].file))
+        files.append(output / "shape" / "local_differences.csv")
+        write_local_differences(files[-1], study, templates[0], results, plan.folder)
     lines = [*_describe_study(study, templates, errors), *_misfits(said, keep or ()), *(f"{file}" for file in files)]
     (output / "summary.txt").write_text("\n".join(lines) + "\n", encoding="utf-8")
     for line in lines:

@@ -1,0 +1,105 @@
+"""How specimens differ from the template around each landmark: in area, and in angles."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+from kfmaps.batch.layout import Pair
+from kfmaps.batch.results import Result, write_rows
+from kfmaps.batch.transfer_landmarks import GOOD, SpecimenLandmarks, Template, target_points
+from kfmaps.batch.work import map_path, read_shape_mesh
+from kfmaps.fmap.precise import PointMap, point_positions
+from kfmaps.geometry.mesh import Mesh, face_areas
+from kfmaps.io import load_map
+from kfmaps.io.landmark_files import fixed_rows
+
+
+def local_differences(
+    place: PointMap, source: Mesh, target: Mesh, points: np.ndarray, known: np.ndarray, common: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Return how the target differs from the source around each landmark.
+
+    The surroundings of a landmark are the part of the source that is nearer to it than to any other.
+
+    Parameters
+    ----------
+    place : PointMap
+        The point of the source for each target vertex.
+    source, target : Mesh
+    points : (l, 3)
+        Landmarks of the source.
+    known : (n_t,) bool
+        Which target vertices have a counterpart.
+    common : (n_s,) bool
+        Which source vertices have one.
+
+    Returns
+    -------
+    area : (l,) float64
+        Area of the surroundings on the target, relative to the source, once what both have is scaled to equal area.
+    conformal_distortion : (l,) float64
+        Median over the area there of (σ₁/σ₂ + σ₂/σ₁) / 2 of the map of each triangle, σ its stretches: 1 where angles
+        are kept (Hormann and Greiner, MIPS: an efficient global parametrization method, 2000).
+    """
+    faces = target.faces[known[target.faces].all(axis=1)]
+    images, tree = point_positions(place, source)[faces], cKDTree(points)
+    own, other = _edge_products(target.vertices[faces]), _edge_products(images)
+    size = np.sqrt(_determinant(own))
+    with np.errstate(divide="ignore", invalid="ignore"):
+        mixed = own[:, 0] * other[:, 2] - 2 * own[:, 1] * other[:, 1] + own[:, 2] * other[:, 0]
+        stretch = np.nan_to_num(mixed / (2 * size * np.sqrt(_determinant(other))), nan=np.inf)
+    at = tree.query(images.mean(axis=1))[1]
+    sources = source.faces[common[source.faces].all(axis=1)]
+    whole = face_areas(Mesh(source.vertices, sources))
+    before = np.bincount(tree.query(source.vertices[sources].mean(axis=1))[1], whole, len(points))
+    after = np.bincount(at, size, len(points))
+    with np.errstate(divide="ignore", invalid="ignore"):
+        area = (after / after.sum()) / (before / before.sum())
+    median = np.array([_weighted_median(stretch[at == i], size[at == i]) for i in range(len(points))])
+    return np.where(np.isfinite(area) & (after > 0), area, np.nan), median
+
+
+def write_local_differences(
+    path: Path,
+    study: Sequence[SpecimenLandmarks],
+    template: Template,
+    results: Mapping[tuple[str, str], Result],
+    folder: Path,
+) -> None:
+    """Write a row for each specimen and landmark: :func:`local_differences` from the template."""
+    names = template.points.names
+    rows = [row for row in fixed_rows(names) if template.points.vertices[row] >= 0]
+    table: list[list[object]] = [["specimen", "name", "area", "conformal_distortion"]]
+    for one in study:
+        result = results.get((template.specimen, one.specimen))
+        if one.misfit or result is None or result.status != "done" or result.verdict not in GOOD or not rows:
+            continue
+        file = map_path(folder, Pair(template.specimen, one.specimen).key)
+        mesh = read_shape_mesh(str(one.scan))
+        place, known, common = target_points(load_map(file), template.mesh, mesh, str(file))
+        known = np.ones(len(mesh.vertices), dtype=bool) if known is None else known
+        common = np.ones(len(template.mesh.vertices), dtype=bool) if common is None else common
+        found = local_differences(place, template.mesh, mesh, template.points.points[rows], known, common)
+        cells = [["NA" if np.isnan(x) else f"{x:.4g}" for x in values] for values in found]
+        table += [[one.specimen, names[row], *values] for row, *values in zip(rows, *cells, strict=True)]
+    write_rows(path, table)
+
+
+def _edge_products(corners: np.ndarray) -> np.ndarray:
+    """Products of two edges of triangles (f, 3, 3), (f, 3): a·a, a·b, b·b."""
+    a, b = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
+    return np.stack([(a * a).sum(axis=1), (a * b).sum(axis=1), (b * b).sum(axis=1)], axis=1)
+
+
+def _determinant(products: np.ndarray) -> np.ndarray:
+    return np.maximum(products[:, 0] * products[:, 2] - products[:, 1] ** 2, 0.0)
+
+
+def _weighted_median(values: np.ndarray, weights: np.ndarray) -> float:
+    order = np.argsort(values)
+    sums = np.cumsum(weights[order])
+    return float(values[order][np.searchsorted(sums, sums[-1] / 2)]) if len(sums) and sums[-1] > 0 else np.nan
