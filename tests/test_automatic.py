@@ -295,6 +295,7 @@ def test_point_clouds_are_matched_without_orientation(shape):
 def test_candidates_can_be_traded_for_time():
     assert len(plan_fits(replace(SMALL, search=Search(candidates=3)))) == 3
     assert plan_fits(SMALL, surfaces=False)[0].name.startswith("waves")
+    assert plan_fits(replace(SMALL, search=Search(candidates=0))) == []
     names = [fit.name for fit in plan_fits(replace(SMALL, search=Search(candidates=99)))]
     assert len(set(names)) == len(names) > 8
 

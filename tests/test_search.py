@@ -272,6 +272,15 @@ def test_a_refinement_of_unlike_shapes_ends_early():
     assert adapt_refinement(ZoomOut(20, 60, 5), found(-12.0)) == ZoomOut(20, 60, 5)
 
 
+def test_a_search_without_kernel_fits_has_none(shape, other, monkeypatch):
+    monkeypatch.setattr(candidates, "SCORE", replace(SCORE, early_exit_score=np.inf))
+    assert SMALL.search is not None
+    found = search_map(shape, other, replace(SMALL, search=replace(SMALL.search, candidates=0)), rng=0)
+    assert found._search is not None
+    assert all(c.fit is None for c in found._search.found)
+    assert found.verdict == "sure"
+
+
 def test_a_candidate_knows_the_fit_that_it_began_with(shape, other, monkeypatch):
     """All that began with small kernel fits have theirs, whatever was refined and scored since; no other has one."""
     monkeypatch.setattr(candidates, "SCORE", replace(SCORE, early_exit_score=np.inf))

@@ -305,7 +305,7 @@ WRONG: list[tuple[list[str], str, str]] = [
         "a way to stop",
     ),
     (["--set", "weights.laplacian=nan"], "--set weights.laplacian", "number"),
-    (["--set", "search={candidates=0}"], "--set search", "at least 1"),
+    (["--set", "search={candidates=-1}"], "--set search", "at least 0"),
     (["--threads", "0"], "--threads", "at least 1"),
     (["--preset", "best"], "--preset", "no17"),
     (["--set", "weights.laplacian=-1", "--threads", "2"], "--set weights.laplacian", "at least 0"),

@@ -135,7 +135,7 @@ class Search:
     clearly better: for bones, shoes or hands, which are not their own mirror images.
     """
 
-    candidates: int = setting(6, "small fits that are tried, each refined from three starts", low=1)
+    candidates: int = setting(6, "small kernel fits, each refined from three starts; 0: no kernel", low=0)
     orientation: Literal["auto", "preserving", "reversing", "either"] = setting(
         "auto", "whether the map preserves orientation or is one to a mirror image", option="--orientation"
     )
