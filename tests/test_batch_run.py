@@ -179,12 +179,13 @@ def test_a_shape_that_kills_fails_its_pairs_alone(tmp_path: Path, monkeypatch: p
     assert sum("shape b1 could not be prepared" in line for line in log) == 5  # itself and its pairs
 
 
-def test_ctrl_c_ends_cleanly(tmp_path: Path) -> None:
+@pytest.mark.parametrize("stop", [KeyboardInterrupt, SystemExit(143)])
+def test_ctrl_c_ends_cleanly(tmp_path: Path, stop: BaseException) -> None:
     plan = plan_of(write_collection(tmp_path / "c", 4), tmp_path / "out")
 
     def interrupt(status: RunStatus, _result: Result | None) -> None:
         if status.pairs_done == 2:
-            raise KeyboardInterrupt
+            raise stop
 
     outcome = run_batch(plan, workers=1, callback=interrupt)
     assert outcome.interrupted

@@ -47,7 +47,7 @@ class BatchResult:
 
     results: tuple[Result, ...]  # of every pair that was asked for and has one, by source and target
     matched: int  # pairs that this run worked on
-    interrupted: bool  # whether it was stopped by the user; the same call goes on
+    interrupted: bool  # whether the user or a signal stopped it; the same call goes on
     files: tuple[Path, ...]  # tables and summary
     consistent: ConsistentResult | None = None  # what came of making the maps agree, where that was asked for
 
@@ -88,10 +88,10 @@ def run_batch(
                 for r in (r for r in agreed.results if r.changed):
                     told = f"{r.source} → {r.target} replaced by {r.changed}: {r.why}"
                     log("replaced", told, source=r.source, target=r.target, by=r.changed, why=r.why)
-        except KeyboardInterrupt:
+        except (KeyboardInterrupt, SystemExit):  # Ctrl-C, or the signal that comes before a time limit
             interrupted = True
             log("interrupted", "interrupted")
-        except BaseException as error:  # SystemExit, where a signal ended it
+        except Exception as error:
             reason = f"{type(error).__name__}: {error}"
             log("stopped", f"stopped: {reason}", reason=reason)
             raise
