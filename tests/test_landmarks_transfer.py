@@ -13,7 +13,7 @@ import pytest
 from collecting import CONFIG, bent, done
 from commandline import run
 from kfmaps._arrays import InvalidInput
-from kfmaps.batch.landmark_tables import write_study
+from kfmaps.batch.landmark_tables import _sliders, write_study
 from kfmaps.batch.layout import Pair, find_collection
 from kfmaps.batch.plan import make_plan
 from kfmaps.batch.results import Result
@@ -335,3 +335,7 @@ def test_curves_of_several_templates_slide_to_their_mean(scans: Path, tmp_path: 
     write_landmark_sets(files[3], [LandmarkSet(labels, points, space="LPS")], force=True)
     with pytest.raises(InvalidInput, match=r"expected 6 points of the curve crest, as another has, got 5\. Resample"):
         read_templates(files, find_collection(scans))
+
+
+def test_sliders_of_a_closed_curve_go_round() -> None:
+    assert _sliders(("a", "loopx_1", "loopx_2", "loopx_3")) == [[4, 2, 3], [2, 3, 4], [3, 4, 2]]

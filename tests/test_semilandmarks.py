@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from scipy.interpolate import RBFInterpolator
 
+from kfmaps.collection import semilandmarks
 from kfmaps.collection.procrustes import thin_plate_warp
 from kfmaps.collection.semilandmarks import bending_energy_matrix, slide_semilandmarks
 
@@ -115,5 +116,38 @@ def test_a_landmark_at_the_end_of_a_curve_counts_once() -> None:
     template = np.vstack([FIXED, LINE])
     points = template @ AFFINE + 0.05 * RNG.normal(size=template.shape)
     slid = slide_semilandmarks(points, template, [OPEN])
-    more = [np.vstack([one, one[8] + 1e-12]) for one in (points, template)]
-    np.testing.assert_allclose(slide_semilandmarks(*more, [OPEN])[:15], slid, atol=1e-6)
+    twice = [np.vstack([one, one[8] + 1e-12]) for one in (points, template)]
+    np.testing.assert_allclose(slide_semilandmarks(twice[0], twice[1], [OPEN])[:15], slid, atol=1e-6)
+
+
+def crooked() -> tuple[np.ndarray, np.ndarray]:
+    """A template with a closed curve, and a specimen in which it is bent and unevenly sampled."""
+    template = np.vstack([FIXED, CIRCLE])
+    angles = ANGLES + 0.1 * np.sin(3 * ANGLES + 1)
+    uneven = np.column_stack([np.cos(angles), np.sin(angles), 0.3 * np.sin(2 * angles)])
+    return thin_plate_warp(np.vstack([FIXED, uneven]), FIXED, FIXED + 0.1 * np.sin(7 * FIXED)), template
+
+
+def test_a_closed_curve_begins_nowhere() -> None:
+    points, template = crooked()
+    rows = np.arange(8, 20)
+    slid, again = (slide_semilandmarks(points, template, [(np.roll(rows, k), True)]) for k in (0, 5))
+    assert np.abs(slid - points).max() > 0.02
+    np.testing.assert_allclose(again, slid, atol=1e-4)
+
+
+def test_few_rounds_are_enough(monkeypatch: pytest.MonkeyPatch) -> None:
+    points, template = crooked()
+    curves = [(np.arange(8, 20), True)]
+    slid = slide_semilandmarks(points, template, curves)
+    monkeypatch.setattr(semilandmarks, "_MAX_ROUNDS", 2)
+    np.testing.assert_allclose(slide_semilandmarks(points, template, curves), slid, atol=1e-4)
+
+
+def test_points_keep_their_order() -> None:
+    """Even where the energy is less if two of them change places."""
+    template = np.vstack([FIXED, LINE])
+    points = template.copy()
+    template[[10, 11]] = template[[11, 10]]
+    along = (slide_semilandmarks(points, template, [OPEN])[8:] - LINE[0]) @ (LINE[-1] - LINE[0])
+    assert (np.diff(along) > 0).all()

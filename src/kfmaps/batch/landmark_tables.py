@@ -179,8 +179,8 @@ def _long_rows(study: Sequence[SpecimenLandmarks]) -> list[list[object]]:
 
 
 def _specimen_rows(study: Sequence[SpecimenLandmarks]) -> list[list[object]]:
-    titles = ["specimen", "status", "verdict", "confidence", "templates", "flagged", "reason", "scan", "space"]
-    rows: list[list[object]] = [titles]
+    titles: list[object] = ["specimen", "status", "verdict", "confidence", "templates", "flagged", "reason"]
+    rows = [[*titles, "scan", "space"]]
     for one in study:
         status = "left out" if one.misfit else "carried" if one.verdict else "template"
         flagged = sum(map(bool, one.open_flags))

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
-from scipy.spatial import cKDTree
+from scipy.spatial import KDTree
 
 from kfmaps.batch.layout import Pair
 from kfmaps.batch.results import Result, write_rows
@@ -46,7 +46,7 @@ def local_differences(
         are kept (Hormann and Greiner, MIPS: an efficient global parametrization method, 2000).
     """
     faces = target.faces[known[target.faces].all(axis=1)]
-    images, tree = point_positions(place, source)[faces], cKDTree(points)
+    images, tree = point_positions(place, source)[faces], KDTree(points)
     own, other = _edge_products(target.vertices[faces]), _edge_products(images)
     size = np.sqrt(_determinant(own))
     with np.errstate(divide="ignore", invalid="ignore"):

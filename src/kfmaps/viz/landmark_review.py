@@ -49,13 +49,13 @@ class ReviewServer:
         else:
             one = study[self._names[number]]
         template = next(one for one in shown if not one.verdict)
-        meshes = [read_shape_mesh(str(each.scan)) for each in (template, one)]
+        source, target = (read_shape_mesh(str(each.scan)) for each in (template, one))
         data = {
             "kind": "review",
             "up": self.up or "auto",
-            "views": views_record(*meshes),
-            "source": shape_record(meshes[0], template.specimen),
-            "target": shape_record(meshes[1], one.specimen),
+            "views": views_record(source, target),
+            "source": shape_record(source, template.specimen),
+            "target": shape_record(target, one.specimen),
             "template": _places(template),
             "landmarks": _landmarks(one),
             "specimens": [
@@ -84,28 +84,30 @@ class ReviewServer:
 
 def _check_changes(changes: Any, one: SpecimenLandmarks, mesh: Mesh) -> dict[str, tuple[np.ndarray, str]]:
     """Return the corrections that the page sent: where each landmark lies on the mesh, and a word."""
-    remedy = "give a name, and a face with three weights or none of them, or checked"
-    rows = dict(zip(one.points.names, range(len(one.points.names)), strict=True))
+    rows = {name: row for row, name in enumerate(one.points.names)}
     found: dict[str, tuple[np.ndarray, str]] = {}
     for change in changes if isinstance(changes, list) and changes else [None]:
-        name = change.get("name") if isinstance(change, Mapping) else None
+        told: Mapping[str, Any] = change if isinstance(change, Mapping) else {}
+        name = told.get("name")
         if not isinstance(name, str) or name not in rows:
-            raise refuse("corrections", "landmarks of the specimen", repr(name), remedy)
-        face, weights = change.get("face"), change.get("weights")
-        if change.get("checked") is True:
+            raise refuse("corrections", "landmarks of the specimen", repr(name), "reload the page")
+        if told.get("checked") is True:
             found[name] = (one.points.points[rows[name]], CHECKED)
-            continue
-        point = np.full(3, np.nan)
-        if face is not None:
-            if type(face) is not int or not 0 <= face < len(mesh.faces):
-                raise refuse("corrections", f"faces from 0 to {len(mesh.faces) - 1}", repr(face), remedy)
-            known = isinstance(weights, list) and len(weights) == 3 and all(type(w) in (int, float) for w in weights)
-            if not known or min(weights) < -1e-6 or not 0.999 < sum(weights) < 1.001:
-                raise refuse("corrections", "three weights of sum 1", repr(weights), remedy)
-            place = PointMap(np.array([face]), np.array([weights]) / sum(weights))
-            point = point_positions(place, mesh)[0]
-        found[name] = (point, CORRECTED)
+        elif told.get("face") is None:
+            found[name] = (np.full(3, np.nan), CORRECTED)
+        else:
+            found[name] = (_check_place(told["face"], told.get("weights"), mesh), CORRECTED)
     return found
+
+
+def _check_place(face: Any, weights: Any, mesh: Mesh) -> np.ndarray:
+    """Return the position of a point of the mesh, given as a face and three weights, neither negative, of sum 1."""
+    if type(face) is not int or not 0 <= face < len(mesh.faces):
+        raise refuse("corrections", f"faces from 0 to {len(mesh.faces) - 1}", repr(face), "reload the page")
+    given = weights if isinstance(weights, list) else []
+    if len(given) != 3 or not all(type(w) in (int, float) and w >= 0 for w in given) or abs(sum(given) - 1) > 1e-3:
+        raise refuse("corrections", "three weights of sum 1", repr(weights), "reload the page")
+    return point_positions(PointMap(np.array([face]), np.array([given]) / sum(given)), mesh)[0]
 
 
 def _places(one: SpecimenLandmarks) -> list[dict[str, Any] | None]:
