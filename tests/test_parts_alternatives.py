@@ -20,6 +20,7 @@ from kfmaps.matching.partial.candidates import (
     make_candidate,
     margin,
 )
+from kfmaps.matching.partial.match_partial import _place_by_landmarks
 from kfmaps.matching.partial.relaxation_labeling import Assignment
 from kfmaps.matching.partial.samples import PartPair, part_samples
 from kfmaps.matching.partial.scale_search import TRIALS, Placement, shot_similarity
@@ -137,3 +138,35 @@ def test_a_small_part_needs_a_larger_margin():
         assert margin([best, stub(-99.0, 1.0)]) == most
         assert margin([best, rival], 1) == pytest.approx(1.0)
         assert margin([best], 1) == most
+
+
+@pytest.mark.parametrize(
+    ("wrong", "first", "second", "others", "rejected"),
+    [
+        ([], 20.0, 99.0, None, []),  # all is well: no second placement
+        ([1], 20.0, 21.0, [0, 2], [1]),  # one is wrong: the others place the part
+        ([1], 20.0, 19.0, [0, 2], [1]),
+        ([0, 2], 20.0, 21.0, [], [0, 2]),  # most are wrong: none does
+        ([], 5.0, 20.0, [], [0, 1, 2]),  # it fits nowhere with them
+        ([], 5.0, 4.0, [], []),
+    ],
+)
+def test_landmarks_that_a_placement_contradicts_are_left_out(
+    wrong: list[int], first: float, second: float, others: list[int] | None, rejected: list[int]
+) -> None:
+    whole: Any = SimpleNamespace(vertices=np.eye(3))
+    pairs = np.stack([np.arange(3), np.arange(3)], axis=1)
+    asked = []
+
+    def place_with(*, landmarks: np.ndarray, **_: Any) -> Any:
+        asked.append(landmarks[:, 0].tolist())
+        off = np.zeros((3, 1))
+        off[wrong if len(asked) == 1 or first > 10 else [0, 1, 2]] = 1.01 * SCORE.part.max_landmark_error
+        moved = whole.vertices + off * [1.0, 0.0, 0.0]
+        score = first if len(asked) == 1 else second
+        return SimpleNamespace(registration=SimpleNamespace(vertices=moved), scores=(score,), margin=9.0)
+
+    found, named = _place_by_landmarks(place_with, pairs, whole)
+    assert asked == [[0, 1, 2]] + ([] if others is None else [others])
+    assert found.scores[0] == (first if others is None else max(first, second))
+    assert np.flatnonzero(named).tolist() == rejected

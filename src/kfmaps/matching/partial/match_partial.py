@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from typing import Literal
 
 import numpy as np
@@ -12,7 +14,8 @@ from kfmaps._progress import Progress
 from kfmaps.config import Config
 from kfmaps.fmap.confidence import local_confidence
 from kfmaps.fmap.precise import PointMap, nearest_vertices
-from kfmaps.matching.partial.place_part import place_part
+from kfmaps.geometry.mesh import Mesh
+from kfmaps.matching.partial.place_part import PlacedPart, place_part
 from kfmaps.matching.partial.registration import scale_mesh
 from kfmaps.matching.score import SCORE, probability, verdict
 from kfmaps.shape import Shape
@@ -66,17 +69,18 @@ def match_partial(
     ratio = None if source.extent is None or target.extent is None else target.extent / source.extent
     forward = which == "target" or (which == "both" and (ratio is None or ratio <= 1))
     part, whole = (target, source) if forward else (source, target)
-    pairs = None if landmarks is None else np.asarray(landmarks)[:, ::-1] if forward else np.asarray(landmarks)
-    found = place_part(
+    pairs = np.zeros((0, 2), dtype=np.int64) if landmarks is None else np.asarray(landmarks)
+    place_with = partial(
+        place_part,
         part.mesh,
         whole.mesh,
         config,
         ratio=ratio if forward or ratio is None else 1 / ratio,
-        landmarks=pairs,
         both_partial=which == "both",
         rng=rng,
         progress=None if progress is None else lambda done: progress("parts", done),
     )
+    found, rejected = _place_by_landmarks(place_with, pairs[:, ::-1] if forward else pairs, whole.mesh)
     place = found.overlap.on_whole if forward else found.overlap.on_part
     overlaps = (found.overlap.whole, found.overlap.part) if forward else (found.overlap.part, found.overlap.whole)
     points = np.where(overlaps[1] > COMMON, nearest_vertices(place, (whole if forward else part).mesh), -1)
@@ -98,9 +102,32 @@ def match_partial(
         verdict(found.scores[0], found.margin, numbers=SCORE.part.calibration),
         probability(found.scores[0], found.margin, numbers=SCORE.part.calibration),
         found.scores,
-        np.flatnonzero(found.landmark_errors > SCORE.part.max_landmark_error),
+        np.flatnonzero(rejected),
         min(common) > SCORE.part.whole_overlap,
     )
+
+
+def _place_by_landmarks(
+    place_with: Callable[..., PlacedPart], pairs: np.ndarray, whole: Mesh
+) -> tuple[PlacedPart, np.ndarray]:
+    """Return a placement, and which of the landmarks ``pairs (l, 2)`` it contradicts, (l,) bool.
+
+    A placement that contradicts some is compared with one by the others, or by none where most are contradicted or
+    where the part fits nowhere with them. The one with the better score is kept.
+    """
+
+    def missed(found: PlacedPart) -> np.ndarray:
+        ends = found.registration.vertices[pairs[:, 0]] - whole.vertices[pairs[:, 1]]
+        return np.linalg.norm(ends, axis=1) > SCORE.part.max_landmark_error
+
+    found = place_with(landmarks=pairs)
+    wrong = missed(found)
+    nowhere = verdict(found.scores[0], found.margin, numbers=SCORE.part.calibration) == "unlikely"
+    if len(pairs) and (nowhere or wrong.any()):
+        others = pairs[:0] if nowhere or wrong.mean() > 0.5 else pairs[~wrong]
+        again = place_with(landmarks=others, progress=None)
+        found = again if again.scores[0] > found.scores[0] else found
+    return found, missed(found)
 
 
 def _slanted_functional_map(points: np.ndarray, source: Shape, target: Shape, ratio: float) -> np.ndarray:

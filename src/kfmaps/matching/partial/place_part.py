@@ -45,7 +45,6 @@ class PlacedPart:
     overlap: Overlap
     scores: tuple[float, ...]  # of all candidates, the best first
     margin: float  # by how much the best of those that place the part elsewhere scores less
-    landmark_errors: np.ndarray  # (l,): distance of each landmark from where it should be, in √area of the whole
 
 
 def place_part(
@@ -95,9 +94,7 @@ def place_part(
     if any(len(copy.vertices) < len(mesh.vertices) for copy, mesh in zip(copies, (part, whole), strict=True)):
         on = PartSurface(whole)
         last = refine_registration(last, copies[0], part, on)
-    ends = last.vertices[pairs[:, 0]] - whole.vertices[pairs[:, 1]]
-    scores = tuple(one.score for one in found)
-    return PlacedPart(last, find_overlap(last, on), scores, margin(found, len(pairs)), np.linalg.norm(ends, axis=1))
+    return PlacedPart(last, find_overlap(last, on), tuple(one.score for one in found), margin(found, len(pairs)))
 
 
 def candidate_placements(pair: PartPair, scales: list[float], count: int) -> tuple[list[Placement], list[Placement]]:
