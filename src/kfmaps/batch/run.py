@@ -121,17 +121,7 @@ def _match_pairs(
     shapes = list({t.entry: t for task in plan.todo for t in (task.source, task.target)}.values())
     prepared: dict[str, Prepared] = {}
     done: list[Result] = list(plan.results)
-    entries = {t.entry: t for task in plan.tasks for t in (task.source, task.target)}
-    vertices = {entry: _vertices(task) for entry, task in entries.items()}
-
-    def mean(task: PairTask) -> float:
-        return (vertices[task.source.entry] + vertices[task.target.entry]) / 2
-
-    earlier = {(r.source, r.target): r.seconds["total"] for r in plan.results if r.status == "done"}
-    pairs = ((task, (task.pair.source, task.pair.target)) for task in plan.tasks)
-    measured = [(mean(task), earlier[pair]) for task, pair in pairs if pair in earlier]
-    preparing = WorkLeft({number: vertices[task.entry] for number, task in enumerate(shapes)})
-    matching = WorkLeft(dict(enumerate(map(mean, plan.todo))), measured)
+    preparing, matching = _work_left(plan, shapes)
 
     def tell(result: Result | None = None) -> None:
         status = _status(plan, pool, len(shapes), preparing, matching, done)
@@ -151,9 +141,8 @@ def _match_pairs(
             reason = prepared[task.entry].reason
             preparing.end(number, None if reason else prepared[task.entry].seconds)
             if reason:
-                log(
-                    "shape failed", f"shape {task.name} could not be prepared: {reason}", shape=task.name, reason=reason
-                )
+                told = f"shape {task.name} could not be prepared: {reason}"
+                log("shape failed", told, shape=task.name, reason=reason)
             tell()
     jobs = [(task, prepared[task.source.entry], prepared[task.target.entry]) for task in plan.todo]
     label, n_begun = (lambda job: str(job[0])), (lambda job: _attempts(job[0]))
@@ -172,6 +161,19 @@ def _match(job: tuple[PairTask, Prepared, Prepared]) -> Result:
 
 def _attempts(task: ShapeTask | PairTask) -> int:
     return attempts(Path(task.folder), task.key)
+
+
+def _work_left(plan: Plan, shapes: list[ShapeTask]) -> tuple[WorkLeft, WorkLeft]:
+    """Return the ``shapes`` to prepare and the pairs to match with their sizes, and what earlier runs measured."""
+    entries = {t.entry: t for task in plan.tasks for t in (task.source, task.target)}
+    vertices = {entry: _vertices(task) for entry, task in entries.items()}
+    sizes = {
+        (task.pair.source, task.pair.target): (vertices[task.source.entry] + vertices[task.target.entry]) / 2
+        for task in plan.tasks
+    }
+    todo = (sizes[task.pair.source, task.pair.target] for task in plan.todo)
+    before = [(sizes[r.source, r.target], r.seconds["total"]) for r in plan.results if r.status == "done"]
+    return WorkLeft(dict(enumerate(vertices[task.entry] for task in shapes))), WorkLeft(dict(enumerate(todo)), before)
 
 
 def _vertices(task: ShapeTask) -> float:
