@@ -32,7 +32,15 @@ from kfmaps.io.landmark_files import (
     read_landmark_sets,
     write_landmark_sets,
 )
-from kfmaps.io.named_points import FLIP, NamedPoints, choose_specimen, place_landmarks, scatter_points, transfer_points
+from kfmaps.io.named_points import (
+    FLIP,
+    NamedPoints,
+    choose_specimen,
+    map_columns,
+    place_landmarks,
+    scatter_points,
+    transfer_points,
+)
 from kfmaps.io.partial_map import find_counterparts, precise_points
 from kfmaps.matching.result import Match
 
@@ -116,7 +124,8 @@ def read_templates(files: Sequence[Path], scans: ShapeFolder) -> list[Template]:
                 if again := set(known.names) & set(points.names):
                     got = f"two with {min(again)!r}"
                     raise refuse(str(file), f"one file for each landmark of {name}", got, "leave one out")
-                found[name] = replace(found[name], points=_join(known, points))
+                joined = map_columns(known.names + points.names, lambda a, b: np.concatenate([a, b]), known, points)
+                found[name] = replace(found[name], points=joined)
                 continue
             found[name] = Template(name, file, path, mesh, points, space or _space(given, points))
     templates = list(found.values())
@@ -148,14 +157,6 @@ def _name_curve(given: LandmarkSet, stem: str, specimen: str) -> LandmarkSet:
     if not rest or fixed_rows(given.names) or len(find_curves(given.names)) > 1:
         return given
     return replace(given, names=tuple(re.sub(r"(curve|loop).*(_\d+)", rf"\g<1>{rest}\2", one) for one in given.names))
-
-
-def _join(a: NamedPoints, b: NamedPoints) -> NamedPoints:
-    place = PointMap(np.append(a.place.faces, b.place.faces), np.vstack([a.place.weights, b.place.weights]))
-    fields = ("points", "vertices", "confidence", "apart")
-    return NamedPoints(
-        a.names + b.names, place, *(np.concatenate([getattr(a, one), getattr(b, one)]) for one in fields)
-    )
 
 
 def template_pairs(templates: Sequence[Template], scans: ShapeFolder) -> list[Pair]:
@@ -295,9 +296,7 @@ def correct_points(points: NamedPoints, corrections: Corrections, mesh: Mesh) ->
     def merge(a: np.ndarray, b: np.ndarray) -> np.ndarray:
         return np.where(there.reshape(-1, *[1] * (a.ndim - 1)), a, b)
 
-    place = PointMap(merge(new.place.faces, points.place.faces), merge(new.place.weights, points.place.weights))
-    fields = ("points", "vertices", "confidence", "apart")
-    return NamedPoints(points.names, place, *(merge(getattr(new, one), getattr(points, one)) for one in fields))
+    return map_columns(points.names, merge, new, points)
 
 
 def correct_landmarks(one: SpecimenLandmarks, corrections: Corrections) -> SpecimenLandmarks:
@@ -402,12 +401,8 @@ def _all_names(points: NamedPoints, names: tuple[str, ...]) -> NamedPoints:
     check_names(points.names, "landmarks")
     row = {name: i for i, name in enumerate(points.names)}
     order = np.array([row[name] for name in names if name in row])
-    place = PointMap(points.place.faces[order], points.place.weights[order])
     there = np.array([name in row for name in names])
-    chosen = NamedPoints(
-        tuple(name for name in names if name in row),
-        *(place, points.points[order], points.vertices[order], points.confidence[order], points.apart[order]),
-    )
+    chosen = map_columns(tuple(name for name in names if name in row), lambda values: values[order], points)
     return scatter_points(chosen, names, there)
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -234,8 +234,7 @@ def transfer_points(
 def _select_points(given: NamedPoints, chosen: np.ndarray) -> NamedPoints:
     """Return those of the points that are ``chosen (q,)``."""
     names = tuple(name for name, one in zip(given.names, chosen, strict=True) if one)
-    place = PointMap(given.place.faces[chosen], given.place.weights[chosen])
-    return NamedPoints(names, place, *(values[chosen] for values in _columns(given)))
+    return map_columns(names, lambda values: values[chosen], given)
 
 
 def scatter_points(given: NamedPoints, names: tuple[str, ...], chosen: np.ndarray) -> NamedPoints:
@@ -251,12 +250,14 @@ def scatter_points(given: NamedPoints, names: tuple[str, ...], chosen: np.ndarra
         result[rows] = values[there]
         return result
 
-    place = PointMap(put(given.place.faces), put(given.place.weights))
-    return NamedPoints(names, place, *map(put, _columns(given)))
+    return map_columns(names, put, given)
 
 
-def _columns(given: NamedPoints) -> tuple[np.ndarray, ...]:
-    return given.points, given.vertices, given.confidence, given.apart
+def map_columns(names: tuple[str, ...], change: Callable[..., np.ndarray], *given: NamedPoints) -> NamedPoints:
+    """Return points of which each array is what ``change`` makes of that of ``given``."""
+    columns = [(p.place.faces, p.place.weights, p.points, p.vertices, p.confidence, p.apart) for p in given]
+    faces, weights, *others = (change(*each) for each in zip(*columns, strict=True))
+    return NamedPoints(names, PointMap(faces, weights), *others)
 
 
 def write_named_points(path: str | Path, points: NamedPoints, force: bool = False, space: str = "") -> None:
