@@ -5,6 +5,7 @@ from __future__ import annotations
 import errno
 import importlib
 import os
+import platform
 import signal
 import subprocess
 import sys
@@ -220,3 +221,29 @@ def test_names_that_are_no_text(tmp_path: Path) -> None:
     assert (process.returncode, out) == (2, "")
     assert err.startswith("kfmaps: error: \\udcff.off: ")
     assert len(err.splitlines()) == 1
+
+
+@pytest.mark.skipif(platform.libc_ver()[0] != "glibc", reason="only the allocator of Linux is told")
+def test_the_command_keeps_freed_memory():
+    """Arrays of 40 MB have their pages once, not each time."""
+    told = subprocess.run([sys.executable, "-c", _PAGES], capture_output=True, text=True, check=True).stdout.split()
+    before, after = map(int, told)
+    assert after < 0.2 * before
+
+
+_PAGES = """
+import resource
+import numpy as np
+from kfmaps.cli.main import _keep_freed_memory
+
+def faults():
+    start = resource.getrusage(resource.RUSAGE_SELF).ru_minflt
+    for _ in range(20):
+        np.empty(5_000_000)[::256] = 1.0
+    return resource.getrusage(resource.RUSAGE_SELF).ru_minflt - start
+
+print(faults())
+_keep_freed_memory()
+faults()
+print(faults())
+"""

@@ -15,6 +15,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from kfmaps._arrays import blocks
+
 _SLACK = (0.02, 0.1)
 """Change of a distance that speaks against a pair altogether: at no distance, in √area, and per distance."""
 _LANDMARK_TRUST = 3.0  # trust in a landmark, where that of a sample is at most 1
@@ -138,22 +140,21 @@ def reassign(
     """
     q = len(similarity)
     match, fit = np.zeros(q, dtype=np.int64), np.zeros(q)
+    match[:n_landmarks] = placed.match[:n_landmarks]
     trusted = np.flatnonzero(placed.trust > 0)
-    nearest = trusted[np.argsort(bounds.upper[:, trusted], axis=1, kind="stable")[:, :41]]
-    for i, near in enumerate(nearest):
-        near = near[(near != i) & np.isfinite(bounds.upper[i, near])]
-        if len(near) == 0:
-            match[i] = similarity[i].argmax()
-            continue
-        upper, lower = bounds.upper[i, near], bounds.lower[i, near]
-        fits = consistency(upper[:, None], lower[:, None], distances[placed.match[near]], (0.03, 0.08))
-        weight = placed.trust[near] / (0.1 + upper)
-        share = (weight / weight.sum()).astype(fits.dtype) @ fits
-        if i < n_landmarks:
-            match[i] = placed.match[i]
-        else:
-            match[i] = (share + similarity[i] - similarity[i].max()).argmax()
-        fit[i] = share[match[i]]
+    near = trusted[np.argsort(bounds.upper[:, trusted], axis=1, kind="stable")[:, :41]]
+    upper, lower = (np.take_along_axis(side, near, axis=1) for side in (bounds.upper, bounds.lower))
+    counts = (near != np.arange(q)[:, None]) & np.isfinite(upper)
+    weight = np.where(counts, placed.trust[near] / (0.1 + upper), 0.0)
+    weight = (weight / np.maximum(weight.sum(axis=1, keepdims=True), 1e-300)).astype(distances.dtype)
+    for some in blocks(q, 4):  # few samples at once, so that their arrays fit the cache
+        there = distances[placed.match[near[some]]]
+        fits = consistency(upper[some, :, None], lower[some, :, None], there, (0.03, 0.08))
+        share = (weight[some, None] @ fits)[:, 0]
+        free = slice(max(some.start, n_landmarks), some.stop)
+        better = share + similarity[some] - similarity[some].max(axis=1, keepdims=True)
+        match[free] = better.argmax(axis=1)[max(n_landmarks - some.start, 0) :]
+        fit[some] = share[np.arange(len(share)), match[some]]
     trust = np.maximum(fit - 0.3, 0.0) / (1 - 0.3)  # samples less consistent than that are not trusted
     trust[:n_landmarks] = _LANDMARK_TRUST
     return Assignment(match, trust, float(fit.mean()))
