@@ -940,5 +940,9 @@ MUTANTS = tuple(
         ),
         ("x, hold * stiffness, fading)", "x, hold, fading)", "test_landmark_evidence -k far_off"),
         ("left[i, i] += 1.5", "left[i, i] += 1.4", "test_nonrigid -k singular_values"),
+        # the time that a batch still takes
+        ("heapq.heapreplace(free, free[0] + seconds)", "heapq.heapreplace(free, seconds)", "test_batch_found -k time"),
+        ("max(lasts[number] - seconds, lasts[number] / 2)", "lasts[number] - seconds", "test_batch_found -k time"),
+        ("pace * (size + _FIXED_VERTICES)", "pace * size", "test_batch_found -k time"),
     )
 )
