@@ -231,7 +231,7 @@ def test_tables_and_statistics(scans: Path, tmp_path: Path) -> None:
 
 
 def test_the_command_goes_on_where_it_was(scans: Path, tmp_path: Path) -> None:
-    words = ["landmarks", "transfer", scans, "--from", tmp_path / "a.mrk.json", tmp_path / "b.mrk.json"]
+    words = ["landmarks", "transfer", scans, "--from", tmp_path / "b.mrk.json", tmp_path / "a.mrk.json"]
     more = ["-o", tmp_path / "out", "--workers", 1, "--set", "basis.n_eigenfunctions=30"]
     done = run(*words, *more)
     assert done.status == 0, done.stderr
@@ -244,6 +244,8 @@ def test_the_command_goes_on_where_it_was(scans: Path, tmp_path: Path) -> None:
     assert {path: path.stat().st_mtime_ns for path in times} == times
     lines = (tmp_path / "out" / "summary.txt").read_text().splitlines()
     assert lines[-1].endswith("local_differences.csv")
+    rows = (tmp_path / "out" / "specimens.csv").read_text().splitlines()
+    assert [row.split(",")[0] for row in rows[1:]] == list("bacd")
     assert "the name of a scan" in run(*words, *more, "--keep", "z").stderr
     (scans / "d.ply").write_text("ply\n")
     told = run(*words, *more)

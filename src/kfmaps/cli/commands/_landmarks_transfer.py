@@ -108,9 +108,11 @@ def transfer(
     study = []
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", KfmapsWarning)  # what is odd about the scans is in the results
-        for name, path in collection.shapes.items():
+        for name in dict.fromkeys([*own, *collection.shapes]):  # templates first, in the order given
             from_templates = {one.specimen: results[one.specimen, name] for one in templates if one.specimen != name}
-            one = own.get(name) or carry_templates(templates, name, path, from_templates, plan.folder)
+            one = own.get(name) or carry_templates(
+                templates, name, collection.shapes[name], from_templates, plan.folder
+            )
             study.append(correct_landmarks(one, corrections.get(name, {})))
         errors = template_errors(templates, results, plan.folder)
         said = [one for one in study if one.misfit]
