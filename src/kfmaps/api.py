@@ -301,7 +301,7 @@ def render(
         known = _truth(truth, shapes)
         options.setdefault("errors", painted_errors(*shapes, points, known.source, known.target))
         seen = true_views(*shapes, known.source, known.target, options.get("view"))
-        options = {"view": seen[0], "target_view": seen[1], **options}
+        options = {"target_view": seen[1], **options, "view": seen[0]}
     figure = match_figure(*shapes, drawn, **options)
     if output is not None:
         kind = picture_format(output)

@@ -20,6 +20,7 @@ from matplotlib.figure import Figure
 
 from kfmaps._arrays import InvalidInput, KfmapsWarning
 from kfmaps._threads import one_blas_thread
+from kfmaps.api import render
 from kfmaps.batch.consistent import CONSISTENT, ConsistentResult, map_in_use
 from kfmaps.batch.plan import Plan
 from kfmaps.batch.results import (
@@ -36,9 +37,9 @@ from kfmaps.batch.shape_statistics import DIFFERENCE_KINDS, SHAPES, limit_shape_
 from kfmaps.batch.work import PairTask, map_path, true_vertices
 from kfmaps.cli.words import UNIT, format_seconds, percent, probability_text
 from kfmaps.geometry.mesh import Mesh
-from kfmaps.io import check_map, load_map, read_mesh
+from kfmaps.io import load_map, read_mesh
 from kfmaps.io.atomic import write_text
-from kfmaps.viz import Curve, curves_figure, match_figure, mean_curve, painted_errors, save_figure, true_views
+from kfmaps.viz import Curve, curves_figure, mean_curve, save_figure
 from kfmaps.viz.document import environment, policy
 from kfmaps.viz.figures import make_transparent
 from kfmaps.viz.matches import values_figure
@@ -285,15 +286,10 @@ def _picture(task: PairTask, limit: float, path: Path) -> bytes:
     source, target = _quiet_mesh(task.source.path), _quiet_mesh(task.target.path)
     sizes = len(source.vertices), len(target.vertices)
     found = load_map(path)
-    points = check_map(found, *sizes, lost=True)
     truth = true_vertices(task, *sizes)
-    errors, views = None, (None, None)
-    if truth is not None:
-        with one_blas_thread():
-            errors = painted_errors(source, target, points, truth.source, truth.target)
-            views = true_views(source, target, truth.source, truth.target)
-    style = {"errors": errors, "limit": limit, "text": _TEXT_SIZE, "labels": False}
-    return _png(match_figure(source, target, found, view=views[0], target_view=views[1], **style))
+    pairs = None if truth is None else (truth.source, truth.target)
+    with one_blas_thread():
+        return _png(render(found, source, target, truth=pairs, limit=limit, text=_TEXT_SIZE, labels=False))
 
 
 def _write_pages(

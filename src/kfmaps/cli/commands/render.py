@@ -10,6 +10,7 @@ import typer
 from matplotlib.figure import Figure
 
 from kfmaps._arrays import check_positive, refuse
+from kfmaps.api import render
 from kfmaps.batch.layout import Pair
 from kfmaps.batch.page import error_curve_of
 from kfmaps.batch.results import Result, all_results, summarize
@@ -26,11 +27,8 @@ from kfmaps.viz import (
     View,
     curves_figure,
     grid_figure,
-    match_figure,
-    painted_errors,
     picture_format,
     save_figure,
-    true_views,
     view_from,
 )
 
@@ -67,21 +65,15 @@ def render_pair(
     _check(output, force, (map, source, target, *(truth or ())))
     found = load_map(map)
     source_mesh, target_mesh = (map_mesh(g, found, s, map) for g, s in ((source, "source"), (target, "target")))
-    points = check_map(found, len(source_mesh.vertices), len(target_mesh.vertices), lost=True)
-    errors, seen, seen_target = None, _view(towards, up), None
     known = known_truth(truth, len(source_mesh.vertices), len(target_mesh.vertices))
-    if known is not None:
-        errors = painted_errors(source_mesh, target_mesh, points, known.source, known.target)
-        seen, seen_target = true_views(source_mesh, target_mesh, known.source, known.target, seen)
-    figure = match_figure(
+    figure = render(
+        found,
         source_mesh,
         target_mesh,
-        found,
-        errors=errors,
+        truth=None if known is None else (known.source, known.target),
         limit=None if limit is None else check_positive(limit, "--limit") / 100,
         title=_plain(title),
-        view=seen,
-        target_view=seen_target,
+        view=_view(towards, up),
     )
     _save(figure, output, dpi, json, force)
 
