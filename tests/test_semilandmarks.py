@@ -111,6 +111,12 @@ def test_nothing_slides_where_there_is_no_curve(curves: list) -> None:
     assert slide_semilandmarks(points, points[::-1], curves) is points
 
 
+def test_nothing_slides_among_four_points() -> None:
+    """A spline through four points does not bend."""
+    points = np.vstack([LINE[[0, 2, 6]], LINE[[0, 6]], FIXED[:1]])
+    assert slide_semilandmarks(points, points, [(np.arange(3), False)]) is points
+
+
 def test_a_landmark_at_the_end_of_a_curve_counts_once() -> None:
     """Otherwise the energy of two landmarks in one place has no bound, and pushes their neighbours about."""
     template = np.vstack([FIXED, LINE])

@@ -58,10 +58,10 @@ def slide_semilandmarks(
     """
     there = np.asarray(np.isfinite(points).all(axis=1) & np.isfinite(template).all(axis=1))
     paths = [_Path(points, rows[there[rows]], closed) for rows, closed in curves if there[rows].sum() > 2]
-    if not paths or there.sum() < 5:
-        return points
-    rows = np.concatenate([path.rows for path in paths])
+    rows = np.concatenate([np.zeros(0, dtype=np.int64), *(path.rows for path in paths)])
     used = _distinct(template, [*rows, *np.setdiff1d(np.flatnonzero(there), rows)])
+    if not len(rows) or len(used) < 5:
+        return points
     energy = np.zeros((len(points), len(points)))
     energy[np.ix_(used, used)] = bending_energy_matrix(template[used])
     slid = np.where(there[:, None], points, 0.0)
@@ -109,7 +109,7 @@ class _Path:
 
 def _distinct(points: np.ndarray, rows: Sequence[int]) -> np.ndarray:
     """Those of ``rows`` that lie apart from the ones before: between two in one place a spline may bend without end."""
-    near = _COINCIDENT * np.linalg.norm(points[rows] - points[rows].mean(axis=0))
+    near = _COINCIDENT * np.linalg.norm(points[rows] - points[rows].mean(axis=0)) if rows else 0.0
     found: list[int] = []
     for row in rows:
         if not found or np.linalg.norm(points[found] - points[row], axis=1).min() > near:
