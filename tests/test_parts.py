@@ -18,6 +18,7 @@ from kfmaps.io import load_map
 from kfmaps.matching.match import match
 from kfmaps.matching.partial.detect import _boundary_opening, detect_part
 from kfmaps.matching.partial.match_partial import describe_part
+from kfmaps.matching.partial.place_part import _same_units
 from kfmaps.matching.partial.relaxation_labeling import _SLACK, consistency, distance_bounds
 from kfmaps.matching.partial.samples import part_samples
 from kfmaps.matching.partial.scale_search import SCALES
@@ -232,3 +233,20 @@ def test_only_what_a_detour_explains_is_forgiven():
 def test_a_part_that_lacks_little_is_a_shape_with_holes(scale, told):
     found = SimpleNamespace(part="target", scale=scale)
     assert describe_part(found, "because") == told  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize(
+    ("scale", "ratio", "both", "same"),
+    [
+        ("auto", 1.9, True, True),
+        ("auto", 0.55, True, True),
+        ("auto", 2.54, True, False),
+        ("auto", 1 / 2.54, True, False),
+        ("auto", None, True, False),
+        ("auto", 1.0, False, False),
+        ("free", 1.0, True, False),
+        ("fixed", 1000.0, False, True),
+    ],
+)
+def test_two_parts_of_like_size_are_in_one_unit(scale: str, ratio: float | None, both: bool, same: bool) -> None:
+    assert _same_units(scale, ratio, both) == same

@@ -149,13 +149,13 @@ class Partial:
     """What of the shapes may be missing; see :mod:`kfmaps.matching.partial`.
 
     ``part``: "both" means that each has something that the other lacks; "auto" compares their boundaries and, where
-    these differ, how one fits into the other.
+    these differ, how one fits into the other. ``scale``: "auto" is "fixed" for two parts of about the same size.
     """
 
     part: Literal["auto", "none", "source", "target", "both"] = setting(
         "auto", "which shape may be a part of the other", option="--partial"
     )
-    scale: Literal["free", "fixed"] = setting("free", "fixed: both shapes are in the same units")
+    scale: Literal["auto", "free", "fixed"] = setting("auto", "fixed: both shapes are in the same units")
     samples: int = setting(300, "points of the part that are matched first", low=20)
     whole_samples: int = setting(1000, "points of the whole that they are matched with", low=20)
     candidates: int = setting(3, "scales of the part that are followed up", low=1)
