@@ -63,9 +63,9 @@ def nearest(
         raise refuse("points", "at least one", "none", "give at least one")
     if is_numpy(queries):
         queries, points = _in_range(queries, points)
-        if _in_tree(*points.shape):
+        if _in_tree(len(points), points.shape[1]):
             return _by_tree(queries, points, threads)
-        if searches_cells(len(queries), *points.shape, exact):
+        if searches_cells(len(queries), len(points), points.shape[1], exact):
             return approximate_nearest(queries, points, threads=threads, probes=probes, start=start)
     return _exact(queries, points, block, threads)
 
