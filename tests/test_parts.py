@@ -19,7 +19,7 @@ from kfmaps.matching.match import match
 from kfmaps.matching.partial.detect import _boundary_opening, detect_part
 from kfmaps.matching.partial.match_partial import describe_part
 from kfmaps.matching.partial.place_part import _same_units
-from kfmaps.matching.partial.relaxation_labeling import _SLACK, consistency, distance_bounds
+from kfmaps.matching.partial.relaxation_labeling import _SLACK, Assignment, consistency, distance_bounds, reassign
 from kfmaps.matching.partial.samples import part_samples
 from kfmaps.matching.partial.scale_search import SCALES
 from kfmaps.matching.score import SCORE, probability, verdict
@@ -250,3 +250,27 @@ def test_a_part_that_lacks_little_is_a_shape_with_holes(scale, told):
 )
 def test_two_parts_of_like_size_are_in_one_unit(scale: str, ratio: float | None, both: bool, same: bool) -> None:
     assert _same_units(scale, ratio, both) == same
+
+
+def test_samples_are_placed_anew_by_their_trusted_neighbours(rng):
+    """A sum over all other samples that are trusted and reached, landmarks where they were."""
+    whole = rng.normal(size=(60, 3))
+    distances = np.linalg.norm(whole[:, None] - whole, axis=2)
+    at = rng.permutation(60)[:11]
+    bounds = distance_bounds(distances[np.ix_(at, at)], rng.uniform(0, 1, 11), 1.05)
+    bounds.upper[3, 8] = bounds.upper[8, 3] = np.inf
+    similarity, trust = rng.uniform(size=(11, 60)), np.where(np.arange(11) % 4 == 2, 0.0, rng.uniform(0.2, 1, 11))
+    placed = Assignment(np.roll(at, 1), trust, 0.5)
+    found = reassign(bounds, distances, similarity, placed, n_landmarks=2)
+    for i in range(11):
+        near = [j for j in range(11) if j != i and trust[j] > 0 and np.isfinite(bounds.upper[i, j])]
+        weight = np.array([trust[j] / (0.1 + bounds.upper[i, j]) for j in near])
+        fits = [
+            consistency(bounds.upper[i, [j]], bounds.lower[i, [j]], distances[placed.match[j]], (0.03, 0.08))
+            for j in near
+        ]
+        share = weight @ np.array(fits) / weight.sum()
+        best = placed.match[i] if i < 2 else (share + similarity[i]).argmax()
+        assert found.match[i] == best
+        if i >= 2:
+            np.testing.assert_allclose(found.trust[i], max(share[best] - 0.3, 0) / 0.7, rtol=1e-9, atol=1e-12)

@@ -144,8 +144,8 @@ def reassign(
     trusted = np.flatnonzero(placed.trust > 0)
     near = trusted[np.argsort(bounds.upper[:, trusted], axis=1, kind="stable")[:, :41]]
     upper, lower = (np.take_along_axis(side, near, axis=1) for side in (bounds.upper, bounds.lower))
-    counts = (near != np.arange(q)[:, None]) & np.isfinite(upper)
-    weight = np.where(counts, placed.trust[near] / (0.1 + upper), 0.0)
+    weight = placed.trust[near] / (0.1 + upper)  # none where the distance is infinite
+    weight[near == np.arange(q)[:, None]] = 0.0
     weight = (weight / np.maximum(weight.sum(axis=1, keepdims=True), 1e-300)).astype(distances.dtype)
     for some in blocks(q, 4):  # few samples at once, so that their arrays fit the cache
         there = distances[placed.match[near[some]]]
