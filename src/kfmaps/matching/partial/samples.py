@@ -15,9 +15,9 @@ from kfmaps.geometry.mesh import Mesh, boundary_vertices
 from kfmaps.matching.partial.relaxation_labeling import DistanceBounds, distance_bounds
 from kfmaps.registration.deformable import ClosestPointQuery, closest_point_query
 
-# Support points of SHOT, and its radius in √area above which they become fewer. That changes products of descriptors by
-# at most 0.02, where those of two random points differ by 0.37.
-_SUPPORT, _FULL_SUPPORT = 10_000, 0.14
+_SUPPORT = 10_000
+"""Support points of SHOT, half of those that a descriptor at every vertex deserves. With fewer in large balls a person
+with holes was placed wrongly."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,9 +51,7 @@ class PartSamples(PartSurface):
     def shot(self, radius: float, threads: int | None = 1) -> np.ndarray:
         """Return SHOT at the samples, (q, 352) float32, of a ``radius`` in √area of the shape."""
         if radius not in self.descriptors:
-            # As many support points in a ball of any radius: half of those that a descriptor at every vertex deserves.
-            count = int(_SUPPORT * min((_FULL_SUPPORT / radius) ** 2, 1.0))
-            found = shot(self.mesh, radius, at=self.samples, samples=count, threads=threads)
+            found = shot(self.mesh, radius, at=self.samples, samples=_SUPPORT, threads=threads)
             self.descriptors[radius] = found.astype(np.float32)
         return self.descriptors[radius]
 
