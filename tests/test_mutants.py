@@ -43,3 +43,12 @@ def test_every_module_of_the_core_is_guarded(room: str) -> None:
     for path in sorted((PACKAGE / room).rglob("*.py")) or [PACKAGE / f"{room}.py"]:
         if path.name != "__init__.py":
             assert guarding(path), f"name {path} in the GUARDS of the test files that should notice what breaks in it"
+
+
+def test_the_core_of_the_makefile_are_test_files() -> None:
+    """A file that was renamed would be missing only after the suite, in ``make shake``."""
+    tests = Path(__file__).parent
+    makefile = (tests.parent / "Makefile").read_text(encoding="utf-8")
+    names = makefile.split("CORE := ")[1].split("\n\n")[0].replace("\\\n", " ").split()
+    assert len(names) > 20
+    assert [name for name in names if not (tests / f"test_{name}.py").exists()] == []
