@@ -276,8 +276,8 @@ def _choose_orientation(state: _Search, unduly: bool) -> _Search:
         return state
     other = mirrored_pair(samples.whole)
     images, copies = reversed_best(state.found, other, config.threads), ProxyCache.of(state.source, state.target, other)
-    plain = state.ranked[0].unregistered.score
-    if not images or (asked == "auto" and not unduly and images[0].score < plain + SCORE.mirror_gain):
+    before = state.ranked[0].unregistered.score
+    if not images or (asked == "auto" and not unduly and images[0].score < before + SCORE.mirror_gain):
         return state
     ranked = ranking(images, other, copies, config.threads)
     image, energy = ranked[0], ranked[0].deformation_energy
@@ -329,11 +329,10 @@ def _contradicted_landmarks(state: _Search) -> tuple[np.ndarray, tuple[tuple[Can
     missed = ignore_landmarks(best, whole, threads).landmark_errors
     limit = max_landmark_error(best.quality.score)
     wrong = rejected_landmarks(missed, limit)
-    own, others = _without_evidence(best.unregistered).score - SCORE.repairable_margin, state.found
-    others = [c for c in others if _without_evidence(c.unregistered).score > own]
-    if not (missed > limit).any() and all(
-        map_distance(c, best, whole.source) <= SCORE.distinct_distance for c in others
-    ):
+    least = _without_evidence(best.unregistered).score - SCORE.repairable_margin
+    near = [c for c in state.found if _without_evidence(c.unregistered).score > least]
+    rivalled = any(map_distance(c, best, whole.source) > SCORE.distinct_distance for c in near)
+    if not rivalled and not (missed > limit).any():
         return wrong, ()
     order = _best_by_surface(state)
     first, margin = order[0], order[0].score - order[1].score if len(order) > 1 else np.inf
