@@ -17,8 +17,8 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
-from automatic import Job, loaded, pairs_of
-from wrong_landmarks import choice_pairs
+from automatic import Job, loaded
+from scatter import chosen_pairs
 
 import kfmaps
 from kfmaps.datasets.pairs import largest_piece
@@ -91,7 +91,7 @@ def main() -> None:
     arguments = parser.parse_args()
     rows: list[dict] = []
     for kind in arguments.sets.split(","):
-        drawn = (choice_pairs if arguments.half == "choice" else pairs_of)(kind, arguments.data, arguments.pairs)
+        drawn = chosen_pairs(kind, arguments.data, arguments.half, arguments.pairs, seed=1)
         for number, pair in enumerate(drawn):
             rows.append(run(Job(arguments.data, kind, *pair), number))
             print(json.dumps(rows[-1]), flush=True)

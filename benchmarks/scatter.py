@@ -150,12 +150,12 @@ def interval(change: np.ndarray) -> tuple[float, float]:
     return float(low), float(high)
 
 
-def chosen_pairs(kind: str, data: Path, half: str, count: int) -> list[tuple[str, str]]:
-    """At most ``count`` pairs of a half, drawn with a fixed seed."""
+def chosen_pairs(kind: str, data: Path, half: str, count: int, seed: int = 0) -> list[tuple[str, str]]:
+    """At most ``count`` pairs of a half, those of the choice half drawn with a ``seed``."""
     if half == "report":
         return pairs_of(kind, data, count)
     found = [pair for pair in all_pairs(kind, data) if CHOSEN_ON[kind].issuperset(pair)]
-    drawn = np.random.default_rng(0).permutation(len(found))[:count]
+    drawn = np.random.default_rng(seed).permutation(len(found))[:count]
     return [found[i] for i in np.sort(drawn)]
 
 

@@ -15,7 +15,8 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
-from automatic import CHOSEN_ON, Job, all_pairs, chosen_landmarks, loaded, pairs_of
+from automatic import Job, chosen_landmarks, loaded
+from scatter import chosen_pairs
 from scipy.spatial import KDTree
 
 import kfmaps
@@ -36,13 +37,6 @@ WAYS = {
     "25, left for right": (25, "sides", 25),
 }
 """Number of landmarks, what is done to how many of them."""
-
-
-def choice_pairs(kind: str, data: Path, count: int) -> list[tuple[str, str]]:
-    """At most ``count`` pairs of two shapes that settings were chosen on."""
-    found = [pair for pair in all_pairs(kind, data) if CHOSEN_ON[kind].issuperset(pair)]
-    drawn = np.random.default_rng(1).permutation(len(found))[:count]
-    return [found[i] for i in np.sort(drawn)]
 
 
 def at_distance(target: kfmaps.Shape, vertex: int, distance: float, rng: np.random.Generator) -> int:
@@ -136,10 +130,9 @@ def main() -> None:
     parser.add_argument("--pairs", type=int, default=2, help="of each set")
     parser.add_argument("--json", type=Path)
     arguments = parser.parse_args()
-    drawn = choice_pairs if arguments.half == "choice" else pairs_of
     rows: list[dict] = []
     for kind in arguments.sets.split(","):
-        for pair in drawn(kind, arguments.data, arguments.pairs):
+        for pair in chosen_pairs(kind, arguments.data, arguments.half, arguments.pairs, seed=1):
             rows += rows_of(Job(arguments.data, kind, *pair))
     report(rows)
     if arguments.json:
