@@ -267,7 +267,7 @@ def _choose_orientation(state: _Search, unduly: bool) -> _Search:
     Unasked, maps to the mirror image are registered only where the best map deforms ``unduly`` or where one of them has
     a better score before registration. One that is clearly better replaces the best map, and so does one that is better
     and moves the shape as a whole. Any other that is better is kept beside the best map, and makes it ambiguous.
-    "Better" is one that is so without landmarks too.
+    With landmarks, one is better only if it is without them too.
     """
     config, samples = state.config, state.samples
     assert config.search is not None
