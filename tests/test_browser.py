@@ -19,7 +19,7 @@ from kfmaps.io import MeshFile
 from kfmaps.io.bake import encode_png
 from kfmaps.matching.result import Match
 from kfmaps.viz.notebook import cell_html
-from kfmaps.viz.page import result_page
+from kfmaps.viz.page import ResultPage
 from kfmaps.viz.result_pages import match_page
 
 pytestmark = needs_browser
@@ -42,7 +42,7 @@ def pair() -> ExamplePair:
 def page(browser: Browser, pair: ExamplePair, tmp_path: Path) -> Browser:
     """The page of the true map, everything switched on, opened from the disk."""
     rng = np.random.default_rng(0)
-    html = result_page(
+    html = ResultPage(
         pair.source,
         pair.target,
         pair.truth,
@@ -62,7 +62,7 @@ def page(browser: Browser, pair: ExamplePair, tmp_path: Path) -> Browser:
             "note": NASTY,
         },
         names=(NASTY, "b"),
-    )
+    ).html()
     (tmp_path / "page.html").write_text(html, encoding="utf-8")
     browser.open((tmp_path / "page.html").as_uri())
     return browser
@@ -123,7 +123,7 @@ def test_colours_and_texture_are_carried_by_the_map(browser: Browser, pair: Exam
     identity = np.arange(len(pair.source.vertices))
     for name, points in (("same", identity), ("other", identity[::-1].copy())):
         page = tmp_path / f"{name}.html"
-        page.write_text(result_page(pair.source, pair.source, points), encoding="utf-8")
+        page.write_text(ResultPage(pair.source, pair.source, points).html(), encoding="utf-8")
         browser.open(page.as_uri())
         if browser.element("#aligned").is_selected():
             browser.element("#aligned").click()  # both lie alike, so the pictures differ by the map alone
@@ -200,7 +200,7 @@ def test_in_a_cell_of_a_notebook(
     """Both views beside each other, nothing to scroll, light or dark as the notebook is, whatever the system is."""
     features = [{"name": "prefers-color-scheme", "value": "light" if mark == "false" else "dark"}]
     browser.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": features})
-    html = cell_html(result_page(pair.source, pair.target, pair.truth, names=(NASTY, "b")), NASTY)
+    html = cell_html(ResultPage(pair.source, pair.target, pair.truth, names=(NASTY, "b")).html(), NASTY)
     cell = f'<!DOCTYPE html><body data-jp-theme-light="{mark}"><div style="width: {width}px">{html}</div></body>'
     (tmp_path / "notebook.html").write_text(cell, encoding="utf-8")
     browser.driver.get_log("browser")
@@ -261,7 +261,7 @@ def test_difference_is_between_the_best_map_and_the_runner_up(page: Browser, pai
     half = pair.truth.copy()
     upper = pair.target.vertices[:, 1] > np.median(pair.target.vertices[:, 1])
     half[upper] = half[upper][::-1]
-    html = result_page(pair.source, pair.target, pair.truth, alternatives=[half])
+    html = ResultPage(pair.source, pair.target, pair.truth, alternatives=[half]).html()
     (tmp_path / "half.html").write_text(html, encoding="utf-8")
     page.open((tmp_path / "half.html").as_uri())
     page.mode("difference")
@@ -344,7 +344,7 @@ def test_both_are_seen_from_the_same_side_of_the_body(browser: Browser, pair: Ex
     identity = np.arange(len(turned))
     for name, target, points in (("lying", lying, identity), ("back", pair.source, back_for_front)):
         path = tmp_path / f"{name}.html"
-        path.write_text(result_page(pair.source, target, points), encoding="utf-8")
+        path.write_text(ResultPage(pair.source, target, points).html(), encoding="utf-8")
         browser.open(path.as_uri())
         views = [
             browser.run("return document.getElementById(arguments[0]).getBoundingClientRect().x", f"view-{side}")
@@ -378,7 +378,7 @@ def test_the_texture_of_the_source_is_on_both_shapes(browser: Browser, pair: Exa
     uv = np.where(source.vertices[:, :1] < np.median(source.vertices[:, 0]), [0.25, 0.5], [0.75, 0.5])
     file = MeshFile(source, None, uv, source.faces, encode_png(pixels))
     found = Match(pair.truth, alternatives=(pair.truth[::-1],))
-    html = match_page(found, source, pair.target, ("a", "b"), descriptors=False, texture=file)
+    html = match_page(found, file, pair.target, ("a", "b"), descriptors=False)
     (tmp_path / "texture.html").write_text(html, encoding="utf-8")
     browser.open((tmp_path / "texture.html").as_uri())
     browser.mode("texture")

@@ -32,7 +32,7 @@ from kfmaps.matching.result import Match
 from kfmaps.matching.result_groups import MatchFit, MatchScore, ShapeFile
 from kfmaps.viz.colors import position_colors
 from kfmaps.viz.document import _json_block, asset, encode_floats, encode_integers, to_json
-from kfmaps.viz.page import _rotation_by_map, result_page
+from kfmaps.viz.page import ResultPage, _rotation_by_map
 from kfmaps.viz.result_pages import _match_summary, match_page, signatures, vertex_errors
 
 WEB = Path(__file__).parents[1] / "web"
@@ -181,7 +181,7 @@ def test_page_holds_the_shapes_and_the_map(pair: tuple) -> None:
     source, target, points = pair
     errors = np.linspace(0, 1, 240)
     errors[5] = np.nan
-    html = result_page(source, target, points, errors=errors[None], alternatives=[points[::-1]], names=("a", "b"))
+    html = ResultPage(source, target, points, errors=errors[None], alternatives=[points[::-1]], names=("a", "b")).html()
     data = page_data(html)
     placed = unpacked(data["source"]["positions"])
     moved = placed - unit_area(source).vertices
@@ -196,7 +196,7 @@ def test_page_holds_the_shapes_and_the_map(pair: tuple) -> None:
 
 
 def test_page_takes_names_and_settings_as_text(pair: tuple) -> None:
-    html = result_page(*pair, names=(NASTY, "b"), summary={NASTY: NASTY})
+    html = ResultPage(*pair, names=(NASTY, "b"), summary={NASTY: NASTY}).html()
     tags = Tags(html)
     assert [a.get("type") for t, a in tags.tags if t == "script"] == ["application/json", None]
     assert tags.text["title"] == [f"{NASTY} → b"]
@@ -205,7 +205,7 @@ def test_page_takes_names_and_settings_as_text(pair: tuple) -> None:
 
 
 def test_page_allows_its_own_script_and_style_only(pair: tuple) -> None:
-    tags = Tags(result_page(*pair))
+    tags = Tags(ResultPage(*pair).html())
     policy = next(a["content"] for t, a in tags.tags if a.get("http-equiv") == "Content-Security-Policy")
     assert policy is not None
     rules = {name: rest for name, *rest in (rule.split() for rule in policy.split("; "))}
@@ -225,7 +225,7 @@ def test_everything_of_two_7000_vertex_meshes_is_below_6_mb() -> None:
     rng = np.random.default_rng(0)
     points = rng.permutation(n)
     descriptors = (rng.random((n, 12)), rng.random((n, 12)))
-    html = result_page(
+    html = ResultPage(
         mesh,
         mesh,
         points,
@@ -234,7 +234,7 @@ def test_everything_of_two_7000_vertex_meshes_is_below_6_mb() -> None:
         confidence=rng.random((4, n)),
         alternatives=[rng.permutation(n) for _ in range(3)],
         descriptors=descriptors,
-    )
+    ).html()
     assert len(html.encode()) < 3e6
     shown = page_data(html)["descriptors"]
     assert [d["number"] for d in shown] == list(range(12))
@@ -254,7 +254,7 @@ def test_page_refuses_what_does_not_fit(pair: tuple, change: dict, name: str) ->
     source, target, points = pair
     arguments = {"source": source, "target": target, "target_to_source": points} | change
     with pytest.raises(InvalidInput, match=f"^{name}: expected"):
-        result_page(**arguments)
+        ResultPage(**arguments).html()
 
 
 # Results --------------------------------------------------------------------------------------------------
@@ -403,10 +403,10 @@ def test_colours_are_mixed_inside_triangles_where_the_map_has_points_there(pair:
     faces = np.arange(len(target.vertices)) % len(source.faces)
     weights = np.tile([0.5, 0.3, 0.2], (len(faces), 1))
     found = Match(target_to_source=source.faces[faces, 0], precise_map=PointMap(faces, weights))
-    data = page_data(result_page(source, target, found))
+    data = page_data(ResultPage(source, target, found).html())
     expected = np.einsum("j,tjc->tc", [0.5, 0.3, 0.2], position_colors(source)[source.faces[faces]])
     assert np.abs(unpacked(data["maps"][0]["colours"]) - 255 * expected).max() <= 0.5
-    assert "colours" not in page_data(result_page(source, target, found.target_to_source))["maps"][0]
+    assert "colours" not in page_data(ResultPage(source, target, found.target_to_source).html())["maps"][0]
 
 
 def test_the_page_has_the_texture_of_the_source(pair: tuple[Mesh, Mesh, np.ndarray]) -> None:
@@ -415,7 +415,7 @@ def test_the_page_has_the_texture_of_the_source(pair: tuple[Mesh, Mesh, np.ndarr
     picture = encode_png(np.random.default_rng(0).random((2100, 30, 3)))
     file = MeshFile(source, None, np.random.default_rng(1).random((len(source.vertices), 2)), source.faces, picture)
     found = Match(points)
-    html = match_page(found, source, target, ("a", "b"), descriptors=False, texture=file)
+    html = match_page(found, file, target, ("a", "b"), descriptors=False)
     own, carried = page_data(html)["textures"]
     assert len(unpacked(own["corners"])) == 3 * len(source.faces)
     assert len(unpacked(carried["corners"])) == 3 * len(target.faces)
@@ -425,4 +425,4 @@ def test_the_page_has_the_texture_of_the_source(pair: tuple[Mesh, Mesh, np.ndarr
         assert decode_picture(Picture(base64.b64decode(data), "image/png")).shape[0] >= 2048
     assert page_data(match_page(found, source, target, ("a", "b"), descriptors=False))["textures"] == []
     bare = MeshFile(source)
-    assert page_data(match_page(found, source, target, ("a", "b"), descriptors=False, texture=bare))["textures"] == []
+    assert page_data(match_page(found, bare, target, ("a", "b"), descriptors=False))["textures"] == []

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from contextlib import nullcontext
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -23,7 +24,7 @@ from kfmaps.fmap.refine import Refined
 from kfmaps.fmap.zoomout import ZoomOut
 from kfmaps.geometry.basis import Basis
 from kfmaps.geometry.mesh import Mesh
-from kfmaps.io import atomic_output, check_map, load_map
+from kfmaps.io import MeshFile, atomic_output, check_map, load_map
 from kfmaps.io import save_map as save_map
 from kfmaps.io import transfer as carried
 from kfmaps.io.atomic import write_text
@@ -262,7 +263,7 @@ def render(
     target: ShapeLike | Shape | None = None,
     *,
     output: str | Path | None = None,
-    truth: TruthLike | None = None,
+    truth: TruthLike | Truth | None = None,
     force: bool = False,
     **options: Any,
 ) -> Figure:
@@ -316,7 +317,7 @@ def view(
     target: ShapeLike | Shape | None = None,
     *,
     output: str | Path | None = None,
-    truth: TruthLike | None = None,
+    truth: TruthLike | Truth | None = None,
     names: tuple[str, str] = ("source", "target"),
     descriptors: bool = True,
     up: str | None = None,
@@ -347,18 +348,13 @@ def view(
     from kfmaps.viz.result_pages import match_page, open_page
 
     shapes = _shapes(found, source, target)
-    made = as_map(found, shapes[0])
+    made, drawn = as_map(found, shapes[0]), MeshFile(shapes[0])
     path = made.source_file.path if source is None else source
+    if is_file(path) and Path(path).is_file():
+        file = map_mesh_file(Path(path), made, "source", Path())
+        drawn = replace(file, mesh=shapes[0]) if len(file.mesh.faces) == len(shapes[0].faces) else drawn
     known = None if truth is None else _truth(truth, shapes)
-    given = {
-        "truth": None if known is None else (known.source, known.target),
-        "descriptors": descriptors,
-        "up": up,
-        "texture": map_mesh_file(Path(path), made, "source", Path())
-        if is_file(path) and Path(path).is_file()
-        else None,
-    }
-    html = match_page(made, *shapes, names, **given)
+    html = match_page(made, drawn, shapes[1], names, truth=known, descriptors=descriptors, up=up)
     if output is not None:
         write_text(output, html, force)
         return Path(output)
@@ -390,8 +386,10 @@ def _telling(progress: bool | Reporter | None) -> Any:
     return nullcontext(progress or None)
 
 
-def _truth(truth: TruthLike, shapes: tuple[Mesh, Mesh]) -> Truth:
+def _truth(truth: TruthLike | Truth, shapes: tuple[Mesh, Mesh]) -> Truth:
     """Corresponding vertices of both shapes, of a truth as :func:`render` takes it."""
+    if isinstance(truth, Truth):
+        return truth
     if not isinstance(truth, tuple):
         points = check_map(truth, len(shapes[0].vertices), len(shapes[1].vertices), "truth", lost=True)
         known = np.flatnonzero(points >= 0)

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import hashlib
+import json
 from contextlib import suppress
-from dataclasses import fields, is_dataclass, replace
+from dataclasses import replace
 from pathlib import Path
-from typing import Any, get_args, get_origin, get_type_hints
+from typing import Any, TypeVar
 
 import numpy as np
 
@@ -16,12 +17,16 @@ from kfmaps.batch.run_spec import digest_of
 from kfmaps.config import Config
 from kfmaps.io import atomic_output
 from kfmaps.io.gltf import buffer_files
+from kfmaps.io.map_summary import plain_record, read_record
 from kfmaps.io.text import read_bytes
 from kfmaps.matching.quality import ShapeSamples
 from kfmaps.matching.search import scoring_samples
 from kfmaps.shape import Shape
 
-_LAYOUT = 3  # raised when what an entry holds changes
+_LAYOUT = 4  # raised when what an entry holds changes
+_PLAIN = "plain"  # name of the text of an entry with all that is no array
+
+_Record = TypeVar("_Record")
 
 
 def file_digest(path: str | Path) -> str:
@@ -75,58 +80,19 @@ def cached_samples(shape: Shape, entry: Path, seed: int) -> ShapeSamples:
     return samples
 
 
-def save_record(path: Path, record: Any) -> None:
-    """Write the arrays of a dataclass and of those in it, whole or not at all."""
+def save_record(path: Path, record: object) -> None:
+    """Write a dataclass with its arrays and the dataclasses in it, whole or not at all."""
+    arrays: dict[str, Any] = {}
+    content = json.dumps(plain_record(record, arrays))
     with atomic_output(path, force=True) as temporary, open(temporary, "wb") as file:
-        np.savez(file, allow_pickle=False, **_flatten(record, ""))
+        np.savez(file, allow_pickle=False, **{_PLAIN: content}, **arrays)
 
 
-def load_record(path: Path, kind: type) -> Any:
+def load_record(path: Path, kind: type[_Record]) -> _Record | None:
     """Read what :func:`save_record` wrote; ``None`` when there is none or the file is damaged."""
     try:
-        with open(path, "rb") as file, np.load(file, allow_pickle=False) as arrays:
-            return _restore(kind, dict(arrays), "")
-    except FileNotFoundError:
-        return None
+        with open(path, "rb") as file, np.load(file, allow_pickle=False) as found:
+            arrays = dict(found)
+        return read_record(kind, json.loads(str(arrays.pop(_PLAIN))), str(path), arrays)
     except Exception:  # NumPy reports a damaged file by whatever it runs into
         return None
-
-
-def _flatten(record: Any, before: str) -> dict[str, np.ndarray]:
-    """Arrays by dotted names; what is ``None`` is left out, a dictionary of numbers is two arrays."""
-    arrays: dict[str, np.ndarray] = {}
-    for field in fields(record):
-        value, name = getattr(record, field.name), before + field.name
-        if is_dataclass(value):
-            arrays |= _flatten(value, name + ".")
-        elif isinstance(value, dict):
-            arrays |= {f"{name}.keys": np.array(list(value)), f"{name}.values": np.array(list(value.values()))}
-        elif isinstance(value, tuple) and all(map(is_dataclass, value)):
-            arrays[f"{name}.count"] = np.array(len(value))
-            for i, one in enumerate(value):
-                arrays |= _flatten(one, f"{name}.{i}.")
-        elif value is not None:
-            arrays[name] = np.asarray(value)
-    return arrays
-
-
-def _restore(kind: Any, arrays: dict[str, np.ndarray], before: str) -> Any:
-    """The record of which :func:`_flatten` made ``arrays``; ``KeyError`` when one is missing that is not optional."""
-    values = {}
-    for name, hint in get_type_hints(kind).items():
-        path = before + name
-        inner = next((part for part in (hint, *get_args(hint)) if is_dataclass(part)), None)
-        if inner is not None and get_origin(hint) is tuple:
-            numbers = range(int(arrays[f"{path}.count"]))
-            values[name] = tuple(_restore(inner, arrays, f"{path}.{i}.") for i in numbers)
-        elif inner is not None:
-            there = inner is hint or any(key.startswith(f"{path}.") for key in arrays)
-            values[name] = _restore(inner, arrays, f"{path}.") if there else None
-        elif get_origin(hint) is dict:
-            values[name] = dict(zip(arrays[f"{path}.keys"].tolist(), arrays[f"{path}.values"].tolist(), strict=True))
-        elif path in arrays or "None" not in str(hint):
-            array = arrays[path]
-            values[name] = array if array.ndim else array.item()
-        else:
-            values[name] = None
-    return kind(**values)

@@ -52,7 +52,7 @@ from kfmaps.shape import Shape
 
 CONSISTENT, EVIDENCE, PATHS = "consistent", "evidence", "paths"
 _TABLE = "pairs.csv"
-_LAYOUT = 5  # raised when what is kept of a pair changes
+_LAYOUT = 6  # raised when what is kept of a pair changes
 
 
 @dataclass(frozen=True, eq=False)
@@ -190,8 +190,14 @@ class _Evidence:
     """Scored maps of a pair on disk; of a composition with its ``points``."""
 
     inputs: str
-    maps: tuple[ScoredMap, ...]
+    functional_maps: np.ndarray  # (m, k, k)
+    numbers: np.ndarray  # (m, 3): score, orientation, and whether it is reversed
     points: np.ndarray | None = None
+
+    @property
+    def maps(self) -> list[ScoredMap]:
+        rows = zip(self.functional_maps, self.numbers.tolist(), strict=True)
+        return [ScoredMap(C, score, orientation, bool(back)) for C, (score, orientation, back) in rows]
 
 
 def _evidence(path: Path, inputs: str, make: Callable[[], tuple[list[ScoredMap], np.ndarray | None]]) -> _Evidence:
@@ -200,7 +206,8 @@ def _evidence(path: Path, inputs: str, make: Callable[[], tuple[list[ScoredMap],
     if found is None or found.inputs != inputs:
         with one_blas_thread():
             maps, points = make()
-        found = _Evidence(inputs, tuple(maps), points)
+        numbers = np.array([[one.score, one.orientation, one.reversed] for one in maps], dtype=np.float64)
+        found = _Evidence(inputs, np.stack([one.map for one in maps]), numbers, points)
         path.parent.mkdir(parents=True, exist_ok=True)
         save_record(path, found)
     return found
@@ -228,7 +235,7 @@ def _score_pair(task: PairTask) -> list[ScoredMap]:
         return score_stored(file, shapes, pair_samples(task, shapes)), None
 
     path = Path(task.folder) / CONSISTENT / EVIDENCE / f"{task.key}.npz"
-    return list(_evidence(path, _map_digest(task), make).maps)
+    return _evidence(path, _map_digest(task), make).maps
 
 
 def _compose(job: _PathTask) -> _Evidence:

@@ -287,9 +287,8 @@ def _picture(task: PairTask, limit: float, path: Path) -> bytes:
     sizes = len(source.vertices), len(target.vertices)
     found = load_map(path)
     truth = true_vertices(task, *sizes)
-    pairs = None if truth is None else (truth.source, truth.target)
     with one_blas_thread():
-        return _png(render(found, source, target, truth=pairs, limit=limit, text=_TEXT_SIZE, labels=False))
+        return _png(render(found, source, target, truth=truth, limit=limit, text=_TEXT_SIZE, labels=False))
 
 
 def _write_pages(
@@ -310,10 +309,9 @@ def _write_pages(
                 continue
             source, target = _quiet_mesh(task.source.path), _quiet_mesh(task.target.path)
             truth = true_vertices(task, len(source.vertices), len(target.vertices))
-            pairs = None if truth is None else (truth.source, truth.target)
             with one_blas_thread():
                 html = match_page(
-                    load_map(path), source, target, (result.source, result.target), truth=pairs, descriptors=False
+                    load_map(path), source, target, (result.source, result.target), truth=truth, descriptors=False
                 )
         except (InvalidInput, OSError):
             continue

@@ -35,7 +35,7 @@ def summarize_match(match: Match) -> dict[str, Any]:
     """
     return {
         "version": kfmaps.__version__,
-        **_plain_record(match),
+        **plain_record(match),
         "map_size": list(match.functional_map.shape) if hasattr(match, "functional_map") else None,
         "n_landmarks": len(match.landmarks),
         "n_alternatives": len(match.alternatives),
@@ -69,23 +69,29 @@ def parse_summary(text: str, name: str) -> dict[str, Any]:
     return values
 
 
-def _plain_record(record: Any, path: str = "") -> dict[str, Any]:
-    """The fields of a record as plain values, without those that are kept elsewhere."""
+def plain_record(record: Any, arrays: dict[str, np.ndarray] | None = None, path: str = "") -> dict[str, Any]:
+    """Return the fields of a record as plain values for JSON, without those that a map file keeps elsewhere.
+
+    With ``arrays`` its arrays are put there, under dotted names, as :func:`read_record` takes them.
+    """
     kept = [f for f in fields(type(record)) if path + f.name not in _ELSEWHERE and f.name != "precise_map"]
-    return {f.name: _plain(getattr(record, f.name, None), f"{path}{f.name}.") for f in kept}
+    return {f.name: _plain(getattr(record, f.name, None), f"{path}{f.name}", arrays) for f in kept}
 
 
-def _plain(value: Any, path: str) -> Any:
+def _plain(value: Any, path: str, arrays: dict[str, np.ndarray] | None) -> Any:
     if isinstance(value, Config):
         return as_dict(value)
     if is_dataclass(value):
-        return _plain_record(value, path)
+        return plain_record(value, arrays, f"{path}.")
+    if isinstance(value, np.ndarray) and arrays is not None:
+        arrays[path] = value
+        return None
     if isinstance(value, np.ndarray | np.generic):
-        return _plain(value.tolist(), path)
+        return _plain(value.tolist(), path, arrays)
     if isinstance(value, Mapping):
-        return {str(key): _plain(one, path) for key, one in value.items()}
+        return {str(key): _plain(one, path, arrays) for key, one in value.items()}
     if isinstance(value, list | tuple):
-        return [_plain(one, path) for one in value]
+        return [_plain(one, path, arrays) for one in value]
     return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
@@ -119,6 +125,8 @@ def read_record(cls: type[_T], values: Any, name: str, arrays: Mapping[str, Any]
             inside = values.get(f.name)
             if inside is not None or any(one.startswith(f"{label}.") for one in arrays):
                 found[f.name] = read_record(record, inside or {}, name, arrays, f"{label}.")
+            elif NoneType in _options(hint):
+                found[f.name] = None
         elif f.name in values and label not in _ELSEWHERE:
             found[f.name] = _read_value(hint, values[f.name], f"{name}: {label}")
         elif f.default is MISSING and f.default_factory is MISSING:

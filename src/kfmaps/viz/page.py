@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import base64
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -96,62 +97,61 @@ def _texture_record(shape: MeshFile) -> dict[str, Any]:
     return {"uv": encode_floats(shape.uv), "corners": corners, "picture": f"data:{shape.picture.kind};base64,{data}"}
 
 
-def result_page(
-    source: Mesh,
-    target: Mesh,
-    target_to_source: np.ndarray | Match,
-    *,
-    functional_map: np.ndarray | None = None,
-    errors: np.ndarray | None = None,
-    confidence: np.ndarray | None = None,
-    alternatives: Sequence[np.ndarray] | np.ndarray = (),
-    descriptors: tuple[np.ndarray, np.ndarray] | None = None,
-    summary: Mapping[str, Any] | None = None,
-    names: tuple[str, str] = ("source", "target"),
-    up: str | None = None,
-    common: np.ndarray | None = None,
-    textures: tuple[MeshFile, MeshFile] | None = None,
-) -> str:
-    """Return one HTML file that shows a map: it needs no network, no server and nothing beside it.
+@dataclass(frozen=True, eq=False)
+class ResultPage:
+    """What the page of a map shows."""
 
-    Colours and the pattern are mixed inside triangles where a match has points there. ``errors (m, n_t)``, distances on
-    the source in √area, and ``confidence (m, n_t)`` have a row for the map, or one for each alternative too; NaN is
-    unknown. ``descriptors`` have the same columns on both shapes. ``summary`` is anything that JSON can hold: the page
-    knows ``settings``, ``energies``, ``times`` (mappings) and ``residuals`` (a list), and lists all else. Where
-    ``common (n_s,)`` is false the source is grey. ``textures``, both shapes with coordinates and a picture, are shown
-    instead of a pattern.
-    """
-    check_up(up)
-    sizes = len(source.vertices), len(target.vertices)
-    points = [check_map(target_to_source, *sizes, lost=True)]
-    points += [check_map(m, *sizes, f"alternative {i}") for i, m in enumerate(alternatives, 1)]
-    labels = ["Best map"] + [f"Alternative {i}" for i in range(1, len(points))]
-    colors = position_colors(source)
-    if common is not None:
-        colors = np.where(common[:, None], colors, LOST_GREY)
-    maps = [map_record(source, target, m, label) for m, label in zip(points, labels, strict=True)]
-    if isinstance(target_to_source, Match):
-        maps[0] |= _transferred(target_to_source, source, colors)
-    fields = {"errors": errors, "confidence": confidence}
-    data = {
-        "kind": "result",
-        "up": up or "auto",
-        "views": views_record(source, target, points[0]),
-        "verdict": verdict_record(summary or {}),
-        "source": source_record(source, names[0], colors),
-        "target": shape_record(target, names[1]),
-        "rotation": _rotation_by_map(source, target, points[0]).ravel(),
-        "maps": maps,
-        **{name: [encode_floats(row) for row in rows] for name, rows in fields.items() if rows is not None},
-        "descriptors": [
-            {"number": i, "source": encode_floats(a), "target": encode_floats(b)}
-            for i, (a, b) in enumerate(zip(*(part.T for part in descriptors), strict=True) if descriptors else ())
-        ],
-        "matrix": None if functional_map is None else encode_floats(functional_map),
-        "textures": [_texture_record(shape) for shape in textures or ()],
-        "summary": summary or {},
-    }
-    return document("result.html.j2", title=f"{names[0]} → {names[1]}", data=data)
+    source: Mesh
+    target: Mesh
+    target_to_source: np.ndarray | Match  # with points inside triangles colours and the pattern are mixed there
+    functional_map: np.ndarray | None = None
+    # (m, n_t): distances on the source in √area, and confidence, a row for the map, or one for each alternative too;
+    # NaN is unknown.
+    errors: np.ndarray | None = None
+    confidence: np.ndarray | None = None
+    alternatives: Sequence[np.ndarray] = ()
+    descriptors: tuple[np.ndarray, np.ndarray] | None = None  # with the same columns on both shapes
+    # Anything that JSON can hold: the page knows ``settings``, ``energies``, ``times`` (mappings) and ``residuals`` (a
+    # list), and lists all else.
+    summary: Mapping[str, Any] = field(default_factory=dict)
+    names: tuple[str, str] = ("source", "target")
+    up: str | None = None
+    common: np.ndarray | None = None  # (n_s,): where it is false the source is grey
+    textures: tuple[MeshFile, MeshFile] | None = None  # both shapes with a picture, shown instead of a pattern
+
+    def html(self) -> str:
+        """Return one HTML file that needs no network, no server and nothing beside it."""
+        source, target = self.source, self.target
+        sizes = len(source.vertices), len(target.vertices)
+        points = [check_map(self.target_to_source, *sizes, lost=True)]
+        points += [check_map(m, *sizes, f"alternative {i}") for i, m in enumerate(self.alternatives, 1)]
+        labels = ["Best map"] + [f"Alternative {i}" for i in range(1, len(points))]
+        colors = position_colors(source)
+        if self.common is not None:
+            colors = np.where(self.common[:, None], colors, LOST_GREY)
+        maps = [map_record(source, target, m, label) for m, label in zip(points, labels, strict=True)]
+        if isinstance(self.target_to_source, Match):
+            maps[0] |= _transferred(self.target_to_source, source, colors)
+        known = {"errors": self.errors, "confidence": self.confidence}
+        both = zip(*(part.T for part in self.descriptors), strict=True) if self.descriptors else ()
+        data = {
+            "kind": "result",
+            "up": check_up(self.up) or "auto",
+            "views": views_record(source, target, points[0]),
+            "verdict": verdict_record(self.summary),
+            "source": source_record(source, self.names[0], colors),
+            "target": shape_record(target, self.names[1]),
+            "rotation": _rotation_by_map(source, target, points[0]).ravel(),
+            "maps": maps,
+            **{name: [encode_floats(row) for row in rows] for name, rows in known.items() if rows is not None},
+            "descriptors": [
+                {"number": i, "source": encode_floats(a), "target": encode_floats(b)} for i, (a, b) in enumerate(both)
+            ],
+            "matrix": None if self.functional_map is None else encode_floats(self.functional_map),
+            "textures": [_texture_record(shape) for shape in self.textures or ()],
+            "summary": self.summary,
+        }
+        return document("result.html.j2", title=" → ".join(self.names), data=data)
 
 
 def _rotation_by_map(source: Mesh, target: Mesh, target_to_source: np.ndarray) -> np.ndarray:

@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from kfmaps.cli.evaluation import Truth
 from kfmaps.config import as_dict
 from kfmaps.descriptors.spectral import wave_energies, wave_signature
 from kfmaps.fmap.confidence import local_confidence
@@ -20,7 +21,7 @@ from kfmaps.io.bake import decode_picture
 from kfmaps.io.export import textured
 from kfmaps.matching.result import Match
 from kfmaps.viz.errors import vertex_errors
-from kfmaps.viz.page import result_page
+from kfmaps.viz.page import ResultPage
 
 _SIGNATURES = 12  # wave kernel signatures shown, and ...
 _EIGENFUNCTIONS = 100  # ... the eigenfunctions they are made from.
@@ -54,51 +55,47 @@ def _match_summary(match: Match) -> dict[str, Any]:
 
 def match_page(
     match: Match,
-    source: Mesh,
+    source: Mesh | MeshFile,
     target: Mesh,
     names: tuple[str, str],
     *,
-    truth: tuple[np.ndarray, np.ndarray] | None = None,
+    truth: Truth | None = None,
     descriptors: bool = True,
     up: str | None = None,
-    texture: MeshFile | None = None,
 ) -> str:
-    """Return the page of a map: :func:`kfmaps.viz.page.result_page` with all that the match knows.
+    """Return the page of a map with all that the match knows.
 
-    ``names``: what the page calls the shapes; ``truth``: corresponding vertices of the source and of the target, for
-    the errors; ``descriptors``: whether to work out wave kernel signatures to show, which takes an eigensolve of each
-    shape; ``up``: the vertical axis; by default a good side is found; ``texture``: the source as its file has it, whose
-    picture is shown on both shapes.
+    ``source``: a file's picture is shown on both shapes; ``names``: what the page calls the shapes; ``truth``: for the
+    errors; ``descriptors``: whether to work out wave kernel signatures to show, which takes an eigensolve of each
+    shape; ``up``: the vertical axis; by default a good side is found.
     """
+    file = source if isinstance(source, MeshFile) else MeshFile(source)
     maps = [match.target_to_source, *match.alternatives]
     overlap = match.partial.overlap_source
-    return result_page(
-        source,
+    return ResultPage(
+        file.mesh,
         target,
         match,
         functional_map=getattr(match, "functional_map", None),
-        errors=None if truth is None else vertex_errors(source, maps, *truth),
-        confidence=_confidences(source, target, maps, getattr(match, "local_confidence", None)),
+        errors=None if truth is None else vertex_errors(file.mesh, maps, truth.source, truth.target),
+        confidence=_confidences(file.mesh, target, maps, getattr(match, "local_confidence", None)),
         alternatives=match.alternatives,
-        descriptors=signatures(source, target) if descriptors else None,
+        descriptors=signatures(file.mesh, target) if descriptors else None,
         common=None if overlap is None else overlap > 0.5,
         summary=_match_summary(match),
         names=names,
         up=up,
-        textures=_textured(texture, match, source, target),
-    )
+        textures=_textured(file, match, target),
+    ).html()
 
 
-def _textured(texture: MeshFile | None, match: Match, source: Mesh, target: Mesh) -> tuple[MeshFile, MeshFile] | None:
+def _textured(source: MeshFile, match: Match, target: Mesh) -> tuple[MeshFile, MeshFile] | None:
     """Both shapes with the source's picture; ``None`` where it has none."""
-    if texture is None or texture.picture is None or len(texture.mesh.vertices) != len(source.vertices):
+    if source.picture is None or len(source.mesh.faces) == 0 or len(target.faces) == 0:
         return None
-    if len(source.faces) == 0 or len(target.faces) == 0:
-        return None
-    large = max(decode_picture(texture.picture).shape) > _MOST_TEXELS
-    size = _MOST_TEXELS if large else None
-    own = textured(texture, MeshFile(source), np.arange(len(source.vertices)), size=size)
-    return own, textured(texture, MeshFile(target), match, size=size)
+    size = _MOST_TEXELS if max(decode_picture(source.picture).shape) > _MOST_TEXELS else None
+    own = textured(source, MeshFile(source.mesh), np.arange(len(source.mesh.vertices)), size=size)
+    return own, textured(source, MeshFile(target), match, size=size)
 
 
 def _confidences(source: Mesh, target: Mesh, maps: Sequence[np.ndarray], known: np.ndarray | None) -> np.ndarray:

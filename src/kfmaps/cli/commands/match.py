@@ -25,7 +25,7 @@ from kfmaps.io import check_output, read_mesh, read_values, save_map
 from kfmaps.io.map_summary import summarize_match
 from kfmaps.io.mapfile import check_format
 from kfmaps.io.named_points import read_given_landmarks
-from kfmaps.io.provenance import map_mesh_file, with_files
+from kfmaps.io.provenance import with_files
 from kfmaps.matching.match import match as matched
 from kfmaps.matching.memory import check_match_memory
 from kfmaps.matching.result import Match
@@ -84,8 +84,8 @@ def match(
     pairs = None
     if landmarks:
         pairs = read_given_landmarks(landmarks, meshes, (source, target), one_based or None)[0]
-    if pairs is not None:
-        _check_landmarks(pairs, meshes, (source, target))
+        for vertices, mesh, path in zip(pairs.T, meshes, (source, target), strict=True):
+            check_landmarks(vertices, len(mesh.vertices), f"landmarks on {path}")
     n_s, n_t = (len(mesh.vertices) for mesh in meshes)
     check_match_memory(config, n_s, n_t, 0 if pairs is None else len(pairs))
     own = None if descriptors is None else _own_descriptors(descriptors, meshes)
@@ -99,7 +99,7 @@ def match(
     elif not quiet:
         Terminal().print(table(found, accuracy, output))
     if view:
-        _show(found, known)
+        _show(found, output, truth)
     if not meets(found.verdict, require):
         raise typer.Exit(UNSURE)
 
@@ -174,12 +174,6 @@ def _check_device(device: str) -> None:
         raise refuse(f"--device {device}", "a device that PyTorch can use", got, "use cpu") from error
 
 
-def _check_landmarks(pairs: np.ndarray, meshes: tuple[Mesh, Mesh], paths: tuple[Path, Path]) -> None:
-
-    for i, (mesh, path) in enumerate(zip(meshes, paths, strict=True)):
-        check_landmarks(pairs[:, i], len(mesh.vertices), f"landmarks on {path}")
-
-
 def _own_descriptors(files: tuple[Path, Path], meshes: tuple[Mesh, Mesh]) -> tuple[np.ndarray, np.ndarray]:
     """The user's descriptors (n_s, d) and (n_t, d), checked."""
     found = []
@@ -197,13 +191,10 @@ def _own_descriptors(files: tuple[Path, Path], meshes: tuple[Mesh, Mesh]) -> tup
     return found[0], found[1]
 
 
-def _show(match: Match, truth: Truth | None) -> None:
-    from kfmaps.viz.result_pages import match_page, open_page
+def _show(match: Match, output: Path, truth: tuple[Path, Path] | None) -> None:
+    from kfmaps.cli.commands.view import map_page
+    from kfmaps.viz.result_pages import open_page
 
-    names = (Path(match.source_file.path).stem, Path(match.target_file.path).stem)
-    known = None if truth is None else (truth.source, truth.target)
-    texture = map_mesh_file(None, match, "source", Path())
-    page = match_page(match, match.source, match.target, names, truth=known, texture=texture)
-    path, opened = open_page(page)
+    path, opened = open_page(map_page(match, output, truth=truth))
     if not opened:
         typer.echo(f"no browser was found; open {path.as_uri()}", err=True)

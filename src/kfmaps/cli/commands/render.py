@@ -70,7 +70,7 @@ def render_pair(
         found,
         source_mesh,
         target_mesh,
-        truth=None if known is None else (known.source, known.target),
+        truth=known,
         limit=None if limit is None else check_positive(limit, "--limit") / 100,
         title=_plain(title),
         view=_view(towards, up),
