@@ -21,6 +21,8 @@ from kfmaps import MissingDependency
 from kfmaps.geometry.basis import Basis, laplace_basis
 from kfmaps.geometry.mesh import Mesh, unit_area
 
+pytest.register_assert_rewrite("chromium", "reviewing")  # they have fixtures: test modules name them as plugins
+
 
 def pytest_addoption(parser: pytest.Parser) -> None:
     parser.addoption("--shake", type=int, help="change what another processor would: see tests/shake.py")

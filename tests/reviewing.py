@@ -5,11 +5,11 @@ from __future__ import annotations
 import csv
 import threading
 from collections.abc import Iterator
-from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
+import pytest
 
 from collecting import bent
 from kfmaps.batch.landmark_tables import write_study
@@ -24,7 +24,8 @@ AT = np.array([10, 100, 150, 220, 290])
 LABELS = tuple("abcde")
 
 
-def make_study(tmp_path: Path) -> Path:
+@pytest.fixture
+def study(tmp_path: Path) -> Path:
     """A study of four poses; that of ``b`` has a flagged landmark and a missing one, ``d`` is left out."""
     scans = tmp_path / "scans"
     scans.mkdir()
@@ -43,8 +44,8 @@ def make_study(tmp_path: Path) -> Path:
     return tmp_path / "study"
 
 
-@contextmanager
-def serve_review(study: Path) -> Iterator[ReviewServer]:
+@pytest.fixture
+def serving(study: Path) -> Iterator[ReviewServer]:
     """The review page of a study, answering from another thread."""
     made = ReviewServer(study)
     thread = threading.Thread(target=made.server.serve_forever)

@@ -409,7 +409,7 @@ def test_of_maps_that_are_alike_the_one_that_bends_less_is_found(creatures, monk
 def test_the_match_that_is_worth_more_is_taken(creatures):
     """Of two that both have a fit, by score and torn area together; the one taken tells the seconds of the whole."""
     source, target, truth = creatures
-    one = finish.match_from_map(source, target, truth, initialization="a", quality=-9.0)
+    one = finish.match_from_map(source, target, finish.KnownMap(truth, "a", quality=-9.0))
     assert one.registration.report is not None
 
     def made(score, share):

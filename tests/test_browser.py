@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
@@ -11,7 +10,7 @@ import pytest
 from PIL import Image
 from scipy.spatial import KDTree
 
-from chromium import NASTY, Browser, Keys, chromium, needs_browser
+from chromium import NASTY, Browser, Keys, needs_browser
 from kfmaps.datasets import ExamplePair, two_poses
 from kfmaps.fmap.confidence import local_confidence
 from kfmaps.geometry.mesh import Mesh
@@ -22,15 +21,10 @@ from kfmaps.viz.notebook import cell_html
 from kfmaps.viz.page import ResultPage
 from kfmaps.viz.result_pages import match_page
 
+pytest_plugins = ["chromium"]
 pytestmark = needs_browser
 
 CHOOSE_MAP = "const m = document.getElementById('map'); m.value = arguments[0]; m.dispatchEvent(new Event('change'))"
-
-
-@pytest.fixture(scope="module")
-def browser(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Browser]:
-    with chromium(tmp_path_factory.mktemp("browser")) as started:
-        yield started
 
 
 @pytest.fixture(scope="module")

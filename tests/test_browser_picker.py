@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from chromium import NASTY, Browser, Keys, chromium, needs_browser
+from chromium import NASTY, Browser, Keys, needs_browser
 from kfmaps import Match
 from kfmaps._arrays import InvalidInput
 from kfmaps.datasets import ExamplePair, two_poses
@@ -19,13 +19,8 @@ from kfmaps.viz.document import forwarding_page
 from kfmaps.viz.picker import Picker, PickerServer
 from kfmaps.viz.runs import Progress
 
+pytest_plugins = ["chromium"]
 pytestmark = needs_browser
-
-
-@pytest.fixture(scope="module")
-def browser(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Browser]:
-    with chromium(tmp_path_factory.mktemp("browser")) as started:
-        yield started
 
 
 @pytest.fixture(scope="module")

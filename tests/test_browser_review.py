@@ -2,35 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
-import pytest
 
-from chromium import Browser, Keys, chromium, needs_browser
+from chromium import Browser, Keys, needs_browser
 from kfmaps.io import read_mesh
 from kfmaps.viz.landmark_review import ReviewServer
-from reviewing import N, make_study, rows_of, serve_review
+from reviewing import N, rows_of
 
+pytest_plugins = ["chromium", "reviewing"]
 pytestmark = needs_browser
-
-
-@pytest.fixture
-def study(tmp_path: Path) -> Path:
-    return make_study(tmp_path)
-
-
-@pytest.fixture
-def serving(study: Path) -> Iterator[ReviewServer]:
-    with serve_review(study) as made:
-        yield made
-
-
-@pytest.fixture(scope="module")
-def browser(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Browser]:
-    with chromium(tmp_path_factory.mktemp("browser")) as started:
-        yield started
 
 
 def test_a_specimen_is_reviewed_in_a_browser(browser: Browser, study: Path, serving: ReviewServer) -> None:

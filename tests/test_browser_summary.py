@@ -2,27 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 
-import pytest
-
-from chromium import NASTY, Browser, chromium, needs_browser
+from chromium import NASTY, Browser, needs_browser
 from kfmaps.batch.page import summary_page
 from kfmaps.batch.results import Result
 
+pytest_plugins = ["chromium"]
 pytestmark = needs_browser
 COLUMN = (
     "return Array.from(document.querySelectorAll('table.sorts tbody tr')).map(r => r.cells[arguments[0]].textContent)"
 )
 WIDE = "return document.documentElement.scrollWidth <= window.innerWidth"
-
-
-@pytest.fixture(scope="module")
-def browser(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Browser]:
-    with chromium(tmp_path_factory.mktemp("browser")) as started:
-        yield started
 
 
 def test_tables_sort_by_a_click(browser: Browser, tmp_path: Path) -> None:

@@ -12,7 +12,7 @@ from kfmaps._arrays import InvalidInput
 from kfmaps.collection.paths import compose_maps, invert_map
 from kfmaps.collection.scored_map import score_pair_maps
 from kfmaps.config import Search
-from kfmaps.matching.finish import match_from_map
+from kfmaps.matching.finish import KnownMap, match_from_map
 from kfmaps.matching.search import scoring_samples
 from kfmaps.shape import Shape, mirror_image, prepare
 
@@ -48,16 +48,15 @@ def test_a_known_map_is_finished(shapes: list[Shape]) -> None:
     a, b = shapes[:2]
     rough = np.arange(N)
     rough[:60] = np.roll(rough[:60], 7)
-    found = match_from_map(
-        a, b, rough, LOCAL, initialization="composition", confidence=0.9, verdict="sure", alternatives=(rough,)
-    )
+    known = KnownMap(rough, "composition", confidence=0.9, verdict="sure", alternatives=(rough,))
+    found = match_from_map(a, b, known, LOCAL)
     assert (found.target_to_source == np.arange(N)).mean() > max((rough == np.arange(N)).mean(), 0.9)
     assert (found.score.initialization, found.verdict, found.confidence) == ("composition", "sure", 0.9)
     np.testing.assert_array_equal(found.alternatives[0], rough)
-    turned = match_from_map(a, mirror_image(b), np.arange(N), LOCAL, initialization="known", orientation="reversing")
+    turned = match_from_map(a, mirror_image(b), KnownMap(np.arange(N), "known", "reversing"), LOCAL)
     assert (turned.target_to_source == np.arange(N)).mean() > 0.9
     with pytest.raises(InvalidInput, match="vertices 0 to 399"):
-        match_from_map(a, b, rough + 1, LOCAL, initialization="known")
+        match_from_map(a, b, KnownMap(rough + 1, "known"), LOCAL)
 
 
 def test_round_trips_of_true_maps_return(shapes: list[Shape]) -> None:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -23,19 +22,10 @@ from kfmaps.geometry.mesh import Mesh
 from kfmaps.io import read_mesh, write_mesh
 from kfmaps.io.landmark_files import LandmarkSet, read_landmark_sets, write_landmark_sets
 from kfmaps.viz.landmark_review import ReviewServer
-from reviewing import AT, LABELS, N, make_study, rows_of, serve_review
+from reviewing import AT, LABELS, N, rows_of
 from serving import Client
 
-
-@pytest.fixture
-def study(tmp_path: Path) -> Path:
-    return make_study(tmp_path)
-
-
-@pytest.fixture
-def serving(study: Path) -> Iterator[ReviewServer]:
-    with serve_review(study) as made:
-        yield made
+pytest_plugins = ["reviewing"]
 
 
 def tables(study: Path) -> dict[str, bytes]:

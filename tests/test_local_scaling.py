@@ -117,5 +117,5 @@ def test_only_unlike_shapes_are_stretched_in_the_end(monkeypatch) -> None:
     seen, usual = [], finish.register_map
     monkeypatch.setattr(finish, "register_map", lambda *a: seen.append(a[3].registration.local_scaling) or usual(*a))
     for quality in (SCORE.non_isometric_score + 1, SCORE.non_isometric_score - 1):
-        finish.match_from_map(source, target, pair.truth, config, initialization="a", quality=quality)
+        finish.match_from_map(source, target, finish.KnownMap(pair.truth, "a", quality=quality), config)
     assert seen == [0.0, STRETCH]

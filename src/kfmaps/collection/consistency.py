@@ -17,7 +17,7 @@ from kfmaps.config import Config
 from kfmaps.fmap.convert import to_points
 from kfmaps.geometry.basis import Basis
 from kfmaps.io import check_map
-from kfmaps.matching.finish import match_from_map
+from kfmaps.matching.finish import KnownMap, match_from_map
 from kfmaps.matching.quality import ShapeSamples
 from kfmaps.matching.reindexing import reindexing
 from kfmaps.matching.result import Match
@@ -142,15 +142,13 @@ def refine_replacement(
     """
     points, turned = candidates[replacement.candidate] if composition is None else composition
     others = [row for i, (row, _) in enumerate(candidates) if i == 0 or i != replacement.candidate]
-    return match_from_map(
-        *shapes,
+    known = KnownMap(
         points,
-        config,
-        initialization=label,
-        orientation="reversing" if turned else "preserving",
-        verdict=probability_word(replacement.after.probability),
-        confidence=replacement.after.probability,
-        quality=replacement.after.score,
-        alternatives=tuple(np.asarray(row) for row in others),
-        rng=seed,
+        label,
+        "reversing" if turned else "preserving",
+        probability_word(replacement.after.probability),
+        replacement.after.probability,
+        replacement.after.score,
+        tuple(np.asarray(row) for row in others),
     )
+    return match_from_map(*shapes, known, config, seed)

@@ -8,7 +8,7 @@ from typing import Any, Literal
 import numpy as np
 
 from kfmaps._arrays import seed_of, to_numpy
-from kfmaps._progress import Progress, StageTimer
+from kfmaps._progress import StageTimer
 from kfmaps.config import Config
 from kfmaps.fmap.convert import check_point_map, to_functional
 from kfmaps.fmap.descriptor_guidance import DescriptorGuidance
@@ -157,43 +157,38 @@ def _fit_of(one: Fit | None, C: np.ndarray, points: np.ndarray | None) -> MatchF
     return MatchFit(C, points, len(one.functional_map), status, steps, *facts)
 
 
-def match_from_map(
-    source: Shape,
-    target: Shape,
-    points: np.ndarray,
-    config: Config | None = None,
-    *,
-    initialization: str,
-    orientation: Literal["preserving", "reversing"] = "preserving",
-    verdict: str = "unchecked",
-    confidence: float | None = None,
-    quality: float | None = None,
-    alternatives: tuple[np.ndarray, ...] = (),
-    rng: int | np.random.Generator | None = 0,
-    progress: Progress | None = None,
-) -> Match:
-    """A map that is known but for its details, finished as :func:`match` finishes the one that it has found.
+@dataclass(frozen=True, eq=False)
+class KnownMap:
+    """A map that is known but for its details; the fields that are not explained go into the match."""
 
-    ``points (n_t,)``: a source vertex for each target vertex: of a composition of other maps, say; ``initialization``:
-    where it comes from, for :attr:`Match.score`; ``orientation`` ("preserving" or "reversing"): whether it is a map to
-    the target or to its mirror image; ``verdict``, ``confidence`` and ``alternatives``: for the fields of the match;
-    ``quality``: :attr:`kfmaps.matching.quality.Quality.score` of ``points``: where shapes differ much the refinement
-    ends early.
-    """
+    points: np.ndarray  # (n_t,): a source vertex for each target vertex: of a composition of other maps, say
+    initialization: str
+    orientation: Literal["preserving", "reversing"] = "preserving"
+    verdict: str = "unchecked"
+    confidence: float | None = None
+    quality: float | None = None  # :attr:`kfmaps.matching.score.Quality.score`: a low one ends the refinement early
+    alternatives: tuple[np.ndarray, ...] = ()
+
+
+def match_from_map(
+    source: Shape, target: Shape, known: KnownMap, config: Config | None = None, rng: int | np.random.Generator = 0
+) -> Match:
+    """Finish a map that is ``known`` but for its details as :func:`match` finishes the one that it has found."""
     config = config or Config()
     for shape in (source, target):
         check_prepared(shape, config)
-    points = check_point_map(points, len(source.mesh.vertices), len(target.mesh.vertices))
+    points = check_point_map(known.points, len(source.mesh.vertices), len(target.mesh.vertices))
     none = np.zeros((0, 2), dtype=np.int64)
     meshes = (source.given_mesh, target.given_mesh)
-    task = MatchTask(meshes, reindexing(source, target), config, none, seed_of(rng), StageTimer(progress))
-    shapes = task.shapes(orientation)
+    task = MatchTask(meshes, reindexing(source, target), config, none, seed_of(rng), StageTimer())
+    shapes = task.shapes(known.orientation)
     size = min(CONTINUED, *(len(shape.basis.eigenvalues) for shape in shapes))
     bases = [shape.basis.truncate(size) for shape in shapes]
     C = to_numpy(to_functional(task.pair.points_within(points), *bases))
-    found = SearchResult(C, initialization, None, verdict, confidence, orientation=orientation, quality=quality)
+    told = {"orientation": known.orientation, "quality": known.quality}
+    found = SearchResult(C, known.initialization, None, known.verdict, known.confidence, **told)
     result = refine_and_register(task, found, build_guidance(*shapes, found.landmarks))
-    return replace(result, alternatives=alternatives)
+    return replace(result, alternatives=known.alternatives)
 
 
 def better_match(one: Match, other: Match) -> Match:
