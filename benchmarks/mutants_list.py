@@ -764,8 +764,12 @@ MUTANTS = tuple(
             "hold = bool(np.max(errors) <= ",
             "test_registration_accepted -k less_exact",
         ),
-        ("return turns @ (axes * np.clip(", "return (axes * np.clip(", "test_local_scaling -k exactly"),
-        ("diffuse = factorize(area * energy.laplacian +", "diffuse = factorize(", "test_local_scaling -k nearly"),
+        ("return turns @ _clip_eigenvalues(", "return _clip_eigenvalues(", "test_local_scaling -k exactly"),
+        (
+            "diffuse = energy.factorize(area * energy.laplacian +",
+            "diffuse = energy.factorize(",
+            "test_local_scaling -k nearly",
+        ),
         (
             "_REST_WEIGHT * rest[points]",
             "_REST_WEIGHT * rest[0 * points]",

@@ -7,7 +7,7 @@ import pytest
 import robust_laplacian
 from scipy.linalg import eigh
 from scipy.sparse import block_diag, csr_array, diags_array, eye_array, kron
-from scipy.sparse.linalg import eigsh
+from scipy.sparse.linalg import eigsh, splu
 
 from conftest import blob, fibonacci_sphere
 from kfmaps._arrays import InvalidInput, MissingDependency, NotConverged
@@ -184,6 +184,24 @@ def test_empty_rows_are_refused() -> None:
     stiffness, mass = operators(unit_area(blob(100)))
     with pytest.raises(InvalidInput, match="1 rows with neither"):
         smallest_eigenpairs(csr_array(block_diag([stiffness, np.zeros((1, 1))])), np.append(mass, 0), 5)
+
+
+def test_matrices_of_one_pattern_are_factorised_in_one_order(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The second factor has as few entries as the first, and its own values."""
+    stiffness, _, _ = square_grid(30)
+    fill: list[int] = []
+
+    def counted(*args: object, **options: object) -> object:
+        factor = splu(*args, **options)
+        fill.append(factor.L.nnz)
+        return factor
+
+    monkeypatch.setattr(_factor, "splu", counted)
+    factorize, rng = _factor.PatternFactorizer(), np.random.default_rng(0)
+    for scale in (1.0, 3.0):
+        matrix, wanted = scale * stiffness + diags_array(rng.uniform(1, 2, 900)), rng.normal(size=(900, 5))
+        np.testing.assert_allclose(factorize(matrix)(matrix @ wanted), wanted, atol=1e-10)
+    assert fill[0] == fill[1] < 15 * 900
 
 
 def test_metis_missing(shape: tuple[csr_array, np.ndarray], monkeypatch: pytest.MonkeyPatch) -> None:

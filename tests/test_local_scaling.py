@@ -15,7 +15,7 @@ from kfmaps.geometry.mesh import Mesh, unit_area, vertex_areas
 from kfmaps.matching import finish
 from kfmaps.matching.score import SCORE
 from kfmaps.matching.search import STRETCH, SearchResult, adapt_registration
-from kfmaps.registration.local_scaling import _MAX_FACTOR, _MIN_FACTOR, local_scaling
+from kfmaps.registration.local_scaling import _MAX_FACTOR, _MIN_FACTOR, _clip_eigenvalues, local_scaling
 from kfmaps.registration.nonrigid_icp import NonRigid
 
 GUARDS = ("kfmaps.geometry.arap", "kfmaps.registration.local_scaling", "kfmaps.registration.nonrigid_icp")
@@ -45,6 +45,15 @@ def test_longer_in_one_direction_is_found_nearly(ball) -> None:
     wide, narrow = (local_scaling(energy, areas, area)(mesh.vertices @ longer, still) for area in (1.0, 0.01))
     assert np.abs(wide - longer).max() < 0.12
     assert np.abs(wide - longer).mean() < np.abs(narrow - longer).mean() < np.abs(EYE - longer).mean()
+
+
+def test_eigenvalues_are_clipped_where_one_is_beyond_the_bounds() -> None:
+    rng = np.random.default_rng(0)
+    values = np.concatenate([rng.uniform(0.3, 3.0, (200, 3)), [[0.4, 2.5, 2.5], [0.4, 0.4, 2.5], [0.39, 1, 1]]])
+    axes = np.linalg.qr(rng.normal(size=(len(values), 3, 3)))[0]
+    found = _clip_eigenvalues(axes * values[:, None, :] @ axes.transpose(0, 2, 1), 0.4, 2.5)
+    wanted = axes * np.clip(values, 0.4, 2.5)[:, None, :] @ axes.transpose(0, 2, 1)
+    np.testing.assert_allclose(found, wanted, atol=1e-12)
 
 
 def test_one_side_alone_is_hardly_stretched(ball) -> None:

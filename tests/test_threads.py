@@ -1,9 +1,11 @@
 """One BLAS thread inside, at any depth; what was before, after."""
 
-import pytest
-from threadpoolctl import threadpool_info, threadpool_limits
+import sys
 
-from kfmaps._threads import one_blas_thread, parallel
+import pytest
+from threadpoolctl import ThreadpoolController, threadpool_info, threadpool_limits
+
+from kfmaps._threads import _libraries, one_blas_thread, parallel
 
 
 def blas_threads() -> set[int]:
@@ -20,24 +22,36 @@ def test_the_limit_holds_until_the_outermost_is_left():
         assert blas_threads() == before
 
 
-def test_inside_another_one_it_does_not_look_at_the_libraries_again(monkeypatch):
-    with one_blas_thread():
-        monkeypatch.setattr("kfmaps._threads.threadpool_limits", None)  # calling it would fail
+@pytest.fixture
+def looked(monkeypatch) -> list[None]:
+    """One entry for each time that the loaded libraries are looked through."""
+    seen: list[None] = []
+
+    def counted() -> ThreadpoolController:
+        seen.append(None)
+        return ThreadpoolController()
+
+    monkeypatch.setattr("kfmaps._threads.ThreadpoolController", counted)
+    monkeypatch.setattr("kfmaps._threads._per_thread", lambda: False)
+    _libraries.cache_clear()
+    return seen
+
+
+def test_worker_threads_and_inner_limits_do_not_look_at_the_libraries_again(looked):
+    with one_blas_thread(), one_blas_thread():
+        parallel(lambda _: parallel(lambda x: x, range(3), threads=1), range(10), threads=2)
+    assert len(looked) == 1
+
+
+def test_the_libraries_are_looked_through_again_only_after_an_import(looked, monkeypatch):
+    for _ in range(3):
         with one_blas_thread():
             pass
-
-
-def test_worker_threads_do_not_look_at_the_libraries_either(monkeypatch):
-    seen = []
-
-    def counted(limits: int) -> object:
-        seen.append(limits)
-        return threadpool_limits(limits=limits)
-
-    monkeypatch.setattr("kfmaps._threads.threadpool_limits", counted)
-    monkeypatch.setattr("kfmaps._threads._per_thread", lambda: False)
-    parallel(lambda _: parallel(lambda x: x, range(3), threads=1), range(10), threads=2)
-    assert seen == [1]
+    assert len(looked) == 1
+    monkeypatch.setitem(sys.modules, "another_blas", sys)
+    with one_blas_thread():
+        assert blas_threads() == {1}
+    assert len(looked) == 2
 
 
 def test_worker_threads_are_held_to_one_too():

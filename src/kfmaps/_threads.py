@@ -8,14 +8,15 @@ threads: NumPy and SciPy release the interpreter's lock inside their products an
 from __future__ import annotations
 
 import os
+import sys
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
-from functools import cache
+from functools import cache, lru_cache
 from threading import local
 from typing import TypeVar
 
-from threadpoolctl import threadpool_info, threadpool_limits
+from threadpoolctl import ThreadpoolController, threadpool_info
 
 A = TypeVar("A")
 B = TypeVar("B")
@@ -41,17 +42,25 @@ _depth = _Depth()
 def one_blas_thread() -> Iterator[None]:
     """A context in which BLAS and OpenMP run on one thread; inside another one of the same thread it costs nothing.
 
-    To set the limit is to look through all loaded libraries: some milliseconds, more than a small search takes.
+    To look through all loaded libraries takes some milliseconds, more than a small search: so it is done again only
+    after something has been imported.
     """
     if _depth.value:
         yield
         return
-    with threadpool_limits(limits=1):
+    with _libraries(len(sys.modules)).limit(limits=1):
         _depth.value += 1
         try:
             yield
         finally:
             _depth.value -= 1
+
+
+@lru_cache(1)
+def _libraries(modules: int) -> ThreadpoolController:
+    """Return the control of all BLAS and OpenMP libraries; ``modules``: how many modules are imported."""
+    del modules
+    return ThreadpoolController()
 
 
 def parallel(function: Callable[[A], B], items: Iterable[A], threads: int | None = None) -> list[B]:
@@ -72,7 +81,7 @@ def _held() -> None:
     """Tell a new worker thread that BLAS is on one thread already, for the whole process."""
     _depth.value = 1
     if _per_thread():
-        threadpool_limits(limits=1)
+        _libraries(len(sys.modules)).limit(limits=1)
 
 
 @cache

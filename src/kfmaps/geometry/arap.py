@@ -9,13 +9,13 @@ that is bent alike has the same energy.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 from scipy.sparse import coo_array, csr_array, diags_array
 
-from kfmaps.geometry.eigen.factorization import factorize
+from kfmaps.geometry.eigen.factorization import PatternFactorizer
 from kfmaps.geometry.mesh import Mesh
 
 
@@ -28,6 +28,7 @@ class ArapEnergy:
     # x_j)``.
     moments: Any
     rest: np.ndarray  # (n, 3)
+    factorize: PatternFactorizer = field(default_factory=PatternFactorizer)  # of the Laplacian plus a diagonal
 
 
 def build_arap(mesh: Mesh) -> ArapEnergy:
@@ -80,7 +81,7 @@ def spread_matrices(energy: ArapEnergy, areas: np.ndarray, area: float) -> Calla
     It is one implicit step of heat flow, with ``areas (n,)`` of the vertices.
     """
     n = len(areas)
-    diffuse = factorize(area * energy.laplacian + diags_array(areas), ordered=False)
+    diffuse = energy.factorize(area * energy.laplacian + diags_array(areas))
     return lambda matrices: np.asarray(diffuse(np.ascontiguousarray(matrices.reshape(n, 9)))).reshape(n, 3, 3)
 
 

@@ -7,7 +7,6 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-from scipy.ndimage import distance_transform_edt, uniform_filter1d
 
 from kfmaps._arrays import refuse
 from kfmaps.fmap.precise import PointMap, point_positions
@@ -227,6 +226,8 @@ def bake_texture(
         where[seam] = _uv_at(with_uv(source), np.einsum("qi,qij->qj", weights[seam], found.images[face[seam]]))[0]
     picture.reshape(-1, 3)[texel] = _sample_picture(pixels, where)
     covered.reshape(-1)[texel] = True
+    from scipy.ndimage import distance_transform_edt
+
     nearest: Any = distance_transform_edt(~covered, return_distances=False, return_indices=True)
     return np.rint(255 * picture[nearest[0], nearest[1]]).astype(np.uint8)
 
@@ -274,6 +275,8 @@ def _resized(pixels: np.ndarray, size: int | None) -> np.ndarray:
     if (h, w) == (height, width):
         return pixels
     if size < max(height, width):
+        from scipy.ndimage import uniform_filter1d
+
         pixels = uniform_filter1d(uniform_filter1d(pixels, height // h, axis=0), width // w, axis=1)
     across, down = np.meshgrid((np.arange(w) + 0.5) / w, 1 - (np.arange(h) + 0.5) / h)
     return _sample_picture(pixels, np.stack([across.ravel(), down.ravel()], axis=1)).reshape(h, w, 3)

@@ -9,6 +9,7 @@ positions and normals, takes part in the next refinement beside functions and de
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 from scipy.spatial import KDTree
@@ -87,7 +88,7 @@ def alternating_registration(
     """
     a, b = on.copies
     k = min(*(len(basis.eigenvalues) for basis in on.bases), _REFINE.stop)
-    refine = replace(_REFINE, stop=k, start=min(_REFINE.start, k))
+    refine = partial(replace(_REFINE, stop=k, start=min(_REFINE.start, k)), threads=1)  # maps are repaired side by side
     here = led and led.at(a.vertices, b.vertices)
     found = refine(C, *on.bases, guide=here)
     bent = a.mesh.vertices

@@ -42,7 +42,18 @@ def local_scaling(energy: ArapEnergy, areas: np.ndarray, area: float) -> Callabl
         moved = averaged(turns.transpose(0, 2, 1) @ edge_covariances(energy, x))
         scale = np.clip(np.trace(moved, axis1=1, axis2=2) / size, _MIN_FACTOR, _MAX_FACTOR)
         found = (moved + (_DAMPING * size * scale)[:, None, None] * np.eye(3)) @ inverse
-        values, axes = np.linalg.eigh(0.5 * (found + found.transpose(0, 2, 1)))
-        return turns @ (axes * np.clip(values, _MIN_FACTOR, _MAX_FACTOR)[:, None, :] @ axes.transpose(0, 2, 1))
+        return turns @ _clip_eigenvalues(0.5 * (found + found.transpose(0, 2, 1)), _MIN_FACTOR, _MAX_FACTOR)
 
     return stretched
+
+
+def _clip_eigenvalues(matrices: np.ndarray, low: float, high: float) -> np.ndarray:
+    """Return symmetric matrices (n, 3, 3) with their eigenvalues held between two bounds."""
+    middle = np.trace(matrices, axis1=1, axis2=2) / 3
+    # The three are within this of their mean: of most matrices none is near a bound.
+    reach = np.sqrt(np.maximum(np.einsum("nij,nij->n", matrices, matrices) - 3 * middle**2, 0.0) * (2 / 3))
+    beyond = np.flatnonzero((middle - reach < low) | (middle + reach > high))
+    values, axes = np.linalg.eigh(matrices[beyond])
+    held = matrices.copy()
+    held[beyond] = axes * np.clip(values, low, high)[:, None, :] @ axes.transpose(0, 2, 1)
+    return held
